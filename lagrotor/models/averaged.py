@@ -132,15 +132,16 @@ def _forms(ratio: Any, a: float, b: float, k: float, G_1: float, G_2: float, lea
     numbers = dict(zip((getattr(notation, s) for s in ("a", "b", "k", "G_1", "G_2")), (a, b, k, G_1, G_2), strict=True))
     at = {s: sp.Float(v, 17) for s, v in numbers.items()}
     q = notation.MINIMAL.q
-    rest = dict(zip(q, (sp.Float(lean, 17), sp.S.Zero, sp.S.Zero), strict=True))
-    moved = {s: variable(i, 6, kind=float) for i, s in enumerate(q)}
+    equilibrium = dict(zip(q, (sp.Float(lean, 17), sp.S.Zero, sp.S.Zero), strict=True))
+    displacement = {s: variable(i, 6, kind=float) for i, s in enumerate(q)}
     M, g = (e.xreplace(at) for e in _kinetic(ratio))
     mass, vector = (
-        LocalSeries(rest, moved, through, lambda e: float(sp.N(e, 20))) for through in (order - 2, order - 1)
+        LocalSeries(equilibrium, displacement, through, lambda e: float(sp.N(e, 20)))
+        for through in (order - 2, order - 1)
     )
     inverse = inverse_matrix([[mass.of(M[i, j]) for j in range(3)] for i in range(3)], order - 2)
-    own = [vector.of(e) for e in g]
-    free = [variable(3 + i, 6, kind=float) - (f - f.part(0)) for i, f in enumerate(own)]
+    gyroscopic = [vector.of(e) for e in g]
+    free = [variable(3 + i, 6, kind=float) - (f - f.part(0)) for i, f in enumerate(gyroscopic)]
     H = total(
         [free[i].product(inverse[i][j].product(free[j], order), order) for i in range(3) for j in range(3)]
     ).times(0.5)
@@ -149,7 +150,7 @@ def _forms(ratio: Any, a: float, b: float, k: float, G_1: float, G_2: float, lea
     turning = int(np.abs(form.vectors[2]).argmax())  # on which nothing depends: rounding is left out
     maps = tuple(f.where((f.exponents[:, turning] == 0) | (f.exponents.sum(1) == 1)) for f in maps)
     form = replace(form, series=form.series.where(form.series.exponents[:, turning] == 0))
-    return Forms(form, maps, turning, lean, np.array([f.part(0).coefficients.sum() for f in own]))
+    return Forms(form, maps, turning, lean, np.array([f.part(0).coefficients.sum() for f in gyroscopic]))
 
 
 def _forms_about(scene: Scene, lean: float, order: int) -> Forms:
@@ -174,9 +175,9 @@ def _normal_start(scene: Scene, forms: Forms, order: int, start: Array) -> Any:
     linear = _linear(scene, forms, start)
     y, step = linear, np.inf
     for _ in range(_TRIES):
-        off = linear - maps.at(y[None])[0]
-        y, before, step = y + off, step, float(np.abs(off).max())
-        if not step < before or step < 1e-17:
+        residual = linear - maps.at(y[None])[0]
+        y, previous, step = y + residual, step, float(np.abs(residual).max())
+        if not step < previous or step < 1e-17:
             break
     if not step < 1e-13 or not np.abs(y).max() < 1:
         raise DomainError("averaged: the start is no small motion about a rest; use model='minimal'")
@@ -207,7 +208,7 @@ def _states(scene: Scene, forms: Forms, order: int, start: Array, t: Array) -> t
     if run.status != 0:
         raise DomainError("averaged: the swing's centre moves far from where it began; use model='minimal'")
     normal, maps = run.y.T * np.exp(swing * t[:, None]), _sums(tuple(f.through(order - 1) for f in forms.maps))
-    old = np.concatenate([maps.at(part) for part in np.array_split(normal, len(normal) // _AT_ONCE + 1)])
+    old = np.concatenate([maps.at(chunk) for chunk in np.array_split(normal, len(normal) // _AT_ONCE + 1)])
     x = (old @ form.vectors.T).real
     q = x[:, :3] + [forms.lean, 0.0, start[2]]
     M, g = _momenta_at(scene, q)
@@ -219,10 +220,10 @@ def _centre(scene: Scene, state: Array) -> float:
     forms = _forms_about(scene, float(state[0]), 2)
     slow = _linear(scene, forms, state)
     slow[[0, 3]] = 0.0
-    off = float((forms.form.vectors[0] @ slow).real)
-    if not abs(off) < 1:
+    offset = float((forms.form.vectors[0] @ slow).real)
+    if not abs(offset) < 1:
         raise DomainError("averaged: the start is no small motion about a rest; use model='minimal'")
-    return float(state[0]) + off
+    return float(state[0]) + offset
 
 
 def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) -> ClosedMotion:
@@ -240,41 +241,47 @@ def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) 
             "centre goes"
         )
     units = natural_units(replace(scene, shock=scene.shock_until(t_end)))
-    one, end, begin, starts, spent = units.scene, t_end * units.rate, 0.0, [MODEL.start(units.scene)], 0
-    if one.shock:
-        begin = one.shock.end
+    natural, end, begin, starts, evaluations_in_all = (
+        units.scene,
+        t_end * units.rate,
+        0.0,
+        [MODEL.start(units.scene)],
+        0,
+    )
+    if natural.shock:
+        begin = natural.shock.end
         if begin >= end:
             raise DomainError("averaged: the run ends within the pulse; use model='minimal'")
-        pulsed = [_pulsed(one, np.array([begin]), k) for k in (0, 1)]
-        starts, spent = [states[-1] for states, _ in pulsed], sum(count for _, count in pulsed)
+        pulsed = [_pulsed(natural, np.array([begin]), k) for k in (0, 1)]
+        starts, evaluations_in_all = [states[-1] for states, _ in pulsed], sum(count for _, count in pulsed)
     # At single times an error may vanish: a few swings each, all along the run.
     ends = (end - begin) * np.r_[np.geomspace(1e-3, 1, 9), np.linspace(0, 1, 9)]
     grid = np.unique(np.r_[0.0, np.clip(ends[:, None] - np.linspace(0, 8 * np.pi / PACE, 9), 0, end - begin).ravel()])
-    lean = _centre(one, starts[0])
+    lean = _centre(natural, starts[0])
 
     def states(order: int, through: int, start: Array, t: Array) -> Array:
-        nonlocal spent
-        sampled, evaluations = _states(one, _forms_about(one, lean, order), through, start, t)
-        spent += evaluations
+        nonlocal evaluations_in_all
+        sampled, evaluations = _states(natural, _forms_about(natural, lean, order), through, start, t)
+        evaluations_in_all += evaluations
         return sampled
 
     def distance(first: Array, second: Array) -> Array:
-        apart = MODEL.observe(one, first).axes - MODEL.observe(one, second).axes
+        apart = MODEL.observe(natural, first).axes - MODEL.observe(natural, second).axes
         return np.asarray(np.maximum.accumulate(np.linalg.norm(apart, axis=-1).max(0)))
 
     for order in _ORDERS:
         motions = [states(order, through, starts[0], grid) for through in (order, order - 2, order - 4)]
-        last, before = distance(motions[0], motions[1]), distance(motions[1], motions[2])
+        last, previous = distance(motions[0], motions[1]), distance(motions[1], motions[2])
         rounded = _ROUNDED * (1 + PACE * grid)
         # Two orders fall as the square of the motion. The first difference may be of another kind, as the turning about the joint
         # line, which H₂ has not, or the last one nearly vanish, as beside the paired precession: no smaller fall is believed.
-        square = float(np.abs(_normal_start(one, _forms_about(one, lean, order), order, starts[0])).max()) ** 2
-        ratio = np.maximum(last / (before + 10 * rounded), square)
-        last = np.maximum(last, square * before)
+        square = float(np.abs(_normal_start(natural, _forms_about(natural, lean, order), order, starts[0])).max()) ** 2
+        ratio = np.maximum(last / (previous + 10 * rounded), square)
+        last = np.maximum(last, square * previous)
         errors = np.where(ratio < _SLOWEST, FALLING.value * ratio * last, UNKNOWN) + rounded
         if errors.max() <= tol:
             break
-    if one.shock:
+    if natural.shock:
         errors += 3 * distance(motions[0], states(order, order, starts[1], grid))
     errors = np.maximum.accumulate(errors)
     errors[errors > LOST.value] = UNKNOWN  # as of any run: what is no longer small is no estimate
@@ -282,17 +289,19 @@ def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) 
     def motion(t: Array) -> tuple[Array, Array]:
         s = t * units.rate
         early, later = s[s < begin], s[s >= begin] - begin
-        parts = [_pulsed(one, early, 0)[0]] if len(early) else []
-        parts += [_states(one, _forms_about(one, lean, order), order, starts[0], later)[0]] if len(later) else []
-        seen = MODEL.observe(one, np.vstack(parts))
-        return seen.axes, seen.rates * units.rate
+        blocks = [_pulsed(natural, early, 0)[0]] if len(early) else []
+        blocks += (
+            [_states(natural, _forms_about(natural, lean, order), order, starts[0], later)[0]] if len(later) else []
+        )
+        observed = MODEL.observe(natural, np.vstack(blocks))
+        return observed.axes, observed.rates * units.rate
 
     return ClosedMotion(
         float(errors[-1]),
         f"opposite spins averaged over the swing, by the normal form of order {order}",
         motion,
         lambda t: errors[np.minimum(np.searchsorted(grid, t * units.rate - begin), len(grid) - 1)],
-        spent,
+        evaluations_in_all,
     )
 
 

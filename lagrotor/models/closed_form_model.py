@@ -68,40 +68,40 @@ def _tops(
     turns = (inertia * np.cross(axes, rates) + np.array(momenta)[:, None] * axes) / inertia
     speeds = np.linalg.norm(turns, axis=1)
     poles = turns / np.where(speeds > 0, speeds, 1.0)[:, None]
-    along = (poles * axes).sum(axis=1, keepdims=True) * poles
-    out, across = axes - along, np.cross(poles, axes)
+    axial = (poles * axes).sum(axis=1, keepdims=True) * poles
+    out, transverse = axes - axial, np.cross(poles, axes)
 
     def motion(t: Array) -> tuple[Array, Array]:
         phase = (speeds[:, None] * t)[..., None]
         c, s = np.cos(phase), np.sin(phase)
-        seen = along[:, None] + c * out[:, None] + s * across[:, None]
-        return seen, np.cross(turns[:, None], seen)
+        positions = axial[:, None] + c * out[:, None] + s * transverse[:, None]
+        return positions, np.cross(turns[:, None], positions)
 
     fastest = float(speeds.max()) * t_end
-    off = float(np.abs((axes**2).sum(1) - 1).max() + np.abs((axes * rates).sum(1)).max() / (speeds.max() or 1.0))
-    return ClosedMotion((off + ROUND) * (1 + fastest), reason, motion)
+    residual = float(np.abs((axes**2).sum(1) - 1).max() + np.abs((axes * rates).sum(1)).max() / (speeds.max() or 1.0))
+    return ClosedMotion((residual + ROUND) * (1 + fastest), reason, motion)
 
 
 def _parallel(scene: Scene, axes: Array, rates: Array, t_end: float) -> ClosedMotion:
     """Equal spins, parallel axes: one rotor of inertia a + b; a start that is not quite parallel may twist apart."""
-    own, shared = scene.inertias
+    inertia, shared = scene.inertias
     mean, mean_rate = axes.mean(axis=0), rates.mean(axis=0)
-    turn = float(np.linalg.norm(np.cross(mean, mean_rate) + scene.momenta[0] / (own + shared) * mean))
+    turn = float(np.linalg.norm(np.cross(mean, mean_rate) + scene.momenta[0] / (inertia + shared) * mean))
     apart = float(np.linalg.norm(axes[1] - axes[0]) + np.linalg.norm(rates[1] - rates[0]) / (turn or 1.0))
     if not apart <= _FARTHEST_APART:
         raise DomainError(
             f"closed_form: equal spins are one rotor only with parallel axes that turn alike, not {apart:.2g} apart; "
             "use model='linear' or 'minimal'"
         )
-    one = _tops(
-        np.tile(mean, (2, 1)), np.tile(mean_rate, (2, 1)), own + shared, scene.momenta, t_end,
+    top = _tops(
+        np.tile(mean, (2, 1)), np.tile(mean_rate, (2, 1)), inertia + shared, scene.momenta, t_end,
         "equal spins, parallel axes: one rotor of both inertias, exactly",
     )  # fmt: skip
     phases = np.linspace(0, 2 * pi, 65)
-    (seen, _), _ = one.motion(phases / turn)
-    if float(np.abs(seen[:, 0]).max()) > _FARTHEST_OUT:
+    (positions, _), _ = top.motion(phases / turn)
+    if float(np.abs(positions[:, 0]).max()) > _FARTHEST_OUT:
         raise DomainError(
             "closed_form: the parallel pair comes near the joint line, where bar and axes are in line and it may part; use "
             "model='minimal' or 'spheres'"
         )
-    return ClosedMotion(one.error + (_MAY_PART if apart else 0.0), one.reason, one.motion)
+    return ClosedMotion(top.error + (_MAY_PART if apart else 0.0), top.reason, top.motion)

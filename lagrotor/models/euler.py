@@ -90,10 +90,10 @@ def _start(scene: Scene) -> Array:
 
 def _observe(scene: Scene, states: Array) -> Observed:
     columns = _axes()(*states.T)
-    parts = np.stack(columns).reshape(2, 2, 3, -1).transpose(0, 1, 3, 2)
+    blocks = np.stack(columns).reshape(2, 2, 3, -1).transpose(0, 1, 3, 2)
     theta, phi_v, psi_v = states[:, [0, 3]], states[:, [7, 10]], states[:, [8, 11]]
     spins = psi_v + phi_v * np.cos(theta)
-    return Observed(parts[0], parts[1], scene.rotor.I3 * spins.T)
+    return Observed(blocks[0], blocks[1], scene.rotor.I3 * spins.T)
 
 
 def _singular(axes: Array) -> str:

@@ -68,8 +68,8 @@ class LinearPair:
         c, s = np.cos(Omega * t), np.sin(Omega * t)
         even, odd = _integral(t, c * push), _integral(t, s * push)
         versed, sine = (received - c * even - s * odd) / Omega**2, (s * even - c * odd) / Omega
-        moved = drift - versed @ once + (drift - sine) / Omega**2 @ twice
-        return np.hstack([moved, received - sine @ once + versed @ twice])
+        displacement = drift - versed @ once + (drift - sine) / Omega**2 @ twice
+        return np.hstack([displacement, received - sine @ once + versed @ twice])
 
 
 def _integral(t: Array, values: Array) -> Array:
@@ -106,7 +106,7 @@ def pair_modes(scene: Scene) -> LinearPair:
     twist = min(1.0, scene.link.length / scene.rotor.length) / 2
     upright = np.array([[1, 0, 0], [0, twist, -1], [0, -twist, -1]])
     numbers = _matrices()(*scene.inertias, *scene.momenta)
-    mass, gyroscopic = (upright.T @ np.reshape(part, (3, 3)) @ upright for part in (numbers[:9], numbers[9:18]))
+    mass, gyroscopic = (upright.T @ np.reshape(block, (3, 3)) @ upright for block in (numbers[:9], numbers[9:18]))
     return LinearPair(upright, mass, np.linalg.solve(mass, gyroscopic), float(numbers[18]))
 
 
@@ -122,11 +122,11 @@ def _linear_states(scene: Scene, t: Array) -> Array:
         pulse, response = _pulsed(scene, linear, _straightened(linear, start, shock), np.append(t, 0.0))
         # The pulse may have begun before t = 0: the start is what it is.
         states += pulse - linear.free(response[:3], response[3:], t)
-    off = np.abs(states[:, :2]).max(axis=1)
-    if not off.max() <= _FARTHEST:
-        where = int(np.argmax(~(off <= _FARTHEST)))
+    tilts = np.abs(states[:, :2]).max(axis=1)
+    if not tilts.max() <= _FARTHEST:
+        where = int(np.argmax(~(tilts <= _FARTHEST)))
         raise DomainError(
-            f"linear: at t = {t[where]:.4g} s the motion is {np.degrees(off[where]):.3g}° from rest, across the joint line "
+            f"linear: at t = {t[where]:.4g} s the motion is {np.degrees(tilts[where]):.3g}° from rest, across the joint line "
             f"or in twist; beyond {np.degrees(_FARTHEST):.0f}° small motion means nothing: use model='minimal'"
         )
     return states
@@ -177,8 +177,8 @@ def linear_motion(scene: Scene, t_end: float, tol: float, best: bool = False) ->
         error = nan
 
     def motion(t: Array) -> tuple[Array, Array]:
-        seen = linear_run(scene, t)
-        return seen.axes, seen.rates
+        observed = linear_run(scene, t)
+        return observed.axes, observed.rates
 
     return ClosedMotion(error, "small motion: normal modes", motion)
 
@@ -206,18 +206,18 @@ def linear_error(scene: Scene, t_end: float) -> float:
     pulse = shock.at + shock.width * np.linspace(-4, 4, 65) if shock else np.empty(0)
     pulse = pulse[(pulse > 0) & (pulse < t_end)]
     ends = [0.0, *pulse[:1], *pulse[-1:], t_end]
-    parts = (
+    grids = (
         np.linspace(a, b, _A_PART + int(_A_TURN * linear.frequency * (b - a) / (2 * pi))) for a, b in pairwise(ends)
     )
-    t = np.unique(np.concatenate([pulse, *parts]))
+    t = np.unique(np.concatenate([pulse, *grids]))
     states = _linear_states(scene, t)
     with np.errstate(all="ignore"):  # of a motion that is not small the corrections may have no end
         first = linear.answer(t, _defect(scene, linear, shock, t, states))
         second = linear.answer(t, _defect(scene, linear, shock, t, states + first))
-        axes = [MODEL.observe(scene, states + part).axes for part in (second, 0.0, first)]
-        known, unsure = (float(np.linalg.norm(axes[0] - other, axis=-1).max()) for other in axes[1:])
+        axes = [MODEL.observe(scene, states + correction).axes for correction in (second, 0.0, first)]
+        leading, unsure = (float(np.linalg.norm(axes[0] - reference, axis=-1).max()) for reference in axes[1:])
     since = max(0.0, shock.at) if shock else 0.0
-    error = LINEAR_MARGIN.value * (known + unsure * _spread(scene, float(np.ptp(states[:, 2])), t_end - since))
+    error = LINEAR_MARGIN.value * (leading + unsure * _spread(scene, float(np.ptp(states[:, 2])), t_end - since))
     return error if error < _FARTHEST_OFF else UNKNOWN
 
 
@@ -236,9 +236,9 @@ def shock_response_error(scene: Scene, t_end: float) -> float:
     """
     response = shock_response(scene)
     t = np.linspace(0.0, t_end, 17 + int(_A_TURN * response.frequency * t_end / (2 * pi)))
-    axes, seen = linear_run(scene, t).axes, response.through(t)
-    off = np.stack([axes[i, :, :2] - seen[:, [0, i + 1]] for i in (0, 1)])
-    error = _SAFETY * (float(np.linalg.norm(off, axis=-1).max()) + linear_error(scene, t_end))
+    axes, predicted = linear_run(scene, t).axes, response.through(t)
+    difference = np.stack([axes[i, :, :2] - predicted[:, [0, i + 1]] for i in (0, 1)])
+    error = _SAFETY * (float(np.linalg.norm(difference, axis=-1).max()) + linear_error(scene, t_end))
     if not error <= _FARTHEST_OFF:
         raise DomainError(
             f"shock_response_error: an error of about {error:.2g} by t = {t_end:g} s, beyond {_FARTHEST_OFF:g}: the response is "

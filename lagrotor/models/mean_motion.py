@@ -100,8 +100,8 @@ def exact_cancelling_force(scene: Scene, turns: float = 24) -> float:
     shock, guess = scene.shock, cancelling_force(scene)
 
     def turning(force: float) -> float:
-        moved = replace(shock, force=(shock.force[0], force, 0.0))
-        return turning_rate(run_after(replace(scene, shock=moved), turns, 1e-10))
+        trial = replace(shock, force=(shock.force[0], force, 0.0))
+        return turning_rate(run_after(replace(scene, shock=trial), turns, 1e-10))
 
     try:
         return float(newton(turning, guess, x1=1.03 * guess, tol=1e-7 * abs(guess), maxiter=20))
@@ -192,12 +192,12 @@ def cancelling_force_error(scene: Scene, duration: float) -> float:
 def _turns(scene: Scene, duration: float, where: str) -> float:
     """Return the swings from the pulse's end to `duration` s after its peak."""
     assert scene.shock is not None
-    after, turn = scene.shock.end - scene.shock.at, 2 * np.pi / natural_rate(scene)
-    turns = (finite_number(duration, f"{where}: duration", "s") - after) / turn
+    delay, turn = scene.shock.end - scene.shock.at, 2 * np.pi / natural_rate(scene)
+    turns = (finite_number(duration, f"{where}: duration", "s") - delay) / turn
     if not _LEAST * (1 - 1e-9) <= turns <= _MOST:
         raise DomainError(
             f"{where}: duration = {duration:g} s is {turns:.3g} swings after the pulse, over which no mean is known: take "
-            f"{_LEAST * turn + after:.3g} to {_MOST * turn + after:.3g} s after its peak"
+            f"{_LEAST * turn + delay:.3g} to {_MOST * turn + delay:.3g} s after its peak"
         )
     return turns
 
@@ -247,6 +247,6 @@ def guiding_centre_error(scene: Scene, t: ArrayLike) -> Array:
         )
     path = centre.path(times)
     run = simulate(scene, np.union1d(0.0, times), "minimal", 1e-9)
-    off = path - [guiding_centre(start).place for start in scenes_of(scene, run)][-len(times) :]
-    off[:, 2] = (off[:, 2] + np.pi) % (2 * np.pi) - np.pi
-    return np.asarray(np.abs(off).max(1))
+    difference = path - [guiding_centre(start).place for start in scenes_of(scene, run)][-len(times) :]
+    difference[:, 2] = (difference[:, 2] + np.pi) % (2 * np.pi) - np.pi
+    return np.asarray(np.abs(difference).max(1))

@@ -101,8 +101,8 @@ def _start(scene: Scene) -> Array:
 
 def _observe(scene: Scene, states: Array) -> Observed:
     value, ratio = _ratio(scene)
-    parts = np.stack(_axes(ratio)(*states.T, value)).reshape(2, 2, 3, -1).transpose(0, 1, 3, 2)
-    return Observed(parts[0], parts[1], constant_momenta(scene, parts.shape[2]))
+    blocks = np.stack(_axes(ratio)(*states.T, value)).reshape(2, 2, 3, -1).transpose(0, 1, 3, 2)
+    return Observed(blocks[0], blocks[1], constant_momenta(scene, blocks.shape[2]))
 
 
 def scenes_from_states(scene: Scene, states: ArrayLike) -> list[Scene]:

@@ -175,9 +175,9 @@ class Model:
         return rate if self.progress is None else reporting(rate, self.progress, scene.shock.at if scene.shock else 0.0)
 
 
-def scenes_of(scene: Scene, seen: Observed | Trajectory) -> list[Scene]:
+def scenes_of(scene: Scene, observed: Observed | Trajectory) -> list[Scene]:
     """The scene, begun in each of the states (n,) that are seen."""
-    axes, rates = (part.swapaxes(0, 1).tolist() for part in (seen.axes, seen.rates))
+    axes, rates = (array.swapaxes(0, 1).tolist() for array in (observed.axes, observed.rates))
     return [replace(scene, axes=r, rates=v) for r, v in zip(axes, rates, strict=True)]
 
 
@@ -295,7 +295,7 @@ def pulse_nodes(scene: Scene, t_end: float) -> PulseNodes | None:
     return PulseNodes(t, (half * _WEIGHTS).ravel(), (half * _LOWER).ravel(), end)
 
 
-def conservation_defect(scene: Scene, t: Array, seen: Observed, nodes: PulseNodes | None) -> Array:
+def conservation_defect(scene: Scene, t: Array, observed: Observed, nodes: PulseNodes | None) -> Array:
     """The errors of axes and rates, signed, that would explain how far a run is from conserving what it must.
 
     Parameters
@@ -304,45 +304,51 @@ def conservation_defect(scene: Scene, t: Array, seen: Observed, nodes: PulseNode
         In natural units.
     t : Array
         The run's times (n,).
-    seen : Observed
+    observed : Observed
         Its states at them.
     nodes : PulseNodes or None
         Times of a shock, among t. Without them its work is not known, and what comes after it is held to the first state
         after it.
     """
-    (a, b), (v1, v2) = scene.inertias, seen.rates
+    (a, b), (v1, v2) = scene.inertias, observed.rates
     size = float(np.sqrt(((a * v1 + b * v2) ** 2 + (a * v2 + b * v1) ** 2).sum(-1)).max())
-    lengths = [np.linalg.norm(seen.axes, axis=-1) - 1]
+    lengths = [np.linalg.norm(observed.axes, axis=-1) - 1]
     if scene.link:
         k = scene.link.length / scene.rotor.length
-        bar = seen.axes[1] - seen.axes[0] + np.array([k, 0.0, 0.0])
+        bar = observed.axes[1] - observed.axes[0] + np.array([k, 0.0, 0.0])
         lengths.append((np.linalg.norm(bar, axis=-1) - k) * min(1.0, k))
-    defects = [part.ravel() for part in lengths]
-    before, after = np.ones(len(t), bool), np.zeros(len(t), bool)
+    defects = [residual.ravel() for residual in lengths]
+    before_pulse, after_pulse = np.ones(len(t), bool), np.zeros(len(t), bool)
     work, turn = (0.0, 0.0), (0.0, 0.0)
     if scene.shock:
-        before, after = t <= max(scene.shock.begin, t[0]), t >= min(scene.shock.end, nodes.end if nodes else inf)
+        before_pulse, after_pulse = (
+            t <= max(scene.shock.begin, t[0]),
+            t >= min(scene.shock.end, nodes.end if nodes else inf),
+        )
     if nodes:
-        work, turn = _received(scene, t, seen, nodes)
-    conserved = tilting_energy(scene, seen.rates), momentum_about_joints(scene, seen.axes, seen.rates, seen.momenta)
+        work, turn = _received(scene, t, observed, nodes)
+    conserved = (
+        tilting_energy(scene, observed.rates),
+        momentum_about_joints(scene, observed.axes, observed.rates, observed.momenta),
+    )
     # How much an error of 1 in the axes, and of PACE in the rates, may change each.
-    scales = PACE * size, size + 2 * PACE * a + float(np.abs(seen.momenta).max())
+    scales = PACE * size, size + 2 * PACE * a + float(np.abs(observed.momenta).max())
     for values, (received, unsure), scale in zip(conserved, (work, turn), scales, strict=True):
         if scale > 0:
-            later = values[after] - (values[0] + received if nodes else values[after][:1])
+            later = values[after_pulse] - (values[0] + received if nodes else values[after_pulse][:1])
             later = np.sign(later) * np.maximum(np.abs(later) - unsure, 0.0)
-            defects += [(values[before] - values[0]) / scale, later / scale]
+            defects += [(values[before_pulse] - values[0]) / scale, later / scale]
     return np.concatenate(defects)
 
 
 def _received(
-    scene: Scene, t: Array, seen: Observed, nodes: PulseNodes
+    scene: Scene, t: Array, observed: Observed, nodes: PulseNodes
 ) -> tuple[tuple[float, float], tuple[float, float]]:
     """Work and angular impulse of the pulse, each with a bound on the error of its quadrature."""
     assert scene.shock is not None
     at = np.searchsorted(t, nodes.t)
     i = scene.shock.body - 1
-    r, v = seen.axes[i, at], seen.rates[i, at]
+    r, v = observed.axes[i, at], observed.rates[i, at]
     pulse = np.exp(-(((nodes.t - scene.shock.at) / scene.shock.width) ** 2))
     torque = scene.rotor.length * np.array(scene.shock.force)
     power, turning = pulse * (v @ torque), pulse * np.cross(r, torque)[:, 0]

@@ -166,21 +166,21 @@ def simulate(
         motion = DIRECT[model](at_zero, float(times[-1] - times[0]), tolerance, True)
         error = "not known" if np.isnan(motion.error) else scientific(motion.error, 1)
         missed = not motion.error <= tolerance
-        more = ", more than tol" if motion.error > tolerance else ""
-        why = f"by name; {motion.reason}; estimated error {error}{more}"
+        suffix = ", more than tol" if motion.error > tolerance else ""
+        why = f"by name; {motion.reason}; estimated error {error}{suffix}"
         trajectory = _direct(scene, model, why, times, motion, tolerance)
         if missed:
             until = f"; tol is kept up to t = {trajectory.horizon:.6g} s" if motion.errors else ""
-            said = f"simulate: {model} does not keep tol = {tolerance:g}: the estimated error is {error}{until}"
-            warnings.warn(said, LagrotorWarning, stacklevel=2)
+            message = f"simulate: {model} does not keep tol = {tolerance:g}: the estimated error is {error}{until}"
+            warnings.warn(message, LagrotorWarning, stacklevel=2)
         return trajectory
     if model == "auto":
         choice = choose(at_zero, float(times[-1] - times[0]), tolerance, engine)
         if choice.motion:
             return _direct(scene, choice.model, choice.reason, times, choice.motion, tolerance)
     elif model not in tuple(MODELS):
-        known = "auto", *DIRECT, *MODELS
-        raise InputError(f"simulate: model = {model!r} is not one of {', '.join(known)}{near(model, known)}")
+        names = "auto", *DIRECT, *MODELS
+        raise InputError(f"simulate: model = {model!r} is not one of {', '.join(names)}{near(model, names)}")
     elif engine == "fast" and not _fast_runs(MODELS[model], scene):
         raise InputError(
             f"simulate: engine='fast' does not run model={model!r} with this scene: a Taylor step may pass where its "
@@ -203,13 +203,13 @@ def trajectory_of(
     scene: Scene, units: NaturalUnits, model: str, why: str, times: Array, run: EstimatedRun
 ) -> Trajectory:
     """What a run of the model in natural units shows of the scene, at those of the times (n,) that it reached."""
-    seen, n = MODELS[model].observe(units.scene, run.states), len(run.t)
-    momenta = seen.momenta - constant_momenta(units.scene, n)
+    observed, n = MODELS[model].observe(units.scene, run.states), len(run.t)
+    momenta = observed.momenta - constant_momenta(units.scene, n)
     # By the clock of the natural units the last time is off by rounding.
     ending = replace(run.ending, at=float(times[-1])) if run.ending.kind == "end" else run.ending
     return Trajectory(
-        **run.known | {"t": times[:n], "ending": ending}, scene=scene, model=model, why=why, axes=seen.axes,
-        rates=seen.rates * units.rate, momenta=constant_momenta(scene, n) + momenta * units.inertia * units.rate,
+        **run.known | {"t": times[:n], "ending": ending}, scene=scene, model=model, why=why, axes=observed.axes,
+        rates=observed.rates * units.rate, momenta=constant_momenta(scene, n) + momenta * units.inertia * units.rate,
     )  # fmt: skip
 
 
@@ -241,7 +241,7 @@ class _Door:
         """
         rate, begin = self.units.rate, float(self.times[0])
         t = (self.times - begin) * rate
-        told = self.progress
+        report = self.progress
         evolution = evolution_of(
             model,
             self.units.scene,
@@ -249,7 +249,7 @@ class _Door:
             patience,
             self.engine,
             bounded=bounded,
-            progress=told and (lambda s: told(begin + s / rate)),
+            progress=report and (lambda s: report(begin + s / rate)),
         )
         try:
             return estimate_run(evolution, t, self.tol).by_clock(begin, 1 / rate)
@@ -269,35 +269,35 @@ class _Door:
         unbounded = [(model, False) for model in LADDER[:-1] if self.units.scene.link]
         # Whether the constraints are so nearly dependent at the start that rounding may exceed `tol`.
         slack, start = False, np.concatenate([*self.units.scene.axes, *self.units.scene.rates])
-        if unbounded and (off := MODELS[choice.model].slack):
-            slack = bool(MOST_SLACK.value * np.finfo(float).eps * off(start[None])[0] > self.tol)
+        if unbounded and (uncertainty := MODELS[choice.model].slack):
+            slack = bool(MOST_SLACK.value * np.finfo(float).eps * uncertainty(start[None])[0] > self.tol)
         tries = [*unbounded, *tries] if slack else [*tries, *unbounded]
         why = (
             f"beside a dead point rounding of the constraints of {choice.model} may exceed tol"
             if slack
             else choice.reason
         )
-        spent, early = 1, list[tuple[str, str, EstimatedRun]]()  # `choose` looked at the start
+        evaluations, early = 1, list[tuple[str, str, EstimatedRun]]()  # `choose` looked at the start
         refused: dict[str, IntegrationError | SingularError] = {}
         for model, bounded in tries:
             try:
                 run = self.run(model, _REPLACEABLE, bounded)
                 stopped: object = run.ending
-                spent += run.evaluations
-                early.append((model.name, why, replace(run, evaluations=spent)))
+                evaluations += run.evaluations
+                early.append((model.name, why, replace(run, evaluations=evaluations)))
                 if not run.ending.early:
                     return early[-1]
             except (IntegrationError, SingularError) as refusal:
                 stopped = refused[model.name] = refusal
-                spent += refusal.evaluations if isinstance(refusal, IntegrationError) else 0
+                evaluations += refusal.evaluations if isinstance(refusal, IntegrationError) else 0
             why = f"regular everywhere; {model.name}: {stopped}" if bounded else f"{why}; {model.name}: {stopped}"
         if not early:
             last = refused[LADDER[-1].name]
             if isinstance(last, IntegrationError):
-                last.evaluations = spent
+                last.evaluations = evaluations
             raise last
-        name, why, run = max(early, key=lambda each: (len(each[2].t), -float(each[2].errors[-1])))
-        return name, why, replace(run, evaluations=spent)
+        name, why, run = max(early, key=lambda row: (len(row[2].t), -float(row[2].errors[-1])))
+        return name, why, replace(run, evaluations=evaluations)
 
 
 def evolution_of(
@@ -320,11 +320,11 @@ def evolution_of(
 
     def integrate(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
         begin = float(times[0])
-        here, after = scene.since(begin), times - begin
-        here = replace(here, shock=here.shock_until(float(after[-1])))
-        shown = model if progress is None else replace(model, progress=lambda s: progress(begin + s))
+        segment, elapsed = scene.since(begin), times - begin
+        segment = replace(segment, shock=segment.shock_until(float(elapsed[-1])))
+        reporting_model = model if progress is None else replace(model, progress=lambda s: progress(begin + s))
         try:
-            return integrate_model(shown, here, after, local, engine, bounded, companion, start, budget)
+            return integrate_model(reporting_model, segment, elapsed, local, engine, bounded, companion, start, budget)
         except StopError as stop:
             stop.at += begin
             raise
@@ -334,12 +334,12 @@ def evolution_of(
         whole = nodes if nodes and nodes.t[-1] <= times[-1] else None
         return conservation_defect(felt, times, model.observe(scene, states), whole)
 
-    def distance(one: Array, other: Array) -> Array:
-        apart = model.observe(scene, one).axes - model.observe(scene, other).axes
+    def distance(first: Array, second: Array) -> Array:
+        apart = model.observe(scene, first).axes - model.observe(scene, second).axes
         return np.asarray(np.linalg.norm(apart, axis=-1).max(axis=0))
 
-    def difference(one: Array, other: Array) -> float:
-        apart = model.observe(scene, one).rates - model.observe(scene, other).rates
+    def difference(first: Array, second: Array) -> float:
+        apart = model.observe(scene, first).rates - model.observe(scene, second).rates
         return float(np.abs(apart).max(initial=0.0)) / PACE
 
     return Evolution(
@@ -362,12 +362,12 @@ def evolution_of(
 def start_unsure(model: Model, scene: Scene, start: Array) -> float:
     """How far, in units of rounding, the model's start (d,) is off the scene's: beside the joint line the bar hardly says where
     an axis on it is, and coordinates made for the bar may take another than the nearest."""
-    unsure, many = 1.0, 1e4  # a step of rounding itself may move nothing
-    seen = model.observe(scene, np.array([start, start_beside(start, many)]))
-    for given, part, unit in ((scene.axes, seen.axes, 1.0), (scene.rates, seen.rates, PACE)):
-        off = float(np.abs(part[:, 0] - given).max()) / unit
-        moved = float(np.abs(part[:, 1] - part[:, 0]).max()) / unit / many
-        unsure = max(unsure, off / moved) if off > _RESOLVED and moved > 0 else unsure
+    unsure, epsilons = 1.0, 1e4  # a step of rounding itself may move nothing
+    observed = model.observe(scene, np.array([start, start_beside(start, epsilons)]))
+    for target, computed, unit in ((scene.axes, observed.axes, 1.0), (scene.rates, observed.rates, PACE)):
+        error = float(np.abs(computed[:, 0] - target).max()) / unit
+        response = float(np.abs(computed[:, 1] - computed[:, 0]).max()) / unit / epsilons
+        unsure = max(unsure, error / response) if error > _RESOLVED and response > 0 else unsure
     return unsure
 
 

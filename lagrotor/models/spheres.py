@@ -78,8 +78,8 @@ def _time_to_dead_point(y: Array) -> float:
     """
     if not (min(y[0], y[3]) > _TOWARDS or max(y[0], y[3]) < -_TOWARDS):
         return inf
-    across, speed = y[[1, 2, 4, 5]], y[[7, 8, 10, 11]]
-    return _across(y) / float(np.linalg.norm(speed)) if across @ speed < 0 else inf
+    transverse, speed = y[[1, 2, 4, 5]], y[[7, 8, 10, 11]]
+    return _across(y) / float(np.linalg.norm(speed)) if transverse @ speed < 0 else inf
 
 
 def slack(states: Array) -> Array:
@@ -88,8 +88,8 @@ def slack(states: Array) -> Array:
     The third constraint's gradient is off the plane of the two others by the axes' components across the joint line: bringing
     a state back divides the rounding of the constraints by them.
     """
-    across = np.linalg.norm(states[:, [1, 2, 4, 5]], axis=1)
-    return np.where(states[:, 0] * states[:, 3] > 0.9, 1 / np.clip(across, np.finfo(float).tiny, 1.0), 1.0)
+    transverse = np.linalg.norm(states[:, [1, 2, 4, 5]], axis=1)
+    return np.where(states[:, 0] * states[:, 3] > 0.9, 1 / np.clip(transverse, np.finfo(float).tiny, 1.0), 1.0)
 
 
 def _across(y: Array) -> float:
@@ -116,8 +116,8 @@ def _start(scene: Scene) -> Array:
 
 
 def _observe(scene: Scene, states: Array) -> Observed:
-    parts = states.reshape(-1, 2, 2, 3).transpose(1, 2, 0, 3)
-    return Observed(parts[0], parts[1], constant_momenta(scene, len(states)))
+    blocks = states.reshape(-1, 2, 2, 3).transpose(1, 2, 0, 3)
+    return Observed(blocks[0], blocks[1], constant_momenta(scene, len(states)))
 
 
 def _singular(axes: Array) -> str:

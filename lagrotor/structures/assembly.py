@@ -50,8 +50,8 @@ class Assembly:
     spin_friction: tuple[float, ...] = (0.0,)
 
     def __post_init__(self) -> None:
-        put = object.__setattr__
-        put(
+        assign = object.__setattr__
+        assign(
             self,
             "joints",
             tuple(numbers(joint, 2, f"Structure: joints[{i}]", "m") for i, joint in enumerate(_row(self.joints))),
@@ -59,32 +59,32 @@ class Assembly:
         n = len(self.joints)
         if not n:
             raise InputError("Structure: joints is empty: give at least one ground joint (x, y) in m")
-        put(self, "rotor", _each(self.rotor, n, "rotor", Rotor))
-        put(self, "gravity", finite_number(self.gravity, "Structure: gravity", "m/s²"))
-        put(self, "spins", _amounts(self.spins, n, "spins", "rad/s", signed=True))
+        assign(self, "rotor", _each(self.rotor, n, "rotor", Rotor))
+        assign(self, "gravity", finite_number(self.gravity, "Structure: gravity", "m/s²"))
+        assign(self, "spins", _amounts(self.spins, n, "spins", "rad/s", signed=True))
         for name, unit in (
             ("load", "kg"),
             ("friction", "N m s/rad"),
             ("spin_friction", "N m s/rad"),
             ("hinge", "N m/rad"),
         ):
-            put(self, name, _amounts(getattr(self, name), n, name, unit))
+            assign(self, name, _amounts(getattr(self, name), n, name, unit))
         bars = tuple(self._bar(k, bar) for k, bar in enumerate(_row(self.bars)))
-        seen: dict[frozenset[int], int] = {}
+        first_bar: dict[frozenset[int], int] = {}
         for k, (i, j, _) in enumerate(bars):
-            first = seen.setdefault(frozenset((i, j)), k)
+            first = first_bar.setdefault(frozenset((i, j)), k)
             if first != k:
                 raise InputError(
                     f"Structure: bars[{k}] = ({i}, {j}) is bars[{first}] again: dependent constraints; leave one out"
                 )
-        put(self, "bars", bars)
-        put(self, "link", _each(self.link, len(bars), "link", Link))
-        put(self, "braces", tuple(self._brace(k, brace) for k, brace in enumerate(_row(self.braces))))
+        assign(self, "bars", bars)
+        assign(self, "link", _each(self.link, len(bars), "link", Link))
+        assign(self, "braces", tuple(self._brace(k, brace) for k, brace in enumerate(_row(self.braces))))
 
-    def _bar(self, k: int, given: Any) -> Bar:
-        items = _row(given)
+    def _bar(self, k: int, bar: Any) -> Bar:
+        items = _row(bar)
         if len(items) not in (2, 3):
-            raise InputError(f"Structure: bars[{k}] = {given!r} must be (i, j) or (i, j, length)")
+            raise InputError(f"Structure: bars[{k}] = {bar!r} must be (i, j) or (i, j, length)")
         i, j = (self._tip(item, f"bars[{k}]") for item in items[:2])
         if i == j:
             raise InputError(f"Structure: bars[{k}] = ({i}, {j}) is a bar to itself: join two different tips")
@@ -103,12 +103,12 @@ class Assembly:
             )
         return i, j, length
 
-    def _brace(self, k: int, given: Any) -> Brace:
+    def _brace(self, k: int, entry: Any) -> Brace:
         where = f"braces[{k}]"
         try:
-            brace = given if isinstance(given, Brace) else Brace(*_row(given))
+            brace = entry if isinstance(entry, Brace) else Brace(*_row(entry))
         except TypeError:
-            raise InputError(f"Structure: {where} = {given!r} must be (tip, to, stiffness, damping)") from None
+            raise InputError(f"Structure: {where} = {entry!r} must be (tip, to, stiffness, damping)") from None
         tip = self._tip(brace.tip, where)
         ground = isinstance(brace.to, Iterable)
         to = finite_vector(brace.to, f"Structure: {where} to", "m") if ground else self._tip(brace.to, where)

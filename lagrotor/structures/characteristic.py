@@ -66,24 +66,24 @@ def characteristic(structure: Assembly) -> Characteristic:
     symbolic = replace(
         c,
         gravity=0,
-        **{name: np.array(list(each), dtype=object) for name, each in letters.items()},
+        **{name: np.array(list(entries), dtype=object) for name, entries in letters.items()},
         **{name: exact(getattr(c, name)) for name in ("R", "feet", "brace_point")},
     )
-    M, C, gyroscopic, K = (sp.Matrix(part.tolist()) for part in matrices(symbolic))
+    M, C, gyroscopic, K = (sp.Matrix(matrix.tolist()) for matrix in matrices(symbolic))
     rows = bar_rows(symbolic).tolist()
     basis = sp.Matrix.hstack(*sp.Matrix(rows).nullspace()) if rows else sp.eye(2 * N)
-    mass, rates, springs = (basis.T * part * basis for part in (M, C + gyroscopic, K))
+    mass, rates, springs = (basis.T * matrix * basis for matrix in (M, C + gyroscopic, K))
     system = LinearSystem(mass, rates, springs, basis)
     return Characteristic(system.characteristic(s), system, values)
 
 
-def _letters(name: str, given: Array, values: dict[sp.Symbol, float], real: bool = False) -> list[sp.Expr]:
+def _letters(name: str, numbers: Array, values: dict[sp.Symbol, float], real: bool = False) -> list[sp.Expr]:
     """A symbol for each distinct value, positive unless `real`; what it stands for is put into `values`."""
-    distinct = [v for v in dict.fromkeys(given.tolist()) if v]
+    distinct = [v for v in dict.fromkeys(numbers.tolist()) if v]
     sign = {"real": True} if real else {"positive": True}
     letters = {v: sp.Symbol(name if len(distinct) == 1 else f"{name}_{k + 1}", **sign) for k, v in enumerate(distinct)}
     values.update({letter: v for v, letter in letters.items()})
-    return [letters[float(v)] if v else sp.Integer(0) for v in given]
+    return [letters[float(v)] if v else sp.Integer(0) for v in numbers]
 
 
 def _exact(value: float) -> sp.Rational:

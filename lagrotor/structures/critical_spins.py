@@ -75,9 +75,9 @@ def friction_undoes(linear: SmallMotion) -> bool:
     """
     root, K = np.linalg.inv(np.linalg.cholesky(linear.mass)), stiffness_in_masses(linear)
     forms = [f / (np.abs(f).max() or 1.0) for f in (K, root @ linear.gyroscopic @ root.T)]
-    own = np.sqrt(np.diag(linear.damping))
-    own = np.where(own > 0, own, 1)  # however little of it there is
-    rows = root @ (own[:, None] * _range(linear.damping / np.outer(own, own)))
+    scale = np.sqrt(np.diag(linear.damping))
+    scale = np.where(scale > 0, scale, 1)  # however little of it there is
+    rows = root @ (scale[:, None] * _range(linear.damping / np.outer(scale, scale)))
     reached = _range(rows / np.linalg.norm(rows, axis=0))
     while (wider := _range(np.hstack([reached, *(f @ reached for f in forms)]))).shape[1] > reached.shape[1]:
         reached = wider
@@ -102,15 +102,15 @@ def _by_branches(linear: SmallMotion) -> float:
         return inf
 
     squares, shapes = eigh(K, M)
-    turned = shapes.T @ H @ shapes  # as M is one and K diagonal there, so is ω M + K/ω
+    modal = shapes.T @ H @ shapes  # as M is one and K diagonal there, so is ω M + K/ω
 
     def least(log_rates: ArrayLike) -> Array:
         w = np.exp(log_rates)[..., None]
         over = 1 / np.sqrt(w + squares / w)
-        return np.asarray(np.linalg.eigvalsh(over[..., :, None] * turned * over[..., None, :])[..., half])
+        return np.asarray(np.linalg.eigvalsh(over[..., :, None] * modal * over[..., None, :])[..., half])
 
-    own = np.log(squares) / 2
-    grid = np.linspace(own[0] - 0.5, own[-1] + 0.5, 101)
+    log_natural = np.log(squares) / 2
+    grid = np.linspace(log_natural[0] - 0.5, log_natural[-1] + 0.5, 101)
     values = least(grid)
     best = int(np.argmax(values))
     around = (grid[max(best - 1, 0)], grid[min(best + 1, len(grid) - 1)])
@@ -167,8 +167,8 @@ def sign_patterns(s: Assembly) -> Patterns:
     linear = small_motion(s)
     I3 = np.array([rotor.I3 for rotor in s.rotor])
     needed = {}
-    for rest in product((1, -1), repeat=N - 1):
-        signs = (1, *rest)
+    for further_signs in product((1, -1), repeat=N - 1):
+        signs = (1, *further_signs)
         needed[signs] = spin_threshold(linear.with_momenta(I3 * np.array(signs)))
     least = min(needed.values())
     best = next(signs for signs, spin in needed.items() if spin <= least * (1 + _SAME))

@@ -22,18 +22,18 @@ def draw_plan(panel: Axes, s: Assembly) -> None:
     for brace in s.braces:
         end = s.joints[brace.to] if isinstance(brace.to, int) else brace.to[:2]
         panel.plot(*zip(s.joints[brace.tip], end, strict=True), "--", color=MARK, linewidth=1.5, zorder=1)
-    most = max(map(abs, s.spins)) or 1.0
+    fastest = max(map(abs, s.spins)) or 1.0
     for i, ((x, y), spin) in enumerate(zip(s.joints, s.spins, strict=True)):
         ink = BAR if spin == 0 else ROTORS[spin < 0]
         panel.plot(x, y, "o", color=ink, markersize=9, mfc=ink if spin else "white", zorder=2)
         if len(s.joints) <= 16:
-            label, (along, up) = f"{spin:.4g}".replace("-", "−"), _clear_direction(s, i)
+            label, (dx, up) = f"{spin:.4g}".replace("-", "−"), _clear_direction(s, i)
             panel.annotate(
-                label, (x, y), (9 * along, 9 * up), textcoords="offset points", color=INK, path_effects=HALO,
-                ha="center" if abs(along) < 0.3 else "left" if along > 0 else "right",
+                label, (x, y), (9 * dx, 9 * up), textcoords="offset points", color=INK, path_effects=HALO,
+                ha="center" if abs(dx) < 0.3 else "left" if dx > 0 else "right",
                 va="center" if abs(up) < 0.3 else "bottom" if up > 0 else "top",
             )  # fmt: skip
-        panel.plot(x, y, "o", color=ink, markersize=9 + 6 * abs(spin) / most, fillstyle="none", zorder=2)
+        panel.plot(x, y, "o", color=ink, markersize=9 + 6 * abs(spin) / fastest, fillstyle="none", zorder=2)
     panel.set(xlabel="x [m]", ylabel="y [m]", title="From above, spins in rad/s", aspect="equal", adjustable="datalim")
     panel.margins(0.25)
 
@@ -68,8 +68,8 @@ def structure_picture(s: Assembly) -> Figure:
             return figure
         roots_there, standing = small_motion(s).roots, stands(s)
         for grows, ink in ((False, MODEL_COLOUR), (True, PAPER_COLOUR)):
-            part = roots_there[(roots_there.real > 0) == grows]
-            roots.plot(part.real, part.imag, "o", color=ink, markersize=6)
+            selection = roots_there[(roots_there.real > 0) == grows]
+            roots.plot(selection.real, selection.imag, "o", color=ink, markersize=6)
         roots.margins(0.15)
         roots.axvline(0, color=INK, linewidth=0.8)
         factor = standing.critical_spin

@@ -68,13 +68,13 @@ class PrecessionLaw(Shown):
         """The multipliers beside two ones, (2n − 2,), through the square of the tilt."""
         from scipy.linalg import expm
 
-        period, turned = 2 * pi / self.rate_at(tilt), np.exp(-2 * pi * self._turning)
-        return np.asarray(np.linalg.eigvals(turned[:, None] * expm(self._slopes(self._root(tilt)) * period)))
+        period, rotation = 2 * pi / self.rate_at(tilt), np.exp(-2 * pi * self._turning)
+        return np.asarray(np.linalg.eigvals(rotation[:, None] * expm(self._slopes(self._root(tilt)) * period)))
 
     def growth_at(self, tilt: float) -> float:
         """The log of the largest modulus of a multiplier, per turn; 0 where it is below 1e-9, the rounding of a modulus."""
-        most = float(np.log(np.abs(self.multipliers_at(tilt)).max(initial=1.0)))
-        return most if most > _ROUNDING else 0.0
+        exponent = float(np.log(np.abs(self.multipliers_at(tilt)).max(initial=1.0)))
+        return exponent if exponent > _ROUNDING else 0.0
 
     @property
     def edge(self) -> float:
@@ -84,10 +84,10 @@ class PrecessionLaw(Shown):
         """
         tilts = np.linspace(0, self.reach, _TILTS + 1)[1:]
         beyond = next((float(tilt) for tilt in tilts if self.growth_at(tilt)), inf)
-        before = beyond - float(tilts[0])
-        while beyond < inf and beyond - before > 1e-9 * self.reach:
-            middle = (before + beyond) / 2
-            before, beyond = (before, middle) if self.growth_at(middle) else (middle, beyond)
+        stable = beyond - float(tilts[0])
+        while beyond < inf and beyond - stable > 1e-9 * self.reach:
+            middle = (stable + beyond) / 2
+            stable, beyond = (stable, middle) if self.growth_at(middle) else (middle, beyond)
         return beyond
 
     @property
@@ -173,8 +173,8 @@ def precession_law(s: Assembly, mode: int = 0) -> PrecessionLaw:
         series = form.series.where(np.abs(form.series.coefficients) > _NOTHING * np.abs(form.series.coefficients).max())
         series = Polynomial(series.exponents[:, [j, n + j, *others, *(n + others)]], h.rate * series.coefficients)
         degree = series.exponents[:, 2:].sum(1)
-        own, pushed, beside = (series.where(degree == d) for d in range(3))
-        spoils = pushed if len(pushed.coefficients) else beside if _frame(beside)[1] > _NOTHING else None
+        single, pushed, quadratic = (series.where(degree == d) for d in range(3))
+        spoils = pushed if len(pushed.coefficients) else quadratic if _frame(quadratic)[1] > _NOTHING else None
         if spoils is None:
             break
         gaps = np.abs(_steps(spoils.exponents[:, :2]) @ signed[[j]] + _steps(spoils.exponents[:, 2:]) @ signed[others])
@@ -184,10 +184,10 @@ def precession_law(s: Assembly, mode: int = 0) -> PrecessionLaw:
                 "drives: change a spin"
             )
     lead = int(np.abs(shape).argmax())
-    part = 2 * h.basis[lead] @ form.vectors[:n, j]
-    action, sign = 1 / abs(part) ** 2, 1 if signed[j] > 0 else -1
+    component = 2 * h.basis[lead] @ form.vectors[:n, j]
+    action, sign = 1 / abs(component) ** 2, 1 if signed[j] > 0 else -1
     at = np.zeros(2 * n, complex)
-    at[[j, n + j]] = 1 / part, 1 / part.conjugate()  # of a = 1, where the axis tilts most
+    at[[j, n + j]] = 1 / component, 1 / component.conjugate()  # of a = 1, where the axis tilts most
     tilt = h.axes[lead // 2][lead % 2].through(2)
     tilt = Polynomial(tilt.exponents, tilt.coefficients + 0j).substitute(
         [linear_form(row) for row in form.vectors[:n]], 2
@@ -197,8 +197,8 @@ def precession_law(s: Assembly, mode: int = 0) -> PrecessionLaw:
     for degree, generator in enumerate(form.generators, 3):
         driven = max((abs(generator.derivative(k).at(at)) for k in (*others, *(n + others))), default=0.0) / action**0.5
         reach = min(reach, (_LARGEST / max(driven, _NOTHING)) ** (1 / (degree - 2)))
-    shift = 2 * sign * action * float(np.real(own.terms.get((2, 2, *(0,) * (2 * n - 2)), 0.0)))
-    return PrecessionLaw(rate, shift, skew, h.rate * signed[others], reach, sign, action, beside, s, mode)
+    shift = 2 * sign * action * float(np.real(single.terms.get((2, 2, *(0,) * (2 * n - 2)), 0.0)))
+    return PrecessionLaw(rate, shift, skew, h.rate * signed[others], reach, sign, action, quadratic, s, mode)
 
 
 def _steps(exponents: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -207,9 +207,9 @@ def _steps(exponents: NDArray[np.int64]) -> NDArray[np.int64]:
     return exponents[:, :half] - exponents[:, half:]
 
 
-def _frame(beside: Polynomial) -> tuple[Array, float]:
+def _frame(quadratic: Polynomial) -> tuple[Array, float]:
     """ν_k/Ω with which all terms of mode j and two others stand still, and by how much they do not."""
-    steps = _steps(beside.exponents[:, 2:]).astype(float)
-    own = -_steps(beside.exponents[:, :2])[:, 0]
-    nu: Array = np.linalg.pinv(steps) @ own
-    return nu, float(np.abs(steps @ nu - own).max(initial=0.0))
+    steps = _steps(quadratic.exponents[:, 2:]).astype(float)
+    steps_of_mode = -_steps(quadratic.exponents[:, :2])[:, 0]
+    nu: Array = np.linalg.pinv(steps) @ steps_of_mode
+    return nu, float(np.abs(steps @ nu - steps_of_mode).max(initial=0.0))

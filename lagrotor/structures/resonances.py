@@ -114,9 +114,9 @@ class Resonance(Shown):
 
     def words(self) -> str:
         """The rates and how they add up."""
-        parts = [(m, abs(w), bool(w < 0)) for m, w in zip(self.vectors[0], self.rates, strict=True) if m]
+        terms = [(m, abs(w), bool(w < 0)) for m, w in zip(self.vectors[0], self.rates, strict=True) if m]
         sides = [
-            " + ".join(f"{f'{m} × ' if m > 1 else ''}{w:.4g}" for m, w, below in parts if below is side)
+            " + ".join(f"{f'{m} × ' if m > 1 else ''}{w:.4g}" for m, w, below in terms if below is side)
             for side in (False, True)
         ]
         if not all(sides):
@@ -136,12 +136,12 @@ class Resonance(Shown):
 
 def signed_rates(linear: SmallMotion, factor: float = 1.0) -> Array:
     """The rates ω_j of the modes with all spins multiplied, negative where their energy is, ascending; empty where one grows."""
-    here = linear.at_spins(factor)
-    roots, vectors = here.waves
-    if here.growth > 0 or not roots.imag.all():
+    scaled = linear.at_spins(factor)
+    roots, vectors = scaled.waves
+    if scaled.growth > 0 or not roots.imag.all():
         return np.zeros(0)
     turning = roots.imag > 0
-    return np.sort(here.energy_signs(roots[turning], vectors[:, turning]) * roots[turning].imag)
+    return np.sort(scaled.energy_signs(roots[turning], vectors[:, turning]) * roots[turning].imag)
 
 
 def resonances(s: Assembly, factor: float = 1.0, orders: Sequence[int] = (3, 4)) -> tuple[Resonance, ...]:
@@ -169,8 +169,8 @@ def resonances(s: Assembly, factor: float = 1.0, orders: Sequence[int] = (3, 4))
             "is lost beside it: take slower spins"
         )
     slope = _slopes(linear, factor)
-    found = [r for d in orders for r in _of_order(s, rates, slope, factor, d)]
-    return tuple(sorted(found, key=lambda r: r.push() if r.falls else inf))
+    candidates = [r for d in orders for r in _of_order(s, rates, slope, factor, d)]
+    return tuple(sorted(candidates, key=lambda r: r.push() if r.falls else inf))
 
 
 def first_resonance(s: Assembly) -> Resonance | None:
@@ -213,25 +213,27 @@ def _resonance(
     size, order, place = len(rates), sum(group[0]), np.argsort(np.real(n.frequencies), kind="stable")
     vectors = [tuple(int(k[i]) for i in np.argsort(place)) for k in group]  # in the order of the normal form's modes
     modes = np.any(vectors, axis=0)
-    part = n.series.part(order)
-    part = part.where(part.exponents[:, np.tile(~modes, 2)].sum(1) == 0)
-    up = part.where(np.array([tuple(e[:size]) in vectors and not e[size:].any() for e in part.exponents], dtype=bool))
+    terms = n.series.part(order)
+    terms = terms.where(terms.exponents[:, np.tile(~modes, 2)].sum(1) == 0)
+    up = terms.where(np.array([tuple(e[:size]) in vectors and not e[size:].any() for e in terms.exponents], dtype=bool))
     scale = np.abs(n.series.coefficients).max()
     if not len(up.coefficients) or np.abs(up.coefficients).max() < _NOTHING * scale:
         return None
     groups = _of_equal_rates(np.real(n.frequencies))
     different = {tuple(sum(k[j] for j in g) for g in groups): k for k in vectors}.values()
-    falls = order == 3 or any(_outweighs(part, k, groups) for k in different)
+    falls = order == 3 or any(_outweighs(terms, k, groups) for k in different)
     nearest = min(group, key=lambda k: abs(np.dot(k, rates)))
     over = np.linalg.inv(n.vectors)[:size][modes] @ pushed
-    growth, *own = (-unit * _least(f, modes[None], np.ones(1)) for f in (up, *([part, part.times(-1)] * (order == 4))))
+    growth, *bounds = (
+        -unit * _least(f, modes[None], np.ones(1)) for f in (up, *([terms, terms.times(-1)] * (order == 4)))
+    )
     return Resonance(
         order, tuple(sorted(group, key=lambda k: abs(np.dot(k, rates)))), rates, at, float(np.dot(nearest, rates)),
-        float(np.dot(nearest, slopes)), growth, max([2 * growth, *own]), float(np.linalg.norm(over, 2)), falls,
+        float(np.dot(nearest, slopes)), growth, max([2 * growth, *bounds]), float(np.linalg.norm(over, 2)), falls,
     )  # fmt: skip
 
 
-def _outweighs(part: Polynomial, k: tuple[int, ...], groups: list[list[int]]) -> bool:
+def _outweighs(terms: Polynomial, k: tuple[int, ...], groups: list[list[int]]) -> bool:
     """Whether 2 |P| exceeds the actions' own terms somewhere where |z_j|² adds up to what k_j does, over modes of equal rates.
 
     Modes of equal rates have any basis, and all of them count. As the phase of P is free, it exceeds them where own terms and
@@ -240,9 +242,9 @@ def _outweighs(part: Polynomial, k: tuple[int, ...], groups: list[list[int]]) ->
     n = len(k)
     of = np.array([[j in g for j in range(n)] for g in groups])
     sums = of @ k
-    up, down = part.exponents[:, :n] @ of.T, part.exponents[:, n:] @ of.T
+    up, down = terms.exponents[:, :n] @ of.T, terms.exponents[:, n:] @ of.T
     fed = ((up == sums) & (down == 0)).all(1) | ((down == sums) & (up == 0)).all(1)
-    chosen = part.where((fed | (up == down).all(1)) & ((up + down)[:, sums == 0] == 0).all(1))
+    chosen = terms.where((fed | (up == down).all(1)) & ((up + down)[:, sums == 0] == 0).all(1))
     return all(_least(chosen.times(sign), of[sums > 0], sums[sums > 0]) < 0 for sign in (1, -1))
 
 
@@ -264,8 +266,8 @@ def _least(f: Polynomial, groups: Array, sums: Array) -> float:
         by_z, by_w = (terms @ powers / np.where(point == 0, 1, point)).reshape(2, n)
         slope = by_z + by_w.conj()
         slope = np.concatenate([slope.real, -slope.imag])
-        along = (double @ (x * slope) / norms**2) @ double
-        return float(terms.sum().real), scale * (slope - along * x)
+        radial = (double @ (x * slope) / norms**2) @ double
+        return float(terms.sum().real), scale * (slope - radial * x)
 
     starts = np.zeros((8, 2 * n))
     starts[:, moving] = np.random.default_rng(0).standard_normal((8, len(moving)))
@@ -310,7 +312,7 @@ def normal_form_of(s: Assembly, factor: float = 1.0, detuning: float = 0.0, orde
     return form
 
 
-def fall_time_along(s: Assembly, given: ArrayLike, longest: float, detuning: float) -> float:
+def fall_time_along(s: Assembly, rates: ArrayLike, longest: float, detuning: float) -> float:
     """Return when a push with the axes' rates (N, 2), rad/s, from upright tilts an axis by the sine 1 by the normal form of
     fourth order, s; inf where it does not within the `longest` time. detuning: up to which resonances are kept, rad/s.
     """
@@ -319,9 +321,9 @@ def fall_time_along(s: Assembly, given: ArrayLike, longest: float, detuning: flo
     h = local_hamiltonian(s)
     n = normal_form_of(s, 1.0, detuning / h.rate)
     size = len(n.frequencies)
-    push = finite_array("fall_time: push", given)
-    off = push.ravel() - h.basis @ (h.basis.T @ push.ravel())
-    if np.abs(off).max() > _ON_BARS * np.abs(push).max():
+    push = finite_array("fall_time: push", rates)
+    residual = push.ravel() - h.basis @ (h.basis.T @ push.ravel())
+    if np.abs(residual).max() > _ON_BARS * np.abs(push).max():
         raise InputError("fall_time: push: the bars do not allow these rates: what each joins must keep its distance")
     start = np.linalg.inv(n.vectors) @ (start_of_push(s) @ (h.basis.T @ push.ravel()))
     begin = np.array([f.at(start) for f in _new_coordinates(n, 3)])[:size]
@@ -396,16 +398,16 @@ def trusted_push(s: Assembly, factor: float = 1.0) -> float:
     """Return the push from which no axis tilts by more than `_TRUSTED` in the linear motion; 0 where a mode grows or drifts."""
     if not len(signed_rates(small_motion(s), factor)):
         return 0.0
-    here, tilts = small_motion(s).at_spins(factor), np.zeros(1)
-    roots, vectors = here.waves
-    n, turning = here.dof, roots.imag > 0
+    scaled, tilts = small_motion(s).at_spins(factor), np.zeros(1)
+    roots, vectors = scaled.waves
+    n, turning = scaled.dof, roots.imag > 0
     w, u = roots[turning].imag, vectors[:, turning]
     for g in _of_equal_rates(w):  # what of a push q' turns with them, by their energy's form
-        moving, still = (1j * w[g] * u[:, g]).conj().T @ here.mass, u[:, g].conj().T @ here.stiffness @ u[:, g]
+        moving, still = (1j * w[g] * u[:, g]).conj().T @ scaled.mass, u[:, g].conj().T @ scaled.stiffness @ u[:, g]
         form = moving @ (1j * w[g] * u[:, g]) + still
         if np.abs(np.linalg.eigvalsh(form)).min() < _NOTHING * np.linalg.norm(still, 2):
             return 0.0  # at the critical spins two modes are one
-        shares = (here.basis @ u[:, g] @ np.linalg.solve(form, moving)).reshape(-1, 2, n)
+        shares = (scaled.basis @ u[:, g] @ np.linalg.solve(form, moving)).reshape(-1, 2, n)
         tilts = tilts + 2 * np.linalg.norm(shares, 2, axis=(1, 2))
     return float(_TRUSTED / np.max(tilts))
 
@@ -461,13 +463,13 @@ def spin_intervals(s: Assembly, push: float) -> tuple[tuple[float, float], ...]:
             outside, inside = (outside, middle) if holds(middle) else (middle, inside)
         return inside
 
-    enough, parts, start = [holds(f) for f in grid], [], grid[0]
+    enough, intervals, start = [holds(f) for f in grid], [], grid[0]
     for k in range(1, len(grid)):
         if enough[k] and not enough[k - 1]:
             start = edge(grid[k - 1], grid[k])
         elif enough[k - 1] and not enough[k]:
-            parts.append((start, edge(grid[k], grid[k - 1])))
-    return (*parts, (start, inf)) if enough[-1] else tuple(parts)
+            intervals.append((start, edge(grid[k], grid[k - 1])))
+    return (*intervals, (start, inf)) if enough[-1] else tuple(intervals)
 
 
 def resonant_factors(s: Assembly, orders: Sequence[int] = (3, 4)) -> tuple[tuple[float, Resonance], ...]:
@@ -503,9 +505,9 @@ def resonant_factors(s: Assembly, orders: Sequence[int] = (3, 4)) -> tuple[tuple
                 low, high = tracks[k][0], tracks[k + 1][0]
                 root = brentq(lambda f, c=c: signed_rates(linear, f)[list(c)].sum(), low, high, xtol=1e-13 * low)
                 roots.add((round(root, 9), order))
-    found = []
+    matches = []
     for root, order in sorted(roots):
         nearest = next(_of_order(s, signed_rates(linear, root), _slopes(linear, root), root, order), None)
         if nearest and nearest.falls and abs(nearest.detuning) < 1e-6 * np.abs(nearest.rates).max():
-            found.append((root, nearest))
-    return tuple(found)
+            matches.append((root, nearest))
+    return tuple(matches)

@@ -166,9 +166,9 @@ def spins_win_white_noise(mu: ArrayLike) -> Array:
     return np.asarray(2 * np.sqrt(m * (1 + m)) / (2 + m))
 
 
-def _in_domain(name: str, given: ArrayLike, below: float) -> Array:
+def _in_domain(name: str, values: ArrayLike, below: float) -> Array:
     """What is given as an array, refused outside its domain."""
-    x = np.asarray(given, dtype=float)
+    x = np.asarray(values, dtype=float)
     if not ((x > 0) & (x < below)).all():
-        raise DomainError(f"{name} = {given!r} must lie between 0 and {below:g}")
+        raise DomainError(f"{name} = {values!r} must lie between 0 and {below:g}")
     return x

@@ -54,14 +54,14 @@ class Modes(Shown):
 
     def summary(self) -> dict[str, str]:
         """Rate and growth of each mode, the fastest growing first, and how many topple, name → words."""
-        most = range(min(len(self.rates), 12))
+        indices = range(min(len(self.rates), 12))
         signs = {1: "", 0: "", -1: ", of negative energy"}
         rows = {
             f"mode {i + 1}": f"{self.rates[i]:.6g} rad/s, growth {self.growth[i]:.3g} 1/s{signs[int(self.energy_signs[i])]}"
-            for i in most
+            for i in indices
         }
-        rest = {"further ones": str(len(self.rates) - 12)} if len(self.rates) > 12 else {}
-        return rows | rest | {"topple": f"{self.topple} of {len(self.rates)}"}
+        remainder = {"further ones": str(len(self.rates) - 12)} if len(self.rates) > 12 else {}
+        return rows | remainder | {"topple": f"{self.topple} of {len(self.rates)}"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -163,9 +163,9 @@ class SmallMotion:
         if s.ndim == 1 and neutral[0] and not self._definite:
             s, neutral, slowest = s + 0j, np.array([False]), np.argsort(np.abs(s))
             free, unturned, unrubbed = self._neutral
-            creeping, held = slowest[free + unrubbed : free + unturned], slowest[free + unturned :]
+            creeping, restored = slowest[free + unrubbed : free + unturned], slowest[free + unturned :]
             s[slowest[: free + unrubbed]] = 0
-            s[creeping[np.abs(s[creeping]) < _ZERO * (np.abs(s[held[0]]) if len(held) else 1.0)]] = 0
+            s[creeping[np.abs(s[creeping]) < _ZERO * (np.abs(s[restored[0]]) if len(restored) else 1.0)]] = 0
         near = np.maximum(np.abs(s), np.where(neutral, 1.0, _SLOWEST if s.ndim > 1 else 0.0))
         still = np.abs(s.real) < (_DAMPED if self.damping.any() else _ZERO) * near
         still |= np.abs(s.real) < _ROUNDED * np.abs(s).max(initial=0.0)
@@ -183,12 +183,12 @@ class SmallMotion:
         sizes, shapes = np.linalg.eigh(self.stiffness)
         none = max(_DEPENDENT * np.abs(sizes).max(), _NEUTRAL * np.abs(self.mass).max() * self.pull**2)
         free = shapes[:, np.abs(sizes) <= none]
-        turned, rubbed = (
+        rotated, rubbed = (
             _dagger(free) @ form @ free / (np.abs(form).max() or 1.0) for form in (self.gyroscopic, self.damping)
         )
         unturned, unrubbed = (
             int((np.linalg.svd(rows, compute_uv=False) <= _DEPENDENT).sum())
-            for rows in (turned, np.vstack([turned, rubbed]))
+            for rows in (rotated, np.vstack([rotated, rubbed]))
         )
         return free.shape[1], unturned, unrubbed
 
@@ -204,8 +204,10 @@ class SmallMotion:
             return 1.0, 1.0
         sizes = np.sort(np.abs(np.linalg.eigvals(self.first_order)))
         free, unturned, _ = self._neutral
-        left = sizes[free + unturned :]  # friction alone acts on the roots between, which may be as slow as they like
-        return (self.rate * float(left[0]), self.rate * float(left[-1])) if len(left) else (1.0, 1.0)
+        nonzero = sizes[
+            free + unturned :
+        ]  # friction alone acts on the roots between, which may be as slow as they like
+        return (self.rate * float(nonzero[0]), self.rate * float(nonzero[-1])) if len(nonzero) else (1.0, 1.0)
 
     @property
     def drifts(self) -> bool:
@@ -260,11 +262,11 @@ def left_by(rows: Matrix) -> tuple[NDArray[np.intp], Matrix]:
     return ranks, _dagger(vectors)
 
 
-def on_basis(parts: Matrix, basis: Matrix, rate: float) -> SmallMotion:
+def on_basis(forms: Matrix, basis: Matrix, rate: float) -> SmallMotion:
     """The system of `matrices`, (…, 4, n, n), on the vectors of a basis (…, n, f); all may be complex."""
     if basis.shape[-1] < basis.shape[-2]:
-        parts = _dagger(basis)[..., None, :, :] @ parts @ basis[..., None, :, :]
-    mass, damping, gyroscopic, stiffness = np.moveaxis(parts, -3, 0)
+        forms = _dagger(basis)[..., None, :, :] @ forms @ basis[..., None, :, :]
+    mass, damping, gyroscopic, stiffness = np.moveaxis(forms, -3, 0)
     return SmallMotion(mass, damping, gyroscopic, stiffness, basis, rate)
 
 
@@ -282,20 +284,20 @@ def matrices(c: Coefficients) -> Array:
 
     Of numbers or of symbols, as the coefficients are.
     """
-    one = np.eye(2, dtype=int)
-    C, K = (np.kron(np.diag(d), one) for d in (c.friction, c.hinge - c.gravity * c.S))
+    identity = np.eye(2, dtype=int)
+    C, K = (np.kron(np.diag(d), identity) for d in (c.friction, c.hinge - c.gravity * c.S))
     for k, row in enumerate(_brace_rows(c)):
         C += c.damping[k] * np.outer(row, row)
         K += c.stiffness[k] * np.outer(row, row)
-    return np.array([np.kron(c.inertia, one), C, np.kron(np.diag(c.G), [[0, 1], [-1, 0]]), K])
+    return np.array([np.kron(c.inertia, identity), C, np.kron(np.diag(c.G), [[0, 1], [-1, 0]]), K])
 
 
 def bar_rows(c: Coefficients) -> Array:
     """The bars' rows on u, (B, 2 N): n . (R_i u_i − R_j u_j), n the horizontal part of the unit vector along the bar."""
     n = (c.feet[c.j] - c.feet[c.i])[:, :2] / c.ell[:, None]
     rows = np.zeros((len(c.i), len(c.R), 2), dtype=c.R.dtype)
-    each = np.arange(len(c.i))
-    rows[each, c.i], rows[each, c.j] = c.R[c.i, None] * n, -c.R[c.j, None] * n
+    index = np.arange(len(c.i))
+    rows[index, c.i], rows[index, c.j] = c.R[c.i, None] * n, -c.R[c.j, None] * n
     return rows.reshape(len(c.i), 2 * len(c.R))
 
 
@@ -338,16 +340,18 @@ def modes_of(whole: SmallMotion, linear: SmallMotion, components: int = 2) -> Mo
     turning = np.flatnonzero(roots.imag > 0)
     real = np.flatnonzero(roots.imag == 0)
     real = real[np.argsort(-roots[real].real, kind="stable")][: linear.bands - len(turning)]
-    kept = np.concatenate([turning, real])
-    kept = kept[np.lexsort((roots[kept].imag, -roots[kept].real))]
-    shapes = (linear.basis @ vectors[:, kept]).T.reshape(len(kept), -1, components)
-    largest = np.abs(shapes).reshape(len(kept), -1)
-    lead = shapes.reshape(len(kept), -1)[np.arange(len(kept)), first_largest(largest)]
+    chosen = np.concatenate([turning, real])
+    chosen = chosen[np.lexsort((roots[chosen].imag, -roots[chosen].real))]
+    shapes = (linear.basis @ vectors[:, chosen]).T.reshape(len(chosen), -1, components)
+    largest = np.abs(shapes).reshape(len(chosen), -1)
+    lead = shapes.reshape(len(chosen), -1)[np.arange(len(chosen)), first_largest(largest)]
     shapes = shapes / lead[:, None, None]
-    signs = np.where((roots[kept].imag > 0) & (roots[kept].real <= 0), linear.energy_signs(roots, vectors)[kept], 0)
-    left_out = np.zeros(len(kept))
+    signs = np.where(
+        (roots[chosen].imag > 0) & (roots[chosen].real <= 0), linear.energy_signs(roots, vectors)[chosen], 0
+    )
+    left_out = np.zeros(len(chosen))
     if linear is not whole:
-        rates, u = roots[kept].imag, vectors[:, kept]
-        heavy, turned = ((u.conj() * (form @ u)).sum(0) for form in (whole.mass, whole.gyroscopic))
-        np.divide(rates**2 * heavy.real, turned.imag, out=left_out, where=rates > 0)
-    return Modes(roots[kept].imag, roots[kept].real, shapes, int((roots[kept].real > 0).sum()), signs, left_out)
+        rates, u = roots[chosen].imag, vectors[:, chosen]
+        heavy, gyroscopic = ((u.conj() * (form @ u)).sum(0) for form in (whole.mass, whole.gyroscopic))
+        np.divide(rates**2 * heavy.real, gyroscopic.imag, out=left_out, where=rates > 0)
+    return Modes(roots[chosen].imag, roots[chosen].real, shapes, int((roots[chosen].real > 0).sum()), signs, left_out)

@@ -59,7 +59,7 @@ def hold_time(s: Assembly, push: float) -> float:
         return inf
     if not s.bars and not s.braces:
         return inf  # each rotor keeps its energy and its momentum about the vertical, and with them both its actions
-    order = next(n for most, n in _ORDERS.items() if linear.dof <= most)
+    order = next(n for dof, n in _ORDERS.items() if linear.dof <= dof)
     times = [0.0]
     for detuning in _DETUNINGS:
         try:
@@ -74,17 +74,17 @@ def hold_time(s: Assembly, push: float) -> float:
 def _times(form: NormalForm, size: float) -> list[float]:
     """In units of the form's rate, by what each degree leaves that is not zero, until sqrt(2) times the size is reached in the
     normal modes; none where these differ by too much from the form's coordinates."""
-    n, times, kept, moved = len(form.frequencies), list[float](), dict[int, float](), 0.0
+    n, times, resonant, shift = len(form.frequencies), list[float](), dict[int, float](), 0.0
     rates, zero = np.real(form.frequencies), _ZERO * float(np.abs(form.series.coefficients).max())
     for degree, generator in enumerate(form.generators, 3):
         gap = (generator.exponents[:, :n] - generator.exponents[:, n:]) @ rates
-        kept_here, left = _feeding(form.series.part(degree)), _feeding(generator.times(gap))
-        if left > zero:
-            growth = {**kept, degree: kept_here + left}
-            times.append(_duration(growth, size * (1 + moved), sqrt(2) * size / (1 + moved)))
-        kept[degree] = kept_here
-        moved += _moved(generator, degree, sqrt(2) * size)
-        if (1 + moved) ** 2 >= sqrt(2):
+        kept_here, remainder = _feeding(form.series.part(degree)), _feeding(generator.times(gap))
+        if remainder > zero:
+            growth = {**resonant, degree: kept_here + remainder}
+            times.append(_duration(growth, size * (1 + shift), sqrt(2) * size / (1 + shift)))
+        resonant[degree] = kept_here
+        shift += _moved(generator, degree, sqrt(2) * size)
+        if (1 + shift) ** 2 >= sqrt(2):
             break
     return times
 

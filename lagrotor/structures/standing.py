@@ -84,11 +84,11 @@ class Standing(Shown):
         if rubs or linear.dof > MOST_DOF or not len(signed_rates(linear)):
             return "to first order"
         try:
-            found = self.resonance
+            resonance = self.resonance
         except (InputError, SingularError):  # at the critical spins two modes are one, or rates are too far apart
             return "to first order"
-        if found and found.push() < self._reference:
-            return "falls at a resonance" if found.resonant else "falls over a barrier"
+        if resonance and resonance.push() < self._reference:
+            return "falls at a resonance" if resonance.resonant else "falls over a barrier"
         return "to first order" if self._too_near else "holds"
 
     @cached_property
@@ -147,11 +147,13 @@ class Standing(Shown):
 
         Raises InputError as `resonances` does, and for pushes whose tilts are beyond what the expansion is trusted.
         """
-        along = np.ndim(push) > 0
-        if along and np.shape(push) != (shape := (len(self.structure.joints), 2)):
+        directed = np.ndim(push) > 0
+        if directed and np.shape(push) != (shape := (len(self.structure.joints), 2)):
             raise InputError(f"fall_time: push must be a number or rates {shape}, not of shape {np.shape(push)}")
         size = (
-            float(np.linalg.norm(finite_array("fall_time: push", push))) if along else checked_push("fall_time", push)
+            float(np.linalg.norm(finite_array("fall_time: push", push)))
+            if directed
+            else checked_push("fall_time", push)
         )
         if not self.stands:
             return 0.0
@@ -166,7 +168,7 @@ class Standing(Shown):
         if not resonance:
             return inf
         least = resonance.least_time(size)
-        if not along:
+        if not directed:
             return least
         reach = max(abs(np.dot(k, resonance.rates)) for k in resonance.vectors)
         time = fall_time_along(self.structure, push, _LEAST_TIMES * least, 1.001 * reach)
@@ -233,13 +235,13 @@ def _why(linear: SmallMotion, growth: float, factor: float) -> str:
             return "nothing falls, but a motion that nothing holds goes on at its speed after a push"
         if not n:
             return "the bars leave no degree of freedom"
-        held = (
+        reason = (
             "springs or a hanging weight hold it"
             if K[0] > 1e-12
             else "nothing pulls at it, and spins or friction stop a push"
         )
         if not falling:
-            return f"{_BOUNDED}: {held}"
+            return f"{_BOUNDED}: {reason}"
         return f"to first order: the spins hold {falling} of {n} degrees of freedom"
     first = f"{falling} of {n} degrees of freedom fall, the fastest e-fold in {1 / growth:.3g} s; "
     if falling % 2:

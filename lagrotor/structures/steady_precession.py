@@ -101,17 +101,17 @@ class _Shooting:
 
     def orbit(self, y: Array, duration: float, tilt: float) -> tuple[Array, float, float]:
         """(start, duration, mismatch) of the orbit near. Raises ConstraintError where none is reached."""
-        held = [self.held, len(y) // 2 + self.held]
+        fixed = [self.held, len(y) // 2 + self.held]
         sides = {k * _STEP / 2: np.array([k / _STEP]) for k in (1, -1)}
         for _ in range(_NEWTON):
             end = self.end(y, duration)
-            off = np.concatenate([end - y, y[held] - [tilt, 0.0]])
-            if np.abs(off).max() < _CLOSED:
+            residual = np.concatenate([end - y, y[fixed] - [tilt, 0.0]])
+            if np.abs(residual).max() < _CLOSED:
                 return y, duration, float(np.abs(end - y).max())
             start, later = self.slopes(y, duration, sides, _COARSE)[0]
             ahead = np.append(np.asarray(self.rhs(0.0, end)), [0.0, 0.0])
-            rows = np.column_stack([np.vstack([later - start, start[held]]), ahead])
-            change = np.linalg.lstsq(rows, -off, rcond=_NULL)[0]
+            rows = np.column_stack([np.vstack([later - start, start[fixed]]), ahead])
+            change = np.linalg.lstsq(rows, -residual, rcond=_NULL)[0]
             if not np.abs(change).max() < 0.5 * duration:
                 break
             y = self.motion.project(self.motion.project(y + start @ change[:-1]))
@@ -166,10 +166,10 @@ def steady_precession(s: Assembly, mode: int = 0, tilt: float = 0.1) -> SteadyPr
     at, ahead, duration = 0.0, min(_AHEAD, size), 2 * pi * c.rate / rate
     y = begin
     while at < size:
-        there = min(size, at + ahead)
+        target = min(size, at + ahead)
         try:
-            y, duration, mismatch = shoot.orbit(scaled(y, there / (at or 1.0)), duration, there)
-            at, ahead = there, min(_AHEAD, 2 * ahead)
+            y, duration, mismatch = shoot.orbit(scaled(y, target / (at or 1.0)), duration, target)
+            at, ahead = target, min(_AHEAD, 2 * ahead)
         except (LagrotorError, np.linalg.LinAlgError):
             ahead /= 2
             if ahead < _LEAST:
@@ -183,9 +183,9 @@ def steady_precession(s: Assembly, mode: int = 0, tilt: float = 0.1) -> SteadyPr
                 ) from None
     multipliers, errors = _multipliers(shoot, y, duration)
     outside = np.abs(multipliers) > 1 + errors  # not of NaN, which is small
-    most = float(np.log(np.abs(multipliers[outside]).max())) if outside.any() else 0.0
+    growth = float(np.log(np.abs(multipliers[outside]).max())) if outside.any() else 0.0
     axes, rates = y.reshape(2, -1, 3)
-    return SteadyPrecession(size, duration / c.rate, axes, c.rate * rates, multipliers, errors, most, mismatch)
+    return SteadyPrecession(size, duration / c.rate, axes, c.rate * rates, multipliers, errors, growth, mismatch)
 
 
 def precessing_mode(s: Assembly, mode: int, where: str) -> tuple[float, NDArray[np.complex128]]:
@@ -214,17 +214,17 @@ def _multipliers(shoot: _Shooting, y: Array, duration: float) -> tuple[NDArray[n
     shares = {1: (8, 0), 2: (-1, 4), 4: (0, -0.5)}  # of differences by a step and by two
     weights = {k * sign * _STEP: sign * np.array(w) / (12 * _STEP) for k, w in shares.items() for sign in (1, -1)}
     slopes = shoot.slopes(y, duration, weights, TIGHTEST)
-    forms, start = [np.linalg.lstsq(*part)[0] for part in slopes], slopes[0, 0]
-    along = np.linalg.lstsq(start, np.asarray(shoot.rhs(0.0, y)))[0]
-    beside = np.concatenate([y[None] + k * _STEP * start.T for k in (1, -1, 2, -2)])
-    axes, rates = shoot.motion.axes_and_rates(beside)
+    forms, start = [np.linalg.lstsq(*slope)[0] for slope in slopes], slopes[0, 0]
+    flow = np.linalg.lstsq(start, np.asarray(shoot.rhs(0.0, y)))[0]
+    neighbours = np.concatenate([y[None] + k * _STEP * start.T for k in (1, -1, 2, -2)])
+    axes, rates = shoot.motion.axes_and_rates(neighbours)
     energy = np.split(shoot.motion.energy(axes, shoot.motion.c.rate * rates), 4)
     gained = np.tensordot([8, -8, -1, 1], energy, 1)
-    both = np.stack([along / np.linalg.norm(along), gained / np.linalg.norm(gained)])
-    across = np.linalg.svd(both)[2][2:].T
-    inner, other = (across.T @ form @ across for form in forms)
+    both = np.stack([flow / np.linalg.norm(flow), gained / np.linalg.norm(gained)])
+    transverse = np.linalg.svd(both)[2][2:].T
+    inner, coarse = (transverse.T @ form @ transverse for form in forms)
     values, right = np.linalg.eig(inner)
     conditions = np.linalg.norm(np.linalg.pinv(right), axis=1) * np.linalg.norm(right, axis=0)
-    errors = conditions * (np.linalg.norm(inner - other, 2) + TIGHTEST * np.linalg.norm(inner, 2))
+    errors = conditions * (np.linalg.norm(inner - coarse, 2) + TIGHTEST * np.linalg.norm(inner, 2))
     order = np.lexsort((-values.imag, np.abs(np.angle(values)), -np.round(np.abs(values), 6)))
     return resolved_multipliers(np.append([1.0, 1.0], values[order]), np.append([0.0, 0.0], errors[order]))

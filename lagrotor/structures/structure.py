@@ -100,7 +100,7 @@ def read_structure(path: str | Path) -> Structure:
     return read_document(path, structure_of)
 
 
-def structure_of(given: dict[str, Any]) -> Structure:
+def structure_of(entries: dict[str, Any]) -> Structure:
     """The structure of a table with the fields' names.
 
     Raises
@@ -108,15 +108,15 @@ def structure_of(given: dict[str, Any]) -> Structure:
     InputError
         For other names and for values out of range.
     """
-    check_fields(given, Assembly, "a structure")
-    if "joints" not in given:
+    check_fields(entries, Assembly, "a structure")
+    if "joints" not in entries:
         raise InputError("joints is missing: give the ground joints, joints = [[0, 0], [1, 0]]")
-    made = dict(given)
+    arguments = dict(entries)
     for name, kind in _PARTS.items():
-        if name in given:
-            tables = given[name] if isinstance(given[name], list) else [given[name]]
-            made[name] = [part_of(name, kind, table) for table in tables]
-    return Structure(**made)
+        if name in entries:
+            tables = entries[name] if isinstance(entries[name], list) else [entries[name]]
+            arguments[name] = [part_of(name, kind, table) for table in tables]
+    return Structure(**arguments)
 
 
 def toml_of(s: Assembly) -> str:
@@ -125,11 +125,11 @@ def toml_of(s: Assembly) -> str:
         f"{field.name} = {toml_value(getattr(s, field.name))}" for field in fields(Assembly) if field.name not in _PARTS
     ]
     for name in _PARTS:
-        parts = getattr(s, name)
-        once = name != "braces" and len(set(parts)) == 1
-        for part in parts[:1] if once else parts:
+        items = getattr(s, name)
+        once = name != "braces" and len(set(items)) == 1
+        for item in items[:1] if once else items:
             lines += ["", f"[{name}]" if once else f"[[{name}]]"]
-            lines += [f"{key} = {toml_value(value)}" for key, value in asdict(part).items()]
+            lines += [f"{key} = {toml_value(value)}" for key, value in asdict(item).items()]
     return "\n".join([*lines, ""])
 
 

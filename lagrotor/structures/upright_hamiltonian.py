@@ -66,12 +66,12 @@ def local_hamiltonian(s: Assembly, order: int = 4) -> LocalHamiltonian:
     if linear.damping.any() or c.decay.any():
         raise InputError("local_hamiltonian: friction acts: leave it out, the motion without it has a Hamiltonian")
     n = linear.dof
-    back = np.linalg.pinv(bar_rows(c))
+    pseudo_inverse = np.linalg.pinv(bar_rows(c))
     axes = on_bars(  # polynomials in q through the order; exact through order − 1 in x and y
         c,
         [linear_form(row, float) for row in linear.basis],
         lambda u: [axis_of(u[k : k + 2], order) for k in range(0, len(u), 2)],
-        lambda bound: [combined(row, bound) for row in back],
+        lambda bound: [combined(row, bound) for row in pseudo_inverse],
         order,
     )
     inertia = float(np.abs(linear.mass).max())
@@ -96,22 +96,22 @@ def local_hamiltonian(s: Assembly, order: int = 4) -> LocalHamiltonian:
     a = [_lifted(f) for f in vector]
     by_p = [total([rows[i][j].product(momenta[j], order - 1) for j in range(n)]) for i in range(n)]
     by_a = [total([rows[i][j].product(a[j], order - 1) for j in range(n)]) for i in range(n)]
-    parts = (
+    terms = (
         total([*(momenta[i].product(by_p[i], order) for i in range(n)), _lifted(V).times(2.0)]).times(0.5),
         total([a[i].product(by_p[i], order) for i in range(n)]).times(-1.0),
         total([a[i].product(by_a[i], order) for i in range(n)]).times(0.5),
     )
-    return LocalHamiltonian(parts, linear.basis, linear.mass / inertia, rate, axes)
+    return LocalHamiltonian(terms, linear.basis, linear.mass / inertia, rate, axes)
 
 
 def on_bars(
-    c: Coefficients, free: Row, axes_of: Callable[[Row], list[Row]], back: Callable[[Row], Row], order: int
+    c: Coefficients, free: Row, axes_of: Callable[[Row], list[Row]], closing: Callable[[Row], Row], order: int
 ) -> list[Row]:
     """The axes of u = free + rows⁺ s, s such that all bars keep their lengths through order − 1; back: rows⁺ of s."""
     bound, axes = [_none(free[0].variables)] * len(c.i), axes_of(free)
     for _ in range(2, order) if bound else ():
         bound = [f + over_length(c, axes, b, order - 1) for b, f in enumerate(bound)]
-        axes = axes_of([f + g for f, g in zip(free, back(bound), strict=True)])
+        axes = axes_of([f + g for f, g in zip(free, closing(bound), strict=True)])
     return axes
 
 
@@ -144,7 +144,7 @@ def over_length(c: Coefficients, axes: list[Row], b: int, order: int) -> Polynom
         axes[j][k].times(c.R[j]) - axes[i][k].times(c.R[i]) + constant(upright[k], axes[i][k].variables, float)
         for k in range(3)
     ]
-    square = total([part.product(part, order) for part in d])
+    square = total([component.product(component, order) for component in d])
     return (square - constant(c.ell[b] ** 2, square.variables, float)).times(0.5 / c.ell[b])
 
 
@@ -161,9 +161,9 @@ def _mass(c: Coefficients, J: list[list[Row]], order: int, inertia: float) -> li
     pairs = [(i, i, value) for i, value in enumerate(c.A)]
     pairs += [
         (i, j, value)
-        for one, other, value in zip(c.i, c.j, c.coupling, strict=True)
+        for first, second, value in zip(c.i, c.j, c.coupling, strict=True)
         if value
-        for i, j in ((one, other), (other, one))
+        for i, j in ((first, second), (second, first))
     ]
     m = [[_none(n)] * n for _ in range(n)]
     for a in range(n):
@@ -191,9 +191,9 @@ def potential_of(c: Coefficients, axes: list[Row], order: int) -> Polynomial:
         place = c.feet[tip] - (c.feet[to] if to >= 0 else c.brace_point[b])
         d = [axes[tip][k].times(c.R[tip]) + constant(place[k], n, float) for k in range(3)]
         d = [d[k] - axes[to][k].times(c.R[to]) for k in range(3)] if to >= 0 else d
-        longer = (total([part.product(part, order) for part in d]) - constant(c.brace_length[b] ** 2, n, float)).times(
-            1 / c.brace_length[b] ** 2
-        )
+        longer = (
+            total([component.product(component, order) for component in d]) - constant(c.brace_length[b] ** 2, n, float)
+        ).times(1 / c.brace_length[b] ** 2)
         stretch, power = _none(n), longer
         for k in range(1, order + 1):
             stretch, power = (

@@ -157,10 +157,10 @@ def floquet_of(orbit: ExactOrbit) -> Floquet:
         kind, turning = "elliptic", acos(total / 2)
     mu = (total + np.sqrt(complex(total * total - 4))) / 2
     multipliers = np.array([1, 1, 1, 1, mu, 1 / mu], dtype=complex)
-    known = Floquet(multipliers, total, kind, growth, turning, orbit.frequency, error, slope, np.zeros(6))
-    bounds = np.append(np.zeros(4), np.abs(multipliers[4:]) * known.exponent_error)
+    result = Floquet(multipliers, total, kind, growth, turning, orbit.frequency, error, slope, np.zeros(6))
+    bounds = np.append(np.zeros(4), np.abs(multipliers[4:]) * result.exponent_error)
     values, errors = resolved_multipliers(multipliers, bounds)
-    return replace(known, multipliers=values, errors=errors)
+    return replace(result, multipliers=values, errors=errors)
 
 
 def _error(monodromy: Array, total: float) -> float:

@@ -50,8 +50,8 @@ def _series(order: int, shape: sp.Rational, ratio: sp.Rational) -> _Series:
 
     series = paired_series(next(n for n in _DERIVED if n >= order), shape, ratio)
     waves, frequency = np.zeros((order + 1, order + 1, 3), dtype=complex), np.zeros(order + 1)
-    for i, (part, width) in enumerate(((series.x, 1.0), (series.Y, sqrt(shape)), (series.z, 1.0))):
-        for (n, h), value in _through(part, order):
+    for i, (component, width) in enumerate(((series.x, 1.0), (series.Y, sqrt(shape)), (series.z, 1.0))):
+        for (n, h), value in _through(component, order):
             waves[n, abs(h), i] += width * float(value) * (1 if h >= 0 else -1j)
     for (n, _), value in _through(series.frequency, order):
         frequency[n] = float(value)
@@ -91,24 +91,24 @@ def _fit(axes: Array, velocity: Array, unknowns: Array, series: _Series) -> tupl
     axes and velocity, r'/Omega_0 with the sign of rotor 1's spin: (2, 3) each, twelve equations for three unknowns.
     """
     n = np.arange(len(series.frequency))
-    along = np.array([n**0, 1j * n, -(n**2), n**0, 1j * n])[..., None]  # the waves' derivatives by Phi
-    wanted = np.stack([axes, velocity])
+    derivatives = np.array([n**0, 1j * n, -(n**2), n**0, 1j * n])[..., None]  # the waves' derivatives by Phi
+    target = np.stack([axes, velocity])
     reached, by = np.empty((2, 2, 3)), np.empty((2, 2, 3, 3))
     for last in (False, False, True):
         r0, phase, azimuth = unknowns
         powers = np.stack([r0**n, n * r0 ** np.maximum(n - 1, 0)])
         rate, rate_by_r0 = powers @ series.frequency
-        parts = _axes_at(_summed(powers, series.waves)[[0, 0, 0, 1, 1]] * along, phase)
-        reached[0], slope, bend, grown, sloped = _turned(parts, azimuth)
+        curves = _axes_at(_summed(powers, series.waves)[[0, 0, 0, 1, 1]] * derivatives, phase)
+        reached[0], slope, bend, grown, sloped = _turned(curves, azimuth)
         reached[1] = rate * slope
-        left = (wanted - reached).ravel()
+        residual = (target - reached).ravel()
         if last:
             break
         by[0, ..., 0], by[1, ..., 0] = grown, rate * sloped + rate_by_r0 * slope
         by[0, ..., 1], by[1, ..., 1] = slope, rate * bend
         by[..., 0, 2], by[..., 1, 2], by[..., 2, 2] = 0.0, -reached[..., 2], reached[..., 1]
-        unknowns = unknowns + np.linalg.lstsq(by.reshape(12, 3), left, rcond=None)[0]
-    return unknowns, float(np.linalg.norm(left))
+        unknowns = unknowns + np.linalg.lstsq(by.reshape(12, 3), residual, rcond=None)[0]
+    return unknowns, float(np.linalg.norm(residual))
 
 
 def paired_answer(scene: Scene, axes: Array, rates: Array, t_end: float, tol: float, best: bool) -> ClosedMotion:
@@ -121,28 +121,28 @@ def paired_answer(scene: Scene, axes: Array, rates: Array, t_end: float, tol: fl
     """
     width, natural = sqrt(scene.sigma), natural_rate(scene)
     signed = natural if scene.spins[0] > 0 else -natural
-    turned, velocity = natural * t_end, rates / signed
+    angle, velocity = natural * t_end, rates / signed
     guess = _guess(axes, velocity, width)
 
     from lagrotor.theory.paired_precession.stability import most_growth
 
     shape, ratio = _shape(scene.rotor, scene.link)
-    error, before = inf, inf
+    error, previous = inf, inf
     orders = (*_ORDERS, *_FURTHER) if best else _ORDERS
     r0 = float(guess[0])
-    growth = exp(min(most_growth(r0, float(shape), float(ratio)) * turned, 700.0))
+    growth = exp(min(most_growth(r0, float(shape), float(ratio)) * angle, 700.0))
     for order in orders:
         series = _series(order, shape, ratio)
         last = range(order - 1, order + 1)
         tail = sum(r0**n * series.wave_sizes[n] for n in last)
         slip = sum(r0**n * series.frequency_sizes[n] for n in last) * r0 * max(1.0, width)
-        before, error = error, tail * growth + slip * turned
-        fall = (error / before) ** ((orders[-1] - order) / 2) if order > 5 else 0.0
+        previous, error = error, tail * growth + slip * angle
+        fall = (error / previous) ** ((orders[-1] - order) / 2) if order > 5 else 0.0
         if error <= tol / 4 or (error * fall > tol and not best):
             break
     unknowns, mismatch = _fit(axes, velocity, guess, series)
     powers = unknowns[0] ** np.arange(order + 1)
-    error += (mismatch + ROUND) * (turned + growth)
+    error += (mismatch + ROUND) * (angle + growth)
     error = error if error < _SMALL else UNKNOWN  # beyond it only the bound holds
     frequency = signed * float(powers @ series.frequency)
     r0, phase, azimuth = (float(u) for u in unknowns)
@@ -166,10 +166,10 @@ def _guess(axes: Array, velocity: Array, width: float) -> Array:
     first, second = np.stack([_turned(axes, -azimuth), _turned(velocity, -azimuth)], axis=1)
     (x, x_v), (y, y_v) = (first + second)[:, 0] / 2, (first - second)[:, 1] / (2 * width)
     r0, phase = float(np.hypot(x, y)), float(np.arctan2(y, x))
-    off = np.hypot(x_v + r0 * np.sin(phase), y_v - r0 * np.cos(phase))
-    if not off <= 2 * (1 + width**2) * r0**2 or r0 > _LARGEST:
+    residual = np.hypot(x_v + r0 * np.sin(phase), y_v - r0 * np.cos(phase))
+    if not residual <= 2 * (1 + width**2) * r0**2 or r0 > _LARGEST:
         raise DomainError(
-            f"closed_form: the start is not on a paired precession: {off:.2g} of the natural rate off the one of amplitude "
+            f"closed_form: the start is not on a paired precession: {residual:.2g} of the natural rate off the one of amplitude "
             f"{r0:.2g}; use paired_scene, or model='linear' or 'minimal'"
         )
     return np.array([r0, phase, azimuth])
@@ -189,7 +189,7 @@ def fourier_motion(
         powers = np.ones((count, len(t)), dtype=complex)
         for n in range(count - 1):
             np.multiply(powers[n], turn, out=powers[n + 1])
-        seen = (np.concatenate([powers.real, powers.imag]).T @ table).reshape(-1, 2, 2, 3).transpose(1, 2, 0, 3)
-        return seen[0], seen[1]
+        values = (np.concatenate([powers.real, powers.imag]).T @ table).reshape(-1, 2, 2, 3).transpose(1, 2, 0, 3)
+        return values[0], values[1]
 
     return motion

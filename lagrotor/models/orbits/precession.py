@@ -44,16 +44,16 @@ def precession_orbit(scene: Scene, r0: float, tol: float = 1e-9) -> PrecessionOr
     amplitude = amplitude_of(r0, "precession_orbit")
     if isinstance(tol, bool) or not (isinstance(tol, int | float | np.floating) and 0 < tol < 1):
         raise InputError(f"precession_orbit: tol = {tol!r} must be a number between 0 and 1")
-    wanted = tol * natural_rate(scene)
+    target = tol * natural_rate(scene)
     for order in _ORDERS:
         try:
             orbit = series_orbit(scene, amplitude, order)
         except DomainError:
             break
-        if orbit.error <= tol and orbit.frequency_error <= wanted:
+        if orbit.error <= tol and orbit.frequency_error <= target:
             return orbit
     orbit = orbit_harmonics(exact_orbit(scene, amplitude), scene, amplitude)
-    if orbit.error > tol or orbit.frequency_error > wanted:
+    if orbit.error > tol or orbit.frequency_error > target:
         raise DomainError(
             f"precession_orbit: at r0 = {r0:g} neither the series nor the exact orbit, known to {orbit.error:.1e}, reaches "
             f"tol = {tol:g}; take a larger tol"
@@ -68,18 +68,24 @@ def orbit_harmonics(exact: ExactOrbit, scene: Scene, r0: float) -> PrecessionOrb
     """
     for n in _SAMPLES:
         harmonics = _harmonics(exact, n)
-        left = float(np.linalg.norm(np.arange(n, 2 * n)[:, None] * harmonics[n : 2 * n]))
-        if left <= max(exact.error, TIGHTEST):
+        remainder = float(np.linalg.norm(np.arange(n, 2 * n)[:, None] * harmonics[n : 2 * n]))
+        if remainder <= max(exact.error, TIGHTEST):
             break
     else:
         raise DomainError(
             f"precession_orbit: at r0 = {r0:g} the motion is too uneven for {2 * n} harmonics; integrate the scene of "
             "lagrotor.models.orbits.shooting.exact_orbit"
         )
-    kept = int(np.flatnonzero(np.abs(harmonics).max(1) > TIGHTEST / 100)[-1]) + 1
-    error = 3 * exact.error + left
+    count = int(np.flatnonzero(np.abs(harmonics).max(1) > TIGHTEST / 100)[-1]) + 1
+    error = 3 * exact.error + remainder
     return PrecessionOrbit(
-        scene, r0, exact.frequency, exact.frequency_error, error, f"exact orbit, {kept - 1} harmonics", harmonics[:kept]
+        scene,
+        r0,
+        exact.frequency,
+        exact.frequency_error,
+        error,
+        f"exact orbit, {count - 1} harmonics",
+        harmonics[:count],
     )
 
 

@@ -58,8 +58,8 @@ class QuarterPeriod:
         """Raises InputError unless the spins are opposite and there is a bar."""
         shape_of(scene)
         self.scene = replace(scene, shock=None, axes=((0.0, 0.0, 1.0),) * 2, rates=((0.0, 0.0, 0.0),) * 2)
-        own, shared = scene.inertias
-        self.natural = scene.momenta[0] / sqrt(own**2 - shared**2)
+        inertia, shared = scene.inertias
+        self.natural = scene.momenta[0] / sqrt(inertia**2 - shared**2)
         self._flow = flow(self.scene)
         self._last = np.full(4, np.nan), np.empty((3, 4))
 
@@ -101,10 +101,10 @@ class QuarterPeriod:
                 break
         raise DomainError("the periodic orbit: Newton's method does not converge")
 
-    def tangent(self, z: Array, along: Array) -> Array:
-        """Unit tangent of the curve at z, on the side of `along`."""
+    def tangent(self, z: Array, side: Array) -> Array:
+        """Unit tangent of the curve at z, on the side of `side`."""
         null = np.linalg.svd(self._slope(z))[2][-1]
-        return null if null @ along >= 0 else -null
+        return null if null @ side >= 0 else -null
 
     def follow(self, z: Array | None, r0: float) -> Array:
         """From z, or from rest, along the family to the amplitude r0 > 0.
@@ -142,9 +142,9 @@ class QuarterPeriod:
         frequency = pi / 2 * self.natural / float(z[3])
         # An error of the quarter period's end, brought back to the unknowns at fixed amplitude, and on to the axes.
         slope = self._slope(z)
-        off = _INTEGRATED * float(np.linalg.norm(slope)) * float(np.linalg.norm(np.linalg.inv(slope[:, 1:]), 2))
+        error = _INTEGRATED * float(np.linalg.norm(slope)) * float(np.linalg.norm(np.linalg.inv(slope[:, 1:]), 2))
         (start,) = scenes_from_states(self.scene, [self.state(z)])
-        return ExactOrbit(start, frequency, off * float(np.linalg.norm(slope)), off * abs(frequency / float(z[3])))
+        return ExactOrbit(start, frequency, error * float(np.linalg.norm(slope)), error * abs(frequency / float(z[3])))
 
 
 def exact_orbit(scene: Scene, r0: float) -> ExactOrbit:
@@ -213,13 +213,13 @@ def trace_family(scene: Scene) -> OrbitFamily:
     """
     curve = QuarterPeriod(scene)
     z = curve.correct(curve.linear(atanh(_START)), np.array([1.0, 0, 0, 0]), atanh(_START))
-    along = curve.tangent(z, np.array([1.0, 0, 0, 0]))
+    tangent = curve.tangent(z, np.array([1.0, 0, 0, 0]))
     points, turns, reason, length = [z], [], f"{_MOST} orbits found", _STEP
     while len(points) < _MOST:
         try:
-            ahead = curve.correct(z + length * along, along, float(along @ z + length))
-            turned = curve.tangent(ahead, along)
-            if turned @ along < 0.9:
+            ahead = curve.correct(z + length * tangent, tangent, float(tangent @ z + length))
+            next_tangent = curve.tangent(ahead, tangent)
+            if next_tangent @ tangent < 0.9:
                 raise DomainError("orbit_family: the step turned too far")
         except FAILURES:
             length /= 2
@@ -227,9 +227,9 @@ def trace_family(scene: Scene) -> OrbitFamily:
                 reason = "no orbit beyond: steps along the curve fail"
                 break
             continue
-        if turned[0] * along[0] < 0:
+        if next_tangent[0] * tangent[0] < 0:
             turns.append(float(np.tanh(max(z[0], ahead[0]))))
-        z, along, length = ahead, turned, min(5 * _STEP, 1.3 * length)
+        z, tangent, length = ahead, next_tangent, min(5 * _STEP, 1.3 * length)
         points.append(z)
         if abs(np.tanh(z[0])) > _LARGEST:
             reason = f"r0 reached {_LARGEST:g}"
@@ -249,11 +249,11 @@ def orbit_family(scene: Scene, amplitudes: NDArray[np.float64] | list[float]) ->
         family.
     """
     curve = QuarterPeriod(scene)
-    wanted = np.asarray(amplitudes, float)
-    if wanted.ndim != 1 or not len(wanted) or wanted[0] <= 0 or wanted[-1] >= 1 or (np.diff(wanted) <= 0).any():
+    targets = np.asarray(amplitudes, float)
+    if targets.ndim != 1 or not len(targets) or targets[0] <= 0 or targets[-1] >= 1 or (np.diff(targets) <= 0).any():
         raise DomainError("orbit_family: amplitudes must increase within (0, 1)")
     points: list[Array] = []
-    for r0 in wanted:
+    for r0 in targets:
         points.append(curve.follow(points[-1] if points else None, float(r0)))
     return _family(curve, np.array(points), (), "all amplitudes found")
 
@@ -297,7 +297,7 @@ def upright_orbit(scene: Scene, r0: float) -> UprightOrbit:
         through, guess, [4, 5], pi / natural, [0, 1, 3], np.array([-guess[0], 0, 0]), 20 * pi / natural
     )
     if time:
-        turned = float(through(start, time).end[2])
+        angle = float(through(start, time).end[2])
         (begun,) = scenes_from_states(replace(scene, shock=None), [start])
-        return UprightOrbit(begun, pi / time, turned / time)
+        return UprightOrbit(begun, pi / time, angle / time)
     raise DomainError(f"upright_orbit: no orbit of amplitude {r0:g} is found; take a smaller one")

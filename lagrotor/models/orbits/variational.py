@@ -51,8 +51,8 @@ def flow(scene: Scene) -> Callable[..., Flow]:
 
     def rate(s: float, y: Array) -> Any:
         numbers = np.array(accelerations(s, y[:6]))
-        turned = numbers[3:].reshape(3, 6).dot(y[6:].reshape(6, 6)).ravel()
-        return np.concatenate((y[3:6], numbers[:3], y[24:], turned))
+        products = numbers[3:].reshape(3, 6).dot(y[6:].reshape(6, 6)).ravel()
+        return np.concatenate((y[3:6], numbers[:3], y[24:], products))
 
     def through(state: Array, time: float, tol: float = TIGHTEST) -> Flow:
         start = np.concatenate([state, np.eye(6).ravel()])

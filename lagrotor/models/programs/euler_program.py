@@ -32,8 +32,8 @@ def program(massive: bool, body: int) -> Program:
     row, acceleration, pull = G.row(0), free[:, 0], free[:, 1]
     gamma = system.gamma[0]
     stages.append((lam, -(row.dot(acceleration) + gamma) / row.dot(pull)))
-    moved = acceleration + lam * pull
-    accelerations = [moved[ORDER.index(i)] for i in range(6)]
+    total = acceleration + lam * pull
+    accelerations = [total[ORDER.index(i)] for i in range(6)]
     parameters = (a, *((b,) if massive else ()), k, I3, *(_FORCE if body else ()))
     return Program((*PAIR.q, *PAIR.v, *parameters), tuple(stages), (*PAIR.v, *accelerations))
 
@@ -44,11 +44,11 @@ def projection(massive: bool) -> Program:
     lagrangian = system.L if massive else system.L.subs(b, 0)
     mass, G = mass_matrix(lagrangian, PAIR), system.rows
     stages, pull = solve_symmetric(mass.extract(ORDER, ORDER), G.T.extract(ORDER, [0]), "p")
-    along = [pull[ORDER.index(i)] for i in range(6)]
-    strength = sum(x * y for x, y in zip(G, along, strict=True))
-    off, moving = system.constraints[0] / strength, system.residual[0] / strength
-    corrected = [*(q - off * x for q, x in zip(PAIR.q, along, strict=True))]
-    corrected += [v - moving * x for v, x in zip(PAIR.v, along, strict=True)]
+    gradient = [pull[ORDER.index(i)] for i in range(6)]
+    strength = sum(x * y for x, y in zip(G, gradient, strict=True))
+    residual, moving = system.constraints[0] / strength, system.residual[0] / strength
+    corrected = [*(q - residual * x for q, x in zip(PAIR.q, gradient, strict=True))]
+    corrected += [v - moving * x for v, x in zip(PAIR.v, gradient, strict=True)]
     parameters = (a, *((b,) if massive else ()), k, I3)
     return Program((*PAIR.q, *PAIR.v, *parameters), tuple(stages), tuple(corrected))
 

@@ -86,15 +86,15 @@ def observation(ratio: Ratio) -> Program:
         turn = _ALPHA - sign * _D / 2
         sech = stages.keep(f"s_{i}", 2 * sp.sqrt(r.e) / (r.e + 1))
         c, s = stages.keep(f"c_{i}", sp.cos(turn)), stages.keep(f"n_{i}", sp.sin(turn))
-        along, round_ = stages.keep(f"x_{i}", sech * r.t * r.u_v), stages.keep(f"y_{i}", sech * r.alpha_v)
+        e_rate, round_ = stages.keep(f"x_{i}", sech * r.t * r.u_v), stages.keep(f"y_{i}", sech * r.alpha_v)
         axes += [r.t, -sech * s, sech * c]
-        rates += [sech**2 * r.u_v, along * s - round_ * c, -along * c - round_ * s]
+        rates += [sech**2 * r.u_v, e_rate * s - round_ * c, -e_rate * c - round_ * s]
     return Program((*MINIMAL.q, *MINIMAL.v, k), tuple(stages), (*axes, *rates))
 
 
 def _curve(stages: _Stages, ratio: Ratio) -> _Curve:
     """The bar's curve (`rotors.lagrangians.bar_curve`): rho w' = sin(Delta) Delta', rho' = −cos(Delta) w'."""
-    one = sp.Integer(1)
+    unity = sp.Integer(1)
     if ratio == "short":
         # sin Delta = k sin chi: rho / cos Delta = Delta', so w' = tan Delta.
         # 1 − S² would lose its digits at the fold of a bar almost as long as the axes.
@@ -105,10 +105,10 @@ def _curve(stages: _Stages, ratio: Ratio) -> _Curve:
     stages += [(_D, _CHI), (_S, sp.sin(_CHI)), (_C, sp.cos(_CHI))]
     if ratio == "equal":
         stages += [(_W1, _S / _C), (_DROP, _C)]
-        return _Curve(one, 0 * one, _W1, _C**-2, _C**-2)
+        return _Curve(unity, 0 * unity, _W1, _C**-2, _C**-2)
     stages += [(_RHO, sp.sqrt(_C**2 + (k - 1) * (k + 1))), (_W1, _S / _RHO), (_DROP, (_C + _RHO) / (k + 1))]
     square = stages.keep("N", 1 + _W1**2)
-    return _Curve(one, 0 * one, _W1, _C * square / _RHO, square)
+    return _Curve(unity, 0 * unity, _W1, _C * square / _RHO, square)
 
 
 def _rotors(stages: _Stages, curve: _Curve, ratio: Ratio, body: int) -> list[_Rotor]:
@@ -139,24 +139,24 @@ def _massless(stages: _Stages, rotors: list[_Rotor], curve: _Curve) -> tuple[sp.
     and inertia a sech² u in both. The bar's force is across its curve, so chi'' is as without it; in the means it leaves
     half the difference of 1/sech² u_i, where sech² u_1 : sech² u_2 = (1 + exp 2 u_2)² : (1 + exp 2 u_1)² exp(−2 w).
     """
-    (D1, D2, W1, W2, square), own = curve, []
+    (D1, D2, W1, W2, square), free = curve, []
     for i, (e, t, u_v, al_v, g, force) in enumerate(rotors, start=1):
-        along, round_ = t * (u_v - al_v) * (u_v + al_v) + g * al_v, u_v * (2 * t * al_v - g)
+        u_sum, round_ = t * (u_v - al_v) * (u_v + al_v) + g * al_v, u_v * (2 * t * al_v - g)
         if force != (0, 0):
             sech = 2 * sp.sqrt(e) / (e + 1)
-            along, round_ = along + force[0] / sech, round_ + force[1] / sech
-        own.append((stages.keep(f"f_{i}", along), stages.keep(f"h_{i}", round_)))
-    (f_1, h_1), (f_2, h_2) = own
+            u_sum, round_ = u_sum + force[0] / sech, round_ + force[1] / sech
+        free.append((stages.keep(f"f_{i}", u_sum), stages.keep(f"h_{i}", round_)))
+    (f_1, h_1), (f_2, h_2) = free
     twist = stages.keep("twist", h_2 - h_1)
     # Across the curve, D1 (u_1'' − u_2'') − W1 (alpha_2'' − alpha_1'') = (D1 W2 − W1 D2) chi'².
     pull = stages.keep("pull", (D1 * W2 - W1 * D2) * _CHI_V**2 / square + (W1 * twist - D1 * (f_1 - f_2)) / square)
     wide = [stages.keep("wide_1", (rotors[0].e + 1) * _DROP), stages.keep("wide_2", rotors[1].e + 1)]
     share = stages.keep("share", pull * (wide[0] ** 2 - wide[1] ** 2) / (wide[0] ** 2 + wide[1] ** 2))
-    along, round_ = stages.keep("along", f_1 + f_2 + share * D1), stages.keep("round", h_1 + h_2 + share * W1)
+    u_sum, round_ = stages.keep("along", f_1 + f_2 + share * D1), stages.keep("round", h_1 + h_2 + share * W1)
     if D1 == 1:
-        return along / 2, twist - W1 * pull, round_ / 2
+        return u_sum / 2, twist - W1 * pull, round_ / 2
     twisted = (D1 * (twist - D2 * _CHI_V**2) + W1 * (f_1 - f_2 - W2 * _CHI_V**2)) / square
-    return along / 2, twisted, round_ / 2
+    return u_sum / 2, twisted, round_ / 2
 
 
 def _massive(stages: _Stages, rotors: list[_Rotor], curve: _Curve) -> tuple[sp.Expr, ...]:
@@ -174,14 +174,14 @@ def _massive(stages: _Stages, rotors: list[_Rotor], curve: _Curve) -> tuple[sp.E
     toward_2 = sp.Matrix([s_1 * (s_1 * t_2 - _C * t_1 * s_2), s_1 * s_2 * _S])
     toward_1 = sp.Matrix([s_2 * (s_2 * t_1 - _C * t_2 * s_1), -s_1 * s_2 * _S])
     bend = sp.Matrix([W2, -D2]) * _CHI_V**2 / 2
-    turned, spun, pulled = [], [], []
+    bent, spun, pulled = [], [], []
     for i, (r, m, sign) in enumerate(zip(rotors, (m_1, m_2), (1, -1), strict=True)):
         turning = sp.Matrix([r.t * (r.u_v - r.alpha_v) * (r.u_v + r.alpha_v), 2 * r.t * r.u_v * r.alpha_v])
-        turned.append((turning - sign * bend).applyfunc(lambda e, i=i: keep(f"d_{i}{len(stages)}", e)))
-        spun.append(m * (sp.Matrix([r.g * r.alpha_v, -r.g * r.u_v]) + turned[i]) + (s_1, s_2)[i] * sp.Matrix(r.force))
+        bent.append((turning - sign * bend).applyfunc(lambda e, i=i: keep(f"d_{i}{len(stages)}", e)))
+        spun.append(m * (sp.Matrix([r.g * r.alpha_v, -r.g * r.u_v]) + bent[i]) + (s_1, s_2)[i] * sp.Matrix(r.force))
         pulled.append(keep(f"v_{i}", beta * m * (r.u_v**2 + r.alpha_v**2)))
-    force_1 = (spun[0] + p * turned[1] + pulled[1] * toward_2).applyfunc(lambda e: keep(f"R_{len(stages)}", e))
-    force_2 = (spun[1] + p.T * turned[0] + pulled[0] * toward_1).applyfunc(lambda e: keep(f"R_{len(stages)}", e))
+    force_1 = (spun[0] + p * bent[1] + pulled[1] * toward_2).applyfunc(lambda e: keep(f"R_{len(stages)}", e))
+    force_2 = (spun[1] + p.T * bent[0] + pulled[0] * toward_1).applyfunc(lambda e: keep(f"R_{len(stages)}", e))
     whole, gap = keep("sum", m_1 + m_2), keep("gap", m_1 - m_2)
     even, skew = keep("even", p[0, 1] + p[1, 0]), keep("skew", p[0, 1] - p[1, 0])
     by_u, by_alpha = (W1 * gap + D1 * skew) / 2, (W1 * skew - D1 * gap) / 2
@@ -191,6 +191,6 @@ def _massive(stages: _Stages, rotors: list[_Rotor], curve: _Curve) -> tuple[sp.E
     )
     apart = (force_1 - force_2) / 2
     right = sp.Matrix([*(force_1 + force_2), W1 * apart[0] - D1 * apart[1]])
-    more, (along, round_, twisted) = solve_symmetric(mass, right, "m")
-    stages += more
-    return along, twisted, round_
+    solver_stages, (u_rate, round_, twisted) = solve_symmetric(mass, right, "m")
+    stages += solver_stages
+    return u_rate, twisted, round_

@@ -38,8 +38,8 @@ def printed_rotation(Omega: Array, dt: float) -> Array:
         P = Omega[:, :, None] * Omega[:, None, :] / (Omega**2).sum(1)[:, None, None]
         n = Omega / size[:, None]
         angle = (size * dt)[:, None, None]
-        turned = P + np.cos(angle) * (np.eye(3) - P) + np.sin(angle) * skew_matrix(n)
-    return np.where(size[:, None, None] == 0, np.eye(3), turned)
+        rotation = P + np.cos(angle) * (np.eye(3) - P) + np.sin(angle) * skew_matrix(n)
+    return np.where(size[:, None, None] == 0, np.eye(3), rotation)
 
 
 def inertia_transform(R: Array, tensor: Array) -> Array:
@@ -58,14 +58,14 @@ def printed_inertia_transform(R: Array, tensor: Array) -> Array:
 
 def rotation_between(u: Array, v: Array) -> Array:
     """The shortest rotation (3, 3) that takes the basis vector `u` (3,) to the unit vector `v` (3,)."""
-    axis, along = np.cross(u, v), float(u @ v)
-    across = float(np.linalg.norm(axis))
-    if across == 0.0:
-        axis, across, angle = np.roll(u, 1), 1.0, 0.0 if along > 0 else np.pi
+    axis, cosine = np.cross(u, v), float(u @ v)
+    sine = float(np.linalg.norm(axis))
+    if sine == 0.0:
+        axis, sine, angle = np.roll(u, 1), 1.0, 0.0 if cosine > 0 else np.pi
     else:
-        angle = float(np.arctan2(across, along))
-    turned: Array = finite_rotation(axis[None] / across, angle)[0]
-    return turned
+        angle = float(np.arctan2(sine, cosine))
+    rotation: Array = finite_rotation(axis[None] / sine, angle)[0]
+    return rotation
 
 
 @dataclass(frozen=True, eq=False)

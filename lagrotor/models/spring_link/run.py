@@ -76,8 +76,8 @@ class SpringRun(Run):
 
     def quantities(self) -> dict[str, Quantity]:
         """What the run holds, and its energy."""
-        held = {name: Quantity(getattr(self, name), axes, unit) for name, (axes, unit) in _QUANTITIES.items()}
-        return held | {"energy": Quantity(self.energy, ("t",), "J")}
+        stored = {name: Quantity(getattr(self, name), axes, unit) for name, (axes, unit) in _QUANTITIES.items()}
+        return stored | {"energy": Quantity(self.energy, ("t",), "J")}
 
     def plot(self) -> Any:
         """A figure that a notebook shows: tips over time and from above, energy over time; `.savefig(path)` writes it."""
@@ -94,10 +94,10 @@ class SpringRun(Run):
 
         check_film(Path(path), float(self.t[-1] - self.t[0]), fps)
         times = frame_times(self.t[0], self.t[-1], fps)
-        turned = np.array([Slerp(self.t, Rotation.from_matrix(R))(times).as_matrix() for R in self.rotations[:2]])
-        tips, centres = (CubicSpline(self.t, part, axis=1)(times) for part in (self.tips, self.centres[:2]))
+        rotations = np.array([Slerp(self.t, Rotation.from_matrix(R))(times).as_matrix() for R in self.rotations[:2]])
+        tips, centres = (CubicSpline(self.t, curve, axis=1)(times) for curve in (self.tips, self.centres[:2]))
         length = float(np.linalg.norm(self.tips[0, 0] - self.feet[0, 0]))
-        moving = FilmedMotion(times, turned, tips, centres, self.feet[:, 0], length, len(self.centres) > 2)
+        moving = FilmedMotion(times, rotations, tips, centres, self.feet[:, 0], length, len(self.centres) > 2)
         lines, inks, traced = moving.lines()
         return animate_lines(path, times, lines, fps, inks, traced)
 
@@ -110,22 +110,22 @@ class SpringRun(Run):
         InputError
             Where that is not what the file is.
         """
-        _, held, known = read_run(path)
-        n = len(known["t"])
+        _, arrays, run_fields = read_run(path)
+        n = len(run_fields["t"])
         sizes: dict[str, int] = {"t": n, "rotor": 2, "component": 3, "row": 3}
         try:
-            parts: dict[str, Any] = {name: held[name] for name in _QUANTITIES}
-            for name, part in parts.items():
-                for axis, size in zip(_QUANTITIES[name][0], part.shape, strict=True):
+            quantities: dict[str, Any] = {name: arrays[name] for name in _QUANTITIES}
+            for name, array in quantities.items():
+                for axis, size in zip(_QUANTITIES[name][0], array.shape, strict=True):
                     if sizes.setdefault(axis, size) != size:
-                        raise ValueError(f"{name} has shape {part.shape}")
-                if not np.isfinite(part).all():
+                        raise ValueError(f"{name} has shape {array.shape}")
+                if not np.isfinite(array).all():
                     raise ValueError(f"{name} holds a number that is not finite")
         except (KeyError, ValueError) as refusal:
             raise InputError(
                 f"load: {path} is no run of bodies on springs ({refusal}): give a file that `save` wrote"
             ) from None
-        return SpringRun(**parts, **known)
+        return SpringRun(**quantities, **run_fields)
 
 
 _OF_ROTORS, _OF_BODIES, _OF_LINKS = ("rotor", "t", "component"), ("body", "t"), ("link", "t")
@@ -201,8 +201,8 @@ def run_steps(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, dt: fl
                 break
             states.append(state)
     n = len(states)
-    known = {"errors": np.full(n, nan), "horizon": nan, "evaluations": int(k - counts[0]), "ending": ending}
-    return _run_of(system, np.array(states), known | {"t": times[:n]})
+    run_fields = {"errors": np.full(n, nan), "horizon": nan, "evaluations": int(k - counts[0]), "ending": ending}
+    return _run_of(system, np.array(states), run_fields | {"t": times[:n]})
 
 
 def run_solver(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, tol: float = 1e-8) -> SpringRun:
@@ -243,12 +243,13 @@ def run_solver(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, tol: 
         / max(sqrt(stiff), float(np.linalg.norm(system.Omega, axis=1).max()), 1 / max(times[-1] - times[0], 1e-300))
     )
 
-    def distance(one: Array, other: Array) -> Array:
-        places, turned = (np.split(part, [3 * n_b, 9 * n_b], axis=1)[::2] for part in (one, other))
+    def distance(first: Array, second: Array) -> Array:
+        places, rotations = (np.split(states, [3 * n_b, 9 * n_b], axis=1)[::2] for states in (first, second))
         apart = [
-            (a - b).reshape(len(one), n_b, -1) / unit for a, b, unit in zip(places, turned, (size, 1.0), strict=True)
+            (a - b).reshape(len(first), n_b, -1) / unit
+            for a, b, unit in zip(places, rotations, (size, 1.0), strict=True)
         ]
-        return np.maximum(*(np.linalg.norm(part, axis=-1).max(axis=1) for part in apart))
+        return np.maximum(*(np.linalg.norm(states, axis=-1).max(axis=1) for states in apart))
 
     def under(shock: Shock | None) -> RightHandSide:
         def rhs(s: float, y: Array) -> list[float]:
@@ -326,7 +327,7 @@ def _strength(shock: Shock | None, s: float) -> float:
     return exp(-ratio * ratio)
 
 
-def _run_of(system: RigidBodySystem, states: Array, known: dict[str, Any]) -> SpringRun:
+def _run_of(system: RigidBodySystem, states: Array, run_fields: dict[str, Any]) -> SpringRun:
     """A run from states (n, 18 n_b or more) of X, U, L and R; Omega follows from L and R (3.17)."""
     if len(system.vertices) < 2 or min(len(vertices) for vertices in system.vertices[:2]) < TIP:
         raise InputError("SpringRun: bodies 1 and 2 must be rotors with two vertices; step other systems by hand")
@@ -342,8 +343,8 @@ def _run_of(system: RigidBodySystem, states: Array, known: dict[str, Any]) -> Sp
         tips.append(X[:, i] + R[:, i] @ top)
         feet.append(X[:, i] + R[:, i] @ bottom)
         spins.append((Omega[:, i] * axes[i]).sum(-1))
-    held = (np.broadcast_to(part[-1:], (n, *part[-1:].shape)) for part in (system.X, system.R))
-    places = (np.concatenate((part, ground), axis=1) for part, ground in zip((X, R), held, strict=True))
+    fixed = (np.broadcast_to(array[-1:], (n, *array[-1:].shape)) for array in (system.X, system.R))
+    places = (np.concatenate((array, ground), axis=1) for array, ground in zip((X, R), fixed, strict=True))
     stretches = np.linalg.norm(system.gaps(*places), axis=-1).T
     momenta = U / system.inverse_mass[:-1]
     return SpringRun(
@@ -360,5 +361,5 @@ def _run_of(system: RigidBodySystem, states: Array, known: dict[str, Any]) -> Sp
         translation=((U**2).sum(-1) / (2 * system.inverse_mass[:-1, 0])).T,
         rotation=(Omega * L).sum(-1).T / 2,
         spring=system.stiffness * stretches**2 / 2,
-        **known,
+        **run_fields,
     )

@@ -103,13 +103,13 @@ class RigidBodySystem:
             )
         self.force, self.rotation, self.transform = force, rotation, transform
         self.vertices = [body.vertices for body in bodies]
-        nothing, one = np.zeros((1, 3)), np.eye(3)[None]
+        nothing, identity = np.zeros((1, 3)), np.eye(3)[None]
         self.X = np.vstack([*(body.centre for body in bodies), nothing])
         self.U = np.vstack([*(body.velocity for body in bodies), nothing])
         self.L = np.vstack([*(body.momentum for body in bodies), nothing])
-        self.R = np.concatenate([*(body.rotation[None] for body in bodies), one])
+        self.R = np.concatenate([*(body.rotation[None] for body in bodies), identity])
         self.inverse_mass = np.array([*(1 / body.mass for body in bodies), 0.0])[:, None]
-        self.inverse_inertia = np.concatenate([*(np.linalg.inv(body.inertia)[None] for body in bodies), 0 * one])
+        self.inverse_inertia = np.concatenate([*(np.linalg.inv(body.inertia)[None] for body in bodies), 0 * identity])
         self.external = np.zeros_like(self.X)
         self.F, self.tau = np.zeros_like(self.X), np.zeros_like(self.X)
         self.Omega = self.angular_velocity()
@@ -155,9 +155,9 @@ class RigidBodySystem:
             By which it is multiplied.
         """
         i, arm = self._end(body, vertex)
-        given = finite_array("push: force", force, (3,)) * strength
-        self.F[i] += given
-        self.tau[i] += skew_matrix(self.R[i] @ arm) @ given
+        applied = finite_array("push: force", force, (3,)) * strength
+        self.F[i] += applied
+        self.tau[i] += skew_matrix(self.R[i] @ arm) @ applied
 
     def angular_velocity(self) -> Array:
         """Omega = R I₀⁻¹ Rᵀ L, (n + 1, 3) in rad/s: 3.17 in the right frames, from the stored I₀⁻¹."""
@@ -193,18 +193,18 @@ class RigidBodySystem:
     @property
     def state(self) -> Array:
         """X, U, L (n, 3), R (n, 3, 3) and Omega (n, 3) of the bodies, without the ground, one after the other: (21 n,)."""
-        return np.concatenate([part[:-1].ravel() for part in (self.X, self.U, self.L, self.R, self.Omega)])
+        return np.concatenate([array[:-1].ravel() for array in (self.X, self.U, self.L, self.R, self.Omega)])
 
     def load(self, state: Array) -> None:
         """Put in what `state` gives, for the bodies; Omega is that of L and R where it is left out."""
         n = len(self.vertices)
         X, U, L = state[: 9 * n].reshape(3, n, 3)
         self.X, self.U, self.L = (
-            np.concatenate((part, ground[-1:])) for part, ground in ((X, self.X), (U, self.U), (L, self.L))
+            np.concatenate((array, ground[-1:])) for array, ground in ((X, self.X), (U, self.U), (L, self.L))
         )
         self.R = np.concatenate((state[9 * n : 18 * n].reshape(n, 3, 3), self.R[-1:]))
-        rest = state[18 * n :].reshape(-1, 3)
-        self.Omega = np.concatenate((rest, self.Omega[-1:])) if len(rest) else self.angular_velocity()
+        rates = state[18 * n :].reshape(-1, 3)
+        self.Omega = np.concatenate((rates, self.Omega[-1:])) if len(rates) else self.angular_velocity()
 
     @property
     def joints(self) -> int:
@@ -221,8 +221,8 @@ class RigidBodySystem:
         share, crossed = ends[..., 0], skew_matrix((self.R @ ends[..., 1:, None])[..., 0])
         turning = self.transform(self.R, self.inverse_inertia)
         pushed = np.einsum("lb,b,mb,ij->limj", share, self.inverse_mass[:, 0], share, np.eye(3))
-        turned = np.einsum("lbij,bjk,mbkn->limn", crossed, turning, crossed)
-        return (pushed - turned).reshape(3 * n, 3 * n)
+        rotational = np.einsum("lbij,bjk,mbkn->limn", crossed, turning, crossed)
+        return (pushed - rotational).reshape(3 * n, 3 * n)
 
     def gaps(self, X: Array, R: Array) -> Array:
         """X_1 − X_2 of every link (…, n_links, 3) in m, for stacks of centres (…, n + 1, 3) and rotations.
@@ -280,8 +280,8 @@ def step_limit(system: RigidBodySystem) -> StepLimit:
     W = system.joint_mobility()
     if not len(W):
         raise InputError("step_limit: the system has no link, so every step is stable; link or ground a vertex first")
-    own = [W[3 * j : 3 * j + 3, 3 * j : 3 * j + 3] for j in range(len(W) // 3)]
-    w = np.array([np.linalg.eigvalsh(block)[-1] for block in (W, *own)])
+    blocks = [W[3 * j : 3 * j + 3, 3 * j : 3 * j + 3] for j in range(len(W) // 3)]
+    w = np.array([np.linalg.eigvalsh(block)[-1] for block in (W, *blocks)])
     S, D = system.stiffness, system.damping
     h = 4 / (w * D + np.sqrt((w * D) ** 2 + 4 * w * S))
     return StepLimit(float(h[0]), h[1:])
@@ -328,8 +328,8 @@ def _bar(scene: Scene, link: Link, height: float | None) -> RigidBody:
     e /= np.linalg.norm(e)
     Omega = np.cross(e, R / link.length * (rates[1] - rates[0]))
     ends = link.length / 2 * np.array([[-1.0, 0, 0], [1.0, 0, 0]])
-    turned = rotation_between(np.array([1.0, 0, 0]), e)
-    return RigidBody(centre, ends, link.inertia * np.eye(3), turned, link.mass, Omega, R * rates.mean(0))
+    rotation = rotation_between(np.array([1.0, 0, 0]), e)
+    return RigidBody(centre, ends, link.inertia * np.eye(3), rotation, link.mass, Omega, R * rates.mean(0))
 
 
 def paper_system(

@@ -142,20 +142,20 @@ def sweep(
         way = "an executor of concurrent.futures; a dask client has one: client.get_executor()"
         raise InputError(f"sweep: executor = {executor!r} must be {way}")
     order = sorted(range(len(members)), key=lambda i: kind_of(members[i]) or (False, "", 0))  # alike beside alike
-    parts = [order[i : i + chunk] for i in range(0, len(order), chunk)]
-    whole, endings, done = _not_run(members, times, tolerance), dict[int, Ending](), 0
-    work = {number: ([members[i] for i in part], times, tolerance, engine) for number, part in enumerate(parts)}
+    chunks = [order[i : i + chunk] for i in range(0, len(order), chunk)]
+    whole, endings, finished = _not_run(members, times, tolerance), dict[int, Ending](), 0
+    work = {number: ([members[i] for i in indices], times, tolerance, engine) for number, indices in enumerate(chunks)}
     for number, result in _run(work, executor):
         for name in ("axes", "rates", "errors", "evaluations", "models"):
-            getattr(whole, name)[parts[number]] = getattr(result, name)
-        endings.update(zip(parts[number], result.endings, strict=True))
-        done += len(parts[number])
+            getattr(whole, name)[chunks[number]] = getattr(result, name)
+        endings.update(zip(chunks[number], result.endings, strict=True))
+        finished += len(chunks[number])
         if progress is not None:
-            progress(done, len(members))
+            progress(finished, len(members))
     whole = replace(whole, endings=tuple(ending for _, ending in sorted(endings.items())))
     if missed := int((~(whole.error <= tolerance)).sum()):
-        said = f"sweep: {missed} of {len(members)} runs do not keep tol = {tolerance:g}: see `error` of the result"
-        warnings.warn(said, LagrotorWarning, stacklevel=2)
+        message = f"sweep: {missed} of {len(members)} runs do not keep tol = {tolerance:g}: see `error` of the result"
+        warnings.warn(message, LagrotorWarning, stacklevel=2)
     return whole
 
 
@@ -163,8 +163,8 @@ def _not_run(scenes: Sequence[Scene], times: Array, tol: float) -> Ensemble:
     """The ensemble of which nothing is reached."""
     n, m = len(scenes), len(times)
     axes, rates = np.full((2, n, 2, m, 3), np.nan)
-    none, spent = np.full(n, MODELS.index("none")), np.zeros(n, np.int64)
-    return Ensemble(tuple(scenes), times, axes, rates, np.full((n, m), np.nan), tol, spent, none, (Ending(),) * n)
+    none, evaluations = np.full(n, MODELS.index("none")), np.zeros(n, np.int64)
+    return Ensemble(tuple(scenes), times, axes, rates, np.full((n, m), np.nan), tol, evaluations, none, (Ending(),) * n)
 
 
 def _checked(scenes: Sequence[Scene], chunk: int, engine: str) -> tuple[Scene, ...]:
@@ -256,8 +256,8 @@ def _by_minimal(
     rows = len(times) + max(65 + len(member.evolution.watch) for member in members)
     together = max(1, _MOST_ROWS // rows)
     for first in range(0, len(members), together):
-        part = members[first : first + together]
-        scenes = [member.units.scene for member in part]
+        batch = members[first : first + together]
+        scenes = [member.units.scene for member in batch]
         columns = np.array([MODEL.kind(scene, True)[1] for scene in scenes]).T
         swarm = _swarm(kind, scenes, columns)
 
@@ -266,10 +266,8 @@ def _by_minimal(
         ) -> Mapping[int, Stretch | StopError]:
             return march_lanes(program(*kind), columns, legs) if engine == "fast" else march_swarm(swarm, legs)
 
-        estimates = estimate_runs(
-            [one.evolution for one in part], [times * one.units.rate for one in part], tol, integrate
-        )
-        for member, run in zip(part, estimates, strict=True):
+        estimates = estimate_runs([m.evolution for m in batch], [times * m.units.rate for m in batch], tol, integrate)
+        for member, run in zip(batch, estimates, strict=True):
             if isinstance(run, IntegrationError) or run.ending.early:
                 evaluations[member.number] += run.evaluations
             else:
@@ -289,12 +287,12 @@ def _swarm(kind: Kind, scenes: list[Scene], columns: Array) -> Swarm:
 
     def rates(who: Index) -> Rates:
         # What all share goes in as a number: numbers among themselves cost nothing beside arrays.
-        given = [float(c[0]) if (c == c[0]).all() else c[who] for c in columns]
+        parameters = [float(c[0]) if (c == c[0]).all() else c[who] for c in columns]
         push, broad = force[:, who], width[who]
 
         def into(s: Array, y: Array, out: Array) -> None:
             pulse = push * np.exp(-((s / broad) ** 2)) if body else ()
-            for row, values in zip(out, function(*y, *given, *pulse), strict=True):
+            for row, values in zip(out, function(*y, *parameters, *pulse), strict=True):
                 row[:] = values
 
         return into

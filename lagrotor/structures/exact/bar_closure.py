@@ -72,9 +72,11 @@ def _dependent_bar(motion: ExactMotion, r: Array) -> int | None:
 
     ends = np.concatenate([c.i, c.j])
     pull, axes = np.concatenate(pulls(c, r)) / np.tile(c.ell, 2)[:, None], r[ends]
-    across = pull - (pull * axes).sum(1, keepdims=True) * axes
+    transverse = pull - (pull * axes).sum(1, keepdims=True) * axes
     columns = 3 * ends[:, None] + [0, 1, 2]
-    sparse = csr_matrix((across.ravel(), (np.repeat(np.tile(np.arange(B), 2), 3), columns.ravel())), shape=(B, 3 * N))
+    sparse = csr_matrix(
+        (transverse.ravel(), (np.repeat(np.tile(np.arange(B), 2), 3), columns.ravel())), shape=(B, 3 * N)
+    )
     if 2 * N <= _DENSE:
         G = sparse.toarray()
         sizes = np.linalg.svd(G, compute_uv=False)
@@ -122,10 +124,10 @@ def start_state(motion: ExactMotion, tilt: ArrayLike | None, rates: ArrayLike | 
     return start
 
 
-def _vectors(name: str, given: ArrayLike | None, N: int) -> Array:
-    if given is None:
+def _vectors(name: str, values: ArrayLike | None, N: int) -> Array:
+    if values is None:
         return np.zeros((N, 2))
-    vectors = finite_array(f"simulate: {name}", given)
+    vectors = finite_array(f"simulate: {name}", values)
     if vectors.shape not in ((N, 2), (N, 3)):
         raise InputError(f"simulate: {name} must be numbers ({N}, 2) or ({N}, 3), not of shape {vectors.shape}")
     if vectors.size == 3 * N and name == "tilt" and not (np.linalg.norm(vectors, axis=1) > 0).all():

@@ -55,7 +55,7 @@ _BETWEEN = 10.0  # radians at the structure's rate between two projections onto 
 
 def eliminate_in_levels(
     diagonal: Sequence[Any],
-    off: Mapping[tuple[int, int], Any],
+    couplings: Mapping[tuple[int, int], Any],
     right: Sequence[Any],
     masses: int,
     add: Callable[[Terms], Any] = sum,
@@ -68,67 +68,67 @@ def eliminate_in_levels(
     n = len(diagonal)
     pivots, b = [[entry] for entry in diagonal], [[entry] for entry in right]
     rows: list[dict[int, Terms]] = [{} for _ in range(n)]
-    for (i, j), entry in off.items():
+    for (i, j), entry in couplings.items():
         rows[i][j] = rows[j][i] = [entry]
     holds = [{j for j in row if j < masses} if i >= masses else set[int]() for i, row in enumerate(rows)]
-    left, done = set(range(n)), list[tuple[int, Any, Any, dict[int, Any]]]()
-    while left:
-        for i in _level(left, rows, holds):
-            inverse, own = 1.0 / add(pivots[i]), add(b[i])
+    remaining, eliminated = set(range(n)), list[tuple[int, Any, Any, dict[int, Any]]]()
+    while remaining:
+        for i in _level(remaining, rows, holds):
+            inverse, load = 1.0 / add(pivots[i]), add(b[i])
             row = {j: add(terms) for j, terms in rows[i].items()}
             shares = {j: entry * inverse for j, entry in row.items()}
             for j, entry in row.items():
                 pivots[j].append(-(shares[j] * entry))
-                b[j].append(-(shares[j] * own))
+                b[j].append(-(shares[j] * load))
                 del rows[j][i]
-            for one, other in combinations(row, 2):
-                between = -(shares[one] * row[other])
-                if other in rows[one]:
-                    rows[one][other].append(between)
+            for first, second in combinations(row, 2):
+                between = -(shares[first] * row[second])
+                if second in rows[first]:
+                    rows[first][second].append(between)
                 else:
-                    rows[one][other] = rows[other][one] = [between]
-            done.append((i, inverse, own, shares))
-            left.discard(i)
+                    rows[first][second] = rows[second][first] = [between]
+            eliminated.append((i, inverse, load, shares))
+            remaining.discard(i)
     x: list[Any] = [None] * n
-    for i, inverse, own, shares in reversed(done):
-        x[i] = add([own * inverse, *(-(share * x[j]) for j, share in shares.items())])
+    for i, inverse, load, shares in reversed(eliminated):
+        x[i] = add([load * inverse, *(-(share * x[j]) for j, share in shares.items())])
     return x
 
 
-def _level(left: set[int], rows: list[dict[int, Terms]], holds: list[set[int]]) -> list[int]:
+def _level(remaining: set[int], rows: list[dict[int, Terms]], holds: list[set[int]]) -> list[int]:
     """Unknowns that can go at once: few neighbours, none of them among each other, no constraint before what it holds.
 
     At most two more than twice the least number of neighbours: a heavy chain, too, is halved by a few levels.
     """
-    ready = [i for i in left if not holds[i] & left]
-    most = 2 * min(len(rows[i]) for i in ready) + 2
-    chosen, beside = list[int](), set[int]()
-    for i in sorted((i for i in ready if len(rows[i]) <= most), key=lambda i: (len(rows[i]), i)):
-        if i not in beside:
+    ready = [i for i in remaining if not holds[i] & remaining]
+    limit = 2 * min(len(rows[i]) for i in ready) + 2
+    chosen, neighbours = list[int](), set[int]()
+    for i in sorted((i for i in ready if len(rows[i]) <= limit), key=lambda i: (len(rows[i]), i)):
+        if i not in neighbours:
             chosen.append(i)
-            beside.update(rows[i])
+            neighbours.update(rows[i])
     return chosen
 
 
 def structure_accelerations(
-    c: Coefficients, r: Any, v: Any, G: Any, by: Any, add: Callable[[Terms], Any] = sum, more: Any = 0.0
+    c: Coefficients, r: Any, v: Any, G: Any, by: Any, add: Callable[[Terms], Any] = sum, external: Any = 0.0
 ) -> list[Any]:
     """Return r'' (3 N) of axes r and rates v, (N, 3), with axial momenta G (N).
 
     by: a module with sqrt for their kind of number; add: sums a list of them; more: what else acts on the axes, N m.
     What a structure has not (hinges, friction, heavy bars) costs nothing.
     """
-    N, (r, v, G) = len(c.R), (np.array(each, dtype=object) for each in (r, v, G))
-    right = right_side(c, forces(c, r, v, G, np.frompyfunc(by.sqrt, 1, 1)) + more, v).tolist()
+    N, (r, v, G) = len(c.R), (np.array(values, dtype=object) for values in (r, v, G))
+    right = right_side(c, forces(c, r, v, G, np.frompyfunc(by.sqrt, 1, 1)) + external, v).tolist()
     diagonal = [*np.repeat(c.A, 3).tolist(), *[0.0] * (N + len(c.i))]
-    off: dict[tuple[int, int], Any] = {(3 * i + k, 3 * N + i): r[i, k] for i in range(N) for k in range(3)}
+    couplings: dict[tuple[int, int], Any] = {(3 * i + k, 3 * N + i): r[i, k] for i in range(N) for k in range(3)}
     first, second = pulls(c, r)
     for b, (i, j, coupling) in enumerate(zip(c.i.tolist(), c.j.tolist(), c.coupling.tolist(), strict=True)):
         for k in range(3):
-            off[3 * i + k, 4 * N + b], off[3 * j + k, 4 * N + b] = first[b, k], second[b, k]
+            couplings[3 * i + k, 4 * N + b], couplings[3 * j + k, 4 * N + b] = first[b, k], second[b, k]
             if coupling:
-                off[3 * i + k, 3 * j + k] = coupling
-    return eliminate_in_levels(diagonal, off, right, 3 * N, add)[: 3 * N]
+                couplings[3 * i + k, 3 * j + k] = coupling
+    return eliminate_in_levels(diagonal, couplings, right, 3 * N, add)[: 3 * N]
 
 
 def right_hand_side(motion: ExactMotion) -> RightHandSide:
@@ -152,8 +152,8 @@ def _source(c: Coefficients, forced: bool, shaken: bool) -> str:
     y, p, g = (np.array([Recorded(tape, name) for name in names]) for names in (states, pushes, shakes))
     r, v = y.reshape(2, N, 3)
     G = [Recorded(tape, f"({G}*exp({-k / rate}*s))") if k else G for G, k in zip(c.G, c.decay, strict=True)]
-    more = c.R[:, None] * p.reshape(N, 3) * forced - c.S[:, None] * g * shaken
-    accelerations = structure_accelerations(c, r, rate * v, G, operation_recorder, more=more)
+    external = c.R[:, None] * p.reshape(N, 3) * forced - c.S[:, None] * g * shaken
+    accelerations = structure_accelerations(c, r, rate * v, G, operation_recorder, external=external)
     lines, rates = operation_recorder.lines((x / rate**2 for x in accelerations), tape)
     body = [f"{', '.join(states)} = y.tolist()"]
     body += [f"{', '.join(pushes)} = force(s/{rate})"] if forced else []

@@ -28,8 +28,8 @@ def measured_growth(s: Assembly, folds: float = 3.0) -> float:
         raise InputError("measured_growth: nothing grows about upright")
     shape = 1e-5 * normal.shapes[0]  # tol below is 10⁻⁵ of this tilt
     run = simulate_structure(s, [0.0, folds / root.real], shape.real, (root * shape).real, tol=1e-10)
-    roots, left = np.linalg.eig(replace(linear, rate=1.0).first_order.T)
-    w = left[:, np.argmin(np.abs(roots - root))]
+    roots, left_vectors = np.linalg.eig(replace(linear, rate=1.0).first_order.T)
+    w = left_vectors[:, np.argmin(np.abs(roots - root))]
     first, last = (abs(w @ state) for state in _coordinates(linear, run.axes, run.rates).T)
     return float(np.log(last / first) * root.real / folds)
 
@@ -63,5 +63,7 @@ def bounded_motion(s: Assembly, turns: float = 20.0) -> tuple[float, float]:
 
 def _coordinates(linear: SmallMotion, axes: Array, rates: Array) -> Array:
     """(q, q') of a run, (2n, times)."""
-    parts = [part[..., :2].swapaxes(0, 1).reshape(part.shape[1], -1) @ linear.basis for part in (axes, rates)]
-    return np.hstack(parts).T
+    columns = [
+        vectors[..., :2].swapaxes(0, 1).reshape(vectors.shape[1], -1) @ linear.basis for vectors in (axes, rates)
+    ]
+    return np.hstack(columns).T

@@ -63,13 +63,13 @@ def forces(c: Coefficients, r: Array, v: Array, G: Array, root: Root = np.sqrt) 
 def brace_forces(c: Coefficients, r: Array, v: Array, root: Root = np.sqrt) -> Array:
     """What braces exert on the axes, (N, 3), N m."""
     tip, joined = c.brace_tip, c.brace_to >= 0
-    other, F = c.brace_to[joined], np.zeros_like(r)
+    far_tips, F = c.brace_to[joined], np.zeros_like(r)
     swing = c.R[tip, None] * v[tip]
-    swing[joined] -= c.R[other, None] * v[other]
-    along, stretch = stretches(c, r, root)
-    pull = (c.stiffness * stretch + c.damping * (along * swing).sum(1))[:, None] * along
+    swing[joined] -= c.R[far_tips, None] * v[far_tips]
+    direction, stretch = stretches(c, r, root)
+    pull = (c.stiffness * stretch + c.damping * (direction * swing).sum(1))[:, None] * direction
     np.subtract.at(F, tip, c.R[tip, None] * pull)
-    np.add.at(F, other, c.R[other, None] * pull[joined])
+    np.add.at(F, far_tips, c.R[far_tips, None] * pull[joined])
     return F
 
 
@@ -153,18 +153,18 @@ class Saddle:
         A singular system gives NaN, for its own state only.
         """
         states, n, k = right.shape
-        entries = np.concatenate([each.reshape(states, -1) for each in (r, *pulls)], axis=1)
+        entries = np.concatenate([block.reshape(states, -1) for block in (r, *pulls)], axis=1)
         b = np.empty_like(right)
         b[:, self.order] = right
         if self.band > _WIDEST:
-            x = np.array([self._solve_sparse(*each) for each in zip(entries, b, strict=True)]).reshape(right.shape)
+            x = np.array([self._solve_sparse(*row) for row in zip(entries, b, strict=True)]).reshape(right.shape)
         else:
             ab = np.repeat(self.base.reshape(1, -1), states, axis=0)
             ab[:, self.places] = np.concatenate([entries, entries], axis=1)
             x = in_band(self.band, ab.reshape(states * n, -1), b.reshape(-1, k).copy()).reshape(right.shape)
             if states > 1 and not np.isfinite(x).all():  # one of them is singular, and they were solved as one
-                each = (slice(i, i + 1) for i in range(states))
-                return np.concatenate([self.solve(r[i], (pulls[0][i], pulls[1][i]), right[i]) for i in each])
+                singles = (slice(i, i + 1) for i in range(states))
+                return np.concatenate([self.solve(r[i], (pulls[0][i], pulls[1][i]), right[i]) for i in singles])
         return np.asarray(x[:, self.order])
 
     def _solve_sparse(self, entries: Array, b: Array) -> Array:
@@ -192,12 +192,12 @@ def saddle(s: Assembly) -> Saddle:
     i, j = axis[c.i[heavy]], axis[c.j[heavy]]
     rows = np.concatenate([axis.ravel(), i.ravel(), j.ravel()])
     columns = np.concatenate([axis.ravel(), j.ravel(), i.ravel()])
-    off = np.repeat(c.coupling[heavy], 3)
-    values = np.concatenate([np.repeat(c.A, 3), off, off])
-    across = np.concatenate([axis.ravel(), axis[c.i].ravel(), axis[c.j].ravel()])
+    coupling_entries = np.repeat(c.coupling[heavy], 3)
+    values = np.concatenate([np.repeat(c.A, 3), coupling_entries, coupling_entries])
+    components = np.concatenate([axis.ravel(), axis[c.i].ravel(), axis[c.j].ravel()])
     down = np.concatenate([np.repeat(unit, 3), np.repeat(bar, 3), np.repeat(bar, 3)])
     fixed = order[rows], order[columns], values
-    moving = order[np.concatenate([across, down])], order[np.concatenate([down, across])]
+    moving = order[np.concatenate([components, down])], order[np.concatenate([down, components])]
     band = int(max(np.abs(fixed[0] - fixed[1]).max(), np.abs(moving[0] - moving[1]).max()))
     width = 3 * band + 1
     base = np.zeros((len(order), width) if band <= _WIDEST else (0, width))
@@ -297,25 +297,25 @@ class ExactMotion:
         """r and r'/rate, (2, n, N, 3), of states (n, 6 N)."""
         return states.reshape(-1, 2, len(self.c.R), 3).swapaxes(0, 1)
 
-    def distance(self, one: Array, other: Array) -> Array:
+    def distance(self, first: Array, second: Array) -> Array:
         """The largest difference of an axis between states (n, 6 N), (n,)."""
-        apart = self.axes_and_rates(one)[0] - self.axes_and_rates(other)[0]
+        apart = self.axes_and_rates(first)[0] - self.axes_and_rates(second)[0]
         return np.asarray(np.linalg.norm(apart, axis=-1).max(axis=1))
 
-    def difference_of_rates(self, one: Array, other: Array) -> float:
+    def difference_of_rates(self, first: Array, second: Array) -> float:
         """The largest difference of a component of r'/rate between states (n, 6 N)."""
-        return float(np.abs(self.axes_and_rates(one)[1] - self.axes_and_rates(other)[1]).max(initial=0.0))
+        return float(np.abs(self.axes_and_rates(first)[1] - self.axes_and_rates(second)[1]).max(initial=0.0))
 
     def defect(self, states: Array, conserved: bool) -> Array:
         """The errors of axes that explain how far states (n, 6 N) are off the constraints and, where conserved, their energy."""
         c = self.c
         r, v = self.axes_and_rates(states) * np.array([1.0, c.rate])[:, None, None, None]
         R = np.maximum(c.R[c.i], c.R[c.j])
-        off = (off_constraints(c, r) / np.append(np.ones(len(c.R)), R * np.maximum(R, c.ell))).ravel()
+        residual = (off_constraints(c, r) / np.append(np.ones(len(c.R)), R * np.maximum(R, c.ell))).ravel()
         if not conserved:
-            return off
+            return residual
         energy = self.energy(r, v)
-        return np.append(off, (energy - energy[0]) / (self.energy_scale(r, v) or 1.0))
+        return np.append(residual, (energy - energy[0]) / (self.energy_scale(r, v) or 1.0))
 
     def energy_scale(self, r: Array, v: Array) -> float:
         """How much the energy (J) of some of the states r, v (n, N, 3) changes by an error of 1 of axes and v/rate, at most."""
@@ -336,11 +336,11 @@ class ExactMotion:
         right = np.zeros((len(states), 4 * N + len(c.i), 2))
         right[:, 3 * N :, 0], right[:, 3 * N :, 1] = -off_constraints(c, r), -rates_of_constraints(c, r, v)
         at_once = max(_ROWS // right.shape[1], 1)
-        moved = [
-            self.saddle.solve(r[part], (first[part], second[part]), right[part])[:, : 3 * N]
-            for part in (slice(k, k + at_once) for k in range(0, len(states), at_once))
+        corrections = [
+            self.saddle.solve(r[chunk], (first[chunk], second[chunk]), right[chunk])[:, : 3 * N]
+            for chunk in (slice(k, k + at_once) for k in range(0, len(states), at_once))
         ]
-        return (states + np.concatenate(moved).swapaxes(1, 2).reshape(states.shape)).T.reshape(y.shape)
+        return (states + np.concatenate(corrections).swapaxes(1, 2).reshape(states.shape)).T.reshape(y.shape)
 
 
 def exact_motion(s: Assembly, force: Drive | None = None, ground: Drive | None = None) -> ExactMotion:
@@ -366,8 +366,8 @@ _EVERY = 3  # evaluation of a right-hand side is looked at
 def bar_in_line(motion: ExactMotion, y: Array) -> str:
     """The words of a state at which a solver stopped as a bar had come into line with both its axes; none where none has."""
     c = motion.c
-    across = np.linalg.norm(motion.across(motion.axes_and_rates(y[None])[0, 0]), axis=-1) / c.ell
-    bars = np.flatnonzero((across < _IN_LINE).all(axis=0))
+    sines = np.linalg.norm(motion.across(motion.axes_and_rates(y[None])[0, 0]), axis=-1) / c.ell
+    bars = np.flatnonzero((sines < _IN_LINE).all(axis=0))
     return f"bar {bars[0]} comes into line with both its axes" if len(bars) else ""
 
 
@@ -409,8 +409,8 @@ class LineWatch:
             raise StopError(at, f"bar {bar} comes into line with both its axes", cause="singular")
 
     def _look(self) -> None:
-        across = self.motion.across(np.array([y for _, y in self.kept]).reshape(len(self.kept), -1, 3))
-        turned = np.argwhere(((across[:, 1:] * across[:, :-1]).sum(-1) < 0).all(0))
-        if len(turned) and not self.passed:
-            self.passed = self.kept[turned[0, 0] + 1][0], int(turned[0, 1])
+        transverse = self.motion.across(np.array([y for _, y in self.kept]).reshape(len(self.kept), -1, 3))
+        reversals = np.argwhere(((transverse[:, 1:] * transverse[:, :-1]).sum(-1) < 0).all(0))
+        if len(reversals) and not self.passed:
+            self.passed = self.kept[reversals[0, 0] + 1][0], int(reversals[0, 1])
         del self.kept[:-1]

@@ -95,21 +95,24 @@ class StructureRun(Run):
         InputError
             Where that is not what the file is: not whole, or not a motion of that structure.
         """
-        about, held, known = read_run(path)
+        about, arrays, run_fields = read_run(path)
         try:
             kinds: dict[str, Any] = {"rotor": Rotor, "link": Link, "braces": Brace}
-            given = about["structure"]
-            given |= {name: [kind(**each) for each in given[name]] for name, kind in kinds.items()}
-            s, (axes, rates, momenta) = Assembly(**given), (held[name] for name in ("axes", "rates", "momenta"))
+            structure_fields = about["structure"]
+            structure_fields |= {name: [kind(**row) for row in structure_fields[name]] for name, kind in kinds.items()}
+            s, (axes, rates, momenta) = (
+                Assembly(**structure_fields),
+                (arrays[name] for name in ("axes", "rates", "momenta")),
+            )
         except (KeyError, TypeError, AttributeError, ValueError) as refusal:
             raise InputError(
                 f"load: {path} is no run of a structure ({refusal}): give a file that `save` wrote"
             ) from None
-        shape = (len(s.joints), len(known["t"]), 3)
-        wanted = (axes, shape), (rates, shape), (momenta, shape[:2])
-        if any(part.shape != size or not np.isfinite(part).all() for part, size in wanted):
+        shape = (len(s.joints), len(run_fields["t"]), 3)
+        expected = (axes, shape), (rates, shape), (momenta, shape[:2])
+        if any(array.shape != size or not np.isfinite(array).all() for array, size in expected):
             raise InputError(f"load: {path} is no run: its axes and rates are not finite numbers {shape}")
-        return StructureRun(structure=s, axes=axes, rates=rates, momenta=momenta, **known)
+        return StructureRun(structure=s, axes=axes, rates=rates, momenta=momenta, **run_fields)
 
     def plot(self) -> "Figure":
         """Tips over time and from above, and the energy: a figure that a notebook shows."""
@@ -192,12 +195,12 @@ def simulate_structure(
     check_engine(engine)
     shape, begin = (len(s.joints), 3), float(times[0])
     drives = [
-        None if given is None else _TriedDrive(given, name, size, times)
-        for given, name, size in ((drive, "drive", shape), (ground, "ground", shape[1:]))
+        None if function is None else _TriedDrive(function, name, size, times)
+        for function, name, size in ((drive, "drive", shape), (ground, "ground", shape[1:]))
     ]
     if engine == "fast" and any(drives):
         raise InputError("simulate: engine='fast' takes no drive and no motion of the ground: use engine='core'")
-    motion = exact_motion(s, *(each and each.since(begin) for each in drives))
+    motion = exact_motion(s, *(checked and checked.since(begin) for checked in drives))
     c = motion.c
     conserved = not (any(drives) or c.decay.any() or c.friction.any() or c.damping.any())
     evolution = Evolution(
@@ -214,12 +217,12 @@ def simulate_structure(
     try:
         run = estimate_run(evolution, c.rate * (times - begin), tol).by_clock(begin, 1 / c.rate)
     except StopError as stop:  # at a time without unit
-        for each in filter(None, drives):
-            each.refuse()
+        for checked in filter(None, drives):
+            checked.refuse()
         at = begin + stop.at / c.rate
         raise StopError(at, stop.reason, evaluations=stop.evaluations, cause=stop.cause) from None
-    for each in filter(None, drives) if run.ending.early else ():
-        each.refuse()
+    for checked in filter(None, drives) if run.ending.early else ():
+        checked.refuse()
     run.warn_unless_kept("the structure's run", tol)
     axes, velocities = motion.axes_and_rates(run.states).swapaxes(1, 2).copy()
     return StructureRun(
@@ -239,15 +242,15 @@ def _integration(s: Assembly, motion: ExactMotion, engine: Engine) -> Integrate:
     def by_steps(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
         watch, begin = LineWatch(motion), float(times[0])
         problem = Problem(watch.observe(rhs), start, budget, project=motion.project, typical_rate=1.0, begin=begin)
-        part = integrate(problem, times, local)
-        watch.keep(float(times[-1]), part.end)
+        stretch = integrate(problem, times, local)
+        watch.keep(float(times[-1]), stretch.end)
         try:
             watch.check()
         except StopError as stop:
-            before = part.states[times < stop.at]
-            stop.reached = Stretch(before, before[-1], part.evaluations)
+            states = stretch.states[times < stop.at]
+            stop.reached = Stretch(states, states[-1], stretch.evaluations)
             raise
-        return part
+        return stretch
 
     return by_steps
 

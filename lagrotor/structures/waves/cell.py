@@ -46,11 +46,11 @@ class Cell:
     inertia: bool = True
 
     def __post_init__(self) -> None:
-        put = object.__setattr__
+        assign = object.__setattr__
         if not isinstance(self.inertia, bool):
             raise InputError(f"Pattern: inertia = {self.inertia!r} must be True or False")
         for name in ("joints", "steps"):
-            put(self, name, tuple((float(x), float(y)) for x, y in getattr(self, name)))
+            assign(self, name, tuple((float(x), float(y)) for x, y in getattr(self, name)))
         if len(self.steps) not in (1, 2) or not self.joints:
             raise InputError(
                 f"Pattern: {len(self.joints)} joints and {len(self.steps)} steps: give a joint and one or two steps at least"
@@ -61,15 +61,15 @@ class Cell:
             )
         if len(self.steps) == 2 and abs((complex(*self.steps[0]).conjugate() * complex(*self.steps[1])).imag) < 1e-12:
             raise InputError(f"Pattern: steps = {self.steps} lie along one line: they span no plane")
-        put(self, "bars", tuple(self._ends("bars", k, bar, bar[2:]) for k, bar in enumerate(self.bars)))
-        put(self, "braces", tuple(self._sprung(k, brace) for k, brace in enumerate(self.braces)))
+        assign(self, "bars", tuple(self._ends("bars", k, bar, bar[2:]) for k, bar in enumerate(self.bars)))
+        assign(self, "braces", tuple(self._sprung(k, brace) for k, brace in enumerate(self.braces)))
         for name in ("spins", "rotor", "load", "friction", "hinge"):
-            put(self, name, _each(getattr(self, name), len(self.joints), name))
-        put(self, "link", _each(self.link, len(self.bars), "link"))
+            assign(self, name, _each(getattr(self, name), len(self.joints), name))
+        assign(self, "link", _each(self.link, len(self.bars), "link"))
 
-    def _ends(self, what: str, k: int, given: Any, shift: Any) -> tuple[int, int, Shift]:
-        i, j = given[:2]
-        where = f"Pattern: {what}[{k}] = {given!r}"
+    def _ends(self, what: str, k: int, entry: Any, shift: Any) -> tuple[int, int, Shift]:
+        i, j = entry[:2]
+        where = f"Pattern: {what}[{k}] = {entry!r}"
         if not all(isinstance(end, int) and 0 <= end < len(self.joints) for end in (i, j)):
             raise InputError(f"{where}: joints are numbered 0 to {len(self.joints) - 1}")
         steps = shift[0] if shift else (0,) * len(self.steps)
@@ -80,13 +80,13 @@ class Cell:
             raise InputError(f"{where} joins a tip to itself: give two different tips")
         return i, j, cells
 
-    def _sprung(self, k: int, given: Any) -> tuple[int, int, Shift, float, float]:
-        if len(given) not in (4, 5):
-            raise InputError(f"Pattern: braces[{k}] = {given!r} must be (i, j, shift, stiffness, damping)")
+    def _sprung(self, k: int, entry: Any) -> tuple[int, int, Shift, float, float]:
+        if len(entry) not in (4, 5):
+            raise InputError(f"Pattern: braces[{k}] = {entry!r} must be (i, j, shift, stiffness, damping)")
         return (
-            *self._ends("braces", k, given, given[2:3]),
-            float(given[3]),
-            float(given[4]) if len(given) > 4 else 0.0,
+            *self._ends("braces", k, entry, entry[2:3]),
+            float(entry[3]),
+            float(entry[4]) if len(entry) > 4 else 0.0,
         )
 
     @property
@@ -99,8 +99,8 @@ class Cell:
         shift = site[1]
         z = complex(*self.joints[site[0]])
         if self.turn:  # the steps so far, each turned once more than the one before it
-            turned = exp(1j * self.turn * shift[0])
-            z = z * turned + complex(*self.steps[0]) * (turned - 1) / (exp(1j * self.turn) - 1)
+            rotation = exp(1j * self.turn * shift[0])
+            z = z * rotation + complex(*self.steps[0]) * (rotation - 1) / (exp(1j * self.turn) - 1)
         else:
             z += sum(n * complex(*step) for n, step in zip(shift, self.steps, strict=True))
         return z.real, z.imag
@@ -127,9 +127,9 @@ class Cell:
         def within(joined: Sequence[Any]) -> Iterator[tuple[int, int, int]]:
             for cell in cells:
                 for k, (i, j, shift, *_) in enumerate(joined):
-                    other = tuple((a + b) % counts[0] if ring else a + b for a, b in zip(cell, shift, strict=True))
-                    if (j, other) in number:
-                        yield k, number[i, cell], number[j, other]
+                    far_cell = tuple((a + b) % counts[0] if ring else a + b for a, b in zip(cell, shift, strict=True))
+                    if (j, far_cell) in number:
+                        yield k, number[i, cell], number[j, far_cell]
 
         bars = list(within(self.bars))
         return Structure(
@@ -150,8 +150,10 @@ class Cell:
         N = len(self.joints)
 
         def within(joined: Sequence[Any]) -> list[tuple[int, tuple[Any, ...]]]:
-            rows = [(n, k, one) for n in range(width) for k, one in enumerate(joined) if 0 <= n + one[2][1] < width]
-            return [(k, (N * n + i, N * (n + s[1]) + j, (s[0],), *rest)) for n, k, (i, j, s, *rest) in rows]
+            rows = [
+                (n, k, entry) for n in range(width) for k, entry in enumerate(joined) if 0 <= n + entry[2][1] < width
+            ]
+            return [(k, (N * n + i, N * (n + s[1]) + j, (s[0],), *constants)) for n, k, (i, j, s, *constants) in rows]
 
         bars = within(self.bars)
         return type(self)(

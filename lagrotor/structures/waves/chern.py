@@ -66,17 +66,17 @@ def _least_distances(d: Dispersion, grid: int) -> Array:
     from scipy.optimize import minimize
 
     b, n = bloch(d.pattern), d.rates.shape[1]
-    corners, most = np.array([[0, 0], [1, 0], [0, 1]]) * np.pi / grid, float(d.rates.max())
+    corners, highest = np.array([[0, 0], [1, 0], [0, 1]]) * np.pi / grid, float(d.rates.max())
 
     def apart(q: Array, band: int) -> float:
         ((_, motion),) = b.motions(q[None])
         if motion.bands != n:  # the bars leave another number of degrees of freedom
-            return most
+            return highest
         rates = np.sort(-motion.roots.imag[0])[n:]
         return float(rates[band + 1] - rates[band])
 
     def least(band: int, starts: Array) -> float:
-        options = {"xatol": 1e-9, "fatol": 1e-12 * most}
+        options = {"xatol": 1e-9, "fatol": 1e-12 * highest}
         return min(
             float(minimize(apart, q, (band,), "Nelder-Mead", options=options | {"initial_simplex": q + corners}).fun)
             for q in starts
@@ -113,16 +113,18 @@ def _flux(d: Dispersion, first: int, last: int, grid: int) -> Array:
     u = d.shapes[:, first : last + 1].reshape(len(d.q), last + 1 - first, -1)
     M, _, G, _ = np.moveaxis(b.at(d.q)[0].swapaxes(-1, -2), -3, 0)
     momenta = -1j * d.rates[:, first : last + 1, None] * (u @ M) + u @ G / 2
-    u, momenta = (each.reshape(grid, grid, *each.shape[1:]) for each in (u, momenta))
-    along, across = (_link(u, momenta, axis) for axis in (0, 1))
-    loop = along * np.roll(across, -1, 0) * np.roll(along, -1, 1).conj() * across.conj()
+    u, momenta = (array.reshape(grid, grid, *array.shape[1:]) for array in (u, momenta))
+    links_1, links_2 = (_link(u, momenta, axis) for axis in (0, 1))
+    loop = links_1 * np.roll(links_2, -1, 0) * np.roll(links_1, -1, 1).conj() * links_2.conj()
     return np.asarray(np.angle(loop))
 
 
 def _link(u: Complex, momenta: Complex, axis: int) -> Complex:
     """det of the products of the waves at each point with those at the next along an axis, (grid, grid)."""
-    other, moved = np.roll(u, -1, axis), np.roll(momenta, -1, axis)
-    products = np.einsum("abmi,abni->abmn", u.conj(), moved) - np.einsum("abmi,abni->abmn", momenta.conj(), other)
+    next_u, next_momenta = np.roll(u, -1, axis), np.roll(momenta, -1, axis)
+    products = np.einsum("abmi,abni->abmn", u.conj(), next_momenta) - np.einsum(
+        "abmi,abni->abmn", momenta.conj(), next_u
+    )
     return np.asarray(np.linalg.det(1j * products))
 
 
@@ -162,5 +164,5 @@ def edge_waves(p: Cell, rate: float, width: int = 16, points: int = 181) -> Edge
     place = share @ np.arange(width) / share.sum(-1) / max(width - 1, 1)
     above = d.rates > rate
     crossing = above[1:].astype(int) - above[:-1]
-    there = (place[1:] + place[:-1]) / 2
-    return EdgeWaves(int(crossing[there < 0.5].sum()), int(crossing[there > 0.5].sum()), d, place)
+    crossing_place = (place[1:] + place[:-1]) / 2
+    return EdgeWaves(int(crossing[crossing_place < 0.5].sum()), int(crossing[crossing_place > 0.5].sum()), d, place)

@@ -51,17 +51,17 @@ class Bloch:
     def motions(self, q: Array) -> Iterator[tuple[NDArray[np.intp], SmallMotion]]:
         """Of the wave numbers q (n_q, d) those at which the bars leave equally many degrees of freedom, by their places in q,
         and the linear systems there."""
-        parts, rows = self.at(q)
+        forms, rows = self.at(q)
         ranks, vectors = left_by(rows)
         for rank in np.unique(ranks):
             (places,) = np.nonzero(ranks == rank)
-            motion = on_basis(parts[places], vectors[places, :, rank:], self.rate)
+            motion = on_basis(forms[places], vectors[places, :, rank:], self.rate)
             yield places, motion if self.inertia else motion.without_inertia
 
 
-def _wave_sum(q: Array, steps: Array, parts: Array) -> Matrix:
+def _wave_sum(q: Array, steps: Array, blocks: Array) -> Matrix:
     """The sum of exp(i q . n) X_n."""
-    return np.asarray(np.tensordot(np.exp(1j * q @ steps.T), parts, 1))
+    return np.asarray(np.tensordot(np.exp(1j * q @ steps.T), blocks, 1))
 
 
 def bloch(p: Cell) -> Bloch:
@@ -76,15 +76,15 @@ def bloch(p: Cell) -> Bloch:
     places = dict.fromkeys([(0,) * len(p.steps), *(shift for _, shift in away)])
     of = {place: _copies(p, away, place) for place in places}
     whole, rows = matrices(c), bar_rows(c)
-    parts = dict[tuple[int, ...], Array]()
-    for (one, left), (other, right) in product(of.items(), repeat=2):
-        apart = tuple(b - a for a, b in zip(one, other, strict=True))
-        parts[apart] = parts.get(apart, 0) + left.T @ whole @ right
-    between = np.array([*parts.values()])
+    blocks = dict[tuple[int, ...], Array]()
+    for (start, left_copies), (end, right) in product(of.items(), repeat=2):
+        apart = tuple(b - a for a, b in zip(start, end, strict=True))
+        blocks[apart] = blocks.get(apart, 0) + left_copies.T @ whole @ right
+    between = np.array([*blocks.values()])
     between[:, 0] *= p.inertia
     return Bloch(
         between,
-        np.array([*parts], dtype=float),
+        np.array([*blocks], dtype=float),
         np.array([rows @ copies for copies in of.values()]),
         np.array([*of], dtype=float),
         rate,
@@ -102,7 +102,7 @@ def cell_coefficients(p: Cell) -> tuple[Coefficients, float]:
         return number.get((j, shift), j)
 
     bars: Any = tuple((i, end(j, shift)) for i, j, shift in p.bars)
-    own = {name: (*getattr(p, name), *[0.0] * len(away)) for name in ("spins", "load", "friction", "hinge")}
+    loads = {name: (*getattr(p, name), *[0.0] * len(away)) for name in ("spins", "load", "friction", "hinge")}
     cell = Assembly(
         joints=(*p.joints, *(p.place(site) for site in away)),
         bars=bars,
@@ -110,7 +110,7 @@ def cell_coefficients(p: Cell) -> tuple[Coefficients, float]:
         link=p.link,
         gravity=p.gravity,
         braces=tuple(Brace(i, end(j, shift), k, d) for i, j, shift, k, d in p.braces),
-        **own,
+        **loads,
     )
     c, copied = coefficients(cell), np.arange(len(whose)) >= N
     # A neighbour has its own rotor's inertia and weight in its own cell: here only the bars' share is left.
@@ -192,22 +192,22 @@ def dispersion(p: Cell, q: ArrayLike) -> Dispersion:
     points = points[:, None] if points.ndim == 1 and d == 1 else points
     if points.ndim != 2 or points.shape[1] != d or not len(points):
         raise InputError(f"dispersion: q must be numbers (n_q, {d}) in rad a cell, not of shape {points.shape}")
-    b, most = bloch(p), 2 * len(p.joints)
-    rates, growth = np.full((2, len(points), most), np.nan)
-    shapes = np.full((len(points), most, most), np.nan, dtype=complex)
+    b, size = bloch(p), 2 * len(p.joints)
+    rates, growth = np.full((2, len(points), size), np.nan)
+    shapes = np.full((len(points), size, size), np.nan, dtype=complex)
     dof, still = np.zeros(len(points), dtype=int), dict[int, int]()
     for first in range(0, len(points), _TOGETHER):
         for places, motion in b.motions(points[first : first + _TOGETHER]):
-            here, f = first + places, motion.bands
-            dof[here], still[f] = f, min(still.get(f, f), _still(motion))
+            indices, f = first + places, motion.bands
+            dof[indices], still[f] = f, min(still.get(f, f), _still(motion))
             if f:
                 s, vectors = motion.waves
                 u = (motion.basis @ vectors).swapaxes(-1, -2)
                 u = u / np.linalg.norm(u, axis=-1, keepdims=True)
-                rates[here, :f], growth[here, :f], shapes[here, :f] = _faster(s, u)
+                rates[indices, :f], growth[indices, :f], shapes[indices, :f] = _faster(s, u)
     n = int(dof.max())
-    kept = shapes[:, :n].reshape(len(points), n, len(p.joints), 2)
-    return Dispersion(p, points, rates[:, :n], growth[:, :n], kept, dof, still[min(still)])
+    bands = shapes[:, :n].reshape(len(points), n, len(p.joints), 2)
+    return Dispersion(p, points, rates[:, :n], growth[:, :n], bands, dof, still[min(still)])
 
 
 def _still(motion: SmallMotion) -> int:
@@ -223,18 +223,18 @@ def _still(motion: SmallMotion) -> int:
 
 def _faster(s: Complex, shapes: Complex) -> tuple[Array, Array, Complex]:
     """Rates, growth (n_q, f), shapes (n_q, f, 2 N) of the half with the larger rates, in rising order."""
-    kept = np.lexsort((s.real, -s.imag), axis=-1)[:, s.shape[-1] // 2 :]
-    s = np.take_along_axis(s, kept, -1)
-    return 0.0 - s.imag, s.real, np.take_along_axis(shapes, kept[..., None], -2)
+    half = np.lexsort((s.real, -s.imag), axis=-1)[:, s.shape[-1] // 2 :]
+    s = np.take_along_axis(s, half, -1)
+    return 0.0 - s.imag, s.real, np.take_along_axis(shapes, half[..., None], -2)
 
 
 def long_wave_speeds(p: Cell, direction: ArrayLike = (1.0,)) -> Array:
     """Speeds dω/d|k| (m/s) at q → 0 along a direction (d,) of the bands of p that begin there at rate zero in proportion to q;
     k . step = q. Fourth order in q, of which 10⁻³ rad a cell is the largest.
     """
-    along = np.asarray(direction, dtype=float)
-    along = along / np.abs(along).max()
-    k = np.linalg.norm(np.linalg.lstsq(np.array(p.steps), along, rcond=None)[0])
-    half, whole = dispersion(p, np.array([[_SMALL / 2], [_SMALL]]) * along).rates
+    unit = np.asarray(direction, dtype=float)
+    unit = unit / np.abs(unit).max()
+    k = np.linalg.norm(np.linalg.lstsq(np.array(p.steps), unit, rcond=None)[0])
+    half, whole = dispersion(p, np.array([[_SMALL / 2], [_SMALL]]) * unit).rates
     linear = (half > 0) & (np.abs(whole / np.where(half > 0, 2 * half, 1) - 1) < 1e-3)
     return np.asarray((8 * half - whole)[linear] / (3 * _SMALL * k))

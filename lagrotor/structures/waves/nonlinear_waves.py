@@ -72,11 +72,13 @@ def _wave(p: Cell, b: Bloch, q: ArrayLike, band: int) -> _Wave:
     rates = np.concatenate([-d.rates[1, n - 1 :: -1], d.rates[0, :n]])
     rate, growth = float(rates[n + band]), float(d.growth[below, -1 - band if below else band])
     if not rate > 0 or growth:
-        other = f"it is band {-1 - band} of −q" if rate < 0 else "take another"
-        raise InputError(f"nonlinear waves: {where} has the rate {rate:g} rad/s and grows by {growth:g} 1/s: {other}")
-    beside = (np.abs(rates - rate) < _SAME * np.abs(rates).max()).sum()
-    if beside > 1:
-        raise InputError(f"nonlinear waves: {where}: {beside} waves have its rate, {rate:g} rad/s: which is not said")
+        hint = f"it is band {-1 - band} of −q" if rate < 0 else "take another"
+        raise InputError(f"nonlinear waves: {where} has the rate {rate:g} rad/s and grows by {growth:g} 1/s: {hint}")
+    degenerate = (np.abs(rates - rate) < _SAME * np.abs(rates).max()).sum()
+    if degenerate > 1:
+        raise InputError(
+            f"nonlinear waves: {where}: {degenerate} waves have its rate, {rate:g} rad/s: which is not said"
+        )
     s = d.shapes[1, -1 - band].conj() if below else d.shapes[0, band]
     largest = max(np.linalg.svd(np.array([x.real, x.imag]), compute_uv=False)[0] for x in s)
     shape = (s / largest).ravel()
@@ -97,8 +99,8 @@ def _averaged(p: Cell, b: Bloch, u: Row, phases: _Phases, order: int) -> tuple[P
     in n, and x, y, z of the axes of the cell and its neighbours."""
     c, _ = cell_coefficients(p)
 
-    def axes_of(own: Row) -> list[Row]:
-        axes = [axis_of(own[k : k + 2], order) for k in range(0, len(own), 2)]
+    def axes_of(tips: Row) -> list[Row]:
+        axes = [axis_of(tips[k : k + 2], order) for k in range(0, len(tips), 2)]
         for j, shift in p.neighbours:
             x, y, z = (phases.apart(f, shift) for f in axes[j])
             turn = p.turn * shift[0]
@@ -107,16 +109,16 @@ def _averaged(p: Cell, b: Bloch, u: Row, phases: _Phases, order: int) -> tuple[P
         return axes
 
     def back(bound: Row) -> Row:
-        moved = list[list[Polynomial]]()
+        rows = list[list[Polynomial]]()
         for k, f in enumerate(bound):
             by = np.linalg.pinv(b.at(f.exponents @ phases.q)[1], rcond=1e-10)[:, :, k]
-            moved.append([f.times(column) for column in by.T])
-        return [total([row[k] for row in moved]) for k in range(len(u))]
+            rows.append([f.times(column) for column in by.T])
+        return [total([row[k] for row in rows]) for k in range(len(u))]
 
     axes = on_bars(c, u, axes_of, back, order)
     for k in range(len(c.i)):
-        left = over_length(c, axes, k, order - 1).coefficients
-        if np.abs(left).max(initial=0) > _ZERO * c.ell[k]:
+        residual = over_length(c, axes, k, order - 1).coefficients
+        if np.abs(residual).max(initial=0) > _ZERO * c.ell[k]:
             raise InputError(
                 "nonlinear waves: the bars hold the wave to first order only: what it shortens them by is not made up for, as "
                 "in a straight row of bars; put springs (braces) for bars, or close the row to a ring"
@@ -242,14 +244,14 @@ def nonlinear_wave(p: Cell, q: ArrayLike, band: int) -> NonlinearWave:
     phases = _Phases(np.outer(multiples, wave.q), multiples * wave.rate)
     L, axes = _averaged(p, b, [linear_form(row) for row in np.hstack(bases)], phases, 4)
     L = L.where(L.exponents @ multiples == 0)
-    own, forcing, curvature = _by_what_is_forced(L)
+    quartic, forcing, curvature = _by_what_is_forced(L)
     forced = -np.linalg.pinv(curvature, rcond=_ZERO) @ forcing
     if np.abs(curvature @ forced + forcing).max(initial=0) > 1e-6 * np.abs(forcing).max(initial=0):
         raise InputError(
             f"nonlinear_wave: at q = {wave.q.tolist()} the mean or the second harmonic that the wave forces is itself a "
             "wave, and grows with time: move q"
         )
-    shift = -(own + forcing @ forced / 2).real / (2 * wave.slope)
+    shift = -(quartic + forcing @ forced / 2).real / (2 * wave.slope)
     tips = tuple(f for axis in axes[: len(p.joints)] for f in axis[:2])
     point: Complex = np.array([0.5, 0.5, *forced / 4], dtype=complex)
     mean, harmonic = (_part(tips, multiples, point, m) for m in (0, 2))
@@ -287,14 +289,14 @@ def wave_amplitude(p: Cell, run: StructureRun, counts: Sequence[int], q: ArrayLi
     wave, cells = _wave(p, b, q, band), np.array(p.cells(*counts))
     if len(run.axes) != len(cells) * len(p.joints):
         raise InputError(f"wave_amplitude: the run has {len(run.axes)} rotors, piece{tuple(counts)} another number")
-    back = np.exp(-1j * (p.turn * cells[:, 0]))[:, None, None]
+    rotation = np.exp(-1j * (p.turn * cells[:, 0]))[:, None, None]
     U, V = (
         np.tensordot(np.exp(-1j * cells @ wave.q), np.stack([x.real, x.imag], -1), 1)
         .swapaxes(0, 1)
         .reshape(len(run.t), -1)
         / len(cells)
         for f in (run.axes, run.rates)
-        for x in [(f[..., 0] + 1j * f[..., 1]).reshape(len(cells), len(p.joints), -1) * back]
+        for x in [(f[..., 0] + 1j * f[..., 1]).reshape(len(cells), len(p.joints), -1) * rotation]
     )
     (M, _, C, _), _ = b.at(wave.q)
     momentum = M @ (-1j * wave.rate * wave.shape) + C @ wave.shape / 2
@@ -305,25 +307,25 @@ def wave_amplitude(p: Cell, run: StructureRun, counts: Sequence[int], q: ArrayLi
 def _part(tips: tuple[Polynomial, ...], multiples: Array, point: Complex, m: int) -> Complex:
     """The terms of second order with the phase m θ, (N, 2)."""
     order = np.where(np.arange(len(multiples)) < 2, 1, 2)
-    parts = [f.where((f.exponents @ order == 2) & (f.exponents @ multiples == m)).at(point) for f in tips]
-    return np.reshape(parts, (-1, 2))
+    values = [f.where((f.exponents @ order == 2) & (f.exponents @ multiples == m)).at(point) for f in tips]
+    return np.reshape(values, (-1, 2))
 
 
 def _by_what_is_forced(L: Polynomial) -> tuple[complex, Complex, Complex]:
     """The coefficients of z² z̄², of b times two of z and z̄, (m,), and of b b: its second derivatives, (m, m)."""
-    m, own = L.variables - 2, 0j
+    m, quartic = L.variables - 2, 0j
     forcing, curvature = np.zeros(m, dtype=complex), np.zeros((m, m), dtype=complex)
     for e, c in L.terms.items():
         where = [k for k, power in enumerate(e[2:]) for _ in range(power)]
         if sum(e[:2]) == 4:
-            own += c
+            quartic += c
         elif sum(e[:2]) == 2 and len(where) == 1:
             forcing[where[0]] += c
         elif not sum(e[:2]) and len(where) == 2:
             i, j = where
             curvature[i, j] += c
             curvature[j, i] += c
-    return own, forcing, curvature
+    return quartic, forcing, curvature
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -352,17 +354,17 @@ class ThreeWaves(Shown):
     @property
     def explosive(self) -> bool:
         """Whether all three grow together without end, by the terms of third order: energies of both signs."""
-        one, two, three = self.energy_signs
-        return one == two != three and bool(np.abs(self.strengths).min())
+        first, second, third = self.energy_signs
+        return first == second != third and bool(np.abs(self.strengths).min())
 
     def summary(self) -> dict[str, str]:
         """What adds up, and what it does, name → words."""
-        one, two, three = (f"{w:.6g}" for w in self.rates)
+        first, second, third = (f"{w:.6g}" for w in self.rates)
         sums = " + ".join(f"{q:.5g}" for q in self.q[:2, 0])
         feeds = [f"wave {k + 1}: {self.growth(k, 1.0):.4g} a 1/s" for k in range(3) if self.growth(k, 1.0)]
         return {
             "wave numbers": f"{sums} = {self.q[2, 0]:.5g} rad a cell",
-            "rates": f"{one} + {two} = {three} rad/s",
+            "rates": f"{first} + {second} = {third} rad/s",
             "feeds the two others": ", ".join(feeds) or "none",
             "all grow without end": "yes" if self.explosive else "no",
         }
@@ -391,24 +393,24 @@ def three_waves(p: Cell, q: float) -> tuple[ThreeWaves, ...]:
     def waves(at: Array) -> dict[int, Complex]:
         """Of each band rate + i growth."""
         d = dispersion(p, np.concatenate([at, -at]))
-        own, opposite = np.split(d.rates + 1j * d.growth, 2)
-        return dict(enumerate(own.T)) | {-1 - k: -f.conj() for k, f in enumerate(opposite.T)}
+        forward, opposite = np.split(d.rates + 1j * d.growth, 2)
+        return dict(enumerate(forward.T)) | {-1 - k: -f.conj() for k, f in enumerate(opposite.T)}
 
     first, second, third = waves(np.array([q])), waves(others), waves(others + q)
-    found, highest = [], max(float(np.nanmax(np.abs(f))) for f in second.values())
+    triads, highest = [], max(float(np.nanmax(np.abs(f))) for f in second.values())
     for (i, (rate,)), j, k in product(first.items(), second, third):
 
         def three(x: float, rate: complex = rate, j: int = j, k: int = k) -> Complex:
             return np.array([rate, waves(np.array([x]))[j][0], waves(np.array([x + q]))[k][0]])
 
-        off = (rate + second[j] - third[k]).real
+        detuning = (rate + second[j] - third[k]).real
         sound = _is_sound(rate) & _is_sound(second[j]) & _is_sound(third[k])
-        for n in np.flatnonzero((off[:-1] * off[1:] < 0) & sound[:-1] & sound[1:]):
+        for n in np.flatnonzero((detuning[:-1] * detuning[1:] < 0) & sound[:-1] & sound[1:]):
             x = float(brentq(lambda x: float((three(x) @ [1, 1, -1]).real), others[n], others[n + 1], xtol=1e-13))
             at = three(x)
             if abs((at @ [1, 1, -1]).real) < _SAME * highest and _is_sound(at).all():
-                found.append(_triad(p, b, np.array([[q], [x], [q + x]]), (i, j, k)))
-    return tuple(found)
+                triads.append(_triad(p, b, np.array([[q], [x], [q + x]]), (i, j, k)))
+    return tuple(triads)
 
 
 def _is_sound(wave: Any) -> Any:
