@@ -19,7 +19,6 @@ from typing import TYPE_CHECKING
 from lagrotor.lazy_imports import face
 
 if TYPE_CHECKING:
-    from lagrotor.models.closed_form_model import closed_form as closed_form
     from lagrotor.models.linear import shock_response_error as shock_response_error
     from lagrotor.models.mean_motion import cancelling_force_error as cancelling_force_error
     from lagrotor.models.mean_motion import exact_cancelling_force as exact_cancelling_force

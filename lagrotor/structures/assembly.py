@@ -1,4 +1,4 @@
-"""What a structure is made of: joints, bars, rotors, loads, braces. What makes no sense is refused here."""
+"""The parts of a structure (joints, bars, rotors, loads, braces) and their checks."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -16,9 +16,26 @@ Bar = tuple[int, int, float]
 
 @dataclass(frozen=True)
 class Brace:
-    """A spring (N/m) and damper (N s/m) from a tip to another tip, or to a point (x, y, z) of the ground, in m.
+    """A spring and damper from a tip to another tip or to a point of the ground.
 
-    It is unstrained when all axes are upright. Its forces are stiffness × extension and damping × its rate.
+    It is unstrained when all axes are upright.
+
+    Attributes
+    ----------
+    tip : int
+        The rotor whose tip is the first end, from 0.
+    to : int or tuple
+        The rotor of the second end, or a point (x, y, z) of the ground, m.
+    stiffness : float
+        The force per extension, N/m.
+    damping : float
+        The force per rate of extension, N s/m.
+
+    Examples
+    --------
+    >>> from lagrotor import Brace, Structure
+    >>> Structure([(0, 0)], braces=[Brace(0, (1, 0, 1), stiffness=100.0)]).modes().rates.round(3).tolist()
+    [0.0, 8.944]
     """
 
     tip: int
@@ -29,13 +46,7 @@ class Brace:
 
 @dataclass(frozen=True)
 class Assembly:
-    """N rotors on ground joints, B bars between their tips, and what acts on them. SI units.
-
-    joints: (x, y) of each ground joint, m. bars: (i, j) or (i, j, length), rotors counted from 0; a bar without a length is
-    as long as its tips are apart when all axes are upright. spins: rad/s, signed. rotor, link: one for all or a list; of a
-    link only mass and inertia are read. gravity: m/s², along −z. load: kg on each tip. friction: N m s/rad on each axis'
-    tilting rate; spin_friction: N m s/rad on each spin. hinge: N m/rad towards upright. One number means one for all.
-    """
+    """The fields of a structure, checked. `Structure` documents them."""
 
     joints: tuple[tuple[float, float], ...]
     bars: tuple[Bar, ...] = ()
@@ -131,14 +142,36 @@ class Assembly:
         return number
 
     def upright_tip(self, i: int) -> _Point:
-        """Return the place of the tip of rotor i, whose axis is upright, in m. Raises InputError for no such rotor."""
+        """Return the tip of a rotor with its axis upright.
+
+        Parameters
+        ----------
+        i : int
+            The rotor, from 0.
+
+        Returns
+        -------
+        tuple
+            The position (x, y, z), m.
+
+        Raises
+        ------
+        InputError
+            If there is no such rotor.
+
+        Examples
+        --------
+        >>> from lagrotor.structures import example
+        >>> example("corner").upright_tip(2)
+        (1.0, 1.0, 1.0)
+        """
         if i not in range(len(self.joints)):
             raise InputError(f"upright_tip: i = {i!r} must be a rotor's number, from 0 to {len(self.joints) - 1}")
         return (*self.joints[i], self.rotor[i].length)
 
     @property
     def natural(self) -> bool:
-        """Whether every bar is as long as its tips are apart when all axes are upright."""
+        """True if every bar has the length that joins its tips when all axes are upright."""
         return all(
             abs(hypot(*(p - q for p, q in zip(self.upright_tip(i), self.upright_tip(j), strict=True))) - length)
             <= 1e-12 * length
@@ -153,7 +186,7 @@ def _row(value: Any) -> list[Any]:
 
 
 def _amounts(value: Any, n: int, where: str, unit: str, signed: bool = False) -> tuple[float, ...]:
-    """One number for all, or n of them; refused below zero unless `signed`."""
+    """Return one number for all or n of them as n numbers. Numbers below zero need `signed`."""
     check = finite_number if signed else not_negative
     items = _row(value) if isinstance(value, Iterable) and not isinstance(value, str) else [value]
     if len(items) not in (1, n):

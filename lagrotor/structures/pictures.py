@@ -16,7 +16,15 @@ from lagrotor.structures.standing import stands
 
 
 def draw_plan(panel: Axes, s: Assembly) -> None:
-    """The joints from above, bars, braces (dashed), each rotor coloured by the sense of its spin."""
+    """Draw the joints from above, with bars, braces (dashed) and spins.
+
+    Parameters
+    ----------
+    panel : Axes
+        The panel to draw on.
+    s : Assembly
+        The structure.
+    """
     for i, j, _ in s.bars:
         panel.plot(*zip(s.joints[i], s.joints[j], strict=True), color=BAR, linewidth=4, zorder=1)
     for brace in s.braces:
@@ -39,7 +47,7 @@ def draw_plan(panel: Axes, s: Assembly) -> None:
 
 
 def _clear_direction(s: Assembly, rotor: int) -> Array:
-    """The unit vector (2,) in the middle of the widest angle between the bars and braces at a rotor; up where there are none."""
+    """Return the unit vector in the middle of the widest angle between bars and braces at a rotor."""
     ends = [s.joints[j if i == rotor else i] for i, j, _ in s.bars if rotor in (i, j)]
     ends += [s.joints[b.to] if isinstance(b.to, int) else b.to[:2] for b in s.braces if b.tip == rotor]
     ends += [s.joints[b.tip] for b in s.braces if b.to == rotor]
@@ -55,7 +63,7 @@ def _clear_direction(s: Assembly, rotor: int) -> Array:
 
 
 def structure_picture(s: Assembly) -> Figure:
-    """The plan, and the roots s = growth + i rate of small motion about upright, where that is at rest."""
+    """Draw the plan and the roots s = growth + i rate of small motion about upright."""
     with paper_style():
         figure = RunFigure(figsize=(9.0, 4.6))
         plan, roots = figure.subplots(1, 2, width_ratios=(1.2, 1))

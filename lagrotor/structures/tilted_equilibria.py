@@ -1,10 +1,11 @@
-"""Rest away from upright, and small motion about it: weight that hinges hold only when axes lean, bars of any length.
+"""Equilibria with tilted axes and small motion about them, for bars of any length.
 
-On the tangent space of the constraints at rest, r = r₀ + T q with T orthonormal, the exact accelerations a(r, r') give
+On the tangent space of the constraints, r = r₀ + T q with T orthonormal, the exact accelerations a(r, r') give
 
     q'' = Tᵀ ∂a/∂r T q + Tᵀ ∂a/∂r' T q',    K = −M Tᵀ ∂a/∂r T,    C = −M Tᵀ ∂a/∂r' T,    M = Tᵀ A T,
 
-by central differences of fourth order. Rest is found by steps −|K|⁻¹ ∂V/∂q, Newton's where the energy is least, down elsewhere.
+by central differences of fourth order. The equilibrium is found by steps −|K|⁻¹ ∂V/∂q. Near a minimum of the energy they are
+Newton's steps; elsewhere they descend.
 """
 
 from collections.abc import Callable
@@ -20,17 +21,14 @@ from lagrotor.structures.exact.bar_closure import close_bars
 from lagrotor.structures.exact.exact_motion import ExactMotion, exact_motion, off_constraints, pulls
 from lagrotor.structures.small_motion import Modes, SmallMotion, left_by, modes_of
 
-_STEP = 1e-3  # of the differences, whose error is its fourth power times 10⁻² or so
-_SOFT = 1e-9  # of the largest stiffness: one below it, within their error, is none
-_AT_REST = 1e-9  # of the rate squared: accelerations below it are none
+_STEP = 1e-3  # of the differences; their error is about 10⁻² times its fourth power
+_SOFT = 1e-9  # relative to the largest stiffness: below it, within the error of differences, zero
+_AT_REST = 1e-9  # relative to the rate squared: smaller accelerations are zero
 _MOST = 60  # steps
 
 
 def rest_near(s: Assembly, tilt: ArrayLike) -> Array:
-    """The axes (N, 3) of the rest to which lower energy leads from x and y of the axes (N, 2); what is at rest there stays.
-
-    Raises InputError where none is reached, ConstraintError for a tilt that the bars do not allow.
-    """
+    """Find an equilibrium by descending in energy: see `Structure.rest_near`."""
     motion, N = exact_motion(s), len(s.joints)
     start = finite_array("rest_near: tilt", tilt, (N, 2))
     if not (np.hypot(*start.T) < 1).all():
@@ -51,14 +49,11 @@ def rest_near(s: Assembly, tilt: ArrayLike) -> Array:
             break
     if np.abs(residual).max(initial=0) < _AT_REST * motion.c.rate**2:
         return r
-    raise InputError(f"rest_near: no rest is reached from tilt = {start.tolist()}: start nearer to one")
+    raise InputError(f"rest_near: no equilibrium is reached from tilt = {start.tolist()}: start nearer to one")
 
 
 def modes_about(s: Assembly, axes: ArrayLike) -> Modes:
-    """The normal modes about a rest at the axes (N, 3), as `rest_near` gives it; shapes (n, N, 3) are changes of the axes.
-
-    Raises InputError where the structure is not at rest there, or its bars do not reach.
-    """
+    """Compute the normal modes about a tilted equilibrium: see `Structure.modes_about`."""
     motion, N = exact_motion(s), len(s.joints)
     r = finite_array("modes_about: axes", axes, (N, 3))
     residual = max(
@@ -67,17 +62,17 @@ def modes_about(s: Assembly, axes: ArrayLike) -> Modes:
     )
     if not residual < 10 * _AT_REST:
         raise InputError(
-            f"modes_about: the structure is not at rest at these axes, off by {residual:.1e}: take those of rest_near"
+            f"modes_about: the structure is not at rest at these axes (residual {residual:.1e}): take those of rest_near"
         )
     T = constraint_tangents(motion, r)
     M, stiff, vectors, C = _linear(motion, r, T)
-    rubbed = (C + C.T) / 2 * bool(motion.c.friction.any() or motion.c.damping.any())
-    linear = SmallMotion(M, rubbed, (C - C.T) / 2, vectors * stiff @ vectors.T, T, motion.c.rate)
+    damping = (C + C.T) / 2 * bool(motion.c.friction.any() or motion.c.damping.any())
+    linear = SmallMotion(M, damping, (C - C.T) / 2, vectors * stiff @ vectors.T, T, motion.c.rate)
     return modes_of(linear, linear, components=3)
 
 
 def _linear(motion: ExactMotion, r: Array, T: Array) -> tuple[Array, Array, Array, Array]:
-    """M, the eigenvalues (soft ones zero) and vectors of K, and C, at rest at r."""
+    """Return M, the eigenvalues (soft ones zero) and eigenvectors of K, and C at an equilibrium."""
     M = np.asarray(T.T @ np.kron(motion.c.inertia, np.eye(3)) @ T)
     K, C = (-M @ slope for slope in _slopes(motion, r, T))
     stiff, vectors = np.linalg.eigh((K + K.T) / 2)
@@ -85,7 +80,7 @@ def _linear(motion: ExactMotion, r: Array, T: Array) -> tuple[Array, Array, Arra
 
 
 def constraint_tangents(motion: ExactMotion, r: Array) -> Array:
-    """An orthonormal basis (3N, n) of what the constraints allow at the axes r."""
+    """Return an orthonormal basis (3N, n) of the tangent space of the constraints."""
     c, N = motion.c, len(r)
     rows = np.zeros((N + len(c.i), N, 3))
     rows[np.arange(N), np.arange(N)] = r
@@ -96,7 +91,7 @@ def constraint_tangents(motion: ExactMotion, r: Array) -> Array:
 
 
 def _slopes(motion: ExactMotion, r: Array, T: Array) -> tuple[Array, Array]:
-    """Tᵀ ∂a/∂r T and Tᵀ ∂a/∂r' T at rest, (n, n)."""
+    """Return Tᵀ ∂a/∂r T and Tᵀ ∂a/∂r' T at an equilibrium, (n, n)."""
     rate, still = motion.c.rate, 0 * r
 
     def differences(at: Callable[[Array], tuple[Array, Array]]) -> Array:

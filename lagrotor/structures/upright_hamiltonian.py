@@ -1,11 +1,12 @@
-"""The Hamiltonian of a structure about upright as a polynomial, through any order, derived from its exact Lagrangian.
+"""The Hamiltonian of a structure about upright as a polynomial through any order, derived from its exact Lagrangian.
 
-With u = (x, y) of the axes, z = sqrt(1 − x² − y²), q the degrees of freedom that the bars leave and p their momenta,
+With u = (x, y) of the axes, z = sqrt(1 − x² − y²), q the degrees of freedom with the bars, and p their momenta,
 
     L = ½ sum_ij A_ij r_i'·r_j' − sum_i G_i (x_i y_i' − y_i x_i')/(1 + z_i) − V,       H = ½ (p − a)·m⁻¹ (p − a) + V.
 
-The second sum is the spins' part, whose force is G_i r_i × r_i'. A bar along n_b binds s_b = n_b·(R_i u_i − R_j u_j), which its
-constraint |d|² = ℓ² gives as a series in q: u = Z q + rows⁺ s(q), where s ← s + (|d|² − ℓ²)/2ℓ gains an order at each step.
+The second sum belongs to the spins; its force is G_i r_i × r_i'. A bar along n_b binds s_b = n_b·(R_i u_i − R_j u_j), which
+follows from its constraint |d|² = ℓ² as a series in q: u = Z q + rows⁺ s(q). The iteration s ← s + (|d|² − ℓ²)/2ℓ gains one
+order per step.
 """
 
 from collections.abc import Callable, Sequence
@@ -37,8 +38,8 @@ Row = list[Polynomial]
 class LocalHamiltonian:
     """H/(inertia rate²) = parts[0] + f parts[1] + f² parts[2] with all spins multiplied by f, in q and p/(inertia rate).
 
-    q = basisᵀ u, with the basis (2N, n) of `small_motion`; mass (n, n): of p = mass q'/rate at upright. rate in rad/s. axes: x, y
-    and z of each, in q.
+    q = basisᵀ u with the basis (2N, n) of `small_motion`; mass (n, n) of p = mass q'/rate upright; rate in rad/s; axes: x, y,
+    z in q.
     """
 
     parts: tuple[Polynomial, Polynomial, Polynomial]
@@ -48,26 +49,46 @@ class LocalHamiltonian:
     axes: list[Row]
 
     def at_spins(self, factor: float) -> Polynomial:
-        """The Hamiltonian with all spins multiplied."""
+        """Return the Hamiltonian with all spins multiplied."""
         return total([self.parts[0], *(self.parts[k].times(factor**k) for k in (1, 2) if factor)])
 
 
 @lru_cache(maxsize=16)
 def local_hamiltonian(s: Assembly, order: int = 4) -> LocalHamiltonian:
-    """The Hamiltonian about upright through an order.
+    """Expand the Hamiltonian about upright.
+
+    Parameters
+    ----------
+    s : Assembly
+        The structure, without friction.
+    order : int, default 4
+        The order of the polynomial.
+
+    Returns
+    -------
+    LocalHamiltonian
+        The polynomial with its basis and units.
 
     Raises
     ------
     InputError
-        Where a bar is not as long as its tips are apart when upright, or friction acts.
+        If a bar does not have its upright length, or friction acts.
+
+    Examples
+    --------
+    >>> from lagrotor.structures import example
+    >>> local_hamiltonian(example("top")).at_spins(1.0).variables
+    4
     """
     check_upright(s, "local_hamiltonian")
     linear, c = small_motion(s), coefficients(s)
     if linear.damping.any() or c.decay.any():
-        raise InputError("local_hamiltonian: friction acts: leave it out, the motion without it has a Hamiltonian")
+        raise InputError(
+            "local_hamiltonian: friction acts, and only motion without friction has a Hamiltonian: set it to zero"
+        )
     n = linear.dof
     pseudo_inverse = np.linalg.pinv(bar_rows(c))
-    axes = on_bars(  # polynomials in q through the order; exact through order − 1 in x and y
+    axes = on_bars(  # polynomials in q, exact through order − 1 in x and y
         c,
         [linear_form(row, float) for row in linear.basis],
         lambda u: [axis_of(u[k : k + 2], order) for k in range(0, len(u), 2)],
@@ -107,7 +128,7 @@ def local_hamiltonian(s: Assembly, order: int = 4) -> LocalHamiltonian:
 def on_bars(
     c: Coefficients, free: Row, axes_of: Callable[[Row], list[Row]], closing: Callable[[Row], Row], order: int
 ) -> list[Row]:
-    """The axes of u = free + rows⁺ s, s such that all bars keep their lengths through order − 1; back: rows⁺ of s."""
+    """Return the axes of u = free + rows⁺ s, with s such that the bars keep their lengths; closing: s → rows⁺ s."""
     bound, axes = [_none(free[0].variables)] * len(c.i), axes_of(free)
     for _ in range(2, order) if bound else ():
         bound = [f + over_length(c, axes, b, order - 1) for b, f in enumerate(bound)]
@@ -116,19 +137,19 @@ def on_bars(
 
 
 def combined(numbers: Array | Sequence[float], row: Row) -> Polynomial:
-    """The sum of polynomials, each times its number."""
+    """Return the linear combination of polynomials."""
     return total(
         [f.times(number) for number, f in zip(numbers, row, strict=True) if number] or [_none(row[0].variables)]
     )
 
 
 def axis_of(xy: Row, order: int) -> Row:
-    """x, y and z = sqrt(1 − x² − y²)."""
+    """Return x, y and z = sqrt(1 − x² − y²)."""
     return [*xy, of_square(xy, [float(binom(0.5, k) * (-1) ** k) for k in range(order // 2 + 1)], order)]
 
 
 def of_square(xy: Row, series: list[float], order: int) -> Polynomial:
-    """sum_k series_k (x² + y²)^k."""
+    """Return sum_k series_k (x² + y²)^k."""
     square = xy[0].product(xy[0], order) + xy[1].product(xy[1], order)
     result = constant(series[-1], square.variables, float)
     for value in reversed(series[:-1]):
@@ -137,7 +158,7 @@ def of_square(xy: Row, series: list[float], order: int) -> Polynomial:
 
 
 def over_length(c: Coefficients, axes: list[Row], b: int, order: int) -> Polynomial:
-    """(|d|² − ℓ²)/2ℓ of a bar."""
+    """Return (|d|² − ℓ²)/2ℓ of a bar."""
     i, j = c.i[b], c.j[b]
     upright = c.feet[j] - c.feet[i]
     d = [
@@ -149,14 +170,14 @@ def over_length(c: Coefficients, axes: list[Row], b: int, order: int) -> Polynom
 
 
 def turned(axis: Row, slope: Row, order: int) -> Polynomial:
-    """(x ∂y − y ∂x)/(1 + z), with 1/(1 + z) = (1 − z)/(x² + y²) as a series."""
+    """Return (x ∂y − y ∂x)/(1 + z), with 1/(1 + z) = (1 − z)/(x² + y²) as a series."""
     series = [float(-binom(0.5, k + 1) * (-1) ** (k + 1)) for k in range(order // 2 + 1)]
     around = axis[0].product(slope[1], order) - axis[1].product(slope[0], order)
     return around.product(of_square(axis[:2], series, order), order)
 
 
 def _mass(c: Coefficients, J: list[list[Row]], order: int, inertia: float) -> list[Row]:
-    """m_ab = sum_ij A_ij ∂_a r_i·∂_b r_j."""
+    """Return m_ab = sum_ij A_ij ∂_a r_i·∂_b r_j."""
     n = len(J[0])
     pairs = [(i, i, value) for i, value in enumerate(c.A)]
     pairs += [
@@ -178,7 +199,7 @@ def _mass(c: Coefficients, J: list[list[Row]], order: int, inertia: float) -> li
 
 
 def potential_of(c: Coefficients, axes: list[Row], order: int) -> Polynomial:
-    """Weight, hinges κ θ²/2 with θ = asin sqrt(x² + y²), and braces k (|d| − d₀)²/2."""
+    """Return the energy of weight, hinges κ θ²/2 with θ = asin sqrt(x² + y²), and braces k (|d| − d₀)²/2."""
     squares = [0.0] + [4.0**k / (2 * k**2 * comb(2 * k, k)) for k in range(1, order // 2 + 1)]
     terms = [_none(axes[0][0].variables)]
     for i, axis in enumerate(axes):
@@ -210,5 +231,5 @@ def _none(n: int) -> Polynomial:
 
 
 def _lifted(f: Polynomial) -> Polynomial:
-    """A polynomial in q as one in q and p."""
+    """Return a polynomial in q as one in q and p."""
     return Polynomial(np.hstack([f.exponents, np.zeros_like(f.exponents)]), f.coefficients)

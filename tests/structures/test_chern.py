@@ -4,12 +4,8 @@ import numpy as np
 import pytest
 
 from lagrotor import Rotor
-from lagrotor.structures import (
-    chern_numbers,
-    edge_waves,
-    honeycomb,
-    square_octagon,
-)
+from lagrotor.structures import honeycomb, square_octagon
+from lagrotor.structures.waves.chern import chern_numbers, edge_waves
 from lagrotor.structures.waves.dispersion import bloch
 
 SPRINGS = {"spring": 50.0, "hinge": 200.0}

@@ -10,9 +10,6 @@ from lagrotor import Brace, Link, Pattern, Rotor, Structure, structures
 from lagrotor.errors import DomainError, InputError, LagrotorError, SingularError
 from lagrotor.structures import (
     bounded_motion,
-    chern_numbers,
-    dispersion,
-    edge_waves,
     example,
     honeycomb,
     local_hamiltonian,
@@ -25,6 +22,8 @@ from lagrotor.structures import (
     wave_amplitude,
 )
 from lagrotor.structures.resonances import normal_form_of
+from lagrotor.structures.waves.chern import chern_numbers, edge_waves
+from lagrotor.structures.waves.dispersion import dispersion
 
 PAIR = {"joints": [(0, 0), (1, 0)], "bars": [(0, 1)], "spins": [1, 1]}
 SQUARE = {"joints": [(0, 0), (1, 0), (1, 1), (0, 1)], "spins": 1.0}

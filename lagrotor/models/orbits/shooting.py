@@ -1,9 +1,9 @@
 """Periodic orbits of the exact model found by shooting, and their family: Newton's method takes the exact Jacobian of the flow.
 
-Of the paired precession of opposite spins the axes are parallel at Phi = 0 in the x-z plane and turn through it (chi = alpha = 0,
-U' = 0, x = r_0); a quarter period later the symmetries put U = alpha = 0, chi' = 0. Unknown are u = artanh r_0, chi'(0),
-alpha'(0) (in units of Omega_0) and the quarter period's phase Omega_0 t. The family is followed from small amplitudes to its end
-by steps along the curve of orbits, not along r0, so that a turn of the family is passed and not mistaken for its end.
+Of the paired precession of opposite spins the axes are parallel at Phi = 0 in the x-z plane and turn through it (chi = alpha =
+0, U' = 0, x = r_0); a quarter period later the symmetries put U = alpha = 0, chi' = 0. Unknown are u = artanh r_0, chi'(0),
+alpha'(0) (in units of Omega_0) and the quarter period's phase Omega_0 t. The family is followed from small amplitudes to its
+end by steps along the curve of orbits, not along r0, so that a turn of the family is passed and not mistaken for its end.
 
 About upright, with spins that are not opposite, x swings between ±r_0, and the orbit closes up to a turn: at Phi = 0 and half a
 turn later the axes are parallel and U is stationary at ±artanh r_0. Unknown are chi'(0), alpha'(0) and the time of half a turn.

@@ -1,4 +1,4 @@
-"""A structure's run: exact motion from a tilt and its rates, with its error estimate; what it holds, its pictures, its file."""
+"""The run of a structure: its exact motion with an error estimate, its pictures, and its file."""
 
 from dataclasses import asdict, dataclass
 from math import pi
@@ -30,8 +30,36 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class StructureRun(Run):
-    """Axes r_i and rates r_i' (N, n, 3), 1/s; momenta G_i = I3 omega_i (N, n), axial, kg m²/s, which the spins' own friction
-    takes. errors: of an axis, a unit vector."""
+    """The motion of a structure of N rotors and B bars at n times.
+
+    Attributes
+    ----------
+    t : Array
+        The times that were reached, (n,), s.
+    errors : Array
+        The estimated largest error of an axis up to each time, (n,).
+    horizon : float
+        The time from which the error exceeds the tolerance, s.
+    evaluations : int
+        The evaluations of the right-hand side in all integrations.
+    ending : Ending
+        The reason for which the run ended.
+    structure : Assembly
+        The structure.
+    axes : Array
+        The unit vectors of the axes, (N, n, 3).
+    rates : Array
+        The rates of the axes, (N, n, 3), 1/s.
+    momenta : Array
+        The axial momenta I3 ω, which spin friction decreases, (N, n), kg m²/s.
+
+    Examples
+    --------
+    >>> from lagrotor.structures import example
+    >>> run = example("corner").simulate([0.0, 0.5, 1.0], tilt=[[0.01, 0.0]] * 3)
+    >>> run.tips.shape, run.link_length.shape, run.energy.shape
+    ((3, 3, 3), (2, 3), (3,))
+    """
 
     structure: Assembly
     axes: Array
@@ -39,7 +67,13 @@ class StructureRun(Run):
     momenta: Array
 
     def summary(self) -> dict[str, str]:
-        """The structure, the times, and how well the run is known, name → words."""
+        """Return the structure, the times and the error in words.
+
+        Returns
+        -------
+        dict
+            The rows of the table.
+        """
         s, energy = self.structure, self.energy
         return (
             {"structure": f"{len(s.joints)} rotors, {len(s.bars)} bars"}
@@ -49,29 +83,35 @@ class StructureRun(Run):
 
     @property
     def tips(self) -> Array:
-        """Positions of the tips, (N, n, 3), m."""
+        """The positions of the tips, (N, n, 3), m."""
         c = coefficients(self.structure)
         return np.asarray(c.feet[:, None] + c.R[:, None, None] * self.axes)
 
     @property
     def tilt_energy(self) -> Array:
-        """Kinetic energy of the tilting axes and bars, and potential energy, (n,), J."""
+        """The kinetic energy of tilting axes and bars plus the potential energy, (n,), J."""
         return exact_motion(self.structure).energy(self.axes.swapaxes(0, 1), self.rates.swapaxes(0, 1))
 
     @property
     def energy(self) -> Array:
-        """The whole energy, that of the spins included, (n,), J. Constant without friction and drive."""
+        """The total energy with that of the spins, (n,), J. It is conserved without friction and drive."""
         I3 = np.array([rotor.I3 for rotor in self.structure.rotor])
         return np.asarray(self.tilt_energy + (self.momenta**2 / (2 * I3[:, None])).sum(0))
 
     @property
     def link_length(self) -> Array:
-        """Lengths of the bars, (B, n), m."""
+        """The lengths of the bars, (B, n), m."""
         c = coefficients(self.structure)
         return np.asarray(np.linalg.norm(self.tips[c.j] - self.tips[c.i], axis=-1))
 
     def quantities(self) -> dict[str, Quantity]:
-        """axes, rates, tips, energy, link_length, momenta."""
+        """Return the arrays that `save` and the tables contain.
+
+        Returns
+        -------
+        dict
+            axes, rates, tips, energy, link_length and momenta, each a `Quantity`.
+        """
         rotors = "rotor", "t", "component"
         return {
             "axes": Quantity(self.axes, rotors, "1"),
@@ -83,17 +123,33 @@ class StructureRun(Run):
         }
 
     def about(self) -> dict[str, Any]:
-        """The structure."""
+        """Return the structure as `save` writes it.
+
+        Returns
+        -------
+        dict
+            The fields of the structure.
+        """
         return {"structure": asdict(self.structure)}
 
     @staticmethod
     def load(path: str | Path) -> "StructureRun":
-        """The run that `save` wrote as `.npz`; its structure is an `Assembly`.
+        """Read a run from a file that `save` wrote.
+
+        Parameters
+        ----------
+        path : str or Path
+            The file, .npz.
+
+        Returns
+        -------
+        StructureRun
+            The run. Its structure is an `Assembly`.
 
         Raises
         ------
         InputError
-            Where that is not what the file is: not whole, or not a motion of that structure.
+            If the file is incomplete or contains no run of a structure.
         """
         about, arrays, run_fields = read_run(path)
         try:
@@ -115,7 +171,13 @@ class StructureRun(Run):
         return StructureRun(structure=s, axes=axes, rates=rates, momenta=momenta, **run_fields)
 
     def plot(self) -> "Figure":
-        """Tips over time and from above, and the energy: a figure that a notebook shows."""
+        """Draw the tips over time and from above, and the energy.
+
+        Returns
+        -------
+        Figure
+            A figure that a notebook shows.
+        """
         from lagrotor.drawing.run_figure import run_figure
         from lagrotor.drawing.style import OKABE_ITO
 
@@ -124,13 +186,24 @@ class StructureRun(Run):
         return run_figure(self.t, self.tips, self.energy, inks=[OKABE_ITO[ink] for ink in inks], bars=bars)
 
     def animate(self, path: str | Path, fps: float = 25.0) -> Path:
-        """Write the motion as a film, `.gif`, at its own speed, axes between the samples by Hermite cubics; bars
-        grey, braces green, rotors coloured by the sense of their spins.
+        """Write a film of the motion, with bars grey, braces green, and rotors in the colour of their spin.
+
+        Parameters
+        ----------
+        path : str or Path
+            The file, .gif.
+        fps : float, default 25.0
+            Frames per second. The film has the speed of the motion.
+
+        Returns
+        -------
+        Path
+            The file that was written.
 
         Raises
         ------
         InputError
-            For a name, a folder or a frame rate that will not do, before anything is drawn.
+            If the file name, its folder or the frame rate is invalid.
         """
         from lagrotor.drawing.film import animate_lines, check_film, frame_times
 
@@ -140,7 +213,13 @@ class StructureRun(Run):
         return animate_lines(path, times, lines, fps, inks)
 
     def view(self) -> "View":
-        """The motion as a page that a notebook shows, turned by hand and played, without a network; colours as of `animate`."""
+        """Return the motion as an interactive page for a notebook, in the colours of `animate`.
+
+        Returns
+        -------
+        View
+            The page, which needs no network.
+        """
         from lagrotor.drawing.view import view_lines, view_times
 
         times = view_times(float(self.t[0]), float(self.t[-1]))
@@ -149,7 +228,7 @@ class StructureRun(Run):
         return view_lines(times, lines, inks, f"{len(rotors)} rotors, {len(self.structure.bars)} bars", rotors)
 
     def _lines(self, times: Array) -> tuple[list[Array], list[str]]:
-        """Bars, braces, rotors at the times, each (m, 2, 3) in m, and their colours."""
+        """Return bars, braces and rotors at the times, each (m, 2, 3) in m, and their colours."""
         from lagrotor.drawing.wheel import BAR, MARK, ROTORS
         from lagrotor.numerics.rotations import between_samples
 
@@ -177,25 +256,12 @@ def simulate_structure(
     tol: float = 1e-9,
     engine: Engine = "core",
 ) -> StructureRun:
-    """The exact motion from its start, which holds at t[0], read at the increasing times t (n,), s.
-
-    tilt: x and y of the axes' unit vectors (N, 2), or the vectors (N, 3), upright unless given; rates: theirs, 1/s.
-    Both are brought to the nearest state on the bars in the metric of the masses, which `run.axes[:, 0]` and
-    `run.rates[:, 0]` show.
-    drive: t → forces (N, 3) on the tips in N; ground: t → acceleration (3,) of the ground in m/s²; both smooth.
-    tol: the largest error of an axis over the whole run, 1e-13 to 0.1; `run.errors` are its estimate, from two runs at two
-    local errors, held to the energy where it is conserved. A LagrotorWarning says when it exceeds tol, or that the run ended
-    before its last time; it then holds the times up to there. engine: "core", or "fast" with heyoka (`pip install
-    lagrotor[fast]`), which takes some seconds to compile a structure, once for all spins.
-
-    Raises InputError for what makes no sense, ConstraintError for a tilt that the bars do not allow, SingularError
-    where bars and axes are in line, IntegrationError where nothing of the motion can be computed.
-    """
+    """Integrate the exact motion of a structure: see `Structure.simulate`."""
     times, tol = check_times("simulate", t), check_tolerance(tol)
     check_engine(engine)
     shape, begin = (len(s.joints), 3), float(times[0])
     drives = [
-        None if function is None else _TriedDrive(function, name, size, times)
+        None if function is None else _CheckedDrive(function, name, size, times)
         for function, name, size in ((drive, "drive", shape), (ground, "ground", shape[1:]))
     ]
     if engine == "fast" and any(drives):
@@ -216,7 +282,7 @@ def simulate_structure(
     )
     try:
         run = estimate_run(evolution, c.rate * (times - begin), tol).by_clock(begin, 1 / c.rate)
-    except StopError as stop:  # at a time without unit
+    except StopError as stop:  # its time has no unit
         for checked in filter(None, drives):
             checked.refuse()
         at = begin + stop.at / c.rate
@@ -232,7 +298,7 @@ def simulate_structure(
 
 
 def _integration(s: Assembly, motion: ExactMotion, engine: Engine) -> Integrate:
-    """The integration of a stretch by what runs the structure fastest, in the time c.rate t since the start."""
+    """Return the integration of a segment by the fastest method for the structure, in the time c.rate t."""
     if engine == "fast" and compiled_motion.runs_by_series(motion):
         return lambda start, times, local, companion, _: compiled_motion.integrate_series(
             s, motion, start, times, local, companion
@@ -256,19 +322,19 @@ def _integration(s: Assembly, motion: ExactMotion, engine: Engine) -> Integrate:
 
 
 @dataclass
-class _TriedDrive:
-    """A drive, tried at the times of a run, that gives NaN where what was given fails or gives no finite array of its shape."""
+class _CheckedDrive:
+    """A drive, checked at the times of a run. It gives NaN if the function fails or returns no finite array of its shape."""
 
-    given: Drive
+    function: Drive
     name: str
     shape: tuple[int, ...]
     times: Array
-    why: str = ""
+    failure: str = ""
 
     def __post_init__(self) -> None:
-        if not callable(self.given):
+        if not callable(self.function):
             raise InputError(
-                f"simulate: {self.name} = {self.given!r} must be a function t → array of shape {self.shape}"
+                f"simulate: {self.name} = {self.function!r} must be a function t → array of shape {self.shape}"
             )
         for t in self.times.tolist():
             self(t)
@@ -277,18 +343,18 @@ class _TriedDrive:
     def __call__(self, t: float) -> Array:
         where = f"simulate: {self.name} at t = {t:g}"
         try:
-            return finite_array(where, self.given(t), self.shape)
+            return finite_array(where, self.function(t), self.shape)
         except InputError as error:
-            self.why = str(error)
+            self.failure = str(error)
         except Exception as error:
-            self.why = f"{where} fails with {error!r}"
+            self.failure = f"{where} fails with {error!r}"
         return np.full(self.shape, np.nan)
 
     def since(self, begin: float) -> Drive:
-        """The drive as a function of the time since `begin`."""
+        """Return the drive as a function of the time since `begin`."""
         return lambda t: self(begin + t)
 
     def refuse(self) -> None:
-        """Raises InputError where it has failed."""
-        if self.why:
-            raise InputError(self.why) from None
+        """Raises InputError if the function has failed."""
+        if self.failure:
+            raise InputError(self.failure) from None

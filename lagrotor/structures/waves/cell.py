@@ -1,4 +1,4 @@
-"""A periodic pattern of rotors: one cell, the steps that repeat it, bars and braces within and to other cells."""
+"""A periodic pattern of rotors: one cell, the steps that repeat it, and its bars and braces."""
 
 from cmath import exp
 from collections.abc import Iterator, Sequence
@@ -20,16 +20,7 @@ Site = tuple[int, Shift]  # joint of the cell, and which cell
 
 @dataclass(frozen=True)
 class Cell:
-    """A cell of N rotors repeated along one or two steps (x, y), m; with a turn (rad), each cell is the one before it
-    moved by the step and turned about its own origin: a ring, closed after 2π/turn cells.
-
-    bars: (i, j, shift) from joint i to joint j of the cell that is `shift` steps away, a whole number, or one a step; (i, j)
-    within the cell. braces: (i, j, shift, stiffness, damping), in N/m and N s/m, damping 0 unless given. spins, rotor, load,
-    friction, hinge: one for all, or one a joint; link: one for all, or one a bar; units as of `Structure`. inertia: False for the
-    limit of fast spins, in which tilting has none and only slow precessions are left.
-
-    Raises InputError for a joint, a shift or a step that makes no sense.
-    """
+    """The fields of a pattern, checked, and its finite pieces. `Pattern` documents them."""
 
     joints: tuple[tuple[float, float], ...]
     steps: tuple[tuple[float, float], ...]
@@ -56,13 +47,11 @@ class Cell:
                 f"Pattern: {len(self.joints)} joints and {len(self.steps)} steps: give a joint and one or two steps at least"
             )
         if self.turn and len(self.steps) == 2:
-            raise InputError(
-                f"Pattern: turn = {self.turn:g} rad with two steps: only a row of cells turns; leave one out"
-            )
+            raise InputError(f"Pattern: turn = {self.turn:g} rad with two steps: only a row of cells turns; remove one")
         if len(self.steps) == 2 and abs((complex(*self.steps[0]).conjugate() * complex(*self.steps[1])).imag) < 1e-12:
             raise InputError(f"Pattern: steps = {self.steps} lie along one line: they span no plane")
         assign(self, "bars", tuple(self._ends("bars", k, bar, bar[2:]) for k, bar in enumerate(self.bars)))
-        assign(self, "braces", tuple(self._sprung(k, brace) for k, brace in enumerate(self.braces)))
+        assign(self, "braces", tuple(self._brace(k, brace) for k, brace in enumerate(self.braces)))
         for name in ("spins", "rotor", "load", "friction", "hinge"):
             assign(self, name, _each(getattr(self, name), len(self.joints), name))
         assign(self, "link", _each(self.link, len(self.bars), "link"))
@@ -80,7 +69,7 @@ class Cell:
             raise InputError(f"{where} joins a tip to itself: give two different tips")
         return i, j, cells
 
-    def _sprung(self, k: int, entry: Any) -> tuple[int, int, Shift, float, float]:
+    def _brace(self, k: int, entry: Any) -> tuple[int, int, Shift, float, float]:
         if len(entry) not in (4, 5):
             raise InputError(f"Pattern: braces[{k}] = {entry!r} must be (i, j, shift, stiffness, damping)")
         return (
@@ -91,14 +80,25 @@ class Cell:
 
     @property
     def neighbours(self) -> tuple[Site, ...]:
-        """The joints of other cells to which bars and braces lead, each once."""
+        """The joints of other cells at the ends of bars and braces, each once."""
         return tuple(dict.fromkeys((j, shift) for _, j, shift, *_ in (*self.bars, *self.braces) if any(shift)))
 
     def place(self, site: Site) -> tuple[float, float]:
-        """Where a joint of any cell is, m."""
+        """Return the position of a joint of any cell.
+
+        Parameters
+        ----------
+        site : tuple
+            The joint, and the shift of its cell.
+
+        Returns
+        -------
+        tuple
+            The position (x, y), m.
+        """
         shift = site[1]
         z = complex(*self.joints[site[0]])
-        if self.turn:  # the steps so far, each turned once more than the one before it
+        if self.turn:  # each step is turned relative to the previous one
             rotation = exp(1j * self.turn * shift[0])
             z = z * rotation + complex(*self.steps[0]) * (rotation - 1) / (exp(1j * self.turn) - 1)
         else:
@@ -106,19 +106,57 @@ class Cell:
         return z.real, z.imag
 
     def cells(self, *counts: int) -> list[Shift]:
-        """The cells of a piece, so many along each step, the last step fastest. Raises InputError as `piece` does."""
+        """Return the cells of a piece.
+
+        Parameters
+        ----------
+        *counts : int
+            The number of cells along each step.
+
+        Returns
+        -------
+        list
+            The shifts of the cells; the last step varies fastest.
+
+        Raises
+        ------
+        InputError
+            If a number is not positive, or there is not one per step.
+        """
         if len(counts) != len(self.steps) or not all(isinstance(n, int | np.integer) and n > 0 for n in counts):
             raise InputError(f"Pattern: piece{counts}: give {len(self.steps)} number(s) of cells, 1 or more")
         return list(product(*map(range, counts)))
 
     def piece(self, *counts: int) -> Structure:
-        """The finite structure of so many cells along each step, its border free; a ring where turn × count is a full turn.
+        """Return a finite piece of the pattern with free borders.
 
-        Joint i of cell n is rotor N n + i, the last step fastest. Raises InputError as `Structure` does.
+        It is a closed ring if turn × count is a full turn. Joint i of cell n is rotor N n + i.
+
+        Parameters
+        ----------
+        *counts : int
+            The number of cells along each step.
+
+        Returns
+        -------
+        Structure
+            The piece.
+
+        Raises
+        ------
+        InputError
+            If a number is invalid, or `Structure` refuses the piece.
+
+        Examples
+        --------
+        >>> from lagrotor.structures import polygon_ring
+        >>> ring = polygon_ring(6, spins=20.0).piece(6)
+        >>> len(ring.joints), len(ring.bars)
+        (6, 6)
         """
         if not self.inertia:
             raise InputError(
-                "Pattern: piece: a structure has inertia: leave inertia=False out, and ask for modes(inertia=False)"
+                "Pattern: piece: a structure has inertia: remove inertia=False, and use modes(inertia=False) of the piece"
             )
         ring = bool(self.turn) and abs(abs(self.turn) * counts[0] - 2 * pi) < 1e-9
         cells = self.cells(*counts)
@@ -142,7 +180,23 @@ class Cell:
         )
 
     def strip(self, width: int) -> Self:
-        """Of a pattern with two steps: `width` cells along the second, its borders free, repeated along the first."""
+        """Return a strip of a pattern with two steps, which repeats along the first one.
+
+        Parameters
+        ----------
+        width : int
+            The number of cells along the second step, whose borders are free.
+
+        Returns
+        -------
+        Pattern
+            The strip.
+
+        Raises
+        ------
+        InputError
+            If the pattern has one step, or the width is below 1.
+        """
         if len(self.steps) != 2 or width < 1:
             raise InputError(
                 f"Pattern: strip({width}) of {len(self.steps)} step(s): it needs two, and a width of 1 or more"
