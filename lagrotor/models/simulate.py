@@ -1,4 +1,4 @@
-"""`simulate`: a scene, times and a model in; a trajectory with its error estimate out."""
+"""`simulate`: integrate a scene by a chosen model, and return its trajectory with an error estimate."""
 
 import warnings
 from collections.abc import Callable
@@ -36,10 +36,10 @@ from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Array, Trajectory
 from lagrotor.result_display import scientific
 
-LADDER = (minimal.MODEL, spheres.MODEL)  # of `auto`: where one stops, the next runs the scene
+LADDER = (minimal.MODEL, spheres.MODEL)  # the models that `auto` tries in turn
 MODELS: dict[str, Model] = {model.name: model for model in (*LADDER, euler.MODEL)}
 _BY_NAME = Patience(20_000, 250 * 2 * pi)
-# Where a looser run may take its place: five times as many serve none better.
+# For a run that another model can replace: five times as many evaluations improve none.
 _REPLACEABLE = Patience(1_000, 500 * 2 * pi)
 LONG_RUN = Calibrated(
     300.0,
@@ -60,10 +60,10 @@ MOST_SLACK = Calibrated(
     "95 of the recorded wide scenes beside the joint line: of 11 that unit vectors do not keep within tol, 9 begin by minimal",
     "test_wide_scenes.py::test_beside_a_dead_point_the_model_that_keeps_the_tolerance_is_taken",
 )
-_RESOLVED = 10 * np.finfo(float).eps  # of a start: all that it may be off without a reason of its own
+_RESOLVED = 10 * np.finfo(float).eps  # the rounding of a start
 
 
-# (scene, the run's last time, tol, whether to give the best there is, by name, or what `choose` took)
+# (scene, last time, tol, best): by name the best that can be had, for `choose` the cheapest
 DIRECT: dict[str, Callable[[Scene, float, float, bool], ClosedMotion]] = {
     "closed_form": closed_form,
     "linear": linear_motion,
@@ -73,8 +73,10 @@ DIRECT: dict[str, Callable[[Scene, float, float, bool], ClosedMotion]] = {
 
 @dataclass(frozen=True)
 class Choice:
-    """model: its name. estimate: largest error of an axis over the run (tips: in units of R). reason: a sentence. motion: of a
-    model without integration."""
+    """The model that `auto` starts with, and the reason. estimate: the largest error of an axis (of tips: in units of R).
+
+    motion: the motion of a model without integration.
+    """
 
     model: str
     estimate: float
@@ -83,11 +85,11 @@ class Choice:
 
 
 def choose(scene: Scene, t_end: float, tol: float, engine: str = "core") -> Choice:
-    """The cheapest model whose axes stay within `tol` (tips: in units of R) of the exact ones from 0 to t_end (s).
+    """Choose the cheapest model whose axes stay within `tol` (tips: in units of R) of the exact ones up to t_end (s).
 
-    The errors of the closed forms and of the linear model are estimated analytically; no integration is needed. A short run
-    of a pair with its bar takes engine = "fast" less time than that estimate, and is integrated at once. An integrated
-    model is held to `tol` while it runs: see `lagrotor.numerics.error_estimate`.
+    The errors of the closed forms and of the linear model are estimated without integration. For a short run with a bar the
+    fast engine costs less than this estimate and integrates at once. An integrated model is checked while it runs: see
+    `lagrotor.numerics.error_estimate`.
     """
     turns, missed = typical_rate(scene) * t_end / (2 * pi), "a run too short to estimate the cheaper ones' errors"
     names = ["closed_form", "linear"] if engine == "core" or scene.link is None or turns > SHORT.value else []
@@ -117,37 +119,41 @@ def simulate(
     engine: str = "core",
     progress: Callable[[float], None] | None = None,
 ) -> Trajectory:
-    """Run `scene` from its start, which holds at t[0], through the times `t` (n,), in s.
+    """Integrate a scene from its initial state, which holds at t[0].
 
-    The trajectory carries `errors`, the estimated largest error of an axis up to each time, `horizon`, the time from which
-    they exceed `tol`, and `ending`. A run is integrated twice, at two local errors, and held to what the motion conserves; a
-    LagrotorWarning says when `tol` is not kept and what was reached, or that the run ended before its last time: it then
-    holds the times up to there.
+    A run is integrated twice, at two local errors, and compared with the conservation laws.
+
+    A LagrotorWarning says if `tol` is not kept or the run ends early. The trajectory then contains the times that were
+    reached.
 
     Parameters
     ----------
-    model : str, default 'auto'
-        "closed_form", "linear", "averaged", "minimal", "spheres", "euler", or "auto": the cheapest that keeps the axes
-        within `tol` of the exact ones over the run, named with its reason in the trajectory; see `choose`.
-    tol : float, default 1e-09
-        The largest error of an axis (a unit vector; tips: in units of R) over the whole run, 1e-13 to 0.1.
-    engine : str, default 'core'
-        "core", scipy's solvers and our own; "fast", heyoka's (`pip install lagrotor[fast]`), for "minimal", and for
-        "spheres" where there is no bar. Never chosen silently: it compiles for a moment, and its last digits are others.
+    scene : Scene
+        The pair, its initial state, and its shock.
+    t : array_like
+        The increasing times (n,), s.
+    model : str, default "auto"
+        "closed_form", "linear", "averaged", "minimal", "spheres", "euler", or "auto" for the cheapest model that keeps `tol`.
+    tol : float, default 1e-9
+        The largest error of an axis (of tips: in units of R) over the whole run, from 1e-13 to 0.1.
+    engine : str, default "core"
+        "core", or "fast" for heyoka (`pip install lagrotor[fast]`), for "minimal", and for "spheres" without a bar.
     progress : callable or None, optional
-        Called with the time in s of each evaluation by the core; a solver's last step may go past the end, and each of
-        the runs that are compared begins anew.
+        A function of the time (s), called at each evaluation. Each compared run begins anew.
+
+    Returns
+    -------
+    Trajectory
+        The motion, with its error, the model, and the reason for this model.
 
     Raises
     ------
     InputError
-        A bad argument.
-    SingularError
-        A model's coordinates cannot hold the start.
-    DomainError
-        A closed form or the normal modes do not hold the scene.
+        If an argument is invalid.
+    SingularError, DomainError
+        If the chosen model cannot represent the scene.
     IntegrationError
-        Nothing of the run could be computed, or it did not conserve what it must.
+        If no part of the run can be computed, or it violates a conservation law.
 
     Examples
     --------
@@ -161,8 +167,8 @@ def simulate(
     times, tolerance = check_times("simulate", t), check_tolerance(tol)
     check_engine(engine)
     check_progress(progress)
-    at_zero = scene.since(float(times[0]))  # all that follows counts time from the start
-    if model in tuple(DIRECT):  # a value without a hash is refused below
+    at_zero = scene.since(float(times[0]))  # from now on time counts from the start
+    if model in tuple(DIRECT):  # an unhashable value is refused below
         motion = DIRECT[model](at_zero, float(times[-1] - times[0]), tolerance, True)
         error = "not known" if np.isnan(motion.error) else scientific(motion.error, 1)
         missed = not motion.error <= tolerance
@@ -186,26 +192,26 @@ def simulate(
             f"simulate: engine='fast' does not run model={model!r} with this scene: a Taylor step may pass where its "
             "constraints fail; take minimal, or engine='core'"
         )
-    # Time is counted from the pulse: one far off that is not felt is left out, it would only cost digits.
+    # Time counts from the pulse. A distant pulse without effect is dropped, as it would cost digits.
     duration = float(times[-1] - times[0])
-    door = _Door(
+    scaled = _ScaledScene(
         natural_units(replace(at_zero, shock=at_zero.shock_until(duration))), times, tolerance, engine, progress
     )
     if model == "auto":
-        name, why, run = door.by_ladder(choice)
+        name, why, run = scaled.by_ladder(choice)
     else:
-        name, why, run = model, "by name", door.run(MODELS[model], _BY_NAME)
+        name, why, run = model, "by name", scaled.run(MODELS[model], _BY_NAME)
     run.warn_unless_kept(name, tolerance)
-    return trajectory_of(scene, door.units, name, why, times, run)
+    return trajectory_of(scene, scaled.units, name, why, times, run)
 
 
 def trajectory_of(
     scene: Scene, units: NaturalUnits, model: str, why: str, times: Array, run: EstimatedRun
 ) -> Trajectory:
-    """What a run of the model in natural units shows of the scene, at those of the times (n,) that it reached."""
+    """Return the trajectory of a run in natural units, at those of the times (n,) that it reached."""
     observed, n = MODELS[model].observe(units.scene, run.states), len(run.t)
     momenta = observed.momenta - constant_momenta(units.scene, n)
-    # By the clock of the natural units the last time is off by rounding.
+    # In natural units the last time has a rounding error.
     ending = replace(run.ending, at=float(times[-1])) if run.ending.kind == "end" else run.ending
     return Trajectory(
         **run.known | {"t": times[:n], "ending": ending}, scene=scene, model=model, why=why, axes=observed.axes,
@@ -225,8 +231,8 @@ def _direct(scene: Scene, model: str, why: str, times: Array, closed: ClosedMoti
 
 
 @dataclass(frozen=True, eq=False)
-class _Door:
-    """A scene in natural units and how it is to be run: what the contract of runs needs of a model of it."""
+class _ScaledScene:
+    """A scene in natural units with its times, tolerance and engine."""
 
     units: NaturalUnits
     times: Array
@@ -235,9 +241,9 @@ class _Door:
     progress: Callable[[float], None] | None
 
     def run(self, model: Model, patience: Patience, bounded: bool = False) -> EstimatedRun:
-        """The model's run; bounded: it ends where the model is badly conditioned, and another is at hand.
+        """Return the run by a model. With `bounded` it ends where the model is badly conditioned and another can continue.
 
-        Raises StopError, in s, where nothing is reached.
+        Raises StopError, in s, if nothing is reached.
         """
         rate, begin = self.units.rate, float(self.times[0])
         t = (self.times - begin) * rate
@@ -261,23 +267,26 @@ class _Door:
             raise
 
     def by_ladder(self, choice: Choice) -> tuple[str, str, EstimatedRun]:
-        """The model that `auto` takes, why, and its run: the first of the ladder that reaches the end, from the chosen one on;
-        else the one that comes farthest."""
-        begun = [model.name for model in LADDER].index(choice.model)
-        # Where none reaches the end, those before the last go on where they are badly conditioned.
-        tries = [(model, model is not LADDER[-1]) for model in LADDER[begun:]]
+        """Return the model that `auto` takes, the reason, and its run.
+
+        It is the first model of the ladder that reaches the end, from the chosen one on; otherwise the one that reaches the
+        latest time.
+        """
+        first_model = [model.name for model in LADDER].index(choice.model)
+        # If none reaches the end, the first models continue where they are badly conditioned.
+        tries = [(model, model is not LADDER[-1]) for model in LADDER[first_model:]]
         unbounded = [(model, False) for model in LADDER[:-1] if self.units.scene.link]
-        # Whether the constraints are so nearly dependent at the start that rounding may exceed `tol`.
+        # Nearly dependent constraints at the start amplify rounding, perhaps above `tol`.
         slack, start = False, np.concatenate([*self.units.scene.axes, *self.units.scene.rates])
         if unbounded and (uncertainty := MODELS[choice.model].slack):
             slack = bool(MOST_SLACK.value * np.finfo(float).eps * uncertainty(start[None])[0] > self.tol)
         tries = [*unbounded, *tries] if slack else [*tries, *unbounded]
         why = (
-            f"beside a dead point rounding of the constraints of {choice.model} may exceed tol"
+            f"near a dead point the rounding of the constraints of {choice.model} may exceed tol"
             if slack
             else choice.reason
         )
-        evaluations, early = 1, list[tuple[str, str, EstimatedRun]]()  # `choose` looked at the start
+        evaluations, early = 1, list[tuple[str, str, EstimatedRun]]()  # `choose` evaluated the start
         refused: dict[str, IntegrationError | SingularError] = {}
         for model, bounded in tries:
             try:
@@ -310,9 +319,9 @@ def evolution_of(
     bounded: bool = False,
     progress: Callable[[float], None] | None = None,
 ) -> Evolution:
-    """What the contract of runs needs of a model of a scene in natural units, from 0 to t_end of its time.
+    """Return the evolution of a model of a scene in natural units, from 0 to t_end of its time.
 
-    bounded: it ends where the model is badly conditioned, and another is at hand.
+    With `bounded` it ends where the model is badly conditioned and another can continue.
     """
     engine = engine if _fast_runs(model, scene) else "core"
     nodes = pulse_nodes(scene, t_end)
@@ -360,9 +369,11 @@ def evolution_of(
 
 
 def start_unsure(model: Model, scene: Scene, start: Array) -> float:
-    """How far, in units of rounding, the model's start (d,) is off the scene's: beside the joint line the bar hardly says where
-    an axis on it is, and coordinates made for the bar may take another than the nearest."""
-    unsure, epsilons = 1.0, 1e4  # a step of rounding itself may move nothing
+    """Return the error of the model's start (d,), in units of rounding.
+
+    Near the joint line the bar hardly determines an axis, and the coordinates may represent another start than the given one.
+    """
+    unsure, epsilons = 1.0, 1e4  # one rounding step may change nothing
     observed = model.observe(scene, np.array([start, start_beside(start, epsilons)]))
     for target, computed, unit in ((scene.axes, observed.axes, 1.0), (scene.rates, observed.rates, PACE)):
         error = float(np.abs(computed[:, 0] - target).max()) / unit
@@ -372,5 +383,5 @@ def start_unsure(model: Model, scene: Scene, start: Array) -> float:
 
 
 def _fast_runs(model: Model, scene: Scene) -> bool:
-    """Return whether Taylor steps cannot pass a position at which the model's constraints fail."""
+    """Return True if Taylor steps cannot pass a position at which the model's constraints fail."""
     return model.outside is None or scene.link is None

@@ -35,11 +35,11 @@ def draw_plan(panel: Axes, s: Assembly) -> None:
         ink = BAR if spin == 0 else ROTORS[spin < 0]
         panel.plot(x, y, "o", color=ink, markersize=9, mfc=ink if spin else "white", zorder=2)
         if len(s.joints) <= 16:
-            label, (dx, up) = f"{spin:.4g}".replace("-", "−"), _clear_direction(s, i)
+            label, (dx, dy) = f"{spin:.4g}".replace("-", "−"), _clear_direction(s, i)
             panel.annotate(
-                label, (x, y), (9 * dx, 9 * up), textcoords="offset points", color=INK, path_effects=HALO,
+                label, (x, y), (9 * dx, 9 * dy), textcoords="offset points", color=INK, path_effects=HALO,
                 ha="center" if abs(dx) < 0.3 else "left" if dx > 0 else "right",
-                va="center" if abs(up) < 0.3 else "bottom" if up > 0 else "top",
+                va="center" if abs(dy) < 0.3 else "bottom" if dy > 0 else "top",
             )  # fmt: skip
         panel.plot(x, y, "o", color=ink, markersize=9 + 6 * abs(spin) / fastest, fillstyle="none", zorder=2)
     panel.set(xlabel="x [m]", ylabel="y [m]", title="From above, spins in rad/s", aspect="equal", adjustable="datalim")
@@ -58,7 +58,7 @@ def _clear_direction(s: Assembly, rotor: int) -> Array:
     gaps = np.diff(angles, append=angles[0] + 2 * pi)
     middle = angles + gaps / 2
     widest = middle[gaps > gaps.max() - 1e-9]
-    best = widest[np.argmax(np.sin(widest) + 1e-3 * np.cos(widest))]  # of equal ones the highest
+    best = widest[np.argmax(np.sin(widest) + 1e-3 * np.cos(widest))]  # the highest of equal ones
     return np.array([np.cos(best), np.sin(best)])
 
 
@@ -71,17 +71,17 @@ def structure_picture(s: Assembly) -> Figure:
         roots.set(xlabel="growth [1/s]", ylabel="rate [rad/s]", title="Roots of small motion")
         if not s.natural:
             roots.set_axis_off()
-            reason = "None about upright:\nthere a bar is not as long\nas its tips are apart"
+            reason = "None about upright:\na bar does not have\nits upright length"
             roots.text(0.5, 0.5, reason, ha="center", va="center", transform=roots.transAxes)
             return figure
-        roots_there, standing = small_motion(s).roots, stands(s)
+        values, standing = small_motion(s).roots, stands(s)
         for grows, ink in ((False, MODEL_COLOUR), (True, PAPER_COLOUR)):
-            selection = roots_there[(roots_there.real > 0) == grows]
+            selection = values[(values.real > 0) == grows]
             roots.plot(selection.real, selection.imag, "o", color=ink, markersize=6)
         roots.margins(0.15)
         roots.axvline(0, color=INK, linewidth=0.8)
         factor = standing.critical_spin
-        least = f"; it does from {factor:.4g} times its spins on" if factor else ""
-        least = "; no multiple of its spins holds it" if factor == inf else least
-        figure.suptitle(("Stands" if standing.stands else "Does not stand") + least)
+        least = f"; critical factor on the spins: {factor:.4g}" if factor else ""
+        least = "; no multiple of these spins stabilises it" if factor == inf else least
+        figure.suptitle(("Stable" if standing.stands else "Unstable") + least)
     return figure

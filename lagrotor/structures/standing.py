@@ -173,7 +173,7 @@ class Standing(Shown):
         time = fall_time_along(self.structure, push, _LEAST_TIMES * least, 1.001 * reach)
         if time == inf and size > trusted:
             raise InputError(
-                f"fall_time: this push of {size:.3g} rad/s topples nothing in {_LEAST_TIMES * least:.3g} s by the expansion, "
+                f"fall_time: this push of {size:.3g} rad/s does not topple it in {_LEAST_TIMES * least:.3g} s by the expansion, "
                 f"which is trusted to {trusted:.3g}: simulate it"
             )
         return time

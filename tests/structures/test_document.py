@@ -60,7 +60,7 @@ def test_a_file_that_is_no_structure_is_refused(text, reason, tmp_path) -> None:
 def test_the_command_says_whether_it_stands(capsys, tmp_path) -> None:
     path = tmp_path / "c.toml"
     assert main(["structure", "corner", "--out", str(path)]) == 0
-    assert "yes: to first order: the spins hold" in capsys.readouterr().out
+    assert "yes: linearly stable: the spins hold" in capsys.readouterr().out
     assert main(["structure", str(path), "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert (
