@@ -1,16 +1,16 @@
-"""Opposite spins averaged over their swing: small motion at any lean, with any bar, ten thousand turns at once.
+"""Opposite spins averaged over their swing: small motion at any lean, with any bar, for ten thousand turns at once.
 
-Without weight a pair at rest stays wherever it is. About a rest, at the lean of the swing's centre, the Hamiltonian in the
-coordinates q of `minimal`,
+Without weight a pair at rest remains at rest in any position. About such an equilibrium, at the lean of the swing's centre, the
+Hamiltonian in the coordinates q of `minimal`,
 
     H = (p − g)·M⁻¹ (p − g)/2,    M(q) and g(q) of L = q'·M q'/2 + g·q',
 
-has one oscillation, the swing; the turning about the joint line and the swing's centre have the rate zero. The normal form
-through an order N (`lagrotor.mechanics.canonical.normal_forms`) is H averaged over the swing: its action and the momentum about
-the joint line are constant, and the centre moves so slowly that some hundred steps follow it, however long the run. The forms
-through N − 2 and N − 4 are parts of it; how the differences of the motions fall from one to the next tells the error.
+has one oscillation, the swing; the rotation about the joint line and the centre of the swing have the rate zero. The normal
+form through an order N (`lagrotor.mechanics.canonical.normal_forms`) is H averaged over the swing. Its action and the momentum
+about the joint line are constant, and the centre moves so slowly that some hundred steps follow it over any time. The forms
+through N − 2 and N − 4 are truncations of it, and the decrease of the differences of their motions estimates the error.
 
-Spins that are not opposite let the axes twist apart freely, so that no motion beside the orbits stays small.
+Spins that are not opposite let the axes twist apart freely, so that motion near the orbits does not stay small.
 """
 
 from dataclasses import replace
@@ -39,17 +39,19 @@ FALLING = Calibrated(
     "74 random pairs over 10 to 300 turns: at most 6.2",
     "test_averaged.py::test_the_error_is_bounded",
 )
-_SLOWEST = 0.3  # of that ratio, beyond which the orders do not fall
-_ROUNDED = 3e-14  # rad: a turn's share of rounding, times the angle swung
+_SLOWEST = 0.3  # the largest ratio at which the orders converge
+_ROUNDED = 3e-14  # rad: rounding per rad of the swing
 _PULSE = 1e-12, 1e-11  # local errors of the two integrations through a pulse
 _MOST = 20_000  # evaluations through a pulse
-_TRIES = 60  # to find the normal coordinates of a start
-_AT_ONCE = 256  # times
+_TRIES = 60  # iterations for the normal coordinates of a start
+_AT_ONCE = 256  # times per batch
 
 
 class Forms(NamedTuple):
-    """A normal form about q = (lean, 0, 0), p = momentum; maps: the coordinates of H₂ in the new ones; turning: which of them
-    is the azimuth's."""
+    """A normal form about q = (lean, 0, 0), p = momentum.
+
+    maps: the coordinates of H₂ in the new ones; turning: the index of the azimuth's coordinate.
+    """
 
     form: "NormalForm"
     maps: tuple[Polynomial, ...]
@@ -65,7 +67,7 @@ class _Sums(NamedTuple):
     coefficients: Any
 
     def at(self, points: Any) -> Any:
-        """Their values at points (n, d): (n, k)."""
+        """Return their values at points (n, d): (n, k)."""
         powers = points[..., None] ** np.arange(self.exponents.max(initial=0) + 1)
         terms = np.ones((len(points), len(self.exponents)), complex)
         for j, power in enumerate(self.exponents.T):
@@ -84,7 +86,7 @@ def _sums(polynomials: tuple[Polynomial, ...]) -> _Sums:
 
 @lru_cache(maxsize=3)
 def _kinetic(ratio: Any) -> tuple[Any, Any]:
-    """M (3, 3) and g (3) as expressions."""
+    """Return M (3, 3) and g (3) as expressions."""
     import sympy as sp
 
     from lagrotor.algebra import hessian
@@ -104,7 +106,7 @@ def _kinetic(ratio: Any) -> tuple[Any, Any]:
 
 @generated((ratio,) for ratio in RATIOS)
 def _momenta(ratio: Any) -> str:
-    """(U, chi; a, b, k, G_1, G_2) → M, row by row, and g on arrays."""
+    """Return the source of (U, chi; a, b, k, G_1, G_2) → M, row by row, and g on arrays."""
     from lagrotor.numerics.codegen import Program
     from lagrotor.numerics.printers import program_source
     from lagrotor.pair.notation import G_1, G_2, MINIMAL, a, b, k
@@ -114,7 +116,7 @@ def _momenta(ratio: Any) -> str:
 
 
 def _momenta_at(scene: Scene, q: Array) -> tuple[Array, Array]:
-    """M (n, 3, 3) and g (n, 3) at coordinates (n, 3)."""
+    """Return M (n, 3, 3) and g (n, 3) at coordinates (n, 3)."""
     (_, ratio, _), _ = MODEL.kind(scene, False)
     values = _momenta(ratio)(q[:, 0], q[:, 1], *scene.inertias, scene.k, *scene.momenta)
     columns = np.stack([np.broadcast_to(value, len(q)) for value in values], axis=1)
@@ -147,7 +149,7 @@ def _forms(ratio: Any, a: float, b: float, k: float, G_1: float, G_2: float, lea
     ).times(0.5)
     form = normal_form_of_series(H, order)
     maps = tuple(form.original(variable(j, 6)) for j in range(6))
-    turning = int(np.abs(form.vectors[2]).argmax())  # on which nothing depends: rounding is left out
+    turning = int(np.abs(form.vectors[2]).argmax())  # nothing depends on it but rounding
     maps = tuple(f.where((f.exponents[:, turning] == 0) | (f.exponents.sum(1) == 1)) for f in maps)
     form = replace(form, series=form.series.where(form.series.exponents[:, turning] == 0))
     return Forms(form, maps, turning, lean, np.array([f.part(0).coefficients.sum() for f in gyroscopic]))
@@ -159,7 +161,7 @@ def _forms_about(scene: Scene, lean: float, order: int) -> Forms:
 
 
 def _linear(scene: Scene, forms: Forms, state: Array) -> Any:
-    """The coordinates of H₂ of a state of `minimal`, its azimuth left out."""
+    """Return the coordinates of H₂ of a state of `minimal` without its azimuth."""
     M, g = _momenta_at(scene, state[None, :3])
     p = M[0] @ state[3:] + g[0]
     x = np.concatenate([[state[0] - forms.lean, state[1], 0.0], p - forms.momentum])
@@ -167,10 +169,7 @@ def _linear(scene: Scene, forms: Forms, state: Array) -> Any:
 
 
 def _normal_start(scene: Scene, forms: Forms, order: int, start: Array) -> Any:
-    """Normal coordinates (6,) of a state of `minimal`, by the form through an order, its azimuth left out.
-
-    Raises DomainError where it has none.
-    """
+    """Return the normal coordinates (6,) of a state of `minimal` without its azimuth. Raises DomainError if it has none."""
     maps = _sums(tuple(f.through(order - 1) for f in forms.maps))
     linear = _linear(scene, forms, start)
     y, step = linear, np.inf
@@ -185,9 +184,9 @@ def _normal_start(scene: Scene, forms: Forms, order: int, start: Array) -> Any:
 
 
 def _states(scene: Scene, forms: Forms, order: int, start: Array, t: Array) -> tuple[Array, int]:
-    """States of `minimal` (n, 6) at times t (n,) by the normal form through an order, and the evaluations.
+    """Return the states of `minimal` (n, 6) at times t (n,) by the normal form through an order, and the evaluations.
 
-    The slow motion is integrated without the swing's part exp(rate t). Raises DomainError where it does not stay small.
+    The slow motion is integrated without the factor exp(rate t) of the swing. Raises DomainError if it does not stay small.
     """
     from scipy.integrate import solve_ivp
 
@@ -203,7 +202,7 @@ def _states(scene: Scene, forms: Forms, order: int, start: Array, t: Array) -> t
         return 1.0 - float(np.abs(form.vectors[:2] @ y).max())
 
     far.terminal = True  # type: ignore[attr-defined]
-    begin, end = _normal_start(scene, forms, order, start), float(t[-1]) or 1e-9  # of the start alone
+    begin, end = _normal_start(scene, forms, order, start), float(t[-1]) or 1e-9  # if the start alone is asked for
     run = solve_ivp(rate, (0.0, end), begin, "DOP853", t_eval=t, events=far, rtol=1e-13, atol=1e-16)
     if run.status != 0:
         raise DomainError("averaged: the swing's centre moves far from where it began; use model='minimal'")
@@ -216,7 +215,7 @@ def _states(scene: Scene, forms: Forms, order: int, start: Array, t: Array) -> t
 
 
 def _centre(scene: Scene, state: Array) -> float:
-    """The lean U of the centre about which a state of `minimal` swings. Raises DomainError where that is far from it."""
+    """Return the lean U of the centre of the swing of a state of `minimal`. Raises DomainError if it is far away."""
     forms = _forms_about(scene, float(state[0]), 2)
     slow = _linear(scene, forms, state)
     slow[[0, 3]] = 0.0
@@ -227,10 +226,10 @@ def _centre(scene: Scene, state: Array) -> float:
 
 
 def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) -> ClosedMotion:
-    """The motion up to t_end (s), by the normal form through 6, or 8 where `tol` needs it.
+    """Return the motion up to t_end (s) by the normal form through order 6, or 8 if `tol` requires it.
 
-    Through a pulse it is integrated, twice. Raises SingularError without a bar, DomainError where the spins are not opposite,
-    the motion is not small or ends within the pulse.
+    A pulse is integrated, twice. Raises SingularError without a bar, DomainError if the spins are not opposite, the motion is
+    not small, or it ends within the pulse.
     """
     if scene.link is None:
         raise SingularError("averaged: the scene has no bar; use model='closed_form'")
@@ -254,7 +253,7 @@ def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) 
             raise DomainError("averaged: the run ends within the pulse; use model='minimal'")
         pulsed = [_pulsed(natural, np.array([begin]), k) for k in (0, 1)]
         starts, evaluations_in_all = [states[-1] for states, _ in pulsed], sum(count for _, count in pulsed)
-    # At single times an error may vanish: a few swings each, all along the run.
+    # The error may vanish at single times: sample a few swings all along the run.
     ends = (end - begin) * np.r_[np.geomspace(1e-3, 1, 9), np.linspace(0, 1, 9)]
     grid = np.unique(np.r_[0.0, np.clip(ends[:, None] - np.linspace(0, 8 * np.pi / PACE, 9), 0, end - begin).ravel()])
     lean = _centre(natural, starts[0])
@@ -273,8 +272,8 @@ def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) 
         motions = [states(order, through, starts[0], grid) for through in (order, order - 2, order - 4)]
         last, previous = distance(motions[0], motions[1]), distance(motions[1], motions[2])
         rounded = _ROUNDED * (1 + PACE * grid)
-        # Two orders fall as the square of the motion. The first difference may be of another kind, as the turning about the joint
-        # line, which H₂ has not, or the last one nearly vanish, as beside the paired precession: no smaller fall is believed.
+        # Two orders decrease as the square of the motion. A faster decrease is not trusted: the first difference may differ
+        # in kind (rotation about the joint line, which H₂ lacks), or the last nearly vanish (near the paired precession).
         square = float(np.abs(_normal_start(natural, _forms_about(natural, lean, order), order, starts[0])).max()) ** 2
         ratio = np.maximum(last / (previous + 10 * rounded), square)
         last = np.maximum(last, square * previous)
@@ -284,7 +283,7 @@ def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) 
     if natural.shock:
         errors += 3 * distance(motions[0], states(order, order, starts[1], grid))
     errors = np.maximum.accumulate(errors)
-    errors[errors > LOST.value] = UNKNOWN  # as of any run: what is no longer small is no estimate
+    errors[errors > LOST.value] = UNKNOWN  # a large value is no estimate
 
     def motion(t: Array) -> tuple[Array, Array]:
         s = t * units.rate
@@ -306,7 +305,7 @@ def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) 
 
 
 def _pulsed(scene: Scene, t: Array, k: int) -> tuple[Array, int]:
-    """States of `minimal` through the pulse at times t, by the better integration (k = 0) or the other, and the evaluations."""
+    """Return the states of `minimal` through the pulse by integration k = 0 (more exact) or 1, and the evaluations."""
     times = np.unique(np.r_[0.0, t])
     try:
         run = integrate_model(MODEL, scene, times, _PULSE[k], companion=k > 0, budget=_MOST)

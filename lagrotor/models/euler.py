@@ -1,6 +1,6 @@
 """Rung 5: the paper's own coordinates, two sets of Euler angles with a multiplier for the bar. Twelve states.
 
-Exact for any bar, but singular at theta = 0, which is the rest state: kept to be compared, not to be preferred.
+Exact for any bar, but singular at theta = 0, the equilibrium: a model for comparison.
 """
 
 from __future__ import annotations
@@ -25,7 +25,6 @@ Kind = tuple[bool, int]  # massive bar, shocked rotor (0: none)
 
 
 def program(massive: bool, body: int) -> Program:
-    """The program of one kind; see `lagrotor.models.programs.euler_program`."""
     from lagrotor.models.programs import euler_program
 
     return euler_program.program(massive, body)

@@ -1,4 +1,4 @@
-"""The paired precession through a start: amplitude, phase and azimuth fitted, its series through the order that `tol` needs."""
+"""The paired precession through a start: amplitude, phase and azimuth by a fit, and its series to the order for `tol`."""
 
 from __future__ import annotations
 
@@ -24,18 +24,21 @@ if TYPE_CHECKING:
 
 _Waves = NDArray[np.complex128]
 _ORDERS = (3, 5, 7, 9, 11, 13, 15)
-_FURTHER = (17, 19, 21)  # a second to derive: only for this model by name
-_LARGEST = 0.5  # amplitude beyond which the series is of no use
-_DERIVED = (9, 15, 21)  # orders derived; a lower one is the beginning of the next
+_FURTHER = (17, 19, 21)  # they take a second to derive, and only this model by name uses them
+_LARGEST = 0.5  # the largest amplitude of the series
+_DERIVED = (9, 15, 21)  # the derived orders; lower orders truncate them
 ROUND = 4e-16  # relative, of an angle
-_SMALL = 0.1  # of an error, known to first order
-# What exchanging the rotors, half a period later, does to an axis.
+_SMALL = 0.1  # the largest error that is known to first order
+# The effect on an axis of exchanging the rotors half a period later.
 _MIRRORS = np.array([[1.0, 1.0, 1.0], [-1.0, 1.0, 1.0]])
 
 
 class _Series(NamedTuple):
-    """The orbit's series to one order: of r_1, waves[n, h, i] of r0**n exp(i h Phi) (real part meant), of Omega/Omega_0,
-    frequency[n], and how large the terms of each power of r0 are."""
+    """The series of the orbit to one order.
+
+    waves[n, h, i]: the real part of r_1 at r0**n exp(i h Phi); frequency[n]: Omega/Omega_0; wave_sizes, frequency_sizes: the
+    size of the terms of each power of r0.
+    """
 
     waves: _Waves
     frequency: Array
@@ -45,7 +48,7 @@ class _Series(NamedTuple):
 
 @lru_cache(maxsize=64)
 def _series(order: int, shape: sp.Rational, ratio: sp.Rational) -> _Series:
-    """The series through r0**order."""
+    """Return the series through r0**order."""
     from lagrotor.theory.paired_precession.series import paired_series
 
     series = paired_series(next(n for n in _DERIVED if n >= order), shape, ratio)
@@ -63,16 +66,13 @@ def _through(series: FourierSeries, order: int) -> Iterator[tuple[tuple[int, int
 
 
 def _summed(powers: Array, waves: _Waves) -> _Waves:
-    """sum_n powers_n waves_n for powers (…, order + 1): the waves (…, order + 1, 3) at one amplitude."""
+    """Return sum_n powers_n waves_n for powers (…, order + 1): the waves (…, order + 1, 3) at one amplitude."""
     summed: _Waves = powers @ waves.reshape(len(waves), -1)
     return summed.reshape(*powers.shape, 3)
 
 
 def _axes_at(waves: _Waves, phase: float) -> Array:
-    """Re sum_h waves_h exp(i h Phi) for rotor 1 and its mirror image half a period later: (…, 2, 3).
-
-    waves (…, order + 1, 3).
-    """
+    """Return Re sum_h waves_h exp(i h Phi) for rotor 1 and for its mirror image half a period later: (…, 2, 3)."""
     turn = np.exp(1j * phase * np.arange(waves.shape[-2]))
     both = np.stack([turn, turn])
     both[1, 1::2] *= -1
@@ -80,13 +80,13 @@ def _axes_at(waves: _Waves, phase: float) -> Array:
 
 
 def _turned(vectors: Any, angle: float) -> Any:
-    """Vectors (…, 3) turned about the joint line by `angle`."""
+    """Return the vectors (…, 3) rotated about the joint line by `angle`."""
     c, s = np.cos(angle), np.sin(angle)
     return vectors @ np.array([[1, 0, 0], [0, c, s], [0, -s, c]])
 
 
 def _fit(axes: Array, velocity: Array, unknowns: Array, series: _Series) -> tuple[Array, float]:
-    """(r0, phase, azimuth) of the orbit nearest to the start, by two Gauss–Newton steps, and its distance.
+    """Return (r0, phase, azimuth) of the orbit nearest to the start, by two Gauss–Newton steps, and its distance.
 
     axes and velocity, r'/Omega_0 with the sign of rotor 1's spin: (2, 3) each, twelve equations for three unknowns.
     """
@@ -112,12 +112,11 @@ def _fit(axes: Array, velocity: Array, unknowns: Array, series: _Series) -> tupl
 
 
 def paired_answer(scene: Scene, axes: Array, rates: Array, t_end: float, tol: float, best: bool) -> ClosedMotion:
-    """Opposite spins near their paired precession: amplitude, phase and azimuth from the start, order from `tol`.
+    """Return the motion of opposite spins near their paired precession.
 
-    The error is the start's distance from the orbit, which a drift may multiply by the phase gone through, and the
-    series' last terms, which are larger than those left out; both grow exponentially where the orbit is hyperbolic. Each
-    order costs more to derive than the one before; where the terms fall too slowly for `tol` no further one is, unless
-    `best` says so.
+    The error is the distance of the start from the orbit, which grows with the phase, plus the last terms of the series,
+    which exceed the omitted ones. Both grow exponentially on a hyperbolic orbit. Each order costs more than the one before.
+    If the terms decrease too slowly for `tol`, no further order is derived unless `best`.
     """
     width, natural = sqrt(scene.sigma), natural_rate(scene)
     signed = natural if scene.spins[0] > 0 else -natural
@@ -143,7 +142,7 @@ def paired_answer(scene: Scene, axes: Array, rates: Array, t_end: float, tol: fl
     unknowns, mismatch = _fit(axes, velocity, guess, series)
     powers = unknowns[0] ** np.arange(order + 1)
     error += (mismatch + ROUND) * (angle + growth)
-    error = error if error < _SMALL else UNKNOWN  # beyond it only the bound holds
+    error = error if error < _SMALL else UNKNOWN  # above it the estimate is invalid
     frequency = signed * float(powers @ series.frequency)
     r0, phase, azimuth = (float(u) for u in unknowns)
     waves, odd = _summed(powers, series.waves), np.arange(order + 1)[:, None] % 2
@@ -161,7 +160,7 @@ def _shape(rotor: Rotor, link: Link | None) -> tuple[sp.Rational, sp.Rational]:
 
 
 def _guess(axes: Array, velocity: Array, width: float) -> Array:
-    """(r0, phase, azimuth) by the linear orbit x_i = r0 cos Phi, y_1 = −y_2 = width r0 sin Phi. Raises DomainError."""
+    """Return (r0, phase, azimuth) by the linear orbit x_i = r0 cos Phi, y_1 = −y_2 = width r0 sin Phi. Raises DomainError."""
     azimuth = float(np.arctan2(-axes[:, 1], axes[:, 2]).mean())
     first, second = np.stack([_turned(axes, -azimuth), _turned(velocity, -azimuth)], axis=1)
     (x, x_v), (y, y_v) = (first + second)[:, 0] / 2, (first - second)[:, 1] / (2 * width)
@@ -169,8 +168,8 @@ def _guess(axes: Array, velocity: Array, width: float) -> Array:
     residual = np.hypot(x_v + r0 * np.sin(phase), y_v - r0 * np.cos(phase))
     if not residual <= 2 * (1 + width**2) * r0**2 or r0 > _LARGEST:
         raise DomainError(
-            f"closed_form: the start is not on a paired precession: {residual:.2g} of the natural rate off the one of amplitude "
-            f"{r0:.2g}; use paired_scene, or model='linear' or 'minimal'"
+            f"closed_form: the start is not on a paired precession: it is {residual:.2g} of the natural rate from that of "
+            f"amplitude {r0:.2g}; use paired_scene, or model='linear' or 'minimal'"
         )
     return np.array([r0, phase, azimuth])
 
@@ -178,11 +177,14 @@ def _guess(axes: Array, velocity: Array, width: float) -> Array:
 def fourier_motion(
     waves: NDArray[np.complex128], frequency: float, phase: float = 0.0
 ) -> Callable[[Array], tuple[Array, Array]]:
-    """t ↦ axes and rates, Re sum_h waves_h exp(i h (phase + frequency t)) and its derivative, from both axes' waves (2, h, 3)."""
+    """Return t ↦ axes and rates from the waves (2, h, 3) of both axes.
+
+    They are Re sum_h waves_h exp(i h (phase + frequency t)) and its derivative.
+    """
     count = waves.shape[1]
     slopes = 1j * frequency * np.arange(count)[:, None] * waves
     table = np.concatenate([waves, slopes]).transpose(1, 0, 2).reshape(count, 12)
-    table = np.concatenate([table.real, -table.imag])  # over cos and sin: a real product takes half of a complex one
+    table = np.concatenate([table.real, -table.imag])  # in cos and sin: a real product costs half of a complex one
 
     def motion(t: Array) -> tuple[Array, Array]:
         turn = np.exp(1j * (phase + frequency * t))

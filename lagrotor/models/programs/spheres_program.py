@@ -20,9 +20,9 @@ _FORCE = sp.symbols("F_x F_y F_z", real=True)
 
 
 def program(massive: bool, bar: bool, body: int) -> Program:
-    """(r_1, r_2, r_1', r_2'; a, b, k, G_1, G_2[, F]) → rates of the twelve; `body` 0: no force.
+    """Derive (r_1, r_2, r_1', r_2'; a, b, k, G_1, G_2[, F]) → rates of the twelve; without force for `body` 0.
 
-    With a massive bar, what the system generates; without mass or bar, fewer operations by hand.
+    A massive bar takes the generated program of the system. Without mass or bar a manual program has fewer operations.
     """
     parameters = (a, *((b,) if massive else ()), *((k,) if bar else ()), G_1, G_2, *(_FORCE if body else ()))
     if not massive:
@@ -37,13 +37,11 @@ def program(massive: bool, bar: bool, body: int) -> Program:
 
 
 def _slim(bar: bool, body: int) -> tuple[list[Stage], list[sp.Expr]]:
-    """Stages and accelerations. Each axis alone is a r'' = Q − (a |r'|² + r . Q) r / r², and a massless bar pulls it by lam
-    times the part of
+    """Return stages and accelerations for a massless bar or none.
 
-        n_1 = r_2 + k e_x,  n_2 = r_1 − k e_x
-
-    across it: one multiplier, no matrix. Off the constraints, too, |r_i|² and the bar's length keep their second
-    derivatives zero: what is left out by r_i . (r_i × r_i') = 0 alone. Leaving out more saves 28 operations, and
+    Each axis alone is a r'' = Q − (a |r'|² + r . Q) r / r². A massless bar pulls it by lam times the component of n_1 = r_2 +
+    k e_x, n_2 = r_1 − k e_x normal to it: one multiplier, no matrix. Off the constraints, too, the second derivatives of
+    |r_i|² and of the bar's length vanish; only r_i . (r_i × r_i') = 0 is omitted. Omitting more saves 28 operations, but
     drifts exponentially where the axes are pressed.
     """
     r, v = ([sp.Matrix(half[:3]), sp.Matrix(half[3:])] for half in (AXES.q, AXES.v))
@@ -75,7 +73,7 @@ def _slim(bar: bool, body: int) -> tuple[list[Stage], list[sp.Expr]]:
 
 
 def projection(massive: bool, bar: bool) -> Program:
-    """One Newton step onto the constraints and their rates, along M⁻¹ Gᵀ: q − M⁻¹ Gᵀ S⁻¹ g, v − M⁻¹ Gᵀ S⁻¹ G v."""
+    """Derive one Newton step onto the constraints and their rates: q − M⁻¹ Gᵀ S⁻¹ g, v − M⁻¹ Gᵀ S⁻¹ G v."""
     system = axes_pair(bar)
     mass = mass_matrix(system.L if massive else system.L.subs(b, 0), AXES)
     G, pull = system.rows, linear_solve(mass, system.rows.T, "the axes' mass matrix")

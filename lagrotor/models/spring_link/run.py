@@ -1,6 +1,6 @@
-"""Running spring-linked bodies: the paper's fixed step, and a stiff solver beside it.
+"""Runs of bodies on springs: the paper's fixed step, and a stiff solver.
 
-The step of a few bodies, or the rates of their state, is in single numbers: arrays cost more for so few operations.
+The step, or the rates of the state, of a few bodies is scalar code, because calls of arrays cost more.
 """
 
 import warnings
@@ -32,22 +32,54 @@ from lagrotor.numerics.source_cache import function_of
 from lagrotor.pair.scene import Shock
 
 _OfState = Callable[[Sequence[float], float], list[float]]  # of a state and the strength of a shock
-_MOST = 12  # bodies beyond which arrays cost less
-_STRAIGHT = link_force, finite_rotation, inertia_transform  # laws that branch on no value
-_TIGHTEST = 2.3e-14  # local error of LSODA, which takes no smaller one
-LOST = 1e100  # a state of this norm has blown up; its energies are still finite
+_MOST = 12  # the most bodies for scalar code
+_STRAIGHT = link_force, finite_rotation, inertia_transform  # laws without branches
+_TIGHTEST = 2.3e-14  # the least local error of LSODA
+LOST = 1e100  # the norm of a diverged state, whose energies are still finite
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class SpringRun(Run):
-    """A run of n_b bodies, the first two the rotors, and n_l links.
+    """A run of n_b bodies, the first two the rotors, and n_l links, at n times.
 
-    axes, rates, tips, feet (2, n, 3): unit vectors from vertex 1 to 2 of each rotor, their rates (1/s), vertices 2 and 1 (m);
-    spins (2, n) about the axes in rad/s; centres (n_b, n, 3) in m, rotations (n_b, n, 3, 3); stretches |X_1 − X_2| (n_l, n) in m;
-    momentum (n, 3) in kg m/s and angular_momentum (n, 3) in kg m²/s about the origin, of all bodies together;
-    energies in J: translation M U²/2 and rotation Omega·L/2 (n_b, n), spring S |X_1 − X_2|²/2 (n_l, n);
-    evaluations: how often the forces were computed. errors: of the bodies' places, in units of the largest body, and of R;
-    NaN of the paper's own step, whose error is not estimated.
+    Attributes
+    ----------
+    t : Array
+        The times that were reached, (n,), s.
+    errors : Array
+        The estimated errors (n,) of places, in units of the largest body, and of R; NaN for the paper's step.
+    horizon : float
+        The time from which the error exceeds the tolerance, s.
+    evaluations : int
+        The number of evaluations of the forces.
+    ending : Ending
+        The reason for which the run ended.
+    axes : Array
+        The unit vectors from vertex 1 to 2 of each rotor, (2, n, 3).
+    rates : Array
+        The rates of the axes, (2, n, 3), 1/s.
+    tips : Array
+        The positions of vertex 2, (2, n, 3), m.
+    feet : Array
+        The positions of vertex 1, (2, n, 3), m.
+    spins : Array
+        The angular velocities about the axes, (2, n), rad/s.
+    centres : Array
+        The centres of mass, (n_b, n, 3), m.
+    rotations : Array
+        The rotations R, (n_b, n, 3, 3).
+    stretches : Array
+        The gaps |X_1 − X_2| of the links, (n_l, n), m.
+    momentum : Array
+        The total momentum, (n, 3), kg m/s.
+    angular_momentum : Array
+        The total angular momentum about the origin, (n, 3), kg m²/s.
+    translation : Array
+        The energies M U²/2, (n_b, n), J.
+    rotation : Array
+        The energies Omega·L/2, (n_b, n), J.
+    spring : Array
+        The energies S |X_1 − X_2|²/2, (n_l, n), J.
     """
 
     axes: Array
@@ -66,27 +98,52 @@ class SpringRun(Run):
 
     @property
     def paper_energy(self) -> Array:
-        """What the paper records (4.02), the kinetic energy alone, (n,) in J: the springs' share is missing."""
+        """The kinetic energy, which the paper records (4.02), without that of the springs, (n,), J."""
         return self.translation.sum(0) + self.rotation.sum(0)
 
     @property
     def energy(self) -> Array:
-        """Kinetic energy and that of the springs, (n,) in J: conserved without damping, shock and external force."""
+        """Kinetic energy plus that of the springs, (n,), J: conserved without damping, shock and external force."""
         return self.paper_energy + self.spring.sum(0)
 
     def quantities(self) -> dict[str, Quantity]:
-        """What the run holds, and its energy."""
+        """Return the arrays of the run and its energy.
+
+        Returns
+        -------
+        dict
+            A `Quantity` for each name.
+        """
         stored = {name: Quantity(getattr(self, name), axes, unit) for name, (axes, unit) in _QUANTITIES.items()}
         return stored | {"energy": Quantity(self.energy, ("t",), "J")}
 
     def plot(self) -> Any:
-        """A figure that a notebook shows: tips over time and from above, energy over time; `.savefig(path)` writes it."""
+        """Draw the tips over time and from above, and the energy.
+
+        Returns
+        -------
+        Figure
+            A figure that a notebook shows; `.savefig(path)` writes it.
+        """
         from lagrotor.drawing.run_figure import run_figure
 
         return run_figure(self.t, self.tips, self.energy, "rigid bodies on springs")
 
     def animate(self, path: str | Path, fps: float = 25.0) -> Path:
-        """Write the motion to `path`, a `.gif`: splines through what was read."""
+        """Write a film of the motion, with splines between the samples.
+
+        Parameters
+        ----------
+        path : str or Path
+            The file, .gif.
+        fps : float, default 25.0
+            Frames per second.
+
+        Returns
+        -------
+        Path
+            The file that was written.
+        """
         from scipy.interpolate import CubicSpline
         from scipy.spatial.transform import Rotation, Slerp
 
@@ -103,12 +160,22 @@ class SpringRun(Run):
 
     @staticmethod
     def load(path: str | Path) -> "SpringRun":
-        """The run that `save` wrote as `.npz`.
+        """Read a run from a file that `save` wrote.
+
+        Parameters
+        ----------
+        path : str or Path
+            The file, .npz.
+
+        Returns
+        -------
+        SpringRun
+            The run.
 
         Raises
         ------
         InputError
-            Where that is not what the file is.
+            If the file contains no such run.
         """
         _, arrays, run_fields = read_run(path)
         n = len(run_fields["t"])
@@ -147,26 +214,31 @@ _QUANTITIES: dict[str, tuple[tuple[str, ...], str]] = {
 
 
 def run_steps(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, dt: float) -> SpringRun:
-    """Move a copy of a system by the paper's step, the shock of step k with its strength at k dt, as in the paper's loop.
+    """Move a copy of a system by the paper's fixed step, with the shock of step k at the time k dt.
 
-    A step above `step_limit` is run all the same, for as long as it lasts: until the state is not a number, or beyond LOST. What
-    was reached is handed back with its ending, and a LagrotorWarning. The error of a fixed step is not estimated.
+    A step above `step_limit` is run as well, until the state is not a number or exceeds LOST. A LagrotorWarning and the
+    ending then say so. The error is not estimated.
 
     Parameters
     ----------
     system : RigidBodySystem
         The bodies and links.
     shock : Shock or None
-        On a vertex.
+        A shock on a vertex.
     t : array_like
-        The times (n,) that are read, whole multiples of dt, s.
+        The times (n,), integer multiples of dt, s.
     dt : float
         The step, s.
+
+    Returns
+    -------
+    SpringRun
+        The run at the times that were reached.
 
     Raises
     ------
     InputError
-        For dt not above zero, times between the steps, or a step longer than the shock is wide (it could miss it).
+        If dt is not positive or exceeds the width of the shock, or a time lies between the steps.
     """
     times = check_times("run_steps", t)
     if not (isinstance(dt, int | float) and isfinite(dt) and dt > 0):
@@ -187,7 +259,7 @@ def run_steps(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, dt: fl
                     state = step(state, _strength(shock, k * dt - at))
                     k += 1
             except OUT_OF_RANGE:
-                state = [nan]  # which arrays would hold here
+                state = [nan]  # as arrays would give
             if not hypot(*state) < LOST:
                 reason = f"the state is not a number, or beyond {LOST:g}, with dt = {dt:g} s"
                 if system.joints:
@@ -206,35 +278,37 @@ def run_steps(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, dt: fl
 
 
 def run_solver(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, tol: float = 1e-8) -> SpringRun:
-    """Move a copy of a system by LSODA, which changes to a stiff method where damping requires it: the same forces without the
-    error of a fixed step.
+    """Move a copy of a system by LSODA, with the same forces and a tolerance instead of a fixed step.
 
-    State X, U, R, L of every body, with R' = [Omega]× R. The run is cut at the shock's edges, ± 6.5 widths, within which no step
-    is longer than the width.
+    LSODA changes to a stiff method where damping requires it. The state is X, U, R, L of every body, with R' = [Omega]× R.
+    The run is divided at ± 6.5 widths of the shock, within which no step exceeds the width.
 
     Parameters
     ----------
     system : RigidBodySystem
         The bodies and links.
     shock : Shock or None
-        On a vertex.
+        A shock on a vertex.
     t : array_like
         The times (n,), s.
-    tol : float, default 1e-08
-        The largest error of the whole run, estimated as of every run: of the places in units of the largest body, and of
-        R; a LagrotorWarning says where it is not kept.
+    tol : float, default 1e-8
+        The largest error of the run: of places in units of the largest body, and of R. A LagrotorWarning says if it is not
+        kept.
+
+    Returns
+    -------
+    SpringRun
+        The run at the times that were reached.
 
     Raises
     ------
-    InputError
-        For bad times or tolerance.
-    IntegrationError
-        When nothing can be reached.
+    InputError, IntegrationError
+        If times or tolerance are invalid, or nothing can be computed.
     """
     times, tolerance = check_times("run_solver", t), check_tolerance(tol, "run_solver")
     rate, n_b = rate_function(system, shock), len(system.vertices)
     size = max(float(np.linalg.norm(arms, axis=1).max()) for arms in system.vertices) or 1.0
-    # Far from zero a clock has few digits for steps.
+    # A time far from zero has few digits for steps.
     at = shock.at if shock else float(times[0])
     stiff = np.linalg.eigvalsh(system.joint_mobility())[-1] * system.stiffness if system.joints else 0.0
     turn = (
@@ -273,7 +347,7 @@ def run_solver(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, tol: 
 
 
 def step_function(system: RigidBodySystem, shock: Shock | None, dt: float) -> _OfState:
-    """`system.state` → the state dt later, by `compute_forces`, `push` and `step` of the system."""
+    """Return `system.state` → the state dt later, by `compute_forces`, `push` and `step` of the system."""
 
     def after(moving: RigidBodySystem) -> Array:
         moving.step(dt)
@@ -283,7 +357,7 @@ def step_function(system: RigidBodySystem, shock: Shock | None, dt: float) -> _O
 
 
 def rate_function(system: RigidBodySystem, shock: Shock | None) -> _OfState:
-    """The state y (18 n,) of X, U, L, R of n bodies → y', by `compute_forces` and `push` of the system."""
+    """Return y (18 n,) of X, U, L, R of n bodies → y', by `compute_forces` and `push` of the system."""
 
     def rates(moving: RigidBodySystem) -> Array:
         turning = skew_matrix(moving.Omega) @ moving.R
@@ -296,10 +370,9 @@ def rate_function(system: RigidBodySystem, shock: Shock | None) -> _OfState:
 def _recorded(
     system: RigidBodySystem, shock: Shock | None, read: Callable[[RigidBodySystem], Array], size: int
 ) -> _OfState:
-    """What `read` finds when the forces on a state, of `size` numbers a body, are computed.
+    """Return the function that computes the forces on a state, of `size` numbers per body, and then reads a result.
 
-    With few bodies and laws that branch on no value this is gone through once, with numbers that record, and what they have
-    recorded is compiled.
+    For few bodies and laws without branches it is evaluated once with recording numbers, and the record is compiled.
     """
     moving, n = copy(system), len(system.vertices)
 
@@ -322,13 +395,13 @@ def _recorded(
 
 
 def _strength(shock: Shock | None, s: float) -> float:
-    """exp(−(s/width)²) at s after the peak (4.04), 0 without a shock."""
+    """Return exp(−(s/width)²) at s after the peak (4.04), 0 without a shock."""
     ratio = s / shock.width if shock else inf
     return exp(-ratio * ratio)
 
 
 def _run_of(system: RigidBodySystem, states: Array, run_fields: dict[str, Any]) -> SpringRun:
-    """A run from states (n, 18 n_b or more) of X, U, L and R; Omega follows from L and R (3.17)."""
+    """Return a run from states (n, 18 n_b or more) of X, U, L and R; Omega follows from L and R (3.17)."""
     if len(system.vertices) < 2 or min(len(vertices) for vertices in system.vertices[:2]) < TIP:
         raise InputError("SpringRun: bodies 1 and 2 must be rotors with two vertices; step other systems by hand")
     n, n_b = len(states), len(system.vertices)

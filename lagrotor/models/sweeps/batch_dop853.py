@@ -1,7 +1,7 @@
-"""Many trajectories of one right-hand side side by side, by DOP853, each with its own time, step and tolerance.
+"""Parallel integration of many trajectories of one right-hand side by DOP853, each with its own time, step and tolerance.
 
-One step of all n costs the same array operations as a step of one, so that the interpreter is paid for once. Those that
-have arrived leave; nobody waits.
+A step of all n costs the same array operations as a step of one, so that the overhead of the interpreter is paid once.
+Trajectories that have arrived leave the batch.
 """
 
 from collections.abc import Callable, Mapping
@@ -15,21 +15,21 @@ from lagrotor.numerics.pulse import COMPANION_STEP, PULSE_REACH
 from lagrotor.numerics.segment import Array, StopError, Stretch
 
 Index = NDArray[np.intp]
-# (s (n,), y (d, n), into (d, n)): writes y' into its last argument. Made anew for those who are left.
+# (s (n,), y (d, n), into (d, n)): writes y' into its last argument. It is rebuilt for the active problems.
 Rates = Callable[[Array, Array, Array], None]
 _SHRINK, _GROW, _SAFE = 0.2, 10.0, 0.9
-_TIGHTEST = 2.3e-14  # local error below which every step is refused for what rounding leaves
-_LEAST = 1e-14  # of the run or of the pulse's width: a step below it goes nowhere
-_BETWEEN = 0.38  # of a leg: where a companion's step ends besides, so that it never takes the same few steps
-_PATIENCE = 5_000  # evaluations before they are weighed against the share of the leg that is done
+_TIGHTEST = 2.3e-14  # the least local error: below it rounding rejects every step
+_LEAST = 1e-14  # the least step relative to the run or the width of the pulse
+_BETWEEN = 0.38  # the fraction of a leg at which a companion ends a step, so that its steps differ
+_PATIENCE = 5_000  # evaluations before they are compared with the progress in the leg
 
 
 @dataclass(frozen=True, eq=False)
 class Swarm:
     """n problems y' = rates(s, y) with s = t − at.
 
-    rates: given the indices of those still on their way, their right-hand side. first, rad/s: the rate that bounds the first
-    step. at, width (n,): pulses, at whose edges a step ends, and within which none is longer than a width; width 0 for none.
+    rates: indices of the active problems → their right-hand side; first, rad/s: a rate that bounds the first step. at, width
+    (n,): pulses, at whose edges a step ends and within which no step exceeds the width; width 0 for none.
     """
 
     rates: Callable[[Index], Rates]
@@ -39,10 +39,10 @@ class Swarm:
 
 
 def march_swarm(swarm: Swarm, legs: Mapping[int, Leg]) -> dict[int, Stretch | StopError]:
-    """The legs of the problems of these numbers, from the first of the times of each, where its start holds.
+    """Integrate the legs of the problems of these numbers, from the first of their times.
 
-    DOP853 (Hairer, Nørsett & Wanner, II.5) with the error norm of scipy's, taken for each trajectory by itself, a local error of
-    a twentieth of the leg's, as `numerics.integrate` has it, and the method's dense output between the steps.
+    DOP853 (Hairer, Nørsett & Wanner, II.5) with scipy's error norm for each trajectory, a local error of a twentieth of the
+    leg's, as in `numerics.integrate`, and dense output between the steps.
     """
     requests, n = list(legs.values()), len(legs)
     who, m = np.array(list(legs)), np.array([len(leg.times) for leg in requests])
@@ -70,7 +70,7 @@ def _march(
     least = _LEAST * np.where(reach > 0, np.minimum(swarm.width[who], end - begin), end - begin)
     h, evaluations, following = 0.5 * error ** (1 / 8) / swarm.first, np.ones(n, np.int64), np.ones(n, np.int64)
     answers: dict[int, Stretch | StopError] = {}
-    lane = np.arange(n)  # of those that are still on their way
+    lane = np.arange(n)  # the active problems
     rates, room = swarm.rates(who), np.empty((13, *y.shape))
     rates(s, y, room[0])
     while lane.size:
@@ -82,7 +82,7 @@ def _march(
         ok = size < 1
         factor = np.clip(np.nan_to_num(_SAFE * size ** (-1 / 8), nan=_SHRINK), _SHRINK, _GROW)
         later = np.where(step == stop - s, stop, s + step)
-        # What is read within a step costs three evaluations more, the end of a leg none.
+        # Output within a step costs three more evaluations, at the end of a leg none.
         at = np.flatnonzero(ok & (times[lane, following[lane]] < later))
         if at.size:
             evaluations[lane[at]] += 3
@@ -121,15 +121,17 @@ def _march(
 
 
 def _step(rates: Rates, s: Array, y: Array, h: Array, error: Array, room: Array) -> tuple[Array, Array]:
-    """One step h (n,) of all from y (d, n), whose rates are room[0]: y after it, and the error's norm (n,) in units of
-    what is allowed. room (13, d, n): the stages; its last holds the rates after the step."""
+    """Return y (d, n) after one step h (n,) of all, and the norm of the error (n,) in units of the tolerance.
+
+    room (13, d, n): the stages. room[0] has the rates before the step, the last those after it.
+    """
     from scipy.integrate import DOP853
 
     d, n = y.shape
     flat, place = room.reshape(13, d * n), np.empty((d, n))
 
     def moved(weights: Array) -> Array:
-        # Not a matrix product: its threads would fight for the cores that other chunks run on.
+        # Not a matrix product, whose threads would compete with other chunks for the cores.
         np.einsum("i,ik->k", weights, flat[: len(weights)], out=place.reshape(d * n))
         np.multiply(place, h, out=place)
         return place
@@ -145,7 +147,7 @@ def _step(rates: Rates, s: Array, y: Array, h: Array, error: Array, room: Array)
 
 
 def _dense_output(rates: Rates, s: Array, y: Array, end: Array, h: Array, room: Array) -> Array:
-    """Coefficients (7, d, n) of the interpolation over a step h (n,) from y (d, n), whose stages are room (13, d, n)."""
+    """Return coefficients (7, d, n) of the interpolation over a step h (n,) from y (d, n) with stages room (13, d, n)."""
     from scipy.integrate import DOP853
 
     stages = np.concatenate([room, np.empty((3, *y.shape))])
@@ -157,7 +159,7 @@ def _dense_output(rates: Rates, s: Array, y: Array, end: Array, h: Array, room: 
 
 
 def _interpolated(dense: Array, x: Array) -> Array:
-    """The change (d, n) of the state in the share x (n,) of a step."""
+    """Return the change (d, n) of the state at the fraction x (n,) of a step."""
     value = np.zeros(dense.shape[1:])
     for i, coefficient in enumerate(dense[::-1]):
         value = (value + coefficient) * (1 - x if i % 2 else x)
