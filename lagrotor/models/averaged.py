@@ -240,28 +240,22 @@ def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) 
             "centre goes"
         )
     units = natural_units(replace(scene, shock=scene.shock_until(t_end)))
-    natural, end, begin, starts, evaluations_in_all = (
-        units.scene,
-        t_end * units.rate,
-        0.0,
-        [MODEL.start(units.scene)],
-        0,
-    )
+    natural, end, begin, starts, count = units.scene, t_end * units.rate, 0.0, [MODEL.start(units.scene)], 0
     if natural.shock:
         begin = natural.shock.end
         if begin >= end:
             raise DomainError("averaged: the run ends within the pulse; use model='minimal'")
         pulsed = [_pulsed(natural, np.array([begin]), k) for k in (0, 1)]
-        starts, evaluations_in_all = [states[-1] for states, _ in pulsed], sum(count for _, count in pulsed)
+        starts, count = [states[-1] for states, _ in pulsed], sum(evaluations for _, evaluations in pulsed)
     # The error may vanish at single times: sample a few swings all along the run.
     ends = (end - begin) * np.r_[np.geomspace(1e-3, 1, 9), np.linspace(0, 1, 9)]
     grid = np.unique(np.r_[0.0, np.clip(ends[:, None] - np.linspace(0, 8 * np.pi / PACE, 9), 0, end - begin).ravel()])
     lean = _centre(natural, starts[0])
 
     def states(order: int, through: int, start: Array, t: Array) -> Array:
-        nonlocal evaluations_in_all
+        nonlocal count
         sampled, evaluations = _states(natural, _forms_about(natural, lean, order), through, start, t)
-        evaluations_in_all += evaluations
+        count += evaluations
         return sampled
 
     def distance(first: Array, second: Array) -> Array:
@@ -300,7 +294,7 @@ def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) 
         f"opposite spins averaged over the swing, by the normal form of order {order}",
         motion,
         lambda t: errors[np.minimum(np.searchsorted(grid, t * units.rate - begin), len(grid) - 1)],
-        evaluations_in_all,
+        count,
     )
 
 

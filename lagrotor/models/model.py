@@ -20,7 +20,7 @@ from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.numerics.pulse import pulse_windows
 from lagrotor.numerics.segment import OutsideError, Projection, RightHandSide, Stretch, reporting
 from lagrotor.numerics.source_cache import GeneratedFunction
-from lagrotor.pair.scene import Link, Rotor, Scene, Shock
+from lagrotor.pair.scene import Link, Rotor, Scene
 from lagrotor.pair.trajectory import Trajectory, momentum_about_joints, tilting_energy
 
 if TYPE_CHECKING:
@@ -46,18 +46,13 @@ def natural_units(scene: Scene, rate: float = 0.0) -> NaturalUnits:
     rate = rate or typical_rate(scene) / PACE or 1.0
     rotor, link, shock = scene.rotor, scene.link, scene.shock
     weight = R * R / inertia
+    force: Any = tuple(f * R / inertia / rate**2 for f in shock.force) if shock else None
     in_units = replace(
         scene,
         spins=(scene.spins[0] / rate, scene.spins[1] / rate),
         rotor=Rotor(rotor.mass * weight, 1.0, rotor.I1 / inertia, rotor.I3 / inertia),
         link=link and Link(link.length / R, link.mass * weight, link.inertia / inertia),
-        shock=shock
-        and Shock(
-            tuple(f * R / inertia / rate**2 for f in shock.force),  # type: ignore[arg-type]
-            shock.at * rate,
-            shock.width * rate,
-            shock.body,
-        ),
+        shock=shock and replace(shock, force=force, at=shock.at * rate, width=shock.width * rate),
         rates=tuple(tuple(x / rate for x in v) for v in scene.rates),  # type: ignore[arg-type]
     )
     return NaturalUnits(in_units, rate, inertia)
@@ -306,26 +301,22 @@ def conservation_defect(scene: Scene, t: Array, observed: Observed, nodes: Pulse
         bar = observed.axes[1] - observed.axes[0] + np.array([k, 0.0, 0.0])
         lengths.append((np.linalg.norm(bar, axis=-1) - k) * min(1.0, k))
     defects = [residual.ravel() for residual in lengths]
-    before_pulse, after_pulse = np.ones(len(t), bool), np.zeros(len(t), bool)
+    prior, posterior = np.ones(len(t), bool), np.zeros(len(t), bool)
     work, turn = (0.0, 0.0), (0.0, 0.0)
     if scene.shock:
-        before_pulse, after_pulse = (
-            t <= max(scene.shock.begin, t[0]),
-            t >= min(scene.shock.end, nodes.end if nodes else inf),
-        )
+        prior = t <= max(scene.shock.begin, t[0])
+        posterior = t >= min(scene.shock.end, nodes.end if nodes else inf)
     if nodes:
         work, turn = _received(scene, t, observed, nodes)
-    conserved = (
-        tilting_energy(scene, observed.rates),
-        momentum_about_joints(scene, observed.axes, observed.rates, observed.momenta),
-    )
+    energy = tilting_energy(scene, observed.rates)
+    momentum = momentum_about_joints(scene, observed.axes, observed.rates, observed.momenta)
     # The largest changes by an error of 1 in the axes and of PACE in the rates.
     scales = PACE * size, size + 2 * PACE * a + float(np.abs(observed.momenta).max())
-    for values, (received, uncertainty), scale in zip(conserved, (work, turn), scales, strict=True):
+    for values, (received, uncertainty), scale in zip((energy, momentum), (work, turn), scales, strict=True):
         if scale > 0:
-            later = values[after_pulse] - (values[0] + received if nodes else values[after_pulse][:1])
+            later = values[posterior] - (values[0] + received if nodes else values[posterior][:1])
             later = np.sign(later) * np.maximum(np.abs(later) - uncertainty, 0.0)
-            defects += [(values[before_pulse] - values[0]) / scale, later / scale]
+            defects += [(values[prior] - values[0]) / scale, later / scale]
     return np.concatenate(defects)
 
 

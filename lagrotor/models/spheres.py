@@ -122,16 +122,6 @@ def _singular(axes: Array) -> str:
 
 
 MODEL = Model(
-    "spheres",
-    12,
-    _kind,
-    program,
-    _rhs,
-    _start,
-    _observe,
-    _singular,
-    _projection,
-    _at_dead_point,
-    _time_to_dead_point,
-    slack,
-)
+    "spheres", 12, _kind, program, _rhs, _start, _observe, _singular, _projection,
+    outside=_at_dead_point, time_to_singular=_time_to_dead_point, slack=slack,
+)  # fmt: skip

@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from lagrotor.structures.gallery import GALLERY as GALLERY
     from lagrotor.structures.gallery import example as example
     from lagrotor.structures.pictures import draw_plan as draw_plan
-    from lagrotor.structures.resonances import Resonance as Resonance
     from lagrotor.structures.resonances import resonant_factors as resonant_factors
     from lagrotor.structures.response import mass_worst_case as mass_worst_case
     from lagrotor.structures.response import spins_white_noise as spins_white_noise

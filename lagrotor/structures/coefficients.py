@@ -105,24 +105,11 @@ def coefficients_in(
         numbers(np.array([s.upright_tip(x) if isinstance(x, int) else x for x in ends], dtype=float).reshape(-1, 3))
         for ends in ([b.to for b in s.braces], [b.tip for b in s.braces])
     )
+    brace_tip = np.array([b.tip for b in s.braces], dtype=np.intp)
+    springs, dampers = (numbers([float(getattr(b, name)) for b in s.braces]) for name in ("stiffness", "damping"))
     return Coefficients(
-        R=R,
-        A=A,
-        S=S,
-        G=I3 * numbers(s.spins),
-        decay=numbers(s.spin_friction) / I3,
-        friction=numbers(s.friction),
-        hinge=np.array(s.hinge),
-        gravity=numbers([s.gravity]).tolist()[0],
-        feet=numbers([(*joint, 0.0) for joint in s.joints]),
-        i=i,
-        j=j,
-        ell=ell,
-        coupling=R[i] * R[j] * (m / 4 - K / ell**2),
-        brace_tip=np.array([b.tip for b in s.braces], dtype=np.intp),
-        brace_to=to,
-        brace_point=point,
-        brace_length=root(((tip - point) ** 2).sum(1)),
-        stiffness=numbers([float(b.stiffness) for b in s.braces]),
-        damping=numbers([float(b.damping) for b in s.braces]),
-    )
+        R, A, S, G=I3 * numbers(s.spins), decay=numbers(s.spin_friction) / I3, friction=numbers(s.friction),
+        hinge=np.array(s.hinge), gravity=numbers([s.gravity]).tolist()[0], feet=numbers([(*p, 0.0) for p in s.joints]),
+        i=i, j=j, ell=ell, coupling=R[i] * R[j] * (m / 4 - K / ell**2), brace_tip=brace_tip, brace_to=to,
+        brace_point=point, brace_length=root(((tip - point) ** 2).sum(1)), stiffness=springs, damping=dampers,
+    )  # fmt: skip

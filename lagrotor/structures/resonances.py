@@ -59,28 +59,10 @@ class Resonance(Shown):
 
     A push is the root of the sum of squares of the rates of all axes at the start, upright, in rad/s.
 
-    Attributes
-    ----------
-    order : int
-        The order d, 3 or 4.
-    vectors : tuple
-        The integer vectors k, one number per mode, nearest to resonance first.
-    rates : Array
-        The rates of the modes, negative for negative energy, at the factor `at`, (n,), rad/s.
-    at : float
-        The factor on all spins at which the resonance was analysed.
-    detuning : float
-        The detuning k·rates of the first vector, rad/s.
-    per_factor : float
-        The derivative of the detuning by the factor, rad/s.
-    growth : float
-        The coefficient c of the module, 1/s at N = (reach × push)².
-    largest : float
-        The coefficient κ of the module, 1/s at N = (reach × push)².
-    reach : float
-        The norm sqrt(N) per push in the steepest direction, s.
-    falls : bool
-        True if the terms of the same order do not stop the growth.
+    vectors: the integer vectors k, one number per mode, nearest to resonance first. rates (n,): the rates of the modes at the
+    factor `at` on all spins, negative for negative energy, rad/s. detuning: k·rates of the first vector, rad/s; per_factor:
+    its derivative. growth, largest: the coefficients c and κ of the module, 1/s for N = (reach × push)². reach: sqrt(N) per
+    push in the steepest direction, s. falls: True if the terms of the same order do not stop the growth.
     """
 
     order: int
@@ -105,58 +87,24 @@ class Resonance(Shown):
         return 2 * abs(self.detuning) < np.abs(self.rates[np.array(self.vectors[0]) > 0]).min()
 
     def push(self) -> float:
-        """Return the size below which no push topples the structure by this resonance.
-
-        Returns
-        -------
-        float
-            The size of the push, rad/s.
-        """
+        """Return the size (rad/s) below which no push topples the structure by this resonance."""
         d = self.order
         barrier = (2 * abs(self.detuning) / (d * d * self.largest)) ** (1 / (d - 2))
         return float(sqrt(_BARRIER[d]) * barrier / self.reach)
 
     def window(self, push: float) -> tuple[float, float]:
-        """Return the interval of factors on all spins in which a push may topple the structure.
-
-        Parameters
-        ----------
-        push : float
-            The size of the push, rad/s.
-
-        Returns
-        -------
-        tuple
-            The interval (low, high), by linear extrapolation.
-        """
+        """Return the interval of factors on all spins in which a push (rad/s) may topple it, by linear extrapolation."""
         d, x = self.order, _BARRIER[self.order]
         half = d * d * self.largest / 2 * (self.reach * push / sqrt(x)) ** (d - 2) / abs(self.per_factor)
         return float(self.factor - half), float(self.factor + half)
 
     def least_time(self, push: float) -> float:
-        """Return the time before which no push of a size topples the structure.
-
-        Parameters
-        ----------
-        push : float
-            The size of the push, rad/s.
-
-        Returns
-        -------
-        float
-            The time, s. At exact resonance some push takes this time.
-        """
+        """Return the time (s) before which no push of a size (rad/s) topples it; at exact resonance some push takes it."""
         d = self.order
         return 1 / (d * (d - 2) * self.growth * (self.reach * push) ** (d - 2))
 
     def words(self) -> str:
-        """Return the relation of the rates in words.
-
-        Returns
-        -------
-        str
-            One phrase, as "1.2 + 1.3 = 2.5 rad/s but for 0.01".
-        """
+        """Return the relation of the rates in words."""
         terms = [(m, abs(w), bool(w < 0)) for m, w in zip(self.vectors[0], self.rates, strict=True) if m]
         sides = [
             " + ".join(f"{f'{m} × ' if m > 1 else ''}{w:.4g}" for m, w, below in terms if below is side)
@@ -167,13 +115,7 @@ class Resonance(Shown):
         return f"{sides[0]} = {sides[1]} rad/s but for {abs(self.detuning):.2g}"
 
     def summary(self) -> dict[str, str]:
-        """Return the relation of the rates, the strength and the factor in words.
-
-        Returns
-        -------
-        dict
-            The rows of the table.
-        """
+        """Return the relation of the rates, the strength and the factor in words."""
         return {
             "rates": self.words(),
             "order": str(self.order),
@@ -488,6 +430,8 @@ def spin_intervals(s: Assembly, push: float) -> tuple[tuple[float, float], ...]:
 def resonant_factors(s: Assembly, orders: Sequence[int] = (3, 4)) -> tuple[tuple[float, Resonance], ...]:
     """Return the factors on all spins above the critical one at which modes are resonant and unstable.
 
+    Raises InputError if a bar does not have its upright length.
+
     Parameters
     ----------
     s : Assembly
@@ -499,11 +443,6 @@ def resonant_factors(s: Assembly, orders: Sequence[int] = (3, 4)) -> tuple[tuple
     -------
     tuple
         Pairs (factor, Resonance), ascending.
-
-    Raises
-    ------
-    InputError
-        If a bar does not have its upright length.
     """
     from scipy.optimize import brentq
 

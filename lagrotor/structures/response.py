@@ -101,7 +101,8 @@ def spins_worst_case(gamma: ArrayLike) -> Absorber:
     """Return the brace and damper that minimise the highest peak of a sway coupled by spins.
 
     With N = 8 − 8d − d² + 2d³ and 0 < d < 1 from γ² = 2d (2 − d)² (4 − 3d)/N:  1 − ρ = d (8 − 11d + 4d²)/N, f² = (1 − d) ρ,
-    ζ² = (1 − ρ)(3 − 2d)/2, peak² = 1/(1 − ρ²). For small γ: f² = 1 − γ²/2, ζ² = 3γ²/8, peak √2/γ.
+    ζ² = (1 − ρ)(3 − 2d)/2, peak² = 1/(1 − ρ²). For small γ: f² = 1 − γ²/2, ζ² = 3γ²/8, peak √2/γ. Raises DomainError unless 0
+    < γ < √2.
 
     Parameters
     ----------
@@ -112,11 +113,6 @@ def spins_worst_case(gamma: ArrayLike) -> Absorber:
     -------
     Absorber
         The optimum, with the peak as its value.
-
-    Raises
-    ------
-    DomainError
-        Unless 0 < γ < √2.
 
     Examples
     --------
@@ -131,7 +127,7 @@ def spins_worst_case(gamma: ArrayLike) -> Absorber:
 def spins_white_noise(gamma: ArrayLike) -> Absorber:
     """Return the brace and damper that minimise the mean square of a sway coupled by spins.
 
-    f² = 1 − γ²/2, ζ = γ sqrt(4 − γ²)/4, mean square sqrt(4/γ² − 1).
+    f² = 1 − γ²/2, ζ = γ sqrt(4 − γ²)/4, mean square sqrt(4/γ² − 1). Raises DomainError unless 0 < γ < √2.
 
     Parameters
     ----------
@@ -142,11 +138,6 @@ def spins_white_noise(gamma: ArrayLike) -> Absorber:
     -------
     Absorber
         The optimum under white noise.
-
-    Raises
-    ------
-    DomainError
-        Unless 0 < γ < √2.
     """
     g2 = _in_domain("gamma", gamma, 2**0.5) ** 2
     return Absorber(1 - g2 / 2, np.sqrt(g2 * (4 - g2)) / 4, np.sqrt(4 / g2 - 1))
@@ -160,6 +151,8 @@ def mass_worst_case(mu: ArrayLike) -> Absorber:
         f² = 24/((s − 1)² (3s² + 4s + 4)),   ζ² = 9μ (3s + 2)/(16 (s + 2)(s² − 1)),
         peak = (3s² + 4s + 4)/(3 sqrt(μ (s + 2)(3s + 2))).
 
+    Raises DomainError unless μ > 0.
+
     Parameters
     ----------
     mu : array_like
@@ -169,11 +162,6 @@ def mass_worst_case(mu: ArrayLike) -> Absorber:
     -------
     Absorber
         The optimum, with the peak as its value. Den Hartog's fixed points lie at sqrt(1 + 2/μ).
-
-    Raises
-    ------
-    DomainError
-        Unless μ > 0.
     """
     m = _in_domain("mu", mu, np.inf)
     s = np.sqrt(4 + 3 * m)

@@ -41,6 +41,10 @@ _EQUAL = 1e-6  # relative difference of equal rates
 _COARSE = 1e-10  # tolerance of the motions in Newton's steps
 _NEWTON = 8  # steps to an orbit
 _MOST = 100_000  # evaluations of a period
+_ADVICE = {
+    False: "if a mode has a multiple of its rate there may be none; take another mode, or change a spin",
+    True: "its family ends or turns near {:.3g}; take a smaller tilt",
+}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -64,15 +68,11 @@ class SteadyPrecession(Shown):
 
     def summary(self) -> dict[str, str]:
         """Return period, multipliers and growth in words."""
-        return (
-            {
-                "tilt": f"{self.tilt:g}",
-                "period [s]": f"{self.period:.10g}",
-                "rate [rad/s]": f"{2 * pi / self.period:.10g}",
-            }
-            | multiplier_rows(self.multipliers[2:], self.errors[2:])
-            | {"growth": f"{self.growth:.6g} a turn" if self.growth else "none beyond the error"}
+        rows = {"tilt": f"{self.tilt:g}", "period [s]": f"{self.period:.10g}"}
+        rows |= {"rate [rad/s]": f"{2 * pi / self.period:.10g}"} | multiplier_rows(
+            self.multipliers[2:], self.errors[2:]
         )
+        return rows | {"growth": f"{self.growth:.6g} per turn" if self.growth else "none beyond the error"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,12 +156,7 @@ def steady_precession(s: Assembly, mode: int = 0, tilt: float = 0.1) -> SteadyPr
             ahead /= 2
             if ahead < _LEAST:
                 raise InputError(
-                    f"{where}: no periodic orbit of tilt {size:g} is reached from mode {mode}: "
-                    + (
-                        f"its family ends or turns near {at:.3g}; take a smaller tilt"
-                        if at
-                        else "if a mode has a multiple of its rate there may be none; take another mode, or change a spin"
-                    )
+                    f"{where}: no periodic orbit of tilt {size:g} is reached from mode {mode}: {_ADVICE[at > 0].format(at)}"
                 ) from None
     multipliers, errors = _multipliers(shoot, y, duration)
     outside = np.abs(multipliers) > 1 + errors  # False for NaN, a multiplier too small to be resolved

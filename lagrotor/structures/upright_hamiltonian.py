@@ -99,16 +99,9 @@ def local_hamiltonian(s: Assembly, order: int = 4) -> LocalHamiltonian:
     rate = float(np.sqrt(np.abs(linear.stiffness).max() / inertia)) or c.rate
     J = [[[f.derivative(b) for f in axis] for b in range(n)] for axis in axes]
     mass = _mass(c, J, order - 2, inertia)
+    spinning = [(i, axis, -c.G[i] / (inertia * rate)) for i, axis in enumerate(axes) if c.G[i]]
     vector = [
-        total(
-            [
-                turned(axis, J[i][b], order - 1).times(-c.G[i] / (inertia * rate))
-                for i, axis in enumerate(axes)
-                if c.G[i]
-            ]
-            or [_none(n)]
-        )
-        for b in range(n)
+        total([turned(axis, J[i][b], order - 1).times(G) for i, axis, G in spinning] or [_none(n)]) for b in range(n)
     ]
     V = potential_of(c, axes, order).times(1 / (inertia * rate**2))
     inverse = inverse_matrix(mass, order - 2)

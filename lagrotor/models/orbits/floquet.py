@@ -87,6 +87,8 @@ class Floquet(Shown):
 def floquet(scene: Scene, r0: float, momentum: float = 0.0) -> Floquet:
     """Compute the Floquet multipliers of the paired precession, by the variational equations, with their errors.
 
+    Raises InputError unless the spins are opposite and there is a bar. Raises DomainError if no orbit is found.
+
     Parameters
     ----------
     scene : Scene
@@ -100,13 +102,6 @@ def floquet(scene: Scene, r0: float, momentum: float = 0.0) -> Floquet:
     -------
     Floquet
         The multipliers, the kind of stability, and the slow frequency.
-
-    Raises
-    ------
-    InputError
-        Unless the spins are opposite and there is a bar.
-    DomainError
-        If no orbit is found.
 
     Examples
     --------
@@ -122,6 +117,8 @@ def floquet(scene: Scene, r0: float, momentum: float = 0.0) -> Floquet:
 def slow_frequency_error(scene: Scene, r0: float, momentum: float = 0.0) -> float:
     """Return the error of `slow_frequency` against that of the exact orbit, in the complex plane.
 
+    Raises InputError if `slow_frequency` refuses the scene. Raises DomainError if no orbit is found.
+
     Parameters
     ----------
     scene : Scene
@@ -135,13 +132,6 @@ def slow_frequency_error(scene: Scene, r0: float, momentum: float = 0.0) -> floa
     -------
     float
         The error, with that of the exact orbit added, rad/s.
-
-    Raises
-    ------
-    InputError
-        If `slow_frequency` refuses the scene.
-    DomainError
-        If no orbit is found.
     """
     law, orbit = slow_frequency(scene, r0, momentum), floquet(scene, r0, momentum)
     return abs(law - orbit.slow_frequency) + orbit.exponent_error * abs(orbit.frequency) / (2 * pi)

@@ -90,15 +90,8 @@ def orbit_harmonics(exact: ExactOrbit, scene: Scene, r0: float) -> PrecessionOrb
         )
     count = int(np.flatnonzero(np.abs(harmonics).max(1) > TIGHTEST / 100)[-1]) + 1
     error = 3 * exact.error + remainder
-    return PrecessionOrbit(
-        scene,
-        r0,
-        exact.frequency,
-        exact.frequency_error,
-        error,
-        f"exact orbit, {count - 1} harmonics",
-        harmonics[:count],
-    )
+    method = f"exact orbit, {count - 1} harmonics"
+    return PrecessionOrbit(scene, r0, exact.frequency, exact.frequency_error, error, method, harmonics[:count])
 
 
 def _harmonics(exact: ExactOrbit, n: int) -> Array:
@@ -122,6 +115,8 @@ def _harmonics(exact: ExactOrbit, n: int) -> Array:
 def paired_scene(scene: Scene, r0: float, tol: float = 1e-9) -> Scene:
     """Return a scene started on its paired precession at Phi = 0.
 
+    Raises InputError or DomainError in the cases of `precession_orbit`.
+
     Parameters
     ----------
     scene : Scene
@@ -135,11 +130,6 @@ def paired_scene(scene: Scene, r0: float, tol: float = 1e-9) -> Scene:
     -------
     Scene
         The start of `precession_orbit(scene, r0, tol)`.
-
-    Raises
-    ------
-    InputError, DomainError
-        In the cases of `precession_orbit`.
 
     Examples
     --------

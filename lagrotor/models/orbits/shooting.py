@@ -340,17 +340,7 @@ def _family(curve: QuarterPeriod, points: Array, turns: tuple[float, ...], reaso
 
 @dataclass(frozen=True)
 class UprightOrbit:
-    """A periodic orbit about upright.
-
-    Attributes
-    ----------
-    scene : Scene
-        The pair, started on the orbit at Phi = 0.
-    frequency : float
-        The frequency, rad/s.
-    turning : float
-        The mean rotation rate alpha' about the joint line, rad/s.
-    """
+    """A scene that starts on an orbit about upright at Phi = 0, its frequency, and its mean alpha' (rad/s)."""
 
     scene: Scene
     frequency: float

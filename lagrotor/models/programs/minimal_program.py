@@ -63,14 +63,8 @@ def program(massive: bool, ratio: Ratio, body: int) -> Program:
     curve = _curve(stages, ratio)
     rotors = _rotors(stages, curve, ratio, body)
     accelerations = _massive(stages, rotors, curve) if massive else _massless(stages, rotors, curve)
-    parameters = (
-        a,
-        *((b,) if massive else ()),
-        *(() if ratio == "equal" else (k,)),
-        G_1,
-        G_2,
-        *(FORCE if body else ()),
-    )
+    lengths = () if ratio == "equal" else (k,)
+    parameters = (a, *((b,) if massive else ()), *lengths, G_1, G_2, *(FORCE if body else ()))
     away = tuple(_FARTHEST_ALONG**2 - r.t**2 for r in rotors)
     return Program((*MINIMAL.q, *MINIMAL.v, *parameters), tuple(stages), (*MINIMAL.v, *accelerations), positive=away)
 

@@ -42,44 +42,11 @@ LOST = 1e100  # the norm of a diverged state, whose energies are still finite
 class SpringRun(Run):
     """A run of n_b bodies, the first two the rotors, and n_l links, at n times.
 
-    Attributes
-    ----------
-    t : Array
-        The times that were reached, (n,), s.
-    errors : Array
-        The estimated errors (n,) of places, in units of the largest body, and of R; NaN for the paper's step.
-    horizon : float
-        The time from which the error exceeds the tolerance, s.
-    evaluations : int
-        The number of evaluations of the forces.
-    ending : Ending
-        The reason for which the run ended.
-    axes : Array
-        The unit vectors from vertex 1 to 2 of each rotor, (2, n, 3).
-    rates : Array
-        The rates of the axes, (2, n, 3), 1/s.
-    tips : Array
-        The positions of vertex 2, (2, n, 3), m.
-    feet : Array
-        The positions of vertex 1, (2, n, 3), m.
-    spins : Array
-        The angular velocities about the axes, (2, n), rad/s.
-    centres : Array
-        The centres of mass, (n_b, n, 3), m.
-    rotations : Array
-        The rotations R, (n_b, n, 3, 3).
-    stretches : Array
-        The gaps |X_1 − X_2| of the links, (n_l, n), m.
-    momentum : Array
-        The total momentum, (n, 3), kg m/s.
-    angular_momentum : Array
-        The total angular momentum about the origin, (n, 3), kg m²/s.
-    translation : Array
-        The energies M U²/2, (n_b, n), J.
-    rotation : Array
-        The energies Omega·L/2, (n_b, n), J.
-    spring : Array
-        The energies S |X_1 − X_2|²/2, (n_l, n), J.
+    axes, rates, tips, feet (2, n, 3): the unit vectors from vertex 1 to 2 of each rotor, their rates (1/s), vertices 2 and 1
+    (m). spins (2, n): about the axes, rad/s. centres (n_b, n, 3), m; rotations (n_b, n, 3, 3); stretches |X_1 − X_2| (n_l,
+    n), m. momentum (n, 3), kg m/s, and angular_momentum (n, 3) about the origin, kg m²/s: those of all bodies. Energies in J:
+    translation M U²/2 and rotation Omega·L/2 (n_b, n), spring S |X_1 − X_2|²/2 (n_l, n). evaluations: those of the forces.
+    errors: of positions in units of the largest body, and of R; NaN for the paper's step.
     """
 
     axes: Array
@@ -107,43 +74,18 @@ class SpringRun(Run):
         return self.paper_energy + self.spring.sum(0)
 
     def quantities(self) -> dict[str, Quantity]:
-        """Return the arrays of the run and its energy.
-
-        Returns
-        -------
-        dict
-            A `Quantity` for each name.
-        """
+        """Return the arrays of the run and its energy."""
         stored = {name: Quantity(getattr(self, name), axes, unit) for name, (axes, unit) in _QUANTITIES.items()}
         return stored | {"energy": Quantity(self.energy, ("t",), "J")}
 
     def plot(self) -> Any:
-        """Draw the tips over time and from above, and the energy.
-
-        Returns
-        -------
-        Figure
-            A figure that a notebook shows; `.savefig(path)` writes it.
-        """
+        """Draw the tips over time and from above, and the energy."""
         from lagrotor.drawing.run_figure import run_figure
 
         return run_figure(self.t, self.tips, self.energy, "rigid bodies on springs")
 
     def animate(self, path: str | Path, fps: float = 25.0) -> Path:
-        """Write a film of the motion, with splines between the samples.
-
-        Parameters
-        ----------
-        path : str or Path
-            The file, .gif.
-        fps : float, default 25.0
-            Frames per second.
-
-        Returns
-        -------
-        Path
-            The file that was written.
-        """
+        """Write a film of the motion to `path`, a `.gif`, with splines between the samples."""
         from scipy.interpolate import CubicSpline
         from scipy.spatial.transform import Rotation, Slerp
 
@@ -160,23 +102,7 @@ class SpringRun(Run):
 
     @staticmethod
     def load(path: str | Path) -> "SpringRun":
-        """Read a run from a file that `save` wrote.
-
-        Parameters
-        ----------
-        path : str or Path
-            The file, .npz.
-
-        Returns
-        -------
-        SpringRun
-            The run.
-
-        Raises
-        ------
-        InputError
-            If the file contains no such run.
-        """
+        """Read a run from an .npz file that `save` wrote. Raises InputError if it contains no such run."""
         _, arrays, run_fields = read_run(path)
         n = len(run_fields["t"])
         sizes: dict[str, int] = {"t": n, "rotor": 2, "component": 3, "row": 3}
@@ -197,20 +123,12 @@ class SpringRun(Run):
 
 _OF_ROTORS, _OF_BODIES, _OF_LINKS = ("rotor", "t", "component"), ("body", "t"), ("link", "t")
 _QUANTITIES: dict[str, tuple[tuple[str, ...], str]] = {
-    "axes": (_OF_ROTORS, "1"),
-    "rates": (_OF_ROTORS, "1/s"),
-    "tips": (_OF_ROTORS, "m"),
-    "feet": (_OF_ROTORS, "m"),
-    "spins": (("rotor", "t"), "rad/s"),
-    "centres": ((*_OF_BODIES, "component"), "m"),
-    "rotations": ((*_OF_BODIES, "component", "row"), "1"),
-    "stretches": (_OF_LINKS, "m"),
-    "momentum": (("t", "component"), "kg m/s"),
-    "angular_momentum": (("t", "component"), "kg m²/s"),
-    "translation": (_OF_BODIES, "J"),
-    "rotation": (_OF_BODIES, "J"),
-    "spring": (_OF_LINKS, "J"),
-}
+    "axes": (_OF_ROTORS, "1"), "rates": (_OF_ROTORS, "1/s"), "tips": (_OF_ROTORS, "m"), "feet": (_OF_ROTORS, "m"),
+    "spins": (("rotor", "t"), "rad/s"), "centres": ((*_OF_BODIES, "component"), "m"),
+    "rotations": ((*_OF_BODIES, "component", "row"), "1"), "stretches": (_OF_LINKS, "m"),
+    "momentum": (("t", "component"), "kg m/s"), "angular_momentum": (("t", "component"), "kg m²/s"),
+    "translation": (_OF_BODIES, "J"), "rotation": (_OF_BODIES, "J"), "spring": (_OF_LINKS, "J"),
+}  # fmt: skip
 
 
 def run_steps(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, dt: float) -> SpringRun:
@@ -281,7 +199,8 @@ def run_solver(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, tol: 
     """Move a copy of a system by LSODA, with the same forces and a tolerance instead of a fixed step.
 
     LSODA changes to a stiff method where damping requires it. The state is X, U, R, L of every body, with R' = [Omega]× R.
-    The run is divided at ± 6.5 widths of the shock, within which no step exceeds the width.
+    The run is divided at ± 6.5 widths of the shock, within which no step exceeds the width. Raises InputError or
+    IntegrationError if times or tolerance are invalid, or nothing can be computed.
 
     Parameters
     ----------
@@ -299,11 +218,6 @@ def run_solver(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, tol: 
     -------
     SpringRun
         The run at the times that were reached.
-
-    Raises
-    ------
-    InputError, IntegrationError
-        If times or tolerance are invalid, or nothing can be computed.
     """
     times, tolerance = check_times("run_solver", t), check_tolerance(tol, "run_solver")
     rate, n_b = rate_function(system, shock), len(system.vertices)
@@ -421,18 +335,9 @@ def _run_of(system: RigidBodySystem, states: Array, run_fields: dict[str, Any]) 
     stretches = np.linalg.norm(system.gaps(*places), axis=-1).T
     momenta = U / system.inverse_mass[:-1]
     return SpringRun(
-        axes=np.array(axes),
-        rates=np.array(rates),
-        tips=np.array(tips),
-        feet=np.array(feet),
-        spins=np.array(spins),
-        centres=X.swapaxes(0, 1),
-        rotations=R.swapaxes(0, 1),
-        stretches=stretches,
-        momentum=momenta.sum(1),
-        angular_momentum=(np.cross(X, momenta) + L).sum(1),
-        translation=((U**2).sum(-1) / (2 * system.inverse_mass[:-1, 0])).T,
-        rotation=(Omega * L).sum(-1).T / 2,
-        spring=system.stiffness * stretches**2 / 2,
+        axes=np.array(axes), rates=np.array(rates), tips=np.array(tips), feet=np.array(feet), spins=np.array(spins),
+        centres=X.swapaxes(0, 1), rotations=R.swapaxes(0, 1), stretches=stretches, momentum=momenta.sum(1),
+        angular_momentum=(np.cross(X, momenta) + L).sum(1), rotation=(Omega * L).sum(-1).T / 2,
+        translation=((U**2).sum(-1) / (2 * system.inverse_mass[:-1, 0])).T, spring=system.stiffness * stretches**2 / 2,
         **run_fields,
-    )
+    )  # fmt: skip

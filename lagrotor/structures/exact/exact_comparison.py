@@ -49,6 +49,8 @@ def measured_growth(s: Assembly, folds: float = 3.0) -> float:
 def bounded_motion(s: Assembly, turns: float = 20.0) -> tuple[float, float]:
     """Compare an exact run from a random state of size 10⁻⁶ with the linear motion.
 
+    Raises InputError if a bar does not have its upright length.
+
     Parameters
     ----------
     s : Assembly
@@ -60,11 +62,6 @@ def bounded_motion(s: Assembly, turns: float = 20.0) -> tuple[float, float]:
     -------
     tuple
         The largest tilt and the largest distance from the linear motion, both relative to the start.
-
-    Raises
-    ------
-    InputError
-        If a bar does not have its upright length.
     """
     from scipy.linalg import expm
 

@@ -188,6 +188,8 @@ class StructureRun(Run):
     def animate(self, path: str | Path, fps: float = 25.0) -> Path:
         """Write a film of the motion, with bars grey, braces green, and rotors in the colour of their spin.
 
+        Raises InputError if the file name, its folder or the frame rate is invalid.
+
         Parameters
         ----------
         path : str or Path
@@ -199,11 +201,6 @@ class StructureRun(Run):
         -------
         Path
             The file that was written.
-
-        Raises
-        ------
-        InputError
-            If the file name, its folder or the frame rate is invalid.
         """
         from lagrotor.drawing.film import animate_lines, check_film, frame_times
 

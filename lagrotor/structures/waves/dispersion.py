@@ -71,18 +71,12 @@ def bloch(p: Cell) -> Bloch:
     whole, rows = matrices(c), bar_rows(c)
     blocks = dict[tuple[int, ...], Array]()
     for (start, left_copies), (end, right_copies) in product(of.items(), repeat=2):
-        apart = tuple(b - a for a, b in zip(start, end, strict=True))
-        blocks[apart] = blocks.get(apart, 0) + left_copies.T @ whole @ right_copies
+        shift = tuple(b - a for a, b in zip(start, end, strict=True))
+        blocks[shift] = blocks.get(shift, 0) + left_copies.T @ whole @ right_copies
     between = np.array([*blocks.values()])
     between[:, 0] *= p.inertia
-    return Bloch(
-        between,
-        np.array([*blocks], dtype=float),
-        np.array([rows @ copies for copies in of.values()]),
-        np.array([*of], dtype=float),
-        rate,
-        p.inertia,
-    )
+    apart, away_rows = np.array([*blocks], dtype=float), np.array([rows @ copies for copies in of.values()])
+    return Bloch(between, apart, away_rows, np.array([*of], dtype=float), rate, p.inertia)
 
 
 def cell_coefficients(p: Cell) -> tuple[Coefficients, float]:
