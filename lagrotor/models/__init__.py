@@ -2,9 +2,9 @@
 
 Data pass through these modules in this order:
 
-- `simulate` takes a `Scene`, times, a model and a tolerance. `model="auto"` takes the cheapest model whose error is below `tol`.
-- `closed_form_model`, `linear` and `averaged` evaluate closed forms and normal modes. `minimal`, `spheres` and `euler` each define a
-  `Model`: a generated program (`programs`), a start, and the axes of its states.
+- `simulate` takes a `Scene`, times, a model and a tolerance. `model="auto"` takes the cheapest whose error is below `tol`.
+- `closed_form_model`, `linear` and `averaged` evaluate closed forms and normal modes. `minimal`, `spheres` and `euler` each
+  define a `Model`: a generated program (`programs`), a start, and the axes of its states.
 - `model.py` integrates a `Model` in natural units and checks the conservation laws. The result is a `Trajectory`.
 - `sweeps` runs many scenes at once; `spring_link` is the paper's own simulator of rigid bodies and springs.
 - `orbits` finds periodic orbits by shooting, with their Floquet multipliers. `mean_motion` measures drifts on exact runs.

@@ -48,10 +48,7 @@ _AT_ONCE = 256  # times per batch
 
 
 class Forms(NamedTuple):
-    """A normal form about q = (lean, 0, 0), p = momentum.
-
-    maps: the coordinates of H₂ in the new ones; turning: the index of the azimuth's coordinate.
-    """
+    """A normal form about q = (lean, 0, 0), p = momentum. maps: the coordinates of H₂; turning: the index of the azimuth."""
 
     form: "NormalForm"
     maps: tuple[Polynomial, ...]
@@ -184,10 +181,7 @@ def _normal_start(scene: Scene, forms: Forms, order: int, start: Array) -> Any:
 
 
 def _states(scene: Scene, forms: Forms, order: int, start: Array, t: Array) -> tuple[Array, int]:
-    """Return the states of `minimal` (n, 6) at times t (n,) by the normal form through an order, and the evaluations.
-
-    The slow motion is integrated without the factor exp(rate t) of the swing. Raises DomainError if it does not stay small.
-    """
+    """Return states of `minimal` (n, 6) at times t (n,) by the normal form, and the evaluations. Raises DomainError."""
     from scipy.integrate import solve_ivp
 
     form, swing = forms.form, np.zeros(6, complex)

@@ -24,9 +24,7 @@ def closed_form(scene: Scene, t_end: float, tol: float, best: bool = False) -> C
     """Return the closed form of a scene up to t_end (s).
 
     `tol` chooses the order of a series, at most 15; the error of the result may be larger. With `best` the series goes
-    through r0^21.
-
-    Raises DomainError if no closed form represents the scene.
+    through r0^21. Raises DomainError if no closed form represents the scene.
     """
     if scene.shock_until(t_end):
         raise DomainError("closed_form: no closed form goes through a shock; use model='linear' or 'minimal'")

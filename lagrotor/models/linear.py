@@ -41,10 +41,7 @@ _A_PART, _A_TURN, _MOST = 17, 24, 100_000
 
 @dataclass(frozen=True, eq=False)
 class LinearPair:
-    """The linear pair in q = (U, chi, alpha). upright: dq → d(x, y_1, y_2); mass: M; turning: N = M⁻¹ C, all (3, 3).
-
-    frequency: Omega (rad/s).
-    """
+    """The matrices in q = (U, chi, alpha). upright: dq → d(x, y_1, y_2); M; turning: N = M⁻¹ C; frequency: Omega (rad/s)."""
 
     upright: Array
     mass: Array
@@ -113,10 +110,7 @@ def pair_modes(scene: Scene) -> LinearPair:
 
 
 def _linear_states(scene: Scene, t: Array) -> Array:
-    """Return (U, chi, alpha, rates) of the linear motion at times t (n,) in s: (n, 6).
-
-    Raises SingularError without a bar or for an axis along the joint line, DomainError if |U| or |chi| exceeds pi/3.
-    """
+    """Return (U, chi, alpha, rates) of the linear motion at t (n,): (n, 6). Raises DomainError beyond |U|, |chi| = pi/3."""
     linear, start = pair_modes(scene), MODEL.start(scene)
     states, shock = linear.free(start[:3], start[3:], t), scene.shock_until(float(t[-1]))
     if shock is not None:
@@ -155,18 +149,12 @@ def _pulsed(scene: Scene, linear: LinearPair, shock: Shock, t: Array) -> tuple[A
 
 
 def linear_run(scene: Scene, t: Array) -> Observed:
-    """Return axes and rates of the linear motion at times t (n,).
-
-    Raises SingularError without a bar or for an axis along the joint line, DomainError if |U| or |chi| exceeds pi/3.
-    """
+    """Return axes and rates of the linear motion at t (n,). Raises DomainError beyond |U|, |chi| = pi/3."""
     return MODEL.observe(scene, _linear_states(scene, t))
 
 
 def linear_motion(scene: Scene, t_end: float, tol: float, best: bool = False) -> ClosedMotion:
-    """Return the linear motion with its error up to t_end (s).
-
-    Raises the errors of `linear_error`, or with `best` those of `linear_run` alone; an unknown error is then NaN.
-    """
+    """Return the linear motion with its error up to t_end (s); with `best` an unknown error is NaN."""
     try:
         error = linear_error(scene, t_end)
     except DomainError:

@@ -198,9 +198,6 @@ def time_to_wander(scene: Scene, bound: float, longest: float) -> float:
 def toppling_error(scene: Scene, duration: float) -> float:
     """Return the error of `toppling_after_shock` against the exact mean rate.
 
-    Raises InputError if the law refuses the scene, or the duration is no finite number. Raises DomainError if the mean has
-    less than 4 or more than 10⁴ swings.
-
     Parameters
     ----------
     scene : Scene
@@ -212,6 +209,13 @@ def toppling_error(scene: Scene, duration: float) -> float:
     -------
     float
         The error, rad/s.
+
+    Raises
+    ------
+    InputError
+        If the law refuses the scene, or the duration is no finite number.
+    DomainError
+        If the mean has less than 4 or more than 10⁴ swings.
     """
     law = toppling_after_shock(scene)
     return abs(turning_rate(run_after(scene, _turns(scene, duration, "toppling_error"))) - law)
@@ -219,8 +223,6 @@ def toppling_error(scene: Scene, duration: float) -> float:
 
 def wander_error(scene: Scene, duration: float) -> float:
     """Return the error of `wander_after_shock` against the exact mean rate of x.
-
-    Raises InputError or DomainError in the cases of `toppling_error`.
 
     Parameters
     ----------
@@ -240,8 +242,6 @@ def wander_error(scene: Scene, duration: float) -> float:
 
 def cancelling_force_error(scene: Scene, duration: float) -> float:
     """Return the error of `cancelling_force` against the force without exact mean rotation.
-
-    Raises InputError or DomainError in the cases of `toppling_error`, and if no such force is found.
 
     Parameters
     ----------

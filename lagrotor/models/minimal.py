@@ -105,10 +105,7 @@ def _observe(scene: Scene, states: Array) -> Observed:
 
 
 def scenes_from_states(scene: Scene, states: ArrayLike) -> list[Scene]:
-    """Return the scene started from each of the states (n, 6): U, chi, alpha and their rates (1/s).
-
-    Raises InputError for states that are not finite or of another shape, SingularError without a bar.
-    """
+    """Return the scene started from each of the states (n, 6): U, chi, alpha and their rates (1/s)."""
     table = np.asarray(states, dtype=float)
     if table.ndim != 2 or table.shape[1] != 6 or not np.isfinite(table).all():
         raise InputError(f"scenes_from_states: states of shape {table.shape} must be finite and of shape (n, 6)")

@@ -116,13 +116,11 @@ class Model:
     kind: (scene, driven) → the kind of program and its parameter values; in a driven program the torque R F (N m) and the
     width follow. derive: (*kind) → the program, its first `size` arguments the state. rhs: (*kind, bounded) → the generated
     function. start: the state (d,) of a scene; raises SingularError if the coordinates cannot represent it. observe: axes
-    from states (n, d).
-
-    projection: the projection of states onto the constraints. outside: True for a state of a pair with a bar at which the
-    model must not be integrated; time_to_singular: a time of which half is at most the time to such a state. slack: the
-    uncertainty of the constraints at states (n, d), as in `Evolution`. singular: the words for the singular position of axes
-    (2, 3), or none. angles: the states that may grow without bound, their rates being states. progress: called with the time
-    of each evaluation.
+    from states (n, d). projection: the projection of states onto the constraints. outside: True for a state of a pair with a
+    bar at which the model must not be integrated; time_to_singular: a time of which half is at most the time to such a state.
+    slack: the uncertainty of the constraints at states (n, d), as in `Evolution`. singular: the words for the singular
+    position of axes (2, 3), or none. angles: the states that may grow without bound, their rates being states. progress:
+    called with the time of each evaluation.
     """
 
     name: str
@@ -188,10 +186,7 @@ def problem_of(
     budget: float = _BUDGET,
     companion: bool = False,
 ) -> Problem:
-    """Return the integration problem of a scene and a model; with `bounded` it ends where the model is badly conditioned.
-
-    start: the state of the model at t = 0, by default that of the scene.
-    """
+    """Return the integration problem of a scene from `start`, a state of the model, by default that of the scene."""
     shock = scene.shock
     return Problem(
         free=model.rate(scene, False, bounded),
@@ -263,10 +258,7 @@ _LOWER[_KEPT] = np.linalg.solve(
 
 @dataclass(frozen=True, eq=False)
 class PulseNodes:
-    """Gauss–Legendre nodes t (n,) and weights (n,) over the pulse up to `end` (s).
-
-    lower (n,): weights of lower order, whose sum differs by a bound of the error.
-    """
+    """Gauss–Legendre nodes t (n,) and weights (n,) up to `end` (s); lower (n,): weights of lower order, for the error."""
 
     t: Array
     weights: Array

@@ -73,10 +73,7 @@ DIRECT: dict[str, Callable[[Scene, float, float, bool], ClosedMotion]] = {
 
 @dataclass(frozen=True)
 class Choice:
-    """The model that `auto` starts with, and the reason. estimate: the largest error of an axis (of tips: in units of R).
-
-    motion: the motion of a model without integration.
-    """
+    """The first model of `auto`, its reason, the estimated error of an axis, and the motion if it is not integrated."""
 
     model: str
     estimate: float
@@ -241,10 +238,7 @@ class _ScaledScene:
     progress: Callable[[float], None] | None
 
     def run(self, model: Model, patience: Patience, bounded: bool = False) -> EstimatedRun:
-        """Return the run by a model. With `bounded` it ends where the model is badly conditioned and another can continue.
-
-        Raises StopError, in s, if nothing is reached.
-        """
+        """Return the run by a model. Raises StopError, in s, if nothing is reached."""
         rate, begin = self.units.rate, float(self.times[0])
         t = (self.times - begin) * rate
         report = self.progress
@@ -319,10 +313,7 @@ def evolution_of(
     bounded: bool = False,
     progress: Callable[[float], None] | None = None,
 ) -> Evolution:
-    """Return the evolution of a model of a scene in natural units, from 0 to t_end of its time.
-
-    With `bounded` it ends where the model is badly conditioned and another can continue.
-    """
+    """Return the evolution of a model in natural units up to t_end; `bounded` as in `integrate_model`."""
     engine = engine if _fast_runs(model, scene) else "core"
     nodes = pulse_nodes(scene, t_end)
     start = model.start(scene)
@@ -358,7 +349,7 @@ def evolution_of(
         turn=2 * pi / PACE,
         patience=patience,
         project=model.projection(scene) if model.projection else None,
-        unsure=start_unsure(model, scene, start),
+        unsure=start_error(model, scene, start),
         slack=model.slack if scene.link else None,
         defect=defect,
         difference=difference,
@@ -368,7 +359,7 @@ def evolution_of(
     )
 
 
-def start_unsure(model: Model, scene: Scene, start: Array) -> float:
+def start_error(model: Model, scene: Scene, start: Array) -> float:
     """Return the error of the model's start (d,), in units of rounding.
 
     Near the joint line the bar hardly determines an axis, and the coordinates may represent another start than the given one.

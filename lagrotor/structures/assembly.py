@@ -158,12 +158,6 @@ class Assembly:
         ------
         InputError
             If there is no such rotor.
-
-        Examples
-        --------
-        >>> from lagrotor.structures import example
-        >>> example("corner").upright_tip(2)
-        (1.0, 1.0, 1.0)
         """
         if i not in range(len(self.joints)):
             raise InputError(f"upright_tip: i = {i!r} must be a rotor's number, from 0 to {len(self.joints) - 1}")

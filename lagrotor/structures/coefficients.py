@@ -27,11 +27,9 @@ Complex = NDArray[np.complex128]
 class Coefficients:
     """The coefficients of a structure in arrays.
 
-    Per rotor (N,): lengths R, inertia A_ii, first moments S (kg m), momenta G = I3 ω, their decay (1/s), friction, hinge.
-
-    Per bar (B,): ends i, j, length ell, coupling A_ij. feet: the ground joints (N, 3).
-
-    Per brace: tip, other tip (−1 for the ground), ground point (3,), natural length, stiffness, damping.
+    Per rotor (N,): lengths R, inertia A_ii, first moments S (kg m), momenta G = I3 ω, their decay (1/s), friction, hinge. Per
+    bar (B,): ends i, j, length ell, coupling A_ij. feet: the ground joints (N, 3). Per brace: tip, other tip (−1 for the
+    ground), ground point (3,), natural length, stiffness, damping.
     """
 
     R: Array

@@ -34,10 +34,7 @@ _GRID = np.geomspace(1e-3, 1e4, 281)  # of the natural factor: the scan if K is 
 
 
 def critical_spin(s: Assembly) -> float:
-    """Return the critical factor of a structure: see `Structure.critical_spin`.
-
-    Couplings to friction below 1e-10 of the largest are taken for zero, as rounding is of this size.
-    """
+    """Return the critical factor: see `Structure.critical_spin`. Couplings to friction below 1e-10 count as zero."""
     check_upright(s, "critical_spin")
     return spin_threshold(small_motion(s))
 
@@ -134,10 +131,7 @@ def _by_scan(linear: SmallMotion) -> float:
 
 @dataclass(frozen=True)
 class Patterns:
-    """The result of `sign_patterns`: the numbers of patterns tried and of those stable at some spin.
-
-    least: the least critical spin (rad/s, inf if none); best: the first pattern with this spin.
-    """
+    """The numbers of patterns tried and of stable ones, the least critical spin (rad/s, inf if none), and its pattern."""
 
     tried: int
     standing: int

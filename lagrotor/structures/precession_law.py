@@ -46,11 +46,8 @@ class PrecessionLaw(Shown):
     """The precession rate Ω = rate + shift (tilt² − 2 skew tilt³) + O(tilt⁴) of a mode, in rad/s.
 
     others (n − 1,): the other rates, rad/s, negative for modes of negative energy; sign: the sign of this mode's energy.
-
     reach: the largest tilt of the law, 0.5 or less if harmonics drive other modes. action: I_j/a² in the units of
-    `quadratic`.
-
-    quadratic: the terms in z_j, z̄_j that are of second degree in the other z, z̄, rad/s.
+    `quadratic`. quadratic: the terms in z_j, z̄_j that are of second degree in the other z, z̄, rad/s.
     """
 
     rate: float

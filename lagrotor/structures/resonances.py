@@ -57,12 +57,11 @@ _TOP = 12.0  # times the critical factor: above, fast rates exceed three slow on
 class Resonance(Shown):
     """A resonance of order 3 or 4 that feeds modes of both signs of energy, or slow modes of nearly zero rate.
 
-    A push is the root of the sum of squares of the rates of all axes at the start, upright, in rad/s.
-
-    vectors: the integer vectors k, one number per mode, nearest to resonance first. rates (n,): the rates of the modes at the
-    factor `at` on all spins, negative for negative energy, rad/s. detuning: k·rates of the first vector, rad/s; per_factor:
-    its derivative. growth, largest: the coefficients c and κ of the module, 1/s for N = (reach × push)². reach: sqrt(N) per
-    push in the steepest direction, s. falls: True if the terms of the same order do not stop the growth.
+    A push is the root of the sum of squares of the rates of all axes at the start, upright, in rad/s. vectors: the integer
+    vectors k, one number per mode, nearest to resonance first. rates (n,): the rates of the modes at the factor `at` on all
+    spins, negative for negative energy, rad/s. detuning: k·rates of the first vector, rad/s; per_factor: its derivative.
+    growth, largest: the coefficients c and κ of the module, 1/s for N = (reach × push)². reach: sqrt(N) per push in the
+    steepest direction, s. falls: True if the terms of the same order do not stop the growth.
     """
 
     order: int
@@ -267,10 +266,7 @@ def _slopes(linear: SmallMotion, factor: float) -> Array:
 
 @lru_cache(maxsize=16)
 def normal_form_of(s: Assembly, factor: float = 1.0, detuning: float = 0.0, order: int = 4) -> NormalForm:
-    """Return the normal form about upright through an order, in the units of `LocalHamiltonian`.
-
-    Resonances with a detuning up to `detuning`, in these units, are kept. All spins are multiplied by `factor`.
-    """
+    """Return the normal form about upright in the units of `LocalHamiltonian`, with resonances up to `detuning`."""
     check_upright(s, "normal_form_of")
     form = normal_form_of_series(local_hamiltonian(s, order).at_spins(factor), order, detuning)
     if len(signed_rates(small_motion(s), factor)) and 0 in form.frequencies:
@@ -328,10 +324,7 @@ def _new_coordinates(n: NormalForm, order: int) -> list[Polynomial]:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class LargestPush(Shown):
-    """The largest push (rad/s) from which no start topples, the reason in words, and the resonance.
-
-    Without a resonance the value is that of a tilt of 0.1, up to which the expansion is trusted.
-    """
+    """The largest safe push (rad/s), its reason, and the resonance. Without one it tilts an axis by 0.1, the trusted range."""
 
     value: float
     behind: str
@@ -429,8 +422,6 @@ def spin_intervals(s: Assembly, push: float) -> tuple[tuple[float, float], ...]:
 
 def resonant_factors(s: Assembly, orders: Sequence[int] = (3, 4)) -> tuple[tuple[float, Resonance], ...]:
     """Return the factors on all spins above the critical one at which modes are resonant and unstable.
-
-    Raises InputError if a bar does not have its upright length.
 
     Parameters
     ----------

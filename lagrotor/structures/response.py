@@ -72,7 +72,6 @@ class Absorber:
     """The tuning f² of the brace, the damping ratio ζ, and the value: the peak |X K/F| or the mean square.
 
     The mean square of x K/F under white noise is in units of π S Ω, with S the two-sided spectral density of the force.
-
     Without absorber, a sway with the damping ratio ζ has 1/(2ζ).
     """
 
@@ -101,8 +100,7 @@ def spins_worst_case(gamma: ArrayLike) -> Absorber:
     """Return the brace and damper that minimise the highest peak of a sway coupled by spins.
 
     With N = 8 − 8d − d² + 2d³ and 0 < d < 1 from γ² = 2d (2 − d)² (4 − 3d)/N:  1 − ρ = d (8 − 11d + 4d²)/N, f² = (1 − d) ρ,
-    ζ² = (1 − ρ)(3 − 2d)/2, peak² = 1/(1 − ρ²). For small γ: f² = 1 − γ²/2, ζ² = 3γ²/8, peak √2/γ. Raises DomainError unless 0
-    < γ < √2.
+    ζ² = (1 − ρ)(3 − 2d)/2, peak² = 1/(1 − ρ²). For small γ: f² = 1 − γ²/2, ζ² = 3γ²/8, peak √2/γ.
 
     Parameters
     ----------
@@ -113,6 +111,11 @@ def spins_worst_case(gamma: ArrayLike) -> Absorber:
     -------
     Absorber
         The optimum, with the peak as its value.
+
+    Raises
+    ------
+    DomainError
+        Unless 0 < γ < √2.
 
     Examples
     --------
@@ -127,7 +130,7 @@ def spins_worst_case(gamma: ArrayLike) -> Absorber:
 def spins_white_noise(gamma: ArrayLike) -> Absorber:
     """Return the brace and damper that minimise the mean square of a sway coupled by spins.
 
-    f² = 1 − γ²/2, ζ = γ sqrt(4 − γ²)/4, mean square sqrt(4/γ² − 1). Raises DomainError unless 0 < γ < √2.
+    f² = 1 − γ²/2, ζ = γ sqrt(4 − γ²)/4, mean square sqrt(4/γ² − 1).
 
     Parameters
     ----------
@@ -138,6 +141,11 @@ def spins_white_noise(gamma: ArrayLike) -> Absorber:
     -------
     Absorber
         The optimum under white noise.
+
+    Raises
+    ------
+    DomainError
+        Unless 0 < γ < √2.
     """
     g2 = _in_domain("gamma", gamma, 2**0.5) ** 2
     return Absorber(1 - g2 / 2, np.sqrt(g2 * (4 - g2)) / 4, np.sqrt(4 / g2 - 1))
@@ -147,11 +155,8 @@ def mass_worst_case(mu: ArrayLike) -> Absorber:
     """Return the tuned mass that minimises the highest peak of a sway.
 
     With s = sqrt(4 + 3μ) and the damping ratio ζ of the absorber itself (Nishihara & Asami), the optimum is
-
-        f² = 24/((s − 1)² (3s² + 4s + 4)),   ζ² = 9μ (3s + 2)/(16 (s + 2)(s² − 1)),
-        peak = (3s² + 4s + 4)/(3 sqrt(μ (s + 2)(3s + 2))).
-
-    Raises DomainError unless μ > 0.
+    f² = 24/((s − 1)² (3s² + 4s + 4)),   ζ² = 9μ (3s + 2)/(16 (s + 2)(s² − 1)),
+    peak = (3s² + 4s + 4)/(3 sqrt(μ (s + 2)(3s + 2))).
 
     Parameters
     ----------
@@ -162,6 +167,11 @@ def mass_worst_case(mu: ArrayLike) -> Absorber:
     -------
     Absorber
         The optimum, with the peak as its value. Den Hartog's fixed points lie at sqrt(1 + 2/μ).
+
+    Raises
+    ------
+    DomainError
+        Unless μ > 0.
     """
     m = _in_domain("mu", mu, np.inf)
     s = np.sqrt(4 + 3 * m)

@@ -39,15 +39,10 @@ class Modes(Shown):
     """The n normal modes u = Re(shape e^((growth + i rate) t)): rates (n,) in rad/s, growth (n,) in 1/s, shapes (n, N, 2).
 
     One root of each conjugate pair is kept, with rate > 0, and the larger half of the real roots. `topple` modes grow.
-
     energy_signs (n,): the sign of ω² ū·M u + ū·K u; −1 if the oscillation has less energy than the equilibrium, 0 if there is
-    none.
-
-    left_out (n,): the first-order decrease of each rate by the inertia in the limit of fast spins (rad/s); negative under
-    weight.
-
-    A growth below 1e-13 of the fastest root is set to zero. Shapes from `modes_about` are displacements of the axes, (n, N,
-    3).
+    none. left_out (n,): the first-order decrease of each rate by the inertia in the limit of fast spins (rad/s); negative
+    under weight. A growth below 1e-13 of the fastest root is set to zero. Shapes from `modes_about` are displacements of the
+    axes, (n, N, 3).
     """
 
     rates: Array
@@ -73,9 +68,8 @@ class Modes(Shown):
 class SmallMotion:
     """The matrices M, C (damping), the antisymmetric gyroscopic matrix and K, (n, n), in q with u = basis q, basis (2 N, n).
 
-    pull: `Coefficients.pull`, the scale of rounding of the stiffness; 0 if unknown.
-
-    For waves at many wave numbers each array has one more leading axis, and so have the roots.
+    pull: `Coefficients.pull`, the scale of rounding of the stiffness; 0 if unknown. For waves at many wave numbers each array
+    has one more leading axis, and so have the roots.
     """
 
     mass: Matrix

@@ -47,10 +47,8 @@ Kind = Literal["never", "to first order", "falls at a resonance", "falls over a 
 class Standing(Shown):
     """The stability of the upright position. The truth value is linear stability, `stands`.
 
-    growth (1/s) and shape (N, 2), complex: those of the fastest growing motion.
-
-    critical_spin: the factor on all spins above which it is linearly stable, inf if none. `kind` describes the nonlinear
-    motion.
+    growth (1/s) and shape (N, 2), complex: those of the fastest growing motion. critical_spin: the factor on all spins above
+    which it is linearly stable, inf if none. `kind` describes the nonlinear motion.
     """
 
     stands: bool
@@ -142,7 +140,6 @@ class Standing(Shown):
 
         For a number it is the least time of pushes of this size (rad/s). For rates (N, 2) of the axes it is an estimate for
         this push by the normal form of fourth order, with an error of a half or more; the search ends after 20 least times.
-
         Raises InputError as `resonances`, and if the push exceeds the range of the expansion. `measured_fall` runs the exact
         motion.
         """

@@ -88,10 +88,7 @@ class _Shooting:
         return integrate(problem, np.array([duration]), local).end
 
     def slopes(self, y: Array, duration: float, weights: dict[float, Array], local: float) -> Array:
-        """Return differences by n directions of axes and n of rates, with several weights (k,): (k, 2, 6N, 2n).
-
-        They are the slopes of states on the constraints, and of the ends of their motions.
-        """
+        """Return weighted differences of states and their ends by 2n directions on the constraints: (k, 2, 6N, 2n)."""
         tangents = np.kron(np.eye(2), constraint_tangents(self.motion, y[: len(y) // 2].reshape(-1, 3)))
         slopes: Any = 0.0
         for step, weight in weights.items():

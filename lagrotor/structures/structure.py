@@ -111,13 +111,8 @@ class Structure(Assembly):
     ) -> StructureRun:
         """Integrate the exact motion from an initial state that holds at t[0].
 
-        Tilt and rates are projected onto the bars in the metric of the mass matrix.
-
-        The error is estimated from two runs, and from the energy where it is conserved.
-
-        A LagrotorWarning says if the error exceeds `tol` or the run ends early. Raises InputError or ConstraintError or
-        SingularError if an argument is invalid, the bars do not allow the tilt, or a bar is in line with both its axes.
-        Raises IntegrationError if no part of the motion can be computed.
+        Tilt and rates are projected onto the bars in the metric of the mass matrix. The error is estimated from two runs, and
+        from the energy where it is conserved. A LagrotorWarning says if the error exceeds `tol` or the run ends early.
 
         Parameters
         ----------
@@ -141,6 +136,13 @@ class Structure(Assembly):
         StructureRun
             The motion at the times that were reached.
 
+        Raises
+        ------
+        InputError, ConstraintError, SingularError
+            If an argument is invalid, the bars do not allow the tilt, or a bar is in line with both its axes.
+        IntegrationError
+            If no part of the motion can be computed.
+
         Examples
         --------
         >>> from lagrotor.structures import example
@@ -153,22 +155,20 @@ class Structure(Assembly):
     def modes(self, inertia: bool = True) -> small_motion.Modes:
         """Compute the normal modes about upright, the fastest growing first, then by rate.
 
-        Raises InputError or SingularError if the fastest rate exceeds 10⁶ times the slowest; without inertia if no spin acts
-        on some motion.
-
         Parameters
         ----------
         inertia : bool, default True
-            False for the limit of fast spins C u' + K u = 0, which has the slow precessions alone.
+            False for the limit of fast spins C u' + K u = 0, slow precessions alone (Nash et al., PNAS 112, 14495 (2015)).
 
         Returns
         -------
         Modes
             The rates, growths and shapes of the modes.
 
-        References
-        ----------
-        Nash et al., PNAS 112, 14495 (2015): the limit of fast spins.
+        Raises
+        ------
+        InputError, SingularError
+            If the fastest rate exceeds 10⁶ times the slowest; without inertia if no spin acts on some motion.
 
         Examples
         --------
@@ -181,8 +181,6 @@ class Structure(Assembly):
     def rest_near(self, tilt: ArrayLike) -> Array:
         """Find the equilibrium to which descending energy leads from a tilt.
 
-        Raises InputError or ConstraintError if no equilibrium is reached, or the bars do not allow the tilt.
-
         Parameters
         ----------
         tilt : array_like
@@ -192,6 +190,11 @@ class Structure(Assembly):
         -------
         Array
             The unit vectors of the axes, (N, 3).
+
+        Raises
+        ------
+        InputError, ConstraintError
+            If no equilibrium is reached, or the bars do not allow the tilt.
 
         Examples
         --------
@@ -205,8 +208,6 @@ class Structure(Assembly):
     def modes_about(self, axes: ArrayLike) -> small_motion.Modes:
         """Compute the normal modes about an equilibrium with tilted axes.
 
-        Raises InputError if the structure is not at equilibrium at these axes, or a bar has another length there.
-
         Parameters
         ----------
         axes : array_like
@@ -216,6 +217,11 @@ class Structure(Assembly):
         -------
         Modes
             The modes. Their shapes (n, N, 3) are displacements of the axes.
+
+        Raises
+        ------
+        InputError
+            If the structure is not at equilibrium at these axes, or a bar has another length there.
 
         Examples
         --------
@@ -230,8 +236,7 @@ class Structure(Assembly):
     def steady_precession(self, mode: int = 0, tilt: float = 0.1) -> steady_precession.SteadyPrecession:
         """Find the periodic orbit that a normal mode becomes at a finite tilt.
 
-        Where an integral makes a family of orbits of one tilt, the orbit nearest to the mode is returned. Raises InputError
-        if the mode or tilt is invalid, friction acts, or no such orbit is reached.
+        Where an integral makes a family of orbits of one tilt, the orbit nearest to the mode is returned.
 
         Parameters
         ----------
@@ -244,6 +249,11 @@ class Structure(Assembly):
         -------
         SteadyPrecession
             The orbit and its Floquet multipliers.
+
+        Raises
+        ------
+        InputError
+            If the mode or tilt is invalid, friction acts, or no such orbit is reached.
 
         Examples
         --------
@@ -258,8 +268,6 @@ class Structure(Assembly):
         """Expand rate and stability of the precessions of a mode in powers of the tilt.
 
         The law is accurate if no multiple of the rate is close to another rate. For the exact orbit see `steady_precession`.
-        Raises InputError or SingularError if the mode is invalid or resonant, friction acts, or there are more than 8 degrees
-        of freedom.
 
         Parameters
         ----------
@@ -270,6 +278,11 @@ class Structure(Assembly):
         -------
         PrecessionLaw
             The rate and the multipliers as functions of the tilt.
+
+        Raises
+        ------
+        InputError, SingularError
+            If the mode is invalid or resonant, friction acts, or there are more than 8 degrees of freedom.
 
         Examples
         --------
@@ -283,12 +296,15 @@ class Structure(Assembly):
     def stands(self) -> standing.Standing:
         """Decide if the upright position is stable, linearly and beyond.
 
-        Raises InputError if the rates are too far apart for double precision.
-
         Returns
         -------
         Standing
             The answer, with its reason in words. Its truth value is linear stability.
+
+        Raises
+        ------
+        InputError
+            If the rates are too far apart for double precision.
 
         Examples
         --------
@@ -320,10 +336,8 @@ class Structure(Assembly):
     def spin_intervals(self, push: float) -> tuple[tuple[float, float], ...]:
         """Return the factors on all spins at which no push of a given size topples the structure.
 
-        `largest_push` is evaluated at 16 factors up to 12 critical ones, and at the resonances between them.
-
-        The ends have an error of 1/32 of their distance from the critical factor. Nothing is known between the samples.
-        Raises InputError if the structure needs no spins, friction acts, or there are more than 8 degrees of freedom.
+        `largest_push` is evaluated at 16 factors up to 12 critical ones, and at the resonances between them. The ends have an
+        error of 1/32 of their distance from the critical factor. Nothing is known between the samples.
 
         Parameters
         ----------
@@ -334,6 +348,11 @@ class Structure(Assembly):
         -------
         tuple
             Intervals (low, high); the last high end may be inf. It is empty if no factor is known to suffice.
+
+        Raises
+        ------
+        InputError
+            If the structure needs no spins, friction acts, or there are more than 8 degrees of freedom.
 
         Examples
         --------
@@ -346,13 +365,17 @@ class Structure(Assembly):
     def largest_push(self) -> resonances.LargestPush:
         """Return the size below which no push from upright topples the structure.
 
-        The terms through fourth order decide. The value is 0 if the linear motion grows. Raises InputError if a mode has the
-        rate zero, friction acts, or there are more than 8 degrees of freedom.
+        The terms through fourth order decide. The value is 0 if the linear motion grows.
 
         Returns
         -------
         LargestPush
             The size in rad/s, and the resonance that limits it.
+
+        Raises
+        ------
+        InputError
+            If a mode has the rate zero, friction acts, or there are more than 8 degrees of freedom.
 
         Examples
         --------
@@ -364,9 +387,6 @@ class Structure(Assembly):
 
     def resonances(self, factor: float = 1.0, orders: Sequence[int] = (3, 4)) -> tuple[Resonance, ...]:
         """Return the resonances near these spins, the one that needs the smallest push first.
-
-        Raises InputError or SingularError if a mode grows or has the rate zero, friction acts, or there are more than 8
-        degrees of freedom.
 
         Parameters
         ----------
@@ -380,6 +400,11 @@ class Structure(Assembly):
         tuple of Resonance
             It is empty if all modes have energies of one sign.
 
+        Raises
+        ------
+        InputError, SingularError
+            If a mode grows or has the rate zero, friction acts, or there are more than 8 degrees of freedom.
+
         Examples
         --------
         >>> from lagrotor.structures import example
@@ -392,12 +417,15 @@ class Structure(Assembly):
     def characteristic(self) -> characteristic.Characteristic:
         """Derive the characteristic polynomial det(M s² + C s + K) in symbols, factored.
 
-        Raises InputError if there are more than 6 rotors.
-
         Returns
         -------
         Characteristic
             The polynomial, the matrices, and the numerical value of each symbol.
+
+        Raises
+        ------
+        InputError
+            If there are more than 6 rotors.
 
         Examples
         --------
@@ -416,8 +444,6 @@ class Structure(Assembly):
     ) -> Complex:
         """Compute the complex amplitudes of the tips under harmonic forces or ground motion.
 
-        Raises InputError if an argument is invalid, or a rate is that of an undamped resonance.
-
         Parameters
         ----------
         rates : array_like
@@ -433,6 +459,11 @@ class Structure(Assembly):
         -------
         Complex
             The displacements x, y of the tips relative to the ground, (n, N, 2), m.
+
+        Raises
+        ------
+        InputError
+            If an argument is invalid, or a rate is that of an undamped resonance.
 
         Examples
         --------
@@ -450,12 +481,6 @@ class Structure(Assembly):
         -------
         Figure
             A figure that a notebook shows.
-
-        Examples
-        --------
-        >>> from lagrotor.structures import example
-        >>> len(example("corner").plot().axes)
-        2
         """
         from lagrotor.structures.pictures import structure_picture
 
@@ -468,8 +493,6 @@ _PARTS = {"rotor": Rotor, "link": Link, "braces": Brace}
 def read_structure(path: str | Path) -> Structure:
     """Read a structure from a TOML file with the fields of `Structure`.
 
-    Raises InputError if the file cannot be read or describes no structure.
-
     Parameters
     ----------
     path : str or Path
@@ -479,6 +502,11 @@ def read_structure(path: str | Path) -> Structure:
     -------
     Structure
         The structure.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read or describes no structure.
 
     Examples
     --------
@@ -521,8 +549,6 @@ def toml_of(s: Assembly) -> str:
 
 def write_structure(s: Assembly, path: str | Path) -> Path:
     """Write a structure to a TOML file atomically.
-
-    Raises InputError if the file cannot be written.
 
     Parameters
     ----------

@@ -73,12 +73,6 @@ def local_hamiltonian(s: Assembly, order: int = 4) -> LocalHamiltonian:
     ------
     InputError
         If a bar does not have its upright length, or friction acts.
-
-    Examples
-    --------
-    >>> from lagrotor.structures import example
-    >>> local_hamiltonian(example("top")).at_spins(1.0).variables
-    4
     """
     check_upright(s, "local_hamiltonian")
     linear, c = small_motion(s), coefficients(s)

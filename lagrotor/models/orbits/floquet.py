@@ -36,10 +36,9 @@ class Floquet(Shown):
     """The multipliers of an orbit.
 
     multipliers (6,), complex: four ones, mu, 1/mu, NaN if smaller than the error; errors (6,): bounds of their errors.
-    pair_sum: mu + 1/mu. monodromy (6, 6) in (U, chi, alpha, rates).
-
-    growth: log |mu| per turn, 0 on an elliptic orbit; turning: the angle of mu per turn (rad) on an elliptic orbit.
-    frequency: that of the orbit (rad/s). error: a bound for pair_sum, within which the kind is "unresolved".
+    pair_sum: mu + 1/mu. monodromy (6, 6) in (U, chi, alpha, rates). growth: log |mu| per turn, 0 on an elliptic orbit;
+    turning: the angle of mu per turn (rad) on an elliptic orbit. frequency: that of the orbit (rad/s). error: a bound for
+    pair_sum, within which the kind is "unresolved".
     """
 
     multipliers: NDArray[np.complex128]
@@ -66,10 +65,7 @@ class Floquet(Shown):
 
     @property
     def slow_frequency(self) -> complex:
-        """The frequency of motion near the orbit (rad/s), imaginary if it grows.
-
-        It is real up to half the frequency of the orbit, with the error exponent_error · |frequency| / 2 pi.
-        """
+        """The frequency of motion near the orbit (rad/s), imaginary if it grows. The error is in `exponent_error`."""
         angle = self.turning or pi * (self.pair_sum < -2)
         return abs(self.frequency) / (2 * pi) * complex(angle, self.growth)
 
@@ -87,8 +83,6 @@ class Floquet(Shown):
 def floquet(scene: Scene, r0: float, momentum: float = 0.0) -> Floquet:
     """Compute the Floquet multipliers of the paired precession, by the variational equations, with their errors.
 
-    Raises InputError unless the spins are opposite and there is a bar. Raises DomainError if no orbit is found.
-
     Parameters
     ----------
     scene : Scene
@@ -103,6 +97,13 @@ def floquet(scene: Scene, r0: float, momentum: float = 0.0) -> Floquet:
     Floquet
         The multipliers, the kind of stability, and the slow frequency.
 
+    Raises
+    ------
+    InputError
+        Unless the spins are opposite and there is a bar.
+    DomainError
+        If no orbit is found.
+
     Examples
     --------
     >>> from lagrotor import Scene
@@ -116,8 +117,6 @@ def floquet(scene: Scene, r0: float, momentum: float = 0.0) -> Floquet:
 
 def slow_frequency_error(scene: Scene, r0: float, momentum: float = 0.0) -> float:
     """Return the error of `slow_frequency` against that of the exact orbit, in the complex plane.
-
-    Raises InputError if `slow_frequency` refuses the scene. Raises DomainError if no orbit is found.
 
     Parameters
     ----------
@@ -180,9 +179,6 @@ def floquet_of(orbit: ExactOrbit) -> Floquet:
 
 
 def _error(monodromy: Array, total: float) -> float:
-    """Return the error of integration and rounding, from the sum of products of pairs of multipliers minus 4 (mu + 1/mu) + 7.
-
-    The second term is the rounding of a monodromy matrix with elements far above its trace.
-    """
+    """Return the error of integration plus rounding, by the sum of products of pairs minus 4 (mu + 1/mu) + 7."""
     pairs = (np.trace(monodromy) ** 2 - np.trace(monodromy @ monodromy)) / 2
     return float(_INTEGRATED * max(1.0, float(np.linalg.norm(monodromy))) + abs(pairs - 4 * total - 7))

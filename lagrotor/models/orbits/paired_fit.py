@@ -86,10 +86,7 @@ def _turned(vectors: Any, angle: float) -> Any:
 
 
 def _fit(axes: Array, velocity: Array, unknowns: Array, series: _Series) -> tuple[Array, float]:
-    """Return (r0, phase, azimuth) of the orbit nearest to the start, by two Gauss–Newton steps, and its distance.
-
-    axes and velocity, r'/Omega_0 with the sign of rotor 1's spin: (2, 3) each, twelve equations for three unknowns.
-    """
+    """Return (r0, phase, azimuth) of the nearest orbit by two Gauss–Newton steps, and its distance; velocity is r'/Omega_0."""
     n = np.arange(len(series.frequency))
     derivatives = np.array([n**0, 1j * n, -(n**2), n**0, 1j * n])[..., None]  # the waves' derivatives by Phi
     target = np.stack([axes, velocity])
@@ -177,10 +174,7 @@ def _guess(axes: Array, velocity: Array, width: float) -> Array:
 def fourier_motion(
     waves: NDArray[np.complex128], frequency: float, phase: float = 0.0
 ) -> Callable[[Array], tuple[Array, Array]]:
-    """Return t ↦ axes and rates from the waves (2, h, 3) of both axes.
-
-    They are Re sum_h waves_h exp(i h (phase + frequency t)) and its derivative.
-    """
+    """Return t ↦ axes and rates: Re sum_h waves_h exp(i h (phase + frequency t)), of both axes (2, h, 3)."""
     count = waves.shape[1]
     slopes = 1j * frequency * np.arange(count)[:, None] * waves
     table = np.concatenate([waves, slopes]).transpose(1, 0, 2).reshape(count, 12)

@@ -74,10 +74,7 @@ def precession_orbit(scene: Scene, r0: float, tol: float = 1e-9) -> PrecessionOr
 
 
 def orbit_harmonics(exact: ExactOrbit, scene: Scene, r0: float) -> PrecessionOrbit:
-    """Return an exact orbit as harmonics, with as many samples of a quarter period as its error requires.
-
-    Raises DomainError if 512 harmonics are too few.
-    """
+    """Return an exact orbit as harmonics, as many as its error requires. Raises DomainError beyond 512."""
     for n in _SAMPLES:
         harmonics = _harmonics(exact, n)
         remainder = float(np.linalg.norm(np.arange(n, 2 * n)[:, None] * harmonics[n : 2 * n]))
@@ -114,8 +111,6 @@ def _harmonics(exact: ExactOrbit, n: int) -> Array:
 
 def paired_scene(scene: Scene, r0: float, tol: float = 1e-9) -> Scene:
     """Return a scene started on its paired precession at Phi = 0.
-
-    Raises InputError or DomainError in the cases of `precession_orbit`.
 
     Parameters
     ----------

@@ -109,10 +109,7 @@ class QuarterPeriod:
         return null if null @ side >= 0 else -null
 
     def follow(self, z: Array | None, r0: float) -> Array:
-        """Follow the family from z, or from rest, to the amplitude r0 > 0.
-
-        Raises DomainError if the family turns or ends before.
-        """
+        """Follow the family from z, or from rest, to r0 > 0. Raises DomainError if it turns or ends before."""
         goal, row, step = atanh(r0), np.array([1.0, 0.0, 0.0, 0.0]), 0.4
         if z is None:
             u = min(goal, 0.5)

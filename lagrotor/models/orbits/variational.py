@@ -41,10 +41,7 @@ class Flow:
 
 
 def flow(scene: Scene) -> Callable[..., Flow]:
-    """Return (state (U, chi, alpha, rates), time in s, tol) → Flow for rotor, bar and spins of a scene, without shock.
-
-    Raises SingularError without a bar; the flow raises IntegrationError at a singular position.
-    """
+    """Return (state (U, chi, alpha, rates), time in s, tol) → Flow of a scene. Raises SingularError without a bar."""
     (massive, ratio, _), parameters = MODEL.kind(scene, False)
     accelerations = _tangents(massive, ratio)(*parameters)
     plain = MODEL.rate(scene, False)

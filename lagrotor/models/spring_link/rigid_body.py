@@ -34,15 +34,6 @@ def finite_rotation(Omega: Array, dt: float) -> Array:
     -------
     Array
         The rotations dR, (n, 3, 3).
-
-    References
-    ----------
-    Equation 3.15 of the paper.
-
-    Examples
-    --------
-    >>> finite_rotation(np.array([[0.0, 0.0, np.pi / 2]]), 1.0).round(12).tolist()
-    [[[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]]
     """
     size = np.hypot(np.hypot(Omega[:, 0], Omega[:, 1]), Omega[:, 2])
     return turn_about(Omega / (size + _LEAST)[:, None], size * dt)

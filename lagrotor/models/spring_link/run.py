@@ -199,8 +199,7 @@ def run_solver(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, tol: 
     """Move a copy of a system by LSODA, with the same forces and a tolerance instead of a fixed step.
 
     LSODA changes to a stiff method where damping requires it. The state is X, U, R, L of every body, with R' = [Omega]× R.
-    The run is divided at ± 6.5 widths of the shock, within which no step exceeds the width. Raises InputError or
-    IntegrationError if times or tolerance are invalid, or nothing can be computed.
+    The run is divided at ± 6.5 widths of the shock, within which no step exceeds the width.
 
     Parameters
     ----------
@@ -218,6 +217,11 @@ def run_solver(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, tol: 
     -------
     SpringRun
         The run at the times that were reached.
+
+    Raises
+    ------
+    InputError, IntegrationError
+        If times or tolerance are invalid, or nothing can be computed.
     """
     times, tolerance = check_times("run_solver", t), check_tolerance(tol, "run_solver")
     rate, n_b = rate_function(system, shock), len(system.vertices)

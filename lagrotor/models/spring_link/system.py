@@ -49,11 +49,6 @@ def link_force(gap: Array, rate: Array, S: float, D: float) -> Array:
     -------
     Array
         The forces, (n, 3), N.
-
-    Examples
-    --------
-    >>> link_force(np.array([[0.5, 0.0, 0.0]]), np.zeros((1, 3)), S=100.0, D=1.0)[0, 0].item()
-    -50.0
     """
     return -S * gap - D * rate
 
@@ -367,9 +362,7 @@ def paper_bodies(scene: Scene, bar_height: float | None = None) -> list[RigidBod
     Rotors: centre at the middle of the axis, vertices at ∓R/2 along it, inertia diag(I1, I1, I3). Bar: centre at the middle
     of the tips, vertices at ∓ell/2, inertia K·1 as in the paper; its axial inertia has no effect. bar_height (m) is another z
     of its centre. The paper's z starts at the centres of the rotors, ours at the joints: its correct 0.5 is our 1.0, its
-    mistaken 1 (section 4.1) our 1.5.
-
-    Raises InputError for a bar without mass or inertia.
+    mistaken 1 (section 4.1) our 1.5. Raises InputError for a bar without mass or inertia.
     """
     rotor, link = scene.rotor, scene.link
     half = (link.length if link else rotor.length) / 2

@@ -248,10 +248,7 @@ class _Member:
 
 
 def run_chunk(scenes: Sequence[Scene], times: Array, tol: float, engine: str) -> Ensemble:
-    """Run some thousand scenes at once by `minimal`, and by `spheres` those that it cannot represent.
-
-    This is the work of one process. Every run is within `tol` by its estimate, or has the best that was reached.
-    """
+    """Run some thousand scenes at once by `minimal`, and by `spheres` those that it cannot represent."""
     chunk, begin = _not_run(scenes, times, tol), float(times[0])
     scenes, times, endings = [scene.since(begin) for scene in scenes], times - begin, list(chunk.endings)
     groups: dict[Kind, list[_Member]] = {}

@@ -82,10 +82,7 @@ def eliminate_in_levels(
 
 
 def _level(remaining: set[int], rows: list[dict[int, Terms]], holds: list[set[int]]) -> list[int]:
-    """Return independent unknowns with few neighbours, and no constraint before its masses.
-
-    At most two more than twice the least number of neighbours: a few levels then halve a heavy chain, too.
-    """
+    """Return independent unknowns with few neighbours (a limit that halves heavy chains), no constraint before its masses."""
     ready = [i for i in remaining if not holds[i] & remaining]
     limit = 2 * min(len(rows[i]) for i in ready) + 2
     chosen, neighbours = list[int](), set[int]()

@@ -49,8 +49,6 @@ def measured_growth(s: Assembly, folds: float = 3.0) -> float:
 def bounded_motion(s: Assembly, turns: float = 20.0) -> tuple[float, float]:
     """Compare an exact run from a random state of size 10⁻⁶ with the linear motion.
 
-    Raises InputError if a bar does not have its upright length.
-
     Parameters
     ----------
     s : Assembly

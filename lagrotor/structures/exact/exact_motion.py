@@ -147,10 +147,7 @@ class Saddle:
     places: Index
 
     def solve(self, r: Array, pulls: tuple[Array, Array], right: Array) -> Array:
-        """Return the unknowns (s, n, k) of s states with axes r (s, N, 3), gradients (s, B, 3) and right sides (s, n, k).
-
-        A singular system gives NaN for its state only.
-        """
+        """Return the unknowns (s, n, k) of s states with axes r (s, N, 3); NaN for the states with a singular system."""
         states, n, k = right.shape
         entries = np.concatenate([block.reshape(states, -1) for block in (r, *pulls)], axis=1)
         b = np.empty_like(right)
@@ -227,10 +224,7 @@ def narrow_order(N: int, i: Index, j: Index) -> Index:
 
 
 def in_band(band: int, ab: Array, b: Array) -> Array:
-    """Solve a banded system with entry (i, j) at ab[j, 2 band + i − j]; NaN if it is singular.
-
-    Overwrites ab and b.
-    """
+    """Solve a banded system with entry (i, j) at ab[j, 2 band + i − j]; NaN if it is singular. Overwrites ab and b."""
     from scipy.linalg.lapack import dgbsv
 
     _, _, x, info = dgbsv(band, band, ab.T, b, overwrite_ab=1, overwrite_b=1)

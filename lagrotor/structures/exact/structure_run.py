@@ -188,8 +188,6 @@ class StructureRun(Run):
     def animate(self, path: str | Path, fps: float = 25.0) -> Path:
         """Write a film of the motion, with bars grey, braces green, and rotors in the colour of their spin.
 
-        Raises InputError if the file name, its folder or the frame rate is invalid.
-
         Parameters
         ----------
         path : str or Path

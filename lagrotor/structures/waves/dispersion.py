@@ -123,10 +123,8 @@ class Dispersion(Shown):
 
     rates (n_q, n_bands) in rad/s, ascending, and growth in 1/s: the half of the roots at q with the larger rates; the others
     are the conjugate waves of −q. shapes (n_q, n_bands, N, 2). dof (n_q,): the number of bands at q; rows with fewer bands
-    than n_bands end in nan.
-
-    zero_bands: the number of degrees of freedom without spins, springs and weight, at the q with the fewest degrees of
-    freedom.
+    than n_bands end in nan. zero_bands: the number of degrees of freedom without spins, springs and weight, at the q with the
+    fewest degrees of freedom.
     """
 
     pattern: Cell

@@ -95,10 +95,7 @@ def _bloch_without_friction(p: Cell) -> Bloch:
 
 
 def _averaged(p: Cell, b: Bloch, u: Row, phases: _Phases, order: int) -> tuple[Polynomial, list[Row]]:
-    """Return the averaged Lagrangian (J per cell) of the field u (2N polynomials), and x, y, z of all axes.
-
-    Only terms whose phases cancel in n remain.
-    """
+    """Return the averaged Lagrangian (J per cell) of the field u (2N polynomials), and x, y, z of all axes."""
     c, _ = cell_coefficients(p)
 
     def axes_of(tips: Row) -> list[Row]:
@@ -150,9 +147,8 @@ class NonlinearWave(Shown):
 
     a: the largest tilt (its sine) of an axis in the first term. rate, shift in rad/s; the rate has an error O(a⁴). shape,
     mean, harmonic (N, 2). detuning: the distance of 2 × rate from the nearest wave of 2 q, rad/s, inf if there is none.
-    energy_sign: −1 if the wave has less energy than the equilibrium.
-
-    tips: x and y of each axis, polynomials in z, z̄ and b with `multiples` of θ; forced: b/z².
+    energy_sign: −1 if the wave has less energy than the equilibrium. tips: x and y of each axis, polynomials in z, z̄ and b
+    with `multiples` of θ; forced: b/z².
     """
 
     pattern: Cell
@@ -170,10 +166,7 @@ class NonlinearWave(Shown):
 
     @property
     def trusted(self) -> float:
-        """The largest amplitude at which mean and harmonic are at most a fifth of the first term, or ⅕.
-
-        Even there the error may be as large as the shift, if the shift is small by cancellation.
-        """
+        """The largest amplitude at which mean and harmonic are at most a fifth of the first term, or ⅕."""
         return float(0.2 / max(1.0, np.abs(self.mean).max(), np.abs(self.harmonic).max()))
 
     def rate_at(self, amplitude: float) -> float:

@@ -84,8 +84,7 @@ class Pattern(Cell):
     def dispersion(self, q: ArrayLike) -> dispersion.Dispersion:
         """Compute the bands at some wave numbers.
 
-        Bars are rigid constraints. A brace of high stiffness represents a bar that stretches. Raises InputError if q has
-        another shape.
+        Bars are rigid constraints. A brace of high stiffness represents a bar that stretches.
 
         Parameters
         ----------
@@ -108,8 +107,7 @@ class Pattern(Cell):
     def chern_numbers(self, grid: int = 24) -> chern.Chern:
         """Compute the Chern number of each group of bands.
 
-        Its sign is that of the flux of i ⟨u|∇u⟩ with e_1 × e_2 of the steps as positive. Raises InputError if there is one
-        step, friction, a growing wave or a rate of zero, or the bars leave different numbers of bands.
+        Its sign is that of the flux of i ⟨u|∇u⟩ with e_1 × e_2 of the steps as positive.
 
         Parameters
         ----------
@@ -121,6 +119,11 @@ class Pattern(Cell):
         Chern
             The groups of bands and their numbers.
 
+        Raises
+        ------
+        InputError
+            If there is one step, friction, a growing wave or a rate of zero, or the bars leave different numbers of bands.
+
         Examples
         --------
         >>> from lagrotor.structures import honeycomb
@@ -131,8 +134,6 @@ class Pattern(Cell):
 
     def edge_waves(self, rate: float, width: int = 16, points: int = 181) -> chern.EdgeWaves:
         """Count the waves along the borders of a strip at a rate in a gap of the bulk.
-
-        Raises InputError if the pattern has one step.
 
         Parameters
         ----------
@@ -147,14 +148,16 @@ class Pattern(Cell):
         -------
         EdgeWaves
             The numbers of waves along both borders.
+
+        Raises
+        ------
+        InputError
+            If the pattern has one step.
         """
         return chern.edge_waves(self, rate, width, points)
 
     def nonlinear_wave(self, q: ArrayLike, band: int) -> nonlinear_waves.NonlinearWave:
         """Expand a wave through second order and its rate through third order in the amplitude.
-
-        Raises InputError with friction, for a wave that grows or has no rate, or at a resonance with its mean or second
-        harmonic.
 
         Parameters
         ----------
@@ -167,6 +170,11 @@ class Pattern(Cell):
         -------
         NonlinearWave
             The wave, its mean and second harmonic, and the shift of its rate.
+
+        Raises
+        ------
+        InputError
+            With friction, for a wave that grows or has no rate, or at a resonance with its mean or second harmonic.
 
         Examples
         --------
@@ -181,7 +189,6 @@ class Pattern(Cell):
         """Find all triads in which a wave of q and a second wave combine to a third, for one step.
 
         Growing waves are omitted. The search takes 181 wave numbers and the sign of ω₁ + ω₂ − ω₃; double roots are missed.
-        Raises InputError with two steps or friction, and if two waves of a triad have the same q and rate.
 
         Parameters
         ----------
@@ -192,6 +199,11 @@ class Pattern(Cell):
         -------
         tuple of ThreeWaves
             The triads, with bands numbered as in `nonlinear_wave`.
+
+        Raises
+        ------
+        InputError
+            With two steps or friction, and if two waves of a triad have the same q and rate.
         """
         return nonlinear_waves.three_waves(self, q)
 
