@@ -6,11 +6,10 @@ Hamiltonian in the coordinates q of `minimal`,
     H = (p − g)·M⁻¹ (p − g)/2,    M(q) and g(q) of L = q'·M q'/2 + g·q',
 
 has one oscillation, the swing; the rotation about the joint line and the centre of the swing have the rate zero. The normal
-form through an order N (`lagrotor.mechanics.canonical.normal_forms`) is H averaged over the swing. Its action and the momentum
-about the joint line are constant, and the centre moves so slowly that some hundred steps follow it over any time. The forms
-through N − 2 and N − 4 are truncations of it, and the decrease of the differences of their motions estimates the error.
-
-Spins that are not opposite let the axes twist apart freely, so that motion near the orbits does not stay small.
+form through an order N is H averaged over the swing. Its action and the momentum about the joint line are constant, and some
+hundred steps follow the slow centre over any time. The forms through N − 2 and N − 4 are truncations of it, and the decrease of
+the differences of their motions estimates the error. Spins that are not opposite let the axes twist apart freely, and no motion
+stays small.
 """
 
 from dataclasses import replace
@@ -176,7 +175,7 @@ def _normal_start(scene: Scene, forms: Forms, order: int, start: Array) -> Any:
         if not step < previous or step < 1e-17:
             break
     if not step < 1e-13 or not np.abs(y).max() < 1:
-        raise DomainError("averaged: the start is no small motion about a rest; use model='minimal'")
+        raise DomainError("averaged: the start is no small motion about an equilibrium; use model='minimal'")
     return y
 
 
@@ -215,7 +214,7 @@ def _centre(scene: Scene, state: Array) -> float:
     slow[[0, 3]] = 0.0
     offset = float((forms.form.vectors[0] @ slow).real)
     if not abs(offset) < 1:
-        raise DomainError("averaged: the start is no small motion about a rest; use model='minimal'")
+        raise DomainError("averaged: the start is no small motion about an equilibrium; use model='minimal'")
     return float(state[0]) + offset
 
 

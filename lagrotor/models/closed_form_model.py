@@ -30,7 +30,7 @@ def closed_form(scene: Scene, t_end: float, tol: float, best: bool = False) -> C
         raise DomainError("closed_form: no closed form goes through a shock; use model='linear' or 'minimal'")
     axes, rates = np.array(scene.axes), np.array(scene.rates)
     if not rates.any():
-        return ClosedMotion(0.0, "at rest and left alone: nothing moves", lambda t: (_still(axes, t), _still(rates, t)))
+        return ClosedMotion(0.0, "at rest without shock: nothing moves", lambda t: (_still(axes, t), _still(rates, t)))
     if scene.link is None:
         reason = "no bar: each rotor turns about its own angular momentum, exactly"
         return _tops(axes, rates, scene.rotor.J, scene.momenta, t_end, reason)

@@ -216,14 +216,7 @@ def shock_response_error(scene: Scene, t_end: float) -> float:
     Returns
     -------
     float
-        The error, of second order in the motion.
-
-    Raises
-    ------
-    InputError
-        If `shock_response` refuses the scene.
-    DomainError
-        If the error exceeds 0.1, or the run has too many turns.
+        The error, of second order in the motion, at most 0.1.
     """
     response = shock_response(scene)
     t = np.linspace(0.0, t_end, 17 + int(_A_TURN * response.frequency * t_end / (2 * pi)))

@@ -34,20 +34,13 @@ def mean_over(t: Array, values: Array) -> float:
 
     Parameters
     ----------
-    t : Array
-        The times (n,), s.
-    values : Array
-        The values (n,).
+    t, values : Array
+        The times, s, and the values, (n,) with n ≥ 8.
 
     Returns
     -------
     float
         The weighted mean.
-
-    Raises
-    ------
-    DomainError
-        If n < 8.
     """
     if len(t) < 8:
         raise DomainError(f"mean_over: {len(t)} values are too few for a mean")
@@ -96,7 +89,7 @@ def run_after(scene: Scene, turns: float = 24, tol: float = 1e-11) -> Trajectory
     Parameters
     ----------
     scene : Scene
-        The pair, with a shock.
+        The pair, with a shock and a spin.
     turns : float, default 24
         The number of swings.
     tol : float, default 1e-11
@@ -106,11 +99,6 @@ def run_after(scene: Scene, turns: float = 24, tol: float = 1e-11) -> Trajectory
     -------
     Trajectory
         The run after the shock.
-
-    Raises
-    ------
-    InputError
-        If there is no shock or no spin.
     """
     response = shock_response(scene)
     if scene.shock is None or response.frequency == 0:
@@ -134,11 +122,6 @@ def exact_cancelling_force(scene: Scene, turns: float = 24) -> float:
     -------
     float
         The force F_y, N, with a relative error of 1e-7.
-
-    Raises
-    ------
-    InputError, DomainError
-        If `cancelling_force` refuses the scene, or no such force is found.
     """
     from scipy.optimize import newton
 
@@ -169,17 +152,12 @@ def time_to_wander(scene: Scene, bound: float, longest: float) -> float:
     bound : float
         The bound of x, in units of R.
     longest : float
-        The end of the search, s.
+        The end of the search, s. DomainError says that the bound is not reached by then.
 
     Returns
     -------
     float
         The time, s.
-
-    Raises
-    ------
-    DomainError
-        If the bound is not reached by then, or is reached within the first swings.
     """
     run = run_after(scene, 6 + int(np.ceil(longest * shock_response(scene).frequency / (2 * np.pi))), 1e-9)
     t, values, shock = run.t, run.axes[..., 0].mean(0), scene.shock
@@ -203,19 +181,12 @@ def toppling_error(scene: Scene, duration: float) -> float:
     scene : Scene
         The pair, with a shock.
     duration : float
-        The end of the mean after the peak of the pulse, s. The mean begins at the end of the pulse.
+        The end of the mean after the peak of the pulse, s: 4 to 10⁴ swings. The mean begins at the end of the pulse.
 
     Returns
     -------
     float
         The error, rad/s.
-
-    Raises
-    ------
-    InputError
-        If the law refuses the scene, or the duration is no finite number.
-    DomainError
-        If the mean has less than 4 or more than 10⁴ swings.
     """
     law = toppling_after_shock(scene)
     return abs(turning_rate(run_after(scene, _turns(scene, duration, "toppling_error"))) - law)
@@ -286,13 +257,6 @@ def time_to_reach_error(scene: Scene, x: float) -> float:
     -------
     float
         The error plus the sampling step of 1/32 swing, s; inf if the averaged motion does not reach x.
-
-    Raises
-    ------
-    InputError
-        If `time_to_reach` refuses the scene.
-    DomainError
-        If the exact motion reaches x within the first swings or too late, or its run exceeds 10⁴ swings.
     """
     law, turn = time_to_reach(scene, x), 2 * np.pi / natural_rate(scene)
     if law == np.inf:
@@ -319,13 +283,6 @@ def guiding_centre_error(scene: Scene, t: ArrayLike) -> Array:
     -------
     Array
         The largest difference of beta, h and alpha, (n,), rad. The exact centre, of leading order, oscillates slightly.
-
-    Raises
-    ------
-    InputError
-        If `guiding_centre` refuses the scene.
-    DomainError
-        If the motion has no centre, or is longer than 10⁴ swings.
     """
     centre, turn = guiding_centre(scene), 2 * np.pi / abs(natural_rate(scene))
     times = check_times("guiding_centre_error", t)

@@ -240,7 +240,7 @@ def integrate_model(
 
 
 def check_range(model: Model, scene: Scene) -> None:
-    """Raises SingularError if the model cannot represent the start, OutsideError if it is badly conditioned there."""
+    """Raise SingularError if the model cannot represent the start, OutsideError if it is badly conditioned there."""
     if not np.isfinite(model.rate(scene, False, bounded=True)(0.0, model.start(scene))).all():
         raise OutsideError(0.0)
 

@@ -57,7 +57,7 @@ SHORT = Calibrated(
 MOST_SLACK = Calibrated(
     1000.0,
     "slack of nearly dependent constraints, in units of rounding, times which rounding may exceed tol before another goes first",
-    "95 of the recorded wide scenes beside the joint line: of 11 that unit vectors do not keep within tol, 9 begin by minimal",
+    "95 of the recorded wide scenes near the joint line: of 11 that unit vectors do not keep within tol, 9 begin by minimal",
     "test_wide_scenes.py::test_beside_a_dead_point_the_model_that_keeps_the_tolerance_is_taken",
 )
 _RESOLVED = 10 * np.finfo(float).eps  # the rounding of a start

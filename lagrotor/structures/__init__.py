@@ -1,13 +1,10 @@
 """Any number of rotors and bars: stability under load, response, waves, and the exact motion.
 
-The types in the order in which data pass through them:
-
-- `Structure` (an `Assembly` with methods) contains joints, bars, spins and loads; `read_structure` reads one from TOML. `Pattern`
-  repeats a cell of rotors, and its `piece` is a `Structure`.
+- `Structure` contains joints, bars, spins and loads; `read_structure` reads one from TOML. `Pattern` repeats a cell of rotors,
+  and its `piece` is a `Structure`.
 - `Coefficients` has the coefficients of all equations of motion in arrays.
 - `SmallMotion` is the linear system about upright. `Modes`, `Standing`, `response` and the bands of a pattern follow from it.
-- `local_hamiltonian` expands the exact Lagrangian about upright. `Resonance`, `PrecessionLaw` and `hold_time` follow from its
-  normal form.
+- `local_hamiltonian` expands the exact Lagrangian about upright. `Resonance`, `PrecessionLaw` and `hold_time` follow from it.
 - `ExactMotion` is the right-hand side of large motion; `Structure.simulate` integrates it to a `StructureRun`.
 
 A new load is a field of `Assembly`, a number in `Coefficients`, and a term in `exact.exact_motion.forces`, in

@@ -153,11 +153,6 @@ class Assembly:
         -------
         tuple
             The position (x, y, z), m.
-
-        Raises
-        ------
-        InputError
-            If there is no such rotor.
         """
         if i not in range(len(self.joints)):
             raise InputError(f"upright_tip: i = {i!r} must be a rotor's number, from 0 to {len(self.joints) - 1}")
@@ -165,7 +160,7 @@ class Assembly:
 
     @property
     def natural(self) -> bool:
-        """True if every bar has the length that joins its tips when all axes are upright."""
+        """True if each bar is as long as the distance of its tips with all axes upright."""
         return all(
             abs(hypot(*(p - q for p, q in zip(self.upright_tip(i), self.upright_tip(j), strict=True))) - length)
             <= 1e-12 * length

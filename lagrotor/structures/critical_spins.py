@@ -1,7 +1,6 @@
 """The least factor on all spins above which a structure is linearly stable upright, and the signs of spins that minimise it.
 
-Spin alone can stabilise a position that weight makes unstable. Without friction, with K the stiffness and B the gyroscopic
-matrix on the n degrees of freedom:
+Without friction, with K the stiffness and B the gyroscopic matrix on the n degrees of freedom:
 
 - If an odd number of degrees of freedom is unstable (det K < 0), no spin stabilises the structure (Kelvin; Thomson & Tait,
   Natural Philosophy, § 345).
@@ -133,7 +132,7 @@ def _by_scan(linear: SmallMotion) -> float:
 class Patterns:
     """The numbers of patterns tried and of stable ones, the least critical spin (rad/s, inf if none), and its pattern."""
 
-    tried: int
+    count: int
     standing: int
     least: float
     best: tuple[int, ...]
@@ -153,11 +152,6 @@ def sign_patterns(s: Assembly) -> Patterns:
     -------
     Patterns
         The numbers of patterns and the best pattern.
-
-    Raises
-    ------
-    InputError
-        If there are more rotors, or a bar does not have its upright length.
 
     Examples
     --------

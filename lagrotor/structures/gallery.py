@@ -90,11 +90,6 @@ def example(name: str) -> Structure:
     Structure
         The structure.
 
-    Raises
-    ------
-    InputError
-        If there is no such name.
-
     Examples
     --------
     >>> len(example("hexagon").bars)

@@ -36,7 +36,7 @@ from lagrotor.structures.upright_hamiltonian import local_hamiltonian
 _NEAR = 0.1  # relative to the largest rate: the largest detuning of resonant terms
 _NEGLIGIBLE = 1e-9  # relative to the largest coefficient: smaller ones are zero
 _LARGEST = 0.5  # limit of the tilt, and of the modes that harmonics drive relative to the mode
-_TILTS = 400  # of the search for the edge
+_TILTS = 400  # tilts in the search for the edge
 _ROUNDING = 1e-9  # of a multiplier's modulus
 _EXACT = 1e-6  # relative detuning below which a mode is resonant
 

@@ -2,8 +2,7 @@
 
 A position that spins hold against weight has modes of both signs of energy, H = sum_j ω_j |z_j|² + …, with ω_j < 0 for the
 negative ones. Let k·ω = δ be small for k_j ≥ 0, |k| = d. The terms of degree d of the normal form, 2 Re P with P of degree d in
-z alone, then feed all these modes at once, because their energies compensate. With N = sum |z_j|² over them and c the largest
-|P| at N = 1,
+z alone, then feed all these modes at once. With N = sum |z_j|² over them and c the largest |P| at N = 1,
 
     |dN/dt| ≤ 2 d c N^(d/2):   from N₀ = ρ² none topples before  t = 1/(d (d − 2) c ρ^(d−2)),
 
@@ -12,9 +11,8 @@ degree d. With κ the largest value of K_d at N = 1, no start below ρ passes th
 
     |δ| > ½ d² κ (ρ²/x)^((d−2)/2),     x + (2/d) x^(d/2) = 1 − 2/d:    |δ| > 18 c ρ for d = 3.
 
-The terms of degree d alone are used. The waves of d = 3 are those of Cherry, Trans. Camb. Phil. Soc. 23 (1925) 199. For d = 4
-the terms in the actions may stop the growth. A vector k is unstable if 2 |P| > |K_4 − 2 Re P| along |z_j|² ∝ k_j; modes of
-equal rates are tried in any basis.
+The case d = 3 is that of Cherry, Trans. Camb. Phil. Soc. 23 (1925) 199. For d = 4 the terms in the actions may stop the growth:
+a vector k is unstable if 2 |P| > |K_4 − 2 Re P| along |z_j|² ∝ k_j, in any basis of modes of equal rates.
 """
 
 from collections.abc import Iterator, Sequence

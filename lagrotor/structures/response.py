@@ -2,17 +2,15 @@
 
     X = R Z (−ω² M + i ω C + K)⁻¹ Zᵀ f,   f_i = R_i F_i − S_i a_ground,
 
-for F e^(iωt) on the tips and the acceleration a e^(iωt) of the ground, exact for small motion.
-
-The spins (g) couple a sway of mass M and stiffness K = M Ω² to a motion of inertia m with a brace k_z and a damper c:
+for F e^(iωt) on the tips and the acceleration a e^(iωt) of the ground, exact for small motion. The spins (g) couple a sway of
+mass M and stiffness K = M Ω² to a motion of inertia m with a brace k_z = m Ω² f² and a damper c = 2 ζ m Ω:
 
     M x'' + K x + g z' = F,   m z'' + c z' + k_z z − g x' = 0,   γ² = g²/(M m Ω²).
 
 For the pair under equal or opposite spins ± G, with tips of inertia a: M = m = 2a, g = 2G, γ = G/(a Ω), and z is the mean y or
-the yaw. Brace k_z = m Ω² f², damper c = 2 ζ m Ω. In the worst case both peaks of |X| have the same height, the least that any
-brace and damper allow. Den Hartog's fixed points (Mechanical Vibrations, 1956, § 3.3) are only a lower bound. Derived in
-derivations/n2_shaken.py. Tuned mass: Nishihara & Asami (J. Vib. Acoust. 124, 576, 2002), Warburton (Earthquake Eng. Struct.
-Dyn. 10, 1982).
+the yaw. In the worst case both peaks of |X| have the same height, the least that any brace and damper allow; Den Hartog's fixed
+points (Mechanical Vibrations, 1956, § 3.3) are only a lower bound. Derived in derivations/n2_shaken.py. Tuned mass: Nishihara &
+Asami (J. Vib. Acoust. 124, 576, 2002), Warburton (Earthquake Eng. Struct. Dyn. 10, 1982).
 """
 
 from dataclasses import dataclass
@@ -105,17 +103,12 @@ def spins_worst_case(gamma: ArrayLike) -> Absorber:
     Parameters
     ----------
     gamma : array_like
-        The coupling γ.
+        The coupling γ, 0 < γ < √2.
 
     Returns
     -------
     Absorber
         The optimum, with the peak as its value.
-
-    Raises
-    ------
-    DomainError
-        Unless 0 < γ < √2.
 
     Examples
     --------
@@ -135,17 +128,12 @@ def spins_white_noise(gamma: ArrayLike) -> Absorber:
     Parameters
     ----------
     gamma : array_like
-        The coupling γ.
+        The coupling γ, 0 < γ < √2.
 
     Returns
     -------
     Absorber
         The optimum under white noise.
-
-    Raises
-    ------
-    DomainError
-        Unless 0 < γ < √2.
     """
     g2 = _in_domain("gamma", gamma, 2**0.5) ** 2
     return Absorber(1 - g2 / 2, np.sqrt(g2 * (4 - g2)) / 4, np.sqrt(4 / g2 - 1))
@@ -167,11 +155,6 @@ def mass_worst_case(mu: ArrayLike) -> Absorber:
     -------
     Absorber
         The optimum, with the peak as its value. Den Hartog's fixed points lie at sqrt(1 + 2/μ).
-
-    Raises
-    ------
-    DomainError
-        Unless μ > 0.
     """
     m = _in_domain("mu", mu, np.inf)
     s = np.sqrt(4 + 3 * m)

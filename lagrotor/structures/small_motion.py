@@ -220,7 +220,7 @@ def small_motion(s: Assembly) -> SmallMotion:
 
 
 def check_upright(s: Assembly, where: str) -> None:
-    """Raises InputError in the name of the caller if a bar does not have its upright length."""
+    """Raise InputError in the name of the caller if a bar does not have its upright length."""
     if not s.natural:
         raise InputError(
             f"{where}: a bar does not have its upright length, and this linear motion is about upright axes: take "

@@ -267,11 +267,6 @@ def measured_fall(s: Assembly, push: ArrayLike, longest: float, tol: float = 1e-
     -------
     float
         The time, s; inf if no axis tilts so far.
-
-    Raises
-    ------
-    InputError, IntegrationError
-        If the push is invalid, or the solver fails.
     """
     from scipy.integrate import solve_ivp
 

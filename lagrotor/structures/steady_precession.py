@@ -170,7 +170,7 @@ def precessing_mode(s: Assembly, mode: int, where: str) -> tuple[float, NDArray[
     if isinstance(mode, bool) or not isinstance(mode, int | np.integer) or not 0 <= mode < count:
         raise InputError(f"{where}: mode = {mode!r} is not a number from 0 to {count - 1}, as modes() has them")
     if c.decay.any() or c.friction.any() or c.damping.any():
-        raise InputError(f"{where}: friction or a damper takes energy, and no motion returns: leave it out")
+        raise InputError(f"{where}: friction or a damper dissipates energy, and no motion is periodic: set it to zero")
     rate, growth = float(linear.rates[mode]), linear.growth[mode]
     if growth or rate == 0:
         why = f"{'grows' if growth > 0 else 'decays'}, {abs(growth):.3g} 1/s" if growth else "has no rate"

@@ -1,4 +1,4 @@
-"""`Structure`: any number of rotors and bars with its methods, and its TOML file, which holds the fields of `Structure`."""
+"""`Structure`, any number of rotors and bars with its methods, and its TOML file."""
 
 from collections.abc import Sequence
 from dataclasses import asdict, fields
@@ -38,7 +38,8 @@ class Structure(Assembly):
     """N rotors on ground joints, with bars between their tips, under weight, springs and dampers.
 
     One number, rotor or link applies to all of them. Units are SI. Methods that linearise about upright raise InputError if a
-    bar does not have its upright length.
+    bar does not have its upright length. Those beyond the linear motion need a motion without friction, without growth, and
+    with at most 8 degrees of freedom.
 
     Attributes
     ----------
@@ -218,11 +219,6 @@ class Structure(Assembly):
         Modes
             The modes. Their shapes (n, N, 3) are displacements of the axes.
 
-        Raises
-        ------
-        InputError
-            If the structure is not at equilibrium at these axes, or a bar has another length there.
-
         Examples
         --------
         >>> from lagrotor import Structure
@@ -278,11 +274,6 @@ class Structure(Assembly):
         -------
         PrecessionLaw
             The rate and the multipliers as functions of the tilt.
-
-        Raises
-        ------
-        InputError, SingularError
-            If the mode is invalid or resonant, friction acts, or there are more than 8 degrees of freedom.
 
         Examples
         --------
@@ -349,11 +340,6 @@ class Structure(Assembly):
         tuple
             Intervals (low, high); the last high end may be inf. It is empty if no factor is known to suffice.
 
-        Raises
-        ------
-        InputError
-            If the structure needs no spins, friction acts, or there are more than 8 degrees of freedom.
-
         Examples
         --------
         >>> from lagrotor.structures import example
@@ -371,11 +357,6 @@ class Structure(Assembly):
         -------
         LargestPush
             The size in rad/s, and the resonance that limits it.
-
-        Raises
-        ------
-        InputError
-            If a mode has the rate zero, friction acts, or there are more than 8 degrees of freedom.
 
         Examples
         --------
@@ -400,11 +381,6 @@ class Structure(Assembly):
         tuple of Resonance
             It is empty if all modes have energies of one sign.
 
-        Raises
-        ------
-        InputError, SingularError
-            If a mode grows or has the rate zero, friction acts, or there are more than 8 degrees of freedom.
-
         Examples
         --------
         >>> from lagrotor.structures import example
@@ -415,17 +391,12 @@ class Structure(Assembly):
         return resonances.resonances(self, factor, orders)
 
     def characteristic(self) -> characteristic.Characteristic:
-        """Derive the characteristic polynomial det(M s² + C s + K) in symbols, factored.
+        """Derive the characteristic polynomial det(M s² + C s + K) in symbols, for at most 6 rotors.
 
         Returns
         -------
         Characteristic
-            The polynomial, the matrices, and the numerical value of each symbol.
-
-        Raises
-        ------
-        InputError
-            If there are more than 6 rotors.
+            The factored polynomial, the matrices, and the numerical value of each symbol.
 
         Examples
         --------
@@ -459,11 +430,6 @@ class Structure(Assembly):
         -------
         Complex
             The displacements x, y of the tips relative to the ground, (n, N, 2), m.
-
-        Raises
-        ------
-        InputError
-            If an argument is invalid, or a rate is that of an undamped resonance.
 
         Examples
         --------
@@ -502,11 +468,6 @@ def read_structure(path: str | Path) -> Structure:
     -------
     Structure
         The structure.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read or describes no structure.
 
     Examples
     --------

@@ -36,13 +36,13 @@ Row = list[Polynomial]
 
 @dataclass(frozen=True, eq=False)
 class LocalHamiltonian:
-    """H/(inertia rate²) = parts[0] + f parts[1] + f² parts[2] with all spins multiplied by f, in q and p/(inertia rate).
+    """H/(inertia rate²) = powers[0] + f powers[1] + f² powers[2] with all spins multiplied by f, in q and p/(inertia rate).
 
     q = basisᵀ u with the basis (2N, n) of `small_motion`; mass (n, n) of p = mass q'/rate upright; rate in rad/s; axes: x, y,
     z in q.
     """
 
-    parts: tuple[Polynomial, Polynomial, Polynomial]
+    powers: tuple[Polynomial, Polynomial, Polynomial]
     basis: Array
     mass: Array
     rate: float
@@ -50,7 +50,7 @@ class LocalHamiltonian:
 
     def at_spins(self, factor: float) -> Polynomial:
         """Return the Hamiltonian with all spins multiplied."""
-        return total([self.parts[0], *(self.parts[k].times(factor**k) for k in (1, 2) if factor)])
+        return total([self.powers[0], *(self.powers[k].times(factor**k) for k in (1, 2) if factor)])
 
 
 @lru_cache(maxsize=16)
@@ -68,11 +68,6 @@ def local_hamiltonian(s: Assembly, order: int = 4) -> LocalHamiltonian:
     -------
     LocalHamiltonian
         The polynomial with its basis and units.
-
-    Raises
-    ------
-    InputError
-        If a bar does not have its upright length, or friction acts.
     """
     check_upright(s, "local_hamiltonian")
     linear, c = small_motion(s), coefficients(s)

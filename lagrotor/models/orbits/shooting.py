@@ -57,7 +57,7 @@ class QuarterPeriod:
     """The three conditions for the four unknowns z and their Jacobian, which define the curve of orbits."""
 
     def __init__(self, scene: Scene) -> None:
-        """Raises InputError unless the spins are opposite and there is a bar."""
+        """Raise InputError unless the spins are opposite and there is a bar."""
         shape_of(scene)
         self.scene = replace(scene, shock=None, axes=((0.0, 0.0, 1.0),) * 2, rates=((0.0, 0.0, 0.0),) * 2)
         inertia, shared = scene.inertias
@@ -261,11 +261,6 @@ def trace_family(scene: Scene) -> OrbitFamily:
     -------
     OrbitFamily
         The orbits.
-
-    Raises
-    ------
-    InputError
-        Unless the spins are opposite.
     """
     curve = QuarterPeriod(scene)
     z = curve.correct(curve.linear(atanh(_START)), np.array([1.0, 0, 0, 0]), atanh(_START))
@@ -358,13 +353,6 @@ def upright_orbit(scene: Scene, r0: float) -> UprightOrbit:
     -------
     UprightOrbit
         A scene that starts on the orbit, its frequency, and its rotation rate.
-
-    Raises
-    ------
-    InputError
-        Without a bar or spin, and for opposite spins: see `exact_orbit`.
-    DomainError
-        If r0 is out of range, or Newton's method does not converge from the linear motion.
     """
     amplitude, (first, second) = amplitude_of(r0, "upright_orbit"), scene.momenta
     if scene.link is None or first + second == 0:

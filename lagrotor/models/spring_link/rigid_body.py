@@ -100,11 +100,6 @@ class RigidBody:
         The angular velocity Omega in world components, (3,), rad/s.
     velocity : Array
         The velocity U of the centre in world components, (3,), m/s.
-
-    Raises
-    ------
-    InputError
-        If the mass is not positive, the inertia not symmetric and positive, or R no rotation.
     """
 
     centre: Array

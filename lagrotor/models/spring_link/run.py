@@ -217,11 +217,6 @@ def run_solver(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, tol: 
     -------
     SpringRun
         The run at the times that were reached.
-
-    Raises
-    ------
-    InputError, IntegrationError
-        If times or tolerance are invalid, or nothing can be computed.
     """
     times, tolerance = check_times("run_solver", t), check_tolerance(tol, "run_solver")
     rate, n_b = rate_function(system, shock), len(system.vertices)

@@ -36,14 +36,10 @@ def link_force(gap: Array, rate: Array, S: float, D: float) -> Array:
 
     Parameters
     ----------
-    gap : Array
-        X_1 − X_2, (n, 3), m.
-    rate : Array
-        U_1 − U_2, (n, 3), m/s.
-    S : float
-        The stiffness, N/m.
-    D : float
-        The damping, kg/s.
+    gap, rate : Array
+        X_1 − X_2 in m and U_1 − U_2 in m/s, (n, 3).
+    S, D : float
+        The stiffness, N/m, and the damping, kg/s.
 
     Returns
     -------
@@ -75,21 +71,11 @@ class RigidBodySystem:
     ----------
     bodies : list of RigidBody
         The bodies.
-    stiffness : float
-        The stiffness S of every link, N/m.
-    damping : float
-        The damping D of every link, kg/s.
-    force : callable, default `link_force`
-        The law of the links, or `printed_link_force`.
-    rotation : callable, default `finite_rotation`
-        The finite rotation, or `printed_rotation`.
-    transform : callable, default `inertia_transform`
-        The rotation of the inertia, or `printed_inertia_transform`.
-
-    Raises
-    ------
-    InputError
-        If S is not positive, D is negative, or there is no body.
+    stiffness, damping : float
+        The stiffness S > 0, N/m, and the damping D, kg/s, of every link.
+    force, rotation, transform : callable
+        The force of a link, the finite rotation, and the rotation of the inertia. The `printed_*` functions are the
+        alternatives.
     """
 
     def __init__(
@@ -140,14 +126,10 @@ class RigidBodySystem:
 
         Parameters
         ----------
-        body1 : int
-            The first body, from 1.
-        body2 : int
-            The second body.
-        vertex1 : int
-            The vertex of the first body, from 1.
-        vertex2 : int
-            The vertex of the second body.
+        body1, body2 : int
+            The bodies, from 1.
+        vertex1, vertex2 : int
+            Their vertices, from 1.
         """
         self._join(self._end(body1, vertex1), self._end(body2, vertex2))
 
@@ -156,10 +138,8 @@ class RigidBodySystem:
 
         Parameters
         ----------
-        body : int
-            The body, from 1.
-        vertex : int
-            The vertex, from 1.
+        body, vertex : int
+            The body and its vertex, from 1.
         """
         i, arm = self._end(body, vertex)
         self._join((i, arm), (len(self.vertices), self.X[i] + self.R[i] @ arm))
@@ -169,10 +149,8 @@ class RigidBodySystem:
 
         Parameters
         ----------
-        body : int
-            The body, from 1.
-        vertex : int
-            The vertex, from 1.
+        body, vertex : int
+            The body and its vertex, from 1.
         force : array_like
             The force, (3,), N.
         strength : float, default 1.0
@@ -211,11 +189,6 @@ class RigidBodySystem:
         ----------
         dt : float
             The step, s.
-
-        Raises
-        ------
-        InputError
-            If dt is not positive.
         """
         if not (isfinite(dt) and dt > 0):
             raise InputError(f"step: dt = {dt!r} s must be a finite number above zero")
@@ -275,10 +248,8 @@ class RigidBodySystem:
 
         Parameters
         ----------
-        X : Array
-            The centres, (…, n + 1, 3), m.
-        R : Array
-            The rotations, (…, n + 1, 3, 3).
+        X, R : Array
+            The centres, (…, n + 1, 3), m, and the rotations, (…, n + 1, 3, 3).
 
         Returns
         -------
@@ -337,11 +308,6 @@ def step_limit(system: RigidBodySystem) -> StepLimit:
     -------
     StepLimit
         The limit of the system, and of each joint, s.
-
-    Raises
-    ------
-    InputError
-        If the system has no link.
     """
     W = system.joint_mobility()
     if not len(W):
@@ -400,10 +366,8 @@ def paper_system(
     ----------
     scene : Scene
         The pair. Without a bar it gives two rotors and two links.
-    stiffness : float
-        The stiffness S, N/m.
-    damping : float
-        The damping D, kg/s.
+    stiffness, damping : float
+        The stiffness S, N/m, and the damping D, kg/s, of every link.
     bar_height : float or None, optional
         Another height of the centre of the bar, m, as in section 4.1 of the paper.
     **laws : callable

@@ -112,11 +112,6 @@ class Ensemble(Shown):
         -------
         Trajectory
             The run.
-
-        Raises
-        ------
-        InputError
-            If the run reached nothing.
         """
         n = int(np.isfinite(self.errors[i]).sum())
         if not n:
@@ -164,11 +159,6 @@ def sweep(
     -------
     Ensemble
         The trajectories with their errors.
-
-    Raises
-    ------
-    InputError
-        If an argument is invalid, or there is no scene.
 
     Examples
     --------

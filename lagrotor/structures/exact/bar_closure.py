@@ -14,7 +14,7 @@ _DEPENDENT = 1e-9  # relative to the largest singular value or pivot: smaller on
 
 
 def check_closure(s: Assembly) -> None:
-    """Raises InputError if no degree of freedom remains, the bars cannot close, or the constraints are dependent."""
+    """Raise InputError if no degree of freedom remains, the bars cannot close, or the constraints are dependent."""
     N, B = len(s.joints), len(s.bars)
     if B >= 2 * N:
         raise InputError(

@@ -1,13 +1,11 @@
 """The equations of `exact_motion` in scalars of any kind, as generated code and compiled by heyoka (the fast extra).
 
-For few rotors generated scalar code is the right-hand side, because it costs less than calls of arrays. With the fast extra few
-rotors are integrated by heyoka's Taylor series. The series of many rotors exceed a processor's caches; there heyoka compiles
-the right-hand side for the core's integrators, once per process for a structure at any spins.
+For few rotors scalar code is the right-hand side, because it costs less than calls of arrays. With the fast extra few rotors
+are integrated by heyoka's Taylor series; for many, heyoka compiles the right-hand side, once per process for any spins.
 
 The linear system is solved in levels. Independent unknowns with the fewest neighbours are eliminated together: in a chain every
 other one, then every other one of the remainder (cyclic reduction: Golub & Van Loan, § 4.5.4). The operations are ∝ N, and the
-longest chain of dependent operations is ∝ log N. A constraint is eliminated after its masses: its pivot is then nonzero, as the
-masses are positive and the constraints independent.
+longest chain of dependent operations is ∝ log N. A constraint is eliminated after its masses, which make its pivot nonzero.
 """
 
 from collections.abc import Callable, Mapping, Sequence

@@ -27,11 +27,6 @@ def measured_growth(s: Assembly, folds: float = 3.0) -> float:
     -------
     float
         The growth rate, 1/s.
-
-    Raises
-    ------
-    InputError
-        If no mode grows, or a bar does not have its upright length.
     """
     check_upright(s, "measured_growth")
     linear, normal = small_motion(s), modes(s)

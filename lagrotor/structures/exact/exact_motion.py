@@ -3,24 +3,21 @@
     sum_j A_ij r_j'' = G_i r_i × r_i' − S_i (g e_z + a(t)) + R_i f_i(t) + hinge, friction, braces + sum_c lam_c grad_i g_c
 
 with |r_i|² = 1 and |X_j − X_i|² = ell² (X_i = p_i + R_i r_i), f_i the force on tip i and a(t) the acceleration of the ground,
-in whose frame the equations hold. The hinge has the energy kappa theta²/2 and friction is −c r_i'. The axial momentum decays by
-its friction, G_i(t) = G_i exp(−c_s t / I3). For N = 2 without load: `lagrotor.models.spheres`.
+in whose frame the equations hold. The hinge has the energy kappa theta²/2, friction is −c r_i', and G_i(t) = G_i exp(−c_s t /
+I3).
 
-Every evaluation solves one linear system, the mass matrix bordered by the gradients of the constraints, at linear cost:
+Every evaluation solves one linear system at linear cost:
 
     [ A⊗1  Gᵀ ] [ r''  ]   [ F ]      G: rows r_i (unit length) and ∓ R d (a bar, d from tip to tip)
     [ G    0  ] [ lam  ] = [ c ]
 
-The unknowns of a rotor and of its bars are adjacent, and the rotors have the order of reverse Cuthill and McKee (1969). Chains
-and rings then have a narrow band of any length: LU with pivoting in the band (LAPACK's gbsv). Wide bands (grids) take sparse
-LU.
+The rotors have the order of reverse Cuthill and McKee (1969), each with its bars. Chains and rings of any length then have a
+narrow band: LU with pivoting in the band (LAPACK's gbsv). Wide bands (grids) take sparse LU.
 
-If a bar is in line with both its axes, the constraints are dependent and the continuation is not unique. An integrator that
-steps over this position follows one continuation without notice. The vector d × r of the bar across an axis changes its sign
-there. If it does so at both ends from one state of a run to the next, the position lies between the states.
+If a bar is in line with both its axes, the constraints are dependent and the continuation is not unique. An integrator may step
+over this position without notice. The vector d × r of the bar across an axis changes its sign there, at both ends.
 
-In the functions of forces and constraints r and v are the axes and their rates, (N, 3), 1/s, and G the axial momenta (N,). They
-are arrays of floats or of objects (symbols, recorded or compiled numbers), whose square roots `root` takes.
+r and v (N, 3), 1/s, and G (N,) are arrays of floats or of objects (symbols, recorded numbers), whose square roots `root` takes.
 """
 
 from collections.abc import Callable
@@ -44,7 +41,7 @@ _ROWS = 1_000  # of the systems that are solved in one call
 
 
 def cross_product(a: Array, b: Array) -> Array:
-    """a × b, (…, 3)."""
+    """Return a × b, (…, 3)."""
     return a[..., _NEXT] * b[..., _AFTER] - a[..., _AFTER] * b[..., _NEXT]
 
 

@@ -145,11 +145,6 @@ class StructureRun(Run):
         -------
         StructureRun
             The run. Its structure is an `Assembly`.
-
-        Raises
-        ------
-        InputError
-            If the file is incomplete or contains no run of a structure.
         """
         about, arrays, run_fields = read_run(path)
         try:
@@ -350,6 +345,6 @@ class _CheckedDrive:
         return lambda t: self(begin + t)
 
     def refuse(self) -> None:
-        """Raises InputError if the function has failed."""
+        """Raise InputError if the function has failed."""
         if self.failure:
             raise InputError(self.failure) from None

@@ -117,11 +117,6 @@ class Cell:
         -------
         list
             The shifts of the cells; the last step varies fastest.
-
-        Raises
-        ------
-        InputError
-            If a number is not positive, or there is not one per step.
         """
         if len(counts) != len(self.steps) or not all(isinstance(n, int | np.integer) and n > 0 for n in counts):
             raise InputError(f"Pattern: piece{counts}: give {len(self.steps)} number(s) of cells, 1 or more")
@@ -141,11 +136,6 @@ class Cell:
         -------
         Structure
             The piece.
-
-        Raises
-        ------
-        InputError
-            If a number is invalid, or `Structure` refuses the piece.
 
         Examples
         --------
@@ -191,11 +181,6 @@ class Cell:
         -------
         Pattern
             The strip.
-
-        Raises
-        ------
-        InputError
-            If the pattern has one step, or the width is below 1.
         """
         if len(self.steps) != 2 or width < 1:
             raise InputError(

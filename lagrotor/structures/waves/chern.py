@@ -25,14 +25,14 @@ _STARTS = 4  # starts of the search, the wave numbers with the least distances o
 class Chern:
     """groups: (first, last) band of each group that touches no other one; numbers: their Chern numbers.
 
-    apart: the least distance (rad/s) from each group to the next at one wave number; off: the largest distance of a flux sum
-    from an integer.
+    apart: the least distance (rad/s) from each group to the next at one wave number; flux_error: the largest distance of a
+    flux sum from an integer.
     """
 
     groups: tuple[tuple[int, int], ...]
     numbers: tuple[int, ...]
     apart: tuple[float, ...]
-    off: float
+    flux_error: float
 
 
 def chern_numbers(p: Cell, grid: int = 24) -> Chern:
@@ -93,7 +93,7 @@ def _check(d: Dispersion) -> None:
     if any(d.pattern.friction) or any(brace[4] for brace in d.pattern.braces):
         raise InputError("chern_numbers: with friction or damping the motion conserves no energy; set them to zero")
     if d.falls:
-        raise InputError("chern_numbers: a wave falls: Chern numbers need a stable pattern")
+        raise InputError("chern_numbers: a wave grows: Chern numbers need a stable pattern")
     if not d.rates.min() > 0:
         raise InputError(
             "chern_numbers: a wave has rate zero, and no gap separates its band from those of −q: give hinges"

@@ -252,11 +252,6 @@ def wave_amplitude(p: Cell, run: StructureRun, counts: Sequence[int], q: ArrayLi
     -------
     Complex
         The amplitude a e^{−iωt} at each time, (n,).
-
-    Raises
-    ------
-    InputError
-        If the wave is invalid, or the run is of another piece.
     """
     b = _bloch_without_friction(p)
     wave, cells = _wave(p, b, q, band), np.array(p.cells(*counts))

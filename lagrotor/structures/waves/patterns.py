@@ -47,11 +47,6 @@ class Pattern(Cell):
     inertia : bool
         False for the limit of fast spins, which has the slow precessions alone.
 
-    Raises
-    ------
-    InputError
-        If a joint, a shift or a step is invalid.
-
     Examples
     --------
     >>> from lagrotor import Pattern
@@ -133,7 +128,7 @@ class Pattern(Cell):
         return chern.chern_numbers(self, grid)
 
     def edge_waves(self, rate: float, width: int = 16, points: int = 181) -> chern.EdgeWaves:
-        """Count the waves along the borders of a strip at a rate in a gap of the bulk.
+        """Count the waves along the borders of a strip of a plane pattern, at a rate in a gap of the bulk.
 
         Parameters
         ----------
@@ -148,11 +143,6 @@ class Pattern(Cell):
         -------
         EdgeWaves
             The numbers of waves along both borders.
-
-        Raises
-        ------
-        InputError
-            If the pattern has one step.
         """
         return chern.edge_waves(self, rate, width, points)
 
@@ -199,11 +189,6 @@ class Pattern(Cell):
         -------
         tuple of ThreeWaves
             The triads, with bands numbered as in `nonlinear_wave`.
-
-        Raises
-        ------
-        InputError
-            With two steps or friction, and if two waves of a triad have the same q and rate.
         """
         return nonlinear_waves.three_waves(self, q)
 
@@ -251,7 +236,7 @@ def polygon_ring(count: int, spring: float | None = None, **settings: Any) -> Pa
     Parameters
     ----------
     count : int
-        The number of rotors in the ring.
+        The number of rotors in the ring, 3 or more.
     spring : float or None, optional
         The stiffness of braces that replace the bars, N/m.
     **settings : dict
@@ -261,11 +246,6 @@ def polygon_ring(count: int, spring: float | None = None, **settings: Any) -> Pa
     -------
     Pattern
         The pattern.
-
-    Raises
-    ------
-    InputError
-        If the count is below 3.
     """
     if count < 3:
         raise InputError(f"polygon_ring: {count} rotors are no polygon: give 3 or more")
