@@ -214,9 +214,8 @@ def integrate_model(
 ) -> Stretch:
     """Integrate from t = 0 through increasing `times` (n,) in s with a local error, to the states (n, d).
 
-    companion: take other steps than the first run. Raises SingularError if the coordinates cannot represent the start,
-    StopError if the run cannot continue (with `bounded` also where the model is badly conditioned), InputError without
-    heyoka.
+    companion: take other steps. Raises SingularError if the coordinates cannot represent the start, StopError if the run
+    cannot continue (with `bounded` also where the model is badly conditioned).
     """
     problem = problem_of(model, scene, bounded, start, budget, companion)
     if engine == "core":
@@ -281,10 +280,7 @@ def pulse_nodes(scene: Scene, t_end: float) -> PulseNodes | None:
 
 
 def conservation_defect(scene: Scene, t: Array, observed: Observed, nodes: PulseNodes | None) -> Array:
-    """Return the errors of axes and rates, signed, that explain how far a run in natural units violates the conservation laws.
-
-    Without nodes the work of the shock is unknown, and later states are compared with the first state after it.
-    """
+    """Return the errors of axes and rates, signed, that explain the violation of the conservation laws in natural units."""
     (a, b), (v1, v2) = scene.inertias, observed.rates
     size = float(np.sqrt(((a * v1 + b * v2) ** 2 + (a * v2 + b * v1) ** 2).sum(-1)).max())
     lengths = [np.linalg.norm(observed.axes, axis=-1) - 1]

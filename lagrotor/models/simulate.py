@@ -261,11 +261,7 @@ class _ScaledScene:
             raise
 
     def by_ladder(self, choice: Choice) -> tuple[str, str, EstimatedRun]:
-        """Return the model that `auto` takes, the reason, and its run.
-
-        It is the first model of the ladder that reaches the end, from the chosen one on; otherwise the one that reaches the
-        latest time.
-        """
+        """Return the first model of the ladder that reaches the end, or else the latest time, the reason, and its run."""
         first_model = [model.name for model in LADDER].index(choice.model)
         # If none reaches the end, the first models continue where they are badly conditioned.
         tries = [(model, model is not LADDER[-1]) for model in LADDER[first_model:]]

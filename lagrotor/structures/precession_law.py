@@ -79,10 +79,7 @@ class PrecessionLaw(Shown):
 
     @property
     def edge(self) -> float:
-        """The least tilt at which a multiplier leaves the unit circle, inf if none does within `reach`.
-
-        The search takes 400 tilts and a bisection. Unstable intervals below 1/400 of the reach may be missed.
-        """
+        """The least of 400 tilts, refined, at which a multiplier leaves the unit circle; inf if none does within `reach`."""
         tilts = np.linspace(0, self.reach, _TILTS + 1)[1:]
         beyond = next((float(tilt) for tilt in tilts if self.growth_at(tilt)), inf)
         stable = beyond - float(tilts[0])

@@ -273,10 +273,7 @@ def normal_form_of(s: Assembly, factor: float = 1.0, detuning: float = 0.0, orde
 
 
 def fall_time_along(s: Assembly, rates: ArrayLike, longest: float, detuning: float) -> float:
-    """Return the time (s) at which a push first tilts an axis by the sine 1, inf if not within `longest`, by the normal form.
-
-    rates: the rates of the axes (N, 2), rad/s; detuning: the largest detuning of the resonances, rad/s.
-    """
+    """Return the time (s) at which rates (N, 2) first tilt an axis by the sine 1, inf after `longest`, by the normal form."""
     from scipy.integrate import solve_ivp
 
     h = local_hamiltonian(s)

@@ -64,11 +64,7 @@ def hold_time(s: Assembly, push: float) -> float:
 
 
 def _times(form: NormalForm, size: float) -> list[float]:
-    """Return the times, in units of the form's rate, until sqrt(2) times the size is reached in the normal modes.
-
-    There is one time for each degree whose remainder is not zero. Orders at which the coordinates differ too much are
-    omitted.
-    """
+    """Return the times to sqrt(2) times the size in the normal modes, one per degree with a remainder, in the form's units."""
     n, times, resonant, shift = len(form.frequencies), list[float](), dict[int, float](), 0.0
     rates, zero = np.real(form.frequencies), _ZERO * float(np.abs(form.series.coefficients).max())
     for degree, generator in enumerate(form.generators, 3):

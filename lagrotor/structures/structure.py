@@ -407,11 +407,7 @@ class Structure(Assembly):
         return characteristic.characteristic(self)
 
     def response(
-        self,
-        rates: ArrayLike,
-        force: ArrayLike | None = None,
-        at: int | None = None,
-        ground: ArrayLike | None = None,
+        self, rates: ArrayLike, force: ArrayLike | None = None, at: int | None = None, ground: ArrayLike | None = None
     ) -> Complex:
         """Compute the complex amplitudes of the tips under harmonic forces or ground motion.
 

@@ -71,10 +71,7 @@ class Floquet(Shown):
 
     @property
     def exponent_error(self) -> float:
-        """A bound of the error of growth and turning, rad per turn: d log mu = d(mu + 1/mu) / |mu − 1/mu|.
-
-        If the kind is unresolved and both are zero, it is the root of twice the error of the sum.
-        """
+        """A bound of the error of growth and turning, rad per turn, from that of mu + 1/mu."""
         apart = sqrt(abs(self.pair_sum**2 - 4))
         root = sqrt(2 * self.error)
         return root if self.kind == "unresolved" or apart <= root else min(2 * self.error / apart, root)
@@ -137,11 +134,7 @@ def slow_frequency_error(scene: Scene, r0: float, momentum: float = 0.0) -> floa
 
 
 def _pushed(orbit: ExactOrbit, momentum: float) -> ExactOrbit:
-    """Return the orbit of the same amplitude with more momentum about the joint line.
-
-    Newton's method finds chi' at the start and the quarter period, for U = chi' = 0 at its end. At the start P = 2 (a + b) (1
-    − x²) alpha'.
-    """
+    """Return the orbit of the same amplitude with more momentum P = 2 (a + b) (1 − x²) alpha' at the start."""
     scene, start = orbit.scene, MODEL.start(orbit.scene)
     inertia = 2 * sum(scene.inertias) * (1 - scene.axes[0][0] ** 2)
     start = start + np.array([0, 0, 0, 0, 0, momentum / inertia])

@@ -68,10 +68,7 @@ def close_arc(
     end: Array,
     longest: float,
 ) -> tuple[Array, float]:
-    """Return the start and time at which some rows of the end have given values, by Newton's method.
-
-    The components `free` of the start and the time vary. The time is 0 if no solution below `longest` is found.
-    """
+    """Return start and time at which rows of the end have given values, by Newton's method; time 0 if there are none."""
     for _ in range(12):
         now = through(start, time)
         slope = np.column_stack([now.slope[np.ix_(rows, free)], now.rate[rows]])

@@ -20,10 +20,7 @@ _FORCE = sp.symbols("F_x F_y F_z", real=True)
 
 
 def program(massive: bool, bar: bool, body: int) -> Program:
-    """Derive (r_1, r_2, r_1', r_2'; a, b, k, G_1, G_2[, F]) → rates of the twelve; without force for `body` 0.
-
-    A massive bar takes the generated program of the system. Without mass or bar a manual program has fewer operations.
-    """
+    """Derive (r_1, r_2, r_1', r_2'; a, b, k, G_1, G_2[, F]) → rates of the twelve; without force for `body` 0."""
     parameters = (a, *((b,) if massive else ()), *((k,) if bar else ()), G_1, G_2, *(_FORCE if body else ()))
     if not massive:
         stages, accelerations = _slim(bar, body)

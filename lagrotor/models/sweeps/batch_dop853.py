@@ -121,10 +121,7 @@ def _march(
 
 
 def _step(rates: Rates, s: Array, y: Array, h: Array, error: Array, room: Array) -> tuple[Array, Array]:
-    """Return y (d, n) after one step h (n,) of all, and the norm of the error (n,) in units of the tolerance.
-
-    room (13, d, n): the stages. room[0] has the rates before the step, the last those after it.
-    """
+    """Return y (d, n) after a step h (n,) of all, and the norm of the error (n,). room (13, d, n): rates and stages."""
     from scipy.integrate import DOP853
 
     d, n = y.shape

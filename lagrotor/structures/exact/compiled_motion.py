@@ -151,11 +151,7 @@ def runs_by_series(motion: ExactMotion) -> bool:
 def integrate_series(
     s: Assembly, motion: ExactMotion, start: Array, times: Array, local: float, companion: bool
 ) -> Stretch:
-    """Integrate the states (n, 6 N) of `motion.rhs` by Taylor series from the start at the first time.
-
-    Evaluations are steps times order. The companion has another order. Raises InputError without heyoka, StopError if it
-    stops.
-    """
+    """Integrate the states (n, 6 N) of `motion.rhs` by Taylor series from the start at the first time."""
     order, watch = taylor_order(local, companion), LineWatch(motion)
     solver = _solver(_without_spins(s), order, get_ident())
     solver.pars[:] = _parameters(motion)
