@@ -283,12 +283,9 @@ def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) 
         return observed.axes, observed.rates * units.rate
 
     return ClosedMotion(
-        float(errors[-1]),
-        f"opposite spins averaged over the swing, by the normal form of order {order}",
-        motion,
-        lambda t: errors[np.minimum(np.searchsorted(grid, t * units.rate - begin), len(grid) - 1)],
-        count,
-    )
+        float(errors[-1]), f"opposite spins averaged over the swing, by the normal form of order {order}", motion,
+        lambda t: errors[np.minimum(np.searchsorted(grid, t * units.rate - begin), len(grid) - 1)], count,
+    )  # fmt: skip
 
 
 def _pulsed(scene: Scene, t: Array, k: int) -> tuple[Array, int]:

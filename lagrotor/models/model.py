@@ -179,13 +179,9 @@ def constant_momenta(scene: Scene, n: int) -> Array:
 
 
 def problem_of(
-    model: Model,
-    scene: Scene,
-    bounded: bool = False,
-    start: Array | None = None,
-    budget: float = _BUDGET,
+    model: Model, scene: Scene, bounded: bool = False, start: Array | None = None, budget: float = _BUDGET,
     companion: bool = False,
-) -> Problem:
+) -> Problem:  # fmt: skip
     """Return the integration problem of a scene from `start`, a state of the model, by default that of the scene."""
     shock = scene.shock
     return Problem(
@@ -202,16 +198,9 @@ def problem_of(
 
 
 def integrate_model(
-    model: Model,
-    scene: Scene,
-    times: Array,
-    local: float,
-    engine: str = "core",
-    bounded: bool = False,
-    companion: bool = False,
-    start: Array | None = None,
-    budget: float = _BUDGET,
-) -> Stretch:
+    model: Model, scene: Scene, times: Array, local: float, engine: str = "core", bounded: bool = False,
+    companion: bool = False, start: Array | None = None, budget: float = _BUDGET,
+) -> Stretch:  # fmt: skip
     """Integrate from t = 0 through increasing `times` (n,) in s with a local error, to the states (n, d).
 
     companion: take other steps. Raises SingularError if the coordinates cannot represent the start, StopError if the run

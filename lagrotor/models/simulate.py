@@ -109,13 +109,9 @@ def choose(scene: Scene, t_end: float, tol: float, engine: str = "core") -> Choi
 
 
 def simulate(
-    scene: Scene,
-    t: ArrayLike,
-    model: str = "auto",
-    tol: float = 1e-9,
-    engine: str = "core",
+    scene: Scene, t: ArrayLike, model: str = "auto", tol: float = 1e-9, engine: str = "core",
     progress: Callable[[float], None] | None = None,
-) -> Trajectory:
+) -> Trajectory:  # fmt: skip
     """Integrate a scene from its initial state, which holds at t[0].
 
     A run is integrated twice, at two local errors, and compared with the conservation laws.
@@ -243,14 +239,9 @@ class _ScaledScene:
         t = (self.times - begin) * rate
         report = self.progress
         evolution = evolution_of(
-            model,
-            self.units.scene,
-            float(t[-1]),
-            patience,
-            self.engine,
-            bounded=bounded,
+            model, self.units.scene, float(t[-1]), patience, self.engine, bounded=bounded,
             progress=report and (lambda s: report(begin + s / rate)),
-        )
+        )  # fmt: skip
         try:
             return estimate_run(evolution, t, self.tol).by_clock(begin, 1 / rate)
         except StopError as stop:
@@ -300,15 +291,9 @@ class _ScaledScene:
 
 
 def evolution_of(
-    model: Model,
-    scene: Scene,
-    t_end: float,
-    patience: Patience,
-    engine: str = "core",
-    *,
-    bounded: bool = False,
+    model: Model, scene: Scene, t_end: float, patience: Patience, engine: str = "core", *, bounded: bool = False,
     progress: Callable[[float], None] | None = None,
-) -> Evolution:
+) -> Evolution:  # fmt: skip
     """Return the evolution of a model in natural units up to t_end; `bounded` as in `integrate_model`."""
     engine = engine if _fast_runs(model, scene) else "core"
     nodes = pulse_nodes(scene, t_end)

@@ -26,12 +26,9 @@ from lagrotor.structures.small_motion import check_upright, small_motion
 
 
 def response(
-    s: Assembly,
-    rates: ArrayLike,
-    force: ArrayLike | None = None,
-    at: int | None = None,
+    s: Assembly, rates: ArrayLike, force: ArrayLike | None = None, at: int | None = None,
     ground: ArrayLike | None = None,
-) -> Complex:
+) -> Complex:  # fmt: skip
     """Return the amplitudes of the tips under harmonic excitation: see `Structure.response`."""
     check_upright(s, "response")
     c, linear = coefficients(s), small_motion(s)

@@ -82,34 +82,21 @@ class Structure(Assembly):
     if TYPE_CHECKING:  # the types of the arguments; the fields are tuples
 
         def __init__(
-            self,
-            joints: Sequence[Sequence[float]],
-            bars: Sequence[Sequence[float]] = (),
-            spins: float | Sequence[float] = 0.0,
-            rotor: Rotor | Sequence[Rotor] = ...,
-            link: Link | Sequence[Link] = ...,
-            gravity: float = 0.0,
-            load: float | Sequence[float] = 0.0,
-            friction: float | Sequence[float] = 0.0,
-            hinge: float | Sequence[float] = 0.0,
-            braces: Sequence[Brace | Sequence[Any]] = (),
+            self, joints: Sequence[Sequence[float]], bars: Sequence[Sequence[float]] = (), spins: float | Sequence[float] = 0.0,
+            rotor: Rotor | Sequence[Rotor] = ..., link: Link | Sequence[Link] = ..., gravity: float = 0.0,
+            load: float | Sequence[float] = 0.0, friction: float | Sequence[float] = 0.0,
+            hinge: float | Sequence[float] = 0.0, braces: Sequence[Brace | Sequence[Any]] = (),
             spin_friction: float | Sequence[float] = 0.0,
-        ) -> None: ...
+        ) -> None: ...  # fmt: skip
 
     def __post_init__(self) -> None:
         super().__post_init__()
         check_closure(self)
 
     def simulate(
-        self,
-        t: ArrayLike,
-        tilt: ArrayLike | None = None,
-        rates: ArrayLike | None = None,
-        drive: Drive | None = None,
-        ground: Drive | None = None,
-        tol: float = 1e-9,
-        engine: Engine = "core",
-    ) -> StructureRun:
+        self, t: ArrayLike, tilt: ArrayLike | None = None, rates: ArrayLike | None = None, drive: Drive | None = None,
+        ground: Drive | None = None, tol: float = 1e-9, engine: Engine = "core",
+    ) -> StructureRun:  # fmt: skip
         """Integrate the exact motion from an initial state that holds at t[0].
 
         Tilt and rates are projected onto the bars in the metric of the mass matrix. The error is estimated from two runs, and

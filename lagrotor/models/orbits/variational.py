@@ -60,14 +60,9 @@ def flow(scene: Scene) -> Callable[..., Flow]:
 
 
 def close_arc(
-    through: Callable[..., Flow],
-    start: Array,
-    free: list[int],
-    time: float,
-    rows: list[int],
-    end: Array,
+    through: Callable[..., Flow], start: Array, free: list[int], time: float, rows: list[int], end: Array,
     longest: float,
-) -> tuple[Array, float]:
+) -> tuple[Array, float]:  # fmt: skip
     """Return start and time at which rows of the end have given values, by Newton's method; time 0 if there are none."""
     for _ in range(12):
         now = through(start, time)

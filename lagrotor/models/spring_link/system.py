@@ -79,15 +79,10 @@ class RigidBodySystem:
     """
 
     def __init__(
-        self,
-        bodies: list[RigidBody],
-        stiffness: float,
-        damping: float,
-        *,
-        force: _LinkForce = link_force,
+        self, bodies: list[RigidBody], stiffness: float, damping: float, *, force: _LinkForce = link_force,
         rotation: Callable[[Array, float], Array] = finite_rotation,
         transform: Callable[[Array, Array], Array] = inertia_transform,
-    ) -> None:
+    ) -> None:  # fmt: skip
         self.stiffness = float(finite_array("RigidBodySystem: stiffness", stiffness, ()))
         self.damping = float(finite_array("RigidBodySystem: damping", damping, ()))
         if self.stiffness <= 0 or self.damping < 0 or not bodies:

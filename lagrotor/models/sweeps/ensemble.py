@@ -125,15 +125,9 @@ class Ensemble(Shown):
 
 
 def sweep(
-    scenes: Sequence[Scene],
-    t: ArrayLike,
-    tol: float = 1e-6,
-    *,
-    chunk: int = CHUNK,
-    executor: Executor | None = None,
-    engine: str = "core",
-    progress: Callable[[int, int], None] | None = None,
-) -> Ensemble:
+    scenes: Sequence[Scene], t: ArrayLike, tol: float = 1e-6, *, chunk: int = CHUNK, executor: Executor | None = None,
+    engine: str = "core", progress: Callable[[int, int], None] | None = None,
+) -> Ensemble:  # fmt: skip
     """Integrate every scene from its initial state, which holds at t[0].
 
     A LagrotorWarning says how many runs do not keep `tol`. `failed` of the result names the runs that ended early.

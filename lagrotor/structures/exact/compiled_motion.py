@@ -38,12 +38,9 @@ _BETWEEN = 10.0  # radians at the structure's rate between two projections onto 
 
 
 def eliminate_in_levels(
-    diagonal: Sequence[Any],
-    couplings: Mapping[tuple[int, int], Any],
-    right: Sequence[Any],
-    masses: int,
+    diagonal: Sequence[Any], couplings: Mapping[tuple[int, int], Any], right: Sequence[Any], masses: int,
     add: Callable[[Terms], Any] = sum,
-) -> list[Any]:
+) -> list[Any]:  # fmt: skip
     """Solve a symmetric system by elimination in levels, and return its unknowns.
 
     couplings: {(i, j): entry}, each pair once; masses: the number of leading unknowns with a diagonal. The later unknowns are

@@ -237,15 +237,9 @@ _PATIENCE = Patience(50_000, 2_000 * 2 * pi)
 
 
 def simulate_structure(
-    s: Assembly,
-    t: ArrayLike,
-    tilt: ArrayLike | None = None,
-    rates: ArrayLike | None = None,
-    drive: Drive | None = None,
-    ground: Drive | None = None,
-    tol: float = 1e-9,
-    engine: Engine = "core",
-) -> StructureRun:
+    s: Assembly, t: ArrayLike, tilt: ArrayLike | None = None, rates: ArrayLike | None = None,
+    drive: Drive | None = None, ground: Drive | None = None, tol: float = 1e-9, engine: Engine = "core",
+) -> StructureRun:  # fmt: skip
     """Integrate the exact motion of a structure: see `Structure.simulate`."""
     times, tol = check_times("simulate", t), check_tolerance(tol)
     check_engine(engine)

@@ -196,15 +196,11 @@ class Cell:
 
         bars = within(self.bars)
         return type(self)(
-            joints=tuple(self.place((i, (0, n))) for n in range(width) for i in range(N)),
-            steps=self.steps[:1],
-            bars=tuple(bar for _, bar in bars),
-            link=tuple(self.link[k] for k, _ in bars) or Link(),
-            braces=tuple(brace for _, brace in within(self.braces)),
-            gravity=self.gravity,
-            inertia=self.inertia,
+            joints=tuple(self.place((i, (0, n))) for n in range(width) for i in range(N)), steps=self.steps[:1],
+            bars=tuple(bar for _, bar in bars), link=tuple(self.link[k] for k, _ in bars) or Link(),
+            braces=tuple(brace for _, brace in within(self.braces)), gravity=self.gravity, inertia=self.inertia,
             **{name: getattr(self, name) * width for name in ("spins", "rotor", "load", "friction", "hinge")},
-        )
+        )  # fmt: skip
 
 
 def _each(value: Any, count: int, name: str) -> tuple[Any, ...]:

@@ -91,14 +91,10 @@ def cell_coefficients(p: Cell) -> tuple[Coefficients, float]:
     bars: Any = tuple((i, end(j, shift)) for i, j, shift in p.bars)
     loads = {name: (*getattr(p, name), *[0.0] * len(away)) for name in ("spins", "load", "friction", "hinge")}
     cell = Assembly(
-        joints=(*p.joints, *(p.place(site) for site in away)),
-        bars=bars,
-        rotor=tuple(p.rotor[j] for j in whose),
-        link=p.link,
-        gravity=p.gravity,
-        braces=tuple(Brace(i, end(j, shift), k, d) for i, j, shift, k, d in p.braces),
+        joints=(*p.joints, *(p.place(site) for site in away)), bars=bars, rotor=tuple(p.rotor[j] for j in whose),
+        link=p.link, gravity=p.gravity, braces=tuple(Brace(i, end(j, shift), k, d) for i, j, shift, k, d in p.braces),
         **loads,
-    )
+    )  # fmt: skip
     c, copied = coefficients(cell), np.arange(len(whose)) >= N
     # The rotors of neighbours belong to their cells: only the bars contribute here.
     A = c.A - copied * [rotor.J for rotor in cell.rotor]
