@@ -36,10 +36,10 @@ Row = list[Polynomial]
 
 @dataclass(frozen=True, eq=False)
 class LocalHamiltonian:
-    """H/(inertia rate²) = powers[0] + f powers[1] + f² powers[2] with all spins multiplied by f, in q and p/(inertia rate).
+    """The Hamiltonian about upright, H/(inertia rate²) = powers[0] + f powers[1] + f² powers[2] with all spins times f.
 
-    q = basisᵀ u with the basis (2N, n) of `small_motion`; mass (n, n) of p = mass q'/rate upright; rate in rad/s; axes: x, y,
-    z in q.
+    The variables are q = basisᵀ u, with the basis (2N, n) of `small_motion`, and p/(inertia rate). mass (n, n): that of p =
+    mass q'/rate upright; rate in rad/s; axes: x, y, z of the axes in q.
     """
 
     powers: tuple[Polynomial, Polynomial, Polynomial]

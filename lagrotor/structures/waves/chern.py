@@ -23,7 +23,7 @@ _STARTS = 4  # starts of the search, the wave numbers with the least distances o
 
 @dataclass(frozen=True)
 class Chern:
-    """groups: (first, last) band of each group that touches no other one; numbers: their Chern numbers.
+    """The Chern numbers of a pattern, `numbers`, for groups of bands, each (first, last), that touch no other band.
 
     apart: the least distance (rad/s) from each group to the next at one wave number; flux_error: the largest distance of a
     flux sum from an integer.

@@ -30,9 +30,10 @@ _ZERO = 1e-12  # relative to the largest entry: the rounding where phases cancel
 
 @dataclass(frozen=True, eq=False)
 class Bloch:
-    """blocks (k, 4, 2 N, 2 N): mass, damping, gyroscopic, stiffness between cells that are `apart` (k, d) steps from each other.
+    """The matrices of a pattern's small motion at any wave number.
 
-    rows (m, B, 2 N): the rows of the cell's bars on the cells that are `away` (m, d) steps.
+    blocks (k, 4, 2 N, 2 N): mass, damping, gyroscopic, stiffness between cells `apart` (k, d) steps; rows (m, B, 2 N): the
+    rows of the cell's bars on the cells `away` (m, d) steps.
     """
 
     blocks: Array

@@ -176,7 +176,7 @@ class Pattern(Cell):
         return nonlinear_waves.nonlinear_wave(self, q, band)
 
     def three_waves(self, q: float) -> tuple[nonlinear_waves.ThreeWaves, ...]:
-        """Find all triads in which a wave of q and a second wave combine to a third, for one step.
+        """Find the triads q + q₂ = q₃ with ω + ω₂ = ω₃ of a wave of q, in a pattern with one step.
 
         Growing waves are omitted. The search takes 181 wave numbers and the sign of ω₁ + ω₂ − ω₃; double roots are missed.
 
