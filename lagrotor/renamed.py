@@ -31,6 +31,11 @@ NAMES = {
     "lagrotor.mechanics.project_position": "lagrotor.mechanics.constraints.project_position",
     "lagrotor.mechanics.project_velocity": "lagrotor.mechanics.constraints.project_velocity",
     "lagrotor.mechanics.solve_constrained": "lagrotor.mechanics.constraints.solve_constrained",
+    "lagrotor.models.closed_form": "lagrotor.models.closed_form_model.closed_form",
+    "lagrotor.structures.chern_numbers": "lagrotor.structures.waves.chern.chern_numbers",
+    "lagrotor.structures.dispersion": "lagrotor.structures.waves.dispersion.dispersion",
+    "lagrotor.structures.edge_waves": "lagrotor.structures.waves.chern.edge_waves",
+    "lagrotor.structures.long_wave_speeds": "lagrotor.structures.waves.dispersion.long_wave_speeds",
 }
 
 # Class → {old attribute: new attribute}. The class takes `old_attribute` as its `__getattr__`.
