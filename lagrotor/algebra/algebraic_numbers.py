@@ -32,7 +32,7 @@ def is_zero(number: sp.Expr) -> bool | None:
             if excludes_zero(value):
                 return False
             if (
-                max(iv.log(abs(part).b, 2).b if abs(part).b > 0 else -iv.inf for part in (value.real, value.imag))
+                max(iv.log(abs(side).b, 2).b if abs(side).b > 0 else -iv.inf for side in (value.real, value.imag))
                 < -bits
             ):
                 return True
@@ -62,12 +62,12 @@ class _Bound:
             self._turn(4)
             return 0.0, 0.0
         if e.is_Add:
-            parts = [self.of(part) for part in e.args]
-            under = sum(low for _, low in parts)
-            return max(up + under - low for up, low in parts) + float(sp.log(len(parts), 2)), under
+            terms = [self.of(argument) for argument in e.args]
+            under = sum(low for _, low in terms)
+            return max(up + under - low for up, low in terms) + float(sp.log(len(terms), 2)), under
         if e.is_Mul:
-            parts = [self.of(part) for part in e.args]
-            return sum(up for up, _ in parts), sum(low for _, low in parts)
+            terms = [self.of(argument) for argument in e.args]
+            return sum(up for up, _ in terms), sum(low for _, low in terms)
         if isinstance(e, sp.sin | sp.cos | sp.exp):
             turn = e.args[0] / (sp.I * sp.pi if isinstance(e, sp.exp) else sp.pi)
             if turn.is_Rational:

@@ -31,8 +31,8 @@ def along(expression: sp.Expr, symbols: Iterable[sp.Symbol], rates: Iterable[sp.
     rates : Iterable[Expr]
         R, at which s changes.
     """
-    given = [(s, r) for s, r in zip(symbols, rates, strict=True) if r != 0]
-    slopes = [(derivative(expression, s), r) for s, r in given]
+    nonzero = [(s, r) for s, r in zip(symbols, rates, strict=True) if r != 0]
+    slopes = [(derivative(expression, s), r) for s, r in nonzero]
     return sp.Add(*(slope * r for slope, r in slopes if slope is not sp.S.Zero))
 
 
@@ -42,25 +42,25 @@ def hessian(expression: sp.Expr, symbols: Sequence[sp.Symbol]) -> sp.Matrix:
     return sp.Matrix([[derivative(slope, s) for s in symbols] for slope in slopes])
 
 
-def _derivative(e: sp.Expr, s: sp.Symbol, known: dict[sp.Expr, sp.Expr]) -> sp.Expr:
+def _derivative(e: sp.Expr, s: sp.Symbol, slopes_of: dict[sp.Expr, sp.Expr]) -> sp.Expr:
     if e.is_Atom:
         return sp.S.One if e == s else sp.S.Zero
-    if e in known:
-        return known[e]
+    if e in slopes_of:
+        return slopes_of[e]
     if e.is_Add:
-        slope = sp.Add(*(_derivative(part, s, known) for part in e.args))
+        slope = sp.Add(*(_derivative(argument, s, slopes_of) for argument in e.args))
     elif e.is_Mul:
-        slopes = [_derivative(part, s, known) for part in e.args]
+        slopes = [_derivative(argument, s, slopes_of) for argument in e.args]
         slope = sp.Add(*(sp.Mul(*e.args[:i], d, *e.args[i + 1 :]) for i, d in enumerate(slopes) if d is not sp.S.Zero))
     elif e.is_Pow and e.exp.is_Number:
-        d = _derivative(e.base, s, known)
+        d = _derivative(e.base, s, slopes_of)
         slope = d if d is sp.S.Zero else e * (d * e.exp / e.base)
     elif isinstance(e, _FUNCTIONS) and len(e.args) == 1:
-        d = _derivative(e.args[0], s, known)
+        d = _derivative(e.args[0], s, slopes_of)
         slope = d if d is sp.S.Zero else e.fdiff(1) * d
     else:
         slope = sp.diff(e, s)
-    known[e] = slope
+    slopes_of[e] = slope
     return slope
 
 
@@ -69,12 +69,12 @@ def _vanishes(product: sp.Expr) -> bool:
     for delta in product.args if product.is_Mul else ():
         if isinstance(delta, sp.DiracDelta) and len(delta.args) == 1:
             f, g = product / delta, delta.args[0]
-            put = {g: sp.S.Zero, -g: sp.S.Zero}
+            zero = {g: sp.S.Zero, -g: sp.S.Zero}
             for s in sorted(g.free_symbols, key=str):
                 slope = _derivative(g, s, {})
                 if slope != 0 and s not in slope.free_symbols:
-                    put = {s: -g.xreplace({s: sp.S.Zero}) / slope}
+                    zero = {s: -g.xreplace({s: sp.S.Zero}) / slope}
                     break
-            if sp.expand(f.xreplace(put)) == 0:
+            if sp.expand(f.xreplace(zero)) == 0:
                 return True
     return False

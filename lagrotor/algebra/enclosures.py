@@ -32,12 +32,12 @@ _CONSTANTS = {sp.pi: lambda: iv.pi, sp.E: lambda: iv.e, sp.EulerGamma: lambda: i
 
 
 @contextmanager
-def digits(number: int) -> Any:
-    before, iv.dps = iv.dps, number
+def working_digits(number: int) -> Any:
+    previous, iv.dps = iv.dps, number
     try:
         yield
     finally:
-        iv.dps = before
+        iv.dps = previous
 
 
 def enclosed_at(expression: sp.Expr, point: Point, precision: int = DIGITS) -> Any:
@@ -45,21 +45,21 @@ def enclosed_at(expression: sp.Expr, point: Point, precision: int = DIGITS) -> A
 
     Raises NotExactError where none is known.
     """
-    with digits(precision):
+    with working_digits(precision):
         return PointEnclosure(point).value(expression)
 
 
 def excludes_zero(value: Any) -> bool:
     """Return whether 0 lies outside an enclosure."""
-    return any(0 not in part and part.delta < iv.inf for part in (value.real, value.imag))
+    return any(0 not in side and side.delta < iv.inf for side in (value.real, value.imag))
 
 
-def are_apart(left: sp.Expr, right: sp.Expr, point: Mapping[sp.Expr, Any]) -> bool:
+def are_apart(lhs: sp.Expr, rhs: sp.Expr, point: Mapping[sp.Expr, Any]) -> bool:
     """Return whether the enclosures of two real sides have no number in common at a point, in which nothing is put in."""
-    with digits(DIGITS):
+    with working_digits(DIGITS):
         inside = PointEnclosure(point)
         try:
-            gap = inside.value(left) - inside.value(right)
+            gap = inside.value(lhs) - inside.value(rhs)
         except (NotExactError, RecursionError):
             return False
         return inside.real and excludes_zero(gap)
@@ -70,7 +70,7 @@ def solved_at(A: sp.Matrix, b: sp.Matrix, point: Point) -> list[Any]:
 
     Raises NotExactError where something has no enclosure, or A is not shown to be regular.
     """
-    with digits(DIGITS):
+    with working_digits(DIGITS):
         try:
             enclosure = PointEnclosure(point)
             rows = [[_real(enclosure.of(e)) for e in row] for row in A.row_join(b).tolist()]
@@ -79,9 +79,9 @@ def solved_at(A: sp.Matrix, b: sp.Matrix, point: Point) -> list[Any]:
             raise NotExactError(f"Not enclosed at {point}: {error}.") from None
 
 
-def apart(left: Sequence[Any], right: Sequence[Any]) -> int | None:
+def apart(first: Sequence[Any], second: Sequence[Any]) -> int | None:
     """The first place where two intervals have no number in common."""
-    return next((i for i, (x, y) in enumerate(zip(left, right, strict=True)) if x.b < y.a or y.b < x.a), None)
+    return next((i for i, (x, y) in enumerate(zip(first, second, strict=True)) if x.b < y.a or y.b < x.a), None)
 
 
 class PointEnclosure:
@@ -112,7 +112,7 @@ class PointEnclosure:
     def of(self, e: sp.Expr) -> Any:
         if e not in self.known:
             value = self._sought(e)
-            if not all(part.a > -iv.inf and part.b < iv.inf for part in (value.real, value.imag)):
+            if not all(side.a > -iv.inf and side.b < iv.inf for side in (value.real, value.imag)):
                 raise NotExactError(f"{e} is not enclosed: it is not bounded.")
             self.known[e] = value
         return self.known[e]
@@ -137,8 +137,8 @@ class PointEnclosure:
             exponent = self._order(e.exp)
             return _power(e, self.of(e.base), exponent if exponent.is_Rational else self.of(e.exp))
         if e.func in SPECIAL:
-            orders = [self._order(part) for part in e.args]
-            return SPECIAL[e.func](orders, [self.of(part) for part in e.args])
+            orders = [self._order(argument) for argument in e.args]
+            return SPECIAL[e.func](orders, [self.of(argument) for argument in e.args])
         if e.func not in _FUNCTIONS or len(e.args) != 1:
             raise NotExactError(f"{e.func} is not enclosed.")
         return _FUNCTIONS[e.func](self.of(e.args[0]))
@@ -161,23 +161,23 @@ class PointEnclosure:
             return bool(condition)
         if isinstance(condition, sp.And | sp.Or):
             whole = isinstance(condition, sp.And)
-            answers = [self._holds(part) for part in condition.args]
+            answers = [self._holds(clause) for clause in condition.args]
             return None if None in answers and (not whole) not in answers else (all if whole else any)(answers)
         if not isinstance(condition, sp.core.relational.Relational):
             return None
-        more = _real(self.of(condition.lhs - condition.rhs))
+        difference = _real(self.of(condition.lhs - condition.rhs))
         if isinstance(condition, sp.Eq | sp.Ne):
-            same = True if more.a == more.b == 0 else None if 0 in more else False
+            same = True if difference.a == difference.b == 0 else None if 0 in difference else False
             return same if same is None or isinstance(condition, sp.Eq) else not same
         if isinstance(condition, sp.Lt | sp.Le):
-            more = -more
+            difference = -difference
         strict = isinstance(condition, sp.Gt | sp.Lt)
-        if more.a > 0 or (more.a == 0 and not strict):
+        if difference.a > 0 or (difference.a == 0 and not strict):
             return True
-        return False if more.b < 0 or (more.b == 0 and strict) else None
+        return False if difference.b < 0 or (difference.b == 0 and strict) else None
 
     def _order(self, e: sp.Expr) -> sp.Expr:
-        """An exponent or an order, put in where it is a sum of products of letters."""
+        """An exponent or an order, put in where it is a sum of products of symbols."""
         plain = all(n.is_Add or n.is_Mul or n.is_Atom for n in sp.preorder_traversal(e))
         return e.xreplace(dict(self.point)) if plain else e
 
@@ -220,8 +220,8 @@ class PointEnclosure:
     def _jet(self, kind: Any, arguments: tuple[sp.Expr, ...]) -> sp.Rational:
         """A free value: the same at arguments that may be equal, chosen anew at others."""
         at = tuple(map(self.of, arguments))
-        for other, places, value in self.free:
-            if other == kind and not any(excludes_zero(x - y) for x, y in zip(at, places, strict=True)):
+        for earlier, places, value in self.free:
+            if earlier == kind and not any(excludes_zero(x - y) for x, y in zip(at, places, strict=True)):
                 return value
         k = len(self.free)
         value = sp.Rational(2 * k + 3, 3 * k + 4) + k % 3
@@ -235,8 +235,8 @@ def jet_of(e: sp.Expr) -> tuple[Any, tuple[sp.Expr, ...]] | None:
         inner = jet_of(e.expr)
         if inner is None or not set(e.variables) <= set(inner[1]):
             return None
-        put = dict(zip(e.variables, e.point, strict=True))
-        return inner[0], tuple(a.xreplace(put) for a in inner[1])
+        replacements = dict(zip(e.variables, e.point, strict=True))
+        return inner[0], tuple(a.xreplace(replacements) for a in inner[1])
     if isinstance(e, sp.Derivative):
         inner = e.expr
         if not isinstance(inner, AppliedUndef) or len(set(inner.args)) < len(inner.args):
@@ -412,12 +412,12 @@ def _eliminated(rows: list[list[Any]]) -> list[Any]:
         for i in range(j + 1, n):
             factor = rows[i][j] / rows[j][j]
             rows[i] = [x - factor * y for x, y in zip(rows[i], rows[j], strict=True)]
-    found: list[Any] = []
+    unknowns: list[Any] = []
     for row in reversed(rows):
-        done = row[n - len(found) : n]
-        rest = sum((a * x for a, x in zip(done, reversed(found), strict=True)), iv.mpf(0))
-        found.append((row[n] - rest) / row[n - len(found) - 1])
-    return found[::-1]
+        coefficients = row[n - len(unknowns) : n]
+        sum_ = sum((a * x for a, x in zip(coefficients, reversed(unknowns), strict=True)), iv.mpf(0))
+        unknowns.append((row[n] - sum_) / row[n - len(unknowns) - 1])
+    return unknowns[::-1]
 
 
 Bounds: TypeAlias = tuple[sp.Rational, sp.Rational]  # a value lies between the two
@@ -433,12 +433,12 @@ def enclosure(e: sp.Expr, point: Mapping[sp.Symbol, Any]) -> Bounds | None:
 
 def enclosures(expressions: Iterable[sp.Expr], point: Mapping[sp.Symbol, Any]) -> list[Bounds | None]:
     """The enclosure of each; what they have in common is enclosed once."""
-    with digits(DIGITS):
-        known = PointEnclosure(point)
+    with working_digits(DIGITS):
+        at_point = PointEnclosure(point)
 
         def bounds(e: sp.Expr) -> Bounds | None:
             try:
-                value = known.value(e)
+                value = at_point.value(e)
                 return None if _is_complex(value) else (_rational(value.real.a), _rational(value.real.b))
             except NotExactError:
                 return None
@@ -451,25 +451,25 @@ def _evalf(e: sp.Expr, precision: int, options: Any) -> tuple[Any, ...]:
 
     Where no enclosure is known sympy evaluates without one.
     """
-    parts = None
+    sides = None
     for number in (precision, 2 * precision + 60, 4 * precision + 600):
-        with digits(number), suppress(NotExactError, RecursionError):
+        with working_digits(number), suppress(NotExactError, RecursionError):
             value = PointEnclosure({}).value(e)
-            parts = [_significant(part, precision) for part in (value.real, value.imag)]
-            if all(middle is None or bits >= precision for middle, bits in parts):
+            sides = [_significant(side, precision) for side in (value.real, value.imag)]
+            if all(middle is None or bits >= precision for middle, bits in sides):
                 break
-    if parts is None:
+    if sides is None:
         return _WITHOUT[type(e)](e, precision, options)  # KeyError has evalf look elsewhere
-    (re, re_bits), (im, im_bits) = parts
+    (re, re_bits), (im, im_bits) = sides
     return re, im, re_bits, im_bits
 
 
-def _significant(part: Any, precision: int) -> tuple[Any, Any]:
+def _significant(interval: Any, precision: int) -> tuple[Any, Any]:
     """Return a real interval as a number with its certain bits; without a number where it is 0."""
-    if part.a == part.b == 0:
+    if interval.a == interval.b == 0:
         return None, None
-    middle, width = part.mid._mpi_[0], part.delta._mpi_[1]
-    if 0 in part:
+    middle, width = interval.mid._mpi_[0], interval.delta._mpi_[1]
+    if 0 in interval:
         return width, 0
     bits = precision if width == libmp.fzero else min(fastlog(middle) - fastlog(width), precision)
     return libmp.mpf_pos(middle, precision, "n"), bits

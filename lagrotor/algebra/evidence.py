@@ -1,4 +1,4 @@
-"""Points that the assumptions on letters allow, and how large an expression is there."""
+"""Points that the assumptions on symbols allow, and how large an expression is there."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def largest_value(expression: sp.Expr, at: Iterable[Point] | None = None) -> tup
     Points where the expression is real come first. Both are None without a value.
     """
     places = list(points(expression.free_symbols) if at is None else at)
-    sizes = [(i, size) for i, point in enumerate(places) if (size := size_at(expression, point)) is not None]
+    sizes = [(i, size) for i, point in enumerate(places) if (size := magnitude_at(expression, point)) is not None]
     ranked = [(_is_real_at(expression, places[i]), size, i) for i, size in sizes]
     _, size, place = max(ranked, default=(False, None, None))
     return None if place is None else places[place], size
@@ -63,7 +63,7 @@ def _is_real_at(expression: sp.Expr, point: Point) -> bool:
     return bool(imaginary.a == imaginary.b == 0)
 
 
-def size_at(expression: sp.Expr, point: Point) -> float | None:
+def magnitude_at(expression: sp.Expr, point: Point) -> float | None:
     """|expression| at the point, None where it is not enclosed."""
     try:
         value = enclosed_at(expression, point)

@@ -1,6 +1,6 @@
 """Whether equations and inequalities exclude each other: linear ones in kernels, each within the bounds that `signs` knows.
 
-A kernel is a letter, a product or a function; every condition is a linear form in kernels. Fourier and Motzkin's elimination of
+A kernel is a symbol, a product or a function; every condition is a linear form in kernels. Fourier and Motzkin's elimination of
 the kernels ends in a false inequality between numbers where no values satisfy all conditions; else nothing is said.
 """
 
@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import sympy as sp
 
-from lagrotor.algebra.scalar import parts
+from lagrotor.algebra.scalar import node_count
 from lagrotor.algebra.signs import ANY, NONNEGATIVE, POSITIVE, Region, bounds, conditions, is_real, signs
 
 _MOST_ROWS, _MOST_PARTS = 200, 400
@@ -25,42 +25,42 @@ class _Row(NamedTuple):
     number: sp.Expr
     strict: bool
 
-    def plus(self, other: _Row, kernel: sp.Expr) -> _Row:
+    def plus(self, second: _Row, kernel: sp.Expr) -> _Row:
         """The sum of two rows in which a kernel has opposite signs, each over its rate's size."""
-        a, b = (1 / abs(row.rates[kernel]) for row in (self, other))
+        a, b = (1 / abs(row.rates[kernel]) for row in (self, second))
         rates = {
-            k: a * self.rates.get(k, sp.S.Zero) + b * other.rates.get(k, sp.S.Zero)
-            for k in {**self.rates, **other.rates}
+            k: a * self.rates.get(k, sp.S.Zero) + b * second.rates.get(k, sp.S.Zero)
+            for k in {**self.rates, **second.rates}
         }
-        number = sp.expand(a * self.number + b * other.number)
-        return _Row({k: rate for k, rate in rates.items() if rate}, number, self.strict or other.strict)
+        number = sp.expand(a * self.number + b * second.number)
+        return _Row({k: rate for k, rate in rates.items() if rate}, number, self.strict or second.strict)
 
 
 def is_infeasible(equations: Sequence[sp.Expr], where: Region, small: Sequence[sp.Symbol] = ()) -> bool:
     """Return whether it is proved that at no point of the region every equation is zero.
 
-    small: letters that are as near to 0 as one likes.
+    small: symbols that are as near to 0 as one likes.
     """
-    if sum(parts(e) for e in (*equations, *(e for e, _ in where.above))) > _MOST_PARTS:
+    if sum(node_count(e) for e in (*equations, *(e for e, _ in where.above))) > _MOST_PARTS:
         return False
     if any(map(_has_no_root, equations)) or any(0 not in (signs(e, where) or ANY) for e in equations):
         return True
     facts = [(sign * e, False) for e in equations if is_real(e, where) for sign in (1, -1)]
-    known = Region((*facts, *where.above))
-    if any(not (signs(e, known) or ANY) & (POSITIVE if strict else NONNEGATIVE) for e, strict in where.above):
+    stronger = Region((*facts, *where.above))
+    if any(not (signs(e, stronger) or ANY) & (POSITIVE if strict else NONNEGATIVE) for e, strict in where.above):
         return True
     sides = [*((sign * e, False) for e in equations for sign in (1, -1)), *where.above]
     rows = [_Row(*_linear(form), strict) for e, strict in sides for form in _forms(e)]
     kernels = sorted({kernel for row in rows for kernel in row.rates}, key=sp.default_sort_key)
     # A real sum with one part that is not known to be real: so is that part.
-    unknown = {kernel for kernel in kernels if not is_real(kernel, known)}
+    unknown = {kernel for kernel in kernels if not is_real(kernel, stronger)}
     rows = [row for row in rows if len(unknown & row.rates.keys()) < 2]
-    rows += [row for kernel in kernels for row in _bounding(kernel, known, small)]
+    rows += [row for kernel in kernels for row in _bounding(kernel, stronger, small)]
     return _excludes(rows, kernels)
 
 
 def has_principal_values(e: sp.Basic, equations: Sequence[sp.Expr], where: Region) -> bool:
-    """Whether principal values are meant: e has i or a complex letter, or is real at no inner point; odd roots may be real."""
+    """Whether principal values are meant: e has i or a complex symbol, or is real at no inner point; odd roots may be real."""
     if e.has(sp.I) or not all(s.is_real for s in e.free_symbols):
         return True
     natural = conditions(e)
@@ -70,7 +70,7 @@ def has_principal_values(e: sp.Basic, equations: Sequence[sp.Expr], where: Regio
 
 
 def _has_no_root(e: sp.Expr) -> bool:
-    """Return whether a polynomial with rational coefficients in one real letter has none."""
+    """Return whether a polynomial with rational coefficients in one real symbol has none."""
     if len(e.free_symbols) != 1 or not next(iter(e.free_symbols)).is_real or not e.is_polynomial():
         return False
     polynomial = sp.Poly(e, *e.free_symbols)
@@ -85,12 +85,12 @@ def _forms(e: sp.Expr) -> list[sp.Expr]:
 
 
 def _completed(e: sp.Expr) -> sp.Expr:
-    """a x² + b x + c as a (x + b/2a)² + c − b²/4a, letter by letter."""
-    for letter in sorted(e.free_symbols, key=sp.default_sort_key):
-        if e.is_polynomial(letter) and sp.degree(e, letter) == 2:
-            c, b, a = (e.coeff(letter, k) for k in range(3))
+    """a x² + b x + c as a (x + b/2a)² + c − b²/4a, symbol by symbol."""
+    for symbol in sorted(e.free_symbols, key=sp.default_sort_key):
+        if e.is_polynomial(symbol) and sp.degree(e, symbol) == 2:
+            c, b, a = (e.coeff(symbol, k) for k in range(3))
             if a.is_Rational:
-                return a * (letter + b / (2 * a)) ** 2 + _completed(sp.expand(c - b**2 / (4 * a)))
+                return a * (symbol + b / (2 * a)) ** 2 + _completed(sp.expand(c - b**2 / (4 * a)))
     return e
 
 
@@ -106,9 +106,9 @@ def _linear(e: sp.Expr) -> tuple[dict[sp.Expr, sp.Rational], sp.Expr]:
     return {kernel: rate for kernel, rate in rates.items() if rate}, number
 
 
-def _bounding(kernel: sp.Expr, known: Region, small: Sequence[sp.Symbol]) -> Iterator[_Row]:
+def _bounding(kernel: sp.Expr, where: Region, small: Sequence[sp.Symbol]) -> Iterator[_Row]:
     """What is known of a kernel alone."""
-    for side, bound in zip((1, -1), bounds(kernel, known), strict=True):
+    for side, bound in zip((1, -1), bounds(kernel, where), strict=True):
         if bound is not None:
             yield _Row({kernel: sp.Integer(side)}, -side * bound[0], bound[1])
         if kernel in small:

@@ -64,42 +64,42 @@ class Survey:
 
 def survey(*expressions: sp.Expr, largest: float = LARGEST_MULTIPLE) -> Survey:
     """Collect what the expressions are made of; raise NotExactError outside the class."""
-    found, seen, left = Survey(largest), set[sp.Expr](), list(expressions)
+    content, visited, stack = Survey(largest), set[sp.Expr](), list(expressions)
     try:
-        while left:
-            node = left.pop()
-            if node not in seen:
-                seen.add(node)
-                left += _enter(node, found)
+        while stack:
+            node = stack.pop()
+            if node not in visited:
+                visited.add(node)
+                stack += _enter(node, content)
     except NotExactError:
         if floats := set().union(*(expression.atoms(sp.Float) for expression in expressions)):
             raise NotExactError(f"The floating-point number {min(floats)} is not exact.") from None
         raise
-    if any(not hyperbolic and found.compact((hyperbolic, m)) for hyperbolic, m in found.angles):
-        found.radicands[sp.S.NegativeOne] = None
-    return found
+    if any(not hyperbolic and content.compact((hyperbolic, m)) for hyperbolic, m in content.angles):
+        content.radicands[sp.S.NegativeOne] = None
+    return content
 
 
-def _enter(node: sp.Expr, found: Survey) -> tuple[sp.Expr, ...]:
+def _enter(node: sp.Expr, content: Survey) -> tuple[sp.Expr, ...]:
     """Enter one node into what is found; return the parts that are still to be looked at."""
     if node.is_Symbol or node is sp.pi:
         _check_symbol(node)
-        found.atoms[node] = None
+        content.atoms[node] = None
     elif node is sp.I:
-        found.radicands[sp.S.NegativeOne] = None
+        content.radicands[sp.S.NegativeOne] = None
     elif (base := radicand(node)) is not None:
-        if not all(part.is_Symbol or part is sp.pi or _is_rational_step(part) for part in sp.preorder_traversal(base)):
+        if not all(step.is_Symbol or step is sp.pi or _is_rational_step(step) for step in sp.preorder_traversal(base)):
             raise NotExactError(f"{node} is outside the class: only roots of rational functions of symbols are in it.")
-        found.radicands[base] = None
+        content.radicands[base] = None
         return (base,)
     elif node.func in CIRCULAR or node.func in HYPERBOLIC or node.func is sp.exp:
         turn, rates = angle_of(node)
         for monomial, rate in rates.items():
-            multiples = found.angles.setdefault((node.func not in CIRCULAR, monomial), Multiples())
+            multiples = content.angles.setdefault((node.func not in CIRCULAR, monomial), Multiples())
             multiples.step = int(sp.ilcm(multiples.step, rate.q))
             multiples.largest = max(multiples.largest, abs(rate))
             multiples.exponential &= node.func is sp.exp
-        constants = tuple(part(turn * sp.pi) for part in FAMILY[False])
+        constants = tuple(function(turn * sp.pi) for function in FAMILY[False])
         for value in constants:
             if value.has(sp.cos, sp.sin):
                 raise NotExactError(f"{value} is not made of square roots of integers.")
@@ -157,9 +157,11 @@ def _terms(node: sp.Expr, function: sp.Expr) -> dict[Monomial, sp.Rational]:
         _check_symbol(node)
         return {frozenset({(node, 1)}): sp.S.One}
     if node.is_Add:
-        return _collected((powers, rate) for part in node.args for powers, rate in _terms(part, function).items())
+        return _collected(
+            (powers, rate) for argument in node.args for powers, rate in _terms(argument, function).items()
+        )
     if node.is_Mul:
-        return reduce(partial(_product, function), (_terms(part, function) for part in node.args))
+        return reduce(partial(_product, function), (_terms(argument, function) for argument in node.args))
     if node.is_Pow and node.exp.is_Integer and abs(node.exp) <= _MOST_POWER:
         base = _terms(node.base, function)
         if node.exp < 0:

@@ -22,7 +22,7 @@ degree below two in every squared generator, is the zero polynomial.
 
 Square roots are principal ones.  One that follows from the others has a sign, which may differ between regions of the
 symbols' values, and the expression is decided for each choice of these signs.  "nonzero" means: not zero throughout.
-A symbol of which nothing is declared is taken to be real where a point is needed.  Letters are real: a point where some part
+A symbol of which nothing is declared is taken to be real where a point is needed.  Symbols are real: a point where some part
 is not real is no counterexample, unless the expression has i or a complex symbol, or is real at no inner point; then
 principal values are meant.  The work is bounded; an expression
 that would exceed the bound is undecided.
@@ -41,7 +41,7 @@ import sympy as sp
 from sympy.polys.rings import PolyElement
 
 from lagrotor.algebra.analytic_proofs import Proof, evaluated, proof_of_zero
-from lagrotor.algebra.branches import branch_of_zero, sided, simplest
+from lagrotor.algebra.branches import branch_of_zero, sided, simplify_conditions
 from lagrotor.algebra.enclosures import Point
 from lagrotor.algebra.evidence import largest_value, points
 from lagrotor.algebra.feasibility import has_principal_values
@@ -50,10 +50,10 @@ from lagrotor.algebra.name_clashes import check_names
 from lagrotor.algebra.numbering import Numbering, without_number
 from lagrotor.algebra.quotients import Ring
 from lagrotor.algebra.reading import Roots, find_roots, reader
-from lagrotor.algebra.refutation import sample
-from lagrotor.algebra.scalar import parts, scalar, sympified
+from lagrotor.algebra.refutation import find_witness
+from lagrotor.algebra.scalar import node_count, scalar, sympified
 from lagrotor.algebra.signs import BRANCHED, Region, conditions, region
-from lagrotor.algebra.work_budget import kept
+from lagrotor.algebra.work_budget import bounded_cache
 from lagrotor.errors import InputError, NotExactError, TooLargeError
 
 # A divisor larger than this is kept whole in the domain: its factors may take hours to find.
@@ -79,8 +79,8 @@ class Decision:
     domain: tuple[sp.Expr, ...]
     reason: str
     partly: bool = False
-    seen: sp.Expr | None = None
-    at: tuple[Point, ...] | None = None
+    residual: sp.Expr | None = None
+    points: tuple[Point, ...] | None = None
     conditions: Callable[[], Iterable[sp.Basic]] = field(default=tuple, compare=False, repr=False)
 
     @cached_property
@@ -100,62 +100,64 @@ class Decision:
 
     @property
     def _largest(self) -> tuple[Point | None, float | None]:
-        return (None, None) if self.seen is None else largest_value(self.seen, self.at)
+        return (None, None) if self.residual is None else largest_value(self.residual, self.points)
 
 
-def decide_zero(expression: sp.Expr, within: Iterable[Any] = ()) -> Decision:
+def decide_zero(expression: sp.Expr, assumptions: Iterable[Any] = ()) -> Decision:
     """Decide expression = 0; with floats in it, beyond the bound on the work and where nothing proves it "undecided".
 
     Parameters
     ----------
-    within : Iterable[Any], default ()
-        Inequalities that hold of the letters, x > 0, besides what these are declared to be.
+    assumptions : Iterable[Any], default ()
+        Inequalities that hold of the symbols, x > 0, besides what these are declared to be.
 
     Raises
     ------
     InputError
-        For what is not a scalar expression, for two letters of one name, and for what is no inequality.
+        For what is not a scalar expression, for two symbols of one name, and for what is no inequality.
     """
     try:
         expression = scalar(expression, "decide_zero")
     except NotExactError as refusal:
         return Decision("undecided", (), str(refusal))
-    return _decide(expression, region(within))
+    return _decide(expression, region(assumptions))
 
 
-@kept(1024)
+@bounded_cache(1024)
 def _decide(expression: sp.Expr, where: Region) -> Decision:
-    """Decide an equation, not how it is written: up to a number before it, with its letters numbered."""
+    """Decide an equation, not how it is written: up to a number before it, with its symbols numbered."""
     number, form = without_number(expression)
-    letters = Numbering(form, *(e for e, _ in where.above))
-    there = Region(tuple((letters.there(e), strict) for e, strict in where.above))
-    decision = _decide_numbered(letters.there(form), there)
-    seen, at = decision.seen and letters.back(decision.seen), decision.at
-    if seen is not None and number != 1:
-        seen = sp.Mul(number, seen, evaluate=False)
+    numbering = Numbering(form, *(e for e, _ in where.above))
+    numbered = Region(tuple((numbering.to_numbered(e), strict) for e, strict in where.above))
+    decision = _decide_numbered(numbering.to_numbered(form), numbered)
+    residual, places = decision.residual and numbering.to_input(decision.residual), decision.points
+    if residual is not None and number != 1:
+        residual = sp.Mul(number, residual, evaluate=False)
     return replace(
         decision,
-        domain=tuple(_monic(letters.back(factor)) for factor in decision.domain),
-        reason=letters.text(decision.reason),
-        seen=seen,
-        at=None if at is None else tuple({letters.back(s): value for s, value in point.items()} for point in at),
-        conditions=lambda: map(letters.back, decision.branch),
+        domain=tuple(_monic(numbering.to_input(factor)) for factor in decision.domain),
+        reason=numbering.text(decision.reason),
+        residual=residual,
+        points=None
+        if places is None
+        else tuple({numbering.to_input(s): value for s, value in point.items()} for point in places),
+        conditions=lambda: map(numbering.to_input, decision.branch),
     )
 
 
-@kept(1024)
+@bounded_cache(1024)
 def _decide_numbered(expression: sp.Expr, where: Region) -> Decision:
     try:
-        exact = _decided(expression)
+        exact = _decide_in_ring(expression)
         if exact.answer == "zero" or not exact.partly:
             return exact
     except TooLargeError as refusal:
-        return _by_a_point(expression, where, Decision("undecided", (), str(refusal), seen=expression))
+        return _by_a_point(expression, where, Decision("undecided", (), str(refusal), residual=expression))
     except NotExactError as refusal:
-        exact = Decision("undecided", (), str(refusal), seen=expression)
+        exact = Decision("undecided", (), str(refusal), residual=expression)
     if _is_foreign(expression):
         return exact
-    if parts(expression) > _MOST_PARTS:
+    if node_count(expression) > _MOST_PARTS:
         return _by_a_point(expression, where, exact)
     return _by_analysis(expression, where, exact)
 
@@ -170,16 +172,16 @@ def _is_foreign(expression: sp.Expr) -> bool:
 
 
 def _by_a_point(expression: sp.Expr, where: Region, exact: Decision) -> Decision:
-    witness, _ = sample(expression, where)
+    witness, _ = find_witness(expression, where)
     if witness is None or not witness.real:
         return exact
-    return Decision("nonzero", (), _EXCLUDED, seen=expression, at=(witness.point,))
+    return Decision("nonzero", (), _EXCLUDED, residual=expression, points=(witness.point,))
 
 
 def _by_analysis(expression: sp.Expr, where: Region, exact: Decision) -> Decision:
     """By a point whose enclosure excludes zero; by proof; on the branch where what a proof wants holds."""
     plain, proof, reason = evaluated(expression, where), Proof(None), exact.reason
-    witness, enclosed = sample(plain, where)
+    witness, enclosed = find_witness(plain, where)
     branched = (n for n in plain.atoms(*BRANCHED, sp.Pow) if not (n.is_Pow and n.exp.is_integer))
     if witness is None or any(n.free_symbols for n in branched):
         try:
@@ -191,17 +193,17 @@ def _by_analysis(expression: sp.Expr, where: Region, exact: Decision) -> Decisio
             return Decision("zero", proof.divisors, proof.how)
         return replace(exact, reason="No point was seen at which it is defined.")
     if exact.answer == "nonzero":
-        return replace(exact, conditions=lambda: _inside(branch_of_zero(plain, where, proof.wanted)[0], exact.domain))
-    branch, within = branch_of_zero(plain, where, proof.wanted)
-    inside = _inside(branch, within.divisors)
+        return replace(exact, conditions=lambda: _inside(branch_of_zero(plain, where, proof.missing)[0], exact.domain))
+    branch, branch_proof = branch_of_zero(plain, where, proof.missing)
+    inside = _inside(branch, branch_proof.divisors)
     if witness is None:
-        if within.how is not None and set(branch) <= set(simplest(conditions(plain), where)):
-            return Decision("zero", within.divisors, within.how or "", conditions=lambda: branch)
+        if branch_proof.how is not None and set(branch) <= set(simplify_conditions(conditions(plain), where)):
+            return Decision("zero", branch_proof.divisors, branch_proof.how or "", conditions=lambda: branch)
         return replace(exact, reason=reason, conditions=lambda: inside)
     if not (branch or witness.real or has_principal_values(plain, (), where)):
         return replace(exact, reason="It differs from zero where it is not real, and was not proved where it is.")
     return Decision(
-        "nonzero", within.divisors, _EXCLUDED, bool(branch), plain, (witness.point,), conditions=lambda: inside
+        "nonzero", branch_proof.divisors, _EXCLUDED, bool(branch), plain, (witness.point,), conditions=lambda: inside
     )
 
 
@@ -212,16 +214,16 @@ def _inside(branch: tuple[sp.Basic, ...], domain: tuple[sp.Expr, ...]) -> tuple[
 
 
 # Of the differences that a paper's audit decides, three in five come again under other premises.
-@kept(1024)
-def _decided(expression: sp.Expr) -> Decision:
-    found = survey(expression)
-    roots = find_roots(found)
+@bounded_cache(1024)
+def _decide_in_ring(expression: sp.Expr) -> Decision:
+    content = survey(expression)
+    roots = find_roots(content)
     if len(roots.unsigned) > _MOST_SIGNS:
         raise TooLargeError(f"More than {_MOST_SIGNS} roots have a sign that may differ from region to region.")
     domain: tuple[sp.Expr, ...] = ()
     zero, nonzero = set[tuple[int, ...]](), dict[tuple[int, ...], str]()
     for signs in product((1, -1), repeat=len(roots.unsigned)):
-        reading = reader(found, roots, signs)
+        reading = reader(content, roots, signs)
         numerator, ring = reading.quotient(expression).numerator, reading.ring
         domain += _domain(ring)
         if numerator:
@@ -233,11 +235,11 @@ def _decided(expression: sp.Expr) -> Decision:
     if not nonzero:
         return Decision("zero", domain, "The reduced numerator is the zero polynomial.")
     if not zero:
-        return Decision("nonzero", domain, next(iter(nonzero.values())), seen=expression)
-    seen = [(roots.signs_at(point), point) for point in points(expression.free_symbols, _SIGN_POINTS)]
+        return Decision("nonzero", domain, next(iter(nonzero.values())), residual=expression)
+    samples = [(roots.signs_at(point), point) for point in points(expression.free_symbols, _SIGN_POINTS)]
     for signs, reason in nonzero.items():
-        if within := tuple(point for there, point in seen if there == signs):
-            return Decision("nonzero", domain, reason, True, expression, within)
+        if witnesses := tuple(point for sample_signs, point in samples if sample_signs == signs):
+            return Decision("nonzero", domain, reason, True, expression, witnesses)
     raise NotExactError(f"It vanishes for some signs of {_listed(roots)} and not for others.")
 
 
@@ -245,22 +247,24 @@ def _listed(roots: Roots) -> str:
     return ", ".join(str(sp.sqrt(root.base)) for root in roots.unsigned)
 
 
-def decide_equal(left: sp.Expr | sp.MatrixBase, right: sp.Expr | sp.MatrixBase, within: Iterable[Any] = ()) -> Decision:
+def decide_equal(
+    lhs: sp.Expr | sp.MatrixBase, rhs: sp.Expr | sp.MatrixBase, assumptions: Iterable[Any] = ()
+) -> Decision:
     """Decide left = right; matrices are equal if every entry is, and unequal if any is.
 
     Parameters
     ----------
-    left : Expr or MatrixBase
+    lhs : Expr or MatrixBase
         An expression or a matrix.
-    right : Expr or MatrixBase
+    rhs : Expr or MatrixBase
         Likewise.
-    within : Iterable[Any], default ()
+    assumptions : Iterable[Any], default ()
         Inequalities, as of `decide_zero`.
 
     Raises
     ------
     InputError
-        The two differ in shape, or are no expressions; two letters of one name.
+        The two differ in shape, or are no expressions; two symbols of one name.
 
     Examples
     --------
@@ -269,31 +273,31 @@ def decide_equal(left: sp.Expr | sp.MatrixBase, right: sp.Expr | sp.MatrixBase, 
     >>> decide_equal(log(x**2), 2*log(x)).answer, decide_equal(x**2/x, x + 1).answer
     ('zero', 'nonzero')
     """
-    left, right = sympified(left, "decide_equal"), sympified(right, "decide_equal")
-    shapes = getattr(left, "shape", ()), getattr(right, "shape", ())
+    lhs, rhs = sympified(lhs, "decide_equal"), sympified(rhs, "decide_equal")
+    shapes = getattr(lhs, "shape", ()), getattr(rhs, "shape", ())
     if shapes[0] != shapes[1]:
         raise InputError(f"decide_equal: shapes {shapes[0]} and {shapes[1]} cannot be compared")
-    where = region(within)
-    if not isinstance(left, sp.MatrixBase):
-        return _decide_difference(left, right, where)
-    entries = [_decide_difference(a, b, where) for a, b in zip(left, right, strict=True)]
+    where = region(assumptions)
+    if not isinstance(lhs, sp.MatrixBase):
+        return _decide_difference(lhs, rhs, where)
+    entries = [_decide_difference(a, b, where) for a, b in zip(lhs, rhs, strict=True)]
     domain = tuple(dict.fromkeys(factor for entry in entries for factor in entry.domain))
     for answer in ("nonzero", "undecided"):
         for place, entry in enumerate(entries):
             if entry.answer == answer:
-                row, column = divmod(place, left.cols)
+                row, column = divmod(place, lhs.cols)
                 reason = f"Entry ({row + 1}, {column + 1}): {entry.reason}"
                 return replace(entry, domain=domain, reason=reason)
     return Decision("zero", domain, "The reduced numerator of every entry is the zero polynomial.")
 
 
-def _decide_difference(left: sp.Expr, right: sp.Expr, where: Region) -> Decision:
+def _decide_difference(lhs: sp.Expr, rhs: sp.Expr, where: Region) -> Decision:
     try:
-        left, right = scalar(left, "decide_equal"), scalar(right, "decide_equal")
+        lhs, rhs = scalar(lhs, "decide_equal"), scalar(rhs, "decide_equal")
     except NotExactError as refusal:
         return Decision("undecided", (), str(refusal))
-    check_names("decide_equal", left, right)
-    return _decide(left - right, where)
+    check_names("decide_equal", lhs, rhs)
+    return _decide(lhs - rhs, where)
 
 
 def normal_form(expression: sp.Expr) -> sp.Expr:
@@ -310,11 +314,11 @@ def normal_form(expression: sp.Expr) -> sp.Expr:
         For what is not a scalar expression.
     """
     expression = scalar(expression, "normal_form")
-    found = survey(expression, largest=inf)
-    roots = find_roots(found)
+    content = survey(expression, largest=inf)
+    roots = find_roots(content)
     if roots.unsigned:
         raise NotExactError(f"The signs of {_listed(roots)} may differ from region to region.")
-    reading = reader(found, roots)
+    reading = reader(content, roots)
     ring, (numerator, factors) = reading.ring, reading.quotient(expression)
     denominator = ring.expanded(factors)
     for index in ring.squares:
@@ -340,7 +344,7 @@ def _domain(ring: Ring) -> tuple[sp.Expr, ...]:
 
 
 def _monic(factor: sp.Expr) -> sp.Expr:
-    """Return a polynomial over its leading coefficient, the letters in the order of their names: for reading only.
+    """Return a polynomial over its leading coefficient, the symbols in the order of their names: for reading only.
 
     |u| and a root of u vanish where u does, which is returned for them.
     """
@@ -353,27 +357,27 @@ def _monic(factor: sp.Expr) -> sp.Expr:
 
 
 def _irreducible(ring: Ring, polynomial: PolyElement) -> list[sp.Expr]:
-    found = []
+    factors = []
     for index, square in ring.squares.items():
         if ring.names[index].func in (sp.sin, sp.sinh):
             # 1 - cos**2 vanishes where the sine does, which says it more plainly.
             quotient, remainder = polynomial.div(square)
             if not remainder:
-                found.append(ring.names[index])
+                factors.append(ring.names[index])
                 polynomial = quotient
         elif polynomial == ring.polynomials.gens[index]:
             polynomial = square  # a root vanishes where its radicand does
     named = ring.divisors.get(polynomial.monic())
     if named is not None:
-        return [*found, named]
+        return [*factors, named]
     if len(polynomial) == 1:
         [monomial] = polynomial.itermonoms()
-        return found + [name for name, power in zip(ring.names, monomial, strict=True) if power]
+        return factors + [name for name, power in zip(ring.names, monomial, strict=True) if power]
     if len(polynomial) > _MOST_TERMS or max(map(sum, polynomial.itermonoms())) > _MOST_DEGREE:
-        return [*found, ring.expression(polynomial)]
+        return [*factors, ring.expression(polynomial)]
     used = [i for i, powers in enumerate(zip(*polynomial.itermonoms(), strict=True)) if any(powers)]
     terms = frozenset((tuple(monomial[i] for i in used), c) for monomial, c in polynomial.iterterms())
-    return [*found, *_factors(tuple(ring.names[i] for i in used), terms)]
+    return [*factors, *_factors(tuple(ring.names[i] for i in used), terms)]
 
 
 # Most divisors of a paper's audit come again in another identity.

@@ -1,6 +1,6 @@
-"""What a letter is where one function of it is known: x² = v with x ≥ 0 is x = √v with v ≥ 0, cos x = v on [0, π] is x = acos v.
+"""What a symbol is where one function of it is known: x² = v with x ≥ 0 is x = √v with v ≥ 0, cos x = v on [0, π] is x = acos v.
 
-Each step is an equivalence for real letters where its conditions hold.
+Each step is an equivalence for real symbols where its conditions hold.
 """
 
 from __future__ import annotations
@@ -36,22 +36,22 @@ def argument(function: Any, value: sp.Expr) -> Conditioned:
     )
 
 
-def solved_for(kernel: sp.Expr, letter: sp.Symbol, value: sp.Expr, where: Region) -> Conditioned | None:
-    """The letter where kernel = value, a power or a function of it; None where the region leaves more than one."""
-    if not is_real(letter, where) or not is_real(value, where):
+def solved_for(kernel: sp.Expr, symbol: sp.Symbol, value: sp.Expr, where: Region) -> Conditioned | None:
+    """The symbol where kernel = value, a power or a function of it; None where the region leaves more than one."""
+    if not is_real(symbol, where) or not is_real(value, where):
         return None
-    if kernel.is_Pow and kernel.base == letter and kernel.exp.is_Rational:
-        return _root(kernel.exp, letter, value, where)
-    if kernel.func in INVERSES and kernel.args == (letter,):
+    if kernel.is_Pow and kernel.base == symbol and kernel.exp.is_Rational:
+        return _root(kernel.exp, symbol, value, where)
+    if kernel.func in INVERSES and kernel.args == (symbol,):
         return argument(kernel.func, value)
     if isinstance(kernel, sp.exp):
         return sp.log(value), (sp.Gt(value, 0, evaluate=False),)
     if isinstance(kernel, sp.sinh):
         return sp.asinh(value), ()
     if isinstance(kernel, sp.cosh):
-        side = _side(letter, where)
+        side = _side(symbol, where)
         return (side * sp.acosh(value), _at_least(value, sp.S.One)) if side else None
-    return next(_arcs(kernel, letter, value, where), None)
+    return next(_arcs(kernel, symbol, value, where), None)
 
 
 def _at_least(e: sp.Expr, low: sp.Expr) -> tuple[sp.Basic, ...]:
@@ -63,8 +63,8 @@ def _side(e: sp.Expr, where: Region) -> int:
     return 1 if is_nonnegative(e, where) else -1 if is_nonnegative(-e, where) else 0
 
 
-def _root(n: sp.Rational, letter: sp.Symbol, value: sp.Expr, where: Region) -> Conditioned | None:
-    side = _side(letter, where)
+def _root(n: sp.Rational, symbol: sp.Symbol, value: sp.Expr, where: Region) -> Conditioned | None:
+    side = _side(symbol, where)
     if n == sp.S.Half or (side == 1 and (n > 0 or 0 not in (signs(value, where) or {0}))):
         return value ** (1 / n), _at_least(value, sp.S.Zero)
     if not n.is_Integer or n < 0:
@@ -75,16 +75,16 @@ def _root(n: sp.Rational, letter: sp.Symbol, value: sp.Expr, where: Region) -> C
     return (side * (side * value) ** (1 / n), _at_least(side * value, sp.S.Zero)) if side else None
 
 
-def _arcs(kernel: sp.Expr, letter: sp.Symbol, value: sp.Expr, where: Region) -> Iterator[Conditioned]:
-    """Of sin, cos and tan, where the letter lies in one monotone piece."""
-    within = (*_at_least(value, sp.S.NegativeOne), *_at_least(sp.S.One, value))
+def _arcs(kernel: sp.Expr, symbol: sp.Symbol, value: sp.Expr, where: Region) -> Iterator[Conditioned]:
+    """Of sin, cos and tan, where the symbol lies in one monotone piece."""
+    conditions = (*_at_least(value, sp.S.NegativeOne), *_at_least(sp.S.One, value))
     for k in _TURNS:
         start = k * sp.pi - (0 if isinstance(kernel, sp.cos) else sp.pi / 2)
-        if not (is_nonnegative(letter - start, where) and is_nonnegative(start + sp.pi - letter, where)):
+        if not (is_nonnegative(symbol - start, where) and is_nonnegative(start + sp.pi - symbol, where)):
             continue
         if isinstance(kernel, sp.sin):
-            yield k * sp.pi + (-1) ** k * sp.asin(value), within
+            yield k * sp.pi + (-1) ** k * sp.asin(value), conditions
         elif isinstance(kernel, sp.cos):
-            yield (k + k % 2) * sp.pi + (-1) ** k * sp.acos(value), within
+            yield (k + k % 2) * sp.pi + (-1) ** k * sp.acos(value), conditions
         elif isinstance(kernel, sp.tan):
             yield k * sp.pi + sp.atan(value), ()

@@ -9,7 +9,7 @@ with e, leaves finitely many terms.  Of u = e**s * w, w not zero at e = 0,
 
     u**a = e**(s*a) * w**a,    log u = s*log(e) + log w,
 
-where log(e) is a letter of its own in the coefficients: no series in powers of e equals it.  tan, cot, sec, csc and their
+where log(e) is a symbol of its own in the coefficients: no series in powers of e equals it.  tan, cot, sec, csc and their
 hyperbolic kin are quotients where they have a pole.  A function whose argument is unbounded at e = 0 has no such series, but for
 roots and logarithms.
 
@@ -28,7 +28,7 @@ from typing import NamedTuple
 import sympy as sp
 
 from lagrotor.algebra.differentiation import derivative
-from lagrotor.algebra.evidence import points, size_at
+from lagrotor.algebra.evidence import magnitude_at, points
 from lagrotor.algebra.identity import decide_zero
 from lagrotor.algebra.scalar import scalar
 from lagrotor.errors import InputError, NotExactError
@@ -181,8 +181,8 @@ def _terms(expression: sp.Expr, small: sp.Symbol, order: int) -> list[tuple[int 
     logarithms = [log.args[0] for log in expression.atoms(sp.log)]
     logarithms += [power.base for power in expression.atoms(sp.Pow) if power.exp.has(small)]
     beyond = order + 1 + any(argument.has(small) for argument in logarithms)
-    length, most = max(beyond, 1), max(beyond, 1) + _MOST_LOST
-    while length <= most:
+    length, longest = max(beyond, 1), max(beyond, 1) + _MOST_LOST
+    while length <= longest:
         try:
             series = _expanded(expression, small, length)
         except _TooShortError:
@@ -208,15 +208,15 @@ def _expanded(node: sp.Expr, small: sp.Symbol, length: int) -> _Series:
         return _Series(1, _padded([sp.S.One], length))
     if not isinstance(node, _KNOWN):
         raise NotExactError(f"{node} is not known to be analytic in {small}")
-    parts = [_expanded(part, small, length) for part in node.args]
+    arguments = [_expanded(argument, small, length) for argument in node.args]
     if node.is_Mul:
-        return reduce(_times, parts)
+        return reduce(_times, arguments)
     if node.is_Add:
-        real = all(part.real for part, term in zip(parts, node.args, strict=True) if term.has(small))
-        return reduce(_plus, parts)._replace(real=real)
+        real = all(argument.real for argument, term in zip(arguments, node.args, strict=True) if term.has(small))
+        return reduce(_plus, arguments)._replace(real=real)
     if node.is_Pow:
-        return _of_power(node, parts[0], parts[1], small)
-    return _of_function(node, parts[0], small, length)
+        return _of_power(node, arguments[0], arguments[1], small)
+    return _of_function(node, arguments[0], small, length)
 
 
 def _of_power(node: sp.Expr, base: _Series, exponent: _Series, small: sp.Symbol) -> _Series:
@@ -317,19 +317,19 @@ def _check_cut(node: sp.Expr, inner: _Series, small: sp.Symbol) -> None:
     one_sided = bool(small.is_extended_nonnegative)
     on_line = False
     if isinstance(node, _CUT):
-        off = _is_real(u0) or u0.is_imaginary is False or (1 + u0**2).is_positive
+        off_cut = _is_real(u0) or u0.is_imaginary is False or (1 + u0**2).is_positive
     elif isinstance(node, _CUT_BEYOND_ONE):
-        off = u0.is_extended_real is False or (u0.is_extended_real and (1 - u0**2).is_positive)
+        off_cut = u0.is_extended_real is False or (u0.is_extended_real and (1 - u0**2).is_positive)
     else:
-        off = u0.is_positive or u0.is_extended_real is False
+        off_cut = u0.is_positive or u0.is_extended_real is False
         on_line = inner.real and all(map(_is_real, tail))
     if inner.start and not one_sided:
-        within = inner.start < inner.q or (inner.start == inner.q and on_line)
-        if not (u0.is_positive and inner.start > 0 and within):
+        first_order = inner.start < inner.q or (inner.start == inner.q and on_line)
+        if not (u0.is_positive and inner.start > 0 and first_order):
             raise NotExactError(
                 f"{node} is singular at {small} = 0, and its branch depends on the sign of {small}: declare it positive"
             )
-    if not (off or on_line):
+    if not (off_cut or on_line):
         raise NotExactError(
             f"{node} may lie on a branch cut: its argument starts at {u0} and does not stay on one line"
         )
@@ -352,9 +352,9 @@ def _refined(series: _Series, q: int) -> _Series:
     """The same series in powers of small**(1/q), q a multiple of its own."""
     if q > _MOST_ROOTS:
         raise NotExactError(f"powers with the common denominator {q} are not expanded: the largest is {_MOST_ROOTS}")
-    each = q // series.q
-    terms = tuple(part for term in series.terms for part in _padded([term], each))
-    return series._replace(start=series.start * each, terms=terms, q=q)
+    factor = q // series.q
+    terms = tuple(coefficient for term in series.terms for coefficient in _padded([term], factor))
+    return series._replace(start=series.start * factor, terms=terms, q=q)
 
 
 def _plus(a: _Series, b: _Series) -> _Series:
@@ -413,7 +413,7 @@ def _regular(node: sp.Expr, series: _Series, small: sp.Symbol) -> _Series:
 def _vanishes(coefficient: sp.Expr) -> bool:
     decision = decide_zero(coefficient)
     if decision.answer == "undecided":
-        sizes = [size_at(coefficient, point) for point in points(coefficient.free_symbols)]
+        sizes = [magnitude_at(coefficient, point) for point in points(coefficient.free_symbols)]
         clear = min((size for size in sizes if size is not None), default=0) > _CLEARLY_NONZERO
     if decision.partly or (decision.answer == "undecided" and not clear):
         raise NotExactError(f"cannot tell whether {coefficient} vanishes: {decision.reason}")

@@ -21,7 +21,7 @@ MOST_WORK = 300_000
 # Bits of a coefficient that one unit of work multiplies.
 _BITS = 256
 # Generators that one unit of work multiplies.
-_LETTERS = 16
+_SYMBOLS = 16
 
 
 class Quotient(NamedTuple):
@@ -62,7 +62,7 @@ class Ring:
     def product(self, a: PolyElement, b: PolyElement) -> PolyElement:
         if a is self.one or b is self.one:
             return a if b is self.one else b
-        self.spend(len(a) * len(b) * _length(a) * _length(b) * (1 + len(self.names) // _LETTERS))
+        self.spend(len(a) * len(b) * _length(a) * _length(b) * (1 + len(self.names) // _SYMBOLS))
         return self.reduced(a * b)
 
     def products(self, polynomials: Iterable[PolyElement]) -> PolyElement:
@@ -90,13 +90,13 @@ class Ring:
             # A square holds no generator with a rule: the degrees in the others that have one do not change.
             if not degrees or degrees[index] < 2:
                 continue
-            parts: dict[int, dict[tuple[int, ...], Any]] = {}
+            blocks: dict[int, dict[tuple[int, ...], Any]] = {}
             for monomial, coefficient in polynomial.iterterms():
-                times, rest = divmod(monomial[index], 2)
-                parts.setdefault(times, {})[(*monomial[:index], rest, *monomial[index + 1 :])] = coefficient
+                times, parity = divmod(monomial[index], 2)
+                blocks.setdefault(times, {})[(*monomial[:index], parity, *monomial[index + 1 :])] = coefficient
             polynomial = self.polynomials.zero
-            for times, part in parts.items():
-                polynomial += self.product(self.power(square, times), self.polynomials.from_dict(part))
+            for times, block in blocks.items():
+                polynomial += self.product(self.power(square, times), self.polynomials.from_dict(block))
         return polynomial
 
     def times(self, a: Quotient, b: Quotient) -> Quotient:
@@ -113,8 +113,8 @@ class Ring:
             common |= {factor: max(times, common.get(factor, 0)) for factor, times in factors.items()}
         total = self.polynomials.zero
         for key, numerator in alike.items():
-            own = dict(key)
-            missing = {factor: times - own.get(factor, 0) for factor, times in common.items()}
+            exponents = dict(key)
+            missing = {factor: times - exponents.get(factor, 0) for factor, times in common.items()}
             total += self.product(numerator, self.expanded(missing))
         return Quotient(total, common)
 
@@ -131,11 +131,11 @@ class Ring:
             raise NotExactError("A denominator vanishes identically.")
         powers = tuple(min(exponents) for exponents in zip(*polynomial.itermonoms(), strict=True))
         factors = {g: n for g, n in zip(self.polynomials.gens, powers, strict=True) if n}
-        rest = {
+        cofactor = {
             tuple(m - p for m, p in zip(monomial, powers, strict=True)): c for monomial, c in polynomial.iterterms()
         }
-        if len(rest) > 1:
-            factors[self.polynomials.from_dict(rest).monic()] = 1
+        if len(cofactor) > 1:
+            factors[self.polynomials.from_dict(cofactor).monic()] = 1
         if name is None:
             for factor in factors:
                 self.divisors.setdefault(factor, None)
@@ -146,7 +146,7 @@ class Ring:
 
 @cache
 def _polynomials(generators: int) -> PolyRing:
-    """The polynomials in so many fixed letters: the names of the generators themselves may coincide."""
+    """The polynomials in so many fixed symbols: the names of the generators themselves may coincide."""
     return PolyRing(sp.symbols(f"g:{generators}"), sp.QQ)
 
 

@@ -40,23 +40,23 @@ class Roots(NamedTuple):
 
     def sign_ratio(self, root: Dependent) -> sp.Expr:
         """The root over what it is with the sign +1."""
-        return sp.sqrt(root.base) / (self._factor(root) * sp.Mul(*(sp.sqrt(other.base) for other in root.of)))
+        return sp.sqrt(root.base) / (self._factor(root) * sp.Mul(*(sp.sqrt(factor.base) for factor in root.of)))
 
     def signs_at(self, point: Point) -> tuple[int | None, ...]:
         return tuple(sign_at(self.sign_ratio(root), point) for root in self.unsigned)
 
     def _factor(self, root: Dependent) -> sp.Expr:
         """What the product of the square roots `of` is multiplied by."""
-        over = [root.numerator, *(other.denominator for other in root.of)]
+        over = [root.numerator, *(factor.denominator for factor in root.of)]
         return sp.Mul(*map(self.ring.expression, over)) / self.ring.expression(root.denominator)
 
     def known_sign(self, root: Dependent) -> int | None:
         """The sign where the symbols' assumptions settle it: sqrt(a)*sqrt(b) = sqrt(a*b) for a >= 0 or b >= 0."""
         if not root.numerator:
             return 1
-        if not any(base.free_symbols for base in (root.base, *(other.base for other in root.of))):
+        if not any(base.free_symbols for base in (root.base, *(member.base for member in root.of))):
             return sign_at(self.sign_ratio(root), {})
-        if sum(not other.base.is_nonnegative for other in root.of) > 1:
+        if sum(not member.base.is_nonnegative for member in root.of) > 1:
             return None
         factor = self._factor(root)
         return 1 if factor.is_nonnegative else -1 if factor.is_nonpositive else None
@@ -68,9 +68,9 @@ def find_roots(survey: Survey) -> Roots:
         return Roots(Ring(()), [], [])
     plain = Reader(survey, Ring(sorted(survey.atoms, key=sp.default_sort_key)), {})
     ordered = sorted(survey.radicands, key=lambda base: (bool(base.free_symbols), base.sort_key()))
-    given = [(base, plain.quotient(base)) for base in ordered]
+    quotients = [(base, plain.quotient(base)) for base in ordered]
     independent, dependent = split_roots(
-        plain.ring, [(base, over, plain.ring.expanded(factors)) for base, (over, factors) in given]
+        plain.ring, [(base, over, plain.ring.expanded(factors)) for base, (over, factors) in quotients]
     )
     unsigned = Roots(plain.ring, independent, [(root, None) for root in dependent])
     return Roots(plain.ring, independent, [(root, unsigned.known_sign(root)) for root in dependent])
@@ -91,8 +91,8 @@ def reader(survey: Survey, roots: Roots, signs: Sequence[int] = ()) -> Reader:
             ring.set_square(s, square if angle[0] else -square)
 
     def lifted(polynomial: PolyElement) -> PolyElement:
-        given = [ring.generators[name] for name in roots.ring.names if name in ring.generators]
-        terms = (ring.products([ring.one * c, *map(ring.power, given, m)]) for m, c in polynomial.terms())
+        generators = [ring.generators[name] for name in roots.ring.names if name in ring.generators]
+        terms = (ring.products([ring.one * c, *map(ring.power, generators, m)]) for m, c in polynomial.terms())
         return sum(terms, ring.polynomials.zero)
 
     for root, name in named.items():
@@ -100,11 +100,13 @@ def reader(survey: Survey, roots: Roots, signs: Sequence[int] = ()) -> Reader:
     values: dict[sp.Expr, Quotient] = {}
     for root, name in named.items():
         values[root.base] = ring.times(Quotient(ring.generators[name], {}), ring.inverse(lifted(root.denominator)))
-    left = iter(signs)
-    for one, sign in roots.dependent:
-        over = ring.products([lifted(one.numerator), *(ring.generators[named[other]] for other in one.of)])
-        over *= next(left) if sign is None else sign
-        values[one.base] = ring.times(Quotient(over, {}), ring.inverse(lifted(one.denominator)))
+    remaining_signs = iter(signs)
+    for dependent, sign in roots.dependent:
+        over = ring.products(
+            [lifted(dependent.numerator), *(ring.generators[named[member]] for member in dependent.of)]
+        )
+        over *= next(remaining_signs) if sign is None else sign
+        values[dependent.base] = ring.times(Quotient(over, {}), ring.inverse(lifted(dependent.denominator)))
     return Reader(survey, ring, values)
 
 
@@ -114,7 +116,7 @@ def _names(survey: Survey, angle: Angle) -> tuple[sp.Expr, ...]:
     base = monomial / survey.angles[angle].step
     if survey.compact(angle):
         return (sp.exp(base if hyperbolic else sp.I * base, evaluate=False),)
-    return tuple(part(base, evaluate=False) for part in FAMILY[hyperbolic])
+    return tuple(function(base, evaluate=False) for function in FAMILY[hyperbolic])
 
 
 class Reader:
@@ -148,7 +150,7 @@ class Reader:
             return ring.raised(self.quotient(node.base), int(node.exp))
         if node.func is sp.exp:
             return reduce(
-                ring.times, (self._exponential(*part) for part in angle_of(node)[1].items()), ring.number(sp.S.One)
+                ring.times, (self._exponential(*term) for term in angle_of(node)[1].items()), ring.number(sp.S.One)
             )
         return self._function(node)
 
@@ -164,7 +166,7 @@ class Reader:
     def _pair(self, node: sp.Expr) -> Pair:
         """Cosine and sine of the function's argument, by the addition theorems."""
         hyperbolic, (turn, rates) = node.func in HYPERBOLIC, angle_of(node)
-        cosine, sine = (self.quotient(part(turn * sp.pi)).numerator for part in FAMILY[False])
+        cosine, sine = (self.quotient(function(turn * sp.pi)).numerator for function in FAMILY[False])
         total = Pair(cosine, sine, {})
         for monomial, rate in rates.items():
             total = self._plus(hyperbolic, total, self._multiple((hyperbolic, monomial), rate))

@@ -69,7 +69,7 @@ def split_roots(
             rows.sort(reverse=True)
             independent.append(root)
         else:
-            of = tuple(other for place, other in enumerate(independent) if members >> place & 1)
+            of = tuple(basis_root for place, basis_root in enumerate(independent) if members >> place & 1)
             dependent.append(_expressed(ring, root, of, numbers, polynomials))
     return independent, dependent
 
@@ -79,7 +79,7 @@ def _coprime_parts(squares: Iterable[PolyElement]) -> tuple[list[int], list[Poly
     numbers, polynomials = [], []
     for square in filter(None, squares):
         numbers.append(abs(_content(square)))
-        polynomials += [part.monic() for part, _ in square.sqf_list()[1]]
+        polynomials += [factor.monic() for factor, _ in square.sqf_list()[1]]
     return (
         _refined([_rootless(n) for n in numbers], gcd, lambda a, b: a // b, lambda n: n == 1, _rootless),
         _refined(polynomials, lambda a, b: a.gcd(b).monic(), lambda a, b: a.exquo(b), lambda p: p.is_ground),
@@ -94,20 +94,20 @@ def _refined(
     rootless: Callable[[Any], Any] = lambda value: value,
 ) -> list[Any]:
     """Split values by common divisors until they are pairwise coprime."""
-    found: list[Any] = []
+    coprime: list[Any] = []
     while values:
         value = rootless(values.pop())
-        if is_unit(value) or value in found:
+        if is_unit(value) or value in coprime:
             continue
-        for place, other in enumerate(found):
-            shared = common(value, other)
+        for place, member in enumerate(coprime):
+            shared = common(value, member)
             if not is_unit(shared):
-                del found[place]
-                values += [shared, divided(value, shared), divided(other, shared)]
+                del coprime[place]
+                values += [shared, divided(value, shared), divided(member, shared)]
                 break
         else:
-            found.append(value)
-    return found
+            coprime.append(value)
+    return coprime
 
 
 def _rootless(number: int) -> int:
@@ -140,11 +140,11 @@ def _expressed(
     ring: Ring, root: Root, of: tuple[Root, ...], numbers: list[int], polynomials: list[PolyElement]
 ) -> Dependent:
     """The root in terms of those whose squares, multiplied by its own, give the square of p."""
-    squares = [root.square, *(other.square for other in of)]
+    squares = [root.square, *(basis_root.square for basis_root in of)]
     halves = [sum(n) // 2 for n in zip(*(_exponents(s, numbers, polynomials) for s in squares), strict=True)]
     content = prod((sp.Rational(int(s.LC.numerator), int(s.LC.denominator)) for s in squares), start=sp.S.One)
     p = ring.number(sp.Rational(isqrt(content.p), isqrt(content.q))).numerator
     for polynomial, times in zip(polynomials, halves[1 + len(numbers) :], strict=True):
         p = ring.product(p, ring.power(polynomial, times))
-    numerator, denominator = p.cancel(ring.products(other.square for other in of))
+    numerator, denominator = p.cancel(ring.products(basis_root.square for basis_root in of))
     return Dependent(root.base, numerator, ring.product(denominator, root.denominator), of)

@@ -16,33 +16,33 @@ _OWN = set[int]()
 _LOCK = RLock()
 
 
-def subexpressions(*given: sp.Basic) -> list[sp.Basic]:
+def subexpressions(*expressions: sp.Basic) -> list[sp.Basic]:
     """Every different part of expressions, after those that it is made of."""
-    made = dict[sp.Basic, None]()
-    left = [(e, False) for e in reversed(given)]
-    while left:
-        part, whole = left.pop()
+    ordered = dict[sp.Basic, None]()
+    stack = [(e, False) for e in reversed(expressions)]
+    while stack:
+        node, whole = stack.pop()
         if whole:
-            made[part] = None
-        elif part not in made:
-            left += [(part, True), *((a, False) for a in reversed(part.args))]
-    return list(made)
+            ordered[node] = None
+        elif node not in ordered:
+            stack += [(node, True), *((a, False) for a in reversed(node.args))]
+    return list(ordered)
 
 
 def free_letters(e: sp.Basic) -> set[sp.Symbol]:
     """Its free symbols."""
     inside = dict[sp.Basic, set[sp.Symbol]]()
-    for part in subexpressions(e):
-        bound = getattr(part, "bound_symbols", ())
-        inside[part] = part.free_symbols if part.is_Atom or bound else set().union(*(inside[a] for a in part.args))
+    for node in subexpressions(e):
+        bound = getattr(node, "bound_symbols", ())
+        inside[node] = node.free_symbols if node.is_Atom or bound else set().union(*(inside[a] for a in node.args))
     return inside[e]
 
 
 def length(e: sp.Basic) -> int:
     """How many parts it has where all are written out."""
     counts = dict[sp.Basic, int]()
-    for part in subexpressions(e):
-        counts[part] = 1 + sum(counts[a] for a in part.args)
+    for node in subexpressions(e):
+        counts[node] = 1 + sum(counts[a] for a in node.args)
     return counts[e]
 
 
@@ -51,8 +51,8 @@ def written(e: sp.Basic) -> str:
     if length(e) < _WRITTEN:
         return str(e)
     number = dict[sp.Basic, str]()
-    for part in subexpressions(e):
-        number[part] = f"#{len(number)}"
+    for node in subexpressions(e):
+        number[node] = f"#{len(number)}"
     return " ".join(f"{type(p).__name__}({', '.join(number[a] for a in p.args) or p})" for p in number)
 
 
@@ -65,27 +65,31 @@ def with_shared_parts(e: sp.Expr) -> sp.Expr:
     with _LOCK:
         if len(_KNOWN) > _MOST:
             forget()
-        own = dict[int, sp.Basic]()
-        left: list[tuple[sp.Basic, bool]] = [(e, False)]
-        while left:
-            part, whole = left.pop()
-            if id(part) in _OWN or id(part) in own:
+        shared = dict[int, sp.Basic]()
+        stack: list[tuple[sp.Basic, bool]] = [(e, False)]
+        while stack:
+            node, whole = stack.pop()
+            if id(node) in _OWN or id(node) in shared:
                 continue
             if not whole:
-                left += [(part, True), *((a, False) for a in part.args)]
+                stack += [(node, True), *((a, False) for a in node.args)]
                 continue
-            args = [own.get(id(a), a) for a in part.args]
-            key = (part.func, *map(id, args)) if args else (part.func, part)
+            args = [shared.get(id(a), a) for a in node.args]
+            key = (node.func, *map(id, args)) if args else (node.func, node)
             if (same := _KNOWN.get(key)) is None:
-                same = part
-                if any(a is not b for a, b in zip(args, part.args, strict=True)):
-                    made = part.func(*args)
-                    alike = made.func == part.func and len(made.args) == len(args) and all(map(is_, made.args, args))
-                    same = made if alike else part
+                same = node
+                if any(a is not b for a, b in zip(args, node.args, strict=True)):
+                    rebuilt = node.func(*args)
+                    alike = (
+                        rebuilt.func == node.func
+                        and len(rebuilt.args) == len(args)
+                        and all(map(is_, rebuilt.args, args))
+                    )
+                    same = rebuilt if alike else node
                 _KNOWN[key] = same
                 _OWN.add(id(same))
-            own[id(part)] = same
-        return own.get(id(e), e)
+            shared[id(node)] = same
+        return shared.get(id(e), e)
 
 
 def forget() -> None:

@@ -12,7 +12,7 @@ from lagrotor.algebra.signs import Region
 _MOST_TERMS = 40  # that are written out
 
 
-def written_out(e: sp.Sum) -> sp.Expr | None:
+def expand_sum(e: sp.Sum) -> sp.Expr | None:
     """Between whole numbers, and in the least form: Σ to n + 2 as Σ to n and two terms, constant factors outside."""
     body, (i, low, high), *others = e.args
     if others:
@@ -23,10 +23,10 @@ def written_out(e: sp.Sum) -> sp.Expr | None:
         return sp.Add(*(body.subs(i, k) for k in range(int(low), int(high) + 1)))
     expanded = sp.expand_mul(body)
     if expanded.is_Add and body.has(sp.core.function.AppliedUndef):
-        return sp.Add(*(sp.Sum(part, (i, low, high)) for part in expanded.args))
-    constant, rest = expanded.as_independent(i, as_Add=False)
+        return sp.Add(*(sp.Sum(term, (i, low, high)) for term in expanded.args))
+    constant, dependent = expanded.as_independent(i, as_Add=False)
     if constant != 1:
-        return constant * sp.Sum(rest, (i, low, high))
+        return constant * sp.Sum(dependent, (i, low, high))
     if high is sp.oo:
         return None
     shift, base = high.as_coeff_Add()
@@ -65,11 +65,11 @@ def holds_by_induction(expression: sp.Expr, where: Region, vanishes: Callable[[s
     S = sp.Dummy("S")
     linear = sp.expand(expression.xreplace({total: S}))
     c = linear.coeff(S)
-    rest = linear - c * S
-    if rest.has(S) or c.has(S, n) or c == 0:
+    remainder = linear - c * S
+    if remainder.has(S) or c.has(S, n) or c == 0:
         return False
     start = 1 if n.is_positive else 0
     first = sp.Add(*(body.subs(i, k) for k in range(int(low), start + 1)))
-    at_start = (c * first + rest).subs(n, start)
-    after = c * body.subs(i, n + 1) - rest + rest.subs(n, n + 1)
-    return vanishes(at_start, where) and vanishes(after, where)
+    at_start = (c * first + remainder).subs(n, start)
+    step = c * body.subs(i, n + 1) - remainder + remainder.subs(n, n + 1)
+    return vanishes(at_start, where) and vanishes(step, where)

@@ -13,19 +13,19 @@ from sympy.core.cache import clear_cache
 from lagrotor.errors import WorkError
 
 _Result = TypeVar("_Result")
-_KEPT: list[Any] = []
+_CACHES: list[Any] = []
 
 
-class _Spent(BaseException):
+class _Exhausted(BaseException):
     """No error: what catches every error on the way must not go on."""
 
 
-def kept(most: int) -> Callable[[Callable[..., Any]], Any]:
+def bounded_cache(maxsize: int) -> Callable[[Callable[..., Any]], Any]:
     """lru_cache that `at_most` begins without, so that what is too large depends on nothing decided before."""
 
     def with_cache(function: Callable[..., Any]) -> Any:
-        _KEPT.append(lru_cache(maxsize=most)(function))
-        return _KEPT[-1]
+        _CACHES.append(lru_cache(maxsize=maxsize)(function))
+        return _CACHES[-1]
 
     return with_cache
 
@@ -33,8 +33,8 @@ def kept(most: int) -> Callable[[Callable[..., Any]], Any]:
 class Calls:
     """What several pieces of work may call together."""
 
-    def __init__(self, left: float) -> None:
-        self.left, self.begun = left, False
+    def __init__(self, limit: float) -> None:
+        self.remaining, self.begun = limit, False
 
 
 def at_most(calls: "int | Calls", work: Callable[..., _Result], *arguments: Any) -> _Result:
@@ -52,24 +52,24 @@ def at_most(calls: "int | Calls", work: Callable[..., _Result], *arguments: Any)
     shared = calls if isinstance(calls, Calls) else Calls(calls)
     if not shared.begun:
         clear_cache()
-        for each in _KEPT:
-            each.cache_clear()
-    left, shared.begun = shared.left, True
+        for cache in _CACHES:
+            cache.cache_clear()
+    remaining, shared.begun = shared.remaining, True
     tracer = sys.gettrace()
 
     def count(frame: FrameType, event: str, argument: Any) -> None:
-        nonlocal left
-        left -= 1
-        if left < 0 and not frame.f_code.co_flags & CO_GENERATOR:  # where one is closed an error is lost
+        nonlocal remaining
+        remaining -= 1
+        if remaining < 0 and not frame.f_code.co_flags & CO_GENERATOR:  # where one is closed an error is lost
             sys.settrace(count)  # mpmath has `except:`, which holds this one; the next call ends it
-            raise _Spent
+            raise _Exhausted
 
     sys.setprofile(count)
     try:
         return work(*arguments)
     finally:
-        spent, shared.left, left = left < 0, left, math.inf
+        is_exhausted, shared.remaining, remaining = remaining < 0, remaining, math.inf
         sys.setprofile(None)
-        if spent:
+        if is_exhausted:
             sys.settrace(tracer)
             raise WorkError("it is too large") from None

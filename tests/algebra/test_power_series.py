@@ -106,7 +106,7 @@ def test_an_undecided_coefficient_is_one_only_where_a_value_says_so(
     """Also where no point gives a value."""
     undecided = replace(decide_zero(x), answer="undecided", reason="no reason")
     monkeypatch.setattr(power_series, "decide_zero", lambda coefficient: undecided)
-    monkeypatch.setattr(power_series, "size_at", lambda coefficient, point: size)
+    monkeypatch.setattr(power_series, "magnitude_at", lambda coefficient, point: size)
     if told:
         assert truncated_series(1 / (x + e), e, 1) == 1 / x - e / x**2
     else:
