@@ -31,7 +31,6 @@ if TYPE_CHECKING:
     from lagrotor.algebra.identity import decide_equal as decide_equal
     from lagrotor.algebra.identity import decide_zero as decide_zero
     from lagrotor.algebra.identity import normal_form as normal_form
-    from lagrotor.algebra.name_clashes import check_names as check_names
     from lagrotor.algebra.power_series import LeadingTerm as LeadingTerm
     from lagrotor.algebra.power_series import agreement_order as agreement_order
     from lagrotor.algebra.power_series import leading_term as leading_term

@@ -1,31 +1,27 @@
-"""Decision whether an expression vanishes identically: exactly in a class, by a point or by a proof beyond it.
+"""Decision whether an expression vanishes identically.
 
-Beyond the class below, a point at which an enclosure excludes zero refutes (`lagrotor.algebra.refutation`), and zero is proved
-by translation into the class, by induction or by derivatives (`lagrotor.algebra.analytic_proofs`); where neither ends, or only
-on a branch (`lagrotor.algebra.branches`), the decision says so.
-
-The class: sums, products and integer powers of symbols, rationals, pi, i, square roots of rational functions of the
-symbols with rational coefficients, |x| of real x, and of
+The decision is exact for sums, products and integer powers of symbols, rationals, pi, i, |x| of real x, square roots of
+rational functions of the symbols with rational coefficients, and of
 
     sin, cos, tan, cot, sec, csc, sinh, cosh, tanh, coth, sech, csch, exp
 
-whose arguments are rational combinations of monomials in the symbols (x, x/2, omega*t), the circular ones also of
-rational multiples of pi.  Every angle is a whole multiple of a base angle u, one for each monomial, so by the
-addition theorems everything is a quotient of polynomials in the generators, subject to
+whose arguments are rational combinations of monomials in the symbols (x, x/2, omega*t); the circular functions also take
+rational multiples of pi.  Each monomial has a base angle u, and every angle is a whole multiple of a base angle.  By the
+addition theorems the expression is a quotient of polynomials in the generators, subject to
 
     sin(u)**2 = 1 - cos(u)**2,    sinh(u)**2 = cosh(u)**2 - 1,    sqrt(p)**2 = p,    i**2 = -1.
 
-Exponentials of rationally independent monomials are algebraically independent over the rational functions, and no
-product of the radicands of the generators is a square (`lagrotor.algebra.roots`).  Hence there are no other relations,
-the quotient ring has no zero divisors, and a quotient vanishes identically if and only if its numerator, reduced to
-degree below two in every squared generator, is the zero polynomial.
+Exponentials of rationally independent monomials are algebraically independent over the rational functions, and no product of
+the radicands of the generators is a square (`roots`).  So the generators obey no other relation, and the quotient ring has no
+zero divisors.  A quotient vanishes identically if and only if its numerator, reduced to degree below two in every squared
+generator, is the zero polynomial.
 
-Square roots are principal ones.  One that follows from the others has a sign, which may differ between regions of the
-symbols' values, and the expression is decided for each choice of these signs.  "nonzero" means: not zero throughout.
-A symbol of which nothing is declared is taken to be real where a point is needed.  Symbols are real: a point where some part
-is not real is no counterexample, unless the expression has i or a complex symbol, or is real at no inner point; then
-principal values are meant.  The work is bounded; an expression
-that would exceed the bound is undecided.
+Outside this class a point where an enclosure excludes zero is a counterexample (`refutation`); `analytic_proofs` proves zero.
+
+Square roots are principal values.  A root that follows from other roots has a sign, which may differ from region to region.
+The expression is decided for each choice of these signs; "nonzero" means that it does not vanish for every choice.
+A symbol without assumptions is taken to be real where a point is needed.  A point where a subexpression is not real is no
+counterexample, unless the expression has i or a complex symbol, or is real at no inner point.  The work is bounded.
 """
 
 from __future__ import annotations
@@ -55,24 +51,38 @@ from lagrotor.algebra.scalar import node_count, scalar, sympified
 from lagrotor.algebra.signs import BRANCHED, Region, conditions, region
 from lagrotor.algebra.work_budget import bounded_cache
 from lagrotor.errors import InputError, NotExactError, TooLargeError
+from lagrotor.renamed import accept_old_keywords
 
-# A divisor larger than this is kept whole in the domain: its factors may take hours to find.
+# A larger divisor is not factored in the domain: this may take hours.
 _MOST_TERMS, _MOST_DEGREE = 40, 12
-# A normal form is not sought of larger polynomials: their common divisor may take hours to find.
+# No normal form is computed of larger polynomials: their common divisor may take hours.
 _MOST_NORMAL = 3000
-# Roots whose sign is not known, each of which doubles the work, and points at which their signs are looked at.
+# Roots of unknown sign, each of which doubles the work; points at which their signs are evaluated.
 _MOST_SIGNS, _SIGN_POINTS = 3, 64
-_MOST_PARTS = 4000  # of an expression that is translated
+_MOST_PARTS = 4000  # nodes of an expression that is translated
 _EXCLUDED = "An enclosure at the witness excludes zero."
 
 
 @dataclass(frozen=True)
 class Decision:
-    """Whether an expression vanishes identically, where that holds, and what shows it.
+    """The decision whether an expression vanishes identically, with its domain and its evidence.
 
-    `domain` holds the factors that must not vanish. `partly`: a nonzero expression that vanishes for some signs of its
-    roots, as sqrt(x**2) - x does on the branch x >= 0. `seen`: an expression that is not zero throughout, to be evaluated at
-    the points `at`, or at random ones, when a witness or evidence is read.
+    Attributes
+    ----------
+    answer : str
+        "zero", "nonzero" (not zero at every point) or "undecided".
+    domain : tuple of Expr
+        Factors that must not vanish.
+    reason : str
+        The reason of the answer, one sentence.
+    partly : bool
+        True for a nonzero expression that vanishes on a branch: sqrt(x**2) - x vanishes for x >= 0.
+    residual : Expr or None
+        The expression that `witness` and `evidence` evaluate.
+    points : tuple of dict or None
+        Points at which the residual is evaluated; None: random points.
+    conditions : Callable
+        The search for `branch`; it runs when `branch` is read.
     """
 
     answer: Literal["zero", "nonzero", "undecided"]
@@ -85,17 +95,17 @@ class Decision:
 
     @cached_property
     def branch(self) -> tuple[sp.Basic, ...]:
-        """Inequalities under which the expression is proved to vanish, searched for when they are read."""
+        """The inequalities under which the expression is proved to vanish; empty if none are known."""
         return tuple(self.conditions())
 
     @property
     def witness(self) -> Mapping[sp.Expr, sp.Rational] | None:
-        """A point where a nonzero expression does not vanish, with the values that unknown functions take there."""
+        """The counterexample: symbol or function value -> number, where a nonzero expression does not vanish; else None."""
         return self._largest[0] if self.answer == "nonzero" else None
 
     @property
     def evidence(self) -> float | None:
-        """The largest absolute value at the points, of a nonzero or an undecided expression."""
+        """The largest absolute value of a nonzero or undecided expression at the points; None if it has no value."""
         return self._largest[1]
 
     @property
@@ -103,18 +113,38 @@ class Decision:
         return (None, None) if self.residual is None else largest_value(self.residual, self.points)
 
 
+@accept_old_keywords
 def decide_zero(expression: sp.Expr, assumptions: Iterable[Any] = ()) -> Decision:
-    """Decide expression = 0; with floats in it, beyond the bound on the work and where nothing proves it "undecided".
+    """Decide whether an expression vanishes identically.
+
+    The answer is "undecided" for an expression with floats, for one beyond the bound on the work, and where no proof is known.
 
     Parameters
     ----------
-    assumptions : Iterable[Any], default ()
-        Inequalities that hold of the symbols, x > 0, besides what these are declared to be.
+    expression : Expr
+        A scalar expression.
+    assumptions : iterable of inequality, default ()
+        Inequalities between the symbols, such as x > 0, besides the assumptions with which the symbols were declared.
+
+    Returns
+    -------
+    Decision
+        The answer, its reason, the domain, and the counterexample of a nonzero expression.
 
     Raises
     ------
     InputError
-        For what is not a scalar expression, for two symbols of one name, and for what is no inequality.
+        If the expression is not a scalar, two symbols share a name, or an assumption is not an inequality.
+
+    Examples
+    --------
+    >>> from sympy import cos, sin, sqrt, symbols
+    >>> x = symbols("x", real=True)
+    >>> decide_zero(sin(2*x) - 2*sin(x)*cos(x)).answer
+    'zero'
+    >>> decision = decide_zero(sqrt(x**2) - x)
+    >>> decision.answer, decision.branch, decide_zero(sqrt(x**2) - x, assumptions=[x > 0]).answer
+    ('nonzero', (x >= 0,), 'zero')
     """
     try:
         expression = scalar(expression, "decide_zero")
@@ -125,7 +155,7 @@ def decide_zero(expression: sp.Expr, assumptions: Iterable[Any] = ()) -> Decisio
 
 @bounded_cache(1024)
 def _decide(expression: sp.Expr, where: Region) -> Decision:
-    """Decide an equation, not how it is written: up to a number before it, with its symbols numbered."""
+    """Decide the equation independently of a numerical factor and of the names of its symbols."""
     number, form = without_number(expression)
     numbering = Numbering(form, *(e for e, _ in where.above))
     numbered = Region(tuple((numbering.to_numbered(e), strict) for e, strict in where.above))
@@ -163,7 +193,7 @@ def _decide_numbered(expression: sp.Expr, where: Region) -> Decision:
 
 
 def _is_foreign(expression: sp.Expr) -> bool:
-    """Return whether something in it is not exact, not finite or does not commute."""
+    """Return True if some atom is a float, does not commute, or is infinite outside the limits of a sum or integral."""
     limits = {end for node in expression.atoms(sp.Integral, sp.Sum) for limit in node.limits for end in limit[1:]}
     return any(
         atom.is_Float or not atom.is_commutative or (atom.is_finite is False and atom not in limits) or atom is sp.nan
@@ -172,6 +202,7 @@ def _is_foreign(expression: sp.Expr) -> bool:
 
 
 def _by_a_point(expression: sp.Expr, where: Region, exact: Decision) -> Decision:
+    """Return a refutation by a real counterexample, or the exact decision if none is known."""
     witness, _ = find_witness(expression, where)
     if witness is None or not witness.real:
         return exact
@@ -179,7 +210,7 @@ def _by_a_point(expression: sp.Expr, where: Region, exact: Decision) -> Decision
 
 
 def _by_analysis(expression: sp.Expr, where: Region, exact: Decision) -> Decision:
-    """By a point whose enclosure excludes zero; by proof; on the branch where what a proof wants holds."""
+    """Decide by a counterexample, by a proof, or on the branch where the conditions of a proof hold."""
     plain, proof, reason = evaluated(expression, where), Proof(None), exact.reason
     witness, enclosed = find_witness(plain, where)
     branched = (n for n in plain.atoms(*BRANCHED, sp.Pow) if not (n.is_Pow and n.exp.is_integer))
@@ -191,7 +222,7 @@ def _by_analysis(expression: sp.Expr, where: Region, exact: Decision) -> Decisio
     if witness is None and proof.how is not None:
         if enclosed or not plain.free_symbols:
             return Decision("zero", proof.divisors, proof.how)
-        return replace(exact, reason="No point was seen at which it is defined.")
+        return replace(exact, reason="No point is known at which it is defined.")
     if exact.answer == "nonzero":
         return replace(exact, conditions=lambda: _inside(branch_of_zero(plain, where, proof.missing)[0], exact.domain))
     branch, branch_proof = branch_of_zero(plain, where, proof.missing)
@@ -201,19 +232,21 @@ def _by_analysis(expression: sp.Expr, where: Region, exact: Decision) -> Decisio
             return Decision("zero", branch_proof.divisors, branch_proof.how or "", conditions=lambda: branch)
         return replace(exact, reason=reason, conditions=lambda: inside)
     if not (branch or witness.real or has_principal_values(plain, (), where)):
-        return replace(exact, reason="It differs from zero where it is not real, and was not proved where it is.")
+        return replace(
+            exact, reason="It differs from zero where it is not real, and no proof is known where it is real."
+        )
     return Decision(
         "nonzero", branch_proof.divisors, _EXCLUDED, bool(branch), plain, (witness.point,), conditions=lambda: inside
     )
 
 
 def _inside(branch: tuple[sp.Basic, ...], domain: tuple[sp.Expr, ...]) -> tuple[sp.Basic, ...]:
-    """Return x > 0 for x >= 0 where x must not vanish."""
+    """Return x > 0 for x >= 0 if x must not vanish."""
     apart = {sp.expand(sign * factor) for factor in domain for sign in (1, -1)}
     return tuple(r.func(r.lhs, r.rhs) if (e := r.gts - r.lts) not in apart else sided(e, True) for r in branch)
 
 
-# Of the differences that a paper's audit decides, three in five come again under other premises.
+# Three in five differences of a paper's audit recur under other premises.
 @bounded_cache(1024)
 def _decide_in_ring(expression: sp.Expr) -> Decision:
     content = survey(expression)
@@ -247,24 +280,30 @@ def _listed(roots: Roots) -> str:
     return ", ".join(str(sp.sqrt(root.base)) for root in roots.unsigned)
 
 
+@accept_old_keywords
 def decide_equal(
     lhs: sp.Expr | sp.MatrixBase, rhs: sp.Expr | sp.MatrixBase, assumptions: Iterable[Any] = ()
 ) -> Decision:
-    """Decide left = right; matrices are equal if every entry is, and unequal if any is.
+    """Decide whether two expressions or matrices are equal; matrices are equal if every entry is.
 
     Parameters
     ----------
-    lhs : Expr or MatrixBase
-        An expression or a matrix.
-    rhs : Expr or MatrixBase
-        Likewise.
-    assumptions : Iterable[Any], default ()
-        Inequalities, as of `decide_zero`.
+    lhs : Expr or Matrix
+        The left-hand side.
+    rhs : Expr or Matrix
+        The right-hand side, of the same shape.
+    assumptions : iterable of inequality, default ()
+        Inequalities between the symbols, such as x > 0, besides the assumptions with which the symbols were declared.
+
+    Returns
+    -------
+    Decision
+        The decision on lhs - rhs; of matrices, that of the first entry that is not zero.
 
     Raises
     ------
     InputError
-        The two differ in shape, or are no expressions; two symbols of one name.
+        If the shapes differ, a side is not an expression, or two symbols share a name.
 
     Examples
     --------
@@ -301,17 +340,34 @@ def _decide_difference(lhs: sp.Expr, rhs: sp.Expr, where: Region) -> Decision:
 
 
 def normal_form(expression: sp.Expr) -> sp.Expr:
-    """Return the expression as a coprime quotient P/Q in sin and cos of the base angles.
+    """Return the expression as a coprime quotient P/Q in the sines and cosines of the base angles.
 
-    P is of degree below two in every squared generator and Q is free of them, which makes P/Q unique for given base
-    angles (x itself, or x/n if the expression has n-th parts of x) and roots.
+    P has degree below two in every squared generator and Q is free of them.  P/Q is unique for fixed roots and base angles: x
+    itself, or x/n if the expression contains n-th parts of x.
+
+    Parameters
+    ----------
+    expression : Expr
+        A scalar expression.
+
+    Returns
+    -------
+    Expr
+        The quotient.
 
     Raises
     ------
     NotExactError
-        Outside the class, and for roots whose sign differs between regions.
+        If the expression is outside the class, or the sign of a root differs between regions.
     InputError
-        For what is not a scalar expression.
+        If the expression is not a scalar.
+
+    Examples
+    --------
+    >>> from sympy import cos, sin, symbols
+    >>> x = symbols("x")
+    >>> normal_form((1 - cos(x)**2)/sin(x)), normal_form(sin(x)**4 + cos(x)**2*sin(x)**2)
+    (sin(x), 1 - cos(x)**2)
     """
     expression = scalar(expression, "normal_form")
     content = survey(expression, largest=inf)
@@ -333,7 +389,7 @@ def normal_form(expression: sp.Expr) -> sp.Expr:
 
 
 def _domain(ring: Ring) -> tuple[sp.Expr, ...]:
-    """Return the distinct factors of everything divided by, as functions of the input."""
+    """Return the distinct irreducible factors of all divisors, in the symbols of the expression."""
     factors = [
         factor
         for divisor, name in ring.divisors.items()
@@ -344,10 +400,7 @@ def _domain(ring: Ring) -> tuple[sp.Expr, ...]:
 
 
 def _monic(factor: sp.Expr) -> sp.Expr:
-    """Return a polynomial over its leading coefficient, the symbols in the order of their names: for reading only.
-
-    |u| and a root of u vanish where u does, which is returned for them.
-    """
+    """Return a readable factor of the domain: a polynomial over its leading coefficient, u for |u| and for a root of u."""
     while isinstance(factor, sp.Abs) or (factor.is_Pow and factor.exp.is_Rational and factor.exp > 0):
         factor = factor.args[0]
     if not factor.is_Add or not (polynomial := factor.as_poly()):
@@ -360,7 +413,7 @@ def _irreducible(ring: Ring, polynomial: PolyElement) -> list[sp.Expr]:
     factors = []
     for index, square in ring.squares.items():
         if ring.names[index].func in (sp.sin, sp.sinh):
-            # 1 - cos**2 vanishes where the sine does, which says it more plainly.
+            # 1 - cos**2 vanishes where the sine does; the sine is simpler.
             quotient, remainder = polynomial.div(square)
             if not remainder:
                 factors.append(ring.names[index])
@@ -380,9 +433,9 @@ def _irreducible(ring: Ring, polynomial: PolyElement) -> list[sp.Expr]:
     return [*factors, *_factors(tuple(ring.names[i] for i in used), terms)]
 
 
-# Most divisors of a paper's audit come again in another identity.
+# Most divisors of a paper's audit recur in another identity.
 @lru_cache(maxsize=1024)
 def _factors(names: tuple[sp.Expr, ...], terms: frozenset[tuple[tuple[int, ...], Any]]) -> tuple[sp.Expr, ...]:
-    """The irreducible factors of a polynomial in these names, each once."""
+    """Return the irreducible factors of a polynomial in these generators, each once."""
     ring = Ring(names)
     return tuple(ring.expression(factor) for factor, _ in ring.polynomials.from_dict(dict(terms)).factor_list()[1])

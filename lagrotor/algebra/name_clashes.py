@@ -1,4 +1,4 @@
-"""Two different symbols of one name print alike and are not equal: what holds of one says nothing of the other."""
+"""Detection of two different symbols with one name: they print alike, but relations for one do not apply to the other."""
 
 from collections.abc import Iterable, Mapping
 from typing import Any
@@ -9,20 +9,7 @@ from lagrotor.errors import InputError
 
 
 def check_names(where: str, *values: Any) -> None:
-    """Refuse symbols of one name and other assumptions.
-
-    Parameters
-    ----------
-    where : str
-        How the error begins.
-    values
-        Expressions, matrices, relations, rows and mappings of them; anything else is passed over, and so are dummies.
-
-    Raises
-    ------
-    InputError
-        If there are two.
-    """
+    """Raise InputError, beginning with `where`, if two symbols in the values share a name; dummies are ignored."""
     first_of_name: dict[str, sp.Symbol] = {}
     for symbol in symbols_in(values):
         if type(symbol) is sp.Symbol and (namesake := first_of_name.setdefault(symbol.name, symbol)) != symbol:
@@ -46,7 +33,7 @@ def symbols_in(value: Any) -> Iterable[sp.Symbol]:
 
 
 def _kind(symbol: sp.Symbol) -> str:
-    """What a symbol was declared with, in words."""
+    """Return the assumptions of a symbol in words."""
     assumptions = {name: value for name, value in symbol.assumptions0.items() if name != "commutative" or not value}
     for name in ("positive", "negative", "nonnegative", "nonpositive", "integer", "real", "imaginary"):
         if assumptions.get(name):
