@@ -1,4 +1,4 @@
-"""That an expression of analysis is zero in a region: evaluated, translated into the class, by induction, by derivatives."""
+"""Proofs that an expression is zero in a region: by evaluation, translation, induction on n, squares, or derivatives."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _MOST_ROUNDS = 6
 
 @dataclass(frozen=True)
 class Proof:
-    """How it was proved, what must not vanish, or `None` for how; the inequalities that might have helped."""
+    """A proof of zero: the method (None: no proof), divisors that must not vanish, and inequalities that might complete it."""
 
     how: str | None
     divisors: tuple[sp.Expr, ...] = ()
@@ -31,7 +31,7 @@ class Proof:
 
 
 def evaluated(e: sp.Expr, where: Region = Region()) -> sp.Expr:  # noqa: B008
-    """Derivatives taken, sums written out, integrals put in closed form where one is certain."""
+    """Evaluate derivatives, finite sums, and the integrals whose closed form is proved."""
     for _ in range(_MOST_ROUNDS):
         previous = e
         e = e.replace(lambda n: isinstance(n, sp.Derivative) and jet_of(n) is None, _differentiated)
@@ -73,7 +73,7 @@ def _integral(e: sp.Integral, where: Region) -> sp.Expr:
 
 
 def proof_of_zero(expression: sp.Expr, where: Region) -> Proof:
-    """The proof, by translation, by induction on the upper limit of a sum, or by derivatives."""
+    """Prove zero by translation, by induction on the upper limit of a sum, by squares, or by derivatives."""
     divisors: tuple[sp.Expr, ...] = ()
     missing: tuple[sp.Basic, ...] = ()
     try:
@@ -102,7 +102,7 @@ def proof_of_zero(expression: sp.Expr, where: Region) -> Proof:
 
 
 def _is_difference_of_squares(expression: sp.Expr, where: Region) -> bool:
-    """Return whether it is a − b, both positive, with a² = b²."""
+    """Return True for a − b with both positive and a² = b²."""
     terms = sp.Add.make_args(expression)
     sides = [sp.Add(*(sign * term for term in terms if is_positive(sign * term, where))) for sign in (1, -1)]
     if not expression.has(sp.Pow) or 0 in sides or sides[0] - sides[1] != expression:
@@ -118,7 +118,7 @@ def _vanishes(expression: sp.Expr, where: Region) -> bool:
 
 
 def _cases(expression: sp.Expr, where: Region) -> Iterator[tuple[sp.Expr, Region]]:
-    """The expression for each residue of the whole numbers that stand in signs and in angles beside π."""
+    """Yield the expression for each residue class of the integers in its signs (−1)**n and angles n π r."""
     periods: dict[sp.Symbol, int] = {}
     for node in sp.preorder_traversal(expression):
         for symbol, period in _periods(node):
@@ -135,7 +135,7 @@ def _cases(expression: sp.Expr, where: Region) -> Iterator[tuple[sp.Expr, Region
 
 
 def _periods(node: sp.Expr) -> Iterator[tuple[sp.Symbol, int]]:
-    """Whole-number symbols of a power of a root of unity, or of an angle n π r, with the period in them."""
+    """Yield the integer symbols in a power of a root of unity or in an angle n π r, with their period."""
     if (node.is_Pow and node.base in (sp.S.NegativeOne, sp.I)) or (node.is_Pow and node.base.is_negative):
         turn = sp.expand(node.exp * (sp.Rational(1, 2) if node.base is sp.I else 1)) / 2
     elif isinstance(node, sp.sin | sp.cos | sp.tan | sp.cot | sp.sec | sp.csc):

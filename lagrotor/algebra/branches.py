@@ -1,4 +1,4 @@
-"""Where an expression that is not zero throughout is zero: the fewest inequalities, of those that its proof wants."""
+"""The branch on which an expression vanishes: the fewest of the inequalities that a proof of zero needs."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ _MOST_CONDITIONS, _MOST_SIGNS = 8, 3
 def branch_of_zero(
     expression: sp.Expr, where: Region, missing: tuple[sp.Basic, ...]
 ) -> tuple[tuple[sp.Basic, ...], Proof]:
-    """Inequalities under which it is proved zero, none of which can be left out, with the proof; none where none is known."""
+    """Return inequalities, none superfluous, under which zero is proved, with the proof; none if none are known."""
     natural = conditions(expression)
     if sp.false in natural:
         return (), Proof(None)
     attempts: set[tuple[sp.Basic, ...]] = set()
-    for _ in range(2):  # under some conditions, a proof may want others
+    for _ in range(2):  # a proof under some conditions may need further ones
         extended = missing
         for chosen in _candidates(simplify_conditions(natural, where), simplify_conditions(missing, where)):
             if not chosen or chosen in attempts or len(chosen) > _MOST_CONDITIONS:
@@ -40,7 +40,7 @@ def branch_of_zero(
 
 
 def _candidates(natural: tuple[sp.Basic, ...], missing: tuple[sp.Basic, ...]) -> Iterator[tuple[sp.Basic, ...]]:
-    """The conditions of a real value; with each that is missing, then with more and more, of either sign; open regions last."""
+    """Yield sets of conditions: those of a real value, then with missing inequalities of either sign; open regions last."""
     if sp.false in natural:  # it has no real value
         return
     missing = tuple(relation for relation in missing if relation not in (sp.true, sp.false))
@@ -54,7 +54,7 @@ def _candidates(natural: tuple[sp.Basic, ...], missing: tuple[sp.Basic, ...]) ->
                 continue
             yield chosen
             strict = tuple(sided(relation.gts - relation.lts, True) for relation in chosen)
-            if sp.false not in strict:  # u ≥ 0 where u is 0 throughout
+            if sp.false not in strict:  # u ≥ 0 for u = 0 has no strict form
                 yield strict
 
 
@@ -70,7 +70,7 @@ def _fewest(
         if fewer and (weaker := _proof(expression, where, fewer)).how is not None:
             chosen, proof = fewer, weaker
         elif isinstance(condition, sp.Ge | sp.Le) and is_real(condition.gts - condition.lts, where.with_(*fewer)):
-            # Proved for u ≥ 0 and for u ≤ 0, it needs neither.
+            # A proof for u ≥ 0 and one for u ≤ 0 make both conditions superfluous.
             weaker = _proof(expression, where, (*fewer, _opposite(condition)))
             if weaker.how is not None:
                 divisors = tuple(dict.fromkeys((*proof.divisors, *weaker.divisors)))
@@ -79,7 +79,7 @@ def _fewest(
 
 
 def _proof(expression: sp.Expr, where: Region, chosen: tuple[sp.Basic, ...]) -> Proof:
-    """The proof in the smaller region, where a point of it was seen and none of them refutes."""
+    """Return a proof in the smaller region if the region has a known point and no counterexample."""
     inside = where.with_(*chosen)
     witness, enclosed = find_witness(expression, inside)
     if witness is not None or not enclosed:
@@ -91,7 +91,7 @@ def _proof(expression: sp.Expr, where: Region, chosen: tuple[sp.Basic, ...]) -> 
 
 
 def simplify_conditions(relations: tuple[sp.Basic, ...], where: Region) -> tuple[sp.Basic, ...]:
-    """Inequalities that are not known already, in their simplest form."""
+    """Return the inequalities that do not already hold in the region, in their simplest form."""
     inequalities: dict[sp.Basic, None] = {}
     for relation in relations:
         if relation is sp.true or relation is sp.false:
@@ -105,14 +105,14 @@ def simplify_conditions(relations: tuple[sp.Basic, ...], where: Region) -> tuple
 
 
 def sided(e: sp.Expr, strict: bool) -> sp.Basic:
-    """e > 0 or e ≥ 0, with the sign outside: x ≤ 0 for −x ≥ 0."""
+    """Return e > 0 or e ≥ 0 with a positive leading sign: x ≤ 0 for −x ≥ 0."""
     if e.could_extract_minus_sign():
         return sp.Lt(-e, 0) if strict else sp.Le(-e, 0)
     return sp.Gt(e, 0) if strict else sp.Ge(e, 0)
 
 
 def _reduced_factors(e: sp.Expr, where: Region) -> list[sp.Expr]:
-    """The factors of an e >= 0 that are not known to be positive, each taken to be so."""
+    """Return the product of the factors of e that are not known to be positive."""
     content, factors = sp.factor(e).as_coeff_mul()
     factors = [_exponent(f) for f in factors if not is_positive(f, where)]
     odd = [f for f in factors if not (f.is_Pow and f.exp.is_Integer and f.exp % 2 == 0)]
@@ -121,5 +121,5 @@ def _reduced_factors(e: sp.Expr, where: Region) -> list[sp.Expr]:
 
 
 def _exponent(f: sp.Expr) -> sp.Expr:
-    """u for exp(u) − 1, which has its sign."""
+    """Return u for exp(u) − 1, which has the sign of u."""
     return (f + 1).args[0] if isinstance(f + 1, sp.exp) else f

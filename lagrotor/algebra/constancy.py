@@ -1,4 +1,4 @@
-"""What is continuous on a connected region, with derivatives that vanish, is constant there: zero if it is at one point."""
+"""Constancy on a connected region: a continuous function with zero derivatives is zero if it is zero at one point."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from lagrotor.algebra.signs import ANY, NONNEGATIVE, Region, is_nonnegative, is_
 from lagrotor.errors import NotExactError
 
 _ENTIRE = (sp.sin, sp.cos, sp.sinh, sp.cosh, sp.exp, sp.erf)
-_REAL = (sp.atan, sp.tanh, sp.asinh, sp.sech, sp.Abs)  # continuous where their argument is real
+_REAL = (sp.atan, sp.tanh, sp.asinh, sp.sech, sp.Abs)  # continuous for real arguments
 _PLACES = (sp.S.Zero, sp.S.Half, sp.S.One, sp.Integer(2), -sp.S.Half, sp.Integer(-2))
 _MOST_SYMBOLS = 3
 
 
 def is_continuous(e: sp.Expr, where: Region, symbols: frozenset[sp.Symbol]) -> bool:
-    """Whether e is certainly continuous in these symbols throughout the region."""
+    """Return True if e is certainly continuous in these symbols throughout the region."""
     if not e.free_symbols & symbols or e.is_Symbol:
         return True
     if not all(is_continuous(argument, where, symbols) for argument in e.args):
@@ -39,7 +39,7 @@ def is_continuous(e: sp.Expr, where: Region, symbols: frozenset[sp.Symbol]) -> b
 
 
 def _is_function_continuous(e: sp.Expr, u: sp.Expr, where: Region) -> bool:
-    """Of a function with singular points or a branch cut, at a continuous argument u."""
+    """Return True for a function with singular points or a branch cut if it is continuous at a continuous argument u."""
     if isinstance(e, sp.log):
         return is_positive(u, where) or is_positive(sp.re(u), where)
     if isinstance(e, _REAL):
@@ -58,7 +58,7 @@ def _is_function_continuous(e: sp.Expr, u: sp.Expr, where: Region) -> bool:
 
 
 def is_connected(where: Region) -> bool:
-    """Whether the region is certainly connected: convex, or star-shaped about the origin."""
+    """Return True if the region is certainly connected: convex, or star-shaped about the origin."""
     s = sp.Dummy(positive=True)
     for e, _ in where.above:
         symbols = sorted(e.free_symbols, key=sp.default_sort_key)
@@ -70,7 +70,7 @@ def is_connected(where: Region) -> bool:
             continue
         scaled = sp.Poly(e.xreplace({symbol: s * symbol for symbol in symbols}), s)
         degrees = [n for (n,) in scaled.monoms() if n]
-        # with one degree only, e runs monotonically from its value at the origin
+        # a homogeneous e plus a constant is monotonic on every ray from the origin
         if (
             len(degrees) != 1
             or not scaled.eval(0).is_positive
@@ -85,7 +85,7 @@ def _holds_origin(e: sp.Expr) -> bool:
 
 
 def is_constant_zero(expression: sp.Expr, where: Region, vanishes: Callable[[sp.Expr, Region], bool]) -> bool:
-    """Whether it is zero by continuity, by its derivatives and by its value at one point of the region."""
+    """Return True if continuity, zero derivatives and a zero value at one point prove zero in the region."""
     symbols = sorted(expression.free_symbols, key=sp.default_sort_key)
     if len(symbols) > _MOST_SYMBOLS or any(symbol.is_integer or not is_real(symbol, where) for symbol in symbols):
         return False
@@ -117,7 +117,7 @@ def _is_zero(value: sp.Expr, vanishes: Callable[[sp.Expr, Region], bool]) -> boo
 
 
 def is_small_angle(expression: sp.Expr, vanishes: Callable[[sp.Expr, Region], bool]) -> bool:
-    """Return whether a number made of arcs is zero: a whole multiple of it is small and has the sine 0."""
+    """Return True if a sum of arcs is zero: a multiple of it has the sine 0 and an absolute value below 3."""
     if expression.free_symbols or not expression.has(sp.asin, sp.acos, sp.atan):
         return False
     rates = [term.as_coeff_Mul()[0] for term in sp.Add.make_args(sp.expand(expression))]

@@ -1,4 +1,4 @@
-"""A root of some equations, enclosed: Krawczyk's test proves that a small box holds exactly one.
+"""Enclosures of the roots of equations. Krawczyk's test proves that a small box X contains exactly one root:
 
     K(X) = x − Y F(x) + (1 − Y F'(X)) (X − x),    Y ≈ F'(x)⁻¹,    K(X) inside X ⇒ one root in X.
 
@@ -15,16 +15,16 @@ from lagrotor.algebra.enclosures import Bounds, Point, enclosure, enclosures
 
 _DIGITS, _STEPS, _FAR, _NARROW = 60, 40, 1e9, sp.Rational(1, 10**25)
 _MOST_BOXES, _MOST_UNDECIDED, _LEAST = 4_000, 16, sp.Rational(1, 10**6)
-_CUT = sp.Rational(49, 100)  # beside the middle, where roots often are
-_REACH = 32  # widths of a narrow part, from which on the direction of a force at a kink is enclosed
+_CUT = sp.Rational(49, 100)  # off the middle, where roots are frequent
+_REACH = 32  # widths of a narrow box by which it is enlarged in the search for a kink
 _PIECEWISE = (sp.Abs, sp.sign, sp.Heaviside, sp.Max, sp.Min)
 Box = dict[sp.Symbol, Bounds]
 
 
 def enclosed_root(equations: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol], point: Point) -> Box | None:
-    """A narrow box of the unknowns that holds a root of the equations, the other symbols at their values in `point`.
+    """Return a narrow box of the unknowns that contains a root; None if no root is found or proved.
 
-    The search begins at the unknowns' values in `point`. None where no root is found, or none is proved.
+    The search starts at `point`, which also gives the values of the other symbols.
     """
     others = {s: value for s, value in point.items() if s not in unknowns}
     functions = [e.xreplace(others) for e in equations]
@@ -46,7 +46,7 @@ def enclosed_root(equations: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol], p
 
 
 def _image(values: Sequence[Bounds], spread: Sequence[Sequence[Bounds]], Y: sp.Matrix, x: Point, X: Box) -> Box:
-    """K(X), of F(x), F'(X), Y and x."""
+    """Return K(X) from F(x), F'(X), Y and x."""
     K: Box = {}
     for i, s in enumerate(X):
         correction = _sum(_times((Y[i, j], Y[i, j]), v) for j, v in enumerate(values))
@@ -62,7 +62,7 @@ def _image(values: Sequence[Bounds], spread: Sequence[Sequence[Bounds]], Y: sp.M
 def _near(
     functions: Sequence[sp.Expr], slopes: Sequence[Sequence[sp.Expr]], unknowns: Sequence[sp.Symbol], point: Point
 ) -> list[sp.Rational] | None:
-    """Rational values of the unknowns near a root, by Newton's method from those of the point."""
+    """Return rational values of the unknowns near a root, by Newton's method from the point."""
     f, jacobian = (
         sp.lambdify([list(unknowns)], outputs, "mpmath") for outputs in (list(functions), [list(r) for r in slopes])
     )
@@ -94,13 +94,12 @@ def _sum(intervals: Iterable[Bounds]) -> Bounds:
 
 
 def roots_in_box(equations: Sequence[sp.Expr], box: Box) -> tuple[list[Box], list[Box]]:
-    """Narrow boxes, each of which holds exactly one root of the equations in the symbols of `box`, and small boxes that are left
-    undecided: outside all of these there is no root.
+    """Return narrow boxes with exactly one root each, and small undecided boxes; there is no root outside all of these.
 
-    A box is left out where an equation excludes zero or Krawczyk's K(X) does not meet it, holds one root where K(X) is inside;
-    otherwise what it has in common with K(X) is cut in two, until 16 are undecided, or 4,000 tried. A root on the rim of the
-    box is among them. Where a denominator may vanish the numerators are taken in the equations' place; where it does there is
-    no root. A root where a piece of a function begins is left undecided.
+    A box without a root has an equation that excludes zero or a Krawczyk image that does not meet it. A box that contains its
+    Krawczyk image has one root. Any other box is intersected with the image and bisected, until 16 boxes are undecided or 4,000
+    were examined. A root on the boundary of `box` is included. Where a denominator may vanish the numerators replace the
+    equations. A box in which a function may switch its piece is undecided.
     """
     unknowns = list(box)
     equations = [e.rewrite(_PIECEWISE, sp.Piecewise) for e in equations]
@@ -147,8 +146,10 @@ def roots_in_box(equations: Sequence[sp.Expr], box: Box) -> tuple[list[Box], lis
 
 
 def kinks_in(equations: Sequence[sp.Expr], narrow: Box, box: Box) -> list[sp.Expr]:
-    """Return the expressions that may vanish in a narrow part of a box, or near to it, and leave the equations
-    without a derivative or a value there: denominators, radicands, arguments at which a function changes its form."""
+    """Return the expressions that may vanish in or near a narrow box and make the equations singular or not differentiable there.
+
+    These are denominators, radicands, and the arguments at which a function switches its piece.
+    """
     if any(high - low > _LEAST * (box[s][1] - box[s][0]) for s, (low, high) in narrow.items() if s in box):
         return []
     near = {s: (low - _REACH * (high - low), high + _REACH * (high - low)) for s, (low, high) in narrow.items()}
@@ -162,7 +163,7 @@ def kinks_in(equations: Sequence[sp.Expr], narrow: Box, box: Box) -> list[sp.Exp
 
 
 class _Equations:
-    """Equations, their derivatives by the unknowns row by row, and what vanishes where another piece of a function begins."""
+    """Equations, their derivatives by the unknowns row by row, and the expressions that vanish where a function switches."""
 
     def __init__(self, equations: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol]) -> None:
         self.equations, self.unknowns = equations, unknowns
@@ -177,10 +178,10 @@ def _may_vanish(e: sp.Expr, X: Box) -> bool:
 
 
 def _krawczyk(system: _Equations, X: Box) -> Box | None:
-    """K(X); None where something has no enclosure there, another piece may begin, or the middle of F'(X) is singular."""
+    """Return K(X); None if an enclosure is unknown, a function may switch its piece, or the middle of F'(X) is singular."""
     equations, unknowns = system.equations, system.unknowns
     if any(_may_vanish(e, X) for e in system.switches):
-        return None  # the slopes of the pieces say nothing across a jump
+        return None  # the derivatives of the pieces do not bound a jump
     middle = {s: _short((low + high) / 2) for s, (low, high) in X.items()}
     values, n = enclosures(equations, middle), len(unknowns)
     flat = enclosures(system.slopes, X)
@@ -199,7 +200,7 @@ def _meet(a: Bounds, b: Bounds) -> bool:
 
 
 def _common(a: Bounds, b: Bounds) -> Bounds:
-    """Bounds, with few digits, of what is in a and in b, which meet."""
+    """Return the intersection of two intervals that meet, with few digits."""
     low = max(a[0], _below(b[0])) if a[0] < b[0] else a[0]
     return low, min(a[1], -_below(-b[1])) if b[1] < a[1] else a[1]
 
@@ -210,5 +211,5 @@ def _below(x: sp.Rational) -> sp.Rational:
 
 
 def _short(x: sp.Rational) -> sp.Rational:
-    """A rational near x with few digits, where any one near it does."""
+    """Return a rational near x with few digits."""
     return sp.Rational(float(x))

@@ -1,7 +1,7 @@
-"""Whether equations and inequalities exclude each other: linear ones in kernels, each within the bounds that `signs` knows.
+"""Infeasibility of equations and inequalities, decided for linear forms in kernels with the bounds that `signs` knows.
 
-A kernel is a symbol, a product or a function; every condition is a linear form in kernels. Fourier and Motzkin's elimination of
-the kernels ends in a false inequality between numbers where no values satisfy all conditions; else nothing is said.
+A kernel is a symbol, a product or a function. Fourier–Motzkin elimination of the kernels ends in a false inequality between
+numbers if the conditions exclude each other; otherwise nothing is decided.
 """
 
 from __future__ import annotations
@@ -15,18 +15,18 @@ from lagrotor.algebra.scalar import node_count
 from lagrotor.algebra.signs import ANY, NONNEGATIVE, POSITIVE, Region, bounds, conditions, is_real, signs
 
 _MOST_ROWS, _MOST_PARTS = 200, 400
-_SMALL = sp.Rational(1, 10**6)  # what a small quantity is below
+_SMALL = sp.Rational(1, 10**6)  # upper bound of a small quantity
 
 
 class _Row(NamedTuple):
-    """Σ rate · kernel + number, above zero if `strict`, else not below it."""
+    """The condition Σ rate · kernel + number > 0 if `strict`, else ≥ 0."""
 
     rates: dict[sp.Expr, sp.Rational]
     number: sp.Expr
     strict: bool
 
     def plus(self, second: _Row, kernel: sp.Expr) -> _Row:
-        """The sum of two rows in which a kernel has opposite signs, each over its rate's size."""
+        """Return the sum of two rows that eliminates a kernel with opposite signs."""
         a, b = (1 / abs(row.rates[kernel]) for row in (self, second))
         rates = {
             k: a * self.rates.get(k, sp.S.Zero) + b * second.rates.get(k, sp.S.Zero)
@@ -37,9 +37,9 @@ class _Row(NamedTuple):
 
 
 def is_infeasible(equations: Sequence[sp.Expr], where: Region, small: Sequence[sp.Symbol] = ()) -> bool:
-    """Return whether it is proved that at no point of the region every equation is zero.
+    """Return True if it is proved that no point of the region satisfies all equations e = 0.
 
-    small: symbols that are as near to 0 as one likes.
+    small: symbols that may be assumed as close to 0 as necessary.
     """
     if sum(node_count(e) for e in (*equations, *(e for e, _ in where.above))) > _MOST_PARTS:
         return False
@@ -52,7 +52,7 @@ def is_infeasible(equations: Sequence[sp.Expr], where: Region, small: Sequence[s
     sides = [*((sign * e, False) for e in equations for sign in (1, -1)), *where.above]
     rows = [_Row(*_linear(form), strict) for e, strict in sides for form in _forms(e)]
     kernels = sorted({kernel for row in rows for kernel in row.rates}, key=sp.default_sort_key)
-    # A real sum with one part that is not known to be real: so is that part.
+    # In a real sum, one term of unknown kind is real; two are not known to be.
     unknown = {kernel for kernel in kernels if not is_real(kernel, stronger)}
     rows = [row for row in rows if len(unknown & row.rates.keys()) < 2]
     rows += [row for kernel in kernels for row in _bounding(kernel, stronger, small)]
@@ -60,7 +60,7 @@ def is_infeasible(equations: Sequence[sp.Expr], where: Region, small: Sequence[s
 
 
 def has_principal_values(e: sp.Basic, equations: Sequence[sp.Expr], where: Region) -> bool:
-    """Whether principal values are meant: e has i or a complex symbol, or is real at no inner point; odd roots may be real."""
+    """Return True for i, a complex symbol, or an expression real at no inner point; odd roots may be real."""
     if e.has(sp.I) or not all(s.is_real for s in e.free_symbols):
         return True
     natural = conditions(e)
@@ -70,7 +70,7 @@ def has_principal_values(e: sp.Basic, equations: Sequence[sp.Expr], where: Regio
 
 
 def _has_no_root(e: sp.Expr) -> bool:
-    """Return whether a polynomial with rational coefficients in one real symbol has none."""
+    """Return True if a rational polynomial in one real symbol has no real root."""
     if len(e.free_symbols) != 1 or not next(iter(e.free_symbols)).is_real or not e.is_polynomial():
         return False
     polynomial = sp.Poly(e, *e.free_symbols)
@@ -78,14 +78,14 @@ def _has_no_root(e: sp.Expr) -> bool:
 
 
 def _forms(e: sp.Expr) -> list[sp.Expr]:
-    """An expression, its terms, and itself with its squares completed."""
+    """Return an expression, its expansion, and its form with completed squares."""
     if e.has(sp.I):
         return []
     return list(dict.fromkeys((e, sp.expand(e), _completed(sp.expand(e)))))
 
 
 def _completed(e: sp.Expr) -> sp.Expr:
-    """a x² + b x + c as a (x + b/2a)² + c − b²/4a, symbol by symbol."""
+    """Return a x² + b x + c as a (x + b/2a)² + c − b²/4a, symbol by symbol."""
     for symbol in sorted(e.free_symbols, key=sp.default_sort_key):
         if e.is_polynomial(symbol) and sp.degree(e, symbol) == 2:
             c, b, a = (e.coeff(symbol, k) for k in range(3))
@@ -95,7 +95,7 @@ def _completed(e: sp.Expr) -> sp.Expr:
 
 
 def _linear(e: sp.Expr) -> tuple[dict[sp.Expr, sp.Rational], sp.Expr]:
-    """The rational rates of the kernels, and the number beside them."""
+    """Return the rational coefficients of the kernels, and the constant term."""
     rates, number = dict[sp.Expr, sp.Rational](), sp.S.Zero
     for term in sp.Add.make_args(e):
         rate, kernel = term.as_coeff_Mul(rational=True)
@@ -107,7 +107,7 @@ def _linear(e: sp.Expr) -> tuple[dict[sp.Expr, sp.Rational], sp.Expr]:
 
 
 def _bounding(kernel: sp.Expr, where: Region, small: Sequence[sp.Symbol]) -> Iterator[_Row]:
-    """What is known of a kernel alone."""
+    """Yield the bounds of a kernel by itself."""
     for side, bound in zip((1, -1), bounds(kernel, where), strict=True):
         if bound is not None:
             yield _Row({kernel: sp.Integer(side)}, -side * bound[0], bound[1])
@@ -118,7 +118,7 @@ def _bounding(kernel: sp.Expr, where: Region, small: Sequence[sp.Symbol]) -> Ite
 
 
 def _excludes(rows: list[_Row], kernels: Sequence[sp.Expr]) -> bool:
-    """Return whether rows have no solution in real kernels that are taken to be independent."""
+    """Return True if the rows have no solution in kernels that are treated as independent real numbers."""
     for kernel in kernels:
         above, below = ([row for row in rows if side * row.rates.get(kernel, 0) > 0] for side in (1, -1))
         rows = [row for row in rows if kernel not in row.rates]

@@ -1,7 +1,6 @@
-"""Integrals in closed form: an antiderivative that is differentiated again, continuous between the limits.
+"""Closed forms of definite integrals: a candidate antiderivative F is checked by F' = f and by continuity between the limits.
 
-Where the antiderivative comes from does not matter: F' = f is decided, and F must be continuous from one limit to the other
-(the fundamental theorem; without continuity ∫ dt/t² from −1 to 1 would be −2).
+By the fundamental theorem this is a proof; without continuity ∫ dt/t² from −1 to 1 would be −2.
 """
 
 from __future__ import annotations
@@ -22,7 +21,7 @@ _MOST_OPERATIONS = 60
 
 
 def value_of_integral(e: sp.Integral, where: Region, vanishes: Callable[[sp.Expr, Region], bool]) -> sp.Expr | None:
-    """∫ f dx between its limits, None where nothing certain is known."""
+    """Return the proved value of ∫ f dx between its limits, or None."""
     body, *limits = e.args
     if len(limits) > 1:
         inner = value_of_integral(sp.Integral(body, limits[0]), where, vanishes)
@@ -51,7 +50,7 @@ def value_of_integral(e: sp.Integral, where: Region, vanishes: Callable[[sp.Expr
 
 
 def _antiderivative(body: sp.Expr, t: sp.Symbol) -> sp.Expr:
-    """What may be one; with an integral left in it where none was found."""
+    """Return a candidate antiderivative; it contains an integral if none is found."""
     power, cofactor = sp.S.Zero, body
     for factor in sp.Mul.make_args(sp.factor_terms(body)):
         base, exponent = factor.as_base_exp()
@@ -72,7 +71,7 @@ def _antiderivative(body: sp.Expr, t: sp.Symbol) -> sp.Expr:
 
 
 def _between(t: sp.Symbol, low: sp.Expr, high: sp.Expr, where: Region, lower: Any, upper: Any) -> list[sp.Basic]:
-    """What is known of t between the limits: least(t, low), most(t, high)."""
+    """Return the inequalities that t obeys between the limits: lower(t, low), upper(t, high)."""
     if low.is_infinite or high.is_infinite or is_nonnegative(high - low, where):
         relations = [lower(t, low)] if low.is_finite is not False else []
         if low.free_symbols and is_positive(low, where):
@@ -86,7 +85,7 @@ def _between(t: sp.Symbol, low: sp.Expr, high: sp.Expr, where: Region, lower: An
 
 
 def _at(F: sp.Expr, t: sp.Symbol, end: sp.Expr, where: Region) -> sp.Expr | None:
-    """F at a limit of what `where` knows of t, where it is continuous there; else its limit, where each term's is certain."""
+    """Return F at a limit if F is continuous there, else the limit of F if the limit of each term is certain, else None."""
     if end.is_finite is not False and is_continuous(F, where, frozenset({t})):
         value = F.subs(t, end)
         return None if value.has(sp.nan, sp.zoo, sp.oo, -sp.oo) else value
@@ -115,7 +114,7 @@ def _at(F: sp.Expr, t: sp.Symbol, end: sp.Expr, where: Region) -> sp.Expr | None
 
 
 def _falls(product: sp.Expr, t: sp.Symbol, side: int, where: Region) -> bool:
-    """Whether a product of powers, bounded waves and an exponential tends to 0."""
+    """Return True if a product of powers, bounded waves and an exponential tends to 0."""
     power, decays = sp.S.Zero, False
     for factor in sp.Mul.make_args(product):
         if isinstance(factor, sp.sin | sp.cos):

@@ -1,6 +1,6 @@
-"""What a symbol is where one function of it is known: x² = v with x ≥ 0 is x = √v with v ≥ 0, cos x = v on [0, π] is x = acos v.
+"""Inversion of functions: x² = v with x ≥ 0 is x = √v with v ≥ 0; cos x = v on [0, π] is x = acos v.
 
-Each step is an equivalence for real symbols where its conditions hold.
+Each step is an equivalence for real symbols under its conditions.
 """
 
 from __future__ import annotations
@@ -14,21 +14,17 @@ from lagrotor.algebra.signs import Region, is_nonnegative, is_real, signs
 
 Conditioned: TypeAlias = "tuple[sp.Expr, tuple[sp.Basic, ...]]"
 
-# Functions that are the inverse of another: that one, and between which numbers their own values lie.
+# Inverse function -> (its inverse, lower and upper bound of its values).
 INVERSES: dict[Any, tuple[Any, Any, Any]] = {
-    sp.acos: (sp.cos, sp.S.Zero, sp.pi),
-    sp.asin: (sp.sin, -sp.pi / 2, sp.pi / 2),
-    sp.atan: (sp.tan, -sp.pi / 2, sp.pi / 2),
-    sp.log: (sp.exp, None, None),
-    sp.asinh: (sp.sinh, None, None),
-    sp.acosh: (sp.cosh, sp.S.Zero, None),
-    sp.atanh: (sp.tanh, None, None),
-}
+    sp.acos: (sp.cos, sp.S.Zero, sp.pi), sp.asin: (sp.sin, -sp.pi / 2, sp.pi / 2),
+    sp.atan: (sp.tan, -sp.pi / 2, sp.pi / 2), sp.log: (sp.exp, None, None), sp.asinh: (sp.sinh, None, None),
+    sp.acosh: (sp.cosh, sp.S.Zero, None), sp.atanh: (sp.tanh, None, None),
+}  # fmt: skip
 _TURNS = (0, -1, 1, -2, 2)
 
 
 def argument(function: Any, value: sp.Expr) -> Conditioned:
-    """u where function(u) = value, of a function among INVERSES: acos u = v is u = cos v with 0 ≤ v ≤ π."""
+    """Return u from function(u) = value for a function in INVERSES: acos u = v is u = cos v with 0 ≤ v ≤ π."""
     inner, low, high = INVERSES[function]
     return inner(value), (
         *(_at_least(value, low) if low is not None else ()),
@@ -37,7 +33,7 @@ def argument(function: Any, value: sp.Expr) -> Conditioned:
 
 
 def solved_for(kernel: sp.Expr, symbol: sp.Symbol, value: sp.Expr, where: Region) -> Conditioned | None:
-    """The symbol where kernel = value, a power or a function of it; None where the region leaves more than one."""
+    """Return the symbol from kernel = value, with the conditions; None if the region admits several solutions."""
     if not is_real(symbol, where) or not is_real(value, where):
         return None
     if kernel.is_Pow and kernel.base == symbol and kernel.exp.is_Rational:
@@ -59,7 +55,7 @@ def _at_least(e: sp.Expr, low: sp.Expr) -> tuple[sp.Basic, ...]:
 
 
 def _side(e: sp.Expr, where: Region) -> int:
-    """1 where e ≥ 0, −1 where e ≤ 0, 0 where that is not known."""
+    """Return 1 if e ≥ 0, −1 if e ≤ 0, 0 if its sign is unknown."""
     return 1 if is_nonnegative(e, where) else -1 if is_nonnegative(-e, where) else 0
 
 
@@ -76,7 +72,7 @@ def _root(n: sp.Rational, symbol: sp.Symbol, value: sp.Expr, where: Region) -> C
 
 
 def _arcs(kernel: sp.Expr, symbol: sp.Symbol, value: sp.Expr, where: Region) -> Iterator[Conditioned]:
-    """Of sin, cos and tan, where the symbol lies in one monotone piece."""
+    """Yield the solutions of sin, cos or tan of the symbol for the monotone piece that contains the symbol."""
     conditions = (*_at_least(value, sp.S.NegativeOne), *_at_least(sp.S.One, value))
     for k in _TURNS:
         start = k * sp.pi - (0 if isinstance(kernel, sp.cos) else sp.pi / 2)

@@ -1,8 +1,8 @@
-"""The symbols of expressions numbered in an order that the expressions give, so that no decision depends on their names.
+"""Canonical numbering of the symbols of expressions, so that no decision depends on their names.
 
-Each symbol has a color: the assumptions on it, then the places where it stands. A place is known by the parts above it and by
-the colors of the symbols in these. Colors are refined until no more symbols differ; of symbols that are alike, the first by
-name gets a color of its own. B. D. McKay, Congressus Numerantium 30 (1981) 45.
+Each symbol has a color: a digest of its assumptions, then of its positions. A position is given by the subexpressions above it
+and the colors of their symbols. Colors are refined until no more symbols differ; then the first of several symbols with one
+color gets a new color. B. D. McKay, Congressus Numerantium 30 (1981) 45.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _SORTED = cmp_to_key(sp.Basic.compare)
 
 
 class Numbering:
-    """Symbols by their number: `there` gives them names of the number alone, `back` their true names again."""
+    """The symbols of expressions with names that contain only their canonical number, and the way back."""
 
     def __init__(self, *expressions: sp.Basic) -> None:
         self.symbols = canonical_order(expressions)
@@ -43,12 +43,12 @@ class Numbering:
         return replace_symbols(e, self.old)
 
     def text(self, says: str) -> str:
-        """Return a text about numbered symbols as one about those of the input."""
+        """Return a text with the names of the input in place of the numbered names."""
         return _NAME.sub(lambda match: str(self.symbols[int(match[1])]), says)
 
 
 def replace_symbols(e: sp.Basic, symbols: Mapping[sp.Basic, sp.Basic]) -> Any:
-    """Return an expression with symbols in place of others, and nothing evaluated."""
+    """Return an expression with symbols replaced and nothing evaluated."""
     images: dict[sp.Basic, sp.Basic] = {}
     for node in subexpressions(e):
         if node in symbols or not node.args:
@@ -68,7 +68,7 @@ def replace_symbols(e: sp.Basic, symbols: Mapping[sp.Basic, sp.Basic]) -> Any:
 
 
 def canonical_order(expressions: Sequence[sp.Basic]) -> list[sp.Symbol]:
-    """Return all symbols, bound ones as well, in an order that no name changes, and no order of expressions but the first."""
+    """Return all symbols, also bound ones, in an order independent of names and of the order of all but the first expression."""
     nodes = subexpressions(*expressions)
     symbols = sorted((e for e in nodes if isinstance(e, sp.Symbol)), key=sp.default_sort_key)
     colors = {symbol: _digest(sorted(symbol.assumptions0.items())) for symbol in symbols}
@@ -83,7 +83,7 @@ def canonical_order(expressions: Sequence[sp.Basic]) -> list[sp.Symbol]:
 
 
 def without_number(e: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-    """Return a number that is not zero and the expression divided by it: the same expression for all multiples of one."""
+    """Return (number, expression / number), where all nonzero multiples of an expression give the same second value."""
     number, form = split_content(e)
     if form.is_Add:
         shape, opposite = (_shapes(subexpressions(side), {})[side] for side in (form, -form))
@@ -94,7 +94,7 @@ def without_number(e: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
 def _refined(
     colors: dict[sp.Symbol, int], nodes: Sequence[sp.Basic], expressions: Sequence[sp.Basic]
 ) -> dict[sp.Symbol, int]:
-    """Return the colors refined by the places of the symbols, until their number grows no more."""
+    """Return the colors refined by positions until their number no longer grows."""
     while len(set(colors.values())) < len(colors):
         inside = _shapes(nodes, colors)
         places: dict[sp.Basic, list[int]] = {e: [] for e in nodes}
@@ -112,7 +112,7 @@ def _refined(
 
 
 def _shapes(nodes: Iterable[sp.Basic], colors: Mapping[sp.Basic, int]) -> dict[sp.Basic, int]:
-    """Return a number for each part that is the same for parts that differ in the names of symbols alone."""
+    """Return a digest of each subexpression, equal for subexpressions that differ only in names of symbols."""
     inside = dict[sp.Basic, int]()
     for e in nodes:
         args = [inside[a] for a in e.args]

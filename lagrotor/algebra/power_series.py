@@ -32,13 +32,12 @@ from lagrotor.algebra.identity import decide_zero
 from lagrotor.algebra.scalar import scalar
 from lagrotor.errors import InputError, NotExactError
 
-# Analytic wherever they are finite, and real for real arguments, so that expansion by derivatives is right.
+# Analytic wherever they are finite, real for real arguments: Taylor expansion is valid.
 _ANALYTIC = (
     sp.sin, sp.cos, sp.tan, sp.cot, sp.sec, sp.csc,
     sp.sinh, sp.cosh, sp.tanh, sp.coth, sp.sech, sp.csch, sp.exp,
 )  # fmt: skip
-# Cut along the imaginary axis, from i and -i outwards; along the real one, from 1 and -1 outwards; the logarithm and the
-# powers along the negative real axis.
+# Branch cuts: the imaginary axis beyond ±i; the real axis beyond ±1. Logarithms and powers: the negative real axis.
 _CUT, _CUT_BEYOND_ONE = (sp.atan, sp.asinh), (sp.asin, sp.acos, sp.atanh)
 # Orders added when division by powers of the small quantity loses terms, per attempt and at most; the largest q.
 _MARGIN, _MOST_LOST, _MOST_ROOTS = 8, 24, 24
@@ -50,7 +49,7 @@ QUOTIENTS = {
     sp.tan: (sp.sin, sp.cos), sp.cot: (sp.cos, sp.sin), sp.sec: (None, sp.cos), sp.csc: (None, sp.sin),
     sp.tanh: (sp.sinh, sp.cosh), sp.coth: (sp.cosh, sp.sinh), sp.sech: (None, sp.cosh), sp.csch: (None, sp.sinh),
 }  # fmt: skip
-# Well above the error of a value computed to more than thirty digits.
+# Well above the rounding error of a value with more than 30 digits.
 _CLEARLY_NONZERO = 1e-15
 
 

@@ -1,8 +1,8 @@
-"""Whether an expression in the class vanishes by virtue of relations between its symbols.
+"""Zero test of an expression modulo relations between its symbols.
 
-Some symbols ρ stand for roots, ρ**q = B; others for algebraic numbers that are known to any precision.  A numerator is
-reduced to degree below q in each ρ; it vanishes if each of its coefficients, which are algebraic numbers, does.  Zero is proved
-by this whatever other relations the symbols obey; that it is not found says nothing.
+Some symbols ρ represent roots, ρ**q = B; others represent algebraic numbers.  A numerator is reduced to degree below q in each
+ρ and vanishes if each of its coefficients, algebraic numbers, vanishes.  This proves zero for any further relations between the
+symbols; a nonzero result decides nothing.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ Relations: TypeAlias = Mapping[sp.Symbol, tuple[int, sp.Expr]]
 
 
 def vanishes(expression: sp.Expr, relations: Relations, numbers: Mapping[sp.Symbol, sp.Expr]) -> tuple[Ring, bool]:
-    """Whether the relations make it zero, and the ring that holds what was divided by.
+    """Return the ring with all divisors, and True if the relations imply that the expression is zero.
 
-    Raises NotExactError outside the class, beyond the bound on the work, and where a divisor vanishes.
+    Raise NotExactError outside the class, beyond the bound on the work, and if a divisor vanishes.
     """
     content = survey(expression, *relations, *(value for _, value in relations.values()))
     roots = find_roots(content)
@@ -65,7 +65,7 @@ def _is_null(
 
 
 def _reduced(polynomial: PolyElement, place: int, q: int, reading: Reader, value: sp.Expr) -> PolyElement:
-    """A multiple of the polynomial, of degree below q in the symbol at `place`."""
+    """Return a multiple of the polynomial of degree below q in the symbol at index `place`."""
     degree = max((monomial[place] for monomial in polynomial.itermonoms()), default=0)
     if degree < q:
         return polynomial

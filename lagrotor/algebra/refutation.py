@@ -1,4 +1,4 @@
-"""A point at which an expression is certainly not zero: its enclosure there excludes zero."""
+"""Search for a counterexample: a point where the enclosure of an expression excludes zero."""
 
 from __future__ import annotations
 
@@ -13,27 +13,26 @@ from lagrotor.algebra.scalar import node_count
 from lagrotor.algebra.signs import Region
 from lagrotor.errors import NotExactError
 
-# How many points of each size of the symbols are looked at.
-_LARGE = 2000  # parts of an expression that is looked at four times only
-_SIZES = ((sp.S.One, 6), (sp.Rational(1, 8), 3), (sp.Integer(5), 4))
+_LARGE = 2000  # nodes beyond which an expression is evaluated at four points only
+_SIZES = ((sp.S.One, 6), (sp.Rational(1, 8), 3), (sp.Integer(5), 4))  # (scale of the symbols, number of points)
 
 
 class _Witness(NamedTuple):
-    """A point where an enclosure of the expression excludes zero; `real`: where all it is made of is real."""
+    """A point where the enclosure excludes zero; `real`: True if all subexpressions are real there."""
 
     point: Point
     real: bool
 
 
 class Sample(NamedTuple):
-    """The first witness, and at how many points the expression was enclosed."""
+    """The first witness, and the number of points at which the expression was enclosed."""
 
     witness: _Witness | None
     enclosed: int
 
 
 def find_witness(expression: sp.Expr, where: Region) -> Sample:
-    """Look for a witness, one where everything is real first."""
+    """Search for a witness, preferably one where all subexpressions are real."""
     complex_witness: _Witness | None = None
     enclosed, size = 0, node_count(expression)
     symbols = expression.free_symbols | set().union(*(e.free_symbols for e, _ in where.above))

@@ -1,4 +1,4 @@
-"""Checks of what is handed to this room: scalar expressions, with the symbols that are zero by assumption replaced."""
+"""Checks of arguments: scalar expressions of bounded size, with symbols that are zero by assumption replaced."""
 
 from typing import Any
 
@@ -8,12 +8,12 @@ from lagrotor.algebra.enclosures import enclosure
 from lagrotor.algebra.name_clashes import check_names
 from lagrotor.errors import InputError, NotExactError
 
-# Deeper expressions exhaust the stack, larger ones the memory; equal parts count as often as they occur.
+# Deeper expressions exhaust the stack, larger ones the memory; repeated nodes count each time.
 _MOST_DEPTH, _MOST_NODES = 150, 1_000_000
 
 
 def sympified(value: Any, name: str) -> Any:
-    """A sympy object; raise InputError, on behalf of the function `name`, where there is none. No text is parsed."""
+    """Return a sympy object, or raise InputError in the name of the function `name`. No text is parsed."""
     try:
         return sp.sympify(value, strict=True)
     except sp.SympifyError:
@@ -21,7 +21,7 @@ def sympified(value: Any, name: str) -> Any:
 
 
 def scalar(value: Any, name: str) -> sp.Expr:
-    """A scalar expression; raise InputError where there is none, NotExactError where it is too large or too deep."""
+    """Return a scalar expression, or raise InputError; raise NotExactError if it is too large or too deep."""
     expression = sympified(value, name)
     if not isinstance(expression, sp.Expr) or isinstance(expression, sp.MatrixExpr):
         raise InputError(f"{name}: {value!r} is not a scalar expression: give a sympy expression or a number")
@@ -31,7 +31,7 @@ def scalar(value: Any, name: str) -> sp.Expr:
 
 
 def _sizes(expression: sp.Basic) -> dict[sp.Basic, tuple[int, int]]:
-    """Every different part of an expression that is neither too large nor too deep, with its nodes and its depth."""
+    """Return the nodes and the depth of each distinct subexpression; raise NotExactError beyond the bounds."""
     sizes: dict[sp.Basic, tuple[int, int]] = {}
     stack = [(expression, False)]
     while stack:
@@ -55,12 +55,12 @@ def _sizes(expression: sp.Basic) -> dict[sp.Basic, tuple[int, int]]:
 
 
 def node_count(expression: sp.Expr) -> int:
-    """How many nodes the tree of an expression has, equal ones counted as often as they occur."""
+    """Return the number of nodes in the tree of an expression, with repetitions."""
     return _sizes(expression)[expression][0]
 
 
 def degree(expression: sp.Expr) -> int:
-    """A bound on its degree in its letters and functions, as a quotient, and on those of their arguments."""
+    """Return a bound on the degree of a quotient in its symbols and functions, and of the functions' arguments."""
     degrees: dict[sp.Basic, int] = {}
     largest = 0
     for node in sp.postorder_traversal(expression):
@@ -78,7 +78,7 @@ def degree(expression: sp.Expr) -> int:
 
 
 def split_content(e: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-    """Return a number that is certainly not zero and the expression divided by it, such that no number is in all terms."""
+    """Return (number, e / number) with a nonzero number, such that the terms have no common numerical factor."""
     common: dict[sp.Expr, sp.Rational] | None = None
     terms = sp.Add.make_args(e)
     for term in terms:
@@ -98,7 +98,7 @@ def split_content(e: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
 
 
 def _is_apart(number: sp.Expr) -> bool:
-    """Return whether a number is certainly real and not zero."""
-    huge = number.is_Pow and number.exp.is_Integer  # written, not evaluated
+    """Return True if a number is certainly real and nonzero."""
+    huge = number.is_Pow and number.exp.is_Integer  # not evaluated
     between = None if huge else enclosure(number, {})
     return between is not None and (between[0] > 0 or between[1] < 0)

@@ -1,7 +1,7 @@
-"""Signs: which of −, 0, + an expression may take, from what its symbols are declared to be and in a region.
+"""Signs: which of −, 0, + an expression may take, from the assumptions of its symbols and in a region.
 
-A region is a set of inequalities. Every answer is a set that holds the true sign at every point of the region where the
-expression is defined; {-1, 0, 1} where nothing is known of a real one, and None where it is not known to be real.
+A region is a set of inequalities. Each answer is a set that contains the true sign at every point of the region where the
+expression is defined: {-1, 0, 1} for a real expression of unknown sign, None if it is not known to be real.
 """
 
 from __future__ import annotations
@@ -21,23 +21,19 @@ Signs: TypeAlias = frozenset[int]
 Bound: TypeAlias = tuple[sp.Expr, bool]
 
 POSITIVE, NONNEGATIVE, ANY = frozenset({1}), frozenset({0, 1}), frozenset({-1, 0, 1})
-_ODD = (sp.sinh, sp.tanh, sp.atan, sp.asinh, sp.erf, sp.asin, sp.atanh)  # of the sign of their argument, where real
+_ODD = (sp.sinh, sp.tanh, sp.atan, sp.asinh, sp.erf, sp.asin, sp.atanh)  # odd functions: sign of a real argument
 _REAL = (sp.sin, sp.cos, sp.tan, sp.cot, sp.sec, sp.csc, sp.coth, sp.csch, sp.acot, sp.gamma)
-# Increasing functions: their inverse, and between which numbers they are that.
+# Increasing function -> (its inverse, lower and upper bound of the interval where it increases).
 _INCREASING: dict[Any, tuple[Any, Any, Any]] = {
-    sp.exp: (sp.log, None, None),
-    sp.log: (sp.exp, sp.S.Zero, None),
-    sp.tan: (sp.atan, -sp.pi / 2, sp.pi / 2),
-    sp.sinh: (sp.asinh, None, None),
-    sp.asinh: (sp.sinh, None, None),
-    sp.tanh: (sp.atanh, None, None),
-}
-_FACTORED = 40  # terms of the largest sum whose factors are looked at
+    sp.exp: (sp.log, None, None), sp.log: (sp.exp, sp.S.Zero, None), sp.tan: (sp.atan, -sp.pi / 2, sp.pi / 2),
+    sp.sinh: (sp.asinh, None, None), sp.asinh: (sp.sinh, None, None), sp.tanh: (sp.atanh, None, None),
+}  # fmt: skip
+_FACTORED = 40  # terms of the largest sum that is factored
 
 
 @dataclass(frozen=True)
 class Region:
-    """Where all of `above` are positive (True beside it) or not negative (False)."""
+    """The set where every e of the pairs (e, strict) in `above` is positive (strict) or nonnegative (not strict)."""
 
     above: tuple[tuple[sp.Expr, bool], ...] = ()
 
@@ -49,12 +45,12 @@ class Region:
         return tuple(sp.Gt(e, 0) if strict else sp.Ge(e, 0) for e, strict in self.above)
 
     def put(self, where: dict[sp.Expr, sp.Expr]) -> Region:
-        """The region in other symbols."""
+        """Return the region with symbols replaced."""
         return Region(tuple((e.xreplace(where), strict) for e, strict in self.above))
 
 
 def region(relations: Iterable[Any]) -> Region:
-    """The region where inequalities, and conjunctions of them, hold; raise InputError for anything else."""
+    """Return the region where inequalities and conjunctions of them hold; raise InputError for anything else."""
     inequalities: list[tuple[sp.Expr, bool]] = []
     for relation in relations:
         if relation is True or relation is sp.true:
@@ -82,12 +78,12 @@ def is_nonnegative(e: sp.Expr, where: Region = Region()) -> bool:
 
 
 def signs(e: sp.Expr, where: Region = Region()) -> Signs | None:
-    """The signs that a real expression may have; None where it is not known to be real."""
+    """Return the possible signs of a real expression; None if it is not known to be real."""
     return _signs_in(where).of(e)
 
 
 def bounds(e: sp.Expr, where: Region) -> tuple[Bound | None, Bound | None]:
-    """The least and the largest value that are known of a real expression, each with whether it is only approached."""
+    """Return the known lower and upper bound of a real expression, each with True if it is not attained."""
     return _signs_in(where).range_of(e)
 
 
@@ -105,7 +101,7 @@ class _Signs:
         self.circles = 0
 
     def of(self, e: sp.Expr) -> Signs | None:
-        """The signs of a part; what rests on one still sought is not kept, so that none depends on the order of asking."""
+        """Return the signs of a subexpression; results of circular questions are not cached, so no order matters."""
         if e in self.known:
             return self.known[e]
         if e in self.open:
@@ -178,7 +174,7 @@ class _Signs:
         return ANY
 
     def _by_factors(self, e: sp.Expr) -> Signs:
-        """Return the signs of a product from the facts that are products of some of its factors."""
+        """Return the signs of a product from facts about products of some of its factors."""
         content, odd, even = _factored(e)
         possible = frozenset({content})
         for side, factors, squares, strict in self.products:
@@ -193,7 +189,7 @@ class _Signs:
 
     @cached_property
     def products(self) -> list[tuple[int, frozenset[sp.Expr], frozenset[sp.Expr], bool]]:
-        """The facts as signs, factors of odd powers, and squares in numerators; whether a fact is strict."""
+        """The facts as (sign, factors of odd powers, squares in the numerator, strict)."""
         return [(*_factored(sp.factor(e)), strict) for e, strict in self.where.above if len(e.args) <= _FACTORED]
 
     def _function(self, e: sp.Expr) -> Signs | None:
@@ -223,7 +219,7 @@ class _Signs:
         return argument_signs if isinstance(e, _ODD) else ANY if isinstance(e, _REAL) else None
 
     def _circular(self, e: sp.Expr, u: sp.Expr) -> Signs:
-        """From where the argument lies: sin u has the sign of (−1)ᵏ where kπ < u < (k + 1)π, cos and tan likewise."""
+        """Return the signs from the interval of the argument: sin u has the sign (−1)ᵏ for kπ < u < (k + 1)π."""
         start = -sp.pi / 2 if isinstance(e, sp.cos) else sp.S.Zero
         step = sp.pi / 2 if isinstance(e, sp.tan) else sp.pi
         for k in (0, -1, 1, -2, 2):
@@ -234,7 +230,7 @@ class _Signs:
         return ANY
 
     def _monotone(self, e: sp.Expr) -> Signs | None:
-        """a + b f(u) of numbers a, b and an increasing f has the sign of b (u − f⁻¹(−a/b))."""
+        """Return the signs of a + b f(u), a and b numbers, f increasing: those of b (u − f⁻¹(−a/b))."""
         for number, term in permutations(e.args) if len(e.args) == 2 else ():
             b, call = term.as_independent(*term.free_symbols, as_Add=False)
             if not number.is_number or not b.is_real or call.func not in _INCREASING:
@@ -247,7 +243,7 @@ class _Signs:
         return None
 
     def _by_squares(self, e: sp.Expr) -> Signs | None:
-        """a − b of roots, neither negative, has the sign of a² − b²."""
+        """Return the signs of a − b for nonnegative roots a and b: those of a² − b²."""
         for a, b in permutations(e.args) if len(e.args) == 2 and e.has(sp.Pow) else ():
             if (self.of(a) or ANY) <= NONNEGATIVE and (self.of(-b) or ANY) <= NONNEGATIVE:
                 square = sp.expand(a**2 - b**2)
@@ -255,7 +251,7 @@ class _Signs:
         return None
 
     def _linear(self, e: sp.Expr) -> Signs | None:
-        """Of a sum from the ranges of its terms, each a number times something of known range."""
+        """Return the signs of a sum from the ranges of its terms."""
         ranges = [self.range_of(term) for term in e.args]
         least, greatest = zip(*ranges, strict=True)
         for ends, side in ((least, 1), (greatest, -1)):
@@ -269,7 +265,7 @@ class _Signs:
         return None
 
     def range_of(self, term: sp.Expr) -> tuple[Bound | None, Bound | None]:
-        """The least and the largest value, each with whether it is only approached."""
+        """Return the lower and upper bound of a term, each with True if it is not attained."""
         c, dependent = term.as_independent(*term.free_symbols, as_Add=False) if term.free_symbols else (term, sp.S.One)
         base, power = dependent.as_base_exp()
         low: Bound | None = None
@@ -295,7 +291,7 @@ class _Signs:
         return (high, low) if c.is_negative else (low, high) if c.is_positive else (None, None)
 
     def _bounds(self, symbol: sp.Symbol) -> tuple[Bound | None, Bound | None]:
-        """The largest lower and the least upper bound that is a number, each with whether it is open."""
+        """Return the greatest lower and least upper numerical bound, each with True if it is not attained."""
         low: Bound | None = None
         high: Bound | None = None
         if symbol.is_extended_nonnegative:
@@ -316,7 +312,7 @@ class _Signs:
         return low, high
 
     def _from_facts(self, e: sp.Expr) -> Signs:
-        """What the region says of e itself, of a multiple of it, or of e less a number."""
+        """Return the signs that the region implies for e, for a multiple of e, or for e minus a number."""
         if e.is_Symbol:
             low, high = self._bounds(e)
             possible = ANY
@@ -340,7 +336,7 @@ class _Signs:
 
 
 def _ends(fact: tuple[sp.Expr, bool]) -> Iterator[tuple[sp.Expr, bool]]:
-    """Yield x − a and b − x of a fact (x − a)(b − x) in one symbol, with rational a < b."""
+    """Yield x − a and b − x for a fact (x − a)(b − x) in one symbol with rational a < b."""
     e, strict = fact
     polynomial = e.as_poly() if len(e.free_symbols) == 1 and e.is_polynomial() else None
     if not polynomial or polynomial.is_multivariate or not (polynomial.domain.is_ZZ or polynomial.domain.is_QQ):
@@ -351,12 +347,12 @@ def _ends(fact: tuple[sp.Expr, bool]) -> Iterator[tuple[sp.Expr, bool]]:
 
 
 def _between(u: sp.Expr, low: Any, high: Any) -> list[sp.Expr]:
-    """What is positive where u lies between the two."""
+    """Return the expressions that are positive for low < u < high."""
     return [*(() if low is None else (u - low,)), *(() if high is None else (high - u,))]
 
 
 def _factored(e: sp.Expr) -> tuple[int, frozenset[sp.Expr], frozenset[sp.Expr]]:
-    """Return the sign of the number before a product, its factors of odd powers, and those of even positive powers."""
+    """Return the sign of a product's number, its factors of odd powers, and its factors of even positive powers."""
     number, factors = e.as_coeff_mul()
     side, odd, even = int(sp.sign(number)), set[sp.Expr](), set[sp.Expr]()
     for factor in factors:
@@ -369,7 +365,7 @@ def _factored(e: sp.Expr) -> tuple[int, frozenset[sp.Expr], frozenset[sp.Expr]]:
 
 
 def _primitive(e: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-    """A number and the rest of which e is the product, sums multiplied out."""
+    """Return (number, primitive expression) whose product is e, with sums expanded."""
     content, remainder = (sp.expand_mul(e) if e.is_Mul else e).as_content_primitive()
     number, remainder = (
         remainder.as_independent(*remainder.free_symbols, as_Add=False)
@@ -380,7 +376,7 @@ def _primitive(e: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
 
 
 def _declared(e: sp.Expr) -> Signs | None:
-    """What sympy knows from the symbols' assumptions."""
+    """Return the signs that sympy derives from the symbols' assumptions."""
     if not e.is_extended_real:
         return None
     possible = ANY
@@ -401,7 +397,7 @@ BRANCHED = (sp.Abs, sp.sign, sp.asin, sp.acos, sp.atan, sp.acot, sp.acosh, sp.at
 
 
 def conditions(e: sp.Expr) -> tuple[sp.Basic, ...]:
-    """Inequalities under which every logarithm, root and inverse function of real arguments in e is real."""
+    """Return inequalities under which every logarithm, root and inverse function of real arguments in e is real."""
     relations: dict[sp.Basic, None] = {}
     for node in sp.preorder_traversal(e):
         for side, strict in _sides(node):

@@ -1,4 +1,4 @@
-"""The parts of an expression, each once: a Lagrangian of 24 rods has 2,000 different parts, and 6×10⁸ where it is written out."""
+"""The distinct subexpressions of an expression: a Lagrangian of 24 rods has 2,000 of them in a tree of 6×10⁸ nodes."""
 
 from operator import is_
 from threading import RLock
@@ -7,17 +7,17 @@ from typing import Any
 import sympy as sp
 from sympy.core.cache import clear_cache
 
-_WRITTEN = 100_000  # parts of an expression up to which it is written out
-_MOST = 200_000  # parts that are known at a time
+_WRITTEN = 100_000  # nodes of the largest tree that is written as such
+_MOST = 200_000  # objects in the table
 
-# The parts known, by class and the identities of the arguments, or the part itself where it has none; the identities of those.
+# Shared objects by class and identities of the arguments (by value for a leaf); their identities.
 _KNOWN = dict[Any, sp.Basic]()
 _OWN = set[int]()
 _LOCK = RLock()
 
 
 def subexpressions(*expressions: sp.Basic) -> list[sp.Basic]:
-    """Every different part of expressions, after those that it is made of."""
+    """Return the distinct subexpressions, each after its arguments."""
     ordered = dict[sp.Basic, None]()
     stack = [(e, False) for e in reversed(expressions)]
     while stack:
@@ -30,7 +30,6 @@ def subexpressions(*expressions: sp.Basic) -> list[sp.Basic]:
 
 
 def free_letters(e: sp.Basic) -> set[sp.Symbol]:
-    """Its free symbols."""
     inside = dict[sp.Basic, set[sp.Symbol]]()
     for node in subexpressions(e):
         bound = getattr(node, "bound_symbols", ())
@@ -39,7 +38,7 @@ def free_letters(e: sp.Basic) -> set[sp.Symbol]:
 
 
 def length(e: sp.Basic) -> int:
-    """How many parts it has where all are written out."""
+    """Return the number of nodes of the expression's tree."""
     counts = dict[sp.Basic, int]()
     for node in subexpressions(e):
         counts[node] = 1 + sum(counts[a] for a in node.args)
@@ -47,7 +46,7 @@ def length(e: sp.Basic) -> int:
 
 
 def written(e: sp.Basic) -> str:
-    """The expression as text, by its numbered parts where they are many."""
+    """Return the expression as text; a large expression as a list of numbered subexpressions."""
     if length(e) < _WRITTEN:
         return str(e)
     number = dict[sp.Basic, str]()
@@ -57,10 +56,9 @@ def written(e: sp.Basic) -> str:
 
 
 def with_shared_parts(e: sp.Expr) -> sp.Expr:
-    """The expression, each part of it the same object as an equal part of those before.
+    """Return the expression with each subexpression replaced by an equal earlier object.
 
-    sympy compares objects that are equal part by part, as often as each is written out; its own memory of the last 1,000 results
-    does so when an expression of shared parts is made a second time. Objects that are the same are not compared.
+    sympy compares equal but distinct objects node by node, as often as the tree repeats them, but not identical ones.
     """
     with _LOCK:
         if len(_KNOWN) > _MOST:
@@ -93,7 +91,7 @@ def with_shared_parts(e: sp.Expr) -> sp.Expr:
 
 
 def forget() -> None:
-    """Let go of the parts that are known, and of what sympy remembers of them."""
+    """Clear the table of shared objects and sympy's cache."""
     with _LOCK:
         _KNOWN.clear()
         _OWN.clear()

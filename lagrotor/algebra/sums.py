@@ -1,4 +1,4 @@
-"""Sums with symbolic limits, by induction on the upper one; a series without end is not decided."""
+"""Sums with symbolic limits: expansion, and proof by induction on the upper limit; infinite series are not decided."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from sympy.concrete.gosper import gosper_sum
 
 from lagrotor.algebra.signs import Region
 
-_MOST_TERMS = 40  # that are written out
+_MOST_TERMS = 40  # of an expanded sum
 
 
 def expand_sum(e: sp.Sum) -> sp.Expr | None:
-    """Between whole numbers, and in the least form: Σ to n + 2 as Σ to n and two terms, constant factors outside."""
+    """Expand a sum between integers, or write Σ to n + 2 as Σ to n and two terms, with constant factors outside."""
     body, (i, low, high), *others = e.args
     if others:
         return None
@@ -38,7 +38,7 @@ def expand_sum(e: sp.Sum) -> sp.Expr | None:
 
 
 def value_of_sum(e: sp.Sum, where: Region, vanishes: Callable[[sp.Expr, Region], bool]) -> sp.Expr | None:
-    """Gosper's closed form, proved by induction on the upper limit."""
+    """Return Gosper's closed form, proved by induction on the upper limit; None if there is none."""
     body, (i, low, high), *others = e.args
     if others or not (high.is_Symbol and high.is_integer and low.is_Integer) or body.has(high):
         return None
@@ -52,7 +52,7 @@ def value_of_sum(e: sp.Sum, where: Region, vanishes: Callable[[sp.Expr, Region],
 
 
 def holds_by_induction(expression: sp.Expr, where: Region, vanishes: Callable[[sp.Expr, Region], bool]) -> bool:
-    """Whether an expression, linear in one sum to a natural n, is zero for all n: at the first, and with n at n + 1."""
+    """Return True if an expression linear in one sum to n is zero for the first n, and for n + 1 if for n."""
     sums = expression.atoms(sp.Sum)
     if len(sums) != 1:
         return False

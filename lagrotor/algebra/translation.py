@@ -1,13 +1,12 @@
-"""An expression of analysis in symbols: what no rule is known for becomes a symbol, what is known of symbols a relation.
+"""Translation of an expression into the class of `identity`: other functions become symbols, their identities relations.
 
-Each step is an identity that holds in the region where it is applied, for principal values:
+Each step is an identity for principal values in the region where it is applied:
 
     log(Π pᵢ**kᵢ) = Σ kᵢ log|pᵢ| of positive products,      a**b = exp(b log a),      exp(r log p) = p**r,
     cos θ = (1 − τ²)/(1 + τ²), sin θ = 2τ/(1 + τ²) with τ = tan(θ/2),      exp(u + iv) = exp(u) (cos v + i sin v),
 
-and the relations of inverse functions, of Γ and of Bessel functions with their neighbours.  Equal
-symbols have equal arguments.  Where a rule needs a sign that is not known, that sign is noted in `missing`, and the rule is not
-applied.
+and the recurrences of inverse functions, Γ and Bessel functions.  Equal arguments have one symbol.  A rule that needs an
+unknown sign is not applied; the sign is noted in `missing`.
 """
 
 from __future__ import annotations
@@ -27,27 +26,20 @@ from lagrotor.algebra.signs import NONNEGATIVE, POSITIVE, Region, is_nonnegative
 from lagrotor.algebra.special_functions import RULES
 from lagrotor.errors import NotExactError, TooLargeError
 
-# Of a polynomial whose factors are sought; parts of an expression that is brought over one denominator for it.
+# Bounds of a polynomial that is factored; nodes of an expression that is brought over one denominator for this.
 _MOST_TERMS, _MOST_DEGREE, _MOST_PARTS = 40, 12, 300
 _MOST_MULTIPLE = 24
-_MOST_SAME = 12  # symbols of one head that a new one is compared with
+_MOST_SAME = 12  # latest symbols of one function with which arguments are compared
 _INDEX, _VARIABLE = sp.Dummy("i", integer=True), sp.Dummy("x", real=True)
 _HYPERBOLIC: dict[Any, Callable[[Any], Any]] = {
-    sp.sinh: lambda w: (w - 1 / w) / 2,
-    sp.cosh: lambda w: (w + 1 / w) / 2,
-    sp.tanh: lambda w: (w**2 - 1) / (w**2 + 1),
-    sp.coth: lambda w: (w**2 + 1) / (w**2 - 1),
-    sp.sech: lambda w: 2 * w / (w**2 + 1),
-    sp.csch: lambda w: 2 * w / (w**2 - 1),
-}
+    sp.sinh: lambda w: (w - 1 / w) / 2, sp.cosh: lambda w: (w + 1 / w) / 2,
+    sp.tanh: lambda w: (w**2 - 1) / (w**2 + 1), sp.coth: lambda w: (w**2 + 1) / (w**2 - 1),
+    sp.sech: lambda w: 2 * w / (w**2 + 1), sp.csch: lambda w: 2 * w / (w**2 - 1),
+}  # fmt: skip
 _CIRCULAR: dict[Any, Callable[[Any, Any], Any]] = {
-    sp.sin: lambda c, s: s,
-    sp.cos: lambda c, s: c,
-    sp.tan: lambda c, s: s / c,
-    sp.cot: lambda c, s: c / s,
-    sp.sec: lambda c, s: 1 / c,
-    sp.csc: lambda c, s: 1 / s,
-}
+    sp.sin: lambda c, s: s, sp.cos: lambda c, s: c, sp.tan: lambda c, s: s / c, sp.cot: lambda c, s: c / s,
+    sp.sec: lambda c, s: 1 / c, sp.csc: lambda c, s: 1 / s,
+}  # fmt: skip
 _BY_OTHERS: dict[Any, Callable[[sp.Expr], sp.Expr]] = {
     sp.acot: lambda u: sp.atan(1 / u),
     sp.asec: lambda u: sp.pi / 2 - sp.asin(1 / u),
@@ -58,9 +50,9 @@ _BY_OTHERS: dict[Any, Callable[[sp.Expr], sp.Expr]] = {
 
 
 def prove_zero(expression: sp.Expr, where: Region) -> tuple[tuple[sp.Expr, ...] | None, tuple[sp.Basic, ...]]:
-    """The divisors that must not vanish where the expression is proved zero, else None; and the signs that were missing.
+    """Return the divisors that must not vanish if the expression is proved zero, else None; and the missing signs.
 
-    Raises NotExactError outside the class and beyond the bound on the work.
+    Raise NotExactError outside the class and beyond the bound on the work.
     """
     first = Translation(where)
     first.of(expression)
@@ -74,7 +66,7 @@ def prove_zero(expression: sp.Expr, where: Region) -> tuple[tuple[sp.Expr, ...] 
 
 
 class Translation:
-    """Translates expressions of one region; the second pass knows the fractions of angles and the roots of the first."""
+    """The translation of expressions in one region; a second pass starts from the angles' steps and roots of the first."""
 
     def __init__(
         self, where: Region, steps: Mapping[Any, int] | None = None, degrees: Mapping[sp.Expr, int] | None = None
@@ -86,13 +78,11 @@ class Translation:
         self.meaning: dict[sp.Symbol, sp.Expr] = {}
         self.relations: dict[sp.Symbol, tuple[int, sp.Expr]] = {}
         self.numbers: dict[sp.Symbol, sp.Expr] = {}
-        self.arcs: dict[sp.Symbol, tuple[sp.Expr, sp.Expr]] = {}  # symbols for arcs: their cosine and sine
-        self.logarithms: dict[sp.Symbol, tuple[sp.Expr, bool]] = {}  # of log|p|: p, True; of log b: b, False
-        self.exponentials: dict[sp.Symbol, sp.Expr] = {}  # symbols exp(u): u
+        self.arcs: dict[sp.Symbol, tuple[sp.Expr, sp.Expr]] = {}  # symbol of an arc -> cosine, sine
+        self.logarithms: dict[sp.Symbol, tuple[sp.Expr, bool]] = {}  # log|p| -> (p, True); log b -> (b, False)
+        self.exponentials: dict[sp.Symbol, sp.Expr] = {}  # exp(u) -> u
         self.missing: list[sp.Basic] = []
-        self.signed: dict[
-            sp.Expr, None
-        ] = {}  # factors of u in sign(u) = u/|u|, which is 0 and not ±1 where one vanishes
+        self.signed: dict[sp.Expr, None] = {}  # factors of u in sign(u) = u/|u|, which must not vanish
         self.known: dict[sp.Expr, sp.Expr] = {}
 
     def of(self, e: sp.Expr) -> sp.Expr:
@@ -101,13 +91,13 @@ class Translation:
         return self.known[e]
 
     def restore(self, translated: sp.Expr) -> sp.Expr:
-        """What a translation stands for."""
+        """Return the original expression of a translation."""
         while generated := translated.free_symbols & self.meaning.keys():
             translated = translated.xreplace({symbol: self.meaning[symbol] for symbol in generated})
         return translated
 
     def symbol(self, head: Any, arguments: tuple[sp.Expr, ...], meaning: sp.Expr) -> sp.Symbol:
-        """The symbol for a function of translated arguments: one symbol for equal arguments."""
+        """Return the symbol for a function of translated arguments; equal arguments have the same symbol."""
         group = self.symbols.setdefault(head, [])
         for others, symbol in group[-_MOST_SAME:]:
             if all(self._same(a, b) for a, b in zip(arguments, others, strict=True)):
@@ -131,13 +121,13 @@ class Translation:
             return False
 
     def note_missing(self, strict: bool, *sides: sp.Expr) -> None:
-        """Note that these would have to be positive, or not negative."""
+        """Note that the rule needs these sides to be positive (strict) or nonnegative."""
         for side in sides:
             if not side.has(sp.I) and side.is_real is not False:
                 relation = sp.Gt(side, 0) if strict else sp.Ge(side, 0)
                 self.missing += [relation] if isinstance(relation, sp.core.relational.Relational) else []
 
-    # What a node is ------------------------------------------------------------------------------------------------
+    # Nodes ------------------------------------------------------------------------------------------------
 
     def _sought(self, e: sp.Expr) -> sp.Expr:
         if e.is_Rational or e in (sp.pi, sp.I):
@@ -165,7 +155,7 @@ class Translation:
         return self._function(e)
 
     def _unbarred(self, e: sp.Mul) -> tuple[sp.Expr, ...]:
-        """Its factors, |a| |b| as ± a b where the sign of a b is known."""
+        """Return the factors of a product, with |a| |b| as ± a b if the sign of a b is known."""
         bars = [factor for factor in e.args if isinstance(factor, sp.Abs)]
         product = sp.Mul(*(factor.args[0] for factor in bars))
         product_signs = signs(product, self.where) if len(bars) > 1 else None
@@ -199,7 +189,7 @@ class Translation:
         raise NotExactError(f"{e} is outside the class.")
 
     def _accumulated(self, e: sp.Expr) -> sp.Expr:
-        """Of unknown functions: an integral as a difference of antiderivatives, a sum by its body and its limits."""
+        """Translate an integral to a difference of antiderivatives, a sum by its body and limits."""
         body, (x, *ends), *others = e.args
         if others or not body.has(AppliedUndef):
             raise NotExactError(f"{e} is outside the class.")
@@ -226,7 +216,7 @@ class Translation:
                 return self._number(sp.Pow(base, sp.Rational(1, exponent.q), evaluate=False)) ** exponent.p
             return self.root(self.of(base), exponent, base)
         base_signs = signs(base, self.where)
-        if base_signs is not None and base_signs <= NONNEGATIVE:  # 0**b is left out of the domain
+        if base_signs is not None and base_signs <= NONNEGATIVE:  # without 0**b, which is not in the domain
             return self.exponential(sp.expand(self.of(exponent) * self.log_size(self.of(base))))
         if exponent.is_integer:
             if base in (sp.S.NegativeOne, sp.I):
@@ -238,7 +228,7 @@ class Translation:
         return self.exponential(sp.expand(self.of(exponent) * self._complex_log(base)))
 
     def _turned(self, e: sp.Expr) -> sp.Expr:
-        """(−1)**n and i**n: whole turns in n are left out."""
+        """Translate (−1)**n or i**n without the even or fourfold terms of n."""
         period = 2 if e.base is sp.S.NegativeOne else 4
         terms = [term for term in sp.Add.make_args(sp.expand(e.exp)) if not (term / period).is_integer]
         power = e.base ** sp.Add(*terms)
@@ -249,7 +239,7 @@ class Translation:
         return sign
 
     def _whole_power(self, base: sp.Expr, n: sp.Expr) -> sp.Expr:
-        """Π pᵢ**(kᵢ n), of factors of any sign."""
+        """Return Π pᵢ**(kᵢ n) of factors of any sign."""
         content, factors = self.factors(base)
         result = self.exponential(sp.expand(n * self.log_size(abs(content))))
         if content < 0:
@@ -260,7 +250,7 @@ class Translation:
         return result
 
     def root(self, base: sp.Expr, r: sp.Rational, meaning: sp.Expr | None = None) -> sp.Expr:
-        """Return base**r of a translated base, without the factors that are not negative: of |q|**k and of known signs."""
+        """Return base**r of a translated base, with the factors of known sign extracted."""
         original = self.restore(base) if meaning is None else meaning
         base_signs = signs(original, self.where)
         if base_signs is None or not base_signs <= NONNEGATIVE:
@@ -277,7 +267,7 @@ class Translation:
         return result
 
     def _without_squares(self, base: sp.Expr, r: sp.Rational, meaning: sp.Expr) -> sp.Expr:
-        """Return base**r of a base of any sign: (a b)**r = a**r b**r for a > 0, and b keeps the first powers only."""
+        """Return base**r of a base of any sign by (a b)**r = a**r b**r for a > 0; b keeps first powers only."""
         content, factors = self.factors(base)
         result, remainder = self._number_power(abs(content), r), sp.sign(content)
         for p, k in factors:
@@ -294,7 +284,7 @@ class Translation:
         return result * self._principal(sp.expand(remainder), r, self.restore(remainder))
 
     def _size_power(self, p: sp.Expr, r: sp.Rational) -> sp.Expr:
-        """|p|**r of a real p."""
+        """Return |p|**r of a real p."""
         if p in self.exponentials:
             return self.exponential(self.exponentials[p] * r)
         original = self.restore(p)
@@ -311,7 +301,7 @@ class Translation:
         return self._principal(size, r, sp.Abs(original))
 
     def _principal(self, base: sp.Expr, r: sp.Rational, meaning: sp.Expr) -> sp.Expr:
-        """base**r = (base**(1/q))**p, the root a symbol."""
+        """Return base**r = (base**(1/q))**p with a symbol for the root."""
         if r.is_Integer:
             return base**r
         if base.is_Rational:
@@ -330,7 +320,7 @@ class Translation:
         )
 
     def _number(self, e: sp.Expr) -> sp.Expr:
-        """A symbol for an algebraic number."""
+        """Return a symbol for an algebraic number."""
         if e.is_Rational or e is sp.I:
             return e
         symbol = self.symbol("number", (e,), e)
@@ -338,7 +328,7 @@ class Translation:
         return symbol
 
     def exponential(self, u: sp.Expr) -> sp.Expr:
-        """exp(u) of a translated u, term by term."""
+        """Return exp(u) of a translated u, term by term."""
         result = sp.S.One
         for rate, monomial in self.terms(u):
             if monomial.has(sp.I):
@@ -351,14 +341,14 @@ class Translation:
                 key = "exp", self.restore(monomial)
                 self.steps[key] = lcm(self.steps.get(key, 1), int(rate.q))
                 step = self.steps[key]
-                # Evaluated, sympy takes n log p for log(p**n), which has no end for n = 10**8.
+                # Unevaluated: sympy would expand p**n from exp(n log p), which does not end for n = 10**8.
                 w = self.symbol(key, (), sp.exp(self.restore(monomial) / step, evaluate=not key[1].has(sp.log)))
                 self.exponentials[w] = monomial / step
                 result *= w ** int(rate * step)
         return result
 
     def terms(self, u: sp.Expr) -> list[tuple[sp.Rational, sp.Expr]]:
-        """u as Σ rate · product of symbols; what is divided by is a symbol, too."""
+        """Return u as Σ rate · product of symbols, with a symbol for a divisor."""
         over, under = sp.fraction(sp.together(u))
         over = sp.expand(over)
         under = sp.expand(under)
@@ -379,7 +369,7 @@ class Translation:
     # Angles ------------------------------------------------------------------------------------------------------------
 
     def circle(self, u: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-        """Cosine and sine of a translated u, term by term."""
+        """Return cosine and sine of a translated u, term by term."""
         total, terms = (sp.S.One, sp.S.Zero), self.terms(u)
         if (
             any(monomial in self.arcs and rate.q % 2 == 0 for rate, monomial in terms)
@@ -396,7 +386,7 @@ class Translation:
         return total
 
     def _half(self, u: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
-        """Return √((1 + cos 2u)/2) and sin 2u/(2 cos u) where cos u is known not to be negative; None elsewhere."""
+        """Return √((1 + cos 2u)/2) and sin 2u/(2 cos u) if cos u is known to be nonnegative, else None."""
         if not is_nonnegative(sp.cos(self.restore(u)), self.where):
             return None
         cosine, sine = self.circle(sp.expand(2 * u))
@@ -422,7 +412,7 @@ class Translation:
         return _multiple(((1 - tau**2) / square, 2 * tau / square), int(rate * step))
 
     def _turns(self, angle: sp.Expr) -> bool:
-        """Return whether an angle is a whole number of turns for all whole numbers it holds."""
+        """Return True if an angle is an integer multiple of 2π for all values of its integer symbols."""
         return bool((self.restore(angle) / (2 * sp.pi)).is_integer)
 
     def _number_of_turn(self, value: sp.Expr) -> sp.Expr:
@@ -464,7 +454,7 @@ class Translation:
         return symbol
 
     def log_size(self, u: sp.Expr) -> sp.Expr:
-        """log|u| of a real translated u, as a sum over its factors."""
+        """Return log|u| of a real translated u as a sum over its factors."""
         content, factors = self.factors(u)
         if not self._are_real(factors):
             return self._size_symbol(u)
@@ -498,11 +488,11 @@ class Translation:
         return symbol
 
     def _are_real(self, factors: list[tuple[sp.Expr, int]]) -> bool:
-        """Return whether each factor is known to be real: a product may be without that."""
+        """Return True if each factor is known to be real; a product may be real without that."""
         return all(is_real(self.restore(p), self.where) for p, _ in factors)
 
     def factors(self, u: sp.Expr) -> tuple[sp.Rational, list[tuple[sp.Expr, int]]]:
-        """u = content · Π p**k, coprime p with positive leading coefficients."""
+        """Return u = content · Π p**k with coprime p of positive leading coefficient."""
         if node_count(u) > _MOST_PARTS:
             raise TooLargeError(f"An argument of a root or a logarithm has more than {_MOST_PARTS} parts.")
         over, under = sp.fraction(sp.together(u))
@@ -534,13 +524,13 @@ class Translation:
         return content, [(sp.expand(p), int(k)) for p, k in factors]
 
     def _without_powers(self, side: sp.Expr) -> sp.Expr:
-        """Symbols with a relation reduced in a polynomial, where the value is a polynomial."""
+        """Reduce powers of symbols by their polynomial relations."""
         for symbol, (q, value) in reversed(self.relations.items()):
             if side.has(symbol) and value.is_polynomial() and not value.is_Symbol:
                 side = sp.rem(side, symbol**q - value, symbol)
         return side
 
-    # Arcs and parts ----------------------------------------------------------------------------------------------------
+    # Arcs and complex parts ----------------------------------------------------------------------------------------------------
 
     def _arc(self, e: sp.Expr) -> sp.Expr:
         u = e.args[0]
@@ -575,7 +565,7 @@ class Translation:
         return symbol
 
     def _complex_part(self, e: sp.Expr) -> sp.Expr:
-        """|u|, sign u, and the parts of a complex u whose symbols are real."""
+        """Translate |u|, sign u, re u, im u or the conjugate of u."""
         u = e.args[0]
         t = self.of(u)
         if is_real(u, self.where):
@@ -620,7 +610,7 @@ class Translation:
 
 
 def _angle_of_unit(base: sp.Expr) -> sp.Expr | None:
-    """u where base = cos u ± i sin u."""
+    """Return u for base = cos u ± i sin u; None otherwise."""
     for cosine in base.atoms(sp.cos):
         u = cosine.args[0]
         for side in (1, -1):
@@ -630,7 +620,7 @@ def _angle_of_unit(base: sp.Expr) -> sp.Expr | None:
 
 
 def _square_root(base: sp.Expr) -> sp.Expr | None:
-    """Return v of a product of even powers v², with symbols."""
+    """Return v for a product v² of even powers of symbols; None otherwise."""
     number, factors = base.as_coeff_mul()
     powers = [factor.as_base_exp() for factor in factors]
     if not base.free_symbols or not number.is_positive or not all(k.is_Integer and k.is_even for _, k in powers):
@@ -639,12 +629,12 @@ def _square_root(base: sp.Expr) -> sp.Expr | None:
 
 
 def _sum(a: tuple[sp.Expr, sp.Expr], b: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
-    """Cosine and sine of a sum."""
+    """Return cosine and sine of a sum of two angles."""
     return a[0] * b[0] - a[1] * b[1], a[1] * b[0] + a[0] * b[1]
 
 
 def _multiple(pair: tuple[sp.Expr, sp.Expr], n: int) -> tuple[sp.Expr, sp.Expr]:
-    """Cosine and sine of n times an angle."""
+    """Return cosine and sine of n times an angle."""
     if abs(n) > _MOST_MULTIPLE:
         raise NotExactError(f"A multiple {n} of an angle is too large.")
     total = reduce(lambda a, _: _sum(a, pair), range(abs(n)), (sp.S.One, sp.S.Zero))

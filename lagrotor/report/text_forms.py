@@ -141,10 +141,7 @@ def _summary(report: Report) -> Iterator[Block]:
             yield Display(headline.formula)
         if headline.ids:
             yield ["Shown in", Links(headline.ids)]
-    for what, counts, meanings in (
-        ("Equations", report.counts, MEANINGS),
-        ("Claims", report.outcomes, CLAIM_MEANINGS),
-    ):
+    for what, counts, meanings in (("Equations", report.counts, MEANINGS), ("Claims", report.outcomes, CLAIM_MEANINGS)):
         rows = [(word(answer), str(count), meanings[answer]) for answer, count in counts.items()]
         yield Rows((what, "How many", "What it means"), rows)
 

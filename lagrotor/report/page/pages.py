@@ -166,12 +166,7 @@ def _page(page: Page, made: list[Page], places: Mapping[str, str], report: Repor
 
 
 def _document(
-    report: Report,
-    body: str,
-    contents: Iterable[tuple[str, str]],
-    style: str,
-    script: str,
-    name: str = "",
+    report: Report, body: str, contents: Iterable[tuple[str, str]], style: str, script: str, name: str = ""
 ) -> str:
     """A whole HTML document; under a name it is one of several, and its title leads to the front page."""
     listed = "".join(
