@@ -51,7 +51,7 @@ CLAIM_MEANINGS = {
 
 
 @dataclass(frozen=True)
-class ShownPart:
+class ResultSection:
     """A part of the report besides equations and claims: tables, then (title, sentence) of what was found, then figures."""
 
     name: str
@@ -75,7 +75,7 @@ class Report:
     pictures: tuple[Picture, ...]
     changes: tuple[str, ...]
     claims: tuple[Result, ...] = ()
-    parts: tuple[ShownPart, ...] = ()
+    result_sections: tuple[ResultSection, ...] = ()
     derivations: tuple[tuple[str, str, str], ...] = ()
     model: str = ""
     versions: tuple[tuple[str, str], ...] = ()
@@ -125,9 +125,9 @@ class Report:
         counted: Counter[str] = Counter(result.finding.outcome for result in self.claims)
         return {answer: counted[answer] for answer in CLAIM_MEANINGS if counted[answer]}
 
-    def part(self, name: str) -> ShownPart:
+    def result_section(self, name: str) -> ResultSection:
         """The part of this name."""
-        return next(part for part in self.parts if part.name == name)
+        return next(section for section in self.result_sections if section.name == name)
 
     def users(self, identifier: str) -> tuple[str, ...]:
         """Ids of the equations that use this one."""
@@ -139,8 +139,8 @@ class Report:
 
     def figures_of(self, identifier: str) -> tuple[str, ...]:
         """The figures, among those drawn, that show this equation, such as "figure 19"."""
-        shown = {str(number) for number, entry in self.paper.figures.items() if identifier in entry.equations}
-        return tuple(f"figure {picture.key}" for picture in self.pictures if picture.key in shown)
+        numbers = {str(number) for number, entry in self.paper.figures.items() if identifier in entry.equations}
+        return tuple(f"figure {picture.key}" for picture in self.pictures if picture.key in numbers)
 
 
 def anchor(identifier: str) -> str:
@@ -162,20 +162,20 @@ def contents(report: Report) -> list[tuple[str, str]]:
         *paper,
         ("claims", "Claims", bool(report.claims)),
         ("derivations", "Derivations", bool(report.derivations)),
-        *((part.name, part.heading, True) for part in report.parts),
+        *((section.name, section.heading, True) for section in report.result_sections),
         ("waiting", "Not yet judged", bool(report.waiting)),
         ("cite", "How to cite", True),
         ("made", "How this was made", True),
     ]
-    return [(name, heading) for name, heading, there in listed if there]
+    return [(name, heading) for name, heading, is_filled in listed if is_filled]
 
 
 def notation(report: Report) -> list[tuple[sp.Symbol, str, str]]:
     """The letters of the report: (symbol, meaning, unit), those first that `paper.toml` names; dots mean rates."""
     first = report.paper.about.letters
-    shown = [entry for symbol, entry in report.paper.glossary.items() if not symbol.name.endswith("dot")]
-    shown.sort(key=lambda entry: first.index(entry.symbol.name) if entry.symbol.name in first else len(first))
-    return [(entry.symbol, entry.meaning, entry.unit) for entry in shown]
+    entries = [entry for symbol, entry in report.paper.glossary.items() if not symbol.name.endswith("dot")]
+    entries.sort(key=lambda entry: first.index(entry.symbol.name) if entry.symbol.name in first else len(first))
+    return [(entry.symbol, entry.meaning, entry.unit) for entry in entries]
 
 
 def word(answer: str) -> str:
@@ -222,5 +222,5 @@ def citation() -> tuple[list[str], str]:
 def _names(block: str) -> list[str]:
     """The authors of a block, given name first."""
     whole = re.findall(r"^ +- name: *(.+)$", block, re.MULTILINE)
-    parts = re.findall(r"family-names: *(.+)\n +given-names: *(.+)", block)
-    return [*whole, *(f"{given} {family}" for family, given in parts)]
+    persons = re.findall(r"family-names: *(.+)\n +given-names: *(.+)", block)
+    return [*whole, *(f"{first_name} {family}" for family, first_name in persons)]

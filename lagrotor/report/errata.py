@@ -62,10 +62,10 @@ def errata(verdicts: Iterable[Verdict], paper: Paper) -> Iterator[Erratum]:
 
 def _conditions(verdict: Verdict) -> Iterator[tuple[str, tuple[Premise, ...]]]:
     """Yield the premises of the error and of its correction, together where the first include the second."""
-    stated, needed = verdict.refuted_under, verdict.premises
-    rows = [("Error if", stated), ("Correction if", needed)]
-    if needed and all(premise in stated for premise in needed):
-        rows = [("Error and correction if", stated)]
+    premises, required = verdict.refuted_under, verdict.premises
+    rows = [("Error if", premises), ("Correction if", required)]
+    if required and all(premise in premises for premise in required):
+        rows = [("Error and correction if", premises)]
     yield from (row for row in rows if row[1])
 
 
@@ -96,7 +96,7 @@ def latex_document(verdicts: Iterable[Verdict], paper: Paper) -> str:
     errors = list(errata(listed, paper))
     title = rf"\section*{{Errata to \emph{{{latex_prose(paper.title)}}}}}"
     summary = " ".join(latex_prose(text) for text in _summary(listed, errors, paper))
-    premises = [premise for e in errors for _, given in e.conditions for premise in given]
+    premises = [premise for e in errors for _, assumptions in e.conditions for premise in assumptions]
     assumed = [premise for i, premise in enumerate(premises) if premise not in premises[:i]]
     if assumed:
         named = [p.sentence if "=" in p.says else p.with_formula for p in assumed]
@@ -115,10 +115,10 @@ def _summary(verdicts: list[Verdict], errors: list[Erratum], paper: Paper) -> It
         "their premises. Each is listed by its own number or its section, as printed and as it should read; every "
         "correction was decided by the same exact procedure as the print."
     )
-    shown = {letter for e in errors for letter in e.letters}
+    used = {letter for e in errors for letter in e.letters}
     meanings = {entry.symbol.name: entry.meaning for entry in paper.glossary.values()}
     letters = "; ".join(
-        f"{name} is {meanings[name]}" for name in paper.about.letters if name in shown and name in meanings
+        f"{name} is {meanings[name]}" for name in paper.about.letters if name in used and name in meanings
     )
     if letters:
         yield f"Letters of the corrections: {letters}."
@@ -131,7 +131,7 @@ def latex_item(e: Erratum, listed: list[Premise]) -> str:
     reach = "" if e.survives else " This changes a result."
     right = r";\quad ".join(line.strip() for line in e.corrected)
     granted = "".join(
-        f" {label} {', '.join(f'({listed.index(p) + 1})' for p in given)}." for label, given in e.conditions
+        f" {label} {', '.join(f'({listed.index(p) + 1})' for p in conditions)}." for label, conditions in e.conditions
     )
     return (
         rf"\item \textbf{{{latex_prose(e.cited.capitalize())}}}, {latex_prose(e.title)}. {latex_prose(e.wrong)}{reach}{granted}\\"

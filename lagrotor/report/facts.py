@@ -45,14 +45,14 @@ def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:
         yield Fact("Order", (f"agrees through order {verdict.order} in",), formulas=(verdict.small,))
     if verdict.domain:
         yield Fact("Domain", formulas=verdict.domain)
-    if said := dimension_texts(verdict):
-        yield Fact("Dimensions", tuple(f"{text}." for text in said))
+    if sentences := dimension_texts(verdict):
+        yield Fact("Dimensions", tuple(f"{text}." for text in sentences))
     evidence = verdict.evidence
     if any(line.verdict in ("refuted", "undecided") for line in verdict.lines):
         points = tuple(filter(None, map(point_tex, verdict.lines)))
-        said = tuple(dict.fromkeys(f"{line_text(line)}." for line in verdict.lines))
-        yield Fact("Lines", said, sources=points)
-        evidence = tuple(each for each in evidence if not any(each in line for line in said))
+        sentences = tuple(dict.fromkeys(f"{line_text(line)}." for line in verdict.lines))
+        yield Fact("Lines", sentences, sources=points)
+        evidence = tuple(item for item in evidence if not any(item in line for line in sentences))
     if statement.correction:
         answer = f"judged by the same rules: {word(verdict.correction_verdict or 'undecided')}"
         yield Fact("Correction", (answer,), sources=correction_lines(verdict))
@@ -85,8 +85,8 @@ _REACHES = {
 
 def linked_facts(result: Result, report: Report) -> Iterator[Fact]:
     """The theorems that decide parts of a claim; the equations and figures it is about, as far as they are in the report."""
-    for part, theorem in result.finding.theorems:
-        yield Fact("Proved", (f"{part.says}: {part.outcome}.", theorem.text))
+    for claim_part, theorem in result.finding.theorems:
+        yield Fact("Proved", (f"{claim_part.says}: {claim_part.outcome}.", theorem.text))
     entry, judged = report.paper.claims[result.test.id], {verdict.id for verdict in report.verdicts}
     drawn = {picture.key for picture in report.pictures}
     if ids := tuple(i for i in entry.equations if i in judged):
@@ -112,11 +112,11 @@ def note(verdict: Verdict) -> str:
         return verdict.statement.wrong or next(filter(None, points), "")
     if verdict.verdict == "undecided" and verdict.evidence:
         return verdict.evidence[0].partition(";")[0]
-    parts = list(dict.fromkeys(premise.says for premise in verdict.premises))
+    clauses = list(dict.fromkeys(premise.says for premise in verdict.premises))
     if verdict.order is not None and verdict.small is not None:
-        parts.insert(0, f"agrees through order {verdict.order} in {verdict.small}")
+        clauses.insert(0, f"agrees through order {verdict.order} in {verdict.small}")
     broken = any(premise.broken for premise in verdict.premises)
-    return "; ".join(parts) + (". The paper's own scene does not meet this." if broken else "")
+    return "; ".join(clauses) + (". The paper's own scene does not meet this." if broken else "")
 
 
 _FIELD = re.compile(r"([^\[\]]+)(?:\[(.+)\])?")
@@ -150,16 +150,16 @@ def balance(report: Report) -> str:
         "holds-to-order": "to the order that is named",
     }
     hold = {answer: counts[answer] for answer in ways if answer in counts}
-    fallen = [verdict for verdict in report.verdicts if verdict.verdict == "refuted"]
-    corrected = sum(v.correction_verdict in ways for v in fallen)
-    reaching = sum(bool(v.reaches_result) for v in fallen)
+    refuted = [verdict for verdict in report.verdicts if verdict.verdict == "refuted"]
+    corrected = sum(v.correction_verdict in ways for v in refuted)
+    reaching = sum(bool(v.reaches_result) for v in refuted)
     undecided, waiting = counts.get("undecided", 0), len(report.waiting)
-    other = len(report.verdicts) - sum(hold.values()) - len(fallen) - undecided
+    remainder = len(report.verdicts) - sum(hold.values()) - len(refuted) - undecided
     text = f"Of {len(report.verdicts)} equations {sum(hold.values())} hold"
     text += f": {', '.join(f'{n} {ways[answer]}' for answer, n in hold.items())}. " if hold else ". "
-    if fallen:
-        text += f"{len(fallen)} {'is' if len(fallen) == 1 else 'are'} refuted"
-        if corrected == len(fallen):
+    if refuted:
+        text += f"{len(refuted)} {'is' if len(refuted) == 1 else 'are'} refuted"
+        if corrected == len(refuted):
             text += ", each with a correction that itself holds"
         elif corrected:
             text += f"; for {corrected} of these a correction is given that itself holds"
@@ -167,14 +167,14 @@ def balance(report: Report) -> str:
     else:
         text += "None is refuted."
     text += f" {undecided} {'is' if undecided == 1 else 'are'} undecided." if undecided else ""
-    text += f" The other {other} give a name or a measured number." if other else ""
+    text += f" The other {remainder} give a name or a measured number." if remainder else ""
     return text + (f" {waiting} more {'is' if waiting == 1 else 'are'} not yet judged." if waiting else "")
 
 
 def headlines(report: Report) -> list[Headline]:
     """The results that the paper puts first, those whose equations, claims and figures are in the report."""
     numbers = _Numbers(report)
-    return [numbers.headline(each) for each in report.paper.about.headline if numbers.has(each)]
+    return [numbers.headline(entry) for entry in report.paper.about.headline if numbers.has(entry)]
 
 
 class _Numbers(Formatter):
@@ -192,17 +192,17 @@ class _Numbers(Formatter):
         }
         self.measured |= {f"figure {picture.key}": picture.measured for picture in report.pictures}
 
-    def has(self, given: catalogue.HeadlineEntry) -> bool:
+    def has(self, entry: catalogue.HeadlineEntry) -> bool:
         """Return whether the report has every number and formula of the headline."""
-        fields = (match for _, name, _, _ in self.parse(given.text) if (match := _FIELD.fullmatch(name or "")))
-        needed = {match[1] for match in fields} | ({given.formula} if given.formula else set())
+        fields = (match for _, name, _, _ in self.parse(entry.text) if (match := _FIELD.fullmatch(name or "")))
+        needed = {match[1] for match in fields} | ({entry.formula} if entry.formula else set())
         return needed <= self.verdicts.keys() | self.measured.keys()
 
-    def headline(self, given: catalogue.HeadlineEntry) -> Headline:
+    def headline(self, entry: catalogue.HeadlineEntry) -> Headline:
         """The headline with its numbers."""
-        known = self.verdicts.keys() | self.measured.keys()
-        ids = tuple(identifier for identifier in given.ids if identifier in known)
-        return Headline(given.title, self.format(given.text), ids, self._formula(given), given.figure)
+        identifiers = self.verdicts.keys() | self.measured.keys()
+        ids = tuple(identifier for identifier in entry.ids if identifier in identifiers)
+        return Headline(entry.title, self.format(entry.text), ids, self._formula(entry), entry.figure)
 
     def get_field(self, field_name: str, args: Any, kwargs: Any) -> tuple[Any, str]:
         """The value of what is in braces. Raises InputError for a number that a test does not measure."""
@@ -221,14 +221,14 @@ class _Numbers(Formatter):
             raise InputError(f"paper.toml: headline: {identifier} does not measure {name!r}: {', '.join(measured)}")
         return measured[name], identifier
 
-    def _formula(self, given: catalogue.HeadlineEntry) -> str:
+    def _formula(self, entry: catalogue.HeadlineEntry) -> str:
         """The corrected, or else the derived form of an equation, of the named quantity or the first."""
-        if not given.formula:
+        if not entry.formula:
             return ""
-        statement = self.verdicts[given.formula].statement
+        statement = self.verdicts[entry.formula].statement
         corrected = [(r.quantity, r.written or latex(r.printed)) for r in statement.correction]
         derived = [(r.quantity, r.written or latex(r.derived)) for r in statement.relations]
         for quantity, line in corrected or derived:
-            if given.quantity in ("", quantity):
+            if entry.quantity in ("", quantity):
                 return f"{quantity} = {line}"
-        raise InputError(f"paper.toml: headline: {given.formula} has no quantity {given.quantity!r}")
+        raise InputError(f"paper.toml: headline: {entry.formula} has no quantity {entry.quantity!r}")

@@ -76,8 +76,8 @@ def latex_prose(text: str) -> str:
 def _word(word: str) -> str:
     if len(word) <= _LONG_WORD:
         return _LETTER.sub(_letter, "".join(map(_character, word)))
-    parts = re.findall(rf"(?:[^*/+=(),._-][\u0307\u0308₀-₉]*){{1,{_LONG_WORD // 2}}}|[*/+=(),._-]+", word)
-    return r"\allowbreak{}".join(map(_word, parts))
+    pieces = re.findall(rf"(?:[^*/+=(),._-][\u0307\u0308₀-₉]*){{1,{_LONG_WORD // 2}}}|[*/+=(),._-]+", word)
+    return r"\allowbreak{}".join(map(_word, pieces))
 
 
 def _character(character: str) -> str:
@@ -141,20 +141,20 @@ def latex_inline(expression: sp.Basic) -> str:
 
 def _loose(source: str) -> str:
     """A formula that TeX may break anywhere outside braces: brackets of fixed size, and a break after every space."""
-    parts: list[str] = []
+    pieces: list[str] = []
     opened: list[int] = []
     for piece in (token.text for token in tokenize(source)):
         if piece == r"\left":
-            opened.append(len(parts))
-            parts.append("")
+            opened.append(len(pieces))
+            pieces.append("")
         elif piece == r"\right" and opened:
             start = opened.pop()
-            big = r"\Big" if r"\frac" in "".join(parts[start:]) else ""
-            parts[start] = f"{big}l" if big else ""
-            parts.append(f"{big}r" if big else "")
+            big = r"\Big" if r"\frac" in "".join(pieces[start:]) else ""
+            pieces[start] = f"{big}l" if big else ""
+            pieces.append(f"{big}r" if big else "")
         else:
-            parts.append(piece)
-    return "".join(parts).replace(r"\quad", r"\quad\allowbreak ")
+            pieces.append(piece)
+    return "".join(pieces).replace(r"\quad", r"\quad\allowbreak ")
 
 
 def _length(cell: str) -> int:
@@ -165,8 +165,8 @@ def _length(cell: str) -> int:
 def latex_table(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
     """A table over as many pages as it needs, of cells that are LaTeX already, its columns as wide as they need."""
     lines = list(rows)
-    most = 130 // len(head)
-    need = [6 + min(most, max(map(_length, column))) for column in zip(head, *lines, strict=True)]
+    widest = 130 // len(head)
+    need = [6 + min(widest, max(map(_length, column))) for column in zip(head, *lines, strict=True)]
     columns = "".join(
         rf">{{\raggedright\arraybackslash}}p{{\dimexpr {width / sum(need):.4f}\linewidth-2\tabcolsep\relax}}"
         for width in need

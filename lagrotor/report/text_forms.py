@@ -24,7 +24,7 @@ from lagrotor.report.content import (
     MEANINGS,
     SUBTITLE,
     Report,
-    ShownPart,
+    ResultSection,
     anchor,
     citation,
     contents,
@@ -126,15 +126,15 @@ def section_blocks(report: Report) -> Iterator[Block]:
             for verdict in report.sections[name.removeprefix("section-")]:
                 yield from _equation(verdict, report)
         else:
-            yield from _shown(report.part(name), report)
+            yield from _result_section(report.result_section(name), report)
 
 
 def _summary(report: Report) -> Iterator[Block]:
     if report.changes:
         yield [Bold("Changed against the record."), "; ".join(report.changes)]
     yield [balance(report)]
-    if fallen := [v.id for v in report.verdicts if v.verdict == "refuted"]:
-        yield ["Refuted:", Links(tuple(fallen))]
+    if refuted := [v.id for v in report.verdicts if v.verdict == "refuted"]:
+        yield ["Refuted:", Links(tuple(refuted))]
     for number, headline in enumerate(headlines(report), 1):
         yield [Bold(f"{number}. {headline.title}."), headline.text]
         if headline.formula:
@@ -200,14 +200,14 @@ def _numbers(title: str, measured: Mapping[str, float]) -> Rows:
     return Rows((title, "Value"), [(name.replace("_", " "), f"{value:.6g}") for name, value in measured.items()])
 
 
-def _shown(part: ShownPart, report: Report) -> Iterator[Block]:
-    for table in part.tables:
+def _result_section(section: ResultSection, report: Report) -> Iterator[Block]:
+    for table in section.tables:
         yield [Bold(f"{table.title}.")]
         yield Rows(table.head, [tuple(_cell(cell, report) for cell in row) for row in table.rows])
         yield [table.note]
-    for title, text in part.remarks:
+    for title, text in section.remarks:
         yield [Bold(f"{title}."), text]
-    for picture in part.pictures:
+    for picture in section.pictures:
         key = f"figure {picture.key}"
         yield Heading(anchor(key), picture.title, f"{key.capitalize()}:")
         yield picture
@@ -267,15 +267,15 @@ def markdown(report: Report) -> str:
 
 def errata_sheet(report: Report) -> str:
     """The errata alone, which lead to the report beside them."""
-    blocks = map(partial(_block, beside="report.md"), errata_blocks(report))
+    blocks = map(partial(_block, target="report.md"), errata_blocks(report))
     return "\n\n".join(["# Errata", *blocks]) + "\n"
 
 
-def _block(block: Block, beside: str = "") -> str:
+def _block(block: Block, target: str = "") -> str:
     """beside: the file of what it leads to."""
     match block:
         case list():
-            return " ".join(filter(None, (_span(part, beside) for part in block)))
+            return " ".join(filter(None, (_span(span, target) for span in block)))
         case Heading(place, title, name):
             return f'<a id="{place}"></a>\n\n' + (f"### {name} {_prose(title)}" if name else f"## {title}")
         case Display(formula):
@@ -289,18 +289,18 @@ def _block(block: Block, beside: str = "") -> str:
             return f"![{_prose(picture.alt)}](figures/{picture.svg.name})"
 
 
-def _span(part: Span, beside: str = "") -> str:
-    match part:
+def _span(span: Span, target: str = "") -> str:
+    match span:
         case str():
-            return _prose(part)
+            return _prose(span)
         case Bold(text):
             return f"**{_prose(text)}**"
         case Links(ids):
-            return ", ".join(f"[{identifier}]({beside}#{anchor(identifier)})" for identifier in ids)
+            return ", ".join(f"[{identifier}]({target}#{anchor(identifier)})" for identifier in ids)
         case File(address, name):
             return f"[{name}]({address})"
         case tuple():
-            return "<br>".join(map(_span, part))
+            return "<br>".join(map(_span, span))
         case formula:  # a bar would end the cell
             return f"${latex(formula)}$".replace(r"\left|", r"\left\lvert ").replace(r"\right|", r"\right\rvert ")
 
@@ -344,22 +344,22 @@ def _latex_block(block: Block) -> str:
             return rf"\drawn{{figures/{picture.png.name}}}"
 
 
-def _latex_span(part: Span) -> str:
-    match part:
+def _latex_span(span: Span) -> str:
+    match span:
         case str():
-            return latex_prose(part)
+            return latex_prose(span)
         case Bold(text):
             return rf"\textbf{{{latex_prose(text)}}}"
         case Links(ids):
-            return ", ".join(rf"\hyperlink{{{anchor(each)}}}{{{latex_prose(each)}}}" for each in ids)
+            return ", ".join(rf"\hyperlink{{{anchor(identifier)}}}{{{latex_prose(identifier)}}}" for identifier in ids)
         case File(_, name):
             return latex_prose(name)
         case tuple():
-            return r"\par ".join(map(_latex_cell, part))
+            return r"\par ".join(map(_latex_cell, span))
         case formula:
             return f"${latex_inline(formula)}$"
 
 
-def _latex_cell(part: Span) -> str:
+def _latex_cell(span: Span) -> str:
     """A formula that is more than a letter may be wider than its column."""
-    return displayed_expression(part) if isinstance(part, sp.Basic) and not part.is_Symbol else _latex_span(part)
+    return displayed_expression(span) if isinstance(span, sp.Basic) and not span.is_Symbol else _latex_span(span)

@@ -14,22 +14,7 @@ _ACCENTS = dict(zip("→^ˆ˙¨¯‾―~∼˜", "→ˆˆ˙¨¯¯¯˜˜˜", stric
 _RELATIONS = "=≠≡≈∼<>≤≥≪≫→⇒∈"
 _SIGNS = "+-−±∓"
 _OPEN, _CLOSE = "([{⟨", ")]}⟩"
-_NAMES = (
-    "sin",
-    "cos",
-    "tan",
-    "exp",
-    "log",
-    "arcsin",
-    "arctan",
-    "artanh",
-    "arcosh",
-    "arsinh",
-    "tanh",
-    "sech",
-    "cosh",
-    "sinh",
-)
+_NAMES = "sin cos tan exp log arcsin arctan artanh arcosh arsinh tanh sech cosh sinh".split(" ")  # noqa: SIM905
 # The converter reads a style only before braces.
 _STYLE = re.compile(r"\\(mathcal|mathrm|mathbf|mathbb)\s+(\w)")
 _SCRIPTS = ("msub", "msup", "msubsup", "munder", "mover", "munderover", "mfrac", "mroot")
@@ -60,7 +45,7 @@ def mathml(source: str, display: bool = True) -> str | None:
 def _convert(source: str, display: bool) -> str:
     from latex2mathml.converter import Converter
 
-    made = []
+    lines = []
     for line in _lines(source) if display else [source]:
         plain = _STYLE.sub(r"\\\1{\2}", line.replace("{aligned}", "{align*}"))
         tree = Converter(display="block" if display else "inline").convert_to_element(plain)
@@ -72,28 +57,28 @@ def _convert(source: str, display: bool) -> str:
         _keep_readable(tree, 0, compact=not display)
         element = Element("math", {"display": "block"} if display else {})
         element.extend(tree)
-        made.append(tostring(element, encoding="unicode"))
-    return "".join(made)
+        lines.append(tostring(element, encoding="unicode"))
+    return "".join(lines)
 
 
 def _lines(source: str) -> Iterator[str]:
     """The parts of a source between wide spaces outside braces and environments."""
-    depth, part = 0, ""
+    depth, line = 0, ""
     opening = {r"\begin": 1, r"\end": -1, r"\left": 1, r"\right": -1}
     for token in tokenize(source):
         depth += {"open": 1, "close": -1}.get(token.kind, 0) + opening.get(token.text, 0)
-        parts = token.text == r"\quad" or (token.text == "\\ " and part.endswith(";"))
-        if parts and depth == 0:
-            yield from [part] if part.strip() else []
-            part = ""
+        is_break = token.text == r"\quad" or (token.text == "\\ " and line.endswith(";"))
+        if is_break and depth == 0:
+            yield from [line] if line.strip() else []
+            line = ""
         else:
-            part += token.text
-    yield part
+            line += token.text
+    yield line
 
 
 def _tidy(element: Element) -> None:
     """Accents, signs, spaces and styles as browsers and TeX agree on, in place."""
-    before: Element | None = None
+    previous: Element | None = None
     for child in list(element):
         _tidy(child)
         text = child.text or ""
@@ -103,7 +88,7 @@ def _tidy(element: Element) -> None:
             child.tag, child.text = "mspace", None
             child.set("width", "0.25em")
         if child.tag in ("mi", "mo", "mn"):
-            _leaf(child, text, before)
+            _leaf(child, text, previous)
         if child.tag in ("mover", "munder") and len(child) == 2 and (child[1].text or "") in _ACCENTS:
             _accent(child)
         if child.tag == "mtable":
@@ -112,16 +97,16 @@ def _tidy(element: Element) -> None:
             _raise_prime(child)
         if element.tag in _SCRIPTS:
             continue
-        if _is_function_name(child) and before is not None and before.tag not in ("mo", "mspace"):
+        if _is_function_name(child) and previous is not None and previous.tag not in ("mo", "mspace"):
             _space(element, child)
         if (
-            before is not None
-            and _is_function_name(before)
+            previous is not None
+            and _is_function_name(previous)
             and child.tag not in ("mo", "mspace")
             and not _is_bracket(child)
         ):
             _space(element, child)
-        before = child
+        previous = child
 
 
 def _keep_readable(element: Element, depth: int, compact: bool) -> None:
@@ -137,7 +122,7 @@ def _keep_readable(element: Element, depth: int, compact: bool) -> None:
         _keep_readable(child, min(below, 1), set_small)
 
 
-def _leaf(child: Element, text: str, before: Element | None) -> None:
+def _leaf(child: Element, text: str, previous: Element | None) -> None:
     variant = child.attrib.pop("mathvariant", "")
     if variant and variant != "normal":
         child.text = "".join(
@@ -147,9 +132,11 @@ def _leaf(child: Element, text: str, before: Element | None) -> None:
         child.set("mathvariant", "normal")
     if child.tag == "mo" and text in _SIGNS:
         child.text = "−" if text == "-" else text
-        previous = (before.text or "") if before is not None and before.tag == "mo" else None
+        operator = (previous.text or "") if previous is not None and previous.tag == "mo" else None
         first = (
-            before is None or before.tag == "mspace" or (previous is not None and previous in _RELATIONS + _OPEN + ",")
+            previous is None
+            or previous.tag == "mspace"
+            or (operator is not None and operator in _RELATIONS + _OPEN + ",")
         )
         child.set("form", "prefix" if first else "infix")
     elif child.tag == "mo" and text in ("/", ".", ",", ";", "*"):

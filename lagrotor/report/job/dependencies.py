@@ -22,13 +22,13 @@ _NO_DATA = {"recorded.toml"}
 _WORD = re.compile(r"""["'](\w+)["']""")
 
 
-def digest(*parts: bytes | str) -> str:
+def digest(*items: bytes | str) -> str:
     """SHA-256 of some parts, each with its length, so that no two lists of parts are read as one."""
-    seen = hashlib.sha256()
-    for part in parts:
-        data = part.encode() if isinstance(part, str) else part
-        seen.update(len(data).to_bytes(8, "big") + data)
-    return seen.hexdigest()
+    hash_ = hashlib.sha256()
+    for item in items:
+        data = item.encode() if isinstance(item, str) else item
+        hash_.update(len(data).to_bytes(8, "big") + data)
+    return hash_.hexdigest()
 
 
 @cache
@@ -67,11 +67,11 @@ def values_taken(stem: str, paper: Paper) -> frozenset[str]:
 
 def source_digest(path: Path, paper: Paper) -> str:
     """Return the digest of all that a script's product is made from: any change of the package makes it anew."""
-    reached, left = {path}, [path]
-    while left:
-        new = {paper.scripts.path("derivations", stem) for stem in scripts_named(left.pop(), paper)} - reached
+    reached, stack = {path}, [path]
+    while stack:
+        new = {paper.scripts.path("derivations", stem) for stem in scripts_named(stack.pop(), paper)} - reached
         reached |= new
-        left += new
+        stack += new
     return digest(_shared(paper), _digest_of(reached, paper))
 
 
@@ -85,14 +85,14 @@ def _shared(paper: Paper) -> str:
         if f.suffix not in _NO_SOURCE
     ]
     shared = inputs(paper)
-    given = (shared["package"], shared["catalogue of equations, claims, figures"], _digest_of(data, paper))
-    return digest(*given, *map(str, versions().items()), platform.machine(), platform.system())
+    digests = (shared["package"], shared["catalogue of equations, claims, figures"], _digest_of(data, paper))
+    return digest(*digests, *map(str, versions().items()), platform.machine(), platform.system())
 
 
 def _digest_of(files: Iterable[Path], paper: Paper) -> str:
     """Digest of some files, by their places and their bytes."""
     rows = sorted((_place(file, paper), digest(file.read_bytes())) for file in files)
-    return digest(*(part for row in rows for part in row))
+    return digest(*(item for row in rows for item in row))
 
 
 @cache
@@ -111,12 +111,15 @@ def inputs(paper: Paper) -> dict[str, str]:
     """Return the SHA-256 of each kind of input of a whole run, by name."""
     package = {f for f in _PACKAGE.rglob("*") if f.is_file() and "__pycache__" not in f.parts}
     package -= {f for kind in ("derivations", "figures", "papers") for f in (_PACKAGE / kind).rglob("*")}
-    own = {f for f in paper.folder.iterdir() if f.is_file()}
-    package, own = (
+    catalogue = {f for f in paper.folder.iterdir() if f.is_file()}
+    package, catalogue = (
         {f for f in files if f.suffix not in _NO_SOURCE - {".py"} and f.name not in _NO_DATA}
-        for files in (package - own, own)
+        for files in (package - catalogue, catalogue)
     )
-    digests = {"catalogue of equations, claims, figures": _digest_of(own, paper), "package": _digest_of(package, paper)}
+    digests = {
+        "catalogue of equations, claims, figures": _digest_of(catalogue, paper),
+        "package": _digest_of(package, paper),
+    }
     scripts = {kind: (paper.scripts.base / kind).glob("*.*") for kind in ("derivations", "figures")}
-    kept = {kind: [f for f in files if f.suffix not in _NO_SOURCE - {".py"}] for kind, files in scripts.items()}
-    return digests | {kind: _digest_of(files, paper) for kind, files in kept.items()}
+    sources = {kind: [f for f in files if f.suffix not in _NO_SOURCE - {".py"}] for kind, files in scripts.items()}
+    return digests | {kind: _digest_of(files, paper) for kind, files in sources.items()}

@@ -28,10 +28,12 @@ def check_target(target: Path) -> Path:
         raise InputError(f"{target}: the folder {folder.parent} is missing: make it first")
     if not os.access(folder.parent, os.W_OK):
         raise InputError(f"{target}: {folder.parent} cannot be written to: choose another folder")
-    held = {entry.name for entry in folder.iterdir()} if folder.is_dir() else set()
-    if other := sorted(held - CONTENTS - _COMPILED - _OF_VERSION_0_2):
-        raise InputError(f"{target} holds {other[0]}, which is no part of a report: choose a new or an empty folder")
-    if held and (missing := sorted({"index.html", "verdicts.json"} - held)):
+    entries = {entry.name for entry in folder.iterdir()} if folder.is_dir() else set()
+    if strangers := sorted(entries - CONTENTS - _COMPILED - _OF_VERSION_0_2):
+        raise InputError(
+            f"{target} holds {strangers[0]}, which is no part of a report: choose a new or an empty folder"
+        )
+    if entries and (missing := sorted({"index.html", "verdicts.json"} - entries)):
         raise InputError(f"{target} is no report: {missing[0]} is missing: choose a new or an empty folder")
     return folder
 
@@ -85,9 +87,9 @@ def replacement(target: Path) -> Iterator[Path]:
 
 def _rename_over(target: Path) -> Iterator[Path]:
     new, old = target.with_name(f".{target.name}.new-{os.getpid()}"), target.with_name(f".{target.name}.old")
-    for left in target.parent.glob(f".{target.name}.new-*"):
-        if not _alive(left.name.rpartition("-")[2]):
-            shutil.rmtree(left, ignore_errors=True)
+    for stale in target.parent.glob(f".{target.name}.new-*"):
+        if not _alive(stale.name.rpartition("-")[2]):
+            shutil.rmtree(stale, ignore_errors=True)
     if old.exists() and not target.exists():  # a run that was killed between the two renames below
         old.rename(target)
     shutil.rmtree(new, ignore_errors=True)

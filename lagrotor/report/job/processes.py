@@ -32,47 +32,47 @@ def results(
     run: Callable[..., Any],
     jobs: int,
     begins: Callable[[Task], None],
-    given: Callable[[Task], Any] = lambda task: (),
+    inputs: Callable[[Task], Any] = lambda task: (),
 ) -> Iterator[tuple[Task, Any]]:
     """(task, run(task, *given(task))) as each ends; `begins` is called with a task before it runs. jobs = 1: in this process.
 
     given: what a task takes from the results of others; None while they are not there, and the task waits.
     """
-    left, running = list(tasks), dict[Future[Any], Task]()
+    waiting, running = list(tasks), dict[Future[Any], Task]()
     if jobs == 1:
-        while left:
-            task, more = _next(left, given)
+        while waiting:
+            task, arguments = _next(waiting, inputs)
             begins(task)
-            yield task, run(task, *more)
+            yield task, run(task, *arguments)
         return
     with _pool(jobs) as pool:
-        while left or running:
-            while len(running) < jobs and any(given(task) is not None for task in left):
-                task, more = _next(left, given)
+        while waiting or running:
+            while len(running) < jobs and any(inputs(task) is not None for task in waiting):
+                task, arguments = _next(waiting, inputs)
                 begins(task)
                 with _interrupts_wait():
-                    running[pool.submit(run, task, *more)] = task
-            done, _ = wait(running, return_when=FIRST_COMPLETED)
-            for future in done:
+                    running[pool.submit(run, task, *arguments)] = task
+            finished, _ = wait(running, return_when=FIRST_COMPLETED)
+            for future in finished:
                 yield running.pop(future), future.result()
 
 
-def values(names: dict[str, Any], wanted: Collection[str]) -> dict[str, Any]:
+def values(names: dict[str, Any], exported: Collection[str]) -> dict[str, Any]:
     """The values of the names that are wanted, as far as they can be handed to another process."""
     result = {}
-    for name in names.keys() & set(wanted):
+    for name in names.keys() & set(exported):
         with suppress(pickle.PicklingError, TypeError, AttributeError):
             pickle.dumps(names[name])
             result[name] = names[name]
     return result
 
 
-def _next(left: list[Task], given: Callable[[Task], Any]) -> tuple[Task, Any]:
+def _next(waiting: list[Task], inputs: Callable[[Task], Any]) -> tuple[Task, Any]:
     """Take the first task that need not wait, with what it is given."""
-    for i, task in enumerate(left):
-        if (more := given(task)) is not None:
-            return left.pop(i), more
-    raise RuntimeError(f"each of {left} waits for another")
+    for i, task in enumerate(waiting):
+        if (arguments := inputs(task)) is not None:
+            return waiting.pop(i), arguments
+    raise RuntimeError(f"each of {waiting} waits for another")
 
 
 @contextmanager
@@ -81,11 +81,11 @@ def _interrupts_wait() -> Iterator[None]:
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    previous = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
     finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        signal.pthread_sigmask(signal.SIG_SETMASK, previous)
 
 
 def _begin() -> None:

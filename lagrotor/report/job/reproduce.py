@@ -22,7 +22,7 @@ from lagrotor.paper.papers import Paper
 from lagrotor.paper.scripts import beside
 from lagrotor.pictures.figures import Picture
 from lagrotor.proofs.coq.coq_check import certify
-from lagrotor.report.content import Report, ShownPart
+from lagrotor.report.content import Report, ResultSection
 from lagrotor.report.errata import latex_document
 from lagrotor.report.formulas.mathml_latex import converter
 from lagrotor.report.job import dependencies
@@ -41,7 +41,7 @@ StepProgress = Callable[[int], AbstractContextManager[Callable[[str], None]]]
 class JobOutcome:
     """The result of a run: the number of equations with each verdict, of claims with each outcome, a sentence for each change.
 
-    taken: names of the steps whose product is from an earlier run; ["report"] when the whole report is.
+    reused: names of the steps whose product is from an earlier run; ["report"] when the whole report is.
     """
 
     equations: dict[str, int]
@@ -49,7 +49,7 @@ class JobOutcome:
     claims: dict[str, int]
     figures: int
     changes: list[str]
-    taken: list[str]
+    reused: list[str]
     seconds: float
 
 
@@ -71,10 +71,10 @@ def reproduce(
     cache = Cache(paper)
     last = cache.take("report", whole)
     if last and last["files"].items() <= _digests(old).items():
-        return JobOutcome(**last["outcome"], taken=["report"], seconds=time.perf_counter() - began)
+        return JobOutcome(**last["outcome"], reused=["report"], seconds=time.perf_counter() - began)
     with replacement(target) as new:
         (new / "figures").mkdir()
-        products, seconds, taken = _make(cache, list(steps(paper)), new / "figures", progress, jobs or cores(), old)
+        products, seconds, reused = _make(cache, list(steps(paper)), new / "figures", progress, jobs or cores(), old)
         report = _report(paper, products)
         start = time.perf_counter()
         if certificates:
@@ -90,8 +90,8 @@ def reproduce(
         }
         cache.keep("report", whole, {"outcome": outcome, "files": _digests(new)})
         seconds["report"] = round(time.perf_counter() - start, 3)
-        _write_json(new / TIMES, {"seconds": seconds, "taken from earlier runs": taken})
-    return JobOutcome(**outcome, taken=taken, seconds=time.perf_counter() - began)
+        _write_json(new / TIMES, {"seconds": seconds, "taken from earlier runs": reused})
+    return JobOutcome(**outcome, reused=reused, seconds=time.perf_counter() - began)
 
 
 def _digests(folder: Path) -> dict[str, str]:
@@ -101,18 +101,18 @@ def _digests(folder: Path) -> dict[str, str]:
 
 
 def _make(
-    cache: Cache, wanted: list[JobStep], folder: Path, progress: StepProgress, jobs: int, old: Path
+    cache: Cache, all_steps: list[JobStep], folder: Path, progress: StepProgress, jobs: int, old: Path
 ) -> tuple[dict[str, Any], dict[str, float], list[str]]:
     """Make every step's product, or take it from the cache.
 
     Returns the products by name in the order of the steps, the time (s) of each that was made, and the names of the others.
     """
-    products: dict[str, Any] = dict.fromkeys(step.name for step in wanted)
-    for step in wanted:
+    products: dict[str, Any] = dict.fromkeys(step.name for step in all_steps)
+    for step in all_steps:
         if step.run is not derive and (product := cache.take(step.name, step.made_from)) is not None:
             products[step.name] = picture_from_json(product, folder) if step.run is draw_step else product
-    taken = [name for name, product in products.items() if product is not None]
-    left = sorted((step for step in wanted if products[step.name] is None), key=_longest_first(old))
+    reused = [name for name, product in products.items() if product is not None]
+    pending = sorted((step for step in all_steps if products[step.name] is None), key=_longest_first(old))
     seconds: dict[str, float] = {}
 
     def given(step: JobStep) -> tuple[dict[str, dict[str, Any]]] | None:
@@ -120,23 +120,23 @@ def _make(
         return None if None in needed.values() else ({stem: product.values for stem, product in needed.items()},)
 
     timed = partial(_run_timed, folder=folder)
-    with progress(len(left) + 1) as begins:
+    with progress(len(pending) + 1) as begins:
         for step, (product, took) in results(
-            left, timed, min(jobs, max(len(left), 1)), lambda step: begins(step.name), given
+            pending, timed, min(jobs, max(len(pending), 1)), lambda step: begins(step.name), given
         ):
             products[step.name], seconds[step.name] = product, round(took, 3)
             if step.run is not derive:
                 plain = picture_as_json(product) if isinstance(product, Picture) else product
                 cache.keep(step.name, step.made_from, plain)
         begins("report")
-    return products, {step.name: seconds[step.name] for step in wanted if step.name in seconds}, taken
+    return products, {step.name: seconds[step.name] for step in all_steps if step.name in seconds}, reused
 
 
-def _run_timed(step: JobStep, given: dict[str, dict[str, Any]], folder: Path) -> tuple[Any, float]:
+def _run_timed(step: JobStep, imported: dict[str, dict[str, Any]], folder: Path) -> tuple[Any, float]:
     """The step's product and how long it took, with the values that it takes from other derivations."""
     began = time.perf_counter()
-    with step.paper.scripts.ran_elsewhere(given):
-        product = step.run(step.paper, step.part, folder)
+    with step.paper.scripts.ran_elsewhere(imported):
+        product = step.run(step.paper, step.key, folder)
     return product, time.perf_counter() - began
 
 
@@ -152,32 +152,34 @@ def _longest_first(old: Path) -> Callable[[JobStep], float]:
 def _report(paper: Paper, products: dict[str, Any]) -> Report:
     """Return everything that the report says."""
     derived = [product for product in products.values() if isinstance(product, Derived)]
-    verdicts = paper.with_reach(verdict for each in derived for verdict in each.verdicts)
+    verdicts = paper.with_reach(verdict for product in derived for verdict in product.verdicts)
     tested = _claim_results(paper, products)
     pictures = [product for product in products.values() if isinstance(product, Picture)]
-    parts = [_part(each, derived, pictures) for each in paper.about.part]
+    result_sections = [_result_section(entry, derived, pictures) for entry in paper.about.part]
     return Report(
         paper=paper,
         verdicts=tuple(verdicts),
         pictures=tuple(pictures),
         changes=tuple(paper.changes([*verdicts, *tested])),
         claims=tuple(tested),
-        parts=tuple(part for part in parts if part.tables or part.remarks or part.pictures),
-        derivations=tuple((each.stem, each.title, each.html) for each in derived),
+        result_sections=tuple(
+            section for section in result_sections if section.tables or section.remarks or section.pictures
+        ),
+        derivations=tuple((product.stem, product.title, product.html) for product in derived),
         model=products.get("model", ""),
         versions=tuple(dependencies.versions().items()),
         inputs=tuple(dependencies.inputs(paper).items()),
     )
 
 
-def _part(part: ReportPart, derived: list[Derived], pictures: list[Picture]) -> ShownPart:
+def _result_section(entry: ReportPart, derived: list[Derived], pictures: list[Picture]) -> ResultSection:
     """Return the tables, remarks and figures of a part of the report."""
-    return ShownPart(
-        part.name,
-        part.heading,
-        tuple(table for each in derived if each.stem.startswith(part.tables) for table in each.tables),
-        tuple(remark for each in derived if each.stem.startswith(part.remarks) for remark in each.remarks),
-        tuple(picture for picture in pictures if picture.key.rstrip("0123456789") in part.figures),
+    return ResultSection(
+        entry.name,
+        entry.heading,
+        tuple(table for product in derived if product.stem.startswith(entry.tables) for table in product.tables),
+        tuple(remark for product in derived if product.stem.startswith(entry.remarks) for remark in product.remarks),
+        tuple(picture for picture in pictures if picture.key.rstrip("0123456789") in entry.figures),
     )
 
 

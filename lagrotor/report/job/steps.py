@@ -38,12 +38,12 @@ class Derived:
 
 @dataclass(frozen=True)
 class JobStep:
-    """One step: `run(paper, part, folder)` makes its product, writing its files into the folder of the figures."""
+    """One step: `run(paper, key, folder)` makes its product, writing its files into the folder of the figures."""
 
     name: str
     run: Callable[[Paper, str, Path], Any]
     paper: Paper
-    part: str
+    key: str
     source: Path
 
     @property
@@ -66,8 +66,8 @@ def derive(paper: Paper, stem: str, folder: Path) -> Derived:
     remarks = tuple((remark.title, remark.text) for remark in script.shown(Remark))
     tables = tuple(table for table in script.names.get("tables", ()) if isinstance(table, Table))
     html = derivation_html(script, {v.id: v.verdict for v in verdicts})
-    taken = values(script.names, values_taken(stem, paper))
-    return Derived(stem, title(script, stem), tuple(verdicts), remarks, tables, html, taken)
+    exported = values(script.names, values_taken(stem, paper))
+    return Derived(stem, title(script, stem), tuple(verdicts), remarks, tables, html, exported)
 
 
 def measure(paper: Paper, identifier: str, folder: Path) -> dict[str, float]:
@@ -127,8 +127,8 @@ def audit_in_processes(paper: Paper, progress: Progress, jobs: int | None = None
     return paper.audit_of(verdict for stem in stems for verdict in judgements[stem][0])
 
 
-def _judge_script(paper: Paper, stem: str, given: dict[str, dict[str, Any]]) -> tuple[list[Verdict], dict[str, Any]]:
+def _judge_script(paper: Paper, stem: str, imported: dict[str, dict[str, Any]]) -> tuple[list[Verdict], dict[str, Any]]:
     """The verdicts on what one script states, and the values that others take from it."""
-    with paper.scripts.ran_elsewhere(given):
+    with paper.scripts.ran_elsewhere(imported):
         verdicts = paper.judged(stem)
         return verdicts, values(paper.scripts.executed("derivations", stem).names, values_taken(stem, paper))

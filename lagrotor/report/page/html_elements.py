@@ -33,12 +33,12 @@ _CODE = re.compile(r"(?<![\w&.])([A-Za-z][A-Za-z0-9]+(?:_\w+)+)")
 
 def prose(text: str) -> str:
     """Plain text for HTML, its formulas as people read them; between dollars LaTeX, which is typeset."""
-    plain, *rest = text.split("$")
-    parts = [_plain(plain)]
-    for n, part in enumerate(rest):
-        formula = mathml(part, display=False) if n % 2 == 0 and n + 1 < len(rest) else None
-        parts.append(formula or _plain(part))
-    return "".join(parts)
+    plain, *segments = text.split("$")
+    pieces = [_plain(plain)]
+    for n, piece in enumerate(segments):
+        formula = mathml(piece, display=False) if n % 2 == 0 and n + 1 < len(segments) else None
+        pieces.append(formula or _plain(piece))
+    return "".join(pieces)
 
 
 def _plain(text: str) -> str:
@@ -53,7 +53,7 @@ def html_table(head: tuple[str, ...], lines: Iterable[tuple[str, ...]], kind: st
     heads = [escape(readable(cell), quote=True) for cell in head[1:]]
     top = "".join(f'<th scope="col">{prose(cell)}</th>' for cell in head)
     body = "".join(
-        f'<tr><th scope="row">{first}</th>' + "".join(map(_under, heads, rest)) + "</tr>" for first, *rest in lines
+        f'<tr><th scope="row">{first}</th>' + "".join(map(_under, heads, cells)) + "</tr>" for first, *cells in lines
     )
     return f'<div class="wide"><table class="{kind}"><thead><tr>{top}</tr></thead><tbody>{body}</tbody></table></div>'
 
@@ -79,7 +79,7 @@ def side_by_side(table: Table, report: Report) -> str:
 
 def _cell(cell: Cell, report: Report) -> str:
     if isinstance(cell, tuple):
-        return "<br>".join(_cell(part, report) for part in cell)
+        return "<br>".join(_cell(line, report) for line in cell)
     if isinstance(cell, FigureLink):
         drawn = any(picture.key == cell.key for picture in report.pictures)
         return links([f"figure {cell.key}"]) if drawn else f"figure {escape(cell.key)}"
@@ -88,17 +88,17 @@ def _cell(cell: Cell, report: Report) -> str:
 
 def fact_list(facts: Iterable[Fact]) -> str:
     """Facts as a list of labels and what is said of them; nothing for none."""
-    said = "".join(map(_fact, facts))
-    return f"<dl>{said}</dl>" if said else ""
+    items = "".join(map(_fact, facts))
+    return f"<dl>{items}</dl>" if items else ""
 
 
 def _fact(fact: Fact) -> str:
     symbols = "".join(f" {inline(letter)}" for letter in fact.formulas if letter.is_Symbol)
-    parts = [f"<p>{prose(text)}{symbols}</p>" for text in fact.texts]
-    parts += [f"<p>{links(fact.ids)}</p>"] * bool(fact.ids)
-    parts += [typeset(latex(formula)) for formula in fact.formulas if not formula.is_Symbol]
-    parts += map(typeset, fact.sources)
-    return f"<div><dt>{escape(fact.label)}</dt><dd>{''.join(parts)}</dd></div>"
+    paragraphs = [f"<p>{prose(text)}{symbols}</p>" for text in fact.texts]
+    paragraphs += [f"<p>{links(fact.ids)}</p>"] * bool(fact.ids)
+    paragraphs += [typeset(latex(formula)) for formula in fact.formulas if not formula.is_Symbol]
+    paragraphs += map(typeset, fact.sources)
+    return f"<div><dt>{escape(fact.label)}</dt><dd>{''.join(paragraphs)}</dd></div>"
 
 
 def inline(expression: sp.Basic) -> str:
@@ -207,7 +207,7 @@ def _formula(source: str, options: Mapping[str, Any]) -> str:
 
 def _value_html(value: Any, answers: Mapping[str, str]) -> str:
     if isinstance(value, tuple | list):
-        return "".join(_value_html(part, answers) for part in value)
+        return "".join(_value_html(item, answers) for item in value)
     if isinstance(value, Step):
         how = "exactly" if value.small is None else f"through order {value.order or 0}"
         says = f"<p><small>Decided {how}: {prose(value.says)}.</small></p>" if value.says else ""
@@ -254,8 +254,8 @@ def _derived_cell(cell: Any) -> str:
 def link_to_derivation(identifier: str, report: Report) -> str:
     """A link to where an equation is derived on the page; nothing where its derivation is not in the report."""
     stem, _ = report.paper.scripts.stating.get(identifier, ("", 0))
-    there = any(stem == shown for shown, _, _ in report.derivations)
-    return f'<p><a href="#derivation-{stem}">The derivation</a> of {link(identifier)}</p>' if there else ""
+    is_listed = any(stem == derived for derived, _, _ in report.derivations)
+    return f'<p><a href="#derivation-{stem}">The derivation</a> of {link(identifier)}</p>' if is_listed else ""
 
 
 # A data address ends at #, and % begins an escape in it; the rest is what an attribute cannot hold. % comes first.

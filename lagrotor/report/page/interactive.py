@@ -55,8 +55,8 @@ _Y_1, _Y_2 = AXES.v[1], AXES.v[4]
 @cache
 def interactive() -> str:
     """Return the pair as an HTML fragment that needs nothing else: `<section id="model">`, its style and its script."""
-    written = [_part(f"interactive_{name}.js") for name in ("motion", "drawing", "controls")]
-    lines = [javascript_formulas(), canvas_script(), *written, 'show(document.getElementById("model"));']
+    scripts = [_part(f"interactive_{name}.js") for name in ("motion", "drawing", "controls")]
+    lines = [javascript_formulas(), canvas_script(), *scripts, 'show(document.getElementById("model"));']
     script = "\n".join(["(() => {", '"use strict";', *lines, "})();"])
     return _part("interactive.html").replace("/* script */", script).replace("/* style */", _part("interactive.css"))
 
@@ -123,8 +123,8 @@ def _pair_at(ratio: Ratio) -> sp.Matrix:
 def _start(ratio: Ratio) -> Program:
     U, chi, alpha = MINIMAL.q
     parallel = {U: sp.atanh(amplitude), chi: 0, alpha: 0}
-    across = sp.Matrix([_pair_at(ratio)[i] for i in (1, 4)])
-    slopes = across.jacobian([chi, alpha]).subs(parallel)
+    ordinates = sp.Matrix([_pair_at(ratio)[i] for i in (1, 4)])
+    slopes = ordinates.jacobian([chi, alpha]).subs(parallel)
     rates = slopes.LUsolve(sp.Matrix([_Y_1, _Y_2]))
     return Program((amplitude, _Y_1, _Y_2, k), (), (parallel[U], sp.Integer(0), sp.Integer(0), sp.Integer(0), *rates))
 

@@ -17,7 +17,7 @@ from lagrotor.report.content import (
     CLAIM_MEANINGS,
     MEANINGS,
     Report,
-    ShownPart,
+    ResultSection,
     anchor,
     as_read,
     citation,
@@ -83,8 +83,8 @@ def erratum_entry(e: Erratum) -> str:
     """Printed, correct, what was wrong, how far it reaches."""
     correct = "".join(map(typeset, e.corrected))
     for label, premises in e.conditions:
-        put = "".join(map(typeset, premise_formulas(premises)))
-        correct += f"<p>{label} {prose('; '.join(p.sentence for p in premises))}.</p>{put}"
+        formulas = "".join(map(typeset, premise_formulas(premises)))
+        correct += f"<p>{label} {prose('; '.join(p.sentence for p in premises))}.</p>{formulas}"
     return (
         f'<article id="erratum-{e.id}">{heading(f"erratum-{e.id}", e.id, e.title)}<p>{prose(e.wrong)}</p>'
         f"{_beside('Printed', typeset(e.printed), f'Correct ({escape(e.verdict_of_correction)})', correct)}"
@@ -93,10 +93,10 @@ def erratum_entry(e: Erratum) -> str:
     )
 
 
-def _beside(left: str, printed: str, right: str, derived: str) -> str:
+def _beside(heading_a: str, printed: str, heading_b: str, derived: str) -> str:
     """Two formulas under their headings, one below the other where either is wide."""
     layout = "pair" if max(len(printed), len(derived)) < _WIDEST else "stack"
-    return f'<div class="{layout}"><div><h4>{left}</h4>{printed}</div><div><h4>{right}</h4>{derived}</div></div>'
+    return f'<div class="{layout}"><div><h4>{heading_a}</h4>{printed}</div><div><h4>{heading_b}</h4>{derived}</div></div>'
 
 
 def claim_entry(result: Result, report: Report) -> str:
@@ -135,8 +135,8 @@ def headline_entry(headline: Headline, report: Report) -> str:
     formula = typeset(headline.formula) if headline.formula else ""
     drawn = next((p for p in report.pictures if f"figure {p.key}" == headline.figure), None)
     formula += _image(drawn) if drawn else ""
-    shown = f"<p>Shown in {links(headline.ids)}</p>" if headline.ids else ""
-    return f"<li><h3>{prose(headline.title)}</h3><p>{prose(headline.text)}</p>{formula}{shown}</li>"
+    links_to = f"<p>Shown in {links(headline.ids)}</p>" if headline.ids else ""
+    return f"<li><h3>{prose(headline.title)}</h3><p>{prose(headline.text)}</p>{formula}{links_to}</li>"
 
 
 def count_entry(answer: str, count: int, meaning: str) -> str:
@@ -178,19 +178,19 @@ def _inside(anchor: str, report: Report) -> str:
     if anchor.startswith("section-"):
         verdicts = report.sections[anchor.removeprefix("section-")]
         return "\n".join(equation_entry(verdict, report) for verdict in verdicts)
-    return _PARTS[anchor](report) if anchor in _PARTS else _shown(report.part(anchor), report)
+    return _PARTS[anchor](report) if anchor in _PARTS else _result_section(report.result_section(anchor), report)
 
 
 def _summary(report: Report) -> str:
     equations = "".join(count_entry(answer, count, MEANINGS[answer]) for answer, count in report.counts.items())
-    tried = "".join(count_entry(answer, count, CLAIM_MEANINGS[answer]) for answer, count in report.outcomes.items())
-    fallen = links(v.id for v in report.verdicts if v.verdict == "refuted")
-    balanced = f"<p>{escape(balance(report))}</p>" + (f"<p>Refuted: {fallen}</p>" if fallen else "")
+    outcomes = "".join(count_entry(answer, count, CLAIM_MEANINGS[answer]) for answer, count in report.outcomes.items())
+    refuted = links(v.id for v in report.verdicts if v.verdict == "refuted")
+    balanced = f"<p>{escape(balance(report))}</p>" + (f"<p>Refuted: {refuted}</p>" if refuted else "")
     results = "".join(headline_entry(headline, report) for headline in headlines(report))
     results = f'<ol class="results">{results}</ol>' if results else ""
     changed = "".join(f"<li>{escape(change)}</li>" for change in report.changes)
     warning = f'<div class="changed"><p>Changed against the record:</p><ul>{changed}</ul></div>' if changed else ""
-    claims = f'<h3>Claims</h3><ul class="summary">{tried}</ul>' if tried else ""
+    claims = f'<h3>Claims</h3><ul class="summary">{outcomes}</ul>' if outcomes else ""
     how = f"<p>{escape(report.how_to_read)}</p>"
     return f'{warning}{balanced}{results}<h3>Equations</h3><ul class="summary">{equations}</ul>{claims}{how}'
 
@@ -206,8 +206,8 @@ def _verdicts(report: Report) -> str:
 def _notation(report: Report) -> str:
     lines = [(inline(symbol), prose(meaning), escape(unit)) for symbol, meaning, unit in notation(report)]
     head, first = ("Symbol", "Meaning", "Unit"), len(report.paper.about.letters) or len(lines)
-    rest = fold("All other letters", html_table(head, lines[first:])) if lines[first:] else ""
-    return html_table(head, lines[:first]) + rest
+    remainder = fold("All other letters", html_table(head, lines[first:])) if lines[first:] else ""
+    return html_table(head, lines[:first]) + remainder
 
 
 def _derivations(report: Report) -> str:
@@ -220,12 +220,12 @@ def _derivations(report: Report) -> str:
     )
 
 
-def _shown(part: ShownPart, report: Report) -> str:
+def _result_section(section: ResultSection, report: Report) -> str:
     """Tables, what was found, figures."""
-    parts = [side_by_side(table, report) for table in part.tables]
-    parts += [f"<h3>{prose(title)}</h3><p>{prose(text)}</p>" for title, text in part.remarks]
-    parts += [picture_entry(picture, report) for picture in part.pictures]
-    return "\n".join(parts)
+    blocks = [side_by_side(table, report) for table in section.tables]
+    blocks += [f"<h3>{prose(title)}</h3><p>{prose(text)}</p>" for title, text in section.remarks]
+    blocks += [picture_entry(picture, report) for picture in section.pictures]
+    return "\n".join(blocks)
 
 
 def _waiting(report: Report) -> str:
@@ -242,13 +242,11 @@ def _cite(report: Report) -> str:
 
 def _made(report: Report) -> str:
     versions = html_table(("What", "Version"), [(escape(name), escape(number)) for name, number in report.versions])
-    beside = html_table(
-        ("In the same folder", "What it is"), [(file_link(file), what) for file, what in BESIDE.items()]
-    )
+    files = html_table(("In the same folder", "What it is"), [(file_link(file), what) for file, what in BESIDE.items()])
     inputs = [(escape(name), f"<code>{escape(digest)}</code>") for name, digest in report.inputs]
     return (
         "<p>The same inputs give the same page, byte for byte; how long each part took is in times.json.</p>"
-        f"{beside}{versions}{html_table(('Input', 'SHA-256'), inputs)}"
+        f"{files}{versions}{html_table(('Input', 'SHA-256'), inputs)}"
     )
 
 

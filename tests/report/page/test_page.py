@@ -17,7 +17,7 @@ from lagrotor.paper import (
     Remark,
 )
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
-from lagrotor.report.content import Report, ShownPart, contents
+from lagrotor.report.content import Report, ResultSection, contents
 from lagrotor.report.job.folder import CONTENTS
 from lagrotor.report.page.pages import pages, whole_page
 from lagrotor.report.page.sections import sections
@@ -286,7 +286,7 @@ def test_no_formula_of_the_page_is_typed_in_ascii(audit: Audit, typed_formulas: 
     """Equations with all that is said of them, claims, premises, letters, titles; what comes from runs is in `test_reproduce`."""
     stems = PAPER.stating_scripts
     found = [r for stem in stems for r in PAPER.scripts.executed("derivations", stem).shown(Remark)]
-    remarks = ShownPart("findings", "Findings", remarks=tuple((r.title, r.text) for r in found))
+    remarks = ResultSection("findings", "Findings", remarks=tuple((r.title, r.text) for r in found))
     assert typed_formulas(whole_page(Report(PAPER, tuple(audit), (), (), (), (remarks,)))) == []
 
 
