@@ -1,4 +1,4 @@
-"""The contents of a report and their order, before they are put into HTML or Markdown."""
+"""The contents of a report and their order, independent of the output format."""
 
 import re
 from collections import Counter
@@ -52,7 +52,7 @@ CLAIM_MEANINGS = {
 
 @dataclass(frozen=True)
 class ResultSection:
-    """A part of the report besides equations and claims: tables, then (title, sentence) of what was found, then figures."""
+    """A section of the report besides equations and claims: tables, findings (title, text), and figures."""
 
     name: str
     heading: str
@@ -63,11 +63,11 @@ class ResultSection:
 
 @dataclass(frozen=True)
 class Report:
-    """All that one run found of a paper. `changes`: verdicts that differ from the recorded ones, a sentence each.
+    """All results of one run on a paper.
 
-    claims: the paper's claims after their tests; parts: what is shown besides; derivations: (stem, title, HTML); model: HTML;
-    versions: (what, version) the run was made with; inputs: (what, SHA-256) of what it was made from.
-    certificates: equation's id → its file of Coq, beside the page.
+    `claims` are the tested claims; `changes` has a sentence for each verdict that differs from the recorded one.
+    `derivations` holds (stem, title, HTML), `model` the HTML of the interactive model, `versions` (software, version), `inputs`
+    (input, SHA-256). `certificates` maps an equation's id to its Coq file in the report's folder.
     """
 
     paper: Paper
@@ -84,12 +84,12 @@ class Report:
 
     @property
     def title(self) -> str:
-        """The title of the report, which names the paper."""
+        """The title of the report, which contains the paper's."""
         return f'A re-examination of "{self.paper.title}"'
 
     @property
     def how_to_read(self) -> str:
-        """The sentences that say how equations, claims and figures were examined, and how they are numbered."""
+        """The sentences that say how equations, claims and figures were examined and how they are numbered."""
         claims, figures = list(self.paper.claims)[:1], self.paper.figures
         does = "Each equation of the paper is read as printed, derived anew, and held against what was derived by an exact "
         does += "decision procedure" + ("; each claim made in words is tested by a run" if claims else "")
@@ -100,13 +100,13 @@ class Report:
 
     @property
     def waiting(self) -> list[Equation]:
-        """Equations of the paper that no derivation states yet."""
+        """The equations of the paper that no derivation treats yet."""
         judged = {verdict.id for verdict in self.verdicts}
         return [entry for entry in self.paper.equations.values() if entry.id not in judged]
 
     @property
     def sections(self) -> dict[str, list[Verdict]]:
-        """Verdicts by section of the paper."""
+        """The verdicts by section of the paper."""
         verdicts_of: dict[str, list[Verdict]] = {}
         for verdict in self.verdicts:
             verdicts_of.setdefault(self.paper.equation(verdict.id).section, []).append(verdict)
@@ -126,32 +126,32 @@ class Report:
         return {answer: counted[answer] for answer in CLAIM_MEANINGS if counted[answer]}
 
     def result_section(self, name: str) -> ResultSection:
-        """The part of this name."""
+        """Return the section of this name."""
         return next(section for section in self.result_sections if section.name == name)
 
     def users(self, identifier: str) -> tuple[str, ...]:
-        """Ids of the equations that use this one."""
+        """Return the ids of the equations that use this equation."""
         return tuple(v.id for v in self.verdicts if identifier in v.statement.depends_on)
 
     def claims_about(self, identifier: str) -> tuple[str, ...]:
-        """Ids of the claims, among those tested, that are about this equation."""
+        """Return the ids of the tested claims about this equation."""
         return tuple(r.test.id for r in self.claims if identifier in self.paper.claims[r.test.id].equations)
 
     def figures_of(self, identifier: str) -> tuple[str, ...]:
-        """The figures, among those drawn, that show this equation, such as "figure 19"."""
+        """Return the drawn figures that show this equation, such as "figure 19"."""
         numbers = {str(number) for number, entry in self.paper.figures.items() if identifier in entry.equations}
         return tuple(f"figure {picture.key}" for picture in self.pictures if picture.key in numbers)
 
 
 def anchor(identifier: str) -> str:
-    """Return the place on the page of an equation ("5.07"), a claim ("C08") or a figure ("figure 19")."""
+    """Return the HTML anchor of an equation ("5.07"), a claim ("C08") or a figure ("figure 19")."""
     if identifier.startswith("figure "):
         return identifier.replace(" ", "-")
     return f"claim-{identifier}" if is_claim(identifier) else f"eq-{identifier}"
 
 
 def contents(report: Report) -> list[tuple[str, str]]:
-    """The sections of a report that have something in them, in their order: (anchor, heading)."""
+    """Return (anchor, heading) of the nonempty sections of a report in their order."""
     paper = [(f"section-{name}", f"{name} {report.paper.about.sections[name]}", True) for name in report.sections]
     listed = [
         ("model", "The pair in motion", bool(report.model)),
@@ -171,7 +171,7 @@ def contents(report: Report) -> list[tuple[str, str]]:
 
 
 def notation(report: Report) -> list[tuple[sp.Symbol, str, str]]:
-    """The letters of the report: (symbol, meaning, unit), those first that `paper.toml` names; dots mean rates."""
+    """Return (symbol, meaning, unit) of each symbol, those of `letters` in `paper.toml` first, without time derivatives."""
     first = report.paper.about.letters
     entries = [entry for symbol, entry in report.paper.glossary.items() if not symbol.name.endswith("dot")]
     entries.sort(key=lambda entry: first.index(entry.symbol.name) if entry.symbol.name in first else len(first))
@@ -179,33 +179,33 @@ def notation(report: Report) -> list[tuple[sp.Symbol, str, str]]:
 
 
 def word(answer: str) -> str:
-    """A verdict as people read it."""
+    """Return a verdict in words."""
     return answer.replace("-", " ")
 
 
 def count_list(counts: dict[str, int]) -> str:
-    """Counts as people read them: 9 confirmed, 3 refuted."""
+    """Return counts in words: 9 confirmed, 3 refuted."""
     return ", ".join(f"{count} {word(answer)}" for answer, count in counts.items())
 
 
 def derived_lines(relations: Iterable[Relation]) -> tuple[str, ...]:
-    """quantity = what was derived, in LaTeX, each once, as a physicist writes it."""
+    """Return the distinct derived lines quantity = expression in LaTeX."""
     lines = (f"{r.quantity} = {r.written or latex(r.derived)}" for r in relations)
     return tuple(dict.fromkeys(line.removeprefix(" = ") for line in lines))
 
 
 def derived_heading(relations: Iterable[Relation]) -> str:
-    """The heading of the derived lines: whether the premises are put in."""
+    """Return the heading of the derived lines, which tells if the premises are substituted."""
     return "As derived, under the premises" if any(r.granted for r in relations) else "As derived"
 
 
 def as_read(entry: Equation) -> tuple[str, ...]:
-    """The printed lines as sympy reads them from the catalogue, quantity = member = member …."""
+    """Return the printed lines as sympy reads them, quantity = member = member …."""
     return tuple(" = ".join([from_latex(row["quantity"]), *row.get("members", ())]) for row in entry.line)
 
 
 def citation() -> tuple[list[str], str]:
-    """(sentences: how to cite, the references), (a BibTeX entry)."""
+    """Return the sentences on how to cite, with the references, and a BibTeX entry."""
     head, _, listed = scripts.beside("CITATION.cff").read_text(encoding="utf-8").partition("references:")
     field = dict(re.findall(r"^(\w+): *(.+)$", head, re.MULTILINE))
     title, authors = field["title"].strip('"'), " and ".join(_names(head))
@@ -220,7 +220,7 @@ def citation() -> tuple[list[str], str]:
 
 
 def _names(block: str) -> list[str]:
-    """The authors of a block, given name first."""
+    """Return the authors of a block, first name before family name."""
     whole = re.findall(r"^ +- name: *(.+)$", block, re.MULTILINE)
     persons = re.findall(r"family-names: *(.+)\n +given-names: *(.+)", block)
     return [*whole, *(f"{first_name} {family}" for family, first_name in persons)]

@@ -1,4 +1,4 @@
-"""The errata sheet: for each refuted equation what is printed, what is right, what was wrong, and how far it reaches."""
+"""The errata sheet: each refuted equation as printed and corrected, the error, and its effect on the paper's results."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -14,9 +14,10 @@ from lagrotor.report.latex import END, head, latex_prose, tidy
 
 @dataclass(frozen=True)
 class Erratum:
-    """One row: `cited` is its place in the paper; printed and corrected in LaTeX; `wrong` in a line; ids that use it.
+    """One refuted equation; `cited` is its place in the paper, `printed` and `corrected` are LaTeX, `wrong` describes the error.
 
-    conditions: what is said if which premises hold.
+    `used_by` holds ids of equations that use it, `survives` is True if no result depends on the error, and `conditions` holds the
+    premises with a label that tells where they apply.
     """
 
     id: str
@@ -40,7 +41,7 @@ class Erratum:
 
 
 def errata(verdicts: Iterable[Verdict], paper: Paper) -> Iterator[Erratum]:
-    """The refuted equations of an audit, in its order."""
+    """Yield the refuted equations of an audit in its order."""
     listed = list(verdicts)
     for verdict in listed:
         if verdict.verdict == "refuted":
@@ -61,7 +62,7 @@ def errata(verdicts: Iterable[Verdict], paper: Paper) -> Iterator[Erratum]:
 
 
 def _conditions(verdict: Verdict) -> Iterator[tuple[str, tuple[Premise, ...]]]:
-    """Yield the premises of the error and of its correction, together where the first include the second."""
+    """Yield the premises of the error and of its correction, as one row if the first include the second."""
     premises, required = verdict.refuted_under, verdict.premises
     rows = [("Error if", premises), ("Correction if", required)]
     if required and all(premise in premises for premise in required):
@@ -70,19 +71,19 @@ def _conditions(verdict: Verdict) -> Iterator[tuple[str, tuple[Premise, ...]]]:
 
 
 def premise_formulas(premises: Iterable[Premise]) -> tuple[str, ...]:
-    """Return the equations of premises in LaTeX, a line for each that has any."""
+    """Return the equations of each premise in LaTeX, a line for each premise that has any."""
     return tuple(r",\quad ".join(premise.tex) for premise in premises if premise.tex)
 
 
 def correction_lines(verdict: Verdict) -> tuple[str, ...]:
-    """Return the correct lines in LaTeX: those of the correction that hold, and the derived line where there is no correction."""
+    """Return the correct lines in LaTeX: corrections that hold, and derived lines that have no correction."""
     right = (line.relation for line in verdict.correction_lines if line.verdict in AGREES)
     lines = [_line(relation, relation.printed) for relation in right]
     return tuple(dict.fromkeys([*lines, *(_line(relation, relation.derived) for relation in uncorrected(verdict))]))
 
 
 def _line(relation: Relation, side: Any) -> str:
-    """quantity = expression, up to a power of what is small where it is a series."""
+    """Return quantity = expression, with the O() of a series."""
     quantity = f"{relation.quantity} = " if relation.quantity else ""
     if relation.written:
         return f"{quantity}{relation.written}"
@@ -91,7 +92,7 @@ def _line(relation: Relation, side: Any) -> str:
 
 
 def latex_document(verdicts: Iterable[Verdict], paper: Paper) -> str:
-    """The sheet as a LaTeX document in ASCII that compiles with amsmath, graphicx and hyperref: a summary, then an item each."""
+    """Return the sheet as an ASCII LaTeX document that needs amsmath, graphicx and hyperref."""
     listed = list(verdicts)
     errors = list(errata(listed, paper))
     title = rf"\section*{{Errata to \emph{{{latex_prose(paper.title)}}}}}"
@@ -127,7 +128,7 @@ def _summary(verdicts: list[Verdict], errors: list[Erratum], paper: Paper) -> It
 
 
 def latex_item(e: Erratum, listed: list[Premise]) -> str:
-    """One item: where it is, what is printed, what it should read, what was wrong; premises by their place in a list."""
+    """Return the item of one error; it cites premises by their number in the list."""
     reach = "" if e.survives else " This changes a result."
     right = r";\quad ".join(line.strip() for line in e.corrected)
     granted = "".join(

@@ -1,6 +1,4 @@
-"""The sentences of a report: the facts of each equation, claim and figure; the balance of the verdicts; the results that
-`paper.toml` puts first, with their numbers.
-"""
+"""Sentences of a report: facts of equations, claims and figures, the count of verdicts, and the headlines of `paper.toml`."""
 
 import re
 from collections.abc import Iterator, Mapping
@@ -24,7 +22,7 @@ from lagrotor.report.errata import correction_lines, premise_formulas
 
 @dataclass(frozen=True)
 class Fact:
-    """One labelled line: sentences, ids of what it leads to, formulas; a lone symbol ends the text; formulas in LaTeX."""
+    """A labelled line of sentences, linked ids, formulas (a single symbol ends the sentence) and formulas in LaTeX."""
 
     label: str
     texts: tuple[str, ...] = ()
@@ -34,7 +32,7 @@ class Fact:
 
 
 def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:
-    """Return the facts of a verdict that stand below its two formulas."""
+    """Yield the facts of a verdict that stand below its two formulas."""
     statement = verdict.statement
     is_refuted = verdict.verdict == "refuted"
     if verdict.refuted_under:
@@ -84,7 +82,7 @@ _REACHES = {
 
 
 def linked_facts(result: Result, report: Report) -> Iterator[Fact]:
-    """The theorems that decide parts of a claim; the equations and figures it is about, as far as they are in the report."""
+    """Yield the theorems that decide parts of a claim, and the equations and figures that it concerns."""
     for claim_part, theorem in result.finding.theorems:
         yield Fact("Proved", (f"{claim_part.says}: {claim_part.outcome}.", theorem.text))
     entry, judged = report.paper.claims[result.test.id], {verdict.id for verdict in report.verdicts}
@@ -96,7 +94,7 @@ def linked_facts(result: Result, report: Report) -> Iterator[Fact]:
 
 
 def figure_facts(picture: Picture, report: Report) -> Iterator[Fact]:
-    """The equations and claims that a figure of the paper belongs to, as far as they are in the report."""
+    """Yield the equations and claims to which a figure of the paper belongs."""
     entry = report.paper.figures.get(int(picture.key)) if picture.key.isdigit() else None
     judged = {verdict.id for verdict in report.verdicts}
     if entry and (ids := tuple(i for i in entry.equations if i in judged)):
@@ -106,7 +104,7 @@ def figure_facts(picture: Picture, report: Report) -> Iterator[Fact]:
 
 
 def note(verdict: Verdict) -> str:
-    """Return the note beside a verdict in a table: the reason of a refutation, or the order and the condition in short."""
+    """Return the note of a verdict in a table: the reason of a refutation, or the order and the conditions."""
     if verdict.verdict == "refuted":
         points = (point_text(line) for line in verdict.lines if line.verdict == "refuted")
         return verdict.statement.wrong or next(filter(None, points), "")
@@ -124,7 +122,7 @@ _FIELD = re.compile(r"([^\[\]]+)(?:\[(.+)\])?")
 
 @dataclass(frozen=True)
 class Headline:
-    """One result: what it says in a line, the sentence with its numbers, a formula in LaTeX, where it is shown, its figure."""
+    """A main result: title, sentence with its numbers, linked ids, a formula in LaTeX, and a figure."""
 
     title: str
     text: str
@@ -134,13 +132,13 @@ class Headline:
 
 
 def opening(report: Report) -> list[tuple[str, str]]:
-    """The lines that the report opens with: (label, sentence)."""
+    """Return (label, sentence) of the opening lines of the report."""
     numbers = _Numbers(report)
     return [(line.label, numbers.format(line.text)) for line in report.paper.about.opening]
 
 
 def balance(report: Report) -> str:
-    """Return the sentences that count the equations that hold, those refuted and those corrected."""
+    """Return the sentences that count equations that hold, refuted ones and corrected ones."""
     if not report.verdicts:
         return f"No equation is judged yet, of {len(report.waiting)}."
     counts = report.counts
@@ -172,13 +170,13 @@ def balance(report: Report) -> str:
 
 
 def headlines(report: Report) -> list[Headline]:
-    """The results that the paper puts first, those whose equations, claims and figures are in the report."""
+    """Return the headlines of `paper.toml` whose equations, claims and figures are in the report."""
     numbers = _Numbers(report)
     return [numbers.headline(entry) for entry in report.paper.about.headline if numbers.has(entry)]
 
 
 class _Numbers(Formatter):
-    """Fills in what is in braces: {C02[rate]:.3f}, {figure 3[period (s)]:.2f}, {2.1}, {2.1[correction]}."""
+    """The formatter of {C02[rate]:.3f}, {figure 3[period (s)]:.2f}, {2.1} and {2.1[correction]} in `paper.toml`."""
 
     def __init__(self, report: Report) -> None:
         self.verdicts = {verdict.id: verdict for verdict in report.verdicts}
@@ -199,13 +197,12 @@ class _Numbers(Formatter):
         return needed <= self.verdicts.keys() | self.measured.keys()
 
     def headline(self, entry: catalogue.HeadlineEntry) -> Headline:
-        """The headline with its numbers."""
         identifiers = self.verdicts.keys() | self.measured.keys()
         ids = tuple(identifier for identifier in entry.ids if identifier in identifiers)
         return Headline(entry.title, self.format(entry.text), ids, self._formula(entry), entry.figure)
 
     def get_field(self, field_name: str, args: Any, kwargs: Any) -> tuple[Any, str]:
-        """The value of what is in braces. Raises InputError for a number that a test does not measure."""
+        """Return the value of a field; raise InputError for a number that no test measures."""
         if field_name in self.counts:
             return self.counts[field_name], field_name
         match = _FIELD.fullmatch(field_name)
@@ -222,7 +219,7 @@ class _Numbers(Formatter):
         return measured[name], identifier
 
     def _formula(self, entry: catalogue.HeadlineEntry) -> str:
-        """The corrected, or else the derived form of an equation, of the named quantity or the first."""
+        """Return the corrected, otherwise the derived, form of the named quantity or of the first one."""
         if not entry.formula:
             return ""
         statement = self.verdicts[entry.formula].statement

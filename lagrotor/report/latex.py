@@ -1,4 +1,4 @@
-"""The parts that the LaTeX files of the report share: the head, text and formulas in ASCII, tables, long formulas in lines."""
+"""Elements of the report's LaTeX files: head, text and formulas in ASCII, tables, line breaks of long formulas."""
 
 import re
 import unicodedata
@@ -63,13 +63,13 @@ _LONGEST = 2_500
 
 
 def head(title: str, preamble: str = "") -> str:
-    """Return the head of a document, with the packages that the paper's formulas need, and its title in ASCII."""
+    """Return the head of a document, with the packages of the paper's formulas and an ASCII title."""
     about = rf"\hypersetup{{pdftitle={{{latex_prose(title)}}},pdfauthor={{The lagrotor developers}}}}"
     return f"{_HEAD}{preamble and preamble.strip() + chr(10)}{about}\n\\begin{{document}}\n"
 
 
 def latex_prose(text: str) -> str:
-    """Plain text for LaTeX, its formulas as people read them: special characters escaped, long words breakable."""
+    """Return plain text for LaTeX: readable formulas, escaped special characters, breakable long words."""
     return " ".join(_word(word) for word in readable(text).split(" "))
 
 
@@ -105,20 +105,20 @@ def _letter(match: re.Match[str]) -> str:
 
 
 def displayed_formula(source: str) -> str:
-    """A printed formula on its own line, broken where it is too wide."""
+    """Return a formula on its own line, broken if it is too wide."""
     clean = tidy(source)
     return rf"\fit{{{clean}}}{{\broken{{{_loose(clean)}}}}}"
 
 
 def tidy(source: str) -> str:
-    """A formula in ASCII, without its sentence's last comma or full stop."""
+    """Return a formula in ASCII without the comma or full stop at its end."""
     clean = re.sub(r"[.,;]\s*$", "", source.strip()).replace(r"\mathbb{1}", r"\one ")
     clean = "".join(c if c.isascii() else GREEK.get(c) or _LETTERS.get(c, "?").strip("$") for c in clean)
     return _LONE.sub(r" \1 ", clean)
 
 
 def displayed_expression(expression: sp.Basic) -> str:
-    """An expression on its own line; a matrix that is too wide as a list of its elements; the longest are only named."""
+    """Return an expression on its own line; a too wide matrix as its elements, the longest ones only by their length."""
     source = latex(expression)
     if len(source) > _LONGEST:
         return f"An expression of {len(source)} characters: it is given in full in verdicts.json."
@@ -133,14 +133,14 @@ def displayed_expression(expression: sp.Basic) -> str:
 
 
 def latex_inline(expression: sp.Basic) -> str:
-    """An expression without dollar signs; a matrix has room for its fractions."""
+    """Return an expression without dollar signs; a matrix with fractions gets more space between its rows."""
     source = _LONE.sub(r" \1 ", latex(expression))
     tall = r"\begin{matrix}" in source and r"\frac" in source
     return source.replace(r"\frac", r"\dfrac").replace(r"\\", r"\\\noalign{\vskip 6pt}") if tall else source
 
 
 def _loose(source: str) -> str:
-    """A formula that TeX may break anywhere outside braces: brackets of fixed size, and a break after every space."""
+    """Return a formula that TeX may break anywhere outside braces: brackets of fixed size, and a break after each space."""
     pieces: list[str] = []
     opened: list[int] = []
     for piece in (token.text for token in tokenize(source)):
@@ -158,12 +158,12 @@ def _loose(source: str) -> str:
 
 
 def _length(cell: str) -> int:
-    """About how many characters a cell shows."""
+    """Return the approximate number of visible characters of a cell."""
     return len(re.sub(r"\\hyperlink\{.*?\}|\\\w+|[{}$\\]", "", cell))
 
 
 def latex_table(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
-    """A table over as many pages as it needs, of cells that are LaTeX already, its columns as wide as they need."""
+    """Return a table of LaTeX cells that may span pages, with column widths proportional to their content."""
     lines = list(rows)
     widest = 130 // len(head)
     need = [6 + min(widest, max(map(_length, column))) for column in zip(head, *lines, strict=True)]

@@ -1,7 +1,6 @@
-"""The report from top to bottom as blocks, and these as Markdown and as LaTeX.
+"""The report as a sequence of blocks, written as Markdown and as LaTeX.
 
-Markdown has LaTeX between dollar signs, as code hosts draw it. The LaTeX file is a supplement to a paper: ASCII, compiled by
-pdflatex, its pictures in `figures/`.
+Markdown has LaTeX between dollar signs. The LaTeX file is ASCII, compiles with pdflatex and reads its pictures from `figures/`.
 """
 
 import re
@@ -48,14 +47,14 @@ from lagrotor.report.latex import (
 
 @dataclass(frozen=True)
 class Bold:
-    """A label, or a title without a place of its own."""
+    """A label, or a title without an anchor."""
 
     text: str
 
 
 @dataclass(frozen=True)
 class Links:
-    """To equations, claims or figures."""
+    """Links to equations, claims or figures."""
 
     ids: tuple[str, ...]
 
@@ -76,7 +75,7 @@ Line: TypeAlias = list[Span]  # with a blank between each two
 
 @dataclass(frozen=True)
 class Heading:
-    """The heading of a section, or of an entry, which has a name besides its title."""
+    """The heading of a section, or of an entry with a name and a title."""
 
     place: str
     title: str
@@ -85,7 +84,7 @@ class Heading:
 
 @dataclass(frozen=True)
 class Display:
-    """A formula on its own line, from its LaTeX or as an expression."""
+    """A formula on its own line, given as LaTeX or as an expression."""
 
     formula: str | sp.Basic
 
@@ -100,7 +99,7 @@ class Rows:
 
 @dataclass(frozen=True)
 class Verbatim:
-    """Text as it is, or what a paper says."""
+    """Preformatted text, or a quotation of the paper."""
 
     text: str
     quoted: bool = False
@@ -117,7 +116,7 @@ def opening_blocks(report: Report) -> Iterator[Block]:
 
 
 def section_blocks(report: Report) -> Iterator[Block]:
-    """Every section under its heading."""
+    """Yield every section under its heading."""
     for name, heading in contents(report):
         yield Heading(name, heading)
         if name in _PARTS:
@@ -152,7 +151,7 @@ def _verdicts(report: Report) -> Iterator[Block]:
 
 
 def errata_blocks(report: Report) -> Iterator[Block]:
-    """The errata sheet; nothing where nothing is refuted."""
+    """Yield the errata sheet; empty if no equation is refuted."""
     for e in errata(report.verdicts, report.paper):
         yield Heading(f"erratum-{e.id}", e.title, f"Erratum {e.id}:")
         yield [e.wrong]
@@ -259,20 +258,20 @@ _PARTS: dict[str, Callable[[Report], Iterator[Block]]] = {
 
 
 def markdown(report: Report) -> str:
-    """The whole report; figures are linked as `figures/<stem>.svg`."""
+    """Return the whole report; figures are linked as `figures/<stem>.svg`."""
     listed = "\n".join(f"- [{heading}](#{name})" for name, heading in contents(report))
     blocks = [f"# {report.title}", f"{SUBTITLE}.", *map(_block, opening_blocks(report)), listed]
     return "\n\n".join(filter(None, [*blocks, *map(_block, section_blocks(report))])) + "\n"
 
 
 def errata_sheet(report: Report) -> str:
-    """The errata alone, which lead to the report beside them."""
+    """Return the errata sheet as Markdown with links to the report."""
     blocks = map(partial(_block, target="report.md"), errata_blocks(report))
     return "\n\n".join(["# Errata", *blocks]) + "\n"
 
 
 def _block(block: Block, target: str = "") -> str:
-    """beside: the file of what it leads to."""
+    """Return a block as Markdown; links lead into the file `target`."""
     match block:
         case list():
             return " ".join(filter(None, (_span(span, target) for span in block)))
@@ -306,12 +305,12 @@ def _span(span: Span, target: str = "") -> str:
 
 
 def _prose(text: str) -> str:
-    """Text on one line in which nothing is read as Markdown, HTML or a table's edge."""
+    """Return text on one line with all Markdown, HTML and table characters escaped."""
     return re.sub(r"([\\`*_\[\]<>|#$~])", r"\\\1", " ".join(readable(text).split()))
 
 
 def supplement(report: Report) -> str:
-    """The whole report, its sections in the order of the page."""
+    """Return the whole report as LaTeX."""
     blocks = [
         head(report.title, report.paper.about.preamble),
         rf"\title{{{latex_prose(report.title)}\\ \large {latex_prose(SUBTITLE)}}}",
@@ -361,5 +360,5 @@ def _latex_span(span: Span) -> str:
 
 
 def _latex_cell(span: Span) -> str:
-    """A formula that is more than a letter may be wider than its column."""
+    """Return a cell; a formula longer than one symbol may be wider than its column."""
     return displayed_expression(span) if isinstance(span, sp.Basic) and not span.is_Symbol else _latex_span(span)

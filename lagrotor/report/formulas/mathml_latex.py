@@ -1,4 +1,4 @@
-"""Formulas for the page: LaTeX as MathML, by latex2mathml, in the elements and attributes that browsers draw (MathML Core)."""
+"""Formulas of the page: LaTeX converted by latex2mathml to the elements and attributes of MathML Core."""
 
 import re
 import unicodedata
@@ -23,7 +23,7 @@ _THIN = "0.167em"
 
 
 def converter() -> str:
-    """The version of latex2mathml; empty where it is not installed."""
+    """Return the version of latex2mathml; empty if it is not installed."""
     try:
         return version("latex2mathml")
     except PackageNotFoundError:
@@ -31,9 +31,9 @@ def converter() -> str:
 
 
 def mathml(source: str, display: bool = True) -> str | None:
-    """A LaTeX formula as `<math>`, on lines of its own or within one; None where latex2mathml is not installed or cannot set it.
+    r"""Return a LaTeX formula as `<math>`, displayed or inline; None if latex2mathml is missing or fails.
 
-    What a wide space parts, and a continuation `\\quad = …`, is set on a line of its own.
+    A displayed formula is broken at wide spaces and at a continuation `\\quad = …`.
     """
     try:
         return _convert(source, display)
@@ -62,7 +62,7 @@ def _convert(source: str, display: bool) -> str:
 
 
 def _lines(source: str) -> Iterator[str]:
-    """The parts of a source between wide spaces outside braces and environments."""
+    """Yield the lines of a source, separated by wide spaces outside braces and environments."""
     depth, line = 0, ""
     opening = {r"\begin": 1, r"\end": -1, r"\left": 1, r"\right": -1}
     for token in tokenize(source):
@@ -77,7 +77,7 @@ def _lines(source: str) -> Iterator[str]:
 
 
 def _tidy(element: Element) -> None:
-    """Accents, signs, spaces and styles as browsers and TeX agree on, in place."""
+    """Adapt accents, signs, spaces and styles in place so that browsers draw them like TeX."""
     previous: Element | None = None
     for child in list(element):
         _tidy(child)
@@ -110,7 +110,7 @@ def _tidy(element: Element) -> None:
 
 
 def _keep_readable(element: Element, depth: int, compact: bool) -> None:
-    """Scripts of scripts as large as scripts: browsers know no smallest size of a letter. depth, compact: as in MathML Core."""
+    """Draw scripts of scripts as large as scripts. depth, compact: script level and style of MathML Core."""
     for place, child in enumerate(element):
         fraction = element.tag == "mfrac"
         script = element.tag in _SCRIPTS and not fraction and place > 0 and "accent" not in element.attrib
@@ -149,7 +149,7 @@ def _leaf(child: Element, text: str, previous: Element | None) -> None:
 
 
 def _raise_prime(child: Element) -> None:
-    """A prime is raised by the font already; over an accent a power is set no higher than over a letter."""
+    """Set a prime without raising it twice, and a power over an accent as high as over a letter."""
     if child.tag == "msup" and (child[1].text or "x") in _PRIMES:
         child.tag, child[1].attrib = "mrow", {"form": "postfix", "lspace": "0", "rspace": "0"}
     elif child[0].tag == "mover":
@@ -168,7 +168,7 @@ def _accent(child: Element) -> None:
 
 
 def _is_function_name(element: Element) -> bool:
-    """Return whether an element is the name of a function, perhaps with a power."""
+    """Return True for the name of a function, perhaps with a power."""
     core = element[0] if element.tag in ("msup", "msub") and len(element) else element
     return core.tag in ("mi", "mo") and (core.text or "").strip() in _NAMES
 
@@ -184,7 +184,7 @@ def _space(parent: Element, child: Element) -> None:
 
 
 def _styled_letter(character: str, style: str) -> str:
-    """A letter or digit in bold, double-struck …: browsers know no other `mathvariant` than normal."""
+    """Return a bold or double-struck character: MathML Core has no `mathvariant` except normal."""
     name = unicodedata.name(character, "").replace("LATIN ", "").replace("GREEK ", "").replace(" LETTER", "")
     try:
         return unicodedata.lookup(f"MATHEMATICAL {style} {name}")

@@ -1,4 +1,4 @@
-"""The folder of a report: what it may hold, and how a new one takes the place of the last only when it is whole."""
+"""The folder of a report: its allowed contents, and its replacement by a new report once that is complete."""
 
 import os
 import shutil
@@ -20,7 +20,7 @@ _COMPILED = {
 
 
 def check_target(target: Path) -> Path:
-    """Return the folder with its links followed. Raises InputError unless it can be made, or is empty, or is a report."""
+    """Return the resolved folder; raise InputError unless it can be created, is empty, or is a report."""
     folder = target.resolve()
     if folder.exists() and not folder.is_dir():
         raise InputError(f"{target} is a file: choose a folder")
@@ -51,7 +51,7 @@ def _alive(process: str) -> bool:
 
 @contextmanager
 def _alone(target: Path) -> Iterator[None]:
-    """Lock `target` against other runs. Raises InputError where another run has locked it."""
+    """Lock `target`; raise InputError if another run has locked it."""
     lock = target.with_name(f".{target.name}.lock")
     while True:
         try:
@@ -76,10 +76,7 @@ def _alone(target: Path) -> Iterator[None]:
 
 @contextmanager
 def replacement(target: Path) -> Iterator[Path]:
-    """A new folder that takes the place of `target` when the block ends well, and is removed when it does not.
-
-    Raises InputError where another run is writing into `target`.
-    """
+    """Yield a new folder that replaces `target` if the block succeeds; raise InputError if another run writes there."""
     target = check_target(target)
     with _alone(target):
         yield from _rename_over(target)

@@ -1,4 +1,4 @@
-"""Steps in several processes: results in the order in which they end, nothing left behind when the run is stopped."""
+"""Steps in parallel processes: results in order of completion, and no process remains when the run is stopped."""
 
 import multiprocessing
 import os
@@ -21,7 +21,7 @@ _OBJECTS = 2_000_000
 
 
 def cores() -> int:
-    """Processors that this process may use; one where a debugger is attached."""
+    """Return the number of usable processors; 1 under a debugger."""
     if sys.gettrace() is not None or "pydevd" in sys.modules:
         return 1
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
@@ -34,9 +34,9 @@ def results(
     begins: Callable[[Task], None],
     inputs: Callable[[Task], Any] = lambda task: (),
 ) -> Iterator[tuple[Task, Any]]:
-    """(task, run(task, *given(task))) as each ends; `begins` is called with a task before it runs. jobs = 1: in this process.
+    """Yield (task, run(task, *inputs(task))) in order of completion; with jobs = 1 in this process.
 
-    given: what a task takes from the results of others; None while they are not there, and the task waits.
+    `begins` is called with a task before it runs. `inputs` returns its inputs from other results, None while they are missing.
     """
     waiting, running = list(tasks), dict[Future[Any], Task]()
     if jobs == 1:
@@ -58,7 +58,7 @@ def results(
 
 
 def values(names: dict[str, Any], exported: Collection[str]) -> dict[str, Any]:
-    """The values of the names that are wanted, as far as they can be handed to another process."""
+    """Return the values of the exported names that can be pickled."""
     result = {}
     for name in names.keys() & set(exported):
         with suppress(pickle.PicklingError, TypeError, AttributeError):
@@ -68,7 +68,7 @@ def values(names: dict[str, Any], exported: Collection[str]) -> dict[str, Any]:
 
 
 def _next(waiting: list[Task], inputs: Callable[[Task], Any]) -> tuple[Task, Any]:
-    """Take the first task that need not wait, with what it is given."""
+    """Remove the first task whose inputs are complete; return it with its inputs."""
     for i, task in enumerate(waiting):
         if (arguments := inputs(task)) is not None:
             return waiting.pop(i), arguments
@@ -77,7 +77,7 @@ def _next(waiting: list[Task], inputs: Callable[[Task], Any]) -> tuple[Task, Any
 
 @contextmanager
 def _interrupts_wait() -> Iterator[None]:
-    """An interrupt comes when this is done: a process that is being started is not yet one that the pool can end."""
+    """Delay an interrupt to the end of the block: the pool cannot yet end a process that is starting."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
@@ -95,7 +95,7 @@ def _begin() -> None:
 
 @contextmanager
 def _pool(jobs: int) -> Iterator[ProcessPoolExecutor]:
-    """Processes that leave interrupts to their parent, and that end with it."""
+    """Yield processes that ignore interrupts and end with their parent."""
     methods = multiprocessing.get_all_start_methods()
     context = multiprocessing.get_context("forkserver" if "forkserver" in methods else "spawn")
     if hasattr(context, "set_forkserver_preload"):

@@ -1,8 +1,7 @@
-"""The main job: judge every equation, test every claim, draw every figure, write the report, and only then replace the last one.
+"""The job `lagrotor reproduce`: decide every equation, test every claim, draw every figure, and write the report.
 
-The steps do not depend on each other's order: they run in as many processes as there are cores. A claim's numbers and a figure
-are taken from an earlier run where nothing that they are made from has changed. The report is the same bytes whatever the
-number of processes.
+The steps run in parallel. Claims' numbers and figures of an earlier run are reused if their inputs have not changed. The report
+has the same bytes for any number of processes.
 """
 
 import json
@@ -39,9 +38,9 @@ StepProgress = Callable[[int], AbstractContextManager[Callable[[str], None]]]
 
 @dataclass(frozen=True)
 class JobOutcome:
-    """The result of a run: the number of equations with each verdict, of claims with each outcome, a sentence for each change.
+    """The outcome of a run: counts of verdicts and outcomes, and a sentence for each change.
 
-    reused: names of the steps whose product is from an earlier run; ["report"] when the whole report is.
+    `reused` names the steps whose product is from an earlier run; it is ["report"] if the whole report is.
     """
 
     equations: dict[str, int]
@@ -56,12 +55,11 @@ class JobOutcome:
 def reproduce(
     paper: Paper, target: Path, progress: StepProgress, jobs: int | None = None, certificates: bool = False
 ) -> JobOutcome:
-    """Judge, draw and write everything into the folder `target`; products that have not changed come from the cache.
+    """Compute or reuse every product and write the report into the folder `target`; the old report stays until this is complete.
 
-    jobs: how many processes; None: as many as there are cores, one in a debugger. certificates: with the proofs of the exact
-    verdicts as files of Coq. `progress(total)` gives the function that
-    is called with the name of each step as it begins. Raises InputError when `target` cannot be written, is no report, or is
-    being written by another run. Until all is done the old report stays.
+    jobs: number of processes; None: one per core, one in a debugger. certificates: True to write Coq proofs of exact verdicts.
+    `progress(total)` returns the function that is called with the name of each step as it begins. Raise InputError if `target`
+    cannot be written, is not a report, or is being written by another run.
     """
     began, on_record, old = time.perf_counter(), paper.recorded, check_target(target)
     made_from = json.dumps(
@@ -95,7 +93,7 @@ def reproduce(
 
 
 def _digests(folder: Path) -> dict[str, str]:
-    """Return the digest of each file of a report, by its place; without that of the times."""
+    """Return the digest of each file of a report, except the computing times, by its relative path."""
     files = {path.relative_to(folder).as_posix(): path for path in folder.rglob("*") if path.is_file()}
     return {name: digest(path.read_bytes()) for name, path in files.items() if name != TIMES}
 
@@ -103,10 +101,7 @@ def _digests(folder: Path) -> dict[str, str]:
 def _make(
     cache: Cache, all_steps: list[JobStep], folder: Path, progress: StepProgress, jobs: int, old: Path
 ) -> tuple[dict[str, Any], dict[str, float], list[str]]:
-    """Make every step's product, or take it from the cache.
-
-    Returns the products by name in the order of the steps, the time (s) of each that was made, and the names of the others.
-    """
+    """Return the products by name, the computing time in s of each computed one, and the names of the reused ones."""
     products: dict[str, Any] = dict.fromkeys(step.name for step in all_steps)
     for step in all_steps:
         if step.run is not derive and (product := cache.take(step.name, step.made_from)) is not None:
@@ -133,7 +128,7 @@ def _make(
 
 
 def _run_timed(step: JobStep, imported: dict[str, dict[str, Any]], folder: Path) -> tuple[Any, float]:
-    """The step's product and how long it took, with the values that it takes from other derivations."""
+    """Return the step's product and its computing time; `imported` holds values of other derivations."""
     began = time.perf_counter()
     with step.paper.scripts.ran_elsewhere(imported):
         product = step.run(step.paper, step.key, folder)
@@ -141,7 +136,7 @@ def _run_timed(step: JobStep, imported: dict[str, dict[str, Any]], folder: Path)
 
 
 def _longest_first(old: Path) -> Callable[[JobStep], float]:
-    """The steps in falling order of what they took last; in their own order where nothing is known."""
+    """Return a sort key by decreasing computing time of the last run."""
     try:
         took = json.loads((old / TIMES).read_text(encoding="utf-8"))["seconds"]
     except (OSError, ValueError, KeyError, TypeError):
@@ -150,7 +145,6 @@ def _longest_first(old: Path) -> Callable[[JobStep], float]:
 
 
 def _report(paper: Paper, products: dict[str, Any]) -> Report:
-    """Return everything that the report says."""
     derived = [product for product in products.values() if isinstance(product, Derived)]
     verdicts = paper.with_reach(verdict for product in derived for verdict in product.verdicts)
     tested = _claim_results(paper, products)
@@ -173,7 +167,7 @@ def _report(paper: Paper, products: dict[str, Any]) -> Report:
 
 
 def _result_section(entry: ReportPart, derived: list[Derived], pictures: list[Picture]) -> ResultSection:
-    """Return the tables, remarks and figures of a part of the report."""
+    """Return the tables, findings and figures of a section of the report."""
     return ResultSection(
         entry.name,
         entry.heading,
@@ -184,7 +178,7 @@ def _result_section(entry: ReportPart, derived: list[Derived], pictures: list[Pi
 
 
 def _claim_results(paper: Paper, products: dict[str, Any]) -> list[Result]:
-    """Every claim with its measured numbers, decided anew; theorems are those on record, `lagrotor claims` proves them again."""
+    """Return every claim decided by its measured numbers, with theorems on record (`lagrotor claims` proves them again)."""
     results = [Result(test, m := products[f"claim {i}"], test.decide(m), 0.0) for i, test in paper.claim_tests.items()]
     return [paper.with_theorems_on_record(result) for result in results]
 
@@ -206,7 +200,7 @@ def _write(folder: Path, report: Report) -> None:
 
 
 def _timeless(record: dict[str, Any]) -> dict[str, Any]:
-    """A record without its duration, which is another on each run."""
+    """Return a record without its duration, which differs between runs."""
     return {name: value for name, value in record.items() if name != "seconds"}
 
 

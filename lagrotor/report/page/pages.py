@@ -1,7 +1,7 @@
-"""The report as pages: a front page, one page a section of the paper and a derivation; and as one file that needs nothing else.
+"""The report as pages (a front page, one page per section of the paper and per derivation), and as one self-contained file.
 
-Both are made of the same sections. In a section a link names a place, `#eq-5.07`, or a file beside the front page, and an
-image its file; the pages put the page before a place, and the single file puts the figures inside.
+Both consist of the same sections. A link in a section is an anchor, `#eq-5.07`, or a file of the report's folder. In the pages
+the page's address is put before an anchor; in the single file the figures are embedded.
 """
 
 import json
@@ -39,7 +39,7 @@ _UNREAD = re.compile(r"<(script|style)\b.*?</\1>", re.DOTALL)
 
 @dataclass(frozen=True)
 class Page:
-    """One file of the report: its address from the front page, its name in the contents, what stands on it."""
+    """One file of the report: its address relative to the front page, its name in the contents, its sections."""
 
     file: str
     name: str
@@ -48,12 +48,12 @@ class Page:
 
     @property
     def body(self) -> str:
-        """Its sections, one after the other."""
+        """The HTML of all sections."""
         return "\n".join(section.html for section in self.sections)
 
 
 def whole_page(report: Report) -> str:
-    """The whole report as one page: style, script, font, formulas and figures are inside it."""
+    """Return the whole report as one page with style, script, font, formulas and figures inside."""
     everything = sections(report)
     body = "\n".join(section.html for section in everything)
     for picture in report.pictures:
@@ -63,7 +63,7 @@ def whole_page(report: Report) -> str:
 
 
 def pages(report: Report) -> dict[str, str]:
-    """The files of the report as pages, by their address in its folder: HTML, one style, one script, the words to be found."""
+    """Return the files of the report as pages by address: HTML, the style, the script, and the words of the search."""
     all_pages = _pages(report)
     places = {place: page.file for page in all_pages for place in _PLACE.findall(page.body)}
     words = [row for page in all_pages for row in _words(page.file, page.sections)]
@@ -73,7 +73,7 @@ def pages(report: Report) -> dict[str, str]:
 
 
 def _pages(report: Report) -> list[Page]:
-    """The pages in the order of the contents; figures and derivations stand with what they show and derive."""
+    """Return the pages in the order of the contents; figures and derivations belong to the section that they illustrate."""
     remaining = {section.anchor: section for section in sections(report)}
     figures = remaining.pop("figures", None)
     derivations = remaining.pop("derivations", None)
@@ -98,7 +98,7 @@ def _pages(report: Report) -> list[Page]:
 
 
 def _in_short(section: ResultSection, report: Report) -> Section:
-    """The tables of a part, with the way to the rest of it."""
+    """Return the tables of a section, with a link to the rest of it."""
     tables = "".join(side_by_side(table, report) for table in section.tables)
     return Section(
         f"{section.name}-in-short", section.heading, f'{tables}<p><a href="#{section.name}">More, with figures</a></p>'
@@ -106,7 +106,7 @@ def _in_short(section: ResultSection, report: Report) -> Section:
 
 
 def _figures(remaining: Mapping[str, Section], figures: Section, report: Report) -> dict[str, Section]:
-    """The sections of the paper with their figures, and those figures that belong to no section with equations."""
+    """Return the sections of the paper with their figures, and the figures that belong to no such section."""
     of: dict[str, list[str]] = {}
     numbered = {str(number): entry.section for number, entry in report.paper.figures.items()}
     for picture in report.result_section("figures").pictures:
@@ -121,7 +121,7 @@ def _figures(remaining: Mapping[str, Section], figures: Section, report: Report)
 
 
 def _derivation_lists(remaining: Mapping[str, Section], report: Report) -> dict[str, Section]:
-    """The sections that have derivations, each with links to its own; those of no section stand by themselves."""
+    """Return the sections with links to their derivations; the other derivations have their own section."""
     of: dict[str, list[str]] = {}
     for stem, name, _ in report.derivations:
         owner = _owner(stem, report)
@@ -134,7 +134,7 @@ def _derivation_lists(remaining: Mapping[str, Section], report: Report) -> dict[
 
 
 def _owner(stem: str, report: Report) -> str:
-    """The section in which what a derivation states, tests or tabulates is shown."""
+    """Return the section that shows the equations, tests or tables of a derivation."""
     about = report.paper.about
     for identifier, (stating, _) in report.paper.scripts.stating.items():
         if stating == stem:
@@ -150,7 +150,7 @@ def _owner(stem: str, report: Report) -> str:
 
 
 def _page(page: Page, all_pages: list[Page], places: Mapping[str, str], report: Report) -> str:
-    """A page with its links and images addressed from where it lies."""
+    """Return a page with links and images relative to its own address."""
     folder = dirname(page.file) or "."
 
     def address(match: re.Match[str]) -> str:
@@ -215,12 +215,12 @@ def _words(file: str, listed: Iterable[Section]) -> list[tuple[str, str, str, st
 
 
 def _text(html: str) -> str:
-    """The words of HTML, without what only a machine reads."""
+    """Return the text of HTML without styles and scripts."""
     return " ".join(unescape(_TAG.sub(" ", _UNREAD.sub(" ", html))).split())
 
 
 def _data(rows: list[tuple[str, str, str, str]]) -> str:
-    """The words to be found, as a script that any page can load, also from a disk."""
+    """Return the words of the search as a script that any page can load, also from a disk."""
     return f"const WORDS = {json.dumps(rows, ensure_ascii=False, separators=(',', ':'))};\n".replace("<", "\\u003c")
 
 

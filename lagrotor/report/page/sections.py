@@ -1,6 +1,6 @@
 """The sections of the report as HTML, and their entries: an equation, an erratum, a claim, a figure, a result.
 
-Links lead to places of the report and to files beside its front page.
+Links lead to anchors of the report and to files beside its front page.
 """
 
 from collections.abc import Callable
@@ -52,7 +52,7 @@ _WIDEST = 2_000
 
 
 def equation_entry(verdict: Verdict, report: Report) -> str:
-    """Return an equation as printed beside the derived one, its facts, and a fold with its source."""
+    """Return an equation as printed beside the derived one, its facts, and its source."""
     entry, statement = report.paper.equation(verdict.id), verdict.statement
     printed = typeset(entry.latex)
     derived = "".join(map(typeset, derived_lines(statement.relations))) or "<p>A definition: nothing to derive.</p>"
@@ -72,7 +72,7 @@ def equation_entry(verdict: Verdict, report: Report) -> str:
 
 
 def reading_of(entry: Equation, report: Report) -> str:
-    """Return the reading of an equation of a source, typeset, and whether it is confirmed; nothing for other lines."""
+    """Return the typeset reading of a source's equation and its confirmation; empty for other lines."""
     if not entry.read:
         return ""
     lines = "".join(map(typeset, typeset_lines(report.paper, entry.id)))
@@ -80,7 +80,7 @@ def reading_of(entry: Equation, report: Report) -> str:
 
 
 def erratum_entry(e: Erratum) -> str:
-    """Printed, correct, what was wrong, how far it reaches."""
+    """Return the printed and the corrected equation, the error and its effect."""
     correct = "".join(map(typeset, e.corrected))
     for label, premises in e.conditions:
         formulas = "".join(map(typeset, premise_formulas(premises)))
@@ -94,13 +94,15 @@ def erratum_entry(e: Erratum) -> str:
 
 
 def _beside(heading_a: str, printed: str, heading_b: str, derived: str) -> str:
-    """Two formulas under their headings, one below the other where either is wide."""
+    """Return two formulas under their headings, stacked if one is wide."""
     layout = "pair" if max(len(printed), len(derived)) < _WIDEST else "stack"
-    return f'<div class="{layout}"><div><h4>{heading_a}</h4>{printed}</div><div><h4>{heading_b}</h4>{derived}</div></div>'
+    return (
+        f'<div class="{layout}"><div><h4>{heading_a}</h4>{printed}</div><div><h4>{heading_b}</h4>{derived}</div></div>'
+    )
 
 
 def claim_entry(result: Result, report: Report) -> str:
-    """The claim in the paper's words, its outcome, what was measured."""
+    """Return the claim in the paper's words, its outcome, and the measured numbers."""
     entry, finding = report.paper.claims[result.test.id], result.finding
     condition = f"<p><b>If:</b> {prose(finding.condition)}</p>" if finding.condition else ""
     place = anchor(entry.id)
@@ -113,7 +115,7 @@ def claim_entry(result: Result, report: Report) -> str:
 
 
 def picture_entry(picture: Picture, report: Report) -> str:
-    """The figure with its caption, what it belongs to, and the numbers read off it."""
+    """Return the figure with its caption, its equations and claims, and its numbers."""
     place = anchor(f"figure {picture.key}")
     measured = fold("Measured", number_list("What", picture.measured.items())) if picture.measured else ""
     return (
@@ -124,14 +126,14 @@ def picture_entry(picture: Picture, report: Report) -> str:
 
 
 def _image(picture: Picture) -> str:
-    """The drawing alone, loaded when it is come to; a click opens it large (page.js)."""
+    """Return the drawing, loaded when it is scrolled to; a click enlarges it (page.js)."""
     width, height = size(picture)
     source = f'src="figures/{picture.svg.name}" width="{width}" height="{height}"'
     return f'<img {source} loading="lazy" alt="{escape(picture.alt)}">'
 
 
 def headline_entry(headline: Headline, report: Report) -> str:
-    """One of the results that matter, with its figure."""
+    """Return a main result with its figure."""
     formula = typeset(headline.formula) if headline.formula else ""
     drawn = next((p for p in report.pictures if f"figure {p.key}" == headline.figure), None)
     formula += _image(drawn) if drawn else ""
@@ -146,7 +148,7 @@ def count_entry(answer: str, count: int, meaning: str) -> str:
 
 @dataclass(frozen=True)
 class Section:
-    """A part of the report under its heading: where it is, its heading, HTML."""
+    """A section of the report: its anchor, heading and HTML."""
 
     anchor: str
     heading: str
@@ -154,7 +156,7 @@ class Section:
 
     @property
     def html(self) -> str:
-        """The section; the live model brings its own."""
+        """The section as HTML; the interactive model has its own heading."""
         if self.anchor == "model":
             return self.inside
         heading = f'<h2 id="{self.anchor}">{escape(self.heading)}</h2>'
@@ -162,7 +164,7 @@ class Section:
 
 
 def sections(report: Report) -> list[Section]:
-    """Every section of the report, in the order of its contents."""
+    """Return every section of the report in the order of its contents."""
     return [Section(anchor, heading, _inside(anchor, report)) for anchor, heading in contents(report)]
 
 
@@ -221,7 +223,6 @@ def _derivations(report: Report) -> str:
 
 
 def _result_section(section: ResultSection, report: Report) -> str:
-    """Tables, what was found, figures."""
     blocks = [side_by_side(table, report) for table in section.tables]
     blocks += [f"<h3>{prose(title)}</h3><p>{prose(text)}</p>" for title, text in section.remarks]
     blocks += [picture_entry(picture, report) for picture in section.pictures]
