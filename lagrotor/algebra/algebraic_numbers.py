@@ -30,10 +30,7 @@ def is_zero(number: sp.Expr) -> bool | None:
             value = enclosed_at(number, {}, precision)
             if excludes_zero(value):
                 return False
-            if (
-                max(iv.log(abs(side).b, 2).b if abs(side).b > 0 else -iv.inf for side in (value.real, value.imag))
-                < -bits
-            ):
+            if max(iv.log(abs(x).b, 2).b if abs(x).b > 0 else -iv.inf for x in (value.real, value.imag)) < -bits:
                 return True
     except (NotExactError, ArithmeticError, ValueError, TypeError):
         return None

@@ -71,11 +71,7 @@ def is_connected(where: Region) -> bool:
         scaled = sp.Poly(e.xreplace({symbol: s * symbol for symbol in symbols}), s)
         degrees = [n for (n,) in scaled.monoms() if n]
         # a homogeneous e plus a constant is monotonic on every ray from the origin
-        if (
-            len(degrees) != 1
-            or not scaled.eval(0).is_positive
-            or not all(_holds_origin(bound) for bound, _ in where.above)
-        ):
+        if len(degrees) != 1 or not scaled.eval(0).is_positive or not all(_holds_origin(e) for e, _ in where.above):
             return False
     return True
 

@@ -156,9 +156,8 @@ def kinks_in(equations: Sequence[sp.Expr], narrow: Box, box: Box) -> list[sp.Exp
     pieces = [e.rewrite(_PIECEWISE, sp.Piecewise) for e in equations]
     powers = set().union(*(e.atoms(sp.Pow) for e in pieces))
     relations = set().union(*(e.atoms(sp.core.relational.Relational) for e in pieces))
-    switches = {p.base for p in powers if not (p.exp.is_Integer and p.exp.is_positive)} | {
-        r.lhs - r.rhs for r in relations
-    }
+    switches = {p.base for p in powers if not (p.exp.is_Integer and p.exp.is_positive)}
+    switches |= {r.lhs - r.rhs for r in relations}
     return sorted((e for e in switches if e.free_symbols & {*narrow} and _may_vanish(e, near)), key=sp.default_sort_key)
 
 

@@ -154,9 +154,7 @@ def _terms(node: sp.Expr, function: sp.Expr) -> dict[Monomial, sp.Rational]:
         _check_symbol(node)
         return {frozenset({(node, 1)}): sp.S.One}
     if node.is_Add:
-        return _collected(
-            (powers, rate) for argument in node.args for powers, rate in _terms(argument, function).items()
-        )
+        return _collected(term for argument in node.args for term in _terms(argument, function).items())
     if node.is_Mul:
         return reduce(partial(_product, function), (_terms(argument, function) for argument in node.args))
     if node.is_Pow and node.exp.is_Integer and abs(node.exp) <= _MOST_POWER:

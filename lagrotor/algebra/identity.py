@@ -168,9 +168,7 @@ def _decide(expression: sp.Expr, where: Region) -> Decision:
         domain=tuple(_monic(numbering.to_input(factor)) for factor in decision.domain),
         reason=numbering.text(decision.reason),
         residual=residual,
-        points=None
-        if places is None
-        else tuple({numbering.to_input(s): value for s, value in point.items()} for point in places),
+        points=places and tuple({numbering.to_input(s): value for s, value in point.items()} for point in places),
         conditions=lambda: map(numbering.to_input, decision.branch),
     )
 
@@ -232,9 +230,7 @@ def _by_analysis(expression: sp.Expr, where: Region, exact: Decision) -> Decisio
             return Decision("zero", branch_proof.divisors, branch_proof.how or "", conditions=lambda: branch)
         return replace(exact, reason=reason, conditions=lambda: inside)
     if not (branch or witness.real or has_principal_values(plain, (), where)):
-        return replace(
-            exact, reason="It differs from zero where it is not real, and no proof is known where it is real."
-        )
+        return replace(exact, reason="It is not zero where it is not real, and no proof is known where it is real.")
     return Decision(
         "nonzero", branch_proof.divisors, _EXCLUDED, bool(branch), plain, (witness.point,), conditions=lambda: inside
     )

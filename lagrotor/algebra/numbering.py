@@ -29,9 +29,7 @@ class Numbering:
 
     def __init__(self, *expressions: sp.Basic) -> None:
         self.symbols = canonical_order(expressions)
-        self.new = {
-            symbol: sp.Symbol(f"letter_{i:04}_", **symbol.assumptions0) for i, symbol in enumerate(self.symbols)
-        }
+        self.new = {s: sp.Symbol(f"letter_{i:04}_", **s.assumptions0) for i, s in enumerate(self.symbols)}
         self.old = {new: symbol for symbol, new in self.new.items()}
 
     def to_numbered(self, e: Any) -> Any:

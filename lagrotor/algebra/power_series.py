@@ -333,9 +333,7 @@ def _composed(function: sp.Expr, z: sp.Symbol, inner: _Series) -> _Series:
     """Return the sum of f^(m)(u0) * v**m / m! for the inner series u0 + v."""
     length, u0 = len(inner.terms), inner.terms[0]
     if u0.has(_LOG):
-        raise NotExactError(
-            f"{function} of an argument that starts with a logarithm of the small quantity has no series"
-        )
+        raise NotExactError(f"{function} of an argument whose leading term is a logarithm has no series")
     v = inner.led_by(sp.S.Zero)
     power = inner._replace(terms=_padded([sp.S.One], length))
     total = inner._replace(terms=(sp.S.Zero,) * length)
@@ -370,9 +368,7 @@ def _check_cut(node: sp.Expr, inner: _Series, small: sp.Symbol) -> None:
                 f"{node} is singular at {small} = 0, and its branch depends on the sign of {small}: declare it positive"
             )
     if not (off_cut or on_line):
-        raise NotExactError(
-            f"{node} may lie on a branch cut: its argument starts at {u0} and does not stay on one line"
-        )
+        raise NotExactError(f"{node} may lie on a branch cut: its argument starts at {u0} and leaves the real line")
 
 
 def _is_real(node: sp.Expr) -> bool:
@@ -383,9 +379,8 @@ def _is_real(node: sp.Expr) -> bool:
         return True
     if node.is_Pow and not node.exp.is_Integer:
         return bool(node.base.is_nonnegative) and _is_real(node.exp)
-    return (node.is_Add or node.is_Mul or node.is_Pow or isinstance(node, (*_ANALYTIC, *_CUT))) and all(
-        map(_is_real, node.args)
-    )
+    is_known = node.is_Add or node.is_Mul or node.is_Pow or isinstance(node, (*_ANALYTIC, *_CUT))
+    return is_known and all(map(_is_real, node.args))
 
 
 def _refined(series: _Series, q: int) -> _Series:

@@ -130,9 +130,7 @@ class Ring:
             raise NotExactError("A denominator vanishes identically.")
         powers = tuple(min(exponents) for exponents in zip(*polynomial.itermonoms(), strict=True))
         factors = {g: n for g, n in zip(self.polynomials.gens, powers, strict=True) if n}
-        cofactor = {
-            tuple(m - p for m, p in zip(monomial, powers, strict=True)): c for monomial, c in polynomial.iterterms()
-        }
+        cofactor = {tuple(m - p for m, p in zip(e, powers, strict=True)): c for e, c in polynomial.iterterms()}
         if len(cofactor) > 1:
             factors[self.polynomials.from_dict(cofactor).monic()] = 1
         if name is None:

@@ -68,10 +68,8 @@ def find_roots(survey: Survey) -> Roots:
         return Roots(Ring(()), [], [])
     plain = Reader(survey, Ring(sorted(survey.atoms, key=sp.default_sort_key)), {})
     ordered = sorted(survey.radicands, key=lambda base: (bool(base.free_symbols), base.sort_key()))
-    quotients = [(base, plain.quotient(base)) for base in ordered]
-    independent, dependent = split_roots(
-        plain.ring, [(base, over, plain.ring.expanded(factors)) for base, (over, factors) in quotients]
-    )
+    quotients = [(base, *plain.quotient(base)) for base in ordered]
+    independent, dependent = split_roots(plain.ring, [(b, over, plain.ring.expanded(f)) for b, over, f in quotients])
     unsigned = Roots(plain.ring, independent, [(root, None) for root in dependent])
     return Roots(plain.ring, independent, [(root, unsigned.known_sign(root)) for root in dependent])
 
@@ -101,12 +99,10 @@ def reader(survey: Survey, roots: Roots, signs: Sequence[int] = ()) -> Reader:
     for root, name in named.items():
         values[root.base] = ring.times(Quotient(ring.generators[name], {}), ring.inverse(lifted(root.denominator)))
     remaining_signs = iter(signs)
-    for dependent, sign in roots.dependent:
-        over = ring.products(
-            [lifted(dependent.numerator), *(ring.generators[named[member]] for member in dependent.of)]
-        )
+    for image, sign in roots.dependent:
+        over = ring.products([lifted(image.numerator), *(ring.generators[named[member]] for member in image.of)])
         over *= next(remaining_signs) if sign is None else sign
-        values[dependent.base] = ring.times(Quotient(over, {}), ring.inverse(lifted(dependent.denominator)))
+        values[image.base] = ring.times(Quotient(over, {}), ring.inverse(lifted(image.denominator)))
     return Reader(survey, ring, values)
 
 
@@ -149,9 +145,8 @@ class Reader:
         if node.is_Pow:
             return ring.raised(self.quotient(node.base), int(node.exp))
         if node.func is sp.exp:
-            return reduce(
-                ring.times, (self._exponential(*term) for term in angle_of(node)[1].items()), ring.number(sp.S.One)
-            )
+            terms = (self._exponential(*term) for term in angle_of(node)[1].items())
+            return reduce(ring.times, terms, ring.number(sp.S.One))
         return self._function(node)
 
     def _function(self, node: sp.Expr) -> Quotient:

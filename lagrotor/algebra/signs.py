@@ -366,13 +366,9 @@ def _factored(e: sp.Expr) -> tuple[int, frozenset[sp.Expr], frozenset[sp.Expr]]:
 
 def _primitive(e: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
     """Return (number, primitive expression) whose product is e, with sums expanded."""
-    content, remainder = (sp.expand_mul(e) if e.is_Mul else e).as_content_primitive()
-    number, remainder = (
-        remainder.as_independent(*remainder.free_symbols, as_Add=False)
-        if remainder.free_symbols
-        else (sp.S.One, remainder)
-    )
-    return content * number, remainder
+    content, core = (sp.expand_mul(e) if e.is_Mul else e).as_content_primitive()
+    number, core = core.as_independent(*core.free_symbols, as_Add=False) if core.free_symbols else (sp.S.One, core)
+    return content * number, core
 
 
 def _declared(e: sp.Expr) -> Signs | None:

@@ -77,13 +77,9 @@ def with_shared_parts(e: sp.Expr) -> sp.Expr:
             if (same := _KNOWN.get(key)) is None:
                 same = node
                 if any(a is not b for a, b in zip(args, node.args, strict=True)):
-                    rebuilt = node.func(*args)
-                    alike = (
-                        rebuilt.func == node.func
-                        and len(rebuilt.args) == len(args)
-                        and all(map(is_, rebuilt.args, args))
-                    )
-                    same = rebuilt if alike else node
+                    new = node.func(*args)
+                    alike = new.func == node.func and len(new.args) == len(args) and all(map(is_, new.args, args))
+                    same = new if alike else node
                 _KNOWN[key] = same
                 _OWN.add(id(same))
             shared[id(node)] = same

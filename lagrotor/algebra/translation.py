@@ -103,9 +103,8 @@ class Translation:
             if all(self._same(a, b) for a, b in zip(arguments, others, strict=True)):
                 return symbol
         sign = signs(meaning, self.where)
-        symbol = sp.Dummy(
-            str(head), **({"positive": True} if sign == POSITIVE else {} if sign is None else {"real": True})
-        )
+        kind = {"positive": True} if sign == POSITIVE else {} if sign is None else {"real": True}
+        symbol = sp.Dummy(str(head), **kind)
         group.append((arguments, symbol))
         self.meaning[symbol] = meaning
         return symbol
@@ -314,10 +313,7 @@ class Translation:
         return symbol ** int(r * q)
 
     def _number_power(self, value: sp.Rational, r: sp.Rational) -> sp.Expr:
-        e = sp.Pow(value, r)
-        return (
-            e if e.is_Rational else sp.Mul(*(self._number(f) if not f.is_Rational else f for f in sp.Mul.make_args(e)))
-        )
+        return sp.Mul(*(f if f.is_Rational else self._number(f) for f in sp.Mul.make_args(sp.Pow(value, r))))
 
     def _number(self, e: sp.Expr) -> sp.Expr:
         """Return a symbol for an algebraic number."""
@@ -371,10 +367,7 @@ class Translation:
     def circle(self, u: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
         """Return cosine and sine of a translated u, term by term."""
         total, terms = (sp.S.One, sp.S.Zero), self.terms(u)
-        if (
-            any(monomial in self.arcs and rate.q % 2 == 0 for rate, monomial in terms)
-            and (half := self._half(u)) is not None
-        ):
+        if any(term in self.arcs and rate.q % 2 == 0 for rate, term in terms) and (half := self._half(u)) is not None:
             return half
         for rate, monomial in terms:
             if monomial.has(sp.I):
@@ -396,11 +389,8 @@ class Translation:
     def _pair(self, rate: sp.Rational, monomial: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
         if monomial is sp.pi:
             return self._number_of_turn(sp.cos(rate * sp.pi)), self._number_of_turn(sp.sin(rate * sp.pi))
-        if (
-            not monomial.has(sp.I)
-            and (rate * monomial / (2 * sp.pi)).is_integer is None
-            and self._turns(rate * monomial)
-        ):
+        angle = rate * monomial
+        if not monomial.has(sp.I) and (angle / (2 * sp.pi)).is_integer is None and self._turns(angle):
             return sp.S.One, sp.S.Zero
         if monomial in self.arcs and rate.is_Integer:
             return _multiple(self.arcs[monomial], int(rate))
@@ -473,12 +463,8 @@ class Translation:
         if p in self.relations:
             q, value = self.relations[p]
             return (self._size_symbol(value) if value.is_Symbol else self.log_size(value)) / q
-        if (
-            p in self.numbers
-            and (number := self.numbers[p]).is_Pow
-            and number.exp.is_Rational
-            and number.base.is_positive
-        ):
+        number = self.numbers.get(p, p)
+        if number is not p and number.is_Pow and number.exp.is_Rational and number.base.is_positive:
             return self.log_size(self.of(number.base)) * number.exp
         return self._size_symbol(p)
 

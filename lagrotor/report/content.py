@@ -19,34 +19,34 @@ from lagrotor.paper.verdicts import Relation, Verdict
 from lagrotor.pictures.figures import Picture
 
 SUBTITLE = "Every equation as printed and as derived, with its verdict"
-# File of the report's folder → what it is.
+# File of the report's folder → its content.
 BESIDE = {
-    "index.html": "this report as pages",
-    "whole.html": "as one page that needs nothing else",
-    "report.md": "as Markdown",
-    "report.tex": "as LaTeX",
-    "errata.md": "the errata alone",
+    "index.html": "this report, as pages",
+    "whole.html": "this report, as one self-contained page",
+    "report.md": "this report, as Markdown",
+    "report.tex": "this report, as LaTeX",
+    "errata.md": "the errata only",
     "verdicts.json": "the verdicts as data",
     "claims.json": "the claims as data",
-    "measured.json": "the numbers read off the figures",
+    "measured.json": "the numbers read from the figures",
 }
 
 MEANINGS = {
-    "holds": "the printed and the derived expression are the same, decided exactly",
-    "holds-if": "they are the same under the condition that is named",
-    "holds-to-order": "they agree up to and including the order that is named",
-    "refuted": "they differ; the correction, where there is one, is judged by the same rules",
-    "proved": "a number that is printed, to which all that a theorem encloses rounds",
-    "measured": "a number read off a run, to which what was derived rounds: it is within half a unit of the last digit",
-    "definition": "the line only gives a name",
-    "undecided": "outside what can be decided exactly; numbers are given as evidence",
-    NOT_YET: "no derivation states it yet",
+    "holds": "the printed expression equals the derived one; this is decided exactly",
+    "holds-if": "they are equal under the stated condition",
+    "holds-to-order": "they agree up to and including the stated order",
+    "refuted": "they differ; the same procedure decides whether the correction holds",
+    "proved": "a printed number; every value in the interval that a theorem proves rounds to it",
+    "measured": "a number that the paper read from a simulation; the derived value rounds to it",
+    "definition": "the line only introduces a name",
+    "undecided": "not decidable by the exact procedure; numerical evidence is given",
+    NOT_YET: "no derivation treats it yet",
 }
 CLAIM_MEANINGS = {
-    "proved": "each part of it follows from a theorem",
-    "confirmed": "its runs agree; they are estimates",
-    "confirmed-if": "it holds under the condition that is named",
-    "refuted": "its run disagrees",
+    "proved": "every part of the claim follows from a theorem",
+    "confirmed": "simulations agree with it; their errors are estimated, not proved",
+    "confirmed-if": "it holds under the stated condition",
+    "refuted": "a simulation or a theorem contradicts it",
 }
 
 
@@ -90,13 +90,13 @@ class Report:
     @property
     def how_to_read(self) -> str:
         """The sentences that say how equations, claims and figures were examined and how they are numbered."""
-        claims, figures = list(self.paper.claims)[:1], self.paper.figures
-        does = "Each equation of the paper is read as printed, derived anew, and held against what was derived by an exact "
-        does += "decision procedure" + ("; each claim made in words is tested by a run" if claims else "")
-        does += "; each figure is drawn again. " if figures else ". "
-        does += "Every number here was computed by the run that wrote this page, but for seconds, which are on record with their "
-        ids = [f"An equation goes by its number, such as {i}" for i in list(self.paper.equations)[:1]]
-        return f"{does}machine. {', '.join([*ids, *(f'a claim as {i}' for i in claims)])}."
+        equations, claims = list(self.paper.equations)[:1], list(self.paper.claims)[:1]
+        text = "Each equation of the paper is read as printed and derived anew; an exact decision procedure compares the two. "
+        text += "Each claim made in words is tested by a simulation or a theorem. " if claims else ""
+        text += "Each figure is drawn again. " if self.paper.figures else ""
+        text += "All numbers were computed by the run that wrote this page, except computing times, which are on record with the "
+        ids = [*(f"Equations are cited by number, such as {i}" for i in equations), *(f"claims as {i}" for i in claims)]
+        return f"{text}machine. {', '.join(ids)}."
 
     @property
     def waiting(self) -> list[Equation]:

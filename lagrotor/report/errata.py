@@ -11,6 +11,13 @@ from lagrotor.paper.premises import Premise
 from lagrotor.paper.verdicts import AGREES, Relation, Verdict
 from lagrotor.report.latex import END, head, latex_prose, tidy
 
+# Verdict of a correction → its words in the sheet.
+_CORRECTED = {
+    "holds": "holds exactly",
+    "holds-if": "holds under the premises",
+    "holds-to-order": "holds to the order shown",
+}
+
 
 @dataclass(frozen=True)
 class Erratum:
@@ -37,7 +44,7 @@ class Erratum:
         """The effect of the error on the paper's results, in words."""
         if self.survives:
             return "no result of the paper depends on this error"
-        return "a result of the paper that depends on it, or is it, is refuted too"
+        return "this error changes a result of the paper"
 
 
 def errata(verdicts: Iterable[Verdict], paper: Paper) -> Iterator[Erratum]:
@@ -54,7 +61,7 @@ def errata(verdicts: Iterable[Verdict], paper: Paper) -> Iterator[Erratum]:
                 corrected=correction_lines(verdict),
                 conditions=tuple(_conditions(verdict)),
                 wrong=statement.wrong,
-                verdict_of_correction=(verdict.correction_verdict or "as derived").replace("-", " "),
+                verdict_of_correction=_CORRECTED.get(verdict.correction_verdict or "", "as derived"),
                 used_by=tuple(v.id for v in listed if entry.id in v.statement.depends_on),
                 survives=not verdict.reaches_result,
                 letters=frozenset(s.name for r in statement.correction for s in r.printed.free_symbols),
@@ -64,9 +71,9 @@ def errata(verdicts: Iterable[Verdict], paper: Paper) -> Iterator[Erratum]:
 def _conditions(verdict: Verdict) -> Iterator[tuple[str, tuple[Premise, ...]]]:
     """Yield the premises of the error and of its correction, as one row if the first include the second."""
     premises, required = verdict.refuted_under, verdict.premises
-    rows = [("Error if", premises), ("Correction if", required)]
+    rows = [("Premises of the error", premises), ("Premises of the correction", required)]
     if required and all(premise in premises for premise in required):
-        rows = [("Error and correction if", premises)]
+        rows = [("Premises of error and correction", premises)]
     yield from (row for row in rows if row[1])
 
 
@@ -103,7 +110,7 @@ def latex_document(verdicts: Iterable[Verdict], paper: Paper) -> str:
         named = [p.sentence if "=" in p.says else p.with_formula for p in assumed]
         summary += " Premises: " + "; ".join(f"({n}) {latex_prose(text)}" for n, text in enumerate(named, 1)) + "."
     items = "\n".join(latex_item(e, assumed) for e in errors) or rf"\item {latex_prose('None.')}"
-    # Small print, and no more space between the items than a line of it.
+    # Small type, without extra space between the items.
     sheet = [r"{\footnotesize\setlength{\parskip}{0pt}\raggedright", summary, r"\begin{enumerate}\itemsep 2pt", items]
     return "\n".join([head(f"Errata to {paper.title}", paper.about.preamble) + title, *sheet, r"\end{enumerate}}", END])
 
@@ -112,9 +119,9 @@ def _summary(verdicts: list[Verdict], errors: list[Erratum], paper: Paper) -> It
     """Yield the sentences above the items of the sheet."""
     differ = "1 differs" if len(errors) == 1 else f"{len(errors)} differ"
     yield (
-        f"Of the {len(verdicts)} equations that were read as printed and derived anew, {differ} from what follows from "
-        "their premises. Each is listed by its own number or its section, as printed and as it should read; every "
-        "correction was decided by the same exact procedure as the print."
+        f"{len(verdicts)} equations were read as printed and derived anew; {differ} from the derivation. Each is listed by its "
+        "number or section, as printed and as it should read. The same exact procedure decided the printed and the corrected "
+        "equations."
     )
     used = {letter for e in errors for letter in e.letters}
     meanings = {entry.symbol.name: entry.meaning for entry in paper.glossary.values()}
@@ -122,9 +129,9 @@ def _summary(verdicts: list[Verdict], errors: list[Erratum], paper: Paper) -> It
         f"{name} is {meanings[name]}" for name in paper.about.letters if name in used and name in meanings
     )
     if letters:
-        yield f"Letters of the corrections: {letters}."
+        yield f"Symbols in the corrections: {letters}."
     if reaching := sum(not e.survives for e in errors):
-        yield f"{reaching} of them change a result; no result depends on the other {len(errors) - reaching}."
+        yield f"{reaching} of them change a result of the paper; no result depends on the other {len(errors) - reaching}."
 
 
 def latex_item(e: Erratum, listed: list[Premise]) -> str:
@@ -132,7 +139,7 @@ def latex_item(e: Erratum, listed: list[Premise]) -> str:
     reach = "" if e.survives else " This changes a result."
     right = r";\quad ".join(line.strip() for line in e.corrected)
     granted = "".join(
-        f" {label} {', '.join(f'({listed.index(p) + 1})' for p in conditions)}." for label, conditions in e.conditions
+        f" {label}: {', '.join(f'({listed.index(p) + 1})' for p in conditions)}." for label, conditions in e.conditions
     )
     return (
         rf"\item \textbf{{{latex_prose(e.cited.capitalize())}}}, {latex_prose(e.title)}. {latex_prose(e.wrong)}{reach}{granted}\\"

@@ -36,9 +36,9 @@ def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:
     statement = verdict.statement
     is_refuted = verdict.verdict == "refuted"
     if verdict.refuted_under:
-        yield _condition("Error as stated if", verdict.refuted_under)
+        yield _condition("Premises of the error", verdict.refuted_under)
     if verdict.premises:
-        yield _condition("Correction holds if" if is_refuted else "Condition", verdict.premises)
+        yield _condition("Premises of the correction" if is_refuted else "Condition", verdict.premises)
     if verdict.order is not None and verdict.small is not None:
         yield Fact("Order", (f"agrees through order {verdict.order} in",), formulas=(verdict.small,))
     if verdict.domain:
@@ -52,10 +52,10 @@ def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:
         yield Fact("Lines", sentences, sources=points)
         evidence = tuple(item for item in evidence if not any(item in line for line in sentences))
     if statement.correction:
-        answer = f"judged by the same rules: {word(verdict.correction_verdict or 'undecided')}"
+        answer = f"decided by the same procedure: {word(verdict.correction_verdict or 'undecided')}"
         yield Fact("Correction", (answer,), sources=correction_lines(verdict))
     if verdict.reaches_result is not None:
-        yield Fact("Reaches the result", (_REACHES[verdict.reaches_result],))
+        yield Fact("Effect on results", (_EFFECTS[verdict.reaches_result],))
     for theorem in verdict.theorems:
         yield Fact("Proved", (theorem.text,))
     if evidence:
@@ -75,10 +75,7 @@ def _condition(label: str, premises: tuple[Premise, ...]) -> Fact:
     return Fact(label, ("; ".join(p.sentence for p in premises),), sources=premise_formulas(premises))
 
 
-_REACHES = {
-    True: "yes: a result of the paper that depends on it is refuted too",
-    False: "no: no result of the paper depends on this error",
-}
+_EFFECTS = {True: "this error changes a result of the paper", False: "no result of the paper depends on this error"}
 
 
 def linked_facts(result: Result, report: Report) -> Iterator[Fact]:
@@ -114,7 +111,7 @@ def note(verdict: Verdict) -> str:
     if verdict.order is not None and verdict.small is not None:
         clauses.insert(0, f"agrees through order {verdict.order} in {verdict.small}")
     broken = any(premise.broken for premise in verdict.premises)
-    return "; ".join(clauses) + (". The paper's own scene does not meet this." if broken else "")
+    return "; ".join(clauses) + (". The paper's own system does not satisfy this." if broken else "")
 
 
 _FIELD = re.compile(r"([^\[\]]+)(?:\[(.+)\])?")
@@ -140,32 +137,29 @@ def opening(report: Report) -> list[tuple[str, str]]:
 def balance(report: Report) -> str:
     """Return the sentences that count equations that hold, refuted ones and corrected ones."""
     if not report.verdicts:
-        return f"No equation is judged yet, of {len(report.waiting)}."
+        return f"None of {len(report.waiting)} equations is judged yet."
     counts = report.counts
-    ways = {
-        "holds": "exactly",
-        "holds-if": "under a condition that is named",
-        "holds-to-order": "to the order that is named",
-    }
+    ways = {"holds": "exactly", "holds-if": "under a stated condition", "holds-to-order": "to a stated order"}
     hold = {answer: counts[answer] for answer in ways if answer in counts}
     refuted = [verdict for verdict in report.verdicts if verdict.verdict == "refuted"]
     corrected = sum(v.correction_verdict in ways for v in refuted)
     reaching = sum(bool(v.reaches_result) for v in refuted)
     undecided, waiting = counts.get("undecided", 0), len(report.waiting)
     remainder = len(report.verdicts) - sum(hold.values()) - len(refuted) - undecided
-    text = f"Of {len(report.verdicts)} equations {sum(hold.values())} hold"
+    text = f"{sum(hold.values())} of {len(report.verdicts)} equations hold"
     text += f": {', '.join(f'{n} {ways[answer]}' for answer, n in hold.items())}. " if hold else ". "
     if refuted:
         text += f"{len(refuted)} {'is' if len(refuted) == 1 else 'are'} refuted"
         if corrected == len(refuted):
-            text += ", each with a correction that itself holds"
+            text += ", each with a correction that holds"
         elif corrected:
-            text += f"; for {corrected} of these a correction is given that itself holds"
-        text += f"; results of the paper depend on {reaching or 'none'} of them."
+            text += f"; a correction that holds is given for {corrected} of these"
+        text += f"; results of the paper are affected by {reaching or 'none'} of these errors."
     else:
         text += "None is refuted."
     text += f" {undecided} {'is' if undecided == 1 else 'are'} undecided." if undecided else ""
-    text += f" The other {remainder} give a name or a measured number." if remainder else ""
+    kind = "is a definition or a measured number" if remainder == 1 else "are definitions or measured numbers"
+    text += f" {remainder} {kind}." if remainder else ""
     return text + (f" {waiting} more {'is' if waiting == 1 else 'are'} not yet judged." if waiting else "")
 
 

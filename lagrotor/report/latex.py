@@ -25,10 +25,10 @@ _HEAD = r"""\documentclass[11pt]{article}
 \allowdisplaybreaks
 \newcommand{\one}{\mathrm{1\mkern-4.5mu l}}
 \newsavebox{\formula}
-% A formula on its own line; where it is wider than that, the second form, which TeX breaks at signs and relations.
+% A displayed formula; if it is too wide, the second form, which TeX breaks at signs and relations.
 \newcommand{\fit}[2]{\par\nobreak\savebox{\formula}{$\displaystyle #1$}%
   \ifdim\wd\formula>\linewidth #2\else\noindent\usebox{\formula}\par\fi}
-% Within it a fraction or a root wider than the line is written with a slash or a power.
+% In it a fraction or a root that is too wide is written with a slash or a power.
 \newcommand{\slashed}[2]{\setbox0\hbox{$\displaystyle\built{#1}{#2}$}%
   \ifdim\wd0>.85\linewidth\bigl(#1\bigr)\big/\bigl(#2\bigr)\else\built{#1}{#2}\fi}
 \newcommand{\rooted}[2][]{\setbox0\hbox{$\displaystyle\radix[#1]{#2}$}%
@@ -50,7 +50,7 @@ _LETTERS = {
     "<": "$<$", ">": "$>$", "|": "$|$", "\\": r"\textbackslash{}", "^": r"\^{}",
     "~": r"\~{}", '"': "''",
 } | {mark: f"$^{digit}$" for digit, mark in enumerate("⁰¹²³⁴⁵⁶⁷⁸⁹")}  # fmt: skip
-_ACCENTS = {mark: name for name, mark in ACCENTS.items() if name not in ".kb"}  # those that the font of the head has
+_ACCENTS = {mark: name for name, mark in ACCENTS.items() if name not in ".kb"}  # accents of the font in the head
 _DOTS = {"\u0307": r"\dot", "\u0308": r"\ddot"}
 _LOW = dict(zip("₀₁₂₃₄₅₆₇₈₉", "0123456789", strict=True))
 # A letter with its dot and its index: mathematics, unless it is a Latin letter alone.
@@ -58,7 +58,7 @@ _LETTER = re.compile(rf"(\w)([{''.join(_DOTS)}]?)([{''.join(_LOW)}]*)")
 # sin{\left(\theta_1 \right)}: an argument that is one letter needs no brackets.
 _LONE = re.compile(r"\{\\left\((\\?[A-Za-z]+(?:_\{?\w+\}?)?) \\right\)\}")
 _LONG_WORD = 18  # characters of a word beyond which TeX may break it
-# Characters of a formula beyond which nobody reads it on paper.
+# Characters of the longest formula that is displayed.
 _LONGEST = 2_500
 
 
@@ -95,7 +95,7 @@ def _character(character: str) -> str:
 
 def _letter(match: re.Match[str]) -> str:
     stem, dot, index = match.groups()
-    if stem in _LOW:  # of no letter, as the limit of an integral
+    if stem in _LOW:  # an index without a letter, such as the limit of an integral
         stem, index = "", stem + index
     if stem.isascii() and not dot and not index:
         return stem
@@ -121,7 +121,7 @@ def displayed_expression(expression: sp.Basic) -> str:
     """Return an expression on its own line; a too wide matrix as its elements, the longest ones only by their length."""
     source = latex(expression)
     if len(source) > _LONGEST:
-        return f"An expression of {len(source)} characters: it is given in full in verdicts.json."
+        return f"An expression of {len(source)} characters: see verdicts.json."
     if not isinstance(expression, sp.MatrixBase):
         return displayed_formula(source)
     rows, columns = expression.shape

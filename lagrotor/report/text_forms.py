@@ -67,10 +67,8 @@ class File:
     name: str
 
 
-Span: TypeAlias = (
-    "str | sp.Basic | Bold | Links | File | tuple[Span, ...]"  # of a line or a cell; a tuple: one below the other
-)
-Line: TypeAlias = list[Span]  # with a blank between each two
+Span: TypeAlias = "str | sp.Basic | Bold | Links | File | tuple[Span, ...]"  # in a line or cell; a tuple is stacked
+Line: TypeAlias = list[Span]  # joined by spaces
 
 
 @dataclass(frozen=True)
@@ -130,7 +128,7 @@ def section_blocks(report: Report) -> Iterator[Block]:
 
 def _summary(report: Report) -> Iterator[Block]:
     if report.changes:
-        yield [Bold("Changed against the record."), "; ".join(report.changes)]
+        yield [Bold("Verdicts that differ from the record."), "; ".join(report.changes)]
     yield [balance(report)]
     if refuted := [v.id for v in report.verdicts if v.verdict == "refuted"]:
         yield ["Refuted:", Links(tuple(refuted))]
@@ -142,12 +140,12 @@ def _summary(report: Report) -> Iterator[Block]:
             yield ["Shown in", Links(headline.ids)]
     for what, counts, meanings in (("Equations", report.counts, MEANINGS), ("Claims", report.outcomes, CLAIM_MEANINGS)):
         rows = [(word(answer), str(count), meanings[answer]) for answer, count in counts.items()]
-        yield Rows((what, "How many", "What it means"), rows)
+        yield Rows((what, "Number", "Meaning"), rows)
 
 
 def _verdicts(report: Report) -> Iterator[Block]:
     rows = [(Links((v.id,)), report.paper.equation(v.id).title, word(v.verdict), note(v)) for v in report.verdicts]
-    yield Rows(("Equation", "Title", "Verdict", "Why, or under what condition"), rows)
+    yield Rows(("Equation", "Title", "Verdict", "Reason or condition"), rows)
 
 
 def errata_blocks(report: Report) -> Iterator[Block]:
@@ -157,7 +155,7 @@ def errata_blocks(report: Report) -> Iterator[Block]:
         yield [e.wrong]
         yield [Bold("Printed.")]
         yield Display(e.printed)
-        yield [Bold(f"Correct ({e.verdict_of_correction}).")]
+        yield [Bold(f"Corrected ({e.verdict_of_correction}).")]
         yield from map(Display, e.corrected)
         for label, premises in e.conditions:
             yield [Bold(f"{label}:"), "; ".join(p.sentence for p in premises)]
@@ -235,15 +233,15 @@ def _cite(_: Report) -> Iterator[Block]:
 
 
 def _made(report: Report) -> Iterator[Block]:
-    yield ["The same inputs give the same file, byte for byte; how long each part took is in times.json."]
-    yield Rows(("In the same folder", "What it is"), [(File(file, file), what) for file, what in BESIDE.items()])
-    yield Rows(("What", "Version"), list(report.versions))
+    yield ["The same inputs give the same file, byte for byte. The computing times are in times.json."]
+    yield Rows(("File in the same folder", "Content"), [(File(file, file), what) for file, what in BESIDE.items()])
+    yield Rows(("Software", "Version"), list(report.versions))
     yield Rows(("Input", "SHA-256"), list(report.inputs))
 
 
 _PARTS: dict[str, Callable[[Report], Iterator[Block]]] = {
     "model": lambda _: iter(
-        [["Sliders and both tips in motion, in a browser:", File("index.html#model", "index.html")]]
+        [["The interactive model of the pair, for a browser:", File("index.html#model", "index.html")]]
     ),
     "summary": _summary,
     "verdicts": _verdicts,

@@ -85,17 +85,17 @@ def test_another_number_is_another_sentence(report: Report) -> None:
 
 def test_balance_counts_what_was_judged(report: Report) -> None:
     text = balance(report)
-    assert text.startswith("Of 2 equations 0 hold")
-    assert "1 is refuted, each with a correction that itself holds; results of the paper depend on none" in text
-    assert text.endswith("The other 1 give a name or a measured number. 66 more are not yet judged.")
+    assert text.startswith("0 of 2 equations hold")
+    assert "1 is refuted, each with a correction that holds; results of the paper are affected by none of these errors" in text
+    assert text.endswith("1 is a definition or a measured number. 66 more are not yet judged.")
     alone = decide(Statement("5.20", chain(M, R)))
     text = balance(replace(report, verdicts=(*report.verdicts, alone)))
     assert (
-        "2 are refuted; for 1 of these a correction is given that itself holds; results of the paper depend on none"
+        "2 are refuted; a correction that holds is given for 1 of these; results of the paper are affected by none"
         in text
     )
     held = replace(alone, verdict="holds")
     assert "None is refuted." in balance(replace(report, verdicts=(held,)))
-    assert balance(replace(report, verdicts=())) == "No equation is judged yet, of 68."
+    assert balance(replace(report, verdicts=())) == "None of 68 equations is judged yet."
     open_one = replace(alone, verdict="undecided")
-    assert "1 is undecided. The other 1 give a name" in balance(replace(report, verdicts=(*report.verdicts, open_one)))
+    assert "1 is undecided. 1 is a definition" in balance(replace(report, verdicts=(*report.verdicts, open_one)))

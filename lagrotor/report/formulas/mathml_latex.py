@@ -99,12 +99,8 @@ def _tidy(element: Element) -> None:
             continue
         if _is_function_name(child) and previous is not None and previous.tag not in ("mo", "mspace"):
             _space(element, child)
-        if (
-            previous is not None
-            and _is_function_name(previous)
-            and child.tag not in ("mo", "mspace")
-            and not _is_bracket(child)
-        ):
+        follows_name = previous is not None and _is_function_name(previous)
+        if follows_name and child.tag not in ("mo", "mspace") and not _is_bracket(child):
             _space(element, child)
         previous = child
 
@@ -133,11 +129,8 @@ def _leaf(child: Element, text: str, previous: Element | None) -> None:
     if child.tag == "mo" and text in _SIGNS:
         child.text = "−" if text == "-" else text
         operator = (previous.text or "") if previous is not None and previous.tag == "mo" else None
-        first = (
-            previous is None
-            or previous.tag == "mspace"
-            or (operator is not None and operator in _RELATIONS + _OPEN + ",")
-        )
+        is_prefix = operator is not None and operator in _RELATIONS + _OPEN + ","
+        first = previous is None or previous.tag == "mspace" or is_prefix
         child.set("form", "prefix" if first else "infix")
     elif child.tag == "mo" and text in ("/", ".", ",", ";", "*"):
         child.text = "∗" if text == "*" else text

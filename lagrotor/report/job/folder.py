@@ -9,11 +9,11 @@ from pathlib import Path
 from lagrotor.errors import InputError
 from lagrotor.report.content import BESIDE
 
-TIMES = "times.json"  # how long each part took: the only file that two runs of the same inputs may not share
-CERTIFICATES = "certificates"  # where the job was given `--certify`
+TIMES = "times.json"  # computing times: the only file that may differ between two runs of the same inputs
+CERTIFICATES = "certificates"  # only with `--certify`
 CONTENTS = {*BESIDE, "pages", "figures", "errata.tex", CERTIFICATES, TIMES}
 _OF_VERSION_0_2 = {"made.json", "products"}
-# What pdflatex leaves beside the files that it is given: goes with the report that it was made from.
+# Files that pdflatex writes; they are deleted with the report.
 _COMPILED = {
     f"{stem}.{kind}" for stem in ("report", "errata") for kind in ("aux", "log", "out", "toc", "pdf", "synctex.gz")
 }
@@ -29,10 +29,8 @@ def check_target(target: Path) -> Path:
     if not os.access(folder.parent, os.W_OK):
         raise InputError(f"{target}: {folder.parent} cannot be written to: choose another folder")
     entries = {entry.name for entry in folder.iterdir()} if folder.is_dir() else set()
-    if strangers := sorted(entries - CONTENTS - _COMPILED - _OF_VERSION_0_2):
-        raise InputError(
-            f"{target} holds {strangers[0]}, which is no part of a report: choose a new or an empty folder"
-        )
+    if extra := sorted(entries - CONTENTS - _COMPILED - _OF_VERSION_0_2):
+        raise InputError(f"{target} holds {extra[0]}, which is no part of a report: choose a new or an empty folder")
     if entries and (missing := sorted({"index.html", "verdicts.json"} - entries)):
         raise InputError(f"{target} is no report: {missing[0]} is missing: choose a new or an empty folder")
     return folder

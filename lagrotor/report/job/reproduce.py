@@ -156,9 +156,7 @@ def _report(paper: Paper, products: dict[str, Any]) -> Report:
         pictures=tuple(pictures),
         changes=tuple(paper.changes([*verdicts, *tested])),
         claims=tuple(tested),
-        result_sections=tuple(
-            section for section in result_sections if section.tables or section.remarks or section.pictures
-        ),
+        result_sections=tuple(s for s in result_sections if s.tables or s.remarks or s.pictures),
         derivations=tuple((product.stem, product.title, product.html) for product in derived),
         model=products.get("model", ""),
         versions=tuple(dependencies.versions().items()),

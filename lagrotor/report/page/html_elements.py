@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from lagrotor.drawing.run_figure import RunFigure
 
 
-# Left by `plain_text`: an index that is not a number, a power that is not whole, a name of the program.
+# `plain_text` does not treat a non-numeric index, a non-integer power, or a name of the program.
 _INDEX = re.compile(r"(?<![\w&])([A-Za-zͰ-Ͽ][\u0307\u0308]?)_([A-Za-z0-9]+(?:_[A-Za-z0-9]+)*)")
 _POWER = re.compile(r"\^(−?[\w.]+\w|−?\w|\([^()]*\))")
 _CODE = re.compile(r"(?<![\w&.])([A-Za-z][A-Za-z0-9]+(?:_\w+)+)")
@@ -52,10 +52,8 @@ def html_table(head: tuple[str, ...], lines: Iterable[tuple[str, ...]], kind: st
     """Return a table of HTML cells; the first cell of each line is its header."""
     heads = [escape(readable(cell), quote=True) for cell in head[1:]]
     top = "".join(f'<th scope="col">{prose(cell)}</th>' for cell in head)
-    body = "".join(
-        f'<tr><th scope="row">{first}</th>' + "".join(map(_under, heads, cells)) + "</tr>" for first, *cells in lines
-    )
-    return f'<div class="wide"><table class="{kind}"><thead><tr>{top}</tr></thead><tbody>{body}</tbody></table></div>'
+    rows = (f'<tr><th scope="row">{first}</th>{"".join(map(_under, heads, cells))}</tr>' for first, *cells in lines)
+    return f'<div class="wide"><table class="{kind}"><thead><tr>{top}</tr></thead><tbody>{"".join(rows)}</tbody></table></div>'
 
 
 def _under(head: str, cell: str) -> str:
@@ -111,11 +109,7 @@ def typeset(source: str) -> str:
     """Return LaTeX as a formula; its source with a note if the converter is not installed or fails."""
     formula = mathml(source)
     if formula is None:
-        why = (
-            "what latex2mathml cannot set is shown as it is"
-            if converter()
-            else "install latex2mathml to have it typeset"
-        )
+        why = "latex2mathml cannot convert this" if converter() else "install latex2mathml to have it typeset"
         return f"{code(source)}<p><small>LaTeX: {why}.</small></p>"
     return f'<div class="wide">{formula}</div>'
 
@@ -161,7 +155,7 @@ def derivation_html(script: Script, answers: Mapping[str, str]) -> str:
     for cell in script.cells:
         html += markdown_html(re.sub(r"\A# .*\n?", "", cell.text) if cell.kind == "prose" else "")
         html += "".join(_value_html(value, answers) for value in cell.shown)
-        html += "".join(f"<p><small>The run warns: {prose(text)}.</small></p>" for text in cell.warned)
+        html += "".join(f"<p><small>Warning of the simulation: {prose(text)}.</small></p>" for text in cell.warned)
     return html
 
 
@@ -179,7 +173,7 @@ def markdown_html(text: str) -> str:
         return f"<pre>{escape(text)}</pre>"
     text = re.sub(r"\s*(\$\$.+?\$\$)\s*", r"\n\n\1\n\n", text, flags=re.DOTALL)  # a displayed formula is a paragraph
     html: str = renderer.render(text)
-    html = html.replace('<div class="math block">', '<div class="wide">')  # drawn smaller or scrolled, as every formula
+    html = html.replace('<div class="math block">', '<div class="wide">')  # reduced or scrolled like every formula
     for level in (3, 2, 1):  # below a heading of the page
         html = html.replace(f"<h{level}>", f"<h{level + 1}>").replace(f"</h{level}>", f"</h{level + 1}>")
     return html
@@ -257,7 +251,7 @@ def link_to_derivation(identifier: str, report: Report) -> str:
     return f'<p><a href="#derivation-{stem}">The derivation</a> of {link(identifier)}</p>' if is_listed else ""
 
 
-# A data address ends at #, and % begins an escape in it; the rest is what an attribute cannot hold. % comes first.
+# In a data address # ends it and % begins an escape; an attribute cannot contain the others. % must come first.
 _ESCAPED = {"%": "%25", "#": "%23", "<": "%3C", ">": "%3E", "&": "%26", '"': "'"}
 
 

@@ -55,19 +55,21 @@ def equation_entry(verdict: Verdict, report: Report) -> str:
     """Return an equation as printed beside the derived one, its facts, and its source."""
     entry, statement = report.paper.equation(verdict.id), verdict.statement
     printed = typeset(entry.latex)
-    derived = "".join(map(typeset, derived_lines(statement.relations))) or "<p>A definition: nothing to derive.</p>"
+    derived = (
+        "".join(map(typeset, derived_lines(statement.relations))) or "<p>A definition; there is nothing to derive.</p>"
+    )
     read = code("\n".join(as_read(entry)))
-    how = f"<p>How it was read: {prose(entry.reading)}.</p>" if entry.reading else ""
+    how = f"<p>Reading of the print: {prose(entry.reading)}.</p>" if entry.reading else ""
     how += reading_of(entry, report)
     source = code(entry.latex) + how + (f"<p>As sympy reads it:</p>{read}" if entry.line else "")
-    number = f" <small>(the paper's {entry.number})</small>" if entry.number else ""
+    number = f" <small>({entry.number} in the paper)</small>" if entry.number else ""
     proof = report.certificates.get(verdict.id)
-    certificate = f"<p>Certificate, for Coq: {file_link(proof)}</p>" if proof else ""
+    certificate = f"<p>Coq certificate: {file_link(proof)}</p>" if proof else ""
     return (
         f'<article id="{anchor(verdict.id)}">{heading(anchor(verdict.id), verdict.id, entry.title, verdict.verdict)}'
         f"{_beside(f'As printed{number}', printed, derived_heading(statement.relations), derived)}"
         f"{fact_list(facts(verdict, report))}"
-        f"{certificate}{link_to_derivation(verdict.id, report)}{fold('LaTeX, and how it was read', source, 'source')}</article>"
+        f"{certificate}{link_to_derivation(verdict.id, report)}{fold('LaTeX source and reading', source, 'source')}</article>"
     )
 
 
@@ -84,10 +86,10 @@ def erratum_entry(e: Erratum) -> str:
     correct = "".join(map(typeset, e.corrected))
     for label, premises in e.conditions:
         formulas = "".join(map(typeset, premise_formulas(premises)))
-        correct += f"<p>{label} {prose('; '.join(p.sentence for p in premises))}.</p>{formulas}"
+        correct += f"<p>{label}: {prose('; '.join(p.sentence for p in premises))}.</p>{formulas}"
     return (
         f'<article id="erratum-{e.id}">{heading(f"erratum-{e.id}", e.id, e.title)}<p>{prose(e.wrong)}</p>'
-        f"{_beside('Printed', typeset(e.printed), f'Correct ({escape(e.verdict_of_correction)})', correct)}"
+        f"{_beside('Printed', typeset(e.printed), f'Corrected ({escape(e.verdict_of_correction)})', correct)}"
         f"<p><small>{escape(e.reach.capitalize())}. Derived in {link(e.id)}. Used by: {links(e.used_by) or 'none'}"
         "</small></p></article>"
     )
@@ -110,14 +112,14 @@ def claim_entry(result: Result, report: Report) -> str:
         f'<article id="{place}">{heading(place, entry.id, f"section {entry.section}", finding.outcome)}'
         f"<blockquote><p>{prose(entry.text)}</p></blockquote><p>{prose(finding.explanation)}</p>{condition}"
         f"{fact_list(linked_facts(result, report))}"
-        f"{fold(f'Measured ({result.test.model})', number_list('What', result.measured.items()))}</article>"
+        f"{fold(f'Measured ({result.test.model})', number_list('Quantity', result.measured.items()))}</article>"
     )
 
 
 def picture_entry(picture: Picture, report: Report) -> str:
     """Return the figure with its caption, its equations and claims, and its numbers."""
     place = anchor(f"figure {picture.key}")
-    measured = fold("Measured", number_list("What", picture.measured.items())) if picture.measured else ""
+    measured = fold("Measured", number_list("Quantity", picture.measured.items())) if picture.measured else ""
     return (
         f'<figure id="{place}">{heading(place, f"Figure {picture.key}", picture.title)}'
         f"{_image(picture)}"
@@ -191,7 +193,9 @@ def _summary(report: Report) -> str:
     results = "".join(headline_entry(headline, report) for headline in headlines(report))
     results = f'<ol class="results">{results}</ol>' if results else ""
     changed = "".join(f"<li>{escape(change)}</li>" for change in report.changes)
-    warning = f'<div class="changed"><p>Changed against the record:</p><ul>{changed}</ul></div>' if changed else ""
+    warning = (
+        f'<div class="changed"><p>Verdicts that differ from the record:</p><ul>{changed}</ul></div>' if changed else ""
+    )
     claims = f'<h3>Claims</h3><ul class="summary">{outcomes}</ul>' if outcomes else ""
     how = f"<p>{escape(report.how_to_read)}</p>"
     return f'{warning}{balanced}{results}<h3>Equations</h3><ul class="summary">{equations}</ul>{claims}{how}'
@@ -202,20 +206,19 @@ def _verdicts(report: Report) -> str:
         (link(v.id), prose(report.paper.equation(v.id).title), badge(v.verdict), f"<small>{prose(note(v))}</small>")
         for v in report.verdicts
     ]
-    return html_table(("Equation", "Title", "Verdict", "Why, or under what condition"), lines, "verdicts")
+    return html_table(("Equation", "Title", "Verdict", "Reason or condition"), lines, "verdicts")
 
 
 def _notation(report: Report) -> str:
     lines = [(inline(symbol), prose(meaning), escape(unit)) for symbol, meaning, unit in notation(report)]
     head, first = ("Symbol", "Meaning", "Unit"), len(report.paper.about.letters) or len(lines)
-    remainder = fold("All other letters", html_table(head, lines[first:])) if lines[first:] else ""
+    remainder = fold("All other symbols", html_table(head, lines[first:])) if lines[first:] else ""
     return html_table(head, lines[:first]) + remainder
 
 
 def _derivations(report: Report) -> str:
-    how = "<p>Each derivation opens. The run that wrote this page decided each of its equations exactly, or through the order "
-    how += "that it shows; letters as in the "
-    how += '<a href="#notation">notation</a>.</p>'
+    how = "<p>Unfold an entry to read the derivation. The run that wrote this page decided each of its equations exactly, or "
+    how += 'through the order shown. The symbols are listed in the <a href="#notation">notation</a>.</p>'
     return how + "\n".join(
         f'<details class="derivation" id="derivation-{stem}"><summary>{prose(name)}</summary>{inside}</details>'
         for stem, name, inside in report.derivations
@@ -242,11 +245,13 @@ def _cite(report: Report) -> str:
 
 
 def _made(report: Report) -> str:
-    versions = html_table(("What", "Version"), [(escape(name), escape(number)) for name, number in report.versions])
-    files = html_table(("In the same folder", "What it is"), [(file_link(file), what) for file, what in BESIDE.items()])
+    versions = html_table(("Software", "Version"), [(escape(name), escape(number)) for name, number in report.versions])
+    files = html_table(
+        ("File in the same folder", "Content"), [(file_link(file), what) for file, what in BESIDE.items()]
+    )
     inputs = [(escape(name), f"<code>{escape(digest)}</code>") for name, digest in report.inputs]
     return (
-        "<p>The same inputs give the same page, byte for byte; how long each part took is in times.json.</p>"
+        "<p>The same inputs give the same page, byte for byte. The computing times are in times.json.</p>"
         f"{files}{versions}{html_table(('Input', 'SHA-256'), inputs)}"
     )
 
