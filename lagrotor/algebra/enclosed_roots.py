@@ -22,10 +22,7 @@ Box = dict[sp.Symbol, Bounds]
 
 
 def enclosed_root(equations: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol], point: Point) -> Box | None:
-    """Return a narrow box of the unknowns that contains a root; None if no root is found or proved.
-
-    The search starts at `point`, which also gives the values of the other symbols.
-    """
+    """Return a narrow box with a root, found from `point`, which also fixes the other symbols; None without proof."""
     others = {s: value for s, value in point.items() if s not in unknowns}
     functions = [e.xreplace(others) for e in equations]
     slopes = [[derivative(f, s) for s in unknowns] for f in functions]
@@ -146,10 +143,7 @@ def roots_in_box(equations: Sequence[sp.Expr], box: Box) -> tuple[list[Box], lis
 
 
 def kinks_in(equations: Sequence[sp.Expr], narrow: Box, box: Box) -> list[sp.Expr]:
-    """Return the expressions that may vanish in or near a narrow box and make the equations singular or not differentiable there.
-
-    These are denominators, radicands, and the arguments at which a function switches its piece.
-    """
+    """Return denominators, radicands and switch conditions that may vanish in or near a narrow box."""
     if any(high - low > _LEAST * (box[s][1] - box[s][0]) for s, (low, high) in narrow.items() if s in box):
         return []
     near = {s: (low - _REACH * (high - low), high + _REACH * (high - low)) for s, (low, high) in narrow.items()}

@@ -63,10 +63,7 @@ def are_apart(lhs: sp.Expr, rhs: sp.Expr, point: Mapping[sp.Expr, Any]) -> bool:
 
 
 def solved_at(A: sp.Matrix, b: sp.Matrix, point: Point) -> list[Any]:
-    """Return intervals that contain the solution x of A x = b at the point, by elimination.
-
-    Raise NotExactError if an entry has no enclosure or A is not proved to be regular.
-    """
+    """Return intervals that contain x of A x = b at the point; raise NotExactError if A is not proved to be regular."""
     with working_digits(DIGITS):
         try:
             enclosure = PointEnclosure(point)
@@ -82,10 +79,7 @@ def apart(first: Sequence[Any], second: Sequence[Any]) -> int | None:
 
 
 class PointEnclosure:
-    """Enclosures of subexpressions at one point; `jets` holds the values that undefined functions and derivatives took.
-
-    A value of the point may be a pair of rationals, the ends of an interval.
-    """
+    """Enclosures at a point of rationals or pairs (lower, upper); `jets` holds values of undefined functions and derivatives."""
 
     def __init__(self, point: Mapping[sp.Expr, Any]) -> None:
         self.point = {s: value for s, value in point.items() if not isinstance(value, tuple)}
@@ -405,10 +399,7 @@ Bounds: TypeAlias = tuple[sp.Rational, sp.Rational]  # lower, upper
 
 
 def enclosure(e: sp.Expr, point: Mapping[sp.Symbol, Any]) -> Bounds | None:
-    """Return rational lower and upper bounds of e at a point; None if no real enclosure is known.
-
-    The point maps symbols to rationals or to pairs of rationals, the ends of an interval.
-    """
+    """Return rational bounds of e at a point of rationals or pairs (lower, upper); None if no real enclosure is known."""
     return enclosures([e], point)[0]
 
 

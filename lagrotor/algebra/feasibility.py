@@ -37,10 +37,7 @@ class _Row(NamedTuple):
 
 
 def is_infeasible(equations: Sequence[sp.Expr], where: Region, small: Sequence[sp.Symbol] = ()) -> bool:
-    """Return True if it is proved that no point of the region satisfies all equations e = 0.
-
-    small: symbols that may be assumed as close to 0 as necessary.
-    """
+    """Return True if it is proved that no point of the region solves all e = 0; symbols in `small` are arbitrarily small."""
     if sum(node_count(e) for e in (*equations, *(e for e, _ in where.above))) > _MOST_PARTS:
         return False
     if any(map(_has_no_root, equations)) or any(0 not in (signs(e, where) or ANY) for e in equations):

@@ -6,22 +6,21 @@ rational functions of the symbols with rational coefficients, and of
     sin, cos, tan, cot, sec, csc, sinh, cosh, tanh, coth, sech, csch, exp
 
 whose arguments are rational combinations of monomials in the symbols (x, x/2, omega*t); the circular functions also take
-rational multiples of pi.  Each monomial has a base angle u, and every angle is a whole multiple of a base angle.  By the
-addition theorems the expression is a quotient of polynomials in the generators, subject to
+rational multiples of pi.  Every angle is a whole multiple of the base angle u of its monomial.  By the addition theorems the
+expression is a quotient of polynomials in the generators, subject to
 
     sin(u)**2 = 1 - cos(u)**2,    sinh(u)**2 = cosh(u)**2 - 1,    sqrt(p)**2 = p,    i**2 = -1.
 
-Exponentials of rationally independent monomials are algebraically independent over the rational functions, and no product of
-the radicands of the generators is a square (`roots`).  So the generators obey no other relation, and the quotient ring has no
-zero divisors.  A quotient vanishes identically if and only if its numerator, reduced to degree below two in every squared
-generator, is the zero polynomial.
+The generators obey no other relation: exponentials of rationally independent monomials are algebraically independent, and no
+product of the radicands is a square (`roots`).  The quotient ring has no zero divisors, so a quotient vanishes identically if
+and only if its numerator, reduced to degree below two in every squared generator, is the zero polynomial.
 
 Outside this class a point where an enclosure excludes zero is a counterexample (`refutation`); `analytic_proofs` proves zero.
 
-Square roots are principal values.  A root that follows from other roots has a sign, which may differ from region to region.
-The expression is decided for each choice of these signs; "nonzero" means that it does not vanish for every choice.
-A symbol without assumptions is taken to be real where a point is needed.  A point where a subexpression is not real is no
-counterexample, unless the expression has i or a complex symbol, or is real at no inner point.  The work is bounded.
+Square roots are principal values.  A root that follows from other roots has a sign, which may differ from region to region;
+"nonzero" means that the expression does not vanish for every choice of these signs.  A symbol without assumptions is taken to
+be real where a point is needed.  A point where a subexpression is not real is no counterexample, unless the expression has i or
+a complex symbol, or is real at no inner point.
 """
 
 from __future__ import annotations
@@ -83,6 +82,13 @@ class Decision:
         Points at which the residual is evaluated; None: random points.
     conditions : Callable
         The search for `branch`; it runs when `branch` is read.
+
+    Examples
+    --------
+    >>> from sympy import symbols
+    >>> x = symbols("x", positive=True)
+    >>> decide_zero((x**2 - 1)/(x - 1) - x - 1).domain, decide_zero(x**2 - x).witness
+    ((x - 1,), {x: 772/499})
     """
 
     answer: Literal["zero", "nonzero", "undecided"]

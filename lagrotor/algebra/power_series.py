@@ -7,10 +7,10 @@ With e the small quantity, a series (Laurent for q = 1, Puiseux otherwise) is st
 A function is expanded about the value u0 of its argument: f(u0 + v) = sum of f^(m)(u0) * v**m / m!, where v vanishes with e.
 For u = e**s * w with w nonzero at e = 0,
 
-    u**a = e**(s*a) * w**a,    log u = s*log(e) + log w.
+    u**a = e**(s*a) * w**a,    log u = s*log(e) + log w,
 
-log(e) is a separate symbol in the coefficients.  tan, cot, sec, csc and their hyperbolic counterparts are quotients where they
-have a pole.  Except for roots and logarithms, a function whose argument is unbounded at e = 0 has no such series.
+with a separate symbol for log(e).  tan, cot, sec, csc and their hyperbolic counterparts are quotients where they have a pole.
+Except for roots and logarithms, a function whose argument is unbounded at e = 0 has no such series.
 
 At a logarithm, root or inverse function, u0 (for roots and logarithms w) must lie off the branch cut, or the argument must stay
 on the real line; e and symbols without assumptions are taken to be real.  If e may be negative, the formulas above require
@@ -65,6 +65,13 @@ class LeadingTerm:
         The coefficient; about a logarithmic point it contains log(small).
     through : int
         The highest order that was examined.
+
+    Examples
+    --------
+    >>> from sympy import sqrt, symbols
+    >>> x = symbols("x", positive=True)
+    >>> leading_term(sqrt(x) + x, x).order, leading_term(x - x, x).vanishes_through
+    (1/2, 8)
     """
 
     order: int | sp.Rational | None

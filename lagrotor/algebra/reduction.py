@@ -24,10 +24,7 @@ Relations: TypeAlias = Mapping[sp.Symbol, tuple[int, sp.Expr]]
 
 
 def vanishes(expression: sp.Expr, relations: Relations, numbers: Mapping[sp.Symbol, sp.Expr]) -> tuple[Ring, bool]:
-    """Return the ring with all divisors, and True if the relations imply that the expression is zero.
-
-    Raise NotExactError outside the class, beyond the bound on the work, and if a divisor vanishes.
-    """
+    """Return the ring with all divisors, and True if the relations imply zero; raise NotExactError outside the class."""
     content = survey(expression, *relations, *(value for _, value in relations.values()))
     roots = find_roots(content)
     if roots.unsigned:

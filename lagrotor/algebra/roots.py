@@ -27,7 +27,7 @@ _MOST_TERMS, _MOST_DEGREE = 60, 16
 
 
 class Root(NamedTuple):
-    """sqrt(base) = root/denominator, root**2 = square, all in the ring of the symbols."""
+    """A root sqrt(base) = root/denominator, root**2 = square, in the ring of the symbols."""
 
     base: sp.Expr
     denominator: PolyElement
@@ -35,7 +35,7 @@ class Root(NamedTuple):
 
 
 class Dependent(NamedTuple):
-    """sqrt(base) = sign * numerator/denominator * product of the roots `of`."""
+    """A root sqrt(base) = sign * numerator/denominator * product of the roots `of`."""
 
     base: sp.Expr
     numerator: PolyElement

@@ -50,10 +50,7 @@ _BY_OTHERS: dict[Any, Callable[[sp.Expr], sp.Expr]] = {
 
 
 def prove_zero(expression: sp.Expr, where: Region) -> tuple[tuple[sp.Expr, ...] | None, tuple[sp.Basic, ...]]:
-    """Return the divisors that must not vanish if the expression is proved zero, else None; and the missing signs.
-
-    Raise NotExactError outside the class and beyond the bound on the work.
-    """
+    """Return the divisors of a proof that the expression is zero, else None; and the signs that a rule missed."""
     first = Translation(where)
     first.of(expression)
     second = Translation(where, first.steps, first.degrees)

@@ -114,14 +114,14 @@ class Report:
 
     @property
     def counts(self) -> dict[str, int]:
-        """The number of equations with each verdict, in the order of `MEANINGS`, without zeros."""
+        """The number of equations with each verdict that occurs, in the order of `MEANINGS`."""
         counted: Counter[str] = Counter(verdict.verdict for verdict in self.verdicts)
         counted[NOT_YET] = len(self.waiting)
         return {answer: counted[answer] for answer in MEANINGS if counted[answer]}
 
     @property
     def outcomes(self) -> dict[str, int]:
-        """The number of claims with each outcome, in the order of `CLAIM_MEANINGS`, without zeros."""
+        """The number of claims with each outcome that occurs, in the order of `CLAIM_MEANINGS`."""
         counted: Counter[str] = Counter(result.finding.outcome for result in self.claims)
         return {answer: counted[answer] for answer in CLAIM_MEANINGS if counted[answer]}
 

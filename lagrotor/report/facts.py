@@ -185,7 +185,7 @@ class _Numbers(Formatter):
         self.measured |= {f"figure {picture.key}": picture.measured for picture in report.pictures}
 
     def has(self, entry: catalogue.HeadlineEntry) -> bool:
-        """Return whether the report has every number and formula of the headline."""
+        """Return True if the report has every number and formula of the headline."""
         fields = (match for _, name, _, _ in self.parse(entry.text) if (match := _FIELD.fullmatch(name or "")))
         needed = {match[1] for match in fields} | ({entry.formula} if entry.formula else set())
         return needed <= self.verdicts.keys() | self.measured.keys()

@@ -53,9 +53,9 @@ _LETTERS = {
 _ACCENTS = {mark: name for name, mark in ACCENTS.items() if name not in ".kb"}  # accents of the font in the head
 _DOTS = {"\u0307": r"\dot", "\u0308": r"\ddot"}
 _LOW = dict(zip("₀₁₂₃₄₅₆₇₈₉", "0123456789", strict=True))
-# A letter with its dot and its index: mathematics, unless it is a Latin letter alone.
+# A letter with dot and index is mathematics, unless it is a bare Latin letter.
 _LETTER = re.compile(rf"(\w)([{''.join(_DOTS)}]?)([{''.join(_LOW)}]*)")
-# sin{\left(\theta_1 \right)}: an argument that is one letter needs no brackets.
+# sin{\left(\theta_1 \right)}: a one-letter argument needs no brackets.
 _LONE = re.compile(r"\{\\left\((\\?[A-Za-z]+(?:_\{?\w+\}?)?) \\right\)\}")
 _LONG_WORD = 18  # characters of a word beyond which TeX may break it
 # Characters of the longest formula that is displayed.

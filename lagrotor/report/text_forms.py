@@ -89,7 +89,7 @@ class Display:
 
 @dataclass(frozen=True)
 class Rows:
-    """A table."""
+    """A table with a head and rows."""
 
     head: tuple[str, ...]
     rows: Sequence[tuple[Span, ...]]

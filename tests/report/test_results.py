@@ -86,7 +86,10 @@ def test_another_number_is_another_sentence(report: Report) -> None:
 def test_balance_counts_what_was_judged(report: Report) -> None:
     text = balance(report)
     assert text.startswith("0 of 2 equations hold")
-    assert "1 is refuted, each with a correction that holds; results of the paper are affected by none of these errors" in text
+    assert (
+        "1 is refuted, each with a correction that holds; results of the paper are affected by none of these errors"
+        in text
+    )
     assert text.endswith("1 is a definition or a measured number. 66 more are not yet judged.")
     alone = decide(Statement("5.20", chain(M, R)))
     text = balance(replace(report, verdicts=(*report.verdicts, alone)))

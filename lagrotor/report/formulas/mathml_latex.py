@@ -15,7 +15,7 @@ _RELATIONS = "=≠≡≈∼<>≤≥≪≫→⇒∈"
 _SIGNS = "+-−±∓"
 _OPEN, _CLOSE = "([{⟨", ")]}⟩"
 _NAMES = "sin cos tan exp log arcsin arctan artanh arcosh arsinh tanh sech cosh sinh".split(" ")  # noqa: SIM905
-# The converter reads a style only before braces.
+# The converter recognizes a style only before braces.
 _STYLE = re.compile(r"\\(mathcal|mathrm|mathbf|mathbb)\s+(\w)")
 _SCRIPTS = ("msub", "msup", "msubsup", "munder", "mover", "munderover", "mfrac", "mroot")
 _PRIMES = "′″‴"
@@ -31,13 +31,10 @@ def converter() -> str:
 
 
 def mathml(source: str, display: bool = True) -> str | None:
-    r"""Return a LaTeX formula as `<math>`, displayed or inline; None if latex2mathml is missing or fails.
-
-    A displayed formula is broken at wide spaces and at a continuation `\\quad = …`.
-    """
+    """Return LaTeX as `<math>`, displayed lines broken at wide spaces; None if latex2mathml is missing or fails."""
     try:
         return _convert(source, display)
-    except Exception:  # not installed; or of a print that it does not know, for which it has errors of every kind
+    except Exception:  # not installed, or unknown LaTeX, for which it raises errors of many kinds
         return None
 
 
@@ -52,7 +49,7 @@ def _convert(source: str, display: bool) -> str:
         for node in tree.iter():
             node.text, node.tail = unescape(node.text or ""), None
             if not node.get("href", "https://").startswith(("https://", "http://")):
-                del node.attrib["href"]  # a link to a page is kept, one that would run is not
+                del node.attrib["href"]  # links to pages remain, links that could run code do not
         _tidy(tree)
         _keep_readable(tree, 0, compact=not display)
         element = Element("math", {"display": "block"} if display else {})
@@ -156,7 +153,7 @@ def _accent(child: Element) -> None:
     mark = child[1]
     mark.tag, mark.text = "mo", _ACCENTS[mark.text or ""]
     mark.attrib = {"stretchy": "false"}
-    if mark.text == "→":  # the whole arrow is wider than a letter
+    if mark.text == "→":  # the unscaled arrow is wider than a letter
         mark.set("style", "font-size: .65em")
 
 

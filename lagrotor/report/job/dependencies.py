@@ -16,7 +16,7 @@ from lagrotor.paper.papers import Paper
 
 _PACKAGE = Path(__file__).resolve().parents[2]
 _TOOLS = ("sympy", "mpmath", "numpy", "scipy", "matplotlib")
-# What lies beside a module and is no source of it: the record is only compared with, drawings are made from the rest.
+# Files that are no inputs: the record is only compared with, and drawings are outputs.
 _NO_SOURCE = {".py", ".pyc", ".gif", ".png", ".svg", ".cff", ".md"}
 _NO_DATA = {"recorded.toml"}
 _WORD = re.compile(r"""["'](\w+)["']""")

@@ -37,7 +37,7 @@ def check_target(target: Path) -> Path:
 
 
 def _alive(process: str) -> bool:
-    """Return whether a process of that number is running."""
+    """Return True if a process with this number is running."""
     try:
         os.kill(int(process), 0)
     except (ValueError, OverflowError, ProcessLookupError):
@@ -63,7 +63,7 @@ def _alone(target: Path) -> Iterator[None]:
                         f"{target} is being written by another run (process {owner or 'starting'}): wait until it ends, or "
                         "choose another folder"
                     ) from None
-                lock.unlink()  # of a run that was killed
+                lock.unlink()  # a killed run left it
     try:
         os.write(handle, str(os.getpid()).encode())
         os.close(handle)
@@ -85,7 +85,7 @@ def _rename_over(target: Path) -> Iterator[Path]:
     for stale in target.parent.glob(f".{target.name}.new-*"):
         if not _alive(stale.name.rpartition("-")[2]):
             shutil.rmtree(stale, ignore_errors=True)
-    if old.exists() and not target.exists():  # a run that was killed between the two renames below
+    if old.exists() and not target.exists():  # a run was killed between the two renames below
         old.rename(target)
     shutil.rmtree(new, ignore_errors=True)
     try:

@@ -13,10 +13,10 @@ from typing import Any, TypeVar
 from lagrotor.process_settings import begin_process
 
 Task = TypeVar("Task")
-# Loaded once, before the processes part.
+# Imported once, before the processes are forked.
 _LOADED = ["lagrotor.report.job.steps", "matplotlib.figure", "scipy.integrate"]
-# New objects before a search for garbage: more than half of a paper's steps leave, most of them expressions that sympy keeps.
-# A process takes half as much memory again, for searches that would find little.
+# New objects before a garbage collection. Most objects are expressions in sympy's cache, so frequent collections free little;
+# rare ones cost half as much memory again.
 _OBJECTS = 2_000_000
 
 

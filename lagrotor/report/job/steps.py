@@ -97,14 +97,11 @@ def steps(paper: Paper) -> Iterator[JobStep]:
         yield JobStep("model", model, paper, paper.about.model, source)
 
 
-_FEW = 8  # scripts that are judged before other processes would have begun
+_FEW = 8  # fewer scripts run faster in one process
 
 
 def audit_in_processes(paper: Paper, progress: Progress, jobs: int | None = None) -> Audit:
-    """Decide every equation. jobs: number of processes; None: one per core, one for few scripts.
-
-    `progress` is called with the name of each script before it runs. Raise what `Paper.audit` raises.
-    """
+    """Decide every equation in `jobs` processes (None: one per core); `progress` is called with each script's name."""
     stems = paper.stating_scripts
     jobs = (1 if len(stems) < _FEW else cores()) if jobs is None else jobs
     if jobs == 1:

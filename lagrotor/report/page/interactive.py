@@ -47,7 +47,7 @@ from lagrotor.theory.natural_frequency import linear_pair, natural_frequency
 from lagrotor.theory.paired_precession import horner
 from lagrotor.theory.paired_precession.series import paired_series
 
-PAGE_ORDER = 9  # of the series: the highest whose coefficients, for any bar, are short enough to carry
+PAGE_ORDER = 9  # highest order of the series whose coefficients are short enough for the page
 _BARS: tuple[Ratio, ...] = "short", "equal", "long"
 _Y_1, _Y_2 = AXES.v[1], AXES.v[4]
 

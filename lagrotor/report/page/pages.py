@@ -19,13 +19,13 @@ from lagrotor.report.page.html_elements import data_address, prose, side_by_side
 from lagrotor.report.page.sections import Section, introduction, picture_entry, sections
 
 _HERE = Path(__file__).parent
-# Hidden until the script shows it: without the script there is nothing that could search.
+# Hidden until the script, which performs the search, shows it.
 _SEARCH = (
     '<form id="search" role="search" hidden><label for="query">Find</label>'
     '<input id="query" type="search" autocomplete="off" placeholder="{}, a word, a number">'
     '<p id="found" role="status"></p><ol id="hits"></ol></form>'
 )
-# Sections that have a page together, besides those of the paper, each of which has its own.
+# Sections that share a page; each section of the paper has its own.
 _FRONT = ("model", "summary", "verdicts")
 _ABOUT = ("notation", "waiting", "cite", "made")
 FOLDER = "pages"
@@ -172,7 +172,7 @@ def _page(page: Page, all_pages: list[Page], places: Mapping[str, str], report: 
 def _document(
     report: Report, body: str, contents: Iterable[tuple[str, str]], style: str, script: str, name: str = ""
 ) -> str:
-    """A whole HTML document; under a name it is one of several, and its title leads to the front page."""
+    """Return a whole HTML document; the title of a page with a name links to the front page."""
     listed = "".join(
         f'<li><a href="{address}"{_CURRENT if address == "#content" else ""}>{prose(heading)}</a></li>'
         for address, heading in contents
@@ -202,7 +202,7 @@ def _document(
 
 
 def _words(file: str, listed: Iterable[Section]) -> list[tuple[str, str, str, str]]:
-    """Return the rows of the search: (address, number or name, heading, all words) of each entry, then of the section."""
+    """Return the search entries (address, number or name, heading, words) of each entry and then of the section."""
     rows = []
     for section in listed:
         text = section.html

@@ -47,7 +47,7 @@ from lagrotor.report.page.html_elements import (
     typeset,
 )
 
-# Characters of MathML beyond which the derived form is placed below the printed one, not beside it.
+# Characters of MathML beyond which the derived form is placed below the printed one.
 _WIDEST = 2_000
 
 
