@@ -79,7 +79,7 @@ def apart(first: Sequence[Any], second: Sequence[Any]) -> int | None:
 
 
 class PointEnclosure:
-    """Enclosures at a point of rationals or pairs (lower, upper); `jets` holds values of undefined functions and derivatives."""
+    """Enclosures of subexpressions at a point of rationals or pairs (lower, upper); `jets`: values of undefined functions."""
 
     def __init__(self, point: Mapping[sp.Expr, Any]) -> None:
         self.point = {s: value for s, value in point.items() if not isinstance(value, tuple)}
@@ -135,7 +135,7 @@ class PointEnclosure:
         return _FUNCTIONS[e.func](self.of(e.args[0]))
 
     def _piecewise(self, e: sp.Piecewise) -> Any:
-        """Enclose the values of all pieces that may apply."""
+        """Return an interval that contains the values of all pieces that may apply."""
         ends = []
         for piece, condition in e.args:
             holds = self._holds(condition)

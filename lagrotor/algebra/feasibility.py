@@ -57,7 +57,7 @@ def is_infeasible(equations: Sequence[sp.Expr], where: Region, small: Sequence[s
 
 
 def has_principal_values(e: sp.Basic, equations: Sequence[sp.Expr], where: Region) -> bool:
-    """Return True for i, a complex symbol, or an expression real at no inner point; odd roots may be real."""
+    """Return True if principal values count: e has i or a complex symbol, or is real at no inner point and has no odd root."""
     if e.has(sp.I) or not all(s.is_real for s in e.free_symbols):
         return True
     natural = conditions(e)

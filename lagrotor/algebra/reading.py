@@ -46,7 +46,7 @@ class Roots(NamedTuple):
         return tuple(sign_at(self.sign_ratio(root), point) for root in self.unsigned)
 
     def _factor(self, root: Dependent) -> sp.Expr:
-        """Return the factor of the product of the square roots `of`."""
+        """Return the factor that multiplies the product of the square roots `of`."""
         over = [root.numerator, *(factor.denominator for factor in root.of)]
         return sp.Mul(*map(self.ring.expression, over)) / self.ring.expression(root.denominator)
 
