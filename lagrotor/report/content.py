@@ -96,7 +96,7 @@ class Report:
         text += "Each figure is drawn again. " if self.paper.figures else ""
         text += "All numbers were computed by the run that wrote this page, except computing times, which are on record with the "
         ids = [*(f"Equations are cited by number, such as {i}" for i in equations), *(f"claims as {i}" for i in claims)]
-        return f"{text}machine. {', '.join(ids)}."
+        return f"{text}machine. {', and '.join(ids)}."
 
     @property
     def waiting(self) -> list[Equation]:

@@ -111,7 +111,7 @@ def note(verdict: Verdict) -> str:
     if verdict.order is not None and verdict.small is not None:
         clauses.insert(0, f"agrees through order {verdict.order} in {verdict.small}")
     broken = any(premise.broken for premise in verdict.premises)
-    return "; ".join(clauses) + (". The paper's own system does not satisfy this." if broken else "")
+    return "; ".join(clauses) + (". The paper's own scene does not satisfy this." if broken else "")
 
 
 _FIELD = re.compile(r"([^\[\]]+)(?:\[(.+)\])?")

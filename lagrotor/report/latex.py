@@ -45,16 +45,16 @@ _LETTERS = {
     "−": "$-$", "–": "--", "⁻": "$^-$", "·": r"$\cdot$", "±": r"$\pm$", "∓": r"$\mp$", "×": r"$\times$", "ℓ": r"$\ell$",
     "≤": r"$\leq$", "≥": r"$\geq$", "≈": r"$\approx$", "≠": r"$\neq$", "→": r"$\to$", "…": r"\ldots{}", "°": r"$^\circ$",
     "∫": r"$\int$", "∂": r"$\partial$", "∇": r"$\nabla$", "∞": r"$\infty$", "⟨": r"$\langle$", "⟩": r"$\rangle$",
-    "†": r"$\dagger$", "′": "$'$", "ᵀ": "$^T$", "√": r"$\surd$",
+    "†": r"$\dagger$", "′": "$'$", "″": "$''$", "ᵀ": "$^T$", "√": r"$\surd$",
     "§": r"$\mathsection$", "ß": r"\ss{}", "ø": r"\o{}", "Ø": r"\O{}", "ł": r"\l{}", "Ł": r"\L{}", "æ": r"\ae{}", "œ": r"\oe{}",
     "<": "$<$", ">": "$>$", "|": "$|$", "\\": r"\textbackslash{}", "^": r"\^{}",
     "~": r"\~{}", '"': "''",
 } | {mark: f"$^{digit}$" for digit, mark in enumerate("⁰¹²³⁴⁵⁶⁷⁸⁹")}  # fmt: skip
 _ACCENTS = {mark: name for name, mark in ACCENTS.items() if name not in ".kb"}  # accents of the font in the head
-_DOTS = {"\u0307": r"\dot", "\u0308": r"\ddot"}
+_MARKS = {"\u0307": r"\dot", "\u0308": r"\ddot", "\u0302": r"\hat"}
 _LOW = dict(zip("₀₁₂₃₄₅₆₇₈₉", "0123456789", strict=True))
-# A letter with dot and index is mathematics, unless it is a bare Latin letter.
-_LETTER = re.compile(rf"(\w)([{''.join(_DOTS)}]?)([{''.join(_LOW)}]*)")
+# A letter with mark and index is mathematics, unless it is a bare Latin letter.
+_LETTER = re.compile(rf"(\w)([{''.join(_MARKS)}]?)([{''.join(_LOW)}]*)")
 # sin{\left(\theta_1 \right)}: a one-letter argument needs no brackets.
 _LONE = re.compile(r"\{\\left\((\\?[A-Za-z]+(?:_\{?\w+\}?)?) \\right\)\}")
 _LONG_WORD = 18  # characters of a word beyond which TeX may break it
@@ -85,7 +85,7 @@ def _character(character: str) -> str:
         return f"\\{character}"
     if character in _LETTERS:
         return _LETTERS[character]
-    if character.isascii() or character in GREEK or character in _DOTS or character in _LOW:
+    if character.isascii() or character in GREEK or character in _MARKS or character in _LOW:
         return character
     letter, *marks = list(unicodedata.normalize("NFKD", character))
     if letter.isascii() and letter.isalpha() and len(marks) == 1 and marks[0] in _ACCENTS:
@@ -100,7 +100,7 @@ def _letter(match: re.Match[str]) -> str:
     if stem.isascii() and not dot and not index:
         return stem
     drawn = GREEK.get(stem, stem)
-    drawn = f"{_DOTS[dot]}{{{drawn}}}" if dot else drawn
+    drawn = f"{_MARKS[dot]}{{{drawn}}}" if dot else drawn
     return f"${drawn}_{{{''.join(_LOW[digit] for digit in index)}}}$" if index else f"${drawn}$"
 
 
