@@ -41,6 +41,7 @@ NAMES = {
 
 # Class → {old attribute: new attribute}. The class takes `old_attribute` as its `__getattr__`.
 ATTRIBUTES = {
+    "Decision": {"at": "points", "seen": "residual"},
     "Equations": {"mass": "mass_matrix", "push": "generalised_forces"},
 }
 

@@ -30,7 +30,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from itertools import product
 from math import inf
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import sympy as sp
 from sympy.polys.rings import PolyElement
@@ -50,7 +50,7 @@ from lagrotor.algebra.scalar import node_count, scalar, sympified
 from lagrotor.algebra.signs import BRANCHED, Region, conditions, region
 from lagrotor.algebra.work_budget import bounded_cache
 from lagrotor.errors import InputError, NotExactError, TooLargeError
-from lagrotor.renamed import accept_old_keywords
+from lagrotor.renamed import accept_old_keywords, old_attribute
 
 # A larger divisor is not factored in the domain: this may take hours.
 _MOST_TERMS, _MOST_DEGREE = 40, 12
@@ -98,6 +98,9 @@ class Decision:
     residual: sp.Expr | None = None
     points: tuple[Point, ...] | None = None
     conditions: Callable[[], Iterable[sp.Basic]] = field(default=tuple, compare=False, repr=False)
+
+    if not TYPE_CHECKING:
+        __getattr__ = old_attribute
 
     @cached_property
     def branch(self) -> tuple[sp.Basic, ...]:
