@@ -23,10 +23,23 @@ NAMES = {
     "lagrotor.mechanics.project_position": "lagrotor.mechanics.constraints.project_position",
     "lagrotor.mechanics.project_velocity": "lagrotor.mechanics.constraints.project_velocity",
     "lagrotor.mechanics.solve_constrained": "lagrotor.mechanics.constraints.solve_constrained",
+    "lagrotor.paper.Relation": "lagrotor.paper.verdicts.Relation",
+    "lagrotor.paper.Statement": "lagrotor.paper.verdicts.Statement",
+    "lagrotor.paper.chain": "lagrotor.paper.verdicts.chain",
+    "lagrotor.paper.decide": "lagrotor.paper.ledger.decide",
 }
 
 # Function or method, by its qualified name → {old keyword: new keyword}.
-KEYWORDS: dict[str, dict[str, str]] = {}
+KEYWORDS: dict[str, dict[str, str]] = {
+    "judge": {"given": "premises"},
+    "judge_text": {"given": "premises"},
+    "parameter_premise": {"put": "substitution", "own": "scene_values"},
+    "prove": {"left": "lhs", "right": "rhs", "written": "equations"},
+    "verdict": {"written": "form"},
+    "Paper.changes": {"found": "results"},
+    "Paper.evaluate": {"wanted": "ids"},
+    "Paper.renew_record": {"found": "results"},
+}
 
 P = ParamSpec("P")
 R = TypeVar("R")

@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from lagrotor.paper.judgement import Judgement as Judgement
     from lagrotor.paper.judgement import judge_text as judge_text
     from lagrotor.paper.latex.stated_system import stated as stated
-    from lagrotor.paper.ledger import decide as decide
     from lagrotor.paper.ledger import judge as judge
     from lagrotor.paper.papers import Paper as Paper
     from lagrotor.paper.premises import Premise as Premise
@@ -41,11 +40,8 @@ if TYPE_CHECKING:
     from lagrotor.paper.tables import Table as Table
     from lagrotor.paper.theorems import Theorem as Theorem
     from lagrotor.paper.verdicts import LineVerdict as LineVerdict
-    from lagrotor.paper.verdicts import Relation as Relation
     from lagrotor.paper.verdicts import Series as Series
-    from lagrotor.paper.verdicts import Statement as Statement
     from lagrotor.paper.verdicts import Verdict as Verdict
-    from lagrotor.paper.verdicts import chain as chain
     from lagrotor.result_display import scientific as scientific
 
 __getattr__, __dir__, __all__ = face(__name__)

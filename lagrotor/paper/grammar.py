@@ -85,9 +85,9 @@ class _Reader:
         raise self._refused(node)
 
     def _refused(self, node: ast.expr) -> _RefusalError:
-        there = self.source[node.col_offset : node.end_col_offset].decode()
+        text = self.source[node.col_offset : node.end_col_offset].decode()
         hint = ": write ** for a power" if isinstance(getattr(node, "op", None), ast.BitXor) else ""
-        return _RefusalError(f"{there!r} is no part of an expression{hint}")
+        return _RefusalError(f"{text!r} is no part of an expression{hint}")
 
     def _number(self, node: ast.Constant) -> sp.Expr:
         text = self.source[node.col_offset : node.end_col_offset].decode()
@@ -118,7 +118,7 @@ class _Reader:
         return value
 
     def _called(self, node: ast.Call) -> Any:
-        arguments = [self.value(part) for part in node.args]
+        arguments = [self.value(argument) for argument in node.args]
         if isinstance(node.func, ast.Attribute) and node.func.attr == "subs" and len(arguments) == 2:
             letter, value = arguments
             if not isinstance(letter, sp.Symbol) or not isinstance(value, sp.Expr):
@@ -141,32 +141,32 @@ class _Reader:
             raise self._refused(node)
         if self.as_written:
             return self._kept(node, sign)
-        left, right = self._operand(node.left), self._operand(node.right)
+        lhs, rhs = self._operand(node.left), self._operand(node.right)
         if sign == "**":
-            _check_power(left, right)
-            if _holds_function(left) and isinstance(right, sp.Expr) and not right.is_Integer:
-                return sp.Pow(left, right, evaluate=False)
-        return _OPERATIONS[sign](left, right)
+            _check_power(lhs, rhs)
+            if _holds_function(lhs) and isinstance(rhs, sp.Expr) and not rhs.is_Integer:
+                return sp.Pow(lhs, rhs, evaluate=False)
+        return _OPERATIONS[sign](lhs, rhs)
 
     def _kept(self, node: ast.BinOp, sign: str) -> Any:
         """A sum, product or power that is not evaluated; sums of sums and products of products are one."""
-        left, right = self._operand(node.left), self._operand(node.right)
+        lhs, rhs = self._operand(node.left), self._operand(node.right)
         if sign == "**":
-            _check_power(left, right)
-        if any(isinstance(side, sp.MatrixBase) for side in (left, right)):
-            return _OPERATIONS[sign](left, right)
+            _check_power(lhs, rhs)
+        if any(isinstance(side, sp.MatrixBase) for side in (lhs, rhs)):
+            return _OPERATIONS[sign](lhs, rhs)
         if sign == "**":
-            return sp.Pow(left, right, evaluate=False)
+            return sp.Pow(lhs, rhs, evaluate=False)
         kind = sp.Add if sign in "+-" else sp.Mul
         if sign == "-":
-            right = sp.Mul(sp.S.NegativeOne, right, evaluate=False)
+            rhs = sp.Mul(sp.S.NegativeOne, rhs, evaluate=False)
         elif sign == "/":
-            right = sp.Pow(right, sp.S.NegativeOne, evaluate=False)
-        parts: list[Any] = []
-        for value, part in ((left, node.left), (right, node.right if sign in "+*" else None)):
-            joined = isinstance(part, ast.BinOp) and isinstance(part.op, _SAME[kind])
-            parts += value.args if joined and isinstance(value, kind) else [value]
-        return kind(*parts, evaluate=False)
+            rhs = sp.Pow(rhs, sp.S.NegativeOne, evaluate=False)
+        arguments: list[Any] = []
+        for value, operand in ((lhs, node.left), (rhs, node.right if sign in "+*" else None)):
+            joined = isinstance(operand, ast.BinOp) and isinstance(operand.op, _SAME[kind])
+            arguments += value.args if joined and isinstance(value, kind) else [value]
+        return kind(*arguments, evaluate=False)
 
 
 _SAME: dict[Any, Any] = {sp.Add: ast.Add | ast.Sub, sp.Mul: ast.Mult | ast.Div}
@@ -175,9 +175,9 @@ _OPERATIONS: dict[str, Callable[[Any, Any], Any]] = {
 }  # fmt: skip
 
 
-def _holds_function(*parts: Any) -> bool:
+def _holds_function(*arguments: Any) -> bool:
     """Return whether a part has a function in it: sympy does not evaluate what is taken of that."""
-    return any(isinstance(part, sp.Expr) and part.has(sp.Function) for part in parts)
+    return any(isinstance(argument, sp.Expr) and argument.has(sp.Function) for argument in arguments)
 
 
 def _check_power(base: Any, exponent: Any) -> None:
@@ -255,10 +255,10 @@ def column(*entries: sp.Expr) -> sp.Matrix:
     return sp.Matrix(entries)
 
 
-def integral(body: sp.Expr, *over: Any) -> sp.Expr:
+def integral(body: sp.Expr, *limits: Any) -> sp.Expr:
     """∫ body: between limits an integral that `algebra` decides, since sympy passes over poles; else an antiderivative."""
-    definite = bool(over) and all(isinstance(each, tuple | list | sp.Tuple) and len(each) == 3 for each in over)
-    return sp.Integral(body, *over) if definite else sp.integrate(body, *over)
+    definite = bool(limits) and all(isinstance(limit, tuple | list | sp.Tuple) and len(limit) == 3 for limit in limits)
+    return sp.Integral(body, *limits) if definite else sp.integrate(body, *limits)
 
 
 _OF_SYMPY = (
@@ -314,12 +314,12 @@ def read_side(text: str, letters: Mapping[str, Any], where: str) -> tuple[Any, A
 
     Raises InputError where it cannot be read, and LagrotorError where an enclosure at a random point keeps the two apart.
     """
-    value, written = (parsed(text, {**FUNCTIONS, **letters}, where, as_written) for as_written in (False, True))
-    for left, right in zip(*(components([side]) for side in (value, written)), strict=True):
-        for point in points(left.free_symbols | right.free_symbols, 2):
-            if are_apart(left, right, point):
+    value, unevaluated = (parsed(text, {**FUNCTIONS, **letters}, where, as_written) for as_written in (False, True))
+    for lhs, rhs in zip(*(components([side]) for side in (value, unevaluated)), strict=True):
+        for point in points(lhs.free_symbols | rhs.free_symbols, 2):
+            if are_apart(lhs, rhs, point):
                 raise LagrotorError(f"{where}: {text!r} is not {value}, as it was read: report this error of lagrotor")
-    return value, written
+    return value, unevaluated
 
 
 @dataclass(frozen=True)
@@ -340,20 +340,20 @@ class Line:
     names: bool = False
 
 
-def read_line(given: Mapping[str, Any], names: Mapping[str, Any], where: str) -> Line:
+def read_line(table: Mapping[str, Any], names: Mapping[str, Any], where: str) -> Line:
     """A printed line from what the catalogue says of it. Raises InputError where an expression cannot be read."""
 
     def read_off(digits: str) -> Any:
         number = read(digits, {}, where)
         return read("1", {}, where) / (2 * number * 10 ** len(digits.partition(".")[2]))
 
-    scene = [(read(name, names, where), read(value, names, where)) for name, value in given.get("scene", {}).items()]
+    scene = [(read(name, names, where), read(value, names, where)) for name, value in table.get("scene", {}).items()]
     return Line(
-        quantity=given["quantity"],
-        members=tuple(read_side(member, names, where)[0] for member in given.get("members", ())),
-        order=given.get("order", 0),
-        small=read(given["small"], names, where) if "small" in given else None,
-        within=read_off(given["read_off"]) if "read_off" in given else None,
+        quantity=table["quantity"],
+        members=tuple(read_side(member, names, where)[0] for member in table.get("members", ())),
+        order=table.get("order", 0),
+        small=read(table["small"], names, where) if "small" in table else None,
+        within=read_off(table["read_off"]) if "read_off" in table else None,
         scene=dict(zip(*(components(side) for side in zip(*scene, strict=True)), strict=True)) if scene else {},
-        names=given.get("names", False),
+        names=table.get("names", False),
     )

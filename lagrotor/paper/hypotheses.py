@@ -51,8 +51,8 @@ class Hypotheses:
     meaning: what the new letters of `signed` are.
     """
 
-    put: Mapping[sp.Symbol, sp.Expr]
-    left: tuple[sp.Expr, ...] = ()
+    values: Mapping[sp.Symbol, sp.Expr]
+    equations: tuple[sp.Expr, ...] = ()
     region: tuple[Relational, ...] = ()
     small: tuple[sp.Symbol, ...] = ()
     contradiction: str = ""
@@ -60,30 +60,30 @@ class Hypotheses:
 
     def on(self, side: Any) -> Any:
         """A side in the letters that are left."""
-        return replaced(sp.sympify(side, strict=True), self.put)
+        return replaced(sp.sympify(side, strict=True), self.values)
 
     @cached_property
     def signed(self) -> "Hypotheses":
         """The same set with its inequalities as assumptions of letters, as far as they are linear in one that is free."""
-        put, left, meaning = dict(self.put), self.left, dict[sp.Symbol, sp.Expr]()
-        order = letters_in_order((sp.S.Zero, *self.region, *left))
+        values, equations, meaning = dict(self.values), self.equations, dict[sp.Symbol, sp.Expr]()
+        order = letters_in_order((sp.S.Zero, *self.region, *equations))
         for relation in sorted(self.region, key=lambda r: not (r.lhs.is_Symbol and r.rhs == 0)):
-            step = _as_assumption(relation.xreplace(put), self.small, order)
+            step = _as_assumption(relation.xreplace(values), self.small, order)
             if step is not None:
                 letter, value = step
-                [new] = value.free_symbols - relation.xreplace(put).free_symbols
+                [new] = value.free_symbols - relation.xreplace(values).free_symbols
                 if new.name != letter.name:
                     meaning[new] = sp.expand((letter - value.xreplace({new: sp.S.Zero})) / value.diff(new)).xreplace(
                         meaning
                     )
-                put = {old: replaced(new, {letter: value}) for old, new in put.items()} | {letter: value}
-                left = tuple(replaced(e, {letter: value}) for e in left)
-        there = tuple(relation.xreplace(put) for relation in self.region)
+                values = {old: replaced(new, {letter: value}) for old, new in values.items()} | {letter: value}
+                equations = tuple(replaced(e, {letter: value}) for e in equations)
+        substituted = tuple(relation.xreplace(values) for relation in self.region)
         contradiction = next(
-            (f"{relation_text(r)} is false" for r, s in zip(self.region, there, strict=True) if s == sp.false), ""
+            (f"{relation_text(r)} is false" for r, s in zip(self.region, substituted, strict=True) if s == sp.false), ""
         )
-        relations = tuple(r for r in there if isinstance(r, Relational))
-        return Hypotheses(put, left, relations, self.small, self.contradiction or contradiction, meaning)
+        relations = tuple(r for r in substituted if isinstance(r, Relational))
+        return Hypotheses(values, equations, relations, self.small, self.contradiction or contradiction, meaning)
 
     @property
     def inside(self) -> tuple[Relational, ...]:
@@ -91,14 +91,14 @@ class Hypotheses:
         return tuple(r for r in self.region if not isinstance(r, sp.Ne))
 
 
-def replaced(e: Any, put: Mapping[sp.Symbol, sp.Expr]) -> Any:
+def replaced(e: Any, values: Mapping[sp.Symbol, sp.Expr]) -> Any:
     """Letters replaced by their values; what a derivative, a sum or an integral binds stays bound."""
-    bound = put and e.has(sp.Derivative, ExprWithLimits)
-    return e.subs(list(put.items()), simultaneous=True) if bound else e.xreplace(put)
+    bound = values and e.has(sp.Derivative, ExprWithLimits)
+    return e.subs(list(values.items()), simultaneous=True) if bound else e.xreplace(values)
 
 
-def hypotheses(premises: Iterable[Premise], kept: sp.Symbol | None = None) -> Hypotheses:
-    """The premises as one set; `kept` is a letter that is eliminated only where no other can be.
+def hypotheses(premises: Iterable[Premise], last: sp.Symbol | None = None) -> Hypotheses:
+    """The premises as one set; `last` is a letter that is eliminated only where no other can be.
 
     Its `contradiction` says where two of them, or one and a letter's assumptions, exclude each other.
     """
@@ -106,8 +106,8 @@ def hypotheses(premises: Iterable[Premise], kept: sp.Symbol | None = None) -> Hy
     small = tuple(sorted({p.small for p in listed if p.small is not None}, key=sp.default_sort_key))
     equations, region = _collected(listed, small)
     replaced = frozenset(old for p in listed for old in p.put if isinstance(old, sp.Symbol))
-    under = _solved(equations, region, small, _Wishes(replaced, kept))
-    return under if kept is None or kept in small else replace(under, small=(*small, kept))
+    under = _solved(equations, region, small, _Wishes(replaced, last))
+    return under if last is None or last in small else replace(under, small=(*small, last))
 
 
 class _ContradictionError(Exception):
@@ -121,10 +121,10 @@ def _collected(
     equations: set[sp.Expr] = set()
     region: set[Relational] = set()
     for premise in premises:
-        for left, right in premise.equations:
-            a, b = sp.sympify(left, strict=True), sp.sympify(right, strict=True)
+        for lhs, rhs in premise.equations:
+            a, b = sp.sympify(lhs, strict=True), sp.sympify(rhs, strict=True)
             if not isinstance(a, sp.Expr) or not isinstance(b, sp.Expr):
-                raise InputError(f"premise {premise.says!r}: {left!r} = {right!r} is no equation of two expressions")
+                raise InputError(f"premise {premise.says!r}: {lhs!r} = {rhs!r} is no equation of two expressions")
             if premise.small is not None and a.is_Symbol and a in b.free_symbols:
                 b = b.xreplace({a: _scaled(a, premise.small)})
             e, conditions = _without_inverse(a - b)
@@ -144,9 +144,9 @@ def _without_inverse(e: sp.Expr) -> tuple[sp.Expr, tuple[Relational, ...]]:
     for sign in (1, -1):
         terms = sp.Add.make_args(sp.expand(sign * e))
         calls = [t for t in terms if (-t).func in INVERSES]
-        rest = sp.Add(*(t for t in terms if t not in calls))
-        if len(calls) == 1 and rest.is_Symbol:
-            value, conditions = argument((-calls[0]).func, rest)
+        remainder = sp.Add(*(t for t in terms if t not in calls))
+        if len(calls) == 1 and remainder.is_Symbol:
+            value, conditions = argument((-calls[0]).func, remainder)
             return (-calls[0]).args[0] - value, conditions
     return e, ()
 
@@ -172,14 +172,14 @@ def _solved(
 ) -> Hypotheses:
     try:
         return _solved_or_not(equations, region, small, wishes)
-    except _ContradictionError as found:
-        return Hypotheses({}, small=small, contradiction=str(found))
+    except _ContradictionError as error:
+        return Hypotheses({}, small=small, contradiction=str(error))
 
 
 def _solved_or_not(
     equations: frozenset[sp.Expr], region: frozenset[Relational], small: tuple[sp.Symbol, ...], wishes: _Wishes
 ) -> Hypotheses:
-    put: dict[sp.Symbol, sp.Expr] = {}
+    values: dict[sp.Symbol, sp.Expr] = {}
     letters = Numbering(sp.S.Zero, *equations, *region)
     wishes = wishes._replace(order=tuple(letters.letters))
 
@@ -195,16 +195,16 @@ def _solved_or_not(
     while True:
         steps = [step for e in waiting for step in _plain_steps(e, small)]
         if not steps:
-            known = _known(units, conditions, put)
-            waiting = list(dict.fromkeys(e for each in waiting if (e := _reduced(each, known)) is not None))
-            steps = [step for e in waiting for step in _steps(e, small, known)]
+            domain = _known(units, conditions, values)
+            waiting = list(dict.fromkeys(e for equation in waiting if (e := _reduced(equation, domain)) is not None))
+            steps = [step for e in waiting for step in _steps(e, small, domain)]
         if not steps:
             break
-        _, letter, value, own = min(steps, key=wishes.rank)
-        conditions += [*own, *_own_conditions(letter, value)]
-        put = {old: replaced(new, {letter: value}) for old, new in put.items()} | {letter: value}
-        waiting = [e for each in waiting if (e := replaced(each, {letter: value})) != 0]
-    return Hypotheses(put, tuple(waiting), tuple(_checked(conditions, put, waiting, small)), small)
+        _, letter, value, step_conditions = min(steps, key=wishes.rank)
+        conditions += [*step_conditions, *_own_conditions(letter, value)]
+        values = {old: replaced(new, {letter: value}) for old, new in values.items()} | {letter: value}
+        waiting = [e for equation in waiting if (e := replaced(equation, {letter: value})) != 0]
+    return Hypotheses(values, tuple(waiting), tuple(_checked(conditions, values, waiting, small)), small)
 
 
 def _denominator(e: sp.Expr) -> sp.Expr:
@@ -221,31 +221,33 @@ class _Known(NamedTuple):
         """Return whether e does not vanish."""
         if e in self.units or sp.expand(e) in self.units:
             return True
-        found = signs(e, self.where)
-        return found is not None and 0 not in found
+        sign_set = signs(e, self.where)
+        return sign_set is not None and 0 not in sign_set
 
 
-def _known(units: Iterable[sp.Expr], conditions: Iterable[Relational], put: Mapping[sp.Symbol, sp.Expr]) -> _Known:
-    there = [r.xreplace(put) for r in conditions if not isinstance(r, sp.Ne)]
-    opposites = (sp.expand(sign * u.xreplace(put)) for u in units for sign in (1, -1))
-    return _Known(frozenset(u for u in opposites if not u.is_number), region(r for r in there if r is not sp.false))
+def _known(units: Iterable[sp.Expr], conditions: Iterable[Relational], values: Mapping[sp.Symbol, sp.Expr]) -> _Known:
+    substituted = [r.xreplace(values) for r in conditions if not isinstance(r, sp.Ne)]
+    opposites = (sp.expand(sign * u.xreplace(values)) for u in units for sign in (1, -1))
+    return _Known(
+        frozenset(u for u in opposites if not u.is_number), region(r for r in substituted if r is not sp.false)
+    )
 
 
 @lru_cache(maxsize=2048)
-def _reduced(e: sp.Expr, known: _Known) -> sp.Expr | None:
+def _reduced(e: sp.Expr, domain: _Known) -> sp.Expr | None:
     """An equation without factors that do not vanish; None where it holds by itself."""
     if e.has(sp.nan, sp.zoo, sp.oo, -sp.oo):
         raise _ContradictionError("a denominator becomes 0")
     factors: dict[sp.Expr, None] = {}
     for factor, _ in _factor_list(sp.together(e).as_numer_denom()[0]):
-        if not known.nonzero(factor):
+        if not domain.nonzero(factor):
             factors[factor] = None
-    kept = sp.expand(sp.Mul(*factors))
-    if kept.is_number or decide_zero(kept).answer == "zero":
-        if not factors or (kept != 0 and decide_zero(kept).answer != "zero"):
+    remainder = sp.expand(sp.Mul(*factors))
+    if remainder.is_number or decide_zero(remainder).answer == "zero":
+        if not factors or (remainder != 0 and decide_zero(remainder).answer != "zero"):
             raise _ContradictionError(f"{readable(str(e))} is not 0")
         return None
-    return min(kept, sp.expand(-kept), key=sp.default_sort_key)
+    return min(remainder, sp.expand(-remainder), key=sp.default_sort_key)
 
 
 def _factor_list(e: sp.Expr) -> list[tuple[sp.Expr, int]]:
@@ -268,38 +270,38 @@ class _Step(NamedTuple):
 @lru_cache(maxsize=2048)
 def _plain_steps(e: sp.Expr, small: tuple[sp.Symbol, ...]) -> tuple[_Step, ...]:
     """Those of letters that stand in a term by themselves, with a number before them, and nowhere else in the equation."""
-    terms, found = sp.Add.make_args(e), []
+    terms, steps = sp.Add.make_args(e), []
     for term in terms:
         number, letter = term.as_coeff_Mul()
         if letter.is_Symbol and letter not in small and all(t is term or letter not in t.free_symbols for t in terms):
-            found.append(_step(letter, -(e - term) / number))
-    return tuple(found)
+            steps.append(_step(letter, -(e - term) / number))
+    return tuple(steps)
 
 
 @lru_cache(maxsize=2048)
-def _steps(e: sp.Expr, small: tuple[sp.Symbol, ...], known: _Known) -> tuple[_Step, ...]:
+def _steps(e: sp.Expr, small: tuple[sp.Symbol, ...], domain: _Known) -> tuple[_Step, ...]:
     """Those of letters that an equation is linear in, or in one function of which, their coefficient known not to vanish."""
-    found = []
+    steps = []
     for letter in e.free_symbols - set(small):
         kernel = _kernel(e, letter)
         if kernel is None:
             continue
         unknown = letter if kernel == letter else sp.Dummy()
-        there = e if kernel == letter else e.xreplace({kernel: unknown})
-        coefficient = sp.expand(there.diff(unknown))
+        linear = e if kernel == letter else e.xreplace({kernel: unknown})
+        coefficient = sp.expand(linear.diff(unknown))
         if coefficient.has(letter, unknown, sp.Derivative, sp.Subs):
             continue
-        if not (coefficient.is_number or all(known.nonzero(f) for f, _ in _factor_list(coefficient))):
+        if not (coefficient.is_number or all(domain.nonzero(f) for f, _ in _factor_list(coefficient))):
             continue
-        rest = sp.expand(there.xreplace({unknown: sp.S.Zero}))
-        if rest.has(sp.nan, sp.zoo, sp.oo, letter) or (rest != 0 and coefficient.free_symbols & set(small)):
+        remainder = sp.expand(linear.xreplace({unknown: sp.S.Zero}))
+        if remainder.has(sp.nan, sp.zoo, sp.oo, letter) or (remainder != 0 and coefficient.free_symbols & set(small)):
             continue
-        value = sp.cancel(-rest / coefficient)
+        value = sp.cancel(-remainder / coefficient)
         if kernel == letter:
-            found.append(_step(letter, value))
-        elif (inverted := solved_for(kernel, letter, value, known.where)) is not None:
-            found.append(_step(letter, *inverted))
-    return tuple(found)
+            steps.append(_step(letter, value))
+        elif (inverted := solved_for(kernel, letter, value, domain.where)) is not None:
+            steps.append(_step(letter, *inverted))
+    return tuple(steps)
 
 
 def _kernel(e: sp.Expr, letter: sp.Symbol) -> sp.Expr | None:
@@ -320,7 +322,7 @@ def _step(letter: sp.Symbol, value: sp.Expr, conditions: tuple[Relational, ...] 
 
 def _own_conditions(letter: sp.Symbol, value: sp.Expr) -> list[Relational]:
     """What the letter's assumptions say of its value, where the value's own do not say it. Raises where they exclude it."""
-    found: list[Relational] = []
+    relations: list[Relational] = []
     tests = {
         "positive": (letter.is_positive, value.is_positive, lambda v: v > 0),
         "negative": (letter.is_negative, value.is_negative, lambda v: v < 0),
@@ -330,38 +332,41 @@ def _own_conditions(letter: sp.Symbol, value: sp.Expr) -> list[Relational]:
         "real": (letter.is_real, value.is_real, None),
         "integer": (letter.is_integer, value.is_integer, None),
     }
-    for name, (declared, known, condition) in tests.items():
-        if declared and known is False:
+    for name, (declared, value_sign, condition) in tests.items():
+        if declared and value_sign is False:
             raise _ContradictionError(f"{letter} = {value}, and {letter} is declared {name}")
-        if declared and known is None and condition is not None and not found:
+        if declared and value_sign is None and condition is not None and not relations:
             relation = condition(value)  # type: ignore[no-untyped-call]
             if isinstance(relation, Relational):
-                found.append(relation)
-    return found
+                relations.append(relation)
+    return relations
 
 
 def _checked(
-    relations: list[Relational], put: Mapping[sp.Symbol, sp.Expr], left: list[sp.Expr], small: tuple[sp.Symbol, ...]
+    relations: list[Relational],
+    values: Mapping[sp.Symbol, sp.Expr],
+    equations: list[sp.Expr],
+    small: tuple[sp.Symbol, ...],
 ) -> Iterator[Relational]:
     """The conditions in the letters that are left, each once; raises where they and the equations left exclude each other."""
-    found: dict[Relational, None] = {}
+    reduced: dict[Relational, None] = {}
     for relation in relations:
         try:
-            there = relation.xreplace(put)
+            substituted = relation.xreplace(values)
         except TypeError:
             raise _ContradictionError(f"{relation_text(relation)} is not real") from None
-        if there == sp.false:
+        if substituted == sp.false:
             raise _ContradictionError(f"{relation_text(relation)} is false")
-        if isinstance(there, Relational):
-            if isinstance(there, sp.Ne) and decide_zero(there.lhs - there.rhs).answer == "zero":
+        if isinstance(substituted, Relational):
+            if isinstance(substituted, sp.Ne) and decide_zero(substituted.lhs - substituted.rhs).answer == "zero":
                 raise _ContradictionError(f"{relation_text(relation)} is false")
-            found[there] = None
-    inequalities = [r for r in found if not isinstance(r, sp.Ne)]
-    if is_infeasible(left, region(inequalities), small):
-        all_of_it = (*(f"{readable(str(e))} = 0" for e in left), *map(relation_text, inequalities))
+            reduced[substituted] = None
+    inequalities = [r for r in reduced if not isinstance(r, sp.Ne)]
+    if is_infeasible(equations, region(inequalities), small):
+        all_of_it = (*(f"{readable(str(e))} = 0" for e in equations), *map(relation_text, inequalities))
         near = f" near {', '.join(map(str, small))} = 0" if small else ""
         raise _ContradictionError(f"no values of the letters satisfy {' and '.join(all_of_it)}{near}")
-    yield from found
+    yield from reduced
 
 
 def _as_assumption(
@@ -378,11 +383,11 @@ def _as_assumption(
         if not slope.is_Rational or slope == 0 or letter.is_integer:
             continue
         kind = {"positive": True} if strict else {"nonnegative": True}
-        rest = sp.expand(e - slope * letter)
-        if letter in small and rest != 0:
+        remainder = sp.expand(e - slope * letter)
+        if letter in small and remainder != 0:
             continue  # what is small stays a letter, of one sign at most
-        new = sp.Symbol(letter.name if rest == 0 and slope > 0 else f"({e})", **kind)
-        value = (new - rest) / slope
+        new = sp.Symbol(letter.name if remainder == 0 and slope > 0 else f"({e})", **kind)
+        value = (new - remainder) / slope
         try:
             if _own_conditions(letter, value):
                 continue
@@ -414,10 +419,10 @@ def vanishes_on(difference: sp.Expr, equations: Sequence[sp.Expr], apart: Sequen
         numerator, relations, units = _in_one_ring(difference, list(equations), list(apart))
     except NotExactError:
         return "undecided"
-    found = _used([numerator, *units], relations)
-    if found is None:
+    system = _used([numerator, *units], relations)
+    if system is None:
         return "undecided"
-    ring, (target, *others), ideal = found
+    ring, (target, *others), ideal = system
     order = ring.clone(order=grevlex)
     basis = groebner([p.set_ring(order) for p in ideal], order)
     one_more = PolyRing([*sp.symbols(f"g:{ring.ngens}"), sp.Symbol("t")], ring.domain, grevlex)
@@ -444,11 +449,11 @@ def _in_one_ring(
 ) -> tuple[PolyElement, list[PolyElement], list[PolyElement]]:
     """The numerators of the difference and of the equations, with the relations of the generators, and what is not zero."""
     together = [difference, *equations, *apart]
-    found = survey(sp.Add(*(sp.Dummy() * e for e in together)))
-    roots = find_roots(found)
+    generators = survey(sp.Add(*(sp.Dummy() * e for e in together)))
+    roots = find_roots(generators)
     if roots.unsigned:
         raise NotExactError("The sign of a root may differ from region to region.")
-    reading = reader(found, roots)
+    reading = reader(generators, roots)
     ring = reading.ring
     quotients = [reading.quotient(e) for e in together]
     squares = [ring.polynomials.gens[i] ** 2 - square for i, square in ring.squares.items()]
@@ -468,7 +473,9 @@ def _used(
     everything = [*targets, *relations]
     powers = [[{m[i] for m in p.itermonoms()} for p in everything] for i in range(targets[0].ring.ngens)]
     used = [
-        i for i, sets in enumerate(powers) if any(map(any, sets[len(targets) :])) or any(len(each) > 1 for each in sets)
+        i
+        for i, sets in enumerate(powers)
+        if any(map(any, sets[len(targets) :])) or any(len(exponents) > 1 for exponents in sets)
     ] or [*range(targets[0].ring.ngens)]
     sizes = [(len(p), max(map(sum, p.itermonoms()), default=0)) for p in everything]
     if len(relations) > _MOST_EQUATIONS + len(used) or len(used) > _MOST_LETTERS:
@@ -478,8 +485,8 @@ def _used(
     if sizes[0][0] > 4 * _MOST_TERMS or sizes[0][1] > 2 * _MOST_DEGREE:
         return None
     ring = PolyRing(sp.symbols(f"g:{len(used)}"), sp.QQ)
-    moved = [ring.from_dict({tuple(m[i] for i in used): c for m, c in p.iterterms()}) for p in everything]
-    return ring, moved[: len(targets)], moved[len(targets) :]
+    polynomials = [ring.from_dict({tuple(m[i] for i in used): c for m, c in p.iterterms()}) for p in everything]
+    return ring, polynomials[: len(targets)], polynomials[len(targets) :]
 
 
 Values: TypeAlias = dict[sp.Symbol, Any]  # letter → an exact value, or two rationals between which it lies
@@ -506,12 +513,12 @@ def witness(
     principal: of sides with i or complex letters, and of sides that are real nowhere, principal values count; the absolute
     value of the difference is then enclosed.
     """
-    there = sp.Tuple(*map(under.on, sides))
-    real = replace(under, region=tuple(dict.fromkeys((*under.region, *conditions(there)))))
-    found = _apart(sides, real, beyond, False) if sp.false not in real.region else None
-    if found is None and principal and has_principal_values(there, under.left, region(under.inside)):
+    substituted = sp.Tuple(*map(under.on, sides))
+    real = replace(under, region=tuple(dict.fromkeys((*under.region, *conditions(substituted)))))
+    result = _apart(sides, real, beyond, False) if sp.false not in real.region else None
+    if result is None and principal and has_principal_values(substituted, under.equations, region(under.inside)):
         return _apart(sides, under, beyond, True)
-    return found
+    return result
 
 
 def _apart(sides: tuple[sp.Expr, sp.Expr], under: Hypotheses, beyond: sp.Expr, principal: bool) -> Witness | None:
@@ -527,43 +534,43 @@ def _apart(sides: tuple[sp.Expr, sp.Expr], under: Hypotheses, beyond: sp.Expr, p
         if principal and between is None:
             between = enclosure(sp.Abs(e, evaluate=False), values)
         if between is not None and (between[0] > beyond or between[1] < -beyond):
-            left, right = enclosures(map(evaluated, both), values)
-            if principal or (left and right):
-                return Witness(_of_letters(difference, under, signed, values), between, (left, right))
+            lhs, rhs = enclosures(map(evaluated, both), values)
+            if principal or (lhs and rhs):
+                return Witness(_of_letters(difference, under, signed, values), between, (lhs, rhs))
     return None
 
 
-def contradicted(left: Any, right: Any, under: Hypotheses) -> Values | None:
+def contradicted(printed: Any, derived: Any, under: Hypotheses) -> Values | None:
     """Return a point of the hypotheses that keeps two real sides apart that were decided to be equal; None as it should be.
 
     The sides are enclosed as they came: nothing is put into them.
     """
     signed = under.signed
-    for a, b in zip(*(side if isinstance(side, sp.MatrixBase) else [side] for side in (left, right)), strict=True):
+    for a, b in zip(*(side if isinstance(side, sp.MatrixBase) else [side] for side in (printed, derived)), strict=True):
         for values in islice(_points([signed.on(a), signed.on(b)], signed), _CHECKED):
-            if are_apart(a, b, {**signed.put, **values}):
+            if are_apart(a, b, {**signed.values, **values}):
                 return values
     return None
 
 
 def _says_more(e: sp.Expr, signed: Hypotheses) -> bool:
     """Return whether an equation about a function may fix a derivative of it, or an equation that is left holds one."""
-    given = sp.Tuple(*signed.left, *signed.put.values())
-    new = e.atoms(sp.Derivative) - given.atoms(sp.Derivative)
-    functions = given.atoms(AppliedUndef)
-    return any(x.has(AppliedUndef) for x in signed.left) or any(d.has(*functions) for d in new if functions)
+    premises = sp.Tuple(*signed.equations, *signed.values.values())
+    new = e.atoms(sp.Derivative) - premises.atoms(sp.Derivative)
+    functions = premises.atoms(AppliedUndef)
+    return any(x.has(AppliedUndef) for x in signed.equations) or any(d.has(*functions) for d in new if functions)
 
 
 def _points(compared: Sequence[sp.Expr], signed: Hypotheses) -> Iterator[Values]:
     """Points of the letters that are left which satisfy all that the hypotheses say."""
-    conditions = *signed.left, *signed.region
+    conditions = *signed.equations, *signed.region
     order = letters_in_order((without_number(compared[0])[1], *compared[1:], *conditions))
     letters = [s for s in order if any(s in x.free_symbols for x in (*compared, *conditions))]
     scales = (1, 2) if signed.region else (1,)
     for at in chain(*(islice(points(letters, _POINTS, sp.Integer(scale)), _POINTS) for scale in scales)):
         values: Values = dict(at)
-        if signed.left:
-            box = enclosed_root(signed.left, unknowns, at) if (unknowns := _unknowns(signed, order)) else None
+        if signed.equations:
+            box = enclosed_root(signed.equations, unknowns, at) if (unknowns := _unknowns(signed, order)) else None
             if box is None:
                 continue
             values |= box
@@ -573,13 +580,13 @@ def _points(compared: Sequence[sp.Expr], signed: Hypotheses) -> Iterator[Values]
 
 def _unknowns(signed: Hypotheses, order: list[sp.Symbol]) -> list[sp.Symbol]:
     """A letter for each equation that is left, each once, of those that are in the fewest; empty where there are too few."""
-    found: list[sp.Symbol] = []
-    for e in sorted(signed.left, key=lambda e: len(e.free_symbols)):
-        free = sorted(e.free_symbols - set(found) - set(signed.small), key=order.index)
+    unknowns: list[sp.Symbol] = []
+    for e in sorted(signed.equations, key=lambda e: len(e.free_symbols)):
+        free = sorted(e.free_symbols - set(unknowns) - set(signed.small), key=order.index)
         if not free:
             return []
-        found.append(free[0])
-    return found
+        unknowns.append(free[0])
+    return unknowns
 
 
 def _as_declared(values: Values) -> bool:
@@ -607,13 +614,13 @@ def _satisfied(relation: Relational, values: Values) -> bool:
 def _of_letters(difference: sp.Expr, under: Hypotheses, signed: Hypotheses, values: Values) -> Values:
     """The point in the letters of the statement: what was eliminated has its value, too."""
     exact = {s: v for s, v in values.items() if not isinstance(v, tuple)}
-    found: Values = {}
-    for letter in sorted(difference.free_symbols | set(under.put), key=sp.default_sort_key):
+    point: Values = {}
+    for letter in sorted(difference.free_symbols | set(under.values), key=sp.default_sort_key):
         value = signed.on(letter)
         if value in values:
-            found[letter] = values[value]
+            point[letter] = values[value]
         elif value.free_symbols <= set(exact):
-            found[letter] = replaced(value, exact)
+            point[letter] = replaced(value, exact)
         elif (between := enclosure(value, values)) is not None:
-            found[letter] = between
-    return found
+            point[letter] = between
+    return point

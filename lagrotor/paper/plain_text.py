@@ -54,70 +54,74 @@ def from_latex(source: str) -> str:
     return re.sub(r"(^|\()- ", r"\1−", text).replace(" - ", " − ")
 
 
-def _line(rest: deque[Token]) -> str:
+def _line(tokens: deque[Token]) -> str:
     """What is before the brace that closes the open one, or before the end."""
-    made = ""
-    while rest and (token := rest.popleft()).kind != "close":
-        made = f"{made.rstrip() if token.kind == 'script' else made}{_piece(token, rest)}"
-    return made
+    text = ""
+    while tokens and (token := tokens.popleft()).kind != "close":
+        text = f"{text.rstrip() if token.kind == 'script' else text}{_piece(token, tokens)}"
+    return text
 
 
-def _piece(token: Token, rest: deque[Token]) -> str:
+def _piece(token: Token, tokens: deque[Token]) -> str:
     if token.kind == "open":
-        return _line(rest)
+        return _line(tokens)
     if token.kind == "script":
-        inner = _argument(rest).strip()
+        inner = _argument(tokens).strip()
         if not inner:
             return ""
         if inner.isdigit():
             return inner.translate(_LOW if token.text == "_" else _HIGH)
         return "ᵀ" if (token.text, inner) == ("^", "T") else f"{token.text}{_factor(inner)}"
-    return _command(token.text[1:], rest) if token.kind == "command" else " " if token.kind == "align" else token.text
+    return _command(token.text[1:], tokens) if token.kind == "command" else " " if token.kind == "align" else token.text
 
 
-def _argument(rest: deque[Token]) -> str:
-    while rest and not rest[0].text.strip():
-        rest.popleft()
-    return _piece(rest.popleft(), rest) if rest else ""
+def _argument(tokens: deque[Token]) -> str:
+    while tokens and not tokens[0].text.strip():
+        tokens.popleft()
+    return _piece(tokens.popleft(), tokens) if tokens else ""
 
 
-def _command(name: str, rest: deque[Token]) -> str:
+def _command(name: str, tokens: deque[Token]) -> str:
     if name in ("frac", "dfrac", "tfrac"):
-        over, under = _factor(_argument(rest)), _factor(_argument(rest))
+        over, under = _factor(_argument(tokens)), _factor(_argument(tokens))
         return f"{' ' * (over[0] == 'd')}{over}/{under} "
     if name == "partial":
-        return "∂" if rest and rest[0].kind == "close" else f"∂{_argument(rest)}"
+        return "∂" if tokens and tokens[0].kind == "close" else f"∂{_argument(tokens)}"
     if name == "sqrt":
-        return f"√{_factor(_argument(rest))}"
+        return f"√{_factor(_argument(tokens))}"
     if name in ("dot", "ddot"):
-        inner = _argument(rest).strip()
+        inner = _argument(tokens).strip()
         return inner[:1] + _ABOVE[f"_{name}"] + inner[1:]
     if name in ("left", "right"):
-        if rest and rest[0].text == ".":
-            rest.popleft()
+        if tokens and tokens[0].text == ".":
+            tokens.popleft()
         return ""
     if name in ("begin", "end"):
-        return _matrix(rest) if _argument(rest).endswith("matrix") and name == "begin" else " "
-    if name == "mathrm" and [t.text for t, _ in zip(rest, range(3), strict=False)] == ["{", "d", "}"]:  # a differential
-        made = f" {_argument(rest)}"
-        return made + (_argument(rest) if rest and rest[0].kind in ("text", "command") else "")
+        return _matrix(tokens) if _argument(tokens).endswith("matrix") and name == "begin" else " "
+    if name == "mathrm" and [t.text for t, _ in zip(tokens, range(3), strict=False)] == [
+        "{",
+        "d",
+        "}",
+    ]:  # a differential
+        differential = f" {_argument(tokens)}"
+        return differential + (_argument(tokens) if tokens and tokens[0].kind in ("text", "command") else "")
     if name in _FONTS:
-        return f" {_argument(rest)}" if name in ("vec", "hat") else _argument(rest)
+        return f" {_argument(tokens)}" if name in ("vec", "hat") else _argument(tokens)
     return _SIGNS.get(name) or _LETTERS.get(name, name if name.isalpha() else " ")
 
 
-def _matrix(rest: deque[Token]) -> str:
+def _matrix(tokens: deque[Token]) -> str:
     r"""The rows of a matrix up to its end, as [a, b; c, d]."""
     inner, depth = list[Token](), 1
-    while rest and depth:
-        token = rest.popleft()
+    while tokens and depth:
+        token = tokens.popleft()
         depth += NESTING.get(token.text, 0)
         inner.append(
             Token("text", {"&": ", ", r"\\": "; "}[token.text], 0)
             if depth == 1 and token.text in ("&", r"\\")
             else token
         )
-    _argument(rest)
+    _argument(tokens)
     rows = re.sub(r" +([,;])", r"\1", _line(deque(inner[:-1]))).strip()
     return f" [{rows}] "
 

@@ -41,36 +41,36 @@ class OnRecord:
 
     def theorems_of(self, what: str) -> tuple[Theorem, ...]:
         """The theorems on record of a part or a line, which were not proved again."""
-        said = (text.removeprefix(f"{what}: ") for text in self.theorems or () if text.startswith(f"{what}: "))
-        return tuple(Theorem(text) for text in said)
+        texts = (text.removeprefix(f"{what}: ") for text in self.theorems or () if text.startswith(f"{what}: "))
+        return tuple(Theorem(text) for text in texts)
 
 
-def row_of(found: Verdict | Result, equations: Mapping[str, Equation]) -> OnRecord:
+def row_of(result: Verdict | Result, equations: Mapping[str, Equation]) -> OnRecord:
     """The record of a verdict, or of a claim after its test."""
-    if isinstance(found, Result):
-        finding = found.finding
+    if isinstance(result, Result):
+        finding = result.finding
         proved = tuple(f"{part.says}: {' '.join(filter(None, (t.says, t.encloses)))}" for part, t in finding.theorems)
         parts = tuple(f"{part.says}: {part.outcome}" for part in finding.parts)
         return OnRecord(finding.outcome, parts=parts, theorems=proved or None)
-    entry = equations.get(found.id)
+    entry = equations.get(result.id)
     return OnRecord(
-        found.verdict,
+        result.verdict,
         printed_digest(entry) if entry else None,
-        tuple(found.statement.depends_on),
-        tuple(f"{premise.says}: {premise.formula}" for premise in found.premises),
-        tuple(sorted(f"{r.lhs} {r.rel_op} {r.rhs}" for r in found.domain)),
-        tuple(map(_line, found.lines)),
-        tuple(map(_line, found.correction_lines)),
-        tuple(dict.fromkeys(_dimensions(found.lines))),
-        theorems=tuple(dict.fromkeys(_proved(found.lines))) or None,
+        tuple(result.statement.depends_on),
+        tuple(f"{premise.says}: {premise.formula}" for premise in result.premises),
+        tuple(sorted(f"{r.lhs} {r.rel_op} {r.rhs}" for r in result.domain)),
+        tuple(map(_line, result.lines)),
+        tuple(map(_line, result.correction_lines)),
+        tuple(dict.fromkeys(_dimensions(result.lines))),
+        theorems=tuple(dict.fromkeys(_proved(result.lines))) or None,
     )
 
 
 def printed_digest(entry: Equation) -> str:
     """A digest of what the catalogue says is printed."""
     rows = [{key: row[key] for key in sorted(row)} for row in entry.line]
-    said = json.dumps([entry.latex, rows, dict(entry.letters), dict(entry.refers)], sort_keys=True)
-    return hashlib.sha256(said.encode()).hexdigest()[:16]
+    text = json.dumps([entry.latex, rows, dict(entry.letters), dict(entry.refers)], sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 def _line(line: LineVerdict) -> str:
@@ -94,16 +94,16 @@ def _dimensions(lines: Iterable[LineVerdict]) -> Iterator[str]:
 
 def recorded(file: Path) -> dict[str, OnRecord]:
     """The record by id; empty when there is none yet. Raises LagrotorError for a broken file."""
-    known = {field.name for field in fields(OnRecord)}
+    columns = {field.name for field in fields(OnRecord)}
     try:
         rows = tomllib.loads(file.read_text(encoding="utf-8"))
-        found = {}
+        records = {}
         for identifier, row in rows.items():
-            if unknown := row.keys() - known:
+            if unknown := row.keys() - columns:
                 raise ValueError(f"{identifier}: {min(unknown)!r} means nothing here")
             read: dict[str, Any] = {k: tuple(map(str, v)) if isinstance(v, list) else str(v) for k, v in row.items()}
-            found[identifier] = OnRecord(**read)
-        return found
+            records[identifier] = OnRecord(**read)
+        return records
     except FileNotFoundError:
         return {}
     except (ValueError, TypeError, KeyError, AttributeError) as error:
@@ -131,20 +131,20 @@ def _quoted(text: str) -> str:
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
-def changes(found: Mapping[str, OnRecord], on_record: Mapping[str, OnRecord], ids: Iterable[str]) -> list[str]:
+def changes(current: Mapping[str, OnRecord], on_record: Mapping[str, OnRecord], ids: Iterable[str]) -> list[str]:
     """A sentence for each difference from what is on record of these ids; none where there is no record."""
     if not on_record:
         return []
-    return [sentence for i in ids for sentence in _changes_of(i, found.get(i), on_record.get(i))]
+    return [sentence for i in ids for sentence in _changes_of(i, current.get(i), on_record.get(i))]
 
 
-def _changes_of(identifier: str, now: OnRecord | None, before: OnRecord | None) -> list[str]:
-    if now is None or before is None or now.verdict != before.verdict:
-        said = [row.verdict if row else "nothing" for row in (before, now)]
-        return [] if now is before else [f"{identifier}: recorded {said[0]}, found {said[1]}"]
+def _changes_of(identifier: str, now: OnRecord | None, recorded_row: OnRecord | None) -> list[str]:
+    if now is None or recorded_row is None or now.verdict != recorded_row.verdict:
+        verdicts = [row.verdict if row else "nothing" for row in (recorded_row, now)]
+        return [] if now is recorded_row else [f"{identifier}: recorded {verdicts[0]}, found {verdicts[1]}"]
     different: list[str] = []
     for field in fields(OnRecord):
-        old, new = getattr(before, field.name), getattr(now, field.name)
+        old, new = getattr(recorded_row, field.name), getattr(now, field.name)
         # digits of theorems differ from machine to machine; that they are there is in parts and lines
         if field.name != "theorems" and old is not None and old != new:
             different.append(
@@ -168,12 +168,12 @@ def reaches_result(
 ) -> bool:
     """Return whether a refuted equation takes a result of the paper with it: one that rests on it, or is it, is refuted too."""
     ends = set(results)
-    seen, left = {identifier}, [identifier]
-    while left:
-        current = left.pop()
+    visited, stack = {identifier}, [identifier]
+    while stack:
+        current = stack.pop()
         if current in ends and verdicts.get(current) == "refuted":
             return True
-        users = {user for user, used in uses.items() if current in used} - seen
-        seen |= users
-        left += users
+        users = {user for user, used in uses.items() if current in used} - visited
+        visited |= users
+        stack += users
     return False

@@ -48,11 +48,11 @@ class Script:
 
     def shown(self, kind: type) -> list[Any]:
         """Every value of one type that its cells show, in order; of rows of values, each."""
-        found = []
+        matches = []
         for cell in self.cells:
             for value in cell.shown:
-                found += [v for v in (value if isinstance(value, tuple | list) else [value]) if isinstance(v, kind)]
-        return found
+                matches += [v for v in (value if isinstance(value, tuple | list) else [value]) if isinstance(v, kind)]
+        return matches
 
 
 @dataclass(frozen=True)
@@ -187,14 +187,16 @@ def run_file(path: Path) -> Script:
             cells.append(ScriptCell("prose", re.sub(r"^# ?", "", body, flags=re.MULTILINE).strip()))
         else:
             first, last = (1 + source.count("\n", 0, place) for place in (start, end))
-            here = (statement for statement in statements if first <= statement.lineno <= last)
+            in_cell = (statement for statement in statements if first <= statement.lineno <= last)
             with warnings.catch_warnings(record=True) as caught:
                 warnings.simplefilter("always", LagrotorWarning)
-                shown = tuple(value for statement in here for value in _execute(statement, path, defined))
-            for each in caught:
-                warnings.warn_explicit(each.message, each.category, each.filename, each.lineno)
-            warned = dict.fromkeys(str(each.message) for each in caught if issubclass(each.category, LagrotorWarning))
-            cells.append(ScriptCell("code", body.strip(), shown, tuple(warned)))
+                values = tuple(value for statement in in_cell for value in _execute(statement, path, defined))
+            for warning in caught:
+                warnings.warn_explicit(warning.message, warning.category, warning.filename, warning.lineno)
+            warned = dict.fromkeys(
+                str(warning.message) for warning in caught if issubclass(warning.category, LagrotorWarning)
+            )
+            cells.append(ScriptCell("code", body.strip(), values, tuple(warned)))
     return Script(tuple(cells), defined)
 
 
@@ -213,19 +215,19 @@ def importable(folder: Path, modules: dict[str, ModuleType]) -> Iterator[None]:
 
     modules: those of the folder that were imported before; new ones are added to it.
     """
-    before = dict(sys.modules)
+    imported = dict(sys.modules)
     sys.modules.update(modules)
     sys.path.insert(0, str(folder))
     try:
         yield
     finally:
         sys.path.remove(str(folder))
-        for name in (sys.modules.keys() - before.keys()) | (sys.modules.keys() & modules.keys()):
+        for name in (sys.modules.keys() - imported.keys()) | (sys.modules.keys() & modules.keys()):
             module = sys.modules[name]
-            if module is not before.get(name) and _lies_in(folder, module):
+            if module is not imported.get(name) and _lies_in(folder, module):
                 modules[name] = module
-                if name in before:
-                    sys.modules[name] = before[name]
+                if name in imported:
+                    sys.modules[name] = imported[name]
                 else:
                     del sys.modules[name]
 

@@ -46,15 +46,19 @@ def dimension_of(unit: str) -> sp.Expr:
 
     Raises InputError for a unit that is not known, and for one that can be read in two ways.
     """
-    text = re.sub(r"[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+", lambda found: f"^{found[0].translate(_RAISED)}", unit).replace("°", "deg").strip()
+    text = (
+        re.sub(r"[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+", lambda dimension: f"^{dimension[0].translate(_RAISED)}", unit)
+        .replace("°", "deg")
+        .strip()
+    )
     text = re.sub(r"\s*[·*]\s*|(?<=[\w)])\s+(?=[\w(])", "*", text).replace("Ω", "Ohm")
     if _UNCLEAR.search(text):
         raise InputError(f"unit {unit!r} can be read in two ways: put what is below the line in brackets")
     text = re.sub(r"\^\(?(-?\d+(?:/\d+)?)\)?", r"**(\1)", text)
-    found = parsed(text, {**_PREFIXED, **_UNITS}, f"unit {unit!r}")
-    if not _is_monomial(found):
+    dimension = parsed(text, {**_PREFIXED, **_UNITS}, f"unit {unit!r}")
+    if not _is_monomial(dimension):
         raise InputError(f"unit {unit!r} is no product of units: write it as kg m²/s")
-    return found
+    return dimension
 
 
 def _letter_text(name: str) -> str:
@@ -63,9 +67,9 @@ def _letter_text(name: str) -> str:
     return f"{axes} of {readable(whole)}" if whole and re.fullmatch("[xyz]{1,2}", axes) else readable(name)
 
 
-def _is_monomial(found: Any) -> bool:
-    return isinstance(found, sp.Expr) and all(
-        exponent.is_Rational and (base.is_Symbol or base == 1) for base, exponent in found.as_powers_dict().items()
+def _is_monomial(dimension: Any) -> bool:
+    return isinstance(dimension, sp.Expr) and all(
+        exponent.is_Rational and (base.is_Symbol or base == 1) for base, exponent in dimension.as_powers_dict().items()
     )
 
 
@@ -123,36 +127,36 @@ def dimensions(printed: Any, derived: Any, glossary: Glossary, values: Mapping[A
     if under(numbers).answer == "inconsistent":
         return strict
     for symbol in tuple(numbers):
-        rest = {s: unit for s, unit in numbers.items() if s != symbol}
-        if under(rest).answer != "inconsistent":
-            numbers = rest
-    given = ", ".join(f"{_letter_text(str(s))} = {readable(str(values[s]))}" for s in numbers)
-    return Dimensions("in units", f"with {given} numbers stand for quantities: {strict.says}")
+        others = {s: unit for s, unit in numbers.items() if s != symbol}
+        if under(others).answer != "inconsistent":
+            numbers = others
+    values_text = ", ".join(f"{_letter_text(str(s))} = {readable(str(values[s]))}" for s in numbers)
+    return Dimensions("in units", f"with {values_text} numbers stand for quantities: {strict.says}")
 
 
 def _compared(printed: Any, derived: Any, reader: "_Reader") -> Dimensions:
     sides = [list(s) if isinstance(s, sp.MatrixBase) else [s] for s in (printed, derived)]
     if len(sides[0]) != len(sides[1]):  # a number beside a vector: with each of its entries
         sides = [side * max(map(len, sides)) if len(side) == 1 else side for side in sides]
-    unknown, seen = "", list[sp.Expr]()
+    unknown, shared = "", list[sp.Expr]()
     for pair in zip(*sides, strict=False):
-        known = []
+        pair_dimensions = []
         for name, side in zip(("printed", "derived"), pair, strict=True):
             try:
-                known.append(reader.of(side))
+                pair_dimensions.append(reader.of(side))
             except _UnknownError as refusal:
                 unknown = unknown or str(refusal)
             except _InconsistentError as difference:
                 return Dimensions("inconsistent", f"{name}: {difference}")
-        both = [dimension for dimension in known if dimension is not None]
+        both = [dimension for dimension in pair_dimensions if dimension is not None]
         if len(both) == 2 and not reader.alike(*both):
             gap = unit_text(both[1] / both[0])
             texts = [unit_text(dimension) for dimension in both]
             return Dimensions("inconsistent", f"printed {texts[0]}, derived {texts[1]}; derived/printed is {gap}")
-        seen += both
+        shared += both
     if unknown:
         return Dimensions("not known", unknown)
-    return Dimensions("consistent", ", ".join(dict.fromkeys(map(unit_text, seen))) or "0")
+    return Dimensions("consistent", ", ".join(dict.fromkeys(map(unit_text, shared))) or "0")
 
 
 class _UnknownError(Exception):
@@ -175,7 +179,10 @@ class _Reader:
         """Whether two dimensions are the same, up to powers of what counts as a number."""
         if a == b:
             return True
-        rows = [[each.as_powers_dict().get(base, 0) for base in _BASES.values()] for each in (*self.numbers, a / b)]
+        rows = [
+            [dimension.as_powers_dict().get(base, 0) for base in _BASES.values()]
+            for dimension in (*self.numbers, a / b)
+        ]
         return bool(sp.Matrix(rows).rank() == sp.Matrix(rows[:-1]).rank()) if self.numbers else False
 
     def of(self, e: Any) -> sp.Expr | None:
@@ -236,16 +243,16 @@ class _Reader:
         return first[1] if first else None
 
     def _product(self, factors: Iterable[Any]) -> sp.Expr | None:
-        made: sp.Expr | None = _ONE
+        product: sp.Expr | None = _ONE
         unknown: _UnknownError | None = None
         for factor in factors:
             try:
-                made = self._ratio(made, 1 / d if (d := self.of(factor)) is not None else None)
+                product = self._ratio(product, 1 / d if (d := self.of(factor)) is not None else None)
             except _UnknownError as refusal:
                 unknown = unknown or refusal
         if unknown:
             raise unknown
-        return made
+        return product
 
     def _ratio(self, above: sp.Expr | None, below: sp.Expr | None) -> sp.Expr | None:
         return None if above is None or below is None else above / below

@@ -15,23 +15,13 @@ pytest.importorskip("flint", reason="the extra `proof` is not installed")
 
 from lagrotor.errors import InputError, ProofError
 from lagrotor.mechanics import System, coordinates
-from lagrotor.paper import (
-    ClaimTest,
-    Finding,
-    Paper,
-    Part,
-    Relation,
-    Statement,
-    Theorem,
-    decide,
-    equation_statements,
-    papers,
-    verdict,
-)
+from lagrotor.paper import ClaimTest, Finding, Paper, Part, Theorem, equation_statements, papers, verdict
 from lagrotor.paper import claim_tests as tests_of_claims
 from lagrotor.paper.audit import in_words, verdict_data
+from lagrotor.paper.ledger import decide
 from lagrotor.paper.record import changes, record_text, recorded, row_of
 from lagrotor.paper.scripts import beside
+from lagrotor.paper.verdicts import Relation, Statement
 from lagrotor.proofs import NotProved, enclose
 
 RATE = "the rate is 1.00"

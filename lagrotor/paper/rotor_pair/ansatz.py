@@ -27,10 +27,10 @@ def breach() -> dict[str, tuple[float, float]]:
     return dict(zip(("azimuths", "spin angles", "A", "inclinations"), zip(*of_each, strict=True), strict=True))
 
 
-def _reaches(part: str, of: str) -> str:
+def _reaches(premise: str, of: str) -> str:
     from lagrotor.paper.rotor_pair.runs import PAPER_R0
 
-    massless, light = (100 * fraction for fraction in breach()[part])
+    massless, light = (100 * fraction for fraction in breach()[premise])
     return f"{massless:.0f} % of {of} with a massless bar, {light:.0f} % with that of section 5.2.1, at r₀ = {PAPER_R0}"
 
 
@@ -38,18 +38,18 @@ def opposite_azimuths() -> Premise:
     """phi_1 = −phi_2 = phi, at every time."""
     (_, phi_1, _, _, phi_2, _), (_, phi_1_v, _, _, phi_2_v, _) = PAIR.q, PAIR.v
     phi, phi_v = ANSATZ.q[2], ANSATZ.v[2]
-    put = {phi_1: phi, phi_2: -phi, phi_1_v: phi_v, phi_2_v: -phi_v}
+    substitution = {phi_1: phi, phi_2: -phi, phi_1_v: phi_v, phi_2_v: -phi_v}
     broken = f"φ₁′ + φ₂′ reaches {_reaches('azimuths', 'φ′')}"
-    return Premise("the azimuths are opposite, φ₁′ = −φ₂′ = φ′", put, broken=broken)
+    return Premise("the azimuths are opposite, φ₁′ = −φ₂′ = φ′", substitution, broken=broken)
 
 
 def opposite_spin_angles() -> Premise:
     """psi_1 = −psi_2 = psi, at every time."""
     (_, _, psi_1, _, _, psi_2), (_, _, psi_1_v, _, _, psi_2_v) = PAIR.q, PAIR.v
     psi, psi_v = ANSATZ.q[3], ANSATZ.v[3]
-    put = {psi_1: psi, psi_2: -psi, psi_1_v: psi_v, psi_2_v: -psi_v}
+    substitution = {psi_1: psi, psi_2: -psi, psi_1_v: psi_v, psi_2_v: -psi_v}
     broken = f"ψ₁′ + ψ₂′ reaches {_reaches('spin angles', 'ω')}"
-    return Premise("the spin angles turn oppositely, ψ₁′ = −ψ₂′ = ψ′", put, broken=broken)
+    return Premise("the spin angles turn oppositely, ψ₁′ = −ψ₂′ = ψ′", substitution, broken=broken)
 
 
 def one_inclination() -> Premise:

@@ -34,15 +34,15 @@ def in_parameters(expression: Any) -> Any:
     return with_meanings(expression, WRITTEN_OUT)
 
 
-def about_parameters(says: str, put: Mapping[sp.Symbol, Any]) -> Premise:
+def about_parameters(says: str, substitution: Mapping[sp.Symbol, Any]) -> Premise:
     """A premise about parameters, such as J = I_3, with how far the paper's own values break it."""
-    return parameter_premise(says, put, PAPERS_OWN, WRITTEN_OUT)
+    return parameter_premise(says, substitution, PAPERS_OWN, WRITTEN_OUT)
 
 
 def massless_bar() -> Premise:
     """The bar has no mass and no inertia: a = J, b = 0, sigma = 1."""
-    own = ", ".join(f"{sp.pretty(s)} = {float(PAPERS_OWN[s]):g} or {float(LIGHT_BAR[s]):g}" for s in (m, K))
-    return Premise("the bar is massless, m = K = 0", {a: J, b: 0, sigma: 1, m: 0, K: 0}, broken=own)
+    values = ", ".join(f"{sp.pretty(s)} = {float(PAPERS_OWN[s]):g} or {float(LIGHT_BAR[s]):g}" for s in (m, K))
+    return Premise("the bar is massless, m = K = 0", {a: J, b: 0, sigma: 1, m: 0, K: 0}, broken=values)
 
 
 # Premises that several derivations share. Where more than one is offered, they are put in in this order.

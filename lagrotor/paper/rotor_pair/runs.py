@@ -57,8 +57,8 @@ def angle_between(axes: Array) -> Array:
 
 def turned_about_joint_line(axes: Array) -> Array:
     """Mean angle (n,) in rad by which two axes (2, n, 3) have turned about the line through the ground joints."""
-    turned: Array = np.unwrap(np.arctan2(-axes[..., 1], axes[..., 2])).mean(0)
-    return turned
+    angle: Array = np.unwrap(np.arctan2(-axes[..., 1], axes[..., 2])).mean(0)
+    return angle
 
 
 def paper_run(scene: Scene, t: Array) -> SpringRun:
@@ -120,12 +120,12 @@ def rate_runs(exact: Trajectory, printed: float) -> dict[str, Array]:
     together. Also t (n,) in s, force (n,) in N, and the spectra after the shock over `rate` (rad/s).
     """
     scene, t = exact.scene, exact.t
-    start, after, s = exact.joints[0, 0], t > SPECTRUM_FROM, t - shock_of(scene).at
+    start, is_after, s = exact.joints[0, 0], t > SPECTRUM_FROM, t - shock_of(scene).at
     x = exact.tips[0, :, 0] - start
     springs = paper_run(scene, t).tips[0, :, 0] - start
-    size = np.ptp(x[after]) / 2
+    size = np.ptp(x[is_after]) / 2
     rate = float(free_precession_rate()(np.arcsin(size), scene.momenta[0], sum(scene.inertias)))  # type: ignore[arg-type]
-    rates, exact_amplitude = spectrum(t[after], x[after])
+    rates, exact_amplitude = spectrum(t[is_after], x[is_after])
     return {
         "t": t,
         "force": pulse(scene, t),
@@ -135,7 +135,7 @@ def rate_runs(exact: Trajectory, printed: float) -> dict[str, Array]:
         "corrected": np.where(s > 0, size * np.sin(rate * s), 0),
         "rate": rates,
         "exact_amplitude": exact_amplitude,
-        "springs_amplitude": spectrum(t[after], springs[after])[1],
+        "springs_amplitude": spectrum(t[is_after], springs[is_after])[1],
         "closed_form_rate": np.array([rate]),
     }
 
@@ -143,17 +143,17 @@ def rate_runs(exact: Trajectory, printed: float) -> dict[str, Array]:
 def rate_numbers(runs: dict[str, Array]) -> dict[str, float]:
     """Read off `rate_runs`: amplitude (m), rates of the spectra and of the closed form (rad/s), largest residuals (m)."""
     t, exact, springs, rate = runs["t"], runs["exact"], runs["springs"], runs["closed_form_rate"][0]
-    after = t > SPECTRUM_FROM
-    early = after & (t < SPECTRUM_FROM + 3)
+    is_after = t > SPECTRUM_FROM
+    early = is_after & (t < SPECTRUM_FROM + 3)
     return {
-        "amplitude (m)": np.ptp(exact[after]) / 2,
+        "amplitude (m)": np.ptp(exact[is_after]) / 2,
         "rate, exact model (rad/s)": peak(runs["rate"], runs["exact_amplitude"]),
         "rate, spring model (rad/s)": peak(runs["rate"], runs["springs_amplitude"]),
         "rate, spring model, first 3 s (rad/s)": best_harmonics(t[early], springs[early], rate).rate,
         "rate, closed form (rad/s)": runs["closed_form_rate"][0],
-        "printed rate, largest residual (m)": np.abs(runs["printed"] - exact)[after].max(),
-        "spring model, largest residual (m)": np.abs(springs - exact)[after].max(),
-        "closed form, largest residual (m)": np.abs(runs["corrected"] - exact)[after].max(),
+        "printed rate, largest residual (m)": np.abs(runs["printed"] - exact)[is_after].max(),
+        "spring model, largest residual (m)": np.abs(springs - exact)[is_after].max(),
+        "closed form, largest residual (m)": np.abs(runs["corrected"] - exact)[is_after].max(),
     }
 
 

@@ -18,7 +18,7 @@ from lagrotor.files import write_text
 from lagrotor.paper import audit, claim_tests
 from lagrotor.paper.catalogue import ReportPart
 from lagrotor.paper.claim_tests import Result
-from lagrotor.paper.papers import Paper
+from lagrotor.paper.papers import Paper, with_reach, with_theorems_on_record
 from lagrotor.paper.scripts import beside
 from lagrotor.pictures.figures import Picture
 from lagrotor.proofs.coq.coq_check import certify
@@ -152,7 +152,7 @@ def _longest_first(old: Path) -> Callable[[JobStep], float]:
 def _report(paper: Paper, products: dict[str, Any]) -> Report:
     """Return everything that the report says."""
     derived = [product for product in products.values() if isinstance(product, Derived)]
-    verdicts = paper.with_reach(verdict for each in derived for verdict in each.verdicts)
+    verdicts = with_reach(paper, (verdict for each in derived for verdict in each.verdicts))
     tested = _claim_results(paper, products)
     pictures = [product for product in products.values() if isinstance(product, Picture)]
     parts = [_part(each, derived, pictures) for each in paper.about.part]
@@ -184,7 +184,7 @@ def _part(part: ReportPart, derived: list[Derived], pictures: list[Picture]) -> 
 def _claim_results(paper: Paper, products: dict[str, Any]) -> list[Result]:
     """Every claim with its measured numbers, decided anew; theorems are those on record, `lagrotor claims` proves them again."""
     results = [Result(test, m := products[f"claim {i}"], test.decide(m), 0.0) for i, test in paper.claim_tests.items()]
-    return [paper.with_theorems_on_record(result) for result in results]
+    return [with_theorems_on_record(paper, result) for result in results]
 
 
 def _write(folder: Path, report: Report) -> None:

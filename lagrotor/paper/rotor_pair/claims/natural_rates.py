@@ -55,8 +55,8 @@ def _scene(spins: Spins, bar: Link | None, force: float) -> Scene:
 def rate_of_run(spins: Spins, bar: Link | None, force: float, seconds: float = PAPER_RUN) -> tuple[float, float]:
     """Rate (rad/s) fitted to x_1 of the exact pair over `seconds` after the shock, and how far x_1 goes."""
     scene = _scene(spins, bar, force)
-    after = shock_of(scene).at + 0.33
-    run = simulate(scene, [0.0, *np.linspace(after, after + seconds, 400)], "spheres", 1e-9).after(after)
+    start = shock_of(scene).at + 0.33
+    run = simulate(scene, [0.0, *np.linspace(start, start + seconds, 400)], "spheres", 1e-9).after(start)
     x = run.axes[0, :, 0]
     return best_harmonics(run.t, x, natural_rate(scene)).rate, float(abs(x).max())
 
@@ -105,8 +105,10 @@ def measure_c21(spins: Spins) -> dict[str, float]:
     by_n = {n: _rate_of_springs(spins, HEAVY_LINK, n) for n in OF_SPRINGS}
     J, G = Scene(spins).rotor.J, abs(spins[0])
     return {
-        **{f"rate_springs_n_{n}_over_3_s_rad_per_s": seen for n, seen in by_n.items()},
-        "largest_n_that_gives_11.4": max((n for n, seen in by_n.items() if COUPLED.is_matched(seen)), default=0),
+        **{f"rate_springs_n_{n}_over_3_s_rad_per_s": fitted_rate for n, fitted_rate in by_n.items()},
+        "largest_n_that_gives_11.4": max(
+            (n for n, fitted_rate in by_n.items() if COUPLED.is_matched(fitted_rate)), default=0
+        ),
         "rate_exact_over_8_s_rad_per_s": rate,
         "rate_after_small_shock_rad_per_s": natural["m_1_K_1"],
         "rate_of_one_rotor_rad_per_s": single,
@@ -123,9 +125,9 @@ def measure_c21(spins: Spins) -> dict[str, float]:
 def _constant(m: Mapping[str, float]) -> Part:
     """The constant at these spins, at half of them, and with other bars."""
     constants = m["constant"], m["constant_at_half_the_spins"]
-    within = COUPLED.half_unit / SINGLE
-    same = all(abs(constant - CONSTANT) < within for constant in constants)
-    every_bar = all(abs(m[f"constant_{bar}"] - m["constant"]) < within for bar in ("light_bar", "bar_K_0.1"))
+    tolerance = COUPLED.half_unit / SINGLE
+    same = all(abs(constant - CONSTANT) < tolerance for constant in constants)
+    every_bar = all(abs(m[f"constant_{bar}"] - m["constant"]) < tolerance for bar in ("light_bar", "bar_K_0.1"))
     needs = "equal spins and a bar of mass 1 kg, of any inertia: 11.4/16 is a constant of that bar"
     return Part(OF_COUPLING, same and every_bar, needs if same else "")
 
@@ -162,8 +164,8 @@ def measure_c22(spins: Spins) -> dict[str, float]:
         for shock, force in (("40_N", _PAPER), ("small_shock", _SMALL)):
             rate, _ = rate_of_run(spins, bar, force, FEW * 2 * pi / OPPOSITE_RATE)
             measured[f"rate_over_3.3_s_after_{shock}_{name}"] = rate
-            off = max(abs(rate - OPPOSITE_RATE), 1e-12)
-            measured[f"cycles_within_a_quarter_after_{shock}_{name}"] = rate / (4 * off)
+            difference = max(abs(rate - OPPOSITE_RATE), 1e-12)
+            measured[f"cycles_within_a_quarter_after_{shock}_{name}"] = rate / (4 * difference)
     J, G = Scene(spins).rotor.J, spins[0]
     return measured | {
         "rate_springs_over_3_s_m_1_K_1": _rate_of_springs(spins, HEAVY_LINK),
@@ -177,7 +179,7 @@ def decide_c22(m: Mapping[str, float]) -> Finding:
 
     One of the listed bars must do it, after both shocks; the third bar, which is in no listing, is measured beside them.
     """
-    small, large, cycles, more = (
+    small, large, cycles, cycles_small = (
         [m[f"{key}_{name}"] for name in BARS]
         for key in (
             "rate_over_3.3_s_after_small_shock",
@@ -186,7 +188,7 @@ def decide_c22(m: Mapping[str, float]) -> Finding:
             "cycles_within_a_quarter_after_small_shock",
         )
     )
-    first, second, _ = follows = [min(pair) >= FEW for pair in zip(cycles, more, strict=True)]
+    first, second, _ = follows = [min(pair) >= FEW for pair in zip(cycles, cycles_small, strict=True)]
     bar = "the bar m = K = 1" if first else "the bar m = 0.01 kg, K = 0.1 kg m²" if second else ""
     return Finding(
         (Part(FOLLOWS, all(follows), bar),),
@@ -194,8 +196,8 @@ def decide_c22(m: Mapping[str, float]) -> Finding:
         f"0.1. After 40 N they change in time; fitted over the first {FEW} cycles of the wave, "
         f"{FEW * 2 * pi / OPPOSITE_RATE:.1f} s, they are {large[0]:.2f} ({m['rate_springs_over_3_s_m_1_K_1']:.2f} with springs "
         f"over {SPRINGS_SECONDS:.0f} s), {large[1]:.2f}, {large[2]:.2f} rad/s. A sine of {OPPOSITE_RATE:.1f} rad/s keeps within "
-        f"a quarter of a cycle for {cycles[0]:.1f}, {cycles[1]:.1f}, {cycles[2]:.1f} cycles (after a small shock {more[0]:.1f}, "
-        f"{more[1]:.1f}, {more[2]:.1f}), while the first few would be {FEW} at least. The third bar, with the mass of the first "
+        f"a quarter of a cycle for {cycles[0]:.1f}, {cycles[1]:.1f}, {cycles[2]:.1f} cycles (after a small shock {cycles_small[0]:.1f}, "
+        f"{cycles_small[1]:.1f}, {cycles_small[2]:.1f}), while the first few would be {FEW} at least. The third bar, with the mass of the first "
         "and the inertia of the second, is in no listing. With m = 1 kg the constant would need K = "
         f"{m['inertia_that_mass_1_needs_kg_m2']:.3f} kg m², a bar that the paper does not list; equal spins of 10 rad/s have "
         f"{m['rate_of_equal_spins_m_1']:.3f} rad/s.",
@@ -258,9 +260,9 @@ def coefficient(spins: Spins, bar: Link) -> tuple[float, float]:
 def _after_shock(spins: Spins, bar: Link) -> float:
     """c after a weak shock along x from rest, over three cycles; θ̄ of half the swing of x."""
     scene = shocked_scene(spins, (WEAK, 0, 0), bar, 1 / 20)
-    natural, after = natural_rate(scene), shock_of(scene).at + 0.33
-    times = after + np.linspace(0, FEW * 2 * np.pi / natural, 201)
-    run = simulate(scene, [0.0, *times], "spheres", 1e-11).after(after)
+    natural, start = natural_rate(scene), shock_of(scene).at + 0.33
+    times = start + np.linspace(0, FEW * 2 * np.pi / natural, 201)
+    run = simulate(scene, [0.0, *times], "spheres", 1e-11).after(start)
     x = run.axes[0, :, 0]
     return float((best_harmonics(run.t, x, natural).rate / natural - 1) / (np.ptp(x) / 2) ** 2)
 
@@ -278,14 +280,14 @@ def measure_c23(spins: Spins) -> dict[str, float]:
 
 def decide_c23(m: Mapping[str, float]) -> Finding:
     """c against that of 1/cos θ, for every bar; and for equal spins."""
-    own = [m[f"coefficient_{name}"] for name in ("massless", *BARS)]
+    on_orbits = [m[f"coefficient_{name}"] for name in ("massless", *BARS)]
     shock = [m[f"coefficient_over_3_cycles_after_shock_{name}"] for name in BARS]
     equal = m["coefficient_equal_spins_m_1_K_1"]
     needs = "equal spins with parallel axes" if OVER_COSINE.is_matched(equal) else ""
     return Finding(
-        (Part(_COSINE, all(map(OVER_COSINE.is_matched, own)), needs),),
+        (Part(_COSINE, all(map(OVER_COSINE.is_matched, on_orbits)), needs),),
         "The rate is the natural one times 1 + c θ², with θ the average inclination; 1/cos θ has c = +0.5, and c from 0.45 to "
-        f"0.55 counts as that. Measured: {own[0]:+.3f} massless, {own[1]:+.3f}, {own[2]:+.3f}, {own[3]:+.3f} for m, K = 1, 1; "
+        f"0.55 counts as that. Measured: {on_orbits[0]:+.3f} massless, {on_orbits[1]:+.3f}, {on_orbits[2]:+.3f}, {on_orbits[3]:+.3f} for m, K = 1, 1; "
         f"0.01, 0.1; 1, 0.1 (the change goes as θ to the power {m['order_massless']:.2f}); for equal spins with parallel axes "
         f"{equal:+.3f}. After a shock along x from rest, which leaves the centres of precession twisted apart, c over the first "
         f"{FEW} cycles is {shock[0]:+.2f}, {shock[1]:+.2f}, {shock[2]:+.2f}: its sign depends on the twist.",

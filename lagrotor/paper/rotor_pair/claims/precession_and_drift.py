@@ -101,7 +101,7 @@ def _counted(scene: Scene) -> dict[str, float]:
     """
     values = dict(zip((a, b, G_1, G_2), (*scene.inertias, *scene.momenta), strict=True)) | {k: 1}
     pair = linear_pair()
-    M, C = (np.array(part.subs(values), dtype=float) for part in (pair.mass, pair.gyroscopic))
+    M, C = (np.array(matrix.subs(values), dtype=float) for matrix in (pair.mass, pair.gyroscopic))
     state = np.block([[np.zeros((3, 3)), np.eye(3)], [np.zeros((3, 3)), -np.linalg.solve(M, C)]])
     roots = np.linalg.eigvals(state)
     # A double zero is known to the square root of the rounding only.
@@ -232,26 +232,28 @@ def measure_c15(case: Ansatz) -> dict[str, float]:
     Where the deviation of the azimuths vanishes with r₀, the amplitude at which it is WITHIN is found by two secant steps.
     """
     measured: dict[str, float] = {}
-    what = ("azimuth_rates_sum", "spin_rates_sum", "swing_of_A")
+    quantities = ("azimuth_rates_sum", "spin_rates_sum", "swing_of_A")
     for name, bar in (("massless", case.bar), ("light_bar", PAPER_BAR)):
-        seen = np.array([deviations(once_round(case.spins, r0, bar)) for r0 in AMPLITUDES])
-        for i, quantity in enumerate(what):
-            measured[f"{quantity}_relative_r0_{PAPER_R0}_{name}"] = seen[-1, i]
-            measured[f"order_of_{quantity}_relative_{name}"] = measured_order(AMPLITUDES, np.maximum(seen[:, i], 1e-15))
+        values = np.array([deviations(once_round(case.spins, r0, bar)) for r0 in AMPLITUDES])
+        for i, quantity in enumerate(quantities):
+            measured[f"{quantity}_relative_r0_{PAPER_R0}_{name}"] = values[-1, i]
+            measured[f"order_of_{quantity}_relative_{name}"] = measured_order(
+                AMPLITUDES, np.maximum(values[:, i], 1e-15)
+            )
         if measured[f"order_of_azimuth_rates_sum_relative_{name}"] > VANISHES:
-            r0, off = AMPLITUDES[0], seen[0]
+            r0, errors = AMPLITUDES[0], values[0]
             for _ in range(2):
-                r0 *= WITHIN / off[0]
-                off = np.array(deviations(once_round(case.spins, r0, bar)))
+                r0 *= WITHIN / errors[0]
+                errors = np.array(deviations(once_round(case.spins, r0, bar)))
             measured[f"r0_at_which_the_azimuth_sum_is_5_percent_{name}"] = r0
-            measured |= {f"{quantity}_relative_there_{name}": off[i] for i, quantity in enumerate(what)}
+            measured |= {f"{quantity}_relative_there_{name}": errors[i] for i, quantity in enumerate(quantities)}
     return measured | {"drift_of_B_relative": _drift_of_b(case.spins, case.I2_over_I1)}
 
 
 def _small(m: Mapping[str, float], quantity: str) -> Part:
     """One half of the ansatz: it holds at the paper's amplitude, or below the one at which the azimuths are WITHIN."""
     key = f"{quantity}_rates_sum_relative"
-    seen = [m[f"{key}_r0_{PAPER_R0}_{name}"] for name in ("massless", "light_bar")]
+    values = [m[f"{key}_r0_{PAPER_R0}_{name}"] for name in ("massless", "light_bar")]
     vanishes = all(m[f"order_of_{key}_{name}"] > VANISHES for name in ("massless", "light_bar"))
     below = min((m[k] for k in m if k.startswith("r0_at_which")), default=0.0)
     needs = (
@@ -259,7 +261,7 @@ def _small(m: Mapping[str, float], quantity: str) -> Part:
         f"{m[f'azimuth_rates_sum_relative_r0_{PAPER_R0}_massless']:.0%} of φ′)"
     )
     says = AZIMUTHS if quantity == "azimuth" else SPIN_ANGLES
-    return Part(says, max(seen) < WITHIN, needs if vanishes and below else "")
+    return Part(says, max(values) < WITHIN, needs if vanishes and below else "")
 
 
 def decide_c15(m: Mapping[str, float]) -> Finding:
@@ -339,14 +341,14 @@ def measure_c16(case: Correction) -> dict[str, float]:
     """The ansatz applied to the exact orbit: the length that the link then has, beside that of the exact orbit."""
     run = once_round(case.spins, PAPER_R0, MASSLESS)
     constant, corrected = _lengths(run, PAPER_R0, case.sign)
-    left = [np.ptp(_lengths(once_round(case.spins, r0, MASSLESS), r0, case.sign)[1]) for r0 in AMPLITUDES]
+    swings = [np.ptp(_lengths(once_round(case.spins, r0, MASSLESS), r0, case.sign)[1]) for r0 in AMPLITUDES]
     return {
         "constant_theta_shortest": constant.min(),
         "constant_theta_longest": constant.max(),
         "printed_longest": (1 + 4 * PAPER_R0**2) ** 0.5,
         "corrected_shortest": corrected.min(),
         "corrected_longest": corrected.max(),
-        "order_of_the_swing_left": measured_order(AMPLITUDES, np.maximum(left, 1e-15)),
+        "order_of_the_swing_left": measured_order(AMPLITUDES, np.maximum(swings, 1e-15)),
         "exact_orbit_shortest": run.link_length.min(),
         "exact_orbit_longest": run.link_length.max(),
     }
@@ -355,20 +357,20 @@ def measure_c16(case: Correction) -> dict[str, float]:
 def decide_c16(m: Mapping[str, float]) -> Finding:
     """Both ends of the swing as printed; the swing that the correction leaves, and its power in r₀."""
     swing = m["constant_theta_longest"] - m["constant_theta_shortest"]
-    left = m["corrected_longest"] - m["corrected_shortest"]
+    remaining = m["corrected_longest"] - m["corrected_shortest"]
     ends = (m["constant_theta_shortest"] - 1, m["constant_theta_longest"] - m["printed_longest"])
-    least, most = (m[f"corrected_{end}"] / m["exact_orbit_longest"] - 1 for end in ("shortest", "longest"))
+    least, greatest = (m[f"corrected_{end}"] / m["exact_orbit_longest"] - 1 for end in ("shortest", "longest"))
     needs = f"to order r₀², and for the swing only: the length itself is not kept, the link is {least:.1%} too long throughout"
     return Finding(
         (
             Part(SWINGS, max(map(abs, ends)) < AS_PRINTED),
-            Part(REMOVED, left < AS_PRINTED, needs if m["order_of_the_swing_left"] > HIGHER else ""),
+            Part(REMOVED, remaining < AS_PRINTED, needs if m["order_of_the_swing_left"] > HIGHER else ""),
         ),
         f"The swing: with θ constant and φ₁ = −φ₂ the link goes from {m['constant_theta_shortest']:.4f} to "
         f"{m['constant_theta_longest']:.4f} m (printed {m['printed_longest']:.4f}), corrected from "
-        f"{m['corrected_shortest']:.4f} to {m['corrected_longest']:.4f} m, so that of {swing:.4f} m {left:.4f} are left, "
+        f"{m['corrected_shortest']:.4f} to {m['corrected_longest']:.4f} m, so that of {swing:.4f} m {remaining:.4f} are left, "
         f"which go as r₀ to the power {m['order_of_the_swing_left']:.2f}. The length: on the exact orbit it is "
-        f"{m['exact_orbit_longest']:.4f} m throughout; corrected it is {least:.1%} to {most:.1%} too long throughout, where "
+        f"{m['exact_orbit_longest']:.4f} m throughout; corrected it is {least:.1%} to {greatest:.1%} too long throughout, where "
         "uncorrected it was right twice in a cycle. The correction makes the link steady at a wrong length: it does not "
         "satisfy the constraint for which it is made.",
     )
@@ -516,11 +518,11 @@ def decide_c18(m: Mapping[str, float]) -> Finding:
 class Fit:
     """What a formula leaves of both components (rms over the amplitude), and the amplitude."""
 
-    left: float
+    residual: float
     size: float
 
 
-def fitted(along: Array, t: Array, rate: float, r0: float, offset: float | None, second: int = 1) -> Fit:
+def fitted(components: Array, t: Array, rate: float, r0: float, offset: float | None, second: int = 1) -> Fit:
     """x_1 and x_2 of (5.22) fitted to components along (2, n) in m: amplitude, rate, phase, one common shift.
 
     offset: ± offset r_0² is added to the centres, 0 as printed, 1 as corrected; None leaves the centres free, so that only
@@ -531,15 +533,15 @@ def fitted(along: Array, t: Array, rate: float, r0: float, offset: float | None,
     def left(unknown: Array) -> Array:
         size, faster, phase, shift = unknown
         cosine = np.cos(rate * faster * (t - t[0]) + phase)
-        off = np.array(
-            [along[i] - size * cosine + sign * second * size**2 * cosine**2 for i, sign in ((0, 1), (1, -1))]
+        deviations = np.array(
+            [components[i] - size * cosine + sign * second * size**2 * cosine**2 for i, sign in ((0, 1), (1, -1))]
         )
         if offset is None:
-            return np.asarray(off - off.mean(1, keepdims=True)).ravel()
-        return np.asarray(off - shift - np.array([[-0.5 + offset * size**2], [0.5 - offset * size**2]])).ravel()
+            return np.asarray(deviations - deviations.mean(1, keepdims=True)).ravel()
+        return np.asarray(deviations - shift - np.array([[-0.5 + offset * size**2], [0.5 - offset * size**2]])).ravel()
 
     starts = ((r0, 1.0, phase, 0.0) for phase in (0, pi / 2, pi, -pi / 2))
-    best = min((least_squares(left, start) for start in starts), key=lambda found: found.cost)
+    best = min((least_squares(left, start) for start in starts), key=lambda solution: solution.cost)
     size = abs(float(best.x[0]))
     return Fit(float(np.sqrt((best.fun**2).mean())) / size, size)
 
@@ -549,18 +551,18 @@ def measure_c19(case: tuple[Spins, Vector]) -> dict[str, float]:
     run = shocked_run(*case)
     fit, tips = harmonics(run), run.tips[..., :2]
     line = fit.constant[2:] - fit.constant[:2] + np.array([1.0, 0.0])
-    along = tips @ (line / np.linalg.norm(line))
+    projection = tips @ (line / np.linalg.norm(line))
     r0 = abs(fit.waves[0, ::2]).mean()
     ways = {"printed": (0.0, 1), "corrected": (1.0, 1), "shape": (None, 1), "plain_sine": (None, 0)}
-    projected = {name: fitted(along, run.t, fit.rate, r0, *how) for name, how in ways.items()}
-    before = {name: fitted(tips[..., 0], run.t, fit.rate, r0, *ways[name]) for name in ("printed", "shape")}
+    projected = {name: fitted(projection, run.t, fit.rate, r0, *how) for name, how in ways.items()}
+    unprojected = {name: fitted(tips[..., 0], run.t, fit.rate, r0, *ways[name]) for name in ("printed", "shape")}
     y_over_x = abs(fit.waves[0, 1::2]).mean() / r0
     skew = np.arctan2(line[1], line[0])
     return {
         "skew_deg": np.degrees(skew),
         "share_of_y_in_x": abs(np.sin(skew)) * y_over_x,
-        **{f"left_projected_{name}": found.left for name, found in projected.items()},
-        **{f"left_unprojected_{name}": found.left for name, found in before.items()},
+        **{f"left_projected_{name}": best.residual for name, best in projected.items()},
+        **{f"left_unprojected_{name}": best.residual for name, best in unprojected.items()},
         "amplitude_along_the_skew_axis": projected["shape"].size,
     }
 

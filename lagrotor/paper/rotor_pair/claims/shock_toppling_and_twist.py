@@ -67,17 +67,17 @@ def measure_c01(spins: Spins) -> dict[str, float]:
     run = _shocked(spins, _ALONG, 12.0)
     end = run.t[-1] - run.t[0] - CYCLES * 2 * pi / natural_rate(run.scene)
     first, last = _centre(run, 0.0), _centre(run, end)
-    off = run.axes[..., :2] - last[:, None, :2]
-    turning = off[..., 0] * run.rates[..., 1] - off[..., 1] * run.rates[..., 0]
-    sense = turning.mean(1) / (off**2).sum(-1).mean(1)
-    across = _shocked(spins, _ACROSS, 12.0)
-    parted = angle_between(across.axes)
+    offsets = run.axes[..., :2] - last[:, None, :2]
+    turning = offsets[..., 0] * run.rates[..., 1] - offsets[..., 1] * run.rates[..., 0]
+    sense = turning.mean(1) / (offsets**2).sum(-1).mean(1)
+    run_y = _shocked(spins, _ACROSS, 12.0)
+    parted = angle_between(run_y.axes)
     measured = {
         "displacement_by_equation_7": shock_of(run.scene).impulse[0] / (abs(spins[0]) + abs(spins[1])),
         "angle_of_axes_shock_along_bar_rad": angle_between(run.axes).max(),
         "angle_of_axes_shock_across_bar_rad": parted.max(),
-        "seconds_until_axes_part_by_0.1_shock_across_bar": first_passage(across.t, parted, _PARTED)
-        - shock_of(across.scene).at,
+        "seconds_until_axes_part_by_0.1_shock_across_bar": first_passage(run_y.t, parted, _PARTED)
+        - shock_of(run_y.scene).at,
     }
     for i in (0, 1):
         measured |= {
@@ -93,11 +93,11 @@ def decide_c01(m: Mapping[str, float]) -> Finding:
     """The senses of both precessions, and of both axes the displacement at the end against that at the start."""
     last = [m[f"displacement_{i}_last_cycles"] for i in (1, 2)]
     stays = [abs(last[i] / m[f"displacement_{i + 1}_first_cycles"] - 1) < _STEADY for i in (0, 1)]
-    seen = [abs(last[i]) > DISPLACED * m[f"swing_{i + 1}_about_the_displaced_position"] for i in (0, 1)]
+    is_visible = [abs(last[i]) > DISPLACED * m[f"swing_{i + 1}_about_the_displaced_position"] for i in (0, 1)]
     return Finding(
         (
             Part(SAME_SENSE, m["precession_1_rad_per_s"] * m["precession_2_rad_per_s"] > 0),
-            Part(REMAINS, all(stays) and all(seen)),
+            Part(REMAINS, all(stays) and all(is_visible)),
         ),
         f"In 12 s the axes precess at {m['precession_1_rad_per_s']:+.2f} and {m['precession_2_rad_per_s']:+.2f} rad/s; their "
         f"mean positions in the last {CYCLES} cycles of 12 s are displaced by {last[0]:+.4f} and {last[1]:+.4f} across the "
@@ -118,14 +118,14 @@ def _drift_over_7(spins: Spins, bar: Link) -> float:
 def measure_c02(bar: Link) -> dict[str, float]:
     """With a given bar: displacements over (7), and responses of opposite spins over those without spins."""
     farthest, unspun = (abs(_shocked(s, _ALONG, 2.4, bar).axes[..., 0]).max() for s in ((10, -10), (0, 0)))
-    turned, freely = (
+    angle, free_angle = (
         abs(turned_about_joint_line(_shocked(s, _ACROSS, 2.4, bar).axes)[-1]) for s in ((10, -10), (0, 0))
     )
     return {
         "largest_x": farthest,
         "largest_x_without_spins": unspun,
         "ratio_in_x": farthest / unspun,
-        "ratio_of_turning_about_joint_line_shock_along_y": turned / freely,
+        "ratio_of_turning_about_joint_line_shock_along_y": angle / free_angle,
         "drift_over_equation_7_spins_10_10": _drift_over_7((10, 10), bar),
         "drift_over_equation_7_spins_10_5": _drift_over_7((10, 5), bar),
     }
@@ -195,16 +195,16 @@ def _tilt(axes: Array) -> float:
 def measure_c10(spins: Spins) -> dict[str, float]:
     """Tilt after a shock along the bar and across it; where it topples, what follows the dead point."""
     scene = shocked_scene(spins, (50, 0, 0))
-    along, across = after_shock(scene, 2.7), after_shock(shocked_scene(spins, (0, 50, 0)), 6.0)
-    in_xz = np.unwrap(np.arctan2(along.axes[..., 0], along.axes[..., 2]))
-    rate = abs(np.polyfit(along.t, in_xz[0], 1)[0])
+    run_x, run_y = after_shock(scene, 2.7), after_shock(shocked_scene(spins, (0, 50, 0)), 6.0)
+    in_xz = np.unwrap(np.arctan2(run_x.axes[..., 0], run_x.axes[..., 2]))
+    rate = abs(np.polyfit(run_x.t, in_xz[0], 1)[0])
     measured = {
-        "shock_along_x_tilt_after_2.7_s_deg": _tilt(along.axes),
+        "shock_along_x_tilt_after_2.7_s_deg": _tilt(run_x.axes),
         "shock_along_x_turned_in_XZ_rad": abs(in_xz[:, -1]).max(),
         "shock_along_x_rate_in_XZ_rad_per_s": rate,
-        "shock_along_x_largest_y": abs(along.axes[..., 1]).max(),
-        "shock_along_y_tilt_deg": _tilt(across.axes),
-        "shock_along_y_turned_about_joint_line_rad": abs(turned_about_joint_line(across.axes)[-1]),
+        "shock_along_x_largest_y": abs(run_x.axes[..., 1]).max(),
+        "shock_along_y_tilt_deg": _tilt(run_y.axes),
+        "shock_along_y_turned_about_joint_line_rad": abs(turned_about_joint_line(run_y.axes)[-1]),
         "rate_by_closed_form_rad_per_s": shock_of(scene).impulse[0] / (2 * sum(scene.inertias)),
     }
     return (
@@ -219,9 +219,9 @@ def _past_dead_point(dead: float) -> dict[str, float]:
 
     Springs of three stiffnesses damped alike (D ∝ √S, the paper's 250 kg/s at 10⁴ N/m), by a solver of variable step.
     """
-    beside = shocked_scene((0, 0), (50, SIDE, 0))
-    exact = after_shock(beside, PAPER_RUN)
-    t = np.linspace(exact.t[0], shock_of(beside).at + dead + 2, 101)
+    scene = shocked_scene((0, 0), (50, SIDE, 0))
+    exact = after_shock(scene, PAPER_RUN)
+    t = np.linspace(exact.t[0], shock_of(scene).at + dead + 2, 101)
     soon = angle_between(exact.axes[:, exact.t <= t[-1]]).max()
     measured = {
         "dead_point_after_s": dead,
@@ -230,7 +230,7 @@ def _past_dead_point(dead: float) -> dict[str, float]:
         "side_1_N_axes_part_by_deg_after_8_s": np.degrees(angle_between(exact.axes)[-1]),
     }
     for name, S in SPRINGS.items():
-        run = run_solver(paper_system(beside, S, DAMPING * (S / STIFFNESS) ** 0.5), beside.shock, np.append(0, t), 1e-5)
+        run = run_solver(paper_system(scene, S, DAMPING * (S / STIFFNESS) ** 0.5), scene.shock, np.append(0, t), 1e-5)
         measured[f"side_1_N_axes_part_by_deg_springs_S_{name}"] = np.degrees(angle_between(run.axes).max())
         measured[f"side_1_N_tilt_deg_springs_S_{name}"] = _tilt(run.axes)
     return measured
@@ -238,8 +238,8 @@ def _past_dead_point(dead: float) -> dict[str, float]:
 
 def decide_c10(m: Mapping[str, float]) -> Finding:
     """Tilts after both shocks; turning about the joint line after both."""
-    tilt, turned = m["shock_along_x_tilt_after_2.7_s_deg"], m["shock_along_y_turned_about_joint_line_rad"]
-    topples, turns = tilt > TILTED and m["shock_along_y_tilt_deg"] > FLAT, turned > pi / 2
+    tilt, angle = m["shock_along_x_tilt_after_2.7_s_deg"], m["shock_along_y_turned_about_joint_line_rad"]
+    topples, turns = tilt > TILTED and m["shock_along_y_tilt_deg"] > FLAT, angle > pi / 2
     if not topples:
         how = f"It tilts by no more than {tilt:.0f}° within 2.7 s of a shock along x."
         return Finding((Part(TOPPLES, False), Part(TURNS, turns)), how)
@@ -247,7 +247,9 @@ def decide_c10(m: Mapping[str, float]) -> Finding:
         "the shock is across the bar; along it each rotor turns about its own ground, and the motion is determined only up "
         f"to the dead point, {m['dead_point_after_s']:.1f} s after the shock"
     )
-    part, most = ([m[f"side_1_N_{what}_deg_springs_S_{name}"] for name in SPRINGS] for what in ("axes_part_by", "tilt"))
+    separations, tilts = (
+        [m[f"side_1_N_{what}_deg_springs_S_{name}"] for name in SPRINGS] for what in ("axes_part_by", "tilt")
+    )
     return Finding(
         (
             Part(TOPPLES, topples),
@@ -257,14 +259,14 @@ def decide_c10(m: Mapping[str, float]) -> Finding:
         f"{m['shock_along_x_rate_in_XZ_rad_per_s']:.3f} rad/s (PR/(2(a + b)) = {m['rate_by_closed_form_rad_per_s']:.3f} "
         f"rad/s), by {tilt:.0f}° after 2.7 s, each rotor about its own ground: |y| is "
         f"{scientific(m['shock_along_x_largest_y'])} at most, so it turns around the two grounds but not about the line "
-        f"through them. After a shock along y it does: by {turned:.2f} rad within 6 s. Along x it reaches a dead point "
+        f"through them. After a shock along y it does: by {angle:.2f} rad within 6 s. Along x it reaches a dead point "
         f"{m['dead_point_after_s']:.1f} s after the shock: the bar and both axes are in line, the constraint of the bar loses "
         "its rank, and what follows depends on the smallest side force or on the softness of the springs. With "
         f"{SIDE:.0f} N along y beside the 50 N the exact pair tilts by {m['side_1_N_tilt_deg']:.1f}° at most in 8 s, and its "
         f"axes part by {m['side_1_N_axes_part_by_deg']:.0f}° within 2 s after the dead point and by "
         f"{m['side_1_N_axes_part_by_deg_after_8_s']:.1f}° at the end of the 8 s; with springs of S = 10⁴, 10⁵, 10⁶ N/m it goes "
-        f"through the dead point, to {most[0]:.0f}°, {most[1]:.0f}°, {most[2]:.0f}°, and the axes part by {part[0]:.1f}°, "
-        f"{part[1]:.1f}°, {part[2]:.1f}° within the same 2 s.",
+        f"through the dead point, to {tilts[0]:.0f}°, {tilts[1]:.0f}°, {tilts[2]:.0f}°, and the axes part by {separations[0]:.1f}°, "
+        f"{separations[1]:.1f}°, {separations[2]:.1f}° within the same 2 s.",
     )
 
 
@@ -305,13 +307,13 @@ def measure_c11(spins: Spins) -> dict[str, float]:
     falls = {name: fall(spins, force, WATCHED) for name, force in PAPER_SHOCKS.items()}
     for name, force in PAPER_SHOCKS.items():
         early = after_shock(shocked_scene(spins, force), min(PAPER_RUN, falls[name]))
-        turned = turned_about_joint_line(early.axes)
+        angles = turned_about_joint_line(early.axes)
         when = "not_fallen_within_s" if falls[name] == inf else "fallen_in_x_after_s"
         measured |= {
             f"{when}_{name}": min(falls[name], WATCHED),
             f"largest_x_{name}": abs(early.axes[..., 0]).max(),
-            f"turned_about_joint_line_rad_{name}": turned[-1],
-            f"mean_turning_rate_rad_per_s_{name}": np.polyfit(early.t, turned, 1)[0],
+            f"turned_about_joint_line_rad_{name}": angles[-1],
+            f"mean_turning_rate_rad_per_s_{name}": np.polyfit(early.t, angles, 1)[0],
         }
     rate = natural_rate(Scene(spins, link=HEAVY_LINK))
     measured["period_of_the_natural_rate_s"] = 2 * pi / rate if rate else PAPER_RUN  # without swing, the whole run
@@ -346,7 +348,7 @@ def _when(m: Mapping[str, float], name: str) -> str:
 def decide_c11(m: Mapping[str, float]) -> Finding:
     """After each of the paper's four shocks: how long x keeps below FALLEN, how far and how fast the pair turns."""
     first = min((value for key, value in m.items() if key.startswith("fallen_in_x")), default=inf)
-    x, turned = ([m[f"{key}_{name}"] for name in PAPER_SHOCKS] for key in ("largest_x", "turned_about_joint_line_rad"))
+    x, angles = ([m[f"{key}_{name}"] for name in PAPER_SHOCKS] for key in ("largest_x", "turned_about_joint_line_rad"))
     rates = [abs(m[f"mean_turning_rate_rad_per_s_{name}"]) for name in PAPER_SHOCKS]
     per_turn = [m["period_of_the_natural_rate_s"] * rate for rate in rates]
     for_a_while = (
@@ -359,8 +361,8 @@ def decide_c11(m: Mapping[str, float]) -> Finding:
     )
     how = (
         f"{THRESHOLDS} In the 8 s of the paper's runs |x| reaches {x[0]:.2f}, {x[1]:.2f}, {x[2]:.2f}, {x[3]:.2f} for 50 N along "
-        f"+x, −x, +y, −y, while the pair turns about the joint line by {turned[0]:.2f}, {turned[1]:.2f}, {turned[2]:.2f}, "
-        f"{turned[3]:.2f} rad, at a mean rate of {min(per_turn):.2f} to {max(per_turn):.2f} rad per period of the natural rate."
+        f"+x, −x, +y, −y, while the pair turns about the joint line by {angles[0]:.2f}, {angles[1]:.2f}, {angles[2]:.2f}, "
+        f"{angles[3]:.2f} rad, at a mean rate of {min(per_turn):.2f} to {max(per_turn):.2f} rad per period of the natural rate."
     )
     if "power_of_shock_in_time_x" not in m:
         return Finding(parts, f"{how} x passes {FALLEN} {_when(m, '+x')} (+x) and {_when(m, '-y')} (−y).")
@@ -466,24 +468,24 @@ def _mean_x(cycles: float, force: Vector) -> Array:
 def _powers_in_means(means: list[Array], name: str) -> dict[str, float]:
     """Powers of the shock in the common part of the means of x_1 and x_2, and in half their difference."""
     both = np.array(means)
-    parts = {"common_mean": both.mean(1), "half_difference": (both[:, 0] - both[:, 1]) / 2}
+    components = {"common_mean": both.mean(1), "half_difference": (both[:, 0] - both[:, 1]) / 2}
     return {
-        f"power_of_shock_{name}_in_{part}": measured_order(FORCES, np.maximum(abs(values), 1e-15))
-        for part, values in parts.items()
+        f"power_of_shock_{name}_in_{component}": measured_order(FORCES, np.maximum(abs(values), 1e-15))
+        for component, values in components.items()
     }
 
 
 def measure_c13(cycles: float) -> dict[str, float]:
     """Means of x_1 and x_2 after small shocks along x and along y, their powers, and those after the paper's 50 N."""
-    along, across = [_mean_x(cycles, (f, 0, 0)) for f in FORCES], [_mean_x(cycles, (0, f, 0)) for f in FORCES]
+    means_x, means_y = [_mean_x(cycles, (f, 0, 0)) for f in FORCES], [_mean_x(cycles, (0, f, 0)) for f in FORCES]
     scene = shocked_scene(OPPOSITE, (0, FORCES[0], 0))
     return {
-        "shock_along_x_20_N_mean_x_1": along[-1][0],
-        "shock_along_x_20_N_mean_x_2": along[-1][1],
-        **_powers_in_means(along, "along_x"),
-        "shock_along_y_5_N_mean_x": across[0].mean(),
+        "shock_along_x_20_N_mean_x_1": means_x[-1][0],
+        "shock_along_x_20_N_mean_x_2": means_x[-1][1],
+        **_powers_in_means(means_x, "along_x"),
+        "shock_along_y_5_N_mean_x": means_y[0].mean(),
         "shock_along_y_5_N_predicted": -shock_of(scene).impulse[1] / (2 * scene.momenta[0]),
-        **_powers_in_means(across, "along_y"),
+        **_powers_in_means(means_y, "along_y"),
         "shock_along_x_50_N_mean_x": _mean_x(cycles, (50, 0, 0)).mean(),
         "shock_along_y_50_N_mean_x": _mean_x(cycles, (0, 50, 0)).mean(),
     }
@@ -492,13 +494,13 @@ def measure_c13(cycles: float) -> dict[str, float]:
 def decide_c13(m: Mapping[str, float]) -> Finding:
     """Return whether the means of x_1 and x_2 are none, or vanish faster than the shock, along the bar and across it."""
     none = max(abs(value) for name, value in m.items() if "_mean_x" in name) < NONE
-    along, across = (
-        min(m[f"power_of_shock_{way}_in_{part}"] for part in ("common_mean", "half_difference")) > FASTER
+    vanishes_x, vanishes_y = (
+        min(m[f"power_of_shock_{way}_in_{component}"] for component in ("common_mean", "half_difference")) > FASTER
         for way in ("along_x", "along_y")
     )
-    needs = "to first order in the shock" if across else "the shock is along x, and to first order in it"
+    needs = "to first order in the shock" if vanishes_y else "the shock is along x, and to first order in it"
     return Finding(
-        (Part(NO_MEAN, none, needs if along else ""),),
+        (Part(NO_MEAN, none, needs if vanishes_x else ""),),
         "Means are over four cycles of the natural rate. After 20 N along x those of x₁ and x₂ are "
         f"{m['shock_along_x_20_N_mean_x_1']:+.4f} and {m['shock_along_x_20_N_mean_x_2']:+.4f}; their common part goes as F to "
         f"the power {m['power_of_shock_along_x_in_common_mean']:.2f}, half their difference to the power "

@@ -56,8 +56,8 @@ def undivided_rotation(Omega: Array, dt: float) -> Array:
     """Rodrigues' rotation with P = Ω Ωᵀ to the letter of (3.16), not divided by |Ω|²: (n, 3) → (n, 3, 3)."""
     size = np.linalg.norm(Omega, axis=1)[:, None, None]
     P = Omega[:, :, None] * Omega[:, None, :]
-    turned: Array = P + np.cos(size * dt) * (np.eye(3) - P) + np.sin(size * dt) * skew_matrix(Omega) / size
-    return turned
+    rotation: Array = P + np.cos(size * dt) * (np.eye(3) - P) + np.sin(size * dt) * skew_matrix(Omega) / size
+    return rotation
 
 
 @dataclass(frozen=True)
@@ -168,12 +168,12 @@ def measure_c05(case: Sprung) -> dict[str, float]:
             system.push(1, 2, (50, 0, 0))
             system.step(STEP)
         ground = max(ground, abs(system.X[-1]).max(), abs(system.R[-1] - np.eye(3)).max())
-    moved = abs(exact.axes[..., :2]).max()
+    motion = abs(exact.axes[..., :2]).max()
     return {
         "stiffness_N_per_m": case.stiffness,
         "largest_gap_m": gaps[-1],
-        "gap_over_motion_of_tips": gaps[-1] / (scene.rotor.length * moved),
-        "error_over_motion": errors[-1] / moved,
+        "gap_over_motion_of_tips": gaps[-1] / (scene.rotor.length * motion),
+        "error_over_motion": errors[-1] / motion,
         "power_of_stiffness_in_error": measured_order(stiffnesses, errors),
         "power_of_stiffness_in_gap": measured_order(stiffnesses, gaps),
         "ground_moved_m": ground,
@@ -182,11 +182,11 @@ def measure_c05(case: Sprung) -> dict[str, float]:
 
 def decide_c05(m: Mapping[str, float]) -> Finding:
     """The gaps of the links and the error of the axes, both over the motion; what the ground moved."""
-    kept = max(m["gap_over_motion_of_tips"], m["error_over_motion"]) < ENFORCED
+    is_enforced = max(m["gap_over_motion_of_tips"], m["error_over_motion"]) < ENFORCED
     needs = "the springs are stiff, faster than the motion: the link is exact only as S grows without bound"
     return Finding(
         (
-            Part(LINKED, kept and m["largest_gap_m"] == 0, needs if kept else ""),
+            Part(LINKED, is_enforced and m["largest_gap_m"] == 0, needs if is_enforced else ""),
             Part(GROUNDED, m["ground_moved_m"] == 0),
         ),
         f"Enforced is to a tenth of the motion. At S = {m['stiffness_N_per_m']:.0f} N/m, in the second after the shock, the "
@@ -259,8 +259,8 @@ def measure_c06(case: MisplacedBar) -> dict[str, float]:
     right = run_steps(paper_system(scene, STIFFNESS, case.damping), None, t, STEP).paper_energy
     excess = abs(wrong - wrong[-1])
 
-    def last(part: float) -> float:
-        above = t[excess > part * excess.max()]
+    def last(fraction: float) -> float:
+        above = t[excess > fraction * excess.max()]
         return float(above[-1]) if len(above) else 0.0
 
     return {
@@ -433,11 +433,11 @@ def measure_c08(case: ShockAlongX) -> dict[str, float]:
     assert springs is not None  # n = 20 is stable at 1 ms, see `step_limit_ms`
     exact = simulate(scene, np.linspace(0, at + SECONDS, 83), "spheres", 1e-10)
     exact_after = exact.energy[exact.t > first[0]]
-    tried = {n: seen.max() for n in TRIED if (seen := _spring_energy(scene, n, rising)) is not None}
-    fitting = [n for n, highest in tried.items() if PRINTED["after"].is_matched(highest)]
+    peaks = {n: energies.max() for n in TRIED if (energies := _spring_energy(scene, n, rising)) is not None}
+    fitting = [n for n, highest in peaks.items() if PRINTED["after"].is_matched(highest)]
     return {
         "before_J": exact.energy[0],
-        "highest_springs_J": tried[N],
+        "highest_springs_J": peaks[N],
         "after_exact_J": exact_after[0],
         "after_closed_form_J": exact.energy[0] + _jump(scene),
         "after_closed_form_light_bar_J": exact.energy[0] + _jump(light),
@@ -455,14 +455,14 @@ def measure_c08(case: ShockAlongX) -> dict[str, float]:
 def decide_c08(m: Mapping[str, float]) -> Finding:
     """The energies before and after, both with springs and exactly; what is left of them 8 s later, likewise."""
     reached = [PRINTED["after"].is_matched(m[key]) for key in ("highest_springs_J", "after_exact_J")]
-    least, most, unit = m["smallest_n_that_fits"], m["largest_n_that_fits"], PRINTED["after"].half_unit
-    kept = m["swing_in_8_s_exact_J"] < unit
-    drained = "the joints are rigid: the dampers of the paper's springs slowly drain the energy" if kept else ""
+    least, greatest, unit = m["smallest_n_that_fits"], m["largest_n_that_fits"], PRINTED["after"].half_unit
+    is_constant = m["swing_in_8_s_exact_J"] < unit
+    drained = "the joints are rigid: the dampers of the paper's springs slowly drain the energy" if is_constant else ""
     return Finding(
         (
             Part(FROM_100, PRINTED["before"].is_matched(m["before_J"])),
             Part(TO_100_45, all(reached)),
-            Part(_CONSTANT, kept and m["lost_in_8_s_springs_J"] < unit, drained),
+            Part(_CONSTANT, is_constant and m["lost_in_8_s_springs_J"] < unit, drained),
         ),
         f"{PRINTED['before'].rule} J, {PRINTED['after'].rule} J. The energy rises from {m['before_J']:.2f} to "
         f"{m['highest_springs_J']:.4f} J with springs, {m['after_exact_J']:.4f} J exactly, {m['after_closed_form_J']:.4f} J by "
@@ -470,7 +470,7 @@ def decide_c08(m: Mapping[str, float]) -> Finding:
         f"J; from 0.14 s after the peak the dampers of the springs take {m['lost_in_8_s_springs_J']:.4f} J in 8 s. S = "
         f"{m['stiffness_N_per_m']:.0f} N/m "
         f"and D = {m['damping_kg_per_s']:.0f} kg/s (n = {N}, ω_s = {OMEGA_S:.0f} rad/s) are stable up to a step of "
-        f"{m['step_limit_ms']:.2f} ms; with that ω_s, n from {least:.0f} to {most:.0f} of those tried gives the printed number. "
+        f"{m['step_limit_ms']:.2f} ms; with that ω_s, n from {least:.0f} to {greatest:.0f} of those tried gives the printed number. "
         f"The light bar of 5.2.1 would give {m['after_closed_form_light_bar_J']:.2f} J and needs a step below "
         f"{m['step_limit_light_bar_ms']:.2f} ms.",
     )
@@ -484,8 +484,8 @@ def _momenta(run: Trajectory) -> tuple[Array, Array]:
     e, e_rate = np.array([1.0, 0, 0]) + R / HEAVY_LINK.length * (r2 - r1), R / HEAVY_LINK.length * (v2 - v1)
     bar_p = HEAVY_LINK.mass * R / 2 * (v1 + v2)
     L = np.cross(R / 2 * (r1 + r2), bar_p) + HEAVY_LINK.inertia * np.cross(e, e_rate)
-    for joint, r, v, G, own in zip(run.joints, run.axes, run.rates, scene.momenta, p, strict=True):
-        L = L + rotor.J * np.cross(r, v) + G * r + np.cross(joint, own)
+    for joint, r, v, G, momentum in zip(run.joints, run.axes, run.rates, scene.momenta, p, strict=True):
+        L = L + rotor.J * np.cross(r, v) + G * r + np.cross(joint, momentum)
     return p[0] + p[1] + bar_p, L
 
 
@@ -494,7 +494,7 @@ class Grounds:
     """Whether the pair stands on its grounds; and how many of them are kept where it is said to be without them."""
 
     grounded: bool = True
-    kept: int = 0
+    count: int = 0
 
 
 def measure_c09(case: Grounds) -> dict[str, float]:
@@ -502,7 +502,7 @@ def measure_c09(case: Grounds) -> dict[str, float]:
     scene = shocked_scene(EQUAL, (_FORCE, 0, 0))
     exact, impulse = after_shock(scene, 2.4, 1e-11), float(np.linalg.norm(shock_of(scene).impulse))
     freed = RigidBodySystem(paper_bodies(scene), STIFFNESS, DAMPING)
-    for rotor in range(1, case.kept + 1):
+    for rotor in range(1, case.count + 1):
         freed.ground(rotor, 1)
     join_bar(freed)
     run = run_steps(freed, scene.shock, np.append(0, np.round(np.arange(0.34, 2.6, 0.02), 3)), STEP)
@@ -558,7 +558,7 @@ C08 = ClaimTest(
 C09 = ClaimTest(
     "C09",
     Grounds(),
-    {MOMENTUM: Grounds(grounded=False), ANGULAR: Grounds(grounded=False), BY_GROUNDS: Grounds(kept=1)},
+    {MOMENTUM: Grounds(grounded=False), ANGULAR: Grounds(grounded=False), BY_GROUNDS: Grounds(count=1)},
     "exact pair (spheres), bar m = 1 kg, K = 1 kg m²; spring-linked bodies without grounds",
     measure_c09,
     decide_c09,
