@@ -29,7 +29,9 @@ def test_examples_of_docstrings(module: str, monkeypatch: pytest.MonkeyPatch) ->
     # A function that accepts old keywords is a wrapper with the globals of another module, which doctest would pass over.
     is_of_module = doctest.DocTestFinder._from_module  # type: ignore[attr-defined]
     monkeypatch.setattr(
-        doctest.DocTestFinder, "_from_module", lambda self, where, value: is_of_module(self, where, inspect.unwrap(value))
+        doctest.DocTestFinder,
+        "_from_module",
+        lambda self, where, value: is_of_module(self, where, inspect.unwrap(value)),
     )
     ran = doctest.testmod(import_module(module), optionflags=HOW)
     assert ran.attempted and not ran.failed
