@@ -123,10 +123,7 @@ def _not_derived(relations: Iterable[Relation]) -> list[str]:
 
 
 def _undefined_symbol_text(name: str) -> str:
-    return (
-        f"{readable(name)} is printed, and not derived: where the text says what it stands for, write "
-        f'letters = {{ {name} = "…" }}'
-    )
+    return f'{readable(name)} is printed, but not derived: if the text defines it, write letters = {{ {name} = "…" }}'
 
 
 def _printed(entry: Equation) -> list[str]:

@@ -470,7 +470,7 @@ class Catalogue:
         entry = self.equation(identifier)
         names, where = dict(self.letters(entry.section).names), f"{self.folder / 'equations.toml'}: {identifier}"
         for letter, meaning in entry.letters.items():
-            names[letter] = read(meaning, names, f"{where}, letter {letter}")
+            names[letter] = read(meaning, names, f"{where}, symbol {letter}")
         return tuple(read_line(line, names, where) for line in entry.line)
 
 
@@ -481,7 +481,7 @@ def section_glossary(catalogue: Catalogue, section: str) -> Glossary:
         for name in letters.split():
             if name not in names:
                 raise InputError(
-                    f"{catalogue.folder / 'equations.toml'}: units: section {section} has no letter {name!r}"
+                    f"{catalogue.folder / 'equations.toml'}: units: section {section} has no symbol {name!r}"
                 )
             glossary |= {symbol: Entry(symbol, "parameter", unit) for symbol in components([names[name]])}
     return glossary

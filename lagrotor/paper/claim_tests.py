@@ -32,7 +32,7 @@ class PrintedNumber(float):
     @property
     def rule(self) -> str:
         """The represented interval, in words."""
-        return f"{self.digits} as printed stands for {self - self.half_unit:.8g} to {self + self.half_unit:.8g}"
+        return f"{self.digits} as printed means {self - self.half_unit:.8g} to {self + self.half_unit:.8g}"
 
 
 @dataclass(frozen=True)
@@ -86,9 +86,9 @@ class Finding:
 
     Examples
     --------
-    >>> finding = Finding((Part("it precesses", True), Part("steadily", False, "the spins are equal")), "")
+    >>> finding = Finding((Part("it swings", True), Part("harmonically", False, "the angle is small")), "")
     >>> finding.outcome, finding.condition
-    ('confirmed-if', 'the spins are equal')
+    ('confirmed-if', 'the angle is small')
     """
 
     parts: tuple[Part, ...]
@@ -154,10 +154,10 @@ class ClaimTest:
 
     Examples
     --------
-    >>> test = ClaimTest("C01", 20.0, {"the rate is 4/5 of the spin": 0.0}, "one rotor", lambda spin: {"rate": 0.8 * spin},
-    ...     lambda m: Finding((Part("the rate is 4/5 of the spin", m["rate"] == 16),), f"The rate is {m['rate']} rad/s."))
-    >>> test.result.finding.outcome, test.result.finding.explanation
-    ('confirmed', 'The rate is 16.0 rad/s.')
+    >>> test = ClaimTest("C01", 0.994, {"it beats seconds": 0.5}, "pendulum", lambda l: {"period_s": 2.006 * l**0.5},
+    ...     lambda m: Finding((Part("it beats seconds", abs(m["period_s"] - 2) < 0.01),), f"{m['period_s']:.3f} s."))
+    >>> test.result.finding.outcome, test.evaluated(0.5).finding.outcome
+    ('confirmed', 'refuted')
     """
 
     id: str

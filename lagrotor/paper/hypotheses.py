@@ -1,14 +1,13 @@
-"""Premises as one set of hypotheses: their equations solved for letters as far as they are linear, the rest kept as an ideal.
+"""Premises as one set of hypotheses: equations solved for symbols where they are linear, and the ideal of the others.
 
-What is decided under a set does not depend on the order or the form of its premises: of all letters that could be eliminated
-the same one is taken first each time, one that a premise replaces before others. Every step is an equivalence, where the
-letters are real and what is divided by is known not to vanish; so a set is contradictory exactly if what is left of it is, and
-a point of what is left satisfies all of it.
+A decision does not depend on the order or the form of the premises, because the symbols are eliminated in a fixed order, first
+those that a premise replaces. Every step is an equivalence for real symbols and divisors that do not vanish. The set is
+therefore contradictory exactly if the remaining equations and conditions are, and a point of these satisfies the whole set.
 
-`vanishes_on` decides membership in the ideal of the equations that are left, or in its radical. Numerators are read in one ring
-of generators, with the relations of these, g² = square, among the equations. The radical is reached by one more letter t and the
-equation 1 = t N D (Rabinowitsch), which also leaves out where a denominator D vanishes. Cox, Little & O'Shea, Ideals, Varieties,
-and Algorithms, chs. 2, 4. `witness` refutes: it is a point of the hypotheses at which an enclosure keeps the two sides apart.
+`vanishes_on` decides membership in the ideal of the unsolved equations, or in its radical. All numerators lie in one ring of
+generators g, with the relations g² = square among the equations. The radical needs one more variable t and the equation
+1 = t N D (Rabinowitsch), which also excludes the zeros of a denominator D: Cox, Little & O'Shea, Ideals, Varieties, and
+Algorithms, chs. 2, 4. `witness` refutes by a point of the hypotheses at which enclosures separate the two sides.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -45,10 +44,11 @@ _KINDS = ("positive", "negative", "nonnegative", "nonpositive", "nonzero")
 
 @dataclass(frozen=True)
 class Hypotheses:
-    """put: letter → what it is, in the letters that are left. left: expressions that are zero. region: conditions that hold.
+    """The premises as one set.
 
-    small: the small quantities. contradiction: why no values of the letters satisfy all of it; empty where none was found.
-    meaning: what the new letters of `signed` are.
+    `values` are the eliminated symbols in the remaining ones, `equations` expressions that are zero, `region` conditions that
+    hold, `small` the small quantities. `contradiction` is the reason why no point satisfies the set, or empty. `meaning` gives
+    the new symbols of `signed`.
     """
 
     values: Mapping[sp.Symbol, sp.Expr]
@@ -59,12 +59,12 @@ class Hypotheses:
     meaning: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
 
     def on(self, side: Any) -> Any:
-        """A side in the letters that are left."""
+        """Return a side in the remaining symbols."""
         return replaced(sp.sympify(side, strict=True), self.values)
 
     @cached_property
     def signed(self) -> "Hypotheses":
-        """The same set with its inequalities as assumptions of letters, as far as they are linear in one that is free."""
+        """The set with inequalities turned into assumptions of symbols, where they are linear in a free symbol."""
         values, equations, meaning = dict(self.values), self.equations, dict[sp.Symbol, sp.Expr]()
         order = letters_in_order((sp.S.Zero, *self.region, *equations))
         for relation in sorted(self.region, key=lambda r: not (r.lhs.is_Symbol and r.rhs == 0)):
@@ -87,21 +87,18 @@ class Hypotheses:
 
     @property
     def inside(self) -> tuple[Relational, ...]:
-        """The inequalities."""
+        """The inequalities, without ≠."""
         return tuple(r for r in self.region if not isinstance(r, sp.Ne))
 
 
 def replaced(e: Any, values: Mapping[sp.Symbol, sp.Expr]) -> Any:
-    """Letters replaced by their values; what a derivative, a sum or an integral binds stays bound."""
+    """Replace symbols by their values, except symbols bound by a derivative, a sum or an integral."""
     bound = values and e.has(sp.Derivative, ExprWithLimits)
     return e.subs(list(values.items()), simultaneous=True) if bound else e.xreplace(values)
 
 
 def hypotheses(premises: Iterable[Premise], last: sp.Symbol | None = None) -> Hypotheses:
-    """The premises as one set; `last` is a letter that is eliminated only where no other can be.
-
-    Its `contradiction` says where two of them, or one and a letter's assumptions, exclude each other.
-    """
+    """Combine premises into one set; the symbol `last` is eliminated only if no other can be."""
     listed = list(premises)
     small = tuple(sorted({p.small for p in listed if p.small is not None}, key=sp.default_sort_key))
     equations, region = _collected(listed, small)
@@ -111,13 +108,13 @@ def hypotheses(premises: Iterable[Premise], last: sp.Symbol | None = None) -> Hy
 
 
 class _ContradictionError(Exception):
-    """No values of the letters satisfy the premises."""
+    """No values of the symbols satisfy the premises."""
 
 
 def _collected(
     premises: list[Premise], small: tuple[sp.Symbol, ...]
 ) -> tuple[frozenset[sp.Expr], frozenset[Relational]]:
-    """Every equation as an expression that is zero, and every condition."""
+    """Return the equations as expressions that are zero, and the conditions."""
     equations: set[sp.Expr] = set()
     region: set[Relational] = set()
     for premise in premises:
@@ -135,12 +132,12 @@ def _collected(
 
 
 def _scaled(letter: sp.Symbol, small: sp.Symbol) -> sp.Symbol:
-    """What a letter that is small is of the small quantity."""
+    """Return the symbol for letter/small, the scaled value of a small symbol."""
     return sp.Symbol(f"({letter.name}/{small.name})", **letter.assumptions0)
 
 
 def _without_inverse(e: sp.Expr) -> tuple[sp.Expr, tuple[Relational, ...]]:
-    """s − acos(g) as g − cos(s) with 0 ≤ s ≤ π; other equations as they are."""
+    """Return s − acos(g) as g − cos(s) with 0 ≤ s ≤ π, and other equations unchanged."""
     for sign in (1, -1):
         terms = sp.Add.make_args(sp.expand(sign * e))
         calls = [t for t in terms if (-t).func in INVERSES]
@@ -152,20 +149,20 @@ def _without_inverse(e: sp.Expr) -> tuple[sp.Expr, tuple[Relational, ...]]:
 
 
 class _Wishes(NamedTuple):
-    """Which letters are eliminated first where several can be, and which last: for reading only."""
+    """The symbols that are eliminated first and last; the choice affects only the readability of results."""
 
     first: frozenset[sp.Symbol] = frozenset()
     last: sp.Symbol | None = None
     order: tuple[sp.Symbol, ...] = ()
 
     def rank(self, step: "_Step") -> tuple[Any, ...]:
-        """The lowest is taken."""
+        """Return the sort key; the lowest step is taken."""
         number, lossy, operations = step.rank
         place = self.order.index(step.letter)
         return step.letter == self.last, number, lossy, step.letter not in self.first, operations, place
 
 
-# A set is looked at again for each premise that may be left out of it, and for each line.
+# The same set occurs for each premise that may be omitted, and for each line.
 @lru_cache(maxsize=512)
 def _solved(
     equations: frozenset[sp.Expr], region: frozenset[Relational], small: tuple[sp.Symbol, ...], wishes: _Wishes
@@ -212,13 +209,13 @@ def _denominator(e: sp.Expr) -> sp.Expr:
 
 
 class _Known(NamedTuple):
-    """Expressions that do not vanish, with their opposites, and where all conditions hold."""
+    """Expressions that do not vanish, with their opposites, and the region in which all conditions hold."""
 
     units: frozenset[sp.Expr]
     where: Region
 
     def nonzero(self, e: sp.Expr) -> bool:
-        """Return whether e does not vanish."""
+        """Return True if e is known not to vanish."""
         if e in self.units or sp.expand(e) in self.units:
             return True
         sign_set = signs(e, self.where)
@@ -235,7 +232,7 @@ def _known(units: Iterable[sp.Expr], conditions: Iterable[Relational], values: M
 
 @lru_cache(maxsize=2048)
 def _reduced(e: sp.Expr, domain: _Known) -> sp.Expr | None:
-    """An equation without factors that do not vanish; None where it holds by itself."""
+    """Divide an equation by factors that do not vanish; return None if it holds identically."""
     if e.has(sp.nan, sp.zoo, sp.oo, -sp.oo):
         raise _ContradictionError("a denominator becomes 0")
     factors: dict[sp.Expr, None] = {}
@@ -259,7 +256,7 @@ def _factor_list(e: sp.Expr) -> list[tuple[sp.Expr, int]]:
 
 
 class _Step(NamedTuple):
-    """A letter that an equation gives, and its value; of all steps that of the lowest rank is taken."""
+    """A symbol that an equation determines, and its value; the step of the lowest rank is taken."""
 
     rank: tuple[Any, ...]
     letter: sp.Symbol
@@ -269,7 +266,7 @@ class _Step(NamedTuple):
 
 @lru_cache(maxsize=2048)
 def _plain_steps(e: sp.Expr, small: tuple[sp.Symbol, ...]) -> tuple[_Step, ...]:
-    """Those of letters that stand in a term by themselves, with a number before them, and nowhere else in the equation."""
+    """Return the steps for symbols that occur once, as a term with a numeric factor."""
     terms, steps = sp.Add.make_args(e), []
     for term in terms:
         number, letter = term.as_coeff_Mul()
@@ -280,7 +277,7 @@ def _plain_steps(e: sp.Expr, small: tuple[sp.Symbol, ...]) -> tuple[_Step, ...]:
 
 @lru_cache(maxsize=2048)
 def _steps(e: sp.Expr, small: tuple[sp.Symbol, ...], domain: _Known) -> tuple[_Step, ...]:
-    """Those of letters that an equation is linear in, or in one function of which, their coefficient known not to vanish."""
+    """Return the steps for symbols in which, or in one function of which, the equation is linear with nonzero coefficient."""
     steps = []
     for letter in e.free_symbols - set(small):
         kernel = _kernel(e, letter)
@@ -305,7 +302,7 @@ def _steps(e: sp.Expr, small: tuple[sp.Symbol, ...], domain: _Known) -> tuple[_S
 
 
 def _kernel(e: sp.Expr, letter: sp.Symbol) -> sp.Expr | None:
-    """The letter where an equation is a polynomial of degree one in it; else the one function or power of it there is."""
+    """Return the symbol, if it occurs only in sums and products; else its only function or power in the equation."""
     inside = {node for node in sp.preorder_traversal(e) if letter in node.args and not (node.is_Add or node.is_Mul)}
     if not inside:
         return letter
@@ -315,13 +312,13 @@ def _kernel(e: sp.Expr, letter: sp.Symbol) -> sp.Expr | None:
 
 
 def _step(letter: sp.Symbol, value: sp.Expr, conditions: tuple[Relational, ...] = ()) -> _Step:
-    """Numbers first, then values that have the signs that the letter was declared with, then short ones."""
+    """Rank a step: numbers first, then values with the signs that the symbol was declared with, then short values."""
     lossy = len(_own_conditions(letter, value)) + len(conditions)
     return _Step((not value.is_number, lossy, sp.count_ops(value)), letter, value, conditions)
 
 
 def _own_conditions(letter: sp.Symbol, value: sp.Expr) -> list[Relational]:
-    """What the letter's assumptions say of its value, where the value's own do not say it. Raises where they exclude it."""
+    """Return the conditions that the symbol's assumptions add to its value; raise if they exclude the value."""
     relations: list[Relational] = []
     tests = {
         "positive": (letter.is_positive, value.is_positive, lambda v: v > 0),
@@ -348,7 +345,7 @@ def _checked(
     equations: list[sp.Expr],
     small: tuple[sp.Symbol, ...],
 ) -> Iterator[Relational]:
-    """The conditions in the letters that are left, each once; raises where they and the equations left exclude each other."""
+    """Yield the conditions in the remaining symbols, each once; raise if they contradict the remaining equations."""
     reduced: dict[Relational, None] = {}
     for relation in relations:
         try:
@@ -365,14 +362,14 @@ def _checked(
     if is_infeasible(equations, region(inequalities), small):
         all_of_it = (*(f"{readable(str(e))} = 0" for e in equations), *map(relation_text, inequalities))
         near = f" near {', '.join(map(str, small))} = 0" if small else ""
-        raise _ContradictionError(f"no values of the letters satisfy {' and '.join(all_of_it)}{near}")
+        raise _ContradictionError(f"no values of the symbols satisfy {' and '.join(all_of_it)}{near}")
     yield from reduced
 
 
 def _as_assumption(
     relation: Any, small: tuple[sp.Symbol, ...], order: list[sp.Symbol]
 ) -> tuple[sp.Symbol, sp.Expr] | None:
-    """A letter and its value by a new letter whose assumption is the condition: x ≥ 1 is x = 1 + u, u nonnegative."""
+    """Return a symbol and its value by a new symbol whose assumption is the condition: x ≥ 1 is x = 1 + u, u ≥ 0."""
     if not isinstance(relation, sp.Ge | sp.Gt | sp.Le | sp.Lt):
         return None
     e = sp.expand(relation.gts - relation.lts)
@@ -385,7 +382,7 @@ def _as_assumption(
         kind = {"positive": True} if strict else {"nonnegative": True}
         remainder = sp.expand(e - slope * letter)
         if letter in small and remainder != 0:
-            continue  # what is small stays a letter, of one sign at most
+            continue  # the variable of a series must remain a symbol
         new = sp.Symbol(letter.name if remainder == 0 and slope > 0 else f"({e})", **kind)
         value = (new - remainder) / slope
         try:
@@ -398,11 +395,11 @@ def _as_assumption(
 
 
 def _declared(s: sp.Symbol) -> int:
-    """How many signs the letter was declared with: those with none are taken first."""
+    """Return the number of signs that the symbol was declared with; symbols without any are taken first."""
     return sum(bool(getattr(s, f"is_{kind}")) for kind in _KINDS)
 
 
-# Bases of more, larger or higher polynomials may take hours.
+# Gröbner bases of more, larger or higher polynomials may take hours.
 _MOST_EQUATIONS, _MOST_TERMS, _MOST_DEGREE, _MOST_LETTERS = 6, 60, 6, 9
 
 
@@ -410,10 +407,10 @@ Answer = Literal["zero", "nonzero", "nowhere", "undecided"]
 
 
 def vanishes_on(difference: sp.Expr, equations: Sequence[sp.Expr], apart: Sequence[sp.Expr] = ()) -> Answer:
-    """Whether the difference is zero wherever every equation is, and neither a denominator nor an expression of `apart`.
+    """Decide if the difference vanishes on the zeros of the equations, without zeros of denominators and of `apart`.
 
-    "nowhere": there is no such place, even over the complex numbers. "nonzero": it is not in the radical over the complex
-    numbers; of real letters that alone refutes nothing.
+    "nowhere" means that there are no such points, even over the complex numbers. "nonzero" means that the difference is not in
+    the radical over the complex numbers, which refutes nothing for real symbols.
     """
     try:
         numerator, relations, units = _in_one_ring(difference, list(equations), list(apart))
@@ -428,7 +425,7 @@ def vanishes_on(difference: sp.Expr, equations: Sequence[sp.Expr], apart: Sequen
     one_more = PolyRing([*sp.symbols(f"g:{ring.ngens}"), sp.Symbol("t")], ring.domain, grevlex)
 
     def empty(factors: list[PolyElement]) -> bool:
-        """Whether no point of the equations is off the zeros of all factors."""
+        """Return True if a factor vanishes at every point of the equations."""
         product = one_more.gens[-1]
         for p in factors:
             product *= p.set_ring(order).set_ring(one_more)
@@ -447,7 +444,7 @@ def vanishes_on(difference: sp.Expr, equations: Sequence[sp.Expr], apart: Sequen
 def _in_one_ring(
     difference: sp.Expr, equations: list[sp.Expr], apart: list[sp.Expr]
 ) -> tuple[PolyElement, list[PolyElement], list[PolyElement]]:
-    """The numerators of the difference and of the equations, with the relations of the generators, and what is not zero."""
+    """Return the numerators of the difference and of the equations with the relations, and the nonzero polynomials."""
     together = [difference, *equations, *apart]
     generators = survey(sp.Add(*(sp.Dummy() * e for e in together)))
     roots = find_roots(generators)
@@ -466,9 +463,9 @@ def _in_one_ring(
 def _used(
     targets: list[PolyElement], relations: list[PolyElement]
 ) -> tuple[PolyRing, list[PolyElement], list[PolyElement]] | None:
-    """All of them in a ring of the generators that occur; None where they are too many or too large.
+    """Return all polynomials in the ring of the generators that occur; None if they are too many or too large.
 
-    A generator in no relation that is at most a factor of each target, as the m of m (…), decides nothing and is left out.
+    A generator that occurs in no relation and only as a common factor of a target, as m in m (…), is omitted.
     """
     everything = [*targets, *relations]
     powers = [[{m[i] for m in p.itermonoms()} for p in everything] for i in range(targets[0].ring.ngens)]
@@ -495,9 +492,9 @@ _POINTS, _CHECKED = 40, 2
 
 @dataclass(frozen=True)
 class Witness:
-    """A point, two rationals of one sign between which the difference of the sides lies, and those of each side there.
+    """A counterexample: a point, an enclosure of the difference of the sides there, and enclosures of both sides.
 
-    sides: of the printed and of the derived side; None where principal values are meant and that of a side is not real.
+    An enclosure is two rationals. A side is None if its principal value at the point is not real.
     """
 
     point: Values
@@ -508,10 +505,9 @@ class Witness:
 def witness(
     sides: tuple[sp.Expr, sp.Expr], under: Hypotheses, beyond: sp.Expr = sp.S.Zero, principal: bool = False
 ) -> Witness | None:
-    """Return a point where the hypotheses hold, both sides are real and |left − right| > beyond ≥ 0; None without one.
+    """Return a point of the hypotheses at which both sides are real and |left − right| > beyond ≥ 0; None without one.
 
-    principal: of sides with i or complex letters, and of sides that are real nowhere, principal values count; the absolute
-    value of the difference is then enclosed.
+    With `principal`, principal values count for complex sides; the absolute value of the difference is then enclosed.
     """
     substituted = sp.Tuple(*map(under.on, sides))
     real = replace(under, region=tuple(dict.fromkeys((*under.region, *conditions(substituted)))))
@@ -522,7 +518,7 @@ def witness(
 
 
 def _apart(sides: tuple[sp.Expr, sp.Expr], under: Hypotheses, beyond: sp.Expr, principal: bool) -> Witness | None:
-    """Return a point of the hypotheses that keeps the sides apart."""
+    """Return a point of the hypotheses at which enclosures separate the sides."""
     signed = under.signed
     both = tuple(signed.on(side) for side in sides)
     difference = sides[0] - sides[1]
@@ -541,9 +537,9 @@ def _apart(sides: tuple[sp.Expr, sp.Expr], under: Hypotheses, beyond: sp.Expr, p
 
 
 def contradicted(printed: Any, derived: Any, under: Hypotheses) -> Values | None:
-    """Return a point of the hypotheses that keeps two real sides apart that were decided to be equal; None as it should be.
+    """Return a point that separates two real sides which were proved to be equal; any such point is a bug.
 
-    The sides are enclosed as they came: nothing is put into them.
+    The original sides are enclosed, without substitution.
     """
     signed = under.signed
     for a, b in zip(*(side if isinstance(side, sp.MatrixBase) else [side] for side in (printed, derived)), strict=True):
@@ -554,7 +550,7 @@ def contradicted(printed: Any, derived: Any, under: Hypotheses) -> Values | None
 
 
 def _says_more(e: sp.Expr, signed: Hypotheses) -> bool:
-    """Return whether an equation about a function may fix a derivative of it, or an equation that is left holds one."""
+    """Return True if a remaining equation contains a function, or may determine a derivative in e."""
     premises = sp.Tuple(*signed.equations, *signed.values.values())
     new = e.atoms(sp.Derivative) - premises.atoms(sp.Derivative)
     functions = premises.atoms(AppliedUndef)
@@ -562,7 +558,7 @@ def _says_more(e: sp.Expr, signed: Hypotheses) -> bool:
 
 
 def _points(compared: Sequence[sp.Expr], signed: Hypotheses) -> Iterator[Values]:
-    """Points of the letters that are left which satisfy all that the hypotheses say."""
+    """Yield points of the remaining symbols that satisfy all hypotheses."""
     conditions = *signed.equations, *signed.region
     order = letters_in_order((without_number(compared[0])[1], *compared[1:], *conditions))
     letters = [s for s in order if any(s in x.free_symbols for x in (*compared, *conditions))]
@@ -579,7 +575,7 @@ def _points(compared: Sequence[sp.Expr], signed: Hypotheses) -> Iterator[Values]
 
 
 def _unknowns(signed: Hypotheses, order: list[sp.Symbol]) -> list[sp.Symbol]:
-    """A letter for each equation that is left, each once, of those that are in the fewest; empty where there are too few."""
+    """Return a symbol for each remaining equation, to be solved for; empty if there are too few."""
     unknowns: list[sp.Symbol] = []
     for e in sorted(signed.equations, key=lambda e: len(e.free_symbols)):
         free = sorted(e.free_symbols - set(unknowns) - set(signed.small), key=order.index)
@@ -590,7 +586,7 @@ def _unknowns(signed: Hypotheses, order: list[sp.Symbol]) -> list[sp.Symbol]:
 
 
 def _as_declared(values: Values) -> bool:
-    """Return whether the letters that an equation fixes have the signs that they were declared with."""
+    """Return True if the solved symbols have the signs that they were declared with."""
     return all(
         not ((s.is_extended_nonnegative and v[0] <= 0) or (s.is_extended_nonpositive and v[1] >= 0) or s.is_integer)
         for s, v in values.items()
@@ -599,7 +595,7 @@ def _as_declared(values: Values) -> bool:
 
 
 def _satisfied(relation: Relational, values: Values) -> bool:
-    """Return whether a condition certainly holds at a point."""
+    """Return True if a condition is proved to hold at a point."""
     between = enclosure(sp.sympify(relation.lhs - relation.rhs, strict=True), values)
     if between is None:
         return False
@@ -612,7 +608,7 @@ def _satisfied(relation: Relational, values: Values) -> bool:
 
 
 def _of_letters(difference: sp.Expr, under: Hypotheses, signed: Hypotheses, values: Values) -> Values:
-    """The point in the letters of the statement: what was eliminated has its value, too."""
+    """Return the point in the symbols of the statement, the eliminated ones included."""
     exact = {s: v for s, v in values.items() if not isinstance(v, tuple)}
     point: Values = {}
     for letter in sorted(difference.free_symbols | set(under.values), key=sp.default_sort_key):

@@ -156,7 +156,7 @@ def judge_text(
     kept_apart = {sp.expand(sign * (a - b)) for a, b in _strict(verdict.premises) for sign in (1, -1)}
     unseen = sorted((cancelled if verdict.domain else poles) - kept_apart, key=sp.default_sort_key)
     domain = tuple(dict.fromkeys((*verdict.domain, *(sp.Ne(e, 0) for e in unseen))))
-    fixed = ["the other letters are constant in derivatives and integrals"] if opaque.fixing else []
+    fixed = ["the other symbols are constant in derivatives and integrals"] if opaque.fixing else []
     natural = [f"{name} is a natural number, the last index of a sum" for name in whole]
     return Judgement(replace(verdict, domain=domain), (*map(str, (*texts, *assumed)), *natural, *fixed))
 
@@ -261,7 +261,7 @@ def _statements(text: str, where: str) -> Iterator[_Text]:
     if not latex and "^" not in text:
         for pattern, what in _OPEN:
             if pattern.search(text):
-                raise InputError(f"{where}: {text!r}: whether {what}, or another letter")
+                raise InputError(f"{where}: {text!r}: whether {what}, or another symbol")
         sides = [side.strip() for side in _SIGN.split(text)]
         yield _Text(tuple(sides[::2]), tuple(_TYPED.get(sign, sign) for sign in sides[1::2]))
         return

@@ -293,7 +293,7 @@ def _under(relation: Relation, premises: Iterable[Premise]) -> _Finding:
     """Decide a relation under all of these premises."""
     under = hypotheses(premises, relation.small)
     if under.signed.contradiction:
-        reason = f"the premises contradict each other or their letters: {under.signed.contradiction}"
+        reason = f"the premises contradict each other or the assumptions of their symbols: {under.signed.contradiction}"
         return _Finding("undecided", reasons=(reason,))
     if isinstance(relation.printed, sp.MatrixBase) != isinstance(relation.derived, sp.MatrixBase):
         kinds = ("a vector", "a number") if isinstance(relation.derived, sp.MatrixBase) else ("a number", "a vector")
@@ -461,7 +461,7 @@ def _read_off(relation: Relation, printed: Any, derived: Any, under: Hypotheses)
     counterexample = witness((gap, sp.S.Zero), under, tolerance)
     if counterexample is None:
         return _Finding(
-            "undecided", reasons=("the ratio of the sides depends on letters, and no certified point was found",)
+            "undecided", reasons=("the ratio of the sides depends on symbols, and no certified point was found",)
         )
     return _Finding(
         "refuted", reasons=("the ratio of the sides is no constant",), difference=gap, counterexample=counterexample
@@ -482,7 +482,7 @@ def _read_off_series(relation: Relation, ratio: sp.Expr, small: sp.Symbol, order
         reason = f"the ratio of the sides changes at order {first.order} in {readable(str(small))}, by {by}"
         return _Finding("refuted", first.vanishes_through, small, reasons=(reason,), difference=first.coefficient)
     if constant is None:
-        return _Finding("undecided", reasons=("the ratio of the sides depends on letters",))
+        return _Finding("undecided", reasons=("the ratio of the sides depends on symbols",))
     near = bool(abs(constant - 1) <= tolerance)
     reason = (
         f"the printed value is {sp.N(constant, 6)} of the derived one; its digits allow {sp.N(100 * tolerance, 2)} %"

@@ -50,8 +50,8 @@ class Paper(Catalogue):
     Examples
     --------
     >>> from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
-    >>> PAPER.title, len(PAPER.equations), len(PAPER.claims)
-    ('Dynamics of Axially Coupled Rotor Pairs', 68, 24)
+    >>> len(PAPER.equations), len(PAPER.claims)
+    (68, 24)
     >>> PAPER.equation("5.22").title
     'x coordinate of the two tips in time'
     """

@@ -1,4 +1,4 @@
-"""Plain text with formulas typed on a keyboard, as people read it: omega_1**2 is ω₁², -3 is −3, 3e-14 is 3×10⁻¹⁴."""
+"""Conversion of typed formulas and LaTeX to plain text: omega_1**2 is ω₁², -3 is −3, 3e-14 is 3×10⁻¹⁴."""
 
 import re
 from collections import deque
@@ -18,16 +18,16 @@ _FONTS = ("text", "mathcal", "mathrm", "mathbf", "boldsymbol", "operatorname", "
 _ABOVE = {"": "", "_dot": "\u0307", "_ddot": "\u0308"}
 _LOW, _HIGH = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"), str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 _ARROWS = {" -> ": " → ", " >= ": " ≥ ", " <= ": " ≤ ", "||": "‖"}
-# A minus sign, none of the hyphens between words or in a range.
+# A minus sign, but no hyphen between words or in a range.
 _MINUS = re.compile(
     r"(?<![^\s(=:;/,])-(?=[\dͰ-ϿD√]|(?:sin|cos|exp)\(|[A-Za-z](?:[_₀-₉/]| \())|(?<= )-(?= )|(?<=\()-(?=\()"
 )
 
 
 def readable(text: str) -> str:
-    """The text with Greek letters, dots, primes and indices on names, powers raised, signs, and numbers in powers of ten.
+    """Return a text with Greek letters, dots, primes, indices, raised powers, signs and powers of ten.
 
-    An index that is not a number stays as typed, F_y; so does a power that is not a whole number, r^1.96.
+    An index that is not a number stays, F_y; so does a power that is not a whole number, r^1.96.
     """
     for typed, read in _RULES:
         text = typed.sub(read, text)
@@ -47,7 +47,7 @@ def _in_powers_of_ten(match: re.Match[str]) -> str:
 
 
 def from_latex(source: str) -> str:
-    r"""LaTeX of a quantity in plain text: \dot\varphi_1 is φ̇₁, \Omega_0^2\ \text{(any rate)} is Ω₀² (any rate)."""
+    r"""Return LaTeX in plain text: \dot\varphi_1 is φ̇₁, \Omega_0^2\ \text{(any rate)} is Ω₀² (any rate)."""
     tokens = (Token(t.kind, c, t.at) for t in tokenize(source) for c in (t.text if t.kind == "text" else (t.text,)))
     text = re.sub(r"(?<=[²³])(?=[A-Za-zΑ-ω])", " ", _line(deque(tokens)))
     text = " ".join(text.split()).replace("( ", "(").replace(" )", ")").replace("⟨ ", "⟨").replace(" ⟩", "⟩")
@@ -55,7 +55,7 @@ def from_latex(source: str) -> str:
 
 
 def _line(tokens: deque[Token]) -> str:
-    """What is before the brace that closes the open one, or before the end."""
+    """Convert the tokens up to the closing brace or the end."""
     text = ""
     while tokens and (token := tokens.popleft()).kind != "close":
         text = f"{text.rstrip() if token.kind == 'script' else text}{_piece(token, tokens)}"
@@ -111,7 +111,7 @@ def _command(name: str, tokens: deque[Token]) -> str:
 
 
 def _matrix(tokens: deque[Token]) -> str:
-    r"""The rows of a matrix up to its end, as [a, b; c, d]."""
+    r"""Convert a matrix up to its end, as [a, b; c, d]."""
     inner, depth = list[Token](), 1
     while tokens and depth:
         token = tokens.popleft()
@@ -127,7 +127,7 @@ def _matrix(tokens: deque[Token]) -> str:
 
 
 def _factor(text: str) -> str:
-    """In brackets unless it is one letter or number, indexed or raised."""
+    """Put a text in brackets unless it is one symbol or number, with index or power."""
     alone = re.fullmatch(r"\s*(?:[\w.∂\u0307\u0308]+|\([^()]*\))(?:_\w+)?(?:\^\w)?\s*", text)
     return text.strip() if alone else f"({text.strip()})"
 
@@ -142,12 +142,12 @@ def _letter(match: re.Match[str]) -> str:
     return _LETTERS.get(name, name) + _ABOVE[dots] + low
 
 
-_END = "[\\w)\u0307\u0308]"  # of what is before an operator
-# What is typed, and what is read in its place, one after the other.
+_END = "[\\w)\u0307\u0308]"  # the character before an operator
+# Patterns and replacements, in this order.
 _RULES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
     (re.compile(r"(?<![\w.])(-?)(\d+(?:\.\d+)?)e([+-]?\d+)(?!\w|\.\d)"), _in_powers_of_ten),
     (re.compile(r"(?<![\w\\])([A-Za-z]+)((?:_(?!d?dot)[A-Za-z0-9]+)*)(_d?dot)?(?![A-Za-z0-9_])"), _letter),
-    # A letter with its index or its bracket, before a prime; a word's apostrophe is left alone.
+    # A symbol with its index, or a bracket, before a prime; the apostrophe of a word stays.
     (
         re.compile(r"(?<![A-Za-z])((?:[A-Za-zͰ-Ͽϑϕ][₀-₉\u0307]*)|\))('{1,2})(?![A-Za-zͰ-Ͽ'])"),
         lambda match: match[1] + "′" * len(match[2]),

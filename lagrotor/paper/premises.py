@@ -41,9 +41,9 @@ class Premise:
     --------
     >>> from sympy import symbols
     >>> ell, R = symbols("ell R", positive=True)
-    >>> premise = Premise("the bar is as long as the rotors", {ell: R})
+    >>> premise = Premise("the bar is as long as the arms", {ell: R})
     >>> premise.with_formula, premise.on(ell**2 - R * ell)
-    ('the bar is as long as the rotors: ℓ = R', 0)
+    ('the bar is as long as the arms: ℓ = R', 0)
     """
 
     says: str
@@ -163,7 +163,7 @@ def parameter_premise(
     --------
     >>> from sympy import symbols
     >>> ell, R = symbols("ell R", positive=True)
-    >>> parameter_premise("the bar is as long as the rotors", {ell: R}, {ell: 2, R: 1}).broken
+    >>> parameter_premise("the bar is as long as the arms", {ell: R}, {ell: 2, R: 1}).broken
     'ell = 2, R = 1'
     """
     differences = []
@@ -224,7 +224,7 @@ def _of_relation(relation: Any) -> tuple[Premise, ...]:
     if relation in (True, sp.true):
         return ()
     if relation in (False, sp.false):
-        return (Premise("a relation that the assumptions of its letters exclude", {sp.S.Zero: sp.S.One}),)
+        return (Premise("a relation that the assumptions of its symbols exclude", {sp.S.Zero: sp.S.One}),)
     if isinstance(relation, sp.And):
         return tuple(premise for conjunct in relation.args for premise in _of_relation(conjunct))
     if not isinstance(relation, Relational):

@@ -1,6 +1,6 @@
-"""The verdicts on record, `recorded.toml`: for each equation and claim a block of all that was found, a line or a row an item.
+"""The record of verdicts, `recorded.toml`: one block for each equation and claim, one line for each item.
 
-Blocks stand in the order of their ids, so that two authors who judge different equations change different places of the file.
+The blocks are sorted by id, so that authors who judge different equations change different places of the file.
 """
 
 import hashlib
@@ -21,11 +21,10 @@ from lagrotor.paper.verdicts import LineVerdict, Verdict
 
 @dataclass(frozen=True)
 class OnRecord:
-    """What is on record of an equation or a claim; None where it is not.
+    """The record of an equation or a claim; an item that is not on record is None.
 
-    printed: a digest of the print. uses: ids of the equations that the equation uses. premises: in words and as formulas.
-    lines, correction: verdict, order and premises of each member of each line. dimensions: of the lines in which they are not
-    seen to be the same. parts: of a claim, each part and its outcome. theorems: those of a part or a line, in words.
+    `printed` is a digest of the print, `uses` the ids of the used equations. `lines` and `correction` have verdict, order and
+    premises of each member, `dimensions` the lines that are not consistent, `parts` the outcomes of a claim's parts.
     """
 
     verdict: str
@@ -40,13 +39,13 @@ class OnRecord:
     theorems: tuple[str, ...] | None = None
 
     def theorems_of(self, what: str) -> tuple[Theorem, ...]:
-        """The theorems on record of a part or a line, which were not proved again."""
+        """Return the theorems on record of a part or a line."""
         texts = (text.removeprefix(f"{what}: ") for text in self.theorems or () if text.startswith(f"{what}: "))
         return tuple(Theorem(text) for text in texts)
 
 
 def row_of(result: Verdict | Result, equations: Mapping[str, Equation]) -> OnRecord:
-    """The record of a verdict, or of a claim after its test."""
+    """Return the record of a verdict, or of a claim after its test."""
     if isinstance(result, Result):
         finding = result.finding
         proved = tuple(f"{part.says}: {' '.join(filter(None, (t.says, t.encloses)))}" for part, t in finding.theorems)
@@ -67,7 +66,7 @@ def row_of(result: Verdict | Result, equations: Mapping[str, Equation]) -> OnRec
 
 
 def printed_digest(entry: Equation) -> str:
-    """A digest of what the catalogue says is printed."""
+    """Return a digest of the print in the catalogue."""
     rows = [{key: row[key] for key in sorted(row)} for row in entry.line]
     text = json.dumps([entry.latex, rows, dict(entry.letters), dict(entry.refers)], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:16]
@@ -93,7 +92,7 @@ def _dimensions(lines: Iterable[LineVerdict]) -> Iterator[str]:
 
 
 def recorded(file: Path) -> dict[str, OnRecord]:
-    """The record by id; empty when there is none yet. Raises LagrotorError for a broken file."""
+    """Read the record by id; empty without a file. Raises LagrotorError for a broken file."""
     columns = {field.name for field in fields(OnRecord)}
     try:
         rows = tomllib.loads(file.read_text(encoding="utf-8"))
@@ -111,7 +110,7 @@ def recorded(file: Path) -> dict[str, OnRecord]:
 
 
 def record_text(rows: Mapping[str, OnRecord]) -> str:
-    """A record as TOML: a block for each id, in their order, and in it a line for each item."""
+    """Return a record as TOML."""
     blocks = []
     for identifier in sorted(rows, key=by_numbers):
         row, lines = rows[identifier], [f"[{_quoted(identifier)}]"]
@@ -132,7 +131,7 @@ def _quoted(text: str) -> str:
 
 
 def changes(current: Mapping[str, OnRecord], on_record: Mapping[str, OnRecord], ids: Iterable[str]) -> list[str]:
-    """A sentence for each difference from what is on record of these ids; none where there is no record."""
+    """Return a sentence for each difference from the record of these ids; empty without a record."""
     if not on_record:
         return []
     return [sentence for i in ids for sentence in _changes_of(i, current.get(i), on_record.get(i))]
@@ -145,7 +144,7 @@ def _changes_of(identifier: str, now: OnRecord | None, recorded_row: OnRecord | 
     different: list[str] = []
     for field in fields(OnRecord):
         old, new = getattr(recorded_row, field.name), getattr(now, field.name)
-        # digits of theorems differ from machine to machine; that they are there is in parts and lines
+        # The digits of theorems differ between machines; parts and lines already say that there is a theorem.
         if field.name != "theorems" and old is not None and old != new:
             different.append(
                 f"{identifier}: {_WORDS.get(field.name, field.name)}: recorded {_said(old)}, found {_said(new)}"
@@ -166,7 +165,7 @@ def _said(value: Any) -> str:
 def reaches_result(
     identifier: str, results: Iterable[str], verdicts: Mapping[str, str], uses: Mapping[str, Iterable[str]]
 ) -> bool:
-    """Return whether a refuted equation takes a result of the paper with it: one that rests on it, or is it, is refuted too."""
+    """Return True if a refuted result of the paper is, or depends on, the refuted equation."""
     ends = set(results)
     visited, stack = {identifier}, [identifier]
     while stack:

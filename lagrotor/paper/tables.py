@@ -50,8 +50,8 @@ class Table:
 
     Examples
     --------
-    >>> Table("Rates", ("spin (rad/s)", "rate (rad/s)"), (("10", "8"), ("20", "16"))).rows[1]
-    ('20', '16')
+    >>> Table("Periods", ("length (m)", "period (s)"), (("1", "2.01"), ("2", "2.84"))).rows[1]
+    ('2', '2.84')
     """
 
     title: str

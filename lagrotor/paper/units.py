@@ -1,8 +1,8 @@
-"""The dimensions of a printed line, from the units that the glossary gives to its letters.
+"""The dimensions of a printed line, from the units of its symbols in the glossary.
 
-A dimension is a monomial in the base units: of "kg m²/s", kg*m**2/s; of a number or an angle, 1. A sum, and a line, needs
-terms of one dimension, a sine or an exponent a number (ISO 80000-1, 6.1). Where a premise gives a letter a number, as R = 1,
-numbers stand for quantities, and what differs by powers of that letter's dimension is said to be so.
+A dimension is a monomial in the base units: kg*m**2/s for "kg m²/s", 1 for a number or an angle. The terms of a sum and the
+sides of a line need one dimension; the argument of a sine and an exponent are numbers (ISO 80000-1, 6.1). Under a premise such
+as R = 1, numbers replace quantities, and sides may differ by powers of the dimension of R.
 """
 
 import re
@@ -36,16 +36,13 @@ _PREFIXED = {
 }
 _RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 _SUPERSCRIPT = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
-# A product after a quotient, J/kg K, of which nobody knows whether K is above or below.
+# A product after a quotient is ambiguous: in J/kg K the K may be above or below.
 _UNCLEAR = re.compile(r"/[^()]*\*(?!\*)")
 
 
 @cache
 def dimension_of(unit: str) -> sp.Expr:
-    """The dimension of a unit as a glossary writes it: kg m²/s, kg m^2 s^-1, N/(rad s), 1.
-
-    Raises InputError for a unit that is not known, and for one that can be read in two ways.
-    """
+    """Return the dimension of kg m²/s, kg m^2 s^-1, N/(rad s) or 1; raise InputError for an unknown or ambiguous unit."""
     text = (
         re.sub(r"[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+", lambda dimension: f"^{dimension[0].translate(_RAISED)}", unit)
         .replace("°", "deg")
@@ -62,7 +59,7 @@ def dimension_of(unit: str) -> sp.Expr:
 
 
 def _letter_text(name: str) -> str:
-    """A letter by name; of a component Omega_2_z: z of Ω₂."""
+    """Return the name of a symbol in plain text; for the component Omega_2_z, z of Ω₂."""
     whole, _, axes = name.rpartition("_")
     return f"{axes} of {readable(whole)}" if whole and re.fullmatch("[xyz]{1,2}", axes) else readable(name)
 
@@ -74,7 +71,7 @@ def _is_monomial(dimension: Any) -> bool:
 
 
 def unit_text(dimension: sp.Expr) -> str:
-    """A dimension as a unit: kg m²/s."""
+    """Return a dimension as a unit: kg m²/s."""
     powers = {str(base): power for base, power in dimension.as_powers_dict().items() if base != 1}
     ordered = [(name, powers[name]) for name in _BASES if name in powers]
     above = [(name, power) for name, power in ordered if power > 0]
@@ -93,9 +90,10 @@ def _powers(rows: Iterable[tuple[str, Any]]) -> str:
 
 @dataclass(frozen=True)
 class Dimensions:
-    """What the units say of a line, in a sentence.
+    """The dimensional analysis of a line, with a sentence.
 
-    "in units": the two sides differ by powers of letters to which a premise gives numbers. "not known": a letter has no unit.
+    "in units" means that the sides differ by powers of symbols to which a premise gives numbers, "not known" that a symbol has no
+    unit.
     """
 
     answer: Literal["consistent", "in units", "inconsistent", "not known"]
@@ -103,10 +101,7 @@ class Dimensions:
 
 
 def dimensions(printed: Any, derived: Any, glossary: Glossary, values: Mapping[Any, Any]) -> Dimensions:
-    """The dimensions of a printed member against what was derived; entry by entry of matrices.
-
-    values: letter → the number that a premise or the text gives it.
-    """
+    """Compare the dimensions of two sides, of matrices by entry; `values` are the numbers that premises give to symbols."""
     units: dict[sp.Symbol, sp.Expr] = {}
     unread: dict[str, str] = {}
     for symbol, entry in glossary.items():
@@ -136,7 +131,7 @@ def dimensions(printed: Any, derived: Any, glossary: Glossary, values: Mapping[A
 
 def _compared(printed: Any, derived: Any, reader: "_Reader") -> Dimensions:
     sides = [list(s) if isinstance(s, sp.MatrixBase) else [s] for s in (printed, derived)]
-    if len(sides[0]) != len(sides[1]):  # a number beside a vector: with each of its entries
+    if len(sides[0]) != len(sides[1]):  # a number is compared with each entry of a vector
         sides = [side * max(map(len, sides)) if len(side) == 1 else side for side in sides]
     unknown, shared = "", list[sp.Expr]()
     for pair in zip(*sides, strict=False):
@@ -160,23 +155,23 @@ def _compared(printed: Any, derived: Any, reader: "_Reader") -> Dimensions:
 
 
 class _UnknownError(Exception):
-    """A dimension that the units do not give."""
+    """A dimension that does not follow from the units."""
 
 
 class _InconsistentError(Exception):
-    """Terms of different dimensions, or a quantity where a number must stand."""
+    """Terms of different dimensions, or a quantity in place of a number."""
 
 
 @dataclass(frozen=True)
 class _Reader:
-    """Dimensions under the units of letters; what is a product of powers of `numbers` counts as a number."""
+    """The reader of dimensions; a product of powers of `numbers` counts as a number."""
 
     units: Mapping[sp.Symbol, sp.Expr]
     unread: Mapping[str, str]
     numbers: tuple[sp.Expr, ...]
 
     def alike(self, a: sp.Expr, b: sp.Expr) -> bool:
-        """Whether two dimensions are the same, up to powers of what counts as a number."""
+        """Return True if two dimensions are equal up to powers of `numbers`."""
         if a == b:
             return True
         rows = [
@@ -186,7 +181,7 @@ class _Reader:
         return bool(sp.Matrix(rows).rank() == sp.Matrix(rows[:-1]).rank()) if self.numbers else False
 
     def of(self, e: Any) -> sp.Expr | None:
-        """The dimension of an expression; None of zero, which has any."""
+        """Return the dimension of an expression; None for zero, which has every dimension."""
         if e.is_number:
             return None if e == 0 else _ONE
         if e.is_Symbol or isinstance(e, AppliedUndef):
@@ -223,7 +218,7 @@ class _Reader:
         return named[0]
 
     def _common(self, terms: Iterable[Any]) -> sp.Expr | None:
-        """The dimension of all terms of a sum; terms that differ are found though others are not known."""
+        """Return the common dimension of the terms of a sum; differing terms are reported even if others are unknown."""
         first: tuple[Any, sp.Expr] | None = None
         unknown: _UnknownError | None = None
         for term in terms:
@@ -263,7 +258,7 @@ class _Reader:
             return base**e.exp
         self._number(e.exp, "an exponent")
         if base is not None and not self.alike(base, _ONE):
-            raise _UnknownError(f"{_shown(e)} is a power of {unit_text(base)} with a letter in the exponent")
+            raise _UnknownError(f"{_shown(e)} is a power of {unit_text(base)} with a symbol in the exponent")
         return _ONE
 
     def _number(self, e: Any, where: str) -> None:

@@ -46,7 +46,7 @@ def test_a_long_left_side_is_named_or_the_equation_written() -> None:
     long = sum(sp.Symbol(f"a_{n}") for n in range(60))
     assert prove(long, long, names="A").tex.startswith(r"\begin{aligned} A &=")
     assert prove(long, long, equations=r"A = \sum_n a_n").tex == r"\begin{aligned} A = \sum_n a_n \end{aligned}"
-    with pytest.raises(ProofError, match="give `names` or `written`"):
+    with pytest.raises(ProofError, match="give `names` or `equations`"):
         prove(long, long)
     with pytest.raises(ProofError, match="2 equations are written for 1"):
         prove(x, x, equations=("a", "b"))

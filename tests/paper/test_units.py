@@ -102,7 +102,7 @@ def test_what_differs_is_named(wrong: sp.Expr, why: str) -> None:
 def test_a_letter_without_a_unit_is_named() -> None:
     assert of(alien * m, m) == Dimensions("not known", "z: no unit is given of it")
     assert "'furlong' is not defined" in of(odd, l).says
-    assert "with a letter in the exponent" in of(l**n, l).says
+    assert "with a symbol in the exponent" in of(l**n, l).says
 
 
 def test_numbers_stand_for_quantities_where_a_premise_says_so() -> None:
@@ -159,5 +159,5 @@ def test_units_of_a_sections_letters_are_those_of_the_catalogue(tmp_path) -> Non
         ("F_x", "F_y", "F_z"), "N"
     )
     (tmp_path / "equations.toml").write_text(head + 'kg = "M"\n')
-    with pytest.raises(InputError, match="section 1 has no letter 'M'"):
+    with pytest.raises(InputError, match="section 1 has no symbol 'M'"):
         section_glossary(Paper(tmp_path), "1")
