@@ -111,7 +111,7 @@ class Finding:
 
     @property
     def theorems(self) -> tuple[tuple[Part, Theorem], ...]:
-        """The pairs of a part and a theorem that decides it."""
+        """Each part with each theorem that decides it."""
         return tuple((part, theorem) for part in self.parts for theorem in part.theorems)
 
     def _with_theorems(self, proved: Iterable[Part], where: str) -> "Finding":

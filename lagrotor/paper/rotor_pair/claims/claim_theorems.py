@@ -1,8 +1,8 @@
-"""Parts of the claims that are theorems: motions of the exact pair, enclosed. They need python-flint.
+"""Theorems that decide parts of the claims, by enclosures of motions of the exact pair. They need python-flint.
 
-Each theorem says more than its part needs, so that rounding decides nothing: that an expression of the axes passes zero before a
-stated time, or does not, its mean over a span of time, or the frequency of a periodic orbit. The peak of the paper's shocks is at
-0.2 s, of the wider ones of section 5.3 at 0.5 s.
+A theorem says that an expression of the axes passes zero before a time, or does not, or it encloses the mean over a time span or
+the frequency of a periodic orbit. Each says more than its part needs, so that rounding decides nothing. The peak of the paper's
+shocks is at 0.2 s, and at 0.5 s for the wider ones of section 5.3.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -28,21 +28,21 @@ Spans = Sequence[tuple[sp.Expr, Any, Any]]
 
 
 def _crossing(scene: Scene, event: sp.Expr, time: str, says: str = "") -> Theorem:
-    """That an expression of the axes passes zero before a time."""
+    """Prove that an expression of the axes passes zero before a time."""
     from lagrotor.proofs import crossing
 
     return Theorem.of(crossing(scene, event=event, before=time, tol=_TOL), says)
 
 
 def _no_crossing(scene: Scene, event: sp.Expr, until: str, says: str = "") -> Theorem:
-    """That it does not up to a time."""
+    """Prove that an expression of the axes does not pass zero up to a time."""
     from lagrotor.proofs import no_crossing
 
     return Theorem.of(no_crossing(scene, event=event, until=until, tol=_TOL), says)
 
 
 def _means(system: Any, spans: Spans, says: str = "", start: Any = (None, None)) -> tuple[tuple[Any, ...], Theorem]:
-    """Means over spans of time, and the theorem."""
+    """Enclose means over time spans."""
     from lagrotor.proofs import means
 
     proof = means(system, None, start[0], start[1], spans, _TOL)
@@ -50,36 +50,36 @@ def _means(system: Any, spans: Spans, says: str = "", start: Any = (None, None))
 
 
 def _less(a: Any, b: Any) -> bool | None:
-    """a < b of balls; None where they overlap."""
+    """Return a < b for balls; None if they overlap."""
     return True if a < b else False if a >= b else None
 
 
 def _all(answers: Iterable[bool | None]) -> bool | None:
-    """Return whether all hold; None where that is open."""
+    """Return True if all answers are True, False if one is False, else None."""
     distinct = {*answers}
     return False if False in distinct else None if None in distinct else True
 
 
 def _decided(sentence: str, answer: bool | None, *theorems: Theorem) -> Iterator[Part]:
-    """The part with its theorems; nothing where the enclosures leave it open."""
+    """Yield the part with its theorems, unless the enclosures do not decide it."""
     if answer is not None:
         yield Part(sentence, answer, theorems=theorems)
 
 
 def _turning(i: int, y: Any = 0, about: Sequence[Any] = ()) -> sp.Expr:
-    """(x, y) × its rate, of an axis about the point (0, y): its sign is the sense of the precession."""
+    """Return (x, y) × its rate for an axis about the point (0, y); the sign is the sense of the precession."""
     q, v = about or (AXES.q[3 * i : 3 * i + 2], AXES.v[3 * i : 3 * i + 2])
     return q[0] * v[1] - (q[1] - y) * v[0]
 
 
 def _about_joint_line(i: int) -> sp.Expr:
-    """The rate (rad/s) at which an axis turns about the line through the ground joints."""
+    """Return the rate (rad/s) at which an axis turns about the line through the ground joints."""
     (y, z), (y_v, z_v) = AXES.q[3 * i + 1 : 3 * i + 3], AXES.v[3 * i + 1 : 3 * i + 3]
     return (y * z_v - z * y_v) / (y**2 + z**2)
 
 
 def lasting_displacement(same_sense: str, remains: str, spins: Spins) -> Iterator[Part]:
-    """C01: both axes of equal spins turn about a displaced point, their mean in the first cycle and in the fifth."""
+    """C01: prove that both axes of equal spins turn about a displaced point, by means over the first and the fifth cycle."""
     if spins != (10, 10):
         return
     scene, y = shocked_scene(spins, (50, 0, 0)), _Q("0.0886")  # by equation (7)
@@ -94,14 +94,14 @@ def lasting_displacement(same_sense: str, remains: str, spins: Spins) -> Iterato
 
 
 def not_without_spin(sentence: str, bar: Link) -> Iterator[Part]:
-    """C02: within 2.4 s of a shock along the bar x is above 1/2 without spins, and below 1/5 with opposite ones."""
+    """C02: prove that within 2.4 s of a shock along the bar x exceeds 1/2 without spins, but not 1/5 with opposite ones."""
     free = _crossing(shocked_scene((0, 0), (50, 0, 0), bar), _X1 - _Q(1, 2), "2.6")
     opposite = _no_crossing(shocked_scene((10, -10), (50, 0, 0), bar), _X1**2 - _Q(1, 25), "2.6")
     yield Part(sentence, False, theorems=(free, opposite))
 
 
 def energies(initial: str, final: str, spins: Spins, printed: dict[str, PrintedNumber]) -> Iterator[Part]:
-    """C08: the energy before and after the shock."""
+    """C08: enclose the energy before and after the shock."""
     scene = shocked_scene(spins, (50, 0, 0))
     inertias = {s: _Q(str(x)) for s, x in zip((a, b), scene.inertias, strict=True)}
     energy = axes_pair().L.xreplace(inertias) + sum(_Q(str(w)) ** 2 for w in spins) * _Q(str(scene.rotor.I3)) / 2
@@ -112,7 +112,7 @@ def energies(initial: str, final: str, spins: Spins, printed: dict[str, PrintedN
 
 
 def topples(sentence: str, spins: Spins) -> Iterator[Part]:
-    """C10: without spins the axes fall to 75° after a shock along the bar, and to 90° after one across it."""
+    """C10: prove that axes without spins fall to 75° after a shock along the bar, and to 90° after one across it."""
     if spins == (0, 0):
         shock_x = _crossing(shocked_scene(spins, (50, 0, 0)), _Z1 - _Q(1, 4), "2.9", "z₁ = 1/4 is 75.5° from upright.")
         shock_y = _crossing(shocked_scene(spins, (0, 50, 0)), _Z1, "2.5", "z₁ = 0 is 90° from upright.")
@@ -122,9 +122,9 @@ def topples(sentence: str, spins: Spins) -> Iterator[Part]:
 def topples_slowly(
     stable: str, topples_yz: str, slowly: str, spins: Spins, visible: float, slow: float
 ) -> Iterator[Part]:
-    """C11: after the shocks of figures 12 and 13 the pair turns about the joint line, slowly; after one along −y x grows.
+    """C11: prove that the pair topples slowly after the shocks of figures 12 and 13, and that x grows after one along −y.
 
-    seen: rad in the paper's 8 s, at least. slow: rad in a period of the natural rate, at most.
+    Toppling is more than `visible` rad in the paper's 8 s, and slow is less than `slow` rad in a period of the natural rate.
     """
     if spins != (10, -10):
         return
@@ -141,21 +141,21 @@ def topples_slowly(
 
 
 def axes_part(sentence: str, bar: Link) -> Iterator[Part]:
-    """C12: the angle between the axes of opposite spins passes 0.1 rad within 1 s of the start."""
+    """C12: prove that the angle between the axes of opposite spins passes 0.1 rad within 1 s of the start."""
     event = _X1 * _X2 + _Y1 * _Y2 + _Z1 * _Z2 - sp.cos(_Q(1, 10))
     says = "Its zero is an angle of 0.1 rad between the axes."
     yield Part(sentence, True, theorems=(_crossing(shocked_scene((10, -10), (50, 0, 0), bar), event, "1", says),))
 
 
 def mean_displacement(sentence: str) -> Iterator[Part]:
-    """C13: after the shock across the bar both axes of opposite spins have a mean x, over four cycles of the natural rate."""
+    """C13: enclose the mean x of both axes of opposite spins over four cycles, after the shock across the bar."""
     spans = [(x, "0.4", "6.4") for x in (_X1, _X2)]
     averages, theorem = _means(shocked_scene((10, -10), (0, 50, 0)), spans, "This is over four cycles.")
     yield from _decided(sentence, _all(_less(-0.02, x) for x in averages), theorem)
 
 
 def single_rate(sentence: str, spins: Spins, printed: PrintedNumber) -> Iterator[Part]:
-    """C20: the mean rate of one rotor, a point on a sphere with the force G r × r', over five cycles after the shock."""
+    """C20: enclose the mean rate of one rotor, a point on a sphere with the force G r × r', over five cycles."""
     if spins != (20, 20):
         return
     c = coordinates("x y z")
@@ -172,7 +172,7 @@ def single_rate(sentence: str, spins: Spins, printed: PrintedNumber) -> Iterator
 
 
 def coupled_rates(sentence: str, spins: Spins, bar: Link, printed: PrintedNumber) -> Iterator[Part]:
-    """C21: the mean rate of equal spins after a small shock and after the paper's, over four cycles."""
+    """C21: enclose the mean rate of equal spins over four cycles, after a small shock and after the paper's."""
     if spins != (20, 20):
         return
     theorems, agree = list[Theorem](), list[bool | None]()
@@ -190,7 +190,7 @@ def coupled_rates(sentence: str, spins: Spins, bar: Link, printed: PrintedNumber
 
 
 def not_followed(sentence: str, spins: Spins, bars: Sequence[Link]) -> Iterator[Part]:
-    """C22: where a wave of 5.7 rad/s that begins with the shock has its second trough, x is positive, with either listed bar."""
+    """C22: prove that x is positive at the second trough of a wave of 5.7 rad/s from the shock on, with either listed bar."""
     if spins != (10, -10):
         return
     says = "sin 5.7 (t − 0.5) has a trough at t = 2.429 s."
@@ -201,7 +201,7 @@ def not_followed(sentence: str, spins: Spins, bars: Sequence[Link]) -> Iterator[
 
 
 def rate_changes(sentence: str, scene: Scene, r0: float, unchanged: float) -> Iterator[Part]:
-    """C17: the orbit's frequency is not G/(J cos θ), the one of constant inclination, by more than `unchanged` r0²."""
+    """C17: prove that the orbit's frequency differs from G/(J cos θ) by more than `unchanged` r0²."""
     from lagrotor.proofs import precession
 
     if scene.spins[0] != -scene.spins[1]:
@@ -214,7 +214,7 @@ def rate_changes(sentence: str, scene: Scene, r0: float, unchanged: float) -> It
 
 
 def over_cosine(sentence: str, scene: Scene, r0: float) -> Iterator[Part]:
-    """C23: the paired precession is slower than the natural rate, which over a cosine is faster."""
+    """C23: prove that the paired precession is slower than the natural rate; the claimed rate is faster."""
     from lagrotor.proofs import precession
 
     if scene.spins[0] != -scene.spins[1]:
