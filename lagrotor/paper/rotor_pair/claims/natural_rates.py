@@ -89,11 +89,11 @@ def decide_c20(m: Mapping[str, float]) -> Finding:
     )
     return Finding(
         (Part(AT_16, all(map(SINGLE.is_matched, (exact, springs, small)))),),
-        f"{SINGLE.rule} rad/s. The fitted rates are {exact:.3f} rad/s in the exact model over 8 s, {exact / SINGLE - 1:.1%} above "
-        f"16; {springs:.3f} with springs over the first {SPRINGS_SECONDS:.0f} s; and {small:.4f} after a small shock. (With "
-        "springs the rate decreases later, figure 25, because the dampers reduce the amplitude.) The excess is due to the "
-        f"amplitude: G/(J cos θ) = {m['rate_by_G_over_J_cos_rad_per_s']:.3f} rad/s at sin θ = {m['amplitude']:.3f}. At the end of "
-        f"the 8 s sin 16(t − 2) lags by {m['cycles_off_16_at_the_end_of_8_s']:.2f} of a cycle.",
+        f"{SINGLE.rule} rad/s. The fitted rates are {exact:.3f} rad/s in the exact model over 8 s, {exact / SINGLE - 1:.1%} "
+        f"above 16; {springs:.3f} with springs over the first {SPRINGS_SECONDS:.0f} s; and {small:.4f} after a small shock. "
+        "(With springs the rate decreases later, figure 25, because the dampers reduce the amplitude.) The excess is due to "
+        f"the amplitude: G/(J cos θ) = {m['rate_by_G_over_J_cos_rad_per_s']:.3f} rad/s at sin θ = {m['amplitude']:.3f}. At "
+        f"the end of the 8 s sin 16(t − 2) lags by {m['cycles_off_16_at_the_end_of_8_s']:.2f} of a cycle.",
     )
 
 
@@ -144,16 +144,16 @@ def decide_c21(m: Mapping[str, float]) -> Finding:
     by_n = [m[f"rate_springs_n_{n}_over_3_s_rad_per_s"] for n in OF_SPRINGS]
     return Finding(
         (Part(AT_11_4, all(at_11_4), needs if all(at_11_4[:2]) else ""), _constant(m)),
-        f"{COUPLED.rule} rad/s, and 0.7125 is 11.4 over 16. The fitted rates are {springs:.3f} rad/s with springs over the first "
-        f"{SPRINGS_SECONDS:.0f} s, {small:.3f} in the exact model after a small shock, but {exact:.3f} over 8 s after the paper's "
-        f"{_PAPER:.0f} N, {exact / COUPLED - 1:.1%} above 11.4. The finite amplitude adds {exact - small:.3f}, and the soft "
-        f"springs subtract {exact - springs:.3f}. One rotor has {m['rate_of_one_rotor_rad_per_s']:.3f} rad/s. The constant is "
-        f"{m['constant']:.4f} at these spins and {m['constant_at_half_the_spins']:.4f} at half of them; J/(J + m R²/2) = "
-        f"{m['J_over_J_plus_half_m']:.4f}. It depends on the mass of the bar, but not on its inertia "
+        f"{COUPLED.rule} rad/s, and 0.7125 is 11.4 over 16. The fitted rates are {springs:.3f} rad/s with springs over the "
+        f"first {SPRINGS_SECONDS:.0f} s, {small:.3f} in the exact model after a small shock, but {exact:.3f} over 8 s after "
+        f"the paper's {_PAPER:.0f} N, {exact / COUPLED - 1:.1%} above 11.4. The finite amplitude adds {exact - small:.3f}, "
+        f"and the soft springs subtract {exact - springs:.3f}. One rotor has {m['rate_of_one_rotor_rad_per_s']:.3f} rad/s. "
+        f"The constant is {m['constant']:.4f} at these spins and {m['constant_at_half_the_spins']:.4f} at half of them; J/(J "
+        f"+ m R²/2) = {m['J_over_J_plus_half_m']:.4f}. It depends on the mass of the bar, but not on its inertia "
         f"({m['constant_bar_K_0.1']:.4f} with K = 0.1 kg m²), and is {m['constant_light_bar']:.4f} for the light bar. 11.4 "
-        f"requires a mass from {m['least_mass_that_gives_11.4_kg']:.3f} to {m['greatest_mass_that_gives_11.4_kg']:.3f} kg. With "
-        f"springs of n = 10, 20, 40, 80 (C08) the rate is {by_n[0]:.2f}, {by_n[1]:.2f}, {by_n[2]:.2f}, {by_n[3]:.2f} rad/s: "
-        f"11.4 together with 100.45 J and 16 requires n of at most {m['largest_n_that_gives_11.4']:.0f}.",
+        f"requires a mass from {m['least_mass_that_gives_11.4_kg']:.3f} to {m['greatest_mass_that_gives_11.4_kg']:.3f} kg. "
+        f"With springs of n = 10, 20, 40, 80 (C08) the rate is {by_n[0]:.2f}, {by_n[1]:.2f}, {by_n[2]:.2f}, {by_n[3]:.2f} "
+        f"rad/s: 11.4 together with 100.45 J and 16 requires n of at most {m['largest_n_that_gives_11.4']:.0f}.",
     )
 
 

@@ -155,13 +155,13 @@ def decide_c24(m: Mapping[str, float]) -> Finding:
             Part(TWO, complete and m["oscillations"] == 2, TWO_MODES if complete else ""),
         ),
         f"There is {m['oscillations']:.0f} oscillation at {m['rate_rad_per_s']:.3f} rad/s, with x₂ : x₁ = "
-        f"{m['wave_ratio_x_2_to_x_1']:+.3f} and y₂ : y₁ = {m['wave_ratio_y_2_to_y_1']:+.3f}. The {m['zero_roots']:.0f} zero roots "
-        f"are {m['displacements_at_rest']:.0f} displacements of the equilibrium and {m['steady_turnings']:.0f} steady turning, "
-        f"along y₂ : y₁ = {m['slope_ratio_y_2_to_y_1']:+.4f}. These motions fit a run of 8 s with a relative residual of "
-        f"{scientific(m['left_by_one_line_and_a_slope_relative'])}. To first order the pair thus has three degrees of freedom: "
-        "the paired precession, which oscillates; steady turning about the joint line; and the displacement of the precession "
-        f"centre (in x and in the twist), which is constant after a shock, here x = {m['centre_x_1']:+.5f}. Of the two modes "
-        "of the paper one oscillates.",
+        f"{m['wave_ratio_x_2_to_x_1']:+.3f} and y₂ : y₁ = {m['wave_ratio_y_2_to_y_1']:+.3f}. The {m['zero_roots']:.0f} zero "
+        f"roots are {m['displacements_at_rest']:.0f} displacements of the equilibrium and {m['steady_turnings']:.0f} steady "
+        f"turning, along y₂ : y₁ = {m['slope_ratio_y_2_to_y_1']:+.4f}. These motions fit a run of 8 s with a relative "
+        f"residual of {scientific(m['left_by_one_line_and_a_slope_relative'])}. To first order the pair thus has three "
+        "degrees of freedom: the paired precession, which oscillates; steady turning about the joint line; and the "
+        "displacement of the precession centre (in x and in the twist), which is constant after a shock, here x = "
+        f"{m['centre_x_1']:+.5f}. Of the two modes of the paper one oscillates.",
     )
 
 
@@ -497,13 +497,13 @@ def decide_c18(m: Mapping[str, float]) -> Finding:
     shared = [near and by > VISIBLE for near, by in zip(alike, narrower, strict=True)]
     return Finding(
         (Part(VALLEYS, shared[0]), Part(PEAKS, shared[1])),
-        f"The second harmonic over the first, in phase and fitted over the 8 s, is {m['second_over_first_x_1']:+.4f} in x₁ and "
-        f"{m['second_over_first_x_2']:+.4f} in x₂. The formula has ∓{formula:.4f} at r₀ = {m['amplitude_r0']:.3f}. The signs "
-        f"{'agree' if min(ratios) > 0 else 'do not agree'}; the sizes are {ratios[0]:.2f} and {ratios[1]:.2f} times the formula's, "
-        f"{'' if all(alike) else 'not both '}nearer to it than to a plain sine, which has no second harmonic. The valleys of x₁ "
-        f"are narrower than its peaks by {narrower[0]:.1%} of half a period, the peaks of x₂ than its valleys by "
-        f"{narrower[1]:.1%}; a difference is visible from {VISIBLE:.0%} on. The −11 N along y keeps the pair upright: for 8 s it "
-        f"oscillates about the joint line between {m['least_lean_about_joint_line_rad']:+.3f} and "
+        f"The second harmonic over the first, in phase and fitted over the 8 s, is {m['second_over_first_x_1']:+.4f} in x₁ "
+        f"and {m['second_over_first_x_2']:+.4f} in x₂. The formula has ∓{formula:.4f} at r₀ = {m['amplitude_r0']:.3f}. The "
+        f"signs {'agree' if min(ratios) > 0 else 'do not agree'}; the sizes are {ratios[0]:.2f} and {ratios[1]:.2f} times the "
+        f"formula's, {'' if all(alike) else 'not both '}nearer to it than to a plain sine, which has no second harmonic. The "
+        f"valleys of x₁ are narrower than its peaks by {narrower[0]:.1%} of half a period, the peaks of x₂ than its valleys "
+        f"by {narrower[1]:.1%}; a difference is visible from {VISIBLE:.0%} on. The −11 N along y keeps the pair upright: for "
+        f"8 s it oscillates about the joint line between {m['least_lean_about_joint_line_rad']:+.3f} and "
         f"{m['largest_lean_about_joint_line_rad']:+.3f} rad. Without this force it turns by "
         f"{m['turned_about_joint_line_without_y_shock_rad']:.2f} rad in 8 s.",
     )
@@ -577,14 +577,14 @@ def decide_c19(m: Mapping[str, float]) -> Finding:
             Part(SKEW, abs(m["skew_deg"]) < SMALL_ANGLE),
             Part(AGREE, printed < min(plain, MOTION), needs if mended else ""),
         ),
-        f"Fitted over the 8 s after the shock, the line of the centres lies at {m['skew_deg']:+.1f}° to x, which the paper calls "
-        f"a small angle. (An angle counts as small up to {SMALL_ANGLE:.0f}°, where sin α = α to one part in a hundred.) After the "
-        f"projection, y contributes {m['share_of_y_in_x']:.0%} of x. The residual of the printed formula is "
-        f"{m['left_unprojected_printed']:.1%} of the amplitude before and {printed:.1%} after the projection on that line; with "
-        f"the missing ± r₀² it is {corrected:.1%}. With free centres, which compares the shapes, it is "
-        f"{m['left_unprojected_shape']:.1%} before and {shape:.1%} after the projection, and {plain:.1%} for a plain sine. The "
-        f"second harmonic thus explains {1 - (shape / plain) ** 2:.0%} of the squared residual of the sine. The amplitude along "
-        f"the line is {m['amplitude_along_the_skew_axis']:.3f}; figure 21 has {PAPER_R0}.",
+        f"Fitted over the 8 s after the shock, the line of the centres lies at {m['skew_deg']:+.1f}° to x, which the paper "
+        f"calls a small angle. (An angle counts as small up to {SMALL_ANGLE:.0f}°, where sin α = α to one part in a hundred.) "
+        f"After the projection, y contributes {m['share_of_y_in_x']:.0%} of x. The residual of the printed formula is "
+        f"{m['left_unprojected_printed']:.1%} of the amplitude before and {printed:.1%} after the projection on that line; "
+        f"with the missing ± r₀² it is {corrected:.1%}. With free centres, which compares the shapes, it is "
+        f"{m['left_unprojected_shape']:.1%} before and {shape:.1%} after the projection, and {plain:.1%} for a plain sine. "
+        f"The second harmonic thus explains {1 - (shape / plain) ** 2:.0%} of the squared residual of the sine. The amplitude "
+        f"along the line is {m['amplitude_along_the_skew_axis']:.3f}; figure 21 has {PAPER_R0}.",
     )
 
 

@@ -256,17 +256,18 @@ def decide_c10(m: Mapping[str, float]) -> Finding:
             Part(TOPPLES, topples),
             Part(TURNS, turns and m["shock_along_x_largest_y"] > IN_PLANE, needs if turns else ""),
         ),
-        "After a shock along x the pair topples in the X-Z plane at a steady "
-        f"{m['shock_along_x_rate_in_XZ_rad_per_s']:.3f} rad/s (PR/(2(a + b)) = {m['rate_by_closed_form_rad_per_s']:.3f} rad/s), "
-        f"by {tilt:.0f}° after 2.7 s. Each rotor turns about its own ground and not about the line through both, since |y| is at "
-        f"most {scientific(m['shock_along_x_largest_y'])}. After a shock along y the pair turns about this line, by {angle:.2f} "
+        f"After a shock along x the pair topples in the X-Z plane at a steady {m['shock_along_x_rate_in_XZ_rad_per_s']:.3f} "
+        f"rad/s (PR/(2(a + b)) = {m['rate_by_closed_form_rad_per_s']:.3f} rad/s), by {tilt:.0f}° after 2.7 s. Each rotor "
+        "turns about its own ground and not about the line through both, since |y| is at most "
+        f"{scientific(m['shock_along_x_largest_y'])}. After a shock along y the pair turns about this line, by {angle:.2f} "
         f"rad within 6 s. Along x it reaches a dead point {m['dead_point_after_s']:.1f} s after the shock, where the bar and "
-        "both axes lie in one line and the constraint of the bar loses its rank. The further motion depends on the smallest side "
-        f"force and on the softness of the springs. With {SIDE:.0f} N along y beside the 50 N the exact pair tilts by at most "
-        f"{m['side_1_N_tilt_deg']:.1f}° in 8 s; the angle between its axes reaches {m['side_1_N_axes_part_by_deg']:.0f}° within "
-        f"2 s after the dead point and {m['side_1_N_axes_part_by_deg_after_8_s']:.1f}° at the end. With springs of S = 10⁴, "
-        f"10⁵, 10⁶ N/m it passes the dead point, to tilts of {tilts[0]:.0f}°, {tilts[1]:.0f}°, {tilts[2]:.0f}°; the angle between "
-        f"the axes reaches {separations[0]:.1f}°, {separations[1]:.1f}°, {separations[2]:.1f}° within the same 2 s.",
+        "both axes lie in one line and the constraint of the bar loses its rank. The further motion depends on the smallest "
+        f"side force and on the softness of the springs. With {SIDE:.0f} N along y beside the 50 N the exact pair tilts by at "
+        f"most {m['side_1_N_tilt_deg']:.1f}° in 8 s; the angle between its axes reaches {m['side_1_N_axes_part_by_deg']:.0f}° "
+        f"within 2 s after the dead point and {m['side_1_N_axes_part_by_deg_after_8_s']:.1f}° at the end. With springs of S = "
+        f"10⁴, 10⁵, 10⁶ N/m it passes the dead point, to tilts of {tilts[0]:.0f}°, {tilts[1]:.0f}°, {tilts[2]:.0f}°; the "
+        f"angle between the axes reaches {separations[0]:.1f}°, {separations[1]:.1f}°, {separations[2]:.1f}° within the same "
+        "2 s.",
     )
 
 
