@@ -504,12 +504,7 @@ def _constant(ratio: sp.Expr, under: Hypotheses) -> sp.Expr | None:
 
 
 def _to_order(
-    relation: Relation,
-    printed: Any,
-    derived: Any,
-    small: sp.Symbol,
-    domain: tuple[Relational, ...],
-    under: Hypotheses,
+    relation: Relation, printed: Any, derived: Any, small: sp.Symbol, domain: tuple[Relational, ...], under: Hypotheses
 ) -> _Finding:
     """Decide through which order two series agree; of vectors, the component that differs first decides."""
     pairs = list(zip(printed, derived, strict=True)) if isinstance(printed, sp.MatrixBase) else [(printed, derived)]

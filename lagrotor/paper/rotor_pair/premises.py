@@ -5,22 +5,7 @@ from typing import Any
 
 import sympy as sp
 
-from lagrotor.pair.notation import (
-    I1,
-    I3,
-    J,
-    K,
-    M,
-    R,
-    a,
-    b,
-    ell,
-    m,
-    omega,
-    omega_1,
-    omega_2,
-    sigma,
-)
+from lagrotor.pair.notation import I1, I3, J, K, M, R, a, b, ell, m, omega, omega_1, omega_2, sigma
 from lagrotor.paper.premises import Premise, parameter_premise, with_meanings
 from lagrotor.paper.rotor_pair.symbols import WRITTEN_OUT
 

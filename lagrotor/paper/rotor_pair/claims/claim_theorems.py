@@ -180,9 +180,7 @@ def coupled_rates(sentence: str, spins: Spins, bar: Link, printed: PrintedNumber
         x1, y1 = _X1, _Y1 - y
         spans = [(_turning(0, y) / (x1**2 + y1**2), "0.9", "3.1")]
         averages, theorem = _means(
-            shocked_scene(spins, (float(force), 0, 0), bar, 1 / 20),
-            spans,
-            "This is the rate in rad/s.",
+            shocked_scene(spins, (float(force), 0, 0), bar, 1 / 20), spans, "This is the rate in rad/s."
         )
         theorems.append(theorem)
         agree.append(_less(abs(averages[0] - printed), printed.half_unit))

@@ -203,33 +203,18 @@ def decide_c22(m: Mapping[str, float]) -> Finding:
 
 _EXACT = "exact pair (spheres) and spring-linked bodies"
 C20 = ClaimTest(
-    "C20",
-    (20, 20),
-    {AT_16: (10, 10)},
-    "one rotor, exact (spheres) and with springs",
-    measure_c20,
-    decide_c20,
+    "C20", (20, 20), {AT_16: (10, 10)}, "one rotor, exact (spheres) and with springs", measure_c20, decide_c20,
     lambda spins: single_rate(AT_16, spins, SINGLE),
-)
+)  # fmt: skip
 C21 = ClaimTest(
-    "C21",
-    (20, 20),
-    {AT_11_4: (20, -20), OF_COUPLING: (20, -20)},
-    _EXACT,
-    measure_c21,
-    decide_c21,
+    "C21", (20, 20), {AT_11_4: (20, -20), OF_COUPLING: (20, -20)}, _EXACT, measure_c21, decide_c21,
     lambda spins: coupled_rates(AT_11_4, spins, HEAVY_LINK, COUPLED),
     "that the ratio is a constant is said of every spin and bar",
-)
+)  # fmt: skip
 C22 = ClaimTest(
-    "C22",
-    (10, -10),
-    {FOLLOWS: (10, 10)},
-    _EXACT,
-    measure_c22,
-    decide_c22,
+    "C22", (10, -10), {FOLLOWS: (10, 10)}, _EXACT, measure_c22, decide_c22,
     lambda spins: not_followed(FOLLOWS, spins, (HEAVY_LINK, LIGHT)),
-)
+)  # fmt: skip
 
 
 def coefficient(spins: Spins, bar: Link) -> tuple[float, float]:
@@ -293,11 +278,6 @@ def decide_c23(m: Mapping[str, float]) -> Finding:
 
 
 C23 = ClaimTest(
-    "C23",
-    OPPOSITE,
-    {_COSINE: EQUAL},
-    "exact orbits; exact pair (minimal)",
-    measure_c23,
-    decide_c23,
+    "C23", OPPOSITE, {_COSINE: EQUAL}, "exact orbits; exact pair (minimal)", measure_c23, decide_c23,
     lambda spins: over_cosine(_COSINE, Scene(spins, link=MASSLESS), PAPER_R0),
-)
+)  # fmt: skip

@@ -168,23 +168,15 @@ def decide_c24(m: Mapping[str, float]) -> Finding:
 # The count of C14 does not depend on the spins, because a rotor without spin keeps that degree of freedom. Without its bar the
 # pair has 6 and 4. C24: after ten times the shock, the motion is not linear any more.
 C14 = ClaimTest(
-    "C14",
-    HEAVY_LINK,
-    {FIVE: None, THREE: None},
-    "exact pair (spheres), bar m = 1 kg, K = 1 kg m²",
-    measure_c14,
-    decide_c14,
-    unproved="it is a count, of a rank along a run; equation 5.09 has the constraint",
-)
+    "C14", HEAVY_LINK, {FIVE: None, THREE: None}, "exact pair (spheres), bar m = 1 kg, K = 1 kg m²", measure_c14,
+    decide_c14, unproved="it is a count, of a rank along a run; equation 5.09 has the constraint",
+)  # fmt: skip
 C24 = ClaimTest(
-    "C24",
-    _SmallMotion(),
+    "C24", _SmallMotion(),
     {TOPPLING: _SmallMotion(EQUAL), PRECESSION: _SmallMotion(EQUAL), TWO: _SmallMotion(force=(5, 3, 0))},
-    "linear pair; exact pair (spheres), bar m = 1 kg, K = 1 kg m²",
-    measure_c24,
-    decide_c24,
+    "linear pair; exact pair (spheres), bar m = 1 kg, K = 1 kg m²", measure_c24, decide_c24,
     unproved="it is a count of roots, and of what a small motion shows",
-)
+)  # fmt: skip
 
 
 WITHIN = 0.05  # "agrees", "constant": a smaller relative difference of two curves is not visible
@@ -298,19 +290,11 @@ def decide_c15(m: Mapping[str, float]) -> Finding:
 # With the light bar in place of the massless one, A is constant at no amplitude. The axial momentum of a rotor with unequal
 # transverse inertias is not conserved.
 C15 = ClaimTest(
-    "C15",
-    Ansatz(),
-    {
-        AZIMUTHS: Ansatz(EQUAL),
-        SPIN_ANGLES: Ansatz(EQUAL),
-        A_CONSTANT: Ansatz(bar=PAPER_BAR),
-        B_CONSTANT: Ansatz(I2_over_I1=1.1),
-    },
-    "exact orbits; the paper's program for B",
-    measure_c15,
-    decide_c15,
+    "C15", Ansatz(),
+    {AZIMUTHS: Ansatz(EQUAL), SPIN_ANGLES: Ansatz(EQUAL), A_CONSTANT: Ansatz(bar=PAPER_BAR), B_CONSTANT: Ansatz(I2_over_I1=1.1)},
+    "exact orbits; the paper's program for B", measure_c15, decide_c15,
     unproved="it is a likeness to what is observed; equations 5.11 to 5.13 are decided exactly",
-)
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -405,23 +389,14 @@ def decide_c17(m: Mapping[str, float]) -> Finding:
 
 
 C16 = ClaimTest(
-    "C16",
-    Correction(),
-    {SWINGS: Correction(EQUAL), REMOVED: Correction(sign=-1)},
-    "exact orbit, massless bar",
-    measure_c16,
-    decide_c16,
+    "C16", Correction(), {SWINGS: Correction(EQUAL), REMOVED: Correction(sign=-1)}, "exact orbit, massless bar",
+    measure_c16, decide_c16,
     unproved="it is about the ansatz, which is no motion of the pair; equations 5.19 and 5.20 are decided exactly",
-)
+)  # fmt: skip
 C17 = ClaimTest(
-    "C17",
-    OPPOSITE,
-    {SAME_RATE: EQUAL},
-    "exact orbits, massless bar",
-    measure_c17,
-    decide_c17,
+    "C17", OPPOSITE, {SAME_RATE: EQUAL}, "exact orbits, massless bar", measure_c17, decide_c17,
     lambda spins: rate_changes(SAME_RATE, Scene(spins, link=MASSLESS), PAPER_R0, UNCHANGED),
-)
+)  # fmt: skip
 
 
 SHOCK: Vector = (40, -11, 0)  # N, of the listing in 5.2.1
@@ -591,21 +566,11 @@ def decide_c19(m: Mapping[str, float]) -> Finding:
 _EXACT = "exact pair (spheres), bar m = 0.01 kg, K = 0.1 kg m²"
 # With a bar of K = 2 kg m² the signs are right, but the pinch is a third of the formula's.
 C18 = ClaimTest(
-    "C18",
-    Pinched(),
-    {VALLEYS: Pinched(bar=Link(1, 1, 2)), PEAKS: Pinched(bar=Link(1, 1, 2))},
-    _EXACT,
-    measure_c18,
-    decide_c18,
-    unproved="it is a likeness of shapes, by fits to runs",
-)
+    "C18", Pinched(), {VALLEYS: Pinched(bar=Link(1, 1, 2)), PEAKS: Pinched(bar=Link(1, 1, 2))}, _EXACT, measure_c18,
+    decide_c18, unproved="it is a likeness of shapes, by fits to runs",
+)  # fmt: skip
 # The angle is proportional to the shock; a quarter of the shock leaves a small angle.
 C19 = ClaimTest(
-    "C19",
-    (OPPOSITE, SHOCK),
-    {SKEW: (OPPOSITE, (SHOCK[0] / 4, SHOCK[1] / 4, 0.0)), AGREE: (EQUAL, SHOCK)},
-    _EXACT,
-    measure_c19,
-    decide_c19,
-    unproved="it is a likeness of shapes, by fits to runs",
-)
+    "C19", (OPPOSITE, SHOCK), {SKEW: (OPPOSITE, (SHOCK[0] / 4, SHOCK[1] / 4, 0.0)), AGREE: (EQUAL, SHOCK)}, _EXACT,
+    measure_c19, decide_c19, unproved="it is a likeness of shapes, by fits to runs",
+)  # fmt: skip

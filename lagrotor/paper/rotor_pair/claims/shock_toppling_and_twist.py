@@ -151,24 +151,14 @@ def decide_c02(m: Mapping[str, float]) -> Finding:
 # C02: a bar of 1000 kg m² cannot be twisted and keeps the axes parallel, as (7) assumes. With 10 kg in the middle of the bar,
 # unequal spins drift by (a − b)(G₁ + G₂)²/(2D) = 0.64 of (7), where D = a(G₁² + G₂²) − 2b G₁G₂.
 C01 = ClaimTest(
-    "C01",
-    (10, 10),
-    {SAME_SENSE: (10, -10), REMAINS: (10, -10)},
-    _EXACT,
-    measure_c01,
-    decide_c01,
+    "C01", (10, 10), {SAME_SENSE: (10, -10), REMAINS: (10, -10)}, _EXACT, measure_c01, decide_c01,
     lambda spins: lasting_displacement(SAME_SENSE, REMAINS, spins),
-)
+)  # fmt: skip
 C02 = ClaimTest(
-    "C02",
-    HEAVY_LINK,
-    {ONE_GYROSCOPE: Link(mass=10, inertia=0), AS_WITHOUT_SPIN: Link(mass=1, inertia=1000)},
-    _EXACT,
-    measure_c02,
-    decide_c02,
-    lambda bar: not_without_spin(AS_WITHOUT_SPIN, bar) if bar == HEAVY_LINK else (),
+    "C02", HEAVY_LINK, {ONE_GYROSCOPE: Link(mass=10, inertia=0), AS_WITHOUT_SPIN: Link(mass=1, inertia=1000)}, _EXACT,
+    measure_c02, decide_c02, lambda bar: not_without_spin(AS_WITHOUT_SPIN, bar) if bar == HEAVY_LINK else (),
     "that the pair is one gyroscope is a likeness to one part in ten, of means over five cycles",
-)
+)  # fmt: skip
 
 
 FALLEN = 0.5  # |x| of an axis at 30° from upright
@@ -380,24 +370,13 @@ def decide_c11(m: Mapping[str, float]) -> Finding:
 
 
 C10 = ClaimTest(
-    "C10",
-    (0, 0),
-    {TOPPLES: (10, 10), TURNS: (10, 10)},
-    f"{_EXACT}; spring-linked bodies",
-    measure_c10,
-    decide_c10,
-    lambda spins: topples(TOPPLES, spins),
-    "what follows the dead point is determined by no motion of the exact pair",
-)
+    "C10", (0, 0), {TOPPLES: (10, 10), TURNS: (10, 10)}, f"{_EXACT}; spring-linked bodies", measure_c10, decide_c10,
+    lambda spins: topples(TOPPLES, spins), "what follows the dead point is determined by no motion of the exact pair",
+)  # fmt: skip
 C11 = ClaimTest(
-    "C11",
-    (10, -10),
-    {STABLE: (0, 0), TOPPLES_YZ: (10, 10), SLOWLY: (0, 0)},
-    _EXACT,
-    measure_c11,
-    decide_c11,
+    "C11", (10, -10), {STABLE: (0, 0), TOPPLES_YZ: (10, 10), SLOWLY: (0, 0)}, _EXACT, measure_c11, decide_c11,
     lambda spins: topples_slowly(STABLE, TOPPLES_YZ, SLOWLY, spins, SEEN, SLOW),
-)
+)  # fmt: skip
 
 
 STIFFER = (10.0, 100.0, 1000.0)  # kg m², bars that resist twisting increasingly
@@ -515,21 +494,13 @@ def decide_c13(m: Mapping[str, float]) -> Finding:
 # C12: a bar of 1000 kg m² does not twist, so that the axes stay parallel and (7) holds; bars up to 0.5 kg m² prevent no twist.
 # C13: a quarter of a period gives no average.
 C12 = ClaimTest(
-    "C12",
-    Twistable(),
+    "C12", Twistable(),
     {**dict.fromkeys((FAILS, TWISTS, PARTS), Twistable(1000.0)), CAUSE: Twistable(stiffer=(0.1, 0.2, 0.5))},
-    "exact pair (spheres), bar m = 1 kg, K = 1 to 1000 kg m²",
-    measure_c12,
-    decide_c12,
+    "exact pair (spheres), bar m = 1 kg, K = 1 to 1000 kg m²", measure_c12, decide_c12,
     lambda case: axes_part(PARTS, Link(mass=1, inertia=case.K)) if case == Twistable() else (),
     "the other parts compare runs with bars of several inertias, to one part in ten",
-)
+)  # fmt: skip
 C13 = ClaimTest(
-    "C13",
-    4.0,
-    {NO_MEAN: 0.25},
-    "exact pair (spheres), bar m = 1 kg, K = 1 kg m²",
-    measure_c13,
-    decide_c13,
+    "C13", 4.0, {NO_MEAN: 0.25}, "exact pair (spheres), bar m = 1 kg, K = 1 kg m²", measure_c13, decide_c13,
     lambda cycles: mean_displacement(NO_MEAN) if cycles >= 4 else (),
-)
+)  # fmt: skip

@@ -200,32 +200,19 @@ def decide_c05(m: Mapping[str, float]) -> Finding:
 # C03: a step of 10⁻⁹ s is infinitesimal in double precision; (3.16) as printed is no rotation. C05: springs of 100 N/m are
 # slower than the motion; a ground of 1000 kg moves.
 C03 = ClaimTest(
-    "C03",
-    OneStep(),
-    {NOT_ORTHOGONAL: OneStep(1e-9), ORTHOGONAL: OneStep(rodrigues=undivided_rotation)},
-    "one step of a rigid body",
-    measure_c03,
-    decide_c03,
-    unproved="it is about rounding in the steps of a program",
-)
+    "C03", OneStep(), {NOT_ORTHOGONAL: OneStep(1e-9), ORTHOGONAL: OneStep(rodrigues=undivided_rotation)},
+    "one step of a rigid body", measure_c03, decide_c03, unproved="it is about rounding in the steps of a program",
+)  # fmt: skip
 C04 = ClaimTest(
-    "C04",
-    inertia_transform,
-    {NO_INVERSION: inverted_each_time, SOLVED: printed_inertia_transform},
-    "spring-linked bodies, and one free body of unequal inertia",
-    measure_c04,
-    decide_c04,
+    "C04", inertia_transform, {NO_INVERSION: inverted_each_time, SOLVED: printed_inertia_transform},
+    "spring-linked bodies, and one free body of unequal inertia", measure_c04, decide_c04,
     unproved="it is about the steps of a program",
-)
+)  # fmt: skip
 C05 = ClaimTest(
-    "C05",
-    Sprung(),
-    {LINKED: Sprung(100.0), GROUNDED: Sprung(ground_mass=1000.0)},
-    "spring-linked bodies against the exact pair",
-    measure_c05,
-    decide_c05,
+    "C05", Sprung(), {LINKED: Sprung(100.0), GROUNDED: Sprung(ground_mass=1000.0)},
+    "spring-linked bodies against the exact pair", measure_c05, decide_c05,
     unproved="it is about the springs of the paper's program",
-)
+)  # fmt: skip
 
 
 PRINTED_ENERGY = PrintedNumber("100")  # J
@@ -361,24 +348,18 @@ def decide_c07(m: Mapping[str, float]) -> Finding:
 
 
 C06 = ClaimTest(
-    "C06",
-    MisplacedBar(),
+    "C06", MisplacedBar(),
     {SPIKES: MisplacedBar(height=1.0), DECAYS: MisplacedBar(damping=0.0), STAYS: MisplacedBar(spins=(9.0, 9.0))},
-    "spring-linked bodies, S = 10⁴ N/m, D = 250 kg/s",
-    measure_c06,
-    decide_c06,
+    "spring-linked bodies, S = 10⁴ N/m, D = 250 kg/s", measure_c06, decide_c06,
     unproved="it is about the springs of the paper's program",
-)
+)  # fmt: skip
 # At 10⁻¹⁵⁰ rad/s the square is 10⁻³⁰⁰, which does not round to zero. The corrected rotation is NaN nowhere.
 C07 = ClaimTest(
-    "C07",
-    Underflow(),
+    "C07", Underflow(),
     {NAN: Underflow(1e-150), EDGE: Underflow(rotation=finite_rotation), _LOST: Underflow(rotation=finite_rotation)},
-    "spring-linked bodies with the printed rotation",
-    measure_c07,
-    decide_c07,
+    "spring-linked bodies with the printed rotation", measure_c07, decide_c07,
     unproved="it is about rounding in the paper's program",
-)
+)  # fmt: skip
 
 
 # J; "constant" means to the digits of the second number.
@@ -543,21 +524,14 @@ def decide_c09(m: Mapping[str, float]) -> Finding:
 
 # C08: a pulse of seven times the width still acts when the energy is first read. C09: one remaining ground exerts a force.
 C08 = ClaimTest(
-    "C08",
-    ShockAlongX(),
+    "C08", ShockAlongX(),
     {FROM_100: ShockAlongX((5.0, 5.0)), TO_100_45: ShockAlongX(force=45.0), _CONSTANT: ShockAlongX(width=7 / 50)},
-    "spring-linked bodies, the exact pair, the closed form",
-    measure_c08,
-    decide_c08,
+    "spring-linked bodies, the exact pair, the closed form", measure_c08, decide_c08,
     lambda case: energies(FROM_100, TO_100_45, case.spins, PRINTED) if case == ShockAlongX() else (),
     "whether the energy stays constant depends on the dampers of the paper's program",
-)
+)  # fmt: skip
 C09 = ClaimTest(
-    "C09",
-    Grounds(),
-    {MOMENTUM: Grounds(grounded=False), ANGULAR: Grounds(grounded=False), BY_GROUNDS: Grounds(count=1)},
-    "exact pair (spheres), bar m = 1 kg, K = 1 kg m²; spring-linked bodies without grounds",
-    measure_c09,
-    decide_c09,
+    "C09", Grounds(), {MOMENTUM: Grounds(grounded=False), ANGULAR: Grounds(grounded=False), BY_GROUNDS: Grounds(count=1)},
+    "exact pair (spheres), bar m = 1 kg, K = 1 kg m²; spring-linked bodies without grounds", measure_c09, decide_c09,
     unproved="its cause is shown on the bodies of the paper's program",
-)
+)  # fmt: skip
