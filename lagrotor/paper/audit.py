@@ -108,9 +108,14 @@ def in_words(verdict: Verdict, paper: Any) -> str:
         )
         rows.append(("reach", reach))
     rows += [("read", readable(entry.reading))] if entry.reading else []
-    rows.append(("derived in", paper.derived_in(verdict.id) or "?"))
+    rows.append(("derived in", _derivation(paper, verdict.id) or "?"))
     head = f"{entry.id}  {readable(entry.title)}: {verdict.verdict}{order}"
     return "\n".join([head, *(f"  {name:<11}{text}" for name, text in rows)])
+
+
+def _derivation(paper: Any, identifier: str) -> str | None:
+    place = paper.scripts.stating.get(identifier)
+    return f"derivations/{place[0]}.py" if place else None
 
 
 def _not_derived(relations: Iterable[Relation]) -> list[str]:
@@ -187,7 +192,7 @@ def verdict_data(verdict: Verdict, paper: Any) -> dict[str, Any]:
         "printed": entry.latex,
         "reading": entry.reading,
         "derived": _sides(statement.relations, "derived"),
-        "derived_in": paper.derived_in(entry.id),
+        "derived_in": _derivation(paper, entry.id),
         "verdict": verdict.verdict,
         "premises": [premise_data(premise) for premise in verdict.premises],
         "refuted_under": [premise_data(premise) for premise in verdict.refuted_under],

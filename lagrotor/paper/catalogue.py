@@ -41,10 +41,7 @@ class HeadlineEntry:
 
 @dataclass(frozen=True)
 class Opening:
-    """One line of the report's opening: the paper's work, the correct results, the errors.
-
-    `text` contains numbers in braces as in a `HeadlineEntry`; {equations}, {claims}, {holding} and {refuted} are counts.
-    """
+    """One line of the report's opening; the text may contain the counts {equations}, {claims}, {holding} and {refuted}."""
 
     label: str
     text: str

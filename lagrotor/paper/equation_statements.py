@@ -126,11 +126,7 @@ def verdict(
 
 
 def statement(assertion: Stated, catalogue: Catalogue) -> Statement:
-    """Combine the printed lines of the catalogue with the derived sides.
-
-    Raises InputError for an unknown equation, a printed or corrected quantity that was not derived, and a definition with a
-    derived side; ProofError for a form that is not equal to the derived side.
-    """
+    """Combine the printed lines of the catalogue with the derived sides; raise an error if they do not fit."""
     entry = catalogue.equation(assertion.id)
     for used in assertion.depends_on:
         catalogue.equation(used)

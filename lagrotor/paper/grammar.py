@@ -281,10 +281,7 @@ class Letters:
 
 
 def declared(letters: Mapping[str, str]) -> dict[str, Any]:
-    """Return the symbols that a section declares, from kind → names separated by spaces.
-
-    The kinds are "vector", "symmetric" (a matrix), "real", "positive" and "nonnegative"; another kind raises InputError.
-    """
+    """Return the symbols of kind → names; the kinds are "vector", "symmetric", "real", "positive" and "nonnegative"."""
     symbols: dict[str, Any] = {}
     for kind, names in letters.items():
         for name in names.split():

@@ -463,11 +463,9 @@ def _in_one_ring(
 def _used(
     targets: list[PolyElement], relations: list[PolyElement]
 ) -> tuple[PolyRing, list[PolyElement], list[PolyElement]] | None:
-    """Return all polynomials in the ring of the generators that occur; None if they are too many or too large.
-
-    A generator that occurs in no relation and only as a common factor of a target, as m in m (…), is omitted.
-    """
+    """Return all polynomials in the ring of the generators that matter; None if they are too many or too large."""
     everything = [*targets, *relations]
+    # A generator that is only a common factor of a target, as m in m (…), decides nothing.
     powers = [[{m[i] for m in p.itermonoms()} for p in everything] for i in range(targets[0].ring.ngens)]
     used = [
         i
@@ -492,10 +490,7 @@ _POINTS, _CHECKED = 40, 2
 
 @dataclass(frozen=True)
 class Witness:
-    """A counterexample: a point, an enclosure of the difference of the sides there, and enclosures of both sides.
-
-    An enclosure is two rationals. A side is None if its principal value at the point is not real.
-    """
+    """A counterexample: a point, and enclosures of the difference and of both sides there (None for a side that is not real)."""
 
     point: Values
     enclosure: Bounds
@@ -537,10 +532,7 @@ def _apart(sides: tuple[sp.Expr, sp.Expr], under: Hypotheses, beyond: sp.Expr, p
 
 
 def contradicted(printed: Any, derived: Any, under: Hypotheses) -> Values | None:
-    """Return a point that separates two real sides which were proved to be equal; any such point is a bug.
-
-    The original sides are enclosed, without substitution.
-    """
+    """Return a point that separates two sides proved to be equal, without substitution; any such point is a bug."""
     signed = under.signed
     for a, b in zip(*(side if isinstance(side, sp.MatrixBase) else [side] for side in (printed, derived)), strict=True):
         for values in islice(_points([signed.on(a), signed.on(b)], signed), _CHECKED):

@@ -223,12 +223,10 @@ class _Finding:
 
 
 def _needed(relation: Relation, assumed: tuple[Premise, ...], whole: _Finding) -> tuple[tuple[Premise, ...], _Finding]:
-    """Return a set of premises none of which can be omitted, and the decision under it.
-
-    Premises are omitted one by one from both ends of an order that does not depend on theirs; the smaller set is returned. A
-    set under which both sides are 0 is the last choice.
-    """
+    """Return a set of premises none of which can be omitted, and the decision under it."""
+    # The result must not depend on the order in which the premises are given.
     ordered = sorted(assumed, key=lambda p: (len(p.equations), p.says, p.formula))
+    # A set under which both sides are 0 is the last choice.
     minimal_sets: list[tuple[tuple[Premise, ...], _Finding]] = []
     for row in (ordered, ordered[::-1]):
         needed, finding = list(assumed), whole
@@ -536,11 +534,8 @@ def _to_order(
 
 
 def _first_term(side: sp.Expr, small: sp.Symbol, through: int, under: Hypotheses) -> LeadingTerm:
-    """Return the first term whose coefficient does not vanish wherever the unsolved equations hold.
-
-    A condition may fix the sign of the small quantity, which is then plus or minus the variable of the series.
-    """
-    sign, letter = under.signed.on(small).as_coeff_Mul()
+    """Return the first term whose coefficient does not vanish wherever the unsolved equations hold."""
+    sign, letter = under.signed.on(small).as_coeff_Mul()  # a condition may fix the sign of the small quantity
     if any(letter in e.free_symbols for e in under.signed.equations):
         raise NotExactError(f"a premise that is not linear fixes {small}: there is no series in it")
     while True:

@@ -121,28 +121,6 @@ class Paper(Catalogue):
         """The names of the derivations that state equations, without folder and `.py`."""
         return self.scripts.names("derivations", self.about.equations_in)
 
-    def derived_in(self, identifier: str) -> str | None:
-        """Return the script that derives an equation.
-
-        Parameters
-        ----------
-        identifier : str
-            The equation's id.
-
-        Returns
-        -------
-        str or None
-            derivations/….py; None without a derivation.
-
-        Examples
-        --------
-        >>> from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
-        >>> PAPER.derived_in("5.22")
-        'derivations/s5_2f_corrected.py'
-        """
-        place = self.scripts.stating.get(identifier)
-        return f"derivations/{place[0]}.py" if place else None
-
     def stated(self, stem: str) -> list[Stated]:
         """Return the statements of one derivation about the paper's equations.
 

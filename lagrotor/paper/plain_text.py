@@ -25,10 +25,7 @@ _MINUS = re.compile(
 
 
 def readable(text: str) -> str:
-    """Return a text with Greek letters, dots, primes, indices, raised powers, signs and powers of ten.
-
-    An index that is not a number stays, F_y; so does a power that is not a whole number, r^1.96.
-    """
+    """Return a text with Greek letters, dots, primes, indices, raised powers, signs and powers of ten."""
     for typed, read in _RULES:
         text = typed.sub(read, text)
     for arrow, sign in _ARROWS.items():

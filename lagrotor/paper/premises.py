@@ -191,10 +191,7 @@ Assumptions: TypeAlias = (
 
 
 def premises_of(assumptions: Assumptions) -> tuple[Premise, ...]:
-    """Return one premise for each Premise, relation and row of a substitution; raise InputError for anything else.
-
-    A relation that sympy evaluates to True is omitted; one that it evaluates to False becomes the premise 0 = 1.
-    """
+    """Return one premise for each Premise, relation and row of a substitution; raise InputError for anything else."""
     if isinstance(assumptions, Premise):
         return (assumptions,)
     if isinstance(assumptions, Mapping):

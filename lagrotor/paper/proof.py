@@ -65,11 +65,6 @@ class Remark:
         Its heading.
     text : str
         Sentences with the numbers.
-
-    Examples
-    --------
-    >>> Remark("A missing integral", "Turning about the joint line is a symmetry.").title
-    'A missing integral'
     """
 
     title: str

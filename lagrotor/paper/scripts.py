@@ -56,10 +56,7 @@ class Script:
 
 @dataclass(frozen=True)
 class Scripts:
-    """The folders `derivations/` and `figures/` in `base`.
-
-    A script runs once, in the context `importable`; `ran` keeps it. `elsewhere` has names that other processes computed.
-    """
+    """The folders `derivations/` and `figures/` in `base`; a script runs once, in the context `importable`."""
 
     base: Path
     importable: Callable[[], AbstractContextManager[None]] = nullcontext
@@ -113,10 +110,7 @@ class Scripts:
 
     @cached_property
     def stating(self) -> dict[str, tuple[str, int]]:
-        """The derivation and the line of each verdict by equation id, found without running the scripts.
-
-        Raises InputError if two verdicts are on one equation.
-        """
+        """The derivation and the line of each verdict by equation id, found without running the scripts."""
         places: dict[str, tuple[str, int]] = {}
         for stem in self.names("derivations"):
             for identifier, line in verdicts_in(self.path("derivations", stem)):
@@ -209,10 +203,7 @@ def _execute(statement: ast.stmt, path: Path, defined: dict[str, Any]) -> list[A
 
 @contextmanager
 def importable(folder: Path, modules: dict[str, ModuleType]) -> Iterator[None]:
-    """Let `import name` find `folder/name.py` within the block; papers may have modules of the same name.
-
-    `modules` are the modules of the folder that were imported before; new ones are added.
-    """
+    """Let `import name` find `folder/name.py` within the block; `modules` keeps the imported modules of the folder."""
     imported = dict(sys.modules)
     sys.modules.update(modules)
     sys.path.insert(0, str(folder))

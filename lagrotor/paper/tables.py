@@ -16,11 +16,6 @@ class FigureLink:
     ----------
     key : str
         Number of the figure, as "19".
-
-    Examples
-    --------
-    >>> FigureLink("19")
-    FigureLink(key='19')
     """
 
     key: str

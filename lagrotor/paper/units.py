@@ -90,11 +90,7 @@ def _powers(rows: Iterable[tuple[str, Any]]) -> str:
 
 @dataclass(frozen=True)
 class Dimensions:
-    """The dimensional analysis of a line, with a sentence.
-
-    "in units" means that the sides differ by powers of symbols to which a premise gives numbers, "not known" that a symbol has no
-    unit.
-    """
+    """The dimensional analysis of a line; "in units" if the sides agree up to symbols to which premises give numbers."""
 
     answer: Literal["consistent", "in units", "inconsistent", "not known"]
     says: str

@@ -12,10 +12,7 @@ from lagrotor.paper.premises import Premise
 
 
 def breach() -> dict[str, tuple[float, float]]:
-    """Return the violation of each premise as a fraction, with a massless bar and with the bar of section 5.2.1.
-
-    Azimuths, spin angles and A are from `runs.deviations`; inclinations are the range of sin theta over its mean.
-    """
+    """Return the violation of each premise as a fraction, with a massless bar and with the bar of section 5.2.1."""
     import numpy as np  # not at the top, because most derivations need only the premises
 
     from lagrotor.paper.rotor_pair.runs import MASSLESS, OPPOSITE, PAPER_BAR, PAPER_R0, deviations, once_round

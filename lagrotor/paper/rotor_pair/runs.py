@@ -82,10 +82,7 @@ def pulse(scene: Scene, t: Array) -> Array:
 
 
 def centre_runs(t: Array, exact: Trajectory) -> dict[str, Array]:
-    """Return rotor 1 after a shock, by the paper's method at t (n,) in s and exactly at the times (k,) of `exact`.
-
-    The arrays are t; energy (n,) in J, force (n,) in N, centre (n, 3) in m; exact_energy (k,) and exact_centre (k, 3).
-    """
+    """Return energy (J), force (N) and centre (m) of rotor 1 by the paper's method at t (n,) in s, and the exact ones."""
     run = paper_run(exact.scene, t)
     return {
         "t": t,
@@ -114,16 +111,13 @@ def centre_off(runs: dict[str, Array]) -> float:
 
 
 def rate_runs(exact: Trajectory, printed: float) -> dict[str, Array]:
-    """Return x of tip 1 (m) by both methods, and sines of the same amplitude at the printed and at the closed-form rate.
-
-    The closed form is free precession (5.23, 5.24), G/(I cos theta) in rad/s, with the inertia I = a + b of both axes. Also
-    returned are t (n,) in s, force (n,) in N, and the spectra after the shock over `rate` (rad/s).
-    """
+    """Return x of tip 1 (m) and its spectrum by both methods, and sines at the printed and the closed-form rate (rad/s)."""
     scene, t = exact.scene, exact.t
     start, is_after, s = exact.joints[0, 0], t > SPECTRUM_FROM, t - shock_of(scene).at
     x = exact.tips[0, :, 0] - start
     springs = paper_run(scene, t).tips[0, :, 0] - start
     size = np.ptp(x[is_after]) / 2
+    # Free precession (5.23, 5.24), G/(I cos theta), with the inertia I = a + b of both axes.
     rate = float(free_precession_rate()(np.arcsin(size), scene.momenta[0], sum(scene.inertias)))  # type: ignore[arg-type]
     rates, exact_amplitude = spectrum(t[is_after], x[is_after])
     return {
@@ -159,11 +153,7 @@ def rate_numbers(runs: dict[str, Array]) -> dict[str, float]:
 
 @cache
 def precession_scene(spins: Spins, r0: float, bar: Link) -> tuple[Scene, float]:
-    """Return a scene on its precession of amplitude r0 and the rate (rad/s); for opposite spins on the exact orbit.
-
-    For other spins both axes start at x = r0 and turn about the vertical at G/((a + b) cos θ), each in the sense of its spin,
-    which is the motion of equal spins with parallel axes.
-    """
+    """Return a scene and its precession rate (rad/s): the exact orbit for opposite spins, else both axes on a cone."""
     scene = Scene(spins, link=bar)
     if spins[0] == -spins[1] != 0:
         orbit = exact_orbit(scene, r0)
@@ -213,10 +203,7 @@ def series_axes(order: int, r0: float, phase: Array) -> Array:
 
 
 def against_orbit(orbit: ExactOrbit, phase: Array, curves: dict[str, Array], tol: float) -> dict[str, Array]:
-    """Return the tips (2, n, 3) in m of `curves` (axes by name) and of the exact orbit, at the same phases (n,).
-
-    For each curve, `<name>_distance` is the distance (n,) in m of tip 1 from the exact one.
-    """
+    """Return the tips (2, n, 3) in m of `curves` (axes by name) and of the exact orbit, and the distances of tip 1 (n,)."""
     run = simulate(orbit.scene, phase / orbit.frequency, "minimal", tol)
     tips = {name: run.joints[:, None] + run.scene.rotor.length * axes for name, axes in curves.items()}
     away = {f"{name}_distance": np.linalg.norm(curve[0] - run.tips[0], axis=-1) for name, curve in tips.items()}

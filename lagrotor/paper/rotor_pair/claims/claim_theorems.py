@@ -122,10 +122,7 @@ def topples(sentence: str, spins: Spins) -> Iterator[Part]:
 def topples_slowly(
     stable: str, topples_yz: str, slowly: str, spins: Spins, visible: float, slow: float
 ) -> Iterator[Part]:
-    """C11: prove that the pair topples slowly after the shocks of figures 12 and 13, and that x grows after one along −y.
-
-    Toppling is more than `visible` rad in the paper's 8 s, and slow is less than `slow` rad in a period of the natural rate.
-    """
+    """C11: prove that the pair turns by over `visible` rad in 8 s and under `slow` rad per period; x grows after −y."""
     if spins != (10, -10):
         return
     theorems, rates, turn = list[Theorem](), list[Any](), 2 * pi / natural_rate(shocked_scene(spins, (50, 0, 0)))

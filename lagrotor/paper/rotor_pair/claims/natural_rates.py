@@ -218,11 +218,7 @@ C22 = ClaimTest(
 
 
 def coefficient(spins: Spins, bar: Link) -> tuple[float, float]:
-    """Return c of rate/natural rate = 1 + c θ̄² at the least amplitude, and the power of θ̄ in the change.
-
-    Opposite spins move on exact orbits. For other spins both axes start with the same velocity and move on a cone, whose
-    half-angle is half the largest angle between two positions.
-    """
+    """Return c of rate/natural rate = 1 + c θ̄² at the least amplitude, and the power of θ̄ in the change."""
     sizes, changes = [], []
     natural = natural_rate(Scene(spins, link=bar))
     for r0 in AMPLITUDES:
@@ -230,6 +226,7 @@ def coefficient(spins: Spins, bar: Link) -> tuple[float, float]:
             rate = precession_scene(spins, r0, bar)[1]
             sizes.append(float(once_round(spins, r0, bar).inclinations.mean()) ** 2)
         else:
+            # Equal velocities put both axes on a cone of half the largest angle between two positions.
             scene = Scene(spins, link=bar, rates=((r0 * natural, 0, 0),) * 2)
             run = simulate(scene, np.linspace(0, 6, 401), "minimal", 1e-11)
             rate = best_harmonics(run.t, run.axes[0, :, 0], natural).rate

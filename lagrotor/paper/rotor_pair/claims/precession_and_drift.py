@@ -57,10 +57,7 @@ def _constraints(r1: ArrayLike, r2: ArrayLike, link: Link | None) -> Array:
 
 
 def measure_c14(link: Link | None) -> dict[str, float]:
-    """Count the velocities minus the rank of the constraints along a shocked run.
-
-    The velocities are six components of the axes and two axial spins, also for rotors at rest.
-    """
+    """Count the velocities (six of the axes, two axial spins) minus the rank of the constraints, along a shocked run."""
     scene = Scene(OPPOSITE, link=link, shock=Shock((40, -11, 0), 0.5, 1 / 20))
     run = simulate(scene, np.linspace(0, 2.4, 25), "spheres", 1e-8)
     gradients = [_constraints(r1, r2, link) for r1, r2 in zip(*run.axes, strict=True)]
@@ -95,10 +92,7 @@ def decide_c14(m: Mapping[str, float]) -> Finding:
 
 
 def _counted(scene: Scene) -> dict[str, float]:
-    """Count the roots of the linear pair, whose state is x, y_1, y_2 and their velocities.
-
-    A pair of imaginary roots is an oscillation; zero roots in excess of the equilibrium displacements are steady turnings.
-    """
+    """Count the oscillations (pairs of imaginary roots) and the steady turnings (excess zero roots) of the linear pair."""
     values = dict(zip((a, b, G_1, G_2), (*scene.inertias, *scene.momenta), strict=True)) | {k: 1}
     pair = linear_pair()
     M, C = (np.array(matrix.subs(values), dtype=float) for matrix in (pair.mass, pair.gyroscopic))
@@ -215,10 +209,7 @@ def _drift_of_b(spins: Spins, I2_over_I1: float) -> float:
 
 
 def measure_c15(case: Ansatz) -> dict[str, float]:
-    """Measure the deviations from the ansatz and the oscillation of A at three amplitudes, and the drift of B.
-
-    If the deviation of the azimuths vanishes with r₀, two secant steps find the amplitude at which it is WITHIN.
-    """
+    """Measure the deviations from the ansatz and the oscillation of A at three amplitudes, and the drift of B."""
     measured: dict[str, float] = {}
     quantities = ("azimuth_rates_sum", "spin_rates_sum", "swing_of_A")
     for name, bar in (("massless", case.bar), ("light_bar", PAPER_BAR)):
@@ -229,7 +220,7 @@ def measure_c15(case: Ansatz) -> dict[str, float]:
                 AMPLITUDES, np.maximum(values[:, i], 1e-15)
             )
         if measured[f"order_of_azimuth_rates_sum_relative_{name}"] > VANISHES:
-            r0, errors = AMPLITUDES[0], values[0]
+            r0, errors = AMPLITUDES[0], values[0]  # two secant steps find the amplitude at which it is WITHIN
             for _ in range(2):
                 r0 *= WITHIN / errors[0]
                 errors = np.array(deviations(once_round(case.spins, r0, bar)))
@@ -357,10 +348,7 @@ def decide_c16(m: Mapping[str, float]) -> Finding:
 
 
 def measure_c17(spins: Spins) -> dict[str, float]:
-    """Measure the exact rate over G/(J cos θ_0), the rate at constant inclination, at three amplitudes with a massless bar.
-
-    The rate is that of the orbit for opposite spins, and of the axes about the vertical for other spins.
-    """
+    """Measure the exact rate over G/(J cos θ_0), the rate at constant inclination, at three amplitudes, massless bar."""
     measured, changes = {}, []
     for r0 in AMPLITUDES:
         scene, rate = precession_scene(spins, r0, MASSLESS)

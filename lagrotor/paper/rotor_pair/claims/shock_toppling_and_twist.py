@@ -206,10 +206,7 @@ def measure_c10(spins: Spins) -> dict[str, float]:
 
 
 def _past_dead_point(dead: float) -> dict[str, float]:
-    """Measure the angle between the axes within 2 s after the dead point, with a side force of 1 N beside the 50 N.
-
-    Springs of three stiffnesses have the same damping ratio (D ∝ √S, the paper's 250 kg/s at 10⁴ N/m).
-    """
+    """Measure the angle between the axes within 2 s after the dead point, with a side force of 1 N beside the 50 N."""
     scene = shocked_scene((0, 0), (50, SIDE, 0))
     exact = after_shock(scene, PAPER_RUN)
     t = np.linspace(exact.t[0], shock_of(scene).at + dead + 2, 101)
@@ -220,7 +217,7 @@ def _past_dead_point(dead: float) -> dict[str, float]:
         "side_1_N_axes_part_by_deg": np.degrees(soon),
         "side_1_N_axes_part_by_deg_after_8_s": np.degrees(angle_between(exact.axes)[-1]),
     }
-    for name, S in SPRINGS.items():
+    for name, S in SPRINGS.items():  # with one damping ratio, D ∝ √S, the paper's 250 kg/s at 10⁴ N/m
         run = run_solver(paper_system(scene, S, DAMPING * (S / STIFFNESS) ** 0.5), scene.shock, np.append(0, t), 1e-5)
         measured[f"side_1_N_axes_part_by_deg_springs_S_{name}"] = np.degrees(angle_between(run.axes).max())
         measured[f"side_1_N_tilt_deg_springs_S_{name}"] = _tilt(run.axes)
@@ -267,12 +264,10 @@ def _passage(t: Array, axes: Array) -> float:
 
 
 def fall(spins: Spins, force: Vector, seconds: float) -> float:
-    """Return the time in s after the shock's peak at which |x| first reaches FALLEN; infinity if later than `seconds`.
-
-    The simulation continues in steps of two seconds, which without spins end before the dead point at 90°.
-    """
+    """Return the time in s after the shock's peak at which |x| first reaches FALLEN; infinity if later than `seconds`."""
     scene = shocked_scene(spins, force)
     at = shock_of(scene).at
+    # Without spins, steps of two seconds end before the dead point at 90°.
     run, began = after_shock(scene, 2.4), 0.0
     while True:
         passed = _passage(run.t, run.axes)
@@ -398,10 +393,7 @@ class Twistable:
 
 
 def measure_c12(case: Twistable) -> dict[str, float]:
-    """Measure x, the twist of the bar and the angle between the axes of opposite spins, with four bars; shock along x.
-
-    x is relative to its value without spins, which (7) predicts for opposite spins.
-    """
+    """Measure x over its value without spins, the twist and the angle between the axes of opposite spins, with four bars."""
     unspun = abs(after_shock(shocked_scene((0, 0), (50, 0, 0)), 2.4).axes[..., 0]).max()
     measured = {f"inertia_kg_m2_stiffer_{i}": K for i, K in enumerate(case.stiffer, 1)}
     for name, inertia in (("own", case.K), *((f"stiffer_{i}", K) for i, K in enumerate(case.stiffer, 1))):
