@@ -138,11 +138,11 @@ def title_page(folder: Path) -> TitlePage:
     page = toml(file)
     for key, kind in (("opening", Opening), ("headline", HeadlineEntry), ("part", ReportPart)):
         if key in page:
-            page[key] = [_checked(row(kind, entry, f"{file}: {key}"), f"{file}: {key}") for entry in page[key]]
+            page[key] = [_check_braces(row(kind, entry, f"{file}: {key}"), f"{file}: {key}") for entry in page[key]]
     return row(TitlePage, page, str(file))
 
 
-def _checked(entry: Any, where: str) -> Any:
+def _check_braces(entry: Any, where: str) -> Any:
     """Return the entry; raise InputError if a brace in its text is not closed."""
     try:
         list(Formatter().parse(getattr(entry, "text", "")))

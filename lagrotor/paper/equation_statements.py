@@ -131,14 +131,14 @@ def statement(assertion: Stated, catalogue: Catalogue) -> Statement:
     for used in assertion.depends_on:
         catalogue.equation(used)
     lines = catalogue.lines(assertion.id)
-    derived, letters = _by_quantity(assertion.derived, entry), catalogue.letters(entry.section)
+    derived, letters = _expressions(assertion.derived, entry), catalogue.letters(entry.section)
     names = bool(lines) and all(line.names for line in lines)
     if names and derived:
         raise InputError(f"verdict: {assertion.id} only introduces a symbol, so that there is nothing to compare")
     if not lines:
         raise InputError(f"verdict: {assertion.id} has no printed line to be judged: write it as an [[equation.line]]")
-    meanings = _defined_elsewhere(entry, assertion, catalogue)
-    known_orders = _known(assertion.derived, entry)
+    meanings = _referred_meanings(entry, assertion, catalogue)
+    known_orders = _known_orders(assertion.derived, entry)
     forms = _forms(entry, lines, derived, assertion, letters)
     theorems, evidence = _theorems(entry, assertion)
     relations = [
@@ -156,7 +156,7 @@ def statement(assertion: Stated, catalogue: Catalogue) -> Statement:
         assertion.id,
         tuple(relations),
         assertion.premises,
-        tuple(_corrected(entry, lines, derived, known_orders, _named(assertion.correction, entry), letters)),
+        tuple(_corrections(entry, lines, derived, known_orders, _by_quantity(assertion.correction, entry), letters)),
         assertion.wrong,
         names,
         entry.measured,
@@ -170,7 +170,7 @@ def _theorems(entry: Equation, assertion: Stated) -> tuple[dict[str, Theorem], l
     """Return quantity → the theorem that bounds it (an empty one without python-flint), and the refusals of proofs."""
     theorems: dict[str, Theorem] = {}
     refusals: list[str] = []
-    for name, prove in _named(assertion.prove, entry).items():
+    for name, prove in _by_quantity(assertion.prove, entry).items():
         if not any(line["quantity"] == name and "read_off" in line for line in entry.line):
             raise InputError(
                 f"verdict: {entry.id}: a theorem is given for {name}, which has no number that is read off"
@@ -190,7 +190,7 @@ def _theorems(entry: Equation, assertion: Stated) -> tuple[dict[str, Theorem], l
     return theorems, refusals
 
 
-def _defined_elsewhere(entry: Equation, assertion: Stated, catalogue: Catalogue) -> dict[sp.Symbol, Side]:
+def _referred_meanings(entry: Equation, assertion: Stated, catalogue: Catalogue) -> dict[sp.Symbol, Side]:
     """Return symbol → derived side, for symbols that another equation defines; vectors by components."""
     if not entry.refers:
         return {}
@@ -201,27 +201,27 @@ def _defined_elsewhere(entry: Equation, assertion: Stated, catalogue: Catalogue)
         if source not in used:
             raise InputError(f"verdict: {entry.id}: {letter} is defined in {source}: give its statement among `uses`")
         defining = catalogue.equation(source)
-        derived = _by_quantity(used[source].derived, defining)
+        derived = _expressions(used[source].derived, defining)
         quantity = next(line["quantity"] for line in defining.line if not line.get("names"))
         meanings |= zip(components([names[letter]]), components([derived[quantity]]), strict=True)
     return meanings
 
 
-def _by_quantity(sides: Side | Mapping[str, Side], entry: Equation) -> dict[str, Side]:
-    return {name: _expression(value) for name, value in _named(sides, entry).items()}
+def _expressions(sides: Side | Mapping[str, Side], entry: Equation) -> dict[str, Side]:
+    return {name: _expression(value) for name, value in _by_quantity(sides, entry).items()}
 
 
 def _expression(side: Side) -> Side:
     return sp.sympify(side.expression if isinstance(side, Series) else side, strict=True)
 
 
-def _known(derived: Side | Mapping[str, Side], entry: Equation) -> dict[str, tuple[sp.Symbol, int]]:
+def _known_orders(derived: Side | Mapping[str, Side], entry: Equation) -> dict[str, tuple[sp.Symbol, int]]:
     """Return quantity → (variable, highest known order) for the sides that are series."""
-    sides = _named(derived, entry).items()
+    sides = _by_quantity(derived, entry).items()
     return {name: (side.small, side.order) for name, side in sides if isinstance(side, Series)}
 
 
-def _named(value: Any, entry: Equation) -> dict[str, Any]:
+def _by_quantity(value: Any, entry: Equation) -> dict[str, Any]:
     """Return a mapping by quantity; a single value belongs to the first line."""
     if value is None:
         return {}
@@ -248,7 +248,7 @@ def _relations(
         )
 
 
-def _corrected(
+def _corrections(
     entry: Equation,
     lines: tuple[Line, ...],
     quantities: Mapping[str, Side],
@@ -277,7 +277,7 @@ def _forms(
 ) -> dict[str, dict[str, Any]]:
     """Return quantity → LaTeX of its form, after deciding that the form is equal to the derived side."""
     forms: dict[str, dict[str, Any]] = {}
-    for name, form in _named(assertion.form, entry).items():
+    for name, form in _by_quantity(assertion.form, entry).items():
         if name not in quantities:
             raise InputError(f"verdict: {entry.id}: a form is given for {name}, which was not derived")
         scene = next((line.scene for line in lines if line.quantity == name), {})
@@ -286,7 +286,7 @@ def _forms(
         )
         if granted is None:
             raise ProofError(f"verdict: {entry.id}: {name} = {form.text} is not what was derived")
-        tex = _tex(form, name, _known(assertion.derived, entry), letters)
+        tex = _tex(form, name, _known_orders(assertion.derived, entry), letters)
         forms[name] = {"written": tex, "granted": granted}
     return forms
 

@@ -69,21 +69,21 @@ class _Reader:
         if isinstance(node, ast.Constant):
             return self._number(node)
         if isinstance(node, ast.Name):
-            return self._known(node.id)
+            return self._lookup(node.id)
         if isinstance(node, ast.Tuple):
             return tuple(map(self.value, node.elts))
         if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub | ast.UAdd):
             value = self._operand(node.operand)
             return -value if isinstance(node.op, ast.USub) else value
         if isinstance(node, ast.BinOp):
-            return self._combined(node)
+            return self._operation(node)
         if isinstance(node, ast.Attribute) and node.attr == "T":
             return self._matrix(node.value).T
         if isinstance(node, ast.Call) and not node.keywords:
-            return self._called(node)
-        raise self._refused(node)
+            return self._call(node)
+        raise self._refusal(node)
 
-    def _refused(self, node: ast.expr) -> _RefusalError:
+    def _refusal(self, node: ast.expr) -> _RefusalError:
         text = self.source[node.col_offset : node.end_col_offset].decode()
         hint = ": write ** for a power" if isinstance(getattr(node, "op", None), ast.BitXor) else ""
         return _RefusalError(f"{text!r} is no part of an expression{hint}")
@@ -93,12 +93,12 @@ class _Reader:
         if type(node.value) is complex and text[-1] == "j":
             return sp.I * parsed(text[:-1], {}, "number")
         if type(node.value) not in (int, float) or not text.replace("_", "").isascii():
-            raise self._refused(node)
+            raise self._refusal(node)
         if len(text) > _MOST_DIGITS or (type(node.value) is float and not 1e-300 < abs(node.value or 1) < 1e300):
             raise _RefusalError(f"the number {text[:20]}… has too many digits")
         return sp.Integer(node.value) if type(node.value) is int else sp.Rational(text.replace("_", ""))
 
-    def _known(self, name: str) -> Any:
+    def _lookup(self, name: str) -> Any:
         if name not in self.names:
             raise _RefusalError(f"name {name!r} is not defined: declare the symbol, or give its meaning")
         value = self.names[name]
@@ -107,7 +107,7 @@ class _Reader:
     def _operand(self, node: ast.expr) -> Any:
         value = self.value(node)
         if not isinstance(value, sp.Expr | sp.MatrixBase):
-            raise self._refused(node)
+            raise self._refusal(node)
         return value
 
     def _matrix(self, node: ast.expr) -> Any:
@@ -116,7 +116,7 @@ class _Reader:
             raise _RefusalError(f"{self.source[node.col_offset : node.end_col_offset].decode()!r} is no matrix")
         return value
 
-    def _called(self, node: ast.Call) -> Any:
+    def _call(self, node: ast.Call) -> Any:
         arguments = [self.value(argument) for argument in node.args]
         if isinstance(node.func, ast.Attribute) and node.func.attr == "subs" and len(arguments) == 2:
             letter, value = arguments
@@ -124,8 +124,8 @@ class _Reader:
                 raise _RefusalError(".subs takes a symbol and its value")
             return self._operand(node.func.value).subs(letter, value)
         if not isinstance(node.func, ast.Name):
-            raise self._refused(node)
-        function = self._known(node.func.id)
+            raise self._refusal(node)
+        function = self._lookup(node.func.id)
         if not callable(function) or isinstance(function, sp.Basic | sp.MatrixBase):
             raise _RefusalError(f"{node.func.id} is a symbol, not a function: write {node.func.id}*(…)")
         if function in _SIZED and not all(n.is_Integer and 0 <= n <= _MOST_ROWS for n in arguments):
@@ -134,12 +134,12 @@ class _Reader:
             return function(*arguments, evaluate=not (self.as_written or _holds_function(*arguments)))
         return function(*arguments)
 
-    def _combined(self, node: ast.BinOp) -> Any:
+    def _operation(self, node: ast.BinOp) -> Any:
         sign = _SIGNS.get(type(node.op))
         if sign is None:
-            raise self._refused(node)
+            raise self._refusal(node)
         if self.as_written:
-            return self._kept(node, sign)
+            return self._unevaluated(node, sign)
         lhs, rhs = self._operand(node.left), self._operand(node.right)
         if sign == "**":
             _check_power(lhs, rhs)
@@ -147,7 +147,7 @@ class _Reader:
                 return sp.Pow(lhs, rhs, evaluate=False)
         return _OPERATIONS[sign](lhs, rhs)
 
-    def _kept(self, node: ast.BinOp, sign: str) -> Any:
+    def _unevaluated(self, node: ast.BinOp, sign: str) -> Any:
         """Return an unevaluated sum, product or power; nested sums and nested products are flattened."""
         lhs, rhs = self._operand(node.left), self._operand(node.right)
         if sign == "**":

@@ -103,7 +103,7 @@ def hypotheses(premises: Iterable[Premise], last: sp.Symbol | None = None) -> Hy
     small = tuple(sorted({p.small for p in listed if p.small is not None}, key=sp.default_sort_key))
     equations, region = _collected(listed, small)
     replaced = frozenset(old for p in listed for old in p.put if isinstance(old, sp.Symbol))
-    under = _solved(equations, region, small, _Wishes(replaced, last))
+    under = _eliminate_or_contradict(equations, region, small, _Wishes(replaced, last))
     return under if last is None or last in small else replace(under, small=(*small, last))
 
 
@@ -164,16 +164,16 @@ class _Wishes(NamedTuple):
 
 # The same set occurs for each premise that may be omitted, and for each line.
 @lru_cache(maxsize=512)
-def _solved(
+def _eliminate_or_contradict(
     equations: frozenset[sp.Expr], region: frozenset[Relational], small: tuple[sp.Symbol, ...], wishes: _Wishes
 ) -> Hypotheses:
     try:
-        return _solved_or_not(equations, region, small, wishes)
+        return _eliminate(equations, region, small, wishes)
     except _ContradictionError as error:
         return Hypotheses({}, small=small, contradiction=str(error))
 
 
-def _solved_or_not(
+def _eliminate(
     equations: frozenset[sp.Expr], region: frozenset[Relational], small: tuple[sp.Symbol, ...], wishes: _Wishes
 ) -> Hypotheses:
     values: dict[sp.Symbol, sp.Expr] = {}
@@ -198,10 +198,10 @@ def _solved_or_not(
         if not steps:
             break
         _, letter, value, step_conditions = min(steps, key=wishes.rank)
-        conditions += [*step_conditions, *_own_conditions(letter, value)]
+        conditions += [*step_conditions, *_implied_conditions(letter, value)]
         values = {old: replaced(new, {letter: value}) for old, new in values.items()} | {letter: value}
         waiting = [e for equation in waiting if (e := replaced(equation, {letter: value})) != 0]
-    return Hypotheses(values, tuple(waiting), tuple(_checked(conditions, values, waiting, small)), small)
+    return Hypotheses(values, tuple(waiting), tuple(_consistent_conditions(conditions, values, waiting, small)), small)
 
 
 def _denominator(e: sp.Expr) -> sp.Expr:
@@ -313,11 +313,11 @@ def _kernel(e: sp.Expr, letter: sp.Symbol) -> sp.Expr | None:
 
 def _step(letter: sp.Symbol, value: sp.Expr, conditions: tuple[Relational, ...] = ()) -> _Step:
     """Rank a step: numbers first, then values with the signs that the symbol was declared with, then short values."""
-    lossy = len(_own_conditions(letter, value)) + len(conditions)
+    lossy = len(_implied_conditions(letter, value)) + len(conditions)
     return _Step((not value.is_number, lossy, sp.count_ops(value)), letter, value, conditions)
 
 
-def _own_conditions(letter: sp.Symbol, value: sp.Expr) -> list[Relational]:
+def _implied_conditions(letter: sp.Symbol, value: sp.Expr) -> list[Relational]:
     """Return the conditions that the symbol's assumptions add to its value; raise if they exclude the value."""
     relations: list[Relational] = []
     tests = {
@@ -339,7 +339,7 @@ def _own_conditions(letter: sp.Symbol, value: sp.Expr) -> list[Relational]:
     return relations
 
 
-def _checked(
+def _consistent_conditions(
     relations: list[Relational],
     values: Mapping[sp.Symbol, sp.Expr],
     equations: list[sp.Expr],
@@ -386,7 +386,7 @@ def _as_assumption(
         new = sp.Symbol(letter.name if remainder == 0 and slope > 0 else f"({e})", **kind)
         value = (new - remainder) / slope
         try:
-            if _own_conditions(letter, value):
+            if _implied_conditions(letter, value):
                 continue
         except _ContradictionError:
             continue
@@ -416,7 +416,7 @@ def vanishes_on(difference: sp.Expr, equations: Sequence[sp.Expr], apart: Sequen
         numerator, relations, units = _in_one_ring(difference, list(equations), list(apart))
     except NotExactError:
         return "undecided"
-    system = _used([numerator, *units], relations)
+    system = _in_small_ring([numerator, *units], relations)
     if system is None:
         return "undecided"
     ring, (target, *others), ideal = system
@@ -460,7 +460,7 @@ def _in_one_ring(
     return numerators[0], [*numerators[1:n], *squares], [*numerators[n:], *factors]
 
 
-def _used(
+def _in_small_ring(
     targets: list[PolyElement], relations: list[PolyElement]
 ) -> tuple[PolyRing, list[PolyElement], list[PolyElement]] | None:
     """Return all polynomials in the ring of the generators that matter; None if they are too many or too large."""
@@ -506,13 +506,15 @@ def witness(
     """
     substituted = sp.Tuple(*map(under.on, sides))
     real = replace(under, region=tuple(dict.fromkeys((*under.region, *conditions(substituted)))))
-    result = _apart(sides, real, beyond, False) if sp.false not in real.region else None
+    result = _separating_point(sides, real, beyond, False) if sp.false not in real.region else None
     if result is None and principal and has_principal_values(substituted, under.equations, region(under.inside)):
-        return _apart(sides, under, beyond, True)
+        return _separating_point(sides, under, beyond, True)
     return result
 
 
-def _apart(sides: tuple[sp.Expr, sp.Expr], under: Hypotheses, beyond: sp.Expr, principal: bool) -> Witness | None:
+def _separating_point(
+    sides: tuple[sp.Expr, sp.Expr], under: Hypotheses, beyond: sp.Expr, principal: bool
+) -> Witness | None:
     """Return a point of the hypotheses at which enclosures separate the sides."""
     signed = under.signed
     both = tuple(signed.on(side) for side in sides)
@@ -527,7 +529,7 @@ def _apart(sides: tuple[sp.Expr, sp.Expr], under: Hypotheses, beyond: sp.Expr, p
         if between is not None and (between[0] > beyond or between[1] < -beyond):
             lhs, rhs = enclosures(map(evaluated, both), values)
             if principal or (lhs and rhs):
-                return Witness(_of_letters(difference, under, signed, values), between, (lhs, rhs))
+                return Witness(_point_in_symbols(difference, under, signed, values), between, (lhs, rhs))
     return None
 
 
@@ -599,7 +601,7 @@ def _satisfied(relation: Relational, values: Values) -> bool:
     return bool(low > 0 or high < 0)
 
 
-def _of_letters(difference: sp.Expr, under: Hypotheses, signed: Hypotheses, values: Values) -> Values:
+def _point_in_symbols(difference: sp.Expr, under: Hypotheses, signed: Hypotheses, values: Values) -> Values:
     """Return the point in the symbols of the statement, the eliminated ones included."""
     exact = {s: v for s, v in values.items() if not isinstance(v, tuple)}
     point: Values = {}

@@ -131,13 +131,15 @@ def judge_text(
     letters = letters_in(
         (*filter(None, [small]), *(side for text in (*texts, *assumed) for side in text.sides)), positive
     )
-    texts = tuple(_put_in(text, assumed) for text in texts)
+    texts = tuple(_substitute_premises(text, assumed) for text in texts)
     whole = sorted({name for text in texts for node in text.nodes for name in _lengths(node)})
     letters |= {name: sp.Symbol(name, integer=True, positive=True) for name in whole}
     rates = rates_of(node for text in (*texts, *assumed) for node in text.nodes)
     rates = {letters.get(a.name, a): letters.get(b.name, b) for a, b in rates.items()}
     opaque = Opaque(rates=rates, refuses=True, letters=letters)
-    premise_relations = [_relation(text, letters, opaque) for text in assumed if not _is_put_in(text, assumed, texts)]
+    premise_relations = [
+        _relation(text, letters, opaque) for text in assumed if not _is_substituted(text, assumed, texts)
+    ]
     about = read(small, letters, "small") if small else None
     relations: list[Relation] = []
     prints: list[Any] = [about]
@@ -172,7 +174,7 @@ def _values(text: _Text, letters: Mapping[str, Any], opaque: Opaque) -> list[tup
     """Return each side, evaluated and unevaluated; LaTeX is converted from its tree, without text."""
     if not text.nodes:
         return [read_side(side, letters, "judge") for side in text.sides]
-    subtrees = [each for node in text.nodes for each in walk(node)]
+    subtrees = [subtree for node in text.nodes for subtree in walk(node)]
     called = {subtree.name for subtree in subtrees if isinstance(subtree, Call)}
     if both := next((leaf.name for leaf in subtrees if isinstance(leaf, Letter) and leaf.name in called), None):
         raise InputError(
@@ -203,7 +205,7 @@ def _definitions(assumed: Iterable[_Text]) -> dict[Node, Node]:
     return {a: b for a, b in pairs if isinstance(a, Letter) or (isinstance(a, Call) and text_of(a).isidentifier())}
 
 
-def _put_in(text: _Text, assumed: Iterable[_Text]) -> _Text:
+def _substitute_premises(text: _Text, assumed: Iterable[_Text]) -> _Text:
     """Substitute the premises for symbols that the equation differentiates or integrates."""
     acting = [n.args[0] for node in text.nodes for n in walk(node) if isinstance(n, Call) and n.name in _ACTING]
     operands = {subtree for node in acting for subtree in walk(node)}
@@ -214,7 +216,7 @@ def _put_in(text: _Text, assumed: Iterable[_Text]) -> _Text:
     return replace(text, nodes=nodes, sides=tuple(map(text_of, nodes)))
 
 
-def _is_put_in(text: _Text, assumed: Iterable[_Text], texts: Iterable[_Text]) -> bool:
+def _is_substituted(text: _Text, assumed: Iterable[_Text], texts: Iterable[_Text]) -> bool:
     """Return True if a premise was substituted, so that no equation contains its symbol any more."""
     first = text.nodes[0] if text.nodes else None
     return first in _definitions(assumed) and not any(
@@ -272,10 +274,10 @@ def _statements(text: str, where: str) -> Iterator[_Text]:
     for statement in reading.statements:
         if not set(statement.relations) <= _RELATIONS.keys():
             raise InputError(f"{where}: {text!r} has {', '.join(statement.relations)}: write =, !=, >=, >, <= or <")
-        yield _of_statement(statement)
+        yield _text_of_statement(statement)
 
 
-def _of_statement(statement: PrintedStatement) -> _Text:
+def _text_of_statement(statement: PrintedStatement) -> _Text:
     """Return a statement with the lowest O(…) of its sides."""
     orders, nodes = zip(*(without_order(side.node) for side in statement.sides), strict=True)
     powers = [order for order in (*orders, statement.order) if order is not None]

@@ -118,7 +118,7 @@ def decide(statement: Statement, glossary: Glossary | None = None) -> Verdict:
     return Verdict(
         statement=statement,
         verdict=answer,
-        premises=_united(used, statement.premises),
+        premises=_union(used, statement.premises),
         order=worst.order,
         small=worst.small,
         domain=tuple(dict.fromkeys(relation for line in lines for relation in line.domain)),
@@ -149,7 +149,7 @@ def _weakest(lines: Sequence[LineVerdict]) -> LineVerdict:
     return max(lines, key=lambda line: (_RANK.index(line.verdict), -(line.order or 0)), default=nothing)
 
 
-def _united(lines: Iterable[LineVerdict], offered: tuple[Premise, ...]) -> tuple[Premise, ...]:
+def _union(lines: Iterable[LineVerdict], offered: tuple[Premise, ...]) -> tuple[Premise, ...]:
     """Return the premises of all lines, each once, the offered ones first and in their order."""
     needed = [premise for line in lines for premise in line.premises]
     union: list[Premise] = [premise for premise in offered if premise in needed]
@@ -316,7 +316,7 @@ def _compared(relation: Relation, printed: Any, derived: Any, under: Hypotheses)
     domain = tuple(sp.Ne(factor, 0, evaluate=False) for factor in factors)
     if exact.answer == "zero":
         domain += exact.branch
-    domain = tuple(_in_letters(relation, under.signed) for relation in domain)
+    domain = tuple(_in_printed_symbols(relation, under.signed) for relation in domain)
     small = _small(relation, printed, derived, under)
     on_equations = _in_ideal(printed, derived, under)
     if on_equations == "nowhere":
@@ -343,7 +343,7 @@ def _compared(relation: Relation, printed: Any, derived: Any, under: Hypotheses)
     return _Finding("undecided", None, None, domain, (reason,), gap, place, may_branch=True)
 
 
-def _in_letters(relation: Relational, signed: Hypotheses) -> Relational:
+def _in_printed_symbols(relation: Relational, signed: Hypotheses) -> Relational:
     """Return a relation in the symbols of the print, in place of the new symbols of `Hypotheses.signed`."""
     substituted = relation.xreplace(signed.meaning)
     if substituted == relation or isinstance(substituted, sp.Ne):

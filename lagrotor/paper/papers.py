@@ -113,7 +113,7 @@ class Paper(Catalogue):
         """
         check_scripts(self)
         if identifier is not None:
-            return self._one(identifier, progress)
+            return self._audit_one(identifier, progress)
         return audit_of(self, (v for stem in self.stating_scripts for v in judge_script(self, stem, progress)))
 
     @property
@@ -134,7 +134,7 @@ class Paper(Catalogue):
         list[Stated]
             In the order of the derivation.
         """
-        return self.scripts.executed("derivations", stem).shown(Stated)
+        return self.scripts.executed("derivations", stem).values_of(Stated)
 
     def statements(self, stem: str) -> list[Statement]:
         """Return the statements of one derivation, combined with the print.
@@ -163,7 +163,7 @@ class Paper(Catalogue):
                 raise InputError(f"{self.scripts.path('derivations', stem)}:{line}: {error}") from None
         return statements
 
-    def _decided(self, statement: Statement) -> Verdict:
+    def _decide(self, statement: Statement) -> Verdict:
         """Decide a statement; raise ProofError, with file and line, if its correction does not hold."""
         verdict = decide(statement, section_glossary(self, self.equation(statement.id).section))
         if verdict.correction_verdict in ("refuted", "undecided"):
@@ -173,9 +173,9 @@ class Paper(Catalogue):
                 f"{self.scripts.path('derivations', stem)}:{line}: {statement.id}: its correction is "
                 f"{verdict.correction_verdict}: {wrong.relation.quantity}: {wrong.reason or wrong.difference}"
             )
-        return self._on_record(verdict)
+        return self._with_recorded_theorems(verdict)
 
-    def _on_record(self, verdict: Verdict) -> Verdict:
+    def _with_recorded_theorems(self, verdict: Verdict) -> Verdict:
         """Replace theorems by those on record if python-flint is missing."""
         if can_prove() or not any(line.relation.theorem for line in verdict.lines):
             return verdict
@@ -193,19 +193,19 @@ class Paper(Catalogue):
         changed_fields: dict[str, Any] = {"verdict": "proved", "premises": ()} if everything else {}
         return replace(verdict, lines=tuple(lines), **changed_fields)
 
-    def _one(self, identifier: str, progress: Progress | None) -> Verdict:
+    def _audit_one(self, identifier: str, progress: Progress | None) -> Verdict:
         self.equation(identifier)
         if identifier not in self.scripts.stating:
             raise InputError(f"equation {identifier} is not yet judged: no derivation states it")
         stem, _ = self.scripts.stating[identifier]
         if progress:
             progress(stem)
-        verdict = self._would_be(self._decided(next(s for s in self.statements(stem) if s.id == identifier)))
+        verdict = self._unless_unconfirmed(self._decide(next(s for s in self.statements(stem) if s.id == identifier)))
         on_record = self.recorded
         answers = {i: row.verdict for i, row in on_record.items()} | {identifier: verdict.verdict}
-        return self._followed(verdict, answers, {i: row.uses or () for i, row in on_record.items()})
+        return self._set_reach(verdict, answers, {i: row.uses or () for i, row in on_record.items()})
 
-    def _would_be(self, verdict: Verdict) -> Verdict:
+    def _unless_unconfirmed(self, verdict: Verdict) -> Verdict:
         """Return the verdict; if the reading is not confirmed, 'undecided' with the verdict among the evidence."""
         entry = self.equation(verdict.id)
         if verdict.verdict == "definition" or entry.is_confirmed:
@@ -220,7 +220,7 @@ class Paper(Catalogue):
             )
         return replace(verdict, verdict="undecided", correction_verdict=None, evidence=(reason, *verdict.evidence))
 
-    def _followed(self, verdict: Verdict, answers: Mapping[str, str], uses: Mapping[str, Iterable[str]]) -> Verdict:
+    def _set_reach(self, verdict: Verdict, answers: Mapping[str, str], uses: Mapping[str, Iterable[str]]) -> Verdict:
         """Set `reaches_result` of the verdict on a refuted equation."""
         if verdict.verdict != "refuted":
             return verdict
@@ -240,7 +240,7 @@ class Paper(Catalogue):
             return {}
         tests: dict[str, ClaimTest] = {}
         for stem in self.scripts.names("derivations", self.about.claims_in):
-            for test in self.scripts.executed("derivations", stem).shown(ClaimTest):
+            for test in self.scripts.executed("derivations", stem).values_of(ClaimTest):
                 if test.id not in self.claims or test.id in tests:
                     wrong = "is tested twice" if test.id in tests else "is not in claims.toml"
                     raise InputError(f"{self.scripts.path('derivations', stem)}: claim {test.id} {wrong}")
@@ -375,7 +375,7 @@ def judge_script(paper: Paper, stem: str, progress: Progress | None = None) -> l
     began = time.perf_counter()
     statements = paper.statements(stem)
     share = (time.perf_counter() - began) / max(len(statements), 1)
-    verdicts = [paper._would_be(paper._decided(statement)) for statement in statements]
+    verdicts = [paper._unless_unconfirmed(paper._decide(statement)) for statement in statements]
     return [replace(verdict, seconds=verdict.seconds + share) for verdict in verdicts]
 
 
@@ -388,7 +388,7 @@ def with_reach(paper: Paper, verdicts: Iterable[Verdict]) -> list[Verdict]:
         by_id[verdict.id] = verdict
     answers = {i: v.verdict for i, v in by_id.items()}
     uses = {i: v.statement.depends_on for i, v in by_id.items()}
-    return [paper._followed(by_id[i], answers, uses) for i in paper.equations if i in by_id]
+    return [paper._set_reach(by_id[i], answers, uses) for i in paper.equations if i in by_id]
 
 
 def with_theorems_on_record(paper: Paper, result: Result) -> Result:

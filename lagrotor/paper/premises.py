@@ -195,9 +195,9 @@ def premises_of(assumptions: Assumptions) -> tuple[Premise, ...]:
     if isinstance(assumptions, Premise):
         return (assumptions,)
     if isinstance(assumptions, Mapping):
-        return tuple(premise for row in assumptions.items() for premise in _of_row(*row))
+        return tuple(premise for row in assumptions.items() for premise in _premises_of_row(*row))
     if isinstance(assumptions, Relational | bool) or assumptions in (sp.true, sp.false):
-        return _of_relation(assumptions)
+        return _premises_of_relation(assumptions)
     if isinstance(assumptions, sp.Basic | str) or not isinstance(assumptions, Iterable):
         raise InputError(
             f"premises: {assumptions!r} is no premise: give Eq(a, b), a >= b, Ne(a, b), {{old: new}} or a Premise"
@@ -205,9 +205,9 @@ def premises_of(assumptions: Assumptions) -> tuple[Premise, ...]:
     return tuple(premise for assumption in assumptions for premise in premises_of(assumption))
 
 
-def _of_row(old: Any, new: Any) -> tuple[Premise, ...]:
+def _premises_of_row(old: Any, new: Any) -> tuple[Premise, ...]:
     if isinstance(old, Relational) and new in (True, False, sp.true, sp.false):
-        return _of_relation(old if new in (True, sp.true) else sp.Not(old))
+        return _premises_of_relation(old if new in (True, sp.true) else sp.Not(old))
     if isinstance(old, sp.MatrixBase):
         rhs = sympified(new, "premises")
         if getattr(rhs, "shape", None) != old.shape:
@@ -217,13 +217,13 @@ def _of_row(old: Any, new: Any) -> tuple[Premise, ...]:
     return (Premise(_equated(lhs, rhs), {lhs: rhs}),)
 
 
-def _of_relation(relation: Any) -> tuple[Premise, ...]:
+def _premises_of_relation(relation: Any) -> tuple[Premise, ...]:
     if relation in (True, sp.true):
         return ()
     if relation in (False, sp.false):
         return (Premise("a relation that the assumptions of its symbols exclude", {sp.S.Zero: sp.S.One}),)
     if isinstance(relation, sp.And):
-        return tuple(premise for conjunct in relation.args for premise in _of_relation(conjunct))
+        return tuple(premise for conjunct in relation.args for premise in _premises_of_relation(conjunct))
     if not isinstance(relation, Relational):
         raise InputError(f"premises: {relation} is no single relation: give Eq, Ne, Ge, Gt, Le or Lt, one at a time")
     return (Premise(relation_text(relation), where=(relation,)),)

@@ -61,7 +61,7 @@ def row_of(result: Verdict | Result, equations: Mapping[str, Equation]) -> OnRec
         tuple(map(_line, result.lines)),
         tuple(map(_line, result.correction_lines)),
         tuple(dict.fromkeys(_dimensions(result.lines))),
-        theorems=tuple(dict.fromkeys(_proved(result.lines))) or None,
+        theorems=tuple(dict.fromkeys(_theorem_texts(result.lines))) or None,
     )
 
 
@@ -79,7 +79,7 @@ def _line(line: LineVerdict) -> str:
     return f"{line.relation.quantity}: {line.verdict}{order}{needs}"
 
 
-def _proved(lines: Iterable[LineVerdict]) -> Iterator[str]:
+def _theorem_texts(lines: Iterable[LineVerdict]) -> Iterator[str]:
     for line in lines:
         if theorem := line.relation.theorem:
             yield f"{line.relation.quantity}: {' '.join(filter(None, (theorem.says, theorem.encloses)))}"
@@ -147,7 +147,7 @@ def _changes_of(identifier: str, now: OnRecord | None, recorded_row: OnRecord | 
         # The digits of theorems differ between machines; parts and lines already say that there is a theorem.
         if field.name != "theorems" and old is not None and old != new:
             different.append(
-                f"{identifier}: {_WORDS.get(field.name, field.name)}: recorded {_said(old)}, found {_said(new)}"
+                f"{identifier}: {_WORDS.get(field.name, field.name)}: recorded {_as_text(old)}, found {_as_text(new)}"
             )
     return different
 
@@ -158,7 +158,7 @@ _WORDS = {
 }  # else the field's name
 
 
-def _said(value: Any) -> str:
+def _as_text(value: Any) -> str:
     return value if isinstance(value, str) else "; ".join(value or ()) or "nothing"
 
 

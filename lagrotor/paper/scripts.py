@@ -34,7 +34,7 @@ class ScriptCell:
 
     kind: Literal["prose", "code"]
     text: str
-    shown: tuple[Any, ...] = ()
+    values: tuple[Any, ...] = ()
     warned: tuple[str, ...] = ()
 
 
@@ -45,11 +45,11 @@ class Script:
     cells: tuple[ScriptCell, ...]
     names: dict[str, Any]
 
-    def shown(self, kind: type) -> list[Any]:
+    def values_of(self, kind: type) -> list[Any]:
         """Return the values of one type that the cells show, in order; tuples and lists are flattened."""
         matches = []
         for cell in self.cells:
-            for value in cell.shown:
+            for value in cell.values:
                 matches += [v for v in (value if isinstance(value, tuple | list) else [value]) if isinstance(v, kind)]
         return matches
 
@@ -61,7 +61,7 @@ class Scripts:
     base: Path
     importable: Callable[[], AbstractContextManager[None]] = nullcontext
     ran: dict[Path, Script] = field(default_factory=dict, repr=False, compare=False)
-    elsewhere: dict[Path, dict[str, Any]] = field(default_factory=dict, repr=False, compare=False)
+    remote_names: dict[Path, dict[str, Any]] = field(default_factory=dict, repr=False, compare=False)
 
     def path(self, kind: Kind, stem: str) -> Path:
         """Return the file of a script."""
@@ -83,16 +83,18 @@ class Scripts:
     def run(self, kind: Kind, stem: str) -> dict[str, Any]:
         """Return the names that a script defines."""
         path = self.path(kind, stem)
-        return self.elsewhere[path] if path in self.elsewhere else self.executed(kind, stem).names
+        return self.remote_names[path] if path in self.remote_names else self.executed(kind, stem).names
 
     @contextmanager
-    def ran_elsewhere(self, values: Mapping[str, Mapping[str, Any]]) -> Iterator[None]:
+    def remote_values(self, values: Mapping[str, Mapping[str, Any]]) -> Iterator[None]:
         """Let `run` return these values (script → name → value) within the block; a missing name still runs its script."""
-        self.elsewhere.update({self.path("derivations", stem): _Elsewhere(self, stem, v) for stem, v in values.items()})
+        self.remote_names.update(
+            {self.path("derivations", stem): _RemoteNames(self, stem, v) for stem, v in values.items()}
+        )
         try:
             yield
         finally:
-            self.elsewhere.clear()
+            self.remote_names.clear()
 
     def called(self, kind: Kind, stem: str, name: str) -> Any:
         """Call a function of a script; raise ScriptError with file and line if it fails."""
@@ -126,7 +128,7 @@ def by_numbers(name: str) -> list[tuple[int, str]]:
     return [(int(number or 0), text) for number, text in re.findall(r"(\d*)(\D*)", name)]
 
 
-class _Elsewhere(dict[str, Any]):
+class _RemoteNames(dict[str, Any]):
     """The names of a derivation that ran in another process; a missing name runs the script in this process."""
 
     def __init__(self, scripts: Scripts, stem: str, values: Mapping[str, Any]) -> None:

@@ -226,7 +226,7 @@ class _Reader:
             if dimension is None:
                 continue
             if first is not None and not self.alike(first[1], dimension):
-                texts = [f"{_shown(t)} is {unit_text(d)}" for t, d in (first, (term, dimension))]
+                texts = [f"{_short_text(t)} is {unit_text(d)}" for t, d in (first, (term, dimension))]
                 raise _InconsistentError(f"a sum of different dimensions, {texts[0]}, {texts[1]}")
             first = first or (term, dimension)
         if unknown:
@@ -254,15 +254,15 @@ class _Reader:
             return base**e.exp
         self._number(e.exp, "an exponent")
         if base is not None and not self.alike(base, _ONE):
-            raise _UnknownError(f"{_shown(e)} is a power of {unit_text(base)} with a symbol in the exponent")
+            raise _UnknownError(f"{_short_text(e)} is a power of {unit_text(base)} with a symbol in the exponent")
         return _ONE
 
     def _number(self, e: Any, where: str) -> None:
         dimension = self.of(e)
         if dimension is not None and not self.alike(dimension, _ONE):
-            raise _InconsistentError(f"{where}, {_shown(e)}, is {unit_text(dimension)}")
+            raise _InconsistentError(f"{where}, {_short_text(e)}, is {unit_text(dimension)}")
 
 
-def _shown(e: Any) -> str:
+def _short_text(e: Any) -> str:
     text = readable(str(e))
     return text if len(text) <= 60 else f"{text[:57]}…"

@@ -188,12 +188,12 @@ def point_text(line: LineVerdict, sides: tuple[str, str] = ("printed", "derived"
     """Return the counterexample of a refuted line with the values there; empty without one."""
     if line.difference is None or line.enclosure is None or line.relation.within is not None:
         return ""
-    shown = ", ".join(f"{readable(str(s))} = {_signed(value)}" for s, value in _point(line).items())
+    point = ", ".join(f"{readable(str(s))} = {_signed(value)}" for s, value in _point(line).items())
     place = f", entry {line.place[0] + 1}, {line.place[1] + 1}," if line.place else ""
     gap = (
         " − ".join(sides) if all(line.sides or ()) else f"|{' − '.join(sides)}|"
     )  # the absolute value, if a side is not real
-    text = f"{gap}{place} is {_signed(_number(line.enclosure))}" + (f" at {shown}" if shown else "")
+    text = f"{gap}{place} is {_signed(_number(line.enclosure))}" + (f" at {point}" if point else "")
     values = [f"{name} {_signed(_number(v))}" for name, v in zip(sides, line.sides or (), strict=False) if v]
     letters = line.relation.printed.free_symbols | line.relation.derived.free_symbols
     return text + (f": {', '.join(values)}" if len(values) == 2 and letters <= (line.witness or {}).keys() else "")

@@ -33,6 +33,6 @@ def changed_physics(tmp_path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., 
             path.write_text(text, encoding="utf-8")
             ran[stem] = scripts.run_file(path)
             monkeypatch.setitem(PAPER.scripts.ran, original, ran[stem])
-        return {s.id: decide(statement(s, PAPER)) for script in ran.values() for s in script.shown(Stated)}
+        return {s.id: decide(statement(s, PAPER)) for script in ran.values() for s in script.values_of(Stated)}
 
     return verdicts

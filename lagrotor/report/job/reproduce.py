@@ -135,7 +135,7 @@ def _make(
 def _run_timed(step: JobStep, given: dict[str, dict[str, Any]], folder: Path) -> tuple[Any, float]:
     """The step's product and how long it took, with the values that it takes from other derivations."""
     began = time.perf_counter()
-    with step.paper.scripts.ran_elsewhere(given):
+    with step.paper.scripts.remote_values(given):
         product = step.run(step.paper, step.part, folder)
     return product, time.perf_counter() - began
 

@@ -63,7 +63,7 @@ def derive(paper: Paper, stem: str, folder: Path) -> Derived:
         warnings.simplefilter("ignore", LagrotorWarning)
         verdicts = judge_script(paper, stem)
         script = paper.scripts.executed("derivations", stem)
-    remarks = tuple((remark.title, remark.text) for remark in script.shown(Remark))
+    remarks = tuple((remark.title, remark.text) for remark in script.values_of(Remark))
     tables = tuple(table for table in script.names.get("tables", ()) if isinstance(table, Table))
     html = derivation_html(script, {v.id: v.verdict for v in verdicts})
     taken = values(script.names, values_taken(stem, paper))
@@ -129,6 +129,6 @@ def audit_in_processes(paper: Paper, progress: Progress, jobs: int | None = None
 
 def _judge_script(paper: Paper, stem: str, given: dict[str, dict[str, Any]]) -> tuple[list[Verdict], dict[str, Any]]:
     """The verdicts on what one script states, and the values that others take from it."""
-    with paper.scripts.ran_elsewhere(given):
+    with paper.scripts.remote_values(given):
         verdicts = judge_script(paper, stem)
         return verdicts, values(paper.scripts.executed("derivations", stem).names, values_taken(stem, paper))

@@ -91,7 +91,7 @@ def decide_c14(m: Mapping[str, float]) -> Finding:
     )
 
 
-def _counted(scene: Scene) -> dict[str, float]:
+def _count_roots(scene: Scene) -> dict[str, float]:
     """Count the oscillations (pairs of imaginary roots) and the steady turnings (excess zero roots) of the linear pair."""
     values = dict(zip((a, b, G_1, G_2), (*scene.inertias, *scene.momenta), strict=True)) | {k: 1}
     pair = linear_pair()
@@ -124,7 +124,7 @@ def measure_c24(case: _SmallMotion) -> dict[str, float]:
     x_y = np.concatenate(list(run.axes[..., :2]), axis=1)
     fit = harmonics_at(run.t, x_y, natural_rate(scene), 1)
     (x_1, y_1, x_2, y_2), slope = fit.waves[0], fit.slope
-    return _counted(scene) | {
+    return _count_roots(scene) | {
         "left_by_one_line_and_a_slope_relative": abs(fit.rest).max() / abs(x_y).max(),
         "slope_y_1_per_s": slope[1],
         "slope_ratio_y_2_to_y_1": slope[3] / slope[1],
