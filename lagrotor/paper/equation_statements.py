@@ -66,11 +66,11 @@ class Stated:
 
     def _repr_latex_(self) -> str:
         rows = self.derived.items() if isinstance(self.derived, Mapping) else [("", self.derived)]
-        lines = [Formula(_expression(right), name).tex + _rest(right) for name, right in rows if right is not None]
+        lines = [Formula(_expression(right), name).tex + _remainder(right) for name, right in rows if right is not None]
         return r"$\displaystyle " + r" \quad ".join([rf"\text{{{self.id}, as derived:}}", *lines]) + "$"
 
 
-def _rest(side: Side) -> str:
+def _remainder(side: Side) -> str:
     """Return the remainder of a series in LaTeX."""
     return left_out(side.small, side.order) if isinstance(side, Series) else ""
 

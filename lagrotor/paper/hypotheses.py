@@ -277,7 +277,7 @@ def _plain_steps(e: sp.Expr, small: tuple[sp.Symbol, ...]) -> tuple[_Step, ...]:
 
 @lru_cache(maxsize=2048)
 def _steps(e: sp.Expr, small: tuple[sp.Symbol, ...], domain: _Known) -> tuple[_Step, ...]:
-    """Return the steps for symbols in which, or in one function of which, the equation is linear with nonzero coefficient."""
+    """Return the steps that solve the equation for a symbol, or one function of it, linear with a nonzero coefficient."""
     steps = []
     for letter in e.free_symbols - set(small):
         kernel = _kernel(e, letter)

@@ -83,7 +83,7 @@ def measure_c20(spins: Spins) -> dict[str, float]:
 
 
 def decide_c20(m: Mapping[str, float]) -> Finding:
-    """Compare the three rates with 16."""
+    """Compare the three rates with 16 rad/s."""
     exact, springs, small = (
         m[f"rate_{way}_rad_per_s"] for way in ("exact_over_8_s", "springs_over_3_s", "after_small_shock")
     )

@@ -464,7 +464,7 @@ def _momenta(run: Trajectory) -> tuple[Array, Array]:
 
 @dataclass(frozen=True)
 class Grounds:
-    """Whether the main run has ground joints, and the number of them in the run that should have none."""
+    """Ground joints in the main run (`grounded`), and their number (`count`) in the run without grounds, which should be 0."""
 
     grounded: bool = True
     count: int = 0
