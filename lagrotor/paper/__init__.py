@@ -1,15 +1,14 @@
 """The test of printed mathematics, for any paper.
 
-Data pass through these types in this order. `Paper` is a folder, a `Catalogue` of equations, claims and figures in TOML, with
-its scripts and its record. `grammar` reads a printed line as sympy objects. A derivation shows formulas, forms and steps
-(`proof`: `Formula`, `Form`, `prove`), and states an equation by `verdict` (`equation_statements`). `statement` puts it beside
-the print, as a `Statement` of `Relation`s under `Premise`s. `hypotheses` makes one set of the premises; the `ledger` decides
-each line and gives a `Verdict` of `LineVerdict`s, with a `Theorem` where there is one. `Audit` holds the verdicts of a paper,
-in words and as data. `ClaimTest` runs a claim that is made in words. `record` compares verdicts and claims with those on
-record.
+Data pass through these types in this order. A `Paper` is a folder: a `Catalogue` of equations, claims and figures in TOML, with
+scripts and a record. `grammar` reads a printed line as sympy objects. A derivation shows formulas, forms and steps (`proof`:
+`Formula`, `Form`, `prove`), and states an equation by `verdict` (`equation_statements`). `statement` combines it with the print,
+as a `Statement` of `Relation`s under `Premise`s. `hypotheses` combines the premises into one set. The `ledger` decides each
+line and returns a `Verdict` of `LineVerdict`s; a `Theorem` decides in its place, if there is one. An `Audit` is the verdicts of
+a paper. A `ClaimTest` simulates a claim that is made in words. `record` compares verdicts and claims with those on record.
 
 `judge` and `judge_text` need no paper. `latex` reads LaTeX. To add a paper, write its folder (`lagrotor init`); to add a
-function that every print may call, add it to `grammar.FUNCTIONS`.
+function that every printed line may call, add it to `grammar.FUNCTIONS`.
 """
 
 from typing import TYPE_CHECKING

@@ -115,9 +115,8 @@ class Step:
         lines = [f"{line}{end}" for line in self.equations] or [
             f"{name} &= {latex(right)}{end}" for name, (_, right) in zip(self.names, self.pairs, strict=True)
         ]
-        guarded = [
-            "{}" * line.startswith("[") + line for line in lines
-        ]  # LaTeX reads a bracket after \\ and \begin as an option
+        # LaTeX reads a bracket after \\ and \begin as an option.
+        guarded = ["{}" * line.startswith("[") + line for line in lines]
         return r"\begin{aligned} " + r" \\ ".join(guarded) + r" \end{aligned}"
 
     def _repr_latex_(self) -> str:
@@ -177,7 +176,7 @@ def prove(
         if texts and len(texts) != len(pairs):
             raise ProofError(f"prove: {len(texts)} {what} for {len(pairs)} equations")
     if not (named or equations_tex):
-        named = tuple(latex(lhs) for lhs, _ in pairs)
+        named = tuple(latex(side) for side, _ in pairs)
         if any(len(name) > _LONGEST for name in named):
             raise ProofError(
                 f"prove: {says or 'this step'}: a left side is too long to be read; give `names` or `equations`"
