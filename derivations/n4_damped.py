@@ -23,7 +23,7 @@ s, beta = sp.Symbol("s"), sp.Symbol("beta", positive=True)
 # %% [markdown]
 # ## Decay
 #
-# With a massless bar the degrees of freedom are $(x,y_1,y_2)$ as in "Standing under load", each with $as^2+cs$:
+# With a massless bar the degrees of freedom are $(x,y_1,y_2)$ as in "Stability under load", each with $as^2+cs$:
 
 # %%
 own = a * s**2 + c * s

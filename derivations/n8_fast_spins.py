@@ -67,8 +67,9 @@ assert abs(powers[0] + 2) < 0.1 and abs(powers[1] + 4) < 0.1
 Remark(
     "The error of the limit",
     f"Four hanging gyroscopes joined by five springs, spins as 1 : 1.2 : −0.9 : 1.1 times {', '.join(f'{f:g}' for f in factors)} "
-    f"rad/s: the relative errors of the slow rates in the limit are {', '.join(f'{e:.1e}' for e in off)}, the power "
-    f"−{-powers[0]:.2f} of the spins; with the second term subtracted they are {', '.join(f'{e:.1e}' for e in rest)}, the power −{-powers[1]:.2f}.",
+    f"rad/s: the relative errors of the slow rates in the limit are {', '.join(f'{e:.1e}' for e in off)}, ∝ the power "
+    f"−{-powers[0]:.2f} of the spins; with the second term subtracted they are {', '.join(f'{e:.1e}' for e in rest)}, ∝ the "
+    f"power −{-powers[1]:.2f}.",
 )
 
 # %% [markdown]

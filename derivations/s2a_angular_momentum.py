@@ -99,7 +99,7 @@ p, q, p_t, q_t = sp.symbols("p q p_t q_t", real=True)
 def slow_axis(omega: sp.Symbol) -> Premise:
     """The axis turns slowly against the spin omega."""
     return Premise(
-        "the axis turns slowly against the spin, |r̂′| ≪ ω",
+        "the axis turns slowly compared with the spin, |r̂′| ≪ ω",
         {theta_v: eps * omega * p, phi_v: eps * omega * q},
         small=eps,
     )
@@ -178,7 +178,7 @@ SPIN, WIDTH = 10, sp.Rational(1, 50)  # rad/s and s: the paper's rotor and its s
 def slow_force(omega: sp.Symbol) -> Premise:
     """The rate of the axis changes slowly against the spin omega."""
     return Premise(
-        "the force changes slowly against the spin, |r̂″| ≪ ω |r̂′|",
+        "the force changes slowly compared with the spin, |r̂″| ≪ ω |r̂′|",
         {theta_a: (eps * omega) ** 2 * p_t, phi_a: (eps * omega) ** 2 * q_t},
         small=eps,
         broken=f"its shock lasts {float(WIDTH):g} s, while the rotor turns by {float(SPIN * WIDTH):.1g} rad",

@@ -104,14 +104,14 @@ prove(
 # These are the premises of the paper's equations. The exact pair satisfies the first only for equal spins.
 
 # %%
-parallel = Premise("the axes are parallel, r̂₁ = r̂₂, and so are their accelerations", together)
+parallel = Premise("the axes are parallel, r̂₁ = r̂₂, and have equal accelerations", together)
 turning_alike = Premise(
-    "they stay parallel: f has the value with which both axes turn alike, but for a part along r",
+    "the axes stay parallel, which fixes f up to a component along r",
     dict(zip(f, f_parallel, strict=True)),
     broken=f"with opposite spins the drift of axis 2 is {pair['apart']} times that of axis 1",
 )
 slow = Premise(
-    "the axes turn slowly against the spins, J r̂ × r̂″ is left out as in (3) and (4)",
+    "the axes turn slowly compared with the spins, so that J r̂ × r̂″ is neglected as in (3) and (4)",
     dict.fromkeys(a_1, sp.S.Zero),
     broken=rotors["slow_force"](omega_1).broken,
 )

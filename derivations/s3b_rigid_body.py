@@ -71,7 +71,7 @@ prove(
 # %%
 U_cm, d, d_v = vector("U_cm"), vector("d"), vector("d_dot")
 field = U_cm + rate(Q) * d + Q * d_v
-rigid = Premise("the body is rigid, its particles rest in the body's frame", dict.fromkeys(d_v, sp.S.Zero))
+rigid = Premise("the body is rigid, its particles are at rest in the body's frame", dict.fromkeys(d_v, sp.S.Zero))
 verdict(
     "3.09",
     field,

@@ -102,7 +102,7 @@ Formula(first_run, "E - K")
 unstretched = Premise(
     "no link is stretched, s_j = 0",
     dict.fromkeys(lengths.q, sp.S.Zero),
-    broken=f"its first run begins with two links stretched by 0.5 m, which hold {first_run}",
+    broken=f"its first run begins with two links stretched by 0.5 m, which store {first_run}",
 )
 whole_energy = form(
     "sum_i(M_i*dot(U_i, U_i) + dot(I_i*Omega_i, Omega_i))/2 + S/2*(s_1**2 + s_2**2 + s_3**2 + s_4**2)", S=S

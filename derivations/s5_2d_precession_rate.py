@@ -99,7 +99,7 @@ prove(
 # %%
 mean, half = sp.symbols("theta_m delta", real=True)
 one_inclination = Premise(
-    "the inclinations differ little, θ₁ − θ₂ = 2δ", {theta_1: mean + half, theta_2: mean - half}, small=half
+    "the inclinations are nearly equal, θ₁ − θ₂ = 2δ", {theta_1: mean + half, theta_2: mean - half}, small=half
 )
 phi_1, phi_2 = PAIR.q[1], PAIR.q[4]
 r_1, r_2 = axis(theta_1, phi_1), axis(theta_2, phi_2)

@@ -1,5 +1,5 @@
 # %% [markdown]
-# # How long the x direction stays stable after a shock
+# # Time of stability in x after a shock
 #
 # **Objective.** The rate at which the mean of $x$ leaves zero after a shock along $x$, by averaging; the time in which the
 # mean, and the time in which an axis itself, passes a bound.
