@@ -104,7 +104,7 @@ def in_words(verdict: Verdict, paper: Any) -> str:
     rows += [("evidence", line) for line in verdict.evidence if verdict.verdict in ("measured", "undecided")]
     if verdict.reaches_result is not None:
         reach = (
-            "a result of the paper falls with it" if verdict.reaches_result else "no result of the paper depends on it"
+            "a result of the paper depends on it" if verdict.reaches_result else "no result of the paper depends on it"
         )
         rows.append(("reach", reach))
     rows += [("read", readable(entry.reading))] if entry.reading else []
@@ -153,7 +153,7 @@ def dimension_texts(verdict: Verdict) -> tuple[str, ...]:
             alike[dimensions.says] = None
         elif dimensions:
             apart[f"{quantity}: {dimensions.answer}: {dimensions.says}"] = None
-    return (*([f"the same on both sides: {'; '.join(alike)}"] if alike else []), *apart)
+    return (*([f"equal on both sides: {'; '.join(alike)}"] if alike else []), *apart)
 
 
 def uncorrected(verdict: Verdict) -> list[Relation]:

@@ -338,8 +338,8 @@ def _compared(relation: Relation, printed: Any, derived: Any, under: Hypotheses)
     counterexample = witness(sides, under, principal=exact.answer == "nonzero") if sides else None
     if counterexample is not None:
         return _Finding("refuted", None, None, domain, (), gap, place, counterexample, may_branch=exact.partly)
-    value = "no value found" if exact.evidence is None else f"largest value seen {exact.evidence:.3g}"
-    reason = f"{exact.reason} ({value})" if exact.answer == "undecided" else "no certified point keeps the sides apart"
+    value = "no value found" if exact.evidence is None else f"largest value {exact.evidence:.3g}"
+    reason = f"{exact.reason} ({value})" if exact.answer == "undecided" else "no counterexample was certified"
     return _Finding("undecided", None, None, domain, (reason,), gap, place, may_branch=True)
 
 
@@ -439,8 +439,8 @@ def _enclosed(relation: Relation, low: sp.Rational, high: sp.Rational) -> _Findi
         return _Finding("proved")
     where = f"between {sp.N(low, 12)} and {sp.N(high, 12)}"
     if min(errors) > tolerance or max(errors) < -tolerance:
-        return _Finding("refuted", reasons=(f"a theorem has it {where}",), difference=printed - (low + high) / 2)
-    return _Finding("undecided", reasons=(f"a theorem has it {where}, which does not decide the digits",))
+        return _Finding("refuted", reasons=(f"a theorem encloses it {where}",), difference=printed - (low + high) / 2)
+    return _Finding("undecided", reasons=(f"a theorem encloses it {where}, which does not decide the digits",))
 
 
 def _read_off(relation: Relation, printed: Any, derived: Any, under: Hypotheses) -> _Finding:
@@ -459,7 +459,7 @@ def _read_off(relation: Relation, printed: Any, derived: Any, under: Hypotheses)
     counterexample = witness((gap, sp.S.Zero), under, tolerance)
     if counterexample is None:
         return _Finding(
-            "undecided", reasons=("the ratio of the sides depends on symbols, and no certified point was found",)
+            "undecided", reasons=("the ratio of the sides depends on symbols, and no counterexample was certified",)
         )
     return _Finding(
         "refuted", reasons=("the ratio of the sides is no constant",), difference=gap, counterexample=counterexample
@@ -521,14 +521,14 @@ def _to_order(
     if reached >= relation.claimed and (first.order is None or first.order > lead):
         return _Finding("holds-to-order", reached, small, domain)
     if first.order is None:
-        reason = f"what was derived is known through order {furthest} in {name} only, and order {relation.claimed} is claimed"
+        reason = f"the derived side is known through order {furthest} in {name} only, but order {relation.claimed} is claimed"
         return _Finding("undecided", reached, small, domain, (reason,))
     reason = f"first differs at order {first.order} in {name}, by {_text(first.coefficient)}"
     if lead > relation.claimed:
         reason = f"both sides vanish through order {ceil(lead) - 1} in {name}; {reason}"
     at = divmod(place, printed.cols) if isinstance(printed, sp.MatrixBase) else None
     if (under.signed.equations or under.signed.region) and witness((first.coefficient, sp.S.Zero), under) is None:
-        reason = f"no certified point keeps the sides apart at order {first.order} in {name}"
+        reason = f"no counterexample was certified at order {first.order} in {name}"
         return _Finding("undecided", None, small, domain, (reason,), first.coefficient, at)
     return _Finding("refuted", reached, small, domain, (reason,), first.coefficient, at)
 

@@ -70,7 +70,7 @@ class Theorem:
         from lagrotor.proofs.statements import quantities, theorem_of
 
         if quantity and quantity not in (names := quantities(proved.certificate)):
-            raise InputError(f"Theorem: it says nothing of {quantity!r}, but of {', '.join(names) or 'no number'}")
+            raise InputError(f"Theorem: it has no quantity {quantity!r}; it has {', '.join(names) or 'none'}")
         return cls(theorem_of(proved.certificate), encloses, proved.certificate, quantity)
 
     @property

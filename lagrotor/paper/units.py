@@ -202,7 +202,7 @@ class _Reader:
             for argument in e.args:
                 self._number(argument, f"the argument of {e.func.__name__}")
             return _ONE
-        raise _UnknownError(f"no dimension is known of {readable(str(e))}")
+        raise _UnknownError(f"the dimension is not known of {readable(str(e))}")
 
     def _letter(self, e: Any) -> sp.Expr:
         if e in self.units:
@@ -210,7 +210,7 @@ class _Reader:
         name = str(e.func) if isinstance(e, AppliedUndef) else e.name
         named = [unit for symbol, unit in self.units.items() if symbol.name == name and isinstance(e, AppliedUndef)]
         if not named:
-            raise _UnknownError(f"{_letter_text(name)}: {self.unread.get(name, 'no unit is given of it')}")
+            raise _UnknownError(f"{_letter_text(name)}: {self.unread.get(name, 'it has no unit')}")
         return named[0]
 
     def _common(self, terms: Iterable[Any]) -> sp.Expr | None:

@@ -100,7 +100,7 @@ def test_what_differs_is_named(wrong: sp.Expr, why: str) -> None:
 
 
 def test_a_letter_without_a_unit_is_named() -> None:
-    assert of(alien * m, m) == Dimensions("not known", "z: no unit is given of it")
+    assert of(alien * m, m) == Dimensions("not known", "z: it has no unit")
     assert "'furlong' is not defined" in of(odd, l).says
     assert "with a symbol in the exponent" in of(l**n, l).says
 
