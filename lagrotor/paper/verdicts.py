@@ -96,8 +96,8 @@ def chain(derived: Side, *printed: Side, small: sp.Symbol | None = None, claimed
 class Statement:
     """One equation of a paper, printed beside derived; `id` is empty for an equation that belongs to no paper.
 
-    `relations` has one row for each member of each printed line, `correction` the lines that should be printed, `wrong` the error
-    in one sentence, `depends_on` the ids of the equations that are used. `names` marks a line that only introduces a symbol,
+    `relations` has one row for each member of each printed line, `correction` the lines that should be printed. `wrong` is the
+    error in one sentence; `depends_on` are the ids of the used equations. `names` marks a line that only introduces a symbol,
     `measured` a number read off a simulation.
     """
 

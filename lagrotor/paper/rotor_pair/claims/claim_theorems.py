@@ -1,7 +1,7 @@
 """Theorems that decide parts of the claims, by enclosures of motions of the exact pair. They need python-flint.
 
-A theorem says that an expression of the axes passes zero before a time, or does not, or it encloses the mean over a time span or
-the frequency of a periodic orbit. Each says more than its part needs, so that rounding decides nothing. The peak of the paper's
+A theorem says whether an expression of the axes passes zero before a time. Others enclose the mean over a time span or the
+frequency of a periodic orbit. Each says more than its part needs, so that rounding decides nothing. The peak of the paper's
 shocks is at 0.2 s, and at 0.5 s for the wider ones of section 5.3.
 """
 

@@ -428,8 +428,8 @@ class Pinched:
 def measure_c18(case: Pinched) -> dict[str, float]:
     """Measure the second harmonic of both x over the first, in phase; the formula (5.22) has −r_0/2 in x_1, +r_0/2 in x_2.
 
-    Only the term in phase pinches the curve; the term out of phase slants it. To first order cos Φ + ε cos 2Φ is above its
-    middle for π − 2ε of its phase, so that its peaks are narrower by 4ε/π of half a period.
+    Only the term in phase pinches the curve; the term out of phase slants it. cos Φ + ε cos 2Φ is above its middle for
+    π − 2ε of its phase, to first order. Its peaks are thus narrower by 4ε/π of half a period.
     """
     run = shocked_run(case.spins, case.force, case.bar)
     fit = harmonics(run)
