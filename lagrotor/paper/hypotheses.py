@@ -1,7 +1,8 @@
 """Premises as one set of hypotheses: equations solved for symbols where they are linear, and the ideal of the others.
 
-A decision does not depend on the order or the form of the premises, because the symbols are eliminated in a fixed order. Every step is an equivalence for real symbols and divisors that do not vanish. The set is
-therefore contradictory exactly if the remaining equations and conditions are, and a point of these satisfies the whole set.
+A decision does not depend on the order or the form of the premises, because the symbols are eliminated in a fixed order. Every
+step is an equivalence for real symbols and divisors that do not vanish. The set is therefore contradictory exactly if the
+remaining equations and conditions are, and a point of these satisfies the whole set.
 
 `vanishes_on` decides membership in the ideal of the unsolved equations, or in its radical. All numerators lie in one ring of
 generators g, with the relations g² = square among the equations. The radical needs one more variable t and the equation
