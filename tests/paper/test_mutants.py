@@ -174,7 +174,7 @@ import lagrotor.paper.proof as proof
 proof.prove = lambda *sides, **more: None
 import lagrotor.paper.equation_statements as equation_statements
 equation_statements.needs_premises = lambda *compared: False
-from lagrotor.paper import decide
+from lagrotor.paper.ledger import decide
 changes, stems = json.load(sys.stdin)
 for change in changes:
     copy = os.fork()
