@@ -380,7 +380,7 @@ class Catalogue:
         --------
         >>> from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
         >>> PAPER.equation("5.24").cited
-        '(24), section 5.2'
+        'section 5.3'
         """
         return self.equations[known_id(identifier, self.equations)]
 
@@ -462,7 +462,7 @@ class Catalogue:
         --------
         >>> from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
         >>> PAPER.lines("5.24")[0].quantity
-        '\\\\Omega_0'
+        '\\\\dot\\\\phi'
         """
         entry = self.equation(identifier)
         names, where = dict(self.letters(entry.section).names), f"{self.folder / 'equations.toml'}: {identifier}"

@@ -46,7 +46,7 @@ class NarrowPart(NamedTuple):
 @lru_cache(maxsize=64)
 def _parts(system: Equations, section: sp.Expr | None) -> tuple[NarrowPart, ...]:
     """The parts of a section, or of what acts on the motion, that may be narrow, one for each argument."""
-    energy = getattr(system.lagrangian, "rest", system.lagrangian)
+    energy = getattr(system.lagrangian, "remainder", system.lagrangian)
     states = {*system.c.q, *system.c.v, *system.speeds}
     made: dict[sp.Expr, NarrowPart] = {}
 

@@ -209,7 +209,7 @@ def start_program(system: Equations) -> Generated:
 
     M is the mass matrix in the velocities v, and the unit matrix of u for those of one's own.
     """
-    h, M = len(system.constraints), system.mass if system.kinematics is None else sp.eye(len(system.speeds))
+    h, M = len(system.constraints), system.mass_matrix if system.kinematics is None else sp.eye(len(system.speeds))
     residual = [system.residual[i] for i in system.left]
     return function_program(system, *M, *system.constraints, *system.rows[:h, :], *rows_left(system)[0], *residual)
 
@@ -293,8 +293,8 @@ def constrained_motion(system: Equations, every: bool = True) -> tuple[list[Stag
     multipliers = dict(zip(given.left, lam, strict=True))
     if given.used and every:
         held = system.rows.extract(list(given.left), list(range(len(a)))).T * sp.Matrix(len(lam), 1, lam)
-        push = system.push.xreplace({system.multipliers[i]: e for i, e in multipliers.items()})
-        missing = given.inverse.T * (system.mass * a + system.bias - push - held)
+        push = system.generalised_forces.xreplace({system.multipliers[i]: e for i, e in multipliers.items()})
+        missing = given.inverse.T * (system.mass_matrix * a + system.bias - push - held)
         multipliers |= dict(zip(given.used, missing[len(rates) :, :], strict=True))
     return stages, list(a), [multipliers[i] for i in sorted(multipliers)]
 
@@ -303,7 +303,7 @@ def motion_of_speeds(system: Equations) -> tuple[list[Stage], list[sp.Expr], lis
     """Stages, and u' and the multipliers that are left made of them: of a tree of bodies by its recursion, else from the mass
     matrix."""
     G, gamma = rows_left(system)
-    friction = bool(system.push.free_symbols & {*system.multipliers})
+    friction = bool(system.generalised_forces.free_symbols & {*system.multipliers})
     if (by_tree := tree_motion(system)) is not None:
         return under_constraints(*by_tree, G, gamma, friction)
     (first, _, push), (added, weight, M) = equations_of_speeds(system), inertia(system)
@@ -327,14 +327,14 @@ def equations_of_speeds(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.M
     if _is_long(system):
         return swept_equations(system)
     given, first = system.kinematics, velocity_stages(system)
-    M, push = system.mass, system.push - system.bias
+    M, push = system.mass_matrix, system.generalised_forces - system.bias
     if given is None:
         return first, M, push
     if given.stages:
         return first, given.B.T * M * given.B, given.B.T * (push - M * given.alpha)
     M, h = boltzmann_hamel(system.L, system.c, given, system.speeds)
     put = dict(zip(system.c.v, given.velocity, strict=True))
-    return first, M, given.B.T * system.push.xreplace(put) - h
+    return first, M, given.B.T * system.generalised_forces.xreplace(put) - h
 
 
 def tree_motion(system: Equations) -> tuple[list[Stage], sp.Matrix] | None:
@@ -344,7 +344,7 @@ def tree_motion(system: Equations) -> tuple[list[Stage], sp.Matrix] | None:
     if tree is None:
         return None
     keep, (G, _), given = Stages(), rows_left(system), system.kinematics
-    push = system.push + rest_forces(tree, system.c)
+    push = system.generalised_forces + rest_forces(tree, system.c)
     push, by_reaction = push_left(system, push if given is None else given.B.T * push)
     columns = [list(push), *((G.T + by_reaction).col(i).flat() for i in range(G.rows))]
     try:
