@@ -121,7 +121,7 @@ prove(
     polynomial([3, 2], link=Link(1, 0.3, 0.1), **pair),
     coupled.det(),
     "the library's polynomial of a heavy bar",
-    written=r"P_{\text{library}}(s) = \det D(s)",
+    equations=r"P_{\text{library}}(s) = \det D(s)",
 )
 
 # %% [markdown]

@@ -88,7 +88,7 @@ prove(
 t = sp.Symbol("t", nonnegative=True)
 size = rho / (1 - 3 * c * rho * t)
 prove(
-    (size**2).diff(t), 6 * c * size**3, "the steepest growth, N = size²", names=r"\dot N", written=r"\dot N=6cN^{3/2}"
+    (size**2).diff(t), 6 * c * size**3, "the steepest growth, N = size²", names=r"\dot N", equations=r"\dot N=6cN^{3/2}"
 )
 
 # %% [markdown]

@@ -63,7 +63,7 @@ prove(
     law,
     "the rate through third order, ω_j2 = A_jj/p²",
     names=r"\Omega",
-    written=r"\Omega=\omega_j+\omega_{j2}(\tau^2-2b\tau^3)+O(\tau^4)",
+    equations=r"\Omega=\omega_j+\omega_{j2}(\tau^2-2b\tau^3)+O(\tau^4)",
 )
 
 # %% [markdown]

@@ -45,7 +45,7 @@ verdict(
     evidence=[
         "With a massive link the sum of the two forces is F minus the mass times the acceleration of the link's centre."
     ],
-    written=form("F - m*A"),
+    form=form("F - m*A"),
 )
 
 # %% [markdown]
@@ -84,7 +84,7 @@ prove(
     Q * sp.diag(J, J, I3) * Omega_body,
     angular_momentum(spin),
     "the angular momentum is J r × r′ + I₃ ω r",
-    written=r"\vec L = Q\,\mathrm{diag}(J, J, I_3)\,\vec\Omega = J\,\hat r\times\dot{\hat r} + I_3\,\omega\,\hat r",
+    equations=r"\vec L = Q\,\mathrm{diag}(J, J, I_3)\,\vec\Omega = J\,\hat r\times\dot{\hat r} + I_3\,\omega\,\hat r",
 )
 
 # %% [markdown]
@@ -111,7 +111,7 @@ verdict(
     angular_momentum(omega_1),
     premises=[slow_axis(omega_1)],
     evidence=[neglected],
-    written=form("I_3*omega_1*axis(theta, phi) + J*cross(axis(theta, phi), hat_r_dot)", hat_r_dot=rate(r_hat)),
+    form=form("I_3*omega_1*axis(theta, phi) + J*cross(axis(theta, phi), hat_r_dot)", hat_r_dot=rate(r_hat)),
 )
 
 # %%
@@ -120,7 +120,7 @@ verdict(
     angular_momentum(omega_2),
     premises=[slow_axis(omega_2)],
     evidence=[neglected],
-    written=form("I_3*omega_2*axis(theta, phi) + J*cross(axis(theta, phi), hat_r_dot)", hat_r_dot=rate(r_hat)),
+    form=form("I_3*omega_2*axis(theta, phi) + J*cross(axis(theta, phi), hat_r_dot)", hat_r_dot=rate(r_hat)),
 )
 
 # %% [markdown]
@@ -147,7 +147,7 @@ prove(
     rate(angular_momentum(spin)).xreplace(motion),
     R * r_hat.cross(F),
     "the torque is the rate of the angular momentum, exactly",
-    written=r"\dot{\vec L} = R\,\hat r\times\vec F",
+    equations=r"\dot{\vec L} = R\,\hat r\times\vec F",
 )
 
 # %% [markdown]
@@ -165,7 +165,7 @@ prove(
     torque(omega_1),
     J * r_hat.cross(rate(rate(r_hat))) + I3 * omega_1 * rate(r_hat),
     "the torque is J r × r″ + I₃ ω r′",
-    written=r"\dot{\vec L} = J\,\hat r\times\ddot{\hat r} + I_3\,\omega_1\,\dot{\hat r}",
+    equations=r"\dot{\vec L} = J\,\hat r\times\ddot{\hat r} + I_3\,\omega_1\,\dot{\hat r}",
 )
 
 # %% [markdown]
@@ -202,7 +202,7 @@ verdict(
     premises=[slow_axis(omega_1), slow_force(omega_1)],
     uses=["2.02"],
     evidence=slowness,
-    written=torque_written("omega_1"),
+    form=torque_written("omega_1"),
 )
 
 # %%
@@ -212,5 +212,5 @@ verdict(
     premises=[slow_axis(omega_2), slow_force(omega_2)],
     uses=["2.03"],
     evidence=slowness,
-    written=torque_written("omega_2"),
+    form=torque_written("omega_2"),
 )

@@ -94,7 +94,7 @@ prove(
     inertia * y_rates,
     G * (X_0 + X_1 * t) + sp.Matrix([R * F[1] * t, 0]),
     "the integrated equations across the bar",
-    written=r"A\,\dot y = G\,(X_0 + X_1 t) + (R F_y t,\ 0)",
+    equations=r"A\,\dot y = G\,(X_0 + X_1 t) + (R F_y t,\ 0)",
 )
 
 # %% [markdown]
@@ -181,7 +181,7 @@ prove(
     G.dot(y_after),
     D / (a**2 - b**2) * (X - centre),
     "the force that drives X back to its centre",
-    written=(
+    equations=(
         r"G\cdot\dot y = \frac{D\,(X - X_c)}{a^2 - b^2},\quad D = a\,(G_1^2 + G_2^2) - 2b\,G_1G_2,"
         r"\quad X_c = -\frac{R P_y\,(a\,G_1 - b\,G_2)}{D}"
     ),

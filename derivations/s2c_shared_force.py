@@ -41,7 +41,7 @@ verdict(
     premises=[massless_link],
     uses=["2.01"],
     evidence=["The scanned source is garbled (F_1 to F_4, a sixth); only the lines that 2.07 uses are judged."],
-    written={
+    form={
         r"\vec F_A + \vec F_B": form("F - m*A"),
         r"\vec F_A": form("(F - m*A)/2 + f"),
         r"\vec F_B": form("(F - m*A)/2 - f"),
@@ -79,7 +79,7 @@ prove(
     I3 * omega_1 * omega_2 * (rate_1 - rate_2).xreplace(together),
     cross(r, bracket),
     "the difference of the rates of two parallel axes",
-    written=(
+    equations=(
         r"I_3\,\omega_1\omega_2\,(\dot{\vec r}_1 - \dot{\vec r}_2) = \vec r\times\Big[(\omega_1"
         r" + \omega_2)\,\vec f - (\omega_1 - \omega_2)\Big(\tfrac12(\vec F - m\vec A)"
         r" - \tfrac JR\,\vec a\Big)\Big]"
@@ -97,7 +97,7 @@ prove(
     (rate_1 - rate_2).xreplace(dict(zip(f, f_parallel, strict=True))).xreplace(together),
     sp.zeros(3, 1),
     "with this f both axes have the same rate",
-    written=r"\dot{\vec r}_1 - \dot{\vec r}_2 = 0",
+    equations=r"\dot{\vec r}_1 - \dot{\vec r}_2 = 0",
 )
 
 # %% [markdown]
@@ -123,7 +123,7 @@ verdict(
     spinning_1,
     premises=premises,
     uses=["2.04", "2.05", "2.06"],
-    written=form("cross(r, (F - m*A)/2 + f) - J*cross(hat_r, hat_r_ddot)", hat_r=r / R, hat_r_ddot=a_1),
+    form=form("cross(r, (F - m*A)/2 + f) - J*cross(hat_r, hat_r_ddot)", hat_r=r / R, hat_r_ddot=a_1),
 )
 
 # %% [markdown]
@@ -138,7 +138,7 @@ prove(
     cross(r, f_parallel).subs({m: 0, **dict.fromkeys(a_1, 0)}),
     (rho - 1) / (2 * (1 + rho)) * cross(r, F),
     "r × f under the premises",
-    written=(
+    equations=(
         r"\vec r\times\vec f = \frac{\rho - 1}{2(1 + \rho)}\,\vec r\times\vec F,\qquad \rho"
         r" = \frac{\omega_1}{\omega_2}"
     ),
@@ -155,7 +155,7 @@ verdict(
     wrong="The left side has the wrong sign (rho = omega_1/omega_2).",
     uses=["2.07"],
     evidence=["Collecting 2.07 gives rho r x F/2 - r x F/2, rho = omega_1/omega_2."],
-    written=right_8,
+    form=right_8,
 )
 
 # %%
@@ -169,7 +169,7 @@ verdict(
     evidence=[
         "The sign error of 2.08 propagates: the faster rotor takes the larger share of the force, not the smaller."
     ],
-    written=right_9,
+    form=right_9,
 )
 
 # %%
@@ -180,7 +180,7 @@ verdict(
     correction=form("rho/(1 + rho)*cross(r, F)", rho=rho),
     wrong="Same sign error as in the equation before (5).",
     uses=["2.09", "2.04"],
-    written=form("rho/(1 + rho)*cross(r, F)", rho=rho),
+    form=form("rho/(1 + rho)*cross(r, F)", rho=rho),
 )
 
 # %% [markdown]
@@ -198,7 +198,7 @@ verdict(
     wrong="The same sign error gives the factor 2/(1 + rho); the correct one is 2 rho/(1 + rho), rho = omega_1/omega_2.",
     uses=["2.10"],
     evidence=["(7) follows from the premises: a second sign error between (6) and (7) cancels that of 2.08."],
-    written=right_11,
+    form=right_11,
 )
 
 # %% [markdown]
@@ -234,7 +234,7 @@ verdict(
         f"For omega_2 = -omega_1 the paper's rate has no bound; the axes drift at {pair['opposite'][0]} and "
         f"{pair['opposite'][1]} per unit of force.",
     ],
-    written={r"\dot{\hat r}": form("cross(r, F)/((omega_1 + omega_2)*I_3)"), mean_axis: mean_drift},
+    form={r"\dot{\hat r}": form("cross(r, F)/((omega_1 + omega_2)*I_3)"), mean_axis: mean_drift},
 )
 
 # %% [markdown]
@@ -261,7 +261,7 @@ verdict(
     "2.13",
     {r"\langle\dot{\hat r}_1\rangle": pair["drift_1"], r"\langle\dot{\hat r}_2\rangle": pair["drift_2"]},
     premises=[small_tilts, EQUAL_SPINS, along_bar],
-    written={name: form(text, F_x=F[0], F_y=F[1]) for name, text in drifts.items()},
+    form={name: form(text, F_x=F[0], F_y=F[1]) for name, text in drifts.items()},
     uses=["2.12"],
     evidence=[
         "Each axis by itself drifts so for a force along the bar, which is shared in halves, whatever the bar. A force "

@@ -48,7 +48,7 @@ prove(gradient(moving, common), total_mass * common, "the momentum of the common
 mass = verdict(
     "3.01",
     total_mass,
-    written=form("sum_i(m_i)"),
+    form=form("sum_i(m_i)"),
 )
 mass
 
@@ -81,7 +81,7 @@ verdict(
     "3.02",
     on_the_whole,
     premises=[action_and_reaction],
-    written=form("sum_i(F_i)"),
+    form=form("sum_i(F_i)"),
 )
 
 # %% [markdown]
@@ -100,7 +100,7 @@ centre_of_mass = verdict(
     "3.03",
     X_cm,
     uses=[mass],
-    written=form("sum_i(m_i*X_i)/M", M=total_mass),
+    form=form("sum_i(m_i*X_i)/M", M=total_mass),
 )
 centre_of_mass
 
@@ -120,7 +120,7 @@ verdict(
         "The mean of the velocities is printed as their sum. A body of three equal particles in a common motion would move "
         f"{sp.Integer(len(places))} times too fast."
     ],
-    written=mean_velocity,
+    form=mean_velocity,
 )
 
 # %% [markdown]
@@ -136,7 +136,7 @@ prove(
     summed(m * d for m, d in zip(masses, arms, strict=True)),
     sp.zeros(3, 1),
     "the first moment about the centre",
-    written=r"\sum_i m_i\,(\vec X_i - \vec X) = 0",
+    equations=r"\sum_i m_i\,(\vec X_i - \vec X) = 0",
 )
 
 # %%
@@ -144,7 +144,7 @@ verdict(
     "3.05",
     L,
     uses=[centre_of_mass],
-    written=form("sum_i(m_i*cross(X_i - X_cm, U_i - U_cm))", X_cm=X_cm, U_cm=U_cm),
+    form=form("sum_i(m_i*cross(X_i - X_cm, U_i - U_cm))", X_cm=X_cm, U_cm=U_cm),
 )
 
 # %% [markdown]
@@ -161,7 +161,7 @@ verdict(
     "3.06",
     torque,
     uses=[centre_of_mass],
-    written=form("sum_i(cross(X_i - X_cm, F_i))", X_cm=X_cm),
+    form=form("sum_i(cross(X_i - X_cm, F_i))", X_cm=X_cm),
 )
 
 # %% [markdown]
@@ -176,7 +176,7 @@ verdict(
     summed(by_the_motion),
     premises=[action_and_reaction],
     uses=[mass, "3.02", centre_of_mass],
-    written=form("sum_i(m_i*A_i)"),
+    form=form("sum_i(m_i*A_i)"),
 )
 
 # %% [markdown]
@@ -196,7 +196,7 @@ prove(
     central.on(action_and_reaction.on(twisting)),
     sp.zeros(3, 1),
     "the moment of opposite, central forces",
-    written=r"\sum_i (\vec X_i - \vec X)\times\sum_{j\neq i}\vec f_{ij} = 0",
+    equations=r"\sum_i (\vec X_i - \vec X)\times\sum_{j\neq i}\vec f_{ij} = 0",
 )
 
 # %% [markdown]
@@ -221,5 +221,5 @@ verdict(
         f"perpendicularly to the line between them obey that and start to rotate: dL/dt = {tuple(spin_up)} N m "
         "without any torque from outside."
     ],
-    written=form("sum_i(m_i*cross(X_i - X_cm, A_i))", X_cm=X_cm),
+    form=form("sum_i(m_i*cross(X_i - X_cm, A_i))", X_cm=X_cm),
 )

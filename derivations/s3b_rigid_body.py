@@ -40,11 +40,11 @@ def rate(expression: sp.Matrix) -> sp.Matrix:
 
 # %%
 Q = rotation(phi, theta, psi)
-prove(Q * Q.T, sp.eye(3), "Q is a rotation", written=r"Q\,Q^T = 1")
+prove(Q * Q.T, sp.eye(3), "Q is a rotation", equations=r"Q\,Q^T = 1")
 
 # %%
 skew = rate(Q) * Q.T
-prove(skew, -skew.T, "the rate of a rotation is skew", written=r"\dot Q\,Q^T = -(\dot Q\,Q^T)^T")
+prove(skew, -skew.T, "the rate of a rotation is skew", equations=r"\dot Q\,Q^T = -(\dot Q\,Q^T)^T")
 
 # %%
 theta_v, phi_v, psi_v = ROTOR.v
@@ -76,7 +76,7 @@ verdict(
     "3.09",
     field,
     premises=[rigid],
-    written=form("U_cm + cross(Omega, Q*d)", Omega=Omega_turn, Q=Q),
+    form=form("U_cm + cross(Omega, Q*d)", Omega=Omega_turn, Q=Q),
 )
 
 # %% [markdown]
@@ -97,7 +97,7 @@ verdict(
     premises=[turning_rigidly],
     uses=["3.05", "3.09", centre_of_mass],
     evidence=["1(X)^2 is read as |X|^2 times the unit matrix, (X)(X)^T as the outer product."],
-    written=form("sum_i(m_i*cross(X_i - X_cm, cross(Omega, X_i - X_cm)))", X_cm=particles["X_cm"]),
+    form=form("sum_i(m_i*cross(X_i - X_cm, cross(Omega, X_i - X_cm)))", X_cm=particles["X_cm"]),
 )
 
 # %% [markdown]
@@ -112,7 +112,7 @@ prove(
     turning,
     (Omega.T * inertia * Omega)[0] / 2,
     "the rotational energy",
-    written=r"\sum_i \tfrac{m_i}{2}\,\big|\vec\Omega\times(\vec X_i - \vec X)\big|^2 = \tfrac12\,\vec\Omega\cdot I\,\vec\Omega",
+    equations=r"\sum_i \tfrac{m_i}{2}\,\big|\vec\Omega\times(\vec X_i - \vec X)\big|^2 = \tfrac12\,\vec\Omega\cdot I\,\vec\Omega",
 )
 
 # %%
@@ -120,7 +120,7 @@ verdict(
     "3.11",
     inertia,
     uses=["3.10", centre_of_mass],
-    written=form(
+    form=form(
         "sum_i(m_i*(dot(X_i - X_cm, X_i - X_cm)*one - (X_i - X_cm)*transpose(X_i - X_cm)))",
         {"one": r"\mathbb{1}"},
         X_cm=particles["X_cm"],
@@ -172,7 +172,7 @@ prove(
     Q * isotropic * Q.T,
     Q.T * isotropic * Q,
     "with equal principal inertias both are the same",
-    written=r"Q\,(I\,1)\,Q^T = Q^T(I\,1)\,Q",
+    equations=r"Q\,(I\,1)\,Q^T = Q^T(I\,1)\,Q",
 )
 
 # %%
@@ -190,5 +190,5 @@ verdict(
         f"{tuple(right.diagonal())}, as printed {tuple(wrong.diagonal())}. With equal inertias, as in all the paper's runs, "
         "both are the same: no run of the paper distinguishes them.",
     ],
-    written=turned,
+    form=turned,
 )

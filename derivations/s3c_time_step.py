@@ -35,7 +35,7 @@ prove(
     exact_X.diff(dt),
     exact_U,
     "the centre moves with U",
-    written=r"\frac{d\vec X}{d\Delta_t} = \vec U + \frac{\vec F}{M}\,\Delta_t + \frac{\dot{\vec F}}{2M}\,\Delta_t^2",
+    equations=r"\frac{d\vec X}{d\Delta_t} = \vec U + \frac{\vec F}{M}\,\Delta_t + \frac{\dot{\vec F}}{2M}\,\Delta_t^2",
 )
 
 # %% [markdown]
@@ -49,7 +49,7 @@ prove(
     tensor * acceleration + cross(Omega, tensor * Omega),
     tau,
     "Euler's equations",
-    written=r"I\,\dot{\vec\Omega} + \vec\Omega\times I\,\vec\Omega = \vec\tau",
+    equations=r"I\,\dot{\vec\Omega} + \vec\Omega\times I\,\vec\Omega = \vec\tau",
 )
 
 # %%
@@ -84,7 +84,7 @@ verdict(
         "propagates L and R, so the step remains a first-order method.",
         f"X_cm with the old U first differs at order {by_old}, with the new U at order {by_new}.",
     ],
-    written={
+    form={
         r"\vec L(t+\Delta t)": form("I*Omega + Delta_t*tau + Delta_t**2/2*tau_dot", I=tensor, tau_dot=tau_v),
         r"\vec U(t+\Delta t)": form("U + Delta_t/M*F + Delta_t**2/(2*M)*F_dot", F_dot=F_v),
         r"\vec\Omega(t+\Delta t)": form(

@@ -56,7 +56,7 @@ verdict(
         "not a rotation, it "
         f"stretches by the square root of {stretched} across a spin of {SPIN} rad/s."
     ],
-    written=turning_vertex,
+    form=turning_vertex,
 )
 
 # %% [markdown]
@@ -68,7 +68,7 @@ verdict(
 n = axis(theta, phi)
 N = cross_matrix(n)
 P = sp.eye(3) + N**2
-prove((P * P, P * n), (P, n), "P is a projector, and n stays", written=(r"P^2 = P", r"P\,n = n"))
+prove((P * P, P * n), (P, n), "P is a projector, and n stays", equations=(r"P^2 = P", r"P\,n = n"))
 
 # %% [markdown]
 # The paper's product lacks the norm of $\vec\Omega$:
@@ -79,7 +79,7 @@ prove(
     (w * n) * (w * n).T,
     w**2 * P,
     "the outer product of Ω with itself",
-    written=r"\vec\Omega\,\vec\Omega^T = |\vec\Omega|^2\,P",
+    equations=r"\vec\Omega\,\vec\Omega^T = |\vec\Omega|^2\,P",
 )
 
 # %%
@@ -94,7 +94,7 @@ projection = verdict(
         f"its norm: {SPIN**2} times too large at the paper's spin. The paper's remark on NaN shows that the program "
         "divides by |Omega|^2."
     ],
-    written=projector,
+    form=projector,
 )
 projection
 
@@ -105,7 +105,7 @@ projection
 # $dR' = \Omega_\times dR$ from $dR = 1$. As $n_\times^3 = -n_\times$, its power series closes.
 
 # %%
-prove(N**3, -N, "the cube of the cross matrix of a unit vector", written=r"n_\times^3 = -n_\times")
+prove(N**3, -N, "the cube of the cross matrix of a unit vector", equations=r"n_\times^3 = -n_\times")
 
 # %%
 angle = w * dt
@@ -114,7 +114,7 @@ prove(
     (exact_dR.diff(dt), exact_dR.subs(dt, 0)),
     (w * N * exact_dR, sp.eye(3)),
     "the equation of the rotation, and its start",
-    written=(r"\frac{d}{d\Delta_t}\,dR = |\vec\Omega|\,n_\times\,dR", r"dR\,\big|_{\Delta_t = 0} = 1"),
+    equations=(r"\frac{d}{d\Delta_t}\,dR = |\vec\Omega|\,n_\times\,dR", r"dR\,\big|_{\Delta_t = 0} = 1"),
 )
 
 # %% [markdown]
@@ -132,7 +132,7 @@ verdict(
         "As printed the sine is taken of a vector. P is the projector on Omega, not the product printed in 3.16. The matrix is "
         "the exponential of dt Omega_x: it solves dR' = Omega_x dR from 1."
     ],
-    written=form(
+    form=form(
         "P + cos(Omega_norm*Delta_t)*(one - P) + sin(Omega_norm*Delta_t)*N",
         {"one": r"\mathbb{1}", "N": r"\hat\Omega_\times", "Omega_norm": r"\|\Omega\|"},
         P=P,
@@ -159,7 +159,7 @@ Formula(in_body, r"R^T\vec\Omega")
 # It agrees with $\vec L$ and the tensor of the rotated body (3.12 corrected), so only $I_0$ is inverted:
 
 # %%
-prove((R * principal * R.T) * Omega_of_L, L, "L = I(t) Ω", written=r"R\,I_0\,R^T\,\vec\Omega = \vec L")
+prove((R * principal * R.T) * Omega_of_L, L, "L = I(t) Ω", equations=r"R\,I_0\,R^T\,\vec\Omega = \vec L")
 
 # %%
 inverse_tensor = {"inverse": "I_0^{-1}"}
@@ -171,7 +171,7 @@ verdict(
     wrong="R and its transpose are interchanged, as in the rotated tensor of section 3.1.",
     uses=["3.12"],
     evidence=["It follows from 3.12 as printed, which is wrong; with equal inertias the two agree."],
-    written=without_inversion,
+    form=without_inversion,
 )
 
 # %% [markdown]
@@ -184,7 +184,7 @@ prove(
     (R.T * stored * R * L).T,
     L.T * R.T * stored * R,
     "the transposition of 3.17 as printed",
-    written=r"\big(R^T I_0^{-1} R\,\vec L\big)^T = \vec L^T R^T I_0^{-1} R",
+    equations=r"\big(R^T I_0^{-1} R\,\vec L\big)^T = \vec L^T R^T I_0^{-1} R",
 )
 
 # %%
@@ -201,5 +201,5 @@ verdict(
         "The transposition itself is right, with I the stored inverse of the symmetric I_0, and so is X_r*dR'; what is "
         "transposed is 3.17."
     ],
-    written={"O": row, r"X_r(t + \Delta t)'": form("transpose(X_r)*transpose(dR)", {"dR": "dR"}, dR=dR)},
+    form={"O": row, r"X_r(t + \Delta t)'": form("transpose(X_r)*transpose(dR)", {"dR": "dR"}, dR=dR)},
 )

@@ -37,7 +37,7 @@ prove(
     rate(length_squared, (X_1, X_2), (U_1, U_2)).subs(at_distance),
     2 * s * s_rate,
     "the rate of the squared length",
-    written=r"\frac{d}{dt}\,|\vec X_1 - \vec X_2|^2 = 2 s\,\dot s,\qquad \dot s = (\vec U_1 - \vec U_2)\cdot\hat e",
+    equations=r"\frac{d}{dt}\,|\vec X_1 - \vec X_2|^2 = 2 s\,\dot s,\qquad \dot s = (\vec U_1 - \vec U_2)\cdot\hat e",
 )
 
 # %%
@@ -63,7 +63,7 @@ prove(
     on_1.dot(e_hat),
     -tension,
     "along ê the force on vertex 1 is the tension, towards vertex 2",
-    written=r"\vec F_1\cdot\hat e = -(S\,s + D\,\dot s)",
+    equations=r"\vec F_1\cdot\hat e = -(S\,s + D\,\dot s)",
 )
 
 # %% [markdown]
@@ -77,7 +77,7 @@ prove(
     power + growing,
     -D * s_rate**2,
     "the power of the forces plus the rate of the spring's energy: the dissipated power",
-    written=r"\vec F_1\cdot\vec U_1 + \vec F_2\cdot\vec U_2 + \frac{d}{dt}\,\frac{S s^2}{2} = -D\,\dot s^2",
+    equations=r"\vec F_1\cdot\vec U_1 + \vec F_2\cdot\vec U_2 + \frac{d}{dt}\,\frac{S s^2}{2} = -D\,\dot s^2",
 )
 
 # %% [markdown]
@@ -92,7 +92,7 @@ prove(
     gained,
     D * (U_1 - U_2).dot(e_hat) ** 2,
     "the power that the damper would supply",
-    written=r"P = D\,\big((\vec U_1 - \vec U_2)\cdot\hat e\big)^2",
+    equations=r"P = D\,\big((\vec U_1 - \vec U_2)\cdot\hat e\big)^2",
 )
 
 # %%
@@ -109,7 +109,7 @@ link_force = verdict(
         "With the force corrected the link's energy changes by -D ((U_1 - U_2).e)^2, never upwards. The direction is "
         "undefined at s = 0. The sentence before it calls S the damping and D the spring constant: exchanged.",
     ],
-    written=pull,
+    form=pull,
 )
 link_force
 
@@ -123,5 +123,5 @@ verdict(
     "3.20",
     on_2,
     uses=[link_force],
-    written=form("(S*s + D*dot(U_1 - U_2, hat_e))*hat_e", hat_e=e_hat),
+    form=form("(S*s + D*dot(U_1 - U_2, hat_e))*hat_e", hat_e=e_hat),
 )

@@ -37,7 +37,7 @@ prove(
     (S.subs(in_units), D.subs(in_units)),
     (2000 * newton / metre, 500 * unit_of_damping),
     "the units of the chosen constants, at M = 1 kg, n = 1, ω_s = 1 rad/s",
-    written=(r"S = 2000\ \mathrm{N/m}", r"D = 500\ \mathrm{N\,s/m}"),
+    equations=(r"S = 2000\ \mathrm{N/m}", r"D = 500\ \mathrm{N\,s/m}"),
 )
 
 # %%
@@ -48,7 +48,7 @@ verdict(
         "S and D are chosen and could not be false. With n a number and omega_s an angular frequency their units are N/m and "
         "N s/m = kg/s. The paper does not say what n and omega_s are."
     ],
-    written={"[D]": form("kilogram/second", {"kilogram": r"\mathrm{kg}", "second": r"\mathrm{s}"})},
+    form={"[D]": form("kilogram/second", {"kilogram": r"\mathrm{kg}", "second": r"\mathrm{s}"})},
 )
 
 # %% [markdown]

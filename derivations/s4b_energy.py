@@ -66,7 +66,7 @@ prove(
     K[0],
     M_1 * dot(velocities[0], velocities[0]) / 2 + dot(inertias[0] * turns[0], turns[0]) / 2,
     "translation of the centre and rotation about it",
-    written=r"K_1 = \tfrac12 M_1\,|\vec U_1|^2 + \tfrac12\,\vec\Omega_1\cdot I_1\,\vec\Omega_1",
+    equations=r"K_1 = \tfrac12 M_1\,|\vec U_1|^2 + \tfrac12\,\vec\Omega_1\cdot I_1\,\vec\Omega_1",
 )
 
 # %% [markdown]
@@ -87,7 +87,7 @@ prove(
     total,
     sum(K) + held,
     "the energy: kinetic energy and energy of the springs",
-    written=r"E = \sum_i K_i + \frac S2\sum_j s_j^2",
+    equations=r"E = \sum_i K_i + \frac S2\sum_j s_j^2",
 )
 
 # %% [markdown]
@@ -119,7 +119,7 @@ energy_verdict = verdict(
         f"The paper's first run, with the bar half a metre too high, starts with {first_run} in its springs, "
         "which this E omits: hence the spike.",
     ],
-    written=whole_energy,
+    form=whole_energy,
 )
 energy_verdict
 
@@ -141,7 +141,7 @@ verdict(
     total,
     uses=["4.02"],
     evidence=[f"{first_rotor} J for each rotor, nothing for the bar; springs unstretched."],
-    written=whole_energy,
+    form=whole_energy,
 )
 
 # %% [markdown]
@@ -152,7 +152,9 @@ verdict(
 
 # %%
 LIGHT = sp.Rational(1, 100)  # kg, the bar of section 5.2.1
-heavy_bar = parameter_premise("the bar is as heavy as a rotor, M₃ = M₂", {M_3: M_2}, own={M_2: sp.S.One, M_3: LIGHT})
+heavy_bar = parameter_premise(
+    "the bar is as heavy as a rotor, M₃ = M₂", {M_3: M_2}, scene_values={M_2: sp.S.One, M_3: LIGHT}
+)
 excess = K[2].subs(M_3, M_2) - K[2]
 prove(
     excess,
@@ -173,5 +175,5 @@ verdict(
         f"M_3 = {LIGHT} kg, the bar's energy of translation is counted {1 / LIGHT} times. Rows times matrix, (Omega I).Omega, "
         "is right because I is symmetric.",
     ],
-    written=whole_energy,
+    form=whole_energy,
 )

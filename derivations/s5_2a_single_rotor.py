@@ -77,7 +77,7 @@ verdict(
     "5.01",
     L,
     premises=[ABOUT_JOINT],
-    written=form("J/2*(theta_dot**2 + phi_dot**2*sin(theta)**2) + I_3/2*(psi_dot + phi_dot*cos(theta))**2"),
+    form=form("J/2*(theta_dot**2 + phi_dot**2*sin(theta)**2) + I_3/2*(psi_dot + phi_dot*cos(theta))**2"),
 )
 
 # %% [markdown]
@@ -105,7 +105,7 @@ verdict(
     {"M_z": p_phi, "M_3": p_psi},
     premises=[ABOUT_JOINT],
     uses=["5.01"],
-    written=momenta_written,
+    form=momenta_written,
 )
 
 # %% [markdown]
@@ -118,7 +118,7 @@ verdict(
     {"M_z": p_phi, "M_3": p_psi},
     premises=[EQUAL_INERTIAS],
     uses=["5.03"],
-    written=momenta_written,
+    form=momenta_written,
 )
 
 # %% [markdown]
@@ -136,7 +136,7 @@ verdict(
     rate,
     premises=[ABOUT_JOINT],
     uses=["5.01", "5.03"],
-    written=form("(M_z - M_3*cos(theta))/(J*sin(theta)**2)"),
+    form=form("(M_z - M_3*cos(theta))/(J*sin(theta)**2)"),
 )
 
 # %% [markdown]
@@ -154,7 +154,7 @@ verdict(
     rate_of_spin,
     premises=[EQUAL_INERTIAS],
     uses=["5.02", "5.04"],
-    written=form("(M_z - I_3*omega*cos(theta))/(J*sin(theta)**2)"),
+    form=form("(M_z - I_3*omega*cos(theta))/(J*sin(theta)**2)"),
 )
 
 # %% [markdown]
@@ -173,7 +173,7 @@ verdict(
     {"a": p_phi / I3, r"\dot a": change},
     premises=[EQUAL_INERTIAS],
     uses=["5.04"],
-    written={
+    form={
         "a": form("J/I_3*phi_dot*sin(theta)**2 + (psi_dot + phi_dot*cos(theta))*cos(theta)"),
         r"\dot a": form("0"),
     },

@@ -38,7 +38,7 @@ prove(
     bar_energy,
     in_parameters((a - J) / 2 * (v_1.dot(v_1) + v_2.dot(v_2)) + b * v_1.dot(v_2)),
     "the kinetic energy of the bar",
-    written=(
+    equations=(
         r"\tfrac m2\,\tfrac{R^2}{4}\,|\dot r_1 + \dot r_2|^2"
         r" + \tfrac K2\,\tfrac{R^2}{\ell^2}\,|\dot r_2 - \dot r_1|^2"
         r" = \tfrac{a - J}{2}\,\big(|\dot r_1|^2 + |\dot r_2|^2\big) + b\,\dot r_1\cdot\dot r_2"
@@ -55,7 +55,7 @@ prove(
     in_parameters(L),
     in_parameters(pair_lagrangian()) + bar_energy,
     "the Lagrangian of the pair",
-    written=(
+    equations=(
         r"\mathcal L = \sum_i\tfrac J2\big(\dot\theta_i^2 + \dot\phi_i^2\sin^2\theta_i\big)"
         r" + \tfrac{I_3}{2}\big(\dot\psi_i + \dot\phi_i\cos\theta_i\big)^2"
         r" + \tfrac{a - J}{2}\,\big(|\dot r_1|^2 + |\dot r_2|^2\big) + b\,\dot r_1\cdot\dot r_2"
@@ -78,7 +78,7 @@ verdict(
     L,
     premises=[ABOUT_JOINT, MASSLESS_BAR],
     uses=["5.01"],
-    written=lagrangian_written,
+    form=lagrangian_written,
 )
 
 # %% [markdown]
@@ -93,7 +93,7 @@ prove(
     shifted,
     L,
     "the Lagrangian after a shift of both azimuths",
-    written=r"\mathcal L(\phi_1 + \gamma,\ \phi_2 + \gamma) = \mathcal L(\phi_1,\ \phi_2)",
+    equations=r"\mathcal L(\phi_1 + \gamma,\ \phi_2 + \gamma) = \mathcal L(\phi_1,\ \phi_2)",
 )
 
 # %%
@@ -102,7 +102,7 @@ verdict(
     L,
     premises=[ABOUT_JOINT, MASSLESS_BAR],
     uses=["5.07"],
-    written=lagrangian_written,
+    form=lagrangian_written,
 )
 
 # %% [markdown]
@@ -139,7 +139,7 @@ prove(
     distance_squared,
     ell**2 + 2 * R**2 * constraint,
     "the squared distance of the tips",
-    written=r"\big|\ell\,e_x + R\,(r_2 - r_1)\big|^2 = \ell^2 + 2 R^2\,g",
+    equations=r"\big|\ell\,e_x + R\,(r_2 - r_1)\big|^2 = \ell^2 + 2 R^2\,g",
 )
 
 # %% [markdown]
@@ -177,7 +177,7 @@ verdict(
     premises=[ABOUT_JOINT, MASSLESS_BAR, opposite_spin_angles()],
     uses=["5.08"],
     evidence=["Conserved are ω₁ and ω₂, not ψ₁′ and ψ₂′."],
-    written=lagrangian_written,
+    form=lagrangian_written,
 )
 
 # %% [markdown]
@@ -196,7 +196,7 @@ ansatz_case = verdict(
         "As algebra the line follows from its premises. Its variation is wrong: this is the Lagrangian of a "
         "pair without a bar, in which nonexistent constraints keep φ₁ + φ₂ and ψ₁ + ψ₂ constant."
     ],
-    written=lagrangian_written,
+    form=lagrangian_written,
 )
 ansatz_case
 

@@ -48,7 +48,7 @@ prove(
     (ansatz_lagrangian.diff(phi_v), ansatz_lagrangian.diff(psi_v)),
     (of_ansatz_A, of_ansatz_B),
     "the momenta of the ansatz Lagrangian as differences of the pair's",
-    written=(
+    equations=(
         r"\frac{\partial\mathcal L}{\partial\dot\phi} = p_{\phi_1} - p_{\phi_2}",
         r"\frac{\partial\mathcal L}{\partial\dot\psi} = p_{\psi_1} - p_{\psi_2}",
     ),
@@ -86,7 +86,7 @@ prove(
     MASSLESS_BAR.on(of_A),
     BAR_FORCE * (constraint.diff(phi_1) - constraint.diff(phi_2)),
     "the rate of A, the bar massless",
-    written=r"\dot A = \lambda_1\Big(\frac{\partial g}{\partial\phi_1} - \frac{\partial g}{\partial\phi_2}\Big)",
+    equations=r"\dot A = \lambda_1\Big(\frac{\partial g}{\partial\phi_1} - \frac{\partial g}{\partial\phi_2}\Big)",
 )
 
 # %% [markdown]
@@ -140,7 +140,7 @@ integral_A = verdict(
         f"Its swing goes as r₀ to the power {orbit_order:.2f} on the periodic orbit and as the shock to the power "
         f"{shock_order:.2f} after the shock of 5.2.1, scaled down (massless bar).",
     ],
-    written={"A": A_written, r"\dot A": form("0")},
+    form={"A": A_written, r"\dot A": form("0")},
 )
 integral_A
 
@@ -151,7 +151,7 @@ integral_B = verdict(
     premises=ansatz,
     uses=["5.11"],
     evidence=["B = I₃(ω₁ − ω₂) is constant on the exact pair for any bar and any inertias; the I of the paper is I₃."],
-    written={
+    form={
         "B": form("I_3*(psi_1_dot + phi_1_dot*cos(theta_1) - psi_2_dot - phi_2_dot*cos(theta_2))"),
         r"\dot B": form("0"),
     },
@@ -169,5 +169,5 @@ verdict(
     I3 * psi_v,
     premises=[MASSLESS_BAR, EQUAL_INERTIAS, *ansatz],
     uses=[integral_A, integral_B],
-    written=form("(B - I_3*phi_dot*(cos(theta_1) + cos(theta_2)))/2", B=B),
+    form=form("(B - I_3*phi_dot*(cos(theta_1) + cos(theta_2)))/2", B=B),
 )

@@ -61,7 +61,7 @@ verdict(
         f"The equations of motion fix the rate: {massless:.4g} rad/s for spins ±10 and a massless bar, {heavy:.4g} rad/s "
         "with the bar of section 4.1.",
     ],
-    written={
+    form={
         r"\dot\phi": form(
             "(2*A - B*(cos(theta_1) + cos(theta_2)))/(I_3*(4 - (cos(theta_1) + cos(theta_2))**2))",
             A=on_pair["5.12"].derived["A"],
@@ -117,7 +117,7 @@ verdict(
     wrong="B lacks the factor I: it is 2Iω, an angular momentum as A is.",
     uses=["5.12", "5.13"],
     evidence=["For opposite spins B = 2I₃ω; the two agree as numbers for the paper's rotor, I₃ = 1 kg m²."],
-    written={
+    form={
         "B": form("I_3*(omega_1 - omega_2)"),
         "A": form(
             "I_3*(omega_1*cos(theta_1) - omega_2*cos(theta_2))"

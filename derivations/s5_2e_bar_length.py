@@ -49,7 +49,7 @@ verdict(
     {r"\|\vec r_2 - \vec r_1\|(\theta_i, \phi_i)": norm(bar)},
     premises=[*units, small],
     uses=["5.09"],
-    written={
+    form={
         r"\|\vec r_2 - \vec r_1\|(\theta_i, \phi_i)": form(
             "norm(ell*hat_x + R*(hat_r_2 - hat_r_1))",
             hat_x=sp.Matrix([1, 0, 0]),
@@ -75,7 +75,7 @@ C_written = form(
     "(ell + R*(sin(theta_2)*cos(phi_2) - sin(theta_1)*cos(phi_1)))**2"
     " + R**2*(sin(theta_2)*sin(phi_2) - sin(theta_1)*sin(phi_1))**2"
 )
-verdict("5.18", {"C^2": C_squared}, [*units, opposite_azimuths()], uses=["5.17"], written=C_written)
+verdict("5.18", {"C^2": C_squared}, [*units, opposite_azimuths()], uses=["5.17"], form=C_written)
 
 # %% [markdown]
 # ## At one constant inclination
@@ -100,7 +100,7 @@ verdict(
     premises=assumed,
     uses=["5.18"],
     evidence=[f"At r₀ = {PAPER_R0} the bar would have to stretch to {longest:.4f} of its length."],
-    written={
+    form={
         "C^2(0)": form("1"),
         r"C^2(\pi/2)": form("1 + 4*sin(theta_0)**2"),
         r"C(\pi/2)": form("sqrt(1 + 4*sin(theta_0)**2)"),

@@ -70,7 +70,7 @@ prove(
     tuple(sp.expand((e**2).subs(s, r0)) for e in sines),
     (x_1**2 + y_1**2, x_2**2 + y_2**2),
     "the squares of the inclinations' sines",
-    written=(
+    equations=(
         r"\Big(r_0 D + \frac{\sigma R}{2\ell}\,r_0^2\,\frac{\sin^2\Phi\cos\Phi}{D}\Big)^2 = x_1^2 + y_1^2",
         r"\Big(r_0 D - \frac{\sigma R}{2\ell}\,r_0^2\,\frac{\sin^2\Phi\cos\Phi}{D}\Big)^2 = x_2^2 + y_2^2",
     ),
@@ -113,7 +113,7 @@ verdict(
         f"r₀ = {PAPER_R0}.",
         "No correction of the inclinations alone can keep the bar (5.11): the azimuths must move too (5.22).",
     ],
-    written=sines_written,
+    form=sines_written,
 )
 
 # %% [markdown]
@@ -132,7 +132,7 @@ prove(
     by_sine_1,
     by_sine_2,
     "the derivatives of the rate by sin θ₁ and by sin θ₂, at equal inclinations",
-    written=r"\frac{\partial\dot\phi}{\partial\sin\theta_1} = \frac{\partial\dot\phi}{\partial\sin\theta_2}",
+    equations=r"\frac{\partial\dot\phi}{\partial\sin\theta_1} = \frac{\partial\dot\phi}{\partial\sin\theta_2}",
 )
 
 # %%
@@ -264,7 +264,7 @@ verdict(
         f"On exact orbits with a massless bar Ω/Ω₀ − 1 = {-changes[0] / amplitudes[0] ** 2:+.4f} r₀², of measured order "
         f"{rate_slope:.3f}; at r₀ = {PAPER_R0} Ω/Ω₀ is {at_paper:.5f}.",
     ],
-    written={r"\dot\phi": form(unchanged), **orbit_written},
+    form={r"\dot\phi": form(unchanged), **orbit_written},
 )
 
 # %% [markdown]
@@ -300,8 +300,8 @@ verdict(
     "5.22",
     {name: Series(e, r0, 3) for name, e in {"x_1": tips[0], "x_2": tips[1], "y_1": R * y_1, "y_2": R * y_2}.items()},
     premises=[MASSLESS_BAR, BAR_AS_LONG_AS_ROTORS, UNIT_LENGTH],
-    correction={name: form(text + ")", rest="r_0^3", **short) for name, text in through_second.items()},
-    written={name: form(text + third[name] + ")", **short) for name, text in through_second.items()},
+    correction={name: form(text + ")", remainder="r_0^3", **short) for name, text in through_second.items()},
+    form={name: form(text + third[name] + ")", **short) for name, text in through_second.items()},
     wrong="A constant of second order in the amplitude is missing: x₁ lacks r₀², x₂ lacks −r₀².",
     uses=["5.20", "5.21"],
     evidence=[

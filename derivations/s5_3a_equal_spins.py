@@ -68,7 +68,7 @@ verdict(
         f"From zero crossings of x, spin 20: {one_rate:.4f} rad/s after the shock of 40 N, where sin θ = {one_amplitude:.4f} "
         f"and 16/cos θ = {16 / np.sqrt(1 - one_amplitude**2):.4f}; {one_gentle:.5f} rad/s after one of 0.4 N.",
     ],
-    written=form("I_3*omega/(J*cos(theta))"),
+    form=form("I_3*omega/(J*cos(theta))"),
 )
 
 # %% [markdown]
@@ -97,7 +97,7 @@ prove(
     together.subs(mu, lift).subs(turning),
     sp.zeros(6, 1),
     "the equations of motion along parallel axes",
-    written=(
+    equations=(
         r"\frac{d}{dt}\frac{\partial\mathcal L}{\partial\dot r_i}"
         r" - \frac{\partial\mathcal L}{\partial r_i} - Q_i - \mu\,r_i = 0,\qquad i = 1, 2"
     ),
@@ -167,7 +167,7 @@ verdict(
         "Why it is no theorem: it was read off the paper's program, whose springs yield. That the exact pair has both rates is "
         "proved with claim C21: after 0.4 N they round to 11.4, after 40 N not.",
     ],
-    written=any_rate,
+    form=any_rate,
 )
 
 # %% [markdown]
@@ -191,5 +191,5 @@ verdict(
         "Why it is no theorem about motion: it is said of every ω. The corrected constant is decided exactly, and at spins of 20 "
         "claim C21 has the theorem.",
     ],
-    written={r"\dot\phi_{coupled}": any_rate, r"c\text{ (equal spins)}": form("J/(J + m*R**2/2)")},
+    form={r"\dot\phi_{coupled}": any_rate, r"c\text{ (equal spins)}": form("J/(J + m*R**2/2)")},
 )

@@ -122,7 +122,7 @@ verdict(
         f"With a bar of 1 kg the rate is {float(product)} rad/s for K = {of_a_kilogram:.4f} kg m².",
         "The constant of equal spins does not carry over: opposite spins twist the bar, and its inertia counts.",
     ],
-    written={r"\dot\phi": any_rate, r"\Omega_0^2\text{ (opposite spins)}": square_written},
+    form={r"\dot\phi": any_rate, r"\Omega_0^2\text{ (opposite spins)}": square_written},
 )
 
 # %% [markdown]
@@ -248,7 +248,7 @@ verdict(
         "That is the symmetric orbit; after a shock along x from rest the centres of precession are displaced, and the rate "
         "rises with the shock (claim C23).",
     ],
-    written={
+    form={
         r"\dot\phi\text{ (equal spins)}": cone_written,
         r"\dot\phi\text{ (opposite spins)}": opposite_written,
         r"\Omega/\Omega_0\text{ (opposite spins, through }r_0^3)": through_third_written,
@@ -288,7 +288,7 @@ verdict(
         r"\Omega_0^2\text{ (opposite spins)}": square_written,
         r"\Omega_0^2\text{ (any spins)}": form("(a*(G_1**2 + G_2**2) - 2*b*G_1*G_2)/(2*(a + b)*(a**2 - b**2))"),
     },
-    written={
+    form={
         r"\dot\phi\text{ (equal spins)}": form("I_3*omega/(a + b)", **inertias),
         r"\dot\phi\text{ (opposite spins)}": form("I_3*omega/sqrt(a**2 - b**2)", **inertias),
     },

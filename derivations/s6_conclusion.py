@@ -104,7 +104,7 @@ verdict(
     },
     correction={r"\text{modes of oscillation}": sp.Integer(oscillations)},
     wrong="Only the paired precession oscillates; toppling is a steady turning.",
-    written={
+    form={
         r"(x_2/y_1, y_2/y_1)\text{ of the toppling}": form("column(0, -(G_1/G_2))"),
         r"(x_2/x_1, y_2/y_1)\text{ of the precession}": form("column(1, (a*G_2 - b*G_1)/(a*G_1 - b*G_2))"),
     },
@@ -136,7 +136,7 @@ prove(
     moved,
     sp.zeros(2, 1),
     "their rates along the linear motion",
-    written=(
+    equations=(
         r"\frac{d}{dt}\Big(x - \frac{a - b}{2G}\,(\dot y_1 - \dot y_2)\Big) = 0"
         r",\qquad \frac{d}{dt}\Big(y_1 - y_2 + \frac{2(a + b)}{G}\,\dot x\Big) = 0"
     ),
@@ -198,7 +198,7 @@ verdict(
         r"\Omega_0^2\text{ (opposite spins)}": square_written,
         r"\Omega/\Omega_0\text{ (opposite spins, through }r_0^3)": through_third_written,
     },
-    written={
+    form={
         r"\dot\phi\text{ (equal spins)}": cone_written,
         r"\dot\phi\text{ (opposite spins)}": opposite_written,
     },

@@ -93,7 +93,7 @@ prove(
     turned,
     joint_line_momentum().subs(where),
     "the momentum about the joint line",
-    written=r"P = \sum_i (a\,\dot r_i + b\,\dot r_j)\cdot(e_x\times r_i) + G_i\,x_i,\qquad j \neq i",
+    equations=r"P = \sum_i (a\,\dot r_i + b\,\dot r_j)\cdot(e_x\times r_i) + G_i\,x_i,\qquad j \neq i",
 )
 
 # %%
@@ -113,7 +113,7 @@ prove(
     energy(reduced.L, MERCATOR),
     quadratic,
     "the energy",
-    written=r"E = \tfrac a2\big(|\dot r_1|^2 + |\dot r_2|^2\big) + b\,\dot r_1\cdot\dot r_2",
+    equations=r"E = \tfrac a2\big(|\dot r_1|^2 + |\dot r_2|^2\big) + b\,\dot r_1\cdot\dot r_2",
 )
 
 # %% [markdown]

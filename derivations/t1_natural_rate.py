@@ -118,7 +118,7 @@ prove(
     oscillator,
     x_a + squared * x,
     "the equation of x",
-    written=r"\ddot x + \Omega_0^2\,x = 0,\qquad \Omega_0^2 = \frac{a\,(G_1^2 + G_2^2) - 2 b\,G_1 G_2}{2\,(a - b)\,(a + b)^2}",
+    equations=r"\ddot x + \Omega_0^2\,x = 0,\qquad \Omega_0^2 = \frac{a\,(G_1^2 + G_2^2) - 2 b\,G_1 G_2}{2\,(a - b)\,(a + b)^2}",
 )
 
 # %%

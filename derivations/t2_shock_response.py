@@ -37,7 +37,7 @@ Formula(N, "N")
 # $N$ satisfies a cubic equation, since one eigenvalue is zero and the others are $\pm i\Omega_0$ (t1):
 
 # %%
-prove(N**3, -squared * N, "N³ = −Ω_0² N", written=r"N^3 = -\Omega_0^2\,N")
+prove(N**3, -squared * N, "N³ = −Ω_0² N", equations=r"N^3 = -\Omega_0^2\,N")
 
 # %% [markdown]
 # The exponential series therefore reduces to the powers up to the second,
@@ -53,7 +53,7 @@ prove(
     left,
     (power**3 + w_0**2 * power) * (1 - sp.cos(w_0 * s)) / w_0**2,
     "what is left of the equation of the exponential, zero by the cubic equation",
-    written=r"\frac{d}{ds}\,e^{-Ns} + N e^{-Ns} = (N^3 + \Omega_0^2 N)\,\frac{1 - \cos\Omega_0 s}{\Omega_0^2}",
+    equations=r"\frac{d}{ds}\,e^{-Ns} + N e^{-Ns} = (N^3 + \Omega_0^2 N)\,\frac{1 - \cos\Omega_0 s}{\Omega_0^2}",
 )
 
 # %% [markdown]
@@ -66,36 +66,36 @@ prove(
 
 # %%
 drift, D, S = linear.drift, linear.displacement, linear.swing
-prove(D, -N * inverse / squared, "the displacement that stays", written=r"D = -\frac{N M^{-1}}{\Omega_0^2}")
+prove(D, -N * inverse / squared, "the displacement that stays", equations=r"D = -\frac{N M^{-1}}{\Omega_0^2}")
 
 # %%
-prove(S, -N * N * inverse / squared, "the velocity of the swing", written=r"S = -\frac{N^2 M^{-1}}{\Omega_0^2}")
+prove(S, -N * N * inverse / squared, "the velocity of the swing", equations=r"S = -\frac{N^2 M^{-1}}{\Omega_0^2}")
 
 # %%
 prove(
     drift,
     (sp.eye(3) + N * N / squared) * inverse,
     "the drift is what the swing leaves of the velocity",
-    written=r"\text{drift} = \Big(1 + \frac{N^2}{\Omega_0^2}\Big)\,M^{-1}",
+    equations=r"\text{drift} = \Big(1 + \frac{N^2}{\Omega_0^2}\Big)\,M^{-1}",
 )
 
 # %%
-prove(drift, n * n.T / (n.T * M * n)[0], "and it is along n", written=r"\text{drift} = \frac{n\,n^T}{n^T M\,n}")
+prove(drift, n * n.T / (n.T * M * n)[0], "and it is along n", equations=r"\text{drift} = \frac{n\,n^T}{n^T M\,n}")
 
 # %% [markdown]
 # The library's matrices solve the equation of motion: $M\dot H + CH = 1$, term by term in $1$, $s$, $\cos$ and $\sin$.
 
 # %%
-prove(M * drift + C * D, sp.eye(3), "the constant terms", written=r"M\cdot\text{drift} + C\,D = 1")
+prove(M * drift + C * D, sp.eye(3), "the constant terms", equations=r"M\cdot\text{drift} + C\,D = 1")
 
 # %%
-prove(C * drift, sp.zeros(3, 3), "the terms in s", written=r"C\cdot\text{drift} = 0")
+prove(C * drift, sp.zeros(3, 3), "the terms in s", equations=r"C\cdot\text{drift} = 0")
 
 # %%
-prove(M * S, C * D, "the terms in the cosine", written=r"M\,S = C\,D")
+prove(M * S, C * D, "the terms in the cosine", equations=r"M\,S = C\,D")
 
 # %%
-prove(squared * M * D, -C * S, "the terms in the sine", written=r"\Omega_0^2\,M\,D = -C\,S")
+prove(squared * M * D, -C * S, "the terms in the sine", equations=r"\Omega_0^2\,M\,D = -C\,S")
 
 # %% [markdown]
 # For opposite spins and a shock along the bar, the centre of the precession is a twist, without a displacement along $x$:
@@ -140,7 +140,7 @@ prove(
     along + across,
     (p.T * inverse * p)[0] / 2,
     "the energy that an impulse gives",
-    written=r"E_{\text{drift}} + E_{\text{swing}} = \tfrac12\,p\cdot M^{-1} p",
+    equations=r"E_{\text{drift}} + E_{\text{swing}} = \tfrac12\,p\cdot M^{-1} p",
 )
 
 # %% [markdown]

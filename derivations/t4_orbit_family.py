@@ -48,7 +48,7 @@ prove(
     (L.xreplace(mirrored), bar.xreplace(mirrored)),
     (L, bar),
     "Lagrangian and bar with time reversed and y → −y",
-    written=("L^* = L", "g^* = g"),
+    equations=("L^* = L", "g^* = g"),
 )
 
 # %% [markdown]
@@ -62,7 +62,7 @@ prove(
     (L.xreplace(exchanged), bar.xreplace(exchanged)),
     (L, bar),
     "Lagrangian and bar with the rotors exchanged and time reversed",
-    written=("L^* = L", "g^* = g"),
+    equations=("L^* = L", "g^* = g"),
 )
 
 # %% [markdown]

@@ -106,7 +106,7 @@ prove(
     (by_v * s**2 + (mixed - mixed.T) * s - by_q).det(),
     2 * A * s**2 * characteristic,
     "the third coordinate adds a double zero root",
-    written=r"\det{}_3(s) = 2A\,s^2\,\det(s)",
+    equations=r"\det{}_3(s) = 2A\,s^2\,\det(s)",
 )
 
 # %% [markdown]

@@ -56,7 +56,7 @@ prove(
     (along.subs(equal), about.subs(equal)),
     (2 * rotor[0], 2 * rotor[2]),
     "the pair is two of one rotor",
-    written=(r"\text{along} = 2\,\mathcal E_U^{\text{rotor}}", r"\text{about} = 2\,\mathcal E_\alpha^{\text{rotor}}"),
+    equations=(r"\text{along} = 2\,\mathcal E_U^{\text{rotor}}", r"\text{about} = 2\,\mathcal E_\alpha^{\text{rotor}}"),
 )
 
 # %% [markdown]
@@ -78,7 +78,7 @@ prove(
     stiffness,
     b * (speed + x * x_a),
     "its stiffness, b (|r′|² + x x″)",
-    written=r"\text{stiffness} = b\,\big(|\dot r|^2 + x\,\ddot x\big)",
+    equations=r"\text{stiffness} = b\,\big(|\dot r|^2 + x\,\ddot x\big)",
 )
 
 # %% [markdown]

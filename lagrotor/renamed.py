@@ -32,6 +32,10 @@ NAMES = {
     "lagrotor.mechanics.project_position": "lagrotor.mechanics.constraints.project_position",
     "lagrotor.mechanics.project_velocity": "lagrotor.mechanics.constraints.project_velocity",
     "lagrotor.mechanics.solve_constrained": "lagrotor.mechanics.constraints.solve_constrained",
+    "lagrotor.paper.Relation": "lagrotor.paper.verdicts.Relation",
+    "lagrotor.paper.Statement": "lagrotor.paper.verdicts.Statement",
+    "lagrotor.paper.chain": "lagrotor.paper.verdicts.chain",
+    "lagrotor.paper.decide": "lagrotor.paper.ledger.decide",
     "lagrotor.models.closed_form": "lagrotor.models.closed_form_model.closed_form",
     "lagrotor.structures.chern_numbers": "lagrotor.structures.waves.chern.chern_numbers",
     "lagrotor.structures.dispersion": "lagrotor.structures.waves.dispersion.dispersion",
@@ -47,6 +51,14 @@ ATTRIBUTES = {
 
 # Function or method, by its qualified name → {old keyword: new keyword}.
 KEYWORDS: dict[str, dict[str, str]] = {
+    "judge": {"given": "premises"},
+    "judge_text": {"given": "premises"},
+    "parameter_premise": {"put": "substitution", "own": "scene_values"},
+    "prove": {"left": "lhs", "right": "rhs", "written": "equations"},
+    "verdict": {"written": "form"},
+    "Paper.changes": {"found": "results"},
+    "Paper.evaluate": {"wanted": "ids"},
+    "Paper.renew_record": {"found": "results"},
     "MovingFrame.place": {"seen": "frame"},
     "MovingFrame.velocity": {"seen": "frame"},
     "Pathway.spring": {"rest": "rest_length"},

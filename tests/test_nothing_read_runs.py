@@ -25,6 +25,7 @@ from lagrotor.mechanics import System, coordinates
 from lagrotor.numerics.run import read_run
 from lagrotor.numerics.source_cache import GeneratedFunction
 from lagrotor.paper import Glossary, Paper, Premise, judge
+from lagrotor.paper.catalogue import section_glossary
 from lagrotor.paper.latex.check import check_source
 from lagrotor.paper.latex.displays import read_source
 from lagrotor.paper.latex.init import begin_paper, confirm
@@ -131,7 +132,7 @@ def use_paper(folder: Path) -> None:
         with suppress(LagrotorError):
             paper.lines(identifier)
         with suppress(LagrotorError):
-            paper.meanings(paper.equation(identifier).section)
+            section_glossary(paper, paper.equation(identifier).section)
 
 
 def paper_file(name: str, template: str) -> Callable[[Path, str], None]:

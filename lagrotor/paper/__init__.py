@@ -1,15 +1,14 @@
 """The test of printed mathematics, for any paper.
 
-Data pass through these types in this order. `Paper` is a folder, a `Catalogue` of equations, claims and figures in TOML, with
-its scripts and its record. `grammar` reads a printed line as sympy objects. A derivation shows formulas, forms and steps
-(`proof`: `Formula`, `Form`, `prove`), and states an equation by `verdict` (`equation_statements`). `statement` puts it beside
-the print, as a `Statement` of `Relation`s under `Premise`s. `hypotheses` makes one set of the premises; the `ledger` decides
-each line and gives a `Verdict` of `LineVerdict`s, with a `Theorem` where there is one. `Audit` holds the verdicts of a paper,
-in words and as data. `ClaimTest` runs a claim that is made in words. `record` compares verdicts and claims with those on
-record.
+Data pass through these types in this order. A `Paper` is a folder: a `Catalogue` of equations, claims and figures in TOML, with
+scripts and a record. `grammar` reads a printed line as sympy objects. A derivation shows formulas, forms and steps (`proof`:
+`Formula`, `Form`, `prove`), and states an equation by `verdict` (`equation_statements`). `statement` combines it with the print,
+as a `Statement` of `Relation`s under `Premise`s. `hypotheses` combines the premises into one set. The `ledger` decides each
+line and returns a `Verdict` of `LineVerdict`s; a `Theorem` decides in its place, if there is one. An `Audit` is the verdicts of
+a paper. A `ClaimTest` simulates a claim that is made in words. `record` compares verdicts and claims with those on record.
 
 `judge` and `judge_text` need no paper. `latex` reads LaTeX. To add a paper, write its folder (`lagrotor init`); to add a
-function that every print may call, add it to `grammar.FUNCTIONS`.
+function that every printed line may call, add it to `grammar.FUNCTIONS`.
 """
 
 from typing import TYPE_CHECKING
@@ -28,7 +27,6 @@ if TYPE_CHECKING:
     from lagrotor.paper.judgement import Judgement as Judgement
     from lagrotor.paper.judgement import judge_text as judge_text
     from lagrotor.paper.latex.stated_system import stated as stated
-    from lagrotor.paper.ledger import decide as decide
     from lagrotor.paper.ledger import judge as judge
     from lagrotor.paper.papers import Paper as Paper
     from lagrotor.paper.premises import Premise as Premise
@@ -41,11 +39,8 @@ if TYPE_CHECKING:
     from lagrotor.paper.tables import Table as Table
     from lagrotor.paper.theorems import Theorem as Theorem
     from lagrotor.paper.verdicts import LineVerdict as LineVerdict
-    from lagrotor.paper.verdicts import Relation as Relation
     from lagrotor.paper.verdicts import Series as Series
-    from lagrotor.paper.verdicts import Statement as Statement
     from lagrotor.paper.verdicts import Verdict as Verdict
-    from lagrotor.paper.verdicts import chain as chain
     from lagrotor.result_display import scientific as scientific
 
 __getattr__, __dir__, __all__ = face(__name__)

@@ -19,7 +19,22 @@ NOT_YET = "not-yet-judged"
 
 @dataclass(frozen=True)
 class Audit:
-    """The verdicts of an audit in the paper's order, by id: `audit["5.22"]`. waiting: ids that no derivation states."""
+    """The verdicts of an audit in the paper's order; `audit["5.22"]` is the verdict on one equation.
+
+    Attributes
+    ----------
+    verdicts : tuple[Verdict, ...]
+        One for each equation that a derivation states.
+    waiting : tuple[str, ...], default ()
+        Ids of the equations that no derivation states.
+
+    Examples
+    --------
+    >>> from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
+    >>> audit = Audit((PAPER.audit("2.01"), PAPER.audit("4.01")))
+    >>> audit["4.01"].verdict, audit.counts
+    ('holds', {'holds-if': 1, 'holds': 1})
+    """
 
     verdicts: tuple[Verdict, ...]
     waiting: tuple[str, ...] = ()
@@ -40,12 +55,12 @@ class Audit:
 
     @property
     def ids(self) -> tuple[str, ...]:
-        """Ids of the equations, those that are judged first."""
+        """The ids of the equations, first of those that are judged."""
         return (*(verdict.id for verdict in self.verdicts), *self.waiting)
 
     @property
     def counts(self) -> dict[str, int]:
-        """How many equations have each verdict, the most frequent first, those not yet judged last."""
+        """The number of equations by verdict, the most frequent first, `not-yet-judged` last."""
         counts = dict(Counter[str](verdict.verdict for verdict in self.verdicts).most_common())
         return counts | ({NOT_YET: len(self.waiting)} if self.waiting else {})
 
@@ -60,11 +75,11 @@ class Audit:
         return Table(table.title, table.head, (*table.rows, *rows))._repr_html_()
 
 
-_LONGEST = 120  # characters of a difference that is shown in a line
+_LONGEST = 120  # characters; a longer difference is replaced by the reason
 
 
 def in_words(verdict: Verdict, paper: Any) -> str:
-    """A verdict as a terminal shows it: printed, wrong, right, premises, domain, where it is derived."""
+    """Return a verdict as text for a terminal: print, error, correction, premises, domain, script of the derivation."""
     statement, entry = verdict.statement, paper.equation(verdict.id)
     order = (
         f" through order {verdict.order} in {readable(str(verdict.small))}"
@@ -79,7 +94,7 @@ def in_words(verdict: Verdict, paper: Any) -> str:
     rows += [("stated if", readable(premise.with_formula)) for premise in verdict.refuted_under]
     rows += [("right", line) for line in _lines(statement.correction)]
     rows += [("derived", line) for line in _lines(uncorrected(verdict), "derived")]
-    rows += [("letters", _unsaid(name)) for name in _not_derived(uncorrected(verdict))]
+    rows += [("letters", _undefined_symbol_text(name)) for name in _not_derived(uncorrected(verdict))]
     rows += [("correction", verdict.correction_verdict)] if verdict.correction_verdict else []
     needed = "right if" if verdict.verdict == "refuted" else "if"
     rows += [(needed, readable(premise.with_formula)) for premise in verdict.premises]
@@ -89,17 +104,22 @@ def in_words(verdict: Verdict, paper: Any) -> str:
     rows += [("evidence", line) for line in verdict.evidence if verdict.verdict in ("measured", "undecided")]
     if verdict.reaches_result is not None:
         reach = (
-            "a result of the paper falls with it" if verdict.reaches_result else "no result of the paper depends on it"
+            "a result of the paper depends on it" if verdict.reaches_result else "no result of the paper depends on it"
         )
         rows.append(("reach", reach))
     rows += [("read", readable(entry.reading))] if entry.reading else []
-    rows.append(("derived in", paper.derived_in(verdict.id) or "?"))
+    rows.append(("derived in", _derivation(paper, verdict.id) or "?"))
     head = f"{entry.id}  {readable(entry.title)}: {verdict.verdict}{order}"
     return "\n".join([head, *(f"  {name:<11}{text}" for name, text in rows)])
 
 
+def _derivation(paper: Any, identifier: str) -> str | None:
+    place = paper.scripts.stating.get(identifier)
+    return f"derivations/{place[0]}.py" if place else None
+
+
 def _not_derived(relations: Iterable[Relation]) -> list[str]:
-    """The names of letters of prints that nothing derived has."""
+    """Return the names of symbols that a printed side has and its derived side lacks."""
 
     def names(side: Any) -> set[str]:
         return {str(s) for s in getattr(side, "expression", side).free_symbols}
@@ -107,64 +127,63 @@ def _not_derived(relations: Iterable[Relation]) -> list[str]:
     return sorted({name for r in relations for name in names(r.printed) - names(r.derived)})
 
 
-def _unsaid(name: str) -> str:
-    return (
-        f"{readable(name)} is printed, and not derived: where the text says what it stands for, write "
-        f'letters = {{ {name} = "…" }}'
-    )
+def _undefined_symbol_text(name: str) -> str:
+    return f'{readable(name)} is printed, but not derived: if the text defines it, write letters = {{ {name} = "…" }}'
 
 
 def _printed(entry: Equation) -> list[str]:
-    """The lines of the catalogue, quantity = member = …, in plain text."""
+    """Return the printed lines of an equation, quantity = member = …, in plain text."""
     return [" = ".join([from_latex(row["quantity"]), *map(readable, row.get("members", ()))]) for row in entry.line]
 
 
 def line_text(line: LineVerdict) -> str:
-    """What was decided of one member of a line, in plain text, and why."""
+    """Return the verdict on one member of a line and its reason in plain text."""
     text = f"{from_latex(line.relation.quantity)}: {line.verdict}".removeprefix(": ")
-    shown = "" if line.difference is None or line.reason else readable(str(line.difference))
-    reason = f"differs by {shown}" if 0 < len(shown) <= _LONGEST else line.reason
+    difference = "" if line.difference is None or line.reason else readable(str(line.difference))
+    reason = f"differs by {difference}" if 0 < len(difference) <= _LONGEST else line.reason
     return f"{text}: {reason}" if reason else text
 
 
 def dimension_texts(verdict: Verdict) -> tuple[str, ...]:
-    """What the units say of the lines of an equation: of those that agree in one sentence, of each other one by name."""
+    """Return the result of the dimensional analysis: one sentence for all consistent lines, one for each other line."""
     alike, apart = dict[str, None](), dict[str, None]()
     for line in verdict.lines:
-        found, quantity = line.dimensions, from_latex(line.relation.quantity)
-        if found and found.answer == "consistent":
-            alike[found.says] = None
-        elif found:
-            apart[f"{quantity}: {found.answer}: {found.says}"] = None
-    return (*([f"the same on both sides: {'; '.join(alike)}"] if alike else []), *apart)
+        dimensions, quantity = line.dimensions, from_latex(line.relation.quantity)
+        if dimensions and dimensions.answer == "consistent":
+            alike[dimensions.says] = None
+        elif dimensions:
+            apart[f"{quantity}: {dimensions.answer}: {dimensions.says}"] = None
+    return (*([f"equal on both sides: {'; '.join(alike)}"] if alike else []), *apart)
 
 
 def uncorrected(verdict: Verdict) -> list[Relation]:
-    """The refuted lines of which no correction is given: what was derived of them is shown instead."""
+    """Return the refuted lines that have no correction; their derived sides are shown instead."""
     right = {relation.quantity for relation in verdict.statement.correction}
     refuted = (line.relation for line in verdict.lines if line.verdict == "refuted")
     return [relation for relation in refuted if relation.quantity not in right]
 
 
 def _lines(relations: Iterable[Relation], side: str = "printed") -> list[str]:
-    """quantity = expression for each relation, in plain text."""
+    """Return `quantity = expression` for each relation, in plain text."""
     lines = []
     for relation in relations:
         small, order = relation.known or (relation.small, relation.claimed)
-        rest = f" + O({small}**{order + 1})" if small is not None else ""
-        right = from_latex(relation.written) if relation.written else readable(str(getattr(relation, side)) + rest)
+        order_term = f" + O({small}**{order + 1})" if small is not None else ""
+        right = (
+            from_latex(relation.written) if relation.written else readable(str(getattr(relation, side)) + order_term)
+        )
         lines.append(f"{from_latex(relation.quantity)} = {right}")
     return list(dict.fromkeys(lines))
 
 
 def _sides(relations: tuple[Relation, ...], side: str) -> str | None:
     lines = ((r.quantity, r.written or latex(getattr(r, side))) for r in relations)
-    found = dict.fromkeys((f"{quantity} = " if quantity else "") + line for quantity, line in lines)
-    return r" \quad ".join(found) or None
+    sides = dict.fromkeys((f"{quantity} = " if quantity else "") + line for quantity, line in lines)
+    return r" \quad ".join(sides) or None
 
 
 def verdict_data(verdict: Verdict, paper: Any) -> dict[str, Any]:
-    """One verdict as the JSON object of `lagrotor audit --json`."""
+    """Return one verdict as the JSON object of `lagrotor audit --json`."""
     statement, entry = verdict.statement, paper.equation(verdict.id)
     return {
         "id": entry.id,
@@ -173,7 +192,7 @@ def verdict_data(verdict: Verdict, paper: Any) -> dict[str, Any]:
         "printed": entry.latex,
         "reading": entry.reading,
         "derived": _sides(statement.relations, "derived"),
-        "derived_in": paper.derived_in(entry.id),
+        "derived_in": _derivation(paper, entry.id),
         "verdict": verdict.verdict,
         "premises": [premise_data(premise) for premise in verdict.premises],
         "refuted_under": [premise_data(premise) for premise in verdict.refuted_under],
@@ -187,25 +206,25 @@ def verdict_data(verdict: Verdict, paper: Any) -> dict[str, Any]:
         "correction_lines": [line_data(line) for line in verdict.correction_lines],
         "depends_on": list(statement.depends_on),
         "reaches_result": verdict.reaches_result,
-        "proved": [{"says": each.says, "encloses": each.encloses} for each in verdict.theorems],
+        "proved": [{"says": theorem.says, "encloses": theorem.encloses} for theorem in verdict.theorems],
         "evidence": list(verdict.evidence),
         "seconds": round(verdict.seconds, 4),
     }
 
 
 def premise_data(premise: Premise) -> dict[str, Any]:
-    """A premise as an object: in words; its equations and conditions; what is small; how far the paper's scene breaks it."""
-    put = [f"{left} = {right}" for left, right in premise.equations] + [str(r) for r in premise.conditions]
+    """Return a premise as a JSON object."""
+    relations = [f"{lhs} = {rhs}" for lhs, rhs in premise.equations] + [str(r) for r in premise.conditions]
     return {
         "says": premise.says,
-        "put": put,
+        "put": relations,
         "small": str(premise.small) if premise.small else None,
         "broken": premise.broken,
     }
 
 
 def line_data(line: LineVerdict) -> dict[str, Any]:
-    """The verdict on one member of a line as an object; a witness gives each letter's exact value, or two bounds."""
+    """Return the verdict on one member as a JSON object; its `witness` has each symbol's exact value or two bounds."""
     ends = line.enclosure
     return {
         "quantity": line.relation.quantity,
@@ -229,12 +248,12 @@ def _exact(value: Any) -> Any:
 
 
 def waiting(entry: Equation) -> dict[str, Any]:
-    """An equation that is not yet judged as an object of the same JSON."""
+    """Return an equation that is not yet judged as a JSON object."""
     printed = {"id": entry.id, "section": entry.section, "title": entry.title, "printed": entry.latex}
     return {**printed, "verdict": NOT_YET}
 
 
 def verdicts_json(verdicts: Iterable[Verdict], paper: Any, not_yet: Iterable[str] = ()) -> str:
-    """Verdicts as a JSON list, then the equations that are not yet judged."""
+    """Return verdicts, then the equations that are not yet judged, as a JSON list."""
     rows = [verdict_data(verdict, paper) for verdict in verdicts] + [waiting(paper.equation(i)) for i in not_yet]
     return json.dumps(rows, indent=1, ensure_ascii=False)

@@ -1,9 +1,10 @@
-"""The scope of an audit as data: `paper.toml`, the equations, claims and figures of a paper in its order, and its letters."""
+"""The catalogue of a paper: `paper.toml`, its equations, claims and figures in its order, and its symbols."""
 
 import json
 import re
 import tomllib
 from collections.abc import Collection, Iterable, Iterator, Mapping
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 from hashlib import sha256
@@ -23,11 +24,11 @@ from lagrotor.paper.scripts import importable
 
 @dataclass(frozen=True)
 class HeadlineEntry:
-    """One result that the report begins with: `text` has numbers of the run in braces.
+    """A result at the beginning of the report; `text` contains computed numbers in braces.
 
-    {C02[rate]:.3f} is a number of a claim's test, {figure 3[period (s)]:.2f} one read off a figure, {2.1} the verdict on an
-    equation, {2.1[correction]} that on its correction. ids: what it is shown in. formula: the equation whose derived or
-    corrected form is shown; quantity: of which of its lines, in LaTeX. figure: the one that is shown beside it, "figure 19".
+    {C02[rate]:.3f} is a number of a claim's test, {figure 3[period (s)]:.2f} one of a figure, {2.1} the verdict on an equation,
+    {2.1[correction]} the verdict on its correction. `ids` are the sources; `formula` is the equation whose derived side is
+    shown, for its line `quantity` (LaTeX); `figure` is shown beside the text, "figure 19".
     """
 
     title: str
@@ -40,10 +41,7 @@ class HeadlineEntry:
 
 @dataclass(frozen=True)
 class Opening:
-    """One of the lines that the report opens with: what the paper did, what is right, what is wrong.
-
-    text: with numbers in braces as a headline's; {equations}, {claims}, {holding} and {refuted} are counts.
-    """
+    """One line of the report's opening; the text may contain the counts {equations}, {claims}, {holding} and {refuted}."""
 
     label: str
     text: str
@@ -51,10 +49,10 @@ class Opening:
 
 @dataclass(frozen=True)
 class ReportPart:
-    """A part of the report: what some derivations, by the beginnings of their names, and figures, by their letter, show.
+    """A part of the report.
 
-    remarks, tables: beginnings of the names of derivations. figures: the letter before their numbers. front: whether it
-    stands on the report's first page.
+    `remarks` and `tables` are prefixes of the names of derivations, `figures` the letters before the numbers of figures. `front`
+    puts the part on the report's first page.
     """
 
     name: str
@@ -74,13 +72,12 @@ USUAL_PARTS = (
 
 @dataclass(frozen=True)
 class TitlePage:
-    """The whole of `paper.toml`.
+    """The content of `paper.toml`.
 
-    sections: number → heading. results: ids of the equations in which the paper's work ends. equations_in, claims_in:
-    beginnings of the names of the derivations that state equations, and that show tests of claims. model: a module with a
-    function `interactive() -> str`, a section of the page in HTML. letters: names of those that the notation begins with.
-    notation: how its formulas are to be read, where the print leaves it open. preamble: what its LaTeX needs besides amsmath.
-    system: a derivation stated as text, `coordinates`, `L`, `constraints` (`lagrotor.paper.latex.stated_system`).
+    `sections` are number → heading; `results` the ids of the paper's main equations. `equations_in` and `claims_in` are prefixes
+    of the names of the derivations that state equations and test claims. `model` is a module whose `interactive() -> str` gives
+    a section of the page in HTML. `letters` are the first symbols of the notation; `notation` declares how ambiguous formulas are
+    read; `preamble` is LaTeX besides amsmath. `system` is a derivation as text (`lagrotor.paper.latex.stated_system`).
     """
 
     title: str
@@ -100,7 +97,7 @@ class TitlePage:
 
 
 def toml(file: Path) -> dict[str, Any]:
-    """A TOML file; raises InputError, with the line, where it cannot be read."""
+    """Read a TOML file; raise InputError, with the line, if it cannot be read."""
     try:
         with file.open("rb") as opened:
             return tomllib.load(opened)
@@ -110,16 +107,16 @@ def toml(file: Path) -> dict[str, Any]:
         raise InputError(f"{file}: {error}") from None
 
 
-def row(kind: type, given: Any, where: str) -> Any:
-    """A row of a TOML file as a dataclass; raises InputError that names a key which is missing or means nothing."""
-    known = {entry.name: entry for entry in fields(kind)}
-    if not isinstance(given, dict):
+def row(kind: type, table: Any, where: str) -> Any:
+    """Return a table of a TOML file as a dataclass; raise InputError that names a missing or unknown key."""
+    columns = {entry.name: entry for entry in fields(kind)}
+    if not isinstance(table, dict):
         raise InputError(
-            f"{where}: {given!r} is no table: write {kind.__name__.lower()} as [[{kind.__name__.lower()}]]"
+            f"{where}: {table!r} is no table: write {kind.__name__.lower()} as [[{kind.__name__.lower()}]]"
         )
-    if unknown := sorted(given.keys() - known.keys()):
-        raise InputError(f"{where}: {unknown[0]!r} means nothing here: the keys are {', '.join(known)}")
-    values = {name: tuple(value) if isinstance(value, list) else value for name, value in given.items()}
+    if unknown := sorted(table.keys() - columns.keys()):
+        raise InputError(f"{where}: {unknown[0]!r} means nothing here: the keys are {', '.join(columns)}")
+    values = {name: tuple(value) if isinstance(value, list) else value for name, value in table.items()}
     try:
         return kind(**values)
     except TypeError as error:
@@ -128,7 +125,7 @@ def row(kind: type, given: Any, where: str) -> Any:
 
 
 def title_page(folder: Path) -> TitlePage:
-    """Reads `paper.toml`. Raises InputError where the folder has none, or it says what means nothing."""
+    """Read `paper.toml`; raise InputError if it is missing or has an unknown key."""
     file = folder / "paper.toml"
     if not file.is_file():
         if folder.is_file():
@@ -138,22 +135,22 @@ def title_page(folder: Path) -> TitlePage:
         raise InputError(
             f"{folder} is no paper: it has no paper.toml; `lagrotor init {folder.name or 'my-paper'}` makes one"
         )
-    given = toml(file)
+    page = toml(file)
     for key, kind in (("opening", Opening), ("headline", HeadlineEntry), ("part", ReportPart)):
-        if key in given:
-            given[key] = [_checked(row(kind, each, f"{file}: {key}"), f"{file}: {key}") for each in given[key]]
-    return row(TitlePage, given, str(file))
+        if key in page:
+            page[key] = [_check_braces(row(kind, entry, f"{file}: {key}"), f"{file}: {key}") for entry in page[key]]
+    return row(TitlePage, page, str(file))
 
 
-def _checked(found: Any, where: str) -> Any:
-    """The same; raises InputError where its text has a brace that is not closed."""
+def _check_braces(entry: Any, where: str) -> Any:
+    """Return the entry; raise InputError if a brace in its text is not closed."""
     try:
-        list(Formatter().parse(getattr(found, "text", "")))
+        list(Formatter().parse(getattr(entry, "text", "")))
     except ValueError as error:
         raise InputError(
             f"{where}: text: {error}: numbers go in braces, {{C01[name]:.3f}}; a brace alone is {{{{"
         ) from None
-    return found
+    return entry
 
 
 Row = TypeVar("Row", bound="Equation | Claim | Figure")
@@ -164,14 +161,15 @@ _LINE = ("quantity", "members", "order", "small", "read_off", "scene", "names")
 
 @dataclass(frozen=True)
 class Equation:
-    """One printed equation: `latex` as the source prints it, `number` the paper's own where it gives one.
+    """One printed equation; `latex` is its source, `number` its number in the paper.
 
-    line: its printed lines as written in the catalogue. reading: a remark on how they were read. read: of lines that were read
-    from a source, "unconfirmed" or "confirmed", then with `print`, a hash of the confirmed lines; "gone" where the source no
-    longer has it. label, lead: its name in the source, and the left side of the row that it continues. aside: statements that
-    were read and are compared with nothing. changed: its print before the source changed. letters: meanings that the text
-    around the equation gives its letters. refers: letter → id of the equation that defines it, whose derived side stands for
-    it. measured: the equation is a number read off a run. place: the paper's own heading over it, where `section` is wider.
+    `line` has the printed lines as the catalogue writes them; `reading` is a remark on their reading. `letters` are meanings that
+    the text around the equation gives its symbols; `refers` is symbol → id of the equation that defines it. `measured` marks a
+    number read off a simulation. `place` is the heading in the paper, if `section` is wider.
+
+    For lines read from LaTeX, `read` is "unconfirmed", "confirmed" or, if the source no longer has the equation, "gone"; `print`
+    is a hash of the confirmed lines. `label` is the name in the source, `lead` the left side of the row that the equation
+    continues, `aside` the statements that are not compared, `changed` the print before the source changed.
     """
 
     id: str
@@ -194,19 +192,19 @@ class Equation:
 
     @property
     def is_confirmed(self) -> bool:
-        """Whether its lines are the author's word: written by hand, or confirmed as they stand."""
+        """True if the author wrote its lines or confirmed their present form."""
         return not self.read or (self.read == "confirmed" and self.print == reading_digest(self.latex, self.line))
 
     @property
     def cited(self) -> str:
-        """How to point to it in the paper: its own number, or its section."""
+        """The citation: its number and section, or its section."""
         where = f"section {self.place or self.section}"
         return f"({self.number}), {where}" if self.number else where
 
 
 @dataclass(frozen=True)
 class Claim:
-    """What the paper states in words: `equations` are the ids of those that it is about."""
+    """A statement of the paper in words; `equations` are the ids of the equations that it concerns."""
 
     id: str
     section: str
@@ -215,14 +213,14 @@ class Claim:
 
     @property
     def figures(self) -> tuple[str, ...]:
-        """Numbers of the figures that the text names."""
+        """The numbers of the figures in the text."""
         named = re.findall(r"figures? (\d+(?:, \d+)*)", self.text)
         return tuple(number for group in named for number in group.split(", "))
 
 
 @dataclass(frozen=True)
 class Figure:
-    """One figure: `kind` is diagram, simulated, analytical or both; `equations` are the ids of those that it shows."""
+    """One figure; `kind` is diagram, simulated, analytical or both; `equations` are the ids of those that it shows."""
 
     number: int
     kind: str
@@ -237,18 +235,18 @@ class Figure:
 
 
 def reading_digest(latex: str, lines: Iterable[Mapping[str, Any]]) -> str:
-    """A hash of a print and its lines: what was confirmed is this and nothing else."""
-    said = json.dumps([latex, [dict(line) for line in lines]], sort_keys=True, default=str)
-    return sha256(said.encode()).hexdigest()[:16]
+    """Return a hash of a print and its lines, which identifies the confirmed reading."""
+    text = json.dumps([latex, [dict(line) for line in lines]], sort_keys=True, default=str)
+    return sha256(text.encode()).hexdigest()[:16]
 
 
 def is_claim(identifier: str) -> bool:
-    """Return whether an id is that of a claim, C and a number, not that of an equation."""
+    """Return True if an id is that of a claim, C and a number."""
     return _CLAIM.fullmatch(identifier) is not None
 
 
 def known_id(identifier: str, ids: Collection[str]) -> str:
-    """An id that the paper has. Raises InputError that names near ones: 5.1 may be 5.01 or 5.10."""
+    """Return an id of the paper; raise InputError that names similar ids for any other: 5.1 may be 5.01 or 5.10."""
     if identifier in ids:
         return identifier
     if not ids:
@@ -262,10 +260,10 @@ def known_id(identifier: str, ids: Collection[str]) -> str:
 
 @dataclass(frozen=True)
 class Catalogue:
-    """What a paper's folder says: `paper.toml`, `equations.toml`, and, where there are any, claims, figures, symbols.
+    """The data of a paper's folder: `paper.toml`, `equations.toml` and, if present, claims, figures and symbols.
 
-    Raises InputError, with the file and the id, for a folder without `paper.toml`, an id given twice, a section or an
-    equation that the paper does not have, a key that means nothing. The printed lines are read when they are used.
+    Raises InputError, with the file and the id, for a folder without `paper.toml`, a duplicate id, an unknown section or
+    equation, and an unknown key. The printed lines are read when they are used.
     """
 
     folder: Path
@@ -278,7 +276,7 @@ class Catalogue:
 
     @cached_property
     def about(self) -> TitlePage:
-        """The whole of `paper.toml`."""
+        """The content of `paper.toml`."""
         return title_page(self.folder)
 
     @property
@@ -288,22 +286,22 @@ class Catalogue:
 
     @cached_property
     def equations(self) -> dict[str, Equation]:
-        """Every equation by id, in the paper's order."""
+        """The equations by id, in the paper's order."""
         return self._rows("equations", "equation", Equation)
 
     @cached_property
     def claims(self) -> dict[str, Claim]:
-        """Every claim by id, in the paper's order."""
+        """The claims by id, in the paper's order."""
         return self._rows("claims", "claim", Claim) if (self.folder / "claims.toml").is_file() else {}
 
     @cached_property
     def figures(self) -> dict[int, Figure]:
-        """Every figure by number."""
+        """The figures by number."""
         return self._rows("figures", "figure", Figure) if (self.folder / "figures.toml").is_file() else {}
 
     @property
     def data(self) -> list[Path]:
-        """The files that every verdict rests on: the TOML files and the letters."""
+        """The files on which every verdict depends: the TOML files and `symbols.py`."""
         names = (*(f"{name}.toml" for name in ("paper", "equations", "claims", "figures")), "symbols.py")
         return sorted(file for name in names if (file := self.folder / name).is_file())
 
@@ -313,20 +311,20 @@ class Catalogue:
 
     def _rows(self, name: str, key: str, kind: type[Row]) -> dict[Any, Row]:
         file = self.folder / f"{name}.toml"
-        given = self._equations_toml if name == "equations" else toml(file)
-        if unknown := sorted(given.keys() - {key, "letters", "units"}):
+        content = self._equations_toml if name == "equations" else toml(file)
+        if unknown := sorted(content.keys() - {key, "letters", "units"}):
             raise InputError(f"{file}: {unknown[0]!r} means nothing here: write [[{key}]]")
         rows: dict[Any, Row] = {}
-        for each in given.get(key, []):
-            where = f"{file}: {key} {each.get('id', each.get('number', '?')) if isinstance(each, dict) else '?'}"
-            read: Row = row(kind, each, where)
+        for entry in content.get(key, []):
+            where = f"{file}: {key} {entry.get('id', entry.get('number', '?')) if isinstance(entry, dict) else '?'}"
+            read: Row = row(kind, entry, where)
             if read.id in rows:
                 raise InputError(f"{where}: the id is given twice")
             rows[read.id] = read
         return rows
 
     def _problems(self) -> Iterator[str]:
-        """What does not fit together, one sentence each."""
+        """Yield a sentence for each inconsistency of the files."""
         file, sections = self.folder / "paper.toml", self.about.sections
         yield from self._problems_of_lines(self.folder / "equations.toml")
         for name, rows in (("equations", self.equations), ("claims", self.claims), ("figures", self.figures)):
@@ -337,36 +335,68 @@ class Catalogue:
                 if (name == "claims") != is_claim(str(entry.id)):
                     yield f"{where}: ids of claims, and only these, are C and a number"
                 named = entry.refers.values() if isinstance(entry, Equation) else entry.equations
-                yield from (f"{where}: there is no equation {other}" for other in named if other not in self.equations)
+                yield from (
+                    f"{where}: there is no equation {reference}"
+                    for reference in named
+                    if reference not in self.equations
+                )
         yield from (f"{file}: results: there is no equation {i}" for i in self.about.results if i not in self.equations)
         model = self.about.model
-        own = model.isidentifier() and (self.folder / f"{model}.py").is_file()
-        if model and not (own or model.startswith("lagrotor.report.")):
+        is_local = model.isidentifier() and (self.folder / f"{model}.py").is_file()
+        if model and not (is_local or model.startswith("lagrotor.report.")):
             yield f"{file}: model: {model!r} is no module of this folder"
 
     def _problems_of_lines(self, file: Path) -> Iterator[str]:
-        """What is wrong with the printed lines and the letters of the sections."""
-        for each in self.equations.values():
-            for line in each.line:
+        """Yield a sentence for each inconsistency of the printed lines and of the symbols of sections."""
+        for equation in self.equations.values():
+            for line in equation.line:
                 for key in sorted(line.keys() - set(_LINE)):
-                    yield f"{file}: {each.id}: a line has no {key!r}: its keys are {', '.join(_LINE)}"
+                    yield f"{file}: {equation.id}: a line has no {key!r}: its keys are {', '.join(_LINE)}"
                 if "quantity" not in line:
-                    yield f"{file}: {each.id}: a line has no quantity: say in LaTeX what it is about"
+                    yield f"{file}: {equation.id}: a line has no quantity: say in LaTeX what it is about"
         for key in ("letters", "units"):
             for section in self._equations_toml.get(key, {}).keys() - self.about.sections.keys():
                 yield f"{file}: {key}: section {section!r} is not among the sections of paper.toml"
 
     def equation(self, identifier: str) -> Equation:
-        """One equation; refuses an id that the paper does not have."""
+        """Return one equation.
+
+        Parameters
+        ----------
+        identifier : str
+            The equation's id.
+
+        Returns
+        -------
+        Equation
+            With its LaTeX and its printed lines.
+
+        Raises
+        ------
+        InputError
+            If the paper does not have the id; the message names similar ones.
+
+        Examples
+        --------
+        >>> from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
+        >>> PAPER.equation("5.24").cited
+        'section 5.3'
+        """
         return self.equations[known_id(identifier, self.equations)]
 
-    def importable(self) -> Any:
-        """A context in which modules of the paper's folder can be imported by their names."""
+    def importable(self) -> AbstractContextManager[None]:
+        """Open a context in which the modules of the paper's folder can be imported by name.
+
+        Returns
+        -------
+        AbstractContextManager[None]
+            Two papers may have modules of the same name.
+        """
         return importable(self.folder, self.modules)
 
     @cached_property
     def _symbols(self) -> ModuleType | None:
-        """The module `symbols` of the folder; it defines GLOSSARY, and may define FUNCTIONS, LATEX, WRITTEN_OUT."""
+        """The module `symbols` of the folder, with GLOSSARY and, optionally, FUNCTIONS, LATEX, WRITTEN_OUT."""
         if not (self.folder / "symbols.py").is_file():
             return None
         with self.importable():
@@ -377,41 +407,78 @@ class Catalogue:
 
     @property
     def glossary(self) -> Glossary:
-        """The paper's letters with meanings and units."""
+        """The paper's symbols with meanings and units."""
         return getattr(self._symbols, "GLOSSARY", None) or Glossary()
 
     @property
     def written_out(self) -> Mapping[Any, Any]:
-        """Letters that stand for expressions in others; they are written out before the values of a scene are put in."""
+        """The symbols that abbreviate expressions; they are expanded before the values of a scene are substituted."""
         return getattr(self._symbols, "WRITTEN_OUT", {})
 
     def letters(self, section: str) -> Letters:
-        """What the printed lines of a section are written in, besides the functions of every paper."""
+        """Return the symbols and functions of a section.
+
+        Parameters
+        ----------
+        section : str
+            Number of the section.
+
+        Returns
+        -------
+        Letters
+            Besides `grammar.FUNCTIONS`, which every paper may call.
+
+        Examples
+        --------
+        >>> from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
+        >>> PAPER.letters("5.2").names["theta_0"]
+        theta_0
+        """
         check_names(str(self.folder / "symbols.py"), list(self.glossary), dict(self.written_out))
-        own = {symbol.name: symbol for symbol in self.glossary}
-        given = self._equations_toml.get("letters", {}).get(section, {})
-        names = {**own, **getattr(self._symbols, "FUNCTIONS", {}), **declared(given)}
+        glossary_names = {symbol.name: symbol for symbol in self.glossary}
+        section_letters = self._equations_toml.get("letters", {}).get(section, {})
+        names = {**glossary_names, **getattr(self._symbols, "FUNCTIONS", {}), **declared(section_letters)}
         return Letters(names, getattr(self._symbols, "LATEX", {}))
 
-    def meanings(self, section: str) -> Glossary:
-        """The glossary, and the units that `[units]` gives to the letters of a section: unit → names in a row.
-
-        Raises InputError for a name that the section does not have.
-        """
-        names, glossary = self.letters(section).names, Glossary(self.glossary)
-        for unit, letters in self._equations_toml.get("units", {}).get(section, {}).items():
-            for name in letters.split():
-                if name not in names:
-                    raise InputError(
-                        f"{self.folder / 'equations.toml'}: units: section {section} has no letter {name!r}"
-                    )
-                glossary |= {symbol: Entry(symbol, "parameter", unit) for symbol in components([names[name]])}
-        return glossary
-
     def lines(self, identifier: str) -> tuple[Line, ...]:
-        """The printed lines of an equation as expressions. Raises InputError where one cannot be read."""
+        """Read the printed lines of an equation.
+
+        Parameters
+        ----------
+        identifier : str
+            The equation's id.
+
+        Returns
+        -------
+        tuple[Line, ...]
+            The members of each line as sympy expressions.
+
+        Raises
+        ------
+        InputError
+            If a line cannot be read.
+
+        Examples
+        --------
+        >>> from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
+        >>> PAPER.lines("5.24")[0].quantity
+        '\\\\dot\\\\phi'
+        """
         entry = self.equation(identifier)
         names, where = dict(self.letters(entry.section).names), f"{self.folder / 'equations.toml'}: {identifier}"
         for letter, meaning in entry.letters.items():
-            names[letter] = read(meaning, names, f"{where}, letter {letter}")
-        return tuple(read_line(each, names, where) for each in entry.line)
+            names[letter] = read(meaning, names, f"{where}, symbol {letter}")
+        return tuple(read_line(line, names, where) for line in entry.line)
+
+
+def section_glossary(catalogue: Catalogue, section: str) -> Glossary:
+    """Return the glossary with the units of a section in `equations.toml`; raise InputError for an unknown symbol."""
+    names, glossary = catalogue.letters(section).names, Glossary(catalogue.glossary)
+    for unit, letters in catalogue._equations_toml.get("units", {}).get(section, {}).items():
+        for name in letters.split():
+            if name not in names:
+                raise InputError(
+                    f"{catalogue.folder / 'equations.toml'}: units: section {section} has no symbol {name!r}"
+                )
+            glossary |= {symbol: Entry(symbol, "parameter", unit) for symbol in components([names[name]])}
+    return glossary

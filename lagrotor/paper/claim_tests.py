@@ -1,7 +1,7 @@
-"""Tests of the paper's claims: what is said in words is run, measured, and decided by the numbers alone.
+"""Tests of claims that a paper makes in words: a simulation measures numbers, and a rule decides by these numbers alone.
 
-A `ClaimTest` separates the run from the decision, so that the same decision can be given the numbers of a case that
-contradicts the claim, and must then come out otherwise. Where motion can be enclosed, a part is decided by a theorem instead.
+A `ClaimTest` separates the simulation from the decision. The same rule must decide otherwise for a case that contradicts the
+claim. If a theorem encloses the motion, it decides in place of the simulation.
 """
 
 import json
@@ -20,31 +20,40 @@ Outcome = Literal["proved", "confirmed", "confirmed-if", "refuted"]
 
 
 class PrintedNumber(float):
-    """A number by its printed digits. It stands for every number that rounds to it: half a unit of its last digit either way."""
+    """A printed number. It represents every number that rounds to it, half a unit of the last digit either way."""
 
     def __init__(self, digits: str) -> None:
         self.digits, self.half_unit = digits, 0.5 / 10 ** len(digits.partition(".")[2])
 
     def is_matched(self, number: float) -> bool:
-        """Return whether a number rounds to it."""
+        """Return True if a number rounds to the printed one."""
         return abs(number - self) < self.half_unit
 
     @property
     def rule(self) -> str:
-        """The numbers for which it stands, in words."""
-        return f"{self.digits} as printed stands for {self - self.half_unit:.8g} to {self + self.half_unit:.8g}"
+        """The represented interval, in words."""
+        return f"{self.digits} as printed means {self - self.half_unit:.8g} to {self + self.half_unit:.8g}"
 
 
 @dataclass(frozen=True)
 class Part:
-    """One part of a claim's sentence, in words, and whether the numbers bear it out.
+    """One part of a claim's sentence and whether it holds.
 
     Attributes
     ----------
+    says : str
+        The part in words.
+    holds : bool
+        True if the numbers confirm it.
     only_if : str, default ''
-        Where it does not hold unconditionally, the condition under which it does; empty where there is none.
+        The condition under which a part holds that does not hold in general; empty without one.
     theorems : tuple[Theorem, ...], default ()
-        Those from which it follows; without any it rests on runs, which are estimates.
+        The theorems that decide the part; without any, simulations decide.
+
+    Examples
+    --------
+    >>> Part("the link length is constant", False, "the amplitude is small").outcome
+    'holds only if: the amplitude is small'
     """
 
     says: str
@@ -54,19 +63,32 @@ class Part:
 
     @property
     def outcome(self) -> str:
-        """In words."""
+        """The decision in words."""
         if self.holds or not self.only_if:
-            said = "holds" if self.holds else "does not hold"
-            return f"{said}, proved" if self.theorems else said
+            words = "holds" if self.holds else "does not hold"
+            return f"{words}, proved" if self.theorems else words
         return f"holds only if: {self.only_if}{'; it is proved that it does not always hold' if self.theorems else ''}"
 
 
 @dataclass(frozen=True)
 class Finding:
-    """What the numbers say of each part of the sentence, and an explanation with the numbers.
+    """The decision on a claim.
 
-    A claim is confirmed where every part holds, proved where each of them follows from theorems, confirmed-if where some hold
-    only under a condition, and refuted where one does not hold under any.
+    A claim is refuted if a part holds under no condition, confirmed-if if a part needs a condition, proved if theorems
+    decide every part, and confirmed otherwise.
+
+    Attributes
+    ----------
+    parts : tuple[Part, ...]
+        The parts of the sentence.
+    explanation : str
+        Sentences with the numbers.
+
+    Examples
+    --------
+    >>> finding = Finding((Part("it swings", True), Part("harmonically", False, "the angle is small")), "")
+    >>> finding.outcome, finding.condition
+    ('confirmed-if', 'the angle is small')
     """
 
     parts: tuple[Part, ...]
@@ -74,7 +96,7 @@ class Finding:
 
     @property
     def outcome(self) -> Outcome:
-        """What follows from the parts."""
+        """The decision on the whole claim."""
         if any(not part.holds and not part.only_if for part in self.parts):
             return "refuted"
         if not all(part.holds for part in self.parts):
@@ -83,23 +105,17 @@ class Finding:
 
     @property
     def condition(self) -> str | None:
-        """The conditions of the parts, each once; None unless the outcome is confirmed-if."""
+        """The conditions of the parts as one sentence; None unless the outcome is confirmed-if."""
         needed = dict.fromkeys(part.only_if for part in self.parts if not part.holds)
         return "; ".join(needed) if self.outcome == "confirmed-if" else None
 
     @property
     def theorems(self) -> tuple[tuple[Part, Theorem], ...]:
-        """The parts that follow from theorems, each with each of its theorems."""
+        """Each part with each theorem that decides it."""
         return tuple((part, theorem) for part in self.parts for theorem in part.theorems)
 
-    def decided_by(self, proved: Iterable[Part], where: str) -> "Finding":
-        """The finding with parts that follow from theorems in place of those of the same words.
-
-        Raises
-        ------
-        ProofError
-            Where there is no such part, where it has no theorem, or where a run says otherwise.
-        """
+    def _with_theorems(self, proved: Iterable[Part], where: str) -> "Finding":
+        """Replace parts by those with theorems; raise ProofError if one is unknown or contradicts the simulation."""
         parts = {part.says: part for part in self.parts}
         for part in proved:
             if part.says not in parts or not part.theorems:
@@ -115,21 +131,33 @@ class Finding:
 
 @dataclass(frozen=True)
 class ClaimTest:
-    """The test of one claim: `measure(case)` runs a case and returns name → number; `decide` makes a finding of them.
+    """The test of one claim.
 
     Attributes
     ----------
-    case
-        What the claim is about, whatever `measure` takes.
-    foreign : mapping
-        Part of the sentence → a case in which that part comes out otherwise.
+    id : str
+        The claim's id in `claims.toml`.
+    case : Any
+        The argument of `measure` for the claim's own case.
+    foreign : Mapping[str, Any]
+        Part of the sentence → a case for which the decision on that part must differ.
     model : str
-        What is run.
-    prove : callable or None, optional
-        Case → those parts that follow from theorems, with them; a part that the runs decide otherwise, and a certificate
-        that is rejected, are errors.
+        The simulated models, in words.
+    measure : Callable
+        Case → numbers by name.
+    decide : Callable
+        Numbers → `Finding`.
+    prove : Callable or None, optional
+        Case → parts with the theorems that decide them.
     unproved : str, default ''
-        Why the other parts rest on runs.
+        The reason why no theorem decides the other parts.
+
+    Examples
+    --------
+    >>> test = ClaimTest("C01", 0.994, {"it beats seconds": 0.5}, "pendulum", lambda l: {"period_s": 2.006 * l**0.5},
+    ...     lambda m: Finding((Part("it beats seconds", abs(m["period_s"] - 2) < 0.01),), f"{m['period_s']:.3f} s."))
+    >>> test.result.finding.outcome, test.evaluated(0.5).finding.outcome
+    ('confirmed', 'refuted')
     """
 
     id: str
@@ -142,12 +170,22 @@ class ClaimTest:
     unproved: str = ""
 
     def evaluated(self, case: Any) -> "Result":
-        """Any case, measured and decided, by theorems where there are any.
+        """Measure and decide a case.
+
+        Parameters
+        ----------
+        case : Any
+            The argument of `measure`.
+
+        Returns
+        -------
+        Result
+            The numbers and the finding.
 
         Raises
         ------
         ProofError
-            Where a theorem contradicts a run or its certificate is rejected.
+            If a theorem contradicts the simulation or its certificate is rejected.
         """
         began = time.perf_counter()
         measured = {name: float(value) for name, value in self.measure(case).items()}
@@ -161,13 +199,13 @@ class ClaimTest:
                 parts += self.prove(case)
             except NotProved as refusal:
                 finding = replace(finding, explanation=f"{finding.explanation} Not proved: {refusal}.")
-            finding = finding.decided_by(parts, self.id)
+            finding = finding._with_theorems(parts, self.id)
             verify({id(theorem): theorem for _, theorem in finding.theorems}.values(), self.id)
         return Result(self, measured, finding, time.perf_counter() - began)
 
     @cached_property
     def result(self) -> "Result":
-        """The claim's own case, evaluated once: it takes the runs, up to seconds."""
+        """The result of the claim's own case; the first access runs the simulations, which take up to seconds."""
         return self.evaluated(self.case)
 
     def _repr_html_(self) -> str:
@@ -178,7 +216,19 @@ class ClaimTest:
 
 @dataclass(frozen=True)
 class Result:
-    """A claim after its test."""
+    """A claim after its test.
+
+    Attributes
+    ----------
+    test : ClaimTest
+        The test.
+    measured : Mapping[str, float]
+        The numbers by name; each name ends in the unit.
+    finding : Finding
+        The decision.
+    seconds : float
+        Computing time.
+    """
 
     test: ClaimTest
     measured: Mapping[str, float]
@@ -187,7 +237,7 @@ class Result:
 
 
 def claim_data(result: Result, entry: Claim) -> dict[str, Any]:
-    """One claim as the JSON object of `lagrotor claims --json`."""
+    """Return one claim as the JSON object of `lagrotor claims --json`."""
     return {
         "id": entry.id,
         "section": entry.section,
@@ -199,7 +249,7 @@ def claim_data(result: Result, entry: Claim) -> dict[str, Any]:
                 "says": part.says,
                 "holds": part.holds,
                 "only_if": part.only_if,
-                "proved": [{"says": each.says, "encloses": each.encloses} for each in part.theorems],
+                "proved": [{"says": theorem.says, "encloses": theorem.encloses} for theorem in part.theorems],
             }
             for part in result.finding.parts
         ],
@@ -211,5 +261,5 @@ def claim_data(result: Result, entry: Claim) -> dict[str, Any]:
 
 
 def claims_json(results: Iterable[Result], claims: Mapping[str, Claim]) -> str:
-    """All claims as a JSON list."""
+    """Return claims as a JSON list."""
     return json.dumps([claim_data(r, claims[r.test.id]) for r in results], indent=1, ensure_ascii=False)

@@ -1,6 +1,6 @@
-"""How a derivation states an equation, and how its paper puts the printed lines beside what was derived.
+"""Statements of equations by a derivation, and their combination with the printed lines.
 
-The printed lines come from the catalogue when the statement is judged: a script cannot touch them.
+The printed lines come from the catalogue when the statement is judged, so that a script cannot change them.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -18,13 +18,36 @@ from lagrotor.paper.premises import Premise, with_meanings
 from lagrotor.paper.proof import Form, Formula, left_out
 from lagrotor.paper.theorems import Theorem, can_prove, verify
 from lagrotor.paper.verdicts import Relation, Series, Side, Statement
+from lagrotor.renamed import accept_old_keywords
 
 Proof: TypeAlias = Callable[[], Theorem]
 
 
 @dataclass(frozen=True)
 class Stated:
-    """What a derivation says of the equation `id`, before it is held against the print; the arguments of `verdict`."""
+    """The statement of a derivation about an equation, as returned by `verdict`, before it is compared with the print.
+
+    Attributes
+    ----------
+    id : str
+        The equation's id.
+    derived : Any
+        The derived side; for several quantities a mapping, quantity in LaTeX → side.
+    premises : tuple[Premise, ...]
+        The premises that the line needs.
+    correction : Any
+        The side that should be printed, or a mapping.
+    wrong : str
+        The error of the printed line in one sentence.
+    uses : tuple[str or Stated, ...]
+        The equations that this one uses.
+    evidence : tuple[str, ...]
+        Sentences with computed numbers.
+    form : Form or Mapping[str, Form] or None, optional
+        The derived side as a physicist writes it.
+    prove : Callable or Mapping[str, Callable] or None, optional
+        A function that proves bounds of a number read off a simulation.
+    """
 
     id: str
     derived: Side | Mapping[str, Side]
@@ -33,7 +56,7 @@ class Stated:
     wrong: str
     uses: tuple["str | Stated", ...]
     evidence: tuple[str, ...]
-    written: "Form | Mapping[str, Form] | None" = None
+    form: "Form | Mapping[str, Form] | None" = None
     prove: "Proof | Mapping[str, Proof] | None" = None
 
     @property
@@ -43,15 +66,16 @@ class Stated:
 
     def _repr_latex_(self) -> str:
         rows = self.derived.items() if isinstance(self.derived, Mapping) else [("", self.derived)]
-        lines = [Formula(_expression(right), name).tex + _rest(right) for name, right in rows if right is not None]
+        lines = [Formula(_expression(right), name).tex + _remainder(right) for name, right in rows if right is not None]
         return r"$\displaystyle " + r" \quad ".join([rf"\text{{{self.id}, as derived:}}", *lines]) + "$"
 
 
-def _rest(side: Side) -> str:
-    """What is left out of a series, in LaTeX."""
+def _remainder(side: Side) -> str:
+    """Return the remainder of a series in LaTeX."""
     return left_out(side.small, side.order) if isinstance(side, Series) else ""
 
 
+@accept_old_keywords
 def verdict(
     identifier: str,
     derived: Side | Mapping[str, Side] = None,
@@ -60,91 +84,93 @@ def verdict(
     wrong: str = "",
     uses: Iterable["str | Stated"] = (),
     evidence: Iterable[str] = (),
-    written: "Form | Mapping[str, Form] | None" = None,
+    form: "Form | Mapping[str, Form] | None" = None,
     prove: "Proof | Mapping[str, Proof] | None" = None,
 ) -> Stated:
-    """What the paper prints as `identifier` is to be judged against what was derived under no premise.
+    """State the derived side of an equation; the ledger later compares it with the printed line.
 
     Parameters
     ----------
-    derived : Side or mapping, optional
-        The quantity that the line is about; a mapping, quantity in LaTeX → expression, where it has several. It is given
-        without any premise put in, as a `Series` where it is known through some order only.
+    identifier : str
+        The equation's id in the catalogue.
+    derived : Side or Mapping[str, Side], optional
+        The derived side, without any premise substituted. Several quantities are a mapping, quantity in LaTeX → side. A
+        side that is known through some order only is a `Series`.
     premises : Iterable[Premise], default ()
-        Without which the line does not hold.
-    correction : Side or mapping, optional
-        Likewise, what should be printed; it is judged against `derived`, which may hold quantities besides the
-        printed ones.
+        The premises that the line needs.
+    correction : Side or Mapping[str, Side], optional
+        The side that should be printed, also as a `Form`; it is judged against `derived`.
     wrong : str, default ''
-        What is wrong with the line, in words.
-    uses : Iterable['str or Stated'], default ()
-        Ids of equations that this one rests on, or what was stated of them, which gives the letters that are defined there
-        their derived meaning.
+        The error of the printed line in one sentence.
+    uses : Iterable[str or Stated], default ()
+        Ids or statements of the equations that this one uses. A statement gives the symbols that are defined there their
+        derived meaning.
     evidence : Iterable[str], default ()
-        Sentences beside the verdict.
-    written : Form or Mapping[str, Form] or None, optional
-        What was derived, as a physicist writes it; a correction may be given as a form too. It is checked against the
-        paper when it is judged.
-    prove : Proof or Mapping[str, Proof] or None, optional
-        For a number that is read off a run, what proves its bounds, called when it is judged; the theorem decides then.
+        Sentences shown beside the verdict.
+    form : Form or Mapping[str, Form] or None, optional
+        The derived side as a physicist writes it; the ledger checks that it is equal to `derived`.
+    prove : Callable or Mapping[str, Callable] or None, optional
+        For a number read off a simulation, a function that proves its bounds; the theorem then decides.
+
+    Returns
+    -------
+    Stated
+        The last expression of a cell in the derivation.
+
+    Examples
+    --------
+    >>> verdict("2.01", sp.Symbol("F"), uses=["2.02"]).depends_on
+    ('2.02',)
     """
-    return Stated(identifier, derived, tuple(premises), correction, wrong, tuple(uses), tuple(evidence), written, prove)
+    return Stated(identifier, derived, tuple(premises), correction, wrong, tuple(uses), tuple(evidence), form, prove)
 
 
-def statement(stated: Stated, catalogue: Catalogue) -> Statement:
-    """The printed lines of the catalogue beside what was derived.
-
-    Raises InputError for an equation that the catalogue does not have, a quantity that is printed and not derived, or
-    corrected and not derived, and for a definition that something is held against; ProofError where a form is not what was
-    derived.
-    """
-    entry = catalogue.equation(stated.id)
-    for other in stated.depends_on:
-        catalogue.equation(other)
-    lines = catalogue.lines(stated.id)
-    derived, letters = _by_quantity(stated.derived, entry), catalogue.letters(entry.section)
+def statement(assertion: Stated, catalogue: Catalogue) -> Statement:
+    """Combine the printed lines of the catalogue with the derived sides; raise an error if they do not fit."""
+    entry = catalogue.equation(assertion.id)
+    for used in assertion.depends_on:
+        catalogue.equation(used)
+    lines = catalogue.lines(assertion.id)
+    derived, letters = _expressions(assertion.derived, entry), catalogue.letters(entry.section)
     names = bool(lines) and all(line.names for line in lines)
     if names and derived:
-        raise InputError(f"verdict: {stated.id} only introduces a letter, and nothing can be held against it")
+        raise InputError(f"verdict: {assertion.id} only introduces a symbol, so that there is nothing to compare")
     if not lines:
-        raise InputError(f"verdict: {stated.id} has no printed line to be judged: write it as an [[equation.line]]")
-    meanings = _defined_elsewhere(entry, stated, catalogue)
-    known = _known(stated.derived, entry)
-    forms = _forms(entry, lines, derived, stated, letters)
-    theorems, evidence = _theorems(entry, stated)
+        raise InputError(f"verdict: {assertion.id} has no printed line to be judged: write it as an [[equation.line]]")
+    meanings = _referred_meanings(entry, assertion, catalogue)
+    known_orders = _known_orders(assertion.derived, entry)
+    forms = _forms(entry, lines, derived, assertion, letters)
+    theorems, evidence = _theorems(entry, assertion)
     relations = [
         replace(
             relation,
-            known=known.get(line.quantity),
+            known=known_orders.get(line.quantity),
             theorem=theorems.get(line.quantity),
             **forms.get(line.quantity, {}),
         )
         for line in lines
         if not line.names
-        for relation in _relations(stated.id, line, derived, meanings, catalogue.written_out)
+        for relation in _relations(assertion.id, line, derived, meanings, catalogue.written_out)
     ]
     return Statement(
-        stated.id,
+        assertion.id,
         tuple(relations),
-        stated.premises,
-        tuple(_corrected(entry, lines, derived, known, _named(stated.correction, entry), letters)),
-        stated.wrong,
+        assertion.premises,
+        tuple(_corrections(entry, lines, derived, known_orders, _by_quantity(assertion.correction, entry), letters)),
+        assertion.wrong,
         names,
         entry.measured,
-        stated.depends_on,
-        (*stated.evidence, *evidence),
+        assertion.depends_on,
+        (*assertion.evidence, *evidence),
         entry.title,
     )
 
 
-def _theorems(entry: Equation, stated: Stated) -> tuple[dict[str, Theorem], list[str]]:
-    """quantity → the theorem that bounds it, without words where it cannot be proved here; what is not proved, in words.
-
-    Raises InputError where a number is not read off a run, ProofError where a certificate is rejected.
-    """
+def _theorems(entry: Equation, assertion: Stated) -> tuple[dict[str, Theorem], list[str]]:
+    """Return quantity → the theorem that bounds it (an empty one without python-flint), and the refusals of proofs."""
     theorems: dict[str, Theorem] = {}
     refusals: list[str] = []
-    for name, prove in _named(stated.prove, entry).items():
+    for name, prove in _by_quantity(assertion.prove, entry).items():
         if not any(line["quantity"] == name and "read_off" in line for line in entry.line):
             raise InputError(
                 f"verdict: {entry.id}: a theorem is given for {name}, which has no number that is read off"
@@ -158,48 +184,48 @@ def _theorems(entry: Equation, stated: Stated) -> tuple[dict[str, Theorem], list
             refusals.append(f"Not proved: {refusal}")
             continue
         if theorem.bounds is None:
-            raise InputError(f"verdict: {entry.id}: the theorem about {name} has no bounds to hold the number against")
+            raise InputError(f"verdict: {entry.id}: the theorem about {name} has no bounds to compare the number with")
         verify([theorem], entry.id)
         theorems[name] = theorem
     return theorems, refusals
 
 
-def _defined_elsewhere(entry: Equation, stated: Stated, catalogue: Catalogue) -> dict[sp.Symbol, Side]:
-    """Letters of a line that another equation defines → what was derived for that one; of vectors, every component."""
+def _referred_meanings(entry: Equation, assertion: Stated, catalogue: Catalogue) -> dict[sp.Symbol, Side]:
+    """Return symbol → derived side, for symbols that another equation defines; vectors by components."""
     if not entry.refers:
         return {}
-    used = {other.id: other for other in stated.uses if isinstance(other, Stated)}
+    used = {source.id: source for source in assertion.uses if isinstance(source, Stated)}
     names = catalogue.letters(entry.section).names
     meanings: dict[sp.Symbol, Side] = {}
-    for letter, other in entry.refers.items():
-        if other not in used:
-            raise InputError(f"verdict: {entry.id}: {letter} is defined in {other}: give its statement among `uses`")
-        defining = catalogue.equation(other)
-        derived = _by_quantity(used[other].derived, defining)
+    for letter, source in entry.refers.items():
+        if source not in used:
+            raise InputError(f"verdict: {entry.id}: {letter} is defined in {source}: give its statement among `uses`")
+        defining = catalogue.equation(source)
+        derived = _expressions(used[source].derived, defining)
         quantity = next(line["quantity"] for line in defining.line if not line.get("names"))
         meanings |= zip(components([names[letter]]), components([derived[quantity]]), strict=True)
     return meanings
 
 
-def _by_quantity(given: Side | Mapping[str, Side], entry: Equation) -> dict[str, Side]:
-    return {name: _expression(value) for name, value in _named(given, entry).items()}
+def _expressions(sides: Side | Mapping[str, Side], entry: Equation) -> dict[str, Side]:
+    return {name: _expression(value) for name, value in _by_quantity(sides, entry).items()}
 
 
 def _expression(side: Side) -> Side:
     return sp.sympify(side.expression if isinstance(side, Series) else side, strict=True)
 
 
-def _known(given: Side | Mapping[str, Side], entry: Equation) -> dict[str, tuple[sp.Symbol, int]]:
-    """Quantities that were derived as series → what is small, and through which order they are known."""
-    sides = _named(given, entry).items()
+def _known_orders(derived: Side | Mapping[str, Side], entry: Equation) -> dict[str, tuple[sp.Symbol, int]]:
+    """Return quantity → (variable, highest known order) for the sides that are series."""
+    sides = _by_quantity(derived, entry).items()
     return {name: (side.small, side.order) for name, side in sides if isinstance(side, Series)}
 
 
-def _named(given: Any, entry: Equation) -> dict[str, Any]:
-    """What is given by quantity; a single one is about the first line."""
-    if given is None:
+def _by_quantity(value: Any, entry: Equation) -> dict[str, Any]:
+    """Return a mapping by quantity; a single value belongs to the first line."""
+    if value is None:
         return {}
-    return dict(given) if isinstance(given, Mapping) else {entry.line[0]["quantity"] if entry.line else "": given}
+    return dict(value) if isinstance(value, Mapping) else {entry.line[0]["quantity"] if entry.line else "": value}
 
 
 def _relations(
@@ -222,58 +248,58 @@ def _relations(
         )
 
 
-def _corrected(
+def _corrections(
     entry: Equation,
     lines: tuple[Line, ...],
     quantities: Mapping[str, Side],
-    known: Mapping[str, tuple[sp.Symbol, int]],
+    known_orders: Mapping[str, tuple[sp.Symbol, int]],
     correction: dict[str, Any],
     letters: Letters,
 ) -> Iterator[Relation]:
     by_name = {line.quantity: line for line in lines}
-    for name, given in correction.items():
+    for name, value in correction.items():
         if name not in quantities:
             raise InputError(f"verdict: {entry.id}: the correction gives {name}, which was not derived")
         line = by_name.get(name) or next((line for line in lines if line.small is not None), None)
         small, order = (line.small, line.order) if line else (None, 0)
-        if name in known and small is None:
-            small, order = known[name]
+        if name in known_orders and small is None:
+            small, order = known_orders[name]
         right, tex = (
-            (given.value(letters), _tex(given, name, known, letters)) if isinstance(given, Form) else (given, "")
+            (value.value(letters), _tex(value, name, known_orders, letters)) if isinstance(value, Form) else (value, "")
         )
         yield Relation(
-            _expression(right), quantities[name], small, order, None, name, written=tex, known=known.get(name)
+            _expression(right), quantities[name], small, order, None, name, written=tex, known=known_orders.get(name)
         )
 
 
 def _forms(
-    entry: Equation, lines: tuple[Line, ...], quantities: Mapping[str, Side], stated: Stated, letters: Letters
+    entry: Equation, lines: tuple[Line, ...], quantities: Mapping[str, Side], assertion: Stated, letters: Letters
 ) -> dict[str, dict[str, Any]]:
-    """quantity → its form in LaTeX, each decided to be what was derived, in general or under the premises."""
+    """Return quantity → LaTeX of its form, after deciding that the form is equal to the derived side."""
     forms: dict[str, dict[str, Any]] = {}
-    for name, given in _named(stated.written, entry).items():
+    for name, form in _by_quantity(assertion.form, entry).items():
         if name not in quantities:
             raise InputError(f"verdict: {entry.id}: a form is given for {name}, which was not derived")
         scene = next((line.scene for line in lines if line.quantity == name), {})
         granted = needs_premises(
-            sp.sympify(given.value(letters), strict=True), quantities[name], stated.premises, scene
+            sp.sympify(form.value(letters), strict=True), quantities[name], assertion.premises, scene
         )
         if granted is None:
-            raise ProofError(f"verdict: {entry.id}: {name} = {given.text} is not what was derived")
-        tex = _tex(given, name, _known(stated.derived, entry), letters)
+            raise ProofError(f"verdict: {entry.id}: {name} = {form.text} is not what was derived")
+        tex = _tex(form, name, _known_orders(assertion.derived, entry), letters)
         forms[name] = {"written": tex, "granted": granted}
     return forms
 
 
-def _tex(given: Form, name: str, known: Mapping[str, tuple[sp.Symbol, int]], letters: Letters) -> str:
-    """A form as LaTeX, with what is left out where what was derived is a series."""
-    return given.tex(letters) + (left_out(*known[name]) if name in known and not given.rest else "")
+def _tex(form: Form, name: str, known_orders: Mapping[str, tuple[sp.Symbol, int]], letters: Letters) -> str:
+    """Return a form as LaTeX, with the remainder if the derived side is a series."""
+    return form.tex(letters) + (left_out(*known_orders[name]) if name in known_orders and not form.remainder else "")
 
 
 def needs_premises(
     value: Side, derived: Side, premises: tuple[Premise, ...], scene: Mapping[sp.Symbol, sp.Expr]
 ) -> bool | None:
-    """Whether a form equals what was derived under the premises only; None where it does not even then."""
+    """Return True if a form is equal to the derived side only under the premises; None if it is not equal."""
     if decide_equal(value, derived).answer == "zero":
         return False
     under = hypotheses((*premises, Premise("the values that the text gives", scene)) if scene else premises)

@@ -1,9 +1,8 @@
-"""The one reader of expressions: a text as a sympy object, by a grammar of known nodes and names. Nothing that is read runs.
+"""The reader of expressions, which converts text to sympy objects by a grammar of known nodes and names. No text is executed.
 
-A text is written as in Python: numbers (1j is the imaginary unit), names, + - * / **, calls of known functions, tuples as their
-arguments, `.T` of a matrix and `.subs(letter, value)`. There are no strings, no other attributes, no names but those that are
-known; what is not in the grammar is refused before anything is built. `FUNCTIONS` are those that every paper may call, `declared`
-the letters of a section, and `read_line` reads a printed line of the catalogue.
+The text is Python: numbers (1j is the imaginary unit), names, + - * / **, calls of known functions with tuples as arguments,
+`.T` of a matrix and `.subs(symbol, value)`. Strings, other attributes and unknown names are refused before any object is built.
+`FUNCTIONS` are the functions that every paper may call, `declared` the symbols of a section; `read_line` reads a printed line.
 """
 
 import ast
@@ -21,25 +20,25 @@ from lagrotor.algebra.enclosures import are_apart
 from lagrotor.algebra.evidence import points
 from lagrotor.errors import InputError, LagrotorError
 
-# Numbers that would take longer to write down than anybody reads: of digits, and powers of numbers.
+# Limits on sizes, which keep a hostile text from using all memory or time.
 _MOST_CHARACTERS, _MOST_DIGITS, _MOST_POWER, _MOST_ROWS, _MOST_BRACKETS = 20_000, 400, 1000, 50, 100
 _SIGNS: dict[type, str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.Pow: "**"}
 _SIZED = {sp.eye, sp.zeros}
 
 
 def parsed(text: str, names: Mapping[str, Any], where: str, as_written: bool = False) -> Any:
-    """What `text` writes in `names`, name → symbol, matrix or function; decimals are the rationals that they are.
+    """Return the object of a text in `names`, name → symbol, matrix or function; decimals become exact rationals.
 
-    as_written: sums, products and functions are kept as they stand, for printing. Raises InputError, which begins with
-    `where`, for what is not in the grammar and for a name that is not known.
+    With `as_written`, sums, products and functions stay unevaluated. Raises InputError, which begins with `where`, for text
+    outside the grammar and for an unknown name.
     """
     if not isinstance(text, str):
         raise InputError(f"{where}: {text!r} is no text: write the expression between quotes")
     line = " ".join(text.split())
     if len(line) > _MOST_CHARACTERS:
-        raise InputError(f"{where}: an expression of {len(line)} characters is too long: name its parts as letters")
+        raise InputError(f"{where}: an expression of {len(line)} characters is too long: give names to its parts")
     if max(accumulate((c == "(") - (c == ")") for c in line), default=0) > _MOST_BRACKETS:
-        raise InputError(f"{where}: more than {_MOST_BRACKETS} brackets within brackets: name the parts as letters")
+        raise InputError(f"{where}: more than {_MOST_BRACKETS} brackets within brackets: give names to the parts")
     try:
         tree = ast.parse(line, mode="eval")
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
@@ -56,7 +55,7 @@ def parsed(text: str, names: Mapping[str, Any], where: str, as_written: bool = F
 
 
 class _RefusalError(Exception):
-    """What is not in the grammar."""
+    """Text outside the grammar."""
 
 
 @dataclass(frozen=True)
@@ -66,49 +65,49 @@ class _Reader:
     as_written: bool
 
     def value(self, node: ast.expr) -> Any:
-        """The object that a node stands for."""
+        """Return the object of a node."""
         if isinstance(node, ast.Constant):
             return self._number(node)
         if isinstance(node, ast.Name):
-            return self._known(node.id)
+            return self._lookup(node.id)
         if isinstance(node, ast.Tuple):
             return tuple(map(self.value, node.elts))
         if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub | ast.UAdd):
             value = self._operand(node.operand)
             return -value if isinstance(node.op, ast.USub) else value
         if isinstance(node, ast.BinOp):
-            return self._combined(node)
+            return self._operation(node)
         if isinstance(node, ast.Attribute) and node.attr == "T":
             return self._matrix(node.value).T
         if isinstance(node, ast.Call) and not node.keywords:
-            return self._called(node)
-        raise self._refused(node)
+            return self._call(node)
+        raise self._refusal(node)
 
-    def _refused(self, node: ast.expr) -> _RefusalError:
-        there = self.source[node.col_offset : node.end_col_offset].decode()
+    def _refusal(self, node: ast.expr) -> _RefusalError:
+        text = self.source[node.col_offset : node.end_col_offset].decode()
         hint = ": write ** for a power" if isinstance(getattr(node, "op", None), ast.BitXor) else ""
-        return _RefusalError(f"{there!r} is no part of an expression{hint}")
+        return _RefusalError(f"{text!r} is no part of an expression{hint}")
 
     def _number(self, node: ast.Constant) -> sp.Expr:
         text = self.source[node.col_offset : node.end_col_offset].decode()
         if type(node.value) is complex and text[-1] == "j":
             return sp.I * parsed(text[:-1], {}, "number")
         if type(node.value) not in (int, float) or not text.replace("_", "").isascii():
-            raise self._refused(node)
+            raise self._refusal(node)
         if len(text) > _MOST_DIGITS or (type(node.value) is float and not 1e-300 < abs(node.value or 1) < 1e300):
             raise _RefusalError(f"the number {text[:20]}… has too many digits")
         return sp.Integer(node.value) if type(node.value) is int else sp.Rational(text.replace("_", ""))
 
-    def _known(self, name: str) -> Any:
+    def _lookup(self, name: str) -> Any:
         if name not in self.names:
-            raise _RefusalError(f"name {name!r} is not defined: declare the letter, or give its meaning")
+            raise _RefusalError(f"name {name!r} is not defined: declare the symbol, or give its meaning")
         value = self.names[name]
         return sp.Integer(value) if type(value) is int else value
 
     def _operand(self, node: ast.expr) -> Any:
         value = self.value(node)
         if not isinstance(value, sp.Expr | sp.MatrixBase):
-            raise self._refused(node)
+            raise self._refusal(node)
         return value
 
     def _matrix(self, node: ast.expr) -> Any:
@@ -117,56 +116,56 @@ class _Reader:
             raise _RefusalError(f"{self.source[node.col_offset : node.end_col_offset].decode()!r} is no matrix")
         return value
 
-    def _called(self, node: ast.Call) -> Any:
-        arguments = [self.value(part) for part in node.args]
+    def _call(self, node: ast.Call) -> Any:
+        arguments = [self.value(argument) for argument in node.args]
         if isinstance(node.func, ast.Attribute) and node.func.attr == "subs" and len(arguments) == 2:
             letter, value = arguments
             if not isinstance(letter, sp.Symbol) or not isinstance(value, sp.Expr):
-                raise _RefusalError(".subs takes a letter and its value")
+                raise _RefusalError(".subs takes a symbol and its value")
             return self._operand(node.func.value).subs(letter, value)
         if not isinstance(node.func, ast.Name):
-            raise self._refused(node)
-        function = self._known(node.func.id)
+            raise self._refusal(node)
+        function = self._lookup(node.func.id)
         if not callable(function) or isinstance(function, sp.Basic | sp.MatrixBase):
-            raise _RefusalError(f"{node.func.id} is a letter, not a function: write {node.func.id}*(…)")
+            raise _RefusalError(f"{node.func.id} is a symbol, not a function: write {node.func.id}*(…)")
         if function in _SIZED and not all(n.is_Integer and 0 <= n <= _MOST_ROWS for n in arguments):
             raise _RefusalError(f"{node.func.id} takes numbers of rows and columns up to {_MOST_ROWS}")
         if isinstance(function, FunctionClass) or function is sp.sqrt:
             return function(*arguments, evaluate=not (self.as_written or _holds_function(*arguments)))
         return function(*arguments)
 
-    def _combined(self, node: ast.BinOp) -> Any:
+    def _operation(self, node: ast.BinOp) -> Any:
         sign = _SIGNS.get(type(node.op))
         if sign is None:
-            raise self._refused(node)
+            raise self._refusal(node)
         if self.as_written:
-            return self._kept(node, sign)
-        left, right = self._operand(node.left), self._operand(node.right)
+            return self._unevaluated(node, sign)
+        lhs, rhs = self._operand(node.left), self._operand(node.right)
         if sign == "**":
-            _check_power(left, right)
-            if _holds_function(left) and isinstance(right, sp.Expr) and not right.is_Integer:
-                return sp.Pow(left, right, evaluate=False)
-        return _OPERATIONS[sign](left, right)
+            _check_power(lhs, rhs)
+            if _holds_function(lhs) and isinstance(rhs, sp.Expr) and not rhs.is_Integer:
+                return sp.Pow(lhs, rhs, evaluate=False)
+        return _OPERATIONS[sign](lhs, rhs)
 
-    def _kept(self, node: ast.BinOp, sign: str) -> Any:
-        """A sum, product or power that is not evaluated; sums of sums and products of products are one."""
-        left, right = self._operand(node.left), self._operand(node.right)
+    def _unevaluated(self, node: ast.BinOp, sign: str) -> Any:
+        """Return an unevaluated sum, product or power; nested sums and nested products are flattened."""
+        lhs, rhs = self._operand(node.left), self._operand(node.right)
         if sign == "**":
-            _check_power(left, right)
-        if any(isinstance(side, sp.MatrixBase) for side in (left, right)):
-            return _OPERATIONS[sign](left, right)
+            _check_power(lhs, rhs)
+        if any(isinstance(side, sp.MatrixBase) for side in (lhs, rhs)):
+            return _OPERATIONS[sign](lhs, rhs)
         if sign == "**":
-            return sp.Pow(left, right, evaluate=False)
+            return sp.Pow(lhs, rhs, evaluate=False)
         kind = sp.Add if sign in "+-" else sp.Mul
         if sign == "-":
-            right = sp.Mul(sp.S.NegativeOne, right, evaluate=False)
+            rhs = sp.Mul(sp.S.NegativeOne, rhs, evaluate=False)
         elif sign == "/":
-            right = sp.Pow(right, sp.S.NegativeOne, evaluate=False)
-        parts: list[Any] = []
-        for value, part in ((left, node.left), (right, node.right if sign in "+*" else None)):
-            joined = isinstance(part, ast.BinOp) and isinstance(part.op, _SAME[kind])
-            parts += value.args if joined and isinstance(value, kind) else [value]
-        return kind(*parts, evaluate=False)
+            rhs = sp.Pow(rhs, sp.S.NegativeOne, evaluate=False)
+        arguments: list[Any] = []
+        for value, operand in ((lhs, node.left), (rhs, node.right if sign in "+*" else None)):
+            joined = isinstance(operand, ast.BinOp) and isinstance(operand.op, _SAME[kind])
+            arguments += value.args if joined and isinstance(value, kind) else [value]
+        return kind(*arguments, evaluate=False)
 
 
 _SAME: dict[Any, Any] = {sp.Add: ast.Add | ast.Sub, sp.Mul: ast.Mult | ast.Div}
@@ -175,13 +174,13 @@ _OPERATIONS: dict[str, Callable[[Any, Any], Any]] = {
 }  # fmt: skip
 
 
-def _holds_function(*parts: Any) -> bool:
-    """Return whether a part has a function in it: sympy does not evaluate what is taken of that."""
-    return any(isinstance(part, sp.Expr) and part.has(sp.Function) for part in parts)
+def _holds_function(*arguments: Any) -> bool:
+    """Return True if an argument contains a function; operations on it stay unevaluated."""
+    return any(isinstance(argument, sp.Expr) and argument.has(sp.Function) for argument in arguments)
 
 
 def _check_power(base: Any, exponent: Any) -> None:
-    """Raise _RefusalError for a power of a number that would have too many digits, and for a matrix in the exponent."""
+    """Raise _RefusalError for a power with too many digits and for a matrix in the exponent."""
     if isinstance(exponent, sp.MatrixBase):
         raise _RefusalError("a matrix is no exponent")
     whole = isinstance(exponent, sp.Integer)
@@ -198,42 +197,42 @@ def _check_power(base: Any, exponent: Any) -> None:
 
 
 def vector(name: str) -> sp.Matrix:
-    """A vector of three real components name_x, name_y, name_z, (3, 1)."""
+    """Return a vector of real components name_x, name_y, name_z, shape (3, 1)."""
     return sp.Matrix(sp.symbols(f"{name}_x {name}_y {name}_z", real=True))
 
 
 def symmetric(name: str) -> sp.Matrix:
-    """A symmetric matrix of six real components name_xx, name_xy, …, (3, 3)."""
+    """Return a symmetric matrix of real components name_xx, name_xy, …, shape (3, 3)."""
     return sp.Matrix(3, 3, lambda i, j: sp.Symbol(f"{name}_{'xyz'[min(i, j)]}{'xyz'[max(i, j)]}", real=True))
 
 
 def rotation(phi: sp.Expr, theta: sp.Expr, psi: sp.Expr) -> sp.Matrix:
-    """R_z(phi) R_x(theta) R_z(psi), (3, 3): from the body's frame to the ground's."""
+    """Return R_z(phi) R_x(theta) R_z(psi), shape (3, 3), from the body's frame to the ground's."""
     return sp.rot_axis3(phi).T * sp.rot_axis1(theta).T * sp.rot_axis3(psi).T
 
 
 def cross(u: sp.Matrix, v: sp.Matrix) -> sp.Matrix:
-    """u × v."""
+    """Return u × v."""
     return u.cross(v)
 
 
 def cross_matrix(v: sp.Matrix) -> sp.Matrix:
-    """The matrix of v ×, (3, 3)."""
+    """Return the matrix of v ×, shape (3, 3)."""
     return sp.Matrix([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
 
 
 def dot(u: sp.Matrix, v: sp.Matrix) -> sp.Expr:
-    """u · v."""
+    """Return u · v."""
     return u.dot(v)
 
 
 def norm(u: sp.Matrix) -> sp.Expr:
-    """The length of u."""
+    """Return the length of u."""
     return sp.sqrt(u.dot(u))
 
 
 def rate(expression: Any, moving: Iterable[Any], velocities: Iterable[Any]) -> Any:
-    """d/dt of an expression or a matrix: `moving` are symbols or vectors, `velocities` their rates in the same order."""
+    """Return d/dt of an expression or a matrix, from symbols or vectors (`moving`) and their rates in the same order."""
     flow = components(moving), components(velocities)
     if isinstance(expression, sp.MatrixBase):
         return expression.applyfunc(lambda entry: along(entry, *flow))
@@ -241,31 +240,31 @@ def rate(expression: Any, moving: Iterable[Any], velocities: Iterable[Any]) -> A
 
 
 def components(row: Iterable[Any]) -> list[Any]:
-    """Symbols and the components of vectors, in a row."""
+    """Return symbols and the components of vectors as one list."""
     return [entry for item in row for entry in (item if isinstance(item, sp.MatrixBase) else [item])]
 
 
 def inverse(matrix: sp.Matrix) -> sp.Matrix:
-    """The inverse of a square matrix, its adjugate over its determinant."""
+    """Return the inverse of a square matrix as adjugate over determinant."""
     return matrix.adjugate() / matrix.det()
 
 
 def column(*entries: sp.Expr) -> sp.Matrix:
-    """A vector of the given components."""
+    """Return a vector of components."""
     return sp.Matrix(entries)
 
 
-def integral(body: sp.Expr, *over: Any) -> sp.Expr:
-    """∫ body: between limits an integral that `algebra` decides, since sympy passes over poles; else an antiderivative."""
-    definite = bool(over) and all(isinstance(each, tuple | list | sp.Tuple) and len(each) == 3 for each in over)
-    return sp.Integral(body, *over) if definite else sp.integrate(body, *over)
+def integral(body: sp.Expr, *limits: Any) -> sp.Expr:
+    """Return ∫ body: an unevaluated integral between limits, because sympy ignores poles, else an antiderivative."""
+    definite = bool(limits) and all(isinstance(limit, tuple | list | sp.Tuple) and len(limit) == 3 for limit in limits)
+    return sp.Integral(body, *limits) if definite else sp.integrate(body, *limits)
 
 
 _OF_SYMPY = (
     "sin cos tan exp log sqrt Abs sinh cosh tanh asin acos atan asinh acosh atanh atan2 sign factorial besselj "
     "eye diag zeros diff pi oo Integer Float Rational"
 )
-# What a printed line may call.
+# The functions that a printed line may call.
 FUNCTIONS: dict[str, Callable[..., Any]] = {
     **{f.__name__: f for f in (rotation, cross, cross_matrix, dot, norm, rate, inverse, column)},
     **{name: getattr(sp, name) for name in _OF_SYMPY.split()},
@@ -275,18 +274,14 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
 
 @dataclass(frozen=True)
 class Letters:
-    """What a section is written in: name → symbol, vector or function; name → LaTeX where the name alone does not say it."""
+    """The symbols of a section: name → symbol, vector or function, and name → LaTeX where it differs from the name."""
 
     names: Mapping[str, Any] = field(default_factory=dict)
     latex: Mapping[str, str] = field(default_factory=dict)
 
 
 def declared(letters: Mapping[str, str]) -> dict[str, Any]:
-    """Letters that a section has besides the paper's own: kind → names in a row.
-
-    Kinds: "vector", (3, 1); "symmetric", a symmetric matrix (3, 3); or an assumption of sympy's, such as "real" or
-    "positive". Raises InputError for another kind.
-    """
+    """Return the symbols of kind → names; the kinds are "vector", "symmetric", "real", "positive" and "nonnegative"."""
     symbols: dict[str, Any] = {}
     for kind, names in letters.items():
         for name in names.split():
@@ -297,38 +292,31 @@ def declared(letters: Mapping[str, str]) -> dict[str, Any]:
             elif kind in ("real", "positive", "nonnegative"):
                 symbols[name] = sp.Symbol(name, **{kind: True})
             else:
-                raise InputError(f"letters: {kind!r} is not a kind of letter: vector, symmetric, real, positive")
+                raise InputError(f"letters: {kind!r} is not a kind of symbol: vector, symmetric, real, positive")
     return symbols
 
 
 def read(text: str, letters: Mapping[str, Any], where: str) -> Any:
-    """The expression that `text` writes in these letters; decimals are read as the rationals they are.
-
-    Raises InputError where it cannot be read, or holds a letter that is not declared.
-    """
+    """Read an expression in these symbols; raise InputError for unreadable text and undeclared symbols."""
     return parsed(text, {**FUNCTIONS, **letters}, where)
 
 
 def read_side(text: str, letters: Mapping[str, Any], where: str) -> tuple[Any, Any]:
-    """Return a printed side as it is decided, and as it is written.
-
-    Raises InputError where it cannot be read, and LagrotorError where an enclosure at a random point keeps the two apart.
-    """
-    value, written = (parsed(text, {**FUNCTIONS, **letters}, where, as_written) for as_written in (False, True))
-    for left, right in zip(*(components([side]) for side in (value, written)), strict=True):
-        for point in points(left.free_symbols | right.free_symbols, 2):
-            if are_apart(left, right, point):
+    """Return a printed side, evaluated and unevaluated; raise LagrotorError if the two differ at a random point."""
+    value, unevaluated = (parsed(text, {**FUNCTIONS, **letters}, where, as_written) for as_written in (False, True))
+    for lhs, rhs in zip(*(components([side]) for side in (value, unevaluated)), strict=True):
+        for point in points(lhs.free_symbols | rhs.free_symbols, 2):
+            if are_apart(lhs, rhs, point):
                 raise LagrotorError(f"{where}: {text!r} is not {value}, as it was read: report this error of lagrotor")
-    return value, written
+    return value, unevaluated
 
 
 @dataclass(frozen=True)
 class Line:
-    """One printed line `quantity = member = member …`, each member an expression in the paper's letters.
+    """One printed line `quantity = member = member …`; the quantity is LaTeX, each member an expression.
 
-    quantity: what the line is about, in LaTeX. order, small: where it is claimed through small**order only. within: for a
-    number read off a run, half a unit of its last printed digit, relative. scene: values that the text gives for this line.
-    names: the line only introduces a letter.
+    An approximate line is claimed through small**order. For a number read off a simulation, `within` is half a unit of the last
+    digit, relative. `scene` has values that the text gives for this line; `names` marks a line that only introduces a symbol.
     """
 
     quantity: str
@@ -340,20 +328,20 @@ class Line:
     names: bool = False
 
 
-def read_line(given: Mapping[str, Any], names: Mapping[str, Any], where: str) -> Line:
-    """A printed line from what the catalogue says of it. Raises InputError where an expression cannot be read."""
+def read_line(table: Mapping[str, Any], names: Mapping[str, Any], where: str) -> Line:
+    """Read a printed line from its table in the catalogue."""
 
     def read_off(digits: str) -> Any:
         number = read(digits, {}, where)
         return read("1", {}, where) / (2 * number * 10 ** len(digits.partition(".")[2]))
 
-    scene = [(read(name, names, where), read(value, names, where)) for name, value in given.get("scene", {}).items()]
+    scene = [(read(name, names, where), read(value, names, where)) for name, value in table.get("scene", {}).items()]
     return Line(
-        quantity=given["quantity"],
-        members=tuple(read_side(member, names, where)[0] for member in given.get("members", ())),
-        order=given.get("order", 0),
-        small=read(given["small"], names, where) if "small" in given else None,
-        within=read_off(given["read_off"]) if "read_off" in given else None,
+        quantity=table["quantity"],
+        members=tuple(read_side(member, names, where)[0] for member in table.get("members", ())),
+        order=table.get("order", 0),
+        small=read(table["small"], names, where) if "small" in table else None,
+        within=read_off(table["read_off"]) if "read_off" in table else None,
         scene=dict(zip(*(components(side) for side in zip(*scene, strict=True)), strict=True)) if scene else {},
-        names=given.get("names", False),
+        names=table.get("names", False),
     )

@@ -1,14 +1,13 @@
-"""Premises as one set of hypotheses: their equations solved for letters as far as they are linear, the rest kept as an ideal.
+"""Premises as one set of hypotheses: equations solved for symbols where they are linear, and the ideal of the others.
 
-What is decided under a set does not depend on the order or the form of its premises: of all letters that could be eliminated
-the same one is taken first each time, one that a premise replaces before others. Every step is an equivalence, where the
-letters are real and what is divided by is known not to vanish; so a set is contradictory exactly if what is left of it is, and
-a point of what is left satisfies all of it.
+A decision does not depend on the order or the form of the premises, because the symbols are eliminated in a fixed order. Every
+step is an equivalence for real symbols and divisors that do not vanish. The set is therefore contradictory exactly if the
+remaining equations and conditions are, and a point of these satisfies the whole set.
 
-`vanishes_on` decides membership in the ideal of the equations that are left, or in its radical. Numerators are read in one ring
-of generators, with the relations of these, g² = square, among the equations. The radical is reached by one more letter t and the
-equation 1 = t N D (Rabinowitsch), which also leaves out where a denominator D vanishes. Cox, Little & O'Shea, Ideals, Varieties,
-and Algorithms, chs. 2, 4. `witness` refutes: it is a point of the hypotheses at which an enclosure keeps the two sides apart.
+`vanishes_on` decides membership in the ideal of the unsolved equations, or in its radical. All numerators lie in one ring of
+generators g, with the relations g² = square among the equations. The radical needs one more variable t and the equation
+1 = t N D (Rabinowitsch), which also excludes the zeros of a denominator D: Cox, Little & O'Shea, Ideals, Varieties, and
+Algorithms, chs. 2, 4. `witness` refutes by a point of the hypotheses at which enclosures separate the two sides.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -45,86 +44,84 @@ _KINDS = ("positive", "negative", "nonnegative", "nonpositive", "nonzero")
 
 @dataclass(frozen=True)
 class Hypotheses:
-    """put: letter → what it is, in the letters that are left. left: expressions that are zero. region: conditions that hold.
+    """The premises as one set.
 
-    small: the small quantities. contradiction: why no values of the letters satisfy all of it; empty where none was found.
-    meaning: what the new letters of `signed` are.
+    `values` are the eliminated symbols in the remaining ones, `equations` expressions that are zero, `region` conditions that
+    hold, `small` the small quantities. `contradiction` is the reason why no point satisfies the set, or empty. `meaning` gives
+    the new symbols of `signed`.
     """
 
-    put: Mapping[sp.Symbol, sp.Expr]
-    left: tuple[sp.Expr, ...] = ()
+    values: Mapping[sp.Symbol, sp.Expr]
+    equations: tuple[sp.Expr, ...] = ()
     region: tuple[Relational, ...] = ()
     small: tuple[sp.Symbol, ...] = ()
     contradiction: str = ""
     meaning: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
 
     def on(self, side: Any) -> Any:
-        """A side in the letters that are left."""
-        return replaced(sp.sympify(side, strict=True), self.put)
+        """Return a side in the remaining symbols."""
+        return replaced(sp.sympify(side, strict=True), self.values)
 
     @cached_property
     def signed(self) -> "Hypotheses":
-        """The same set with its inequalities as assumptions of letters, as far as they are linear in one that is free."""
-        put, left, meaning = dict(self.put), self.left, dict[sp.Symbol, sp.Expr]()
-        order = canonical_order((sp.S.Zero, *self.region, *left))
+        """The set with inequalities turned into assumptions of symbols, where they are linear in a free symbol."""
+        values, equations, meaning = dict(self.values), self.equations, dict[sp.Symbol, sp.Expr]()
+        order = canonical_order((sp.S.Zero, *self.region, *equations))
         for relation in sorted(self.region, key=lambda r: not (r.lhs.is_Symbol and r.rhs == 0)):
-            step = _as_assumption(relation.xreplace(put), self.small, order)
+            step = _as_assumption(relation.xreplace(values), self.small, order)
             if step is not None:
                 letter, value = step
-                [new] = value.free_symbols - relation.xreplace(put).free_symbols
+                [new] = value.free_symbols - relation.xreplace(values).free_symbols
                 if new.name != letter.name:
                     meaning[new] = sp.expand((letter - value.xreplace({new: sp.S.Zero})) / value.diff(new)).xreplace(
                         meaning
                     )
-                put = {old: replaced(new, {letter: value}) for old, new in put.items()} | {letter: value}
-                left = tuple(replaced(e, {letter: value}) for e in left)
-        there = tuple(relation.xreplace(put) for relation in self.region)
+                values = {old: replaced(new, {letter: value}) for old, new in values.items()} | {letter: value}
+                equations = tuple(replaced(e, {letter: value}) for e in equations)
+        substituted = tuple(relation.xreplace(values) for relation in self.region)
         contradiction = next(
-            (f"{relation_text(r)} is false" for r, s in zip(self.region, there, strict=True) if s == sp.false), ""
+            (f"{relation_text(r)} is false" for r, s in zip(self.region, substituted, strict=True) if s == sp.false), ""
         )
-        relations = tuple(r for r in there if isinstance(r, Relational))
-        return Hypotheses(put, left, relations, self.small, self.contradiction or contradiction, meaning)
+        relations = tuple(r for r in substituted if isinstance(r, Relational))
+        return Hypotheses(values, equations, relations, self.small, self.contradiction or contradiction, meaning)
 
     @property
     def inside(self) -> tuple[Relational, ...]:
-        """The inequalities."""
+        """The inequalities, without ≠."""
         return tuple(r for r in self.region if not isinstance(r, sp.Ne))
 
 
-def replaced(e: Any, put: Mapping[sp.Symbol, sp.Expr]) -> Any:
-    """Letters replaced by their values; what a derivative, a sum or an integral binds stays bound."""
-    bound = put and e.has(sp.Derivative, ExprWithLimits)
-    return e.subs(list(put.items()), simultaneous=True) if bound else e.xreplace(put)
+def replaced(e: Any, values: Mapping[sp.Symbol, sp.Expr]) -> Any:
+    """Replace symbols by their values, except symbols bound by a derivative, a sum or an integral."""
+    bound = values and e.has(sp.Derivative, ExprWithLimits)
+    return e.subs(list(values.items()), simultaneous=True) if bound else e.xreplace(values)
 
 
-def hypotheses(premises: Iterable[Premise], kept: sp.Symbol | None = None) -> Hypotheses:
-    """The premises as one set; `kept` is a letter that is eliminated only where no other can be.
-
-    Its `contradiction` says where two of them, or one and a letter's assumptions, exclude each other.
-    """
+def hypotheses(premises: Iterable[Premise], last: sp.Symbol | None = None) -> Hypotheses:
+    """Combine premises into one set; the symbol `last` is eliminated only if no other can be."""
     listed = list(premises)
     small = tuple(sorted({p.small for p in listed if p.small is not None}, key=sp.default_sort_key))
     equations, region = _collected(listed, small)
     replaced = frozenset(old for p in listed for old in p.put if isinstance(old, sp.Symbol))
-    under = _solved(equations, region, small, _Wishes(replaced, kept))
-    return under if kept is None or kept in small else replace(under, small=(*small, kept))
+    under = _eliminate_or_contradict(equations, region, small, _Wishes(replaced, last))
+    return under if last is None or last in small else replace(under, small=(*small, last))
 
 
 class _ContradictionError(Exception):
-    """No values of the letters satisfy the premises."""
+    """No values of the symbols satisfy the premises."""
 
 
 def _collected(
     premises: list[Premise], small: tuple[sp.Symbol, ...]
 ) -> tuple[frozenset[sp.Expr], frozenset[Relational]]:
-    """Every equation as an expression that is zero, and every condition."""
+    """Return the equations as expressions that are zero, and the conditions."""
     equations: set[sp.Expr] = set()
     region: set[Relational] = set()
     for premise in premises:
-        for left, right in premise.equations:
-            a, b = sp.sympify(left, strict=True), sp.sympify(right, strict=True)
+        for lhs, rhs in premise.equations:
+            a, b = sp.sympify(lhs, strict=True), sp.sympify(rhs, strict=True)
             if not isinstance(a, sp.Expr) or not isinstance(b, sp.Expr):
-                raise InputError(f"premise {premise.says!r}: {left!r} = {right!r} is no equation of two expressions")
+                raise InputError(f"premise {premise.says!r}: {lhs!r} = {rhs!r} is no equation of two expressions")
             if premise.small is not None and a.is_Symbol and a in b.free_symbols:
                 b = b.xreplace({a: _scaled(a, premise.small)})
             e, conditions = _without_inverse(a - b)
@@ -135,51 +132,51 @@ def _collected(
 
 
 def _scaled(letter: sp.Symbol, small: sp.Symbol) -> sp.Symbol:
-    """What a letter that is small is of the small quantity."""
+    """Return the symbol for letter/small, the scaled value of a small symbol."""
     return sp.Symbol(f"({letter.name}/{small.name})", **letter.assumptions0)
 
 
 def _without_inverse(e: sp.Expr) -> tuple[sp.Expr, tuple[Relational, ...]]:
-    """s − acos(g) as g − cos(s) with 0 ≤ s ≤ π; other equations as they are."""
+    """Return s − acos(g) as g − cos(s) with 0 ≤ s ≤ π, and other equations unchanged."""
     for sign in (1, -1):
         terms = sp.Add.make_args(sp.expand(sign * e))
         calls = [t for t in terms if (-t).func in INVERSES]
-        rest = sp.Add(*(t for t in terms if t not in calls))
-        if len(calls) == 1 and rest.is_Symbol:
-            value, conditions = argument((-calls[0]).func, rest)
+        remainder = sp.Add(*(t for t in terms if t not in calls))
+        if len(calls) == 1 and remainder.is_Symbol:
+            value, conditions = argument((-calls[0]).func, remainder)
             return (-calls[0]).args[0] - value, conditions
     return e, ()
 
 
 class _Wishes(NamedTuple):
-    """Which letters are eliminated first where several can be, and which last: for reading only."""
+    """The symbols that are eliminated first and last; the choice affects only the readability of results."""
 
     first: frozenset[sp.Symbol] = frozenset()
     last: sp.Symbol | None = None
     order: tuple[sp.Symbol, ...] = ()
 
     def rank(self, step: "_Step") -> tuple[Any, ...]:
-        """The lowest is taken."""
+        """Return the sort key; the lowest step is taken."""
         number, lossy, operations = step.rank
         place = self.order.index(step.letter)
         return step.letter == self.last, number, lossy, step.letter not in self.first, operations, place
 
 
-# A set is looked at again for each premise that may be left out of it, and for each line.
+# The same set occurs for each premise that may be omitted, and for each line.
 @lru_cache(maxsize=512)
-def _solved(
+def _eliminate_or_contradict(
     equations: frozenset[sp.Expr], region: frozenset[Relational], small: tuple[sp.Symbol, ...], wishes: _Wishes
 ) -> Hypotheses:
     try:
-        return _solved_or_not(equations, region, small, wishes)
-    except _ContradictionError as found:
-        return Hypotheses({}, small=small, contradiction=str(found))
+        return _eliminate(equations, region, small, wishes)
+    except _ContradictionError as error:
+        return Hypotheses({}, small=small, contradiction=str(error))
 
 
-def _solved_or_not(
+def _eliminate(
     equations: frozenset[sp.Expr], region: frozenset[Relational], small: tuple[sp.Symbol, ...], wishes: _Wishes
 ) -> Hypotheses:
-    put: dict[sp.Symbol, sp.Expr] = {}
+    values: dict[sp.Symbol, sp.Expr] = {}
     letters = Numbering(sp.S.Zero, *equations, *region)
     wishes = wishes._replace(order=tuple(letters.symbols))
 
@@ -195,16 +192,16 @@ def _solved_or_not(
     while True:
         steps = [step for e in waiting for step in _plain_steps(e, small)]
         if not steps:
-            known = _known(units, conditions, put)
-            waiting = list(dict.fromkeys(e for each in waiting if (e := _reduced(each, known)) is not None))
-            steps = [step for e in waiting for step in _steps(e, small, known)]
+            domain = _known(units, conditions, values)
+            waiting = list(dict.fromkeys(e for equation in waiting if (e := _reduced(equation, domain)) is not None))
+            steps = [step for e in waiting for step in _steps(e, small, domain)]
         if not steps:
             break
-        _, letter, value, own = min(steps, key=wishes.rank)
-        conditions += [*own, *_own_conditions(letter, value)]
-        put = {old: replaced(new, {letter: value}) for old, new in put.items()} | {letter: value}
-        waiting = [e for each in waiting if (e := replaced(each, {letter: value})) != 0]
-    return Hypotheses(put, tuple(waiting), tuple(_checked(conditions, put, waiting, small)), small)
+        _, letter, value, step_conditions = min(steps, key=wishes.rank)
+        conditions += [*step_conditions, *_implied_conditions(letter, value)]
+        values = {old: replaced(new, {letter: value}) for old, new in values.items()} | {letter: value}
+        waiting = [e for equation in waiting if (e := replaced(equation, {letter: value})) != 0]
+    return Hypotheses(values, tuple(waiting), tuple(_consistent_conditions(conditions, values, waiting, small)), small)
 
 
 def _denominator(e: sp.Expr) -> sp.Expr:
@@ -212,40 +209,42 @@ def _denominator(e: sp.Expr) -> sp.Expr:
 
 
 class _Known(NamedTuple):
-    """Expressions that do not vanish, with their opposites, and where all conditions hold."""
+    """Expressions that do not vanish, with their opposites, and the region in which all conditions hold."""
 
     units: frozenset[sp.Expr]
     where: Region
 
     def nonzero(self, e: sp.Expr) -> bool:
-        """Return whether e does not vanish."""
+        """Return True if e is known not to vanish."""
         if e in self.units or sp.expand(e) in self.units:
             return True
-        found = signs(e, self.where)
-        return found is not None and 0 not in found
+        sign_set = signs(e, self.where)
+        return sign_set is not None and 0 not in sign_set
 
 
-def _known(units: Iterable[sp.Expr], conditions: Iterable[Relational], put: Mapping[sp.Symbol, sp.Expr]) -> _Known:
-    there = [r.xreplace(put) for r in conditions if not isinstance(r, sp.Ne)]
-    opposites = (sp.expand(sign * u.xreplace(put)) for u in units for sign in (1, -1))
-    return _Known(frozenset(u for u in opposites if not u.is_number), region(r for r in there if r is not sp.false))
+def _known(units: Iterable[sp.Expr], conditions: Iterable[Relational], values: Mapping[sp.Symbol, sp.Expr]) -> _Known:
+    substituted = [r.xreplace(values) for r in conditions if not isinstance(r, sp.Ne)]
+    opposites = (sp.expand(sign * u.xreplace(values)) for u in units for sign in (1, -1))
+    return _Known(
+        frozenset(u for u in opposites if not u.is_number), region(r for r in substituted if r is not sp.false)
+    )
 
 
 @lru_cache(maxsize=2048)
-def _reduced(e: sp.Expr, known: _Known) -> sp.Expr | None:
-    """An equation without factors that do not vanish; None where it holds by itself."""
+def _reduced(e: sp.Expr, domain: _Known) -> sp.Expr | None:
+    """Divide an equation by factors that do not vanish; return None if it holds identically."""
     if e.has(sp.nan, sp.zoo, sp.oo, -sp.oo):
         raise _ContradictionError("a denominator becomes 0")
     factors: dict[sp.Expr, None] = {}
     for factor, _ in _factor_list(sp.together(e).as_numer_denom()[0]):
-        if not known.nonzero(factor):
+        if not domain.nonzero(factor):
             factors[factor] = None
-    kept = sp.expand(sp.Mul(*factors))
-    if kept.is_number or decide_zero(kept).answer == "zero":
-        if not factors or (kept != 0 and decide_zero(kept).answer != "zero"):
+    remainder = sp.expand(sp.Mul(*factors))
+    if remainder.is_number or decide_zero(remainder).answer == "zero":
+        if not factors or (remainder != 0 and decide_zero(remainder).answer != "zero"):
             raise _ContradictionError(f"{readable(str(e))} is not 0")
         return None
-    return min(kept, sp.expand(-kept), key=sp.default_sort_key)
+    return min(remainder, sp.expand(-remainder), key=sp.default_sort_key)
 
 
 def _factor_list(e: sp.Expr) -> list[tuple[sp.Expr, int]]:
@@ -257,7 +256,7 @@ def _factor_list(e: sp.Expr) -> list[tuple[sp.Expr, int]]:
 
 
 class _Step(NamedTuple):
-    """A letter that an equation gives, and its value; of all steps that of the lowest rank is taken."""
+    """A symbol that an equation determines, and its value; the step of the lowest rank is taken."""
 
     rank: tuple[Any, ...]
     letter: sp.Symbol
@@ -267,43 +266,43 @@ class _Step(NamedTuple):
 
 @lru_cache(maxsize=2048)
 def _plain_steps(e: sp.Expr, small: tuple[sp.Symbol, ...]) -> tuple[_Step, ...]:
-    """Those of letters that stand in a term by themselves, with a number before them, and nowhere else in the equation."""
-    terms, found = sp.Add.make_args(e), []
+    """Return the steps for symbols that occur once, as a term with a numeric factor."""
+    terms, steps = sp.Add.make_args(e), []
     for term in terms:
         number, letter = term.as_coeff_Mul()
         if letter.is_Symbol and letter not in small and all(t is term or letter not in t.free_symbols for t in terms):
-            found.append(_step(letter, -(e - term) / number))
-    return tuple(found)
+            steps.append(_step(letter, -(e - term) / number))
+    return tuple(steps)
 
 
 @lru_cache(maxsize=2048)
-def _steps(e: sp.Expr, small: tuple[sp.Symbol, ...], known: _Known) -> tuple[_Step, ...]:
-    """Those of letters that an equation is linear in, or in one function of which, their coefficient known not to vanish."""
-    found = []
+def _steps(e: sp.Expr, small: tuple[sp.Symbol, ...], domain: _Known) -> tuple[_Step, ...]:
+    """Return the steps that solve the equation for a symbol, or one function of it, linear with a nonzero coefficient."""
+    steps = []
     for letter in e.free_symbols - set(small):
         kernel = _kernel(e, letter)
         if kernel is None:
             continue
         unknown = letter if kernel == letter else sp.Dummy()
-        there = e if kernel == letter else e.xreplace({kernel: unknown})
-        coefficient = sp.expand(there.diff(unknown))
+        linear = e if kernel == letter else e.xreplace({kernel: unknown})
+        coefficient = sp.expand(linear.diff(unknown))
         if coefficient.has(letter, unknown, sp.Derivative, sp.Subs):
             continue
-        if not (coefficient.is_number or all(known.nonzero(f) for f, _ in _factor_list(coefficient))):
+        if not (coefficient.is_number or all(domain.nonzero(f) for f, _ in _factor_list(coefficient))):
             continue
-        rest = sp.expand(there.xreplace({unknown: sp.S.Zero}))
-        if rest.has(sp.nan, sp.zoo, sp.oo, letter) or (rest != 0 and coefficient.free_symbols & set(small)):
+        remainder = sp.expand(linear.xreplace({unknown: sp.S.Zero}))
+        if remainder.has(sp.nan, sp.zoo, sp.oo, letter) or (remainder != 0 and coefficient.free_symbols & set(small)):
             continue
-        value = sp.cancel(-rest / coefficient)
+        value = sp.cancel(-remainder / coefficient)
         if kernel == letter:
-            found.append(_step(letter, value))
-        elif (inverted := solved_for(kernel, letter, value, known.where)) is not None:
-            found.append(_step(letter, *inverted))
-    return tuple(found)
+            steps.append(_step(letter, value))
+        elif (inverted := solved_for(kernel, letter, value, domain.where)) is not None:
+            steps.append(_step(letter, *inverted))
+    return tuple(steps)
 
 
 def _kernel(e: sp.Expr, letter: sp.Symbol) -> sp.Expr | None:
-    """The letter where an equation is a polynomial of degree one in it; else the one function or power of it there is."""
+    """Return the symbol, if it occurs only in sums and products; else its only function or power in the equation."""
     inside = {node for node in sp.preorder_traversal(e) if letter in node.args and not (node.is_Add or node.is_Mul)}
     if not inside:
         return letter
@@ -313,14 +312,14 @@ def _kernel(e: sp.Expr, letter: sp.Symbol) -> sp.Expr | None:
 
 
 def _step(letter: sp.Symbol, value: sp.Expr, conditions: tuple[Relational, ...] = ()) -> _Step:
-    """Numbers first, then values that have the signs that the letter was declared with, then short ones."""
-    lossy = len(_own_conditions(letter, value)) + len(conditions)
+    """Rank a step: numbers first, then values with the signs that the symbol was declared with, then short values."""
+    lossy = len(_implied_conditions(letter, value)) + len(conditions)
     return _Step((not value.is_number, lossy, sp.count_ops(value)), letter, value, conditions)
 
 
-def _own_conditions(letter: sp.Symbol, value: sp.Expr) -> list[Relational]:
-    """What the letter's assumptions say of its value, where the value's own do not say it. Raises where they exclude it."""
-    found: list[Relational] = []
+def _implied_conditions(letter: sp.Symbol, value: sp.Expr) -> list[Relational]:
+    """Return the conditions that the symbol's assumptions add to its value; raise if they exclude the value."""
+    relations: list[Relational] = []
     tests = {
         "positive": (letter.is_positive, value.is_positive, lambda v: v > 0),
         "negative": (letter.is_negative, value.is_negative, lambda v: v < 0),
@@ -330,44 +329,47 @@ def _own_conditions(letter: sp.Symbol, value: sp.Expr) -> list[Relational]:
         "real": (letter.is_real, value.is_real, None),
         "integer": (letter.is_integer, value.is_integer, None),
     }
-    for name, (declared, known, condition) in tests.items():
-        if declared and known is False:
+    for name, (declared, value_sign, condition) in tests.items():
+        if declared and value_sign is False:
             raise _ContradictionError(f"{letter} = {value}, and {letter} is declared {name}")
-        if declared and known is None and condition is not None and not found:
+        if declared and value_sign is None and condition is not None and not relations:
             relation = condition(value)  # type: ignore[no-untyped-call]
             if isinstance(relation, Relational):
-                found.append(relation)
-    return found
+                relations.append(relation)
+    return relations
 
 
-def _checked(
-    relations: list[Relational], put: Mapping[sp.Symbol, sp.Expr], left: list[sp.Expr], small: tuple[sp.Symbol, ...]
+def _consistent_conditions(
+    relations: list[Relational],
+    values: Mapping[sp.Symbol, sp.Expr],
+    equations: list[sp.Expr],
+    small: tuple[sp.Symbol, ...],
 ) -> Iterator[Relational]:
-    """The conditions in the letters that are left, each once; raises where they and the equations left exclude each other."""
-    found: dict[Relational, None] = {}
+    """Yield the conditions in the remaining symbols, each once; raise if they contradict the remaining equations."""
+    reduced: dict[Relational, None] = {}
     for relation in relations:
         try:
-            there = relation.xreplace(put)
+            substituted = relation.xreplace(values)
         except TypeError:
             raise _ContradictionError(f"{relation_text(relation)} is not real") from None
-        if there == sp.false:
+        if substituted == sp.false:
             raise _ContradictionError(f"{relation_text(relation)} is false")
-        if isinstance(there, Relational):
-            if isinstance(there, sp.Ne) and decide_zero(there.lhs - there.rhs).answer == "zero":
+        if isinstance(substituted, Relational):
+            if isinstance(substituted, sp.Ne) and decide_zero(substituted.lhs - substituted.rhs).answer == "zero":
                 raise _ContradictionError(f"{relation_text(relation)} is false")
-            found[there] = None
-    inequalities = [r for r in found if not isinstance(r, sp.Ne)]
-    if is_infeasible(left, region(inequalities), small):
-        all_of_it = (*(f"{readable(str(e))} = 0" for e in left), *map(relation_text, inequalities))
+            reduced[substituted] = None
+    inequalities = [r for r in reduced if not isinstance(r, sp.Ne)]
+    if is_infeasible(equations, region(inequalities), small):
+        all_of_it = (*(f"{readable(str(e))} = 0" for e in equations), *map(relation_text, inequalities))
         near = f" near {', '.join(map(str, small))} = 0" if small else ""
-        raise _ContradictionError(f"no values of the letters satisfy {' and '.join(all_of_it)}{near}")
-    yield from found
+        raise _ContradictionError(f"no values of the symbols satisfy {' and '.join(all_of_it)}{near}")
+    yield from reduced
 
 
 def _as_assumption(
     relation: Any, small: tuple[sp.Symbol, ...], order: list[sp.Symbol]
 ) -> tuple[sp.Symbol, sp.Expr] | None:
-    """A letter and its value by a new letter whose assumption is the condition: x ≥ 1 is x = 1 + u, u nonnegative."""
+    """Return a symbol and its value by a new symbol whose assumption is the condition: x ≥ 1 is x = 1 + u, u ≥ 0."""
     if not isinstance(relation, sp.Ge | sp.Gt | sp.Le | sp.Lt):
         return None
     e = sp.expand(relation.gts - relation.lts)
@@ -378,13 +380,13 @@ def _as_assumption(
         if not slope.is_Rational or slope == 0 or letter.is_integer:
             continue
         kind = {"positive": True} if strict else {"nonnegative": True}
-        rest = sp.expand(e - slope * letter)
-        if letter in small and rest != 0:
-            continue  # what is small stays a letter, of one sign at most
-        new = sp.Symbol(letter.name if rest == 0 and slope > 0 else f"({e})", **kind)
-        value = (new - rest) / slope
+        remainder = sp.expand(e - slope * letter)
+        if letter in small and remainder != 0:
+            continue  # the variable of a series must remain a symbol
+        new = sp.Symbol(letter.name if remainder == 0 and slope > 0 else f"({e})", **kind)
+        value = (new - remainder) / slope
         try:
-            if _own_conditions(letter, value):
+            if _implied_conditions(letter, value):
                 continue
         except _ContradictionError:
             continue
@@ -393,11 +395,11 @@ def _as_assumption(
 
 
 def _declared(s: sp.Symbol) -> int:
-    """How many signs the letter was declared with: those with none are taken first."""
+    """Return the number of signs that the symbol was declared with; symbols without any are taken first."""
     return sum(bool(getattr(s, f"is_{kind}")) for kind in _KINDS)
 
 
-# Bases of more, larger or higher polynomials may take hours.
+# Gröbner bases of more, larger or higher polynomials may take hours.
 _MOST_EQUATIONS, _MOST_TERMS, _MOST_DEGREE, _MOST_LETTERS = 6, 60, 6, 9
 
 
@@ -405,25 +407,25 @@ Answer = Literal["zero", "nonzero", "nowhere", "undecided"]
 
 
 def vanishes_on(difference: sp.Expr, equations: Sequence[sp.Expr], apart: Sequence[sp.Expr] = ()) -> Answer:
-    """Whether the difference is zero wherever every equation is, and neither a denominator nor an expression of `apart`.
+    """Decide if the difference vanishes on the zeros of the equations, without zeros of denominators and of `apart`.
 
-    "nowhere": there is no such place, even over the complex numbers. "nonzero": it is not in the radical over the complex
-    numbers; of real letters that alone refutes nothing.
+    "nowhere" means that there are no such points, even over the complex numbers. "nonzero" means that the difference is not in
+    the radical over the complex numbers, which refutes nothing for real symbols.
     """
     try:
         numerator, relations, units = _in_one_ring(difference, list(equations), list(apart))
     except NotExactError:
         return "undecided"
-    found = _used([numerator, *units], relations)
-    if found is None:
+    system = _in_small_ring([numerator, *units], relations)
+    if system is None:
         return "undecided"
-    ring, (target, *others), ideal = found
+    ring, (target, *others), ideal = system
     order = ring.clone(order=grevlex)
     basis = groebner([p.set_ring(order) for p in ideal], order)
     one_more = PolyRing([*sp.symbols(f"g:{ring.ngens}"), sp.Symbol("t")], ring.domain, grevlex)
 
     def empty(factors: list[PolyElement]) -> bool:
-        """Whether no point of the equations is off the zeros of all factors."""
+        """Return True if a factor vanishes at every point of the equations."""
         product = one_more.gens[-1]
         for p in factors:
             product *= p.set_ring(order).set_ring(one_more)
@@ -442,13 +444,13 @@ def vanishes_on(difference: sp.Expr, equations: Sequence[sp.Expr], apart: Sequen
 def _in_one_ring(
     difference: sp.Expr, equations: list[sp.Expr], apart: list[sp.Expr]
 ) -> tuple[PolyElement, list[PolyElement], list[PolyElement]]:
-    """The numerators of the difference and of the equations, with the relations of the generators, and what is not zero."""
+    """Return the numerators of the difference and of the equations with the relations, and the nonzero polynomials."""
     together = [difference, *equations, *apart]
-    found = survey(sp.Add(*(sp.Dummy() * e for e in together)))
-    roots = find_roots(found)
+    generators = survey(sp.Add(*(sp.Dummy() * e for e in together)))
+    roots = find_roots(generators)
     if roots.unsigned:
         raise NotExactError("The sign of a root may differ from region to region.")
-    reading = reader(found, roots)
+    reading = reader(generators, roots)
     ring = reading.ring
     quotients = [reading.quotient(e) for e in together]
     squares = [ring.polynomials.gens[i] ** 2 - square for i, square in ring.squares.items()]
@@ -458,17 +460,17 @@ def _in_one_ring(
     return numerators[0], [*numerators[1:n], *squares], [*numerators[n:], *factors]
 
 
-def _used(
+def _in_small_ring(
     targets: list[PolyElement], relations: list[PolyElement]
 ) -> tuple[PolyRing, list[PolyElement], list[PolyElement]] | None:
-    """All of them in a ring of the generators that occur; None where they are too many or too large.
-
-    A generator in no relation that is at most a factor of each target, as the m of m (…), decides nothing and is left out.
-    """
+    """Return all polynomials in the ring of the generators that matter; None if they are too many or too large."""
     everything = [*targets, *relations]
+    # A generator that is only a common factor of a target, as m in m (…), decides nothing.
     powers = [[{m[i] for m in p.itermonoms()} for p in everything] for i in range(targets[0].ring.ngens)]
     used = [
-        i for i, sets in enumerate(powers) if any(map(any, sets[len(targets) :])) or any(len(each) > 1 for each in sets)
+        i
+        for i, sets in enumerate(powers)
+        if any(map(any, sets[len(targets) :])) or any(len(exponents) > 1 for exponents in sets)
     ] or [*range(targets[0].ring.ngens)]
     sizes = [(len(p), max(map(sum, p.itermonoms()), default=0)) for p in everything]
     if len(relations) > _MOST_EQUATIONS + len(used) or len(used) > _MOST_LETTERS:
@@ -478,8 +480,8 @@ def _used(
     if sizes[0][0] > 4 * _MOST_TERMS or sizes[0][1] > 2 * _MOST_DEGREE:
         return None
     ring = PolyRing(sp.symbols(f"g:{len(used)}"), sp.QQ)
-    moved = [ring.from_dict({tuple(m[i] for i in used): c for m, c in p.iterterms()}) for p in everything]
-    return ring, moved[: len(targets)], moved[len(targets) :]
+    polynomials = [ring.from_dict({tuple(m[i] for i in used): c for m, c in p.iterterms()}) for p in everything]
+    return ring, polynomials[: len(targets)], polynomials[len(targets) :]
 
 
 Values: TypeAlias = dict[sp.Symbol, Any]  # letter → an exact value, or two rationals between which it lies
@@ -488,10 +490,7 @@ _POINTS, _CHECKED = 40, 2
 
 @dataclass(frozen=True)
 class Witness:
-    """A point, two rationals of one sign between which the difference of the sides lies, and those of each side there.
-
-    sides: of the printed and of the derived side; None where principal values are meant and that of a side is not real.
-    """
+    """A counterexample: a point, and enclosures of the difference and of both sides there (None for a side that is not real)."""
 
     point: Values
     enclosure: Bounds
@@ -501,21 +500,22 @@ class Witness:
 def witness(
     sides: tuple[sp.Expr, sp.Expr], under: Hypotheses, beyond: sp.Expr = sp.S.Zero, principal: bool = False
 ) -> Witness | None:
-    """Return a point where the hypotheses hold, both sides are real and |left − right| > beyond ≥ 0; None without one.
+    """Return a point of the hypotheses at which both sides are real and |left − right| > beyond ≥ 0; None without one.
 
-    principal: of sides with i or complex letters, and of sides that are real nowhere, principal values count; the absolute
-    value of the difference is then enclosed.
+    With `principal`, principal values count for complex sides; the absolute value of the difference is then enclosed.
     """
-    there = sp.Tuple(*map(under.on, sides))
-    real = replace(under, region=tuple(dict.fromkeys((*under.region, *conditions(there)))))
-    found = _apart(sides, real, beyond, False) if sp.false not in real.region else None
-    if found is None and principal and has_principal_values(there, under.left, region(under.inside)):
-        return _apart(sides, under, beyond, True)
-    return found
+    substituted = sp.Tuple(*map(under.on, sides))
+    real = replace(under, region=tuple(dict.fromkeys((*under.region, *conditions(substituted)))))
+    result = _separating_point(sides, real, beyond, False) if sp.false not in real.region else None
+    if result is None and principal and has_principal_values(substituted, under.equations, region(under.inside)):
+        return _separating_point(sides, under, beyond, True)
+    return result
 
 
-def _apart(sides: tuple[sp.Expr, sp.Expr], under: Hypotheses, beyond: sp.Expr, principal: bool) -> Witness | None:
-    """Return a point of the hypotheses that keeps the sides apart."""
+def _separating_point(
+    sides: tuple[sp.Expr, sp.Expr], under: Hypotheses, beyond: sp.Expr, principal: bool
+) -> Witness | None:
+    """Return a point of the hypotheses at which enclosures separate the sides."""
     signed = under.signed
     both = tuple(signed.on(side) for side in sides)
     difference = sides[0] - sides[1]
@@ -527,43 +527,40 @@ def _apart(sides: tuple[sp.Expr, sp.Expr], under: Hypotheses, beyond: sp.Expr, p
         if principal and between is None:
             between = enclosure(sp.Abs(e, evaluate=False), values)
         if between is not None and (between[0] > beyond or between[1] < -beyond):
-            left, right = enclosures(map(evaluated, both), values)
-            if principal or (left and right):
-                return Witness(_of_letters(difference, under, signed, values), between, (left, right))
+            lhs, rhs = enclosures(map(evaluated, both), values)
+            if principal or (lhs and rhs):
+                return Witness(_point_in_symbols(difference, under, signed, values), between, (lhs, rhs))
     return None
 
 
-def contradicted(left: Any, right: Any, under: Hypotheses) -> Values | None:
-    """Return a point of the hypotheses that keeps two real sides apart that were decided to be equal; None as it should be.
-
-    The sides are enclosed as they came: nothing is put into them.
-    """
+def contradicted(printed: Any, derived: Any, under: Hypotheses) -> Values | None:
+    """Return a point that separates two sides proved to be equal, without substitution; any such point is a bug."""
     signed = under.signed
-    for a, b in zip(*(side if isinstance(side, sp.MatrixBase) else [side] for side in (left, right)), strict=True):
+    for a, b in zip(*(side if isinstance(side, sp.MatrixBase) else [side] for side in (printed, derived)), strict=True):
         for values in islice(_points([signed.on(a), signed.on(b)], signed), _CHECKED):
-            if are_apart(a, b, {**signed.put, **values}):
+            if are_apart(a, b, {**signed.values, **values}):
                 return values
     return None
 
 
 def _says_more(e: sp.Expr, signed: Hypotheses) -> bool:
-    """Return whether an equation about a function may fix a derivative of it, or an equation that is left holds one."""
-    given = sp.Tuple(*signed.left, *signed.put.values())
-    new = e.atoms(sp.Derivative) - given.atoms(sp.Derivative)
-    functions = given.atoms(AppliedUndef)
-    return any(x.has(AppliedUndef) for x in signed.left) or any(d.has(*functions) for d in new if functions)
+    """Return True if a remaining equation contains a function, or may determine a derivative in e."""
+    premises = sp.Tuple(*signed.equations, *signed.values.values())
+    new = e.atoms(sp.Derivative) - premises.atoms(sp.Derivative)
+    functions = premises.atoms(AppliedUndef)
+    return any(x.has(AppliedUndef) for x in signed.equations) or any(d.has(*functions) for d in new if functions)
 
 
 def _points(compared: Sequence[sp.Expr], signed: Hypotheses) -> Iterator[Values]:
-    """Points of the letters that are left which satisfy all that the hypotheses say."""
-    conditions = *signed.left, *signed.region
+    """Yield points of the remaining symbols that satisfy all hypotheses."""
+    conditions = *signed.equations, *signed.region
     order = canonical_order((without_number(compared[0])[1], *compared[1:], *conditions))
     letters = [s for s in order if any(s in x.free_symbols for x in (*compared, *conditions))]
     scales = (1, 2) if signed.region else (1,)
     for at in chain(*(islice(points(letters, _POINTS, sp.Integer(scale)), _POINTS) for scale in scales)):
         values: Values = dict(at)
-        if signed.left:
-            box = enclosed_root(signed.left, unknowns, at) if (unknowns := _unknowns(signed, order)) else None
+        if signed.equations:
+            box = enclosed_root(signed.equations, unknowns, at) if (unknowns := _unknowns(signed, order)) else None
             if box is None:
                 continue
             values |= box
@@ -572,18 +569,18 @@ def _points(compared: Sequence[sp.Expr], signed: Hypotheses) -> Iterator[Values]
 
 
 def _unknowns(signed: Hypotheses, order: list[sp.Symbol]) -> list[sp.Symbol]:
-    """A letter for each equation that is left, each once, of those that are in the fewest; empty where there are too few."""
-    found: list[sp.Symbol] = []
-    for e in sorted(signed.left, key=lambda e: len(e.free_symbols)):
-        free = sorted(e.free_symbols - set(found) - set(signed.small), key=order.index)
+    """Return a symbol for each remaining equation, to be solved for; empty if there are too few."""
+    unknowns: list[sp.Symbol] = []
+    for e in sorted(signed.equations, key=lambda e: len(e.free_symbols)):
+        free = sorted(e.free_symbols - set(unknowns) - set(signed.small), key=order.index)
         if not free:
             return []
-        found.append(free[0])
-    return found
+        unknowns.append(free[0])
+    return unknowns
 
 
 def _as_declared(values: Values) -> bool:
-    """Return whether the letters that an equation fixes have the signs that they were declared with."""
+    """Return True if the solved symbols have the signs that they were declared with."""
     return all(
         not ((s.is_extended_nonnegative and v[0] <= 0) or (s.is_extended_nonpositive and v[1] >= 0) or s.is_integer)
         for s, v in values.items()
@@ -592,7 +589,7 @@ def _as_declared(values: Values) -> bool:
 
 
 def _satisfied(relation: Relational, values: Values) -> bool:
-    """Return whether a condition certainly holds at a point."""
+    """Return True if a condition is proved to hold at a point."""
     between = enclosure(sp.sympify(relation.lhs - relation.rhs, strict=True), values)
     if between is None:
         return False
@@ -604,16 +601,16 @@ def _satisfied(relation: Relational, values: Values) -> bool:
     return bool(low > 0 or high < 0)
 
 
-def _of_letters(difference: sp.Expr, under: Hypotheses, signed: Hypotheses, values: Values) -> Values:
-    """The point in the letters of the statement: what was eliminated has its value, too."""
+def _point_in_symbols(difference: sp.Expr, under: Hypotheses, signed: Hypotheses, values: Values) -> Values:
+    """Return the point in the symbols of the statement, the eliminated ones included."""
     exact = {s: v for s, v in values.items() if not isinstance(v, tuple)}
-    found: Values = {}
-    for letter in sorted(difference.free_symbols | set(under.put), key=sp.default_sort_key):
+    point: Values = {}
+    for letter in sorted(difference.free_symbols | set(under.values), key=sp.default_sort_key):
         value = signed.on(letter)
         if value in values:
-            found[letter] = values[value]
+            point[letter] = values[value]
         elif value.free_symbols <= set(exact):
-            found[letter] = replaced(value, exact)
+            point[letter] = replaced(value, exact)
         elif (between := enclosure(value, values)) is not None:
-            found[letter] = between
-    return found
+            point[letter] = between
+    return point

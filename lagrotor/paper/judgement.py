@@ -1,7 +1,7 @@
-"""An equation and its premises given as text, judged: for the shell, and for a page in a browser. Nothing in the text runs.
+"""The judgement of an equation and premises that are text, for the shell and the page in a browser. No text is executed.
 
-Text with a backslash, a brace or a ^ is read as LaTeX, other text as Python writes it. Every letter is real, those named
-`positive` are positive.
+Text with a backslash, a brace or a ^ is read as LaTeX, other text as Python. Every symbol is real; those in `positive` are
+positive.
 """
 
 import ast
@@ -32,10 +32,11 @@ from lagrotor.paper.latex.tree import (
 from lagrotor.paper.ledger import decide
 from lagrotor.paper.premises import Premise, premises_of
 from lagrotor.paper.verdicts import Relation, Statement, Verdict, chain, check_premises
+from lagrotor.renamed import accept_old_keywords
 
 _RELATIONS = {"=": sp.Eq, "!=": sp.Ne, ">=": sp.Ge, ">": sp.Gt, "<=": sp.Le, "<": sp.Lt}
 _SIGN = re.compile(r"(==|>=|<=|!=|[=<>≥≤≠])")
-# Letters that are numbers to most who type them so.
+# Symbols that are numbers to most who type them in this way.
 _OPEN = (
     (
         re.compile(r"(?<![\w\\])e\s*\*\*\s*(?:-?\s*[A-Za-z]|\([^()]*[A-Za-z])"),
@@ -43,14 +44,22 @@ _OPEN = (
     ),
     (re.compile(r"\bexp\([^()]*\b[iI]\b"), "i is the imaginary unit is open: write 1j"),
 )
-# Operations that act on an expression, and not on the letter that stands for it.
+# Operations that act on an expression and not on the symbol that abbreviates it.
 _ACTING = ("Derivative", "rate", "Integral", "Sum")
 _TYPED = {"==": "=", "≥": ">=", "≤": "<=", "≠": "!="}
 
 
 @dataclass(frozen=True)
 class Judgement:
-    """What was decided of an equation given as text, and how the text was read: `readings`, the equation first."""
+    """The verdict on an equation that was judged as text.
+
+    Attributes
+    ----------
+    verdict : Verdict
+        The verdict.
+    readings : tuple[str, ...]
+        The equation and the premises as they were read, in plain text.
+    """
 
     verdict: Verdict
     readings: tuple[str, ...]
@@ -61,7 +70,7 @@ class Judgement:
 
 @dataclass(frozen=True)
 class _Text:
-    """Sides and the signs between them as text; order: (small letter, power) of its O(…); nodes: the sides, read from LaTeX."""
+    """The sides of a relation and the signs between them; `order` is (symbol, power) of its O(…), `nodes` the LaTeX trees."""
 
     sides: tuple[str, ...]
     signs: tuple[str, ...]
@@ -69,103 +78,115 @@ class _Text:
     nodes: tuple[Node, ...] = ()
 
     def __str__(self) -> str:
-        rest = f" + O({self.order[0]}**{self.order[1]})" if self.order else ""
-        return self.sides[0] + "".join(f" {a} {b}" for a, b in zip(self.signs, self.sides[1:], strict=True)) + rest
+        order_term = f" + O({self.order[0]}**{self.order[1]})" if self.order else ""
+        return (
+            self.sides[0] + "".join(f" {a} {b}" for a, b in zip(self.signs, self.sides[1:], strict=True)) + order_term
+        )
 
 
+@accept_old_keywords
 def judge_text(
-    equation: str, given: Iterable[str] = (), positive: Iterable[str] = (), small: str = "", order: int = 0
+    equation: str, premises: Iterable[str] = (), positive: Iterable[str] = (), small: str = "", order: int = 0
 ) -> Judgement:
-    """An equation as text, judged; of a chain each member is held against the last.
+    """Judge an equation in text; in a chain, each member is compared with the last.
 
     Parameters
     ----------
     equation : str
-        Left = right, or a chain of several; also LaTeX.
-    given : Iterable[str], default ()
-        Premises, a relation each: `J = I_3`, `x >= 0`, `a != b`.
+        lhs = rhs, or a chain of several, as Python or LaTeX.
+    premises : Iterable[str], default ()
+        One relation each: `J = I_3`, `x >= 0`, `a != b`.
     positive : Iterable[str], default ()
-        Names of the letters that are positive; the others are real.
+        Names of the symbols that are positive; the others are real.
     small : str, default ''
-        The letter in which the equation is claimed through small**order only.
+        The symbol in which the equation is claimed through small**order only.
     order : int, default 0
-        That order; an O(…) in the equation gives both.
+        That order. An O(…) in the equation sets both.
+
+    Returns
+    -------
+    Judgement
+        The verdict and the readings.
 
     Raises
     ------
     InputError
-        What cannot be read, with the place and the way out.
+        If the text cannot be read; the message names the place and the remedy.
 
     Examples
     --------
-    >>> judge_text("sqrt(x**2) = x", given=["x >= 0"])
+    >>> judge_text("sqrt(x**2) = x", premises=["x >= 0"])
     sqrt(x**2) = x: holds-if
       under the given premise x ≥ 0
     """
     texts = tuple(_statements(equation, "judge"))
     if not all(set(text.signs) == {"="} for text in texts):
         raise InputError(f"judge: {equation!r} is no equation: write left = right")
-    assumed = tuple(statement for line in given for statement in _statements(line, "given"))
+    assumed = tuple(statement for line in premises for statement in _statements(line, "premises"))
     if wrong := next((text for text in assumed if len(text.signs) != 1), None):
-        raise InputError(f"given: {str(wrong)!r} is no premise: write one relation each, x >= 0 or J = I_3")
+        raise InputError(f"premises: {str(wrong)!r} is no premise: write one relation each, x >= 0 or J = I_3")
     for text in texts:
         _check_says_something(text, (*texts, *assumed))
     small, order = next(((text.order[0], text.order[1] - 1) for text in texts if text.order), (small, order))
     letters = letters_in(
         (*filter(None, [small]), *(side for text in (*texts, *assumed) for side in text.sides)), positive
     )
-    texts = tuple(_put_in(text, assumed) for text in texts)
+    texts = tuple(_substitute_premises(text, assumed) for text in texts)
     whole = sorted({name for text in texts for node in text.nodes for name in _lengths(node)})
     letters |= {name: sp.Symbol(name, integer=True, positive=True) for name in whole}
     rates = rates_of(node for text in (*texts, *assumed) for node in text.nodes)
     rates = {letters.get(a.name, a): letters.get(b.name, b) for a, b in rates.items()}
     opaque = Opaque(rates=rates, refuses=True, letters=letters)
-    premises = [_relation(text, letters, opaque) for text in assumed if not _is_put_in(text, assumed, texts)]
+    premise_relations = [
+        _relation(text, letters, opaque) for text in assumed if not _is_substituted(text, assumed, texts)
+    ]
     about = read(small, letters, "small") if small else None
     relations: list[Relation] = []
     prints: list[Any] = [about]
     poles, cancelled = set[sp.Expr](), set[sp.Expr]()
     for text in texts:
         sides = _values(text, letters, opaque)
-        first, *rest = (value for value, _ in sides)
-        relations += chain(rest[-1], first, *rest[:-1], small=about, claimed=order)
-        for value, written in sides:
-            prints += [value, written]
-            poles, cancelled = poles | _poles(written), cancelled | (_poles(written) - _poles(value))
-    statement = Statement("", tuple(relations), premises_of(premises), title="; ".join(map(str, texts)))
+        first, *members = (value for value, _ in sides)
+        relations += chain(members[-1], first, *members[:-1], small=about, claimed=order)
+        for value, unevaluated in sides:
+            prints += [value, unevaluated]
+            poles, cancelled = poles | _poles(unevaluated), cancelled | (_poles(unevaluated) - _poles(value))
+    statement = Statement("", tuple(relations), premises_of(premise_relations), title="; ".join(map(str, texts)))
     check_premises(prints, statement.premises)
     verdict = decide(statement)
-    # x of x/x and of exp(log(x)) is gone from what is decided; where nothing else is known of the domain, all is named.
+    # sympy cancels the x of x/x and of exp(log(x)), but the domain of the printed text excludes x = 0.
     kept_apart = {sp.expand(sign * (a - b)) for a, b in _strict(verdict.premises) for sign in (1, -1)}
     unseen = sorted((cancelled if verdict.domain else poles) - kept_apart, key=sp.default_sort_key)
     domain = tuple(dict.fromkeys((*verdict.domain, *(sp.Ne(e, 0) for e in unseen))))
-    fixed = ["the other letters are constant in derivatives and integrals"] if opaque.fixing else []
+    fixed = ["the other symbols are constant in derivatives and integrals"] if opaque.fixing else []
     natural = [f"{name} is a natural number, the last index of a sum" for name in whole]
     return Judgement(replace(verdict, domain=domain), (*map(str, (*texts, *assumed)), *natural, *fixed))
 
 
 def _lengths(node: Node) -> Iterator[str]:
-    """Yield the letters that are the last index of a sum."""
-    for each in walk(node):
-        if isinstance(each, Call) and each.name == "Sum" and isinstance(each.args[-1], Letter) and len(each.args) == 4:
-            yield each.args[-1].name
+    """Yield the symbols that are the last index of a sum."""
+    for call in walk(node):
+        if isinstance(call, Call) and call.name == "Sum" and isinstance(call.args[-1], Letter) and len(call.args) == 4:
+            yield call.args[-1].name
 
 
 def _values(text: _Text, letters: Mapping[str, Any], opaque: Opaque) -> list[tuple[Any, Any]]:
-    """Return each side as it is decided and as it is written; of LaTeX straight from the tree, without its text."""
+    """Return each side, evaluated and unevaluated; LaTeX is converted from its tree, without text."""
     if not text.nodes:
         return [read_side(side, letters, "judge") for side in text.sides]
-    parts = [each for node in text.nodes for each in walk(node)]
-    called = {each.name for each in parts if isinstance(each, Call)}
-    if both := next((each.name for each in parts if isinstance(each, Letter) and each.name in called), None):
-        raise InputError(f"judge: {both} stands with its argument and without it: write the argument everywhere")
+    subtrees = [subtree for node in text.nodes for subtree in walk(node)]
+    called = {subtree.name for subtree in subtrees if isinstance(subtree, Call)}
+    if both := next((leaf.name for leaf in subtrees if isinstance(leaf, Letter) and leaf.name in called), None):
+        raise InputError(
+            f"judge: {both} has an argument in one place and none in another: write the argument everywhere"
+        )
     values = [_value(node, opaque) for node in text.nodes]
     shapes = [value.shape for value in values if isinstance(value, sp.MatrixBase)]
     values = [sp.zeros(*shapes[0]) if shapes and value == 0 else value for value in values]
     if len({getattr(value, "shape", ()) for value in values}) > 1:
         raise InputError(f"judge: {text}: the sides are a number and a vector, or of different sizes")
-    over = ([sp.Pow(_value(each, opaque), -1, evaluate=False) for each in divisors(n)] for n in text.nodes)
-    return [(value, sp.Tuple(*each)) for value, each in zip(values, over, strict=True)]
+    inverses = ([sp.Pow(_value(d, opaque), -1, evaluate=False) for d in divisors(n)] for n in text.nodes)
+    return [(value, sp.Tuple(*factors)) for value, factors in zip(values, inverses, strict=True)]
 
 
 def _value(node: Node, opaque: Opaque) -> Any:
@@ -179,30 +200,32 @@ def _value(node: Node, opaque: Opaque) -> Any:
 
 
 def _definitions(assumed: Iterable[_Text]) -> dict[Node, Node]:
-    """Return what premises in LaTeX give for a letter or for a function of it."""
+    """Return symbol or function → its value in a LaTeX premise."""
     pairs = (text.nodes for text in assumed if text.signs == ("=",) and text.nodes)
     return {a: b for a, b in pairs if isinstance(a, Letter) or (isinstance(a, Call) and text_of(a).isidentifier())}
 
 
-def _put_in(text: _Text, assumed: Iterable[_Text]) -> _Text:
-    """Return an equation with the premises put in for what it differentiates or integrates."""
+def _substitute_premises(text: _Text, assumed: Iterable[_Text]) -> _Text:
+    """Substitute the premises for symbols that the equation differentiates or integrates."""
     acting = [n.args[0] for node in text.nodes for n in walk(node) if isinstance(n, Call) and n.name in _ACTING]
-    held = {part for node in acting for part in walk(node)}
-    wanted = {part: value for part, value in _definitions(assumed).items() if part in held}
-    if not wanted:
+    operands = {subtree for node in acting for subtree in walk(node)}
+    substitution = {subtree: value for subtree, value in _definitions(assumed).items() if subtree in operands}
+    if not substitution:
         return text
-    nodes = tuple(put_for(node, wanted) for node in text.nodes)
+    nodes = tuple(put_for(node, substitution) for node in text.nodes)
     return replace(text, nodes=nodes, sides=tuple(map(text_of, nodes)))
 
 
-def _is_put_in(text: _Text, assumed: Iterable[_Text], texts: Iterable[_Text]) -> bool:
-    """Return whether a premise was put in, so that no equation has its letter any more."""
+def _is_substituted(text: _Text, assumed: Iterable[_Text], texts: Iterable[_Text]) -> bool:
+    """Return True if a premise was substituted, so that no equation contains its symbol any more."""
     first = text.nodes[0] if text.nodes else None
-    return first in _definitions(assumed) and not any(first in walk(node) for each in texts for node in each.nodes)
+    return first in _definitions(assumed) and not any(
+        first in walk(node) for equation in texts for node in equation.nodes
+    )
 
 
 def _poles(e: Any) -> set[sp.Expr]:
-    """What is divided by, and what a logarithm is taken of; not what cannot vanish."""
+    """Return the divisors and the arguments of logarithms that may vanish."""
     if isinstance(e, sp.MatrixBase):
         return set().union(*map(_poles, e))
     bases = {power.base for power in e.atoms(sp.Pow) if power.exp.could_extract_minus_sign()}
@@ -212,19 +235,19 @@ def _poles(e: Any) -> set[sp.Expr]:
         for b in bases
         for factor in sp.Mul.make_args(b.doit().together().as_numer_denom()[0])
     )
-    own = e.free_symbols  # and not what an integral or a sum binds
+    free = e.free_symbols  # without the bound symbols of integrals and sums
     return {
-        factor for factor in factors if factor.free_symbols and factor.free_symbols <= own and not factor.is_nonzero
+        factor for factor in factors if factor.free_symbols and factor.free_symbols <= free and not factor.is_nonzero
     }
 
 
 def _strict(premises: Iterable[Premise]) -> Iterator[tuple[sp.Expr, sp.Expr]]:
-    """The sides of a > b, a < b and a ≠ b among the premises."""
+    """Yield the sides of a > b, a < b and a ≠ b among the premises."""
     conditions = (relation for premise in premises for relation in premise.conditions)
     yield from (r.args for r in conditions if isinstance(r, sp.StrictGreaterThan | sp.StrictLessThan | sp.Unequality))
 
 
-_CALL = re.compile(r"(?<![\\\w])([A-Za-z]\w+)\(")  # of a function, by a name of more than one letter
+_CALL = re.compile(r"(?<![\\\w])([A-Za-z]\w+)\(")  # a call of a function whose name has more than one letter
 
 
 def _statements(text: str, where: str) -> Iterator[_Text]:
@@ -240,36 +263,36 @@ def _statements(text: str, where: str) -> Iterator[_Text]:
     if not latex and "^" not in text:
         for pattern, what in _OPEN:
             if pattern.search(text):
-                raise InputError(f"{where}: {text!r}: whether {what}, or another letter")
-        parts = [part.strip() for part in _SIGN.split(text)]
-        yield _Text(tuple(parts[::2]), tuple(_TYPED.get(sign, sign) for sign in parts[1::2]))
+                raise InputError(f"{where}: {text!r}: whether {what}, or another symbol")
+        sides = [side.strip() for side in _SIGN.split(text)]
+        yield _Text(tuple(sides[::2]), tuple(_TYPED.get(sign, sign) for sign in sides[1::2]))
         return
     reading = read_formula(text, with_proposals(Notation(), propose([text])))
     if reading.stop is not None:
         what, way = reading.stop
         raise InputError(f"{where}: {text!r}: {what}: {way}")
-    for each in reading.statements:
-        if not set(each.relations) <= _RELATIONS.keys():
-            raise InputError(f"{where}: {text!r} has {', '.join(each.relations)}: write =, !=, >=, >, <= or <")
-        yield _of_statement(each)
+    for statement in reading.statements:
+        if not set(statement.relations) <= _RELATIONS.keys():
+            raise InputError(f"{where}: {text!r} has {', '.join(statement.relations)}: write =, !=, >=, >, <= or <")
+        yield _text_of_statement(statement)
 
 
-def _of_statement(statement: PrintedStatement) -> _Text:
-    """Return a statement with the O(…) that a side of it has."""
+def _text_of_statement(statement: PrintedStatement) -> _Text:
+    """Return a statement with the lowest O(…) of its sides."""
     orders, nodes = zip(*(without_order(side.node) for side in statement.sides), strict=True)
-    found = [order for order in (*orders, statement.order) if order is not None]
-    lowest = min(found, key=lambda order: order[1], default=None)
+    powers = [order for order in (*orders, statement.order) if order is not None]
+    lowest = min(powers, key=lambda order: order[1], default=None)
     return _Text(tuple(map(text_of, nodes)), statement.relations, lowest, nodes)
 
 
 def _check_says_something(text: _Text, texts: Iterable[_Text]) -> None:
-    """Raise InputError where the first side is a letter of which nothing else is said: then the rest only defines it."""
-    name, *rest = text.sides
-    others = (*rest, *(side for each in texts if each is not text for side in each.sides))
+    """Raise InputError if the first side is a symbol that occurs nowhere else, so that the equation only defines it."""
+    name, *members = text.sides
+    others = (*members, *(side for equation in texts if equation is not text for side in equation.sides))
     if (
         name.isidentifier()
         and name not in FUNCTIONS
-        and len(rest) == 1
+        and len(members) == 1
         and not any(re.search(rf"\b{name}\b", side) for side in others)
     ):
         raise InputError(
@@ -279,10 +302,7 @@ def _check_says_something(text: _Text, texts: Iterable[_Text]) -> None:
 
 
 def letters_in(sides: Iterable[str], positive: Iterable[str] = ()) -> dict[str, sp.Symbol]:
-    """The letters of expressions in text, name → symbol: their names that no function has, positive or else real.
-
-    Raises InputError where a letter said to be positive is in none of them.
-    """
+    """Return name → symbol for the names in the texts that are no functions; raise InputError for an unused positive one."""
     names = set[str]()
     for side in sides:
         try:
@@ -292,16 +312,16 @@ def letters_in(sides: Iterable[str], positive: Iterable[str] = ()) -> dict[str, 
     letters = {name: sp.Symbol(name, real=True) for name in sorted(names - FUNCTIONS.keys())}
     for name in positive:
         if name not in letters:
-            raise InputError(f"positive: {name!r} is no letter of these: {', '.join(letters)}")
+            raise InputError(f"positive: {name!r} is none of the symbols {', '.join(letters)}")
         letters[name] = sp.Symbol(name, positive=True)
     return letters
 
 
 def _relation(text: _Text, letters: Mapping[str, Any], opaque: Opaque) -> Any:
-    (left, _), (right, _) = _values(text, letters, opaque)
-    if isinstance(left, sp.MatrixBase):
-        raise InputError(f"given: {text} is of vectors: write it for each component")
-    relation = _RELATIONS[text.signs[0]](left, right)
+    (lhs, _), (rhs, _) = _values(text, letters, opaque)
+    if isinstance(lhs, sp.MatrixBase):
+        raise InputError(f"premises: {text} is of vectors: write it for each component")
+    relation = _RELATIONS[text.signs[0]](lhs, rhs)
     if relation is sp.true:
-        raise InputError(f"given: {text} says nothing: it is always true")
-    return {left: right} if text.signs[0] == "=" else relation
+        raise InputError(f"premises: {text} says nothing: it is always true")
+    return {lhs: rhs} if text.signs[0] == "=" else relation

@@ -1,9 +1,9 @@
-"""The ledger: it holds what the paper prints, is given what was derived and what was assumed, and decides.
+"""The ledger, which compares printed lines with derived sides and decides.
 
-A derivation never says that an equation is right; it states what was derived, by `stating.verdict`. Every member of every
-printed line is decided by itself, under all premises at once (`hypotheses`), by exact identity, by the ideal of the premises'
-equations, or by the order of the first term that differs; premises that are not needed are then left out. What is refuted has a
-certified point, or an order at which the two part; what is neither is undecided. `judge` does the same without a paper.
+A derivation never says that an equation is right; it states the derived side by `equation_statements.verdict`. Each member of
+a printed line is decided under all premises at once (`hypotheses`): by exact identity, by the ideal of the premises' equations,
+or by the order of the first term that differs. Premises that are not needed are then omitted. A refuted line has a certified
+counterexample, or an order at which the sides differ; any other line is undecided. `judge` does the same without a paper.
 """
 
 import time
@@ -24,65 +24,80 @@ from lagrotor.mechanics.glossary import Glossary
 from lagrotor.paper.grammar import read
 from lagrotor.paper.hypotheses import Hypotheses, contradicted, hypotheses, vanishes_on, witness
 from lagrotor.paper.plain_text import readable
-from lagrotor.paper.premises import Given, Premise, premises_of, relation_text
+from lagrotor.paper.premises import Assumptions, Premise, premises_of, relation_text
 from lagrotor.paper.units import Dimensions, dimensions
 from lagrotor.paper.verdicts import AGREES, Answer, LineVerdict, Relation, Series, Statement, Verdict, check_premises
+from lagrotor.renamed import accept_old_keywords
 
-# How far a series is looked at beyond the order that is claimed.
+# Orders beyond the claimed one through which series are compared.
 BEYOND = 4
-# A difference of more letters is shown as it is; a fraction of a larger denominator in digits.
+# A difference with more symbols is not simplified; a fraction with a larger denominator is shown in digits.
 _MOST_LETTERS, _LARGEST_DENOMINATOR = 7, 100
 _SINGULAR = (sp.nan, sp.zoo, sp.oo, -sp.oo)
 _RANK: tuple[Answer, ...] = ("proved", "holds", "holds-if", "holds-to-order", "undecided", "refuted")
 
 
-def judge(printed: Any, derived: Any, given: Given = (), small: sp.Symbol | None = None, order: int = 0) -> Verdict:
-    """One printed expression held against a derived one.
+@accept_old_keywords
+def judge(
+    printed: Any, derived: Any, premises: Assumptions = (), small: sp.Symbol | None = None, order: int = 0
+) -> Verdict:
+    """Judge a printed expression against a derived one.
 
     Parameters
     ----------
-    printed
-        A sympy expression or matrix, or text in the names of the letters of `derived` and `given`.
-    derived
-        A sympy expression or matrix, or a `Series`.
-    given : Given, default ()
-        What may be assumed, one set in any order and form: Eq(a, b), x >= 0, Ne(a, b), {J: I_3}, a Premise, or several.
+    printed : Expr, Matrix or str
+        A sympy object, or text in the names of the symbols of `derived` and `premises`.
+    derived : Expr, Matrix or Series
+        A sympy object, or a `Series` of known order.
+    premises : Relational, Mapping, Premise or Iterable, default ()
+        The assumptions in any order and form: Eq(a, b), x >= 0, Ne(a, b), {J: I_3}, a Premise, or several of these.
     small : Symbol or None, optional
-        The letter in which equality is claimed through small**order only.
+        The symbol in which equality is claimed through small**order only.
     order : int, default 0
         That order.
+
+    Returns
+    -------
+    Verdict
+        With the premises that are needed, or a counterexample.
 
     Raises
     ------
     InputError
-        Text that cannot be read, a premise that is none.
+        If the text cannot be read, or if a premise is not one of the above.
 
     Examples
     --------
-    >>> from sympy import Symbol, sqrt
+    >>> from sympy import Symbol, cos, sqrt
     >>> x = Symbol("x", real=True)
-    >>> judge(sqrt(x**2), x, given=x >= 0).verdict
+    >>> judge(sqrt(x**2), x, premises=x >= 0).verdict
     'holds-if'
+    >>> judge(cos(x), 1 - x**2 / 2, small=x, order=3).order
+    3
+    >>> judge("2*cos(x)", cos(2 * x)).lines[0].difference
+    2*cos(x) - cos(2*x)
     """
-    right, premises = derived if isinstance(derived, Series) else sympified(derived, "judge"), premises_of(given)
+    right, premise_list = derived if isinstance(derived, Series) else sympified(derived, "judge"), premises_of(premises)
     if small is not None and not isinstance(small, sp.Symbol):
         raise InputError(f"judge: small = {small!r} must be a symbol of the expressions")
     if not isinstance(order, int | sp.Integer) or order < 0:
         raise InputError(f"judge: order = {order!r} must be a whole number from 0 on")
     side = right.expression if isinstance(right, Series) else right
     if isinstance(printed, str):
-        sides = [sp.sympify(s, strict=True) for p in premises for pair in p.equations for s in pair]
-        sides += [side for p in premises for r in p.conditions for side in r.args]
+        sides = [sp.sympify(s, strict=True) for p in premise_list for pair in p.equations for s in pair]
+        sides += [side for p in premise_list for r in p.conditions for side in r.args]
         letters = {s.name: s for e in (side, *sides, *filter(None, [small])) for s in e.free_symbols}
         printed = read(printed, letters, "judge")
-    known = (right.small, right.order) if isinstance(right, Series) else None
-    made = Statement("", (Relation(sympified(printed, "judge"), side, small, order, known=known),), premises)
-    check_premises([printed, side, small], premises)
-    return decide(made)
+    known_order = (right.small, right.order) if isinstance(right, Series) else None
+    statement = Statement(
+        "", (Relation(sympified(printed, "judge"), side, small, order, known=known_order),), premise_list
+    )
+    check_premises([printed, side, small], premise_list)
+    return decide(statement)
 
 
 def decide(statement: Statement, glossary: Glossary | None = None) -> Verdict:
-    """Decide a statement; the correction, where there is one, by the same rules. glossary: what its letters mean."""
+    """Decide a statement and, by the same rules, its correction; `glossary` has the units for the dimensional analysis."""
     began = time.perf_counter()
     meanings = Glossary() if glossary is None else glossary
     lines, right = (
@@ -103,7 +118,7 @@ def decide(statement: Statement, glossary: Glossary | None = None) -> Verdict:
     return Verdict(
         statement=statement,
         verdict=answer,
-        premises=_united(used, statement.premises),
+        premises=_union(used, statement.premises),
         order=worst.order,
         small=worst.small,
         domain=tuple(dict.fromkeys(relation for line in lines for relation in line.domain)),
@@ -119,7 +134,7 @@ def decide(statement: Statement, glossary: Glossary | None = None) -> Verdict:
 
 
 def _dimensions(relation: Relation, statement: Statement, glossary: Glossary) -> Dimensions | None:
-    """What the units say of a line; None where no units are known."""
+    """Return the dimensional analysis of a line; None without units."""
     assumed = (*statement.premises, *relation.scene_premises)
     values = {
         sp.sympify(old, strict=True): sp.sympify(new, strict=True)
@@ -134,18 +149,18 @@ def _weakest(lines: Sequence[LineVerdict]) -> LineVerdict:
     return max(lines, key=lambda line: (_RANK.index(line.verdict), -(line.order or 0)), default=nothing)
 
 
-def _united(lines: Iterable[LineVerdict], offered: tuple[Premise, ...]) -> tuple[Premise, ...]:
-    """The premises of all lines, each once, those that were offered first and in their order."""
+def _union(lines: Iterable[LineVerdict], offered: tuple[Premise, ...]) -> tuple[Premise, ...]:
+    """Return the premises of all lines, each once, the offered ones first and in their order."""
     needed = [premise for line in lines for premise in line.premises]
-    found: list[Premise] = [premise for premise in offered if premise in needed]
+    union: list[Premise] = [premise for premise in offered if premise in needed]
     for premise in needed:
-        if premise not in found:
-            found.append(premise)
-    return tuple(found)
+        if premise not in union:
+            union.append(premise)
+    return tuple(union)
 
 
 def _line(relation: Relation, offered: tuple[Premise, ...], glossary: Glossary) -> LineVerdict:
-    """One member of a printed line under the fewest premises that it needs."""
+    """Decide one member of a printed line under as few premises as possible."""
     if relation.theorem is not None and relation.theorem.bounds is not None:
         return _verdict(relation, _enclosed(relation, *relation.theorem.bounds), (), glossary)
     assumed = (*offered, *relation.scene_premises)
@@ -184,16 +199,16 @@ def _verdict(relation: Relation, finding: "_Finding", used: tuple[Premise, ...],
         finding.domain,
         None if finding.difference is None else _shortest(finding.difference),
         finding.place,
-        finding.seen.point if finding.seen else None,
-        finding.seen.enclosure if finding.seen else None,
-        finding.seen.sides if finding.seen else None,
+        finding.counterexample.point if finding.counterexample else None,
+        finding.counterexample.enclosure if finding.counterexample else None,
+        finding.counterexample.sides if finding.counterexample else None,
         "; ".join(finding.reasons),
     )
 
 
 @dataclass(frozen=True)
 class _Finding:
-    """What is decided under some premises; trivial: both sides become 0; may_branch: the sign of a root decides."""
+    """The decision under some premises; `trivial` if both sides become 0, `may_branch` if the sign of a root decides."""
 
     answer: Answer
     order: int | None = None
@@ -202,33 +217,34 @@ class _Finding:
     reasons: tuple[str, ...] = ()
     difference: sp.Expr | None = None
     place: tuple[int, int] | None = None
-    seen: Any = None
+    counterexample: Any = None
     trivial: bool = False
     may_branch: bool = False
 
 
 def _needed(relation: Relation, assumed: tuple[Premise, ...], whole: _Finding) -> tuple[tuple[Premise, ...], _Finding]:
-    """A set of premises of which none can be left out: each is tried once, in an order that does not depend on theirs.
-
-    Of two such sets, from both ends, the smaller one; one under which both sides are 0 only if no other is found.
-    """
+    """Return a set of premises none of which can be omitted, and the decision under it."""
+    # The result must not depend on the order in which the premises are given.
     ordered = sorted(assumed, key=lambda p: (len(p.equations), p.says, p.formula))
-    found: list[tuple[tuple[Premise, ...], _Finding]] = []
+    # A set under which both sides are 0 is the last choice.
+    minimal_sets: list[tuple[tuple[Premise, ...], _Finding]] = []
     for row in (ordered, ordered[::-1]):
-        kept, finding = list(assumed), whole
+        needed, finding = list(assumed), whole
         for premise in row:
-            rest = [p for p in kept if p is not premise]
-            without = _under(relation, rest)
+            remaining = [p for p in needed if p is not premise]
+            without = _under(relation, remaining)
             if without.answer in AGREES and _RANK.index(without.answer) <= _RANK.index(finding.answer):
                 if without.trivial and not finding.trivial:
                     continue
-                kept, finding = rest, without
-        found.append((tuple(kept), finding))
-    return min(found, key=lambda each: (each[1].trivial, len(each[0]), each[1].answer != "holds"))
+                needed, finding = remaining, without
+        minimal_sets.append((tuple(needed), finding))
+    return min(
+        minimal_sets, key=lambda candidate: (candidate[1].trivial, len(candidate[0]), candidate[1].answer != "holds")
+    )
 
 
 def _is_conclusion(relation: Relation, premise: Premise) -> bool:
-    """Return whether an equation of the premise is what the line says: their differences are multiples of each other."""
+    """Return True if the line is an equation of the premise, so that their differences are multiples of each other."""
     gap = relation.printed - relation.derived
     entries = [e for e in (gap if isinstance(gap, sp.MatrixBase) else [gap]) if sp.expand(e) != 0]
     equations = [
@@ -243,26 +259,28 @@ def _is_conclusion(relation: Relation, premise: Premise) -> bool:
 
 
 def _are_multiples(a: sp.Expr, b: sp.Expr) -> bool:
-    """Return whether a, which is divided by no letter, is a rational number times b, or times what b is divided by."""
+    """Return True if a, without symbols in its denominator, is a rational multiple of the numerator of b."""
     above, below = sp.together(a).as_numer_denom()
     if a.free_symbols != b.free_symbols or below.free_symbols:
         return False
-    one, other = (sp.expand(e).as_content_primitive()[1] for e in (above, sp.together(b).as_numer_denom()[0]))
-    return 0 in (sp.expand(one - other), sp.expand(one + other))
+    primitive_a, primitive_b = (
+        sp.expand(e).as_content_primitive()[1] for e in (above, sp.together(b).as_numer_denom()[0])
+    )
+    return 0 in (sp.expand(primitive_a - primitive_b), sp.expand(primitive_a + primitive_b))
 
 
 def _branch(relation: Relation, assumed: tuple[Premise, ...]) -> tuple[Premise, ...]:
-    """The conditions on the branch on which a line is proved under the premises."""
+    """Return the conditions of the branch on which a line is proved under the premises."""
     under = hypotheses(assumed)
     exact = decide_equal(under.on(relation.printed), under.on(relation.derived), under.inside)
     branch = tuple(Premise(relation_text(condition), where=(condition,)) for condition in exact.branch)
-    found = _under(relation, (*assumed, *branch)) if branch else None
-    held = found is not None and found.answer in AGREES and not found.trivial
-    return branch if held and all(_has_room(condition, assumed) for condition in exact.branch) else ()
+    on_branch = _under(relation, (*assumed, *branch)) if branch else None
+    is_proved = on_branch is not None and on_branch.answer in AGREES and not on_branch.trivial
+    return branch if is_proved and all(_has_room(condition, assumed) for condition in exact.branch) else ()
 
 
 def _has_room(condition: Relational, assumed: tuple[Premise, ...]) -> bool:
-    """Whether a point of the premises is certainly inside a branch: at its edge alone, where a root is 0, nothing is said."""
+    """Return True if a point of the premises lies inside a branch; its edge alone, where a root is 0, proves nothing."""
     inside = sp.StrictGreaterThan(condition.gts, condition.lts)
     return not isinstance(inside, Relational) or bool(
         witness((sp.S.One, sp.S.Zero), hypotheses((*assumed, Premise("inside", where=(inside,)))))
@@ -270,10 +288,10 @@ def _has_room(condition: Relational, assumed: tuple[Premise, ...]) -> bool:
 
 
 def _under(relation: Relation, premises: Iterable[Premise]) -> _Finding:
-    """What is decided of a relation under all of these premises."""
+    """Decide a relation under all of these premises."""
     under = hypotheses(premises, relation.small)
     if under.signed.contradiction:
-        reason = f"the premises contradict each other or their letters: {under.signed.contradiction}"
+        reason = f"the premises contradict each other or the assumptions of their symbols: {under.signed.contradiction}"
         return _Finding("undecided", reasons=(reason,))
     if isinstance(relation.printed, sp.MatrixBase) != isinstance(relation.derived, sp.MatrixBase):
         kinds = ("a vector", "a number") if isinstance(relation.derived, sp.MatrixBase) else ("a number", "a vector")
@@ -298,7 +316,7 @@ def _compared(relation: Relation, printed: Any, derived: Any, under: Hypotheses)
     domain = tuple(sp.Ne(factor, 0, evaluate=False) for factor in factors)
     if exact.answer == "zero":
         domain += exact.branch
-    domain = tuple(_in_letters(relation, under.signed) for relation in domain)
+    domain = tuple(_in_printed_symbols(relation, under.signed) for relation in domain)
     small = _small(relation, printed, derived, under)
     on_equations = _in_ideal(printed, derived, under)
     if on_equations == "nowhere":
@@ -317,24 +335,26 @@ def _compared(relation: Relation, printed: Any, derived: Any, under: Hypotheses)
         return _to_order(relation, printed, derived, small, domain, under)
     place, sides = _where_apart(relation, under)
     gap = sides[0] - sides[1] if sides else None
-    seen = witness(sides, under, principal=exact.answer == "nonzero") if sides else None
-    if seen is not None:
-        return _Finding("refuted", None, None, domain, (), gap, place, seen, may_branch=exact.partly)
-    value = "no value found" if exact.evidence is None else f"largest value seen {exact.evidence:.3g}"
-    reason = f"{exact.reason} ({value})" if exact.answer == "undecided" else "no certified point keeps the sides apart"
+    counterexample = witness(sides, under, principal=exact.answer == "nonzero") if sides else None
+    if counterexample is not None:
+        return _Finding("refuted", None, None, domain, (), gap, place, counterexample, may_branch=exact.partly)
+    value = "no value found" if exact.evidence is None else f"largest value {exact.evidence:.3g}"
+    reason = f"{exact.reason} ({value})" if exact.answer == "undecided" else "no counterexample was certified"
     return _Finding("undecided", None, None, domain, (reason,), gap, place, may_branch=True)
 
 
-def _in_letters(relation: Relational, signed: Hypotheses) -> Relational:
-    """Return a relation in the letters of the print, where the premises brought in letters with other names."""
-    there = relation.xreplace(signed.meaning)
-    if there == relation or isinstance(there, sp.Ne):
-        return there
-    return sided(sp.expand(there.gts - there.lts), isinstance(there, sp.StrictGreaterThan | sp.StrictLessThan))
+def _in_printed_symbols(relation: Relational, signed: Hypotheses) -> Relational:
+    """Return a relation in the symbols of the print, in place of the new symbols of `Hypotheses.signed`."""
+    substituted = relation.xreplace(signed.meaning)
+    if substituted == relation or isinstance(substituted, sp.Ne):
+        return substituted
+    return sided(
+        sp.expand(substituted.gts - substituted.lts), isinstance(substituted, sp.StrictGreaterThan | sp.StrictLessThan)
+    )
 
 
 def _shortest(difference: sp.Expr) -> sp.Expr:
-    """Return the normal form of a difference, which is exactly equal to it; the difference where that is shorter."""
+    """Return the shorter of a difference and its normal form."""
     if len(difference.free_symbols) > _MOST_LETTERS:
         return difference
     try:
@@ -344,7 +364,7 @@ def _shortest(difference: sp.Expr) -> sp.Expr:
 
 
 def _text(difference: sp.Expr) -> str:
-    """Return a difference as text; its numbers in four digits where one of them is no short fraction."""
+    """Return a difference as text, with numbers in four digits if one is no short fraction."""
     e = _shortest(difference)
     is_long = any(n.is_Rational and n.q > _LARGEST_DENOMINATOR for n in e.atoms(sp.Number)) or any(
         node.is_number and not node.is_Rational for node in sp.preorder_traversal(e)
@@ -353,15 +373,15 @@ def _text(difference: sp.Expr) -> str:
 
 
 def _small(relation: Relation, printed: Any, derived: Any, under: Hypotheses) -> sp.Symbol | None:
-    """The small quantity that the comparison is about: the premise's, or the line's own."""
+    """Return the small quantity of the comparison, from a premise or from the line."""
     letters = printed.free_symbols | derived.free_symbols
-    known = relation.known[0] if relation.known else None
-    found = (*under.small, relation.small, known)
-    return next((s for s in found if s is not None and under.signed.on(s).free_symbols & letters), None)
+    series_symbol = relation.known[0] if relation.known else None
+    candidates = (*under.small, relation.small, series_symbol)
+    return next((s for s in candidates if s is not None and under.signed.on(s).free_symbols & letters), None)
 
 
 def _is_singular(side: Any) -> bool:
-    """Return whether a part of it has no value; the limits of sums and integrals may be infinite."""
+    """Return True if a subexpression has no finite value; the limits of sums and integrals may be infinite."""
     if isinstance(side, sp.MatrixBase):
         return any(map(_is_singular, side))
     if isinstance(side, sp.Sum | sp.Integral):
@@ -374,7 +394,7 @@ def _is_zero(side: Any) -> bool:
 
 
 def _is_trivial(relation: Relation, signed: Hypotheses) -> bool:
-    """Return whether the premises make each term of both sides zero; an equation Q = 0 states just that, and is not trivial."""
+    """Return True if the premises make each term of both sides zero; an equation Q = 0 is never trivial."""
     sides = [relation.printed, relation.derived]
     entries = (e for side in sides for e in (side if isinstance(side, sp.MatrixBase) else [side]))
     return not any(map(_is_zero, sides)) and all(
@@ -383,20 +403,20 @@ def _is_trivial(relation: Relation, signed: Hypotheses) -> bool:
 
 
 def _in_ideal(printed: Any, derived: Any, under: Hypotheses) -> str:
-    """Return whether the difference vanishes wherever the equations that were not solved hold."""
+    """Decide with `vanishes_on` if the difference vanishes wherever the unsolved equations hold."""
     signed = under.signed
-    if not signed.left:
+    if not signed.equations:
         return "undecided"
     gap = printed - derived
     apart = [r.lhs - r.rhs for r in signed.region if isinstance(r, sp.Ne | sp.StrictGreaterThan | sp.StrictLessThan)]
-    answers = {vanishes_on(e, signed.left, apart) for e in (gap if isinstance(gap, sp.MatrixBase) else [gap])}
+    answers = {vanishes_on(e, signed.equations, apart) for e in (gap if isinstance(gap, sp.MatrixBase) else [gap])}
     return next((answer for answer in ("nowhere", "nonzero", "undecided") if answer in answers), "zero")
 
 
 def _where_apart(
     relation: Relation, under: Hypotheses
 ) -> tuple[tuple[int, int] | None, tuple[sp.Expr, sp.Expr] | None]:
-    """The first entry that is not decided to be equal, and both sides there, in the letters of the statement."""
+    """Return the first entry that is not proved to be equal, and both sides there in the symbols of the statement."""
     printed, derived = under.on(relation.printed), under.on(relation.derived)
     if not isinstance(printed, sp.MatrixBase):
         return None, (printed, derived)
@@ -409,42 +429,46 @@ def _where_apart(
 
 
 def _enclosed(relation: Relation, low: sp.Rational, high: sp.Rational) -> _Finding:
-    """A printed number against the bounds of a theorem, within what its digits allow."""
-    within = relation.within or sp.S.Zero
+    """Decide a printed number by the bounds of a theorem, to the accuracy of its digits."""
+    tolerance = relation.within or sp.S.Zero
     printed = sp.Rational(str(relation.printed)) if relation.printed.is_Float else relation.printed
     if not printed.is_Rational or low > high or low * high <= 0:
         return _Finding("undecided", reasons=("a theorem bounds numbers of one sign, and a number must be printed",))
-    off = [printed / end - 1 for end in (low, high)]
-    if all(abs(each) <= within for each in off):
+    errors = [printed / end - 1 for end in (low, high)]
+    if all(abs(error) <= tolerance for error in errors):
         return _Finding("proved")
     where = f"between {sp.N(low, 12)} and {sp.N(high, 12)}"
-    if min(off) > within or max(off) < -within:
-        return _Finding("refuted", reasons=(f"a theorem has it {where}",), difference=printed - (low + high) / 2)
-    return _Finding("undecided", reasons=(f"a theorem has it {where}, which does not decide the digits",))
+    if min(errors) > tolerance or max(errors) < -tolerance:
+        return _Finding("refuted", reasons=(f"a theorem encloses it {where}",), difference=printed - (low + high) / 2)
+    return _Finding("undecided", reasons=(f"a theorem encloses it {where}, which does not decide the digits",))
 
 
 def _read_off(relation: Relation, printed: Any, derived: Any, under: Hypotheses) -> _Finding:
-    """A number read off a run, within what its digits allow."""
-    within = relation.within if relation.within is not None else sp.S.Zero
+    """Decide a number read off a simulation, to the accuracy of its digits."""
+    tolerance = relation.within if relation.within is not None else sp.S.Zero
     ratio = _constant(printed / derived, under)
     if ratio is not None:
-        off = abs(ratio - 1)
-        near = bool(off <= within)
-        reason = f"the printed value is {sp.N(ratio, 6)} of the derived one; its digits allow {sp.N(100 * within, 2)} %"
+        error = abs(ratio - 1)
+        near = bool(error <= tolerance)
+        reason = (
+            f"the printed value is {sp.N(ratio, 6)} of the derived one; its digits allow {sp.N(100 * tolerance, 2)} %"
+        )
         gap = None if near else printed - derived
         return _Finding("holds" if near else "refuted", reasons=() if near else (reason,), difference=gap)
     gap = under.on(relation.printed) / under.on(relation.derived) - 1
-    seen = witness((gap, sp.S.Zero), under, within)
-    if seen is None:
+    counterexample = witness((gap, sp.S.Zero), under, tolerance)
+    if counterexample is None:
         return _Finding(
-            "undecided", reasons=("the ratio of the sides depends on letters, and no certified point was found",)
+            "undecided", reasons=("the ratio of the sides depends on symbols, and no counterexample was certified",)
         )
-    return _Finding("refuted", reasons=("the ratio of the sides is no constant",), difference=gap, seen=seen)
+    return _Finding(
+        "refuted", reasons=("the ratio of the sides is no constant",), difference=gap, counterexample=counterexample
+    )
 
 
 def _read_off_series(relation: Relation, ratio: sp.Expr, small: sp.Symbol, order: int, under: Hypotheses) -> _Finding:
-    """The same, of a rate that is known as a series: as far as that goes the ratio must not change."""
-    within = relation.within if relation.within is not None else sp.S.Zero
+    """Decide a printed rate by a derived series; the ratio of the sides must be constant through the known order."""
+    tolerance = relation.within if relation.within is not None else sp.S.Zero
     try:
         terms = truncated_series(ratio, small, order)
     except NotExactError as refusal:
@@ -456,35 +480,34 @@ def _read_off_series(relation: Relation, ratio: sp.Expr, small: sp.Symbol, order
         reason = f"the ratio of the sides changes at order {first.order} in {readable(str(small))}, by {by}"
         return _Finding("refuted", first.vanishes_through, small, reasons=(reason,), difference=first.coefficient)
     if constant is None:
-        return _Finding("undecided", reasons=("the ratio of the sides depends on letters",))
-    near = bool(abs(constant - 1) <= within)
-    reason = f"the printed value is {sp.N(constant, 6)} of the derived one; its digits allow {sp.N(100 * within, 2)} %"
+        return _Finding("undecided", reasons=("the ratio of the sides depends on symbols",))
+    near = bool(abs(constant - 1) <= tolerance)
+    reason = (
+        f"the printed value is {sp.N(constant, 6)} of the derived one; its digits allow {sp.N(100 * tolerance, 2)} %"
+    )
     return _Finding("holds-to-order" if near else "refuted", order, small, reasons=() if near else (reason,))
 
 
 def _constant(ratio: sp.Expr, under: Hypotheses) -> sp.Expr | None:
-    """The number that a quotient of rates is, which may hold roots; None where it depends on a letter, by its sign too."""
+    """Return a quotient of rates as a number, possibly with roots; None if it or its sign depends on a symbol."""
     square = sp.cancel(ratio**2)
     if not square.is_number:
         return None
     root, inside = sp.sqrt(square), under.signed.inside
     if ratio.is_positive:
         return root
-    return next((each for each in (root, -root) if decide_equal(ratio, each, inside).answer == "zero"), None)
+    return next(
+        (candidate for candidate in (root, -root) if decide_equal(ratio, candidate, inside).answer == "zero"), None
+    )
 
 
 def _to_order(
-    relation: Relation,
-    printed: Any,
-    derived: Any,
-    small: sp.Symbol,
-    domain: tuple[Relational, ...],
-    under: Hypotheses,
+    relation: Relation, printed: Any, derived: Any, small: sp.Symbol, domain: tuple[Relational, ...], under: Hypotheses
 ) -> _Finding:
-    """How far two series agree: at least between their leading terms; of vectors, the first component that differs decides."""
+    """Decide through which order two series agree; of vectors, the component that differs first decides."""
     pairs = list(zip(printed, derived, strict=True)) if isinstance(printed, sp.MatrixBase) else [(printed, derived)]
-    name, known = readable(str(small)), relation.known[1] if relation.known else None
-    furthest = relation.claimed + BEYOND if known is None else min(relation.claimed + BEYOND, known)
+    name, known_order = readable(str(small)), relation.known[1] if relation.known else None
+    furthest = relation.claimed + BEYOND if known_order is None else min(relation.claimed + BEYOND, known_order)
     try:
         terms = [_first_term(p - d, small, furthest, under) for p, d in pairs]
         place, first = min(enumerate(terms), key=lambda t: t[1].through + 1 if t[1].order is None else t[1].order)
@@ -498,25 +521,22 @@ def _to_order(
     if reached >= relation.claimed and (first.order is None or first.order > lead):
         return _Finding("holds-to-order", reached, small, domain)
     if first.order is None:
-        reason = f"what was derived is known through order {furthest} in {name} only, and order {relation.claimed} is claimed"
+        reason = f"the derived side is known through order {furthest} in {name} only, but order {relation.claimed} is claimed"
         return _Finding("undecided", reached, small, domain, (reason,))
     reason = f"first differs at order {first.order} in {name}, by {_text(first.coefficient)}"
     if lead > relation.claimed:
         reason = f"both sides vanish through order {ceil(lead) - 1} in {name}; {reason}"
     at = divmod(place, printed.cols) if isinstance(printed, sp.MatrixBase) else None
-    if (under.signed.left or under.signed.region) and witness((first.coefficient, sp.S.Zero), under) is None:
-        reason = f"no certified point keeps the sides apart at order {first.order} in {name}"
+    if (under.signed.equations or under.signed.region) and witness((first.coefficient, sp.S.Zero), under) is None:
+        reason = f"no counterexample was certified at order {first.order} in {name}"
         return _Finding("undecided", None, small, domain, (reason,), first.coefficient, at)
     return _Finding("refuted", reached, small, domain, (reason,), first.coefficient, at)
 
 
 def _first_term(side: sp.Expr, small: sp.Symbol, through: int, under: Hypotheses) -> LeadingTerm:
-    """The first term in the small quantity whose coefficient is not zero where the equations hold that were not solved.
-
-    A condition may have given the small quantity a sign: then it is plus or minus the letter of the series.
-    """
-    sign, letter = under.signed.on(small).as_coeff_Mul()
-    if any(letter in e.free_symbols for e in under.signed.left):
+    """Return the first term whose coefficient does not vanish wherever the unsolved equations hold."""
+    sign, letter = under.signed.on(small).as_coeff_Mul()  # a condition may fix the sign of the small quantity
+    if any(letter in e.free_symbols for e in under.signed.equations):
         raise NotExactError(f"a premise that is not linear fixes {small}: there is no series in it")
     while True:
         term = leading_term(side, letter, through)
@@ -530,9 +550,9 @@ def _first_term(side: sp.Expr, small: sp.Symbol, through: int, under: Hypotheses
 def _leading_order(
     pairs: list[tuple[Any, Any]], small: sp.Symbol, through: int, under: Hypotheses
 ) -> int | sp.Rational | None:
-    """The lowest order at which any of the sides has a term; None where there is none."""
-    for most in (0, through):
-        orders = [_first_term(side, small, most, under).order for pair in pairs for side in pair]
-        if found := [order for order in orders if order is not None]:
-            return min(found)
+    """Return the lowest order at which a side has a term; None without one."""
+    for limit in (0, through):
+        orders = [_first_term(side, small, limit, under).order for pair in pairs for side in pair]
+        if known_orders := [order for order in orders if order is not None]:
+            return min(known_orders)
     return None

@@ -1,4 +1,4 @@
-"""A paper as a folder: its catalogue, its scripts, its record; and the audit that judges what the scripts state.
+"""A paper as a folder with catalogue, scripts and record, and its audit.
 
 `Paper("my-paper").audit()["3.2"]` is one verdict; `Paper("my-paper").evaluate()` tests the claims.
 """
@@ -14,31 +14,46 @@ from lagrotor.errors import InputError, ProofError
 from lagrotor.files import write_text
 from lagrotor.paper import record
 from lagrotor.paper.audit import Audit
-from lagrotor.paper.catalogue import Catalogue
+from lagrotor.paper.catalogue import Catalogue, section_glossary
 from lagrotor.paper.claim_tests import ClaimTest, Result
 from lagrotor.paper.equation_statements import Stated, statement
 from lagrotor.paper.ledger import decide
 from lagrotor.paper.scripts import Scripts
 from lagrotor.paper.theorems import can_prove
 from lagrotor.paper.verdicts import AGREES, LineVerdict, Statement, Verdict
+from lagrotor.renamed import accept_old_keywords
 
 Progress = Callable[[str], None]
 
 
 @dataclass(frozen=True)
 class Paper(Catalogue):
-    """A folder with `paper.toml`, `equations.toml`, and, where there are any, `claims.toml`, `figures.toml`, `symbols.py`,
-    `derivations/`, `figures/`, and the record of verdicts, `recorded.toml`.
+    """A paper whose equations and claims can be tested.
+
+    The folder has `paper.toml` and `equations.toml`; `claims.toml`, `figures.toml`, `symbols.py`, `derivations/`, `figures/`
+    and the record of verdicts, `recorded.toml`, are optional.
 
     Attributes
     ----------
+    folder : Path
+        The folder.
+    modules : dict[str, ModuleType], default {}
+        The modules of the folder that were imported.
     scripts_in : Path or None, optional
-        The folder that holds `derivations/` and `figures/`, where it is another.
+        The folder with `derivations/` and `figures/`, if it is another one.
 
     Raises
     ------
     InputError
-        For a folder whose parts do not fit together; the message names the file.
+        If the files do not fit together; the message names the file.
+
+    Examples
+    --------
+    >>> from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
+    >>> len(PAPER.equations), len(PAPER.claims)
+    (68, 24)
+    >>> PAPER.equation("5.22").title
+    'x coordinate of the two tips in time'
     """
 
     scripts_in: Path | None = None
@@ -58,7 +73,7 @@ class Paper(Catalogue):
 
     @property
     def recorded(self) -> dict[str, record.OnRecord]:
-        """The verdicts on record, by id; empty when there are none yet."""
+        """The verdicts on record by id; empty without a record."""
         return record.recorded(self.record_file)
 
     @overload
@@ -68,176 +83,145 @@ class Paper(Catalogue):
     def audit(self, identifier: str | None = None, progress: Progress | None = None) -> Audit | Verdict:
         """Judge every equation, or one.
 
-        One equation runs its own derivation only; whether its error reaches a result of the paper is then taken from the
-        record of the last whole audit.
+        For one equation only its own derivation runs; `reaches_result` then rests on the record of the last whole audit.
 
         Parameters
         ----------
         identifier : str or None, optional
-            Of the one.
-        progress : Progress or None, optional
+            The id of one equation.
+        progress : Callable[[str], None] or None, optional
             Called with the name of each script before it runs.
 
+        Returns
+        -------
+        Audit or Verdict
+            The verdicts on all equations, or the one verdict.
+
         Raises
         ------
         InputError
-            For an equation that the paper does not have, or that no derivation states.
+            If the paper does not have the equation, or if no derivation states it.
         ScriptError
-            For a script that fails.
+            If a script fails.
+
+        Examples
+        --------
+        >>> from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
+        >>> verdict = PAPER.audit("6.01")
+        >>> verdict.verdict, verdict.correction_verdict, verdict.reaches_result
+        ('refuted', 'holds', False)
         """
-        self.check_scripts()
+        check_scripts(self)
         if identifier is not None:
-            return self._one(identifier, progress)
-        return self.audit_of(v for stem in self.stating_scripts for v in self.judged(stem, progress))
-
-    def audit_of(self, verdicts: Iterable[Verdict]) -> Audit:
-        """The audit that consists of these verdicts."""
-        found = tuple(self.with_reach(verdicts))
-        judged = {verdict.id for verdict in found}
-        return Audit(found, tuple(i for i in self.equations if i not in judged))
-
-    def check_scripts(self) -> None:
-        """Check, before anything runs, that letters can be read and that no equation has two verdicts or is unknown.
-
-        Raises
-        ------
-        InputError
-            With file and line otherwise.
-        """
-        _ = self.glossary
-        for identifier, (stem, line) in self.scripts.stating.items():
-            if identifier not in self.equations:
-                raise InputError(
-                    f"{self.scripts.path('derivations', stem)}:{line}: there is no equation {identifier!r}"
-                )
+            return self._audit_one(identifier, progress)
+        return audit_of(self, (v for stem in self.stating_scripts for v in judge_script(self, stem, progress)))
 
     @property
     def stating_scripts(self) -> list[str]:
-        """Stems of the derivations that state equations."""
+        """The names of the derivations that state equations, without folder and `.py`."""
         return self.scripts.names("derivations", self.about.equations_in)
 
-    def derived_in(self, identifier: str) -> str | None:
-        """The script that derives an equation, derivations/….py; None where none does."""
-        place = self.scripts.stating.get(identifier)
-        return f"derivations/{place[0]}.py" if place else None
-
     def stated(self, stem: str) -> list[Stated]:
-        """What one derivation states of the paper's equations."""
-        return self.scripts.executed("derivations", stem).shown(Stated)
+        """Return the statements of one derivation about the paper's equations.
+
+        Parameters
+        ----------
+        stem : str
+            Name of the derivation, without folder and `.py`.
+
+        Returns
+        -------
+        list[Stated]
+            In the order of the derivation.
+        """
+        return self.scripts.executed("derivations", stem).values_of(Stated)
 
     def statements(self, stem: str) -> list[Statement]:
-        """What one derivation states, beside the print.
+        """Return the statements of one derivation, combined with the print.
+
+        Parameters
+        ----------
+        stem : str
+            Name of the derivation, without folder and `.py`.
+
+        Returns
+        -------
+        list[Statement]
+            In the order of the derivation.
 
         Raises
         ------
         InputError
-            With file and line where it does not fit.
+            If a statement does not fit the paper; with file and line.
         """
         statements = []
-        for each in self.stated(stem):
+        for stated_equation in self.stated(stem):
             try:
-                statements.append(self.statement(each))
+                statements.append(statement(stated_equation, self))
             except InputError as error:
-                _, line = self.scripts.stating.get(each.id, (stem, 1))
+                _, line = self.scripts.stating.get(stated_equation.id, (stem, 1))
                 raise InputError(f"{self.scripts.path('derivations', stem)}:{line}: {error}") from None
         return statements
 
-    def statement(self, stated: Stated) -> Statement:
-        """What a derivation states, beside the print.
-
-        Raises
-        ------
-        InputError
-            Where it does not fit the paper.
-        """
-        return statement(stated, self)
-
-    def judged(self, stem: str, progress: Progress | None = None) -> list[Verdict]:
-        """The verdicts on what one script states. Seconds include an equal share of its script's."""
-        if progress:
-            progress(stem)
-        began = time.perf_counter()
-        statements = self.statements(stem)
-        share = (time.perf_counter() - began) / max(len(statements), 1)
-        verdicts = [self._would_be(self._decided(each)) for each in statements]
-        return [replace(verdict, seconds=verdict.seconds + share) for verdict in verdicts]
-
-    def _decided(self, statement: Statement) -> Verdict:
-        """The verdict on a statement. Raises ProofError, with file and line, where its correction does not hold."""
-        verdict = decide(statement, self.meanings(self.equation(statement.id).section))
+    def _decide(self, statement: Statement) -> Verdict:
+        """Decide a statement; raise ProofError, with file and line, if its correction does not hold."""
+        verdict = decide(statement, section_glossary(self, self.equation(statement.id).section))
         if verdict.correction_verdict in ("refuted", "undecided"):
             stem, line = self.scripts.stating.get(statement.id, ("", 1))
-            wrong = next(each for each in verdict.correction_lines if each.verdict == verdict.correction_verdict)
+            wrong = next(member for member in verdict.correction_lines if member.verdict == verdict.correction_verdict)
             raise ProofError(
                 f"{self.scripts.path('derivations', stem)}:{line}: {statement.id}: its correction is "
                 f"{verdict.correction_verdict}: {wrong.relation.quantity}: {wrong.reason or wrong.difference}"
             )
-        return self._on_record(verdict)
+        return self._with_recorded_theorems(verdict)
 
-    def _on_record(self, verdict: Verdict) -> Verdict:
-        """The verdict; where theorems cannot be proved here, with those on record of lines that agree."""
+    def _with_recorded_theorems(self, verdict: Verdict) -> Verdict:
+        """Replace theorems by those on record if python-flint is missing."""
         if can_prove() or not any(line.relation.theorem for line in verdict.lines):
             return verdict
         row, lines = self.recorded.get(verdict.id), list(verdict.lines)
         for i, line in enumerate(lines):
-            known = row.theorems_of(line.relation.quantity) if row and line.relation.theorem else ()
-            relation = replace(line.relation, theorem=known[0] if known else None)
-            proved = known and line.verdict in AGREES
+            theorems = row.theorems_of(line.relation.quantity) if row and line.relation.theorem else ()
+            relation = replace(line.relation, theorem=theorems[0] if theorems else None)
+            proved = theorems and line.verdict in AGREES
             lines[i] = (
                 LineVerdict(relation, "proved", dimensions=line.dimensions)
                 if proved
                 else replace(line, relation=relation)
             )
         everything = all(line.verdict == "proved" for line in lines)
-        said: dict[str, Any] = {"verdict": "proved", "premises": ()} if everything else {}
-        return replace(verdict, lines=tuple(lines), **said)
+        changed_fields: dict[str, Any] = {"verdict": "proved", "premises": ()} if everything else {}
+        return replace(verdict, lines=tuple(lines), **changed_fields)
 
-    def with_reach(self, verdicts: Iterable[Verdict]) -> list[Verdict]:
-        """Verdicts in the paper's order, the refuted ones with whether a result of the paper falls with them.
-
-        Raises
-        ------
-        InputError
-            For an equation that is judged twice.
-        """
-        found: dict[str, Verdict] = {}
-        for verdict in verdicts:
-            if verdict.id in found:
-                raise InputError(f"{self.folder}: equation {verdict.id} is judged twice: keep one of its verdicts")
-            found[verdict.id] = verdict
-        answers = {i: v.verdict for i, v in found.items()}
-        uses = {i: v.statement.depends_on for i, v in found.items()}
-        return [self._followed(found[i], answers, uses) for i in self.equations if i in found]
-
-    def _one(self, identifier: str, progress: Progress | None) -> Verdict:
+    def _audit_one(self, identifier: str, progress: Progress | None) -> Verdict:
         self.equation(identifier)
         if identifier not in self.scripts.stating:
             raise InputError(f"equation {identifier} is not yet judged: no derivation states it")
         stem, _ = self.scripts.stating[identifier]
         if progress:
             progress(stem)
-        verdict = self._would_be(self._decided(next(s for s in self.statements(stem) if s.id == identifier)))
+        verdict = self._unless_unconfirmed(self._decide(next(s for s in self.statements(stem) if s.id == identifier)))
         on_record = self.recorded
         answers = {i: row.verdict for i, row in on_record.items()} | {identifier: verdict.verdict}
-        return self._followed(verdict, answers, {i: row.uses or () for i, row in on_record.items()})
+        return self._set_reach(verdict, answers, {i: row.uses or () for i, row in on_record.items()})
 
-    def _would_be(self, verdict: Verdict) -> Verdict:
-        """The verdict; of a reading that its author has not confirmed, what it would be, as evidence only."""
+    def _unless_unconfirmed(self, verdict: Verdict) -> Verdict:
+        """Return the verdict; if the reading is not confirmed, 'undecided' with the verdict among the evidence."""
         entry = self.equation(verdict.id)
         if verdict.verdict == "definition" or entry.is_confirmed:
             return verdict
         if entry.read == "gone":
-            said = "its source no longer has it"
+            reason = "its source no longer has it"
         else:
             holding = {"holds": "hold", "holds-if": "hold under its premises", "holds-to-order": "hold to its order"}
-            said = (
+            reason = (
                 f"it would {holding.get(verdict.verdict, f'be {verdict.verdict}')}: its reading is not confirmed; when you have "
                 f"compared it with the print: lagrotor readings {self.folder.name} --confirm {verdict.id}"
             )
-        return replace(verdict, verdict="undecided", correction_verdict=None, evidence=(said, *verdict.evidence))
+        return replace(verdict, verdict="undecided", correction_verdict=None, evidence=(reason, *verdict.evidence))
 
-    def _followed(self, verdict: Verdict, answers: Mapping[str, str], uses: Mapping[str, Iterable[str]]) -> Verdict:
-        """The verdict on a refuted equation with whether a result of the paper falls with it."""
+    def _set_reach(self, verdict: Verdict, answers: Mapping[str, str], uses: Mapping[str, Iterable[str]]) -> Verdict:
+        """Set `reaches_result` of the verdict on a refuted equation."""
         if verdict.verdict != "refuted":
             return verdict
         reaches = record.reaches_result(verdict.id, self.about.results, answers, uses)
@@ -245,18 +229,18 @@ class Paper(Catalogue):
 
     @cached_property
     def claim_tests(self) -> dict[str, ClaimTest]:
-        """Every test that a script shows, by claim, in the paper's order. Nothing is run but the scripts that show them.
+        """The tests of the claims by id, in the paper's order; the first access runs the derivations that define them.
 
         Raises
         ------
         InputError
-            For a claim that is tested twice or is not in claims.toml.
+            If a claim is tested twice or is not in `claims.toml`.
         """
         if not self.claims:
             return {}
         tests: dict[str, ClaimTest] = {}
         for stem in self.scripts.names("derivations", self.about.claims_in):
-            for test in self.scripts.executed("derivations", stem).shown(ClaimTest):
+            for test in self.scripts.executed("derivations", stem).values_of(ClaimTest):
                 if test.id not in self.claims or test.id in tests:
                     wrong = "is tested twice" if test.id in tests else "is not in claims.toml"
                     raise InputError(f"{self.scripts.path('derivations', stem)}: claim {test.id} {wrong}")
@@ -264,45 +248,153 @@ class Paper(Catalogue):
         return {identifier: tests[identifier] for identifier in self.claims if identifier in tests}
 
     def measured(self, identifier: str) -> Result:
-        """One claim after its test; where theorems cannot be proved here, with those on record that its run bears out."""
+        """Test one claim.
+
+        Parameters
+        ----------
+        identifier : str
+            The claim's id.
+
+        Returns
+        -------
+        Result
+            Without python-flint, with the theorems on record.
+
+        Examples
+        --------
+        >>> from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
+        >>> PAPER.measured("C03").finding.outcome
+        'confirmed'
+        """
         with self.importable():
             result = self.claim_tests[identifier].result
-        return result if can_prove() else self.with_theorems_on_record(result)
+        return result if can_prove() else with_theorems_on_record(self, result)
 
-    def with_theorems_on_record(self, result: Result) -> Result:
-        """The parts of a claim with their theorems that are on record, where the run bears them out."""
-        row = self.recorded.get(result.test.id)
-        if result.test.prove is None or row is None:
-            return result
-        parts = [replace(part, theorems=row.theorems_of(part.says)) for part in result.finding.parts]
-        return replace(result, finding=replace(result.finding, parts=tuple(parts)))
+    @accept_old_keywords
+    def evaluate(self, progress: Progress | None = None, ids: Collection[str] | None = None) -> list[Result]:
+        """Test the claims.
 
-    def evaluate(self, progress: Progress | None = None, wanted: Collection[str] | None = None) -> list[Result]:
-        """Every claim (or the wanted ones) in the paper's order; `progress` gets each claim's id before its run."""
+        Parameters
+        ----------
+        progress : Callable[[str], None] or None, optional
+            Called with the id of each claim before its test.
+        ids : Collection[str] or None, optional
+            The claims to be tested; by default all.
+
+        Returns
+        -------
+        list[Result]
+            In the paper's order.
+
+        Examples
+        --------
+        >>> from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
+        >>> [result.finding.outcome for result in PAPER.evaluate(ids=["C03", "C16"])]
+        ['confirmed', 'confirmed-if']
+        """
         results = []
         for identifier in self.claim_tests:
-            if wanted is None or identifier in wanted:
+            if ids is None or identifier in ids:
                 if progress:
                     progress(f"claim {identifier}")
                 results.append(self.measured(identifier))
         return results
 
-    def changes(self, found: Iterable[Verdict | Result], only: Iterable[str] = ()) -> list[str]:
-        """A sentence for each difference from what is on record, of all ids or of those in `only`."""
+    @accept_old_keywords
+    def changes(self, results: Iterable[Verdict | Result], only: Iterable[str] = ()) -> list[str]:
+        """Compare results with the record.
+
+        Parameters
+        ----------
+        results : Iterable[Verdict or Result]
+            Verdicts on equations and results of claims.
+        only : Iterable[str], default ()
+            The ids that are compared; by default all of the paper.
+
+        Returns
+        -------
+        list[str]
+            A sentence for each difference; empty without a record.
+
+        Examples
+        --------
+        >>> from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
+        >>> PAPER.changes([PAPER.audit("2.01")], ["2.01"])
+        []
+        """
         ids = tuple(only) or (*self.equations, *self.claims)
-        return record.changes(self._rows_of(found), self.recorded, ids)
+        return record.changes(self._rows_of(results), self.recorded, ids)
 
-    def _rows_of(self, found: Iterable[Verdict | Result]) -> dict[str, record.OnRecord]:
-        return {(r.test.id if isinstance(r, Result) else r.id): record.row_of(r, self.equations) for r in found}
+    def _rows_of(self, results: Iterable[Verdict | Result]) -> dict[str, record.OnRecord]:
+        return {(r.test.id if isinstance(r, Result) else r.id): record.row_of(r, self.equations) for r in results}
 
-    def renew_record(self, found: Iterable[Verdict | Result]) -> Path:
-        """Write what was found into the record; what else is on record, of ids that the paper still has, stays."""
-        rows = self.recorded | self._rows_of(found)
-        kept = {i: rows[i] for i in (*self.equations, *self.claims) if i in rows}
-        return write_text(self.record_file, record.record_text(kept))
+    @accept_old_keywords
+    def renew_record(self, results: Iterable[Verdict | Result]) -> Path:
+        """Write results into the record; other ids of the paper keep their rows.
+
+        Parameters
+        ----------
+        results : Iterable[Verdict or Result]
+            Verdicts on equations and results of claims.
+
+        Returns
+        -------
+        Path
+            The file of the record.
+        """
+        rows = self.recorded | self._rows_of(results)
+        current = {i: rows[i] for i in (*self.equations, *self.claims) if i in rows}
+        return write_text(self.record_file, record.record_text(current))
 
 
 @cache
 def opened(folder: Path, scripts_in: Path | None = None) -> Paper:
-    """The paper of a folder, the same one within a process, so that each of its scripts is run once."""
+    """Return the paper of a folder, the same object within a process, so that each script runs once."""
     return Paper(folder, scripts_in=scripts_in)
+
+
+def audit_of(paper: Paper, verdicts: Iterable[Verdict]) -> Audit:
+    """Collect verdicts as the audit of a paper; equations without a verdict are `waiting`."""
+    in_order = tuple(with_reach(paper, verdicts))
+    judged = {verdict.id for verdict in in_order}
+    return Audit(in_order, tuple(i for i in paper.equations if i not in judged))
+
+
+def check_scripts(paper: Paper) -> None:
+    """Raise InputError, with file and line, if symbols cannot be read, or an equation is unknown or stated twice."""
+    _ = paper.glossary
+    for identifier, (stem, line) in paper.scripts.stating.items():
+        if identifier not in paper.equations:
+            raise InputError(f"{paper.scripts.path('derivations', stem)}:{line}: there is no equation {identifier!r}")
+
+
+def judge_script(paper: Paper, stem: str, progress: Progress | None = None) -> list[Verdict]:
+    """Judge the equations of one derivation; `seconds` of each verdict includes an equal share of the script's time."""
+    if progress:
+        progress(stem)
+    began = time.perf_counter()
+    statements = paper.statements(stem)
+    share = (time.perf_counter() - began) / max(len(statements), 1)
+    verdicts = [paper._unless_unconfirmed(paper._decide(statement)) for statement in statements]
+    return [replace(verdict, seconds=verdict.seconds + share) for verdict in verdicts]
+
+
+def with_reach(paper: Paper, verdicts: Iterable[Verdict]) -> list[Verdict]:
+    """Return verdicts in the paper's order, with `reaches_result` of the refuted ones; raise InputError for a duplicate."""
+    by_id: dict[str, Verdict] = {}
+    for verdict in verdicts:
+        if verdict.id in by_id:
+            raise InputError(f"{paper.folder}: equation {verdict.id} is judged twice: keep one of its verdicts")
+        by_id[verdict.id] = verdict
+    answers = {i: v.verdict for i, v in by_id.items()}
+    uses = {i: v.statement.depends_on for i, v in by_id.items()}
+    return [paper._set_reach(by_id[i], answers, uses) for i in paper.equations if i in by_id]
+
+
+def with_theorems_on_record(paper: Paper, result: Result) -> Result:
+    """Add the theorems on record to a result that was computed without python-flint."""
+    row = paper.recorded.get(result.test.id)
+    if result.test.prove is None or row is None:
+        return result
+    parts = [replace(part, theorems=row.theorems_of(part.says)) for part in result.finding.parts]
+    return replace(result, finding=replace(result.finding, parts=tuple(parts)))

@@ -1,4 +1,4 @@
-"""Plain text with formulas typed on a keyboard, as people read it: omega_1**2 is ω₁², -3 is −3, 3e-14 is 3×10⁻¹⁴."""
+"""Conversion of typed formulas and LaTeX to plain text: omega_1**2 is ω₁², -3 is −3, 3e-14 is 3×10⁻¹⁴."""
 
 import re
 from collections import deque
@@ -18,17 +18,14 @@ _FONTS = ("text", "mathcal", "mathrm", "mathbf", "boldsymbol", "operatorname", "
 _ABOVE = {"": "", "_dot": "\u0307", "_ddot": "\u0308"}
 _LOW, _HIGH = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"), str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 _ARROWS = {" -> ": " → ", " >= ": " ≥ ", " <= ": " ≤ ", "||": "‖"}
-# A minus sign, none of the hyphens between words or in a range.
+# A minus sign, but no hyphen between words or in a range.
 _MINUS = re.compile(
     r"(?<![^\s(=:;/,])-(?=[\dͰ-ϿD√]|(?:sin|cos|exp)\(|[A-Za-z](?:[_₀-₉/]| \())|(?<= )-(?= )|(?<=\()-(?=\()"
 )
 
 
 def readable(text: str) -> str:
-    """The text with Greek letters, dots, primes and indices on names, powers raised, signs, and numbers in powers of ten.
-
-    An index that is not a number stays as typed, F_y; so does a power that is not a whole number, r^1.96.
-    """
+    """Return a text with Greek letters, dots, primes, indices, raised powers, signs and powers of ten."""
     for typed, read in _RULES:
         text = typed.sub(read, text)
     for arrow, sign in _ARROWS.items():
@@ -47,83 +44,87 @@ def _in_powers_of_ten(match: re.Match[str]) -> str:
 
 
 def from_latex(source: str) -> str:
-    r"""LaTeX of a quantity in plain text: \dot\varphi_1 is φ̇₁, \Omega_0^2\ \text{(any rate)} is Ω₀² (any rate)."""
+    r"""Return LaTeX in plain text: \dot\varphi_1 is φ̇₁, \Omega_0^2\ \text{(any rate)} is Ω₀² (any rate)."""
     tokens = (Token(t.kind, c, t.at) for t in tokenize(source) for c in (t.text if t.kind == "text" else (t.text,)))
     text = re.sub(r"(?<=[²³])(?=[A-Za-zΑ-ω])", " ", _line(deque(tokens)))
     text = " ".join(text.split()).replace("( ", "(").replace(" )", ")").replace("⟨ ", "⟨").replace(" ⟩", "⟩")
     return re.sub(r"(^|\()- ", r"\1−", text).replace(" - ", " − ")
 
 
-def _line(rest: deque[Token]) -> str:
-    """What is before the brace that closes the open one, or before the end."""
-    made = ""
-    while rest and (token := rest.popleft()).kind != "close":
-        made = f"{made.rstrip() if token.kind == 'script' else made}{_piece(token, rest)}"
-    return made
+def _line(tokens: deque[Token]) -> str:
+    """Convert the tokens up to the closing brace or the end."""
+    text = ""
+    while tokens and (token := tokens.popleft()).kind != "close":
+        text = f"{text.rstrip() if token.kind == 'script' else text}{_piece(token, tokens)}"
+    return text
 
 
-def _piece(token: Token, rest: deque[Token]) -> str:
+def _piece(token: Token, tokens: deque[Token]) -> str:
     if token.kind == "open":
-        return _line(rest)
+        return _line(tokens)
     if token.kind == "script":
-        inner = _argument(rest).strip()
+        inner = _argument(tokens).strip()
         if not inner:
             return ""
         if inner.isdigit():
             return inner.translate(_LOW if token.text == "_" else _HIGH)
         return "ᵀ" if (token.text, inner) == ("^", "T") else f"{token.text}{_factor(inner)}"
-    return _command(token.text[1:], rest) if token.kind == "command" else " " if token.kind == "align" else token.text
+    return _command(token.text[1:], tokens) if token.kind == "command" else " " if token.kind == "align" else token.text
 
 
-def _argument(rest: deque[Token]) -> str:
-    while rest and not rest[0].text.strip():
-        rest.popleft()
-    return _piece(rest.popleft(), rest) if rest else ""
+def _argument(tokens: deque[Token]) -> str:
+    while tokens and not tokens[0].text.strip():
+        tokens.popleft()
+    return _piece(tokens.popleft(), tokens) if tokens else ""
 
 
-def _command(name: str, rest: deque[Token]) -> str:
+def _command(name: str, tokens: deque[Token]) -> str:
     if name in ("frac", "dfrac", "tfrac"):
-        over, under = _factor(_argument(rest)), _factor(_argument(rest))
+        over, under = _factor(_argument(tokens)), _factor(_argument(tokens))
         return f"{' ' * (over[0] == 'd')}{over}/{under} "
     if name == "partial":
-        return "∂" if rest and rest[0].kind == "close" else f"∂{_argument(rest)}"
+        return "∂" if tokens and tokens[0].kind == "close" else f"∂{_argument(tokens)}"
     if name == "sqrt":
-        return f"√{_factor(_argument(rest))}"
+        return f"√{_factor(_argument(tokens))}"
     if name in ("dot", "ddot"):
-        inner = _argument(rest).strip()
+        inner = _argument(tokens).strip()
         return inner[:1] + _ABOVE[f"_{name}"] + inner[1:]
     if name in ("left", "right"):
-        if rest and rest[0].text == ".":
-            rest.popleft()
+        if tokens and tokens[0].text == ".":
+            tokens.popleft()
         return ""
     if name in ("begin", "end"):
-        return _matrix(rest) if _argument(rest).endswith("matrix") and name == "begin" else " "
-    if name == "mathrm" and [t.text for t, _ in zip(rest, range(3), strict=False)] == ["{", "d", "}"]:  # a differential
-        made = f" {_argument(rest)}"
-        return made + (_argument(rest) if rest and rest[0].kind in ("text", "command") else "")
+        return _matrix(tokens) if _argument(tokens).endswith("matrix") and name == "begin" else " "
+    if name == "mathrm" and [t.text for t, _ in zip(tokens, range(3), strict=False)] == [
+        "{",
+        "d",
+        "}",
+    ]:  # a differential
+        differential = f" {_argument(tokens)}"
+        return differential + (_argument(tokens) if tokens and tokens[0].kind in ("text", "command") else "")
     if name in _FONTS:
-        return f" {_argument(rest)}" if name in ("vec", "hat") else _argument(rest)
+        return f" {_argument(tokens)}" if name in ("vec", "hat") else _argument(tokens)
     return _SIGNS.get(name) or _LETTERS.get(name, name if name.isalpha() else " ")
 
 
-def _matrix(rest: deque[Token]) -> str:
-    r"""The rows of a matrix up to its end, as [a, b; c, d]."""
+def _matrix(tokens: deque[Token]) -> str:
+    r"""Convert a matrix up to its end, as [a, b; c, d]."""
     inner, depth = list[Token](), 1
-    while rest and depth:
-        token = rest.popleft()
+    while tokens and depth:
+        token = tokens.popleft()
         depth += NESTING.get(token.text, 0)
         inner.append(
             Token("text", {"&": ", ", r"\\": "; "}[token.text], 0)
             if depth == 1 and token.text in ("&", r"\\")
             else token
         )
-    _argument(rest)
+    _argument(tokens)
     rows = re.sub(r" +([,;])", r"\1", _line(deque(inner[:-1]))).strip()
     return f" [{rows}] "
 
 
 def _factor(text: str) -> str:
-    """In brackets unless it is one letter or number, indexed or raised."""
+    """Put a text in brackets unless it is one symbol or number, with index or power."""
     alone = re.fullmatch(r"\s*(?:[\w.∂\u0307\u0308]+|\([^()]*\))(?:_\w+)?(?:\^\w)?\s*", text)
     return text.strip() if alone else f"({text.strip()})"
 
@@ -138,12 +139,12 @@ def _letter(match: re.Match[str]) -> str:
     return _LETTERS.get(name, name) + _ABOVE[dots] + low
 
 
-_END = "[\\w)\u0307\u0308]"  # of what is before an operator
-# What is typed, and what is read in its place, one after the other.
+_END = "[\\w)\u0307\u0308]"  # the character before an operator
+# Patterns and replacements, in this order.
 _RULES: tuple[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]], ...] = (
     (re.compile(r"(?<![\w.])(-?)(\d+(?:\.\d+)?)e([+-]?\d+)(?!\w|\.\d)"), _in_powers_of_ten),
     (re.compile(r"(?<![\w\\])([A-Za-z]+)((?:_(?!d?dot)[A-Za-z0-9]+)*)(_d?dot)?(?![A-Za-z0-9_])"), _letter),
-    # A letter with its index or its bracket, before a prime; a word's apostrophe is left alone.
+    # A symbol with its index, or a bracket, before a prime; the apostrophe of a word stays.
     (
         re.compile(r"(?<![A-Za-z])((?:[A-Za-zͰ-Ͽϑϕ][₀-₉\u0307]*)|\))('{1,2})(?![A-Za-zͰ-Ͽ'])"),
         lambda match: match[1] + "′" * len(match[2]),

@@ -1,4 +1,4 @@
-"""Premises: what is assumed when an equation is judged, in words and as relations, and whether the paper's scene keeps it."""
+"""Premises: the assumptions under which an equation is judged, in words and as relations."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
@@ -11,27 +11,39 @@ from lagrotor.algebra.scalar import sympified
 from lagrotor.errors import InputError
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.plain_text import readable
+from lagrotor.renamed import accept_old_keywords
 
-_LONGEST = 160  # characters of a formula beyond which it is shown as data only
+_LONGEST = 160  # characters; a longer formula is shown as data only
 _SIGNS = {sp.Eq: "=", sp.Ne: "≠", sp.Ge: "≥", sp.Gt: ">", sp.Le: "≤", sp.Lt: "<"}
 
 
 @dataclass(frozen=True)
 class Premise:
-    """What is assumed. says: in a physicist's words. put: the equations that state it, old = new, as a substitution.
+    """An assumption, in words and as equations and inequalities.
 
     Attributes
     ----------
-    where : tuple[Relational, ...], default ()
-        Further relations, Eq, Ne, Ge, Gt, Le, Lt.
+    says : str
+        The assumption in a physicist's words.
+    put : Mapping[Basic, Any], default {}
+        The equations of the assumption as a substitution, old → new.
     small : Symbol or None, optional
-        For an approximation, the quantity in which only the leading terms are kept; `put` then brings it in, and a letter
-        on both sides of a row stands on the right for its scaled value.
+        For an approximation, the quantity in which only the leading terms are compared. `put` introduces it; a symbol on
+        both sides of a row means on the right the symbol divided by `small`.
     broken : str, default ''
-        How far the paper's own scene is from it, in words; empty where the scene keeps it.
+        How far the paper's own scene violates the assumption, in words; empty if the scene satisfies it.
+    where : tuple[Relational, ...], default ()
+        Further relations: Eq, Ne, Ge, Gt, Le, Lt.
     defines : bool, default False
-        It says what a letter of the print stands for, and nothing of what is derived: an equation that says the same is
-        no circle then.
+        The premise only defines a printed symbol. An equation that repeats such a premise is not circular.
+
+    Examples
+    --------
+    >>> from sympy import symbols
+    >>> ell, R = symbols("ell R", positive=True)
+    >>> premise = Premise("the bar is as long as the arms", {ell: R})
+    >>> premise.with_formula, premise.on(ell**2 - R * ell)
+    ('the bar is as long as the arms: ℓ = R', 0)
     """
 
     says: str
@@ -42,7 +54,7 @@ class Premise:
     defines: bool = False
 
     def __post_init__(self) -> None:
-        for side in (each for row in self.put.items() for each in row):
+        for side in (expression for row in self.put.items() for expression in row):
             sympified(side, f"premise {self.says!r}")
         for relation in self.where:
             if not isinstance(relation, Relational):
@@ -52,7 +64,7 @@ class Premise:
 
     @property
     def sentence(self) -> str:
-        """What is assumed, and by how much the paper's own scene breaks it."""
+        """The assumption in words, and by how much the paper's own scene violates it."""
         return self.says + self._breach
 
     @property
@@ -61,29 +73,29 @@ class Premise:
 
     @property
     def equations(self) -> tuple[tuple[sp.Basic, Any], ...]:
-        """Its equations, (left, right) of each."""
+        """The left and the right side of each equation."""
         return (*self.put.items(), *((r.lhs, r.rhs) for r in self.where if isinstance(r, sp.Eq)))
 
     @property
     def conditions(self) -> tuple[Relational, ...]:
-        """Its inequalities."""
+        """The inequalities."""
         return tuple(r for r in self.where if not isinstance(r, sp.Eq))
 
     @property
     def formula(self) -> str:
-        """Its equations and conditions as text: J = I₃, x ≥ 0; empty where it only names what is small."""
+        """The equations and conditions as text: J = I₃, x ≥ 0; empty if the premise only names a small quantity."""
         return ", ".join((*(_equated(a, b) for a, b in self.put.items()), *map(relation_text, self.where)))
 
     @property
     def with_formula(self) -> str:
-        """In words, then as a formula where the words are not that already, and by how much the paper's own scene breaks it."""
+        """The `sentence`, with the formula after the words unless the words contain it."""
         formula = self.formula if len(self.formula) <= _LONGEST else f"{len(self.equations)} equations"
-        shown = formula and _letters_of(self.formula) not in _letters_of(self.says)
-        return self.says + (f": {formula}" if shown else "") + self._breach
+        is_shown = formula and _letters_of(self.formula) not in _letters_of(self.says)
+        return self.says + (f": {formula}" if is_shown else "") + self._breach
 
     @property
     def tex(self) -> tuple[str, ...]:
-        """Its equations and conditions in LaTeX, where they are few enough to be read."""
+        """The equations and conditions in LaTeX; empty if they are too long to be read."""
         if len(self.formula) > _LONGEST:
             return ()
         sides = [
@@ -92,7 +104,18 @@ class Premise:
         return (*sides, *map(latex, self.where))
 
     def on(self, side: Any) -> Any:
-        """A side with the substitution made, all rows at once."""
+        """Substitute all rows of `put` into an expression at once.
+
+        Parameters
+        ----------
+        side : Expr or Matrix
+            A side of an equation.
+
+        Returns
+        -------
+        Expr or Matrix
+            The side under the premise.
+        """
         if all(isinstance(old, sp.Symbol) for old in self.put):
             return side.xreplace({old: sp.sympify(new, strict=True) for old, new in self.put.items()})
         return side.subs(list(self.put.items()), simultaneous=True)
@@ -102,93 +125,105 @@ def _letters_of(text: str) -> str:
     return "".join(text.split())
 
 
-def _equated(left: Any, right: Any) -> str:
-    return f"{readable(str(left))} = {readable(str(right))}"
+def _equated(lhs: Any, rhs: Any) -> str:
+    return f"{readable(str(lhs))} = {readable(str(rhs))}"
 
 
 def relation_text(relation: Relational) -> str:
-    """A relation as plain text."""
+    """Return a relation as plain text."""
     return f"{readable(str(relation.lhs))} {_SIGNS[relation.func]} {readable(str(relation.rhs))}"
 
 
+@accept_old_keywords
 def parameter_premise(
     says: str,
-    put: Mapping[sp.Symbol, Any],
-    own: Mapping[sp.Symbol, Any],
+    substitution: Mapping[sp.Symbol, Any],
+    scene_values: Mapping[sp.Symbol, Any],
     meanings: Mapping[sp.Symbol, sp.Expr] | None = None,
 ) -> Premise:
-    """A premise about parameters, such as ell = R: how far the paper's own values break it is computed from them.
+    """Return a premise about parameters; `broken` is computed from the values of the paper's scene.
 
     Parameters
     ----------
     says : str
-        In words.
-    put : mapping
-        Letter → what is put in for it.
-    own : mapping
-        Letter → the value of the paper's own scene.
+        The premise in words.
+    substitution : Mapping[Symbol, Any]
+        Parameter → the value or expression that replaces it.
+    scene_values : Mapping[Symbol, Any]
+        Parameter → its value in the paper's own scene.
     meanings : Mapping[Symbol, Expr] or None, optional
-        Letters that stand for expressions in other letters.
+        Symbols that abbreviate expressions in other symbols.
+
+    Returns
+    -------
+    Premise
+        With the violated values in `broken`.
+
+    Examples
+    --------
+    >>> from sympy import symbols
+    >>> ell, R = symbols("ell R", positive=True)
+    >>> parameter_premise("the bar is as long as the arms", {ell: R}, {ell: 2, R: 1}).broken
+    'ell = 2, R = 1'
     """
-    off = []
-    for left, right in put.items():
+    differences = []
+    for lhs, rhs in substitution.items():
         sides = [
-            (side, with_meanings(sp.sympify(side, strict=True), meanings or {}).subs(own)) for side in (left, right)
+            (side, with_meanings(sp.sympify(side, strict=True), meanings or {}).subs(scene_values))
+            for side in (lhs, rhs)
         ]
-        (_, here), (_, there) = sides
-        if here.is_number and there.is_number and here != there:
-            off += [f"{sp.pretty(side)} = {float(value):g}" for side, value in sides if side != value]
-    return Premise(says, put, broken=", ".join(off))
+        (_, lhs_value), (_, rhs_value) = sides
+        if lhs_value.is_number and rhs_value.is_number and lhs_value != rhs_value:
+            differences += [f"{sp.pretty(side)} = {float(value):g}" for side, value in sides if side != value]
+    return Premise(says, substitution, broken=", ".join(differences))
 
 
 def with_meanings(expression: Any, meanings: Mapping[sp.Symbol, sp.Expr]) -> Any:
-    """The expression with each letter replaced by what it stands for, one after the other: later ones may be in earlier."""
+    """Replace each symbol by its meaning, one after the other; a meaning may contain later symbols."""
     for letter, meaning in meanings.items():
         expression = expression.xreplace({letter: sp.sympify(meaning, strict=True)})
     return expression
 
 
-Given: TypeAlias = (
+Assumptions: TypeAlias = (
     "Mapping[sp.Basic, Any] | Relational | Premise | Iterable[Premise | Relational | Mapping[sp.Basic, Any]]"
 )
 
 
-def premises_of(given: Given) -> tuple[Premise, ...]:
-    """Premises as they are; one for each relation and for each row of a substitution, old → new.
-
-    Raises InputError for what is none of these. A relation that sympy finds true by itself is left out; of one that it finds
-    false only that is kept.
-    """
-    if isinstance(given, Premise):
-        return (given,)
-    if isinstance(given, Mapping):
-        return tuple(premise for row in given.items() for premise in _of_row(*row))
-    if isinstance(given, Relational | bool) or given in (sp.true, sp.false):
-        return _of_relation(given)
-    if isinstance(given, sp.Basic | str) or not isinstance(given, Iterable):
-        raise InputError(f"given: {given!r} is no premise: give Eq(a, b), a >= b, Ne(a, b), {{old: new}} or a Premise")
-    return tuple(premise for each in given for premise in premises_of(each))
+def premises_of(assumptions: Assumptions) -> tuple[Premise, ...]:
+    """Return one premise for each Premise, relation and row of a substitution; raise InputError for anything else."""
+    if isinstance(assumptions, Premise):
+        return (assumptions,)
+    if isinstance(assumptions, Mapping):
+        return tuple(premise for row in assumptions.items() for premise in _premises_of_row(*row))
+    if isinstance(assumptions, Relational | bool) or assumptions in (sp.true, sp.false):
+        return _premises_of_relation(assumptions)
+    if isinstance(assumptions, sp.Basic | str) or not isinstance(assumptions, Iterable):
+        raise InputError(
+            f"premises: {assumptions!r} is no premise: give Eq(a, b), a >= b, Ne(a, b), {{old: new}} or a Premise"
+        )
+    return tuple(premise for assumption in assumptions for premise in premises_of(assumption))
 
 
-def _of_row(old: Any, new: Any) -> tuple[Premise, ...]:
+def _premises_of_row(old: Any, new: Any) -> tuple[Premise, ...]:
     if isinstance(old, Relational) and new in (True, False, sp.true, sp.false):
-        return _of_relation(old if new in (True, sp.true) else sp.Not(old))
+        return _premises_of_relation(old if new in (True, sp.true) else sp.Not(old))
     if isinstance(old, sp.MatrixBase):
-        right = sympified(new, "given")
-        if getattr(right, "shape", None) != old.shape:
-            raise InputError(f"given: {old} and {new} differ in shape: nothing says which entries are equal")
-        return (Premise(_equated(old, right), dict(zip(old, right, strict=True))),)
-    left, right = (sympified(side, "given") for side in (old, new))
-    return (Premise(_equated(left, right), {left: right}),)
+        rhs = sympified(new, "premises")
+        if getattr(rhs, "shape", None) != old.shape:
+            raise InputError(f"premises: {old} and {new} differ in shape: give vectors or matrices of the same shape")
+        return (Premise(_equated(old, rhs), dict(zip(old, rhs, strict=True))),)
+    lhs, rhs = (sympified(side, "premises") for side in (old, new))
+    return (Premise(_equated(lhs, rhs), {lhs: rhs}),)
 
 
-def _of_relation(relation: Any) -> tuple[Premise, ...]:
+def _premises_of_relation(relation: Any) -> tuple[Premise, ...]:
     if relation in (True, sp.true):
         return ()
     if relation in (False, sp.false):
-        return (Premise("a relation that the assumptions of its letters exclude", {sp.S.Zero: sp.S.One}),)
+        return (Premise("a relation that the assumptions of its symbols exclude", {sp.S.Zero: sp.S.One}),)
     if isinstance(relation, sp.And):
-        return tuple(premise for part in relation.args for premise in _of_relation(part))
+        return tuple(premise for conjunct in relation.args for premise in _premises_of_relation(conjunct))
     if not isinstance(relation, Relational):
-        raise InputError(f"given: {relation} is no single relation: give Eq, Ne, Ge, Gt, Le or Lt, one at a time")
+        raise InputError(f"premises: {relation} is no single relation: give Eq, Ne, Ge, Gt, Le or Lt, one at a time")
     return (Premise(relation_text(relation), where=(relation,)),)

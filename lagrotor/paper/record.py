@@ -1,6 +1,6 @@
-"""The verdicts on record, `recorded.toml`: for each equation and claim a block of all that was found, a line or a row an item.
+"""The record of verdicts, `recorded.toml`: one block for each equation and claim, one line for each item.
 
-Blocks stand in the order of their ids, so that two authors who judge different equations change different places of the file.
+The blocks are sorted by id, so that authors who judge different equations change different places of the file.
 """
 
 import hashlib
@@ -21,11 +21,10 @@ from lagrotor.paper.verdicts import LineVerdict, Verdict
 
 @dataclass(frozen=True)
 class OnRecord:
-    """What is on record of an equation or a claim; None where it is not.
+    """The record of an equation or a claim; an item that is not on record is None.
 
-    printed: a digest of the print. uses: ids of the equations that the equation uses. premises: in words and as formulas.
-    lines, correction: verdict, order and premises of each member of each line. dimensions: of the lines in which they are not
-    seen to be the same. parts: of a claim, each part and its outcome. theorems: those of a part or a line, in words.
+    `printed` is a digest of the print, `uses` the ids of the used equations. `lines` and `correction` have verdict, order and
+    premises of each member, `dimensions` the lines that are not consistent, `parts` the outcomes of a claim's parts.
     """
 
     verdict: str
@@ -40,37 +39,37 @@ class OnRecord:
     theorems: tuple[str, ...] | None = None
 
     def theorems_of(self, what: str) -> tuple[Theorem, ...]:
-        """The theorems on record of a part or a line, which were not proved again."""
-        said = (text.removeprefix(f"{what}: ") for text in self.theorems or () if text.startswith(f"{what}: "))
-        return tuple(Theorem(text) for text in said)
+        """Return the theorems on record of a part or a line."""
+        texts = (text.removeprefix(f"{what}: ") for text in self.theorems or () if text.startswith(f"{what}: "))
+        return tuple(Theorem(text) for text in texts)
 
 
-def row_of(found: Verdict | Result, equations: Mapping[str, Equation]) -> OnRecord:
-    """The record of a verdict, or of a claim after its test."""
-    if isinstance(found, Result):
-        finding = found.finding
+def row_of(result: Verdict | Result, equations: Mapping[str, Equation]) -> OnRecord:
+    """Return the record of a verdict, or of a claim after its test."""
+    if isinstance(result, Result):
+        finding = result.finding
         proved = tuple(f"{part.says}: {' '.join(filter(None, (t.says, t.encloses)))}" for part, t in finding.theorems)
         parts = tuple(f"{part.says}: {part.outcome}" for part in finding.parts)
         return OnRecord(finding.outcome, parts=parts, theorems=proved or None)
-    entry = equations.get(found.id)
+    entry = equations.get(result.id)
     return OnRecord(
-        found.verdict,
+        result.verdict,
         printed_digest(entry) if entry else None,
-        tuple(found.statement.depends_on),
-        tuple(f"{premise.says}: {premise.formula}" for premise in found.premises),
-        tuple(sorted(f"{r.lhs} {r.rel_op} {r.rhs}" for r in found.domain)),
-        tuple(map(_line, found.lines)),
-        tuple(map(_line, found.correction_lines)),
-        tuple(dict.fromkeys(_dimensions(found.lines))),
-        theorems=tuple(dict.fromkeys(_proved(found.lines))) or None,
+        tuple(result.statement.depends_on),
+        tuple(f"{premise.says}: {premise.formula}" for premise in result.premises),
+        tuple(sorted(f"{r.lhs} {r.rel_op} {r.rhs}" for r in result.domain)),
+        tuple(map(_line, result.lines)),
+        tuple(map(_line, result.correction_lines)),
+        tuple(dict.fromkeys(_dimensions(result.lines))),
+        theorems=tuple(dict.fromkeys(_theorem_texts(result.lines))) or None,
     )
 
 
 def printed_digest(entry: Equation) -> str:
-    """A digest of what the catalogue says is printed."""
+    """Return a digest of the print in the catalogue."""
     rows = [{key: row[key] for key in sorted(row)} for row in entry.line]
-    said = json.dumps([entry.latex, rows, dict(entry.letters), dict(entry.refers)], sort_keys=True)
-    return hashlib.sha256(said.encode()).hexdigest()[:16]
+    text = json.dumps([entry.latex, rows, dict(entry.letters), dict(entry.refers)], sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 def _line(line: LineVerdict) -> str:
@@ -80,7 +79,7 @@ def _line(line: LineVerdict) -> str:
     return f"{line.relation.quantity}: {line.verdict}{order}{needs}"
 
 
-def _proved(lines: Iterable[LineVerdict]) -> Iterator[str]:
+def _theorem_texts(lines: Iterable[LineVerdict]) -> Iterator[str]:
     for line in lines:
         if theorem := line.relation.theorem:
             yield f"{line.relation.quantity}: {' '.join(filter(None, (theorem.says, theorem.encloses)))}"
@@ -93,17 +92,17 @@ def _dimensions(lines: Iterable[LineVerdict]) -> Iterator[str]:
 
 
 def recorded(file: Path) -> dict[str, OnRecord]:
-    """The record by id; empty when there is none yet. Raises LagrotorError for a broken file."""
-    known = {field.name for field in fields(OnRecord)}
+    """Read the record by id; empty without a file. Raises LagrotorError for a broken file."""
+    columns = {field.name for field in fields(OnRecord)}
     try:
         rows = tomllib.loads(file.read_text(encoding="utf-8"))
-        found = {}
+        records = {}
         for identifier, row in rows.items():
-            if unknown := row.keys() - known:
+            if unknown := row.keys() - columns:
                 raise ValueError(f"{identifier}: {min(unknown)!r} means nothing here")
             read: dict[str, Any] = {k: tuple(map(str, v)) if isinstance(v, list) else str(v) for k, v in row.items()}
-            found[identifier] = OnRecord(**read)
-        return found
+            records[identifier] = OnRecord(**read)
+        return records
     except FileNotFoundError:
         return {}
     except (ValueError, TypeError, KeyError, AttributeError) as error:
@@ -111,7 +110,7 @@ def recorded(file: Path) -> dict[str, OnRecord]:
 
 
 def record_text(rows: Mapping[str, OnRecord]) -> str:
-    """A record as TOML: a block for each id, in their order, and in it a line for each item."""
+    """Return a record as TOML."""
     blocks = []
     for identifier in sorted(rows, key=by_numbers):
         row, lines = rows[identifier], [f"[{_quoted(identifier)}]"]
@@ -131,24 +130,24 @@ def _quoted(text: str) -> str:
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
-def changes(found: Mapping[str, OnRecord], on_record: Mapping[str, OnRecord], ids: Iterable[str]) -> list[str]:
-    """A sentence for each difference from what is on record of these ids; none where there is no record."""
+def changes(current: Mapping[str, OnRecord], on_record: Mapping[str, OnRecord], ids: Iterable[str]) -> list[str]:
+    """Return a sentence for each difference from the record of these ids; empty without a record."""
     if not on_record:
         return []
-    return [sentence for i in ids for sentence in _changes_of(i, found.get(i), on_record.get(i))]
+    return [sentence for i in ids for sentence in _changes_of(i, current.get(i), on_record.get(i))]
 
 
-def _changes_of(identifier: str, now: OnRecord | None, before: OnRecord | None) -> list[str]:
-    if now is None or before is None or now.verdict != before.verdict:
-        said = [row.verdict if row else "nothing" for row in (before, now)]
-        return [] if now is before else [f"{identifier}: recorded {said[0]}, found {said[1]}"]
+def _changes_of(identifier: str, now: OnRecord | None, recorded_row: OnRecord | None) -> list[str]:
+    if now is None or recorded_row is None or now.verdict != recorded_row.verdict:
+        verdicts = [row.verdict if row else "nothing" for row in (recorded_row, now)]
+        return [] if now is recorded_row else [f"{identifier}: recorded {verdicts[0]}, found {verdicts[1]}"]
     different: list[str] = []
     for field in fields(OnRecord):
-        old, new = getattr(before, field.name), getattr(now, field.name)
-        # digits of theorems differ from machine to machine; that they are there is in parts and lines
+        old, new = getattr(recorded_row, field.name), getattr(now, field.name)
+        # The digits of theorems differ between machines; parts and lines already say that there is a theorem.
         if field.name != "theorems" and old is not None and old != new:
             different.append(
-                f"{identifier}: {_WORDS.get(field.name, field.name)}: recorded {_said(old)}, found {_said(new)}"
+                f"{identifier}: {_WORDS.get(field.name, field.name)}: recorded {_as_text(old)}, found {_as_text(new)}"
             )
     return different
 
@@ -159,21 +158,21 @@ _WORDS = {
 }  # else the field's name
 
 
-def _said(value: Any) -> str:
+def _as_text(value: Any) -> str:
     return value if isinstance(value, str) else "; ".join(value or ()) or "nothing"
 
 
 def reaches_result(
     identifier: str, results: Iterable[str], verdicts: Mapping[str, str], uses: Mapping[str, Iterable[str]]
 ) -> bool:
-    """Return whether a refuted equation takes a result of the paper with it: one that rests on it, or is it, is refuted too."""
+    """Return True if a refuted result of the paper is, or depends on, the refuted equation."""
     ends = set(results)
-    seen, left = {identifier}, [identifier]
-    while left:
-        current = left.pop()
+    visited, stack = {identifier}, [identifier]
+    while stack:
+        current = stack.pop()
         if current in ends and verdicts.get(current) == "refuted":
             return True
-        users = {user for user, used in uses.items() if current in used} - seen
-        seen |= users
-        left += users
+        users = {user for user, used in uses.items() if current in used} - visited
+        visited |= users
+        stack += users
     return False

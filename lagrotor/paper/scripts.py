@@ -1,4 +1,4 @@
-"""The literate scripts of a paper: where they lie, how one is run cell by cell, and what its cells show."""
+"""The literate scripts of a paper, which run cell by cell; the values of bare expressions in a cell are shown."""
 
 import ast
 import re
@@ -21,7 +21,7 @@ Kind = Literal["derivations", "figures"]
 
 
 def beside(name: str) -> Path:
-    """A file or folder that lies beside the package in a checkout, inside it when installed."""
+    """Return a file or folder beside the package in a checkout, inside the package when installed."""
     for base in (_PACKAGE, _PACKAGE.parent):
         if (base / name).exists():
             return base / name
@@ -30,54 +30,50 @@ def beside(name: str) -> Path:
 
 @dataclass(frozen=True)
 class ScriptCell:
-    """One cell of a script: prose in Markdown, or code with the values of its bare expressions, which a notebook shows, and
-    what the package warned of in it, once each."""
+    """One cell of a script: prose in Markdown, or code with its shown values and the package's warnings, once each."""
 
     kind: Literal["prose", "code"]
     text: str
-    shown: tuple[Any, ...] = ()
+    values: tuple[Any, ...] = ()
     warned: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
 class Script:
-    """A script that was run: its cells in order and the names it defines."""
+    """A script after its run: the cells in order and the names that it defines."""
 
     cells: tuple[ScriptCell, ...]
     names: dict[str, Any]
 
-    def shown(self, kind: type) -> list[Any]:
-        """Every value of one type that its cells show, in order; of rows of values, each."""
-        found = []
+    def values_of(self, kind: type) -> list[Any]:
+        """Return the values of one type that the cells show, in order; tuples and lists are flattened."""
+        matches = []
         for cell in self.cells:
-            for value in cell.shown:
-                found += [v for v in (value if isinstance(value, tuple | list) else [value]) if isinstance(v, kind)]
-        return found
+            for value in cell.values:
+                matches += [v for v in (value if isinstance(value, tuple | list) else [value]) if isinstance(v, kind)]
+        return matches
 
 
 @dataclass(frozen=True)
 class Scripts:
-    """The folders `derivations/` and `figures/` in `base`. importable: the context in which a script runs.
-
-    A script is run once; what it shows is kept.
-    """
+    """The folders `derivations/` and `figures/` in `base`; a script runs once, in the context `importable`."""
 
     base: Path
     importable: Callable[[], AbstractContextManager[None]] = nullcontext
     ran: dict[Path, Script] = field(default_factory=dict, repr=False, compare=False)
-    elsewhere: dict[Path, dict[str, Any]] = field(default_factory=dict, repr=False, compare=False)
+    remote_names: dict[Path, dict[str, Any]] = field(default_factory=dict, repr=False, compare=False)
 
     def path(self, kind: Kind, stem: str) -> Path:
-        """The file of a script."""
+        """Return the file of a script."""
         return self.base / kind / f"{stem}.py"
 
     def names(self, kind: Kind, prefix: str = "") -> list[str]:
-        """Stems of the scripts in a folder that begin with `prefix`, in order, t2 before t10."""
+        """Return the names of scripts in a folder that begin with `prefix`, t2 before t10."""
         stems = (path.stem for path in (self.base / kind).glob(f"{prefix}*.py") if not path.stem.startswith("_"))
         return sorted(stems, key=by_numbers)
 
     def executed(self, kind: Kind, stem: str) -> Script:
-        """Run one script, once. Raises ScriptError with the file and the line where it fails."""
+        """Run a script unless it has run already; raise ScriptError with file and line if it fails."""
         path = self.path(kind, stem)
         if path not in self.ran:
             with self._within(path):
@@ -85,22 +81,23 @@ class Scripts:
         return self.ran[path]
 
     def run(self, kind: Kind, stem: str) -> dict[str, Any]:
-        """The names that a script defines."""
+        """Return the names that a script defines."""
         path = self.path(kind, stem)
-        return self.elsewhere[path] if path in self.elsewhere else self.executed(kind, stem).names
+        return self.remote_names[path] if path in self.remote_names else self.executed(kind, stem).names
 
     @contextmanager
-    def ran_elsewhere(self, values: Mapping[str, Mapping[str, Any]]) -> Iterator[None]:
-        """Within the block `run` gives these values, stem → name → value, of derivations without running them; a name that
-        is not among them is taken by running the script."""
-        self.elsewhere.update({self.path("derivations", stem): _Elsewhere(self, stem, v) for stem, v in values.items()})
+    def remote_values(self, values: Mapping[str, Mapping[str, Any]]) -> Iterator[None]:
+        """Let `run` return these values (script → name → value) within the block; a missing name still runs its script."""
+        self.remote_names.update(
+            {self.path("derivations", stem): _RemoteNames(self, stem, v) for stem, v in values.items()}
+        )
         try:
             yield
         finally:
-            self.elsewhere.clear()
+            self.remote_names.clear()
 
     def called(self, kind: Kind, stem: str, name: str) -> Any:
-        """What a function of a script returns. Raises ScriptError with the file and the line where it fails."""
+        """Call a function of a script; raise ScriptError with file and line if it fails."""
         function = self.run(kind, stem)[name]
         with self._within(self.path(kind, stem)):
             return function()
@@ -115,10 +112,7 @@ class Scripts:
 
     @cached_property
     def stating(self) -> dict[str, tuple[str, int]]:
-        """Equation's id → (stem of the derivation that judges it, line), read off the scripts without running them.
-
-        Raises InputError where two verdicts are on one equation.
-        """
+        """The derivation and the line of each verdict by equation id, found without running the scripts."""
         places: dict[str, tuple[str, int]] = {}
         for stem in self.names("derivations"):
             for identifier, line in verdicts_in(self.path("derivations", stem)):
@@ -130,12 +124,12 @@ class Scripts:
 
 
 def by_numbers(name: str) -> list[tuple[int, str]]:
-    """The key by which names are in order: t2 before t10, 3.2 before 3.10."""
+    """Return the sort key of a name, with t2 before t10 and 3.2 before 3.10."""
     return [(int(number or 0), text) for number, text in re.findall(r"(\d*)(\D*)", name)]
 
 
-class _Elsewhere(dict[str, Any]):
-    """Names of a derivation that ran in another process; one that is missing is taken from the script, run here."""
+class _RemoteNames(dict[str, Any]):
+    """The names of a derivation that ran in another process; a missing name runs the script in this process."""
 
     def __init__(self, scripts: Scripts, stem: str, values: Mapping[str, Any]) -> None:
         super().__init__(values)
@@ -146,7 +140,7 @@ class _Elsewhere(dict[str, Any]):
 
 
 def verdicts_in(path: Path) -> list[tuple[str, int]]:
-    """(equation's id, line) of each verdict that a derivation states. Raises ScriptError where it is no Python."""
+    """Return (equation id, line) of each verdict in a derivation; raise ScriptError for invalid Python."""
     calls = []
     tree = _tree(path) if "verdict(" in path.read_text(encoding="utf-8") else ast.Module([], [])
     for node in ast.walk(tree):
@@ -165,7 +159,7 @@ def _tree(path: Path) -> ast.Module:
 
 
 def _failure(path: Path, error: Exception) -> str:
-    """file:line: what went wrong, the line being that of the script itself."""
+    """Return `file:line: error`, with the line of the script itself."""
     if isinstance(error, SyntaxError):
         return f"{path}:{error.lineno}: {error.msg}"
     lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(path)]
@@ -174,7 +168,7 @@ def _failure(path: Path, error: Exception) -> str:
 
 
 def run_file(path: Path) -> Script:
-    """Run a script in the percent format (`# %%` begins a cell, `# %% [markdown]` one of prose)."""
+    """Run a script in the percent format: `# %%` begins a cell, `# %% [markdown]` one of prose."""
     source = path.read_text(encoding="utf-8")
     defined: dict[str, Any] = {"__name__": path.stem, "__file__": str(path)}
     starts = [match.start() for match in _CELL.finditer(source)] or [0]
@@ -187,19 +181,21 @@ def run_file(path: Path) -> Script:
             cells.append(ScriptCell("prose", re.sub(r"^# ?", "", body, flags=re.MULTILINE).strip()))
         else:
             first, last = (1 + source.count("\n", 0, place) for place in (start, end))
-            here = (statement for statement in statements if first <= statement.lineno <= last)
+            in_cell = (statement for statement in statements if first <= statement.lineno <= last)
             with warnings.catch_warnings(record=True) as caught:
                 warnings.simplefilter("always", LagrotorWarning)
-                shown = tuple(value for statement in here for value in _execute(statement, path, defined))
-            for each in caught:
-                warnings.warn_explicit(each.message, each.category, each.filename, each.lineno)
-            warned = dict.fromkeys(str(each.message) for each in caught if issubclass(each.category, LagrotorWarning))
-            cells.append(ScriptCell("code", body.strip(), shown, tuple(warned)))
+                values = tuple(value for statement in in_cell for value in _execute(statement, path, defined))
+            for warning in caught:
+                warnings.warn_explicit(warning.message, warning.category, warning.filename, warning.lineno)
+            warned = dict.fromkeys(
+                str(warning.message) for warning in caught if issubclass(warning.category, LagrotorWarning)
+            )
+            cells.append(ScriptCell("code", body.strip(), values, tuple(warned)))
     return Script(tuple(cells), defined)
 
 
 def _execute(statement: ast.stmt, path: Path, defined: dict[str, Any]) -> list[Any]:
-    """Execute a statement; its value if it is a bare expression and has one."""
+    """Execute a statement and return the value of a bare expression, if it has one."""
     if not isinstance(statement, ast.Expr):
         exec(compile(ast.Module([statement], []), str(path), "exec"), defined)
         return []
@@ -209,23 +205,20 @@ def _execute(statement: ast.stmt, path: Path, defined: dict[str, Any]) -> list[A
 
 @contextmanager
 def importable(folder: Path, modules: dict[str, ModuleType]) -> Iterator[None]:
-    """Within the block `import name` finds `folder/name.py`; two papers may each have a module of the same name.
-
-    modules: those of the folder that were imported before; new ones are added to it.
-    """
-    before = dict(sys.modules)
+    """Let `import name` find `folder/name.py` within the block; `modules` keeps the imported modules of the folder."""
+    imported = dict(sys.modules)
     sys.modules.update(modules)
     sys.path.insert(0, str(folder))
     try:
         yield
     finally:
         sys.path.remove(str(folder))
-        for name in (sys.modules.keys() - before.keys()) | (sys.modules.keys() & modules.keys()):
+        for name in (sys.modules.keys() - imported.keys()) | (sys.modules.keys() & modules.keys()):
             module = sys.modules[name]
-            if module is not before.get(name) and _lies_in(folder, module):
+            if module is not imported.get(name) and _lies_in(folder, module):
                 modules[name] = module
-                if name in before:
-                    sys.modules[name] = before[name]
+                if name in imported:
+                    sys.modules[name] = imported[name]
                 else:
                     del sys.modules[name]
 

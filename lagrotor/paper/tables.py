@@ -1,4 +1,4 @@
-"""Tables that the report shows: runs side by side and what holds beyond the paper."""
+"""Tables of the report and of notebooks."""
 
 import re
 from dataclasses import dataclass
@@ -10,7 +10,13 @@ import sympy as sp
 
 @dataclass(frozen=True)
 class FigureLink:
-    """A cell that leads to the figure with this key."""
+    """A cell with a link to a figure.
+
+    Attributes
+    ----------
+    key : str
+        Number of the figure, as "19".
+    """
 
     key: str
 
@@ -18,13 +24,30 @@ class FigureLink:
 # Text, a formula, a link, or several of them one below the other.
 Cell: TypeAlias = "str | sp.Basic | FigureLink | tuple[str | sp.Basic, ...]"
 
-# A letter named in LaTeX, which sympy's MathML does not read.
+# sympy's MathML does not convert a symbol whose name is LaTeX.
 _DOTTED = re.compile(r"<mi>\\dot\{(\w+)\}</mi>")
 
 
 @dataclass(frozen=True)
 class Table:
-    """A table: every row as long as `head`; `note` says how it was made."""
+    """A table, shown in the report and, as HTML, in notebooks.
+
+    Attributes
+    ----------
+    title : str
+        Its caption.
+    head : tuple[str, ...]
+        Names of the columns.
+    rows : tuple[tuple[Cell, ...], ...]
+        Each as long as `head`; a cell is text, a sympy object, a `FigureLink`, or a tuple of these below each other.
+    note : str, default ''
+        A sentence below the table on how the values were obtained.
+
+    Examples
+    --------
+    >>> Table("Periods", ("length (m)", "period (s)"), (("1", "2.01"), ("2", "2.84"))).rows[1]
+    ('2', '2.84')
+    """
 
     title: str
     head: tuple[str, ...]
@@ -39,7 +62,7 @@ class Table:
 
 
 def _html(cell: Cell, tag: str) -> str:
-    # Notebooks set numbers to the right, and sentences with them.
+    # Notebooks align cells to the right by default, sentences included.
     return f'<{tag} style="text-align:left">{_inside(cell)}</{tag}>'
 
 

@@ -1,7 +1,7 @@
-"""Theorems about motion that decide a part of a claim, or a number that is printed: their words, enclosure and certificate.
+"""Theorems about motions, which decide a part of a claim or a printed number.
 
-`lagrotor.proofs` finds them and its `check` verifies them; it needs python-flint. Without it what is on record stands, and it
-is said that it was not proved again.
+`lagrotor.proofs` proves them and its `check` verifies their certificates; both need python-flint. Without python-flint the
+theorems on record are used, and the report says that they were not proved again.
 """
 
 import json
@@ -19,15 +19,24 @@ NOT_AGAIN = "on record, not proved again here; lagrotor claims does, with python
 
 @dataclass(frozen=True)
 class Theorem:
-    """What is proved: `says`, in the words of `lagrotor.proofs.check`; `encloses`, the enclosure as it is printed.
+    """A theorem about a motion, with the certificate from which it can be verified.
 
     Attributes
     ----------
+    says : str
+        The theorem in the words of `lagrotor.proofs.check`.
+    encloses : str, default ''
+        The enclosure of its numbers, in words.
     certificate : dict[str, Any] or None, optional
-        What `check` verifies, plain data; None where the theorem is on record only.
+        Plain data that `check` verifies; None for a theorem that is only on record.
     quantity : str, default ''
-        The name in the certificate of what a printed number is compared with: a state, an expression of which it is
-        the mean, `time`, `period` or `frequency`.
+        Name in the certificate of the quantity that a printed number is compared with: a state, an expression whose
+        mean is enclosed, `time`, `period` or `frequency`.
+
+    Examples
+    --------
+    >>> Theorem("The orbit is periodic.", "period = [0.785, 0.786] s").text
+    'The orbit is periodic. period = [0.785, 0.786] s (on record, not proved again here; ...
     """
 
     says: str
@@ -37,56 +46,58 @@ class Theorem:
 
     @classmethod
     def of(cls, proved: Any, encloses: str = "", quantity: str = "") -> "Theorem":
-        """That of a proof of `lagrotor.proofs`, which needs python-flint.
+        """Return the theorem of a proof from `lagrotor.proofs`, which needs python-flint.
 
         Parameters
         ----------
-        proved
+        proved : Any
             An orbit, a crossing, an enclosure or an equilibrium.
         encloses : str, default ''
-            Its enclosure as it is printed.
+            Its enclosure in words.
         quantity : str, default ''
-            What a printed number is held against.
+            Name of the quantity that a printed number is compared with.
+
+        Returns
+        -------
+        Theorem
+            With the proof's certificate.
 
         Raises
         ------
         InputError
-            Where the theorem has no such quantity.
+            If the theorem has no such quantity.
         """
         from lagrotor.proofs.statements import quantities, theorem_of
 
-        if quantity and quantity not in (known := quantities(proved.certificate)):
-            raise InputError(f"Theorem: it says nothing of {quantity!r}, but of {', '.join(known) or 'no number'}")
+        if quantity and quantity not in (names := quantities(proved.certificate)):
+            raise InputError(f"Theorem: it has no quantity {quantity!r}; it has {', '.join(names) or 'none'}")
         return cls(theorem_of(proved.certificate), encloses, proved.certificate, quantity)
 
     @property
     def bounds(self) -> tuple[sp.Rational, sp.Rational] | None:
-        """Of the quantity, as the certificate claims them; None where it has none."""
+        """The lower and the upper bound of the quantity in the certificate; None without a quantity."""
         if self.certificate is None or not self.quantity:
             return None
         from lagrotor.proofs.statements import quantities
 
-        found = quantities(self.certificate)[self.quantity]
-        mantissa_exponents = (end.man_exp() for end in (found.lower(), found.upper()))
+        ball = quantities(self.certificate)[self.quantity]
+        mantissa_exponents = (end.man_exp() for end in (ball.lower(), ball.upper()))
         low, high = (sp.Integer(int(m)) * sp.Rational(2) ** int(e) for m, e in mantissa_exponents)
         return low, high
 
     @property
     def text(self) -> str:
-        """Words and enclosure, and whether it was proved again here."""
+        """The words and the enclosure; of a theorem on record, with a note that it was not proved again."""
         return " ".join(filter(None, (self.says, self.encloses, f"({NOT_AGAIN})" if self.certificate is None else "")))
 
 
 def can_prove() -> bool:
-    """Whether python-flint is there."""
+    """Return True if python-flint is installed."""
     return find_spec("flint") is not None
 
 
 def verify(theorems: Iterable[Theorem], where: str) -> None:
-    """Check the certificate of each theorem, as it would be read from a file.
-
-    Raises ProofError where a theorem has none, where `lagrotor.proofs.check` rejects it, or where it proves something else.
-    """
+    """Check each theorem's certificate after a round trip through JSON; raise ProofError if it is missing or rejected."""
     from lagrotor.proofs.checker.checking import check
 
     for theorem in theorems:

@@ -1,8 +1,8 @@
-"""The dimensions of a printed line, from the units that the glossary gives to its letters.
+"""The dimensions of a printed line, from the units of its symbols in the glossary.
 
-A dimension is a monomial in the base units: of "kg m²/s", kg*m**2/s; of a number or an angle, 1. A sum, and a line, needs
-terms of one dimension, a sine or an exponent a number (ISO 80000-1, 6.1). Where a premise gives a letter a number, as R = 1,
-numbers stand for quantities, and what differs by powers of that letter's dimension is said to be so.
+A dimension is a monomial in the base units: kg*m**2/s for "kg m²/s", 1 for a number or an angle. The terms of a sum and the
+sides of a line need one dimension; the argument of a sine and an exponent are numbers (ISO 80000-1, 6.1). Under a premise such
+as R = 1, numbers replace quantities, and sides may differ by powers of the dimension of R.
 """
 
 import re
@@ -36,41 +36,42 @@ _PREFIXED = {
 }
 _RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 _SUPERSCRIPT = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
-# A product after a quotient, J/kg K, of which nobody knows whether K is above or below.
+# A product after a quotient is ambiguous: in J/kg K the K may be above or below.
 _UNCLEAR = re.compile(r"/[^()]*\*(?!\*)")
 
 
 @cache
 def dimension_of(unit: str) -> sp.Expr:
-    """The dimension of a unit as a glossary writes it: kg m²/s, kg m^2 s^-1, N/(rad s), 1.
-
-    Raises InputError for a unit that is not known, and for one that can be read in two ways.
-    """
-    text = re.sub(r"[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+", lambda found: f"^{found[0].translate(_RAISED)}", unit).replace("°", "deg").strip()
+    """Return the dimension of kg m²/s, kg m^2 s^-1, N/(rad s) or 1; raise InputError for an unknown or ambiguous unit."""
+    text = (
+        re.sub(r"[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+", lambda dimension: f"^{dimension[0].translate(_RAISED)}", unit)
+        .replace("°", "deg")
+        .strip()
+    )
     text = re.sub(r"\s*[·*]\s*|(?<=[\w)])\s+(?=[\w(])", "*", text).replace("Ω", "Ohm")
     if _UNCLEAR.search(text):
         raise InputError(f"unit {unit!r} can be read in two ways: put what is below the line in brackets")
     text = re.sub(r"\^\(?(-?\d+(?:/\d+)?)\)?", r"**(\1)", text)
-    found = parsed(text, {**_PREFIXED, **_UNITS}, f"unit {unit!r}")
-    if not _is_monomial(found):
+    dimension = parsed(text, {**_PREFIXED, **_UNITS}, f"unit {unit!r}")
+    if not _is_monomial(dimension):
         raise InputError(f"unit {unit!r} is no product of units: write it as kg m²/s")
-    return found
+    return dimension
 
 
 def _letter_text(name: str) -> str:
-    """A letter by name; of a component Omega_2_z: z of Ω₂."""
+    """Return the name of a symbol in plain text; for the component Omega_2_z, z of Ω₂."""
     whole, _, axes = name.rpartition("_")
     return f"{axes} of {readable(whole)}" if whole and re.fullmatch("[xyz]{1,2}", axes) else readable(name)
 
 
-def _is_monomial(found: Any) -> bool:
-    return isinstance(found, sp.Expr) and all(
-        exponent.is_Rational and (base.is_Symbol or base == 1) for base, exponent in found.as_powers_dict().items()
+def _is_monomial(dimension: Any) -> bool:
+    return isinstance(dimension, sp.Expr) and all(
+        exponent.is_Rational and (base.is_Symbol or base == 1) for base, exponent in dimension.as_powers_dict().items()
     )
 
 
 def unit_text(dimension: sp.Expr) -> str:
-    """A dimension as a unit: kg m²/s."""
+    """Return a dimension as a unit: kg m²/s."""
     powers = {str(base): power for base, power in dimension.as_powers_dict().items() if base != 1}
     ordered = [(name, powers[name]) for name in _BASES if name in powers]
     above = [(name, power) for name, power in ordered if power > 0]
@@ -89,20 +90,14 @@ def _powers(rows: Iterable[tuple[str, Any]]) -> str:
 
 @dataclass(frozen=True)
 class Dimensions:
-    """What the units say of a line, in a sentence.
-
-    "in units": the two sides differ by powers of letters to which a premise gives numbers. "not known": a letter has no unit.
-    """
+    """The dimensional analysis of a line; "in units" if the sides agree up to symbols to which premises give numbers."""
 
     answer: Literal["consistent", "in units", "inconsistent", "not known"]
     says: str
 
 
 def dimensions(printed: Any, derived: Any, glossary: Glossary, values: Mapping[Any, Any]) -> Dimensions:
-    """The dimensions of a printed member against what was derived; entry by entry of matrices.
-
-    values: letter → the number that a premise or the text gives it.
-    """
+    """Compare the dimensions of two sides, of matrices by entry; `values` are the numbers that premises give to symbols."""
     units: dict[sp.Symbol, sp.Expr] = {}
     unread: dict[str, str] = {}
     for symbol, entry in glossary.items():
@@ -123,63 +118,66 @@ def dimensions(printed: Any, derived: Any, glossary: Glossary, values: Mapping[A
     if under(numbers).answer == "inconsistent":
         return strict
     for symbol in tuple(numbers):
-        rest = {s: unit for s, unit in numbers.items() if s != symbol}
-        if under(rest).answer != "inconsistent":
-            numbers = rest
-    given = ", ".join(f"{_letter_text(str(s))} = {readable(str(values[s]))}" for s in numbers)
-    return Dimensions("in units", f"with {given} numbers stand for quantities: {strict.says}")
+        others = {s: unit for s, unit in numbers.items() if s != symbol}
+        if under(others).answer != "inconsistent":
+            numbers = others
+    values_text = ", ".join(f"{_letter_text(str(s))} = {readable(str(values[s]))}" for s in numbers)
+    return Dimensions("in units", f"with {values_text} numbers stand for quantities: {strict.says}")
 
 
 def _compared(printed: Any, derived: Any, reader: "_Reader") -> Dimensions:
     sides = [list(s) if isinstance(s, sp.MatrixBase) else [s] for s in (printed, derived)]
-    if len(sides[0]) != len(sides[1]):  # a number beside a vector: with each of its entries
+    if len(sides[0]) != len(sides[1]):  # a number is compared with each entry of a vector
         sides = [side * max(map(len, sides)) if len(side) == 1 else side for side in sides]
-    unknown, seen = "", list[sp.Expr]()
+    unknown, shared = "", list[sp.Expr]()
     for pair in zip(*sides, strict=False):
-        known = []
+        pair_dimensions = []
         for name, side in zip(("printed", "derived"), pair, strict=True):
             try:
-                known.append(reader.of(side))
+                pair_dimensions.append(reader.of(side))
             except _UnknownError as refusal:
                 unknown = unknown or str(refusal)
             except _InconsistentError as difference:
                 return Dimensions("inconsistent", f"{name}: {difference}")
-        both = [dimension for dimension in known if dimension is not None]
+        both = [dimension for dimension in pair_dimensions if dimension is not None]
         if len(both) == 2 and not reader.alike(*both):
             gap = unit_text(both[1] / both[0])
             texts = [unit_text(dimension) for dimension in both]
             return Dimensions("inconsistent", f"printed {texts[0]}, derived {texts[1]}; derived/printed is {gap}")
-        seen += both
+        shared += both
     if unknown:
         return Dimensions("not known", unknown)
-    return Dimensions("consistent", ", ".join(dict.fromkeys(map(unit_text, seen))) or "0")
+    return Dimensions("consistent", ", ".join(dict.fromkeys(map(unit_text, shared))) or "0")
 
 
 class _UnknownError(Exception):
-    """A dimension that the units do not give."""
+    """A dimension that does not follow from the units."""
 
 
 class _InconsistentError(Exception):
-    """Terms of different dimensions, or a quantity where a number must stand."""
+    """Terms of different dimensions, or a quantity in place of a number."""
 
 
 @dataclass(frozen=True)
 class _Reader:
-    """Dimensions under the units of letters; what is a product of powers of `numbers` counts as a number."""
+    """The reader of dimensions; a product of powers of `numbers` counts as a number."""
 
     units: Mapping[sp.Symbol, sp.Expr]
     unread: Mapping[str, str]
     numbers: tuple[sp.Expr, ...]
 
     def alike(self, a: sp.Expr, b: sp.Expr) -> bool:
-        """Whether two dimensions are the same, up to powers of what counts as a number."""
+        """Return True if two dimensions are equal up to powers of `numbers`."""
         if a == b:
             return True
-        rows = [[each.as_powers_dict().get(base, 0) for base in _BASES.values()] for each in (*self.numbers, a / b)]
+        rows = [
+            [dimension.as_powers_dict().get(base, 0) for base in _BASES.values()]
+            for dimension in (*self.numbers, a / b)
+        ]
         return bool(sp.Matrix(rows).rank() == sp.Matrix(rows[:-1]).rank()) if self.numbers else False
 
     def of(self, e: Any) -> sp.Expr | None:
-        """The dimension of an expression; None of zero, which has any."""
+        """Return the dimension of an expression; None for zero, which has every dimension."""
         if e.is_number:
             return None if e == 0 else _ONE
         if e.is_Symbol or isinstance(e, AppliedUndef):
@@ -204,7 +202,7 @@ class _Reader:
             for argument in e.args:
                 self._number(argument, f"the argument of {e.func.__name__}")
             return _ONE
-        raise _UnknownError(f"no dimension is known of {readable(str(e))}")
+        raise _UnknownError(f"the dimension is not known of {readable(str(e))}")
 
     def _letter(self, e: Any) -> sp.Expr:
         if e in self.units:
@@ -212,11 +210,11 @@ class _Reader:
         name = str(e.func) if isinstance(e, AppliedUndef) else e.name
         named = [unit for symbol, unit in self.units.items() if symbol.name == name and isinstance(e, AppliedUndef)]
         if not named:
-            raise _UnknownError(f"{_letter_text(name)}: {self.unread.get(name, 'no unit is given of it')}")
+            raise _UnknownError(f"{_letter_text(name)}: {self.unread.get(name, 'it has no unit')}")
         return named[0]
 
     def _common(self, terms: Iterable[Any]) -> sp.Expr | None:
-        """The dimension of all terms of a sum; terms that differ are found though others are not known."""
+        """Return the common dimension of the terms of a sum; differing terms are reported even if others are unknown."""
         first: tuple[Any, sp.Expr] | None = None
         unknown: _UnknownError | None = None
         for term in terms:
@@ -228,7 +226,7 @@ class _Reader:
             if dimension is None:
                 continue
             if first is not None and not self.alike(first[1], dimension):
-                texts = [f"{_shown(t)} is {unit_text(d)}" for t, d in (first, (term, dimension))]
+                texts = [f"{_short_text(t)} is {unit_text(d)}" for t, d in (first, (term, dimension))]
                 raise _InconsistentError(f"a sum of different dimensions, {texts[0]}, {texts[1]}")
             first = first or (term, dimension)
         if unknown:
@@ -236,16 +234,16 @@ class _Reader:
         return first[1] if first else None
 
     def _product(self, factors: Iterable[Any]) -> sp.Expr | None:
-        made: sp.Expr | None = _ONE
+        product: sp.Expr | None = _ONE
         unknown: _UnknownError | None = None
         for factor in factors:
             try:
-                made = self._ratio(made, 1 / d if (d := self.of(factor)) is not None else None)
+                product = self._ratio(product, 1 / d if (d := self.of(factor)) is not None else None)
             except _UnknownError as refusal:
                 unknown = unknown or refusal
         if unknown:
             raise unknown
-        return made
+        return product
 
     def _ratio(self, above: sp.Expr | None, below: sp.Expr | None) -> sp.Expr | None:
         return None if above is None or below is None else above / below
@@ -256,15 +254,15 @@ class _Reader:
             return base**e.exp
         self._number(e.exp, "an exponent")
         if base is not None and not self.alike(base, _ONE):
-            raise _UnknownError(f"{_shown(e)} is a power of {unit_text(base)} with a letter in the exponent")
+            raise _UnknownError(f"{_short_text(e)} is a power of {unit_text(base)} with a symbol in the exponent")
         return _ONE
 
     def _number(self, e: Any, where: str) -> None:
         dimension = self.of(e)
         if dimension is not None and not self.alike(dimension, _ONE):
-            raise _InconsistentError(f"{where}, {_shown(e)}, is {unit_text(dimension)}")
+            raise _InconsistentError(f"{where}, {_short_text(e)}, is {unit_text(dimension)}")
 
 
-def _shown(e: Any) -> str:
+def _short_text(e: Any) -> str:
     text = readable(str(e))
     return text if len(text) <= 60 else f"{text[:57]}…"

@@ -1,4 +1,4 @@
-"""What a derivation states of an equation, and what was decided of it: relations, statements, verdicts and their table."""
+"""Relations between printed and derived sides, statements of equations, and the verdicts on them."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
@@ -25,7 +25,25 @@ AGREES: tuple[Answer, ...] = ("holds", "holds-if", "holds-to-order", "proved")
 
 @dataclass(frozen=True)
 class Series:
-    """A side of which only the terms through small**order are known: what is compared with it holds to that order at most."""
+    """A side of which only the terms through small**order are known.
+
+    Attributes
+    ----------
+    expression : Any
+        The known terms, a sympy expression or matrix.
+    small : Symbol
+        The variable of the series.
+    order : int
+        The highest known order. A line that is compared with the series holds to this order at most.
+
+    Examples
+    --------
+    >>> from lagrotor.paper import judge
+    >>> from sympy import cos, symbols
+    >>> x = symbols("x", real=True)
+    >>> judge(cos(x), Series(1 - x**2 / 2, x, 3)).verdict
+    'holds-to-order'
+    """
 
     expression: Side
     small: sp.Symbol
@@ -34,24 +52,12 @@ class Series:
 
 @dataclass(frozen=True)
 class Relation:
-    """`printed` should equal `derived`; with `small`, up to and including small**claimed.
+    """A printed side and the derived side to which it should be equal, through small**claimed if `small` is a symbol.
 
-    Attributes
-    ----------
-    within : Rational or None, optional
-        For a number read off a run, the relative error that its printed digits allow.
-    quantity : str, default ''
-        What both are, in LaTeX.
-    scene : mapping, default field(default_factory=dict)
-        Values that the text gives for this line, a premise of their own.
-    known : tuple[Symbol, int] or None, optional
-        The small quantity and the order through which the derived side is known, where it is a series.
-    written : str, default ''
-        LaTeX of the derived side, in a correction of what should be printed, as a physicist writes it.
-    granted : bool, default False
-        It is equal under the premises only.
-    theorem : Theorem or None, optional
-        It encloses the number that is printed, and decides in place of the derived side.
+    `quantity` is the quantity of both sides in LaTeX, `scene` the values that the text gives for this line (a premise). For a
+    number read off a simulation, `within` is the relative error that its digits allow, and `theorem` decides in place of
+    `derived`. `known` is (variable, highest known order) of a derived series. `written` is LaTeX as a physicist writes it, of
+    the derived side or, in a correction, of the printed side; `granted` marks a form that is equal under the premises only.
     """
 
     printed: Side
@@ -68,30 +74,18 @@ class Relation:
 
     @property
     def scene_premises(self) -> tuple[Premise, ...]:
-        """The values that the text gives for this line, as a premise."""
+        """The values of `scene` as a premise; empty without values."""
         return (Premise("the values that the text gives", self.scene),) if self.scene else ()
 
     def under(self, premises: Iterable[Premise]) -> "Relation":
-        """The relation with premises put into both sides; an approximation makes it one between leading terms."""
+        """Substitute premises into both sides; an approximation makes the relation one between leading terms."""
         under = hypotheses(premises)
         small = under.small[0] if under.small else self.small
         return replace(self, printed=under.on(self.printed), derived=under.on(self.derived), small=small)
 
 
 def chain(derived: Side, *printed: Side, small: sp.Symbol | None = None, claimed: int = 0) -> tuple[Relation, ...]:
-    """The relations of a line `… = p_1 = p_2 = …`, each member held against the derived expression.
-
-    Parameters
-    ----------
-    derived : Side
-        The expression.
-    small : Symbol or None, optional
-        The small quantity of a line that holds to an order.
-    claimed : int, default 0
-        That order.
-    printed : Side
-        P_1, p_2, ….
-    """
+    """Return one relation for each member of a line `p_1 = p_2 = …`, each compared with the derived expression."""
     return tuple(
         Relation(sp.sympify(p, strict=True), sp.sympify(derived, strict=True), small, claimed) for p in printed
     )
@@ -99,26 +93,11 @@ def chain(derived: Side, *printed: Side, small: sp.Symbol | None = None, claimed
 
 @dataclass(frozen=True)
 class Statement:
-    """What one equation of a paper is compared with; id: its id, empty where it belongs to none; title: what it is about.
+    """One equation of a paper, printed beside derived; `id` is empty for an equation that belongs to no paper.
 
-    Attributes
-    ----------
-    relations : tuple[Relation, ...]
-        Printed against derived, one for each member of each printed line.
-    premises : tuple[Premise, ...], default ()
-        What may be assumed.
-    correction : tuple[Relation, ...], default ()
-        What should be printed, as relations of their own.
-    wrong : str, default ''
-        What is wrong, in a line.
-    names : bool, default False
-        The line only introduces a letter.
-    measured : bool, default False
-        It is a number read off a run.
-    depends_on : tuple[str, ...], default ()
-        Ids of the equations that this one uses.
-    evidence : tuple[str, ...], default ()
-        Sentences with the numbers that were computed.
+    `relations` has one row for each member of each printed line, `correction` the lines that should be printed. `wrong` is the
+    error in one sentence; `depends_on` are the ids of the used equations. `names` marks a line that only introduces a symbol,
+    `measured` a number read off a simulation.
     """
 
     id: str
@@ -141,44 +120,52 @@ class Statement:
 
 
 def unconnected(sides: Any, premises: Iterable[Premise]) -> list[Premise]:
-    """Return the premises with letters, none of which is in the sides, nor in a premise that is connected with them."""
-    known, left = set(symbols_in(sides)), [(p, set(symbols_in((p.put, p.where, p.small)))) for p in premises]
-    while near := [letters for _, letters in left if letters & known or not letters]:
-        known.update(*near)
-        left = [each for each in left if each[1] and not each[1] <= known]
-    return [premise for premise, _ in left]
+    """Return the premises that share no symbol with the sides, not even through other premises."""
+    connected, waiting = set(symbols_in(sides)), [(p, set(symbols_in((p.put, p.where, p.small)))) for p in premises]
+    while near := [letters for _, letters in waiting if letters & connected or not letters]:
+        connected.update(*near)
+        waiting = [row for row in waiting if row[1] and not row[1] <= connected]
+    return [premise for premise, _ in waiting]
 
 
 def check_premises(sides: Any, premises: Iterable[Premise]) -> None:
-    """Raise InputError for a premise that is not connected with the sides."""
     for premise in unconnected(sides, premises):
-        raise InputError(f"judge: no letter of the premise {premise.with_formula} is in the equation: name it alike")
+        raise InputError(f"judge: no symbol of the premise {premise.with_formula} is in the equation: name it alike")
 
 
 @dataclass(frozen=True)
 class LineVerdict:
-    """What was decided of one member of one printed line, or of one line of a correction.
+    """The verdict on one member of a printed line, or on one line of a correction.
 
     Attributes
     ----------
+    relation : Relation
+        The compared sides.
+    verdict : str
+        The verdict.
     premises : tuple[Premise, ...], default ()
-        Those that it needs; of what is refuted all that were assumed, under which its difference is stated.
-        order, small: of a series.
+        The premises that the line needs; of a refuted line, all premises under which `difference` is stated.
+    order : int or None, optional
+        For a series, the order through which the sides agree.
+    small : Symbol or None, optional
+        The variable of that series.
     domain : tuple[Relational, ...], default ()
         Relations that hold wherever both sides are defined and real.
     difference : Expr or None, optional
-        Of what is refuted, printed less derived under the premises; of matrices the entry `place`, of series the
-        first coefficient.
+        Of a refuted line, printed less derived under the premises: of matrices the entry `place`, of series the
+        coefficient of the first term.
+    place : tuple[int, int] or None, optional
+        Row and column of the entry of a matrix that differs.
     witness : Mapping[Symbol, Any] or None, optional
-        Letter → value, a point that satisfies the premises.
+        A counterexample: the value of each symbol at a point that satisfies the premises.
     enclosure : tuple[Rational, Rational] or None, optional
-        Two rationals of one sign between which the difference lies there.
-    sides : tuple[tuple[Rational, Rational] or None, tuple[Rational, Rational] or None] or None, optional
-        The same of the printed and of the derived side; None for a side whose principal value there is not real.
+        Two rationals of one sign that enclose the difference at the witness.
+    sides : tuple or None, optional
+        Enclosures of the printed and the derived side there; None for a side that is not real.
     reason : str, default ''
-        Why it does not hold, in words.
+        The reason why the line does not hold, in words.
     dimensions : Dimensions or None, optional
-        What the units of the letters say of it; no verdict rests on them.
+        The dimensional analysis; no verdict depends on it.
     """
 
     relation: Relation
@@ -197,13 +184,15 @@ class LineVerdict:
 
 
 def point_text(line: LineVerdict, sides: tuple[str, str] = ("printed", "derived")) -> str:
-    """Return where a line was seen to be wrong, with the values there; empty where it is refuted by its order, or not at all."""
+    """Return the counterexample of a refuted line with the values there; empty without one."""
     if line.difference is None or line.enclosure is None or line.relation.within is not None:
         return ""
-    shown = ", ".join(f"{readable(str(s))} = {_signed(value)}" for s, value in _point(line).items())
+    point = ", ".join(f"{readable(str(s))} = {_signed(value)}" for s, value in _point(line).items())
     place = f", entry {line.place[0] + 1}, {line.place[1] + 1}," if line.place else ""
-    gap = " − ".join(sides) if all(line.sides or ()) else f"|{' − '.join(sides)}|"  # of sides that are not real
-    text = f"{gap}{place} is {_signed(_number(line.enclosure))}" + (f" at {shown}" if shown else "")
+    gap = (
+        " − ".join(sides) if all(line.sides or ()) else f"|{' − '.join(sides)}|"
+    )  # the absolute value, if a side is not real
+    text = f"{gap}{place} is {_signed(_number(line.enclosure))}" + (f" at {point}" if point else "")
     values = [f"{name} {_signed(_number(v))}" for name, v in zip(sides, line.sides or (), strict=False) if v]
     letters = line.relation.printed.free_symbols | line.relation.derived.free_symbols
     return text + (f": {', '.join(values)}" if len(values) == 2 and letters <= (line.witness or {}).keys() else "")
@@ -214,16 +203,16 @@ def _signed(number: str) -> str:
 
 
 def point_tex(line: LineVerdict) -> str:
-    """The same in LaTeX."""
+    """Return the counterexample of a refuted line in LaTeX; empty without one."""
     at = _point(line)
     place = rf"_{{{line.place[0] + 1},{line.place[1] + 1}}}" if line.place else ""
-    shown = ", ".join(f"{latex(s)} = {value}" for s, value in at.items())
+    values = ", ".join(f"{latex(s)} = {value}" for s, value in at.items())
     gap = rf"\left(\text{{printed}} - \text{{derived}}\right){place}"
-    return rf"{gap} = {_number(line.enclosure)}\quad\text{{at}}\quad {shown}" if at else ""
+    return rf"{gap} = {_number(line.enclosure)}\quad\text{{at}}\quad {values}" if at else ""
 
 
 def _point(line: LineVerdict) -> dict[Any, str]:
-    """The letters of the difference with their values, in five digits."""
+    """Return the values of the symbols in the difference, in five digits."""
     if line.witness is None or line.difference is None or line.relation.within is not None:
         return {}
     free = line.difference.free_symbols
@@ -231,7 +220,7 @@ def _point(line: LineVerdict) -> dict[Any, str]:
 
 
 def _number(value: Any) -> str:
-    """Return a number, or two between which it lies, in five digits or as many as are certain."""
+    """Return a number or an enclosure as text, in five digits or as many as are certain."""
     low, high = value if isinstance(value, tuple) else (value, value)
     middle, width = (low + high) / 2, high - low
     certain = 5 if width == 0 or middle == 0 else min(5, max(1, floor(log10(abs(middle / width)))))
@@ -241,11 +230,41 @@ def _number(value: Any) -> str:
 
 @dataclass(frozen=True)
 class Verdict:
-    """What was decided of one equation: the weakest of its lines. premises: those under which it holds, or, of a refuted one,
-    under which its correction does; `order`, `small`: of a series; `domain`: relations that hold wherever both sides are defined
-    and real.
+    """The verdict on one equation, the weakest of the verdicts on its lines.
 
-    `reaches_result`: for a refuted equation, whether a result of the paper falls with it (None: not refuted).
+    Attributes
+    ----------
+    statement : Statement
+        The compared sides.
+    verdict : str
+        'holds', 'holds-if', 'holds-to-order', 'proved', 'refuted', 'measured', 'definition' or 'undecided'.
+    premises : tuple[Premise, ...]
+        The premises under which the equation holds; of a refuted one, those under which the correction holds.
+    order : int or None
+        For a series, the order through which the sides agree.
+    small : Symbol or None
+        The variable of that series.
+    domain : tuple[Relational, ...]
+        Relations that hold wherever both sides are defined and real.
+    correction_verdict : str or None
+        The verdict on the correction; None without one.
+    evidence : tuple[str, ...]
+        Sentences with computed numbers and reasons.
+    seconds : float
+        Computing time.
+    reaches_result : bool or None, optional
+        For a refuted equation, True if a result of the paper depends on it; None for any other.
+    lines : tuple[LineVerdict, ...], default ()
+        The verdicts on the members of its lines.
+    correction_lines : tuple[LineVerdict, ...], default ()
+        The verdicts on the lines of the correction.
+
+    Examples
+    --------
+    >>> from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
+    >>> verdict = PAPER.audit("2.01")
+    >>> verdict.verdict, [premise.says for premise in verdict.premises]
+    ('holds-if', ['the link is massless, m = 0'])
     """
 
     statement: Statement
@@ -268,19 +287,19 @@ class Verdict:
 
     @property
     def theorems(self) -> tuple[Theorem, ...]:
-        """Those that decide its lines, each once."""
-        found = [line.relation.theorem for line in self.lines if line.relation.theorem]
-        return tuple(theorem for i, theorem in enumerate(found) if theorem not in found[:i])
+        """The theorems that decide lines, each once."""
+        theorems = [line.relation.theorem for line in self.lines if line.relation.theorem]
+        return tuple(theorem for i, theorem in enumerate(theorems) if theorem not in theorems[:i])
 
     @property
     def refuted_under(self) -> tuple[Premise, ...]:
-        """The premises under which refuted lines differ as stated, and under which the remarks on them are true."""
+        """The premises under which the differences of refuted lines are stated."""
         assumed = [premise for line in self.lines if line.verdict == "refuted" for premise in line.premises]
         return tuple(premise for i, premise in enumerate(assumed) if premise not in assumed[:i])
 
     @property
     def condition(self) -> str | None:
-        """The premises as one sentence; None where nothing was assumed."""
+        """The premises as one sentence; None without premises."""
         return "; ".join(premise.sentence for premise in self.premises) or None
 
     def __repr__(self) -> str:
@@ -292,7 +311,7 @@ class Verdict:
 
 
 def verdict_table(verdicts: Iterable[Verdict]) -> Table:
-    """Verdicts below each other, each with its premises or order, what was wrong and the evidence."""
+    """Return verdicts as a table, each with premises or order, error and evidence."""
     return Table("Verdicts", ("equation", "verdict", "why"), tuple(map(_row, verdicts)))
 
 
@@ -300,18 +319,18 @@ def _row(v: Verdict) -> tuple[str, tuple[str, ...], tuple[str, ...]]:
     order = f"through order {v.order} in {readable(str(v.small))}" if v.verdict == "holds-to-order" else ""
     corrected = f"the correction: {v.correction_verdict}" if v.verdict == "refuted" and v.correction_verdict else ""
     where = f"where {', '.join(map(relation_text, v.domain))}" if v.domain and v.verdict in AGREES else ""
-    # An equation by itself says which premises were given; in a paper all are.
-    given = () if v.id else v.statement.premises
-    premises = v.premises if v.verdict in AGREES or v.id else given
+    # Of an equation outside a paper the user has given the premises.
+    judge_premises = () if v.id else v.statement.premises
+    premises = v.premises if v.verdict in AGREES or v.id else judge_premises
     under = (f"as stated if {readable(p.with_formula)}" for p in v.refuted_under if v.id)
-    said = "corrected if " if corrected else ""
-    ifs = (("under the given premise " if p in given else said) + readable(p.with_formula) for p in premises)
+    prefix = "corrected if " if corrected else ""
+    ifs = (("under the given premise " if p in judge_premises else prefix) + readable(p.with_formula) for p in premises)
     decided = (v.verdict, *under, *(() if corrected else ifs), order, where, corrected, *(ifs if corrected else ()))
     named = f"{v.id}: {v.statement.title}" if v.id else v.statement.title or _equation(v.statement)
-    # What a paper says to be wrong is enough; an equation by itself has the point at which it was seen.
+    # An equation without a description of its error shows the counterexample.
     names = ("printed", "derived") if v.id else ("left", "right")
-    seen = () if v.statement.wrong or v.verdict != "refuted" else tuple(point_text(line, names) for line in v.lines)
-    return named, tuple(filter(None, decided)), tuple(filter(None, (v.statement.wrong, *v.evidence, *seen)))
+    points = () if v.statement.wrong or v.verdict != "refuted" else tuple(point_text(line, names) for line in v.lines)
+    return named, tuple(filter(None, decided)), tuple(filter(None, (v.statement.wrong, *v.evidence, *points)))
 
 
 def _equation(statement: Statement) -> str:

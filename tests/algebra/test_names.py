@@ -8,6 +8,7 @@ from lagrotor.errors import InputError
 from lagrotor.mechanics import Frame, System, coordinates
 from lagrotor.numerics import Program
 from lagrotor.paper import Premise, judge, prove, verdict
+from lagrotor.paper.equation_statements import statement
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 g, other_g = sp.Symbol("g", positive=True), sp.Symbol("g")
@@ -30,9 +31,9 @@ def pendulum(own: sp.Symbol, second: sp.Symbol) -> System:
         lambda s: Program((g, x), (), (s * x,)),
         lambda s: prove(g * x, s * x, names="g x"),
         lambda s: judge(g * x, s * x),
-        lambda s: judge(g * x, g * x, given={x: s}),
-        lambda s: judge(g * x, g * x, given=[Premise("x is g", {x: s})]),
-        lambda s: judge("g*x", g * x, given={s: 1}),
+        lambda s: judge(g * x, g * x, premises={x: s}),
+        lambda s: judge(g * x, g * x, premises=[Premise("x is g", {x: s})]),
+        lambda s: judge("g*x", g * x, premises={s: 1}),
     ],
 )
 def test_two_symbols_of_one_name_are_refused_at_the_door(door) -> None:
@@ -43,9 +44,9 @@ def test_two_symbols_of_one_name_are_refused_at_the_door(door) -> None:
 
 def test_a_statement_is_refused_that_does_not_use_the_papers_letter() -> None:
     total = sum(sp.symbols("m_1:4", positive=True))
-    PAPER.statement(verdict("3.01", total))
+    statement(verdict("3.01", total), PAPER)
     with pytest.raises(InputError, match=r"3\.01: two different symbols are called 'm_1'"):
-        PAPER.statement(verdict("3.01", sum(sp.symbols("m_1:4"))))
+        statement(verdict("3.01", sum(sp.symbols("m_1:4"))), PAPER)
 
 
 def test_a_dummy_is_no_other_letter() -> None:

@@ -24,11 +24,13 @@ from lagrotor.commands import terminal
 from lagrotor.commands.command_line import main
 from lagrotor.models import simulate as simulate_module
 from lagrotor.pair.notation import M, R
-from lagrotor.paper import Paper, Relation, Statement, claim_tests, decide
+from lagrotor.paper import Paper, claim_tests
+from lagrotor.paper.ledger import decide
 from lagrotor.paper.plain_text import readable
 from lagrotor.paper.record import OnRecord, record_text
 from lagrotor.paper.rotor_pair import rotor_pair_audit
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
+from lagrotor.paper.verdicts import Relation, Statement
 from lagrotor.report.formulas import mathml_latex
 from lagrotor.report.job import cache, folder, reproduce
 

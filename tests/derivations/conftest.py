@@ -4,7 +4,9 @@ from collections.abc import Callable
 
 import pytest
 
-from lagrotor.paper import Stated, Verdict, decide, scripts
+from lagrotor.paper import Stated, Verdict, scripts
+from lagrotor.paper.equation_statements import statement
+from lagrotor.paper.ledger import decide
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 Edit = tuple[str, str, str]  # script, text, what takes its place
@@ -31,6 +33,6 @@ def changed_physics(tmp_path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., 
             path.write_text(text, encoding="utf-8")
             ran[stem] = scripts.run_file(path)
             monkeypatch.setitem(PAPER.scripts.ran, original, ran[stem])
-        return {s.id: decide(PAPER.statement(s)) for script in ran.values() for s in script.shown(Stated)}
+        return {s.id: decide(statement(s, PAPER)) for script in ran.values() for s in script.values_of(Stated)}
 
     return verdicts

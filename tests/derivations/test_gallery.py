@@ -31,7 +31,7 @@ def test_it_agrees_with_an_independent_formulation_and_not_with_a_neighbour(stem
 @pytest.mark.parametrize("stem", STEMS)
 def test_it_proves_results_and_shows_a_picture(stem: str) -> None:
     script = PAPER.scripts.executed("derivations", stem)
-    steps = script.shown(Step)
+    steps = script.values_of(Step)
     assert steps and all(step.says for step in steps)
     picture = script.names["picture"]
     assert len(picture.axes) >= 2 and all(axes.lines for axes in picture.axes)

@@ -5,8 +5,9 @@ from functools import cache
 
 import sympy as sp
 
-from lagrotor.paper import Premise, decide
+from lagrotor.paper import Premise
 from lagrotor.paper.grammar import symmetric
+from lagrotor.paper.ledger import decide
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 PARTICLES, BODY_SCRIPT, STEP, ROTATION, LINK = (

@@ -12,9 +12,11 @@ from lagrotor import Link, Scene, simulate
 from lagrotor.models import exact_orbit
 from lagrotor.pair import lagrangians
 from lagrotor.pair.notation import ell, k, sigma, theta_0
-from lagrotor.paper import Statement, Verdict, decide
+from lagrotor.paper import Verdict
+from lagrotor.paper.ledger import decide
 from lagrotor.paper.rotor_pair import premises
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
+from lagrotor.paper.verdicts import Statement
 
 
 @pytest.fixture(scope="module")

@@ -11,7 +11,8 @@ from lagrotor import Link, Scene, natural_rate
 from lagrotor.models import exact_orbit
 from lagrotor.pair import lagrangians
 from lagrotor.pair.notation import J, K, R, ell, k, m, sigma
-from lagrotor.paper import Premise, Statement, decide
+from lagrotor.paper import Premise
+from lagrotor.paper.ledger import decide
 from lagrotor.paper.rotor_pair.claims.natural_rates import coefficient
 from lagrotor.paper.rotor_pair.premises import (
     HEAVY_BAR,
@@ -20,6 +21,7 @@ from lagrotor.paper.rotor_pair.premises import (
     PAPERS_ROTOR,
 )
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
+from lagrotor.paper.verdicts import Statement
 
 STEMS = ("s5_3a_equal_spins", "s5_3b_opposite_spins")
 

@@ -12,8 +12,9 @@ from lagrotor import Link, Scene, simulate
 from lagrotor.mechanics import degrees_of_freedom
 from lagrotor.pair import axes_pair
 from lagrotor.pair.notation import G_1, G_2, G, a, b
-from lagrotor.paper import Relation, Statement, decide
+from lagrotor.paper.ledger import decide
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
+from lagrotor.paper.verdicts import Relation, Statement
 
 STEM = "s6_conclusion"
 BAR = Link(mass=1, inertia=1)

@@ -5,6 +5,7 @@ import sympy as sp
 
 from lagrotor.errors import InputError, ProofError
 from lagrotor.paper import verdict
+from lagrotor.paper.equation_statements import statement
 from lagrotor.paper.grammar import cross, vector
 from lagrotor.paper.proof import form
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
@@ -18,7 +19,7 @@ def test_a_text_in_vectors_gives_its_components() -> None:
     by_hand = sum((c * cross(r, v) for c, r, v in zip(m, arms, velocities, strict=True)), sp.zeros(3, 1))
     found = form("sum_i(m_i*cross(X_i, U_i))").value(DECLARED)
     assert (found - by_hand).applyfunc(sp.expand) == sp.zeros(3, 1)
-    assert form("sum_i(m_i)/2", many=2).value(DECLARED) == (m[0] + m[1]) / 2
+    assert form("sum_i(m_i)/2", bodies=2).value(DECLARED) == (m[0] + m[1]) / 2
 
 
 @pytest.mark.parametrize(
@@ -42,11 +43,11 @@ def test_a_text_is_written_as_it_stands(text: str, tex: str) -> None:
 
 def test_a_form_that_is_not_the_result_is_refused() -> None:
     derived = sum(sp.symbols("m_1:4", positive=True))
-    assert PAPER.statement(verdict("3.01", derived, written=form("sum_i(m_i)"))).relations[0].written == r"\sum_i m_{i}"
+    assert statement(verdict("3.01", derived, form=form("sum_i(m_i)")), PAPER).relations[0].written == r"\sum_i m_{i}"
     with pytest.raises(ProofError, match="is not what was derived"):
-        PAPER.statement(verdict("3.01", derived, written=form("sum_i(2*m_i)")))
+        statement(verdict("3.01", derived, form=form("sum_i(2*m_i)")), PAPER)
     with pytest.raises(InputError, match="which was not derived"):
-        PAPER.statement(verdict("3.01", derived, written={"N": form("sum_i(m_i)")}))
+        statement(verdict("3.01", derived, form={"N": form("sum_i(m_i)")}), PAPER)
 
 
 @pytest.mark.parametrize("text", ["sum_i(m_i", "nobody*2"])

@@ -125,18 +125,18 @@ def test_a_premise_that_is_the_conclusion_is_named_in_every_form(premise: str) -
     sides = verdict.lines[0].relation
     for given in ({left: right}, {right: left}, sp.Eq(left, right), [sp.Eq(right, left)]):
         assert (
-            judge(sides.printed, sides.derived, given=given).evidence
+            judge(sides.printed, sides.derived, premises=given).evidence
             == judge(sides.derived, sides.printed, given).evidence
         )
-        assert "circular" in judge(sides.printed, sides.derived, given=given).evidence[0]
+        assert "circular" in judge(sides.printed, sides.derived, premises=given).evidence[0]
     assert judge_text("a*sin(x) + c = b", ["c = b", "a = 0"]).verdict.verdict == "holds-if"
 
 
 def test_a_premise_that_touches_no_letter_of_the_equation_is_refused() -> None:
     a, b, x = sp.symbols("a b x", real=True)
     with pytest.raises(InputError, match="two different symbols are called 'a'"):
-        judge(a * x, b * x, given=[sp.Eq(sp.Symbol("a"), sp.Symbol("b"))])
-    with pytest.raises(InputError, match="no letter of the premise y > 0 is in the equation"):
+        judge(a * x, b * x, premises=[sp.Eq(sp.Symbol("a"), sp.Symbol("b"))])
+    with pytest.raises(InputError, match="no symbol of the premise y > 0 is in the equation"):
         judge_text("a*x = b*x", ["y > 0"])
     assert judge_text("a*x = b*x", ["a = y", "c = y", "b = c"]).verdict.verdict == "holds-if"
 
@@ -204,7 +204,7 @@ def test_a_premise_is_put_in_for_what_is_differentiated() -> None:
         (r"x = \pm a", "write two statements"),
         (r"|a\rangle = b", "has no opening bracket"),
         (r"\begin{pmatrix} 1 & 0\\ 0 & 1\end{pmatrix} = 1", "a vector is equal to a number"),
-        (r"\frac{d}{dx}(x V) = V(x)", "stands with its argument and without it"),
+        (r"\frac{d}{dx}(x V) = V(x)", "has an argument in one place and none in another"),
         (r"y = i\omega", 'numbers = "i"'),
     ],
 )
@@ -275,7 +275,9 @@ def test_the_condition_is_right_at_its_edge(equation: str, branch: list[str], do
 
 
 def test_a_function_by_its_name_is_no_unknown_function() -> None:
-    assert judge_text(r"\operatorname{atan2}(y, x) = \arctan\frac{y}{x}", given=["x > 0"]).verdict.verdict == "holds-if"
+    assert (
+        judge_text(r"\operatorname{atan2}(y, x) = \arctan\frac{y}{x}", premises=["x > 0"]).verdict.verdict == "holds-if"
+    )
     assert judge_text(r"\operatorname{besselj}(0, 0) = 1").verdict.verdict == "holds"
     assert judge_text(r"\gamma(x) + \gamma(x) = 2\gamma(x)").verdict.verdict == "holds"
     with pytest.raises(InputError, match="no rules for the function erf"):

@@ -7,9 +7,12 @@ import sympy as sp
 
 from lagrotor.errors import InputError
 from lagrotor.pair.notation import r0
-from lagrotor.paper import Premise, Relation, Statement, chain, decide, grammar, judge, verdict
+from lagrotor.paper import Premise, grammar, judge, verdict
+from lagrotor.paper.equation_statements import statement
+from lagrotor.paper.ledger import decide
 from lagrotor.paper.record import changes, reaches_result, record_text, recorded
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
+from lagrotor.paper.verdicts import Relation, Statement, chain
 
 x, y = sp.symbols("x y", real=True)
 n = sp.Symbol("n", positive=True)
@@ -22,7 +25,7 @@ def verdict_of(printed: sp.Expr, derived: sp.Expr, **more: object):
 
 def on_paper(*given: object, **more: object) -> Statement:
     """What a derivation states, beside the print."""
-    return PAPER.statement(verdict(*given, **more))
+    return statement(verdict(*given, **more), PAPER)
 
 
 def test_an_identity_holds_with_its_domain() -> None:
@@ -212,7 +215,7 @@ def test_series_about_a_singular_point_hold_through_whole_orders(
 
 
 def test_text_is_read_in_the_letters_of_the_derived_side_and_shown_so() -> None:
-    decided = judge("n*x", x, given={n: 1})
+    decided = judge("n*x", x, premises={n: 1})
     assert repr(decided).splitlines() == ["n·x = x: holds-if", "  under the given premise n = 1"]
     assert "holds-if<br>under the given premise n = 1" in decided._repr_html_()
     assert judge("n*cos(x)", n * sp.sin(x)).verdict == "refuted"
@@ -222,14 +225,14 @@ def test_text_is_read_in_the_letters_of_the_derived_side_and_shown_so() -> None:
 @pytest.mark.parametrize(
     ("wrong", "says"),
     [
-        (lambda: judge("z*x", x), "'z' is not defined: declare the letter"),
+        (lambda: judge("z*x", x), "'z' is not defined: declare the symbol"),
         (lambda: judge(x, "x"), "judge"),
         (lambda: judge([x], x), "judge"),
-        (lambda: judge(x, y, given={x: "y"}), "given"),
-        (lambda: judge(x, y, given="x >= 0"), "given"),
-        (lambda: judge(x, y, given=x), "given"),
-        (lambda: judge(x, y, given=[sp.Or(x > 0, y > 0)]), "given"),
-        (lambda: judge(x, y, given={sp.ImmutableMatrix([x, y]): sp.Matrix([1, 2, 3])}), "given"),
+        (lambda: judge(x, y, premises={x: "y"}), "premises"),
+        (lambda: judge(x, y, premises="x >= 0"), "premises"),
+        (lambda: judge(x, y, premises=x), "premises"),
+        (lambda: judge(x, y, premises=[sp.Or(x > 0, y > 0)]), "premises"),
+        (lambda: judge(x, y, premises={sp.ImmutableMatrix([x, y]): sp.Matrix([1, 2, 3])}), "premises"),
         (lambda: Premise("x is y", {x: "y"}), "premise"),
         (lambda: judge(x, sp.sin(x), small="x", order=2), "must be a symbol"),
         (lambda: judge(x, sp.sin(x), small=x, order=-1), "whole number"),

@@ -25,9 +25,9 @@ def test_a_rate_follows_what_moves_and_nothing_else() -> None:
 
 def test_a_section_reads_its_own_letters_before_those_of_the_glossary() -> None:
     assert read("cross(F, r)", declared({"vector": "F r"}), "here") == cross(vector("F"), r)
-    with pytest.raises(InputError, match="declare the letter"):
+    with pytest.raises(InputError, match="declare the symbol"):
         read("cross(F, r)", {}, "here")
-    with pytest.raises(InputError, match="not a kind of letter"):
+    with pytest.raises(InputError, match="not a kind of symbol"):
         declared({"tensor": "T"})
 
 

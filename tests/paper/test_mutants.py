@@ -12,8 +12,10 @@ from itertools import islice
 import pytest
 import sympy as sp
 
-from lagrotor.paper import Audit, Relation, Statement, Verdict, decide
+from lagrotor.paper import Audit, Verdict
+from lagrotor.paper.ledger import decide
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
+from lagrotor.paper.verdicts import Relation, Statement
 
 MOST, FEW = 6, 2  # twins of one relation that are judged, in the fast suite
 
@@ -172,7 +174,7 @@ import lagrotor.paper.proof as proof
 proof.prove = lambda *sides, **more: None
 import lagrotor.paper.equation_statements as equation_statements
 equation_statements.needs_premises = lambda *compared: False
-from lagrotor.paper import decide
+from lagrotor.paper.ledger import decide
 changes, stems = json.load(sys.stdin)
 for change in changes:
     copy = os.fork()

@@ -59,7 +59,7 @@ def test_a_printed_letter_that_nothing_derived_has_is_named(folder: Path) -> Non
     edit(folder / "equations.toml", "-g/l*theta", "-omega_0**2*theta")
     paper = Paper(folder)
     verdict = paper.audit("1.1")
-    assert verdict.verdict == "refuted" and "ω₀ is printed, and not derived" in in_words(verdict, paper)
+    assert verdict.verdict == "refuted" and "ω₀ is printed, but not derived" in in_words(verdict, paper)
     edit(folder / "equations.toml", 'section = "1"\n', 'section = "1"\nletters = { omega_0 = "sqrt(g/l)" }\n')
     paper = Paper(folder)
     verdict = paper.audit("1.1")

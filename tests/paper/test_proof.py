@@ -45,10 +45,10 @@ def test_a_long_left_side_is_named_or_the_equation_written() -> None:
     assert prove(SQUARES, 1, names=r"|r|^2").tex == r"\begin{aligned} |r|^2 &= 1 \end{aligned}"
     long = sum(sp.Symbol(f"a_{n}") for n in range(60))
     assert prove(long, long, names="A").tex.startswith(r"\begin{aligned} A &=")
-    assert prove(long, long, written=r"A = \sum_n a_n").tex == r"\begin{aligned} A = \sum_n a_n \end{aligned}"
-    with pytest.raises(ProofError, match="give `names` or `written`"):
+    assert prove(long, long, equations=r"A = \sum_n a_n").tex == r"\begin{aligned} A = \sum_n a_n \end{aligned}"
+    with pytest.raises(ProofError, match="give `names` or `equations`"):
         prove(long, long)
     with pytest.raises(ProofError, match="2 equations are written for 1"):
-        prove(x, x, written=("a", "b"))
+        prove(x, x, equations=("a", "b"))
     with pytest.raises(ProofError, match="2 names for 1"):
         prove(x, x, names=("a", "b"))

@@ -26,8 +26,8 @@ def test_the_branch_is_found_where_squares_are_factors(left: sp.Expr, right: sp.
     verdict = judge(left, right)
     assert verdict.verdict == "holds-if"
     assert [r for premise in verdict.premises for r in premise.conditions] == [branch]
-    assert judge(left, right, given=[branch]).verdict == "holds-if"
-    assert judge(left, right, given=[sp.Not(branch)]).verdict != "holds-if"
+    assert judge(left, right, premises=[branch]).verdict == "holds-if"
+    assert judge(left, right, premises=[sp.Not(branch)]).verdict != "holds-if"
     assert judge(2 * left + 1, right).verdict == "refuted"
 
 

@@ -16,13 +16,13 @@ def scripts(tmp_path: Path) -> Scripts:
 
 
 def test_values_from_elsewhere_are_taken_without_a_run(scripts: Scripts) -> None:
-    with scripts.ran_elsewhere({"t1_one": {"rate": 5}}):
+    with scripts.remote_values({"t1_one": {"rate": 5}}):
         assert scripts.run("derivations", "t1_one")["rate"] == 5
     assert not scripts.ran
 
 
 def test_a_value_that_did_not_come_is_computed_here(scripts: Scripts) -> None:
-    with scripts.ran_elsewhere({"t1_one": {"rate": 5}}):
+    with scripts.remote_values({"t1_one": {"rate": 5}}):
         assert scripts.run("derivations", "t1_one")["mass"] == 3
     assert len(scripts.ran) == 1
 

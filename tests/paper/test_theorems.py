@@ -15,23 +15,13 @@ pytest.importorskip("flint", reason="the extra `proof` is not installed")
 
 from lagrotor.errors import InputError, ProofError
 from lagrotor.mechanics import System, coordinates
-from lagrotor.paper import (
-    ClaimTest,
-    Finding,
-    Paper,
-    Part,
-    Relation,
-    Statement,
-    Theorem,
-    decide,
-    equation_statements,
-    papers,
-    verdict,
-)
+from lagrotor.paper import ClaimTest, Finding, Paper, Part, Theorem, equation_statements, papers, verdict
 from lagrotor.paper import claim_tests as tests_of_claims
 from lagrotor.paper.audit import in_words, verdict_data
+from lagrotor.paper.ledger import decide
 from lagrotor.paper.record import changes, record_text, recorded, row_of
 from lagrotor.paper.scripts import beside
+from lagrotor.paper.verdicts import Relation, Statement
 from lagrotor.proofs import NotProved, enclose
 
 RATE = "the rate is 1.00"
@@ -133,7 +123,7 @@ def test_a_printed_number_is_held_against_the_bounds_of_a_theorem(printed: str, 
     found = decide(Statement("", (relation,), measured=True))
     assert found.verdict == answer, found
     if answer == "refuted":
-        assert "a theorem has it between 0.5403" in found.lines[0].reason
+        assert "a theorem encloses it between 0.5403" in found.lines[0].reason
 
 
 def test_the_bounds_of_a_number_are_the_certificate_s() -> None:
@@ -145,7 +135,7 @@ def test_the_bounds_of_a_number_are_the_certificate_s() -> None:
     assert wide.bounds and wide.bounds[1] - wide.bounds[0] > sp.Rational(1, 1000)
     relation = Relation(sp.Rational("0.5403"), sp.Integer(7), within=sp.Rational("0.0001"), theorem=wide)
     assert decide(Statement("", (relation,), measured=True)).verdict == "undecided"
-    with pytest.raises(InputError, match="it says nothing of 'frequency', but of x, x_dot"):
+    with pytest.raises(InputError, match="it has no quantity 'frequency'; it has x, x_dot"):
         Theorem.of(enclose(System(C, (C.v[0] ** 2 - C.q[0] ** 2) / 2), {}, [1], [0], 1), "", "frequency")
 
 

@@ -5,10 +5,13 @@ import sympy as sp
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics import coordinates
-from lagrotor.paper import Glossary, Paper, Premise, Statement, chain, decide
+from lagrotor.paper import Glossary, Paper, Premise
+from lagrotor.paper.catalogue import section_glossary
+from lagrotor.paper.ledger import decide
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.paper.scripts import beside
 from lagrotor.paper.units import Dimensions, dimension_of, dimensions, unit_text
+from lagrotor.paper.verdicts import Statement, chain
 
 GLOSSARY = Glossary()
 m = GLOSSARY.letter("m", "mass", "kg", positive=True)
@@ -97,9 +100,9 @@ def test_what_differs_is_named(wrong: sp.Expr, why: str) -> None:
 
 
 def test_a_letter_without_a_unit_is_named() -> None:
-    assert of(alien * m, m) == Dimensions("not known", "z: no unit is given of it")
+    assert of(alien * m, m) == Dimensions("not known", "z: it has no unit")
     assert "'furlong' is not defined" in of(odd, l).says
-    assert "with a letter in the exponent" in of(l**n, l).says
+    assert "with a symbol in the exponent" in of(l**n, l).says
 
 
 def test_numbers_stand_for_quantities_where_a_premise_says_so() -> None:
@@ -152,9 +155,9 @@ def test_units_of_a_sections_letters_are_those_of_the_catalogue(tmp_path) -> Non
     (tmp_path / "paper.toml").write_text('title = "A"\n[sections]\n1 = "one"\n')
     head = '[letters.1]\nvector = "F"\n[units.1]\nN = "F"\n'
     (tmp_path / "equations.toml").write_text(head)
-    assert {s.name: entry.unit for s, entry in Paper(tmp_path).meanings("1").items()} == dict.fromkeys(
+    assert {s.name: entry.unit for s, entry in section_glossary(Paper(tmp_path), "1").items()} == dict.fromkeys(
         ("F_x", "F_y", "F_z"), "N"
     )
     (tmp_path / "equations.toml").write_text(head + 'kg = "M"\n')
-    with pytest.raises(InputError, match="section 1 has no letter 'M'"):
-        Paper(tmp_path).meanings("1")
+    with pytest.raises(InputError, match="section 1 has no symbol 'M'"):
+        section_glossary(Paper(tmp_path), "1")

@@ -9,8 +9,10 @@ import numpy as np
 import sympy as sp
 
 from lagrotor.pair.notation import M, r0
-from lagrotor.paper import FigureLink, Finding, Part, Relation, Result, Statement, Table, chain, claim_tests, decide
+from lagrotor.paper import FigureLink, Finding, Part, Result, Table, claim_tests
+from lagrotor.paper.ledger import decide
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
+from lagrotor.paper.verdicts import Relation, Statement, chain
 from lagrotor.pictures import Picture
 from lagrotor.report.content import Report, ResultSection
 

@@ -6,8 +6,10 @@ from pathlib import Path
 import pytest
 
 from lagrotor.pair.notation import M, R
-from lagrotor.paper import ClaimTest, Finding, Result, Statement, chain, decide
+from lagrotor.paper import ClaimTest, Finding, Result
+from lagrotor.paper.ledger import decide
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
+from lagrotor.paper.verdicts import Statement, chain
 from lagrotor.pictures import Picture
 from lagrotor.report.content import Report
 from lagrotor.report.facts import balance, headlines

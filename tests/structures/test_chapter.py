@@ -46,7 +46,7 @@ MUTANTS = [
 @pytest.mark.parametrize("stem", STEMS)
 def test_a_script_proves_and_says_what_it_found(stem: str) -> None:
     script = PAPER.scripts.executed("derivations", stem)
-    found, steps = script.shown(Remark), script.shown(Step)
+    found, steps = script.values_of(Remark), script.values_of(Step)
     assert found and all(remark.title and remark.text.endswith(".") for remark in found)
     assert len(steps) >= 5 and all(step.says for step in steps)
 

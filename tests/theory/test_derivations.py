@@ -29,7 +29,7 @@ SCRIPTS = [pytest.param(stem, marks=pytest.mark.slow) if stem in LONG else stem 
 @pytest.mark.parametrize("stem", SCRIPTS)
 def test_a_script_says_what_it_found(stem):
     script = PAPER.scripts.executed("derivations", stem)
-    found = [(r.title, r.text) for r in script.shown(Remark)]
+    found = [(r.title, r.text) for r in script.values_of(Remark)]
     assert found
     assert all(title and text.endswith(".") for title, text in found)
 
@@ -37,11 +37,11 @@ def test_a_script_says_what_it_found(stem):
 @pytest.mark.parametrize("stem", SCRIPTS)
 def test_a_script_shows_each_step_and_says_what_it_is(stem):
     script = PAPER.scripts.executed("derivations", stem)
-    steps = script.shown(Step)
+    steps = script.values_of(Step)
     assert len(steps) >= STEPWISE[stem]
     assert all(step.says for step in steps)
     assert "decide_zero" not in script.names
-    most = max(sum(isinstance(value, Step) for value in cell.shown) for cell in script.cells)
+    most = max(sum(isinstance(value, Step) for value in cell.values) for cell in script.cells)
     assert most == 1  # one equation a cell
 
 

@@ -1,1 +1,1 @@
-"""The paper of the rotor pair: its catalogue, its record, its premises, the tests of its claims."""
+"""The paper of the rotor pair: catalogue, record, premises and tests of claims."""

@@ -1,26 +1,11 @@
-"""Premises that several derivations share; how far the paper's own rotor and bar break them is computed."""
+"""Premises that several derivations share, with the amount by which the paper's own rotor and bar violate them."""
 
 from collections.abc import Mapping
 from typing import Any
 
 import sympy as sp
 
-from lagrotor.pair.notation import (
-    I1,
-    I3,
-    J,
-    K,
-    M,
-    R,
-    a,
-    b,
-    ell,
-    m,
-    omega,
-    omega_1,
-    omega_2,
-    sigma,
-)
+from lagrotor.pair.notation import I1, I3, J, K, M, R, a, b, ell, m, omega, omega_1, omega_2, sigma
 from lagrotor.paper.premises import Premise, parameter_premise, with_meanings
 from lagrotor.paper.rotor_pair.symbols import WRITTEN_OUT
 
@@ -30,22 +15,22 @@ LIGHT_BAR: Mapping[sp.Symbol, sp.Expr] = {m: sp.Rational(1, 100), K: sp.Rational
 
 
 def in_parameters(expression: Any) -> Any:
-    """The expression in the rotor's and the bar's own parameters: a, b, k, J by what they are."""
+    """Express a, b, k and J by the parameters of the rotor and the bar."""
     return with_meanings(expression, WRITTEN_OUT)
 
 
-def about_parameters(says: str, put: Mapping[sp.Symbol, Any]) -> Premise:
-    """A premise about parameters, such as J = I_3, with how far the paper's own values break it."""
-    return parameter_premise(says, put, PAPERS_OWN, WRITTEN_OUT)
+def about_parameters(says: str, substitution: Mapping[sp.Symbol, Any]) -> Premise:
+    """Return a premise about parameters, such as J = I_3, with its violation by the paper's values."""
+    return parameter_premise(says, substitution, PAPERS_OWN, WRITTEN_OUT)
 
 
 def massless_bar() -> Premise:
-    """The bar has no mass and no inertia: a = J, b = 0, sigma = 1."""
-    own = ", ".join(f"{sp.pretty(s)} = {float(PAPERS_OWN[s]):g} or {float(LIGHT_BAR[s]):g}" for s in (m, K))
-    return Premise("the bar is massless, m = K = 0", {a: J, b: 0, sigma: 1, m: 0, K: 0}, broken=own)
+    """Return the premise that the bar has no mass and no inertia: a = J, b = 0, sigma = 1."""
+    values = ", ".join(f"{sp.pretty(s)} = {float(PAPERS_OWN[s]):g} or {float(LIGHT_BAR[s]):g}" for s in (m, K))
+    return Premise("the bar is massless, m = K = 0", {a: J, b: 0, sigma: 1, m: 0, K: 0}, broken=values)
 
 
-# Premises that several derivations share. Where more than one is offered, they are put in in this order.
+# Several premises of one equation are substituted in this order.
 ABOUT_JOINT = about_parameters("I₁ is read as the transverse inertia about the ground joint, I₁ = J", {I1: J})
 MASSLESS_BAR = massless_bar()
 EQUAL_INERTIAS = about_parameters("the inertias about the ground joint are equal, J = I₃", {J: I3})
@@ -57,7 +42,7 @@ HEAVY_BAR = about_parameters("the bar is that of section 4.1, m = K = 1", {m: 1,
 LIGHT_BAR_PREMISE = Premise("the bar is that of section 5.2.1, m = 0.01, K = 0.1", LIGHT_BAR)
 EQUAL_SPINS = Premise("the spins are equal, ω₁ = ω₂ = ω", {omega_1: omega, omega_2: omega})
 OPPOSITE_SPINS = Premise("the spins are opposite, ω₁ = −ω₂ = ω", {omega_1: omega, omega_2: -omega})
-# What section 5.2 counts as a mode (claim C24); the conclusion speaks of oscillations, of which there is one (6.01).
+# Section 5.2 counts two modes (claim C24), while the conclusion speaks of oscillations, of which there is one (6.01).
 TWO_MODES = (
     "to first order in the motion; toppling counts as a mode though it is a steady turning, not an oscillation, and the "
     "displacement of the precession centre, which rests, does not"

@@ -1,7 +1,7 @@
-"""The paper *Dynamics of Axially Coupled Rotor Pairs*: what `audit` and the command line take where no other is named.
+"""The paper *Dynamics of Axially Coupled Rotor Pairs*, the default of `audit` and of the command line.
 
-Its derivations and figures lie beside the package: s… sections, c… claims, m… tables, t… theory past the paper, p… the table
-of it, n… from the pair to structures, b… speed against accuracy, g… the gallery of textbook systems.
+The derivations by prefix: s sections, c claims, m tables, t theory beyond the paper, p its table, n structures of rotors, b speed
+against accuracy, g textbook systems.
 """
 
 from pathlib import Path

@@ -1,7 +1,7 @@
-"""Runs that claims and figures share, and their numbers.
+"""Simulations that claims and figures share, and numbers from them.
 
-They are: a pair after a shock, by the paper's program beside the exact model (figures 7, 9 to 13 and 25 to 28); the precession of
-a given amplitude; the paired precession by the ansatz, by the paper's correction and by the series, beside the exact orbit.
+They are the pair after a shock, by the paper's program and exactly (figures 7, 9 to 13 and 25 to 28); the precession of an
+amplitude; and the paired precession by the ansatz, the paper's correction and the series, beside the exact orbit.
 """
 
 from functools import cache
@@ -25,8 +25,8 @@ from lagrotor.pair.trajectory import Trajectory, ansatz_A
 from lagrotor.theory.natural_frequency import free_precession_rate
 from lagrotor.theory.paired_precession.closed_forms import corrected_trajectories
 
-# The peak of the paper's shocks is at 2 s. They are over by the first of these (s), after which energies are read; the wider
-# ones of section 5 by the second, after which spectra are.
+# s. The paper's shocks have their peak at 2 s and end before the first time, from which energies are read; the wider shocks of
+# section 5 end before the second, from which spectra are computed.
 ENERGY_FROM, SPECTRUM_FROM = 2.2, 2.3
 PAPER_RUN = 8.0  # s that the paper's runs last after the shock
 OPPOSITE, EQUAL = (10.0, -10.0), (10.0, 10.0)
@@ -38,12 +38,12 @@ AMPLITUDES = (0.051, 0.102, PAPER_R0)
 def shocked_scene(
     spins: tuple[float, float], force: Vector, bar: Link | None = HEAVY_LINK, width: float = 1 / 50
 ) -> Scene:
-    """A pair at rest, rotor 1 pushed by `force` (N) ten widths (s) after t = 0: the paper's two seconds of rest left out."""
+    """Return a pair at rest with a shock on rotor 1, `force` (N), ten widths (s) after t = 0."""
     return Scene(spins, link=bar, shock=Shock(force, 10 * width, width))
 
 
 def after_shock(scene: Scene, seconds: float, tol: float = 1e-9) -> Trajectory:
-    """The exact pair from the end of its shock until `seconds` after the peak, read 40 times a second."""
+    """Simulate the exact pair from the end of its shock until `seconds` after the peak, with 40 samples per second."""
     shock = shock_of(scene)
     first, last = shock.at + PULSE_REACH * shock.width, shock.at + seconds
     times = np.linspace(first, last, round(40 * seconds) + 1)
@@ -51,23 +51,23 @@ def after_shock(scene: Scene, seconds: float, tol: float = 1e-9) -> Trajectory:
 
 
 def angle_between(axes: Array) -> Array:
-    """Angle (n,) in rad between two axes (2, n, 3), from their difference: exact where they are nearly parallel."""
+    """Return the angle (n,) in rad between two axes (2, n, 3), from their difference, which is accurate at small angles."""
     return 2 * np.arcsin(np.linalg.norm(axes[1] - axes[0], axis=-1) / 2)
 
 
 def turned_about_joint_line(axes: Array) -> Array:
-    """Mean angle (n,) in rad by which two axes (2, n, 3) have turned about the line through the ground joints."""
-    turned: Array = np.unwrap(np.arctan2(-axes[..., 1], axes[..., 2])).mean(0)
-    return turned
+    """Return the mean angle (n,) in rad of two axes (2, n, 3) about the line through the ground joints."""
+    angle: Array = np.unwrap(np.arctan2(-axes[..., 1], axes[..., 2])).mean(0)
+    return angle
 
 
 def paper_run(scene: Scene, t: Array) -> SpringRun:
-    """The scene by the paper's program with its springs, dampers and step, read at t (n,) in s, multiples of the step."""
+    """Simulate a scene by the paper's program, sampled at t (n,) in s, multiples of the step."""
     return run_steps(paper_system(scene, STIFFNESS, DAMPING), scene.shock, t, STEP)
 
 
 def shock_of(scene: Scene) -> Shock:
-    """The scene's shock; raises InputError where it has none."""
+    """Return the scene's shock; raise InputError without one."""
     if scene.shock is None:
         raise InputError(
             "the scene has no shock: give it one, as Scene(shock=Shock(force=(50, 0, 0), at=2, width=1 / 50))"
@@ -76,16 +76,13 @@ def shock_of(scene: Scene) -> Shock:
 
 
 def pulse(scene: Scene, t: Array) -> Array:
-    """Size of the shock's force at t (n,), in N. Raises InputError without a shock."""
+    """Return the size of the shock's force at t (n,), in N; raise InputError without a shock."""
     shock = shock_of(scene)
     return np.linalg.norm(shock.force) * np.exp(-(((t - shock.at) / shock.width) ** 2))
 
 
 def centre_runs(t: Array, exact: Trajectory) -> dict[str, Array]:
-    """Rotor 1 of the shocked scene of `exact`, by the paper's method at t (n,) in s and by `exact` at its own times (k,).
-
-    t; energy (n,) in J, force (n,) in N, centre (n, 3) in m; exact_energy (k,) and exact_centre (k, 3).
-    """
+    """Return energy (J), force (N) and centre (m) of rotor 1 by the paper's method at t (n,) in s, and the exact ones."""
     run = paper_run(exact.scene, t)
     return {
         "t": t,
@@ -98,7 +95,7 @@ def centre_runs(t: Array, exact: Trajectory) -> dict[str, Array]:
 
 
 def centre_numbers(runs: dict[str, Array]) -> dict[str, float]:
-    """Read off `centre_runs`: energies after the shock (J), ranges of the centre's coordinates (m)."""
+    """Return the energies after the shock (J) and the ranges of the centre's coordinates (m) in `centre_runs`."""
     ranges = {f"{letter} of the centre, range (m)": np.ptp(runs["centre"][:, k]) for k, letter in enumerate("xyz")}
     return {
         "energy after the shock (J)": runs["energy"][runs["t"] >= ENERGY_FROM][0],
@@ -108,24 +105,21 @@ def centre_numbers(runs: dict[str, Array]) -> dict[str, float]:
 
 
 def centre_off(runs: dict[str, Array]) -> float:
-    """Distance (m) of the centre by the paper's method from the exact one, where the exact run ends."""
+    """Return the distance (m) between the centre by the paper's method and the exact one, at the end of the exact run."""
     end = len(runs["exact_centre"]) - 1
     return float(np.linalg.norm(runs["centre"][end] - runs["exact_centre"][end]))
 
 
 def rate_runs(exact: Trajectory, printed: float) -> dict[str, Array]:
-    """x of tip 1 (m) from its start by both methods, and sines of its size at the printed rate (rad/s) and the closed form's.
-
-    The closed form is that of free precession (5.23, 5.24), G/(I cos theta), for the inertia I = a + b of both axes
-    together. Also t (n,) in s, force (n,) in N, and the spectra after the shock over `rate` (rad/s).
-    """
+    """Return x of tip 1 (m) and its spectrum by both methods, and sines at the printed and the closed-form rate (rad/s)."""
     scene, t = exact.scene, exact.t
-    start, after, s = exact.joints[0, 0], t > SPECTRUM_FROM, t - shock_of(scene).at
+    start, is_after, s = exact.joints[0, 0], t > SPECTRUM_FROM, t - shock_of(scene).at
     x = exact.tips[0, :, 0] - start
     springs = paper_run(scene, t).tips[0, :, 0] - start
-    size = np.ptp(x[after]) / 2
+    size = np.ptp(x[is_after]) / 2
+    # Free precession (5.23, 5.24), G/(I cos theta), with the inertia I = a + b of both axes.
     rate = float(free_precession_rate()(np.arcsin(size), scene.momenta[0], sum(scene.inertias)))  # type: ignore[arg-type]
-    rates, exact_amplitude = spectrum(t[after], x[after])
+    rates, exact_amplitude = spectrum(t[is_after], x[is_after])
     return {
         "t": t,
         "force": pulse(scene, t),
@@ -135,35 +129,31 @@ def rate_runs(exact: Trajectory, printed: float) -> dict[str, Array]:
         "corrected": np.where(s > 0, size * np.sin(rate * s), 0),
         "rate": rates,
         "exact_amplitude": exact_amplitude,
-        "springs_amplitude": spectrum(t[after], springs[after])[1],
+        "springs_amplitude": spectrum(t[is_after], springs[is_after])[1],
         "closed_form_rate": np.array([rate]),
     }
 
 
 def rate_numbers(runs: dict[str, Array]) -> dict[str, float]:
-    """Read off `rate_runs`: amplitude (m), rates of the spectra and of the closed form (rad/s), largest residuals (m)."""
+    """Return the amplitude (m), the rates of the spectra and of the closed form (rad/s) and largest residuals (m)."""
     t, exact, springs, rate = runs["t"], runs["exact"], runs["springs"], runs["closed_form_rate"][0]
-    after = t > SPECTRUM_FROM
-    early = after & (t < SPECTRUM_FROM + 3)
+    is_after = t > SPECTRUM_FROM
+    early = is_after & (t < SPECTRUM_FROM + 3)
     return {
-        "amplitude (m)": np.ptp(exact[after]) / 2,
+        "amplitude (m)": np.ptp(exact[is_after]) / 2,
         "rate, exact model (rad/s)": peak(runs["rate"], runs["exact_amplitude"]),
         "rate, spring model (rad/s)": peak(runs["rate"], runs["springs_amplitude"]),
         "rate, spring model, first 3 s (rad/s)": best_harmonics(t[early], springs[early], rate).rate,
         "rate, closed form (rad/s)": runs["closed_form_rate"][0],
-        "printed rate, largest residual (m)": np.abs(runs["printed"] - exact)[after].max(),
-        "spring model, largest residual (m)": np.abs(springs - exact)[after].max(),
-        "closed form, largest residual (m)": np.abs(runs["corrected"] - exact)[after].max(),
+        "printed rate, largest residual (m)": np.abs(runs["printed"] - exact)[is_after].max(),
+        "spring model, largest residual (m)": np.abs(springs - exact)[is_after].max(),
+        "closed form, largest residual (m)": np.abs(runs["corrected"] - exact)[is_after].max(),
     }
 
 
 @cache
 def precession_scene(spins: Spins, r0: float, bar: Link) -> tuple[Scene, float]:
-    """The scene on its precession of amplitude r0, and its rate (rad/s): of opposite spins the exact orbit.
-
-    Of any other spins both axes start at x = r0 and go round the vertical, each in the sense of its own spin, at
-    G/((a + b) cos θ): the motion of equal spins with parallel axes.
-    """
+    """Return a scene and its precession rate (rad/s): the exact orbit for opposite spins, else both axes on a cone."""
     scene = Scene(spins, link=bar)
     if spins[0] == -spins[1] != 0:
         orbit = exact_orbit(scene, r0)
@@ -176,13 +166,13 @@ def precession_scene(spins: Spins, r0: float, bar: Link) -> tuple[Scene, float]:
 
 @cache
 def once_round(spins: Spins, r0: float, bar: Link) -> Trajectory:
-    """One turn of that precession, at 361 times."""
+    """Simulate one period of the precession, at 361 times."""
     scene, rate = precession_scene(spins, r0, bar)
     return simulate(scene, np.linspace(0, 2 * np.pi / rate, 361), "minimal", 1e-11)
 
 
 def deviations(run: Trajectory) -> tuple[float, float, float]:
-    """max |φ₁′ + φ₂′| over the mean |φ′|; max |ψ₁′ + ψ₂′| over the spin; swing of A over the part that the motion makes."""
+    """Return max |φ₁′ + φ₂′| over the mean |φ′|, max |ψ₁′ + ψ₂′| over the spin, and the range of A over its varying part."""
     (x, y, z), (vx, vy, _) = np.moveaxis(run.axes, -1, 0), np.moveaxis(run.rates, -1, 0)
     phi = (x * vy - y * vx) / (x**2 + y**2)
     psi = run.momenta / run.scene.rotor.I3 - phi * z
@@ -195,28 +185,25 @@ def deviations(run: Trajectory) -> tuple[float, float, float]:
 
 
 def ansatz_axes(sines: ArrayLike, phase: Array) -> Array:
-    """Axes (2, n, 3) of the ansatz phi_1 = −phi_2 = phase (n,), the sines of their inclinations (2,) or (2, n)."""
+    """Return the axes (2, n, 3) of the ansatz phi_1 = −phi_2 = phase (n,), with inclinations of sines (2,) or (2, n)."""
     size = np.broadcast_to(np.asarray(sines, dtype=float).reshape(2, -1), (2, len(phase)))
     azimuths = np.array([phase, -phase])
     return np.stack([size * np.cos(azimuths), size * np.sin(azimuths), np.sqrt(1 - size**2)], -1)
 
 
 def paper_axes(r0: float, phase: Array) -> Array:
-    """Axes (2, n, 3) by the paper's correction (5.20): inclinations of sine r_0 ∓ r_0² cos(phase)."""
+    """Return the axes (2, n, 3) by the paper's correction (5.20), with inclinations of sine r_0 ∓ r_0² cos(phase)."""
     change = r0**2 * np.cos(phase)
     return ansatz_axes(np.array([r0 - change, r0 + change]), phase)
 
 
 def series_axes(order: int, r0: float, phase: Array) -> Array:
-    """Axes (2, n, 3) by the corrected series of this order in r_0, massless bar, ell = R."""
+    """Return the axes (2, n, 3) by the corrected series of an order in r_0, for a massless bar and ell = R."""
     return np.array(corrected_trajectories(order)(r0, phase, 1, 1)).reshape(2, 3, -1).swapaxes(1, 2)
 
 
 def against_orbit(orbit: ExactOrbit, phase: Array, curves: dict[str, Array], tol: float) -> dict[str, Array]:
-    """Tips (2, n, 3) in m of `curves`, axes (2, n, 3) by name, and of the orbit, `exact`, at the same phases (n,).
-
-    With each curve `<name>_distance`: how far its tip 1 is from the exact one, (n,) in m.
-    """
+    """Return the tips (2, n, 3) in m of `curves` (axes by name) and of the exact orbit, and the distances of tip 1 (n,)."""
     run = simulate(orbit.scene, phase / orbit.frequency, "minimal", tol)
     tips = {name: run.joints[:, None] + run.scene.rotor.length * axes for name, axes in curves.items()}
     away = {f"{name}_distance": np.linalg.norm(curve[0] - run.tips[0], axis=-1) for name, curve in tips.items()}

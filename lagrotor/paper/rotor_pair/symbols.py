@@ -1,4 +1,4 @@
-"""The letters of the paper of the rotor pair: the glossary of the pair, what its lines may call, what stands for what."""
+"""The symbols of the paper of the rotor pair: glossary, functions, LaTeX, and abbreviations of expressions."""
 
 from collections import ChainMap
 
@@ -8,5 +8,5 @@ from lagrotor.pair.notation import J
 
 FUNCTIONS = {"axis": axis}
 LATEX = {"axis": r"\hat{r}"}
-# a, b and k first, then the J that stands in them.
+# a, b and k first, then the J that they contain.
 WRITTEN_OUT = ChainMap({J: J_OF}, INERTIAS)

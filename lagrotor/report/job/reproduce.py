@@ -17,7 +17,7 @@ from lagrotor.files import write_text
 from lagrotor.paper import audit, claim_tests
 from lagrotor.paper.catalogue import ReportPart
 from lagrotor.paper.claim_tests import Result
-from lagrotor.paper.papers import Paper
+from lagrotor.paper.papers import Paper, with_reach, with_theorems_on_record
 from lagrotor.paper.scripts import beside
 from lagrotor.pictures.figures import Picture
 from lagrotor.proofs.coq.coq_check import certify
@@ -130,7 +130,7 @@ def _make(
 def _run_timed(step: JobStep, imported: dict[str, dict[str, Any]], folder: Path) -> tuple[Any, float]:
     """Return the step's product and its computing time; `imported` holds values of other derivations."""
     began = time.perf_counter()
-    with step.paper.scripts.ran_elsewhere(imported):
+    with step.paper.scripts.remote_values(imported):
         product = step.run(step.paper, step.key, folder)
     return product, time.perf_counter() - began
 
@@ -146,7 +146,7 @@ def _longest_first(old: Path) -> Callable[[JobStep], float]:
 
 def _report(paper: Paper, products: dict[str, Any]) -> Report:
     derived = [product for product in products.values() if isinstance(product, Derived)]
-    verdicts = paper.with_reach(verdict for product in derived for verdict in product.verdicts)
+    verdicts = with_reach(paper, (verdict for product in derived for verdict in product.verdicts))
     tested = _claim_results(paper, products)
     pictures = [product for product in products.values() if isinstance(product, Picture)]
     result_sections = [_result_section(entry, derived, pictures) for entry in paper.about.part]
@@ -178,7 +178,7 @@ def _result_section(entry: ReportPart, derived: list[Derived], pictures: list[Pi
 def _claim_results(paper: Paper, products: dict[str, Any]) -> list[Result]:
     """Return every claim decided by its measured numbers, with theorems on record (`lagrotor claims` proves them again)."""
     results = [Result(test, m := products[f"claim {i}"], test.decide(m), 0.0) for i, test in paper.claim_tests.items()]
-    return [paper.with_theorems_on_record(result) for result in results]
+    return [with_theorems_on_record(paper, result) for result in results]
 
 
 def _write(folder: Path, report: Report) -> None:

@@ -10,7 +10,7 @@ from typing import Any
 
 from lagrotor.errors import LagrotorWarning
 from lagrotor.paper.audit import Audit
-from lagrotor.paper.papers import Paper, Progress
+from lagrotor.paper.papers import Paper, Progress, audit_of, check_scripts, judge_script
 from lagrotor.paper.proof import Remark
 from lagrotor.paper.tables import Table
 from lagrotor.paper.verdicts import Verdict
@@ -58,9 +58,9 @@ def derive(paper: Paper, stem: str, folder: Path) -> Derived:
     """Run a derivation and decide its equations; warnings of its simulations appear on its page."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", LagrotorWarning)
-        verdicts = paper.judged(stem)
+        verdicts = judge_script(paper, stem)
         script = paper.scripts.executed("derivations", stem)
-    remarks = tuple((remark.title, remark.text) for remark in script.shown(Remark))
+    remarks = tuple((remark.title, remark.text) for remark in script.values_of(Remark))
     tables = tuple(table for table in script.names.get("tables", ()) if isinstance(table, Table))
     html = derivation_html(script, {v.id: v.verdict for v in verdicts})
     exported = values(script.names, values_taken(stem, paper))
@@ -106,7 +106,7 @@ def audit_in_processes(paper: Paper, progress: Progress, jobs: int | None = None
     jobs = (1 if len(stems) < _FEW else cores()) if jobs is None else jobs
     if jobs == 1:
         return paper.audit(progress=progress)
-    paper.check_scripts()
+    check_scripts(paper)
     needs = {stem: set(scripts_named(paper.scripts.path("derivations", stem), paper)) & set(stems) for stem in stems}
     judgements: dict[str, tuple[list[Verdict], dict[str, Any]]] = {}
 
@@ -117,11 +117,11 @@ def audit_in_processes(paper: Paper, progress: Progress, jobs: int | None = None
 
     for stem, product in results(stems, partial(_judge_script, paper), jobs, progress, given):
         judgements[stem] = product
-    return paper.audit_of(verdict for stem in stems for verdict in judgements[stem][0])
+    return audit_of(paper, (verdict for stem in stems for verdict in judgements[stem][0]))
 
 
 def _judge_script(paper: Paper, stem: str, imported: dict[str, dict[str, Any]]) -> tuple[list[Verdict], dict[str, Any]]:
     """Return the verdicts of one script, and the values that other scripts import from it."""
-    with paper.scripts.ran_elsewhere(imported):
-        verdicts = paper.judged(stem)
+    with paper.scripts.remote_values(imported):
+        verdicts = judge_script(paper, stem)
         return verdicts, values(paper.scripts.executed("derivations", stem).names, values_taken(stem, paper))

@@ -154,7 +154,7 @@ def derivation_html(script: Script, answers: Mapping[str, str]) -> str:
     html = ""
     for cell in script.cells:
         html += markdown_html(re.sub(r"\A# .*\n?", "", cell.text) if cell.kind == "prose" else "")
-        html += "".join(_value_html(value, answers) for value in cell.shown)
+        html += "".join(_value_html(value, answers) for value in cell.values)
         html += "".join(f"<p><small>Warning of the simulation: {prose(text)}.</small></p>" for text in cell.warned)
     return html
 

@@ -13,8 +13,10 @@ import sympy as sp
 
 from lagrotor.commands.command_line import main
 from lagrotor.errors import InputError, NotExactError
-from lagrotor.paper import Paper, Premise, Relation, Statement, decide, judge
+from lagrotor.paper import Paper, Premise, judge
 from lagrotor.paper.catalogue import Equation
+from lagrotor.paper.ledger import decide
+from lagrotor.paper.verdicts import Relation, Statement
 from lagrotor.proofs.coq import coq_check
 from lagrotor.proofs.coq.certificate import (
     PREAMBLE,

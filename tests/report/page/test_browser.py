@@ -12,7 +12,8 @@ from typing import Any
 
 import pytest
 
-from lagrotor.paper import decide
+from lagrotor.paper.ledger import decide
+from lagrotor.paper.papers import judge_script
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.report.content import Report, derived_lines
 from lagrotor.report.errata import correction_lines
@@ -98,7 +99,7 @@ def every_formula() -> Iterator[str]:
     for entry in PAPER.equations.values():
         yield from filter(None, [mathml(entry.latex)])
     for stem in PAPER.scripts.names("derivations", "s"):
-        for verdict in PAPER.judged(stem):
+        for verdict in judge_script(PAPER, stem):
             lines = (*derived_lines(verdict.statement.relations), *correction_lines(verdict))
             yield from filter(None, map(mathml, lines))
 

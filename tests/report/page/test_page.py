@@ -285,7 +285,7 @@ def test_search() -> None:
 def test_no_formula_of_the_page_is_typed_in_ascii(audit: Audit, typed_formulas: Callable[[str], list[str]]) -> None:
     """Equations with all that is said of them, claims, premises, letters, titles; what comes from runs is in `test_reproduce`."""
     stems = PAPER.stating_scripts
-    found = [r for stem in stems for r in PAPER.scripts.executed("derivations", stem).shown(Remark)]
+    found = [r for stem in stems for r in PAPER.scripts.executed("derivations", stem).values_of(Remark)]
     remarks = ResultSection("findings", "Findings", remarks=tuple((r.title, r.text) for r in found))
     assert typed_formulas(whole_page(Report(PAPER, tuple(audit), (), (), (), (remarks,)))) == []
 

@@ -1,5 +1,5 @@
-"""Claims of section 5.3: the rates that the paper matched by eye, for one rotor, equal and opposite spins (C20 to C22);
-how the rate goes with the inclination (C23)."""
+"""Claims of section 5.3: the rates that the paper matched by eye, for one rotor, equal and opposite spins (C20 to C22), and the
+dependence of the rate on the inclination (C23)."""
 
 from collections.abc import Mapping
 from math import pi
@@ -29,16 +29,16 @@ from lagrotor.paper.rotor_pair.runs import (
 )
 from lagrotor.theory.natural_rate import natural_rate
 
-# The paper's "..." leave the bar of 5.3 open. Those of its listings are the first two; the third has the mass of the one
-# and the inertia of the other.
+# The paper does not specify the bar of 5.3. Its listings have the first two bars; the third has the mass of the first and the
+# inertia of the second.
 BARS = {"m_1_K_1": HEAVY_LINK, "m_0.01_K_0.1": LIGHT, "m_1_K_0.1": Link(1, 1, 0.1)}
 _PAPER, _SMALL, WIDTH = 40.0, 0.4, 1 / 20  # N, the shock of the listings and one a hundred times smaller; s
 SINGLE, COUPLED = PrintedNumber("16"), PrintedNumber("11.4")  # rad/s
 CONSTANT = 0.7125  # 11.4/16, with the digits of 11.4
 OPPOSITE_RATE = 10 * 4 / 5 * CONSTANT  # rad/s, 5.7, printed 0.57
-FEW = 3  # cycles: "the first few" are three at least
+FEW = 3  # cycles, the least number of "the first few"
 OVER_COSINE = PrintedNumber("0.5")  # c of 1/cos θ = 1 + θ²/2
-SPRINGS_SECONDS = 3.0  # s of the paper's program over which its rate is fitted
+SPRINGS_SECONDS = 3.0  # s, the span of a fit to the paper's program
 WEAK = 5.0  # N
 OF_SPRINGS = (10, 20, 40, 80)  # n of S = 2·10⁵/n N/m, D = 5·10³/n kg/s (ω_s = 10 rad/s), stable at 1 ms, see C08
 
@@ -53,16 +53,16 @@ def _scene(spins: Spins, bar: Link | None, force: float) -> Scene:
 
 
 def rate_of_run(spins: Spins, bar: Link | None, force: float, seconds: float = PAPER_RUN) -> tuple[float, float]:
-    """Rate (rad/s) fitted to x_1 of the exact pair over `seconds` after the shock, and how far x_1 goes."""
+    """Return the rate (rad/s) fitted to x_1 of the exact pair over `seconds` after the shock, and the largest |x_1|."""
     scene = _scene(spins, bar, force)
-    after = shock_of(scene).at + 0.33
-    run = simulate(scene, [0.0, *np.linspace(after, after + seconds, 400)], "spheres", 1e-9).after(after)
+    start = shock_of(scene).at + 0.33
+    run = simulate(scene, [0.0, *np.linspace(start, start + seconds, 400)], "spheres", 1e-9).after(start)
     x = run.axes[0, :, 0]
     return best_harmonics(run.t, x, natural_rate(scene)).rate, float(abs(x).max())
 
 
 def _rate_of_springs(spins: Spins, bar: Link | None, n: int = 20) -> float:
-    """The same rate over the first seconds of the paper's program."""
+    """Return the rate (rad/s) fitted over the first seconds of the paper's program."""
     scene = _scene(spins, bar, _PAPER)
     t = np.round(shock_of(scene).at + np.arange(17, round(50 * SPRINGS_SECONDS) + 1) * 0.02, 3)
     run = run_steps(paper_system(scene, 2e5 / n, 5e3 / n), scene.shock, np.append(0, t), STEP)
@@ -70,7 +70,7 @@ def _rate_of_springs(spins: Spins, bar: Link | None, n: int = 20) -> float:
 
 
 def measure_c20(spins: Spins) -> dict[str, float]:
-    """The rate of one rotor after the paper's shock, exactly and with springs, and after a small one."""
+    """Measure the rate of one rotor after the paper's shock, exactly and with springs, and after a small shock."""
     rate, farthest = rate_of_run(spins, None, _PAPER)
     return {
         "rate_exact_over_8_s_rad_per_s": rate,
@@ -83,30 +83,32 @@ def measure_c20(spins: Spins) -> dict[str, float]:
 
 
 def decide_c20(m: Mapping[str, float]) -> Finding:
-    """The three rates against 16."""
+    """Compare the three rates with 16 rad/s."""
     exact, springs, small = (
         m[f"rate_{way}_rad_per_s"] for way in ("exact_over_8_s", "springs_over_3_s", "after_small_shock")
     )
     return Finding(
         (Part(AT_16, all(map(SINGLE.is_matched, (exact, springs, small)))),),
-        f"{SINGLE.rule} rad/s. Fitted: {exact:.3f} rad/s exactly over 8 s, {exact / SINGLE - 1:.1%} above it; "
-        f"{springs:.3f} with springs over the first {SPRINGS_SECONDS:.0f} s (over longer times less, figure 25, since their "
-        f"dampers take the amplitude); {small:.4f} after a small shock. The excess comes from the amplitude: G/(J cos θ) = "
-        f"{m['rate_by_G_over_J_cos_rad_per_s']:.3f} rad/s at sin θ = {m['amplitude']:.3f}. By the "
-        f"end of 8 s sin 16(t − 2) is {m['cycles_off_16_at_the_end_of_8_s']:.2f} of a cycle behind.",
+        f"{SINGLE.rule} rad/s. The fitted rates are {exact:.3f} rad/s in the exact model over 8 s, {exact / SINGLE - 1:.1%} "
+        f"above 16; {springs:.3f} with springs over the first {SPRINGS_SECONDS:.0f} s; and {small:.4f} after a small shock. "
+        "(With springs the rate decreases later, figure 25, because the dampers reduce the amplitude.) The excess is due to "
+        f"the amplitude: G/(J cos θ) = {m['rate_by_G_over_J_cos_rad_per_s']:.3f} rad/s at sin θ = {m['amplitude']:.3f}. At "
+        f"the end of the 8 s sin 16(t − 2) lags by {m['cycles_off_16_at_the_end_of_8_s']:.2f} of a cycle.",
     )
 
 
 def measure_c21(spins: Spins) -> dict[str, float]:
-    """The rate of the pair by four choices of the springs, exactly, and after a small shock; the constant in five ways."""
+    """Measure the rate of the pair with four choices of springs, exactly, and after a small shock; and the constant."""
     rate, _ = rate_of_run(spins, HEAVY_LINK, _PAPER)
     single, half = natural_rate(Scene(spins, link=None)), (spins[0] / 2, spins[1] / 2)
     natural = {name: rate_of_run(spins, bar, _SMALL)[0] for name, bar in BARS.items()}
     by_n = {n: _rate_of_springs(spins, HEAVY_LINK, n) for n in OF_SPRINGS}
     J, G = Scene(spins).rotor.J, abs(spins[0])
     return {
-        **{f"rate_springs_n_{n}_over_3_s_rad_per_s": seen for n, seen in by_n.items()},
-        "largest_n_that_gives_11.4": max((n for n, seen in by_n.items() if COUPLED.is_matched(seen)), default=0),
+        **{f"rate_springs_n_{n}_over_3_s_rad_per_s": fitted_rate for n, fitted_rate in by_n.items()},
+        "largest_n_that_gives_11.4": max(
+            (n for n, fitted_rate in by_n.items() if COUPLED.is_matched(fitted_rate)), default=0
+        ),
         "rate_exact_over_8_s_rad_per_s": rate,
         "rate_after_small_shock_rad_per_s": natural["m_1_K_1"],
         "rate_of_one_rotor_rad_per_s": single,
@@ -121,17 +123,17 @@ def measure_c21(spins: Spins) -> dict[str, float]:
 
 
 def _constant(m: Mapping[str, float]) -> Part:
-    """The constant at these spins, at half of them, and with other bars."""
+    """Decide by the constant at these spins, at half of them, and with other bars."""
     constants = m["constant"], m["constant_at_half_the_spins"]
-    within = COUPLED.half_unit / SINGLE
-    same = all(abs(constant - CONSTANT) < within for constant in constants)
-    every_bar = all(abs(m[f"constant_{bar}"] - m["constant"]) < within for bar in ("light_bar", "bar_K_0.1"))
+    tolerance = COUPLED.half_unit / SINGLE
+    same = all(abs(constant - CONSTANT) < tolerance for constant in constants)
+    every_bar = all(abs(m[f"constant_{bar}"] - m["constant"]) < tolerance for bar in ("light_bar", "bar_K_0.1"))
     needs = "equal spins and a bar of mass 1 kg, of any inertia: 11.4/16 is a constant of that bar"
     return Part(OF_COUPLING, same and every_bar, needs if same else "")
 
 
 def decide_c21(m: Mapping[str, float]) -> Finding:
-    """Rates with springs, exactly and after a small shock, against 11.4; the constant, which is that of one rotor's 16."""
+    """Compare the rates with springs, exactly and after a small shock with 11.4, and the constant with 11.4/16."""
     ways = ("springs_n_20_over_3_s", "after_small_shock", "exact_over_8_s")
     springs, small, exact = (m[f"rate_{way}_rad_per_s"] for way in ways)
     at_11_4 = [COUPLED.is_matched(rate) for rate in (springs, small, exact)]
@@ -142,28 +144,28 @@ def decide_c21(m: Mapping[str, float]) -> Finding:
     by_n = [m[f"rate_springs_n_{n}_over_3_s_rad_per_s"] for n in OF_SPRINGS]
     return Finding(
         (Part(AT_11_4, all(at_11_4), needs if all(at_11_4[:2]) else ""), _constant(m)),
-        f"{COUPLED.rule} rad/s, and 0.7125 for these over 16. Fitted: {springs:.3f} rad/s with springs over the first "
-        f"{SPRINGS_SECONDS:.0f} s, {small:.3f} exactly after a small shock, but {exact:.3f} exactly over 8 s after the paper's "
-        f"{_PAPER:.0f} N, {exact / COUPLED - 1:.1%} above 11.4: the finite amplitude adds {exact - small:.3f}, and the "
-        f"softness of the springs takes {exact - springs:.3f}. One rotor has {m['rate_of_one_rotor_rad_per_s']:.3f}; the "
-        f"constant is {m['constant']:.4f} at these spins and {m['constant_at_half_the_spins']:.4f} at half of them, "
-        f"J/(J + m R²/2) = {m['J_over_J_plus_half_m']:.4f}. It is set by the mass of the bar, whatever its inertia "
+        f"{COUPLED.rule} rad/s, and 0.7125 is 11.4 over 16. The fitted rates are {springs:.3f} rad/s with springs over the "
+        f"first {SPRINGS_SECONDS:.0f} s, {small:.3f} in the exact model after a small shock, but {exact:.3f} over 8 s after "
+        f"the paper's {_PAPER:.0f} N, {exact / COUPLED - 1:.1%} above 11.4. The finite amplitude adds {exact - small:.3f}, "
+        f"and the soft springs subtract {exact - springs:.3f}. One rotor has {m['rate_of_one_rotor_rad_per_s']:.3f} rad/s. "
+        f"The constant is {m['constant']:.4f} at these spins and {m['constant_at_half_the_spins']:.4f} at half of them; J/(J "
+        f"+ m R²/2) = {m['J_over_J_plus_half_m']:.4f}. It depends on the mass of the bar, but not on its inertia "
         f"({m['constant_bar_K_0.1']:.4f} with K = 0.1 kg m²), and is {m['constant_light_bar']:.4f} for the light bar. 11.4 "
-        f"needs a mass from {m['least_mass_that_gives_11.4_kg']:.3f} to {m['greatest_mass_that_gives_11.4_kg']:.3f} kg. With "
-        f"springs of n = 10, 20, 40, 80 (C08) the rate is {by_n[0]:.2f}, {by_n[1]:.2f}, {by_n[2]:.2f}, {by_n[3]:.2f} rad/s: "
-        f"of these, 11.4 together with 100.45 J and 16 needs n of {m['largest_n_that_gives_11.4']:.0f} at most.",
+        f"requires a mass from {m['least_mass_that_gives_11.4_kg']:.3f} to {m['greatest_mass_that_gives_11.4_kg']:.3f} kg. "
+        f"With springs of n = 10, 20, 40, 80 (C08) the rate is {by_n[0]:.2f}, {by_n[1]:.2f}, {by_n[2]:.2f}, {by_n[3]:.2f} "
+        f"rad/s: 11.4 together with 100.45 J and 16 requires n of at most {m['largest_n_that_gives_11.4']:.0f}.",
     )
 
 
 def measure_c22(spins: Spins) -> dict[str, float]:
-    """For each bar, over three cycles of 5.7: the rate, and for how many cycles a wave of 5.7 keeps within a quarter."""
+    """Measure the rate for each bar, and the number of cycles for which a wave of 5.7 rad/s stays within a quarter cycle."""
     measured = {}
     for name, bar in BARS.items():
         for shock, force in (("40_N", _PAPER), ("small_shock", _SMALL)):
             rate, _ = rate_of_run(spins, bar, force, FEW * 2 * pi / OPPOSITE_RATE)
             measured[f"rate_over_3.3_s_after_{shock}_{name}"] = rate
-            off = max(abs(rate - OPPOSITE_RATE), 1e-12)
-            measured[f"cycles_within_a_quarter_after_{shock}_{name}"] = rate / (4 * off)
+            difference = max(abs(rate - OPPOSITE_RATE), 1e-12)
+            measured[f"cycles_within_a_quarter_after_{shock}_{name}"] = rate / (4 * difference)
     J, G = Scene(spins).rotor.J, spins[0]
     return measured | {
         "rate_springs_over_3_s_m_1_K_1": _rate_of_springs(spins, HEAVY_LINK),
@@ -173,11 +175,8 @@ def measure_c22(spins: Spins) -> dict[str, float]:
 
 
 def decide_c22(m: Mapping[str, float]) -> Finding:
-    """For how many cycles the matched wave stays within a quarter of a cycle, beyond which its peaks fall in valleys.
-
-    One of the listed bars must do it, after both shocks; the third bar, which is in no listing, is measured beside them.
-    """
-    small, large, cycles, more = (
+    """Decide by the number of cycles for which the wave stays within a quarter cycle, with a listed bar and both shocks."""
+    small, large, cycles, cycles_small = (
         [m[f"{key}_{name}"] for name in BARS]
         for key in (
             "rate_over_3.3_s_after_small_shock",
@@ -186,59 +185,40 @@ def decide_c22(m: Mapping[str, float]) -> Finding:
             "cycles_within_a_quarter_after_small_shock",
         )
     )
-    first, second, _ = follows = [min(pair) >= FEW for pair in zip(cycles, more, strict=True)]
+    first, second, _ = follows = [min(pair) >= FEW for pair in zip(cycles, cycles_small, strict=True)]
     bar = "the bar m = K = 1" if first else "the bar m = 0.01 kg, K = 0.1 kg m²" if second else ""
     return Finding(
         (Part(FOLLOWS, all(follows), bar),),
         f"The rates after a small shock are {small[0]:.3f}, {small[1]:.3f}, {small[2]:.3f} rad/s for m, K = 1, 1; 0.01, 0.1; 1, "
         f"0.1. After 40 N they change in time; fitted over the first {FEW} cycles of the wave, "
         f"{FEW * 2 * pi / OPPOSITE_RATE:.1f} s, they are {large[0]:.2f} ({m['rate_springs_over_3_s_m_1_K_1']:.2f} with springs "
-        f"over {SPRINGS_SECONDS:.0f} s), {large[1]:.2f}, {large[2]:.2f} rad/s. A sine of {OPPOSITE_RATE:.1f} rad/s keeps within "
-        f"a quarter of a cycle for {cycles[0]:.1f}, {cycles[1]:.1f}, {cycles[2]:.1f} cycles (after a small shock {more[0]:.1f}, "
-        f"{more[1]:.1f}, {more[2]:.1f}), while the first few would be {FEW} at least. The third bar, with the mass of the first "
-        "and the inertia of the second, is in no listing. With m = 1 kg the constant would need K = "
-        f"{m['inertia_that_mass_1_needs_kg_m2']:.3f} kg m², a bar that the paper does not list; equal spins of 10 rad/s have "
-        f"{m['rate_of_equal_spins_m_1']:.3f} rad/s.",
+        f"over {SPRINGS_SECONDS:.0f} s), {large[1]:.2f}, {large[2]:.2f} rad/s. A sine of {OPPOSITE_RATE:.1f} rad/s stays within "
+        f"a quarter of a cycle for {cycles[0]:.1f}, {cycles[1]:.1f}, {cycles[2]:.1f} cycles (after a small shock "
+        f"{cycles_small[0]:.1f}, {cycles_small[1]:.1f}, {cycles_small[2]:.1f}), while the first few would be at least {FEW}. The "
+        "third bar, with the mass of the first and the inertia of the second, is in no listing. With m = 1 kg the constant would "
+        f"require K = {m['inertia_that_mass_1_needs_kg_m2']:.3f} kg m², a bar that the paper does not list; equal spins of "
+        f"10 rad/s have {m['rate_of_equal_spins_m_1']:.3f} rad/s.",
     )
 
 
 _EXACT = "exact pair (spheres) and spring-linked bodies"
 C20 = ClaimTest(
-    "C20",
-    (20, 20),
-    {AT_16: (10, 10)},
-    "one rotor, exact (spheres) and with springs",
-    measure_c20,
-    decide_c20,
+    "C20", (20, 20), {AT_16: (10, 10)}, "one rotor, exact (spheres) and with springs", measure_c20, decide_c20,
     lambda spins: single_rate(AT_16, spins, SINGLE),
-)
+)  # fmt: skip
 C21 = ClaimTest(
-    "C21",
-    (20, 20),
-    {AT_11_4: (20, -20), OF_COUPLING: (20, -20)},
-    _EXACT,
-    measure_c21,
-    decide_c21,
+    "C21", (20, 20), {AT_11_4: (20, -20), OF_COUPLING: (20, -20)}, _EXACT, measure_c21, decide_c21,
     lambda spins: coupled_rates(AT_11_4, spins, HEAVY_LINK, COUPLED),
     "that the ratio is a constant is said of every spin and bar",
-)
+)  # fmt: skip
 C22 = ClaimTest(
-    "C22",
-    (10, -10),
-    {FOLLOWS: (10, 10)},
-    _EXACT,
-    measure_c22,
-    decide_c22,
+    "C22", (10, -10), {FOLLOWS: (10, 10)}, _EXACT, measure_c22, decide_c22,
     lambda spins: not_followed(FOLLOWS, spins, (HEAVY_LINK, LIGHT)),
-)
+)  # fmt: skip
 
 
 def coefficient(spins: Spins, bar: Link) -> tuple[float, float]:
-    """c of rate/natural rate = 1 + c θ̄² at the least amplitude, and the power of θ̄ in the change.
-
-    Opposite spins on exact orbits. Any other spins after both axes got the same velocity: they then go round a cone, whose
-    half-angle is half the largest angle between two of their positions.
-    """
+    """Return c of rate/natural rate = 1 + c θ̄² at the least amplitude, and the power of θ̄ in the change."""
     sizes, changes = [], []
     natural = natural_rate(Scene(spins, link=bar))
     for r0 in AMPLITUDES:
@@ -246,6 +226,7 @@ def coefficient(spins: Spins, bar: Link) -> tuple[float, float]:
             rate = precession_scene(spins, r0, bar)[1]
             sizes.append(float(once_round(spins, r0, bar).inclinations.mean()) ** 2)
         else:
+            # Equal velocities put both axes on a cone of half the largest angle between two positions.
             scene = Scene(spins, link=bar, rates=((r0 * natural, 0, 0),) * 2)
             run = simulate(scene, np.linspace(0, 6, 401), "minimal", 1e-11)
             rate = best_harmonics(run.t, run.axes[0, :, 0], natural).rate
@@ -256,17 +237,17 @@ def coefficient(spins: Spins, bar: Link) -> tuple[float, float]:
 
 
 def _after_shock(spins: Spins, bar: Link) -> float:
-    """c after a weak shock along x from rest, over three cycles; θ̄ of half the swing of x."""
+    """Return c over three cycles after a weak shock along x from rest; θ̄ is the amplitude of x."""
     scene = shocked_scene(spins, (WEAK, 0, 0), bar, 1 / 20)
-    natural, after = natural_rate(scene), shock_of(scene).at + 0.33
-    times = after + np.linspace(0, FEW * 2 * np.pi / natural, 201)
-    run = simulate(scene, [0.0, *times], "spheres", 1e-11).after(after)
+    natural, start = natural_rate(scene), shock_of(scene).at + 0.33
+    times = start + np.linspace(0, FEW * 2 * np.pi / natural, 201)
+    run = simulate(scene, [0.0, *times], "spheres", 1e-11).after(start)
     x = run.axes[0, :, 0]
     return float((best_harmonics(run.t, x, natural).rate / natural - 1) / (np.ptp(x) / 2) ** 2)
 
 
 def measure_c23(spins: Spins) -> dict[str, float]:
-    """c for four bars on orbits, for three after a shock, and for equal spins."""
+    """Measure c for four bars on orbits, for three after a shock, and for equal spins."""
     measured = {f"coefficient_over_3_cycles_after_shock_{name}": _after_shock(spins, bar) for name, bar in BARS.items()}
     for name, bar in ({"massless": MASSLESS} | BARS).items():
         measured[f"coefficient_{name}"], measured[f"order_{name}"] = coefficient(spins, bar)
@@ -277,27 +258,23 @@ def measure_c23(spins: Spins) -> dict[str, float]:
 
 
 def decide_c23(m: Mapping[str, float]) -> Finding:
-    """c against that of 1/cos θ, for every bar; and for equal spins."""
-    own = [m[f"coefficient_{name}"] for name in ("massless", *BARS)]
+    """Compare c with that of 1/cos θ, for every bar and for equal spins."""
+    on_orbits = [m[f"coefficient_{name}"] for name in ("massless", *BARS)]
     shock = [m[f"coefficient_over_3_cycles_after_shock_{name}"] for name in BARS]
     equal = m["coefficient_equal_spins_m_1_K_1"]
     needs = "equal spins with parallel axes" if OVER_COSINE.is_matched(equal) else ""
     return Finding(
-        (Part(_COSINE, all(map(OVER_COSINE.is_matched, own)), needs),),
-        "The rate is the natural one times 1 + c θ², with θ the average inclination; 1/cos θ has c = +0.5, and c from 0.45 to "
-        f"0.55 counts as that. Measured: {own[0]:+.3f} massless, {own[1]:+.3f}, {own[2]:+.3f}, {own[3]:+.3f} for m, K = 1, 1; "
-        f"0.01, 0.1; 1, 0.1 (the change goes as θ to the power {m['order_massless']:.2f}); for equal spins with parallel axes "
-        f"{equal:+.3f}. After a shock along x from rest, which leaves the centres of precession twisted apart, c over the first "
-        f"{FEW} cycles is {shock[0]:+.2f}, {shock[1]:+.2f}, {shock[2]:+.2f}: its sign depends on the twist.",
+        (Part(_COSINE, all(map(OVER_COSINE.is_matched, on_orbits)), needs),),
+        "The rate is the natural rate times 1 + c θ², with θ the average inclination; 1/cos θ has c = +0.5, and c from 0.45 to "
+        f"0.55 counts as equal. The measured c is {on_orbits[0]:+.3f} for a massless bar, and {on_orbits[1]:+.3f}, "
+        f"{on_orbits[2]:+.3f}, {on_orbits[3]:+.3f} for m, K = 1, 1; 0.01, 0.1; 1, 0.1 (the change is proportional to θ to the "
+        f"power {m['order_massless']:.2f}). For equal spins with parallel axes it is {equal:+.3f}. A shock along x from rest "
+        f"twists the centres of precession; c over the first {FEW} cycles is then {shock[0]:+.2f}, {shock[1]:+.2f}, "
+        f"{shock[2]:+.2f}, so that its sign depends on the twist.",
     )
 
 
 C23 = ClaimTest(
-    "C23",
-    OPPOSITE,
-    {_COSINE: EQUAL},
-    "exact orbits; exact pair (minimal)",
-    measure_c23,
-    decide_c23,
+    "C23", OPPOSITE, {_COSINE: EQUAL}, "exact orbits; exact pair (minimal)", measure_c23, decide_c23,
     lambda spins: over_cosine(_COSINE, Scene(spins, link=MASSLESS), PAPER_R0),
-)
+)  # fmt: skip

@@ -1,5 +1,5 @@
-"""Claims of sections 5.2 and 6: degrees of freedom and modes (C14, C24), the ansatz, its integrals, its correction and the rate
-after that (C15 to C17), the comparison of the formula with the simulation (C18, C19)."""
+"""Claims of sections 5.2 and 6: degrees of freedom and modes (C14, C24), the ansatz, its integrals, its correction and the
+corrected rate (C15 to C17), the comparison of the formula with the simulation (C18, C19)."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -39,9 +39,9 @@ from lagrotor.result_display import scientific
 from lagrotor.theory.natural_frequency import linear_pair
 from lagrotor.theory.natural_rate import natural_rate
 
-RANK = 1e-9  # singular values below it count as zero; the least along the run is near one
-DIRECTION = 0.01  # the direction of a mode in a run of a small shock, to one part in a hundred
-REST = 1e-3  # what two modes leave of the motion: the square of the shock, left out, is below it
+RANK = 1e-9  # smaller singular values count as zero; the least along the run is near one
+DIRECTION = 0.01  # relative accuracy of the direction of a mode after a small shock
+REST = 1e-3  # relative residual of a fit by two modes; the neglected square of the shock is smaller
 
 FIVE, THREE = "the constrained pair has 5 degrees of freedom", "without the rotor spins it has 3"
 TOPPLING, PRECESSION = "one mode is toppling in the Y-Z plane", "one mode is the paired precession"
@@ -49,7 +49,7 @@ TWO = "these 2 are its modes"
 
 
 def _constraints(r1: ArrayLike, r2: ArrayLike, link: Link | None) -> Array:
-    """Gradients of the constraints, one row each: the unit lengths and, where there is one, the bar (ℓ = R)."""
+    """Return the gradients of the constraints as rows: the unit lengths and, if there is one, the bar (ℓ = R)."""
     r1, r2 = np.asarray(r1, dtype=float), np.asarray(r2, dtype=float)
     d, none = np.array([1.0, 0, 0]) + r2 - r1, np.zeros(3)
     rows = [[*r1, *none], [*none, *r2], *([[*-d, *d]] if link else [])]
@@ -57,11 +57,7 @@ def _constraints(r1: ArrayLike, r2: ArrayLike, link: Link | None) -> Array:
 
 
 def measure_c14(link: Link | None) -> dict[str, float]:
-    """Velocities less the rank of the constraints, along a shocked run.
-
-    Velocities: six components of the axes and the two axial spins, whether the rotors turn or not (of the six Euler angles,
-    four for the axes, with the two unit lengths built in, and two for the spins).
-    """
+    """Count the velocities (six of the axes, two axial spins) minus the rank of the constraints, along a shocked run."""
     scene = Scene(OPPOSITE, link=link, shock=Shock((40, -11, 0), 0.5, 1 / 20))
     run = simulate(scene, np.linspace(0, 2.4, 25), "spheres", 1e-8)
     gradients = [_constraints(r1, r2, link) for r1, r2 in zip(*run.axes, strict=True)]
@@ -80,31 +76,29 @@ def measure_c14(link: Link | None) -> dict[str, float]:
 
 
 def decide_c14(m: Mapping[str, float]) -> Finding:
-    """Both counts, from a rank that is the same all along the run."""
+    """Decide by both counts, if the rank is constant along the run."""
     same = m["rank_of_constraints_least"] == m["rank_of_constraints_most"]
     return Finding(
         (
             Part(FIVE, same and m["degrees_of_freedom"] == 5),
             Part(THREE, same and m["degrees_of_freedom_without_spins"] == 3),
         ),
-        f"{m['velocities_of_axes_and_spins']:.0f} velocities, constraints of rank {m['rank_of_constraints_most']:.0f} "
-        f"all along the run (least singular value {m['least_singular_value']:.2f}; only where both axes and the bar lie "
-        f"in one line it is {m['rank_where_axes_and_bar_are_in_line']:.0f}): {m['degrees_of_freedom']:.0f} degrees of "
-        f"freedom, {m['degrees_of_freedom_without_spins']:.0f} without the two turns about the axes, whatever the spins.",
+        f"There are {m['velocities_of_axes_and_spins']:.0f} velocities, and constraints of rank "
+        f"{m['rank_of_constraints_most']:.0f} along the whole run (least singular value {m['least_singular_value']:.2f}). The "
+        f"rank is {m['rank_where_axes_and_bar_are_in_line']:.0f} only if both axes and the bar lie in one line. This gives "
+        f"{m['degrees_of_freedom']:.0f} degrees of freedom, {m['degrees_of_freedom_without_spins']:.0f} without the rotations "
+        "about the axes, for any spins.",
     )
 
 
-def _counted(scene: Scene) -> dict[str, float]:
-    """Roots of the linear pair, whose state has six components (x, y_1, y_2 and their velocities).
-
-    A pair of imaginary roots is an oscillation; zero roots beyond the displacements at rest are steady turnings.
-    """
+def _count_roots(scene: Scene) -> dict[str, float]:
+    """Count the oscillations (pairs of imaginary roots) and the steady turnings (excess zero roots) of the linear pair."""
     values = dict(zip((a, b, G_1, G_2), (*scene.inertias, *scene.momenta), strict=True)) | {k: 1}
     pair = linear_pair()
-    M, C = (np.array(part.subs(values), dtype=float) for part in (pair.mass, pair.gyroscopic))
+    M, C = (np.array(matrix.subs(values), dtype=float) for matrix in (pair.mass, pair.gyroscopic))
     state = np.block([[np.zeros((3, 3)), np.eye(3)], [np.zeros((3, 3)), -np.linalg.solve(M, C)]])
     roots = np.linalg.eigvals(state)
-    # A double zero is known to the square root of the rounding only.
+    # The error of a double zero is the square root of the rounding error.
     rank, moving = int(np.linalg.matrix_rank(state)), abs(roots) > 1e-6 * max(abs(roots).max(), 1.0)
     return {
         "oscillations": int(moving.sum()) / 2,
@@ -117,20 +111,20 @@ def _counted(scene: Scene) -> dict[str, float]:
 
 @dataclass(frozen=True)
 class _SmallMotion:
-    """Spins (rad/s), and the shock (N) after which the motion is taken to be small."""
+    """Spins (rad/s), and the shock (N) of a small motion."""
 
     spins: Spins = OPPOSITE
     force: Vector = (0.5, 0.3, 0)
 
 
 def measure_c24(case: _SmallMotion) -> dict[str, float]:
-    """The counts, and a run after the shock fitted by a constant, a slope and the natural rate."""
+    """Count the roots, and fit a run after the shock by a constant, a slope and the natural rate."""
     scene = Scene(case.spins, link=HEAVY_LINK, shock=Shock(case.force, 0.2, 1 / 50))
     run = simulate(scene, [0.0, *np.linspace(0.4, 8, 200)], "spheres", 1e-11).after(0.4)
     x_y = np.concatenate(list(run.axes[..., :2]), axis=1)
     fit = harmonics_at(run.t, x_y, natural_rate(scene), 1)
     (x_1, y_1, x_2, y_2), slope = fit.waves[0], fit.slope
-    return _counted(scene) | {
+    return _count_roots(scene) | {
         "left_by_one_line_and_a_slope_relative": abs(fit.rest).max() / abs(x_y).max(),
         "slope_y_1_per_s": slope[1],
         "slope_ratio_y_2_to_y_1": slope[3] / slope[1],
@@ -142,7 +136,7 @@ def measure_c24(case: _SmallMotion) -> dict[str, float]:
 
 
 def decide_c24(m: Mapping[str, float]) -> Finding:
-    """One steady turning, alike in y_1 and y_2 and none in x; one oscillation, alike in x and opposite in y; no more."""
+    """Decide by one steady turning, equal in y_1 and y_2 and zero in x, and one oscillation, equal in x and opposite in y."""
     slopes = m["slope_ratio_y_2_to_y_1"] - 1, m["slope_x_over_slope_y"]
     waves = m["wave_ratio_x_2_to_x_1"] - 1, m["wave_ratio_y_2_to_y_1"] + 1
     one_each = m["steady_turnings"] == 1 and m["oscillations"] == 1
@@ -151,48 +145,39 @@ def decide_c24(m: Mapping[str, float]) -> Finding:
         (
             Part(TOPPLING, m["steady_turnings"] == 1 and max(map(abs, slopes)) < DIRECTION),
             Part(PRECESSION, m["oscillations"] == 1 and max(map(abs, waves)) < DIRECTION),
-            # Without the word oscillations, which 6.01 prints, two modes may be counted: section 5.2 does.
+            # Equation 6.01 prints the word oscillations; without it two modes may be counted, as in section 5.2.
             Part(TWO, complete and m["oscillations"] == 2, TWO_MODES if complete else ""),
         ),
-        f"{m['oscillations']:.0f} oscillation at {m['rate_rad_per_s']:.3f} rad/s, with x₂ : x₁ = "
-        f"{m['wave_ratio_x_2_to_x_1']:+.3f} and y₂ : y₁ = {m['wave_ratio_y_2_to_y_1']:+.3f}, and {m['zero_roots']:.0f} zero "
-        f"roots: {m['displacements_at_rest']:.0f} displacements at rest and {m['steady_turnings']:.0f} steady turning, along "
-        f"y₂ : y₁ = {m['slope_ratio_y_2_to_y_1']:+.4f}. A run of 8 s is made of these to "
-        f"{scientific(m['left_by_one_line_and_a_slope_relative'])} of its motion. To first order the pair has three "
-        "degrees of freedom: paired precession, which oscillates; steady turning about the joint line; and the displacement "
-        "of the precession centre (in x and in the twist), which has no rate and stays where a shock leaves it, here at x = "
+        f"There is {m['oscillations']:.0f} oscillation at {m['rate_rad_per_s']:.3f} rad/s, with x₂ : x₁ = "
+        f"{m['wave_ratio_x_2_to_x_1']:+.3f} and y₂ : y₁ = {m['wave_ratio_y_2_to_y_1']:+.3f}. The {m['zero_roots']:.0f} zero "
+        f"roots are {m['displacements_at_rest']:.0f} displacements of the equilibrium and {m['steady_turnings']:.0f} steady "
+        f"turning, along y₂ : y₁ = {m['slope_ratio_y_2_to_y_1']:+.4f}. These motions fit a run of 8 s with a relative "
+        f"residual of {scientific(m['left_by_one_line_and_a_slope_relative'])}. To first order the pair thus has three "
+        "degrees of freedom: the paired precession, which oscillates; steady turning about the joint line; and the "
+        "displacement of the precession centre (in x and in the twist), which is constant after a shock, here x = "
         f"{m['centre_x_1']:+.5f}. Of the two modes of the paper one oscillates.",
     )
 
 
-# No spins change the count of C14: a rotor at rest about its axis keeps that degree of freedom. Without its bar the pair has 6
-# and 4.
-# C24: after ten times the shock more is in the motion than its modes.
+# The count of C14 does not depend on the spins, because a rotor without spin keeps that degree of freedom. Without its bar the
+# pair has 6 and 4. C24: after ten times the shock, the motion is not linear any more.
 C14 = ClaimTest(
-    "C14",
-    HEAVY_LINK,
-    {FIVE: None, THREE: None},
-    "exact pair (spheres), bar m = 1 kg, K = 1 kg m²",
-    measure_c14,
-    decide_c14,
-    unproved="it is a count, of a rank along a run; equation 5.09 has the constraint",
-)
+    "C14", HEAVY_LINK, {FIVE: None, THREE: None}, "exact pair (spheres), bar m = 1 kg, K = 1 kg m²", measure_c14,
+    decide_c14, unproved="it is a count, of a rank along a run; equation 5.09 has the constraint",
+)  # fmt: skip
 C24 = ClaimTest(
-    "C24",
-    _SmallMotion(),
+    "C24", _SmallMotion(),
     {TOPPLING: _SmallMotion(EQUAL), PRECESSION: _SmallMotion(EQUAL), TWO: _SmallMotion(force=(5, 3, 0))},
-    "linear pair; exact pair (spheres), bar m = 1 kg, K = 1 kg m²",
-    measure_c24,
-    decide_c24,
+    "linear pair; exact pair (spheres), bar m = 1 kg, K = 1 kg m²", measure_c24, decide_c24,
     unproved="it is a count of roots, and of what a small motion shows",
-)
+)  # fmt: skip
 
 
-WITHIN = 0.05  # "agrees", "constant": to one part in twenty, the difference that two curves drawn over each other do not show
-VANISHES = 0.9  # the power in r₀ of a relative deviation that goes to zero with the amplitude; 1 is the next order
+WITHIN = 0.05  # "agrees", "constant": a smaller relative difference of two curves is not visible
+VANISHES = 0.9  # least power in r₀ of a relative deviation that vanishes with the amplitude; the next order is 1
 _ROUNDING = 1e-9  # of B, over half a second in steps of 1 ms
-AS_PRINTED = 1e-3  # of the length, in m: what the printed four digits of figure 18 could show
-HIGHER = 2.5  # the correction is of order r₀²: a swing left with a power well above 2 is removed to that order
+AS_PRINTED = 1e-3  # m, the accuracy of the four printed digits of figure 18
+HIGHER = 2.5  # the correction is of order r₀²; a residual of a higher power is removed to that order
 UNCHANGED = 0.1  # of r₀², the order of the correction
 
 AZIMUTHS, SPIN_ANGLES = "φ₁′ = −φ₂′", "ψ₁′ = −ψ₂′"
@@ -203,10 +188,7 @@ SAME_RATE = "the precession rate is unchanged by the correction"
 
 @dataclass(frozen=True)
 class Ansatz:
-    """Spins (rad/s), and the bar that the theory is given; the bar of 5.2.1 is run beside it.
-
-    I2_over_I1: ratio of the transverse inertias of rotor 1, by which B is measured; 1 for a symmetric rotor.
-    """
+    """Spins (rad/s), the bar of the theory, and the ratio of the transverse inertias of rotor 1 (1 if it is symmetric)."""
 
     spins: Spins = OPPOSITE
     bar: Link = MASSLESS
@@ -214,7 +196,7 @@ class Ansatz:
 
 
 def _drift_of_b(spins: Spins, I2_over_I1: float) -> float:
-    """Largest change of B = G_1 − G_2 over |G_1| + |G_2| in the paper's program, which does not presume it, on the orbit."""
+    """Return the range of B = G_1 − G_2 over |G_1| + |G_2| in the paper's program, which does not presume conservation."""
     scene, _ = precession_scene(spins, PAPER_R0, HEAVY_LINK)
     system = paper_system(scene, STIFFNESS, DAMPING)
     system.inverse_inertia[0, 1, 1] /= I2_over_I1
@@ -227,31 +209,30 @@ def _drift_of_b(spins: Spins, I2_over_I1: float) -> float:
 
 
 def measure_c15(case: Ansatz) -> dict[str, float]:
-    """Deviations from the ansatz and swing of A on precessions of three amplitudes, their powers in r₀; drift of B.
-
-    Where the deviation of the azimuths vanishes with r₀, the amplitude at which it is WITHIN is found by two secant steps.
-    """
+    """Measure the deviations from the ansatz and the oscillation of A at three amplitudes, and the drift of B."""
     measured: dict[str, float] = {}
-    what = ("azimuth_rates_sum", "spin_rates_sum", "swing_of_A")
+    quantities = ("azimuth_rates_sum", "spin_rates_sum", "swing_of_A")
     for name, bar in (("massless", case.bar), ("light_bar", PAPER_BAR)):
-        seen = np.array([deviations(once_round(case.spins, r0, bar)) for r0 in AMPLITUDES])
-        for i, quantity in enumerate(what):
-            measured[f"{quantity}_relative_r0_{PAPER_R0}_{name}"] = seen[-1, i]
-            measured[f"order_of_{quantity}_relative_{name}"] = measured_order(AMPLITUDES, np.maximum(seen[:, i], 1e-15))
+        values = np.array([deviations(once_round(case.spins, r0, bar)) for r0 in AMPLITUDES])
+        for i, quantity in enumerate(quantities):
+            measured[f"{quantity}_relative_r0_{PAPER_R0}_{name}"] = values[-1, i]
+            measured[f"order_of_{quantity}_relative_{name}"] = measured_order(
+                AMPLITUDES, np.maximum(values[:, i], 1e-15)
+            )
         if measured[f"order_of_azimuth_rates_sum_relative_{name}"] > VANISHES:
-            r0, off = AMPLITUDES[0], seen[0]
+            r0, errors = AMPLITUDES[0], values[0]  # two secant steps find the amplitude at which it is WITHIN
             for _ in range(2):
-                r0 *= WITHIN / off[0]
-                off = np.array(deviations(once_round(case.spins, r0, bar)))
+                r0 *= WITHIN / errors[0]
+                errors = np.array(deviations(once_round(case.spins, r0, bar)))
             measured[f"r0_at_which_the_azimuth_sum_is_5_percent_{name}"] = r0
-            measured |= {f"{quantity}_relative_there_{name}": off[i] for i, quantity in enumerate(what)}
+            measured |= {f"{quantity}_relative_there_{name}": errors[i] for i, quantity in enumerate(quantities)}
     return measured | {"drift_of_B_relative": _drift_of_b(case.spins, case.I2_over_I1)}
 
 
 def _small(m: Mapping[str, float], quantity: str) -> Part:
-    """One half of the ansatz: it holds at the paper's amplitude, or below the one at which the azimuths are WITHIN."""
+    """Decide one half of the ansatz, at the paper's amplitude or below the amplitude at which the azimuths are WITHIN."""
     key = f"{quantity}_rates_sum_relative"
-    seen = [m[f"{key}_r0_{PAPER_R0}_{name}"] for name in ("massless", "light_bar")]
+    values = [m[f"{key}_r0_{PAPER_R0}_{name}"] for name in ("massless", "light_bar")]
     vanishes = all(m[f"order_of_{key}_{name}"] > VANISHES for name in ("massless", "light_bar"))
     below = min((m[k] for k in m if k.startswith("r0_at_which")), default=0.0)
     needs = (
@@ -259,11 +240,11 @@ def _small(m: Mapping[str, float], quantity: str) -> Part:
         f"{m[f'azimuth_rates_sum_relative_r0_{PAPER_R0}_massless']:.0%} of φ′)"
     )
     says = AZIMUTHS if quantity == "azimuth" else SPIN_ANGLES
-    return Part(says, max(seen) < WITHIN, needs if vanishes and below else "")
+    return Part(says, max(values) < WITHIN, needs if vanishes and below else "")
 
 
 def decide_c15(m: Mapping[str, float]) -> Finding:
-    """Both sums and the swing of A at the paper's amplitude, with their powers in r₀, for both bars; the drift of B."""
+    """Decide by both sums and the oscillation of A, with their powers in r₀ and for both bars, and by the drift of B."""
     massless, light = (m[f"swing_of_A_relative_r0_{PAPER_R0}_{name}"] for name in ("massless", "light_bar"))
     needs = (
         f"for A a massless bar: within {massless:.1%} at r₀ = {PAPER_R0}, where with the paper's light bar it swings by "
@@ -278,12 +259,12 @@ def decide_c15(m: Mapping[str, float]) -> Finding:
     how = (
         f"At r₀ = {PAPER_R0} φ₁′ + φ₂′ reaches {m[f'azimuth_rates_sum_relative_r0_{PAPER_R0}_massless']:.0%} of φ′ "
         f"({m[f'azimuth_rates_sum_relative_r0_{PAPER_R0}_light_bar']:.0%} with the light bar) and ψ₁′ + ψ₂′ "
-        f"{m[f'spin_rates_sum_relative_r0_{PAPER_R0}_massless']:.0%} of the spin; they go as r₀ to the power "
+        f"{m[f'spin_rates_sum_relative_r0_{PAPER_R0}_massless']:.0%} of the spin. They are proportional to r₀ to the powers "
         f"{m['order_of_azimuth_rates_sum_relative_massless']:.2f} and {m['order_of_spin_rates_sum_relative_massless']:.2f}. "
-        f"A swings by {massless:.1%} of the part that the motion makes, as r₀ to the power "
-        f"{m['order_of_swing_of_A_relative_massless']:.2f}; with the light bar by {light:.0%}, as r₀ to the power "
-        f"{m['order_of_swing_of_A_relative_light_bar']:.2f}: at any amplitude. B drifts by "
-        f"{scientific(m['drift_of_B_relative'])} of itself."
+        f"A oscillates by {massless:.1%} of its varying part, proportional to r₀ to the power "
+        f"{m['order_of_swing_of_A_relative_massless']:.2f}. With the light bar it oscillates by {light:.0%}, proportional to r₀ "
+        f"to the power {m['order_of_swing_of_A_relative_light_bar']:.2f}, hence at any amplitude. The relative drift of B is "
+        f"{scientific(m['drift_of_B_relative'])}."
     )
     if "r0_at_which_the_azimuth_sum_is_5_percent_light_bar" not in m:
         return Finding(parts, how)
@@ -291,94 +272,83 @@ def decide_c15(m: Mapping[str, float]) -> Finding:
     return Finding(
         parts,
         f"{how} At r₀ = {r0:.3f} ({light_r0:.3f} with the light bar) φ₁′ + φ₂′ is {WITHIN:.0%} of φ′, ψ₁′ + ψ₂′ "
-        f"{m['spin_rates_sum_relative_there_massless']:.1%} of the spin, and A swings by "
+        f"{m['spin_rates_sum_relative_there_massless']:.1%} of the spin, and A oscillates by "
         f"{m['swing_of_A_relative_there_massless']:.2%} of its varying part "
         f"({m['swing_of_A_relative_there_light_bar']:.0%} with the light bar).",
     )
 
 
-# With the light bar in place of the theory's, A has no small amplitude at which it is constant. A rotor of unequal transverse
-# inertias has no axial momentum that is conserved.
+# With the light bar in place of the massless one, A is constant at no amplitude. The axial momentum of a rotor with unequal
+# transverse inertias is not conserved.
 C15 = ClaimTest(
-    "C15",
-    Ansatz(),
-    {
-        AZIMUTHS: Ansatz(EQUAL),
-        SPIN_ANGLES: Ansatz(EQUAL),
-        A_CONSTANT: Ansatz(bar=PAPER_BAR),
-        B_CONSTANT: Ansatz(I2_over_I1=1.1),
-    },
-    "exact orbits; the paper's program for B",
-    measure_c15,
-    decide_c15,
+    "C15", Ansatz(),
+    {AZIMUTHS: Ansatz(EQUAL), SPIN_ANGLES: Ansatz(EQUAL), A_CONSTANT: Ansatz(bar=PAPER_BAR), B_CONSTANT: Ansatz(I2_over_I1=1.1)},
+    "exact orbits; the paper's program for B", measure_c15, decide_c15,
     unproved="it is a likeness to what is observed; equations 5.11 to 5.13 are decided exactly",
-)
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Correction:
-    """Spins (rad/s), and the sign of the correction: +1 as printed in 5.20, −1 the other way round."""
+    """Spins (rad/s), and the sign of the correction: +1 as printed in 5.20, −1 reversed."""
 
     spins: Spins = OPPOSITE
     sign: int = 1
 
 
 def _length(phi: Array, s1: Array, s2: Array) -> Array:
-    """Distance of the tips (m) with azimuths ±phi and inclinations of sines s1, s2, for ℓ = R = 1 m and equal heights."""
+    """Return the distance of the tips (m) at azimuths ±phi and inclinations of sines s1, s2, for ℓ = R = 1 m."""
     return np.hypot(1 + np.cos(phi) * (s2 - s1), np.sin(phi) * (s1 + s2))
 
 
 def _lengths(run: Trajectory, r0: float, sign: int) -> tuple[Array, Array]:
-    """The link's length over a run with θ constant, and corrected; phi is half the difference of the two azimuths."""
+    """Return the link's length over a run, with θ constant and corrected; phi is half the difference of the azimuths."""
     phi = (run.azimuths[0] - run.azimuths[1]) / 2
     change = sign * r0**2 * np.cos(phi)
     return _length(phi, r0 + 0 * phi, r0 + 0 * phi), _length(phi, r0 - change, r0 + change)
 
 
 def measure_c16(case: Correction) -> dict[str, float]:
-    """The ansatz applied to the exact orbit: the length that the link then has, beside that of the exact orbit."""
+    """Measure the link's length that follows from the ansatz on the exact orbit, and its exact length."""
     run = once_round(case.spins, PAPER_R0, MASSLESS)
     constant, corrected = _lengths(run, PAPER_R0, case.sign)
-    left = [np.ptp(_lengths(once_round(case.spins, r0, MASSLESS), r0, case.sign)[1]) for r0 in AMPLITUDES]
+    swings = [np.ptp(_lengths(once_round(case.spins, r0, MASSLESS), r0, case.sign)[1]) for r0 in AMPLITUDES]
     return {
         "constant_theta_shortest": constant.min(),
         "constant_theta_longest": constant.max(),
         "printed_longest": (1 + 4 * PAPER_R0**2) ** 0.5,
         "corrected_shortest": corrected.min(),
         "corrected_longest": corrected.max(),
-        "order_of_the_swing_left": measured_order(AMPLITUDES, np.maximum(left, 1e-15)),
+        "order_of_the_swing_left": measured_order(AMPLITUDES, np.maximum(swings, 1e-15)),
         "exact_orbit_shortest": run.link_length.min(),
         "exact_orbit_longest": run.link_length.max(),
     }
 
 
 def decide_c16(m: Mapping[str, float]) -> Finding:
-    """Both ends of the swing as printed; the swing that the correction leaves, and its power in r₀."""
+    """Decide by both ends of the printed oscillation, and by the corrected oscillation and its power in r₀."""
     swing = m["constant_theta_longest"] - m["constant_theta_shortest"]
-    left = m["corrected_longest"] - m["corrected_shortest"]
+    remaining = m["corrected_longest"] - m["corrected_shortest"]
     ends = (m["constant_theta_shortest"] - 1, m["constant_theta_longest"] - m["printed_longest"])
-    least, most = (m[f"corrected_{end}"] / m["exact_orbit_longest"] - 1 for end in ("shortest", "longest"))
+    least, greatest = (m[f"corrected_{end}"] / m["exact_orbit_longest"] - 1 for end in ("shortest", "longest"))
     needs = f"to order r₀², and for the swing only: the length itself is not kept, the link is {least:.1%} too long throughout"
     return Finding(
         (
             Part(SWINGS, max(map(abs, ends)) < AS_PRINTED),
-            Part(REMOVED, left < AS_PRINTED, needs if m["order_of_the_swing_left"] > HIGHER else ""),
+            Part(REMOVED, remaining < AS_PRINTED, needs if m["order_of_the_swing_left"] > HIGHER else ""),
         ),
-        f"The swing: with θ constant and φ₁ = −φ₂ the link goes from {m['constant_theta_shortest']:.4f} to "
-        f"{m['constant_theta_longest']:.4f} m (printed {m['printed_longest']:.4f}), corrected from "
-        f"{m['corrected_shortest']:.4f} to {m['corrected_longest']:.4f} m, so that of {swing:.4f} m {left:.4f} are left, "
-        f"which go as r₀ to the power {m['order_of_the_swing_left']:.2f}. The length: on the exact orbit it is "
-        f"{m['exact_orbit_longest']:.4f} m throughout; corrected it is {least:.1%} to {most:.1%} too long throughout, where "
-        "uncorrected it was right twice in a cycle. The correction makes the link steady at a wrong length: it does not "
-        "satisfy the constraint for which it is made.",
+        f"With θ constant and φ₁ = −φ₂ the length of the link varies from {m['constant_theta_shortest']:.4f} to "
+        f"{m['constant_theta_longest']:.4f} m (printed {m['printed_longest']:.4f}), corrected from {m['corrected_shortest']:.4f} "
+        f"to {m['corrected_longest']:.4f} m. The correction thus reduces the oscillation from {swing:.4f} to {remaining:.4f} m, "
+        f"which is proportional to r₀ to the power {m['order_of_the_swing_left']:.2f}. On the exact orbit the length is always "
+        f"{m['exact_orbit_longest']:.4f} m. The corrected length is always {least:.1%} to {greatest:.1%} too large, while the "
+        "uncorrected one is right twice in a cycle. The correction makes the length constant, but at a wrong value, so that it "
+        "does not satisfy the constraint.",
     )
 
 
 def measure_c17(spins: Spins) -> dict[str, float]:
-    """The exact rate over that of constant inclination, G/(J cos θ_0), at three amplitudes, massless bar.
-
-    Opposite spins on their orbit; any other spins by how fast both axes go round the vertical.
-    """
+    """Measure the exact rate over G/(J cos θ_0), the rate at constant inclination, at three amplitudes, massless bar."""
     measured, changes = {}, []
     for r0 in AMPLITUDES:
         scene, rate = precession_scene(spins, r0, MASSLESS)
@@ -396,44 +366,33 @@ def measure_c17(spins: Spins) -> dict[str, float]:
 
 
 def decide_c17(m: Mapping[str, float]) -> Finding:
-    """The change of the rate over r₀²."""
+    """Decide by the change of the rate over r₀²."""
     return Finding(
         (Part(SAME_RATE, abs(m["change_over_r0_squared"]) < UNCHANGED),),
-        f"Unchanged is within {UNCHANGED} r₀². The exact rate is that of constant inclination times 1 "
-        f"{m['change_over_r0_squared']:+.3f} r₀² (the change goes as r₀ to the power {m['order_of_change']:.2f}); at r₀ = "
-        f"{PAPER_R0} it is {m[f'rate_over_constant_inclination_r0_{PAPER_R0}']:.4f} of it, and "
-        f"{m[f'rate_over_natural_r0_{PAPER_R0}']:.4f} of the natural rate.",
+        f"Unchanged means within {UNCHANGED} r₀². The exact rate is the rate at constant inclination times 1 "
+        f"{m['change_over_r0_squared']:+.3f} r₀² (the change is proportional to r₀ to the power {m['order_of_change']:.2f}). At "
+        f"r₀ = {PAPER_R0} it is {m[f'rate_over_constant_inclination_r0_{PAPER_R0}']:.4f} times the rate at constant inclination "
+        f"and {m[f'rate_over_natural_r0_{PAPER_R0}']:.4f} times the natural rate.",
     )
 
 
 C16 = ClaimTest(
-    "C16",
-    Correction(),
-    {SWINGS: Correction(EQUAL), REMOVED: Correction(sign=-1)},
-    "exact orbit, massless bar",
-    measure_c16,
-    decide_c16,
+    "C16", Correction(), {SWINGS: Correction(EQUAL), REMOVED: Correction(sign=-1)}, "exact orbit, massless bar",
+    measure_c16, decide_c16,
     unproved="it is about the ansatz, which is no motion of the pair; equations 5.19 and 5.20 are decided exactly",
-)
+)  # fmt: skip
 C17 = ClaimTest(
-    "C17",
-    OPPOSITE,
-    {SAME_RATE: EQUAL},
-    "exact orbits, massless bar",
-    measure_c17,
-    decide_c17,
+    "C17", OPPOSITE, {SAME_RATE: EQUAL}, "exact orbits, massless bar", measure_c17, decide_c17,
     lambda spins: rate_changes(SAME_RATE, Scene(spins, link=MASSLESS), PAPER_R0, UNCHANGED),
-)
+)  # fmt: skip
 
 
 SHOCK: Vector = (40, -11, 0)  # N, of the listing in 5.2.1
-NEARER = (
-    0.5  # shared: the formula's pinch within half of it, so that the run is nearer to the formula than to a plain sine
-)
-VISIBLE = 0.05  # of half a period; a valley narrower than the peaks by less is not seen in a graph, as in C15
-SMALL_ANGLE = 14.0  # degrees: up to here sin α is α within one part in a hundred, as a small angle is used
-MOTION = 0.5**0.5  # rms of a swing over its amplitude: what leaves as much describes nothing
-CENTRES_ARE_THE_CAUSE = 0.5  # corrected, the centres must leave less than half of what they leave as printed
+NEARER = 0.5  # largest relative error of a pinch that is nearer to the formula's than to that of a plain sine, zero
+VISIBLE = 0.05  # of half a period; a smaller difference of widths is not visible in a graph, as in C15
+SMALL_ANGLE = 14.0  # degrees, up to which sin α = α to one part in a hundred
+MOTION = 0.5**0.5  # rms of an oscillation over its amplitude; a fit with this residual describes nothing
+CENTRES_ARE_THE_CAUSE = 0.5  # largest residual with corrected centres over the residual with printed ones
 
 VALLEYS, PEAKS = "x₁ has the pinched valleys of the formula", "x₂ has its pinched peaks"
 SKEW, AGREE = (
@@ -443,7 +402,7 @@ SKEW, AGREE = (
 
 
 def shocked_run(spins: Spins, force: Vector, bar: Link = LIGHT) -> Trajectory:
-    """The exact pair after a shock of the width of 5.2.1, from the end of the shock on."""
+    """Simulate the exact pair after a shock of the width in 5.2.1, from the end of the shock on."""
     scene = shocked_scene(spins, force, bar, 1 / 20)
     at = shock_of(scene).at
     times = np.linspace(at + 0.33, at + PAPER_RUN, 400)
@@ -451,7 +410,7 @@ def shocked_run(spins: Spins, force: Vector, bar: Link = LIGHT) -> Trajectory:
 
 
 def harmonics(run: Trajectory) -> Harmonics:
-    """x and y of axis 1, then of axis 2, at the rate that fits both x best within a tenth of the natural rate."""
+    """Fit x and y of axis 1, then of axis 2, at the rate within a tenth of the natural rate that fits both x best."""
     x_y = np.concatenate(list(run.axes[..., :2]), axis=1)
     rate = best_harmonics(run.t, x_y[:, ::2], natural_rate(run.scene), 0.9, 1.1).rate
     return harmonics_at(run.t, x_y, rate)
@@ -459,7 +418,7 @@ def harmonics(run: Trajectory) -> Harmonics:
 
 @dataclass(frozen=True)
 class Pinched:
-    """Spins (rad/s), shock (N) and bar of the run whose pinch is compared with the formula's."""
+    """Spins (rad/s), shock (N) and bar of the simulation that is compared with the formula."""
 
     spins: Spins = OPPOSITE
     force: Vector = SHOCK
@@ -467,10 +426,10 @@ class Pinched:
 
 
 def measure_c18(case: Pinched) -> dict[str, float]:
-    """Second harmonic of both x over the first and in its phase; the formula (5.22) has −r_0/2 in x_1, +r_0/2 in x_2.
+    """Measure the second harmonic of both x over the first, in phase; the formula (5.22) has −r_0/2 in x_1, +r_0/2 in x_2.
 
-    Only what is in phase pinches; the rest slants, which the paper ascribes to a mixture of y. cos Φ + ε cos 2Φ is above the
-    middle for π − 2ε of its phase and below for π + 2ε, to first order: its peaks are narrower by 4ε/π of half a period.
+    Only the term in phase pinches the curve; the term out of phase slants it. cos Φ + ε cos 2Φ is above its middle for
+    π − 2ε of its phase, to first order. Its peaks are thus narrower by 4ε/π of half a period.
     """
     run = shocked_run(case.spins, case.force, case.bar)
     fit = harmonics(run)
@@ -493,7 +452,7 @@ def measure_c18(case: Pinched) -> dict[str, float]:
 
 
 def decide_c18(m: Mapping[str, float]) -> Finding:
-    """Each pinch against the formula's: nearer to it than to none or to twice as much, and wide enough to be seen."""
+    """Decide by each pinch: within half of the formula's, and visible."""
     formula = m["second_over_first_formula"]
     ratios = (-m["second_over_first_x_1"] / formula, m["second_over_first_x_2"] / formula)
     narrower = m["valleys_of_x_1_narrower_by"], m["peaks_of_x_2_narrower_by"]
@@ -501,72 +460,73 @@ def decide_c18(m: Mapping[str, float]) -> Finding:
     shared = [near and by > VISIBLE for near, by in zip(alike, narrower, strict=True)]
     return Finding(
         (Part(VALLEYS, shared[0]), Part(PEAKS, shared[1])),
-        f"Second over first harmonic, in phase, fitted over the 8 s: {m['second_over_first_x_1']:+.4f} in x₁, "
-        f"{m['second_over_first_x_2']:+.4f} in x₂; the formula has ∓{formula:.4f} at r₀ = {m['amplitude_r0']:.3f}: the signs "
-        f"{'agree' if min(ratios) > 0 else 'do not agree'}, the sizes are {ratios[0]:.2f} and {ratios[1]:.2f} of the "
-        f"formula's, {'' if all(alike) else 'not both '}nearer to it than to a plain sine, which has none. Valleys of x₁ are "
-        f"narrower than its peaks by {narrower[0]:.1%} of half a period, peaks of x₂ than its valleys by {narrower[1]:.1%}; "
-        f"from {VISIBLE:.0%} on it is seen. The −11 N along y keeps the pair upright: for 8 s it swings about the joint line "
-        f"between {m['least_lean_about_joint_line_rad']:+.3f} and {m['largest_lean_about_joint_line_rad']:+.3f} rad; without it "
-        f"it has then turned by {m['turned_about_joint_line_without_y_shock_rad']:.2f} rad.",
+        f"The second harmonic over the first, in phase and fitted over the 8 s, is {m['second_over_first_x_1']:+.4f} in x₁ "
+        f"and {m['second_over_first_x_2']:+.4f} in x₂. The formula has ∓{formula:.4f} at r₀ = {m['amplitude_r0']:.3f}. The "
+        f"signs {'agree' if min(ratios) > 0 else 'do not agree'}; the sizes are {ratios[0]:.2f} and {ratios[1]:.2f} times the "
+        f"formula's, {'' if all(alike) else 'not both '}nearer to it than to a plain sine, which has no second harmonic. The "
+        f"valleys of x₁ are narrower than its peaks by {narrower[0]:.1%} of half a period, the peaks of x₂ than its valleys "
+        f"by {narrower[1]:.1%}; a difference is visible from {VISIBLE:.0%} on. The −11 N along y keeps the pair upright: for "
+        f"8 s it oscillates about the joint line between {m['least_lean_about_joint_line_rad']:+.3f} and "
+        f"{m['largest_lean_about_joint_line_rad']:+.3f} rad. Without this force it turns by "
+        f"{m['turned_about_joint_line_without_y_shock_rad']:.2f} rad in 8 s.",
     )
 
 
 @dataclass(frozen=True)
 class Fit:
-    """What a formula leaves of both components (rms over the amplitude), and the amplitude."""
+    """The rms residual of a formula for both components over the amplitude, and the amplitude."""
 
-    left: float
+    residual: float
     size: float
 
 
-def fitted(along: Array, t: Array, rate: float, r0: float, offset: float | None, second: int = 1) -> Fit:
-    """x_1 and x_2 of (5.22) fitted to components along (2, n) in m: amplitude, rate, phase, one common shift.
+def fitted(components: Array, t: Array, rate: float, r0: float, offset: float | None, second: int = 1) -> Fit:
+    """Fit x_1 and x_2 of (5.22) to components (2, n) in m by amplitude, rate, phase and a common shift.
 
-    offset: ± offset r_0² is added to the centres, 0 as printed, 1 as corrected; None leaves the centres free, so that only
-    shapes are compared. second: 0 leaves the second harmonic out, for a plain sine.
+    ± `offset` r_0² is added to the centres: 0 as printed, 1 as corrected, None for free centres. `second` = 0 omits the second
+    harmonic, for a plain sine.
     """
     from scipy.optimize import least_squares
 
-    def left(unknown: Array) -> Array:
+    def residuals(unknown: Array) -> Array:
         size, faster, phase, shift = unknown
         cosine = np.cos(rate * faster * (t - t[0]) + phase)
-        off = np.array(
-            [along[i] - size * cosine + sign * second * size**2 * cosine**2 for i, sign in ((0, 1), (1, -1))]
+        deviations = np.array(
+            [components[i] - size * cosine + sign * second * size**2 * cosine**2 for i, sign in ((0, 1), (1, -1))]
         )
         if offset is None:
-            return np.asarray(off - off.mean(1, keepdims=True)).ravel()
-        return np.asarray(off - shift - np.array([[-0.5 + offset * size**2], [0.5 - offset * size**2]])).ravel()
+            return np.asarray(deviations - deviations.mean(1, keepdims=True)).ravel()
+        return np.asarray(deviations - shift - np.array([[-0.5 + offset * size**2], [0.5 - offset * size**2]])).ravel()
 
     starts = ((r0, 1.0, phase, 0.0) for phase in (0, pi / 2, pi, -pi / 2))
-    best = min((least_squares(left, start) for start in starts), key=lambda found: found.cost)
+    best = min((least_squares(residuals, start) for start in starts), key=lambda solution: solution.cost)
     size = abs(float(best.x[0]))
     return Fit(float(np.sqrt((best.fun**2).mean())) / size, size)
 
 
 def measure_c19(case: tuple[Spins, Vector]) -> dict[str, float]:
-    """Of spins (rad/s) and shock (N): the angle of the line through both centres; what the formula leaves along it."""
+    """Measure the angle of the line through both centres and the residuals of the formula, for spins (rad/s) and shock (N)."""
     run = shocked_run(*case)
     fit, tips = harmonics(run), run.tips[..., :2]
     line = fit.constant[2:] - fit.constant[:2] + np.array([1.0, 0.0])
-    along = tips @ (line / np.linalg.norm(line))
+    projection = tips @ (line / np.linalg.norm(line))
     r0 = abs(fit.waves[0, ::2]).mean()
     ways = {"printed": (0.0, 1), "corrected": (1.0, 1), "shape": (None, 1), "plain_sine": (None, 0)}
-    projected = {name: fitted(along, run.t, fit.rate, r0, *how) for name, how in ways.items()}
-    before = {name: fitted(tips[..., 0], run.t, fit.rate, r0, *ways[name]) for name in ("printed", "shape")}
+    projected = {name: fitted(projection, run.t, fit.rate, r0, *how) for name, how in ways.items()}
+    unprojected = {name: fitted(tips[..., 0], run.t, fit.rate, r0, *ways[name]) for name in ("printed", "shape")}
     y_over_x = abs(fit.waves[0, 1::2]).mean() / r0
     skew = np.arctan2(line[1], line[0])
     return {
         "skew_deg": np.degrees(skew),
         "share_of_y_in_x": abs(np.sin(skew)) * y_over_x,
-        **{f"left_projected_{name}": found.left for name, found in projected.items()},
-        **{f"left_unprojected_{name}": found.left for name, found in before.items()},
+        **{f"left_projected_{name}": best.residual for name, best in projected.items()},
+        **{f"left_unprojected_{name}": best.residual for name, best in unprojected.items()},
         "amplitude_along_the_skew_axis": projected["shape"].size,
     }
 
 
 def decide_c19(m: Mapping[str, float]) -> Finding:
-    """The skew, as an angle; what the formula leaves after projection, against a plain sine with its centres free."""
+    """Decide by the angle, and by the residual of the formula after projection against that of a plain sine."""
     printed, corrected, shape, plain = (
         m[f"left_projected_{way}"] for way in ("printed", "corrected", "shape", "plain_sine")
     )
@@ -580,36 +540,25 @@ def decide_c19(m: Mapping[str, float]) -> Finding:
             Part(SKEW, abs(m["skew_deg"]) < SMALL_ANGLE),
             Part(AGREE, printed < min(plain, MOTION), needs if mended else ""),
         ),
-        f"Fitted over the 8 s after the shock, the centres lie at {m['skew_deg']:+.1f}° to x, which the paper calls a small "
-        f"angle: components of y make {m['share_of_y_in_x']:.0%} of x projected so (an angle is used as a small one up to "
-        f"{SMALL_ANGLE:.0f}°, where sin α is α within one part in a hundred). The printed formula leaves "
-        f"{m['left_unprojected_printed']:.1%} of the amplitude before and {printed:.1%} after projection on that axis, with the "
-        f"missing ± r₀² {corrected:.1%}; with the centres free, hence for the shape, {m['left_unprojected_shape']:.1%} before "
-        f"and {shape:.1%} after, where a plain sine leaves {plain:.1%}: the second harmonic accounts for "
-        f"{1 - (shape / plain) ** 2:.0%} of the square of that. The amplitude along that axis is "
-        f"{m['amplitude_along_the_skew_axis']:.3f}; figure 21 has {PAPER_R0}.",
+        f"Fitted over the 8 s after the shock, the line of the centres lies at {m['skew_deg']:+.1f}° to x, which the paper "
+        f"calls a small angle. (An angle counts as small up to {SMALL_ANGLE:.0f}°, where sin α = α to one part in a hundred.) "
+        f"After the projection, y contributes {m['share_of_y_in_x']:.0%} of x. The residual of the printed formula is "
+        f"{m['left_unprojected_printed']:.1%} of the amplitude before and {printed:.1%} after the projection on that line; "
+        f"with the missing ± r₀² it is {corrected:.1%}. With free centres, which compares the shapes, it is "
+        f"{m['left_unprojected_shape']:.1%} before and {shape:.1%} after the projection, and {plain:.1%} for a plain sine. "
+        f"The second harmonic thus explains {1 - (shape / plain) ** 2:.0%} of the squared residual of the sine. The amplitude "
+        f"along the line is {m['amplitude_along_the_skew_axis']:.3f}; figure 21 has {PAPER_R0}.",
     )
 
 
 _EXACT = "exact pair (spheres), bar m = 0.01 kg, K = 0.1 kg m²"
-# A bar of K = 2 kg m² has the right signs and a third of the pinch. After a quarter of the shock the pinch is the formula's,
-# but is not seen.
+# With a bar of K = 2 kg m² the signs are right, but the pinch is a third of the formula's.
 C18 = ClaimTest(
-    "C18",
-    Pinched(),
-    {VALLEYS: Pinched(bar=Link(1, 1, 2)), PEAKS: Pinched(bar=Link(1, 1, 2))},
-    _EXACT,
-    measure_c18,
-    decide_c18,
-    unproved="it is a likeness of shapes, by fits to runs",
-)
-# The skew goes as the shock: a quarter of it leaves a small angle.
+    "C18", Pinched(), {VALLEYS: Pinched(bar=Link(1, 1, 2)), PEAKS: Pinched(bar=Link(1, 1, 2))}, _EXACT, measure_c18,
+    decide_c18, unproved="it is a likeness of shapes, by fits to runs",
+)  # fmt: skip
+# The angle is proportional to the shock; a quarter of the shock leaves a small angle.
 C19 = ClaimTest(
-    "C19",
-    (OPPOSITE, SHOCK),
-    {SKEW: (OPPOSITE, (SHOCK[0] / 4, SHOCK[1] / 4, 0.0)), AGREE: (EQUAL, SHOCK)},
-    _EXACT,
-    measure_c19,
-    decide_c19,
-    unproved="it is a likeness of shapes, by fits to runs",
-)
+    "C19", (OPPOSITE, SHOCK), {SKEW: (OPPOSITE, (SHOCK[0] / 4, SHOCK[1] / 4, 0.0)), AGREE: (EQUAL, SHOCK)}, _EXACT,
+    measure_c19, decide_c19, unproved="it is a likeness of shapes, by fits to runs",
+)  # fmt: skip

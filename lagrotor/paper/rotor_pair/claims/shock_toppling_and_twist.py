@@ -1,5 +1,5 @@
-"""Claims of sections 2, 5 and 5.1, the pair after a shock: as one gyroscope (C01, C02), how it topples (C10, C11), why (7) fails
-for opposite spins and the mean displacement in x (C12, C13)."""
+"""Claims of sections 2, 5 and 5.1 on the pair after a shock: one gyroscope (C01, C02), toppling (C10, C11), the failure of (7) at
+opposite spins and the mean displacement in x (C12, C13)."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -41,11 +41,11 @@ from lagrotor.theory.natural_rate import natural_rate
 
 _EXACT = "exact pair (spheres), bar m = 1 kg, K = 1 kg m²"
 _ALONG, _ACROSS, _WEAK = (50.0, 0.0, 0.0), (0.0, 50.0, 0.0), (10.0, 0.0, 0.0)
-CYCLES = 5  # over which a mean is taken
-_PARTED = 0.1  # rad, 6°: an angle between the axes that is seen
-_STEADY = 0.01  # "remains": the mean of the last cycles is that of the first ones to one part in a hundred
-DISPLACED = 0.1  # a mean below a tenth of the swing about it would not be seen as a displacement
-_ALIKE = 0.1  # "as", "as if": to one part in ten, the accuracy to which a graph is compared with another
+CYCLES = 5  # of each mean
+_PARTED = 0.1  # rad, 6°: a visible angle between the axes
+_STEADY = 0.01  # "remains": the relative difference of the means of the last and the first cycles
+DISPLACED = 0.1  # a mean below this fraction of the amplitude would not be visible as a displacement
+_ALIKE = 0.1  # "as", "as if": the relative accuracy to which two graphs are compared
 
 SAME_SENSE, REMAINS = "both axes precess in the same direction", "a displacement of both axes remains"
 ONE_GYROSCOPE = "the pair is one gyroscope of spin ω₁ + ω₂"
@@ -57,27 +57,27 @@ def _shocked(spins: Spins, force: Vector, seconds: float, bar: Link = HEAVY_LINK
 
 
 def _centre(run: Trajectory, start: float) -> NDArray[np.float64]:
-    """Mean axes (2, 3) over CYCLES turns of the natural rate, from `start` (s) after the first sample."""
+    """Return the mean axes (2, 3) over CYCLES periods of the natural rate, from `start` (s) after the first sample."""
     begin, turn = run.t[0] + start, 2 * pi / natural_rate(run.scene)
     return np.array([mean_between(run.t, axis, begin, begin + CYCLES * turn) for axis in run.axes])
 
 
 def measure_c01(spins: Spins) -> dict[str, float]:
-    """Mean rates of precession about the mean axes; these at the start and at the end; how far the axes part."""
+    """Measure the mean precession rates, the mean axes in the first and last cycles, and the angle between the axes."""
     run = _shocked(spins, _ALONG, 12.0)
     end = run.t[-1] - run.t[0] - CYCLES * 2 * pi / natural_rate(run.scene)
     first, last = _centre(run, 0.0), _centre(run, end)
-    off = run.axes[..., :2] - last[:, None, :2]
-    turning = off[..., 0] * run.rates[..., 1] - off[..., 1] * run.rates[..., 0]
-    sense = turning.mean(1) / (off**2).sum(-1).mean(1)
-    across = _shocked(spins, _ACROSS, 12.0)
-    parted = angle_between(across.axes)
+    offsets = run.axes[..., :2] - last[:, None, :2]
+    turning = offsets[..., 0] * run.rates[..., 1] - offsets[..., 1] * run.rates[..., 0]
+    sense = turning.mean(1) / (offsets**2).sum(-1).mean(1)
+    run_y = _shocked(spins, _ACROSS, 12.0)
+    parted = angle_between(run_y.axes)
     measured = {
         "displacement_by_equation_7": shock_of(run.scene).impulse[0] / (abs(spins[0]) + abs(spins[1])),
         "angle_of_axes_shock_along_bar_rad": angle_between(run.axes).max(),
         "angle_of_axes_shock_across_bar_rad": parted.max(),
-        "seconds_until_axes_part_by_0.1_shock_across_bar": first_passage(across.t, parted, _PARTED)
-        - shock_of(across.scene).at,
+        "seconds_until_axes_part_by_0.1_shock_across_bar": first_passage(run_y.t, parted, _PARTED)
+        - shock_of(run_y.scene).at,
     }
     for i in (0, 1):
         measured |= {
@@ -90,49 +90,49 @@ def measure_c01(spins: Spins) -> dict[str, float]:
 
 
 def decide_c01(m: Mapping[str, float]) -> Finding:
-    """The senses of both precessions, and of both axes the displacement at the end against that at the start."""
+    """Decide by the senses of both precessions, and by the final against the initial displacements."""
     last = [m[f"displacement_{i}_last_cycles"] for i in (1, 2)]
     stays = [abs(last[i] / m[f"displacement_{i + 1}_first_cycles"] - 1) < _STEADY for i in (0, 1)]
-    seen = [abs(last[i]) > DISPLACED * m[f"swing_{i + 1}_about_the_displaced_position"] for i in (0, 1)]
+    is_visible = [abs(last[i]) > DISPLACED * m[f"swing_{i + 1}_about_the_displaced_position"] for i in (0, 1)]
     return Finding(
         (
             Part(SAME_SENSE, m["precession_1_rad_per_s"] * m["precession_2_rad_per_s"] > 0),
-            Part(REMAINS, all(stays) and all(seen)),
+            Part(REMAINS, all(stays) and all(is_visible)),
         ),
-        f"In 12 s the axes precess at {m['precession_1_rad_per_s']:+.2f} and {m['precession_2_rad_per_s']:+.2f} rad/s; their "
-        f"mean positions in the last {CYCLES} cycles of 12 s are displaced by {last[0]:+.4f} and {last[1]:+.4f} across the "
-        f"shock (in the first {CYCLES} by {m['displacement_1_first_cycles']:+.4f} and {m['displacement_2_first_cycles']:+.4f}); "
-        f"(7) gives {m['displacement_by_equation_7']:.4f}. The axes are parallel at all times (section 5) for this shock along "
-        f"the bar, to {scientific(m['angle_of_axes_shock_along_bar_rad'])} rad. The same shock across the bar on one tip parts "
-        f"them by {_PARTED} rad {m['seconds_until_axes_part_by_0.1_shock_across_bar']:.3f} s after its peak, and by "
-        f"{m['angle_of_axes_shock_across_bar_rad']:.2f} rad at most within 12 s: equal spins do not keep the axes parallel.",
+        f"In 12 s the axes precess at {m['precession_1_rad_per_s']:+.2f} and {m['precession_2_rad_per_s']:+.2f} rad/s. Their "
+        f"mean positions are displaced across the shock, in the last {CYCLES} cycles by {last[0]:+.4f} and {last[1]:+.4f}, in "
+        f"the first {CYCLES} by {m['displacement_1_first_cycles']:+.4f} and {m['displacement_2_first_cycles']:+.4f}; (7) gives "
+        f"{m['displacement_by_equation_7']:.4f}. For this shock along the bar the axes are parallel at all times (section 5), "
+        f"to {scientific(m['angle_of_axes_shock_along_bar_rad'])} rad. After the same shock across the bar on one tip, the "
+        f"angle between them reaches {_PARTED} rad {m['seconds_until_axes_part_by_0.1_shock_across_bar']:.3f} s after the peak, "
+        f"and at most {m['angle_of_axes_shock_across_bar_rad']:.2f} rad within 12 s: equal spins do not keep the axes parallel.",
     )
 
 
 def _drift_over_7(spins: Spins, bar: Link) -> float:
-    """Mean displacement after a weak shock, so that squares of the amplitude do not show, over that of (7)."""
+    """Return the ratio of the mean displacement to (7), after a shock so weak that squares of the amplitude vanish."""
     run = _shocked(spins, _WEAK, 8.0, bar)
     return float(_centre(run, 0.0)[:, 1].mean() * sum(spins) / shock_of(run.scene).impulse[0])
 
 
 def measure_c02(bar: Link) -> dict[str, float]:
-    """With a given bar: displacements over (7), and responses of opposite spins over those without spins."""
+    """Measure displacements relative to (7), and responses of opposite spins relative to those without spins."""
     farthest, unspun = (abs(_shocked(s, _ALONG, 2.4, bar).axes[..., 0]).max() for s in ((10, -10), (0, 0)))
-    turned, freely = (
+    angle, free_angle = (
         abs(turned_about_joint_line(_shocked(s, _ACROSS, 2.4, bar).axes)[-1]) for s in ((10, -10), (0, 0))
     )
     return {
         "largest_x": farthest,
         "largest_x_without_spins": unspun,
         "ratio_in_x": farthest / unspun,
-        "ratio_of_turning_about_joint_line_shock_along_y": turned / freely,
+        "ratio_of_turning_about_joint_line_shock_along_y": angle / free_angle,
         "drift_over_equation_7_spins_10_10": _drift_over_7((10, 10), bar),
         "drift_over_equation_7_spins_10_5": _drift_over_7((10, 5), bar),
     }
 
 
 def decide_c02(m: Mapping[str, float]) -> Finding:
-    """The displacements by (7), and both responses of opposite spins, along the bar and across it."""
+    """Decide by the displacements relative to (7), and by both relative responses of opposite spins."""
     drifts = [m[f"drift_over_equation_7_spins_{pair}"] for pair in ("10_10", "10_5")]
     responses = m["ratio_in_x"], m["ratio_of_turning_about_joint_line_shock_along_y"]
     return Finding(
@@ -140,42 +140,33 @@ def decide_c02(m: Mapping[str, float]) -> Finding:
             Part(ONE_GYROSCOPE, all(abs(ratio - 1) < _ALIKE for ratio in drifts)),
             Part(AS_WITHOUT_SPIN, all(abs(ratio - 1) < _ALIKE for ratio in responses)),
         ),
-        f"The mean displacement over {CYCLES} cycles after a weak shock, over that of (7), is {drifts[0]:.3f} for spins 10 and "
-        f"10 rad/s, {drifts[1]:.3f} for 10 and 5. But with spins 10 and −10, within 2.4 s of a shock along x, the axes reach x "
-        f"= {m['largest_x']:.3f}, without spins {m['largest_x_without_spins']:.3f}: {responses[0]:.2f} of it. Only the turning "
-        f"about the joint line within 2.4 s of a shock along y is alike (ratio {responses[1]:.2f}; alike is within a tenth).",
+        f"After a weak shock the mean displacement over {CYCLES} cycles is {drifts[0]:.3f} times (7) for spins 10 and 10 rad/s, "
+        f"and {drifts[1]:.3f} times (7) for 10 and 5. With spins 10 and −10, however, the axes reach x = {m['largest_x']:.3f} "
+        f"within 2.4 s of a shock along x, and {m['largest_x_without_spins']:.3f} without spins, a ratio of {responses[0]:.2f}. "
+        f"Only the turning about the joint line within 2.4 s of a shock along y is the same (ratio {responses[1]:.2f}; equal "
+        "means within a tenth).",
     )
 
 
-# C02: a bar of 1000 kg m² cannot be twisted, and keeps the axes parallel as (7) assumes. With a mass of 10 kg in the middle of
-# the bar unequal spins drift by (a − b)(G₁ + G₂)²/(2D) = 0.64 of (7), D = a(G₁² + G₂²) − 2b G₁G₂.
+# C02: a bar of 1000 kg m² cannot be twisted and keeps the axes parallel, as (7) assumes. With 10 kg in the middle of the bar,
+# unequal spins drift by (a − b)(G₁ + G₂)²/(2D) = 0.64 of (7), where D = a(G₁² + G₂²) − 2b G₁G₂.
 C01 = ClaimTest(
-    "C01",
-    (10, 10),
-    {SAME_SENSE: (10, -10), REMAINS: (10, -10)},
-    _EXACT,
-    measure_c01,
-    decide_c01,
+    "C01", (10, 10), {SAME_SENSE: (10, -10), REMAINS: (10, -10)}, _EXACT, measure_c01, decide_c01,
     lambda spins: lasting_displacement(SAME_SENSE, REMAINS, spins),
-)
+)  # fmt: skip
 C02 = ClaimTest(
-    "C02",
-    HEAVY_LINK,
-    {ONE_GYROSCOPE: Link(mass=10, inertia=0), AS_WITHOUT_SPIN: Link(mass=1, inertia=1000)},
-    _EXACT,
-    measure_c02,
-    decide_c02,
-    lambda bar: not_without_spin(AS_WITHOUT_SPIN, bar) if bar == HEAVY_LINK else (),
+    "C02", HEAVY_LINK, {ONE_GYROSCOPE: Link(mass=10, inertia=0), AS_WITHOUT_SPIN: Link(mass=1, inertia=1000)}, _EXACT,
+    measure_c02, decide_c02, lambda bar: not_without_spin(AS_WITHOUT_SPIN, bar) if bar == HEAVY_LINK else (),
     "that the pair is one gyroscope is a likeness to one part in ten, of means over five cycles",
-)
+)  # fmt: skip
 
 
-FALLEN = 0.5  # |x| of an axis that is 30° from upright
+FALLEN = 0.5  # |x| of an axis at 30° from upright
 TILTED, FLAT = 75.0, 90.0  # degrees: toppled along x, where 90° is a dead point, and across it
-IN_PLANE = 0.01  # a y of an axis that would not be seen: the pair stays in the X-Z plane
-SEEN = 0.1  # rad, 6°: less would not be seen as toppling
-SLOW = 1.0  # rad in one turn of the natural rate: the pair swings in x before it has turned
-WATCHED = 40.0  # s over which a fall is waited for
+IN_PLANE = 0.01  # an invisible y of an axis: the pair stays in the X-Z plane
+SEEN = 0.1  # rad, 6°: the least visible toppling
+SLOW = 1.0  # rad in one period of the natural rate: the pair oscillates in x before it has toppled
+WATCHED = 40.0  # s, the longest simulation of a fall
 SIDE, SPRINGS = 1.0, {"1e4": 1e4, "1e5": 1e5, "1e6": 1e6}  # N, N/m
 PAPER_SHOCKS: dict[str, Vector] = {"+x": (50, 0, 0), "-x": (-50, 0, 0), "+y": (0, 50, 0), "-y": (0, -50, 0)}
 ALONG, ACROSS, _SMALL = (60.0, 72.0, 86.0), (25.0, 35.0, 70.0), (12.0, 24.0, 48.0)  # N, besides the paper's 50 N
@@ -183,8 +174,8 @@ ALONG, ACROSS, _SMALL = (60.0, 72.0, 86.0), (25.0, 35.0, 70.0), (12.0, 24.0, 48.
 TOPPLES, TURNS = "the pair topples after the shock", "it turns around the line through the two grounds"
 STABLE, TOPPLES_YZ, SLOWLY = "it stays stable in x", "it topples in the Y-Z plane", "it topples slowly"
 THRESHOLDS = (
-    f"Stable in x is |x| below {FALLEN}, 30° from upright. To topple is to turn about the joint line by more than {SEEN} rad in "
-    f"8 s, and slowly is by less than {SLOW:.0f} rad in a period of the natural rate."
+    f"Stable in x means |x| below {FALLEN}, 30° from upright. Toppling means turning about the joint line by more than {SEEN} "
+    f"rad in 8 s; slow toppling means by less than {SLOW:.0f} rad in a period of the natural rate."
 )
 
 
@@ -193,18 +184,18 @@ def _tilt(axes: Array) -> float:
 
 
 def measure_c10(spins: Spins) -> dict[str, float]:
-    """Tilt after a shock along the bar and across it; where it topples, what follows the dead point."""
+    """Measure the tilt after a shock along and across the bar; if the pair topples, also the motion past the dead point."""
     scene = shocked_scene(spins, (50, 0, 0))
-    along, across = after_shock(scene, 2.7), after_shock(shocked_scene(spins, (0, 50, 0)), 6.0)
-    in_xz = np.unwrap(np.arctan2(along.axes[..., 0], along.axes[..., 2]))
-    rate = abs(np.polyfit(along.t, in_xz[0], 1)[0])
+    run_x, run_y = after_shock(scene, 2.7), after_shock(shocked_scene(spins, (0, 50, 0)), 6.0)
+    in_xz = np.unwrap(np.arctan2(run_x.axes[..., 0], run_x.axes[..., 2]))
+    rate = abs(np.polyfit(run_x.t, in_xz[0], 1)[0])
     measured = {
-        "shock_along_x_tilt_after_2.7_s_deg": _tilt(along.axes),
+        "shock_along_x_tilt_after_2.7_s_deg": _tilt(run_x.axes),
         "shock_along_x_turned_in_XZ_rad": abs(in_xz[:, -1]).max(),
         "shock_along_x_rate_in_XZ_rad_per_s": rate,
-        "shock_along_x_largest_y": abs(along.axes[..., 1]).max(),
-        "shock_along_y_tilt_deg": _tilt(across.axes),
-        "shock_along_y_turned_about_joint_line_rad": abs(turned_about_joint_line(across.axes)[-1]),
+        "shock_along_x_largest_y": abs(run_x.axes[..., 1]).max(),
+        "shock_along_y_tilt_deg": _tilt(run_y.axes),
+        "shock_along_y_turned_about_joint_line_rad": abs(turned_about_joint_line(run_y.axes)[-1]),
         "rate_by_closed_form_rad_per_s": shock_of(scene).impulse[0] / (2 * sum(scene.inertias)),
     }
     return (
@@ -215,13 +206,10 @@ def measure_c10(spins: Spins) -> dict[str, float]:
 
 
 def _past_dead_point(dead: float) -> dict[str, float]:
-    """With a side force beside the 50 N: the parting of the axes within 2 s after the dead point, exactly and by springs.
-
-    Springs of three stiffnesses damped alike (D ∝ √S, the paper's 250 kg/s at 10⁴ N/m), by a solver of variable step.
-    """
-    beside = shocked_scene((0, 0), (50, SIDE, 0))
-    exact = after_shock(beside, PAPER_RUN)
-    t = np.linspace(exact.t[0], shock_of(beside).at + dead + 2, 101)
+    """Measure the angle between the axes within 2 s after the dead point, with a side force of 1 N beside the 50 N."""
+    scene = shocked_scene((0, 0), (50, SIDE, 0))
+    exact = after_shock(scene, PAPER_RUN)
+    t = np.linspace(exact.t[0], shock_of(scene).at + dead + 2, 101)
     soon = angle_between(exact.axes[:, exact.t <= t[-1]]).max()
     measured = {
         "dead_point_after_s": dead,
@@ -229,17 +217,17 @@ def _past_dead_point(dead: float) -> dict[str, float]:
         "side_1_N_axes_part_by_deg": np.degrees(soon),
         "side_1_N_axes_part_by_deg_after_8_s": np.degrees(angle_between(exact.axes)[-1]),
     }
-    for name, S in SPRINGS.items():
-        run = run_solver(paper_system(beside, S, DAMPING * (S / STIFFNESS) ** 0.5), beside.shock, np.append(0, t), 1e-5)
+    for name, S in SPRINGS.items():  # with one damping ratio, D ∝ √S, the paper's 250 kg/s at 10⁴ N/m
+        run = run_solver(paper_system(scene, S, DAMPING * (S / STIFFNESS) ** 0.5), scene.shock, np.append(0, t), 1e-5)
         measured[f"side_1_N_axes_part_by_deg_springs_S_{name}"] = np.degrees(angle_between(run.axes).max())
         measured[f"side_1_N_tilt_deg_springs_S_{name}"] = _tilt(run.axes)
     return measured
 
 
 def decide_c10(m: Mapping[str, float]) -> Finding:
-    """Tilts after both shocks; turning about the joint line after both."""
-    tilt, turned = m["shock_along_x_tilt_after_2.7_s_deg"], m["shock_along_y_turned_about_joint_line_rad"]
-    topples, turns = tilt > TILTED and m["shock_along_y_tilt_deg"] > FLAT, turned > pi / 2
+    """Decide by the tilts and the turning about the joint line after both shocks."""
+    tilt, angle = m["shock_along_x_tilt_after_2.7_s_deg"], m["shock_along_y_turned_about_joint_line_rad"]
+    topples, turns = tilt > TILTED and m["shock_along_y_tilt_deg"] > FLAT, angle > pi / 2
     if not topples:
         how = f"It tilts by no more than {tilt:.0f}° within 2.7 s of a shock along x."
         return Finding((Part(TOPPLES, False), Part(TURNS, turns)), how)
@@ -247,39 +235,39 @@ def decide_c10(m: Mapping[str, float]) -> Finding:
         "the shock is across the bar; along it each rotor turns about its own ground, and the motion is determined only up "
         f"to the dead point, {m['dead_point_after_s']:.1f} s after the shock"
     )
-    part, most = ([m[f"side_1_N_{what}_deg_springs_S_{name}"] for name in SPRINGS] for what in ("axes_part_by", "tilt"))
+    separations, tilts = (
+        [m[f"side_1_N_{what}_deg_springs_S_{name}"] for name in SPRINGS] for what in ("axes_part_by", "tilt")
+    )
     return Finding(
         (
             Part(TOPPLES, topples),
             Part(TURNS, turns and m["shock_along_x_largest_y"] > IN_PLANE, needs if turns else ""),
         ),
-        "After a shock along x the pair topples in the X-Z plane at a steady "
-        f"{m['shock_along_x_rate_in_XZ_rad_per_s']:.3f} rad/s (PR/(2(a + b)) = {m['rate_by_closed_form_rad_per_s']:.3f} "
-        f"rad/s), by {tilt:.0f}° after 2.7 s, each rotor about its own ground: |y| is "
-        f"{scientific(m['shock_along_x_largest_y'])} at most, so it turns around the two grounds but not about the line "
-        f"through them. After a shock along y it does: by {turned:.2f} rad within 6 s. Along x it reaches a dead point "
-        f"{m['dead_point_after_s']:.1f} s after the shock: the bar and both axes are in line, the constraint of the bar loses "
-        "its rank, and what follows depends on the smallest side force or on the softness of the springs. With "
-        f"{SIDE:.0f} N along y beside the 50 N the exact pair tilts by {m['side_1_N_tilt_deg']:.1f}° at most in 8 s, and its "
-        f"axes part by {m['side_1_N_axes_part_by_deg']:.0f}° within 2 s after the dead point and by "
-        f"{m['side_1_N_axes_part_by_deg_after_8_s']:.1f}° at the end of the 8 s; with springs of S = 10⁴, 10⁵, 10⁶ N/m it goes "
-        f"through the dead point, to {most[0]:.0f}°, {most[1]:.0f}°, {most[2]:.0f}°, and the axes part by {part[0]:.1f}°, "
-        f"{part[1]:.1f}°, {part[2]:.1f}° within the same 2 s.",
+        f"After a shock along x the pair topples in the X-Z plane at a steady {m['shock_along_x_rate_in_XZ_rad_per_s']:.3f} "
+        f"rad/s (PR/(2(a + b)) = {m['rate_by_closed_form_rad_per_s']:.3f} rad/s), by {tilt:.0f}° after 2.7 s. Each rotor "
+        "turns about its own ground and not about the line through both, since |y| is at most "
+        f"{scientific(m['shock_along_x_largest_y'])}. After a shock along y the pair turns about this line, by {angle:.2f} "
+        f"rad within 6 s. Along x it reaches a dead point {m['dead_point_after_s']:.1f} s after the shock, where the bar and "
+        "both axes lie in one line and the constraint of the bar loses its rank. The further motion depends on the smallest "
+        f"side force and on the softness of the springs. With {SIDE:.0f} N along y beside the 50 N the exact pair tilts by at "
+        f"most {m['side_1_N_tilt_deg']:.1f}° in 8 s; the angle between its axes reaches {m['side_1_N_axes_part_by_deg']:.0f}° "
+        f"within 2 s after the dead point and {m['side_1_N_axes_part_by_deg_after_8_s']:.1f}° at the end. With springs of S = "
+        f"10⁴, 10⁵, 10⁶ N/m it passes the dead point, to tilts of {tilts[0]:.0f}°, {tilts[1]:.0f}°, {tilts[2]:.0f}°; the "
+        f"angle between the axes reaches {separations[0]:.1f}°, {separations[1]:.1f}°, {separations[2]:.1f}° within the same "
+        "2 s.",
     )
 
 
 def _passage(t: Array, axes: Array) -> float:
-    """Return when |x| of either axis first reaches FALLEN; infinity where it does not."""
+    """Return the time at which |x| of either axis first reaches FALLEN; infinity if it does not."""
     return min(first_passage(t, sign * x, FALLEN) for x in axes[..., 0] for sign in (1, -1))
 
 
 def fall(spins: Spins, force: Vector, seconds: float) -> float:
-    """When |x| first reaches FALLEN, in s after the shock's peak; infinite if it does not by then.
-
-    Goes on in parts of two seconds: without spins, from 30°, that ends before the dead point at 90°.
-    """
+    """Return the time in s after the shock's peak at which |x| first reaches FALLEN; infinity if later than `seconds`."""
     scene = shocked_scene(spins, force)
     at = shock_of(scene).at
+    # Without spins, steps of two seconds end before the dead point at 90°.
     run, began = after_shock(scene, 2.4), 0.0
     while True:
         passed = _passage(run.t, run.axes)
@@ -293,35 +281,37 @@ def fall(spins: Spins, force: Vector, seconds: float) -> float:
 
 
 def _fall_of_springs(spins: Spins, force: Vector, seconds: float) -> float:
-    """The same by the paper's program."""
+    """Return the time of the fall, as `fall` does, with the paper's program."""
     scene = shocked_scene(spins, force)
     t = np.round(np.arange(15, round(50 * (shock_of(scene).at + seconds))) * 0.02, 3)
     return _passage(t, paper_run(scene, np.append(0, t)).axes[:, 1:]) - shock_of(scene).at
 
 
 def measure_c11(spins: Spins) -> dict[str, float]:
-    """For each of the paper's shocks: largest x and turning within its 8 s, when x has fallen; powers of other shocks."""
+    """Measure the largest x, the turning and the time of the fall for the paper's shocks, and powers for other shocks."""
     measured: dict[str, float] = {}
     falls = {name: fall(spins, force, WATCHED) for name, force in PAPER_SHOCKS.items()}
     for name, force in PAPER_SHOCKS.items():
         early = after_shock(shocked_scene(spins, force), min(PAPER_RUN, falls[name]))
-        turned = turned_about_joint_line(early.axes)
+        angles = turned_about_joint_line(early.axes)
         when = "not_fallen_within_s" if falls[name] == inf else "fallen_in_x_after_s"
         measured |= {
             f"{when}_{name}": min(falls[name], WATCHED),
             f"largest_x_{name}": abs(early.axes[..., 0]).max(),
-            f"turned_about_joint_line_rad_{name}": turned[-1],
-            f"mean_turning_rate_rad_per_s_{name}": np.polyfit(early.t, turned, 1)[0],
+            f"turned_about_joint_line_rad_{name}": angles[-1],
+            f"mean_turning_rate_rad_per_s_{name}": np.polyfit(early.t, angles, 1)[0],
         }
     rate = natural_rate(Scene(spins, link=HEAVY_LINK))
-    measured["period_of_the_natural_rate_s"] = 2 * pi / rate if rate else PAPER_RUN  # without swing, the whole run
+    measured["period_of_the_natural_rate_s"] = (
+        2 * pi / rate if rate else PAPER_RUN
+    )  # without oscillation, the whole run
     if min(falls.values()) < PAPER_RUN or falls["-y"] == inf:
         return measured
     return measured | _powers_in_times(spins, falls["+x"], falls["-y"])
 
 
 def _powers_in_times(spins: Spins, plus_x: float, minus_y: float) -> dict[str, float]:
-    """Powers of the shock in the times of falling and in the rate of turning; the fall after −y by the paper's program."""
+    """Fit the powers of the shock in the times of falling and in the toppling rate."""
     times_x = [plus_x, *(fall(spins, (f, 0, 0), WATCHED) for f in ALONG)]
     times_y = [minus_y, *(fall(spins, (0, -f, 0), WATCHED) for f in ACROSS)]
     rates = []
@@ -338,15 +328,15 @@ def _powers_in_times(spins: Spins, plus_x: float, minus_y: float) -> dict[str, f
 
 
 def _when(m: Mapping[str, float], name: str) -> str:
-    """When the pair falls after one of the paper's shocks, in words."""
+    """Return the time of the fall after one of the paper's shocks in words."""
     key = f"fallen_in_x_after_s_{name}"
     return f"after {m[key]:.2f} s" if key in m else f"not within {m[f'not_fallen_within_s_{name}']:.0f} s"
 
 
 def decide_c11(m: Mapping[str, float]) -> Finding:
-    """After each of the paper's four shocks: how long x keeps below FALLEN, how far and how fast the pair turns."""
+    """Decide by the time for which x stays below FALLEN, and by the turning and its rate after each of the four shocks."""
     first = min((value for key, value in m.items() if key.startswith("fallen_in_x")), default=inf)
-    x, turned = ([m[f"{key}_{name}"] for name in PAPER_SHOCKS] for key in ("largest_x", "turned_about_joint_line_rad"))
+    x, angles = ([m[f"{key}_{name}"] for name in PAPER_SHOCKS] for key in ("largest_x", "turned_about_joint_line_rad"))
     rates = [abs(m[f"mean_turning_rate_rad_per_s_{name}"]) for name in PAPER_SHOCKS]
     per_turn = [m["period_of_the_natural_rate_s"] * rate for rate in rates]
     for_a_while = (
@@ -359,46 +349,35 @@ def decide_c11(m: Mapping[str, float]) -> Finding:
     )
     how = (
         f"{THRESHOLDS} In the 8 s of the paper's runs |x| reaches {x[0]:.2f}, {x[1]:.2f}, {x[2]:.2f}, {x[3]:.2f} for 50 N along "
-        f"+x, −x, +y, −y, while the pair turns about the joint line by {turned[0]:.2f}, {turned[1]:.2f}, {turned[2]:.2f}, "
-        f"{turned[3]:.2f} rad, at a mean rate of {min(per_turn):.2f} to {max(per_turn):.2f} rad per period of the natural rate."
+        f"+x, −x, +y, −y, while the pair turns about the joint line by {angles[0]:.2f}, {angles[1]:.2f}, {angles[2]:.2f}, "
+        f"{angles[3]:.2f} rad, at a mean rate of {min(per_turn):.2f} to {max(per_turn):.2f} rad per period of the natural rate."
     )
     if "power_of_shock_in_time_x" not in m:
         return Finding(parts, f"{how} x passes {FALLEN} {_when(m, '+x')} (+x) and {_when(m, '-y')} (−y).")
     return Finding(
         parts,
-        f"{how} After ±x it turns to the same side, at a rate that goes as F to the power "
+        f"{how} After ±x it turns to the same side, at a rate proportional to F to the power "
         f"{m['power_of_shock_in_toppling_rate_x']:.2f}. But x grows slowly: it passes {FALLEN} {_when(m, '+x')} (+x), "
-        f"{_when(m, '-x')} (−x), {_when(m, '-y')} (−y; by springs after {m['fallen_in_x_after_s_-y_springs']:.2f} s), times "
-        f"that go as F to the power {m['power_of_shock_in_time_x']:.1f} along x and "
-        f"{m['power_of_shock_in_time_minus_y']:.1f} along −y; after +y {_when(m, '+y')}.",
+        f"{_when(m, '-x')} (−x), {_when(m, '-y')} (−y; with springs after {m['fallen_in_x_after_s_-y_springs']:.2f} s) and "
+        f"{_when(m, '+y')} (+y). These times are proportional to F to the power {m['power_of_shock_in_time_x']:.1f} along x and "
+        f"{m['power_of_shock_in_time_minus_y']:.1f} along −y.",
     )
 
 
 C10 = ClaimTest(
-    "C10",
-    (0, 0),
-    {TOPPLES: (10, 10), TURNS: (10, 10)},
-    f"{_EXACT}; spring-linked bodies",
-    measure_c10,
-    decide_c10,
-    lambda spins: topples(TOPPLES, spins),
-    "what follows the dead point is determined by no motion of the exact pair",
-)
+    "C10", (0, 0), {TOPPLES: (10, 10), TURNS: (10, 10)}, f"{_EXACT}; spring-linked bodies", measure_c10, decide_c10,
+    lambda spins: topples(TOPPLES, spins), "what follows the dead point is determined by no motion of the exact pair",
+)  # fmt: skip
 C11 = ClaimTest(
-    "C11",
-    (10, -10),
-    {STABLE: (0, 0), TOPPLES_YZ: (10, 10), SLOWLY: (0, 0)},
-    _EXACT,
-    measure_c11,
-    decide_c11,
+    "C11", (10, -10), {STABLE: (0, 0), TOPPLES_YZ: (10, 10), SLOWLY: (0, 0)}, _EXACT, measure_c11, decide_c11,
     lambda spins: topples_slowly(STABLE, TOPPLES_YZ, SLOWLY, spins, SEEN, SLOW),
-)
+)  # fmt: skip
 
 
-STIFFER = (10.0, 100.0, 1000.0)  # kg m², bars that resist twisting more and more
+STIFFER = (10.0, 100.0, 1000.0)  # kg m², bars that resist twisting increasingly
 FORCES = (5.0, 10.0, 20.0)  # N, small shocks
-NONE = 1e-6  # a mean within a hundred times the error of the runs is none
-FASTER = 1.5  # a displacement that vanishes faster than the shock, its power half way from 1 to 2 or above, is none
+NONE = 1e-6  # a mean below a hundred times the error of the simulations counts as zero
+FASTER = 1.5  # a displacement proportional to a higher power of the shock vanishes to first order
 
 FAILS, TWISTS, PARTS = "(7) fails for opposite spins", "the link twists out of its plane", "r₁ and r₂ are not parallel"
 CAUSE = "the twist is the cause: where it is prevented, (7) holds"
@@ -407,18 +386,14 @@ NO_MEAN = "r₁ and r₂ have on average no displacement in x"
 
 @dataclass(frozen=True)
 class Twistable:
-    """Inertia K (kg m²) of a bar that a twist has to turn, and those of three bars that are to prevent the twist."""
+    """Inertia K (kg m²) of the bar, and of three bars that should prevent the twist."""
 
     K: float = HEAVY_LINK.inertia
     stiffer: tuple[float, float, float] = STIFFER
 
 
 def measure_c12(case: Twistable) -> dict[str, float]:
-    """Opposite spins with a bar that a twist has to turn, then with stiffer ones; shock along x.
-
-    x over that without spins, which is what (7) gives for opposite spins; angle between the axes, and of the bar to the
-    line through the grounds.
-    """
+    """Measure x over its value without spins, the twist and the angle between the axes of opposite spins, with four bars."""
     unspun = abs(after_shock(shocked_scene((0, 0), (50, 0, 0)), 2.4).axes[..., 0]).max()
     measured = {f"inertia_kg_m2_stiffer_{i}": K for i, K in enumerate(case.stiffer, 1)}
     for name, inertia in (("own", case.K), *((f"stiffer_{i}", K) for i, K in enumerate(case.stiffer, 1))):
@@ -435,7 +410,7 @@ def measure_c12(case: Twistable) -> dict[str, float]:
 
 
 def decide_c12(m: Mapping[str, float]) -> Finding:
-    """x against (7), the twist of the bar and the angle of the axes; and the same with the bar that resists most."""
+    """Decide by x relative to (7), the twist of the bar and the angle between the axes, also with the stiffest bar."""
     x, *ratios = (m[f"largest_x_over_unspun_{bar}"] for bar in ("own", "stiffer_1", "stiffer_2", "stiffer_3"))
     bars = [m[f"inertia_kg_m2_stiffer_{i}"] for i in (1, 2, 3)]
     untwisted = m["largest_twist_of_bar_rad_stiffer_3"] < _PARTED
@@ -446,87 +421,78 @@ def decide_c12(m: Mapping[str, float]) -> Finding:
             Part(PARTS, m["largest_angle_of_axes_rad_own"] > _PARTED),
             Part(CAUSE, untwisted and abs(ratios[-1] - 1) < _ALIKE),
         ),
-        f"Parted is by more than {_PARTED} rad, and alike within a tenth. With this bar the link twists by "
-        f"{m['largest_twist_of_bar_rad_own']:.2f} rad within 2.4 s, the axes part by "
+        f"Not parallel means by more than {_PARTED} rad, and equal means within a tenth. With this bar the link twists by "
+        f"{m['largest_twist_of_bar_rad_own']:.2f} rad within 2.4 s. The angle between the axes reaches "
         f"{m['largest_angle_of_axes_rad_own']:.2f} rad ({m['largest_angle_of_axes_rad_8_s']:.2f} within 8 s), and x reaches "
-        f"{x:.2f} of what it would without spins, which is what (7) gives; with K = {bars[0]:g}, {bars[1]:g}, "
-        f"{bars[2]:g} kg m² against the twist it is {ratios[0]:.2f}, {ratios[1]:.2f}, {ratios[2]:.2f} of it, and the angle "
-        f"falls to {m['largest_angle_of_axes_rad_stiffer_3']:.3f} rad. With ℓ = R the angle between the axes is the one by "
-        "which the bar has turned out of the line of the grounds.",
+        f"{x:.2f} of its value without spins, which (7) predicts. With K = {bars[0]:g}, {bars[1]:g}, {bars[2]:g} kg m² against "
+        f"the twist it reaches {ratios[0]:.2f}, {ratios[1]:.2f}, {ratios[2]:.2f} of that value; the angle decreases to "
+        f"{m['largest_angle_of_axes_rad_stiffer_3']:.3f} rad. With ℓ = R the angle between the axes equals the twist of the bar.",
     )
 
 
 def _mean_x(cycles: float, force: Vector) -> Array:
-    """Means (2,) of x_1 and x_2 over some cycles of the natural rate, from the end of the shock."""
+    """Return the means (2,) of x_1 and x_2 over some periods of the natural rate, from the end of the shock."""
     run = after_shock(shocked_scene(OPPOSITE, force), 6.5)
     seconds = cycles * 2 * pi / natural_rate(run.scene)
     return mean_between(run.t, run.axes[..., 0].T, run.t[0], run.t[0] + seconds)
 
 
 def _powers_in_means(means: list[Array], name: str) -> dict[str, float]:
-    """Powers of the shock in the common part of the means of x_1 and x_2, and in half their difference."""
+    """Fit the powers of the shock in half the sum and half the difference of the means of x_1 and x_2."""
     both = np.array(means)
-    parts = {"common_mean": both.mean(1), "half_difference": (both[:, 0] - both[:, 1]) / 2}
+    components = {"common_mean": both.mean(1), "half_difference": (both[:, 0] - both[:, 1]) / 2}
     return {
-        f"power_of_shock_{name}_in_{part}": measured_order(FORCES, np.maximum(abs(values), 1e-15))
-        for part, values in parts.items()
+        f"power_of_shock_{name}_in_{component}": measured_order(FORCES, np.maximum(abs(values), 1e-15))
+        for component, values in components.items()
     }
 
 
 def measure_c13(cycles: float) -> dict[str, float]:
-    """Means of x_1 and x_2 after small shocks along x and along y, their powers, and those after the paper's 50 N."""
-    along, across = [_mean_x(cycles, (f, 0, 0)) for f in FORCES], [_mean_x(cycles, (0, f, 0)) for f in FORCES]
+    """Measure the means of x_1 and x_2 after small shocks along x and y, their powers, and the means after 50 N."""
+    means_x, means_y = [_mean_x(cycles, (f, 0, 0)) for f in FORCES], [_mean_x(cycles, (0, f, 0)) for f in FORCES]
     scene = shocked_scene(OPPOSITE, (0, FORCES[0], 0))
     return {
-        "shock_along_x_20_N_mean_x_1": along[-1][0],
-        "shock_along_x_20_N_mean_x_2": along[-1][1],
-        **_powers_in_means(along, "along_x"),
-        "shock_along_y_5_N_mean_x": across[0].mean(),
+        "shock_along_x_20_N_mean_x_1": means_x[-1][0],
+        "shock_along_x_20_N_mean_x_2": means_x[-1][1],
+        **_powers_in_means(means_x, "along_x"),
+        "shock_along_y_5_N_mean_x": means_y[0].mean(),
         "shock_along_y_5_N_predicted": -shock_of(scene).impulse[1] / (2 * scene.momenta[0]),
-        **_powers_in_means(across, "along_y"),
+        **_powers_in_means(means_y, "along_y"),
         "shock_along_x_50_N_mean_x": _mean_x(cycles, (50, 0, 0)).mean(),
         "shock_along_y_50_N_mean_x": _mean_x(cycles, (0, 50, 0)).mean(),
     }
 
 
 def decide_c13(m: Mapping[str, float]) -> Finding:
-    """Return whether the means of x_1 and x_2 are none, or vanish faster than the shock, along the bar and across it."""
+    """Decide by the means of x_1 and x_2: zero, or of higher order in the shock, along and across the bar."""
     none = max(abs(value) for name, value in m.items() if "_mean_x" in name) < NONE
-    along, across = (
-        min(m[f"power_of_shock_{way}_in_{part}"] for part in ("common_mean", "half_difference")) > FASTER
+    vanishes_x, vanishes_y = (
+        min(m[f"power_of_shock_{way}_in_{component}"] for component in ("common_mean", "half_difference")) > FASTER
         for way in ("along_x", "along_y")
     )
-    needs = "to first order in the shock" if across else "the shock is along x, and to first order in it"
+    needs = "to first order in the shock" if vanishes_y else "the shock is along x, and to first order in it"
     return Finding(
-        (Part(NO_MEAN, none, needs if along else ""),),
-        "Means are over four cycles of the natural rate. After 20 N along x those of x₁ and x₂ are "
-        f"{m['shock_along_x_20_N_mean_x_1']:+.4f} and {m['shock_along_x_20_N_mean_x_2']:+.4f}; their common part goes as F to "
-        f"the power {m['power_of_shock_along_x_in_common_mean']:.2f}, half their difference to the power "
+        (Part(NO_MEAN, none, needs if vanishes_x else ""),),
+        "Means are over four periods of the natural rate. After 20 N along x the means of x₁ and x₂ are "
+        f"{m['shock_along_x_20_N_mean_x_1']:+.4f} and {m['shock_along_x_20_N_mean_x_2']:+.4f}. Half their sum is proportional to "
+        f"F to the power {m['power_of_shock_along_x_in_common_mean']:.2f}, half their difference to F to the power "
         f"{m['power_of_shock_along_x_in_half_difference']:.2f}. After 5 N along y the mean is "
         f"{m['shock_along_y_5_N_mean_x']:+.5f} (−PR/(2G), with P the impulse, gives {m['shock_along_y_5_N_predicted']:+.5f}), "
-        f"as F to the power {m['power_of_shock_along_y_in_common_mean']:.2f}. After the paper's 50 N it is "
+        f"proportional to F to the power {m['power_of_shock_along_y_in_common_mean']:.2f}. After the paper's 50 N it is "
         f"{m['shock_along_x_50_N_mean_x']:+.3f} along x and {m['shock_along_y_50_N_mean_x']:+.3f} along y.",
     )
 
 
-# C12: a bar of 1000 kg m² does not twist; then the axes stay parallel and (7) holds. Bars of 0.5 kg m² and less prevent no
-# twist. C13: a quarter of a cycle is no average.
+# C12: a bar of 1000 kg m² does not twist, so that the axes stay parallel and (7) holds; bars up to 0.5 kg m² prevent no twist.
+# C13: a quarter of a period gives no average.
 C12 = ClaimTest(
-    "C12",
-    Twistable(),
+    "C12", Twistable(),
     {**dict.fromkeys((FAILS, TWISTS, PARTS), Twistable(1000.0)), CAUSE: Twistable(stiffer=(0.1, 0.2, 0.5))},
-    "exact pair (spheres), bar m = 1 kg, K = 1 to 1000 kg m²",
-    measure_c12,
-    decide_c12,
+    "exact pair (spheres), bar m = 1 kg, K = 1 to 1000 kg m²", measure_c12, decide_c12,
     lambda case: axes_part(PARTS, Link(mass=1, inertia=case.K)) if case == Twistable() else (),
     "the other parts compare runs with bars of several inertias, to one part in ten",
-)
+)  # fmt: skip
 C13 = ClaimTest(
-    "C13",
-    4.0,
-    {NO_MEAN: 0.25},
-    "exact pair (spheres), bar m = 1 kg, K = 1 kg m²",
-    measure_c13,
-    decide_c13,
+    "C13", 4.0, {NO_MEAN: 0.25}, "exact pair (spheres), bar m = 1 kg, K = 1 kg m²", measure_c13, decide_c13,
     lambda cycles: mean_displacement(NO_MEAN) if cycles >= 4 else (),
-)
+)  # fmt: skip

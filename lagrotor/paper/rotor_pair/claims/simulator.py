@@ -1,5 +1,5 @@
-"""Claims of sections 3 and 4: the paper's program (C03 to C05), its misplaced bar and its NaN (C06, C07), energy and momenta
-after the shock (C08, C09)."""
+"""Claims of sections 3 and 4: the paper's program (C03 to C05), the misplaced bar and the NaN (C06, C07), the energy and the
+momenta after the shock (C08, C09)."""
 
 import warnings
 from bisect import bisect_left
@@ -34,8 +34,8 @@ from lagrotor.paper.rotor_pair.claims.claim_theorems import energies
 from lagrotor.paper.rotor_pair.runs import EQUAL, after_shock, shock_of, shocked_scene
 from lagrotor.result_display import scientific
 
-_ROUNDING = 100 * float(np.finfo(float).eps)  # what a few products of 3 × 3 matrices may lose
-ENFORCED = 0.1  # a joint is kept where its gap, and the error of the axes, are below a tenth of the motion
+_ROUNDING = 100 * float(np.finfo(float).eps)  # the error of a few products of 3 × 3 matrices
+ENFORCED = 0.1  # a joint is enforced if its gap and the error of the axes are below this fraction of the motion
 INVERTERS = ("inv", "solve", "pinv", "lstsq", "tensorinv", "tensorsolve")  # numpy's ways to invert a matrix
 
 NOT_ORTHOGONAL, ORTHOGONAL = "1 + Δt Ω× is not orthogonal for a finite step", "the Rodrigues rotation is orthogonal"
@@ -48,28 +48,28 @@ def _off_orthogonal(matrix: Array) -> float:
 
 
 def _stretch(step: Array) -> float:
-    """Relative change of a length after 10,000 steps."""
+    """Return the relative change of a length after 10,000 steps."""
     return float(np.linalg.norm(np.linalg.matrix_power(step, 10_000)[:, 0])) - 1
 
 
 def undivided_rotation(Omega: Array, dt: float) -> Array:
-    """Rodrigues' rotation with P = Ω Ωᵀ to the letter of (3.16), not divided by |Ω|²: (n, 3) → (n, 3, 3)."""
+    """Return Rodrigues' rotation with P = Ω Ωᵀ as printed in (3.16), not divided by |Ω|²: (n, 3) → (n, 3, 3)."""
     size = np.linalg.norm(Omega, axis=1)[:, None, None]
     P = Omega[:, :, None] * Omega[:, None, :]
-    turned: Array = P + np.cos(size * dt) * (np.eye(3) - P) + np.sin(size * dt) * skew_matrix(Omega) / size
-    return turned
+    rotation: Array = P + np.cos(size * dt) * (np.eye(3) - P) + np.sin(size * dt) * skew_matrix(Omega) / size
+    return rotation
 
 
 @dataclass(frozen=True)
 class OneStep:
-    """A step (s), and what is taken for the Rodrigues rotation: (n, 3), s → (n, 3, 3)."""
+    """A step (s), and the function used as Rodrigues' rotation: (n, 3), s → (n, 3, 3)."""
 
     dt: float = STEP
     rodrigues: Callable[[Array, float], Array] = finite_rotation
 
 
 def measure_c03(case: OneStep) -> dict[str, float]:
-    """Both rotations over one step of a rotor that spins, and what 10,000 of them do to a length."""
+    """Measure both rotations over one step of a spinning rotor, and the stretch of a length in 10,000 steps."""
     Omega = np.array([[0.0, 0.0, EQUAL[0]]])
     first_order, rodrigues = np.eye(3) + case.dt * skew_matrix(Omega)[0], case.rodrigues(Omega, case.dt)[0]
     return {
@@ -82,29 +82,29 @@ def measure_c03(case: OneStep) -> dict[str, float]:
 
 
 def decide_c03(m: Mapping[str, float]) -> Finding:
-    """How far each rotation of one step is from orthogonal, against rounding."""
+    """Compare the deviation of each rotation from an orthogonal matrix with rounding."""
     return Finding(
         (
             Part(NOT_ORTHOGONAL, m["first_order_off_orthogonal"] > _ROUNDING),
             Part(ORTHOGONAL, m["rodrigues_off_orthogonal"] < _ROUNDING),
         ),
-        f"One step is off orthogonal by {scientific(m['first_order_off_orthogonal'])} to first order and by "
-        f"{scientific(m['rodrigues_off_orthogonal'])} by Rodrigues; in 10,000 steps the first stretches a body by "
-        f"{m['first_order_stretch_in_10_s']:.0%}, the second by {scientific(m['rodrigues_stretch_in_10_s'])}. With P = Ω Ωᵀ "
-        "to the letter of (3.16), not divided by |Ω|², it would be off by "
+        f"The matrix of one step deviates from an orthogonal one by {scientific(m['first_order_off_orthogonal'])} to first "
+        f"order and by {scientific(m['rodrigues_off_orthogonal'])} with Rodrigues' formula. In 10,000 steps the first stretches "
+        f"a body by {m['first_order_stretch_in_10_s']:.0%}, the second by {scientific(m['rodrigues_stretch_in_10_s'])}. With "
+        "P = Ω Ωᵀ as printed in (3.16), not divided by |Ω|², the deviation is "
         f"{scientific(m['rodrigues_with_P_as_printed_off_orthogonal'])}.",
     )
 
 
 def inverted_each_time(R: Array, inverse_inertia: Array) -> Array:
-    """(R I₀ Rᵀ)⁻¹ with I₀⁻¹ not stored: the inertia is turned and inverted at each step."""
+    """Return (R I₀ Rᵀ)⁻¹ without a stored I₀⁻¹: the inertia is rotated and inverted at each step."""
     inertia: Array = np.linalg.pinv(inverse_inertia).astype(float)
     inverse: Array = np.linalg.pinv(inertia_transform(R, inertia)).astype(float)
     return inverse
 
 
 def measure_c04(transform: Callable[[Array, Array], Array]) -> dict[str, float]:
-    """Inversions in a hundred steps of the paper's bodies and of a free one of unequal inertia; Ω of the free one."""
+    """Count the inversions in 100 steps of the paper's bodies and of a free body of unequal inertias; compare the Ω of it."""
     inertia = np.diag([1.0, 2.0, 2.5])
     start = np.array([0.3, 0.5, 1.0]) * EQUAL[0]
     body = RigidBody(np.zeros(3), [[0, 0, 1]], inertia, np.eye(3), 1.0, start, np.zeros(3))  # type: ignore[arg-type]
@@ -129,29 +129,29 @@ def measure_c04(transform: Callable[[Array, Array], Array]) -> dict[str, float]:
 
 
 def decide_c04(m: Mapping[str, float]) -> Finding:
-    """The count of inversions, and the step's Ω against the solution of R I₀ Rᵀ Ω = L."""
+    """Decide by the count of inversions, and by the step's Ω against the solution of R I₀ Rᵀ Ω = L."""
     return Finding(
         (
             Part(NO_INVERSION, m["inversions_in_200_steps"] == 0),
             Part(SOLVED, m["off_the_solved_omega_relative"] < _ROUNDING),
         ),
         f"In 200 steps {m['inversions_in_200_steps']:.0f} matrices are inverted, while the inertia changes by "
-        f"{m['inertia_changed_by_kg_m2']:.2f} kg m²; Ω agrees with the solved one to "
-        f"{scientific(m['off_the_solved_omega_relative'])}. The transform must be R I₀⁻¹ Rᵀ: the printed Rᵀ I₀⁻¹ R gives a "
-        f"body of unequal inertia an Ω off by {m['off_with_the_printed_transform_relative']:.0%} after 0.1 s.",
+        f"{m['inertia_changed_by_kg_m2']:.2f} kg m². Ω agrees with the solution of R I₀ Rᵀ Ω = L to a relative error of "
+        f"{scientific(m['off_the_solved_omega_relative'])}. The transform must be R I₀⁻¹ Rᵀ: with the printed Rᵀ I₀⁻¹ R the Ω "
+        f"of a body of unequal inertias has an error of {m['off_with_the_printed_transform_relative']:.0%} after 0.1 s.",
     )
 
 
 @dataclass(frozen=True)
 class Sprung:
-    """Stiffness of the links (N/m), and the mass of the ground (kg): without bound, or that of a body that can move."""
+    """Stiffness of the links (N/m), and the mass of the ground (kg), infinite or that of a movable body."""
 
     stiffness: float = STIFFNESS
     ground_mass: float = inf
 
 
 def measure_c05(case: Sprung) -> dict[str, float]:
-    """The shocked equal pair joined by springs of a quarter, half and the whole stiffness, against the exact pair."""
+    """Compare the shocked pair of equal spins, with springs of three stiffnesses, with the exact pair."""
     scene = shocked_scene(EQUAL, (50, 0, 0))
     t = np.round(np.arange(0, 1.2005, 2e-3), 3)
     exact = simulate(scene, t, "spheres", 1e-9)
@@ -168,12 +168,12 @@ def measure_c05(case: Sprung) -> dict[str, float]:
             system.push(1, 2, (50, 0, 0))
             system.step(STEP)
         ground = max(ground, abs(system.X[-1]).max(), abs(system.R[-1] - np.eye(3)).max())
-    moved = abs(exact.axes[..., :2]).max()
+    motion = abs(exact.axes[..., :2]).max()
     return {
         "stiffness_N_per_m": case.stiffness,
         "largest_gap_m": gaps[-1],
-        "gap_over_motion_of_tips": gaps[-1] / (scene.rotor.length * moved),
-        "error_over_motion": errors[-1] / moved,
+        "gap_over_motion_of_tips": gaps[-1] / (scene.rotor.length * motion),
+        "error_over_motion": errors[-1] / motion,
         "power_of_stiffness_in_error": measured_order(stiffnesses, errors),
         "power_of_stiffness_in_gap": measured_order(stiffnesses, gaps),
         "ground_moved_m": ground,
@@ -181,55 +181,42 @@ def measure_c05(case: Sprung) -> dict[str, float]:
 
 
 def decide_c05(m: Mapping[str, float]) -> Finding:
-    """The gaps of the links and the error of the axes, both over the motion; what the ground moved."""
-    kept = max(m["gap_over_motion_of_tips"], m["error_over_motion"]) < ENFORCED
+    """Decide by the gaps of the links and the error of the axes relative to the motion, and by the ground's displacement."""
+    is_enforced = max(m["gap_over_motion_of_tips"], m["error_over_motion"]) < ENFORCED
     needs = "the springs are stiff, faster than the motion: the link is exact only as S grows without bound"
     return Finding(
         (
-            Part(LINKED, kept and m["largest_gap_m"] == 0, needs if kept else ""),
+            Part(LINKED, is_enforced and m["largest_gap_m"] == 0, needs if is_enforced else ""),
             Part(GROUNDED, m["ground_moved_m"] == 0),
         ),
-        f"Enforced is to a tenth of the motion. At S = {m['stiffness_N_per_m']:.0f} N/m, in the second after the shock, the "
-        f"gaps reach {1e3 * m['largest_gap_m']:.1f} mm, "
-        f"{m['gap_over_motion_of_tips']:.1%} of the motion of the tips, and the axes are off by {m['error_over_motion']:.1%} "
-        f"of theirs. The gap goes as S to the power {m['power_of_stiffness_in_gap']:.2f}, the error to the power "
-        f"{m['power_of_stiffness_in_error']:.2f}. The ground moved by {m['ground_moved_m']:g} m.",
+        f"A link is enforced if the errors are below a tenth of the motion. At S = {m['stiffness_N_per_m']:.0f} N/m, in the "
+        f"second after the shock, the gaps reach {1e3 * m['largest_gap_m']:.1f} mm, {m['gap_over_motion_of_tips']:.1%} of the "
+        f"motion of the tips; the axes deviate by {m['error_over_motion']:.1%} of their motion. The gap is proportional to S to "
+        f"the power {m['power_of_stiffness_in_gap']:.2f}, the error to S to the power {m['power_of_stiffness_in_error']:.2f}. "
+        f"The ground moved by {m['ground_moved_m']:g} m.",
     )
 
 
-# C03: at 10⁻⁹ s the step is finite no more, for double precision; (3.16) to the letter is no rotation. C05: springs of 100 N/m
-# are slower than the motion; a ground of 1000 kg is a body that moves.
+# C03: a step of 10⁻⁹ s is infinitesimal in double precision; (3.16) as printed is no rotation. C05: springs of 100 N/m are
+# slower than the motion; a ground of 1000 kg moves.
 C03 = ClaimTest(
-    "C03",
-    OneStep(),
-    {NOT_ORTHOGONAL: OneStep(1e-9), ORTHOGONAL: OneStep(rodrigues=undivided_rotation)},
-    "one step of a rigid body",
-    measure_c03,
-    decide_c03,
-    unproved="it is about rounding in the steps of a program",
-)
+    "C03", OneStep(), {NOT_ORTHOGONAL: OneStep(1e-9), ORTHOGONAL: OneStep(rodrigues=undivided_rotation)},
+    "one step of a rigid body", measure_c03, decide_c03, unproved="it is about rounding in the steps of a program",
+)  # fmt: skip
 C04 = ClaimTest(
-    "C04",
-    inertia_transform,
-    {NO_INVERSION: inverted_each_time, SOLVED: printed_inertia_transform},
-    "spring-linked bodies, and one free body of unequal inertia",
-    measure_c04,
-    decide_c04,
+    "C04", inertia_transform, {NO_INVERSION: inverted_each_time, SOLVED: printed_inertia_transform},
+    "spring-linked bodies, and one free body of unequal inertia", measure_c04, decide_c04,
     unproved="it is about the steps of a program",
-)
+)  # fmt: skip
 C05 = ClaimTest(
-    "C05",
-    Sprung(),
-    {LINKED: Sprung(100.0), GROUNDED: Sprung(ground_mass=1000.0)},
-    "spring-linked bodies against the exact pair",
-    measure_c05,
-    decide_c05,
+    "C05", Sprung(), {LINKED: Sprung(100.0), GROUNDED: Sprung(ground_mass=1000.0)},
+    "spring-linked bodies against the exact pair", measure_c05, decide_c05,
     unproved="it is about the springs of the paper's program",
-)
+)  # fmt: skip
 
 
 PRINTED_ENERGY = PrintedNumber("100")  # J
-_START = 0.1  # s, a hundredth of the paper's 10 s: what figure 8 shows at its left edge
+_START = 0.1  # s, a hundredth of the paper's 10 s, the left edge of figure 8
 
 SPIKES, DECAYS, STAYS = (
     "the energy spikes at the start",
@@ -242,25 +229,22 @@ _LOST = "the state of the run turns to NaN"
 
 @dataclass(frozen=True)
 class MisplacedBar:
-    """A bar whose centre starts at `height` (m above the ground joints; right is 1), with dampers (kg/s) and spins (rad/s)."""
+    """A bar whose centre starts at `height` (m above the ground joints; 1 is correct), with dampers (kg/s), spins (rad/s)."""
 
-    height: float = 1.5
+    height: float = 1.5  # the mistaken 1 m of the paper, whose z starts at the rotors' centres
     damping: float = DAMPING
     spins: tuple[float, float] = EQUAL
 
 
 def measure_c06(case: MisplacedBar) -> dict[str, float]:
-    """Kinetic energy of the paper's program for 0.6 s, with the bar at that height and placed right.
-
-    The paper's z starts at the rotors' centres, ours at the ground joints: its mistaken 1 is our 1.5.
-    """
+    """Measure the kinetic energy in the paper's program for 0.6 s, with the bar at that height and at the correct one."""
     scene, t = Scene(case.spins, link=HEAVY_LINK), np.round(np.arange(601) * STEP, 6)
     wrong = run_steps(paper_system(scene, STIFFNESS, case.damping, case.height), None, t, STEP).paper_energy
     right = run_steps(paper_system(scene, STIFFNESS, case.damping), None, t, STEP).paper_energy
     excess = abs(wrong - wrong[-1])
 
-    def last(part: float) -> float:
-        above = t[excess > part * excess.max()]
+    def last(fraction: float) -> float:
+        above = t[excess > fraction * excess.max()]
         return float(above[-1]) if len(above) else 0.0
 
     return {
@@ -276,7 +260,7 @@ def measure_c06(case: MisplacedBar) -> dict[str, float]:
 
 
 def decide_c06(m: Mapping[str, float]) -> Finding:
-    """The height of the peak and when it comes, the energy at the end, and the energy with the bar placed right."""
+    """Decide by the height and the time of the peak, the final energy, and the energy with a correctly placed bar."""
     unit = PRINTED_ENERGY.half_unit
     return Finding(
         (
@@ -284,11 +268,11 @@ def decide_c06(m: Mapping[str, float]) -> Finding:
             Part(DECAYS, abs(m["after_0.6_s_J"] - m["start_J"]) < unit),
             Part(STAYS, PRINTED_ENERGY.is_matched(m["placed_right_J"]) and m["placed_right_swing_J"] < unit),
         ),
-        f"{PRINTED_ENERGY.rule} J. With the bar half a metre too high the energy rises from {m['start_J']:.0f} to "
-        f"{m['peak_J']:.1f} J at the program's step of {1e3 * m['peak_at_s']:.0f} ms, is within a tenth of that rise from "
-        f"{1e3 * m['below_a_tenth_of_the_peak_from_s']:.0f} ms on, within a thousandth from "
-        f"{1e3 * m['below_a_thousandth_of_the_peak_from_s']:.0f} ms on, and ends at {m['after_0.6_s_J']:.2f} J; "
-        f"with the bar in its place it is {m['placed_right_J']:.2f} J with a swing of {scientific(m['placed_right_swing_J'])} J.",
+        f"{PRINTED_ENERGY.rule} J. With the bar half a metre too high, the energy rises from {m['start_J']:.0f} to "
+        f"{m['peak_J']:.1f} J at {1e3 * m['peak_at_s']:.0f} ms. The excess falls to a tenth at "
+        f"{1e3 * m['below_a_tenth_of_the_peak_from_s']:.0f} ms and to a thousandth at "
+        f"{1e3 * m['below_a_thousandth_of_the_peak_from_s']:.0f} ms; the final energy is {m['after_0.6_s_J']:.2f} J. With the "
+        f"bar placed correctly it is {m['placed_right_J']:.2f} J and oscillates by {scientific(m['placed_right_swing_J'])} J.",
     )
 
 
@@ -297,7 +281,7 @@ def _is_nan(rotation: Callable[[Array, float], Array], size: float) -> bool:
 
 
 def _is_lost(scene: Scene, rotation: Callable[[Array, float], Array], end: float) -> bool:
-    """Return whether the paper's program, with this rotation, loses the run before `end` (s)."""
+    """Return True if the paper's program with this rotation turns to NaN before `end` (s)."""
     system = paper_system(scene, STIFFNESS, DAMPING, rotation=rotation)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", LagrotorWarning)
@@ -313,15 +297,12 @@ class Underflow:
 
 
 def measure_c07(case: Underflow) -> dict[str, float]:
-    """The rotation at |Ω| = size and where its NaN begins, by halving; the paper's run with it and with its cure.
-
-    The shock is moved from 2 s to 0.56 s to save time: its tail, which sets the bar turning, begins 27 widths (0.54 s)
-    before the peak, wherever that is.
-    """
+    """Find the largest |Ω| with NaN by bisection; run the paper's scene with this and with the correct rotation."""
     low, high = -200.0, -100.0  # powers of ten: NaN at the first, none at the second
     while high - low > 0.01:
         middle = (low + high) / 2
         low, high = (middle, high) if _is_nan(case.rotation, 10**middle) else (low, middle)
+    # The tail, which turns the bar, begins 27 widths (0.54 s) before the peak; 0.56 s instead of 2 s saves time.
     scene = Scene(EQUAL, link=HEAVY_LINK, shock=Shock((50, 0, 0), 0.56, 1 / 50))
     ends = np.round(np.arange(1, 201) * STEP, 6)
     lost = bisect_left(ends, True, key=lambda end: _is_lost(scene, case.rotation, end))
@@ -342,7 +323,7 @@ def measure_c07(case: Underflow) -> dict[str, float]:
 
 
 def decide_c07(m: Mapping[str, float]) -> Finding:
-    """NaN at an Ω not zero whose square is; squares on both sides of where the NaN begins; the paper's run."""
+    """Decide by the NaN at a nonzero Ω whose square is zero, by the squares on both sides of the limit, by the paper's run."""
     rounded = m["omega_rad_per_s"] != 0 and m["omega_squared"] == 0
     edge = m["its_square"] == 0 < m["square_of_that"] and not m["nan_at_omega_zero"]
     return Finding(
@@ -354,43 +335,36 @@ def decide_c07(m: Mapping[str, float]) -> Finding:
         f"At |Ω| = {scientific(m['omega_rad_per_s'])} rad/s the printed rotation "
         f"{'is' if m['nan_at_that_omega'] else 'is not'} NaN; it is NaN up to "
         f"{scientific(m['largest_omega_that_fails_rad_per_s'], 1)} rad/s, whose square rounds to zero, but not at zero. The "
-        f"paper's run is lost {m['shock_at_s'] - m['nan_at_s_printed_rotation']:.2f} s before the peak of the shock, in its "
-        "tail, which sets the resting bar turning by less than that (the shock was moved from 2 s to "
+        f"paper's run turns to NaN {m['shock_at_s'] - m['nan_at_s_printed_rotation']:.2f} s before the peak of the shock, whose "
+        "tail turns the resting bar at less than this rate (the shock was moved from 2 s to "
         f"{m['shock_at_s']:.2f} s to save time). With n = Ω/|Ω| and |Ω| by hypot the run "
-        f"{'is lost too' if m['nan_with_cured_rotation'] else 'is not lost'}.",
+        f"{'turns to NaN, too' if m['nan_with_cured_rotation'] else 'does not turn to NaN'}.",
     )
 
 
 C06 = ClaimTest(
-    "C06",
-    MisplacedBar(),
+    "C06", MisplacedBar(),
     {SPIKES: MisplacedBar(height=1.0), DECAYS: MisplacedBar(damping=0.0), STAYS: MisplacedBar(spins=(9.0, 9.0))},
-    "spring-linked bodies, S = 10⁴ N/m, D = 250 kg/s",
-    measure_c06,
-    decide_c06,
+    "spring-linked bodies, S = 10⁴ N/m, D = 250 kg/s", measure_c06, decide_c06,
     unproved="it is about the springs of the paper's program",
-)
-# At 10⁻¹⁵⁰ rad/s the square is 10⁻³⁰⁰: not rounded to zero.
-# The cured rotation is NaN nowhere.
+)  # fmt: skip
+# At 10⁻¹⁵⁰ rad/s the square is 10⁻³⁰⁰, which does not round to zero. The corrected rotation is NaN nowhere.
 C07 = ClaimTest(
-    "C07",
-    Underflow(),
+    "C07", Underflow(),
     {NAN: Underflow(1e-150), EDGE: Underflow(rotation=finite_rotation), _LOST: Underflow(rotation=finite_rotation)},
-    "spring-linked bodies with the printed rotation",
-    measure_c07,
-    decide_c07,
+    "spring-linked bodies with the printed rotation", measure_c07, decide_c07,
     unproved="it is about rounding in the paper's program",
-)
+)  # fmt: skip
 
 
-# J; "constant" is to the digits of the second.
+# J; "constant" means to the digits of the second number.
 PRINTED = {"before": PrintedNumber("100"), "after": PrintedNumber("100.45")}
-OMEGA_S, N = 10.0, 20  # rad/s, the spin; what the paper leaves open in S = 2000 (M/n) ω_s², D = 500 (M/n) ω_s
+OMEGA_S, N = 10.0, 20  # rad/s, the spin; n is unspecified in the paper's S = 2000 (M/n) ω_s², D = 500 (M/n) ω_s
 TRIED = (5, 8, 10, 20, 40, 80, 160)  # values of n
 SECONDS = 8.0  # of the paper's run after the shock
 _FORCE = 50.0
 CONSERVED = 1e-6  # of the impulse, a thousand times the error of the exact runs
-FREED = 1e-3  # of the impulse: the dampers are not central and change the angular momentum, by less than this
+FREED = 1e-3  # of the impulse: the dampers are not central and change the angular momentum by less
 
 FROM_100, TO_100_45, _CONSTANT = "the energy starts at 100 J", "it rises to about 100.45 J", "it then stays constant"
 MOMENTUM, ANGULAR = "the total momentum is not conserved", "the total angular momentum is not conserved"
@@ -398,7 +372,7 @@ BY_GROUNDS = "the cause is what the grounds exert: without them both are conserv
 
 
 def _spring_energy(scene: Scene, n: int, times: Array) -> Array | None:
-    """Kinetic energy (J) at `times` by the paper's program with ω_s = 10 rad/s; None where 1 ms is above the step limit."""
+    """Return the kinetic energy (J) in the paper's program with ω_s = 10 rad/s; None if 1 ms exceeds the step limit."""
     system = paper_system(scene, 2000 / n * OMEGA_S**2, 500 / n * OMEGA_S)
     if step_limit(system).whole <= STEP:
         return None
@@ -406,7 +380,7 @@ def _spring_energy(scene: Scene, n: int, times: Array) -> Array | None:
 
 
 def _jump(scene: Scene) -> float:
-    """Energy (J) that a shock along x gives an equal pair: P²R²/(4(a + b)) exp(−(Ωw)²/2), Ω = G/(a + b), width w."""
+    """Return the energy (J) from a shock along x at equal spins: P²R²/(4(a + b)) exp(−(Ωw)²/2), Ω = G/(a + b), width w."""
     shock, inertia = shock_of(scene), sum(scene.inertias)
     narrow = (shock.impulse[0] * scene.rotor.length) ** 2 / (4 * inertia)
     return float(narrow * np.exp(-((scene.momenta[0] / inertia * shock.width) ** 2) / 2))
@@ -422,22 +396,21 @@ class ShockAlongX:
 
 
 def measure_c08(case: ShockAlongX) -> dict[str, float]:
-    """Energies before and after a shock by three ways; which n give the same."""
+    """Measure the energies before and after a shock with three models, and the n that give the printed energy."""
     scene, light = (shocked_scene(case.spins, (case.force, 0, 0), bar, case.width) for bar in (HEAVY_LINK, LIGHT))
     at = shock_of(scene).at
-    first = np.round(at + np.arange(0.14, 0.25, 0.02), 3)  # seven widths after the peak the shock is over
-    rising = np.round(
-        at + np.arange(-0.1, 0.25, 0.002), 3
-    )  # to where it rises is its highest value: the dampers take it back
+    first = np.round(at + np.arange(0.14, 0.25, 0.02), 3)  # the shock ends seven widths after the peak
+    # The highest value counts, because the dampers then dissipate energy.
+    rising = np.round(at + np.arange(-0.1, 0.25, 0.002), 3)
     springs = _spring_energy(scene, N, np.append(first, at + SECONDS))
     assert springs is not None  # n = 20 is stable at 1 ms, see `step_limit_ms`
     exact = simulate(scene, np.linspace(0, at + SECONDS, 83), "spheres", 1e-10)
     exact_after = exact.energy[exact.t > first[0]]
-    tried = {n: seen.max() for n in TRIED if (seen := _spring_energy(scene, n, rising)) is not None}
-    fitting = [n for n, highest in tried.items() if PRINTED["after"].is_matched(highest)]
+    peaks = {n: energies.max() for n in TRIED if (energies := _spring_energy(scene, n, rising)) is not None}
+    fitting = [n for n, highest in peaks.items() if PRINTED["after"].is_matched(highest)]
     return {
         "before_J": exact.energy[0],
-        "highest_springs_J": tried[N],
+        "highest_springs_J": peaks[N],
         "after_exact_J": exact_after[0],
         "after_closed_form_J": exact.energy[0] + _jump(scene),
         "after_closed_form_light_bar_J": exact.energy[0] + _jump(light),
@@ -453,56 +426,56 @@ def measure_c08(case: ShockAlongX) -> dict[str, float]:
 
 
 def decide_c08(m: Mapping[str, float]) -> Finding:
-    """The energies before and after, both with springs and exactly; what is left of them 8 s later, likewise."""
+    """Decide by the energies before, after and 8 s after the shock, with springs and in the exact model."""
     reached = [PRINTED["after"].is_matched(m[key]) for key in ("highest_springs_J", "after_exact_J")]
-    least, most, unit = m["smallest_n_that_fits"], m["largest_n_that_fits"], PRINTED["after"].half_unit
-    kept = m["swing_in_8_s_exact_J"] < unit
-    drained = "the joints are rigid: the dampers of the paper's springs slowly drain the energy" if kept else ""
+    least, greatest, unit = m["smallest_n_that_fits"], m["largest_n_that_fits"], PRINTED["after"].half_unit
+    is_constant = m["swing_in_8_s_exact_J"] < unit
+    drained = "the joints are rigid: the dampers of the paper's springs slowly drain the energy" if is_constant else ""
     return Finding(
         (
             Part(FROM_100, PRINTED["before"].is_matched(m["before_J"])),
             Part(TO_100_45, all(reached)),
-            Part(_CONSTANT, kept and m["lost_in_8_s_springs_J"] < unit, drained),
+            Part(_CONSTANT, is_constant and m["lost_in_8_s_springs_J"] < unit, drained),
         ),
         f"{PRINTED['before'].rule} J, {PRINTED['after'].rule} J. The energy rises from {m['before_J']:.2f} to "
-        f"{m['highest_springs_J']:.4f} J with springs, {m['after_exact_J']:.4f} J exactly, {m['after_closed_form_J']:.4f} J by "
-        f"P²R²/(4(a + b)) and the width of the pulse. The exact pair then keeps it to {scientific(m['swing_in_8_s_exact_J'])} "
-        f"J; from 0.14 s after the peak the dampers of the springs take {m['lost_in_8_s_springs_J']:.4f} J in 8 s. S = "
-        f"{m['stiffness_N_per_m']:.0f} N/m "
-        f"and D = {m['damping_kg_per_s']:.0f} kg/s (n = {N}, ω_s = {OMEGA_S:.0f} rad/s) are stable up to a step of "
-        f"{m['step_limit_ms']:.2f} ms; with that ω_s, n from {least:.0f} to {most:.0f} of those tried gives the printed number. "
+        f"{m['highest_springs_J']:.4f} J with springs, to {m['after_exact_J']:.4f} J in the exact model, and to "
+        f"{m['after_closed_form_J']:.4f} J by P²R²/(4(a + b)) with the width of the pulse. The exact pair then conserves it to "
+        f"{scientific(m['swing_in_8_s_exact_J'])} J, while the dampers of the springs dissipate "
+        f"{m['lost_in_8_s_springs_J']:.4f} J in 8 s. S = {m['stiffness_N_per_m']:.0f} N/m and D = "
+        f"{m['damping_kg_per_s']:.0f} kg/s (n = {N}, ω_s = {OMEGA_S:.0f} rad/s) are stable up to a step of "
+        f"{m['step_limit_ms']:.2f} ms. With this ω_s, the tested n from {least:.0f} to {greatest:.0f} give the printed number. "
         f"The light bar of 5.2.1 would give {m['after_closed_form_light_bar_J']:.2f} J and needs a step below "
         f"{m['step_limit_light_bar_ms']:.2f} ms.",
     )
 
 
 def _momenta(run: Trajectory) -> tuple[Array, Array]:
-    """Total momentum (n, 3), total angular momentum (n, 3) about the middle between the ground joints, bar included."""
+    """Return the total momentum (n, 3) and the total angular momentum (n, 3) about the midpoint of the ground joints."""
     scene, (r1, r2), (v1, v2) = run.scene, run.axes, run.rates
     rotor, R = scene.rotor, scene.rotor.length
     p = [rotor.mass * R / 2 * v for v in (v1, v2)]
     e, e_rate = np.array([1.0, 0, 0]) + R / HEAVY_LINK.length * (r2 - r1), R / HEAVY_LINK.length * (v2 - v1)
     bar_p = HEAVY_LINK.mass * R / 2 * (v1 + v2)
     L = np.cross(R / 2 * (r1 + r2), bar_p) + HEAVY_LINK.inertia * np.cross(e, e_rate)
-    for joint, r, v, G, own in zip(run.joints, run.axes, run.rates, scene.momenta, p, strict=True):
-        L = L + rotor.J * np.cross(r, v) + G * r + np.cross(joint, own)
+    for joint, r, v, G, momentum in zip(run.joints, run.axes, run.rates, scene.momenta, p, strict=True):
+        L = L + rotor.J * np.cross(r, v) + G * r + np.cross(joint, momentum)
     return p[0] + p[1] + bar_p, L
 
 
 @dataclass(frozen=True)
 class Grounds:
-    """Whether the pair stands on its grounds; and how many of them are kept where it is said to be without them."""
+    """Ground joints in the main run (`grounded`), and their number (`count`) in the run without grounds, which should be 0."""
 
     grounded: bool = True
-    kept: int = 0
+    count: int = 0
 
 
 def measure_c09(case: Grounds) -> dict[str, float]:
-    """Over the impulse, for 2.4 s after the shock: how far the total momenta swing, with the grounds and without them."""
+    """Measure the ranges of the total momenta over the impulse, for 2.4 s after the shock, with and without grounds."""
     scene = shocked_scene(EQUAL, (_FORCE, 0, 0))
     exact, impulse = after_shock(scene, 2.4, 1e-11), float(np.linalg.norm(shock_of(scene).impulse))
     freed = RigidBodySystem(paper_bodies(scene), STIFFNESS, DAMPING)
-    for rotor in range(1, case.kept + 1):
+    for rotor in range(1, case.count + 1):
         freed.ground(rotor, 1)
     join_bar(freed)
     run = run_steps(freed, scene.shock, np.append(0, np.round(np.arange(0.34, 2.6, 0.02), 3)), STEP)
@@ -523,7 +496,7 @@ def measure_c09(case: Grounds) -> dict[str, float]:
 
 
 def decide_c09(m: Mapping[str, float]) -> Finding:
-    """The swings of both momenta, the angular one about three places; and those of the same bodies without grounds."""
+    """Decide by the ranges of both momenta, the angular one about three points, with and without grounds."""
     about_ground, about_middle, about_line = (
         m[f"angular_momentum_swing_about_{place}"] for place in ("ground_1", "the_middle", "the_joint_line")
     )
@@ -535,32 +508,25 @@ def decide_c09(m: Mapping[str, float]) -> Finding:
             Part(ANGULAR, min(about_ground, about_middle, about_line) > CONSERVED, needs),
             Part(BY_GROUNDS, caused),
         ),
-        f"In the 2.4 s after the shock, per unit of its impulse, the momentum swings by {m['momentum_swing']:.2f}, and the "
-        f"angular momentum by {about_ground:.2f} m about ground 1, by {scientific(about_middle)} m about the middle between the "
-        f"grounds, by {scientific(about_line)} m about the line through them, about which the grounds have no moment. The same "
-        f"bodies without grounds keep both, to {scientific(m['momentum_swing_without_grounds'])} and "
-        f"{scientific(m['angular_momentum_swing_without_grounds'])} m. The paper's own run, with parallel axes, thus has a "
-        "conserved angular momentum, about the middle, which could have served as a check.",
+        f"In the 2.4 s after the shock, per unit of its impulse, the momentum varies by {m['momentum_swing']:.2f}. The angular "
+        f"momentum varies by {about_ground:.2f} m about ground 1, by {scientific(about_middle)} m about the midpoint of the "
+        f"grounds, and by {scientific(about_line)} m about the line through them, about which the grounds exert no moment. "
+        f"Without grounds the same bodies conserve both, to {scientific(m['momentum_swing_without_grounds'])} and "
+        f"{scientific(m['angular_momentum_swing_without_grounds'])} m. The paper's run has parallel axes, so that its angular "
+        "momentum about the midpoint is conserved, which could have served as a check.",
     )
 
 
-# C08: a pulse seven times as wide still pushes when the energy is first read. C09: with one ground kept, it exerts a force.
+# C08: a pulse of seven times the width still acts when the energy is first read. C09: one remaining ground exerts a force.
 C08 = ClaimTest(
-    "C08",
-    ShockAlongX(),
+    "C08", ShockAlongX(),
     {FROM_100: ShockAlongX((5.0, 5.0)), TO_100_45: ShockAlongX(force=45.0), _CONSTANT: ShockAlongX(width=7 / 50)},
-    "spring-linked bodies, the exact pair, the closed form",
-    measure_c08,
-    decide_c08,
+    "spring-linked bodies, the exact pair, the closed form", measure_c08, decide_c08,
     lambda case: energies(FROM_100, TO_100_45, case.spins, PRINTED) if case == ShockAlongX() else (),
     "whether the energy stays constant depends on the dampers of the paper's program",
-)
+)  # fmt: skip
 C09 = ClaimTest(
-    "C09",
-    Grounds(),
-    {MOMENTUM: Grounds(grounded=False), ANGULAR: Grounds(grounded=False), BY_GROUNDS: Grounds(kept=1)},
-    "exact pair (spheres), bar m = 1 kg, K = 1 kg m²; spring-linked bodies without grounds",
-    measure_c09,
-    decide_c09,
+    "C09", Grounds(), {MOMENTUM: Grounds(grounded=False), ANGULAR: Grounds(grounded=False), BY_GROUNDS: Grounds(count=1)},
+    "exact pair (spheres), bar m = 1 kg, K = 1 kg m²; spring-linked bodies without grounds", measure_c09, decide_c09,
     unproved="its cause is shown on the bodies of the paper's program",
-)
+)  # fmt: skip
