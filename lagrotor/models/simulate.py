@@ -27,7 +27,14 @@ from lagrotor.models.model import (
     typical_rate,
 )
 from lagrotor.numerics.arrays import check_times
-from lagrotor.numerics.error_estimate import EstimatedRun, Evolution, Patience, estimate_run, first_time, start_beside
+from lagrotor.numerics.error_estimate import (
+    EstimatedRun,
+    EvaluationBudget,
+    Evolution,
+    estimate_run,
+    first_time,
+    perturbed_state,
+)
 from lagrotor.numerics.integrate import check_engine, check_progress, check_tolerance
 from lagrotor.numerics.run import Ending
 from lagrotor.numerics.segment import StopError, Stretch
@@ -38,9 +45,9 @@ from lagrotor.result_display import scientific
 
 LADDER = (minimal.MODEL, spheres.MODEL)  # of `auto`: where one stops, the next runs the scene
 MODELS: dict[str, Model] = {model.name: model for model in (*LADDER, euler.MODEL)}
-_BY_NAME = Patience(20_000, 250 * 2 * pi)
+_BY_NAME = EvaluationBudget(20_000, 250 * 2 * pi)
 # Where a looser run may take its place: five times as many serve none better.
-_REPLACEABLE = Patience(1_000, 500 * 2 * pi)
+_REPLACEABLE = EvaluationBudget(1_000, 500 * 2 * pi)
 LONG_RUN = Calibrated(
     300.0,
     "turns beyond which the averaged motion is tried before one is integrated",
@@ -208,7 +215,7 @@ def trajectory_of(
     # By the clock of the natural units the last time is off by rounding.
     ending = replace(run.ending, at=float(times[-1])) if run.ending.kind == "end" else run.ending
     return Trajectory(
-        **run.known | {"t": times[:n], "ending": ending}, scene=scene, model=model, why=why, axes=seen.axes,
+        **run.run_fields | {"t": times[:n], "ending": ending}, scene=scene, model=model, why=why, axes=seen.axes,
         rates=seen.rates * units.rate, momenta=constant_momenta(scene, n) + momenta * units.inertia * units.rate,
     )  # fmt: skip
 
@@ -234,7 +241,7 @@ class _Door:
     engine: str
     progress: Callable[[float], None] | None
 
-    def run(self, model: Model, patience: Patience, bounded: bool = False) -> EstimatedRun:
+    def run(self, model: Model, patience: EvaluationBudget, bounded: bool = False) -> EstimatedRun:
         """The model's run; bounded: it ends where the model is badly conditioned, and another is at hand.
 
         Raises StopError, in s, where nothing is reached.
@@ -304,7 +311,7 @@ def evolution_of(
     model: Model,
     scene: Scene,
     t_end: float,
-    patience: Patience,
+    patience: EvaluationBudget,
     engine: str = "core",
     *,
     bounded: bool = False,
@@ -347,15 +354,15 @@ def evolution_of(
         integrate,
         distance,
         turn=2 * pi / PACE,
-        patience=patience,
+        budget=patience,
         project=model.projection(scene) if model.projection else None,
-        unsure=start_unsure(model, scene, start),
-        slack=model.slack if scene.link else None,
-        defect=defect,
+        start_error=start_unsure(model, scene, start),
+        constraint_uncertainty=model.slack if scene.link else None,
+        conservation_error=defect,
         difference=difference,
         watch=nodes.t if nodes else np.empty(0),
         singular=lambda y: model.singular(model.observe(scene, y[None]).axes[:, 0]),
-        elsewhere=bounded,
+        has_other_coordinates=bounded,
     )
 
 
@@ -363,7 +370,7 @@ def start_unsure(model: Model, scene: Scene, start: Array) -> float:
     """How far, in units of rounding, the model's start (d,) is off the scene's: beside the joint line the bar hardly says where
     an axis on it is, and coordinates made for the bar may take another than the nearest."""
     unsure, many = 1.0, 1e4  # a step of rounding itself may move nothing
-    seen = model.observe(scene, np.array([start, start_beside(start, many)]))
+    seen = model.observe(scene, np.array([start, perturbed_state(start, many)]))
     for given, part, unit in ((scene.axes, seen.axes, 1.0), (scene.rates, seen.rates, PACE)):
         off = float(np.abs(part[:, 0] - given).max()) / unit
         moved = float(np.abs(part[:, 1] - part[:, 0]).max()) / unit / many

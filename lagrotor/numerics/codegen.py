@@ -38,15 +38,15 @@ class Program:
     positive: tuple[sp.Expr, ...] = ()
 
     def __post_init__(self) -> None:
-        known = set(self.arguments)
+        defined = set(self.arguments)
         check_names("Program", self.arguments, tuple(name for name, _ in self.stages))
         for name, expression in (*self.stages, *((None, e) for e in (*self.outputs, *self.positive))):
-            if missing := expression.free_symbols - known:
+            if missing := expression.free_symbols - defined:
                 check_names("Program", self.arguments, tuple(missing))
                 raise SingularError(
                     f"Program: {sorted(map(str, missing))} used before it is defined; add it to arguments"
                 )
-            known |= {name} if name else set()
+            defined |= {name} if name else set()
 
 
 @lru_cache(maxsize=16)
@@ -60,10 +60,10 @@ def reduce_common(program: Program) -> tuple[Sequence[Stage], Sequence[sp.Expr]]
         return stages, outputs
     symbols = sp.numbered_symbols("c_", real=True)
     if program.shared:
-        parts, reduced = tree_cse(expressions, symbols, order="none")
+        common, reduced = tree_cse(expressions, symbols, order="none")
     else:
-        parts, reduced = sp.cse(expressions, symbols=symbols)
-    body = dict(parts) | dict(zip(names, reduced[: len(names)], strict=True))
+        common, reduced = sp.cse(expressions, symbols=symbols)
+    body = dict(common) | dict(zip(names, reduced[: len(names)], strict=True))
     return _ordered(body, reduced[len(names) :]), reduced[len(names) :]
 
 
@@ -82,15 +82,15 @@ def _ordered(body: Mapping[sp.Symbol, sp.Expr], outputs: Sequence[sp.Expr]) -> l
 
 def _repeats(expressions: Sequence[sp.Expr]) -> bool:
     """Whether a part of them occurs twice, other than a symbol with a minus sign, which costs nothing in a sum."""
-    left, seen = list(expressions), set[sp.Basic]()
-    while left:
-        e = left.pop()
+    stack, visited = list(expressions), set[sp.Basic]()
+    while stack:
+        e = stack.pop()
         if e.is_Atom or (e.is_Mul and len(e.args) == 2 and e.args[0] is sp.S.NegativeOne and e.args[1].is_Atom):
             continue
-        if e in seen:
+        if e in visited:
             return True
-        seen.add(e)
-        left += e.args
+        visited.add(e)
+        stack += e.args
     return False
 
 
@@ -106,19 +106,19 @@ def operations(program: Program) -> int:
 
 def _count(expression: sp.Expr) -> int:
     """What `sympy.count_ops` counts, which for each product looks for a fraction: only where it may be one."""
-    left, count = [expression], 0
-    while left:
-        e = left.pop()
+    stack, count = [expression], 0
+    while stack:
+        e = stack.pop()
         factors = e.args[1:] if e.is_Mul and e.args[0] is sp.S.NegativeOne else e.args
         if e.is_Symbol:
             continue
         if e.is_Mul and not any(f.is_Pow or f.is_Number or isinstance(f, sp.exp) for f in factors):
             count += len(e.args) - 1  # a sign, too, is one
-            left += factors
+            stack += factors
         elif e.is_Add and not any(f.is_Number for f in e.args):
             signs = [f.is_Mul and f.args[0].is_Number and bool(f.args[0] < 0) for f in e.args]
             count += len(e.args) - 1 + all(signs) - sum(signs)  # differences cost what sums do
-            left += e.args
+            stack += e.args
         else:
             count += int(sp.count_ops(e))
     return count
@@ -133,20 +133,20 @@ def tangent_program(
     differentiation, stage by stage: exact, and no longer than k + 1 times the program and a little.
     """
     stages, outputs = reduce_common(program)
-    known, count = {s: list(row) for s, row in slopes.items()}, len(next(iter(slopes.values())))
+    derivatives, count = {s: list(row) for s, row in slopes.items()}, len(next(iter(slopes.values())))
     both: list[Stage] = []
 
     def along(e: sp.Expr) -> list[sp.Expr]:
-        partial = {s: derivative(e, s) for s in sorted(e.free_symbols, key=str) if s in known}
-        return [sp.Add(*(d * known[s][j] for s, d in partial.items())) for j in range(count)]
+        partial = {s: derivative(e, s) for s in sorted(e.free_symbols, key=str) if s in derivatives}
+        return [sp.Add(*(d * derivatives[s][j] for s, d in partial.items())) for j in range(count)]
 
     for name, e in stages:
         both.append((name, e))
-        known[name] = along(e)
-        for j, slope in enumerate(known[name]):
+        derivatives[name] = along(e)
+        for j, slope in enumerate(derivatives[name]):
             if not slope.is_Atom:
-                known[name][j] = sp.Symbol(f"d{j}_{name}", real=True)
-                both.append((known[name][j], slope))
+                derivatives[name][j] = sp.Symbol(f"d{j}_{name}", real=True)
+                both.append((derivatives[name][j], slope))
     whole = (*outputs, *(slope for e in outputs for slope in along(e)))
     return Program(arguments, tuple(both), whole)
 
@@ -185,6 +185,6 @@ def solve_symmetric(matrix: sp.Matrix, right: sp.Matrix, prefix: str) -> tuple[l
         work[j, j] = pivot
     for col in range(columns):
         for j in reversed(range(n)):
-            rest = sum((lower[i, j] * x[i, col] for i in range(j + 1, n)), sp.Integer(0))
-            x[j, col] = keep(f"x{j}{col}", x[j, col] / work[j, j] - rest)
+            products = sum((lower[i, j] * x[i, col] for i in range(j + 1, n)), sp.Integer(0))
+            x[j, col] = keep(f"x{j}{col}", x[j, col] / work[j, j] - products)
     return stages, x

@@ -31,8 +31,8 @@ def spectrum(t: Array, x: Array) -> tuple[Array, Array]:
 def peak(rate: Array, amplitude: Array) -> float:
     """Rate (rad/s) of the highest peak: the top of the parabola through the logarithms of its three highest points."""
     n = int(np.argmax(amplitude))
-    before, top, after = np.log(amplitude[n - 1 : n + 2])
-    return float(rate[n] + (before - after) / (before - 2 * top + after) / 2 * (rate[1] - rate[0]))
+    first, top, last = np.log(amplitude[n - 1 : n + 2])
+    return float(rate[n] + (first - last) / (first - 2 * top + last) / 2 * (rate[1] - rate[0]))
 
 
 def mean_between(t: Array, x: Array, start: float, end: float) -> Array:
@@ -96,12 +96,12 @@ class Harmonics:
     constant: Array
     slope: Array
     waves: NDArray[np.complex128]
-    rest: Array
+    residual: Array
 
     @property
-    def left(self) -> float:
+    def residual_squares(self) -> float:
         """Sum of the squares that the fit leaves."""
-        return float((self.rest**2).sum())
+        return float((self.residual**2).sum())
 
 
 def harmonics_at(t: Array, x: Array, rate: float, count: int = 2) -> Harmonics:
@@ -121,8 +121,14 @@ def harmonics_at(t: Array, x: Array, rate: float, count: int = 2) -> Harmonics:
     s, columns = t - t[0], x.reshape(len(t), -1)
     waves = [wave(n * rate * s) for n in range(1, count + 1) for wave in (np.cos, np.sin)]
     table = np.column_stack([np.ones_like(s), s - s.mean(), *waves])
-    parts = np.linalg.lstsq(table, columns, rcond=None)[0]
-    return Harmonics(rate, parts[0], parts[1], parts[2::2] - 1j * parts[3::2], columns - table @ parts)
+    coefficients = np.linalg.lstsq(table, columns, rcond=None)[0]
+    return Harmonics(
+        rate,
+        coefficients[0],
+        coefficients[1],
+        coefficients[2::2] - 1j * coefficients[3::2],
+        columns - table @ coefficients,
+    )
 
 
 def best_harmonics(t: Array, x: Array, guess: float, low: float = 0.8, high: float = 1.3) -> Harmonics:
@@ -146,13 +152,13 @@ def best_harmonics(t: Array, x: Array, guess: float, low: float = 0.8, high: flo
     """
     from scipy.optimize import minimize_scalar
 
-    def left(rate: float) -> float:
-        return harmonics_at(t, x, rate).left
+    def misfit(rate: float) -> float:
+        return harmonics_at(t, x, rate).residual_squares
 
     step = 2 * np.pi / (t[-1] - t[0]) / 5  # a fifth of what takes the phase once round over the run
     grid = np.append(np.arange(low * guess, high * guess, step), high * guess)
-    best = float(grid[np.argmin([left(rate) for rate in grid])])
+    best = float(grid[np.argmin([misfit(rate) for rate in grid])])
     minimum = minimize_scalar(
-        left, bounds=(best - step, best + step), method="bounded", options={"xatol": 1e-7 * guess}
+        misfit, bounds=(best - step, best + step), method="bounded", options={"xatol": 1e-7 * guess}
     )
     return harmonics_at(t, x, float(minimum.x))

@@ -49,11 +49,11 @@ _PARTS = 8
 _SAMPLES = 65  # times at which a run is watched besides those it is read at
 
 
-class Patience(NamedTuple):
+class EvaluationBudget(NamedTuple):
     """Evaluations that an integration may take: `begin` in all, and `turn` more for each turn of the motion."""
 
-    begin: float
-    turn: float
+    base: float
+    per_turn: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,16 +78,16 @@ class Evolution:
     integrate: Callable[[Array, Array, float, bool, float], Stretch]
     distance: Callable[[Array, Array], Array]
     turn: float
-    patience: Patience
+    budget: EvaluationBudget
     project: Projection | None = None
-    unsure: float = 1.0
-    slack: Callable[[Array], Array] | None = None
+    start_error: float = 1.0
+    constraint_uncertainty: Callable[[Array], Array] | None = None
     sizes: Array | float = 1.0
-    defect: Callable[[Array, Array], Array] | None = None
+    conservation_error: Callable[[Array, Array], Array] | None = None
     difference: Callable[[Array, Array], float] | None = None
     watch: Array = field(default_factory=lambda: np.empty(0))
     singular: Callable[[Array], str] | None = None
-    elsewhere: bool = False
+    has_other_coordinates: bool = False
     sudden: bool = False
 
 
@@ -118,7 +118,7 @@ class EstimatedRun:
     local: float
 
     @property
-    def known(self) -> dict[str, Any]:
+    def run_fields(self) -> dict[str, Any]:
         """The fields of a `Run`, by name."""
         return {name: getattr(self, name) for name in ("t", "errors", "horizon", "evaluations", "ending")}
 
@@ -129,12 +129,12 @@ class EstimatedRun:
             return begin + unit * time
 
         ending = replace(self.ending, at=at(self.ending.at))
-        parts: dict[str, Any] = {"t": begin + unit * self.t, "horizon": at(self.horizon)}
-        return replace(self, ending=ending, **parts)
+        changes: dict[str, Any] = {"t": begin + unit * self.t, "horizon": at(self.horizon)}
+        return replace(self, ending=ending, **changes)
 
     def warn_unless_kept(self, name: str, tol: float, stacklevel: int = 2, hint: str = "") -> None:
         """A LagrotorWarning where `tol` is not kept, or the run ended early; hint: what may be the cause, with the way out."""
-        said, error = [], float(self.errors[-1])
+        sentences, error = [], float(self.errors[-1])
         if error > tol:
             apart = error / self.local
             reason = (
@@ -142,15 +142,15 @@ class EstimatedRun:
                 if apart > 1e5
                 else "it is below what the solver can give after"
             )
-            said.append(
+            sentences.append(
                 f"{name} does not keep tol = {tol:g}: the estimated error is {scientific(error, 1)}; {reason} "
                 f"t = {self.horizon:.6g} s"
             )
         if self.ending.early:
-            said.append(f"{name} ended early: {self.ending}; it holds what was reached")
-        if said:
-            said += [hint] if hint else []
-            warnings.warn("simulate: " + "; ".join(said), LagrotorWarning, stacklevel=stacklevel + 1)
+            sentences.append(f"{name} ended early: {self.ending}; it holds what was reached")
+        if sentences:
+            sentences += [hint] if hint else []
+            warnings.warn("simulate: " + "; ".join(sentences), LagrotorWarning, stacklevel=stacklevel + 1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,7 +159,7 @@ class _Integration:
 
     local: float
     companion: bool
-    part: Stretch
+    stretch: Stretch
     stop: StopError | None = None
 
 
@@ -183,8 +183,8 @@ class _Pair:
     @property
     def merit(self) -> tuple[bool, float, float, int, float]:
         """Smaller is better: not refused, a small error, known for long; of two that stop at once, known better up to there."""
-        known = float(np.max(self.errors, initial=0.0))
-        return self.refusal is not None, self.error, -self.lost, -len(self.errors), known
+        estimate = float(np.max(self.errors, initial=0.0))
+        return self.refusal is not None, self.error, -self.lost, -len(self.errors), estimate
 
 
 class _Course:
@@ -205,31 +205,33 @@ class _Course:
         evolution = self.evolution
         if run := self.integrations.get((local, companion)):
             return run
-        start = self._start_beside() if companion else evolution.start
-        budget = evolution.patience.begin + evolution.patience.turn * float(self.turns[-1])
-        part, end = Stretch(start[None], start, 0), None
+        start = self._perturbed_start() if companion else evolution.start
+        budget = evolution.budget.base + evolution.budget.per_turn * float(self.turns[-1])
+        stretch, cause = Stretch(start[None], start, 0), None
         try:
             if len(self.t) > 1:
-                part = yield Leg(start, self.t, local, companion, min(budget, MOST_EVALUATIONS))
+                stretch = yield Leg(start, self.t, local, companion, min(budget, MOST_EVALUATIONS))
         except StopError as stop:
-            end, part = stop, stop.reached or Stretch(np.empty((0, len(start))), start, 0)
-            self.spent += stop.evaluations - part.evaluations
-        self.spent += part.evaluations
-        if end or part.evaluations > budget:  # a solver may find out at its end: it is the last one so tight
+            cause, stretch = stop, stop.reached or Stretch(np.empty((0, len(start))), start, 0)
+            self.spent += stop.evaluations - stretch.evaluations
+        self.spent += stretch.evaluations
+        if cause or stretch.evaluations > budget:  # a solver may find out at its end: it is the last one so tight
             self.refused = max(self.refused, local)
-        run = self.integrations[local, companion] = _Integration(local, companion, part, end)
+        run = self.integrations[local, companion] = _Integration(local, companion, stretch, cause)
         return run
 
-    def _start_beside(self) -> Array:
+    def _perturbed_start(self) -> Array:
         start, project = self.evolution.start, self.evolution.project
-        beside = start_beside(start, self.evolution.unsure)
-        if self.evolution.slack:  # in each component, however small: a factor of it would be taken back by `project`
-            off = np.finfo(float).eps * (self.evolution.slack(start[None])[0] - 1)
-            beside = beside + off * self.evolution.sizes * np.cos(np.arange(1, len(start) + 1))
-        return project(beside) if project else beside
+        state = perturbed_state(start, self.evolution.start_error)
+        if (
+            self.evolution.constraint_uncertainty
+        ):  # in each component, however small: a factor of it would be taken back by `project`
+            spread = np.finfo(float).eps * (self.evolution.constraint_uncertainty(start[None])[0] - 1)
+            state = state + spread * self.evolution.sizes * np.cos(np.arange(1, len(start) + 1))
+        return project(state) if project else state
 
 
-def start_beside(start: Array, unsure: float = 1.0) -> Array:
+def perturbed_state(start: Array, unsure: float = 1.0) -> Array:
     """A start (…, d) off by rounding times `unsure`, in no special direction."""
     return start * (1 + unsure * np.finfo(float).eps * np.cos(np.arange(1, start.shape[-1] + 1)))
 
@@ -303,11 +305,13 @@ def _asking(evolution: Evolution, times: Array, tol: float) -> Generator[Leg, St
     shortness = 10 / max(turns, 10 / SHORTEST.value)
     local = max(min(tol * FIRST.value * max(1.0, shortness), LOOSEST.value), APART.value * TIGHTEST)
     best = pair = yield from _compared(course, local, True)
-    while pair.refusal and not (evolution.elsewhere or local > GIVEN_UP.value or _at_singular(pair.refusal)):
+    while pair.refusal and not (
+        evolution.has_other_coordinates or local > GIVEN_UP.value or _at_singular(pair.refusal)
+    ):
         again = pair.loose.stop is None  # it is compared with a looser one
         local *= APART.value if again else APART.value**2
         pair = yield from _compared(course, local, pair.loose.companion ^ again)
-        best = min(pair, best, key=lambda one: one.merit)
+        best = min(pair, best, key=lambda candidate: candidate.merit)
     pair = best
     while unavoidable <= tol < pair.error and not pair.refusal and not _hopeless(course, pair):
         third = pair.error / APART.value <= tol / 2 and pair.tight.local >= APART.value * TIGHTEST
@@ -316,7 +320,7 @@ def _asking(evolution: Evolution, times: Array, tol: float) -> Generator[Leg, St
         if local / APART.value <= 1.1 * course.refused or local >= pair.loose.local:
             break
         pair = yield from _compared(course, local, companion)
-        best = min(pair, best, key=lambda one: one.merit)
+        best = min(pair, best, key=lambda candidate: candidate.merit)
     refusal = best.refusal
     if refusal and not (isinstance(refusal, StopError) and len(best.errors) > 1):
         refusal.evaluations = course.spent
@@ -335,40 +339,46 @@ def _compared(course: _Course, local: float, companion: bool) -> Generator[Leg, 
     evolution = course.evolution
     loose = yield from course.integration(local, companion)
     # Where another model or a looser pair is tried next, nothing more is spent on this one.
-    if loose.stop and (evolution.elsewhere or (loose.stop.cause == "budget" and local <= GIVEN_UP.value)):
+    if loose.stop and (evolution.has_other_coordinates or (loose.stop.cause == "budget" and local <= GIVEN_UP.value)):
         return _Pair(loose, loose, np.empty(0), inf, loose.stop)
     tight = yield from course.integration(local / APART.value, not companion)
     stop = tight.stop or loose.stop
-    one, other = loose.part, tight.part
-    m = min(len(one.states), len(other.states))
+    coarse, fine = loose.stretch, tight.stretch
+    m = min(len(coarse.states), len(fine.states))
     if not m:
         return _Pair(loose, tight, np.empty(0), inf, stop)
-    t, looser, better = course.t[:m], one.states[:m], other.states[:m]
+    t, looser, better = course.t[:m], coarse.states[:m], fine.states[:m]
     # Where one of the two has passed an event that the other has not, only what is read there is compared.
-    passed = [np.searchsorted(part.jumps, t, side="right") for part in (one, other)]
-    together = passed[0] == passed[1]
-    apart = evolution.distance(looser, better)
-    finite = bool(np.isfinite(looser).all() and np.isfinite(better).all() and np.isfinite(apart).all())
-    slack = np.maximum.accumulate(evolution.slack(better)) if evolution.slack else 1.0
+    jumps = [np.searchsorted(stretch.jumps, t, side="right") for stretch in (coarse, fine)]
+    together = jumps[0] == jumps[1]
+    distance = evolution.distance(looser, better)
+    finite = bool(np.isfinite(looser).all() and np.isfinite(better).all() and np.isfinite(distance).all())
+    uncertainty = (
+        np.maximum.accumulate(evolution.constraint_uncertainty(better)) if evolution.constraint_uncertainty else 1.0
+    )
     rounding = ROUNDING.value * (START.value + course.turns[:m])
-    parted = SAFETY.value ** np.where(tight.local < RESOLVED.value * slack, 2, 1) * apart
+    difference = SAFETY.value ** np.where(tight.local < RESOLVED.value * uncertainty, 2, 1) * distance
     least = LEAST.value * tight.local + rounding
-    lost = first_time(t, (parted + least > LOST.value) & together)
-    defects = [evolution.defect(t, states) for states in (looser, better)] if evolution.defect and finite else []
-    alike = _alikeness(defects, rounding[-1])
-    errors = alike * parted + least
+    lost = first_time(t, (difference + least > LOST.value) & together)
+    violations = (
+        [evolution.conservation_error(t, states) for states in (looser, better)]
+        if evolution.conservation_error and finite
+        else []
+    )
+    factor = _alikeness(violations, rounding[-1])
+    errors = factor * difference + least
     grown = errors_up_to(t, np.where(together, errors, 0.0), evolution.turn, evolution.sudden)
     refusal: IntegrationError | None = stop
-    if not (stop and evolution.elsewhere):
-        way_out = "take other coordinates or a smaller tol" if evolution.elsewhere else "take a smaller tol"
-        known = max(float(grown[-1]) / alike, tight.local)
+    if not (stop and evolution.has_other_coordinates):
+        way_out = "take other coordinates or a smaller tol" if evolution.has_other_coordinates else "take a smaller tol"
+        estimate = max(float(grown[-1]) / factor, tight.local)
         if evolution.difference and together.any():
-            known = max(known, evolution.difference(looser[together], better[together]))
+            estimate = max(estimate, evolution.difference(looser[together], better[together]))
         if not finite:
             refusal = IntegrationError(f"a value is not finite: {way_out}")
-        elif defects and (off := _largest(defects[1])) > KEPT.value * known:
+        elif violations and (violation := _largest(violations[1])) > KEPT.value * estimate:
             refusal = IntegrationError(
-                f"what the motion conserves is off by as much as an error of {off:.1e} makes, although {known:.1e} is "
+                f"what the motion conserves is off by as much as an error of {violation:.1e} makes, although {estimate:.1e} is "
                 f"estimated: the run followed another motion; {way_out}"
             )
     return _Pair(loose, tight, np.where(together, grown, np.maximum(errors, grown)), lost, refusal)
@@ -414,14 +424,14 @@ def errors_up_to(t: Array, errors: Array, turn: float, sudden: bool = False) -> 
 
 def _estimated(course: _Course, best: _Pair, tol: float) -> EstimatedRun:
     """The better integration with its errors and its ending, at the times that are read."""
-    states, stop, singular = best.tight.part.states, best.tight.stop, course.evolution.singular
+    states, stop, singular = best.tight.stretch.states, best.tight.stop, course.evolution.singular
     t = course.t[: len(states)]
     errors = np.full(len(t), UNKNOWN)
     errors[: len(best.errors)] = np.minimum(best.errors, UNKNOWN)
     errors[t >= best.lost] = UNKNOWN
     ending = Ending("lost", best.lost) if best.lost < inf else Ending("end", float(course.times[-1]))
     if stop:
-        words = singular(best.tight.part.end) if singular and stop.cause == "stopped" else ""
+        words = singular(best.tight.stretch.end) if singular and stop.cause == "stopped" else ""
         ending = Ending("singular" if words else stop.cause, stop.at, words or stop.reason.rstrip("."))
     read = np.isin(t, course.times)
     horizon = first_time(t, errors > tol)

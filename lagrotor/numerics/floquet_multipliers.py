@@ -26,16 +26,16 @@ def product_eigenvalues(factors: Sequence[Array], error: float) -> tuple[NDArray
     """
     start, n = np.eye(len(factors[0])), len(factors[0])
     for _ in range(_SWEEPS):
-        basis, parts = start, list[tuple[Array, float]]()
+        basis, triangles = start, list[tuple[Array, float]]()
         for factor in factors:
             basis, upper = np.linalg.qr(factor @ basis)
-            parts.append((upper, max(1.0, float(np.linalg.norm(factor, 2)))))
+            triangles.append((upper, max(1.0, float(np.linalg.norm(factor, 2)))))
         turn, start = start.T @ basis, basis
     values, errors = list[complex](), list[float]()
     edges = [0, *(i for i in range(1, n) if np.abs(turn[i:, :i]).max() < _APART), n]
     for a, b in pairwise(edges):
         block, noise = turn[a:b, a:b], 0.0
-        for upper, size in reversed(parts):
+        for upper, size in reversed(triangles):
             block = block @ upper[a:b, a:b]
             noise += error * size / max(float(np.linalg.norm(upper[a:b, a:b], -2)), size * np.finfo(float).tiny)
         roots, right = np.linalg.eig(block)

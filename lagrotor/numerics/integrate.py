@@ -82,63 +82,69 @@ def integrate(problem: Problem, times: Array, tol: float, solver: SegmentSolver 
     """
     t_eval = times - problem.at
     begin, end = problem.begin - problem.at, float(t_eval[-1])
-    parts, y, spent = [np.repeat(problem.start[None], np.count_nonzero(t_eval == begin), axis=0)], problem.start, 0
-    for left, right, longest in segments(begin, end, problem.windows):
-        if right > left:
+    pieces, y, evaluations = (
+        [np.repeat(problem.start[None], np.count_nonzero(t_eval == begin), axis=0)],
+        problem.start,
+        0,
+    )
+    for lower, until, longest in segments(begin, end, problem.windows):
+        if until > lower:
             pulsed = longest < np.inf
             segment = Segment(
                 problem.driven if pulsed and problem.driven else problem.free,
                 y,
-                left,
-                right,
-                t_eval[(t_eval > left) & (t_eval <= right)],
+                lower,
+                until,
+                t_eval[(t_eval > lower) & (t_eval <= until)],
                 longest,
-                problem.budget - spent,
+                problem.budget - evaluations,
                 problem.project,
                 problem.typical_rate,
                 problem.time_to_singular,
             )
             try:
-                part = (solver or by_fastest)(segment, pulsed, tol)
+                stretch = (solver or by_fastest)(segment, pulsed, tol)
             except StopError as stop:
-                spent += stop.evaluations
+                evaluations += stop.evaluations
                 reached = stop.reached or Stretch(np.empty((0, len(y))), y, 0)
-                so_far = Stretch(np.concatenate([*parts, reached.states]), reached.end, spent)
-                raise StopError(problem.at + stop.at, stop.reason, so_far, spent, stop.cause) from None
-            parts.append(part.states)
-            y, spent = part.end, spent + part.evaluations
-    return Stretch(np.concatenate(parts), y, spent)
+                so_far = Stretch(np.concatenate([*pieces, reached.states]), reached.end, evaluations)
+                raise StopError(problem.at + stop.at, stop.reason, so_far, evaluations, stop.cause) from None
+            pieces.append(stretch.states)
+            y, evaluations = stretch.end, evaluations + stretch.evaluations
+    return Stretch(np.concatenate(pieces), y, evaluations)
 
 
 class _Progress:
     """What has been made of a segment, and what is left of it."""
 
     def __init__(self, segment: Segment) -> None:
-        self.segment, self.spent, self.parts = segment, 0, [np.empty((0, len(segment.start)))]
+        self.segment, self.evaluations, self.pieces = segment, 0, [np.empty((0, len(segment.start)))]
 
-    def rest(self, right: float) -> Segment:
+    def remaining(self, right: float) -> Segment:
         """What is left up to `right`. Raises StopError where nothing may be spent on it."""
         segment = self.segment
-        if self.spent > segment.budget:
-            raise self.stopped(StopError(segment.left, f"{self.spent} evaluations spent", cause="budget"))
+        if self.evaluations > segment.budget:
+            raise self.stopped(StopError(segment.begin, f"{self.evaluations} evaluations spent", cause="budget"))
         inside = segment.t_eval <= right
-        return replace(segment, right=right, t_eval=segment.t_eval[inside], budget=segment.budget - self.spent)
+        return replace(segment, until=right, t_eval=segment.t_eval[inside], budget=segment.budget - self.evaluations)
 
-    def add(self, at: float, part: Stretch) -> None:
+    def add(self, at: float, stretch: Stretch) -> None:
         """What was made up to `at`, its evaluations apart."""
-        self.parts.append(part.states)
-        self.segment = replace(self.segment, start=part.end, left=at, t_eval=self.segment.t_eval[len(part.states) :])
+        self.pieces.append(stretch.states)
+        self.segment = replace(
+            self.segment, start=stretch.end, begin=at, t_eval=self.segment.t_eval[len(stretch.states) :]
+        )
 
-    def whole(self) -> Stretch:
-        return Stretch(np.concatenate(self.parts), self.segment.start, self.spent)
+    def result(self) -> Stretch:
+        return Stretch(np.concatenate(self.pieces), self.segment.start, self.evaluations)
 
     def stopped(self, stop: StopError) -> StopError:
         """The stop with all that was reached and spent."""
-        self.spent += stop.evaluations
+        self.evaluations += stop.evaluations
         if stop.reached:
             self.add(stop.at, stop.reached)
-        at = stop.at if isinstance(stop, OutsideError) else self.segment.left
-        return StopError(at, stop.reason, self.whole(), cause=stop.cause)
+        at = stop.at if isinstance(stop, OutsideError) else self.segment.begin
+        return StopError(at, stop.reason, self.result(), cause=stop.cause)
 
 
 def by_fastest(segment: Segment, pulsed: bool, tol: float) -> Stretch:
@@ -149,35 +155,35 @@ def by_fastest(segment: Segment, pulsed: bool, tol: float) -> Stretch:
     """
     # From a velocity that is not finite a solver makes a step that is not, and retries it for ever.
     by_dop853, progress = pulsed and tol < CROSSOVER.value, _Progress(segment)
-    progress.spent = 1
-    if not np.isfinite(segment.rhs(segment.left, segment.start)).all():
-        raise StopError(segment.left, "the right-hand side is not finite", evaluations=1)
+    progress.evaluations = 1
+    if not np.isfinite(segment.rhs(segment.begin, segment.start)).all():
+        raise StopError(segment.begin, "the right-hand side is not finite", evaluations=1)
     detour = DETOUR.value / segment.typical_rate if segment.typical_rate and not by_dop853 else np.inf
-    taken, came, since, per_time = 0, 0.0, np.inf, np.inf  # by the last trial, and by DOP853 since
-    while (left := progress.segment.left) < segment.right:
-        lost = taken - per_time * came if came else taken
-        if not by_dop853 and since >= lost and per_time * (segment.right - left) > lost:
+    trial_cost, trial_progress, since, per_time = 0, 0.0, np.inf, np.inf  # by the last trial, and by DOP853 since
+    while (now := progress.segment.begin) < segment.until:
+        lost_cost = trial_cost - per_time * trial_progress if trial_progress else trial_cost
+        if not by_dop853 and since >= lost_cost and per_time * (segment.until - now) > lost_cost:
             try:
-                run = _fastest(progress.rest(segment.right), pulsed, tol)
-                progress.spent += run.evaluations
-                progress.add(segment.right, run)
+                run = _fastest(progress.remaining(segment.until), pulsed, tol)
+                progress.evaluations += run.evaluations
+                progress.add(segment.until, run)
                 break
             except StopError as stop:
                 if isinstance(stop, OutsideError):
                     raise progress.stopped(stop) from None
                 progress.stopped(stop)
-                taken, came, since = stop.evaluations, progress.segment.left - left, 0
-        left = progress.segment.left
-        right = min(left + detour, segment.right)
-        part = progress.rest(right)
+                trial_cost, trial_progress, since = stop.evaluations, progress.segment.begin - now, 0
+        now = progress.segment.begin
+        right = min(now + detour, segment.until)
+        segment_of_detour = progress.remaining(right)
         try:
-            run = dop853(part, tol / 20)
+            run = dop853(segment_of_detour, tol / 20)
         except StopError as stop:
             raise progress.stopped(stop) from None
-        per_time, since = run.evaluations / (right - left), since + run.evaluations
-        progress.spent += run.evaluations
+        per_time, since = run.evaluations / (right - now), since + run.evaluations
+        progress.evaluations += run.evaluations
         progress.add(right, run)
-    return progress.whole()
+    return progress.result()
 
 
 def _fastest(segment: Segment, pulsed: bool, tol: float) -> Stretch:

@@ -100,8 +100,8 @@ def _quick(e: sp.Expr, show: _Printer) -> str:
     if e.is_Symbol:
         return show.names.get(e) or e.name
     if e.is_Add:
-        parts = sorted((_quick(term, show) for term in e.args), key=lambda text: text[0] == "-")
-        return "".join([parts[0], *(part if part[0] == "-" else f"+{part}" for part in parts[1:])])
+        summands = sorted((_quick(term, show) for term in e.args), key=lambda text: text[0] == "-")
+        return "".join([summands[0], *(summand if summand[0] == "-" else f"+{summand}" for summand in summands[1:])])
     if e.is_Mul and e.args[0] == -1:
         return f"-{'*'.join(_factor(f, show) for f in e.args[1:])}"
     if e.is_Mul:
@@ -169,40 +169,40 @@ def rhs_source(
     A state outside the range of the coordinates gives NaN, which makes a solver shorten its step; `rhs.bare`, for a solver
     that cannot, raises one of LOST there instead.
     """
-    wanted = (*program.outputs, *(program.positive if bounded else ()))
-    stages, reduced = reduce_common(replace(program, outputs=wanted))
+    expressions = (*program.outputs, *(program.positive if bounded else ()))
+    stages, reduced = reduce_common(replace(program, outputs=expressions))
     outputs, bounds = reduced[: len(program.outputs)], reduced[len(program.outputs) :]
     show = _Scalars()
     state, parameters = program.arguments[:states], program.arguments[states:]
     force = parameters[-3:] if driven else ()
-    fixed, moving, known = list[str](), list[Stage](), set(parameters) - set(force)
+    fixed, moving, fixed_symbols = list[str](), list[Stage](), set(parameters) - set(force)
     for name, expression in stages:
-        if expression.free_symbols <= known:
-            known.add(name)
+        if expression.free_symbols <= fixed_symbols:
+            fixed_symbols.add(name)
             fixed.append(f"{name} = {show.doprint(expression)}")
         else:
             moving.append((name, expression))
     lines = _assignments(moving, reduced, show, program.shared)
-    within = [f"{show.doprint(e)} > 0" for e in bounds]
+    checks = [f"{show.doprint(e)} > 0" for e in bounds]
     body = [
         f"{', '.join(map(str, state))} = y.tolist()",
         *([f"if begin is not None: {state[clock]} = begin + s"] if clock is not None else []),
         *(["pulse = exp(-(s / width) ** 2)", *(f"{f} = peak_{f} * pulse" for f in force)] if driven else []),
         *lines,
-        *([f"if not ({' and '.join(within)}): raise OutsideError(s)"] if within else []),
+        *([f"if not ({' and '.join(checks)}): raise OutsideError(s)"] if checks else []),
         f"return [{', '.join(map(show.doprint, outputs))}]",
     ]
-    given = [*map(str, parameters[: len(parameters) - len(force)]), *(f"peak_{f}" for f in force)]
-    given += ["begin=None"] if clock is not None else []
-    return rhs_text(body, fixed, [*given, "width"] if driven else given, len(outputs))
+    names = [*map(str, parameters[: len(parameters) - len(force)]), *(f"peak_{f}" for f in force)]
+    names += ["begin=None"] if clock is not None else []
+    return rhs_text(body, fixed, [*names, "width"] if driven else names, len(outputs))
 
 
-def rhs_text(body: list[str], fixed: list[str], given: list[str], outputs: int) -> str:
-    """Source of parameters `given` → rhs(s, y) of the lines `body`; the lines `fixed` are evaluated once."""
+def rhs_text(body: list[str], fixed: list[str], names: list[str], outputs: int) -> str:
+    """Source of parameters `names` → rhs(s, y) of the lines `body`; the lines `fixed` are evaluated once."""
     source = [
         "from math import *",
         "from lagrotor.numerics.segment import LOST, OutsideError",
-        f"def make({', '.join(given)}):",
+        f"def make({', '.join(names)}):",
         *(f"    {line}" for line in fixed),
         "    def bare(s, y):",
         *(f"        {line}" for line in body),
@@ -224,8 +224,8 @@ def in_blocks(function: Callable[..., Any], arguments: Sequence[float | Array], 
     """
     table = np.empty((outputs, n))
     for i in range(0, n, _BLOCK):
-        part = function(*(v if isinstance(v, float) else v[i : i + _BLOCK] for v in arguments))
-        for row, values in zip(table, part, strict=True):
+        rows = function(*(v if isinstance(v, float) else v[i : i + _BLOCK] for v in arguments))
+        for row, values in zip(table, rows, strict=True):
             row[i : i + _BLOCK] = values
     return table
 

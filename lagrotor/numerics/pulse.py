@@ -71,8 +71,8 @@ def brief_windows(functions: Callable[[Array], Array], begin: float, end: float)
     if not begin < end:
         return ()
     times, longest = np.linspace(begin, end, _LOOKS + 1), np.full(_LOOKS, np.inf)
-    for each in functions(times):
-        np.minimum(longest, _longest_steps(each), out=longest)
+    for values in functions(times):
+        np.minimum(longest, _longest_steps(values), out=longest)
     edges = np.flatnonzero(np.concatenate([[True], longest[1:] != longest[:-1], [True]]))
     windows = list[Window]()
     for i, j in pairwise(edges):
@@ -86,48 +86,50 @@ def brief_windows(functions: Callable[[Array], Array], begin: float, end: float)
     return tuple(windows)
 
 
-def _one(left: Window, right: Window) -> Window | None:
+def _one(first: Window, second: Window) -> Window | None:
     """Two windows as one, where that takes fewer steps than solvers take to begin anew."""
-    both = Window(left.begin, right.end, min(left.longest, right.longest))
-    more = (both.end - both.begin) / both.longest - sum((b - a) / longest for a, b, longest in (left, right))
-    return both if more <= _CUT * (1 + (right.begin > left.end)) else None
+    merged = Window(first.begin, second.end, min(first.longest, second.longest))
+    extra_steps = (merged.end - merged.begin) / merged.longest - sum(
+        (b - a) / longest for a, b, longest in (first, second)
+    )
+    return merged if extra_steps <= _CUT * (1 + (second.begin > first.end)) else None
 
 
 def _longest_steps(values: Array) -> Array:
     """Of one function: in intervals, the longest step in each of them (_LOOKS,), inf where it is smooth."""
     import numpy as np
 
-    longest, known = np.full(_LOOKS, np.inf), np.flatnonzero(np.isfinite(values))
-    if not len(known):
+    longest, finite = np.full(_LOOKS, np.inf), np.flatnonzero(np.isfinite(values))
+    if not len(finite):
         return longest
-    rest = np.interp(np.arange(_LOOKS + 1), known, values[known])
-    size, noise = np.ptp(rest), 64 * np.finfo(float).eps * np.abs(rest).max()
+    curve = np.interp(np.arange(_LOOKS + 1), finite, values[finite])
+    size, noise = np.ptp(curve), 64 * np.finfo(float).eps * np.abs(curve).max()
     of_level: list[tuple[int, Array]] = []
     n = _CELL
     while n <= _LOOKS // _CELL:
-        cells = np.lib.stride_tricks.sliding_window_view(rest, n + 1)[::n]
+        cells = np.lib.stride_tricks.sliding_window_view(curve, n + 1)[::n]
         basis = np.linalg.qr(np.vander(np.linspace(-1, 1, n + 1), _DEGREE + 1))[0]
-        off = np.abs(cells - (cells @ basis) @ basis.T).max(1)
-        rough, beside = off > max(_SMOOTH * size, noise), off > max(_TAIL * size, noise)
+        deviation = np.abs(cells - (cells @ basis) @ basis.T).max(1)
+        rough, uneven = deviation > max(_SMOOTH * size, noise), deviation > max(_TAIL * size, noise)
         if rough.mean() > _OFTEN:
             break
         longer = rough.copy()
         for _ in range(_TAILS):
-            longer[1:] |= longer[:-1] & beside[1:]
-            longer[:-1] |= longer[1:] & beside[:-1]
+            longer[1:] |= longer[:-1] & uneven[1:]
+            longer[:-1] |= longer[1:] & uneven[:-1]
         rough = longer if longer.mean() <= _OFTEN else rough
-        there = np.repeat(rough, n)
-        changes = np.diff(rest)
+        narrow = np.repeat(rough, n)
+        changes = np.diff(curve)
         steps = np.full(_LOOKS, np.inf)
-        edges = np.flatnonzero(np.diff(np.concatenate([[False], there, [False]])))
+        edges = np.flatnonzero(np.diff(np.concatenate([[False], narrow, [False]])))
         for i, j in zip(edges[::2], edges[1::2], strict=True):
-            fastest = np.ptp(rest[i : j + 1]) / np.abs(changes[i:j]).max() if n == _CELL else n
+            fastest = np.ptp(curve[i : j + 1]) / np.abs(changes[i:j]).max() if n == _CELL else n
             steps[i:j] = min(max(fastest, 1.0), n)
         of_level.append((n, steps))
-        if there.any():
-            smooth = np.flatnonzero(~there)
+        if narrow.any():
+            smooth = np.flatnonzero(~narrow)
             changes = np.interp(np.arange(_LOOKS), smooth, changes[smooth])
-            rest = np.concatenate([rest[:1], rest[0] + np.cumsum(changes)])
+            curve = np.concatenate([curve[:1], curve[0] + np.cumsum(changes)])
         n *= 2
     mostly = n
     for n, steps in of_level:

@@ -23,8 +23,8 @@ def turn_between(u: Array, v: Array) -> Array:
     n, c = np.cross(u, v), (u * v).sum(-1)[..., None, None]
     if (1 + c < 1e-12).any():
         raise InputError("turn_between: an axis turns round between two samples; take more samples")
-    turned: Array = c * np.eye(3) + skew_matrix(n) + n[..., :, None] * n[..., None, :] / (1 + c)
-    return turned
+    rotation: Array = c * np.eye(3) + skew_matrix(n) + n[..., :, None] * n[..., None, :] / (1 + c)
+    return rotation
 
 
 def body_rotations(t: Array, axes: Array, rates: Array, spins: Array) -> Array:
@@ -106,8 +106,8 @@ def turn_about(n: Array, angle: Array) -> Array:
     """
     half = angle[..., None] / 2
     crossed = skew_matrix(np.sin(half) * n)
-    turned: Array = _ONE + 2 * (np.cos(half)[..., None] * crossed + crossed @ crossed)
-    return turned
+    rotation: Array = _ONE + 2 * (np.cos(half)[..., None] * crossed + crossed @ crossed)
+    return rotation
 
 
 def skew_matrix(v: Array) -> Array:

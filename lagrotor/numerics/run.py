@@ -134,14 +134,14 @@ class Run(Shown):
         if isinstance(begin, bool) or not isinstance(begin, int | float | np.number) or begin != begin:
             raise InputError(f"after: begin = {begin!r} must be a time in s")
         self.check_times("after")
-        i, held = int(np.searchsorted(self.t, begin)), self.quantities()
+        i, quantities = int(np.searchsorted(self.t, begin)), self.quantities()
         if i == len(self.t):
             raise InputError(f"after: the run ends at t = {self.t[-1]:g} s, before {begin:g} s")
-        own = ((each.name, held[each.name]) for each in fields(self) if each.name in held)
-        parts: dict[str, Any] = {
-            name: q.values[(slice(None),) * q.axes.index("t") + (slice(i, None),)] for name, q in own
+        sampled = ((item.name, quantities[item.name]) for item in fields(self) if item.name in quantities)
+        slices: dict[str, Any] = {
+            name: q.values[(slice(None),) * q.axes.index("t") + (slice(i, None),)] for name, q in sampled
         }
-        return replace(self, t=self.t[i:], errors=self.errors[i:], **parts)
+        return replace(self, t=self.t[i:], errors=self.errors[i:], **slices)
 
     def to_dataframe(self) -> Any:
         """The run as a pandas DataFrame, t (s) its index, a column a component.
@@ -158,14 +158,14 @@ class Run(Shown):
 
         Raises InputError where xarray is not installed.
         """
-        xarray, held = optional_package("xarray"), self.quantities()
+        xarray, quantities = optional_package("xarray"), self.quantities()
         places: dict[str, Any] = {"t": ("t", self.t, {"units": "s"})}
-        for quantity in held.values():
+        for quantity in quantities.values():
             sizes = zip(quantity.axes, quantity.values.shape, strict=True)
             places |= {axis: _labels(axis, size) for axis, size in sizes if axis != "t"}
-        variables = {name: (q.axes, q.values, {"units": q.unit}) for name, q in held.items()}
-        more = {name: value for name, value in self.about().items() if isinstance(value, str)}
-        return xarray.Dataset(variables, coords=places, attrs=more | {"ending": str(self.ending)})
+        variables = {name: (q.axes, q.values, {"units": q.unit}) for name, q in quantities.items()}
+        attributes = {name: value for name, value in self.about().items() if isinstance(value, str)}
+        return xarray.Dataset(variables, coords=places, attrs=attributes | {"ending": str(self.ending)})
 
     def save(self, path: str | Path) -> Path:
         """Write the run by the name's ending.
@@ -177,13 +177,13 @@ class Run(Shown):
         target = path_of("save: path", path)
         if target.suffix == ".npz":
             self.check_times("save")
-            known = {"horizon": self.horizon, "evaluations": self.evaluations, "ending": asdict(self.ending)}
+            outcome = {"horizon": self.horizon, "evaluations": self.evaluations, "ending": asdict(self.ending)}
             arrays = {name: quantity.values for name, quantity in self.quantities().items()}
-            return write_arrays(target, self.about() | known, {"t": self.t, "errors": self.errors} | arrays)
+            return write_arrays(target, self.about() | outcome, {"t": self.t, "errors": self.errors} | arrays)
         if target.suffix == ".csv":
-            held = {"t [s]": self.t} | {f"{name} [{unit}]": values for name, values, unit in self.columns()}
-            rows = (",".join(map(repr, row)) for row in np.column_stack(list(held.values())).tolist())
-            return write_text(target, "\n".join([",".join(held), *rows, ""]))
+            table = {"t [s]": self.t} | {f"{name} [{unit}]": values for name, values, unit in self.columns()}
+            rows = (",".join(map(repr, row)) for row in np.column_stack(list(table.values())).tolist())
+            return write_text(target, "\n".join([",".join(table), *rows, ""]))
         if target.suffix in PICTURES:
             return write_beside(target, lambda file: self.plot().savefig(file, format=target.suffix[1:]))
         if target.suffix in FILMS:

@@ -25,8 +25,8 @@ class Segment:
 
     rhs: RightHandSide
     start: Array
-    left: float
-    right: float
+    begin: float
+    until: float
     t_eval: Array
     longest: float = np.inf
     budget: float = np.inf
@@ -37,7 +37,7 @@ class Segment:
     @property
     def relative_speed(self) -> float:
         """Largest component of y' over 1 + that of y, at the start (1/s)."""
-        return float(np.abs(self.rhs(self.left, self.start)).max() / (1 + np.abs(self.start).max()))
+        return float(np.abs(self.rhs(self.begin, self.start)).max() / (1 + np.abs(self.start).max()))
 
     def clear(self, y: Array) -> float:
         """The longest step from a state that does not pass a singular position."""
@@ -108,8 +108,8 @@ def _scaled_rhs(bare: RightHandSide, scale: Array) -> RightHandSide:
 def by_units(solve: SegmentSolver, scale: Array) -> SegmentSolver:
     """The solver, given each component of a segment's state over its scale (d,)."""
 
-    def to_units(part: Stretch) -> Stretch:
-        return replace(part, states=part.states * scale, end=part.end * scale)
+    def to_units(stretch: Stretch) -> Stretch:
+        return replace(stretch, states=stretch.states * scale, end=stretch.end * scale)
 
     def scaled(segment: Segment, pulsed: bool, local: float) -> Stretch:
         try:

@@ -58,28 +58,28 @@ def dop853_steps(segment: Segment, error: float) -> Iterator[Any]:
     with np.errstate(divide="ignore", invalid="ignore"):  # of its first step, where values are not finite
         solver = DOP853(
             segment.rhs,
-            segment.left,
+            segment.begin,
             segment.start,
-            segment.right,
+            segment.until,
             rtol=max(error, _LEAST_RELATIVE),
             atol=error,
             max_step=segment.longest,
         )
     if not np.isfinite(solver.f).all():
-        raise StopError(segment.left, "the right-hand side is not finite", evaluations=solver.nfev)
+        raise StopError(segment.begin, "the right-hand side is not finite", evaluations=solver.nfev)
     if not np.isfinite(solver.h_abs):  # the first step, which scipy would take for ever
-        solver.h_abs = _FIRST * (segment.right - segment.left)
+        solver.h_abs = _FIRST * (segment.until - segment.begin)
     while solver.status == "running":
         if project is not None:  # no step over where the constraints fail
-            turned = _TURN * (1 + np.abs(solver.y).max()) / (np.abs(solver.f).max() + 1e-300)
-            solver.max_step = min(segment.longest, turned, segment.clear(solver.y))
+            limit = _TURN * (1 + np.abs(solver.y).max()) / (np.abs(solver.f).max() + 1e-300)
+            solver.max_step = min(segment.longest, limit, segment.clear(solver.y))
         t, y = solver.t, solver.y
         message = solver.step()
         if solver.status == "failed" or not np.isfinite(solver.y).all():
             reached = Stretch(np.empty((0, len(y))), y, solver.nfev)
             raise StopError(t, message or "a value is not finite", reached)
         yield solver
-        share = (solver.t - segment.left) / (segment.right - segment.left)
+        share = (solver.t - segment.begin) / (segment.until - segment.begin)
         if solver.status == "running" and solver.nfev > min(segment.budget, _PATIENCE + share * segment.budget):
             reached = Stretch(np.empty((0, len(y))), solver.y, solver.nfev)
             raise StopError(solver.t, f"{solver.nfev} evaluations spent", reached, cause="budget")
@@ -92,19 +92,19 @@ def dop853_steps(segment: Segment, error: float) -> Iterator[Any]:
 def dop853(segment: Segment, error: float) -> Stretch:
     """The segment at a local error `error`, relative and absolute. Raises StopError with what was reached."""
     t_eval = segment.t_eval
-    states, done, solver = np.empty((len(t_eval), len(segment.start))), 0, None
+    states, count, solver = np.empty((len(t_eval), len(segment.start))), 0, None
     try:
         for solver in dop853_steps(segment, error):
             reached = int(np.searchsorted(t_eval, solver.t, side="right"))
-            if reached > done:
-                states[done:reached] = solver.dense_output()(t_eval[done:reached]).T
-                done = reached
+            if reached > count:
+                states[count:reached] = solver.dense_output()(t_eval[count:reached]).T
+                count = reached
     except StopError as stop:
         end = stop.reached.end if stop.reached else segment.start
-        part = Stretch(states_on_constraints(segment.project, states[:done]), end, stop.evaluations)
-        raise StopError(stop.at, stop.reason, part, cause=stop.cause) from None
+        stretch = Stretch(states_on_constraints(segment.project, states[:count]), end, stop.evaluations)
+        raise StopError(stop.at, stop.reason, stretch, cause=stop.cause) from None
     assert solver is not None  # a segment has a length
-    return Stretch(states_on_constraints(segment.project, states[:done]), solver.y, solver.nfev)
+    return Stretch(states_on_constraints(segment.project, states[:count]), solver.y, solver.nfev)
 
 
 def lsoda(segment: Segment, error: float) -> Stretch:
@@ -116,84 +116,92 @@ def lsoda(segment: Segment, error: float) -> Stretch:
     """
     if segment.project is None:
         return _lsoda(segment, error)
-    parts, spent, left, y, longest_cut = [np.empty((0, len(segment.start)))], 0, segment.left, segment.start, np.inf
+    blocks, evaluations, now, y, longest_cut = (
+        [np.empty((0, len(segment.start)))],
+        0,
+        segment.begin,
+        segment.start,
+        np.inf,
+    )
 
     def stopped(reason: str, cause: Cause = "stopped") -> StopError:
-        return StopError(left, reason, _on_constraints(segment, parts, y, spent), cause=cause)
+        return StopError(now, reason, _on_constraints(segment, blocks, y, evaluations), cause=cause)
 
-    while left < segment.right:
-        if spent > segment.budget:
-            raise stopped(f"{spent} evaluations spent", "budget")
-        cut = min(5 / (replace(segment, left=left, start=y).relative_speed + 1e-300), longest_cut, segment.clear(y))
-        if cut < _LEAST_CUT * (segment.right - segment.left):
+    while now < segment.until:
+        if evaluations > segment.budget:
+            raise stopped(f"{evaluations} evaluations spent", "budget")
+        cut = min(5 / (replace(segment, begin=now, start=y).relative_speed + 1e-300), longest_cut, segment.clear(y))
+        if cut < _LEAST_CUT * (segment.until - segment.begin):
             raise stopped("the next step might pass a singular position")
-        right = left + cut if left + 1.5 * cut < segment.right else segment.right
+        until = now + cut if now + 1.5 * cut < segment.until else segment.until
         # A state with constraints moves no more than a fifth in a step, so that none leaps over where they fail.
         longest = min(segment.longest, cut / 25)
-        part = replace(segment, start=y, left=left, right=right, longest=longest)
+        piece = replace(segment, start=y, begin=now, until=until, longest=longest)
         try:
-            part, run = _up_to_singular(part, min(segment.budget - spent, _BUDGET_OF_A_PART), error)
-            end, spent = segment.project(run.end), spent + run.evaluations + 1
+            piece, run = _up_to_singular(piece, min(segment.budget - evaluations, _BUDGET_OF_A_PART), error)
+            end, evaluations = segment.project(run.end), evaluations + run.evaluations + 1
             drifted = np.abs(end - run.end).max() / (1 + np.abs(end).max())
         except StopError as stop:
-            drifted, spent = np.inf, spent + stop.evaluations
-            if cut < longest_cut / 2 or spent > segment.budget:
+            drifted, evaluations = np.inf, evaluations + stop.evaluations
+            if cut < longest_cut / 2 or evaluations > segment.budget:
                 raise stopped(stop.reason, stop.cause) from None
         if not drifted <= _DRIFT * error:  # what has grown so far would not be brought back to where it left
             longest_cut = cut / 8
-            if longest_cut < 1e-6 * (segment.right - segment.left):
+            if longest_cut < 1e-6 * (segment.until - segment.begin):
                 raise stopped("the constraints drift faster than they can be kept")
             continue
-        parts.append(run.states)
-        y, left, longest_cut = end, part.right, 1.5 * longest_cut
-    run = _on_constraints(segment, parts, y, spent)
+        blocks.append(run.states)
+        y, now, longest_cut = end, piece.until, 1.5 * longest_cut
+    run = _on_constraints(segment, blocks, y, evaluations)
     if not np.isfinite(run.states).all():
-        raise StopError(segment.left, "a state could not be brought back onto its constraints", evaluations=spent)
+        raise StopError(
+            segment.begin, "a state could not be brought back onto its constraints", evaluations=evaluations
+        )
     return run
 
 
-def _on_constraints(segment: Segment, parts: list[Array], y: Array, spent: int) -> Stretch:
-    states = np.concatenate(parts)
+def _on_constraints(segment: Segment, blocks: list[Array], y: Array, evaluations: int) -> Stretch:
+    states = np.concatenate(blocks)
     if segment.project and len(states):
         states = segment.project(segment.project(states.T)).T  # of a drift one step leaves about the square
-    return Stretch(states, y, spent)
+    return Stretch(states, y, evaluations)
 
 
-def _up_to_singular(part: Segment, budget: float, error: float) -> tuple[Segment, Stretch]:
+def _up_to_singular(segment: Segment, budget: float, error: float) -> tuple[Segment, Stretch]:
     """The part of a run, or what of it comes before its steps might pass a singular position, and its run."""
-    wanted = part.t_eval[(part.t_eval > part.left) & (part.t_eval <= part.right)]
-    if part.time_to_singular is None:
-        return part, _lsoda(replace(part, t_eval=wanted, budget=budget), error)
-    count = 65 + int(2 * (part.right - part.left) / part.longest)  # two times or more in a longest step
+    times = segment.t_eval[(segment.t_eval > segment.begin) & (segment.t_eval <= segment.until)]
+    if segment.time_to_singular is None:
+        return segment, _lsoda(replace(segment, t_eval=times, budget=budget), error)
+    count = 65 + int(2 * (segment.until - segment.begin) / segment.longest)  # two times or more in a longest step
     # The end is one of them: a run that stopped between the last time before it and the end has not come to the end.
-    t_eval = np.union1d(wanted, np.linspace(part.left, part.right, count)[1:])
-    run = _lsoda(replace(part, t_eval=t_eval, budget=budget), error)
+    t_eval = np.union1d(times, np.linspace(segment.begin, segment.until, count)[1:])
+    run = _lsoda(replace(segment, t_eval=t_eval, budget=budget), error)
     n = len(run.states)
-    shorter = part if n == len(t_eval) else replace(part, right=float(t_eval[n - 1]))
-    wanted = wanted[wanted <= shorter.right]
-    return shorter, replace(run, states=run.states[np.searchsorted(t_eval, wanted)])
+    shorter = segment if n == len(t_eval) else replace(segment, until=float(t_eval[n - 1]))
+    times = times[times <= shorter.until]
+    return shorter, replace(run, states=run.states[np.searchsorted(t_eval, times)])
 
 
 def _lsoda(segment: Segment, error: float) -> Stretch:
     """The segment, or what of it comes before a state whose next step might pass a singular position."""
-    left, right, spent, lost, near, stopped = segment.left, segment.right, 0, False, False, False
-    at = done = left  # the time of the last evaluation, and one before it up to which the steps are accepted
-    rest = [0.0] * len(segment.start)
+    begin, right, evaluations, lost, near, stopped = segment.begin, segment.until, 0, False, False, False
+    at = accepted = begin  # the time of the last evaluation, and one before it up to which the steps are accepted
+    zero_rate = [0.0] * len(segment.start)
 
     def watched(s: float, y: Array) -> list[float]:
         # LSODA takes NaN for a number and may step over where it came from; DOP853 does not. Once it is to stop, it is given
         # a state at rest: it soon comes to the end, and what it read off before is kept.
-        nonlocal spent, lost, near, stopped, at, done
+        nonlocal evaluations, lost, near, stopped, at, accepted
         if stopped:
-            return rest
-        at, done = s, at if s > at else done
+            return zero_rate
+        at, accepted = s, at if s > at else accepted
         velocity = segment.rhs(s, y)
-        spent, lost = spent + 1, velocity[0] != velocity[0]
+        evaluations, lost = evaluations + 1, velocity[0] != velocity[0]
         near = segment.clear(y) < segment.longest
-        stopped = lost or near or spent > segment.budget
-        return rest if stopped else velocity
+        stopped = lost or near or evaluations > segment.budget
+        return zero_rate if stopped else velocity
 
-    first = min(np.sqrt(error) / (1 + np.abs(segment.rhs(left, segment.start)).max()), segment.longest, right - left)
+    first = min(np.sqrt(error) / (1 + np.abs(segment.rhs(begin, segment.start)).max()), segment.longest, right - begin)
     bare, unwatched = None if segment.time_to_singular else getattr(segment.rhs, "bare", None), 0
     if bare:
 
@@ -213,25 +221,25 @@ def _lsoda(segment: Segment, error: float) -> Stretch:
             pass
     # What fails unwatched is run again to see where: it takes the same steps.
     states, log = _odeint(segment, watched, error, first)
-    spent += 1 + unwatched
+    evaluations += 1 + unwatched
     if stopped or not _successful(states, log):
         # Of one that fails by itself, what comes after its last step is no number that it made.
-        states = states[1:-1][segment.t_eval <= done]
+        states = states[1:-1][segment.t_eval <= accepted]
         whole = np.isfinite(states).all(1)
         states = states if whole.all() else states[: int(np.argmin(whole))]
-        reached = Stretch(states, states[-1], spent) if len(states) else None
+        reached = Stretch(states, states[-1], evaluations) if len(states) else None
         if near and reached:
             return reached
         reasons = {
             "the right-hand side is not finite": lost,
             "the next step might pass a singular position": near,
-            f"{spent} evaluations spent": stopped,
+            f"{evaluations} evaluations spent": stopped,
             log["message"]: True,
         }
-        until = float(segment.t_eval[len(states) - 1]) if reached else left
+        until = float(segment.t_eval[len(states) - 1]) if reached else begin
         cause: Cause = "budget" if stopped and not (lost or near) else "stopped"
-        raise StopError(until, next(why for why, so in reasons.items() if so), reached, spent, cause)
-    return Stretch(states[1:-1], states[-1], spent)
+        raise StopError(until, next(why for why, so in reasons.items() if so), reached, evaluations, cause)
+    return Stretch(states[1:-1], states[-1], evaluations)
 
 
 def _odeint(segment: Segment, rhs: RightHandSide, error: float, first: float) -> tuple[Array, dict[str, Any]]:
@@ -243,7 +251,7 @@ def _odeint(segment: Segment, rhs: RightHandSide, error: float, first: float) ->
         states, log = odeint(
             rhs,
             segment.start,
-            np.concatenate([[segment.left], segment.t_eval, [segment.right]]),
+            np.concatenate([[segment.begin], segment.t_eval, [segment.until]]),
             tfirst=True,
             rtol=error,
             atol=error,
@@ -281,7 +289,7 @@ def adams_weights(q: int) -> tuple[Array, Array, Array, Array]:
         for i in nodes:
             if i != j:
                 pairs = zip([Fraction(0), *lagrange], [*lagrange, Fraction(0)], strict=True)
-                lagrange = [(shifted - i * own) / (j - i) for shifted, own in pairs]
+                lagrange = [(shifted - i * coefficient) / (j - i) for shifted, coefficient in pairs]
         rows.append([Fraction(0), *(c / (n + 1) for n, c in enumerate(lagrange))])
 
     def at(row: list[Fraction], x: int) -> Fraction:
@@ -328,7 +336,7 @@ def _piece(segment: Segment, q: int, y: Array, t: float, h: float, steps: int, l
     """
     rhs = segment.rhs
     A, B, _, _ = adams_weights(q)
-    states, velocities, off = np.empty((3, steps + 1, len(y)))
+    states, velocities, differences = np.empty((3, steps + 1, len(y)))
     evaluations, settled = _first_nodes(segment, q, y, t, h, states[:q], velocities[:q])
     if not settled:
         return _Piece(q, t, h, states[:1], velocities[:1], evaluations, 0.5)
@@ -341,22 +349,22 @@ def _piece(segment: Segment, q: int, y: Array, t: float, h: float, steps: int, l
     while n <= steps:
         block = range(n, min(n + (_BLOCK if n > q else 2 * q), steps + 1))
         for n in block:
-            mean, rest = A.dot(velocities[n - q : n])
-            predicted = last + h * (mean + rest)
+            mean, residue = A.dot(velocities[n - q : n])
+            predicted = last + h * (mean + residue)
             velocities[n] = rhs(t + n * h, predicted)
-            mean, rest = B.dot(velocities[n - q + 1 : n + 1])
-            states[n] = last = last + h * (mean + rest)
-            off[n] = last - predicted
+            mean, residue = B.dot(velocities[n - q + 1 : n + 1])
+            states[n] = last = last + h * (mean + residue)
+            differences[n] = last - predicted
             velocities[n] = rhs(t + n * h, last)
         evaluations += 2 * len(block)
         # Each component against its own size: one that grows without end, an azimuth, would loosen all others.
-        worst = (np.abs(off[block.start : n + 1]).max(axis=0) / (1 + np.abs(last))).max() / h + 1e-300
+        worst = (np.abs(differences[block.start : n + 1]).max(axis=0) / (1 + np.abs(last))).max() / h + 1e-300
         change = min(max(0.3, (limit / worst / 4) ** (1 / q)), 3.0) if np.isfinite(worst) else 0.3
         near = segment.time_to_singular and any(segment.clear(y) < h for y in states[block.start - q : n + 1])
         if near or not worst <= limit:
             change = min(change, 0.5) if near else change
-            kept = block.start if block.start > q else 1
-            return _Piece(q, t, h, states[:kept], velocities[:kept], evaluations, change)
+            count = block.start if block.start > q else 1
+            return _Piece(q, t, h, states[:count], velocities[:count], evaluations, change)
         if segment.project is not None:
             states[n] = last = segment.project(last)
         n += 1
@@ -373,15 +381,15 @@ def _first_nodes(
     states[:], velocities[:] = y, segment.rhs(t, y)
     evaluations = 1
     for sweep in range(_SWEEPS):
-        before = states.copy()
+        previous = states.copy()
         states[:] = y + S @ velocities
         for i in range(1, q):
             velocities[i] = segment.rhs(t + i * h, states[i])
         evaluations += q - 1
-        moved = np.abs(states - before).max()
-        if sweep and not moved > 2e-15 * size:
+        change = np.abs(states - previous).max()
+        if sweep and not change > 2e-15 * size:
             break
-    return evaluations, bool(moved < 1e-13 * size)
+    return evaluations, bool(change < 1e-13 * size)
 
 
 def adams(segment: Segment, error: float) -> Stretch:
@@ -390,14 +398,14 @@ def adams(segment: Segment, error: float) -> Stretch:
     Raises StopError with what was reached, also where far more than its share of `budget` is spent, and where shorter
     steps leave as much: the right-hand side is not known well enough for the tolerance.
     """
-    t_eval, right, y, t, longest = segment.t_eval, segment.right, segment.start, segment.left, segment.longest
+    t_eval, right, y, t, longest = segment.t_eval, segment.until, segment.start, segment.begin, segment.longest
     q, limit = adams_order(error), min(100 * error, 1e-3)  # of order 10, steps that leave more are not stable
     h = min(
         (right - t) / q,
         segment.longest,
         min(limit ** (1 / q) / 5, 0.05) / (max(segment.relative_speed, segment.typical_rate) + 1e-300),
     )
-    states, done, evaluations, end, in_vain = np.empty((len(t_eval), len(y))), 0, 1, y, 0
+    states, count, evaluations, end, in_vain = np.empty((len(t_eval), len(y))), 0, 1, y, 0
     while t < right:
         steps = min(max(int(np.ceil((right - t) / h)), q), _PIECE)
         with np.errstate(all="ignore"):  # a step that is too long overflows, and is shortened
@@ -412,16 +420,18 @@ def adams(segment: Segment, error: float) -> Stretch:
         if len(piece.states) > 1:
             reached = t + (len(piece.states) - 1) * h
             until = int(np.searchsorted(t_eval, reached, side="right")) if reached < right else len(t_eval)
-            states[done:until] = piece.read(t_eval[done:until])
+            states[count:until] = piece.read(t_eval[count:until])
             end = piece.read(np.array([right]))[0] if reached >= right else end
-            done, t, y = until, reached, piece.states[-1]
+            count, t, y = until, reached, piece.states[-1]
         h = min(h * min(piece.change, 2.0), longest)
-        share = (t - segment.left) / (right - segment.left)
-        spent = evaluations > min(segment.budget, _PATIENCE + share * segment.budget)
-        if t < right and (spent or in_vain == _IN_VAIN or t + h == t):
-            reason = f"{evaluations} evaluations spent" if spent else f"steps of {h:.1e} leave as much as longer ones"
-            reached = Stretch(states_on_constraints(segment.project, states[:done]), y, evaluations)
-            raise StopError(t, reason, reached, cause="budget" if spent else "stopped")
+        share = (t - segment.begin) / (right - segment.begin)
+        exhausted = evaluations > min(segment.budget, _PATIENCE + share * segment.budget)
+        if t < right and (exhausted or in_vain == _IN_VAIN or t + h == t):
+            reason = (
+                f"{evaluations} evaluations spent" if exhausted else f"steps of {h:.1e} leave as much as longer ones"
+            )
+            reached = Stretch(states_on_constraints(segment.project, states[:count]), y, evaluations)
+            raise StopError(t, reason, reached, cause="budget" if exhausted else "stopped")
     if not (np.isfinite(end).all() and np.isfinite(states).all()):
         raise StopError(t, "a value is not finite", evaluations=evaluations)
     end = segment.project(end) if segment.project else end

@@ -27,22 +27,24 @@ class GeneratedFunction:
     """
 
     derive: Callable[..., str]
-    kept: tuple[tuple[Any, ...], ...]
+    cases: tuple[tuple[Any, ...], ...]
     _functions: Callable[..., Any] = field(init=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "_functions", lru_cache(_MOST)(lambda *given: function_of(self.source(*given))))
+        object.__setattr__(
+            self, "_functions", lru_cache(_MOST)(lambda *arguments: function_of(self.source(*arguments)))
+        )
 
-    def __call__(self, *given: Any) -> Any:
-        return self._functions(*given)
+    def __call__(self, *arguments: Any) -> Any:
+        return self._functions(*arguments)
 
-    def source(self, *given: Any) -> str:
+    def source(self, *arguments: Any) -> str:
         """The source, kept or derived."""
-        return _blocks(self.file).get(self.name(*given)) or self.derive(*given)
+        return _blocks(self.file).get(self.name(*arguments)) or self.derive(*arguments)
 
-    def name(self, *given: Any) -> str:
+    def name(self, *arguments: Any) -> str:
         """The heading of a block: module, function and arguments."""
-        return f"{self.derive.__module__}.{self.derive.__name__}({', '.join(map(repr, given))})"
+        return f"{self.derive.__module__}.{self.derive.__name__}({', '.join(map(repr, arguments))})"
 
     @property
     def file(self) -> Path:
@@ -50,9 +52,9 @@ class GeneratedFunction:
         return Path(str(sys.modules[self.derive.__module__].__file__)).with_name("generated.txt")
 
 
-def generated(kept: Iterable[tuple[Any, ...]]) -> Callable[[Callable[..., str]], GeneratedFunction]:
-    """Mark a function that returns the source of another; `kept` as in `GeneratedFunction`."""
-    return lambda derive: GeneratedFunction(derive, tuple(kept))
+def generated(cases: Iterable[tuple[Any, ...]]) -> Callable[[Callable[..., str]], GeneratedFunction]:
+    """Mark a function that returns the source of another; `cases` as in `GeneratedFunction`."""
+    return lambda derive: GeneratedFunction(derive, tuple(cases))
 
 
 def function_of(source: str) -> Callable[..., Any]:
@@ -67,7 +69,7 @@ def function_of(source: str) -> Callable[..., Any]:
 def _blocks(file: Path) -> dict[str, str]:
     """Heading → source of each block of a file; none where there is no file."""
     try:
-        _, *parts = _HEAD.split(file.read_text(encoding="utf-8"))
+        _, *blocks = _HEAD.split(file.read_text(encoding="utf-8"))
     except FileNotFoundError:
         return {}
-    return dict(zip(parts[::2], (part.rstrip() for part in parts[1::2]), strict=True))
+    return dict(zip(blocks[::2], (block.rstrip() for block in blocks[1::2]), strict=True))

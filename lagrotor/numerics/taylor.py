@@ -54,38 +54,38 @@ def heyoka_sum(terms: Sequence[Any]) -> Any:
     return heyoka.sum([heyoka.expression(x) if isinstance(x, float) else x for x in terms])
 
 
-def _heyoka_expressions(program: Program, known: dict[sp.Symbol, Any]) -> list[Any]:
-    """The program's outputs as heyoka's expressions of what is `known`, its arguments."""
-    heyoka, named = heyoka_module(), dict(known)
+def _heyoka_expressions(program: Program, values: dict[sp.Symbol, Any]) -> list[Any]:
+    """The program's outputs as heyoka's expressions of what is `values`, its arguments."""
+    heyoka, named = heyoka_module(), dict(values)
     stages, outputs = reduce_common(program)
     for name, expression in stages:
         named[name] = _translate(expression, named, heyoka)
     return [_translate(e, named, heyoka) for e in outputs]
 
 
-def _translate(e: sp.Expr, known: dict[sp.Symbol, Any], heyoka: Any) -> Any:
-    if e in known:
-        return known[e]
+def _translate(e: sp.Expr, values: dict[sp.Symbol, Any], heyoka: Any) -> Any:
+    if e in values:
+        return values[e]
     if e.is_Number:
         return heyoka.expression(float(e))
     if e.is_Pow:
-        base, power = _translate(e.base, known, heyoka), e.exp
+        base, power = _translate(e.base, values, heyoka), e.exp
         if power == sp.Rational(1, 2):
             return heyoka.sqrt(base)
         if not power.is_Integer:
             return base ** float(power)
         product = reduce(mul, [base] * abs(int(power)))
         return product if power > 0 else 1.0 / product
-    parts = [_translate(x, known, heyoka) for x in e.args]
+    arguments = [_translate(x, values, heyoka) for x in e.args]
     if e.is_Add:
-        return heyoka.sum(parts)
+        return heyoka.sum(arguments)
     if e.is_Mul:
-        return reduce(mul, parts)
+        return reduce(mul, arguments)
     if isinstance(e, sp.sech):
-        return 1.0 / heyoka.cosh(*parts)
+        return 1.0 / heyoka.cosh(*arguments)
     if not hasattr(heyoka, e.func.__name__):
         raise InputError(f"engine='fast' does not know the function {e.func.__name__}: use engine='core'")
-    return getattr(heyoka, e.func.__name__)(*parts)
+    return getattr(heyoka, e.func.__name__)(*arguments)
 
 
 def taylor_rhs(program: Program, states: int, parameters: tuple[float, ...]) -> Callable[[float, Array], Array]:
@@ -103,9 +103,9 @@ def taylor_rhs(program: Program, states: int, parameters: tuple[float, ...]) -> 
 def _compiled_function(program: Program) -> Any:
     """The program as heyoka's function of an array of its arguments."""
     heyoka = heyoka_module()
-    known = {s: heyoka.make_vars(str(s)) for s in program.arguments}
-    outputs = _heyoka_expressions(program, known)
-    return heyoka.cfunc(outputs, [known[s] for s in program.arguments], fast_math=True)
+    variables = {s: heyoka.make_vars(str(s)) for s in program.arguments}
+    outputs = _heyoka_expressions(program, variables)
+    return heyoka.cfunc(outputs, [variables[s] for s in program.arguments], fast_math=True)
 
 
 def taylor_solver(
@@ -125,7 +125,7 @@ def taylor_solver(
         solver, scale = _solver(program, d, pulsed, order, 1, get_ident(), angles), _carried(program, d, angles)
         solver.pars[:] = values[: len(solver.pars)]  # the last ones may be in no expression
         onto = None if project is None else lambda y: project(y / scale) * scale
-        span, size = (segment.left, segment.right), dummy_size(tol, order)
+        span, size = (segment.begin, segment.until), dummy_size(tol, order)
 
         def unscaled(run: Stretch) -> Stretch:
             return Stretch(states_on_constraints(project, run.states / scale), run.end / scale, run.evaluations)
@@ -157,8 +157,8 @@ def march_lanes(program: Program, parameters: Array, legs: Mapping[int, Leg]) ->
         solver, cyclic = _solver(program, d, False, order, _LANES, get_ident()), _cyclic(program, d)
         numbers.sort(key=lambda i: len(legs[i].times))
         for begin in range(0, len(numbers), _LANES):
-            kept = numbers[begin : begin + _LANES]
-            lanes = kept + kept[-1:] * (_LANES - len(kept))  # the last few are filled up with copies
+            batch = numbers[begin : begin + _LANES]
+            lanes = batch + batch[-1:] * (_LANES - len(batch))  # the last few are filled up with copies
             m = len(legs[lanes[-1]].times)
             # A shorter one is read once more and again where it ends, at neighbouring doubles.
             since, later = (
@@ -173,14 +173,14 @@ def march_lanes(program: Program, parameters: Array, legs: Mapping[int, Leg]) ->
             solver.pars[:] = parameters[:, lanes]
             _, states = solver.propagate_grid(np.ascontiguousarray(grid), max_steps=_MOST_STEPS)
             states[:, cyclic] /= _CARRIED
-            for lane, (i, (outcome, _, _, steps)) in enumerate(zip(kept, solver.propagate_res, strict=False)):
-                read, spent = states[: len(legs[i].times), :d, lane], steps * order
+            for lane, (i, (outcome, _, _, steps)) in enumerate(zip(batch, solver.propagate_res, strict=False)):
+                read, evaluations = states[: len(legs[i].times), :d, lane], steps * order
                 whole = np.isfinite(read).all(1)
                 n = len(read) if whole.all() else int(np.argmin(whole))
-                made = Stretch(read[:n].copy(), read[max(n, 1) - 1].copy(), spent)
+                stretch = Stretch(read[:n].copy(), read[max(n, 1) - 1].copy(), evaluations)
                 stopped = n < len(read) or "time_limit" not in str(outcome)
                 reason = "the Taylor series has no step"
-                answers[i] = StopError(float(legs[i].times[max(n, 1) - 1]), reason, made) if stopped else made
+                answers[i] = StopError(float(legs[i].times[max(n, 1) - 1]), reason, stretch) if stopped else stretch
     return answers
 
 
@@ -210,12 +210,12 @@ def _solver(
     heyoka = heyoka_module()
     names, parameters = program.arguments[:states], program.arguments[states:]
     variables, scale = [heyoka.make_vars(str(s)) for s in names], _carried(program, states, angles)
-    known = {s: x if c == 1 else x * (1 / c) for s, x, c in zip(names, variables, scale, strict=True)}
-    known |= {s: heyoka.par[i] for i, s in enumerate(parameters)}
+    values = {s: x if c == 1 else x * (1 / c) for s, x, c in zip(names, variables, scale, strict=True)}
+    values |= {s: heyoka.par[i] for i, s in enumerate(parameters)}
     if driven:
         pulse = heyoka.exp(-((heyoka.time / heyoka.par[len(parameters)]) ** 2.0))
-        known |= {s: known[s] * pulse for s in parameters[-3:]}
-    rates = _heyoka_expressions(program, known)
+        values |= {s: values[s] * pulse for s in parameters[-3:]}
+    rates = _heyoka_expressions(program, values)
     # A pulse is short: there what compiles faster pays.
     equations = [(x, r if c == 1 else r * c) for x, r, c in zip(variables, rates, scale, strict=True)]
     return compiled_solver(equations, order, lanes, compact=lanes == 1 and (driven or states > 6))
@@ -235,11 +235,11 @@ def compiled_solver(equations: Sequence[tuple[Any, Any]], order: int, lanes: int
     """
     heyoka = heyoka_module()
     equations = [*equations, (heyoka.make_vars("size"), heyoka.expression(0.0))]
-    given = {"tol": _compiled_for(order), "fast_math": True}
+    settings = {"tol": _compiled_for(order), "fast_math": True}
     if lanes > 1:
         zero = np.zeros((len(equations), lanes))
-        return heyoka.taylor_adaptive_batch(equations, state=zero, compact_mode=compact, **given)
-    return heyoka.taylor_adaptive(equations, state=[0.0] * len(equations), compact_mode=compact, **given)
+        return heyoka.taylor_adaptive_batch(equations, state=zero, compact_mode=compact, **settings)
+    return heyoka.taylor_adaptive(equations, state=[0.0] * len(equations), compact_mode=compact, **settings)
 
 
 def dummy_size(tol: float, order: int) -> float:
@@ -263,32 +263,32 @@ def taylor_march(
     size: of the dummy state. project: brings a state onto its constraints, after no more than `longest_between`.
     longest: of a step. after_step: called with the solver after each step; whether to go on. Raises StopError where it stops.
     """
-    (left, right), parts, steps = span, [np.empty((0, len(y)))], 0
+    (now, end), pieces, steps = span, [np.empty((0, len(y)))], 0
     options: dict[str, Any] = {"max_delta_t": longest, "max_steps": _MOST_STEPS}
     options |= {} if after_step is None else {"callback": after_step}
-    while left < right or len(parts) == 1:
-        until = min(right, left + longest_between)
-        inside = times[(times > left if len(parts) > 1 else times >= left) & (times <= until)]
-        grid = np.unique([left, *inside, until])
-        solver.time, solver.state[:-1], solver.state[-1] = left, y, size
-        outcome, _, _, more, _, states = solver.propagate_grid(grid, **options)
-        steps += more
+    while now < end or len(pieces) == 1:
+        until = min(end, now + longest_between)
+        inside = times[(times > now if len(pieces) > 1 else times >= now) & (times <= until)]
+        grid = np.unique([now, *inside, until])
+        solver.time, solver.state[:-1], solver.state[-1] = now, y, size
+        outcome, _, _, new_steps, _, states = solver.propagate_grid(grid, **options)
+        steps += new_steps
         finite = np.isfinite(states).all(axis=1)
         whole = len(finite) if finite.all() else int(np.argmin(finite))
         places = np.searchsorted(grid, inside)
-        parts.append(states[places[places < whole], :-1])
+        pieces.append(states[places[places < whole], :-1])
         y = states[whole - 1, :-1].copy() if whole else y
         if whole < len(grid) or "time_limit" not in str(outcome):
             at, y = _last_step(solver, float(grid[max(whole, 1) - 1]), y, size)
-            reached = Stretch(np.concatenate(parts), y, steps * solver.order)
+            reached = Stretch(np.concatenate(pieces), y, steps * solver.order)
             raise StopError(at, "the Taylor series has no step; engine='core' may go on", reached)
         try:
-            y, left = (y if project is None else project(y)), until
+            y, now = (y if project is None else project(y)), until
         except StopError as stop:
-            before = np.concatenate(parts)[: np.searchsorted(times, stop.at)]
-            reached = Stretch(before, before[-1] if len(before) else y, steps * solver.order)
+            earlier = np.concatenate(pieces)[: np.searchsorted(times, stop.at)]
+            reached = Stretch(earlier, earlier[-1] if len(earlier) else y, steps * solver.order)
             raise StopError(stop.at, stop.reason, reached, cause=stop.cause) from None
-    return Stretch(np.concatenate(parts), y, steps * solver.order)
+    return Stretch(np.concatenate(pieces), y, steps * solver.order)
 
 
 def _compiled_for(order: int) -> float:

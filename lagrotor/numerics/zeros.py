@@ -39,14 +39,14 @@ class Zeros:
 
 
 def zeros_between(
-    functions: Functions, left: float, right: float, touch: Array | float = 0.0, noise: Array | float = 0.0
+    functions: Functions, lower: float, upper: float, touch: Array | float = 0.0, noise: Array | float = 0.0
 ) -> Zeros:
     """The zeros of k functions in [left, right]. touch, (k,) or one: a least |value| that counts as a zero, where the
     function turns round without crossing; noise: rounding of the values, which no halving resolves."""
-    parts: list[tuple[float, int, int]] = []
-    hidden = _search(functions, left, right, touch, noise, parts, _HALVINGS)
-    parts = _each_once(sorted(parts), _SLACK * (right - left))
-    t, index, direction = (np.array(column) for column in zip(*parts, strict=True)) if parts else (np.zeros(0),) * 3
+    roots: list[tuple[float, int, int]] = []
+    hidden = _search(functions, lower, upper, touch, noise, roots, _HALVINGS)
+    roots = _each_once(sorted(roots), _SLACK * (upper - lower))
+    t, index, direction = (np.array(column) for column in zip(*roots, strict=True)) if roots else (np.zeros(0),) * 3
     return Zeros(t, index.astype(int), direction.astype(int), hidden)
 
 
@@ -74,14 +74,14 @@ def interpolant(length: float, values: Array) -> tuple[Callable[[Array], Array],
 
 def _search(
     functions: Functions,
-    left: float,
-    right: float,
+    lower: float,
+    upper: float,
     touch: Array | float,
     noise: Array | float,
-    parts: list[tuple[float, int, int]],
+    roots: list[tuple[float, int, int]],
     halvings: int,
 ) -> tuple[float, float] | None:
-    middle, half = (left + right) / 2, (right - left) / 2
+    middle, half = (lower + upper) / 2, (upper - lower) / 2
     values = functions(middle + half * _NODES)
     series, near = values @ _SERIES.T, may_vanish(values, touch, noise)
     size = np.abs(series)
@@ -90,14 +90,14 @@ def _search(
         if halvings == 0:
             signs, t = np.sign(values), middle + half * (_NODES[:-1] + _NODES[1:]) / 2
             for row, k in np.argwhere(signs[:, :-1] * signs[:, 1:] < 0).tolist():  # all that is known: a change of sign
-                parts.append((float(t[k]), row, int(signs[row, k + 1])))
-            return left, right
-        ends = [(left, middle), (middle, right)]
-        hidden = [_search(functions, a, b, touch, noise, parts, halvings - 1) for a, b in ends]
-        return next((each for each in hidden if each), None)
+                roots.append((float(t[k]), row, int(signs[row, k + 1])))
+            return lower, upper
+        ends = [(lower, middle), (middle, upper)]
+        hidden = [_search(functions, a, b, touch, noise, roots, halvings - 1) for a, b in ends]
+        return next((interval for interval in hidden if interval), None)
     for i in np.flatnonzero(near):
         least = float(touch if np.ndim(touch) == 0 else np.asarray(touch)[i])
-        parts += [(middle + half * x, int(i), way) for x, way in _zeros_of(series[i], least)]
+        roots += [(middle + half * x, int(i), way) for x, way in _zeros_of(series[i], least)]
     return None
 
 
@@ -134,10 +134,10 @@ def _real_roots(series: Array) -> list[float]:
     return sorted(float(x) for x in np.clip(real, -1, 1))
 
 
-def _each_once(parts: list[tuple[float, int, int]], near: float) -> list[tuple[float, int, int]]:
+def _each_once(roots: list[tuple[float, int, int]], near: float) -> list[tuple[float, int, int]]:
     """Without the zeros that two neighbouring intervals have in common."""
-    kept: list[tuple[float, int, int]] = []
-    for t, i, way in parts:
-        if not any(j == i and d == way and t - s <= near for s, j, d in kept[-4:]):
-            kept.append((t, i, way))
-    return kept
+    unique: list[tuple[float, int, int]] = []
+    for t, i, way in roots:
+        if not any(j == i and d == way and t - s <= near for s, j, d in unique[-4:]):
+            unique.append((t, i, way))
+    return unique

@@ -386,8 +386,8 @@ def _stages(
         return known[x] if isinstance(x, Recorded) else x if isinstance(x, sp.Expr) else exact_number(x)
 
     for x in tape:
-        known[x] = _OPERATIONS[x.kind](*map(expression, x.parts)) if x.parts else leaves[x.kind]
-        if x.parts and x.kind != "neg" and not known[x].is_Atom:
+        known[x] = _OPERATIONS[x.kind](*map(expression, x.operands)) if x.operands else leaves[x.kind]
+        if x.operands and x.kind != "neg" and not known[x].is_Atom:
             stages.append((sp.Symbol(f"w_{len(stages)}", real=True), known[x]))
             known[x] = stages[-1][0]
     return stages, [expression(x) for x in outputs]

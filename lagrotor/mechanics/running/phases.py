@@ -26,7 +26,7 @@ from lagrotor.mechanics.running.programs import (
 )
 from lagrotor.mechanics.running.singular_positions import mass_at, rows_at, unbounded_force
 from lagrotor.mechanics.running.switches import Event, Impact, Surface, without_jumps
-from lagrotor.numerics.error_estimate import start_beside
+from lagrotor.numerics.error_estimate import perturbed_state
 from lagrotor.numerics.pulse import Window, segments, windows_since
 from lagrotor.numerics.run import Ending
 from lagrotor.numerics.segment import Segment, StopError, Stretch, in_units
@@ -346,7 +346,7 @@ def _smooth(
             hit = None
             if phase.conditions:
                 ends, at = curve(np.array([left, right])), np.array([now + left, now + right])
-                off = np.abs(watch(start_beside(ends, _ROUNDINGS), at) - watch(ends, at)).max(1)
+                off = np.abs(watch(perturbed_state(ends, _ROUNDINGS), at) - watch(ends, at)).max(1)
                 hit, hidden = _first(h, phase, conditions, left, right, habit, off)
                 h.hidden.extend((now + a, now + b) for a, b in hidden)
             until = right if hit is None else hit.since
@@ -370,8 +370,8 @@ def _smooth(
 def _steps(segment: Segment, windows: Sequence[Window], error: float) -> Iterator[Any]:
     """As `dop853_steps` has it, by steps that are bounded in windows; evaluations are those of all of the segment."""
     y, spent = segment.start, 0
-    for left, right, longest in segments(segment.left, segment.right, windows):
-        part = replace(segment, start=y, left=left, right=right, longest=longest, budget=segment.budget - spent)
+    for left, right, longest in segments(segment.begin, segment.until, windows):
+        part = replace(segment, start=y, begin=left, until=right, longest=longest, budget=segment.budget - spent)
         try:
             for solver in dop853_steps(part, error):
                 solver.nfev += spent

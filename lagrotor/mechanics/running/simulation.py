@@ -32,14 +32,14 @@ from lagrotor.mechanics.running.scales import Scales, clock_windows, defect_of, 
 from lagrotor.mechanics.running.singular_positions import independence
 from lagrotor.mechanics.running.switches import Event, Impact, check_events
 from lagrotor.numerics.arrays import check_times
-from lagrotor.numerics.error_estimate import Evolution, Patience, estimate_run
+from lagrotor.numerics.error_estimate import EvaluationBudget, Evolution, estimate_run
 from lagrotor.numerics.integrate import Engine, check_engine, check_progress, check_tolerance
 from lagrotor.numerics.run import read_run
 from lagrotor.numerics.solver_constants import DEPENDENT
 
 _BELOW = 1e-7  # of the size of a gap, so far below zero a start is refused
-_PATIENCE = Patience(20_000, 1_600)
-_STIFF = Patience(200_000, 16_000)  # of a stiff motion, whose turns take many steps
+_PATIENCE = EvaluationBudget(20_000, 1_600)
+_STIFF = EvaluationBudget(200_000, 16_000)  # of a stiff motion, whose turns take many steps
 _A_TURN = 16  # intervals in a turn, in which rows of constraints do not turn by a right angle
 _BETWEEN = 8  # intervals of the interpolation between two samples, in which dependent constraints are sought
 
@@ -174,16 +174,16 @@ def simulate_system(
         ),
         distance=scales.distance,
         turn=scales.turn,
-        patience=_STIFF if scales.stiff else _PATIENCE,
+        budget=_STIFF if scales.stiff else _PATIENCE,
         project=projection_of(system, values) if system.multipliers and h.smooth else None,
-        slack=_slack(system, values, scales.sizes) if len(system.left) > 1 and h.smooth else None,
+        constraint_uncertainty=_slack(system, values, scales.sizes) if len(system.left) > 1 and h.smooth else None,
         sizes=np.append(scales.sizes, np.zeros(len(start) - len(scales.sizes))),
-        defect=defect_of(system, values, scales.sizes) if h.smooth else None,
+        conservation_error=defect_of(system, values, scales.sizes) if h.smooth else None,
         sudden=bool(h.narrow),
     )
     estimate = estimate_run(evolution, times, tol)
     run = SystemRun(
-        **estimate.known | {"evaluations": estimate.evaluations + scales.evaluations}, system=system, values=values, tol=tol,
+        **estimate.run_fields | {"evaluations": estimate.evaluations + scales.evaluations}, system=system, values=values, tol=tol,
         engine=engine, scales=scales, states=estimate.states, local=estimate.local, switched=h,
     )  # fmt: skip
     hint = narrowest_words(h.system, h.numbers(h.slipping), h.narrow, estimate)

@@ -21,7 +21,7 @@ from lagrotor.models.model import PACE, NaturalUnits, check_range, constant_mome
 from lagrotor.models.simulate import evolution_of, simulate, trajectory_of
 from lagrotor.models.sweeps.batch_dop853 import Index, Rates, Swarm, march_swarm
 from lagrotor.numerics.arrays import check_times
-from lagrotor.numerics.error_estimate import Evolution, Leg, Patience, estimate_runs, first_time
+from lagrotor.numerics.error_estimate import EvaluationBudget, Evolution, Leg, estimate_runs, first_time
 from lagrotor.numerics.integrate import check_engine, check_tolerance
 from lagrotor.numerics.run import Ending
 from lagrotor.numerics.segment import Array, StopError, Stretch
@@ -33,7 +33,7 @@ from lagrotor.result_display import Shown, scientific
 CHUNK = 2048  # trajectories: an array of them is 16 KiB, and those that one evaluation needs stay in the cache
 MODELS = ("minimal", "spheres", "none")
 # Three times what motions take at a tolerance of 1e-13 that stay clear of singular positions.
-_PATIENCE = Patience(5_000, 250 * 2 * pi)
+_PATIENCE = EvaluationBudget(5_000, 250 * 2 * pi)
 _MOST_ROWS = 4_000_000  # states of all that are run side by side, at the times at which they are watched: 200 MB
 
 
