@@ -94,17 +94,17 @@ def smooth_motion(
     progress: called with the time of each evaluation by the core. solver: one of the core's, the fastest if none is given.
     stiff: whether neighbouring motions approach each other so fast that a method for stiff motions may be chosen.
     """
-    program, known = motion_program(system, followed), len(sizes)
+    program, size = motion_program(system, followed), len(sizes)
     parameters, d = parameter_values(program, values), len(program.states) - len(followed)
     project = projection_of(system, values) if system.multipliers else None
-    units, begun = np.append(powers_of_two(sizes), np.ones(d - known)), np.zeros(len(followed))
+    units, begun = np.append(powers_of_two(sizes), np.ones(d - size)), np.zeros(len(followed))
     words = singular_position(system, values, start, sizes)
 
     def motion(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
         if len(times) == 1:
             return Stretch(start[None], start, 0)
         begin, since = float(times[0]), times - times[0]
-        start = np.concatenate([start[:known], [begin] * (d - known), begun])
+        start = np.concatenate([start[:size], [begin] * (d - size), begun])
         problem = Problem(
             reporting(program.rate(parameters, begin), progress, begin),
             start,
@@ -114,7 +114,7 @@ def smooth_motion(
             typical_rate=2 * np.pi / turn,
         )
         if engine == "fast":
-            clock = tuple(range(known, d + len(followed)))  # the time is a state, which may grow without end
+            clock = tuple(range(size, d + len(followed)))  # the time is a state, which may grow without end
             order, between = taylor_order(local, companion), turn / 2 if project else np.inf
             chosen = taylor_solver(lambda _: (program.program, parameters), order, between, clock)
         else:

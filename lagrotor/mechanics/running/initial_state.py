@@ -56,11 +56,12 @@ def check_values(where: str, system: Equations, values: Values, others: Iterable
         if not isinstance(value, FunctionValue | sp.Lambda)
     }
     if strangers := sorted({name for name in values if isinstance(name, str)} - letters.keys()):
-        known = f"its letters are {', '.join(sorted(letters))}" if letters else "it has no letter but its coordinates"
+        choices = f"its letters are {', '.join(sorted(letters))}" if letters else "it has no letter but its coordinates"
         meant = near(strangers[0], letters) if len(strangers) == 1 else ""
         it = "it" if len(strangers) == 1 else "them"
         raise InputError(
-            f"{where}: values name {', '.join(strangers)}, which the system does not have{meant or '; ' + known}: leave {it} out"
+            f"{where}: values name {', '.join(strangers)}, which the system does not have"
+            f"{meant or '; ' + choices}: leave {it} out"
         )
     for name, value in values.items():
         letter = letters.get(str(name))
@@ -72,13 +73,13 @@ def check_values(where: str, system: Equations, values: Values, others: Iterable
             raise InputError(
                 f"{where}: {letter} = {value:g} was declared {kind}: what is derived of it holds for these alone"
             )
-    put = {
+    numbers = {
         s: sp.sympify(value, strict=True)
         for s, value in by_symbol(f"{where}: values", values, letters.values()).items()
     }
     for body in system.bodies:
-        check_body(where, body, put)
-    check_friction(where, put_in(system.dissipation, put), system.c)
+        check_body(where, body, numbers)
+    check_friction(where, put_in(system.dissipation, numbers), system.c)
 
 
 def _number(where: str, name: Any, value: Any) -> float:
@@ -92,21 +93,21 @@ def _number(where: str, name: Any, value: Any) -> float:
 
 def check_pole(where: str, system: Equations, values: Values, state: Array) -> None:
     """Raise SingularError where the velocities u of the system do not give v at a state."""
-    given = system.kinematics
-    if given is None:
+    kinematics = system.kinematics
+    if kinematics is None:
         return
     size = len(system.c.q) + len(system.speeds)
     at, now = state[None, :size], np.append(state, 0.0)[size : size + 1]
-    own = ", ".join(map(str, system.speeds))
-    poles = [function_program(system, e).along(values)(at, now).item() for e in given.poles]
+    speeds = ", ".join(map(str, system.speeds))
+    poles = [function_program(system, e).along(values)(at, now).item() for e in kinematics.poles]
     if (lost := np.abs(poles) <= _POLE).any():
         raise SingularError(
-            f"{where}: {given.poles[int(np.argmax(lost))]} = 0 there, where {own} do not give the velocities of the coordinates: "
-            "start beside it, or turn by unit quaternions, which have no pole: frame.ball(…)"
+            f"{where}: {kinematics.poles[int(np.argmax(lost))]} = 0 there, where {speeds} do not give the velocities "
+            "of the coordinates: start beside it, or turn by unit quaternions, which have no pole: frame.ball(…)"
         )
     if not np.isfinite(velocities_along(system, values, at, now)).all():
         raise SingularError(
-            f"{where}: {own} do not give the velocities of the coordinates there: det [A; G] = 0; start beside it"
+            f"{where}: {speeds} do not give the velocities of the coordinates there: det [A; G] = 0; start beside it"
         )
 
 
@@ -121,13 +122,13 @@ def check_inertia(where: str, system: Equations, values: Values, state: Array) -
     lengths = np.linalg.norm(G, axis=1, keepdims=True)
     if not (np.isfinite(M).all() and np.isfinite(G).all() and lengths.all()):
         return  # said of the right-hand side, or of the constraints
-    _, weights, turned = np.linalg.svd(G / lengths) if len(G) else (None, np.zeros(0), np.eye(len(M)))
-    free = turned[int((weights > _RANK).sum()) :]
+    _, weights, directions = np.linalg.svd(G / lengths) if len(G) else (None, np.zeros(0), np.eye(len(M)))
+    free = directions[int((weights > _RANK).sum()) :]
     kinetic = np.linalg.eigvalsh(free @ M @ free.T) if len(free) else np.ones(1)
     if np.abs(kinetic).min() <= _RANK * max(np.abs(kinetic).max(), np.abs(M).max()):
         _, vectors = np.linalg.eigh(free @ M @ free.T)
         idle = np.abs(free.T @ vectors[:, int(np.abs(kinetic).argmin())])
-        names = ", ".join(str(v) for v, part in zip(system.speeds, idle, strict=True) if part > 0.2 * idle.max())
+        names = ", ".join(str(v) for v, weight in zip(system.speeds, idle, strict=True) if weight > 0.2 * idle.max())
         raise SingularError(
             f"{where}: the mass matrix is singular at the start (det M = 0): no mass moves with {names}, and no constraint "
             "gives it; use fewer coordinates, give what it moves a mass, or start beside a pole"
@@ -159,30 +160,32 @@ def consistent(
     for joint in system.ball_joints:
         if (size := float(np.linalg.norm(q[[system.c.q.index(s) for s in joint.quaternion]]))) < _LEAST_NORM:
             raise InputError(f"{where}: {no_turn(joint.quaternion, size)}")
-    given = start_program(system)
-    rest = (float(finite_array(f"{where}: t", t, ())), *parameter_values(given, values, where))
+    program = start_program(system)
+    arguments = (float(finite_array(f"{where}: t", t, ())), *parameter_values(program, values, where))
     ends = np.cumsum([m * m, h, h * n, len(system.left) * m])
 
-    def parts(at: ArrayLike, rates: ArrayLike) -> tuple[Array, Array, Array, Array, Array]:
+    def equations_at(at: ArrayLike, rates: ArrayLike) -> tuple[Array, Array, Array, Array, Array]:
         """M, g, ∂g/∂q, G and G u + b."""
         with np.errstate(all="ignore"):
-            numbers = np.array(given.function(*np.concatenate([at, rates, rest])), float)
-        M, g, slope, G, off = np.split(numbers, ends)
-        return M.reshape(m, m), g, slope.reshape(h, n), G.reshape(-1, m), off
+            numbers = np.array(program.function(*np.concatenate([at, rates, arguments])), float)
+        M, g, slope, G, residual = np.split(numbers, ends)
+        return M.reshape(m, m), g, slope.reshape(h, n), G.reshape(-1, m), residual
 
     if h:
-        M, _, slope, _, _ = parts(q, v)
+        M, _, slope, _, _ = equations_at(q, v)
         metric_there = metric(M, slope) if system.kinematics is None else None
         try:
-            placed = project_position(lambda at: parts(at, v)[1], lambda at: parts(at, v)[2], q, metric_there)
+            placed = project_position(
+                lambda at: equations_at(at, v)[1], lambda at: equations_at(at, v)[2], q, metric_there
+            )
         except (ConstraintError, SingularError) as error:
             raise type(error)(str(error).replace("project_position", where, 1)) from None
         q = np.asarray(placed, float)
-    mass, _, _, slope, wanted = parts(q, np.zeros(m))  # wanted: b, so that G u + b = 0
+    mass, _, _, slope, offset = equations_at(q, np.zeros(m))  # b, so that G u + b = 0
     if not system.left:
         return q, v
     mass = metric(mass, slope)
-    particular = -np.linalg.pinv(slope) @ wanted
+    particular = -np.linalg.pinv(slope) @ offset
     return q, np.asarray(particular + project_velocity(slope, v - particular, mass), float)
 
 
@@ -193,12 +196,12 @@ def rounding_of_start(system: Equations, values: Values, start: Array, t: float,
     The sizes of x_k are max_j √M_jj |x_j| / √M_kk: the mass metric compares metres with radians; for velocities of one's own it
     is 1. Velocities are no smaller than what leads through the places in the duration, or in one second where that is shorter.
     """
-    n, m, given, weight = len(system.c.q), len(system.speeds), start_program(system), np.ones(1)
+    n, m, program, weight = len(system.c.q), len(system.speeds), start_program(system), np.ones(1)
     if system.kinematics is None:
         with np.errstate(all="ignore"):
-            M = np.array(given.function(*start, t, *parameter_values(given, values)), float)[: m * m].reshape(m, m)
+            M = np.array(program.function(*start, t, *parameter_values(program, values)), float)[: m * m].reshape(m, m)
         weight = np.sqrt(np.nan_to_num(np.abs(M.diagonal()), posinf=0.0))
-    length, speed = (float((weight * np.abs(part)).max()) for part in (start[:n], start[n:]))
+    length, speed = (float((weight * np.abs(values_of)).max()) for values_of in (start[:n], start[n:]))
     duration = min(duration, 1.0)
     with np.errstate(divide="ignore", invalid="ignore"):  # what has no mass has no size: infinity
         places = np.where(weight > 0, np.maximum(max(length, _SLOW * duration * speed) / weight, _LEAST), np.inf)
@@ -214,13 +217,13 @@ def metric(mass: Array, slope: Array) -> Array:
     return np.asarray(mass + slope.T / np.square(slope).sum(1) @ slope * np.trace(mass) / len(mass))
 
 
-def state_vector(where: str, name: str, given: ArrayLike, n: int, system: Equations | None = None) -> Array:
+def state_vector(where: str, name: str, numbers: ArrayLike, n: int, system: Equations | None = None) -> Array:
     """n finite numbers; of velocities where a system is given."""
-    vector = real_array(given)
+    vector = real_array(numbers)
     if vector is None:
-        raise InputError(f"{where}: {name} = {given!r} must be {n} numbers")
+        raise InputError(f"{where}: {name} = {numbers!r} must be {n} numbers")
     if vector.shape != (n,) or not np.isfinite(vector).all():
-        own = system is not None and system.kinematics is not None
-        each = f"of {', '.join(map(str, system.speeds))}" if system and own else "one for each coordinate"
-        raise InputError(f"{where}: {name} = {given!r} must be {n} finite numbers, {each}")
+        quasi = system is not None and system.kinematics is not None
+        meaning = f"of {', '.join(map(str, system.speeds))}" if system and quasi else "one for each coordinate"
+        raise InputError(f"{where}: {name} = {numbers!r} must be {n} finite numbers, {meaning}")
     return vector

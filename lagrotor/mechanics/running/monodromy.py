@@ -79,14 +79,14 @@ def monodromy_matrix(system: Equations, at: Mapping[Any, Any], values: Values, p
     begin = _number(given_time)
     if not np.isfinite(begin):
         raise InputError(f"floquet: t = {given_time!r} must be a time in s")
-    given = motion_program(system)
-    n, d = len(system.c.q), len(given.states)
+    program = motion_program(system)
+    n, d = len(system.c.q), len(program.states)
     size = n + len(system.speeds)
     place = {s: x for s, x in at.items() if str(s) != str(t)} if isinstance(at, Mapping) else at
     state = point_state("floquet", system, place, values, begin)
     free, T = tangent_space("floquet", system, values, state, begin)
     start = np.append(state, [begin] * (d - size))
-    slope, width = motion_slope("floquet", given, values), T.shape[1]
+    slope, width = motion_slope("floquet", program, values), T.shape[1]
     check_smooth("floquet", slope, start, [f"the rate of {s}" for s in (*system.c.q, *system.speeds)], at)
     first, P, _ = local_slope(system, state, *_at(slope(start), size))
     largest = max(1.0, float(np.abs(start).max()))
@@ -101,33 +101,35 @@ def monodromy_matrix(system: Equations, at: Mapping[Any, Any], values: Values, p
     def factors(pieces: int, local: float) -> list[Array]:
         """Return Φ as a product, the last factor first to act, of as many pieces of the period in orthonormal directions."""
         (basis, upper), y = np.linalg.qr(P @ T), start
-        parts = [upper]
+        triangles = [upper]
         for a, b in pairwise(np.linspace(0, duration, pieces + 1)):
             problem = Problem(rate, np.concatenate([y, basis.ravel()]), _MOST, windows=windows, begin=a)
             y, spread = np.split(integrate(problem, np.array([b]), local).end, [d])
             basis, upper = np.linalg.qr(spread.reshape(size, width))
-            parts.append(upper)
-        last, _, back = local_slope(system, y[:size], *_at(slope(y), size))
+            triangles.append(upper)
+        last, _, inverse = local_slope(system, y[:size], *_at(slope(y), size))
         opened = np.abs(y - start)[n:size].max() / largest
-        other = np.abs(last - first).max() / max(1.0, float(np.abs(first).max()))
-        if local == _LOCAL[1] and not max(opened, other) < _CLOSED:
+        changed = np.abs(last - first).max() / max(1.0, float(np.abs(first).max()))
+        if local == _LOCAL[1] and not max(opened, changed) < _CLOSED:
             raise InputError(
                 f"floquet: after {duration:g} s the motion has not come back: its velocities are off by {opened:.2g} of their "
-                f"size and its coefficients by {other:.2g}; give a start on the orbit and its period"
+                f"size and its coefficients by {changed:.2g}; give a start on the orbit and its period"
             )
-        return [*parts, (back @ basis)[free]]
+        return [*triangles, (inverse @ basis)[free]]
 
     for pieces in _CUTS:
         coarse, fine = (factors(pieces, local) for local in _LOCAL)
-        (others, _), (roots, least) = (product_eigenvalues(*each) for each in zip((coarse, fine), _LOCAL, strict=True))
+        (others, _), (roots, least) = (
+            product_eigenvalues(*arguments) for arguments in zip((coarse, fine), _LOCAL, strict=True)
+        )
         apart = np.abs(np.subtract.outer(roots, others)).min(1)
         errors = np.maximum(apart + least, np.finfo(float).tiny)
         if (errors < _RESOLVED * np.abs(roots)).all():
             break
-    one, two = (reduce(lambda product, factor: factor @ product, parts) for parts in (coarse, fine))
-    error = float(np.abs(one - two).max() / max(1.0, float(np.abs(two).max())))
-    states = tuple(s for s, own in zip(small_states(system), free, strict=True) if own)
-    return MonodromyMatrix(states, two, error, *resolved_multipliers(roots, errors))
+    looser, finer = (reduce(lambda product, factor: factor @ product, triangles) for triangles in (coarse, fine))
+    error = float(np.abs(looser - finer).max() / max(1.0, float(np.abs(finer).max())))
+    states = tuple(s for s, independent in zip(small_states(system), free, strict=True) if independent)
+    return MonodromyMatrix(states, finer, error, *resolved_multipliers(roots, errors))
 
 
 def _at(slope: tuple[Array, Array, Array], size: int) -> tuple[Array, Array]:
@@ -135,10 +137,10 @@ def _at(slope: tuple[Array, Array, Array], size: int) -> tuple[Array, Array]:
     return slope[0][:size], slope[1][:size, :size]
 
 
-def _number(given: Any) -> float:
+def _number(value: Any) -> float:
     """NaN for what is none."""
     try:
-        return np.nan if isinstance(given, str | bool) else float(given)
+        return np.nan if isinstance(value, str | bool) else float(value)
     except (TypeError, ValueError):
         return np.nan
 
@@ -175,8 +177,8 @@ def lyapunov(run: SampledMotion) -> Lyapunov:
         raise InputError(
             "lyapunov: the motion has events or forces that jump: its linearised motion jumps, too, and is not run"
         )
-    given, n = tangent_motion(motion_program(run.system)), run.q.shape[1] + run.u.shape[1]
-    parameters, d = parameter_values(given, run.values), len(given.states) // 2
+    program, n = tangent_motion(motion_program(run.system)), run.q.shape[1] + run.u.shape[1]
+    parameters, d = parameter_values(program, run.values), len(program.states) // 2
     project = projection_of(run.system, run.values) if run.system.multipliers else None
     grid = np.linspace(run.t[0], run.t[-1], _PIECES + 1)
     y = np.concatenate([run.q[0], run.u[0], [run.t[0]] * (d - n)])
@@ -186,7 +188,7 @@ def lyapunov(run: SampledMotion) -> Lyapunov:
         tangent = tangent / np.linalg.norm(tangent)
         begin = float(grid[i])
         problem = Problem(
-            given.rate(parameters, begin),
+            program.rate(parameters, begin),
             np.concatenate([y, tangent]),
             MOST // _PIECES,
             windows=windows_since(begin, run.scales.windows),
@@ -195,6 +197,6 @@ def lyapunov(run: SampledMotion) -> Lyapunov:
         y, tangent = end[:d] if project is None else project(end[:d]), end[d:]
         growth[i] = np.log(np.linalg.norm(tangent))
     duration = grid[1:] - grid[0]
-    parts = growth.reshape(_PARTS, -1).sum(1) * _PARTS / duration[-1]
+    means = growth.reshape(_PARTS, -1).sum(1) * _PARTS / duration[-1]
     history = np.cumsum(growth) / duration
-    return Lyapunov(float(history[-1]), float(parts.std(ddof=1) / np.sqrt(_PARTS)), grid[1:], history)
+    return Lyapunov(float(history[-1]), float(means.std(ddof=1) / np.sqrt(_PARTS)), grid[1:], history)

@@ -40,7 +40,7 @@ class NarrowPart(NamedTuple):
 
     argument: sp.Expr
     factor: sp.Expr
-    part: sp.Expr
+    term: sp.Expr
 
 
 @lru_cache(maxsize=64)
@@ -48,29 +48,29 @@ def _parts(system: Equations, section: sp.Expr | None) -> tuple[NarrowPart, ...]
     """The parts of a section, or of what acts on the motion, that may be narrow, one for each argument."""
     energy = getattr(system.lagrangian, "rest", system.lagrangian)
     states = {*system.c.q, *system.c.v, *system.speeds}
-    made: dict[sp.Expr, NarrowPart] = {}
+    narrow: dict[sp.Expr, NarrowPart] = {}
 
-    def add(part: sp.Expr, g: sp.Expr, log: bool) -> None:
+    def add(term: sp.Expr, g: sp.Expr, log: bool) -> None:
         unknown = g.free_symbols & {*system.reactions, *system.multipliers, *system.c.a}
         if g.free_symbols & states and not unknown and not g.has(AppliedUndef, sp.Derivative, sp.Piecewise):
             g = -g if g.could_extract_minus_sign() else g
-            made.setdefault(g, NarrowPart(g, 1 / g if log else (1 + g**2) ** sp.Rational(-1, 2), part))
+            narrow.setdefault(g, NarrowPart(g, 1 / g if log else (1 + g**2) ** sp.Rational(-1, 2), term))
 
-    for part in subexpressions(*((energy, *system.acting) if section is None else (section,))):
-        of_base = isinstance(part, sp.Pow) and bool(part.base.free_symbols & states)
+    for term in subexpressions(*((energy, *system.acting) if section is None else (section,))):
+        of_base = isinstance(term, sp.Pow) and bool(term.base.free_symbols & states)
         if of_base and not (
-            part.exp.is_number and abs(part.exp) <= MOST**2
+            term.exp.is_number and abs(term.exp) <= MOST**2
         ):  # like exp(n (b² − 1)/2) where b is near 1
-            add(part, part.exp * (part.base**2 - 1) / 2, False)
-        if of_base and not (part.exp.is_positive and (part.exp.is_Integer or not part.exp.is_number)):
-            add(part, part.base, True)
-        elif isinstance(part, sp.Pow) and part.exp.free_symbols & states:
-            add(part, part.exp * sp.log(part.base), False)
-        elif isinstance(part, sp.Function) and len(part.args) == 1 and not isinstance(part, (AppliedUndef, *_WIDE)):
-            add(part, part.args[0], isinstance(part, sp.log))
-        elif isinstance(part, Relational):  # of a Piecewise
-            add(part, part.lhs - part.rhs, False)
-    return tuple(made.values())
+            add(term, term.exp * (term.base**2 - 1) / 2, False)
+        if of_base and not (term.exp.is_positive and (term.exp.is_Integer or not term.exp.is_number)):
+            add(term, term.base, True)
+        elif isinstance(term, sp.Pow) and term.exp.free_symbols & states:
+            add(term, term.exp * sp.log(term.base), False)
+        elif isinstance(term, sp.Function) and len(term.args) == 1 and not isinstance(term, (AppliedUndef, *_WIDE)):
+            add(term, term.args[0], isinstance(term, sp.log))
+        elif isinstance(term, Relational):  # of a Piecewise
+            add(term, term.lhs - term.rhs, False)
+    return tuple(narrow.values())
 
 
 def with_followed(scale: Array, followed: Sequence[NarrowPart], local: float, companion: bool = False) -> Array:
@@ -84,13 +84,13 @@ def narrow_parts(
 ) -> tuple[NarrowPart, ...]:
     """Return the parts of the system, or of a section, that are narrow for a motion with the states (n, d): q, u and, where
     more is known, the time."""
-    parts = (_with_edge(system, values, part, states) for part in _parts(system, section))
-    return tuple(part for part in parts if _narrowness(system, values, part, states) > MOST)
+    candidates = (_with_edge(system, values, candidate, states) for candidate in _parts(system, section))
+    return tuple(candidate for candidate in candidates if _narrowness(system, values, candidate, states) > MOST)
 
 
 def _with_edge(system: Equations, values: Mapping[Any, Any], part: NarrowPart, states: Array) -> NarrowPart:
     """The part, of a condition with the width of its edge, EDGE of the swing of g: ψ = asinh(g/width)."""
-    if not isinstance(part.part, Relational):
+    if not isinstance(part.term, Relational):
         return part
     swing = np.ptp(function_program(system, part.argument).along(values)(states, np.zeros(len(states))))
     width = sp.Float(EDGE * 10.0 ** np.ceil(np.log10(swing or 1.0)))
@@ -103,13 +103,13 @@ def narrowest_words(
     """Name the narrowest part, when a run first passes its place, and the way out; none where tol was not kept before."""
     if not narrow or len(run.t) < 2:
         return ""
-    known = [_narrowness(system, values, part, run.states) for part in narrow]
-    part, most = max(zip(narrow, known, strict=True), key=itemgetter(1))
+    narrowness = [_narrowness(system, values, part, run.states) for part in narrow]
+    part, greatest = max(zip(narrow, narrowness, strict=True), key=itemgetter(1))
     g = function_program(system, part.argument).along(values)(run.states, run.t)[0]
     passed = np.flatnonzero(g[:-1] * g[1:] <= 0)
     i = int(passed[0] if len(passed) else np.argmin(np.abs(g[:-1])))
     words = (
-        f"{part.part} changes within {scientific(1 / max(most, MOST), 1)} of the swing, first between t = {run.t[i]:.6g} and "
+        f"{part.term} changes within {scientific(1 / max(greatest, MOST), 1)} of the swing, first between t = {run.t[i]:.6g} and "
         f"{run.t[i + 1]:.6g} s: a step or a wall so steep is followed exactly as an Event or an Impact"
     )
     return words if run.horizon >= run.t[i] else ""
@@ -123,23 +123,23 @@ def _narrowness(system: Equations, values: Mapping[Any, Any], part: NarrowPart, 
         return 0.0
     slopes = [derivative(g, every[i]) for i in moving]
     bends = [derivative(e, every[i]) for e, i in zip(slopes, moving, strict=True)]
-    along = function_program(system, g, part.factor, *slopes, *bends).along(values)
+    outputs = function_program(system, g, part.factor, *slopes, *bends).along(values)
     logarithmic = part.factor == 1 / g
     start = states[:: max(1, len(states) // _PLACES)]
     times = start[:, len(every)] if states.shape[1] > len(every) else np.zeros(len(start))
-    swing, k, most, size = np.ptp(states[:, moving], axis=0)[:, None], len(moving), 0.0, 0.0
+    swing, k, greatest, size = np.ptp(states[:, moving], axis=0)[:, None], len(moving), 0.0, 0.0
     with np.errstate(all="ignore"):
         for turning in (True, False):
             places = start[:, : len(every)].copy()
             for sweep in range(_SWEEPS * k):
-                value, factor, first, second = np.split(along(places, times), [1, 2, 2 + k])
+                value, factor, first, second = np.split(outputs(places, times), [1, 2, 2 + k])
                 sizes = np.abs(value[np.isfinite(value)])
                 size = size or float(sizes.max(initial=0.0))
                 if logarithmic and sizes.min(initial=size) <= _ZERO * size:
                     return 0.0
                 rate, bend = np.abs(factor * first), np.abs(factor * second - value * factor**3 * first**2)
-                most = max(most, float(np.nanmax(swing * np.maximum(rate, bend**0.5), initial=0.0)))
+                greatest = max(greatest, float(np.nanmax(swing * np.maximum(rate, bend**0.5), initial=0.0)))
                 j = sweep % k
                 step = first[j] / second[j] if turning else value[0] / first[j]
                 places[:, moving[j]] -= np.where(np.isfinite(step), step, 0.0)
-    return most
+    return greatest

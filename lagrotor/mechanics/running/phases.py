@@ -52,11 +52,11 @@ class ContactMode(NamedTuple):
     closed: tuple[int, ...]
     ended: int = 0
 
-    def put(self, part: Literal["signs", "closed"], i: int, value: int) -> "ContactMode":
+    def with_value(self, component: Literal["signs", "closed"], i: int, value: int) -> "ContactMode":
         """The mode with another value of one component."""
-        values: list[int] = [*getattr(self, part)]
+        values: list[int] = [*getattr(self, component)]
         values[i] = int(value)
-        changed: dict[str, Any] = {part: tuple(values)}
+        changed: dict[str, Any] = {component: tuple(values)}
         return self._replace(**changed)
 
 
@@ -141,9 +141,9 @@ class Switched:
         return tuple(e for e in self.events if isinstance(e, Impact))
 
     def mode(self, state: Array) -> ContactMode:
-        parts = tuple(int(x) for x in np.rint(state[self.size + 1 :]))
+        numbers = tuple(int(x) for x in np.rint(state[self.size + 1 :]))
         signs = len(self.surfaces)
-        return ContactMode(parts[:signs], parts[signs:-1], parts[-1])
+        return ContactMode(numbers[:signs], numbers[signs:-1], numbers[-1])
 
     def state(self, y: Array, time: float, mode: ContactMode) -> Array:
         """(q, v, t, mode): what a run carries from stage to stage."""
@@ -158,11 +158,11 @@ class Switched:
         """The sizes (k,) of terms of expressions at one moment, in any units: Σ |∂e/∂y| times the size of y."""
         y = at.y[: self.size]
         steps = np.diag(_STEP * np.maximum(np.abs(y), self.sizes))
-        beside = function_program(system, *expressions).along(self.numbers(at.mode))(
+        values = function_program(system, *expressions).along(self.numbers(at.mode))(
             np.vstack([y + steps, y - steps]), np.full(2 * self.size, at.t)
         )
         with np.errstate(all="ignore"):
-            sizes = np.abs(beside[:, : self.size] - beside[:, self.size :]).sum(1) / (2 * _STEP)
+            sizes = np.abs(values[:, : self.size] - values[:, self.size :]).sum(1) / (2 * _STEP)
         return np.asarray(np.nan_to_num(sizes, posinf=0.0))
 
     def numbers(self, mode: ContactMode) -> dict[str, Any]:
@@ -182,15 +182,20 @@ class Switched:
 
     def _phase(self, sticking: tuple[int, ...], closed: tuple[int, ...]) -> Phase:
         base, still = self.system, {self.surfaces[i].sign: sp.S.Zero for i in sticking}
-        held = [self.surfaces[i].argument.xreplace(still) for i in sticking]
-        gaps = [i for i, each in enumerate(closed) if each]
-        own, kept = base.multiplier_names, len(base.constraints)
-        names = (*own[:kept], *(f"gap {i + 1}" for i in gaps), *own[kept:], *(f"held {i + 1}" for i in sticking))
+        slips = [self.surfaces[i].argument.xreplace(still) for i in sticking]
+        gaps = [i for i, state in enumerate(closed) if state]
+        multiplier_names, count = base.multiplier_names, len(base.constraints)
+        names = (
+            *multiplier_names[:count],
+            *(f"gap {i + 1}" for i in gaps),
+            *multiplier_names[count:],
+            *(f"held {i + 1}" for i in sticking),
+        )
         system = Equations(
             base.c,
             base.lagrangian.xreplace(still),
             (*base.constraints, *(self.impacts[i].gap for i in gaps)),
-            (*base.rolling, *held),
+            (*base.rolling, *slips),
             base.dissipation.xreplace(still),
             tuple(e.xreplace(still) for e in base.forces),
             names,
@@ -254,28 +259,30 @@ def march(
     Raises StopError with what was reached, where the solver stops.
     """
     clock, since = float(start[h.size]), times - times[0]
-    end, y, now, mode, spent = float(since[-1]), start[: h.size], 0.0, h.mode(start), 0
+    end, y, now, mode, evaluations = float(since[-1]), start[: h.size], 0.0, h.mode(start), 0
     if mode.ended:
         return Stretch(np.repeat(start[None], len(times), axis=0), start, 0)
-    parts, jumps, history, habit = [start[None]], list[float](), dict[tuple[str, int], list[float]](), 0.0
+    blocks, jumps, history, habit = [start[None]], list[float](), dict[tuple[str, int], list[float]](), 0.0
 
     def add(states: Array) -> None:
         later = times[since > now]
-        parts.append(
+        blocks.append(
             np.array([h.state(y, t, mode) for y, t in zip(states, later, strict=False)]).reshape(-1, len(start))
         )
 
     while now < end and not mode.ended:
         try:
             later = since[since > now] - now
-            stretch, hit = _smooth(h, y, clock + now, mode, later, local, budget - spent, observe, habit, companion)
+            stretch, hit = _smooth(
+                h, y, clock + now, mode, later, local, budget - evaluations, observe, habit, companion
+            )
         except StopError as stop:
             reached = stop.reached or Stretch(np.empty((0, h.size)), y, 0)
             add(reached.states)
             last = h.state(reached.end, clock + now + stop.at, mode)
-            so_far = Stretch(np.concatenate(parts), last, spent + stop.evaluations, tuple(jumps))
+            so_far = Stretch(np.concatenate(blocks), last, evaluations + stop.evaluations, tuple(jumps))
             raise StopError(clock + now + stop.at, stop.reason, so_far, cause=stop.cause) from None
-        spent += stretch.evaluations
+        evaluations += stretch.evaluations
         add(stretch.states)
         y = stretch.end[: h.size]
         if hit is None:
@@ -293,14 +300,14 @@ def march(
         if hit.kind in ("gap", "event"):
             jumps.append(clock + now)
     last = h.state(y, clock + now, mode)
-    known = sum(map(len, parts))
-    parts.append(np.repeat(last[None], len(times) - known, axis=0))
-    return Stretch(np.concatenate(parts), last, spent, tuple(jumps))
+    length = sum(map(len, blocks))
+    blocks.append(np.repeat(last[None], len(times) - length, axis=0))
+    return Stretch(np.concatenate(blocks), last, evaluations, tuple(jumps))
 
 
 def _end(h: Switched, mode: ContactMode, ending: Ending) -> ContactMode:
     """The mode of a motion that has ended; endings for the same reason are one, whatever their times."""
-    same = [i for i, each in enumerate(h.endings) if (each.kind, each.reason) == (ending.kind, ending.reason)]
+    same = [i for i, earlier in enumerate(h.endings) if (earlier.kind, earlier.reason) == (ending.kind, ending.reason)]
     if not same:
         h.endings.append(ending)
     return mode._replace(ended=1 + (same[0] if same else len(h.endings) - 1))
@@ -332,10 +339,10 @@ def _smooth(
 
     rhs = motion.rate(parameter_values(motion, numbers), now)
     segment = in_units(Segment(rhs, y, 0.0, times[-1], times, np.inf, budget, project), scale)
-    parts, done, solver = [np.empty((0, len(y)))], 0, None
+    blocks, count, solver = [np.empty((0, len(y)))], 0, None
     try:
         for solver in _steps(segment, windows_since(now, h.windows, companion), local / SAFETY):
-            left, right, dense = solver.t_old, solver.t, solver.dense_output()
+            begin, end_of_step, dense = solver.t_old, solver.t, solver.dense_output()
 
             def curve(s: Array, dense: Any = dense) -> Array:
                 return np.asarray(dense(s).T * scale)
@@ -345,68 +352,70 @@ def _smooth(
 
             hit = None
             if phase.conditions:
-                ends, at = curve(np.array([left, right])), np.array([now + left, now + right])
-                off = np.abs(watch(perturbed_state(ends, _ROUNDINGS), at) - watch(ends, at)).max(1)
-                hit, hidden = _first(h, phase, conditions, left, right, habit, off)
+                ends, at = curve(np.array([begin, end_of_step])), np.array([now + begin, now + end_of_step])
+                rounding = np.abs(watch(perturbed_state(ends, _ROUNDINGS), at) - watch(ends, at)).max(1)
+                hit, hidden = _first(h, phase, conditions, begin, end_of_step, habit, rounding)
                 h.hidden.extend((now + a, now + b) for a, b in hidden)
-            until = right if hit is None else hit.since
+            until = end_of_step if hit is None else hit.since
             if observe is not None:
-                observe(now, left, until, curve)
+                observe(now, begin, until, curve)
             reached = int(np.searchsorted(times, until, side="right"))
-            parts.append(curve(times[done:reached]))
-            done = reached
+            blocks.append(curve(times[count:reached]))
+            count = reached
             if hit is not None:
                 y = curve(np.array([until]))[0]
-                return Stretch(np.concatenate(parts), y if project is None else project(y), solver.nfev), hit
+                return Stretch(np.concatenate(blocks), y if project is None else project(y), solver.nfev), hit
     except StopError as stop:
         end = stop.reached.end * scale if stop.reached else y
-        so_far = Stretch(np.concatenate(parts), end, stop.evaluations)
+        so_far = Stretch(np.concatenate(blocks), end, stop.evaluations)
         words = unbounded_force(system, numbers, y, end, h.sizes) if stop.cause == "stopped" and h.sizes.all() else ""
         raise StopError(stop.at, words or stop.reason, so_far, cause="singular" if words else stop.cause) from None
     assert solver is not None  # a phase that is begun has a length
-    return Stretch(np.concatenate(parts), solver.y * scale, solver.nfev), None
+    return Stretch(np.concatenate(blocks), solver.y * scale, solver.nfev), None
 
 
 def _steps(segment: Segment, windows: Sequence[Window], error: float) -> Iterator[Any]:
     """As `dop853_steps` has it, by steps that are bounded in windows; evaluations are those of all of the segment."""
-    y, spent = segment.start, 0
-    for left, right, longest in segments(segment.begin, segment.until, windows):
-        part = replace(segment, start=y, begin=left, until=right, longest=longest, budget=segment.budget - spent)
+    y, evaluations = segment.start, 0
+    for begin, until, longest in segments(segment.begin, segment.until, windows):
+        piece = replace(
+            segment, start=y, begin=begin, until=until, longest=longest, budget=segment.budget - evaluations
+        )
         try:
-            for solver in dop853_steps(part, error):
-                solver.nfev += spent
+            for solver in dop853_steps(piece, error):
+                solver.nfev += evaluations
                 yield solver
-                solver.nfev -= spent
+                solver.nfev -= evaluations
         except StopError as stop:
-            stop.evaluations += spent
+            stop.evaluations += evaluations
             raise
-        solver.nfev += spent
-        y, spent = solver.y, solver.nfev
+        solver.nfev += evaluations
+        y, evaluations = solver.y, solver.nfev
 
 
 def _first(
-    h: Switched, phase: Phase, conditions: Any, left: float, right: float, habit: float, noise: Array
+    h: Switched, phase: Phase, conditions: Any, lower: float, upper: float, habit: float, noise: Array
 ) -> tuple[Hit | None, list[tuple[float, float]]]:
     """The first condition of a phase that ends in a step, and where one may be hidden; times count from the start of the phase.
     noise: of each condition, by rounding."""
-    begun = left > 0
+    begun = lower > 0
     # The next of impacts that accumulate is near to the start of a step that is made for the motion between them.
-    soon = 4 * habit if not begun and 0 < 4 * habit < right else left
-    start = left if begun else _BESIDE * (soon or right)
-    parts = [zeros_between(conditions, a, b, noise=noise) for a, b in ((left, soon), (soon, right)) if b > a]
-    hidden = [part.hidden for part in parts if part.hidden]
+    soon = 4 * habit if not begun and 0 < 4 * habit < upper else lower
+    start = lower if begun else _BESIDE * (soon or upper)
+    intervals = [zeros_between(conditions, a, b, noise=noise) for a, b in ((lower, soon), (soon, upper)) if b > a]
+    hidden = [interval.hidden for interval in intervals if interval.hidden]
     hits = []
-    for part in parts:
-        for s, k, way in zip(part.t, part.index, part.direction, strict=True):
+    for interval in intervals:
+        for s, k, way in zip(interval.t, interval.index, interval.direction, strict=True):
             kind, i, _ = phase.conditions[k]
             event = h.events[i] if kind == "event" else None
-            wanted = event.direction if isinstance(event, Event) else -1
+            direction = event.direction if isinstance(event, Event) else -1
             # A condition that began at zero touches it once more by rounding, and is true again at twice the time.
-            rounding = not begun and s < _FRESH * right and event is None and conditions(np.array([2 * s]))[k, 0] > 0
-            if s > start and wanted in (0, way) and not rounding:
-                hits.append(Hit(polish(conditions, int(k), float(s), left, right), kind, i))
+            rounding = not begun and s < _FRESH * upper and event is None and conditions(np.array([2 * s]))[k, 0] > 0
+            if s > start and direction in (0, way) and not rounding:
+                hits.append(Hit(polish(conditions, int(k), float(s), lower, upper), kind, i))
     if not begun and not hits:  # a condition that does not hold from the start on
-        ends = conditions(np.array([10 * start, right]))
+        ends = conditions(np.array([10 * start, upper]))
         scale = np.abs(ends).max(1)
         for k, (kind, i, _) in enumerate(phase.conditions):
             if kind != "event" and (ends[k] < -_NOISE * scale[k]).all():
@@ -414,18 +423,18 @@ def _first(
     return min(hits, default=None), hidden
 
 
-def polish(functions: Any, k: int, t: float, left: float, right: float) -> float:
+def polish(functions: Any, k: int, t: float, lower: float, upper: float) -> float:
     """A zero to the last digit that the dense output has, by the secant method."""
-    other = min(t + 1e-5 * (right - left), right) if t < right else t - 1e-5 * (right - left)
-    f, g = functions(np.array([t, other]))[k]
+    second = min(t + 1e-5 * (upper - lower), upper) if t < upper else t - 1e-5 * (upper - lower)
+    f, g = functions(np.array([t, second]))[k]
     for _ in range(4):
         if f == g or f == 0:
             break
-        following = float(np.clip(t - f * (t - other) / (f - g), left, right))
+        following = float(np.clip(t - f * (t - second) / (f - g), lower, upper))
         (value,) = functions(np.array([following]))[k]
         if abs(value) >= abs(f):
             break
-        other, g, t, f = t, f, following, value
+        second, g, t, f = t, f, following, value
     return t
 
 
@@ -434,9 +443,9 @@ def _switch(h: Switched, at: Moment, hit: Hit, gone: float | None) -> Moment:
     kind, i = hit.kind, hit.i
     mode, v = at.mode, at.y[h.n : h.size]
     if kind == "surface" and h.surfaces[i].argument.free_symbols & {*h.system.multipliers}:
-        mode = mode.put("signs", i, -mode.signs[i])  # a reaction is reversed
+        mode = mode.with_value("signs", i, -mode.signs[i])  # a reaction is reversed
     elif kind == "surface":
-        mode = mode.put("signs", i, _sign_beyond(h, at, i))
+        mode = mode.with_value("signs", i, _sign_beyond(h, at, i))
     elif kind == "pull":
         raise StopError(
             at.t,
@@ -444,16 +453,16 @@ def _switch(h: Switched, at: Moment, hit: Hit, gone: float | None) -> Moment:
             "that holds on both sides rubs by |reaction(…)|",
         )
     elif kind in ("above", "below"):
-        mode = mode.put("signs", i, -1 if kind == "above" else 1)
+        mode = mode.with_value("signs", i, -1 if kind == "above" else 1)
     elif kind == "reaction":
-        mode = mode.put("closed", i, False)
+        mode = mode.with_value("closed", i, False)
     elif kind == "gap":
         e = float(h.evaluate(h.system, [h.impacts[i].restitution], at)[0])
         if gone is not None:
             e = 0.0
             h.accumulations[i] = at.t + gone
         v, gentle = _rebound(h, at, i, e)
-        mode = mode.put("closed", i, e == 0 or gentle)
+        mode = mode.with_value("closed", i, e == 0 or gentle)
     else:
         event = h.events[i]
         assert isinstance(event, Event)
@@ -464,14 +473,14 @@ def _switch(h: Switched, at: Moment, hit: Hit, gone: float | None) -> Moment:
         v = h.evaluate(h.system, event.velocities, at)
     if not np.isfinite(v).all():
         raise StopError(at.t, "the velocities after an event are not finite")
-    after = Moment(np.concatenate([at.y[: h.n], v]), at.t, mode)
-    return after._replace(mode=_settle(h, after, fixed=kind in ("above", "below", "surface")))
+    moment = Moment(np.concatenate([at.y[: h.n], v]), at.t, mode)
+    return moment._replace(mode=_settle(h, moment, fixed=kind in ("above", "below", "surface")))
 
 
 def _rebound(h: Switched, at: Moment, i: int, e: float) -> tuple[Array, bool]:
     """The velocities after an impact: M Δv = Gᵀ Λ, the approach reversed and multiplied by e, all else held; and whether
     there was no velocity of approach."""
-    mode = at.mode.put("closed", i, True)
+    mode = at.mode.with_value("closed", i, True)
     n, system = h.n, h.phase(mode._replace(signs=tuple(s or 1 for s in mode.signs))).system
     numbers, state = h.numbers(mode), np.append(at.y[: h.size], at.t)
     G, M = rows_at(system, numbers, state), mass_at(system, numbers, state)
@@ -512,7 +521,7 @@ def _rates_beside(h: Switched, at: Moment, i: int, order: int) -> tuple[float, f
     """The first or second rate of w above and below its surface."""
 
     def rate(sign: int) -> float:
-        mode, e = at.mode.put("signs", i, sign), h.surfaces[i].argument
+        mode, e = at.mode.with_value("signs", i, sign), h.surfaces[i].argument
         system = h.phase(mode).system
         for _ in range(order):
             e = total_derivative(e, system.c)
@@ -528,23 +537,25 @@ def _settle(h: Switched, at: Moment, fixed: bool = False) -> ContactMode:
         arguments = [s.argument for s in h.surfaces]
         w, noise = h.evaluate(h.system, arguments, at), _NOISE * h.sizes_of(h.system, arguments, at)
         for i in map(int, np.flatnonzero(np.abs(w) > noise)):
-            mode = mode.put("signs", i, int(np.sign(w[i])))
+            mode = mode.with_value("signs", i, int(np.sign(w[i])))
         for i in map(int, np.flatnonzero(np.abs(w) <= noise)):
-            mode = mode.put("signs", i, _sign_beyond(h, at._replace(mode=mode), i))
+            mode = mode.with_value("signs", i, _sign_beyond(h, at._replace(mode=mode), i))
     for _ in range(2 * (len(mode.signs) + len(mode.closed)) + 1):
         phase = h.phase(mode)
-        reactions = [each for each in phase.conditions if each[0] in ("above", "below", "reaction")]
+        reactions = [condition for condition in phase.conditions if condition[0] in ("above", "below", "reaction")]
         if not reactions:
             break
-        expressions, here = [e for *_, e in reactions], at._replace(mode=mode)
-        values = h.evaluate(phase.system, expressions, here)
+        expressions, moment = [e for *_, e in reactions], at._replace(mode=mode)
+        values = h.evaluate(phase.system, expressions, moment)
         worst = int(np.argmin(values))
         size = np.abs(values).max() if len(values) > 1 else 0.0
-        if values[worst] >= -_NOISE * (size + float(h.sizes_of(phase.system, expressions, here)[worst])):
+        if values[worst] >= -_NOISE * (size + float(h.sizes_of(phase.system, expressions, moment)[worst])):
             break
         kind, i, _ = reactions[worst]
         mode = (
-            mode.put("closed", i, False) if kind == "reaction" else mode.put("signs", i, -1 if kind == "above" else 1)
+            mode.with_value("closed", i, False)
+            if kind == "reaction"
+            else mode.with_value("signs", i, -1 if kind == "above" else 1)
         )
     return mode
 
@@ -556,9 +567,9 @@ def _accumulating(history: Mapping[Any, list[float]], past: list[float], span: f
     if len(past) > _HABIT:
         intervals = np.diff(past[-_HABIT - 1 :])
         ratio = intervals[-1] / intervals[-2] if intervals[-2] > 0 else 1.0
-        left = intervals[-1] * ratio / (1 - ratio) if ratio < 1 else np.inf
-        if (np.diff(intervals) < 0).all() and left <= _GONE * span:
-            return float(left)
+        remaining = intervals[-1] * ratio / (1 - ratio) if ratio < 1 else np.inf
+        if (np.diff(intervals) < 0).all() and remaining <= _GONE * span:
+            return float(remaining)
     if len(past) > _AT_ONCE and now - past[-_AT_ONCE] <= 1e-13 * now:
         raise StopError(clock + now, "events follow each other without time between them")
     if sum(map(len, history.values())) > MOST_EVENTS.value:
@@ -572,17 +583,17 @@ def evaluate(h: Switched, expression: sp.Expr, times: Array, states: Array) -> A
     c, values = len(h.system.constraints), np.empty(len(times))
     modes = [h.mode(state) for state in states]
     for mode in dict.fromkeys(modes):
-        here = np.array([each == mode for each in modes])
+        in_mode = np.array([state_mode == mode for state_mode in modes])
         phase = h.phase(mode)
         lam, closed = phase.system.multipliers, sum(mode.closed)
-        put: dict[sp.Expr, sp.Expr] = {
+        substitutions: dict[sp.Expr, sp.Expr] = {
             name: lam[i if i < c else i + closed] for i, name in enumerate(h.system.multipliers)
         }
         sticking = [s for s, sign in zip(h.surfaces, mode.signs, strict=True) if sign == 0]
         for s, reaction in zip(sticking, lam[len(lam) - len(sticking) :], strict=True):
             assert s.bound is not None
             for w, holding in ((s.argument, -reaction / s.bound), (sp.expand(-s.argument), reaction / s.bound)):
-                put |= {sp.sign(w): holding, sp.Abs(w): sp.S.Zero}
-        program = function_program(phase.system, expression.xreplace(put))
-        values[here] = program.along(h.numbers(mode))(states[here], times[here])[0]
+                substitutions |= {sp.sign(w): holding, sp.Abs(w): sp.S.Zero}
+        program = function_program(phase.system, expression.xreplace(substitutions))
+        values[in_mode] = program.along(h.numbers(mode))(states[in_mode], times[in_mode])[0]
     return values

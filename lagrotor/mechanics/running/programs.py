@@ -114,11 +114,11 @@ def motion_program(system: Equations, followed: tuple[Any, ...] = ()) -> Generat
     stages, rates, _ = motion_of_speeds(system)
     clock = [sp.S.One] * depends_on_time(system)
     moving = dict(zip((*system.c.q, t, *system.speeds), (*system.c.v, sp.S.One, *rates), strict=True))
-    if (given := system.kinematics) is not None:
-        moving |= dict(zip(system.c.v, given.B * sp.Matrix(rates) + given.alpha, strict=True))
-    more = [FOLLOWED * factor * along(g, moving.keys(), moving.values()) for g, factor, _ in followed]
+    if (kinematics := system.kinematics) is not None:
+        moving |= dict(zip(system.c.v, kinematics.B * sp.Matrix(rates) + kinematics.alpha, strict=True))
+    followed_rates = [FOLLOWED * factor * along(g, moving.keys(), moving.values()) for g, factor, _ in followed]
     states = (*state_symbols(system), *(sp.Symbol(f"_followed{i}", real=True) for i in range(len(followed))))
-    return _program(states, stages, [*system.c.v, *rates, *clock, *more], moving=True)
+    return _program(states, stages, [*system.c.v, *rates, *clock, *followed_rates], moving=True)
 
 
 def state_symbols(system: Equations) -> tuple[sp.Symbol, ...]:
@@ -134,12 +134,12 @@ def _program(
     moving: it is evaluated so often that common parts are worth the search.
     """
     stages, outputs, functions = _with_calls(stages, outputs)
-    own = dict.fromkeys(name for name, _ in stages)
-    used = set().union(*(e.free_symbols for _, e in stages), *(e.free_symbols for e in outputs)) - own.keys()
+    names = dict.fromkeys(name for name, _ in stages)
+    used = set().union(*(e.free_symbols for _, e in stages), *(e.free_symbols for e in outputs)) - names.keys()
     parameters = tuple(sorted(used - {*states}, key=str))
     rename: dict[Any, Any] = {
         s: sp.Symbol(f"y{i}_", real=True)
-        for i, s in enumerate((*states, *parameters, *(s for s in own if not s.name.startswith("_"))))
+        for i, s in enumerate((*states, *parameters, *(s for s in names if not s.name.startswith("_"))))
         if not _is_plain(str(s))
     }
     rename |= {c: c.evalf(17) for e in (*(e for _, e in stages), *outputs) for c in e.atoms(sp.NumberSymbol)}
@@ -165,22 +165,22 @@ def _program(
 
 
 def _with_calls(
-    stages: Sequence[Stage], outputs: Sequence[sp.Expr], known: Mapping[sp.Symbol, Jet] | None = None
+    stages: Sequence[Stage], outputs: Sequence[sp.Expr], calls: Mapping[sp.Symbol, Jet] | None = None
 ) -> tuple[list[Stage], list[sp.Expr], dict[sp.Symbol, Jet]]:
     """Stages and outputs that call what stands for unknown functions and their derivatives, and these, by the names of which
     they are arguments of the program. known: those that are called already."""
-    jets = {str(name): jet for name, jet in (known or {}).items()}
-    made = {jet: name for name, jet in (known or {}).items()}
+    jets = {str(name): jet for name, jet in (calls or {}).items()}
+    symbols = {jet: name for name, jet in (calls or {}).items()}
 
     def called(name: str, orders: tuple[int, ...], arguments: tuple[sp.Expr, ...]) -> sp.Expr:
-        before = jets.get(name)
-        jet = Jet(before.name, tuple(map(add, before.orders, orders))) if before else Jet(name, orders)
-        symbol = made.setdefault(jet, sp.Symbol(f"call{len(made)}_", real=True))
+        called_jet = jets.get(name)
+        jet = Jet(called_jet.name, tuple(map(add, called_jet.orders, orders))) if called_jet else Jet(name, orders)
+        symbol = symbols.setdefault(jet, sp.Symbol(f"call{len(symbols)}_", real=True))
         return sp.Function(str(symbol))(*arguments)
 
     stages = [(name, with_jets(e, called)) for name, e in stages]
     outputs = [with_jets(e, called) for e in outputs]
-    return stages, outputs, {symbol: jet for jet, symbol in made.items()}
+    return stages, outputs, {symbol: jet for jet, symbol in symbols.items()}
 
 
 def velocities_along(system: Equations, values: Mapping[Any, Any], states: Array, times: Array) -> Array:
@@ -223,20 +223,20 @@ def function_program(system: Equations, *expressions: sp.Expr) -> Generated:
     symbols = set().union(*(e.free_symbols for e in expressions))
     if not symbols & {*system.c.a, *system.multipliers}:
         return _program(states, velocity_stages(system), expressions)
-    left = tuple(system.multipliers[i] for i in system.left)
-    every = bool(symbols & {*system.multipliers} - {*left})
+    independent = tuple(system.multipliers[i] for i in system.left)
+    every = bool(symbols & {*system.multipliers} - {*independent})
     stages, a, lam = constrained_motion(system, every)
-    made = dict(zip((*system.c.a, *(system.multipliers if every else left)), (*a, *lam), strict=True))
-    return _program(states, stages, [e.xreplace(made) for e in expressions])
+    solved = dict(zip((*system.c.a, *(system.multipliers if every else independent)), (*a, *lam), strict=True))
+    return _program(states, stages, [e.xreplace(solved) for e in expressions])
 
 
 def velocity_stages(system: Equations) -> list[Stage]:
     """v, made of velocities of one's own."""
-    given = system.kinematics
-    if given is None:
+    kinematics = system.kinematics
+    if kinematics is None:
         return []
-    made = [(v, e) for v, e in zip(system.c.v, given.velocity, strict=True) if v != e]
-    return [*given.stages, *made]
+    velocities = [(v, e) for v, e in zip(system.c.v, kinematics.velocity, strict=True) if v != e]
+    return [*kinematics.stages, *velocities]
 
 
 @lru_cache(maxsize=64)
@@ -245,8 +245,8 @@ def clock_program(system: Equations) -> Generated | None:
     if not depends_on_time(system):
         return None
     stages, rates, _ = motion_of_speeds(system)
-    clocks, parts = clock_parts(stages, (*system.c.v, *rates), {*system.c.q, *system.c.v, *system.speeds})
-    return _program((t,), clocks, parts) if parts else None
+    clocks, outputs = clock_parts(stages, (*system.c.v, *rates), {*system.c.q, *system.c.v, *system.speeds})
+    return _program((t,), clocks, outputs) if outputs else None
 
 
 @lru_cache(maxsize=64)
@@ -286,16 +286,16 @@ def constrained_motion(system: Equations, every: bool = True) -> tuple[list[Stag
     Those of constraints that velocities of one's own keep are what is missing in M α + h = Q + Gᵀ λ, by [A; G]⁻ᵀ.
     """
     stages, rates, lam = motion_of_speeds(system)
-    given = system.kinematics
-    if given is None:
+    kinematics = system.kinematics
+    if kinematics is None:
         return stages, rates, lam
-    a = given.B * sp.Matrix(rates) + given.alpha
-    multipliers = dict(zip(given.left, lam, strict=True))
-    if given.used and every:
-        held = system.rows.extract(list(given.left), list(range(len(a)))).T * sp.Matrix(len(lam), 1, lam)
+    a = kinematics.B * sp.Matrix(rates) + kinematics.alpha
+    multipliers = dict(zip(kinematics.left, lam, strict=True))
+    if kinematics.used and every:
+        reactions = system.rows.extract(list(kinematics.left), list(range(len(a)))).T * sp.Matrix(len(lam), 1, lam)
         push = system.push.xreplace({system.multipliers[i]: e for i, e in multipliers.items()})
-        missing = given.inverse.T * (system.mass * a + system.bias - push - held)
-        multipliers |= dict(zip(given.used, missing[len(rates) :, :], strict=True))
+        missing = kinematics.inverse.T * (system.mass * a + system.bias - push - reactions)
+        multipliers |= dict(zip(kinematics.used, missing[len(rates) :, :], strict=True))
     return stages, list(a), [multipliers[i] for i in sorted(multipliers)]
 
 
@@ -326,15 +326,15 @@ def equations_of_speeds(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.M
     """
     if _is_long(system):
         return swept_equations(system)
-    given, first = system.kinematics, velocity_stages(system)
+    kinematics, first = system.kinematics, velocity_stages(system)
     M, push = system.mass, system.push - system.bias
-    if given is None:
+    if kinematics is None:
         return first, M, push
-    if given.stages:
-        return first, given.B.T * M * given.B, given.B.T * (push - M * given.alpha)
-    M, h = boltzmann_hamel(system.L, system.c, given, system.speeds)
-    put = dict(zip(system.c.v, given.velocity, strict=True))
-    return first, M, given.B.T * system.push.xreplace(put) - h
+    if kinematics.stages:
+        return first, kinematics.B.T * M * kinematics.B, kinematics.B.T * (push - M * kinematics.alpha)
+    M, h = boltzmann_hamel(system.L, system.c, kinematics, system.speeds)
+    velocities = dict(zip(system.c.v, kinematics.velocity, strict=True))
+    return first, M, kinematics.B.T * system.push.xreplace(velocities) - h
 
 
 def tree_motion(system: Equations) -> tuple[list[Stage], sp.Matrix] | None:
@@ -343,9 +343,9 @@ def tree_motion(system: Equations) -> tuple[list[Stage], sp.Matrix] | None:
     tree = tree_of(system) if len(system.c.q) >= LEAST_TREE else None
     if tree is None:
         return None
-    keep, (G, _), given = Stages(), rows_left(system), system.kinematics
+    keep, (G, _), kinematics = Stages(), rows_left(system), system.kinematics
     push = system.push + rest_forces(tree, system.c)
-    push, by_reaction = push_left(system, push if given is None else given.B.T * push)
+    push, by_reaction = push_left(system, push if kinematics is None else kinematics.B.T * push)
     columns = [list(push), *((G.T + by_reaction).col(i).flat() for i in range(G.rows))]
     try:
         solved = sp.Matrix(tree_accelerations(joints(tree, keep), system.speeds, columns, keep)).T
@@ -370,10 +370,10 @@ def inertia(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matrix]:
     if _regular(system, stages, M):
         return [], sp.zeros(G.rows, G.rows), M
     if (mean := M.trace() / M.rows) != 0:
-        made = {sp.Symbol(f"_w{i}", real=True): mean / G[i, :].dot(G[i, :]) for i in range(G.rows)}
-        bound = M + G.T * sp.diag(*made) * G
-        if _regular(system, stages, bound.xreplace(made)):
-            return [*made.items()], sp.diag(*made), bound
+        weights = {sp.Symbol(f"_w{i}", real=True): mean / G[i, :].dot(G[i, :]) for i in range(G.rows)}
+        bound = M + G.T * sp.diag(*weights) * G
+        if _regular(system, stages, bound.xreplace(weights)):
+            return [*weights.items()], sp.diag(*weights), bound
     raise SingularError(singular_mass("System", M, system.c))
 
 
@@ -413,11 +413,11 @@ def under_constraints(
     free, W = solved[:, :1], solved[:, 1:]
     if not G.rows:
         return stages, list(free), []
-    S, off = G * W, -(G * free + gamma)
+    S, right_side = G * W, -(G * free + gamma)
     if friction and G.rows > 1:  # S is not symmetric
-        S, off = S.T * S, S.T * off
-    right, lam = constraint_solve(S, off, "_s")
-    return [*stages, *right], list(free + W * lam), list(lam)
+        S, right_side = S.T * S, S.T * right_side
+    solve_stages, lam = constraint_solve(S, right_side, "_s")
+    return [*stages, *solve_stages], list(free + W * lam), list(lam)
 
 
 def constraint_solve(S: sp.Matrix, right: sp.Matrix, prefix: str) -> tuple[list[Stage], sp.Matrix]:
@@ -438,36 +438,36 @@ def projection_program(system: Equations) -> Generated:
     if system.kinematics is None:
         added, _, M = inertia(system)
         stages, W = solve_symmetric(M, G.T, "_m")
-        stages, across, V = [*equations_of_speeds(system)[0], *added, *stages], G, W
+        stages, rows, V = [*equations_of_speeds(system)[0], *added, *stages], G, W
     else:
-        across, _ = rows_left(system)
-        stages, W, V = velocity_stages(system), G.T, across.T
+        rows, _ = rows_left(system)
+        stages, W, V = velocity_stages(system), G.T, rows.T
     moves, speeds = sp.zeros(n, 1), sp.zeros(len(system.speeds), 1)
     if h:
-        more, x = constraint_solve(G[:h, :] * W[:, :h], sp.Matrix(system.constraints), "_h")
-        stages, moves = [*stages, *more], W[:, :h] * x
-    if across.rows:
-        more, x = constraint_solve(across * V, system.residual.extract(list(system.left), [0]), "_s")
-        stages, speeds = [*stages, *more], V * x
+        solve_stages, x = constraint_solve(G[:h, :] * W[:, :h], sp.Matrix(system.constraints), "_h")
+        stages, moves = [*stages, *solve_stages], W[:, :h] * x
+    if rows.rows:
+        solve_stages, x = constraint_solve(rows * V, system.residual.extract(list(system.left), [0]), "_s")
+        stages, speeds = [*stages, *solve_stages], V * x
     state = sp.Matrix([*system.c.q, *system.speeds]) - moves.col_join(speeds)
     states = state_symbols(system)
     return _program(states, stages, [*state, *states[len(state) :]])
 
 
-def tangent_motion(given: Generated) -> Generated:
+def tangent_motion(motion: Generated) -> Generated:
     """The motion with its linearisation, (y, δ; parameters) → (f, (∂f/∂y) δ)."""
-    d, arguments = len(given.states), given.program.arguments
+    d, arguments = len(motion.states), motion.program.arguments
     names = [sp.Symbol(f"d{i}_", real=True) for i in range(d)]
     slopes = {y: [name] for y, name in zip(arguments, names, strict=False)}
-    both = tangent_program(given.program, slopes, (*arguments[:d], *names, *arguments[d:]))
-    known = {s: p for s, p in zip(arguments[d:], given.parameters, strict=True) if isinstance(p, Jet)}
-    stages, outputs, functions = _with_calls(both.stages, both.outputs, known)
-    more = list(functions)[len(known) :]
-    both = replace(both, arguments=(*both.arguments, *more), stages=tuple(stages), outputs=tuple(outputs))
-    return Generated(both, (*given.states, *names), (*given.parameters, *(functions[s] for s in more)))
+    both = tangent_program(motion.program, slopes, (*arguments[:d], *names, *arguments[d:]))
+    calls = {s: p for s, p in zip(arguments[d:], motion.parameters, strict=True) if isinstance(p, Jet)}
+    stages, outputs, functions = _with_calls(both.stages, both.outputs, calls)
+    new_functions = list(functions)[len(calls) :]
+    both = replace(both, arguments=(*both.arguments, *new_functions), stages=tuple(stages), outputs=tuple(outputs))
+    return Generated(both, (*motion.states, *names), (*motion.parameters, *(functions[s] for s in new_functions)))
 
 
-def parameter_values(given: Generated, values: Mapping[Any, Any], where: str = "simulate") -> tuple[Any, ...]:
+def parameter_values(program: Generated, values: Mapping[Any, Any], where: str = "simulate") -> tuple[Any, ...]:
     """The parameters' values in the program's order, numbers and callables; keys are symbols or their names.
 
     Raises InputError, on behalf of the function `where`, when one is missing or is not a finite number.
@@ -479,17 +479,17 @@ def parameter_values(given: Generated, values: Mapping[Any, Any], where: str = "
         names = [str(key) for key in values]
         twice = sorted({name for name in names if names.count(name) > 1})
         raise InputError(f"{where}: {', '.join(twice)} with two values, of the symbol and of its name: give one")
-    if moving := [str(s) for s in given.states if str(s) in by_name]:
+    if moving := [str(s) for s in program.states if str(s) in by_name]:
         raise InputError(
             f"{where}: values give {', '.join(moving)} a value, which moves: a start is given by q0 and v0, a time by t"
         )
-    if missing := [name for name in given.letters if name not in by_name]:
-        misspelt = near(missing[0], by_name.keys() - {str(p) for p in given.parameters})
+    if missing := [name for name in program.letters if name not in by_name]:
+        misspelt = near(missing[0], by_name.keys() - {str(p) for p in program.parameters})
         raise InputError(
             f"{where}: {', '.join(missing)} without a value: values = {{symbol: number, …}} names each{misspelt}"
         )
     numbers: list[Any] = []
-    for name in given.letters:
+    for name in program.letters:
         try:
             if isinstance(by_name[name], str | bool):
                 raise TypeError
@@ -498,7 +498,7 @@ def parameter_values(given: Generated, values: Mapping[Any, Any], where: str = "
             raise InputError(f"{where}: {name} = {by_name[name]!r} must be a number") from None
         if not abs(numbers[-1]) < float("inf"):
             raise InputError(f"{where}: {name} = {numbers[-1]} must be finite")
-    for jet in given.parameters[len(numbers) :]:
+    for jet in program.parameters[len(numbers) :]:
         assert isinstance(jet, Jet)
         value = by_name.get(jet.name)
         if not isinstance(value, FunctionValue):

@@ -53,9 +53,9 @@ def root_locus(
     """`System.root_locus`."""
     grid, name = increasing_array("root_locus: numbers", numbers), str(letter)
     rates_at = _rates("root_locus", system, at, values, [name])
-    known = [rates_at(x) for x in grid.tolist()]
-    boundaries = _boundaries(rates_at, grid, known, _HALVINGS)
-    pairs = [*zip(grid.tolist(), known, strict=True), *((x, rates_at(x)) for x in boundaries)]
+    rates_on_grid = [rates_at(x) for x in grid.tolist()]
+    boundaries = _boundaries(rates_at, grid, rates_on_grid, _HALVINGS)
+    pairs = [*zip(grid.tolist(), rates_on_grid, strict=True), *((x, rates_at(x)) for x in boundaries)]
     pairs.sort(key=lambda pair: pair[0])
     places, rates = np.array([x for x, _ in pairs]), [r for _, r in pairs]
     return RootLocus(sp.Symbol(name, real=True), places, _followed(rates), tuple(boundaries))
@@ -86,13 +86,13 @@ def stability_chart(
     if not isinstance(numbers, Mapping) or len({*map(str, numbers)}) != 2:
         raise InputError(f"stability_chart: numbers = {numbers!r} must be {{letter: numbers, other: numbers}}")
     names = [str(letter) for letter in numbers]
-    first, second = (increasing_array(f"stability_chart: {name}", each) for name, each in numbers.items())
+    first, second = (increasing_array(f"stability_chart: {name}", places) for name, places in numbers.items())
     rates_at = _rates("stability_chart", system, at, values, names, period)
     rows, edges = list[list[float]](), list[tuple[float, float]]()
     for y in second.tolist():
-        known = [rates_at(x, y) for x in first.tolist()]
-        rows.append([float(rates.real.max()) for rates in known])
-        edges += [(x, y) for x in _boundaries(lambda x, y=y: rates_at(x, y), first, known, _HALVINGS // 2)]  # type: ignore[misc]
+        rates_on_line = [rates_at(x, y) for x in first.tolist()]
+        rows.append([float(rates.real.max()) for rates in rates_on_line])
+        edges += [(x, y) for x in _boundaries(lambda x, y=y: rates_at(x, y), first, rates_on_line, _HALVINGS // 2)]  # type: ignore[misc]
     letters = (sp.Symbol(names[0], real=True), sp.Symbol(names[1], real=True))
     return StabilityChart(letters, (first, second), np.array(rows), np.array(edges).reshape(-1, 2))
 
@@ -112,10 +112,10 @@ def _rates(
     of_period = {str(s) for s in turn.free_symbols} if turn is not None else set()
     period_values = {s: x for s, x in values.items() if str(s) in of_period}
     letters = system.letters.union(*(e.free_symbols for e in system.acting))
-    own = {*names} & {*map(str, letters)}  # the others are letters of the motion alone
+    of_system = {*names} & {*map(str, letters)}  # the others are letters of the motion alone
     if (
         strangers := {*names}
-        - own
+        - of_system
         - {str(s) for e in (*places.values(), sp.sympify(turn or 0, strict=True)) for s in e.free_symbols}
     ):
         raise InputError(
@@ -123,19 +123,19 @@ def _rates(
         )
 
     def rates(*numbers: float) -> NDArray[np.complex128]:
-        known = dict(zip(names, numbers, strict=True))
+        by_name = dict(zip(names, numbers, strict=True))
 
         def put(e: sp.Expr) -> sp.Expr:
-            return put_in(e, {u: known[str(u)] for u in e.free_symbols if str(u) in known})
+            return put_in(e, {u: by_name[str(u)] for u in e.free_symbols if str(u) in by_name})
 
         point = {s: put(e) for s, e in places.items()}
-        mine = {**values, **{name: x for name, x in known.items() if name in own}}
+        mine = {**values, **{name: x for name, x in by_name.items() if name in of_system}}
         if turn is None:
             return state_space(system, point, mine, where=where).rates
         T = put_in(put(turn), by_symbol(f"{where}: values", period_values, turn.free_symbols))
-        turned = monodromy_matrix(system, point, mine, T)
+        monodromy = monodromy_matrix(system, point, mine, T)
         roots = np.where(
-            np.isnan(turned.multipliers), turned.errors, turned.multipliers
+            np.isnan(monodromy.multipliers), monodromy.errors, monodromy.multipliers
         )  # of NaN the bound of its size
         return np.asarray(np.log(roots + (roots == 0)) / float(T))
 
@@ -145,7 +145,7 @@ def _rates(
 def _boundaries(
     rates_at: Callable[[float], NDArray[np.complex128]],
     grid: Array,
-    known: Sequence[NDArray[np.complex128]],
+    rates_on_grid: Sequence[NDArray[np.complex128]],
     halvings: int,
 ) -> list[float]:
     """Where the motion becomes stable or unstable between two numbers."""
@@ -154,13 +154,13 @@ def _boundaries(
         return bool(rates.real.max() > _GROWS * np.abs(rates).max())
 
     boundaries = list[float]()
-    for low, high, *ends in zip(grid.tolist(), grid[1:].tolist(), known, known[1:], strict=False):
-        before, after = map(grows, ends)
-        if before == after:
+    for low, high, *ends in zip(grid.tolist(), grid[1:].tolist(), rates_on_grid, rates_on_grid[1:], strict=False):
+        grows_below, grows_above = map(grows, ends)
+        if grows_below == grows_above:
             continue
         for _ in range(halvings):
             middle = (low + high) / 2
-            low, high = (middle, high) if grows(rates_at(middle)) == before else (low, middle)
+            low, high = (middle, high) if grows(rates_at(middle)) == grows_below else (low, middle)
         boundaries.append((low + high) / 2)
     return boundaries
 

@@ -41,7 +41,7 @@ def plot(run: SampledMotion, *what: Any) -> "RunFigure":
     if not what:
         labels = {f"${letter_latex(q)}$": run.q[:, i] for i, q in enumerate(run.system.c.q)}
         return coordinates_figure(run.t, labels, run.energy, run.drift)
-    curves = (_curve(run, each) for each in what)
+    curves = (_curve(run, quantity) for quantity in what)
     return curves_figure(run.t, {label.replace(r"\&", "&"): values for label, values in curves})  # as matplotlib has it
 
 
@@ -58,9 +58,9 @@ def _curve(run: SampledMotion, what: Any) -> tuple[str, Array]:
     if isinstance(what, str) and name in run.system.names:
         return fill(name, _WIDE).replace("$", r"\$"), run.reactions[name]
     if isinstance(what, str):
-        known = [*moving, "E", *run.system.names]
+        names = [*moving, "E", *run.system.names]
         raise InputError(
-            f"plot: {name!r} is none of {', '.join(known)}{near(name, known)}: name one, or give an expression"
+            f"plot: {name!r} is none of {', '.join(names)}{near(name, names)}: name one, or give an expression"
         )
     if isinstance(what, sp.Equality):
         return f"${latex(what.lhs)}$", run.evaluate(what.rhs)
@@ -110,10 +110,10 @@ def animate(run: SampledMotion, path: str | Path, fps: float = 25.0, lines: Sequ
 
 def _drawn(where: str, frames: SampledMotion, lines: Sequence[Sequence[Point]]) -> list[Array]:
     """The lines along the run, each (m, p, 3)."""
-    for given in (*([lines] if lines else ()), *lines):
-        if not isinstance(given, Sequence) or not given:
+    for item in (*([lines] if lines else ()), *lines):
+        if not isinstance(item, Sequence) or not item:
             raise InputError(
-                f"{where}: {given!r} in lines is no line: lines=[[(0, 0, 0), (x, y, z)], …], each of points (x, y, z)"
+                f"{where}: {item!r} in lines is no line: lines=[[(0, 0, 0), (x, y, z)], …], each of points (x, y, z)"
             )
     points = [[vector_of(f"{where}: a point of lines", e, 3) for e in line] for line in lines]
     return [np.stack([_vectors(frames, point) for point in line], 1) for line in points]

@@ -61,11 +61,11 @@ class Scales:
     windows: tuple[Window, ...] = ()
     survey: Array = field(default_factory=lambda: np.empty((0, 0)))
 
-    def distance(self, one: Array, other: Array) -> Array:
+    def distance(self, first: Array, second: Array) -> Array:
         """How far apart two runs (n, d) are, (n,): the largest difference of a component over its size."""
         size = len(self.sizes)
-        sizes = np.maximum(self.sizes, np.abs(other[:, :size]))
-        return np.asarray(np.minimum((np.abs(one[:, :size] - other[:, :size]) / sizes).max(1), 2.0))
+        sizes = np.maximum(self.sizes, np.abs(second[:, :size]))
+        return np.asarray(np.minimum((np.abs(first[:, :size] - second[:, :size]) / sizes).max(1), 2.0))
 
 
 def clock_windows(system: Equations, values: Values, times: Array) -> tuple[Window, ...]:
@@ -76,9 +76,9 @@ def clock_windows(system: Equations, values: Values, times: Array) -> tuple[Wind
     program = clock_program(system)
     if program is None:
         return ()
-    along = program.along(values)
+    outputs = program.along(values)
     try:
-        return brief_windows(lambda looks: along(looks[:, None], looks), float(times[0]), float(times[-1]))
+        return brief_windows(lambda looks: outputs(looks[:, None], looks), float(times[0]), float(times[-1]))
     except (ArithmeticError, ValueError) as refusal:
         raise InputError(
             f"simulate: a function of time refuses a time between t = {times[0]:g} and {times[-1]:g} s ({refusal}): end the run "
@@ -131,10 +131,10 @@ def motion_scales(
         except StopError as stop:
             evaluations += guess + stop.evaluations
     turn = min(reached * _PER_TURN / max(stretch.evaluations, 1), span)
-    kept = (
+    usual = (
         states if windows else _but_for_peaks(states)
     )  # what acts briefly leaves a motion that is far larger than before it
-    return Scales(turn, _sizes(system, values, kept, turn), evaluations, bool(stiff), windows, states)
+    return Scales(turn, _sizes(system, values, usual, turn), evaluations, bool(stiff), windows, states)
 
 
 def _but_for_peaks(states: Array) -> Array:
@@ -163,14 +163,14 @@ def _coarsely(
 ) -> Integrate:
     program, n, m = motion_program(system), len(system.c.q), len(system.speeds)
     sizes = first_sizes(program.rhs(*parameter_values(program, values)), start, span, n, m)
-    by_one = lambda part, _, tol: solver(part, tol)  # noqa: E731
+    by_one = lambda segment, _, tol: solver(segment, tol)  # noqa: E731
     return smooth_motion(system, values, "core", sizes, span, start, windows, followed, solver=by_one)
 
 
 def first_sizes(bare: Rhs, start: Array, span: float, n: int, m: int) -> Array:
     """A first guess of the sizes, from the state, its derivative and the fastest rate of the linear motion about it."""
-    known = np.nan_to_num(np.asarray(bare(0.0, start), float)[: n + m], posinf=0.0, neginf=0.0)
-    q, u, v, a = start[:n], start[n : n + m], known[:n], known[n:]
+    rates = np.nan_to_num(np.asarray(bare(0.0, start), float)[: n + m], posinf=0.0, neginf=0.0)
+    q, u, v, a = start[:n], start[n : n + m], rates[:n], rates[n:]
     rate = max(float(np.abs(_rates(bare, start, n, n + m)).max()), 1 / span)
     places, speeds = np.maximum(np.abs(q), np.abs(v) / rate), np.maximum(np.abs(u), np.abs(a) / rate)
     if m == n:
@@ -180,12 +180,12 @@ def first_sizes(bare: Rhs, start: Array, span: float, n: int, m: int) -> Array:
 
 def _rates(bare: Rhs, state: Array, n: int, size: int) -> NDArray[np.complex128]:
     """The eigenvalues of the linear motion about a state, 1/s; zero where it is not finite."""
-    known, slope = np.asarray(bare(0.0, state), float)[:size], np.zeros((size, size))
+    value, slope = np.asarray(bare(0.0, state), float)[:size], np.zeros((size, size))
     for j in range(size):
         step = 1e-6 * (np.abs(state[:n] if j < n else state[n:size]).max() or 1.0)
-        moved = state.copy()
-        moved[j] += step
-        slope[:, j] = (np.asarray(bare(0.0, moved), float)[:size] - known) / step
+        displaced = state.copy()
+        displaced[j] += step
+        slope[:, j] = (np.asarray(bare(0.0, displaced), float)[:size] - value) / step
     return np.asarray(np.linalg.eigvals(slope) if np.isfinite(slope).all() else [0.0], complex)
 
 
@@ -207,15 +207,15 @@ def _sizes(system: Equations, values: Values, states: Array, turn: float) -> Arr
     kinetic = float(np.nanmax(np.abs(moving - at_rest), initial=0.0))
     least, top = np.zeros(m), float(largest[n:].max()) or 1.0
     for i, speed in enumerate(np.where(largest[n:] > _LOST * top, largest[n:], top)):
-        along = 0 * u + speed * np.eye(m)[i]
-        mass = np.nanmedian(energy(along) + energy(-along) - 2 * at_rest) / speed**2
+        direction = 0 * u + speed * np.eye(m)[i]
+        mass = np.nanmedian(energy(direction) + energy(-direction) - 2 * at_rest) / speed**2
         least[i] = _QUIET * np.sqrt(2 * kinetic / mass) if mass > 0 else 0.0
     speeds = np.maximum(largest[n:], least)
     if system.kinematics is None:
         places = np.maximum(largest[:n], speeds * turn / (2 * np.pi))
     else:
         alone = [0 * u, u, *(0 * u + speed * e for speed, e in zip(speeds, np.eye(m), strict=True))]
-        still, *v = (velocities_along(system, values, np.hstack([q, each]), times) for each in alone)
+        still, *v = (velocities_along(system, values, np.hstack([q, speeds_alone]), times) for speeds_alone in alone)
         places = np.maximum(largest[:n], np.abs(np.array(v) - still).max((0, 1)) * turn / (2 * np.pi))
     rounding = 0.0
     if system.multipliers:
@@ -235,16 +235,16 @@ def _positive(sizes: Array, least: float = 0.0) -> Array:
 @lru_cache(maxsize=64)
 def integrals(system: Equations) -> tuple[Generated, ...]:
     """The programs of what every motion of the system conserves, as far as that is seen at once."""
-    written = isinstance(system.lagrangian, sp.Expr)
-    kept = []
+    is_expression = isinstance(system.lagrangian, sp.Expr)
+    programs = []
     if not (depends_on_time(system) or system.forces or system.dissipation != 0):
         at_rest = dict.fromkeys(system.c.v, sp.S.Zero)
         if all(decide_zero(put_in(e, at_rest)).answer == "zero" for e in system.rolling):
-            kept.append(energy_program(system))
-    if written and not longer(system.L, _WRITTEN):
+            programs.append(energy_program(system))
+    if is_expression and not longer(system.L, _WRITTEN):
         for q in cyclic_coordinates(system):
-            kept.append(function_program(system, derivative(system.L, system.c.v[system.c.q.index(q)])))
-    return tuple(kept)
+            programs.append(function_program(system, derivative(system.L, system.c.v[system.c.q.index(q)])))
+    return tuple(programs)
 
 
 def defect_of(system: Equations, values: Values, sizes: Array) -> Callable[[Array, Array], Array] | None:
@@ -261,10 +261,12 @@ def defect_of(system: Equations, values: Values, sizes: Array) -> Callable[[Arra
                 with np.errstate(all="ignore"):
                     slope += np.abs(integral(y + step, times) - integral(y - step, times))[0] / (2 * _STEP)
             slope = np.nan_to_num(slope, posinf=0.0)  # where a step leaves the integral's domain
-            known = integral(y, times)[0]
-            rounding = 1e-15 * np.abs(known).max()
-            off = np.sign(known - known[0]) * np.maximum(np.abs(known - known[0]) - rounding, 0.0)
-            errors.append(off / np.maximum(slope, 1e-3 * slope.max() + 1e-300))
+            values_along = integral(y, times)[0]
+            rounding = 1e-15 * np.abs(values_along).max()
+            violation = np.sign(values_along - values_along[0]) * np.maximum(
+                np.abs(values_along - values_along[0]) - rounding, 0.0
+            )
+            errors.append(violation / np.maximum(slope, 1e-3 * slope.max() + 1e-300))
         return np.concatenate(errors)
 
     return defect if conserved else None

@@ -54,38 +54,38 @@ class _Search:
     touch: float
     passages: list[tuple[float, int, Array]] = field(default_factory=list)
     hidden: list[tuple[float, float]] = field(default_factory=list)
-    within: list[_Step] = field(default_factory=list)
+    near_zero: list[_Step] = field(default_factory=list)
 
-    def observe(self, begun: float, left: float, right: float, curve: Any) -> None:
-        nodes = chebyshev_nodes(np.array([left, right]))[0]
-        if self.within and begun + left > self.within[-1][0] + self.within[-1][2] + _ONE * (right - left):
+    def observe(self, begun: float, lower: float, upper: float, curve: Any) -> None:
+        nodes = chebyshev_nodes(np.array([lower, upper]))[0]
+        if self.near_zero and begun + lower > self.near_zero[-1][0] + self.near_zero[-1][2] + _ONE * (upper - lower):
             self.leave()
-        if begun + left > self.begin and np.abs(self.value(curve(nodes), begun + nodes)).max() <= self.touch:
-            self.within.append((begun, left, right, curve))
+        if begun + lower > self.begin and np.abs(self.value(curve(nodes), begun + nodes)).max() <= self.touch:
+            self.near_zero.append((begun, lower, upper, curve))
             return
         self.leave()
-        self._search(begun, left, right, curve, self.touch)
+        self._search(begun, lower, upper, curve, self.touch)
 
     def leave(self) -> None:
         """Search the steps within `touch` of zero if the section has changed its sign there."""
         signs = [
-            [bool(self.value(curve(np.array([s])), np.array([begun + s]))[0, 0] > 0) for s in (left, right)]
-            for begun, left, right, curve in self.within
+            [bool(self.value(curve(np.array([s])), np.array([begun + s]))[0, 0] > 0) for s in (lower, upper)]
+            for begun, lower, upper, curve in self.near_zero
         ]
-        for step, (before, after) in zip(self.within, signs, strict=True):
-            if signs[0][0] != signs[-1][1] and before != after:
+        for step, (sign_before, sign_after) in zip(self.near_zero, signs, strict=True):
+            if signs[0][0] != signs[-1][1] and sign_before != sign_after:
                 self._search(*step, 0.0)
-        self.within.clear()
+        self.near_zero.clear()
 
-    def _search(self, begun: float, left: float, right: float, curve: Any, touch: float) -> None:
+    def _search(self, begun: float, lower: float, upper: float, curve: Any, touch: float) -> None:
         def values(s: Array) -> Array:
             return self.value(curve(s), begun + s)
 
-        zeros, passages = zeros_between(values, left, right, touch), self.passages
+        zeros, passages = zeros_between(values, lower, upper, touch), self.passages
         self.hidden += [(begun + zeros.hidden[0], begun + zeros.hidden[1])] if zeros.hidden else []
         for s, way in zip(zeros.t, zeros.direction, strict=True):
-            since = float(s) if way == 0 else polish(values, 0, float(s), left, right)
-            at, near = begun + since, _ONE * (right - left)
+            since = float(s) if way == 0 else polish(values, 0, float(s), lower, upper)
+            at, near = begun + since, _ONE * (upper - lower)
             if at > self.begin + near and not (passages and passages[-1][1] == way and at - passages[-1][0] <= near):
                 passages.append((at, int(way), curve(np.array([since]))[0][: self.size]))
 
@@ -116,18 +116,21 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
     value = function_program(run.system, section).along(run.values, "crossings")
     touch = max(run.tol, _LEAST) * _change(run, section)
     h = run.switched
-    narrow = {part.argument: part for part in narrow_parts(h.system, h.numbers(h.slipping), run.scales.survey, section)}
-    narrow |= {part.argument: part for part in h.narrow}
+    narrow = {
+        feature.argument: feature
+        for feature in narrow_parts(h.system, h.numbers(h.slipping), run.scales.survey, section)
+    }
+    narrow |= {feature.argument: feature for feature in h.narrow}
     run = replace(run, switched=replace(h, narrow=tuple(narrow.values())))
     search = _Search(value, float(run.t[0]), size, touch)
     passages, evaluations = search.passages, run.evaluations
-    known = value(run.states, run.t)[0]
+    values_at_samples = value(run.states, run.t)[0]
     for i, j in _stages(run):
-        end, spent = _stage(run, i, j, value, touch, search.observe)
-        evaluations += spent
+        end, cost = _stage(run, i, j, value, touch, search.observe)
+        evaluations += cost
         side = float(value(end[None], run.t[[j]])[0, 0])
-        if side * known[j] < 0:  # between the end of a stage and the beginning of the next
-            way = 1 if known[j] > 0 else -1
+        if side * values_at_samples[j] < 0:  # between the end of a stage and the beginning of the next
+            way = 1 if values_at_samples[j] > 0 else -1
             near_end = bool(passages) and run.t[j] - passages[-1][0] < 1e-3 * (run.t[j] - run.t[j - 1])
             if near_end and passages[-1][1] == -way:
                 passages.pop()  # the next stage begins before it
@@ -141,15 +144,15 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
             LagrotorWarning,
             stacklevel=2,
         )
-    kept = [(t, y) for t, way, y in passages if direction in (0, way)]
-    times = np.array([t for t, _ in kept])
+    selected = [(t, y) for t, way, y in passages if direction in (0, way)]
+    times = np.array([t for t, _ in selected])
     tail = run.states.shape[1] - size
-    rows = np.array([y for _, y in kept]).reshape(-1, size)
-    before = np.clip(np.searchsorted(run.t, times, side="right") - 1, 0, len(run.t) - 1)
-    more = run.states[before, size:].copy()
+    rows = np.array([y for _, y in selected]).reshape(-1, size)
+    samples = np.clip(np.searchsorted(run.t, times, side="right") - 1, 0, len(run.t) - 1)
+    clock_and_mode = run.states[samples, size:].copy()
     if tail:
-        more[:, 0] = times
-    return replace(run.read(times, np.hstack([rows, more])), evaluations=evaluations, switched=h)
+        clock_and_mode[:, 0] = times
+    return replace(run.read(times, np.hstack([rows, clock_and_mode])), evaluations=evaluations, switched=h)
 
 
 def _stages(run: SampledMotion) -> Iterator[tuple[int, int]]:
@@ -169,17 +172,17 @@ def _stage(run: SampledMotion, i: int, j: int, value: Values, touch: float, obse
     if not run.switched.smooth:
         stretch = march(run.switched, run.states[i], run.t[[i, j]], local, inf, observe)
         return stretch.end, stretch.evaluations
-    sizes, spent = run.scales.sizes, 0
+    sizes, evaluations = run.scales.sizes, 0
 
     def states_at(times: Array, start: Array, record: Callable[[float], None] | None = None) -> Array:
-        nonlocal spent
+        nonlocal evaluations
         budget = _BUDGET[0] + _BUDGET[1] * float(times[-1] - times[0]) / run.scales.turn
         run_on = integration_of(run.system, run.values, "core", run.scales, run.switched, run.states[0], record)
         try:
             stretch = run_on(start, times, local, False, budget)
         except StopError:  # LSODA may fail by rounding where it is read at many times
             stretch = run_on(start, times, 10 * local, False, budget)
-        spent += stretch.evaluations
+        evaluations += stretch.evaluations
         return stretch.states
 
     def look(edges: Array, start: Array, halvings: int) -> Array:
@@ -190,12 +193,12 @@ def _stage(run: SampledMotion, i: int, j: int, value: Values, touch: float, obse
         values = value(states, times)[0][panels]
         short = np.abs(values).max(1) <= touch
         for k in np.flatnonzero(may_vanish(values, touch) | short | ~np.isfinite(values).all(1)):
-            left, right = edges[k : k + 2]
-            curve, last = interpolant(right - left, states[panels[k], : len(sizes)])
+            lower, upper = edges[k : k + 2]
+            curve, last = interpolant(upper - lower, states[panels[k], : len(sizes)])
             if halvings and (last > max(local, _LEAST) * sizes).any():
-                look(np.array([left, (left + right) / 2, right]), states[panels[k, 0]], halvings - 1)
+                look(np.array([lower, (lower + upper) / 2, upper]), states[panels[k, 0]], halvings - 1)
             else:
-                observe(float(left), 0.0, float(right - left), curve)
+                observe(float(lower), 0.0, float(upper - lower), curve)
         return states[-1]
 
     log: list[float] = []
@@ -203,14 +206,14 @@ def _stage(run: SampledMotion, i: int, j: int, value: Values, touch: float, obse
     times, least = np.unique(log), _CLOCK * np.spacing(max(abs(begin), abs(end)))
     edges = times[(times > begin) & (times < end - least)][_STEPS - 1 :: _STEPS]
     edges = edges[np.diff(edges, prepend=begin) > least]
-    return look(np.concatenate([[begin], edges, [end]]), run.states[i], _HALVINGS), spent
+    return look(np.concatenate([[begin], edges, [end]]), run.states[i], _HALVINGS), evaluations
 
 
 def poincare(run: SampledMotion, section: sp.Expr, of: Sequence[sp.Expr], direction: int = 1) -> Array:
     """The values of the expressions `of` at the crossings, (m, len(of)): of two, the points of a Poincaré section."""
-    wanted = vector_of("poincare: of", of, len(of) if isinstance(of, Sequence) else 2)
-    there = crossings(run, section, direction)
-    return np.stack([there.evaluate(e) for e in wanted], axis=1)
+    outputs = vector_of("poincare: of", of, len(of) if isinstance(of, Sequence) else 2)
+    crossing_run = crossings(run, section, direction)
+    return np.stack([crossing_run.evaluate(e) for e in outputs], axis=1)
 
 
 def _change(run: SampledMotion, section: sp.Expr) -> float:

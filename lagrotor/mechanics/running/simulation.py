@@ -77,9 +77,11 @@ class SystemRun(SampledMotion):
         """
         if not isinstance(system, Equations):
             raise InputError(f"load: system = {system!r} must be the System that it is a run of")
-        given = check_events(system, events)
-        system, more = put_functions("load", system, functions or {}, [e for event in given for e in event.expressions])
-        given, saved = tuple(event_with(event, lambda e: with_values(e, more)) for event in given), read_run(path)
+        events = check_events(system, events)
+        expressions = [e for event in events for e in event.expressions]
+        system, callables = put_functions("load", system, functions or {}, expressions)
+        events = tuple(event_with(event, lambda e: with_values(e, callables)) for event in events)
+        saved = read_run(path)
         about, arrays, c = saved.about, saved.arrays, system.c
         try:
             if about["coordinates"] != [str(q) for q in c.q] or about["equations"] != digest_of(system):
@@ -89,7 +91,7 @@ class SystemRun(SampledMotion):
             q, u = (np.stack([arrays[str(s)] for s in names], 1) for names in (c.q, system.speeds))
             states = np.hstack([q, u, np.array(about["modes"], float).reshape(len(q), -1)])
             scales = Scales(float(about["turn"]), np.array(about["sizes"], float), 0)
-            values = {str(name): float(value) for name, value in about["values"].items()} | more
+            values = {str(name): float(value) for name, value in about["values"].items()} | callables
             tol, local, engine = check_tolerance(about["tol"]), float(about["local"]), about["engine"]
             check_engine(engine, "load")
             whole = len(states) == len(saved.fields["t"]) and scales.sizes.shape == (len(c.q) + len(system.speeds),)
@@ -99,7 +101,7 @@ class SystemRun(SampledMotion):
             raise
         except (KeyError, TypeError, ValueError, AttributeError) as refusal:
             raise InputError(f"load: {path} is no run of a system ({refusal}): give a file that `save` wrote") from None
-        h = with_events(system, values, given)
+        h = with_events(system, values, events)
         windows = clock_windows(h.phase(h.slipping).system, h.numbers(h.slipping), saved.fields["t"])
         swings = np.repeat(states[:1], 2, axis=0)  # as far as the motion came between its samples
         swings[:, : len(scales.sizes)] = scales.sizes, -scales.sizes
@@ -127,12 +129,12 @@ def simulate_system(
     times, tol = check_times("simulate", t), check_tolerance(tol)
     check_engine(engine)
     check_progress(progress)
-    given = check_events(system, events)
-    system, values = put_functions("simulate", system, values, [e for event in given for e in event.expressions])
-    given = tuple(event_with(event, lambda e: with_values(e, values)) for event in given)
+    events = check_events(system, events)
+    system, values = put_functions("simulate", system, values, [e for event in events for e in event.expressions])
+    events = tuple(event_with(event, lambda e: with_values(e, values)) for event in events)
     if engine == "fast" and any(isinstance(value, FunctionValue) for value in dict(values).values()):
         raise InputError("simulate: engine='fast' takes no callable and no table for a function: use engine='core'")
-    h, n = with_events(system, values, given), len(system.c.q)
+    h, n = with_events(system, values, events), len(system.c.q)
     q, v = state_vector("simulate", "q0", q0, n), state_vector("simulate", "v0", v0, len(system.speeds), system)
     parameter_values(h.phase(h.slipping).motion, h.numbers(h.slipping))
     check_values("simulate", system, values, [e for event in h.events for e in event.expressions])
@@ -230,30 +232,30 @@ def _up_to_its_end(run: SystemRun) -> SystemRun:
         )
     ended = np.rint(run.states[:, -1]).astype(int)
     if not ended[-1]:
-        rest = [
+        accumulations = [
             f"impacts on {[e for e in h.events if isinstance(e, Impact)][i].gap} accumulate at t = {at:.9g} s"
             for i, at in h.accumulations.items()
             if at < run.t[-1]
         ]
-        return replace(run, ending=replace(run.ending, reason="; ".join(rest))) if rest else run
+        return replace(run, ending=replace(run.ending, reason="; ".join(accumulations))) if accumulations else run
     k = int(np.argmax(ended > 0))
     at, ending = float(run.states[k, h.size]), h.endings[ended[k] - 1]
     k += k == 0 or at > run.t[k - 1]  # the state of the end is the last sample
-    kept = run.read(np.append(run.t[: k - 1], at), run.states[:k])
+    shorter = run.read(np.append(run.t[: k - 1], at), run.states[:k])
     if ending.kind != "event" or "accumulate" in ending.reason:
         warnings.warn(f"simulate: {replace(ending, at=at)}", LagrotorWarning, stacklevel=3)
-    return replace(kept, ending=replace(ending, at=at))
+    return replace(shorter, ending=replace(ending, at=at))
 
 
 def _on_constraints(system: Equations, values: Values, start: Array, times: Array) -> tuple[Array, Array]:
     """The start, which must be on the constraints but for rounding."""
     n = len(system.c.q)
     q, v = consistent("simulate", system, values, start[:n], start[n:], times[0])
-    off = np.abs(np.concatenate([q, v]) - start)
-    if (off > rounding_of_start(system, values, start, times[0], times[-1] - times[0])).any():
+    distance = np.abs(np.concatenate([q, v]) - start)
+    if (distance > rounding_of_start(system, values, start, times[0], times[-1] - times[0])).any():
         raise ConstraintError(
-            f"simulate: the start is off the constraints by {off.max():.3g}; the nearest state on them is q0 = {_as_text(q)}, "
-            f"v0 = {_as_text(v)} (system.consistent gives it)"
+            f"simulate: the start is off the constraints by {distance.max():.3g}; the nearest state on them is "
+            f"q0 = {_as_text(q)}, v0 = {_as_text(v)} (system.consistent gives it)"
         )
     return q, v
 

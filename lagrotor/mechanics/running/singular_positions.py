@@ -23,8 +23,8 @@ def singular_position(
 
     sizes (N + m,): of the components of the motion.
     """
-    known = np.sqrt(np.abs(np.diag(mass_at(system, values, start))))
-    scale = np.where(known > 0, known, 1.0)
+    lengths = np.sqrt(np.abs(np.diag(mass_at(system, values, start))))
+    scale = np.where(lengths > 0, lengths, 1.0)
 
     def words(state: Array) -> str:
         if not np.isfinite(state).all():
@@ -33,7 +33,7 @@ def singular_position(
         first, _ = _least(mass_at(system, values, start) / np.outer(scale, scale))
         if first > 0 and least < _SINGULAR * first:
             moving = system.c.q if system.kinematics is None else system.speeds
-            names = ", ".join(str(q) for q, part in zip(moving, direction, strict=True) if abs(part) > _TAKES_PART)
+            names = ", ".join(str(q) for q, share in zip(moving, direction, strict=True) if abs(share) > _TAKES_PART)
             return (
                 f"the mass matrix has there {scientific(max(least, 0.0) / first, 1)} of its least eigenvalue at the start, along "
                 f"{names}: a pole of these coordinates. Angles about three different axes, turned('xyz'), have none where those "
@@ -50,7 +50,7 @@ def unbounded_force(system: Equations, values: Mapping[Any, Any], start: Array, 
     """The words of a force that grows without bound, as at a collision: the acceleration at the state would change a velocity by
     its size in 10⁻⁸ of the time in which the motion covers its sizes, and has grown since the start; none elsewhere."""
     n, program = len(system.c.q), function_program(system, *system.c.a)
-    first, change = (_at(program, system, values, each)[:, 0] for each in (start, state))
+    first, change = (_at(program, system, values, y)[:, 0] for y in (start, state))
     i, typical = int(np.argmax(np.abs(change))), float(np.max(sizes[n:]) / np.max(sizes[:n]))
     least = max(_UNBOUNDED * typical * np.max(sizes[n:]), _GROWN * np.abs(first).max())
     if not least < abs(change[i]) < np.inf:  # also where it is no number

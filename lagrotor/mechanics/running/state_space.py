@@ -76,21 +76,21 @@ def state_space(
     where: str = "linearise",
 ) -> StateSpace:
     """The linear system about a point at which all accelerations vanish: see `steady_motions.linearise`."""
-    wanted = tuple(expression(f"{where}: outputs[{i}]", e) for i, e in enumerate(outputs))
+    output_expressions = tuple(expression(f"{where}: outputs[{i}]", e) for i, e in enumerate(outputs))
     if not isinstance(values, Mapping):
         raise InputError(f"{where}: values = {values!r} must be a dictionary")
     if strangers := {*inputs} & {*system.c.q, *system.c.v, *system.speeds, t}:
         raise InputError(
             f"{where}: the input {min(strangers, key=str)} moves: inputs are letters of forces or constraints"
         )
-    known = {str(s): 0.0 for s in inputs} | {str(s): value for s, value in values.items()}
-    check_values(where, system, known, wanted)
+    numbers = {str(s): 0.0 for s in inputs} | {str(s): value for s, value in values.items()}
+    check_values(where, system, numbers, output_expressions)
     if depends_on_time(system):
         raise InputError(
             f"{where}: the motion depends on time explicitly: write a letter for an input F(t), or simulate it"
         )
-    start = point_state(where, system, at, known)
-    motion = motion_slope(where, motion_program(system), known, inputs)
+    start = point_state(where, system, at, numbers)
+    motion = motion_slope(where, motion_program(system), numbers, inputs)
     rate, J, B = motion(start)
     check_smooth(where, motion, start, [f"the rate of {s}" for s in (*system.c.q, *system.speeds)], at)
     n, d = len(system.c.q), len(start)
@@ -98,33 +98,38 @@ def state_space(
     least = _STEADY * size * float(np.abs(J[n:d]).max()) + _ROUNDING
     if np.abs(rate[n:]).max() > least:
         rates = system.c.a if system.kinematics is None else [f"{u}'" for u in system.speeds]
-        left = ", ".join(f"{a} = {x:.3g}" for a, x in zip(rates, rate[n:], strict=True) if abs(x) > least)
-        raise SingularError(f"{where}: {dict(at)} is no steady motion: {left} is left over; start from one")
-    A, P, back = local_slope(system, start, rate, J)
+        rates_text = ", ".join(f"{a} = {x:.3g}" for a, x in zip(rates, rate[n:], strict=True) if abs(x) > least)
+        raise SingularError(f"{where}: {dict(at)} is no steady motion: {rates_text} is left over; start from one")
+    A, P, inverse = local_slope(system, start, rate, J)
     later = start + np.concatenate([rate[:n], np.zeros(d - n)]) / size
     for joint in system.ball_joints:  # a turn about a fixed axis
         places = [system.c.q.index(q) for q in joint.quaternion]
         later[places] /= np.linalg.norm(later[places])
     onward, J, _ = motion(later)
-    other = local_slope(system, later, onward, J)[0]
-    if np.abs(onward[n:]).max() > least or np.abs(other - A).max() > _SAME * max(1.0, float(np.abs(A).max())):
+    later_A = local_slope(system, later, onward, J)[0]
+    if np.abs(onward[n:]).max() > least or np.abs(later_A - A).max() > _SAME * max(1.0, float(np.abs(A).max())):
         raise InputError(
             f"{where}: what moves there enters the equations, whose coefficients change with time: use coordinates that "
             "turn along with the motion"
         )
-    free, T = tangent_space(where, system, known, start)
-    shown, there = motion_slope(where, function_program(system, *wanted), known, inputs), np.append(start, 0.0)
-    check_smooth(where, shown, there, wanted, at)
-    _, C, D = shown(there)
-    states = tuple(s for s, own in zip(small_states(system), free, strict=True) if own)
-    return StateSpace(states, A[free] @ T, (back @ B)[free], C[:, :d] @ P @ T, D)
+    free, T = tangent_space(where, system, numbers, start)
+    output_slope, output_state = (
+        motion_slope(where, function_program(system, *output_expressions), numbers, inputs),
+        np.append(start, 0.0),
+    )
+    check_smooth(where, output_slope, output_state, output_expressions, at)
+    _, C, D = output_slope(output_state)
+    states = tuple(s for s, independent in zip(small_states(system), free, strict=True) if independent)
+    return StateSpace(states, A[free] @ T, (inverse @ B)[free], C[:, :d] @ P @ T, D)
 
 
 def local_slope(system: Equations, state: Array, rate: Array, J: Array) -> tuple[Array, Array, Array]:
     """P⁻ (J P − P'), P and P⁻ of `small_turns`, of a state (q, u) of a motion, its rate (q', u') and J = ∂f/∂(q, u)."""
-    P, back = (np.array(e, np.float64) for e in small_turns(system, state))
-    moved = np.array(small_turns(system, rate)[0], np.float64) - np.array(small_turns(system, 0 * rate)[0], np.float64)
-    return back @ (J @ P - moved), P, back
+    P, inverse = (np.array(e, np.float64) for e in small_turns(system, state))
+    change_of_P = np.array(small_turns(system, rate)[0], np.float64) - np.array(
+        small_turns(system, 0 * rate)[0], np.float64
+    )
+    return inverse @ (J @ P - change_of_P), P, inverse
 
 
 def point_state(where: str, system: Equations, at: Mapping[Any, Any], values: Values, time: float = 0.0) -> Array:
@@ -140,11 +145,11 @@ def point_state(where: str, system: Equations, at: Mapping[Any, Any], values: Va
         raise InputError(
             f"{where}: {', '.join(strangers)} in the point: it gives coordinates and velocities{names}; others are values"
         )
-    given = [expression(f"{where}: {s}", point.get(s, 0)) for s in (*c.q, *system.speeds)]
-    inside = {s for e in given for s in e.free_symbols}
+    entries = [expression(f"{where}: {s}", point.get(s, 0)) for s in (*c.q, *system.speeds)]
+    inside = {s for e in entries for s in e.free_symbols}
     letters = {s: x for s, x in by_symbol(f"{where}: values", values, inside).items() if s in inside}
     try:
-        start = np.array([float(e.subs(letters)) for e in given])
+        start = np.array([float(e.subs(letters)) for e in entries])
     except (TypeError, ValueError):
         raise InputError(f"{where}: {dict(at)} must be numbers, {{coordinate: number, …}}") from None
     if not np.isfinite(start).all():
@@ -153,9 +158,9 @@ def point_state(where: str, system: Equations, at: Mapping[Any, Any], values: Va
         n = len(c.q)
         near = np.concatenate(consistent(where, system, values, start[:n], start[n:], time))
         if (np.abs(near - start) > rounding_of_start(system, values, start, time)).any():
-            shown = ", ".join(f"{s} = {x:.9g}" for s, x in zip((*c.q, *system.speeds), near, strict=True) if x)
+            nearest = ", ".join(f"{s} = {x:.9g}" for s, x in zip((*c.q, *system.speeds), near, strict=True) if x)
             raise ConstraintError(
-                f"{where}: the point is off the constraints; the nearest on them is {shown or 'zero'}"
+                f"{where}: the point is off the constraints; the nearest on them is {nearest or 'zero'}"
             )
         start = near
     check_pole(where, system, values, np.append(start, time))
@@ -163,34 +168,34 @@ def point_state(where: str, system: Equations, at: Mapping[Any, Any], values: Va
 
 
 @lru_cache(maxsize=64)
-def _parts(given: Generated) -> tuple[set[sp.Basic], set[sp.Basic]]:
+def _parts(program: Generated) -> tuple[set[sp.Basic], set[sp.Basic]]:
     """The letters of a program's stages and outputs, and their parts that have no derivative everywhere."""
-    expressions = [*(e for _, e in given.program.stages), *given.program.outputs]
+    expressions = [*(e for _, e in program.program.stages), *program.program.outputs]
     symbols = set().union(*(e.free_symbols for e in expressions))
     return symbols, set().union(*(e.atoms(*_NOT_ANALYTIC) for e in expressions))
 
 
-def motion_slope(where: str, given: Generated, values: Values, inputs: Sequence[sp.Symbol] = ()) -> Slope:
+def motion_slope(where: str, program: Generated, values: Values, inputs: Sequence[sp.Symbol] = ()) -> Slope:
     """state → outputs (k,), their derivatives by the state (k, d), and by the inputs (k, p)."""
-    _, jumping = _parts(given)
+    _, jumping = _parts(program)
     if jumping:
         raise InputError(
             f"{where}: {min(jumping, key=str)} has no derivative everywhere: write the case that holds there"
         )
-    numbers, d = parameter_values(given, values, where), len(given.states)
+    numbers, d = parameter_values(program, values, where), len(program.states)
     calls = [f for f in numbers if callable(f)]
     numbers = numbers[: len(numbers) - len(calls)]
-    names = [str(s) for s in (*given.states, *given.parameters)]
+    names = [str(s) for s in (*program.states, *program.parameters)]
 
     def slope(state: Array, step: float = _STEP) -> tuple[Array, Array, Array]:
         at = np.concatenate([state, numbers]).astype(complex)
-        moved = at[:, None] + 1j * step * np.eye(len(at))
+        displaced = at[:, None] + 1j * step * np.eye(len(at))
         with np.errstate(all="ignore"):
-            rows = [np.broadcast_to(e, len(at)) for e in given.function(*moved, *calls)]
+            rows = [np.broadcast_to(e, len(at)) for e in program.function(*displaced, *calls)]
         table = np.array(rows, complex).reshape(len(rows), len(at))
         by = table.imag / step
-        own = [names.index(str(s)) if str(s) in names else None for s in inputs]
-        pushed = [np.zeros(len(by)) if i is None else by[:, i] for i in own]
+        columns = [names.index(str(s)) if str(s) in names else None for s in inputs]
+        pushed = [np.zeros(len(by)) if i is None else by[:, i] for i in columns]
         return table[:, 0].real, by[:, :d], np.array(pushed).reshape(len(inputs), len(by)).T
 
     return slope
@@ -198,9 +203,9 @@ def motion_slope(where: str, given: Generated, values: Values, inputs: Sequence[
 
 def check_smooth(where: str, slope: Slope, state: Array, names: Sequence[Any], at: Mapping[Any, Any]) -> None:
     """Raise SingularError where an output has no value or no derivative, as √x at zero, whose steps give others each time."""
-    first, other = (np.column_stack(slope(state, h))[: len(names)] for h in (_STEP, _OTHER * _STEP))
+    first, second = (np.column_stack(slope(state, h))[: len(names)] for h in (_STEP, _OTHER * _STEP))
     with np.errstate(invalid="ignore"):
-        smooth = np.abs(first - other) <= _SAME * np.abs(first) + _ROUNDING * (1 + np.abs(first).max(initial=0))
+        smooth = np.abs(first - second) <= _SAME * np.abs(first) + _ROUNDING * (1 + np.abs(first).max(initial=0))
     if not smooth.all():
         name = names[int(np.argmin(smooth.all(1)))]
         raise SingularError(
@@ -224,7 +229,7 @@ def tangent_space(
     h = len(held_by)
     bound = function_program(system, *held_by, *(system.residual[i] for i in system.left))
     slope = motion_slope(where, bound, values)(np.append(state, time))[1][:, : len(state)] @ P
-    held = np.zeros(0, int)
+    dependent = np.zeros(0, int)
     for rows, first in (
         (slope[:h, :n], 0),
         (slope[h:, n:], n),
@@ -236,10 +241,10 @@ def tangent_space(
                 raise SingularError(
                     f"{where}: the constraints are dependent there: leave out what follows from the others"
                 )
-            held = np.append(held, first + order[: len(rows)])
+            dependent = np.append(dependent, first + order[: len(rows)])
     free = np.ones(d, bool)
-    free[held] = False
+    free[dependent] = False
     T = np.zeros((d, int(free.sum())))
     T[free] = np.eye(T.shape[1])
-    T[held] = -np.linalg.solve(slope[:, held], slope[:, free])
+    T[dependent] = -np.linalg.solve(slope[:, dependent], slope[:, free])
     return free, T

@@ -48,8 +48,8 @@ class Event:
                 raise InputError(
                     f"Event: velocities = {self.velocities!r} must be a tuple, an expression for each coordinate"
                 )
-            given = vector_of("Event: velocities", self.velocities, len(self.velocities))
-            object.__setattr__(self, "velocities", given)
+            velocities = vector_of("Event: velocities", self.velocities, len(self.velocities))
+            object.__setattr__(self, "velocities", velocities)
 
     @property
     def expressions(self) -> tuple[sp.Expr, ...]:
@@ -92,25 +92,25 @@ class Surface:
 
 def check_events(system: Equations, events: Any) -> tuple[Event | Impact, ...]:
     """The events of a run as a tuple. Raises InputError for what is none, or does not fit the system."""
-    given = (events,) if isinstance(events, Event | Impact) else events
-    if not isinstance(given, Sequence) or not all(isinstance(each, Event | Impact) for each in given):
+    event_tuple = (events,) if isinstance(events, Event | Impact) else events
+    if not isinstance(event_tuple, Sequence) or not all(isinstance(event, Event | Impact) for event in event_tuple):
         raise InputError(f"simulate: events = {events!r} must be Event(section) or Impact(gap), or several in a tuple")
     c, n = system.c, len(system.speeds)
-    for each in given:
-        if isinstance(each, Impact):
-            if wrong := each.gap.free_symbols & {*c.v, *c.a}:
-                raise InputError(f"Impact: the gap {each.gap} contains {_names(wrong)}: it depends on q and t alone")
-            if not each.gap.free_symbols & {*c.q}:
-                raise InputError(f"Impact: the gap {each.gap} contains no coordinate: no impact changes it")
-        elif each.velocities is not None and len(each.velocities) != n:
+    for event in event_tuple:
+        if isinstance(event, Impact):
+            if wrong := event.gap.free_symbols & {*c.v, *c.a}:
+                raise InputError(f"Impact: the gap {event.gap} contains {_names(wrong)}: it depends on q and t alone")
+            if not event.gap.free_symbols & {*c.q}:
+                raise InputError(f"Impact: the gap {event.gap} contains no coordinate: no impact changes it")
+        elif event.velocities is not None and len(event.velocities) != n:
             raise InputError(
-                f"Event: {len(each.velocities)} velocities after it, for {n} of the system: give one for each"
+                f"Event: {len(event.velocities)} velocities after it, for {n} of the system: give one for each"
             )
-        if isinstance(each, Event) and (wrong := each.section.free_symbols & {*c.a}):
+        if isinstance(event, Event) and (wrong := event.section.free_symbols & {*c.a}):
             raise InputError(
-                f"Event: the section {each.section} contains {_names(wrong)}: it depends on q, v, t and reactions alone"
+                f"Event: the section {event.section} contains {_names(wrong)}: it depends on q, v, t and reactions alone"
             )
-    return tuple(given)
+    return tuple(event_tuple)
 
 
 def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
@@ -123,7 +123,7 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
         system.lagrangian, "rest", system.lagrangian
     )  # of an energy of bodies the expression that is added to them
     places = [*system.forces, system.dissipation, L]
-    put: dict[sp.Expr, sp.Expr] = {}
+    substitutions: dict[sp.Expr, sp.Expr] = {}
     signs: dict[sp.Expr, sp.Expr] = {}
     for atom in sorted({e for e in subexpressions(*places) if isinstance(e, _JUMPING)}, key=sp.default_sort_key):
         w = atom.args[0] - atom.args[1] if isinstance(atom, sp.Max | sp.Min) else atom.args[0]
@@ -131,7 +131,7 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
             w = sp.expand(w)
             opposite = sp.expand(-w)
             s = -signs[opposite] if opposite in signs else signs.setdefault(w, sp.Symbol(f"sign({w})", real=True))
-            put[atom] = _smooth(atom, w, s)
+            substitutions[atom] = _smooth(atom, w, s)
     for root in system.push.atoms(sp.Pow):
         if root.exp == sp.Rational(-1, 2) and _jumps_at_zero(system.push, root.base, system.c.v):
             raise InputError(
@@ -139,9 +139,9 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
                 f"which sticks there, is not run: add the square of a small speed under the root, {root.base} + v_0**2; what "
                 "would stick under a load f below the bound F then creeps at v_0 f/sqrt(F**2 - f**2)"
             )
-    if not put:
+    if not substitutions:
         return system, ()
-    if nested := [atom for atom in put if any(atom != other and atom.has(other) for other in put)]:
+    if nested := [atom for atom in substitutions if any(atom != outer and atom.has(outer) for outer in substitutions)]:
         raise InputError(f"simulate: {nested[0]} has a jump within a jump: write each case as a system of its own")
     slopes = [derivative(L, s) for s in (*system.c.q, *system.c.v)]
     steps = {(step, e) for e in slopes for step in e.atoms(sp.DiracDelta)}
@@ -153,15 +153,15 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
         )
     # A solver looks beyond the surface before it ends its phase there: Hertz's (−z)^(5/2) has |z| for −z.
     roots = {
-        e: sp.Abs(e.base.xreplace(put)) ** e.exp
+        e: sp.Abs(e.base.xreplace(substitutions)) ** e.exp
         for e in subexpressions(*places)
         if isinstance(e, sp.Pow) and e.exp.is_number and not e.exp.is_integer
-        if e.base.has(*put) or any((e.base / w).is_number for w in signs)
+        if e.base.has(*substitutions) or any((e.base / w).is_number for w in signs)
     }
-    put |= roots
-    friction = gradient(system.dissipation.xreplace(put), system.c.v)
-    forces = tuple((force_column(system.forces or None, system.c, "System") - friction).xreplace(put))
-    smooth = replace(system, lagrangian=system.lagrangian.xreplace(put), forces=forces, dissipation=sp.S.Zero)
+    substitutions |= roots
+    friction = gradient(system.dissipation.xreplace(substitutions), system.c.v)
+    forces = tuple((force_column(system.forces or None, system.c, "System") - friction).xreplace(substitutions))
+    smooth = replace(system, lagrangian=system.lagrangian.xreplace(substitutions), forces=forces, dissipation=sp.S.Zero)
     return smooth, tuple(Surface(w, s, _friction(smooth, w, s)) for w, s in signs.items())
 
 
@@ -197,9 +197,9 @@ def _jumps_at_zero(push: sp.Matrix, e: sp.Expr, v: Sequence[sp.Symbol]) -> bool:
     by √e → 0, does not vanish with it."""
     speeds = [s for s in v if s in e.free_symbols]
     still = dict.fromkeys(speeds, sp.S.Zero)
-    rest, slope = e.xreplace(still), gradient(e, speeds).xreplace(still)
+    value_at_rest, slope = e.xreplace(still), gradient(e, speeds).xreplace(still)
     curvature = jacobian(list(gradient(e, speeds)), speeds)
-    if len(speeds) < 2 or rest == 0:
+    if len(speeds) < 2 or value_at_rest == 0:
         return len(speeds) > 1
     if curvature.free_symbols & {*speeds}:
         return False
@@ -207,7 +207,7 @@ def _jumps_at_zero(push: sp.Matrix, e: sp.Expr, v: Sequence[sp.Symbol]) -> bool:
         least, free = curvature.gauss_jordan_solve(-slope)
     except ValueError:
         return False
-    if decide_zero(rest + slope.dot(least.xreplace(dict.fromkeys(free, sp.S.Zero))) / 2).answer != "zero":
+    if decide_zero(value_at_rest + slope.dot(least.xreplace(dict.fromkeys(free, sp.S.Zero))) / 2).answer != "zero":
         return False
     r = sp.Dummy("r", positive=True)
     sizes = [sp.expand(r * f.xreplace({sp.sqrt(e): r, 1 / sp.sqrt(e): 1 / r})).xreplace({r: sp.S.Zero}) for f in push]
