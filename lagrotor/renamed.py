@@ -23,6 +23,12 @@ NAMES = {
     "lagrotor.mechanics.project_position": "lagrotor.mechanics.constraints.project_position",
     "lagrotor.mechanics.project_velocity": "lagrotor.mechanics.constraints.project_velocity",
     "lagrotor.mechanics.solve_constrained": "lagrotor.mechanics.constraints.solve_constrained",
+    "lagrotor.numerics.Program": "lagrotor.numerics.codegen.Program",
+    "lagrotor.numerics.best_harmonics": "lagrotor.numerics.curves.best_harmonics",
+    "lagrotor.numerics.compile_program": "lagrotor.numerics.printers.compile_program",
+    "lagrotor.numerics.harmonics_at": "lagrotor.numerics.curves.harmonics_at",
+    "lagrotor.numerics.mean_between": "lagrotor.numerics.curves.mean_between",
+    "lagrotor.numerics.skew_matrix": "lagrotor.numerics.rotations.skew_matrix",
 }
 
 # Function or method, by its qualified name → {old keyword: new keyword}.

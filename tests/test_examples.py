@@ -1,4 +1,4 @@
-"""Examples that are run: those of the docstrings of public names, and those of the pages of the documentation."""
+"""Examples that are run: those of the docstrings, and those of the pages of the documentation."""
 
 import doctest
 from importlib import import_module
@@ -7,17 +7,13 @@ from pathlib import Path
 import pytest
 
 import lagrotor
-from lagrotor.lazy_imports import names_of_face
 
 PACKAGE = Path(lagrotor.__file__).parent
 DOCS = PACKAGE.parent / "docs"
 MODULES = sorted(
-    {
-        module
-        for face in sorted(PACKAGE.rglob("__init__.py"))
-        for module in names_of_face(face).values()
-        if ">>>" in (PACKAGE.parent / f"{module.replace('.', '/')}.py").read_text(encoding="utf-8")
-    }
+    ".".join(file.relative_to(PACKAGE.parent).with_suffix("").parts)
+    for file in PACKAGE.rglob("*.py")
+    if ">>> " in file.read_text(encoding="utf-8")
 )
 PAGES = [page for page in sorted(DOCS.glob("*.md")) if ">>>" in page.read_text(encoding="utf-8")]
 HOW = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS

@@ -1,4 +1,4 @@
-"""Numbers that are given as arrays, checked: what makes no sense is refused with its value, the reason and the way out."""
+"""Checks of arrays that a user gives; InputError names the value, the reason and the way out."""
 
 from typing import Any
 
@@ -13,10 +13,7 @@ Array = NDArray[np.float64]
 def finite_array(
     where: str, values: ArrayLike, shape: tuple[int, ...] | None = None, kind: type = float
 ) -> NDArray[Any]:
-    """A copy of what is given as an array of finite numbers, of a shape if one is said (−1: any length but none).
-
-    Raises InputError where it is none.
-    """
+    """Return a copy as an array of finite numbers, checked against a shape (−1: any length but zero)."""
     try:
         if kind is not complex and np.iscomplexobj(values):
             raise TypeError
@@ -34,7 +31,7 @@ def finite_array(
 
 
 def real_array(values: ArrayLike) -> Array | None:
-    """Real numbers as they are given; None for texts, dates, complex numbers, truths and what else is none."""
+    """Return real numbers as an array; None for texts, dates, complex numbers and truth values."""
     try:
         plain = np.asarray(values)
         listed = values if isinstance(values, list | tuple) else plain.flat if plain.dtype.kind == "O" else ()
@@ -46,7 +43,7 @@ def real_array(values: ArrayLike) -> Array | None:
 
 
 def increasing_array(where: str, values: ArrayLike, what: str = "numbers") -> Array:
-    """Increasing finite numbers (n,), n > 0. Raises InputError for anything else."""
+    """Return increasing finite numbers, shape (n,), n > 0, or raise InputError."""
     numbers, text = real_array(values), repr(values)
     text = text if len(text) < 60 else f"{text[:57]}…"
     if numbers is None:
@@ -57,5 +54,5 @@ def increasing_array(where: str, values: ArrayLike, what: str = "numbers") -> Ar
 
 
 def check_times(where: str, times: ArrayLike) -> Array:
-    """Increasing finite times in s (n,). Raises InputError for anything else."""
+    """Return increasing finite times in s, shape (n,), or raise InputError."""
     return increasing_array(f"{where}: t", times, "times")

@@ -1,7 +1,8 @@
-"""A straight-line program: how its common parts are found, what it costs, its derivatives; `printers` writes it as code.
+"""Straight-line programs: common subexpressions, number of operations, derivatives; `printers` writes them as code.
 
-A `Program` is a list of named stages and the outputs made of them. Stages keep what a derivation has already shown to be
-one quantity (a matrix element, a pivot) from being multiplied out; common subexpressions are found after that.
+A `Program` is a list of named stages and the outputs made of them. A stage keeps a quantity of the derivation (a matrix
+element,
+a pivot) from being multiplied out; common subexpressions are sought after that.
 """
 
 from collections.abc import Mapping, Sequence
@@ -20,15 +21,11 @@ Stage = tuple[sp.Symbol, sp.Expr]
 
 @dataclass(frozen=True)
 class Program:
-    """arguments → stages → outputs; a stage may use the arguments and the stages before it.
+    """A straight-line program, arguments → stages → outputs; a stage may use the arguments and the stages before it.
 
-    Attributes
-    ----------
-    shared : bool, default False
-        The stages were made so that sums and products have few parts in common: only equal subexpressions are then
-        sought, in a time linear in their number.
-    positive : tuple[Expr, ...], default ()
-        Expressions that are positive within the range in which the program is well conditioned.
+    `shared` says that the stages already share their common parts, so that only equal subexpressions are sought, in linear
+    time.
+    The expressions in `positive` are positive where the program is well conditioned.
     """
 
     arguments: tuple[sp.Symbol, ...]
@@ -51,7 +48,7 @@ class Program:
 
 @lru_cache(maxsize=16)
 def reduce_common(program: Program) -> tuple[Sequence[Stage], Sequence[sp.Expr]]:
-    """Stages with their common subexpressions taken out, in an order that can be run, and the reduced outputs."""
+    """Return the stages, common subexpressions extracted and in an executable order, and the reduced outputs."""
     stages, outputs = list(program.stages), list(program.outputs)
     if program.shared:
         stages = _ordered(dict(stages), outputs)
@@ -68,7 +65,7 @@ def reduce_common(program: Program) -> tuple[Sequence[Stage], Sequence[sp.Expr]]
 
 
 def _ordered(body: Mapping[sp.Symbol, sp.Expr], outputs: Sequence[sp.Expr]) -> list[Stage]:
-    """Only the stages that an output needs, depth first, so that every definition comes before its use."""
+    """Return the stages that an output needs, each after the stages that it uses (depth first)."""
     order: dict[sp.Symbol, None] = {}
     queue = [(s, False) for e in reversed(outputs) for s in _named(e, body)]
     while queue:
@@ -81,7 +78,7 @@ def _ordered(body: Mapping[sp.Symbol, sp.Expr], outputs: Sequence[sp.Expr]) -> l
 
 
 def _repeats(expressions: Sequence[sp.Expr]) -> bool:
-    """Whether a part of them occurs twice, other than a symbol with a minus sign, which costs nothing in a sum."""
+    """Return True if a subexpression occurs twice; a symbol with a minus sign costs nothing in a sum and does not count."""
     stack, visited = list(expressions), set[sp.Basic]()
     while stack:
         e = stack.pop()
@@ -99,13 +96,24 @@ def _named(expression: sp.Expr, body: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Sy
 
 
 def operations(program: Program) -> int:
-    """Arithmetic operations and function calls of one evaluation, after common subexpressions."""
+    """Count the arithmetic operations and function calls of one evaluation, common subexpressions once.
+
+    Parameters
+    ----------
+    program : Program
+        The stages and outputs.
+
+    Returns
+    -------
+    int
+        The number of operations.
+    """
     stages, outputs = reduce_common(program)
     return sum(_count(e) for e in (*(e for _, e in stages), *outputs))
 
 
 def _count(expression: sp.Expr) -> int:
-    """What `sympy.count_ops` counts, which for each product looks for a fraction: only where it may be one."""
+    """Count as `sympy.count_ops` does, without its search for a fraction in products that have none."""
     stack, count = [expression], 0
     while stack:
         e = stack.pop()
@@ -113,11 +121,11 @@ def _count(expression: sp.Expr) -> int:
         if e.is_Symbol:
             continue
         if e.is_Mul and not any(f.is_Pow or f.is_Number or isinstance(f, sp.exp) for f in factors):
-            count += len(e.args) - 1  # a sign, too, is one
+            count += len(e.args) - 1  # a sign counts as a factor
             stack += factors
         elif e.is_Add and not any(f.is_Number for f in e.args):
             signs = [f.is_Mul and f.args[0].is_Number and bool(f.args[0] < 0) for f in e.args]
-            count += len(e.args) - 1 + all(signs) - sum(signs)  # differences cost what sums do
+            count += len(e.args) - 1 + all(signs) - sum(signs)  # a difference costs as much as a sum
             stack += e.args
         else:
             count += int(sp.count_ops(e))
@@ -127,10 +135,10 @@ def _count(expression: sp.Expr) -> int:
 def tangent_program(
     program: Program, slopes: Mapping[sp.Symbol, Sequence[sp.Expr]], arguments: tuple[sp.Symbol, ...]
 ) -> Program:
-    """The program with its derivatives along k directions: its outputs, then of each output the k derivatives.
+    """Return the program of the outputs and, for each output, of its derivatives along k directions.
 
-    slopes: of arguments that change, their k derivatives, numbers or among the new program's `arguments`. Forward
-    differentiation, stage by stage: exact, and no longer than k + 1 times the program and a little.
+    `slopes` gives the k derivatives of each argument that changes. Forward differentiation stage by stage takes at most about
+    k + 1 times the operations of the program.
     """
     stages, outputs = reduce_common(program)
     derivatives, count = {s: list(row) for s, row in slopes.items()}, len(next(iter(slopes.values())))
@@ -152,10 +160,9 @@ def tangent_program(
 
 
 def solve_symmetric(matrix: sp.Matrix, right: sp.Matrix, prefix: str) -> tuple[list[Stage], sp.Matrix]:
-    """Stages that solve the symmetric system `matrix x = right` by L D Lᵀ without pivoting, and the solution.
+    """Return the stages of L D Lᵀ without pivoting for matrix · x = right, and x, shape (n, r).
 
-    (n, n), (n, r) → stages, (n, r). For positive definite matrices, where no pivoting is needed; structural zeros cost
-    nothing. Golub & Van Loan, Matrix Computations, 4.1.
+    The matrix must be positive definite. Golub & Van Loan, Matrix Computations, 4.1.
     """
     n, columns = right.shape
     stages: list[Stage] = []

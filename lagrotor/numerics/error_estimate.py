@@ -1,13 +1,16 @@
-"""The contract of runs: a motion integrated twice, at two local errors, and the error that their difference shows.
+"""Error estimate of every run: the motion is integrated at two local errors, and their difference shows the error.
 
-SAFETY times the difference of the two runs is taken for the error of the better one. It is also the distance to which
-neighbouring motions part: from the time at which it exceeds `tol` the run is beyond its horizon, and from the time at which it
-exceeds LOST nothing is known. The conserved quantities must be conserved as well as the error allows.
+SAFETY times the difference of the two runs is taken for the error of the better one. It is also the distance by which
+neighbouring motions separate. From the time at which it exceeds `tol` the run is beyond its horizon; from the time at which
+it
+exceeds LOST nothing is known. Conserved quantities must be conserved within 100 times the estimate.
 
-Where errors follow the local error, the difference is APART − 1 times the error of the better run, and the estimate
-SAFETY (APART − 1) times that error. An error that both runs have alike is not seen, which is why the two local errors differ so
-much: at a fifth of the local error, one of the 1,000 recorded scenes has two runs that are off by the same 2×10⁻⁵. It remains an
-estimate: of 360 random systems one, whose neighbouring motions part, is off by 1.6 times it, and warns that `tol` is not kept.
+Where errors are proportional to the local error, the difference is APART − 1 times the error of the better run, and the
+estimate
+is SAFETY (APART − 1) times that error. An error that both runs share is not seen, which is why their local errors differ by
+the
+factor APART. The estimate is not a bound: one of 360 random systems, a chaotic one, exceeds it by 1.6 times, and warns that
+`tol` is not kept.
 """
 
 import warnings
@@ -41,16 +44,18 @@ from lagrotor.numerics.solver_constants import (
 from lagrotor.result_display import scientific
 
 MOST_EVALUATIONS = 1e8  # of a run: a right-hand side in Python takes minutes for them
-_LEAST_A_TURN = 100  # evaluations that two integrations take for a turn at least
-UNKNOWN = 2.0  # the most by which two states differ, relative to their size: an error of which nothing is known
-# Two runs are compared at so many parts of the time to the first of all others: there one difference is all that is known of the
-# error, and between the ends of a step DOP853 is off by up to forty times what it is off at them, with changing sign.
+_LEAST_A_TURN = 100  # least evaluations of two integrations per turn
+UNKNOWN = 2.0  # the error of an unknown state: the largest difference of two states relative to their size
+# The time to the first sample is divided, since one difference there is no estimate: within a step the error of DOP853 is up to
+# forty times its error at the ends, with changing sign.
 _PARTS = 8
-_SAMPLES = 65  # times at which a run is watched besides those it is read at
+_SAMPLES = 65  # times at which two runs are compared besides the requested times
 
 
 class EvaluationBudget(NamedTuple):
-    """Evaluations that an integration may take: `begin` in all, and `turn` more for each turn of the motion."""
+    """The number of evaluations that an integration may take: `base` in all, and `per_turn` more for each turn of the
+    motion.
+    """
 
     base: float
     per_turn: float
@@ -58,20 +63,38 @@ class EvaluationBudget(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Evolution:
-    """A motion to be run: its start (d,), and what a run needs to know of it.
+    """A motion to be run: its initial state (d,), its integration, and the measures of its error.
 
-    integrate: (start (d,), times (n,), local error, companion, most evaluations) → the motion from times[0], where the start
-    holds; companion: by another order or other steps, where the local error does not set them. Raises StopError, its time one of
-    the same clock, with what was reached. distance: two runs (n, d) → how far apart they are (n,), relative to the size of the
-    states. turn: the time (s) in which the motion typically turns. project: brings a state back onto its constraints.
-    unsure: how far, in units of rounding, the start may be off what it was given as: the companion's is off by as much.
-    slack: states (n, d) → how far off, in units of rounding, constraints that are nearly dependent there leave them (n,); of
-    the sizes (d,) of the components.
-    defect: times (n,) and states (n, d) → the errors, signed, that would explain how far the run is from conserving what it
-    must. difference: of two runs in everything that is conserved, where `distance` sees only a part.
-    watch: times (m,) at which the defect needs the run. singular: of a state at which a solver stopped, the words of the
-    singular position that it is at, or none. elsewhere: whether the motion can be run by other coordinates, so that one that
-    stops is not tried again. sudden: whether neighbouring motions part within a small part of a turn, at a narrow force.
+    Attributes
+    ----------
+    integrate : callable
+        (start (d,), times (n,), local error, companion, most evaluations) → the motion from times[0] on. A companion uses
+        another
+        order or other steps, where the local error does not set them. Raises StopError with the states up to the stop.
+    distance : callable
+        Two runs (n, d) → their distance relative to the size of the states, shape (n,).
+    turn : float
+        The typical period of the motion in s.
+    project : callable or None
+        Brings a state back onto its constraints.
+    start_error : float
+        Error of the initial state in units of machine epsilon. The companion starts from a state perturbed by it.
+    constraint_uncertainty : callable or None
+        States (n, d) → the error along nearly dependent constraints in units of machine epsilon, shape (n,).
+    sizes : Array or float
+        The size of each component, the unit of that error.
+    conservation_error : callable or None
+        Times (n,), states (n, d) → the signed state errors that would explain the change of the conserved quantities.
+    difference : callable or None
+        The difference of two runs in all conserved quantities, where `distance` sees only some components.
+    watch : Array
+        Times (m,) at which the conservation error needs the run.
+    singular : callable or None
+        The words for a singular position at a state where a solver stopped; "" where there is none.
+    has_other_coordinates : bool
+        A run that stops is not tried again, because other coordinates can describe the motion.
+    sudden : bool
+        Neighbouring motions separate within a small part of a turn, at a narrow force.
     """
 
     start: Array
@@ -92,7 +115,7 @@ class Evolution:
 
 
 class Leg(NamedTuple):
-    """What is to be integrated for the estimate: the arguments of `Evolution.integrate`."""
+    """The arguments of one call of `Evolution.integrate`."""
 
     start: Array
     times: Array
@@ -103,10 +126,11 @@ class Leg(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class EstimatedRun:
-    """States (n, d) at the times t (n,) that were reached, the largest error up to each (n,), the horizon, the evaluations of
-    all integrations, and how it ended.
+    """States (n, d) at the times (n,) that were reached, the largest error up to each time (n,), and the ending.
 
-    local: the local error of the better run.
+    The horizon is the time in s from which the errors exceed tol, `local` the local error of the better run. All integrations
+    count
+    as evaluations.
     """
 
     t: Array
@@ -123,7 +147,7 @@ class EstimatedRun:
         return {name: getattr(self, name) for name in ("t", "errors", "horizon", "evaluations", "ending")}
 
     def by_clock(self, begin: float, unit: float) -> "EstimatedRun":
-        """The same run by a clock (s) that shows `begin` where this one shows 0, its unit of time `unit` s."""
+        """Return the run on a clock (s) that shows `begin` at time 0, the unit of time being `unit` s."""
 
         def at(time: float) -> float:
             return begin + unit * time
@@ -133,7 +157,7 @@ class EstimatedRun:
         return replace(self, ending=ending, **changes)
 
     def warn_unless_kept(self, name: str, tol: float, stacklevel: int = 2, hint: str = "") -> None:
-        """A LagrotorWarning where `tol` is not kept, or the run ended early; hint: what may be the cause, with the way out."""
+        """Warn where `tol` is not kept or the run ended early; `hint` adds a possible cause and the way out."""
         sentences, error = [], float(self.errors[-1])
         if error > tol:
             apart = error / self.local
@@ -155,7 +179,7 @@ class EstimatedRun:
 
 @dataclass(frozen=True, eq=False)
 class _Integration:
-    """An integration at one local error: its states up to its end or to where it stopped."""
+    """An integration at one local error: its states up to its end or to the stop."""
 
     local: float
     companion: bool
@@ -165,9 +189,9 @@ class _Integration:
 
 @dataclass(frozen=True, eq=False)
 class _Pair:
-    """Two integrations compared: errors (m,) up to each time that both reached, lost: the time from which they exceed LOST.
+    """Two integrations compared: errors (m,) up to each common time, and the time `lost` from which they exceed LOST.
 
-    refusal: why the better one is not the motion up to its last time.
+    `refusal` is the reason why the better integration is not the motion up to its last time.
     """
 
     loose: _Integration
@@ -182,13 +206,13 @@ class _Pair:
 
     @property
     def merit(self) -> tuple[bool, float, float, int, float]:
-        """Smaller is better: not refused, a small error, known for long; of two that stop at once, known better up to there."""
+        """Sort key, the least being best: not refused, small error, lost late, many times, small error up to a stop."""
         estimate = float(np.max(self.errors, initial=0.0))
         return self.refusal is not None, self.error, -self.lost, -len(self.errors), estimate
 
 
 class _Course:
-    """A motion, the times t at which it is integrated, the integrations, and the evaluations that were spent on it."""
+    """A motion, its times t, its integrations by (local error, companion), and all evaluations so far."""
 
     def __init__(self, evolution: Evolution, times: Array) -> None:
         begin, end = float(times[0]), float(times[-1])
@@ -197,11 +221,11 @@ class _Course:
         t = np.union1d(t, np.linspace(begin, t[min(1, len(t) - 1)], _PARTS + 1))
         self.evolution, self.times, self.t = evolution, times, t
         self.turns = (t - begin) / evolution.turn
-        self.spent, self.refused = 0, 0.0  # evaluations; the largest local error at which an integration stopped
+        self.evaluations, self.refused = 0, 0.0  # refused: the largest local error at which an integration stopped
         self.integrations: dict[tuple[float, bool], _Integration] = {}
 
     def integration(self, local: float, companion: bool) -> Generator[Leg, Stretch, _Integration]:
-        """The integration at a local error, made if it is not there yet; companion: from a start off by rounding."""
+        """Return the integration at a local error, from memory where it exists; a companion starts from a perturbed state."""
         evolution = self.evolution
         if run := self.integrations.get((local, companion)):
             return run
@@ -213,9 +237,9 @@ class _Course:
                 stretch = yield Leg(start, self.t, local, companion, min(budget, MOST_EVALUATIONS))
         except StopError as stop:
             cause, stretch = stop, stop.reached or Stretch(np.empty((0, len(start))), start, 0)
-            self.spent += stop.evaluations - stretch.evaluations
-        self.spent += stretch.evaluations
-        if cause or stretch.evaluations > budget:  # a solver may find out at its end: it is the last one so tight
+            self.evaluations += stop.evaluations - stretch.evaluations
+        self.evaluations += stretch.evaluations
+        if cause or stretch.evaluations > budget:  # a solver may see only at its end that the budget is exceeded
             self.refused = max(self.refused, local)
         run = self.integrations[local, companion] = _Integration(local, companion, stretch, cause)
         return run
@@ -223,26 +247,23 @@ class _Course:
     def _perturbed_start(self) -> Array:
         start, project = self.evolution.start, self.evolution.project
         state = perturbed_state(start, self.evolution.start_error)
-        if (
-            self.evolution.constraint_uncertainty
-        ):  # in each component, however small: a factor of it would be taken back by `project`
-            spread = np.finfo(float).eps * (self.evolution.constraint_uncertainty(start[None])[0] - 1)
+        if uncertainty := self.evolution.constraint_uncertainty:  # added, since `project` would undo a factor
+            spread = np.finfo(float).eps * (uncertainty(start[None])[0] - 1)
             state = state + spread * self.evolution.sizes * np.cos(np.arange(1, len(start) + 1))
         return project(state) if project else state
 
 
-def perturbed_state(start: Array, unsure: float = 1.0) -> Array:
-    """A start (…, d) off by rounding times `unsure`, in no special direction."""
-    return start * (1 + unsure * np.finfo(float).eps * np.cos(np.arange(1, start.shape[-1] + 1)))
+def perturbed_state(y0: Array, epsilons: float = 1.0) -> Array:
+    """Perturb an initial state (…, d) by a multiple of the rounding error, in no special direction."""
+    return y0 * (1 + epsilons * np.finfo(float).eps * np.cos(np.arange(1, y0.shape[-1] + 1)))
 
 
 def estimate_run(evolution: Evolution, times: Array, tol: float) -> EstimatedRun:
-    """The motion at increasing times (n,), the start holding at times[0], at local errors that keep it within `tol` as the
-    estimate has it, else the best there is.
+    """Integrate a motion at increasing times (n,) so that the estimated error is below `tol`, or return the best integration.
 
-    A run that cannot reach its last time is what was reached, and its ending says why. Raises IntegrationError for a motion that
-    does not conserve what it must, or of which nothing is reached, with its evaluations; and for one of so many turns that
-    rounding alone leaves nothing known.
+    Raises IntegrationError with its evaluations, where conserved quantities change, no time is reached, or rounding alone
+    over so
+    many turns exceeds the size of the states.
     """
 
     def alone(legs: Mapping[int, Leg]) -> dict[int, Stretch | StopError]:
@@ -263,9 +284,8 @@ def estimate_runs(
     tol: float,
     integrate: Callable[[Mapping[int, Leg]], Mapping[int, Stretch | StopError]],
 ) -> list[EstimatedRun | IntegrationError]:
-    """Many motions side by side, each at its own times and as `estimate_run` has it, or what refuses it.
-
-    integrate: the legs that are wanted, by the number of the motion → what was made of each, or what stopped it.
+    """Estimate many motions together; `integrate` maps {number: leg} to {number: stretch or stop}. A refusal takes the
+    place of a run.
     """
     askings = [_asking(evolution, t, tol) for evolution, t in zip(evolutions, times, strict=True)]
     ended: dict[int, EstimatedRun | IntegrationError] = {}
@@ -274,7 +294,7 @@ def estimate_runs(
         legs = dict[int, Leg]()
         for i, answer in answers.items():
             try:
-                # The first answer is none: it begins the asking.
+                # The first answer is None: it starts the generator.
                 legs[i] = askings[i].throw(answer) if isinstance(answer, StopError) else askings[i].send(answer)  # type: ignore[arg-type]
             except StopIteration as end:
                 ended[i] = end.value
@@ -285,10 +305,11 @@ def estimate_runs(
 
 
 def _asking(evolution: Evolution, times: Array, tol: float) -> Generator[Leg, Stretch, EstimatedRun]:
-    """Pairs of integrations until one keeps `tol`: the first as loose as it may be, the next as tight as the error requires.
+    """Yield integrations in pairs until a pair keeps `tol`: the first at the largest useful local error, the next as the error
+    requires.
 
-    The first begins at the larger a local error, the shorter the run, in which local errors gather to less. Where it is refused,
-    looser ones follow up to GIVEN_UP. A pair whose looser integration is there already costs one integration only.
+    Local errors add up to less in a short run, so its first local error is larger. After a refusal looser pairs follow up to
+    GIVEN_UP. A pair whose looser integration exists already costs one integration only.
     """
     course = _Course(evolution, times)
     turns = float(course.turns[-1])
@@ -308,7 +329,7 @@ def _asking(evolution: Evolution, times: Array, tol: float) -> Generator[Leg, St
     while pair.refusal and not (
         evolution.has_other_coordinates or local > GIVEN_UP.value or _at_singular(pair.refusal)
     ):
-        again = pair.loose.stop is None  # it is compared with a looser one
+        again = pair.loose.stop is None  # then the looser integration is compared with one looser still
         local *= APART.value if again else APART.value**2
         pair = yield from _compared(course, local, pair.loose.companion ^ again)
         best = min(pair, best, key=lambda candidate: candidate.merit)
@@ -323,7 +344,7 @@ def _asking(evolution: Evolution, times: Array, tol: float) -> Generator[Leg, St
         best = min(pair, best, key=lambda candidate: candidate.merit)
     refusal = best.refusal
     if refusal and not (isinstance(refusal, StopError) and len(best.errors) > 1):
-        refusal.evaluations = course.spent
+        refusal.evaluations = course.evaluations
         raise refusal
     return _estimated(course, best, tol)
 
@@ -333,12 +354,12 @@ def _at_singular(refusal: IntegrationError) -> bool:
 
 
 def _compared(course: _Course, local: float, companion: bool) -> Generator[Leg, Stretch, _Pair]:
-    """The integrations at a local error and at the APART-th part of it, compared.
-
-    They are refused if the better one does not conserve what it must."""
+    """Compare the integrations at a local error and at 1/APART of it; refuse the better one if conserved quantities
+    change.
+    """
     evolution = course.evolution
     loose = yield from course.integration(local, companion)
-    # Where another model or a looser pair is tried next, nothing more is spent on this one.
+    # Another model or a looser pair is tried next, so the tighter integration is not needed.
     if loose.stop and (evolution.has_other_coordinates or (loose.stop.cause == "budget" and local <= GIVEN_UP.value)):
         return _Pair(loose, loose, np.empty(0), inf, loose.stop)
     tight = yield from course.integration(local / APART.value, not companion)
@@ -348,23 +369,19 @@ def _compared(course: _Course, local: float, companion: bool) -> Generator[Leg, 
     if not m:
         return _Pair(loose, tight, np.empty(0), inf, stop)
     t, looser, better = course.t[:m], coarse.states[:m], fine.states[:m]
-    # Where one of the two has passed an event that the other has not, only what is read there is compared.
+    # Between the two times at which the runs pass the same event, their states are not compared.
     jumps = [np.searchsorted(stretch.jumps, t, side="right") for stretch in (coarse, fine)]
     together = jumps[0] == jumps[1]
     distance = evolution.distance(looser, better)
     finite = bool(np.isfinite(looser).all() and np.isfinite(better).all() and np.isfinite(distance).all())
-    uncertainty = (
-        np.maximum.accumulate(evolution.constraint_uncertainty(better)) if evolution.constraint_uncertainty else 1.0
-    )
+    uncertain = evolution.constraint_uncertainty
+    uncertainty = np.maximum.accumulate(uncertain(better)) if uncertain else 1.0
     rounding = ROUNDING.value * (START.value + course.turns[:m])
     difference = SAFETY.value ** np.where(tight.local < RESOLVED.value * uncertainty, 2, 1) * distance
     least = LEAST.value * tight.local + rounding
     lost = first_time(t, (difference + least > LOST.value) & together)
-    violations = (
-        [evolution.conservation_error(t, states) for states in (looser, better)]
-        if evolution.conservation_error and finite
-        else []
-    )
+    conserved = evolution.conservation_error
+    violations = [conserved(t, states) for states in (looser, better)] if conserved and finite else []
     factor = _alikeness(violations, rounding[-1])
     errors = factor * difference + least
     grown = errors_up_to(t, np.where(together, errors, 0.0), evolution.turn, evolution.sudden)
@@ -385,10 +402,9 @@ def _compared(course: _Course, local: float, companion: bool) -> Generator[Leg, 
 
 
 def _alikeness(defects: Sequence[Array], rounding: float) -> float:
-    """How many times more than elsewhere the difference of two runs counts whose conserved quantities are off alike.
+    """Return a factor ≥ 1 for the difference of two runs that share an error, measured by the conserved quantities.
 
-    The odds of the better one's error to the difference of the two are measured by the defects, where rounding is not most of
-    them. SAFETY is for odds up to a half.
+    SAFETY allows an error of the better run up to half the difference. Defects that are mostly rounding tell nothing.
     """
     if not defects or _largest(defects[1]) < 10 * rounding:
         return 1.0
@@ -400,11 +416,13 @@ def _largest(values: Array) -> float:
 
 
 def errors_up_to(t: Array, errors: Array, turn: float, sudden: bool = False) -> Array:
-    """The largest errors (n,) up to each of the times t (n,), of a motion that turns in the time `turn`.
+    """Return the largest errors (n,) up to each time t (n,), for a motion with the typical period `turn`.
 
-    Two runs that part swing through each other: as much is known as to the end of a swing. Errors are taken to grow by a power of
-    the time or by e^(λt), so that their logarithm is concave, where the difference of two runs that were near by chance grows
-    faster. The least curve above it whose logarithm is concave is the estimate, unless motions part suddenly.
+    Two runs that separate cross each other, so the maximum extends to the end of a swing. Errors grow by a power of the time
+    or by
+    e^(λt), so the logarithm is concave, although two runs may be close by chance. The estimate is the least concave curve
+    above the
+    logarithm, unless motions separate suddenly.
     """
     grown = np.maximum.accumulate(errors)
     grown[1:] = grown[np.searchsorted(t, t[1:] + SWING.value * turn, side="right") - 1]
@@ -423,7 +441,7 @@ def errors_up_to(t: Array, errors: Array, turn: float, sudden: bool = False) -> 
 
 
 def _estimated(course: _Course, best: _Pair, tol: float) -> EstimatedRun:
-    """The better integration with its errors and its ending, at the times that are read."""
+    """Return the better integration with its errors and its ending, at the requested times."""
     states, stop, singular = best.tight.stretch.states, best.tight.stop, course.evolution.singular
     t = course.t[: len(states)]
     errors = np.full(len(t), UNKNOWN)
@@ -435,19 +453,20 @@ def _estimated(course: _Course, best: _Pair, tol: float) -> EstimatedRun:
         ending = Ending("singular" if words else stop.cause, stop.at, words or stop.reason.rstrip("."))
     read = np.isin(t, course.times)
     horizon = first_time(t, errors > tol)
-    return EstimatedRun(t[read], states[read], errors[read], horizon, course.spent, ending, best.tight.local)
+    return EstimatedRun(t[read], states[read], errors[read], horizon, course.evaluations, ending, best.tight.local)
 
 
 def first_time(t: Array, where: NDArray[np.bool_]) -> float:
-    """The first of the times (n,) at which something is so; inf where it is at none."""
+    """Return the first of the times (n,) at which the condition holds; inf if it never does."""
     return float(t[np.argmax(where)]) if where.any() else inf
 
 
 def _hopeless(course: _Course, pair: _Pair) -> bool:
-    """Return whether two integrations parted so fast that no tolerance keeps LOST to the end.
+    """Return True if two integrations separated so fast that no tolerance keeps the error below LOST to the end.
 
-    Their difference grew from the looser local error to LOST at `lost`, half the way by `early` (in logarithms): by e^(λt), or
-    by a power of t. A tighter tolerance comes as far as the more hopeful of the two says.
+    Their difference grew from the looser local error to LOST at `lost`, and half the way (in logarithms) at `early`, as
+    e^(λt) or as
+    a power of t. A tighter tolerance reaches at most the later of the two extrapolated times.
     """
     local, begin = pair.loose.local, float(course.times[0])
     grown, tighter = log(LOST.value / local), log(local / TIGHTEST)

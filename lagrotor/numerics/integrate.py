@@ -1,4 +1,4 @@
-"""States of an initial value problem at any times: the solver that is fastest at the tolerance, never over a pulse."""
+"""States of an initial value problem at any times, by the solver that is fastest at the tolerance."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -22,22 +22,26 @@ from lagrotor.numerics.solver_constants import CROSSOVER, DETOUR, LSODA_SAFETY
 from lagrotor.numerics.solvers import adams, dop853, lsoda
 
 TIGHTEST = 1e-13
-_IN_PULSE = 1e-7  # local error of LSODA in a pulse above which it follows the tolerance by its root alone
+_IN_PULSE = 1e-7  # local error of LSODA in a pulse above which it is proportional to the root of the tolerance
 Engine = Literal["core", "fast"]
 
 
 @dataclass(frozen=True)
 class Problem:
-    """y' = free(s, y), or driven(s, y), where it is another, within `windows`; y = start at t = `begin`; s = t − at.
-
-    `project` brings a state (d,), or states (d, n), back onto their constraints; `budget` is how many evaluations the
-    run may take before it is stopped; `typical_rate`, in rad/s, bounds the first step;
-    no step is longer than half of `time_to_singular` of the state where it begins.
+    """The initial value problem y' = free(s, y), or driven(s, y) within the windows; y = start at t = `begin`, s = t − at.
 
     Attributes
     ----------
-    windows : tuple[Window, ...], default ()
-        Of s, where something acts briefly, one after the other; within no step is longer than each says.
+    budget : float
+        Evaluations after which the run stops.
+    windows : tuple of Window
+        Times s between which something acts briefly, in order; each has its longest step.
+    project : callable or None
+        Brings a state (d,) or states (d, n) back onto their constraints.
+    typical_rate : float
+        In rad/s; it bounds the first step.
+    time_to_singular : callable or None
+        The time in s from a state to a singular position; no step is longer than half of it.
     """
 
     free: RightHandSide
@@ -53,40 +57,37 @@ class Problem:
 
 
 def check_tolerance(tol: float, caller: str = "simulate") -> float:
-    """`tol` as a float, refused outside [1e-13, 0.1]."""
+    """Return `tol` as a float, or raise InputError outside [1e-13, 0.1]."""
     if not (isinstance(tol, int | float | np.floating) and TIGHTEST <= tol <= 0.1):
         raise InputError(f"{caller}: tol = {tol!r} must lie between {TIGHTEST:g}, what doubles can carry, and 0.1")
     return float(tol)
 
 
 def check_engine(engine: str, caller: str = "simulate") -> None:
-    """Raises InputError where it is neither "core" nor "fast"."""
+    """Raise InputError for an engine other than "core" and "fast"."""
     if engine not in ("core", "fast"):
         raise InputError(f"{caller}: engine = {engine!r} is neither core nor fast")
 
 
 def check_progress(progress: object) -> None:
-    """Raises InputError where it is neither a function nor None."""
+    """Raise InputError for an object that is neither a function nor None."""
     if progress is not None and not callable(progress):
         raise InputError(f"simulate: progress = {progress!r} must be a function of the time (s), or None")
 
 
 def integrate(problem: Problem, times: Array, tol: float, solver: SegmentSolver | None = None) -> Stretch:
-    """Integrate from `begin` through increasing `times` with a local error `tol`; states (n, d) there.
+    """Integrate from `begin` through increasing times (n,) with a local error `tol`, by the given solver or the fastest of the
+    core.
 
     In the time s = t − at a pulse far shorter than the spacing of doubles near `at` is still resolved. The run is cut at the
-    edges of its windows, in which steps are bounded, so no tolerance can miss what acts there.
-    solver: of a segment, where it is not the fastest of the core.
-
-    Raises StopError, with the time, its cause and what was reached, when the solver cannot go on or `budget` is spent.
+    edges of
+    its windows, in which steps are bounded, so no tolerance can miss a brief force. Raises StopError with the states up to
+    the stop.
     """
     t_eval = times - problem.at
     begin, end = problem.begin - problem.at, float(t_eval[-1])
-    pieces, y, evaluations = (
-        [np.repeat(problem.start[None], np.count_nonzero(t_eval == begin), axis=0)],
-        problem.start,
-        0,
-    )
+    y, evaluations = problem.start, 0
+    pieces = [np.repeat(y[None], np.count_nonzero(t_eval == begin), axis=0)]
     for lower, until, longest in segments(begin, end, problem.windows):
         if until > lower:
             pulsed = longest < np.inf
@@ -115,21 +116,21 @@ def integrate(problem: Problem, times: Array, tol: float, solver: SegmentSolver 
 
 
 class _Progress:
-    """What has been made of a segment, and what is left of it."""
+    """The states of a segment so far, and the segment from there on."""
 
     def __init__(self, segment: Segment) -> None:
         self.segment, self.evaluations, self.pieces = segment, 0, [np.empty((0, len(segment.start)))]
 
-    def remaining(self, right: float) -> Segment:
-        """What is left up to `right`. Raises StopError where nothing may be spent on it."""
+    def remaining(self, until: float) -> Segment:
+        """Return the segment up to the time `until`, or raise StopError if its budget is spent."""
         segment = self.segment
         if self.evaluations > segment.budget:
             raise self.stopped(StopError(segment.begin, f"{self.evaluations} evaluations spent", cause="budget"))
-        inside = segment.t_eval <= right
-        return replace(segment, until=right, t_eval=segment.t_eval[inside], budget=segment.budget - self.evaluations)
+        inside = segment.t_eval <= until
+        return replace(segment, until=until, t_eval=segment.t_eval[inside], budget=segment.budget - self.evaluations)
 
     def add(self, at: float, stretch: Stretch) -> None:
-        """What was made up to `at`, its evaluations apart."""
+        """Append the states up to the time `at`, without their evaluations."""
         self.pieces.append(stretch.states)
         self.segment = replace(
             self.segment, start=stretch.end, begin=at, t_eval=self.segment.t_eval[len(stretch.states) :]
@@ -139,7 +140,7 @@ class _Progress:
         return Stretch(np.concatenate(self.pieces), self.segment.start, self.evaluations)
 
     def stopped(self, stop: StopError) -> StopError:
-        """The stop with all that was reached and spent."""
+        """Return the stop with all states and evaluations of the segment."""
         self.evaluations += stop.evaluations
         if stop.reached:
             self.add(stop.at, stop.reached)
@@ -148,18 +149,20 @@ class _Progress:
 
 
 def by_fastest(segment: Segment, pulsed: bool, tol: float) -> Stretch:
-    """A segment by the solver that is fastest at this tolerance; where that stops, DOP853 goes on for a while.
+    """Solve a segment by the fastest solver at this tolerance; where that stops, DOP853 continues for a while.
 
-    The other one is tried again once DOP853 has taken as many evaluations as the last trial lost, and if it would take more than
-    those to the end: trials together lose no more than DOP853 takes, but for the last.
+    The fast solver is tried again once DOP853 has taken as many evaluations as the last trial lost, if the rest would cost
+    more than
+    that. All trials but the last together lose no more evaluations than DOP853 takes.
     """
-    # From a velocity that is not finite a solver makes a step that is not, and retries it for ever.
+    # From a rate that is not finite a solver makes a step that is not finite, and repeats it for ever.
     by_dop853, progress = pulsed and tol < CROSSOVER.value, _Progress(segment)
     progress.evaluations = 1
     if not np.isfinite(segment.rhs(segment.begin, segment.start)).all():
         raise StopError(segment.begin, "the right-hand side is not finite", evaluations=1)
     detour = DETOUR.value / segment.typical_rate if segment.typical_rate and not by_dop853 else np.inf
-    trial_cost, trial_progress, since, per_time = 0, 0.0, np.inf, np.inf  # by the last trial, and by DOP853 since
+    # Evaluations and time of the last trial of the fast solver; evaluations of DOP853 since then, and per second.
+    trial_cost, trial_progress, since, per_time = 0, 0.0, np.inf, np.inf
     while (now := progress.segment.begin) < segment.until:
         lost_cost = trial_cost - per_time * trial_progress if trial_progress else trial_cost
         if not by_dop853 and since >= lost_cost and per_time * (segment.until - now) > lost_cost:
@@ -174,22 +177,22 @@ def by_fastest(segment: Segment, pulsed: bool, tol: float) -> Stretch:
                 progress.stopped(stop)
                 trial_cost, trial_progress, since = stop.evaluations, progress.segment.begin - now, 0
         now = progress.segment.begin
-        right = min(now + detour, segment.until)
-        segment_of_detour = progress.remaining(right)
+        until = min(now + detour, segment.until)
+        detour_segment = progress.remaining(until)
         try:
-            run = dop853(segment_of_detour, tol / 20)
+            run = dop853(detour_segment, tol / 20)
         except StopError as stop:
             raise progress.stopped(stop) from None
-        per_time, since = run.evaluations / (right - now), since + run.evaluations
+        per_time, since = run.evaluations / (until - now), since + run.evaluations
         progress.evaluations += run.evaluations
-        progress.add(right, run)
+        progress.add(until, run)
     return progress.result()
 
 
 def _fastest(segment: Segment, pulsed: bool, tol: float) -> Stretch:
     if tol >= CROSSOVER.value:
         error = tol / LSODA_SAFETY.value
-        # In a pulse no loose one, and never the same for two tolerances: runs that are compared would agree, and be wrong.
+        # In a pulse the error is small and differs between tolerances, or the two compared runs would agree and be wrong.
         return lsoda(segment, min(error, (_IN_PULSE * error) ** 0.5) if pulsed else error)
-    # Where equal steps do not pay, Adams is left soon.
+    # A small budget, so that a motion for which equal steps are too costly soon gets another solver.
     return adams(replace(segment, budget=min(segment.budget, 5_000 + 0.15 * segment.budget)), tol)

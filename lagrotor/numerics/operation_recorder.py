@@ -1,4 +1,4 @@
-"""Numbers that record what is computed with them, so that a function of numbers of any kind becomes a line of source each.
+"""Numbers that record the operations on them, so that a numerical function becomes a line of source for each operation.
 
 Arrays of them (dtype object) go through numpy's sums, products and functions, as long as nothing branches on a value.
 """
@@ -10,15 +10,14 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 Term: TypeAlias = "Recorded | float"
-_LONGEST = 160  # characters of an expression that is not given a name of its own
+_LONGEST = 160  # characters from which an expression gets a name
 
 
 @dataclass(eq=False)
 class Recorded:
-    """A sum "+", difference "-", product "*", quotient "/", negative "neg", the value of the function of that name, or, without
-    parts, a name.
+    """The result of a recorded operation: "+", "-", "*", "/", "neg" or a function of its operands; without operands, a name.
 
-    tape: every number of one record, in the order in which they were computed.
+    The tape holds all numbers of one record in the order of their computation.
     """
 
     tape: list[Recorded] = field(repr=False)
@@ -59,19 +58,19 @@ class Recorded:
         return self._with("neg", self)
 
     def sqrt(self) -> Recorded:
-        """The square root, recorded; as those below, what numpy calls."""
+        """Record a square root; numpy calls this method and the next three."""
         return self._with("sqrt", self)
 
     def sin(self) -> Recorded:
-        """The sine, recorded."""
+        """Record a sine."""
         return self._with("sin", self)
 
     def cos(self) -> Recorded:
-        """The cosine, recorded."""
+        """Record a cosine."""
         return self._with("cos", self)
 
     def hypot(self, term: Term) -> Recorded:
-        """The root of the sum of two squares, recorded."""
+        """Record the root of the sum of two squares."""
         return self._with("hypot", self, term)
 
 
@@ -79,7 +78,7 @@ sqrt = Recorded.sqrt
 
 
 def lines(outputs: Iterable[Term], tape: list[Recorded]) -> tuple[list[str], list[str]]:
-    """Assignments to what is used more than once, and the text of each output."""
+    """Return assignments for the numbers that are used more than once, and the text of each output."""
     terms, used = list(outputs), dict[Recorded, int]()
     for x in terms:
         _count(x, used)

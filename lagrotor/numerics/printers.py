@@ -1,7 +1,8 @@
-"""Programs as code: Python functions of numbers or of arrays, the right-hand side that a solver calls, JavaScript.
+"""Printed programs: Python functions of numbers or arrays, the right-hand side for a solver, JavaScript.
 
-A right-hand side takes one state at a time: what depends on the parameters alone is worked out once, and squares are products,
-which takes about three quarters of the time of a function and a wrapper around it.
+A right-hand side takes one state at a time. Stages of parameters alone are evaluated once, and squares are printed as
+products:
+this takes three quarters of the time of a function with a wrapper.
 """
 
 from collections.abc import Callable, Sequence
@@ -20,11 +21,11 @@ from lagrotor.numerics.arrays import Array
 from lagrotor.numerics.codegen import Program, Stage, reduce_common
 from lagrotor.numerics.source_cache import function_of
 
-_BLOCK = 8192  # values at once: what a processor keeps close
+_BLOCK = 8192  # values at once, which fit into a processor's cache
 
 
 class _Printer(AbstractPythonCodePrinter):  # type: ignore[misc]
-    """Python in which symbols may have other names."""
+    """A Python printer that can rename symbols."""
 
     module: str
 
@@ -33,18 +34,18 @@ class _Printer(AbstractPythonCodePrinter):  # type: ignore[misc]
         self.names: dict[sp.Symbol, str] = {}
 
     def _print_Float(self, expr: sp.Float) -> str:
-        """To its last digit: sympy writes 15, and loses 192943.6528778573 s by 3·10⁻¹⁰ s."""
+        """Print all digits: sympy's 15 would change 192943.6528778573 s by 3·10⁻¹⁰ s."""
         return repr(float(expr))
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
         return self.names.get(expr) or super()._print_Symbol(expr)
 
     def _print_AppliedUndef(self, expr: sp.Expr) -> str:
-        """A function that is an argument of the program."""
+        """Print a call of a function that is an argument of the program."""
         return f"{expr.func}({', '.join(map(self._print, expr.args))})"
 
     def _print_sech(self, expr: sp.sech) -> str:
-        """Without cosh, which overflows from 711 on, where this is zero."""
+        """Print without cosh, which overflows from 711 on, where sech is zero."""
         small = sp.exp(-sp.Abs(expr.args[0]))
         return f"({self._print(2 * small)}/({self._print(1 + small**2)}))"
 
@@ -55,7 +56,7 @@ class _Printer(AbstractPythonCodePrinter):  # type: ignore[misc]
 
 
 class _Scalars(_Printer, PythonCodePrinter):  # type: ignore[misc]
-    """Of numbers: a small power of a symbol is a product, no sum begins with a minus sign that it can do without."""
+    """For floats: a small power of a symbol is a product, and a sum begins with a positive term if it has one."""
 
     module = "math"
 
@@ -69,7 +70,7 @@ class _Scalars(_Printer, PythonCodePrinter):  # type: ignore[misc]
 
 
 class _Arrays(_Printer, SciPyPrinter):  # type: ignore[misc]
-    """Of arrays."""
+    """For arrays."""
 
     module = "numpy"
 
@@ -80,13 +81,13 @@ class _Arrays(_Printer, SciPyPrinter):  # type: ignore[misc]
         return self._of_two("minimum", expr)
 
     def _of_two(self, name: str, expr: sp.Expr) -> str:
-        """A function of two, of all the arguments: sympy 1.13.0 stacks them, which takes no number beside an array."""
+        """Nest a function of two arguments: sympy 1.13.0 stacks the arguments, which fails for a number beside an array."""
         name = self._module_format(f"numpy.{name}")
         return reduce(lambda a, b: f"{name}({a}, {b})", map(self._print, expr.args))
 
 
 class _Digits(_Printer, MpmathPrinter):  # type: ignore[misc]
-    """Of mpmath's numbers."""
+    """For mpmath's numbers."""
 
     module = "mpmath"
     _print_Float = MpmathPrinter._print_Float
@@ -96,7 +97,7 @@ _PRINTERS: dict[str, type[_Printer]] = {printer.module: printer for printer in (
 
 
 def _quick(e: sp.Expr, show: _Printer) -> str:
-    """What `show` prints of a sum of products, without the search for the finest order of its terms."""
+    """Print a sum of products without sympy's search for the best order of its terms."""
     if e.is_Symbol:
         return show.names.get(e) or e.name
     if e.is_Add:
@@ -114,7 +115,7 @@ def _factor(e: sp.Expr, show: _Printer) -> str:
 
 
 def _assignments(stages: Sequence[Stage], outputs: Sequence[sp.Expr], show: _Printer, quick: bool) -> list[str]:
-    """The stages, assigned to as few names as are alive at once: beyond 255 local names Python runs many times slower."""
+    """Print the stages with as few names as are in use at once: beyond 255 local names Python runs many times slower."""
     used_in = [e.free_symbols for _, e in stages]
     last = {s: i for i, symbols in enumerate(used_in) for s in symbols}
     passing = {name for name, _ in stages}.difference(*(e.free_symbols for e in outputs))
@@ -130,7 +131,7 @@ def _assignments(stages: Sequence[Stage], outputs: Sequence[sp.Expr], show: _Pri
 
 
 def program_source(program: Program, module: str = "math") -> str:
-    """Source of (arguments) → list of outputs, as `compile_program` has it."""
+    """Return the source of a function (arguments) → list of outputs."""
     stages, outputs = reduce_common(program)
     show = _PRINTERS[module]()
     lines = _assignments(stages, outputs, show, program.shared)
@@ -141,17 +142,9 @@ def program_source(program: Program, module: str = "math") -> str:
 
 
 def compile_program(program: Program, module: str = "math", doc: str = "") -> Callable[..., Any]:
-    """The program as a function of its arguments, returning a list of outputs.
+    """Compile a program to a function of its arguments that returns a list of outputs.
 
-    Parameters
-    ----------
-    program : Program
-        What is computed.
-    module : str, default 'math'
-        "math" takes Python floats, one state at a time (the fastest where a solver calls one state at a time); "numpy"
-        arrays that broadcast together; "mpmath" numbers of any precision.
-    doc : str, default ''
-        The function's docstring.
+    The module "math" takes floats (fastest for one state at a time), "numpy" arrays that broadcast, "mpmath" any precision.
     """
     function = function_of(program_source(program, module))
     function.__doc__ = doc or f"{', '.join(map(str, program.arguments))} -> {len(program.outputs)} numbers"
@@ -161,13 +154,14 @@ def compile_program(program: Program, module: str = "math", doc: str = "") -> Ca
 def rhs_source(
     program: Program, states: int, driven: bool = False, bounded: bool = False, clock: int | None = None
 ) -> str:
-    """Source of parameters → rhs(s, y), for a program whose first `states` arguments are the state.
+    """Return the source of parameters → rhs(s, y), for a program whose first `states` arguments are the state.
 
-    driven: the last three parameters are the components of a force exp(−(s/width)²), and width follows them. bounded: where
-    one of the program's `positive` is not positive, OutsideError is raised. clock: which of the state is the time; where the last
-    parameter, begin, is given, it is begin + s instead.
-    A state outside the range of the coordinates gives NaN, which makes a solver shorten its step; `rhs.bare`, for a solver
-    that cannot, raises one of LOST there instead.
+    driven: the last three parameters are the components of a force exp(−(s/width)²), and width follows them. bounded:
+    OutsideError
+    is raised where one of the program's `positive` is not positive. clock: index of the time in the state; with the last
+    parameter
+    begin, the time is begin + s instead. Outside the coordinates' range rhs gives NaN, which makes a solver shorten its step;
+    `rhs.bare` raises one of LOST instead.
     """
     expressions = (*program.outputs, *(program.positive if bounded else ()))
     stages, reduced = reduce_common(replace(program, outputs=expressions))
@@ -198,7 +192,7 @@ def rhs_source(
 
 
 def rhs_text(body: list[str], fixed: list[str], names: list[str], outputs: int) -> str:
-    """Source of parameters `names` → rhs(s, y) of the lines `body`; the lines `fixed` are evaluated once."""
+    """Return the source of (parameters) → rhs(s, y) with the lines `body`; the lines `fixed` are evaluated once."""
     source = [
         "from math import *",
         "from lagrotor.numerics.segment import LOST, OutsideError",
@@ -218,10 +212,7 @@ def rhs_text(body: list[str], fixed: list[str], names: list[str], outputs: int) 
 
 
 def in_blocks(function: Callable[..., Any], arguments: Sequence[float | Array], outputs: int, n: int) -> Array:
-    """A numpy program's outputs (outputs, n), where an argument is one number or an array (n,), some thousands at a time.
-
-    A block's intermediate results stay in a processor's cache; those of a million values would go through the memory.
-    """
+    """Evaluate a numpy program, shape (outputs, n), some thousands of values at a time, so that they stay in the cache."""
     table = np.empty((outputs, n))
     for i in range(0, n, _BLOCK):
         rows = function(*(v if isinstance(v, float) else v[i : i + _BLOCK] for v in arguments))
@@ -231,7 +222,7 @@ def in_blocks(function: Callable[..., Any], arguments: Sequence[float | Array], 
 
 
 def javascript(program: Program, name: str) -> str:
-    """The program as a JavaScript function that returns an array."""
+    """Return the program as a JavaScript function that returns an array."""
     stages, outputs = reduce_common(program)
     lines = [f"  const {s} = {sp.jscode(e)};" for s, e in stages]
     values = ", ".join(sp.jscode(e) for e in outputs)

@@ -1,4 +1,4 @@
-"""Windows of a run, in which something acts briefly by the clock: where a force of t changes fast, and how a run is cut there."""
+"""Windows of a run, in which a force of t changes fast; a run is cut at their edges and its steps are bounded in them."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ if TYPE_CHECKING:
 PULSE_REACH = 6.5
 # Longest step in a window, over that of the run, of its companion: were it 1, both might take the same steps and agree.
 COMPANION_STEP = 0.8
-_LOOKS = 2**14  # intervals of a run, at whose ends forces of t are looked at
+_LOOKS = 2**14  # intervals of a run, at whose ends forces of t are sampled
 _CELL = 8  # intervals of the smallest cell
-_DEGREE = 4  # of the polynomial that a function is in a cell where it is smooth
-_SMOOTH = 1e-6  # of its range over the run, to which it is that there
-_TAIL, _TAILS = 1e-12, 6  # the same beside a cell where it is not, and in how many cells on each side that is looked at
-_OFTEN, _FINER = 0.25, 4  # the part of a run that is no exception, and how much finer than there a window's cells are
-_CUT = 10.0  # steps that a cut costs
+_DEGREE = 4  # of the polynomial that fits a function in a smooth cell
+_SMOOTH = 1e-6  # error of that fit over the range of the function in the run
+_TAIL, _TAILS = 1e-12, 6  # the same bound beside a cell that is not smooth, and the number of cells on each side
+_OFTEN, _FINER = 0.25, 4  # share of the run above which fast changes are usual; ratio of usual cells to a window's
+_CUT = 10.0  # cost of a cut in steps
 
 
 class Window(NamedTuple):
-    """From `begin` to `end` (s) no step is longer than `longest`."""
+    """A time interval from `begin` to `end` (s) in which no step is longer than `longest`."""
 
     begin: float
     end: float
@@ -32,20 +32,19 @@ class Window(NamedTuple):
 
 
 def pulse_windows(width: float, companion: bool = False) -> tuple[Window, ...]:
-    """That of a pulse exp(−(s/width)²): within its reach steps are no longer than its width."""
+    """Return the window of a pulse exp(−(s/width)²), in which steps are no longer than its width."""
     reach = PULSE_REACH * width
     return windows_since(0.0, (Window(-reach, reach, width),), companion)
 
 
 def windows_since(begin: float, windows: Sequence[Window], companion: bool = False) -> tuple[Window, ...]:
-    """The windows by a clock that shows 0 at the time `begin`."""
+    """Return the windows on a clock that shows 0 at the time `begin`; a companion's steps are shorter."""
     share = COMPANION_STEP if companion else 1.0
     return tuple(Window(a - begin, b - begin, share * longest) for a, b, longest in windows)
 
 
 def segments(begin: float, end: float, windows: Sequence[Window]) -> Iterator[Window]:
-    """A run from begin to end, cut at the edges of windows, which follow each other: the longest step of each part is inf outside
-    of them."""
+    """Yield the intervals of a run, cut at the edges of its windows; outside of windows the longest step is inf."""
     now = begin
     for window in windows:
         if window.end <= now or window.begin >= end:
@@ -59,14 +58,17 @@ def segments(begin: float, end: float, windows: Sequence[Window]) -> Iterator[Wi
 
 
 def brief_windows(functions: Callable[[Array], Array], begin: float, end: float) -> tuple[Window, ...]:
-    """Where functions of t, times (n,) → values (k, n), change faster than they mostly do from begin to end.
+    """Find the windows in which functions of t, times (n,) → values (k, n), change faster than in most of the run.
 
-    A cell is smooth if a polynomial of degree 4 is the function there, to 10⁻⁶ of its range. Cells are doubled as long as those
-    that are not smooth are the exception; each is a window of steps no longer than itself, or, in the smallest, than the function
-    takes to change by all that it does there at its fastest. What changes in a window is taken out before cells are doubled, or
-    each would be found again in all larger ones. NaN, where a function has no value, is the value beside it.
+    A cell is smooth if a polynomial of degree 4 is the function there to 10⁻⁶ of its range. Cells are doubled as long as most
+    are
+    smooth; each other cell is a window. Its longest step is its length, or in the smallest cells the time of the fastest
+    change.
+    Changes inside a window are removed before cells are doubled, or all larger cells would contain them. NaN takes a
+    neighbour's
+    value.
     """
-    import numpy as np  # here, since a scene needs the reach of a pulse only
+    import numpy as np  # imported late: a scene needs only the reach of a pulse
 
     if not begin < end:
         return ()
@@ -79,15 +81,15 @@ def brief_windows(functions: Callable[[Array], Array], begin: float, end: float)
         if np.isinf(longest[i]):
             continue
         window = Window(float(times[i]), float(times[j]), float(longest[i]) * (end - begin) / _LOOKS)
-        while windows and (both := _one(windows[-1], window)):
+        while windows and (both := _merged(windows[-1], window)):
             window = both
             windows.pop()
         windows.append(window)
     return tuple(windows)
 
 
-def _one(first: Window, second: Window) -> Window | None:
-    """Two windows as one, where that takes fewer steps than solvers take to begin anew."""
+def _merged(first: Window, second: Window) -> Window | None:
+    """Merge two windows where that takes fewer steps than restarting a solver; None otherwise."""
     merged = Window(first.begin, second.end, min(first.longest, second.longest))
     extra_steps = (merged.end - merged.begin) / merged.longest - sum(
         (b - a) / longest for a, b, longest in (first, second)
@@ -96,7 +98,7 @@ def _one(first: Window, second: Window) -> Window | None:
 
 
 def _longest_steps(values: Array) -> Array:
-    """Of one function: in intervals, the longest step in each of them (_LOOKS,), inf where it is smooth."""
+    """Return the longest step in each interval for one function, in intervals, shape (_LOOKS,); inf where it is smooth."""
     import numpy as np
 
     longest, finite = np.full(_LOOKS, np.inf), np.flatnonzero(np.isfinite(values))

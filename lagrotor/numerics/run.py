@@ -1,4 +1,4 @@
-"""`Run`: what every simulated motion is, whatever moves: times, error estimate, horizon, ending, and how it is kept and shown."""
+"""`Run`, the base class of every simulated motion: times, error estimate, horizon, ending, files and tables."""
 
 from abc import abstractmethod
 from collections.abc import Iterator, Mapping
@@ -28,9 +28,12 @@ _SAYS = {
 
 @dataclass(frozen=True)
 class Ending:
-    """How a run ended: at its last time (end), there although neighbouring motions had parted from `at` on (lost), or at the
-    time `at` (s) before: with its evaluations spent (budget), at a singular position that was measured, by an event, or
-    because the solver cannot go on (stopped)."""
+    """The ending of a run: its kind, the time `at` in s where it differs from the last time, and a reason in words.
+
+    Kinds: the last time was reached (end), there although neighbouring motions had separated from `at` on (lost); the
+    evaluations
+    were spent (budget); a singular position was measured (singular); an event; or the solver cannot continue (stopped).
+    """
 
     kind: Literal["end", "lost", "budget", "singular", "event", "stopped"] = "end"
     at: float = inf
@@ -47,7 +50,7 @@ class Ending:
 
     @property
     def early(self) -> bool:
-        """Whether the run ended before its last time."""
+        """True if the run ended before its last time."""
         return self.kind not in ("end", "lost")
 
     def __str__(self) -> str:
@@ -58,7 +61,7 @@ class Ending:
 
 
 class Quantity(NamedTuple):
-    """What is known of a run at each of its times: values, the name of each axis ("t" among them), and the unit."""
+    """A quantity of a run at each of its times: values, the name of each axis ("t" among them), and the unit."""
 
     values: Array
     axes: tuple[str, ...]
@@ -67,10 +70,20 @@ class Quantity(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Run(Shown):
-    """A simulated motion at the times t (n,) that were reached, in s; its start holds at t[0].
+    """A simulated motion at the times that were reached; the initial state holds at t[0].
 
-    errors (n,): the estimated largest error up to each time, relative to the state's size; NaN where none is known. horizon:
-    the time (s) from which they exceed the tolerance. evaluations: of the right-hand side, by every integration that was made.
+    Attributes
+    ----------
+    t : Array
+        Times in s, shape (n,).
+    errors : Array
+        Estimated largest error up to each time, relative to the size of the state, shape (n,); NaN where it is not known.
+    horizon : float
+        The time in s from which the errors exceed the tolerance; inf if they never do.
+    evaluations : int
+        Evaluations of the right-hand side in all integrations.
+    ending : Ending
+        The reason why the run ended where it did.
     """
 
     t: Array
@@ -81,28 +94,65 @@ class Run(Shown):
 
     @property
     def error(self) -> float:
-        """The estimated largest error over the run, relative to the state's size."""
+        """The estimated largest error over the run, relative to the size of the state."""
         return float(self.errors[-1]) if len(self.errors) else 0.0
 
     @property
     @abstractmethod
     def energy(self) -> Array:
-        """The whole kinetic and potential energy, that of spins included, (n,), in J."""
+        """The kinetic and potential energy, including the spins', in J, shape (n,)."""
 
     @abstractmethod
     def quantities(self) -> Mapping[str, Quantity]:
-        """What the run holds and what is derived from it, by name: what is written, tabulated and handed on."""
+        """Return the state and the derived quantities by name, as they are saved and tabulated.
+
+        Returns
+        -------
+        Mapping
+            Name → `Quantity` with values, names of its axes, and unit.
+        """
 
     @abstractmethod
     def plot(self) -> Any:
-        """A figure that a notebook shows; `.savefig(path)` writes it."""
+        """Draw the run.
+
+        Returns
+        -------
+        Figure
+            A figure that a notebook shows; `.savefig(path)` writes it.
+        """
 
     @abstractmethod
     def animate(self, path: str | Path, fps: float = 25.0) -> Path:
-        """Write the motion to `path`, a `.gif`."""
+        """Write the run as a film.
+
+        Parameters
+        ----------
+        path : str or Path
+            A file name that ends in .gif.
+        fps : float, default 25.0
+            Frames per second.
+
+        Returns
+        -------
+        Path
+            The file.
+        """
 
     def summary(self) -> dict[str, str]:
-        """How long the run is, how well it is known, how it ended, name → words."""
+        """Summarise the number of times, the evaluations, the error and the ending in words.
+
+        Returns
+        -------
+        dict
+            Name → words.
+
+        Examples
+        --------
+        >>> from lagrotor import Scene, simulate
+        >>> simulate(Scene(spins=(10, -10)), [0, 1, 2]).summary()["times"]
+        '3, from 0 to 2 s'
+        """
         n, error = len(self.t), self.error
         return {
             "times": f"{n}, from {self.t[0]:g} to {self.t[-1]:g} s" if n else "none",
@@ -111,17 +161,12 @@ class Run(Shown):
             "ending": str(self.ending),
         }
 
-    def check_times(self, where: str) -> None:
-        """Raises InputError for a run without times."""
-        if not len(self.t):
-            raise InputError(f"{where}: the run has no times, as that of crossings where there are none")
-
-    def about(self) -> dict[str, Any]:
-        """What `save` writes beside the arrays, as JSON."""
+    def _about(self) -> dict[str, Any]:
+        """Return the entries that `save` writes as JSON beside the arrays."""
         return {}
 
-    def columns(self) -> Iterator[tuple[str, Array, str]]:
-        """Each component of each quantity: a name, its values (n,), its unit."""
+    def _columns(self) -> Iterator[tuple[str, Array, str]]:
+        """Yield the name, the values (n,) and the unit of each component of each quantity."""
         for name, quantity in self.quantities().items():
             values = np.moveaxis(quantity.values, quantity.axes.index("t"), -1)
             others = [axis for axis in quantity.axes if axis != "t"]
@@ -130,10 +175,32 @@ class Run(Shown):
                 yield "_".join([name, *map(str, label)]), values[at], quantity.unit
 
     def after(self, begin: float) -> Self:
-        """The part of the run from the time `begin` (s) on. Raises InputError where nothing is left."""
+        """Return the part of the run from a time on.
+
+        Parameters
+        ----------
+        begin : float
+            The time in s.
+
+        Returns
+        -------
+        Self
+            A run at the times t ≥ begin.
+
+        Raises
+        ------
+        InputError
+            If the run ends before `begin`.
+
+        Examples
+        --------
+        >>> from lagrotor import Scene, simulate
+        >>> simulate(Scene(spins=(10, -10)), [0, 1, 2]).after(0.5).t
+        array([1., 2.])
+        """
         if isinstance(begin, bool) or not isinstance(begin, int | float | np.number) or begin != begin:
             raise InputError(f"after: begin = {begin!r} must be a time in s")
-        self.check_times("after")
+        check_nonempty("after", self.t)
         i, quantities = int(np.searchsorted(self.t, begin)), self.quantities()
         if i == len(self.t):
             raise InputError(f"after: the run ends at t = {self.t[-1]:g} s, before {begin:g} s")
@@ -144,19 +211,35 @@ class Run(Shown):
         return replace(self, t=self.t[i:], errors=self.errors[i:], **slices)
 
     def to_dataframe(self) -> Any:
-        """The run as a pandas DataFrame, t (s) its index, a column a component.
+        """Return the run as a table with one column for each component.
 
-        Raises InputError where pandas is not installed.
+        Returns
+        -------
+        pandas.DataFrame
+            Indexed by t in s.
+
+        Raises
+        ------
+        InputError
+            If pandas is not installed.
         """
         pandas = optional_package("pandas")
         return pandas.DataFrame(
-            {name: values for name, values, _ in self.columns()}, index=pandas.Index(self.t, name="t")
+            {name: values for name, values, _ in self._columns()}, index=pandas.Index(self.t, name="t")
         )
 
     def to_xarray(self) -> Any:
-        """The run as an xarray Dataset over t (s) and what else its quantities have, each variable with its unit.
+        """Return the run as a labelled dataset, each variable with its unit.
 
-        Raises InputError where xarray is not installed.
+        Returns
+        -------
+        xarray.Dataset
+            Over t in s and the other axes of the quantities.
+
+        Raises
+        ------
+        InputError
+            If xarray is not installed.
         """
         xarray, quantities = optional_package("xarray"), self.quantities()
         places: dict[str, Any] = {"t": ("t", self.t, {"units": "s"})}
@@ -164,24 +247,46 @@ class Run(Shown):
             sizes = zip(quantity.axes, quantity.values.shape, strict=True)
             places |= {axis: _labels(axis, size) for axis, size in sizes if axis != "t"}
         variables = {name: (q.axes, q.values, {"units": q.unit}) for name, q in quantities.items()}
-        attributes = {name: value for name, value in self.about().items() if isinstance(value, str)}
+        attributes = {name: value for name, value in self._about().items() if isinstance(value, str)}
         return xarray.Dataset(variables, coords=places, attrs=attributes | {"ending": str(self.ending)})
 
     def save(self, path: str | Path) -> Path:
-        """Write the run by the name's ending.
+        """Write the run to a file; the ending of its name chooses the format.
 
-        .npz: t, errors, every quantity, and as JSON what is run, horizon, evaluations, ending, version and a digest of it all,
-        which `load` of the same class reads back. .csv: a column a component. .png, .svg, .pdf: `plot`. .gif: `animate`.
-        Raises InputError for another ending.
+        .npz: times, errors, every quantity, and a description as JSON with a digest, which `load` of the same class reads
+        back. .csv: a
+        column for each component. .png, .svg, .pdf: `plot`. .gif: `animate`.
+
+        Parameters
+        ----------
+        path : str or Path
+            The file name.
+
+        Returns
+        -------
+        Path
+            The file.
+
+        Raises
+        ------
+        InputError
+            For another ending of the name.
+
+        Examples
+        --------
+        >>> from tempfile import gettempdir
+        >>> from lagrotor import Scene, simulate
+        >>> simulate(Scene(spins=(10, -10)), [0, 1, 2]).save(gettempdir() + "/run.csv").name
+        'run.csv'
         """
         target = path_of("save: path", path)
         if target.suffix == ".npz":
-            self.check_times("save")
+            check_nonempty("save", self.t)
             outcome = {"horizon": self.horizon, "evaluations": self.evaluations, "ending": asdict(self.ending)}
             arrays = {name: quantity.values for name, quantity in self.quantities().items()}
-            return write_arrays(target, self.about() | outcome, {"t": self.t, "errors": self.errors} | arrays)
+            return write_arrays(target, self._about() | outcome, {"t": self.t, "errors": self.errors} | arrays)
         if target.suffix == ".csv":
-            table = {"t [s]": self.t} | {f"{name} [{unit}]": values for name, values, unit in self.columns()}
+            table = {"t [s]": self.t} | {f"{name} [{unit}]": values for name, values, unit in self._columns()}
             rows = (",".join(map(repr, row)) for row in np.column_stack(list(table.values())).tolist())
             return write_text(target, "\n".join([",".join(table), *rows, ""]))
         if target.suffix in PICTURES:
@@ -191,8 +296,14 @@ class Run(Shown):
         raise InputError(f"save: {target.name} must end in .npz, .csv, {', '.join((*PICTURES, *FILMS))}")
 
 
+def check_nonempty(where: str, t: Array) -> None:
+    """Raise InputError for a run without times."""
+    if not len(t):
+        raise InputError(f"{where}: the run has no times, as that of crossings where there are none")
+
+
 class Saved(NamedTuple):
-    """What a file of `Run.save` holds: about, what the class wrote of itself; arrays; fields, those of `Run`."""
+    """The contents of a file of `Run.save`: the entries and arrays of the class, and the fields of `Run`."""
 
     about: dict[str, Any]
     arrays: dict[str, Array]
@@ -200,10 +311,9 @@ class Saved(NamedTuple):
 
 
 def read_run(path: str | Path) -> Saved:
-    """The contents of a run that was saved as .npz, those of `Run` checked.
+    """Read a run that was saved as .npz, and check the fields of `Run`.
 
-    Raises InputError where that is not what the file is: not whole, or with times that decrease, or errors, evaluations or an
-    ending that are none.
+    Raises InputError for any other file, an incomplete one, decreasing times, or invalid errors, evaluations or ending.
     """
     about, arrays = read_arrays(path_of("load: path", path))
     try:
@@ -229,12 +339,12 @@ def read_run(path: str | Path) -> Saved:
 
 
 def _labels(axis: str, size: int) -> list[Any]:
-    """Components are x, y, z; what else there is several of is counted from 1."""
+    """Label components x, y, z, and number any other axis from 1."""
     return list("xyz"[:size]) if axis == "component" else list(range(1, size + 1))
 
 
 def optional_package(name: str) -> Any:
-    """An optional package; raises InputError with the way to it."""
+    """Import an optional package, or raise InputError with the command that installs it."""
     try:
         return import_module(name)
     except ModuleNotFoundError:

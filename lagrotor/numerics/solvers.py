@@ -8,7 +8,7 @@ solver     method                                    chosen by `integrate.by_fas
 `adams`    Adams predictor and corrector of order    below CROSSOVER, where no force acts briefly: it alone reaches
            10 or 12 in equal steps (Hairer, Nørsett  an error of 10⁻¹³
            & Wanner, III.1)
-`dop853`   Runge–Kutta of order 8 (Hairer, Nørsett   where another stops, for a while; below CROSSOVER in a pulse;
+`dop853`   Runge–Kutta of order 8 (Hairer, Nørsett   for a while, where another stops; below CROSSOVER in a pulse;
            & Wanner, II.5), scipy's, step by step    between events
 `taylor`   Taylor series, compiled by heyoka         engine = "fast", in a module of its own
 ========== ========================================= ============================================================
@@ -34,28 +34,29 @@ from lagrotor.numerics.segment import (
     states_on_constraints,
 )
 
-_PATIENCE = 5_000  # evaluations before they are weighed against the share of the segment that is done
-_TURN = 0.5  # of a state with constraints, in a step, where a solver may be far from where the constraints fail
-_FIRST = 1e-6  # of a segment: the first step, where the one that is tried leaves the range of the right-hand side
+_PATIENCE = 5_000  # evaluations before they are compared with the completed share of the segment
+_TURN = (
+    0.5  # largest relative change of a state with constraints in a step, so that no step leaps over a singular position
+)
+_FIRST = 1e-6  # first step over the segment, where scipy's own first step leaves the range of the right-hand side
 _LEAST_RELATIVE = 2.3e-14  # scipy's solvers take no smaller relative tolerance
-_BUDGET_OF_A_PART = 5_000  # between two projections; beyond it the solver no longer follows the motion
-_LEAST_CUT = 1e-12  # of a segment: shorter parts between two projections come nowhere
-_DRIFT = 200.0  # local errors that the constraints may gather between projections: the error of the run as a whole
+_PIECE_BUDGET = 5_000  # evaluations between two projections, beyond which the solver no longer follows the motion
+_LEAST_CUT = 1e-12  # least time between two projections over the segment
+_DRIFT = 200.0  # drift of the constraints between projections in local errors: the error of the whole run
 _BLOCK = 100
 _SWEEPS = 25
-_PIECE = 2_000  # steps, after which a longer one than had failed before is tried again
-_IN_VAIN = 3  # times that a step is shortened at one place by what its order says, and leaves too much as before
+_PIECE = 2_000  # steps, after which a step longer than one that failed is tried again
+_IN_VAIN = 3  # times that a step is shortened at one place without a smaller error
 
 
 def dop853_steps(segment: Segment, error: float) -> Iterator[Any]:
-    """scipy's solver after each step at a local error `error`, relative and absolute: its t_old, t, y and dense_output().
-
-    A state is brought back onto constraints before the next step. Raises StopError where it stops.
+    """Yield scipy's solver after each step at a local error `error`, relative and absolute; a state is projected before
+    the next step.
     """
     from scipy.integrate import DOP853
 
     project = segment.project
-    with np.errstate(divide="ignore", invalid="ignore"):  # of its first step, where values are not finite
+    with np.errstate(divide="ignore", invalid="ignore"):  # scipy's first step, where values are not finite
         solver = DOP853(
             segment.rhs,
             segment.begin,
@@ -67,10 +68,10 @@ def dop853_steps(segment: Segment, error: float) -> Iterator[Any]:
         )
     if not np.isfinite(solver.f).all():
         raise StopError(segment.begin, "the right-hand side is not finite", evaluations=solver.nfev)
-    if not np.isfinite(solver.h_abs):  # the first step, which scipy would take for ever
+    if not np.isfinite(solver.h_abs):  # scipy would repeat this first step for ever
         solver.h_abs = _FIRST * (segment.until - segment.begin)
     while solver.status == "running":
-        if project is not None:  # no step over where the constraints fail
+        if project is not None:  # no step over a singular position of the constraints
             limit = _TURN * (1 + np.abs(solver.y).max()) / (np.abs(solver.f).max() + 1e-300)
             solver.max_step = min(segment.longest, limit, segment.clear(solver.y))
         t, y = solver.t, solver.y
@@ -90,7 +91,7 @@ def dop853_steps(segment: Segment, error: float) -> Iterator[Any]:
 
 
 def dop853(segment: Segment, error: float) -> Stretch:
-    """The segment at a local error `error`, relative and absolute. Raises StopError with what was reached."""
+    """Solve the segment by DOP853 at a local error `error`, relative and absolute."""
     t_eval = segment.t_eval
     states, count, solver = np.empty((len(t_eval), len(segment.start))), 0, None
     try:
@@ -108,11 +109,11 @@ def dop853(segment: Segment, error: float) -> Stretch:
 
 
 def lsoda(segment: Segment, error: float) -> Stretch:
-    """The segment at a local error `error`, relative and absolute.
+    """Solve the segment by LSODA at a local error `error`, relative and absolute.
 
-    The first step is given, not found from the first output, so outputs do not change the run. Where there are
-    constraints the run is cut about once a turn and projected: their error grows exponentially where the axes are pressed.
-    Raises StopError with what was reached.
+    The first step does not depend on the first output time, so outputs do not change the run. With constraints the run is cut
+    about
+    once a turn and projected, since their error grows exponentially where the axes are pressed.
     """
     if segment.project is None:
         return _lsoda(segment, error)
@@ -134,18 +135,18 @@ def lsoda(segment: Segment, error: float) -> Stretch:
         if cut < _LEAST_CUT * (segment.until - segment.begin):
             raise stopped("the next step might pass a singular position")
         until = now + cut if now + 1.5 * cut < segment.until else segment.until
-        # A state with constraints moves no more than a fifth in a step, so that none leaps over where they fail.
+        # A state with constraints changes by at most a fifth in a step, so that no step leaps over a singular position.
         longest = min(segment.longest, cut / 25)
         piece = replace(segment, start=y, begin=now, until=until, longest=longest)
         try:
-            piece, run = _up_to_singular(piece, min(segment.budget - evaluations, _BUDGET_OF_A_PART), error)
+            piece, run = _up_to_singular(piece, min(segment.budget - evaluations, _PIECE_BUDGET), error)
             end, evaluations = segment.project(run.end), evaluations + run.evaluations + 1
             drifted = np.abs(end - run.end).max() / (1 + np.abs(end).max())
         except StopError as stop:
             drifted, evaluations = np.inf, evaluations + stop.evaluations
             if cut < longest_cut / 2 or evaluations > segment.budget:
                 raise stopped(stop.reason, stop.cause) from None
-        if not drifted <= _DRIFT * error:  # what has grown so far would not be brought back to where it left
+        if not drifted <= _DRIFT * error:  # a projection would not bring so large a drift back to the motion
             longest_cut = cut / 8
             if longest_cut < 1e-6 * (segment.until - segment.begin):
                 raise stopped("the constraints drift faster than they can be kept")
@@ -163,17 +164,17 @@ def lsoda(segment: Segment, error: float) -> Stretch:
 def _on_constraints(segment: Segment, blocks: list[Array], y: Array, evaluations: int) -> Stretch:
     states = np.concatenate(blocks)
     if segment.project and len(states):
-        states = segment.project(segment.project(states.T)).T  # of a drift one step leaves about the square
+        states = segment.project(segment.project(states.T)).T  # one step squares the drift
     return Stretch(states, y, evaluations)
 
 
 def _up_to_singular(segment: Segment, budget: float, error: float) -> tuple[Segment, Stretch]:
-    """The part of a run, or what of it comes before its steps might pass a singular position, and its run."""
+    """Return the part of a segment before its steps might pass a singular position, and its states."""
     times = segment.t_eval[(segment.t_eval > segment.begin) & (segment.t_eval <= segment.until)]
     if segment.time_to_singular is None:
         return segment, _lsoda(replace(segment, t_eval=times, budget=budget), error)
     count = 65 + int(2 * (segment.until - segment.begin) / segment.longest)  # two times or more in a longest step
-    # The end is one of them: a run that stopped between the last time before it and the end has not come to the end.
+    # The end is one of the times, so that a stop between the last output and the end is seen.
     t_eval = np.union1d(times, np.linspace(segment.begin, segment.until, count)[1:])
     run = _lsoda(replace(segment, t_eval=t_eval, budget=budget), error)
     n = len(run.states)
@@ -183,14 +184,14 @@ def _up_to_singular(segment: Segment, budget: float, error: float) -> tuple[Segm
 
 
 def _lsoda(segment: Segment, error: float) -> Stretch:
-    """The segment, or what of it comes before a state whose next step might pass a singular position."""
+    """Solve the segment up to a state whose next step might pass a singular position."""
     begin, right, evaluations, lost, near, stopped = segment.begin, segment.until, 0, False, False, False
-    at = accepted = begin  # the time of the last evaluation, and one before it up to which the steps are accepted
+    at = accepted = begin  # times of the last evaluation and of the last accepted step
     zero_rate = [0.0] * len(segment.start)
 
     def watched(s: float, y: Array) -> list[float]:
-        # LSODA takes NaN for a number and may step over where it came from; DOP853 does not. Once it is to stop, it is given
-        # a state at rest: it soon comes to the end, and what it read off before is kept.
+        # LSODA takes NaN for a number and may step over its place; DOP853 does not. To stop LSODA, its rate becomes zero: it
+        # soon comes to the end, and the earlier states remain valid.
         nonlocal evaluations, lost, near, stopped, at, accepted
         if stopped:
             return zero_rate
@@ -208,7 +209,7 @@ def _lsoda(segment: Segment, error: float) -> Stretch:
         def counted(s: float, y: Array) -> list[float]:
             nonlocal unwatched
             unwatched += 1
-            if unwatched > segment.budget:  # scipy's bound is one of steps between two outputs
+            if unwatched > segment.budget:  # scipy's own bound counts the steps between two outputs
                 raise OverflowError
             velocity: list[float] = bare(s, y)
             return velocity
@@ -219,11 +220,11 @@ def _lsoda(segment: Segment, error: float) -> Stretch:
                 return Stretch(states[1:-1], states[-1], unwatched + 1)
         except LOST:
             pass
-    # What fails unwatched is run again to see where: it takes the same steps.
+    # A failed run is repeated with the same steps to find the time of its failure.
     states, log = _odeint(segment, watched, error, first)
     evaluations += 1 + unwatched
     if stopped or not _successful(states, log):
-        # Of one that fails by itself, what comes after its last step is no number that it made.
+        # After the last step of a run that fails by itself, the states are undefined.
         states = states[1:-1][segment.t_eval <= accepted]
         whole = np.isfinite(states).all(1)
         states = states if whole.all() else states[: int(np.argmin(whole))]
@@ -243,7 +244,7 @@ def _lsoda(segment: Segment, error: float) -> Stretch:
 
 
 def _odeint(segment: Segment, rhs: RightHandSide, error: float, first: float) -> tuple[Array, dict[str, Any]]:
-    """States at the segment's ends and the times between them, and scipy's log."""
+    """Return the states at the segment's ends and the times between them, and scipy's log."""
     from scipy.integrate import odeint
 
     with warnings.catch_warnings():
@@ -268,18 +269,19 @@ def _successful(states: Array, log: dict[str, Any]) -> bool:
 
 
 def adams_order(error: float) -> int:
-    """Order of the pair for a local error: the higher, the fewer steps accuracy needs, and the shorter those that are stable."""
+    """Return the order of the pair: a higher order needs fewer steps for accuracy, but shorter ones for stability."""
     return 10 if error >= 1e-10 else 12
 
 
 @lru_cache(maxsize=8)
 def adams_weights(q: int) -> tuple[Array, Array, Array, Array]:
-    """Weights of an Adams pair of q nodes, from the Lagrange polynomials l_j of q equal steps, exact before rounding.
+    """Return the weights A, B, S, P of an Adams pair of q nodes, from the Lagrange polynomials l_j, exact before rounding.
 
-    A: integrals from the last node to the one after it (Adams–Bashforth); B: from the last but one to the last
-    (Adams–Moulton), both (2, q): rounded, and what rounding left. Without that every step of every run has the same
-    error, which no comparison of two runs shows. S (q, q): from the first node to each; P (q, q + 1): the integral of l_j
-    from the middle node q // 2 as a polynomial in steps from there.
+    A: integrals over the step after the last node (Adams–Bashforth); B: over the step before it (Adams–Moulton). Both are (2,
+    q), the
+    rounded weights and their rounding error; without the second row all steps of all runs share an error that no comparison
+    shows.
+    S (q, q): from the first node to each; P (q, q + 1): the integral of l_j from node q // 2 as a polynomial in steps.
     """
     middle, last = q // 2, q - 1 - q // 2
     nodes = [i - middle for i in range(q)]
@@ -306,8 +308,9 @@ def adams_weights(q: int) -> tuple[Array, Array, Array, Array]:
 
 @dataclass(frozen=True)
 class _Piece:
-    """Equal steps h from t by the pair of order q: states and velocities y' (n + 1, d) at the nodes, evaluations, and the
-    factor by which h is to change."""
+    """Equal steps h from t by the pair of order q: states and rates y' (n + 1, d), evaluations, and the factor for the
+    next h.
+    """
 
     q: int
     t: float
@@ -318,7 +321,7 @@ class _Piece:
     change: float
 
     def read(self, times: Array) -> Array:
-        """States (m, d) at times within the piece, by the polynomial of the pair itself."""
+        """Return states (m, d) at times within the piece, by the polynomial of the pair."""
         q = self.q
         P = adams_weights(q)[3]
         steps = (times - self.t) / self.h
@@ -329,10 +332,9 @@ class _Piece:
 
 
 def _piece(segment: Segment, q: int, y: Array, t: float, h: float, steps: int, limit: float) -> _Piece:
-    """Steps of h until `steps` are made, or h is found too long (change < 1) or needlessly short (change > 1).
+    """Take steps h until `steps` are made, or h proves too long (change < 1) or needlessly short (change > 1).
 
-    Predict, evaluate, correct, evaluate; predictor less corrector, over h, is held under `limit` (Hairer, Nørsett &
-    Wanner, III.1).
+    Predict, evaluate, correct, evaluate; (corrector − predictor)/h is kept under `limit` (Hairer, Nørsett & Wanner, III.1).
     """
     rhs = segment.rhs
     A, B, _, _ = adams_weights(q)
@@ -341,7 +343,7 @@ def _piece(segment: Segment, q: int, y: Array, t: float, h: float, steps: int, l
     if not settled:
         return _Piece(q, t, h, states[:1], velocities[:1], evaluations, 0.5)
 
-    # What rounding alone leaves of predictor less corrector, over h, in the component that moves fastest for its size.
+    # Rounding error of (corrector − predictor)/h in the component that is fastest for its size.
     fastest = (np.abs(velocities[:q]).max(axis=0) / (1 + np.abs(states[q - 1]))).max()
     noise = 4 * np.finfo(float).eps * (np.abs(A[0]).sum() * fastest + 1 / h)
     limit = max(limit, noise)
@@ -357,7 +359,7 @@ def _piece(segment: Segment, q: int, y: Array, t: float, h: float, steps: int, l
             differences[n] = last - predicted
             velocities[n] = rhs(t + n * h, last)
         evaluations += 2 * len(block)
-        # Each component against its own size: one that grows without end, an azimuth, would loosen all others.
+        # Each component relative to its own size: an azimuth that grows without end would loosen all others.
         worst = (np.abs(differences[block.start : n + 1]).max(axis=0) / (1 + np.abs(last))).max() / h + 1e-300
         change = min(max(0.3, (limit / worst / 4) ** (1 / q)), 3.0) if np.isfinite(worst) else 0.3
         near = segment.time_to_singular and any(segment.clear(y) < h for y in states[block.start - q : n + 1])
@@ -376,7 +378,7 @@ def _piece(segment: Segment, q: int, y: Array, t: float, h: float, steps: int, l
 def _first_nodes(
     segment: Segment, q: int, y: Array, t: float, h: float, states: Array, velocities: Array
 ) -> tuple[int, bool]:
-    """The first q nodes together: their integral equation is swept until nothing moves. Evaluations, and whether it does."""
+    """Solve the integral equation of the first q nodes by sweeps; return the evaluations, and True if they converged."""
     S, size = h * adams_weights(q)[2], 1 + np.abs(y).max()
     states[:], velocities[:] = y, segment.rhs(t, y)
     evaluations = 1
@@ -393,13 +395,14 @@ def _first_nodes(
 
 
 def adams(segment: Segment, error: float) -> Stretch:
-    """Adams predictor and corrector in equal steps, changed where the pair's own difference requires it.
+    """Solve the segment by Adams predictor and corrector in equal steps, which change where their difference requires it.
 
-    Raises StopError with what was reached, also where far more than its share of `budget` is spent, and where shorter
-    steps leave as much: the right-hand side is not known well enough for the tolerance.
+    Raises StopError also where the evaluations far exceed the completed share of the budget, and where shorter steps have no
+    smaller
+    error: then the right-hand side is not accurate enough for the tolerance.
     """
     t_eval, right, y, t, longest = segment.t_eval, segment.until, segment.start, segment.begin, segment.longest
-    q, limit = adams_order(error), min(100 * error, 1e-3)  # of order 10, steps that leave more are not stable
+    q, limit = adams_order(error), min(100 * error, 1e-3)  # at order 10, steps with a larger difference are unstable
     h = min(
         (right - t) / q,
         segment.longest,
@@ -408,11 +411,11 @@ def adams(segment: Segment, error: float) -> Stretch:
     states, count, evaluations, end, in_vain = np.empty((len(t_eval), len(y))), 0, 1, y, 0
     while t < right:
         steps = min(max(int(np.ceil((right - t) / h)), q), _PIECE)
-        with np.errstate(all="ignore"):  # a step that is too long overflows, and is shortened
+        with np.errstate(all="ignore"):  # too long a step overflows, and is shortened
             piece = _piece(replace(segment, longest=longest), q, y, t, h, steps, limit)
         evaluations += piece.evaluations
         in_vain = in_vain + 1 if len(piece.states) == 1 and piece.change > 0.5 else 0
-        # A step too long once, for its error or because it is not stable, is not tried again for a while.
+        # A step that was too long, for its error or its stability, is not tried again for a while.
         if piece.change < 1:
             longest = 1.2 * piece.change * h
         elif len(piece.states) > _PIECE:

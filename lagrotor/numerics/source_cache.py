@@ -1,6 +1,6 @@
-"""Generated functions that are kept as source, so that a first call reads what it would have to derive.
+"""Generated functions that are stored as source, so that a first call reads it instead of deriving it.
 
-A function that returns the source of another is marked `@generated(arguments)`. For these arguments its text lies in
+A function that returns the source of another is marked `@generated(arguments)`. For these arguments its text is stored in
 `generated.txt` beside its module, one block of plain Python each; for any others it is derived when it is called.
 `python -m tests.numerics.renew_generated` writes these files, and a test derives every block again.
 """
@@ -16,15 +16,12 @@ from pathlib import Path
 from typing import Any
 
 _HEAD = re.compile(r"^# %% (.*)\n", re.MULTILINE)
-_MOST = 64  # functions of one kind kept in a process
+_MOST = 64  # functions of one kind in the memory of a process
 
 
 @dataclass(frozen=True, eq=False)
 class GeneratedFunction:
-    """Called with arguments, the function whose source `derive` returns for them: the last one that the source defines.
-
-    kept: the arguments for which the source is kept.
-    """
+    """A function of arguments for which `derive` returns the source, whose last definition it is; `cases` are stored."""
 
     derive: Callable[..., str]
     cases: tuple[tuple[Any, ...], ...]
@@ -39,26 +36,26 @@ class GeneratedFunction:
         return self._functions(*arguments)
 
     def source(self, *arguments: Any) -> str:
-        """The source, kept or derived."""
+        """Return the source, stored or derived."""
         return _blocks(self.file).get(self.name(*arguments)) or self.derive(*arguments)
 
     def name(self, *arguments: Any) -> str:
-        """The heading of a block: module, function and arguments."""
+        """Return the heading of a block: module, function and arguments."""
         return f"{self.derive.__module__}.{self.derive.__name__}({', '.join(map(repr, arguments))})"
 
     @property
     def file(self) -> Path:
-        """Where the sources of its module's folder are kept."""
+        """The file with the sources of the module's folder."""
         return Path(str(sys.modules[self.derive.__module__].__file__)).with_name("generated.txt")
 
 
 def generated(cases: Iterable[tuple[Any, ...]]) -> Callable[[Callable[..., str]], GeneratedFunction]:
-    """Mark a function that returns the source of another; `cases` as in `GeneratedFunction`."""
+    """Mark a function that returns the source of another; the sources for the arguments `cases` are stored."""
     return lambda derive: GeneratedFunction(derive, tuple(cases))
 
 
 def function_of(source: str) -> Callable[..., Any]:
-    """The last function that a source defines."""
+    """Return the last function that a source defines."""
     names: dict[str, Any] = {}
     exec(source, names)
     function: Callable[..., Any] = list(names.values())[-1]
@@ -67,7 +64,7 @@ def function_of(source: str) -> Callable[..., Any]:
 
 @cache
 def _blocks(file: Path) -> dict[str, str]:
-    """Heading → source of each block of a file; none where there is no file."""
+    """Return heading → source of each block of a file; an empty dictionary where there is no file."""
     try:
         _, *blocks = _HEAD.split(file.read_text(encoding="utf-8"))
     except FileNotFoundError:

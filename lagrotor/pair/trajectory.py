@@ -175,7 +175,7 @@ class Trajectory(Run):
         held = {name: getattr(self, name) for name in UNITS if name != "P"} | {"P": self.joint_line_momentum}
         return {name: Quantity(values, _AXES[values.ndim], UNITS[name]) for name, values in held.items()}
 
-    def about(self) -> dict[str, Any]:
+    def _about(self) -> dict[str, Any]:
         """The scene, the model and why it was chosen."""
         return {"scene": asdict(self.scene), "model": self.model, "why": self.why}
 

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 import sympy as sp
 
-from lagrotor.numerics import Program
+from lagrotor.numerics.codegen import Program
 from lagrotor.numerics.printers import program_source
 from lagrotor.numerics.source_cache import GeneratedFunction
 from tests.numerics.renew_generated import derived_files, kept_functions

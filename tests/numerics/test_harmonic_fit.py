@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lagrotor.numerics import best_harmonics, harmonics_at
+from lagrotor.numerics.curves import best_harmonics, harmonics_at
 
 T = np.linspace(0.8, 8.8, 400)
 

@@ -23,7 +23,7 @@ from lagrotor.mechanics.running.programs import energy_program, function_program
 from lagrotor.mechanics.running.scales import Scales
 from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.integrate import Engine
-from lagrotor.numerics.run import Quantity, Run
+from lagrotor.numerics.run import Quantity, Run, check_nonempty
 from lagrotor.numerics.segment import Integrate
 
 
@@ -100,7 +100,7 @@ class SampledMotion(Run):
 
     def at(self, times: ArrayLike) -> Self:
         """The motion at any times (m,) within the run, as exact as the run: integrated from the sample before each."""
-        self.check_times("at")
+        check_nonempty("at", self.t)
         wanted = check_times("at", np.atleast_1d(times))
         if wanted[0] < self.t[0] or wanted[-1] > self.t[-1]:
             raise InputError(f"at: times must lie between {self.t[0]:g} and {self.t[-1]:g} s, the ends of the run")
@@ -130,7 +130,7 @@ class SampledMotion(Run):
             held["drift"] = Quantity(self.drift, ("t",), "")
         return held
 
-    def about(self) -> dict[str, Any]:
+    def _about(self) -> dict[str, Any]:
         """What `save` writes beside the arrays, as JSON: no equation, which would have to be read as one."""
         return {
             "coordinates": [str(q) for q in self.system.c.q],

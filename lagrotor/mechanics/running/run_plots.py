@@ -15,6 +15,7 @@ from lagrotor.mechanics.expressions import vector_of
 from lagrotor.mechanics.glossary import latex, letter_latex
 from lagrotor.mechanics.running.flow import Array
 from lagrotor.mechanics.running.motion import SampledMotion
+from lagrotor.numerics.run import check_nonempty
 
 if TYPE_CHECKING:
     from lagrotor.drawing.run_figure import RunFigure
@@ -37,7 +38,7 @@ def plot(run: SampledMotion, *what: Any) -> "RunFigure":
     """
     from lagrotor.drawing.run_figure import coordinates_figure, curves_figure
 
-    run.check_times("plot")
+    check_nonempty("plot", run.t)
     if not what:
         labels = {f"${letter_latex(q)}$": run.q[:, i] for i, q in enumerate(run.system.c.q)}
         return coordinates_figure(run.t, labels, run.energy, run.drift)
@@ -78,7 +79,7 @@ def view(run: SampledMotion, lines: Sequence[Sequence[Point]] = ()) -> "View":
     from lagrotor.drawing.view import view_lines, view_times
     from lagrotor.drawing.wheel import ROTORS
 
-    run.check_times("view")
+    check_nonempty("view", run.t)
     frames = run.at(view_times(run.t[0], run.t[-1]))
     drawn = _drawn("view", frames, lines)
     outlines = [(ROTORS[i % len(ROTORS)], _outline(frames, body)) for i, body in enumerate(run.system.bodies)]
@@ -99,7 +100,7 @@ def animate(run: SampledMotion, path: str | Path, fps: float = 25.0, lines: Sequ
     """
     from lagrotor.drawing.film import animate_lines, check_film, frame_times
 
-    run.check_times("animate")
+    check_nonempty("animate", run.t)
     check_film(path, float(run.t[-1] - run.t[0]), fps)
     frames = run.at(frame_times(run.t[0], run.t[-1], fps))
     drawn = _drawn("animate", frames, lines) or [line for body in run.system.bodies for line in _outline(frames, body)]

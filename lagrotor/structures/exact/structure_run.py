@@ -82,7 +82,7 @@ class StructureRun(Run):
             "momenta": Quantity(self.momenta, ("rotor", "t"), "kg m²/s"),
         }
 
-    def about(self) -> dict[str, Any]:
+    def _about(self) -> dict[str, Any]:
         """The structure."""
         return {"structure": asdict(self.structure)}
 
