@@ -12,8 +12,7 @@ acts
 - `run.Run` is the base class of every simulated motion: its errors, files and tables.
 - `curves`, `zeros`, `rotations` and `floquet_multipliers` evaluate a run.
 
-A new solver is a function of a `Segment` and a local error that returns a `Stretch` or raises `StopError`; a table in
-`solvers`
+A new solver is a function of a `Segment` and a local error that returns a `Stretch` or raises `StopError`; a table in `solvers`
 says when each is chosen. A new kind of motion needs an `Evolution`, and a class that inherits from `Run`.
 """
 

@@ -1,8 +1,7 @@
 """Straight-line programs: common subexpressions, number of operations, derivatives; `printers` writes them as code.
 
 A `Program` is a list of named stages and the outputs made of them. A stage keeps a quantity of the derivation (a matrix
-element,
-a pivot) from being multiplied out; common subexpressions are sought after that.
+element, a pivot) from being multiplied out; common subexpressions are sought after that.
 """
 
 from collections.abc import Mapping, Sequence
@@ -21,12 +20,9 @@ Stage = tuple[sp.Symbol, sp.Expr]
 
 @dataclass(frozen=True)
 class Program:
-    """A straight-line program, arguments → stages → outputs; a stage may use the arguments and the stages before it.
-
-    `shared` says that the stages already share their common parts, so that only equal subexpressions are sought, in linear
-    time.
-    The expressions in `positive` are positive where the program is well conditioned.
-    """
+    """A straight-line program, arguments → stages → outputs; a stage may use the arguments and the stages before it. `shared`
+    says that the stages already share their common parts, so that only equal subexpressions are sought, in linear time. The
+    expressions in `positive` are positive where the program is well conditioned."""
 
     arguments: tuple[sp.Symbol, ...]
     stages: tuple[Stage, ...]
@@ -135,11 +131,9 @@ def _count(expression: sp.Expr) -> int:
 def tangent_program(
     program: Program, slopes: Mapping[sp.Symbol, Sequence[sp.Expr]], arguments: tuple[sp.Symbol, ...]
 ) -> Program:
-    """Return the program of the outputs and, for each output, of its derivatives along k directions.
-
-    `slopes` gives the k derivatives of each argument that changes. Forward differentiation stage by stage takes at most about
-    k + 1 times the operations of the program.
-    """
+    """Return the program of the outputs and, for each output, of its derivatives along k directions. `slopes` gives the k
+    derivatives of each argument that changes. Forward differentiation stage by stage takes at most about k + 1 times the
+    operations of the program."""
     stages, outputs = reduce_common(program)
     derivatives, count = {s: list(row) for s, row in slopes.items()}, len(next(iter(slopes.values())))
     both: list[Stage] = []
@@ -160,10 +154,8 @@ def tangent_program(
 
 
 def solve_symmetric(matrix: sp.Matrix, right: sp.Matrix, prefix: str) -> tuple[list[Stage], sp.Matrix]:
-    """Return the stages of L D Lᵀ without pivoting for matrix · x = right, and x, shape (n, r).
-
-    The matrix must be positive definite. Golub & Van Loan, Matrix Computations, 4.1.
-    """
+    """Return the stages of L D Lᵀ without pivoting for matrix · x = right, and x, shape (n, r). The matrix must be positive
+    definite. Golub & Van Loan, Matrix Computations, 4.1."""
     n, columns = right.shape
     stages: list[Stage] = []
 

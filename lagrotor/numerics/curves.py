@@ -139,19 +139,8 @@ def turn_means(t: Array, tips: Array) -> tuple[Array, Array]:
 
 @dataclass(frozen=True, eq=False)
 class Harmonics:
-    """A fit x(t) ≈ constant + slope (t − t̄) + Re Σ waves_n exp(i n rate (t − t_0)), for k columns of x.
-
-    Attributes
-    ----------
-    rate : float
-        In rad/s.
-    constant, slope : Array
-        Shape (k,).
-    waves : NDArray[complex128]
-        Complex amplitudes of the harmonics 1, 2, …, shape (count, k).
-    residual : Array
-        The samples minus the fit, shape (n, k).
-    """
+    """A fit x(t) ≈ constant + slope (t − t̄) + Re Σ waves_n exp(i n rate (t − t_0)), each (k,) for k columns of x. `waves`
+    (count, k) are the complex amplitudes of the harmonics 1, 2, …, `residual` (n, k) the samples minus the fit."""
 
     rate: float
     constant: Array
@@ -170,22 +159,13 @@ def harmonics_at(t: Array, x: Array, rate: float, count: int = 2) -> Harmonics:
     s, columns = t - t[0], x.reshape(len(t), -1)
     waves = [wave(n * rate * s) for n in range(1, count + 1) for wave in (np.cos, np.sin)]
     table = np.column_stack([np.ones_like(s), s - s.mean(), *waves])
-    coefficients = np.linalg.lstsq(table, columns, rcond=None)[0]
-    return Harmonics(
-        rate,
-        coefficients[0],
-        coefficients[1],
-        coefficients[2::2] - 1j * coefficients[3::2],
-        columns - table @ coefficients,
-    )
+    fit = np.linalg.lstsq(table, columns, rcond=None)[0]
+    return Harmonics(rate, fit[0], fit[1], fit[2::2] - 1j * fit[3::2], columns - table @ fit)
 
 
 def best_harmonics(t: Array, x: Array, guess: float, low: float = 0.8, high: float = 1.3) -> Harmonics:
-    """Fit two harmonics at the rate, from low · guess to high · guess in rad/s, that has the least residual.
-
-    The rate is sought on a grid, five cells to a turn of the phase over the whole run, then within the best cell and its
-    neighbours.
-    """
+    """Fit two harmonics at the rate, from low · guess to high · guess in rad/s, that has the least residual. The rate is
+    sought on a grid, five cells to a turn of the phase over the whole run, then within the best cell and its neighbours."""
     from scipy.optimize import minimize_scalar
 
     def misfit(rate: float) -> float:

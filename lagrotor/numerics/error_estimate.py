@@ -1,16 +1,13 @@
 """Error estimate of every run: the motion is integrated at two local errors, and their difference shows the error.
 
 SAFETY times the difference of the two runs is taken for the error of the better one. It is also the distance by which
-neighbouring motions separate. From the time at which it exceeds `tol` the run is beyond its horizon; from the time at which
-it
+neighbouring motions separate. From the time at which it exceeds `tol` the run is beyond its horizon; from the time at which it
 exceeds LOST nothing is known. Conserved quantities must be conserved within 100 times the estimate.
 
 Where errors are proportional to the local error, the difference is APART − 1 times the error of the better run, and the
-estimate
-is SAFETY (APART − 1) times that error. An error that both runs share is not seen, which is why their local errors differ by
-the
-factor APART. The estimate is not a bound: one of 360 random systems, a chaotic one, exceeds it by 1.6 times, and warns that
-`tol` is not kept.
+estimate is SAFETY (APART − 1) times that error. An error that both runs share is not seen, which is why their local errors
+differ by the factor APART. The estimate is not a bound: one of 360 random systems, a chaotic one, exceeds it by 1.6 times, and
+warns that `tol` is not kept.
 """
 
 import warnings
@@ -54,8 +51,7 @@ _SAMPLES = 65  # times at which two runs are compared besides the requested time
 
 class EvaluationBudget(NamedTuple):
     """The number of evaluations that an integration may take: `base` in all, and `per_turn` more for each turn of the
-    motion.
-    """
+    motion."""
 
     base: float
     per_turn: float
@@ -63,55 +59,27 @@ class EvaluationBudget(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Evolution:
-    """A motion to be run: its initial state (d,), its integration, and the measures of its error.
-
-    Attributes
-    ----------
-    integrate : callable
-        (start (d,), times (n,), local error, companion, most evaluations) → the motion from times[0] on. A companion uses
-        another
-        order or other steps, where the local error does not set them. Raises StopError with the states up to the stop.
-    distance : callable
-        Two runs (n, d) → their distance relative to the size of the states, shape (n,).
-    turn : float
-        The typical period of the motion in s.
-    project : callable or None
-        Brings a state back onto its constraints.
-    start_error : float
-        Error of the initial state in units of machine epsilon. The companion starts from a state perturbed by it.
-    constraint_uncertainty : callable or None
-        States (n, d) → the error along nearly dependent constraints in units of machine epsilon, shape (n,).
-    sizes : Array or float
-        The size of each component, the unit of that error.
-    conservation_error : callable or None
-        Times (n,), states (n, d) → the signed state errors that would explain the change of the conserved quantities.
-    difference : callable or None
-        The difference of two runs in all conserved quantities, where `distance` sees only some components.
-    watch : Array
-        Times (m,) at which the conservation error needs the run.
-    singular : callable or None
-        The words for a singular position at a state where a solver stopped; "" where there is none.
-    has_other_coordinates : bool
-        A run that stops is not tried again, because other coordinates can describe the motion.
-    sudden : bool
-        Neighbouring motions separate within a small part of a turn, at a narrow force.
-    """
+    """A motion to be run: its initial state (d,), its integration, and the measures of its error."""
 
     start: Array
+    # Start (d,), times (n,), local error, companion, most evaluations → the motion from times[0]. A companion uses another order
+    # or other steps, where the local error does not set them.
     integrate: Callable[[Array, Array, float, bool, float], Stretch]
-    distance: Callable[[Array, Array], Array]
-    turn: float
+    distance: Callable[[Array, Array], Array]  # two runs (n, d) → distance (n,) relative to the size of the states
+    turn: float  # typical period in s
     budget: EvaluationBudget
-    project: Projection | None = None
-    start_error: float = 1.0
+    project: Projection | None = None  # brings a state back onto its constraints
+    start_error: float = 1.0  # of the initial state in machine epsilons, by which the companion's start is perturbed
+    # States (n, d) → error (n,) along nearly dependent constraints, in machine epsilons of the sizes (d,).
     constraint_uncertainty: Callable[[Array], Array] | None = None
     sizes: Array | float = 1.0
+    # Times (n,), states (n, d) → signed state errors that would explain the change of the conserved quantities.
     conservation_error: Callable[[Array, Array], Array] | None = None
-    difference: Callable[[Array, Array], float] | None = None
-    watch: Array = field(default_factory=lambda: np.empty(0))
-    singular: Callable[[Array], str] | None = None
-    has_other_coordinates: bool = False
-    sudden: bool = False
+    difference: Callable[[Array, Array], float] | None = None  # of two runs in all conserved quantities
+    watch: Array = field(default_factory=lambda: np.empty(0))  # times (m,) that the conservation error needs
+    singular: Callable[[Array], str] | None = None  # state of a stop → the words for a singular position, or ""
+    has_other_coordinates: bool = False  # then a run that stops is not tried again
+    sudden: bool = False  # neighbouring motions separate within a small part of a turn, at a narrow force
 
 
 class Leg(NamedTuple):
@@ -126,12 +94,9 @@ class Leg(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class EstimatedRun:
-    """States (n, d) at the times (n,) that were reached, the largest error up to each time (n,), and the ending.
-
-    The horizon is the time in s from which the errors exceed tol, `local` the local error of the better run. All integrations
-    count
-    as evaluations.
-    """
+    """States (n, d) at the times (n,) that were reached, the largest error up to each time (n,), and the ending. The horizon
+    is the time in s from which the errors exceed tol, `local` the local error of the better run. All integrations count as
+    evaluations."""
 
     t: Array
     states: Array
@@ -190,9 +155,7 @@ class _Integration:
 @dataclass(frozen=True, eq=False)
 class _Pair:
     """Two integrations compared: errors (m,) up to each common time, and the time `lost` from which they exceed LOST.
-
-    `refusal` is the reason why the better integration is not the motion up to its last time.
-    """
+    `refusal` is the reason why the better integration is not the motion up to its last time."""
 
     loose: _Integration
     tight: _Integration
@@ -260,11 +223,8 @@ def perturbed_state(y0: Array, epsilons: float = 1.0) -> Array:
 
 def estimate_run(evolution: Evolution, times: Array, tol: float) -> EstimatedRun:
     """Integrate a motion at increasing times (n,) so that the estimated error is below `tol`, or return the best integration.
-
     Raises IntegrationError with its evaluations, where conserved quantities change, no time is reached, or rounding alone
-    over so
-    many turns exceeds the size of the states.
-    """
+    over so many turns exceeds the size of the states."""
 
     def alone(legs: Mapping[int, Leg]) -> dict[int, Stretch | StopError]:
         try:
@@ -284,9 +244,8 @@ def estimate_runs(
     tol: float,
     integrate: Callable[[Mapping[int, Leg]], Mapping[int, Stretch | StopError]],
 ) -> list[EstimatedRun | IntegrationError]:
-    """Estimate many motions together; `integrate` maps {number: leg} to {number: stretch or stop}. A refusal takes the
-    place of a run.
-    """
+    """Estimate many motions together; `integrate` maps {number: leg} to {number: stretch or stop}. A refusal takes the place
+    of a run."""
     askings = [_asking(evolution, t, tol) for evolution, t in zip(evolutions, times, strict=True)]
     ended: dict[int, EstimatedRun | IntegrationError] = {}
     answers: Mapping[int, Stretch | StopError | None] = dict.fromkeys(range(len(askings)))
@@ -305,12 +264,9 @@ def estimate_runs(
 
 
 def _asking(evolution: Evolution, times: Array, tol: float) -> Generator[Leg, Stretch, EstimatedRun]:
-    """Yield integrations in pairs until a pair keeps `tol`: the first at the largest useful local error, the next as the error
-    requires.
-
-    Local errors add up to less in a short run, so its first local error is larger. After a refusal looser pairs follow up to
-    GIVEN_UP. A pair whose looser integration exists already costs one integration only.
-    """
+    """Yield integrations in pairs until a pair keeps `tol`: the first at the largest useful local error, the next as the
+    error requires. Local errors add up to less in a short run, so its first local error is larger. After a refusal looser
+    pairs follow up to GIVEN_UP. A pair whose looser integration exists already costs one integration only."""
     course = _Course(evolution, times)
     turns = float(course.turns[-1])
     unavoidable = ROUNDING.value * (START.value + turns)
@@ -326,9 +282,8 @@ def _asking(evolution: Evolution, times: Array, tol: float) -> Generator[Leg, St
     shortness = 10 / max(turns, 10 / SHORTEST.value)
     local = max(min(tol * FIRST.value * max(1.0, shortness), LOOSEST.value), APART.value * TIGHTEST)
     best = pair = yield from _compared(course, local, True)
-    while pair.refusal and not (
-        evolution.has_other_coordinates or local > GIVEN_UP.value or _at_singular(pair.refusal)
-    ):
+    final = evolution.has_other_coordinates
+    while pair.refusal and not (final or local > GIVEN_UP.value or _at_singular(pair.refusal)):
         again = pair.loose.stop is None  # then the looser integration is compared with one looser still
         local *= APART.value if again else APART.value**2
         pair = yield from _compared(course, local, pair.loose.companion ^ again)
@@ -354,9 +309,7 @@ def _at_singular(refusal: IntegrationError) -> bool:
 
 
 def _compared(course: _Course, local: float, companion: bool) -> Generator[Leg, Stretch, _Pair]:
-    """Compare the integrations at a local error and at 1/APART of it; refuse the better one if conserved quantities
-    change.
-    """
+    """Compare the integrations at a local error and at 1/APART of it; refuse the better one if conserved quantities change."""
     evolution = course.evolution
     loose = yield from course.integration(local, companion)
     # Another model or a looser pair is tried next, so the tighter integration is not needed.
@@ -402,10 +355,8 @@ def _compared(course: _Course, local: float, companion: bool) -> Generator[Leg, 
 
 
 def _alikeness(defects: Sequence[Array], rounding: float) -> float:
-    """Return a factor ≥ 1 for the difference of two runs that share an error, measured by the conserved quantities.
-
-    SAFETY allows an error of the better run up to half the difference. Defects that are mostly rounding tell nothing.
-    """
+    """Return a factor ≥ 1 for the difference of two runs that share an error, measured by the conserved quantities. SAFETY
+    allows an error of the better run up to half the difference. Defects that are mostly rounding tell nothing."""
     if not defects or _largest(defects[1]) < 10 * rounding:
         return 1.0
     return max(1.0, 2 * _largest(defects[1]) / max(_largest(defects[1] - defects[0]), rounding))
@@ -416,14 +367,10 @@ def _largest(values: Array) -> float:
 
 
 def errors_up_to(t: Array, errors: Array, turn: float, sudden: bool = False) -> Array:
-    """Return the largest errors (n,) up to each time t (n,), for a motion with the typical period `turn`.
-
-    Two runs that separate cross each other, so the maximum extends to the end of a swing. Errors grow by a power of the time
-    or by
-    e^(λt), so the logarithm is concave, although two runs may be close by chance. The estimate is the least concave curve
-    above the
-    logarithm, unless motions separate suddenly.
-    """
+    """Return the largest errors (n,) up to each time t (n,), for a motion with the typical period `turn`. Two runs that
+    separate cross each other, so the maximum extends to the end of a swing. Errors grow by a power of the time or by e^(λt),
+    so the logarithm is concave, although two runs may be close by chance. The estimate is the least concave curve above the
+    logarithm, unless motions separate suddenly."""
     grown = np.maximum.accumulate(errors)
     grown[1:] = grown[np.searchsorted(t, t[1:] + SWING.value * turn, side="right") - 1]
     if sudden or not (grown[0] > 0 and np.isfinite(grown).all()):
@@ -462,12 +409,9 @@ def first_time(t: Array, where: NDArray[np.bool_]) -> float:
 
 
 def _hopeless(course: _Course, pair: _Pair) -> bool:
-    """Return True if two integrations separated so fast that no tolerance keeps the error below LOST to the end.
-
-    Their difference grew from the looser local error to LOST at `lost`, and half the way (in logarithms) at `early`, as
-    e^(λt) or as
-    a power of t. A tighter tolerance reaches at most the later of the two extrapolated times.
-    """
+    """Return True if two integrations separated so fast that no tolerance keeps the error below LOST to the end. Their
+    difference grew from the looser local error to LOST at `lost`, and half the way (in logarithms) at `early`, as e^(λt) or
+    as a power of t. A tighter tolerance reaches at most the later of the two extrapolated times."""
     local, begin = pair.loose.local, float(course.times[0])
     grown, tighter = log(LOST.value / local), log(local / TIGHTEST)
     if pair.lost == inf or grown <= 0:

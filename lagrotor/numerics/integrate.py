@@ -28,31 +28,17 @@ Engine = Literal["core", "fast"]
 
 @dataclass(frozen=True)
 class Problem:
-    """The initial value problem y' = free(s, y), or driven(s, y) within the windows; y = start at t = `begin`, s = t − at.
-
-    Attributes
-    ----------
-    budget : float
-        Evaluations after which the run stops.
-    windows : tuple of Window
-        Times s between which something acts briefly, in order; each has its longest step.
-    project : callable or None
-        Brings a state (d,) or states (d, n) back onto their constraints.
-    typical_rate : float
-        In rad/s; it bounds the first step.
-    time_to_singular : callable or None
-        The time in s from a state to a singular position; no step is longer than half of it.
-    """
+    """The initial value problem y' = free(s, y), or driven(s, y) within the windows; y = start at t = `begin`, s = t − at."""
 
     free: RightHandSide
     start: Array
-    budget: float
+    budget: float  # evaluations after which the run stops
     driven: RightHandSide | None = None
     at: float = 0.0
-    windows: tuple[Window, ...] = ()
-    project: Projection | None = None
-    typical_rate: float = 0.0
-    time_to_singular: Callable[[Array], float] | None = None
+    windows: tuple[Window, ...] = ()  # of s, in order, in which something acts briefly and steps are bounded
+    project: Projection | None = None  # brings a state (d,), or states (d, n), back onto their constraints
+    typical_rate: float = 0.0  # in rad/s; it bounds the first step
+    time_to_singular: Callable[[Array], float] | None = None  # of a state, in s; no step is longer than half of it
     begin: float = 0.0
 
 
@@ -76,14 +62,10 @@ def check_progress(progress: object) -> None:
 
 
 def integrate(problem: Problem, times: Array, tol: float, solver: SegmentSolver | None = None) -> Stretch:
-    """Integrate from `begin` through increasing times (n,) with a local error `tol`, by the given solver or the fastest of the
-    core.
-
-    In the time s = t − at a pulse far shorter than the spacing of doubles near `at` is still resolved. The run is cut at the
-    edges of
-    its windows, in which steps are bounded, so no tolerance can miss a brief force. Raises StopError with the states up to
-    the stop.
-    """
+    """Integrate from `begin` through increasing times (n,) with a local error `tol`, by the given solver or the fastest of
+    the core. In the time s = t − at a pulse far shorter than the spacing of doubles near `at` is still resolved. The run is
+    cut at the edges of its windows, in which steps are bounded, so no tolerance can miss a brief force. Raises StopError with
+    the states up to the stop."""
     t_eval = times - problem.at
     begin, end = problem.begin - problem.at, float(t_eval[-1])
     y, evaluations = problem.start, 0
@@ -149,12 +131,9 @@ class _Progress:
 
 
 def by_fastest(segment: Segment, pulsed: bool, tol: float) -> Stretch:
-    """Solve a segment by the fastest solver at this tolerance; where that stops, DOP853 continues for a while.
-
-    The fast solver is tried again once DOP853 has taken as many evaluations as the last trial lost, if the rest would cost
-    more than
-    that. All trials but the last together lose no more evaluations than DOP853 takes.
-    """
+    """Solve a segment by the fastest solver at this tolerance; where that stops, DOP853 continues for a while. The fast
+    solver is tried again once DOP853 has taken as many evaluations as the last trial lost, if the rest would cost more than
+    that. All trials but the last together lose no more evaluations than DOP853 takes."""
     # From a rate that is not finite a solver makes a step that is not finite, and repeats it for ever.
     by_dop853, progress = pulsed and tol < CROSSOVER.value, _Progress(segment)
     progress.evaluations = 1

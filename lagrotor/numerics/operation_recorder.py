@@ -16,9 +16,7 @@ _LONGEST = 160  # characters from which an expression gets a name
 @dataclass(eq=False)
 class Recorded:
     """The result of a recorded operation: "+", "-", "*", "/", "neg" or a function of its operands; without operands, a name.
-
-    The tape holds all numbers of one record in the order of their computation.
-    """
+    The tape holds all numbers of one record in the order of their computation."""
 
     tape: list[Recorded] = field(repr=False)
     kind: str

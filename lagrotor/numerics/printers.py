@@ -1,7 +1,6 @@
 """Printed programs: Python functions of numbers or arrays, the right-hand side for a solver, JavaScript.
 
-A right-hand side takes one state at a time. Stages of parameters alone are evaluated once, and squares are printed as
-products:
+A right-hand side takes one state at a time. Stages of parameters alone are evaluated once, and squares are printed as products:
 this takes three quarters of the time of a function with a wrapper.
 """
 
@@ -142,10 +141,8 @@ def program_source(program: Program, module: str = "math") -> str:
 
 
 def compile_program(program: Program, module: str = "math", doc: str = "") -> Callable[..., Any]:
-    """Compile a program to a function of its arguments that returns a list of outputs.
-
-    The module "math" takes floats (fastest for one state at a time), "numpy" arrays that broadcast, "mpmath" any precision.
-    """
+    """Compile a program to a function of its arguments that returns a list of outputs. The module "math" takes floats
+    (fastest for one state at a time), "numpy" arrays that broadcast, "mpmath" any precision."""
     function = function_of(program_source(program, module))
     function.__doc__ = doc or f"{', '.join(map(str, program.arguments))} -> {len(program.outputs)} numbers"
     return function
@@ -154,15 +151,11 @@ def compile_program(program: Program, module: str = "math", doc: str = "") -> Ca
 def rhs_source(
     program: Program, states: int, driven: bool = False, bounded: bool = False, clock: int | None = None
 ) -> str:
-    """Return the source of parameters → rhs(s, y), for a program whose first `states` arguments are the state.
-
-    driven: the last three parameters are the components of a force exp(−(s/width)²), and width follows them. bounded:
-    OutsideError
-    is raised where one of the program's `positive` is not positive. clock: index of the time in the state; with the last
-    parameter
-    begin, the time is begin + s instead. Outside the coordinates' range rhs gives NaN, which makes a solver shorten its step;
-    `rhs.bare` raises one of LOST instead.
-    """
+    """Return the source of parameters → rhs(s, y), for a program whose first `states` arguments are the state. driven: the
+    last three parameters are the components of a force exp(−(s/width)²), and width follows them. bounded: OutsideError is
+    raised where one of the program's `positive` is not positive. clock: index of the time in the state; with the last
+    parameter begin, the time is begin + s instead. Outside the coordinates' range rhs gives NaN, which makes a solver shorten
+    its step; `rhs.bare` raises one of LOST instead."""
     expressions = (*program.outputs, *(program.positive if bounded else ()))
     stages, reduced = reduce_common(replace(program, outputs=expressions))
     outputs, bounds = reduced[: len(program.outputs)], reduced[len(program.outputs) :]

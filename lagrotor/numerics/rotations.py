@@ -13,10 +13,8 @@ _LEVI_CIVITA = np.array(
 
 
 def turn_between(u: Array, v: Array) -> Array:
-    """Return the shortest rotations P with P u = v, shape (…, 3, 3): P = (u·v) 1 + [n]× + n nᵀ/(1 + u·v), n = u × v.
-
-    Raises InputError where v is opposite to u, since no rotation is the shortest.
-    """
+    """Return the shortest rotations P with P u = v, shape (…, 3, 3): P = (u·v) 1 + [n]× + n nᵀ/(1 + u·v), n = u × v. Raises
+    InputError where v is opposite to u, since no rotation is the shortest."""
     n, c = np.cross(u, v), (u * v).sum(-1)[..., None, None]
     if (1 + c < 1e-12).any():
         raise InputError("turn_between: an axis turns round between two samples; take more samples")
@@ -28,12 +26,10 @@ def body_rotations(t: Array, axes: Array, rates: Array, spins: Array) -> Array:
     """Compute the rotation of each body, body to world, from Q' = [Omega]× Q, Omega = r × r' + omega r.
 
     At t[0] the body is turned the shortest way from e_z to r (by way of ±e_x where r hangs down). From sample to sample r is
-    carried
-    along the great circle, Q → P(r_0 → r_1) exp([r_0]× (omega h + area)) Q, with the area between the path and that circle.
-    Its rate
-    is p·(u × u')/(1 + p·u) about the pole p = r_0, to first order zero at p. A third of h times the rate at the other end,
-    averaged
-    over both poles, leaves an error of order h⁵ a step: r is exact to rounding, the angle about r to O(h⁴).
+    carried along the great circle, Q → P(r_0 → r_1) exp([r_0]× (omega h + area)) Q, with the area between the path and that
+    circle. Its rate is p·(u × u')/(1 + p·u) about the pole p = r_0, to first order zero at p. A third of h times the rate at
+    the other end, averaged over both poles, leaves an error of order h⁵ a step: r is exact to rounding, the angle about r to
+    O(h⁴).
 
     Parameters
     ----------
@@ -71,10 +67,8 @@ def body_rotations(t: Array, axes: Array, rates: Array, spins: Array) -> Array:
 
 
 def between_samples(t: Array, axes: Array, rates: Array, times: Array) -> tuple[Array, Array]:
-    """Interpolate unit axes and their tangent rates (k, n, 3) at other times (m,) by Hermite cubics, to O(h⁴).
-
-    Raises InputError for times outside the samples, or fewer than two samples.
-    """
+    """Interpolate unit axes and their tangent rates (k, n, 3) at other times (m,) by Hermite cubics, to O(h⁴). Raises
+    InputError for times outside the samples, or fewer than two samples."""
     if len(t) < 2 or times.min() < t[0] or times.max() > t[-1]:
         raise InputError("between_samples: the run needs two times at least, and holds no time outside them")
     from scipy.interpolate import CubicHermiteSpline
@@ -89,10 +83,7 @@ def between_samples(t: Array, axes: Array, rates: Array, times: Array) -> tuple[
 
 def turn_about(n: Array, angle: Array) -> Array:
     """Return rotations by `angle` (…,) about unit vectors n (…, 3), shape (…, 3, 3): 1 + sin(angle) [n]× + (1 − cos(angle))
-    [n]×².
-
-    With q = sin(angle/2) n this is 1 + 2 cos(angle/2) [q]× + 2 [q]×².
-    """
+    [n]×². With q = sin(angle/2) n this is 1 + 2 cos(angle/2) [q]× + 2 [q]×²."""
     half = angle[..., None] / 2
     crossed = skew_matrix(np.sin(half) * n)
     rotation: Array = _ONE + 2 * (np.cos(half)[..., None] * crossed + crossed @ crossed)

@@ -28,12 +28,9 @@ _SAYS = {
 
 @dataclass(frozen=True)
 class Ending:
-    """The ending of a run: its kind, the time `at` in s where it differs from the last time, and a reason in words.
-
-    Kinds: the last time was reached (end), there although neighbouring motions had separated from `at` on (lost); the
-    evaluations
-    were spent (budget); a singular position was measured (singular); an event; or the solver cannot continue (stopped).
-    """
+    """The ending of a run: its kind, the time `at` in s where it differs from the last time, and a reason in words. Kinds:
+    the last time was reached (end), there although neighbouring motions had separated from `at` on (lost); the evaluations
+    were spent (budget); a singular position was measured (singular); an event; or the solver cannot continue (stopped)."""
 
     kind: Literal["end", "lost", "budget", "singular", "event", "stopped"] = "end"
     at: float = inf
@@ -70,21 +67,9 @@ class Quantity(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Run(Shown):
-    """A simulated motion at the times that were reached; the initial state holds at t[0].
-
-    Attributes
-    ----------
-    t : Array
-        Times in s, shape (n,).
-    errors : Array
-        Estimated largest error up to each time, relative to the size of the state, shape (n,); NaN where it is not known.
-    horizon : float
-        The time in s from which the errors exceed the tolerance; inf if they never do.
-    evaluations : int
-        Evaluations of the right-hand side in all integrations.
-    ending : Ending
-        The reason why the run ended where it did.
-    """
+    """A simulated motion at the times t (n,) in s that were reached; the initial state holds at t[0]. `errors` (n,) are the
+    estimated largest errors up to each time, relative to the size of the state, NaN where not known. `horizon` is the time in
+    s from which they exceed the tolerance. `evaluations` counts those of all integrations."""
 
     t: Array
     errors: Array
@@ -104,55 +89,18 @@ class Run(Shown):
 
     @abstractmethod
     def quantities(self) -> Mapping[str, Quantity]:
-        """Return the state and the derived quantities by name, as they are saved and tabulated.
-
-        Returns
-        -------
-        Mapping
-            Name → `Quantity` with values, names of its axes, and unit.
-        """
+        """Return the state and the derived quantities by name, as they are saved and tabulated."""
 
     @abstractmethod
     def plot(self) -> Any:
-        """Draw the run.
-
-        Returns
-        -------
-        Figure
-            A figure that a notebook shows; `.savefig(path)` writes it.
-        """
+        """Draw a figure that a notebook shows; `.savefig(path)` writes it."""
 
     @abstractmethod
     def animate(self, path: str | Path, fps: float = 25.0) -> Path:
-        """Write the run as a film.
-
-        Parameters
-        ----------
-        path : str or Path
-            A file name that ends in .gif.
-        fps : float, default 25.0
-            Frames per second.
-
-        Returns
-        -------
-        Path
-            The file.
-        """
+        """Write the run as a film, a .gif."""
 
     def summary(self) -> dict[str, str]:
-        """Summarise the number of times, the evaluations, the error and the ending in words.
-
-        Returns
-        -------
-        dict
-            Name → words.
-
-        Examples
-        --------
-        >>> from lagrotor import Scene, simulate
-        >>> simulate(Scene(spins=(10, -10)), [0, 1, 2]).summary()["times"]
-        '3, from 0 to 2 s'
-        """
+        """Summarise the number of times, the evaluations, the error and the ending in words, by name."""
         n, error = len(self.t), self.error
         return {
             "times": f"{n}, from {self.t[0]:g} to {self.t[-1]:g} s" if n else "none",
@@ -253,9 +201,8 @@ class Run(Shown):
     def save(self, path: str | Path) -> Path:
         """Write the run to a file; the ending of its name chooses the format.
 
-        .npz: times, errors, every quantity, and a description as JSON with a digest, which `load` of the same class reads
-        back. .csv: a
-        column for each component. .png, .svg, .pdf: `plot`. .gif: `animate`.
+        .npz: times, errors, every quantity, and a description as JSON with a digest, which `load` of the same class reads back.
+        .csv: a column for each component. .png, .svg, .pdf: `plot`. .gif: `animate`.
 
         Parameters
         ----------
@@ -311,10 +258,8 @@ class Saved(NamedTuple):
 
 
 def read_run(path: str | Path) -> Saved:
-    """Read a run that was saved as .npz, and check the fields of `Run`.
-
-    Raises InputError for any other file, an incomplete one, decreasing times, or invalid errors, evaluations or ending.
-    """
+    """Read a run that was saved as .npz, and check the fields of `Run`. Raises InputError for any other file, an incomplete
+    one, decreasing times, or invalid errors, evaluations or ending."""
     about, arrays = read_arrays(path_of("load: path", path))
     try:
         t, errors = arrays.pop("t"), arrays.pop("errors")

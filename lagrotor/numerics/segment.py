@@ -17,12 +17,9 @@ LOST = ValueError, ZeroDivisionError, OverflowError  # raised by arithmetic outs
 
 @dataclass(frozen=True)
 class Segment:
-    """The problem y' = rhs(s, y) from the state `start` at the time `begin` to `until`, with states at `t_eval`.
-
-    No step is longer than `longest` or half of `time_to_singular` of the state where it begins. `project` brings a state
-    (d,), or
-    states (d, n), back onto the constraints. The solver stops after `budget` evaluations.
-    """
+    """The problem y' = rhs(s, y) from the state `start` at the time `begin` to `until`, with states at `t_eval`. No step is
+    longer than `longest` or half of `time_to_singular` of the state where it begins. `project` brings a state (d,), or states
+    (d, n), back onto the constraints. The solver stops after `budget` evaluations."""
 
     rhs: RightHandSide
     start: Array
@@ -48,9 +45,7 @@ class Segment:
 @dataclass(frozen=True, eq=False)
 class Stretch:
     """States (n, d) at the first n times of a motion (all times if it reached its end), the last state, and the evaluations.
-
-    An event changed the state at the times `jumps`.
-    """
+    An event changed the state at the times `jumps`."""
 
     states: Array
     end: Array
@@ -129,12 +124,9 @@ def states_on_constraints(project: Projection | None, states: Array) -> Array:
 
 
 class StopError(IntegrationError):
-    """A solver stopped at the time `at` (in a solver: the segment's own time).
-
-    Causes: the evaluations are spent (budget), a singular position was measured, an event ends the run, or the solver cannot
-    continue
-    and gives only its reason (stopped). `reached` is the motion up to the stop, with its last state.
-    """
+    """A solver stopped at the time `at` (in a solver: the segment's own time). Causes: the evaluations are spent (budget), a
+    singular position was measured, an event ends the run, or the solver cannot continue and gives only its reason (stopped).
+    `reached` is the motion up to the stop, with its last state."""
 
     def __init__(
         self,

@@ -35,9 +35,7 @@ from lagrotor.numerics.segment import (
 )
 
 _PATIENCE = 5_000  # evaluations before they are compared with the completed share of the segment
-_TURN = (
-    0.5  # largest relative change of a state with constraints in a step, so that no step leaps over a singular position
-)
+_TURN = 0.5  # largest relative change of a state with constraints in a step, which might pass a singular position
 _FIRST = 1e-6  # first step over the segment, where scipy's own first step leaves the range of the right-hand side
 _LEAST_RELATIVE = 2.3e-14  # scipy's solvers take no smaller relative tolerance
 _PIECE_BUDGET = 5_000  # evaluations between two projections, beyond which the solver no longer follows the motion
@@ -50,9 +48,8 @@ _IN_VAIN = 3  # times that a step is shortened at one place without a smaller er
 
 
 def dop853_steps(segment: Segment, error: float) -> Iterator[Any]:
-    """Yield scipy's solver after each step at a local error `error`, relative and absolute; a state is projected before
-    the next step.
-    """
+    """Yield scipy's solver after each step at a local error `error`, relative and absolute; a state is projected before the
+    next step."""
     from scipy.integrate import DOP853
 
     project = segment.project
@@ -109,21 +106,13 @@ def dop853(segment: Segment, error: float) -> Stretch:
 
 
 def lsoda(segment: Segment, error: float) -> Stretch:
-    """Solve the segment by LSODA at a local error `error`, relative and absolute.
-
-    The first step does not depend on the first output time, so outputs do not change the run. With constraints the run is cut
-    about
-    once a turn and projected, since their error grows exponentially where the axes are pressed.
-    """
+    """Solve the segment by LSODA at a local error `error`, relative and absolute. The first step does not depend on the first
+    output time, so outputs do not change the run. With constraints the run is cut about once a turn and projected, since
+    their error grows exponentially where the axes are pressed."""
     if segment.project is None:
         return _lsoda(segment, error)
-    blocks, evaluations, now, y, longest_cut = (
-        [np.empty((0, len(segment.start)))],
-        0,
-        segment.begin,
-        segment.start,
-        np.inf,
-    )
+    now, y, evaluations, longest_cut = segment.begin, segment.start, 0, np.inf
+    blocks = [np.empty((0, len(y)))]
 
     def stopped(reason: str, cause: Cause = "stopped") -> StopError:
         return StopError(now, reason, _on_constraints(segment, blocks, y, evaluations), cause=cause)
@@ -155,9 +144,8 @@ def lsoda(segment: Segment, error: float) -> Stretch:
         y, now, longest_cut = end, piece.until, 1.5 * longest_cut
     run = _on_constraints(segment, blocks, y, evaluations)
     if not np.isfinite(run.states).all():
-        raise StopError(
-            segment.begin, "a state could not be brought back onto its constraints", evaluations=evaluations
-        )
+        reason = "a state could not be brought back onto its constraints"
+        raise StopError(segment.begin, reason, evaluations=evaluations)
     return run
 
 
@@ -275,14 +263,11 @@ def adams_order(error: float) -> int:
 
 @lru_cache(maxsize=8)
 def adams_weights(q: int) -> tuple[Array, Array, Array, Array]:
-    """Return the weights A, B, S, P of an Adams pair of q nodes, from the Lagrange polynomials l_j, exact before rounding.
-
-    A: integrals over the step after the last node (Adams–Bashforth); B: over the step before it (Adams–Moulton). Both are (2,
-    q), the
-    rounded weights and their rounding error; without the second row all steps of all runs share an error that no comparison
-    shows.
-    S (q, q): from the first node to each; P (q, q + 1): the integral of l_j from node q // 2 as a polynomial in steps.
-    """
+    """Return the weights A, B, S, P of an Adams pair of q nodes, from the Lagrange polynomials l_j, exact before rounding. A:
+    integrals over the step after the last node (Adams–Bashforth); B: over the step before it (Adams–Moulton). Both are (2,
+    q), the rounded weights and their rounding error; without the second row all steps of all runs share an error that no
+    comparison shows. S (q, q): from the first node to each; P (q, q + 1): the integral of l_j from node q // 2 as a
+    polynomial in steps."""
     middle, last = q // 2, q - 1 - q // 2
     nodes = [i - middle for i in range(q)]
     rows = []
@@ -308,9 +293,8 @@ def adams_weights(q: int) -> tuple[Array, Array, Array, Array]:
 
 @dataclass(frozen=True)
 class _Piece:
-    """Equal steps h from t by the pair of order q: states and rates y' (n + 1, d), evaluations, and the factor for the
-    next h.
-    """
+    """Equal steps h from t by the pair of order q: states and rates y' (n + 1, d), evaluations, and the factor for the next
+    h."""
 
     q: int
     t: float
@@ -332,10 +316,8 @@ class _Piece:
 
 
 def _piece(segment: Segment, q: int, y: Array, t: float, h: float, steps: int, limit: float) -> _Piece:
-    """Take steps h until `steps` are made, or h proves too long (change < 1) or needlessly short (change > 1).
-
-    Predict, evaluate, correct, evaluate; (corrector − predictor)/h is kept under `limit` (Hairer, Nørsett & Wanner, III.1).
-    """
+    """Take steps h until `steps` are made, or h proves too long (change < 1) or needlessly short (change > 1). Predict,
+    evaluate, correct, evaluate; (corrector − predictor)/h is kept under `limit` (Hairer, Nørsett & Wanner, III.1)."""
     rhs = segment.rhs
     A, B, _, _ = adams_weights(q)
     states, velocities, differences = np.empty((3, steps + 1, len(y)))
@@ -396,11 +378,8 @@ def _first_nodes(
 
 def adams(segment: Segment, error: float) -> Stretch:
     """Solve the segment by Adams predictor and corrector in equal steps, which change where their difference requires it.
-
     Raises StopError also where the evaluations far exceed the completed share of the budget, and where shorter steps have no
-    smaller
-    error: then the right-hand side is not accurate enough for the tolerance.
-    """
+    smaller error: then the right-hand side is not accurate enough for the tolerance."""
     t_eval, right, y, t, longest = segment.t_eval, segment.until, segment.start, segment.begin, segment.longest
     q, limit = adams_order(error), min(100 * error, 1e-3)  # at order 10, steps with a larger difference are unstable
     h = min(
@@ -430,9 +409,8 @@ def adams(segment: Segment, error: float) -> Stretch:
         share = (t - segment.begin) / (right - segment.begin)
         exhausted = evaluations > min(segment.budget, _PATIENCE + share * segment.budget)
         if t < right and (exhausted or in_vain == _IN_VAIN or t + h == t):
-            reason = (
-                f"{evaluations} evaluations spent" if exhausted else f"steps of {h:.1e} leave as much as longer ones"
-            )
+            reason = f"steps of {h:.1e} leave as much as longer ones"
+            reason = f"{evaluations} evaluations spent" if exhausted else reason
             reached = Stretch(states_on_constraints(segment.project, states[:count]), y, evaluations)
             raise StopError(t, reason, reached, cause="budget" if exhausted else "stopped")
     if not (np.isfinite(end).all() and np.isfinite(states).all()):

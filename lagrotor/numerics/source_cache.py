@@ -1,8 +1,8 @@
 """Generated functions that are stored as source, so that a first call reads it instead of deriving it.
 
 A function that returns the source of another is marked `@generated(arguments)`. For these arguments its text is stored in
-`generated.txt` beside its module, one block of plain Python each; for any others it is derived when it is called.
-`python -m tests.numerics.renew_generated` writes these files, and a test derives every block again.
+`generated.txt` beside its module, one block of plain Python each; for any others it is derived when it is called. `python -m
+tests.numerics.renew_generated` writes these files, and a test derives every block again.
 """
 
 from __future__ import annotations
@@ -28,9 +28,8 @@ class GeneratedFunction:
     _functions: Callable[..., Any] = field(init=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(
-            self, "_functions", lru_cache(_MOST)(lambda *arguments: function_of(self.source(*arguments)))
-        )
+        functions = lru_cache(_MOST)(lambda *arguments: function_of(self.source(*arguments)))
+        object.__setattr__(self, "_functions", functions)
 
     def __call__(self, *arguments: Any) -> Any:
         return self._functions(*arguments)

@@ -1,7 +1,6 @@
 """The engine "fast": heyoka's functions and Taylor integrator, compiled from the same generated programs.
 
-Cyclic coordinates and angles, which may grow without end, are scaled so small that they are never the largest component of
-the
+Cyclic coordinates and angles, which may grow without end, are scaled so small that they are never the largest component of the
 state, on which heyoka bases its error. Compiling takes one or two seconds for each program and order; the process keeps the
 result in memory, heyoka on disk. States at any time are as exact as the run.
 
@@ -112,14 +111,10 @@ def _compiled_function(program: Program) -> Any:
 def taylor_solver(
     generated: Generated, order: int, longest_between: float = np.inf, angles: tuple[int, ...] = ()
 ) -> SegmentSolver:
-    """Return the solver of a segment by heyoka; steps times order count as evaluations.
-
-    `generated` maps True (in a pulse) or False to the program and the values of its parameters. In a pulse the last three are
-    the
-    peak of a force exp(−(s/width)²), with `width` after them. States are projected at least every `longest_between`. The
-    states
-    `angles` may grow without end like the cyclic ones; the error of their rates, which are states too, bounds theirs.
-    """
+    """Return the solver of a segment by heyoka; steps times order count as evaluations. `generated` maps True (in a pulse) or
+    False to the program and the values of its parameters. In a pulse the last three are the peak of a force exp(−(s/width)²),
+    with `width` after them. States are projected at least every `longest_between`. The states `angles` may grow without end
+    like the cyclic ones; the error of their rates, which are states too, bounds theirs."""
     heyoka_module()
 
     def solve(segment: Segment, pulsed: bool, tol: float) -> Stretch:
@@ -146,9 +141,7 @@ def taylor_solver(
 
 
 def march_lanes(program: Program, parameters: Array, legs: Mapping[int, Leg]) -> dict[int, Stretch | StopError]:
-    """Integrate the legs of an autonomous motion with parameters (p, n), by number, eight at a time, each with its own
-    step.
-    """
+    """Integrate the legs of an autonomous motion with parameters (p, n), by number, eight at a time, each with its own step."""
     answers: dict[int, Stretch | StopError] = {}
     orders: dict[int, list[int]] = {}
     for i, leg in legs.items():
@@ -221,20 +214,14 @@ def _solver(
 
 def taylor_order(tol: float, companion: bool = False) -> int:
     """Return the cheapest order for a local error, of 7 to 19 tried with the displaced pair; code of higher orders outgrows a
-    cache.
-
-    A companion has another order, since equal states may give equal steps. At the tightest errors both are even: the error of
-    an
-    even order turns a phase and grows like t, for an odd order like t².
-    """
+    cache. A companion has another order, since equal states may give equal steps. At the tightest errors both are even: the
+    error of an even order turns a phase and grows like t, for an odd order like t²."""
     return (10 if tol >= 1e-7 else 14) - companion if tol >= 1e-11 else 16 + 2 * companion
 
 
 def compiled_solver(equations: Sequence[tuple[Any, Any]], order: int, lanes: int = 1, compact: bool = True) -> Any:
-    """Compile the integrator of (variable, rate) pairs; its state has one constant component more.
-
-    Compact code keeps its loops: it compiles many times faster and runs a little slower.
-    """
+    """Compile the integrator of (variable, rate) pairs; its state has one constant component more. Compact code keeps its
+    loops: it compiles many times faster and runs a little slower."""
     heyoka = heyoka_module()
     equations = [*equations, (heyoka.make_vars("size"), heyoka.expression(0.0))]
     settings = {"tol": _compiled_for(order), "fast_math": True}
@@ -260,12 +247,9 @@ def taylor_march(
     longest: float = np.inf,
     after_step: Callable[[Any], bool] | None = None,
 ) -> Stretch:
-    """Return states (n, d) at the times within the span from y (d,); steps times order count as evaluations.
-
-    `size` is that of the constant component, `longest` the longest step. A state is projected at least every
-    `longest_between`.
-    `after_step` is called with the solver after each step; False stops the run.
-    """
+    """Return states (n, d) at the times within the span from y (d,); steps times order count as evaluations. `size` is that
+    of the constant component, `longest` the longest step. A state is projected at least every `longest_between`. `after_step`
+    is called with the solver after each step; False stops the run."""
     (now, end), pieces, steps = span, [np.empty((0, len(y)))], 0
     options: dict[str, Any] = {"max_delta_t": longest, "max_steps": _MOST_STEPS}
     options |= {} if after_step is None else {"callback": after_step}

@@ -1,7 +1,6 @@
 """All zeros of smooth functions on an interval, from their Chebyshev series: no zero between two samples is missed.
 
-A function is sampled at Chebyshev's nodes; where the last coefficients are not small, the interval is halved. The zeros of
-the
+A function is sampled at Chebyshev's nodes; where the last coefficients are not small, the interval is halved. The zeros of the
 series are eigenvalues (Boyd 2002, Computing zeros on a real interval through Chebyshev expansion and polynomial rootfinding).
 """
 
@@ -29,9 +28,7 @@ Functions = Callable[[Array], Array]  # times (m,) → values (k, m)
 @dataclass(frozen=True)
 class Zeros:
     """Zeros t (n,) in increasing order, the index of the function of each, and its direction: 1 upward, −1 downward, 0 touched.
-
-    `hidden` is an interval in which a function is not resolved and zeros may be missing; None if all zeros are known.
-    """
+    `hidden` is an interval in which a function is not resolved and zeros may be missing; None if all zeros are known."""
 
     t: Array
     index: Array
@@ -42,12 +39,8 @@ class Zeros:
 def zeros_between(
     functions: Functions, lower: float, upper: float, touch: Array | float = 0.0, noise: Array | float = 0.0
 ) -> Zeros:
-    """Find the zeros of k functions in an interval.
-
-    A turning point within `touch` of zero, (k,) or a number, counts as a zero. `noise` is the rounding of the values, which
-    no
-    halving resolves.
-    """
+    """Find the zeros of k functions in an interval. A turning point within `touch` of zero, (k,) or a number, counts as a
+    zero. `noise` is the rounding of the values, which no halving resolves."""
     roots: list[tuple[float, int, int]] = []
     hidden = _search(functions, lower, upper, touch, noise, roots, _HALVINGS)
     roots = _each_once(sorted(roots), _SLACK * (upper - lower))
@@ -125,10 +118,8 @@ def _zeros_of(series: Array, touch: float) -> list[tuple[float, int]]:
 
 
 def _keeps_its_sign(series: Array) -> bool:
-    """Return True if the constant outweighs all other terms on [−1, 1] and slightly beyond.
-
-    |T_k| is at most cosh(k √(2 · 10⁻⁶)) there.
-    """
+    """Return True if the constant outweighs all other terms on [−1, 1] and slightly beyond. |T_k| is at most cosh(k √(2 ·
+    10⁻⁶)) there."""
     return bool(abs(series[0]) > 1.001 * np.abs(series[1:]).sum())
 
 

@@ -1,7 +1,7 @@
-"""What unknown functions in a Lagrangian, a force or a constraint are when it runs: U(r), a support y_s(t), a control u(t).
+"""Values of unknown functions in a Lagrangian, a force or a constraint: U(r), a support y_s(t), a control u(t).
 
-A value is an expression, put in before anything else; a callable with the derivatives that the equations need; or a table or
-a spline of scipy. A table is interpolated by a cubic spline (de Boor, A Practical Guide to Splines, ch. IV).
+A value is an expression, substituted before anything else; a callable with the derivatives that the equations need; or a table
+or a spline of scipy. A table is interpolated by a cubic spline (de Boor, A Practical Guide to Splines, ch. IV).
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -25,28 +25,23 @@ Kind = TypeVar("Kind", bound=Equations)
 
 @dataclass(frozen=True, eq=False)
 class FunctionValue:
-    """A function in numbers: its derivatives by orders, those that are known, or a spline of scipy, not a number beyond its
-    knots."""
+    """A function in numbers: its known derivatives by orders, or a spline of scipy, NaN beyond its knots."""
 
     name: str
     derivatives: Mapping[Orders, Callable[..., Any]]
     spline: Any = None
 
     def jet(self, where: str, orders: Orders) -> Callable[..., Any]:
-        """A derivative as a function of numbers, or of arrays, or of numbers with small imaginary parts (a complex step).
-
-        Raises InputError where it is not known.
-        """
+        """Return a derivative as a function of numbers, of arrays, or of numbers with small imaginary parts (a complex
+        step)."""
         f = self._known(where, orders)
 
         def one(*at: float) -> float:
             try:
                 return float(f(*at))
             except TypeError:
-                call_text = f"{jet_name(self.name, orders)}({', '.join(map(str, at))})"
-                raise IntegrationError(
-                    f"{where}: {call_text} gives {f(*at)!r}, which is no number: correct it"
-                ) from None
+                text = f"{jet_name(self.name, orders)}({', '.join(map(str, at))})"
+                raise IntegrationError(f"{where}: {text} gives {f(*at)!r}, which is no number: correct it") from None
 
         def call(*at: Any) -> Any:
             if all(np.ndim(x) == 0 and not isinstance(x, complex | np.complexfloating) for x in at):
@@ -78,18 +73,15 @@ class FunctionValue:
 
 
 def jet_name(name: str, orders: Orders) -> str:
-    """U, U', U''; of several arguments U^(1,0)."""
+    """Return U, U', U''; U^(1,0) for several arguments."""
     if len(orders) == 1:
         return name + "'" * orders[0]
     return f"{name}^({','.join(map(str, orders))})" if any(orders) else name
 
 
 def put_functions(where: str, system: Kind, values: Any, others: Sequence[sp.Expr] = ()) -> tuple[Kind, Any]:
-    """The system with the expressions among the values of its functions put in, and the values: numbers by symbol or name,
-    and for each function its form, a Lambda, or a `FunctionValue`. others: expressions that may have functions, too.
-
-    Raises InputError for a function without a value, a value that is none, and one that the system does not have.
-    """
+    """Substitute values that are expressions into the system; return it with the values, functions as `Lambda` or
+    `FunctionValue`. `others` are further expressions that may contain functions."""
     energy = system.L if system.bodies else system.lagrangian
     expressions = [energy, *system.acting, *(e for _, e in system.velocities), *others]
     applied = unknown_functions(expressions)
@@ -102,7 +94,7 @@ def put_functions(where: str, system: Kind, values: Any, others: Sequence[sp.Exp
         str(key): value for key, value in values.items() if isinstance(key, UndefinedFunction) or str(key) in functions
     }
     if letters := sorted(functions.keys() & {str(s) for e in expressions for s in e.free_symbols}):
-        raise InputError(f"{where}: {letters[0]} is a letter of the system and a function in it: rename one")
+        raise InputError(f"{where}: {letters[0]} is a symbol of the system and a function in it: rename one")
     names = [str(key) for key in values]
     if twice := sorted(name for name in named if names.count(name) > 1):
         raise InputError(f"{where}: {twice[0]} with two values, of the function and of its name: give one")
@@ -132,7 +124,7 @@ def put_functions(where: str, system: Kind, values: Any, others: Sequence[sp.Exp
 
 
 def _with_expressions(system: Kind, lambdas: Mapping[str, sp.Lambda]) -> Kind:
-    """The system with expressions in place of functions."""
+    """Substitute expressions for functions in the system."""
 
     def put(e: sp.Expr) -> sp.Expr:
         return with_values(e, lambdas)
@@ -140,7 +132,7 @@ def _with_expressions(system: Kind, lambdas: Mapping[str, sp.Lambda]) -> Kind:
     lagrangian: Any = system.lagrangian
     if not system.bodies:
         lagrangian = put(lagrangian)
-    elif unknown_functions(system.L - sp.sympify(lagrangian.rest, strict=True)):  # in the place of a frame
+    elif unknown_functions(system.L - sp.sympify(lagrangian.rest, strict=True)):  # in the position of a frame
         lagrangian = put(system.L)
     else:
         lagrangian = replace(lagrangian, rest=put(lagrangian.rest))
@@ -156,7 +148,7 @@ def _with_expressions(system: Kind, lambdas: Mapping[str, sp.Lambda]) -> Kind:
 
 
 def with_values(e: sp.Expr, values: Mapping[Any, Any]) -> sp.Expr:
-    """An expression with those functions written out whose values are expressions."""
+    """Substitute the functions whose values are expressions."""
 
     def made(name: str, orders: Orders, arguments: tuple[sp.Expr, ...]) -> sp.Expr | None:
         form = values.get(name)
@@ -220,7 +212,7 @@ def _alone(where: str, name: str, form: sp.Lambda) -> sp.Lambda:
 
 
 def _spline_of(where: str, name: str, value: Any) -> FunctionValue | None:
-    """The spline of a table, or of scipy; None for what is neither. Raises InputError for a table that is none."""
+    """Return the spline of a table, or of scipy; None for other values."""
     from scipy.interpolate import BSpline, CubicSpline, PPoly
 
     if isinstance(value, BSpline | PPoly):
@@ -245,7 +237,7 @@ def _spline_of(where: str, name: str, value: Any) -> FunctionValue | None:
 
 
 def event_with(event: Event | Impact, substitute: Callable[[sp.Expr], sp.Expr]) -> Event | Impact:
-    """The event with `substitute` applied to its expressions."""
+    """Apply a substitution to the expressions of an event."""
     if isinstance(event, Impact):
         return replace(event, gap=substitute(event.gap), restitution=substitute(event.restitution))
     velocities = None if event.velocities is None else tuple(map(substitute, event.velocities))

@@ -1,6 +1,6 @@
-"""The start of a run: which values, positions and velocities a motion can begin with, and the nearest state on the constraints.
+"""The initial state of a run: checks of values, positions and velocities, and the nearest state on the constraints.
 
-The values must be of letters that the system has, of their declared sign. Masses must be those of bodies, friction must take
+Values belong to symbols of the system and have their declared signs. Bodies must have possible masses, friction must dissipate
 energy, and the mass matrix, with the constraints, must give one acceleration.
 """
 
@@ -32,18 +32,17 @@ from lagrotor.mechanics.steady_motions import no_turn
 from lagrotor.numerics.arrays import finite_array, real_array
 
 _POLE = 1e-13  # of a factor of det [A; G], below which it is zero
-_RANK = 1e-11  # of the largest eigenvalue, what is left of a direction that nothing moves, by rounding
-_OFF = 1e-7  # of 1 and the largest number of a start: how far it may be off its constraints
-_SMALL = 1e-5  # of the size of what is small, how far it may be off
-_SLOW = 1e-3  # of the way that the velocities cover: as large a place counts at least
-_LEAST = 1e-8  # a place that is smaller counts as this: it may be rounding of parameters of size one
+_RANK = 1e-11  # eigenvalue over the largest, below which a direction has no mass
+_OFF = 1e-7  # distance from the constraints over 1 + the largest number of a start
+_SMALL = 1e-5  # distance from the constraints over the size of a small component
+_SLOW = 1e-3  # least size of a position over the distance that the velocities cover
+_LEAST = 1e-8  # least size of a position, which may be rounding of parameters of size one
 _LEAST_NORM = 1e-3  # of a quaternion, from which the nearest of norm 1 is reached
 
 
 def check_values(where: str, system: Equations, values: Values, others: Iterable[sp.Expr] = ()) -> None:
-    """Raise InputError for names that are no letters of the system, or of `others`; for a value whose sign is not the
-    letter's; for a body or a friction that there is none of. A symbol of another system, of a table that several share, is
-    passed over."""
+    """Raise InputError for unknown names, a value of the wrong sign, or an impossible body or friction. A symbol of another
+    system, in a table shared by several systems, is ignored."""
     if not isinstance(values, Mapping):
         raise InputError(f"{where}: values = {values!r} must be {{symbol: number, …}}, a dictionary")
     moving = {*system.c.q, *system.c.v, *system.c.a, *system.speeds, time}
@@ -56,7 +55,7 @@ def check_values(where: str, system: Equations, values: Values, others: Iterable
         if not isinstance(value, FunctionValue | sp.Lambda)
     }
     if strangers := sorted({name for name in values if isinstance(name, str)} - letters.keys()):
-        choices = f"its letters are {', '.join(sorted(letters))}" if letters else "it has no letter but its coordinates"
+        choices = f"its symbols are {', '.join(sorted(letters))}" if letters else "it has no symbol but its coordinates"
         meant = near(strangers[0], letters) if len(strangers) == 1 else ""
         it = "it" if len(strangers) == 1 else "them"
         raise InputError(
@@ -92,7 +91,7 @@ def _number(where: str, name: Any, value: Any) -> float:
 
 
 def check_pole(where: str, system: Equations, values: Values, state: Array) -> None:
-    """Raise SingularError where the velocities u of the system do not give v at a state."""
+    """Raise SingularError where the quasi-velocities u do not give v at a state."""
     kinematics = system.kinematics
     if kinematics is None:
         return
@@ -112,8 +111,7 @@ def check_pole(where: str, system: Equations, values: Values, state: Array) -> N
 
 
 def check_inertia(where: str, system: Equations, values: Values, state: Array) -> None:
-    """Raise SingularError where M, with the constraints, does not give one acceleration at a state; warn where the kinetic
-    energy of a velocity that the constraints allow is negative."""
+    """Raise SingularError where M, with the constraints, does not give one acceleration; warn of negative kinetic energy."""
     M = mass_at(system, values, state)
     G = rows_at(system, values, state)
     size = np.sqrt(np.abs(np.diag(M)))
@@ -121,7 +119,7 @@ def check_inertia(where: str, system: Equations, values: Values, state: Array) -
     M, G = M / np.outer(size, size), G / size
     lengths = np.linalg.norm(G, axis=1, keepdims=True)
     if not (np.isfinite(M).all() and np.isfinite(G).all() and lengths.all()):
-        return  # said of the right-hand side, or of the constraints
+        return  # the right-hand side or the constraints will be refused
     _, weights, directions = np.linalg.svd(G / lengths) if len(G) else (None, np.zeros(0), np.eye(len(M)))
     free = directions[int((weights > _RANK).sum()) :]
     kinetic = np.linalg.eigvalsh(free @ M @ free.T) if len(free) else np.ones(1)
@@ -149,12 +147,8 @@ def check_inertia(where: str, system: Equations, values: Values, state: Array) -
 def consistent(
     where: str, system: Equations, values: Values, q0: ArrayLike, v0: ArrayLike, t: float = 0.0
 ) -> tuple[Array, Array]:
-    """The state (q, v) on the constraints that is nearest to q0, v0 in the mass metric, at the time t; (q, u) for velocities of
-    one's own, in the metric of their numbers.
-
-    Raises ConstraintError when it is not reached, SingularError where the constraints are dependent, InputError for a quaternion
-    of norm 0.
-    """
+    """Return the state (q, u) on the constraints nearest to q0, v0 in the mass metric, at the time t, for
+    `System.consistent`. Quasi-velocities are measured in the metric of their numbers."""
     n, m, h = len(system.c.q), len(system.speeds), len(system.constraints)
     q, v = state_vector(where, "q0", q0, n), state_vector(where, "v0", v0, m, system)
     for joint in system.ball_joints:
@@ -164,24 +158,22 @@ def consistent(
     arguments = (float(finite_array(f"{where}: t", t, ())), *parameter_values(program, values, where))
     ends = np.cumsum([m * m, h, h * n, len(system.left) * m])
 
-    def equations_at(at: ArrayLike, rates: ArrayLike) -> tuple[Array, Array, Array, Array, Array]:
-        """M, g, ∂g/∂q, G and G u + b."""
+    def matrices(at: ArrayLike, rates: ArrayLike) -> tuple[Array, Array, Array, Array, Array]:
+        """Return M, g, ∂g/∂q, G and G u + b."""
         with np.errstate(all="ignore"):
             numbers = np.array(program.function(*np.concatenate([at, rates, arguments])), float)
         M, g, slope, G, residual = np.split(numbers, ends)
         return M.reshape(m, m), g, slope.reshape(h, n), G.reshape(-1, m), residual
 
     if h:
-        M, _, slope, _, _ = equations_at(q, v)
+        M, _, slope, _, _ = matrices(q, v)
         metric_there = metric(M, slope) if system.kinematics is None else None
         try:
-            placed = project_position(
-                lambda at: equations_at(at, v)[1], lambda at: equations_at(at, v)[2], q, metric_there
-            )
+            placed = project_position(lambda at: matrices(at, v)[1], lambda at: matrices(at, v)[2], q, metric_there)
         except (ConstraintError, SingularError) as error:
             raise type(error)(str(error).replace("project_position", where, 1)) from None
         q = np.asarray(placed, float)
-    mass, _, _, slope, offset = equations_at(q, np.zeros(m))  # b, so that G u + b = 0
+    mass, _, _, slope, offset = matrices(q, np.zeros(m))  # b, so that G u + b = 0
     if not system.left:
         return q, v
     mass = metric(mass, slope)
@@ -190,12 +182,10 @@ def consistent(
 
 
 def rounding_of_start(system: Equations, values: Values, start: Array, t: float, duration: float = 1.0) -> Array:
-    """How far each component of a start (q, u), (N + m,), may be off the constraints: 10⁻⁷ (1 + max |start|), and where that is
-    less, 10⁻⁵ of its size, in whatever unit of length.
-
-    The sizes of x_k are max_j √M_jj |x_j| / √M_kk: the mass metric compares metres with radians; for velocities of one's own it
-    is 1. Velocities are no smaller than what leads through the places in the duration, or in one second where that is shorter.
-    """
+    """Return the distance from the constraints that each component of a start (q, u), shape (N + m,), may have. It is 10⁻⁷ (1
+    + max |start|), or 10⁻⁵ of the component's size where that is less. The size of x_k is max_j √M_jj |x_j| / √M_kk, since
+    the mass metric compares metres with radians; for quasi-velocities the metric is 1. Velocities are at least the lengths
+    over the duration, or over one second where that is shorter."""
     n, m, program, weight = len(system.c.q), len(system.speeds), start_program(system), np.ones(1)
     if system.kinematics is None:
         with np.errstate(all="ignore"):
@@ -203,7 +193,7 @@ def rounding_of_start(system: Equations, values: Values, start: Array, t: float,
         weight = np.sqrt(np.nan_to_num(np.abs(M.diagonal()), posinf=0.0))
     length, speed = (float((weight * np.abs(values_of)).max()) for values_of in (start[:n], start[n:]))
     duration = min(duration, 1.0)
-    with np.errstate(divide="ignore", invalid="ignore"):  # what has no mass has no size: infinity
+    with np.errstate(divide="ignore", invalid="ignore"):  # the size of a massless component is infinite
         places = np.where(weight > 0, np.maximum(max(length, _SLOW * duration * speed) / weight, _LEAST), np.inf)
         speeds = np.fmax(np.where(weight > 0, speed / weight, np.inf), places / duration)
     sizes = np.append(np.broadcast_to(places, n), np.broadcast_to(speeds, m))
@@ -211,14 +201,14 @@ def rounding_of_start(system: Equations, values: Values, start: Array, t: float,
 
 
 def metric(mass: Array, slope: Array) -> Array:
-    """M, or where it is singular M + Gᵀ W G, W as in `programs.inertia`: a metric in which distances are measured."""
+    """Return M, or where it is singular M + Gᵀ W G with the W of `programs.inertia`."""
     if not len(slope) or np.linalg.matrix_rank(mass, hermitian=True) == len(mass):
         return mass
     return np.asarray(mass + slope.T / np.square(slope).sum(1) @ slope * np.trace(mass) / len(mass))
 
 
 def state_vector(where: str, name: str, numbers: ArrayLike, n: int, system: Equations | None = None) -> Array:
-    """n finite numbers; of velocities where a system is given."""
+    """Return n finite numbers, of velocities where a system is given."""
     vector = real_array(numbers)
     if vector is None:
         raise InputError(f"{where}: {name} = {numbers!r} must be {n} numbers")

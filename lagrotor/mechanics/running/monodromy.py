@@ -1,11 +1,11 @@
 """Small displacements: Floquet multipliers of a periodic motion, the Lyapunov exponent of any motion.
 
 With s' = f(s, t) of period T, δs(T) = Φ δs(0), Φ' = (∂f/∂s) Φ, Φ(0) = 1; under constraints in their tangent space, as in
-`state_space`. The multipliers are the eigenvalues of Φ: displacements grow where one is larger than 1 in size. One is 1 where
-time does not enter, by the shift along the orbit. Nayfeh & Mook, Nonlinear Oscillations, 5.2. Rounding of Φ hides multipliers
-that are 10⁻¹² times smaller than the largest. Where one is not resolved the period is cut, and the eigenvalues are those of a
-product of factors, whose periodic Schur form resolves each (Bojanczyk, Golub & Van Dooren 1992). Lyapunov's exponent is from
-the motion linearised along a run (Benettin, Galgani, Giorgilli & Strelcyn 1980).
+`state_space`. The multipliers are the eigenvalues of Φ: displacements grow where one is larger than 1 in size. Without explicit
+time one is 1, by the shift along the orbit. Nayfeh & Mook, Nonlinear Oscillations, 5.2. Rounding of Φ hides multipliers below
+10⁻¹² of the largest. Then the period is cut, and the periodic Schur form of the factors of Φ resolves each multiplier
+(Bojanczyk, Golub & Van Dooren 1992). Lyapunov's exponent is from the motion linearised along a run (Benettin, Galgani,
+Giorgilli & Strelcyn 1980).
 """
 
 from collections.abc import Mapping
@@ -33,28 +33,41 @@ from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.numerics.pulse import windows_since
 from lagrotor.result_display import Shown, scientific
 
-_LOCAL = (1e-10, 1e-12)  # errors of a step, of the integration that is read last and of the one it is compared with
+_LOCAL = (1e-10, 1e-12)  # local errors of the two integrations that are compared
 _CUTS = (1, 4, 32)  # pieces of the period, more where a multiplier is not resolved
-_RESOLVED = 1e-3  # of a multiplier, below which its error resolves it
-_CLOSED = 1e-6  # relative: what an orbit may be open by
-_MOST = 2_000_000  # evaluations
-MOST = 10_000_000  # the same, of an exponent
-_PIECES, _PARTS = 200, 10  # of a run: between them the tangent is brought back to length one; for the standard error
-_TIGHTEST = 1e-9  # tolerance: an exponent has fewer digits than that
+_RESOLVED = 1e-3  # relative error below which a multiplier is resolved
+_CLOSED = 1e-6  # relative distance between the ends of a closed orbit
+_MOST = 2_000_000  # evaluations of an integration of Φ
+MOST = 10_000_000  # evaluations for an exponent
+_PIECES, _PARTS = 200, 10  # pieces of a run, after which the tangent is normalised; parts for the standard error
+_TIGHTEST = 1e-9  # local error: an exponent has fewer digits
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class MonodromyMatrix(Shown):
-    """The matrix Φ (n, n) of one turn in the independent `states`, and its eigenvalues, the multipliers.
+    """The matrix Φ of one period, with its eigenvalues, the Floquet multipliers.
 
     Attributes
     ----------
+    states : tuple of Symbol
+        The n independent states.
+    matrix : Array
+        Φ, shape (n, n).
     error : float
         Difference of two integrations of Φ, relative to it.
     multipliers : NDArray[complex128]
-        (n,), the largest first; NaN where one is smaller than its error.
+        The largest first, shape (n,); NaN where one is smaller than its error.
     errors : Array
-        Absolute error of each multiplier, (n,); of one that is NaN the bound of its size.
+        Absolute error of each multiplier, shape (n,); for NaN a bound of its size.
+
+    Examples
+    --------
+    >>> from sympy import pi
+    >>> from lagrotor.mechanics import System, coordinates
+    >>> c = coordinates("x")
+    >>> orbit = System(c, (c.v[0]**2 - c.q[0]**2) / 2).floquet({c.q[0]: 1}, {}, pi)
+    >>> orbit.multipliers.real.round(6)
+    array([-1., -1.])
     """
 
     states: tuple[sp.Symbol, ...]
@@ -64,13 +77,19 @@ class MonodromyMatrix(Shown):
     errors: Array
 
     def summary(self) -> dict[str, str]:
-        """The states, the error of Φ and each multiplier, name → words."""
+        """Summarise the states, the error of Φ and the multipliers in words.
+
+        Returns
+        -------
+        dict
+            Name → words.
+        """
         head = {"states": ", ".join(map(str, self.states)), "error of the matrix": scientific(self.error, 1)}
         return head | multiplier_rows(self.multipliers, self.errors)
 
 
 def monodromy_matrix(system: Equations, at: Mapping[Any, Any], values: Values, period: float) -> MonodromyMatrix:
-    """`System.floquet`."""
+    """Compute the monodromy matrix for `System.floquet`."""
     duration = _number(period)
     if not 0 < duration < np.inf:
         raise InputError(f"floquet: period = {period!r} must be a positive time in s")
@@ -99,7 +118,7 @@ def monodromy_matrix(system: Equations, at: Mapping[Any, Any], values: Values, p
     windows = windows_since(begin, clock_windows(system, values, begin + np.array([0.0, duration])))
 
     def factors(pieces: int, local: float) -> list[Array]:
-        """Return Φ as a product, the last factor first to act, of as many pieces of the period in orthonormal directions."""
+        """Return Φ as a product of pieces of the period in orthonormal directions; the first factor acts first."""
         (basis, upper), y = np.linalg.qr(P @ T), start
         triangles = [upper]
         for a, b in pairwise(np.linspace(0, duration, pieces + 1)):
@@ -119,9 +138,7 @@ def monodromy_matrix(system: Equations, at: Mapping[Any, Any], values: Values, p
 
     for pieces in _CUTS:
         coarse, fine = (factors(pieces, local) for local in _LOCAL)
-        (others, _), (roots, least) = (
-            product_eigenvalues(*arguments) for arguments in zip((coarse, fine), _LOCAL, strict=True)
-        )
+        (others, _), (roots, least) = (product_eigenvalues(*pair) for pair in zip((coarse, fine), _LOCAL, strict=True))
         apart = np.abs(np.subtract.outer(roots, others)).min(1)
         errors = np.maximum(apart + least, np.finfo(float).tiny)
         if (errors < _RESOLVED * np.abs(roots)).all():
@@ -133,12 +150,12 @@ def monodromy_matrix(system: Equations, at: Mapping[Any, Any], values: Values, p
 
 
 def _at(slope: tuple[Array, Array, Array], size: int) -> tuple[Array, Array]:
-    """The rate of (q, u), and its derivatives by them."""
+    """Return the rate of (q, u) and its derivatives by them."""
     return slope[0][:size], slope[1][:size, :size]
 
 
 def _number(value: Any) -> float:
-    """NaN for what is none."""
+    """Return a float, NaN for an object that is none."""
     try:
         return np.nan if isinstance(value, str | bool) else float(value)
     except (TypeError, ValueError):
@@ -147,10 +164,8 @@ def _number(value: Any) -> float:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Lyapunov(Shown):
-    """The largest Lyapunov exponent, 1/s: the mean growth rate of the distance of neighbours along the run.
-
-    error: the standard error of that mean, from ten parts of the run; history (m,): the mean so far at the times t (m,).
-    """
+    """The largest Lyapunov exponent in 1/s, the mean growth rate of the distance of neighbouring motions. `error` is the
+    standard error of that mean, from ten parts of the run; `history` (m,) is the mean up to the times t (m,)."""
 
     exponent: float
     error: float
@@ -158,24 +173,20 @@ class Lyapunov(Shown):
     history: Array
 
     def summary(self) -> dict[str, str]:
-        """The exponent, its error and the time it belongs to, name → words."""
+        """Summarise the exponent, its error and its time in words."""
         return {
             "largest exponent [1/s]": f"{self.exponent:.4g} ± {self.error:.1g}",
             "over": f"{self.t[-1] - self.t[0]:g} s" if len(self.t) else "no time",
         }
 
 
-def lyapunov(run: SampledMotion) -> Lyapunov:
-    """The largest Lyapunov exponent over the time of the run.
-
-    It belongs to that time: for a regular motion it falls off as log(t)/t. Raises InputError for a run of one sample,
-    IntegrationError where a neighbour's motion cannot go on, as at a singular position that the run passes.
-    """
+def lyapunov_exponent(run: SampledMotion) -> Lyapunov:
+    """Compute the largest Lyapunov exponent for `SystemRun.lyapunov`."""
     if len(run.t) < 2:
         raise InputError("lyapunov: a run of one sample has no duration: simulate to a later time")
     if not run.switched.smooth:
         raise InputError(
-            "lyapunov: the motion has events or forces that jump: its linearised motion jumps, too, and is not run"
+            "lyapunov: the motion has events or forces that jump: its linearised motion jumps, too, and is not computed"
         )
     program, n = tangent_motion(motion_program(run.system)), run.q.shape[1] + run.u.shape[1]
     parameters, d = parameter_values(program, run.values), len(program.states) // 2

@@ -1,9 +1,10 @@
-"""Parts of a system that change within a small part of its swing: bumps, steps and walls of coordinates and velocities.
+"""Narrow terms of a system, which change within a small part of the motion: bumps, steps and walls of coordinates and
+velocities.
 
-A solver whose step is longer than such a part sees nothing of it. Its argument g, of exp(g), tanh(g) or another function, is
-followed with the motion, as ψ = asinh(g): ψ' grows like 1/distance on the way to g = 0, so that steps shrink before it. Of a
-power Dᵖ or log(D), a Lorentzian, it is ψ = log|D|. A part is narrow if ψ changes by more than MOST where one component
-moves through its swing at the rate there. Newton's method seeks it, from states of the motion, at zeros and turning points of g.
+A solver whose step is longer than such a term misses it. Its argument g, of exp(g), tanh(g) or another function, is followed
+with the motion, as ψ = asinh(g): ψ' grows like 1/distance on the way to g = 0, so that steps shrink before it. For a power Dᵖ
+or log(D), a Lorentzian, ψ = log|D|. A term is narrow if ψ changes by more than MOST where one component moves through its swing
+at the rate there. Newton's method seeks that place, from states of the motion, at zeros and turning points of g.
 """
 
 from collections.abc import Mapping, Sequence
@@ -25,18 +26,18 @@ from lagrotor.numerics.pulse import COMPANION_STEP
 from lagrotor.numerics.segment import Array
 from lagrotor.result_display import scientific
 
-MOST = 8.0  # of ψ over the swing of one component, beyond which solvers need to be led
-EDGE = 1e-6  # of the swing, within which two jumps of a Piecewise are seen as one
-_PLACES, _SWEEPS = 16, 6  # states from which zeros and turning points are sought, and how often each component is moved
-_ZERO = 1e-20  # of its size: a power of zero is as narrow everywhere as the motion comes near, and solvers follow it
-# Error of ψ over local^(1/4): DOP853 weighs its error of order 5 by that of order 3 of all components, which grows like
-# local^(−1/2). Of 120 steps and bumps of widths 10⁻⁵ to 0.03, one is missed where it is 1, and none where it is 0.1.
+MOST = 8.0  # change of ψ over the swing of one component, beyond which a term is narrow
+EDGE = 1e-6  # of the swing, within which two jumps of a Piecewise are one
+_PLACES, _SWEEPS = 16, 6  # states from which zeros and turning points are sought; Newton steps of each component
+_ZERO = 1e-20  # D over its size: solvers follow a power of zero, whose width is the distance of the motion
+# Error of ψ over local^(1/4): DOP853 weighs its error of order 5 by the error of order 3 of all components, ∝ local^(−1/2). Of
+# 120 steps and bumps of widths 10⁻⁵ to 0.03, the value 1 misses one, and 0.1 none.
 _LOOSELY = 0.01
 _WIDE = (sp.sin, sp.cos, sp.tan, sp.cot, sp.Abs, sp.sign, sp.Heaviside, sp.asin, sp.acos)
 
 
 class NarrowPart(NamedTuple):
-    """The argument g of a part f(g) of a system's expressions, the factor with which ψ' = factor · g', and the part."""
+    """The argument g of a term f(g) of a system's expressions, the factor with which ψ' = factor · g', and the term."""
 
     argument: sp.Expr
     factor: sp.Expr
@@ -45,7 +46,7 @@ class NarrowPart(NamedTuple):
 
 @lru_cache(maxsize=64)
 def _parts(system: Equations, section: sp.Expr | None) -> tuple[NarrowPart, ...]:
-    """The parts of a section, or of what acts on the motion, that may be narrow, one for each argument."""
+    """Return the terms of a section, or of the energy and forces, that may be narrow, one for each argument."""
     energy = getattr(system.lagrangian, "rest", system.lagrangian)
     states = {*system.c.q, *system.c.v, *system.speeds}
     narrow: dict[sp.Expr, NarrowPart] = {}
@@ -74,7 +75,7 @@ def _parts(system: Equations, section: sp.Expr | None) -> tuple[NarrowPart, ...]
 
 
 def with_followed(scale: Array, followed: Sequence[NarrowPart], local: float, companion: bool = False) -> Array:
-    """Return the units of a solver with those of what is followed, of which a larger error is allowed."""
+    """Return the units of a solver with those of the followed terms, whose error may be larger."""
     unit = FOLLOWED * (COMPANION_STEP if companion else 1.0) * _LOOSELY * local**0.25 / local
     return np.append(scale, np.full(len(followed), unit))
 
@@ -82,14 +83,14 @@ def with_followed(scale: Array, followed: Sequence[NarrowPart], local: float, co
 def narrow_parts(
     system: Equations, values: Mapping[Any, Any], states: Array, section: sp.Expr | None = None
 ) -> tuple[NarrowPart, ...]:
-    """Return the parts of the system, or of a section, that are narrow for a motion with the states (n, d): q, u and, where
-    more is known, the time."""
+    """Return the terms of the system, or of a section, that are narrow for states (n, d): q, u and, in an explicit column,
+    the time."""
     candidates = (_with_edge(system, values, candidate, states) for candidate in _parts(system, section))
     return tuple(candidate for candidate in candidates if _narrowness(system, values, candidate, states) > MOST)
 
 
 def _with_edge(system: Equations, values: Mapping[Any, Any], part: NarrowPart, states: Array) -> NarrowPart:
-    """The part, of a condition with the width of its edge, EDGE of the swing of g: ψ = asinh(g/width)."""
+    """Give a condition of a Piecewise the width EDGE of the swing of g: ψ = asinh(g/width)."""
     if not isinstance(part.term, Relational):
         return part
     swing = np.ptp(function_program(system, part.argument).along(values)(states, np.zeros(len(states))))
@@ -100,7 +101,7 @@ def _with_edge(system: Equations, values: Mapping[Any, Any], part: NarrowPart, s
 def narrowest_words(
     system: Equations, values: Mapping[Any, Any], narrow: Sequence[NarrowPart], run: EstimatedRun
 ) -> str:
-    """Name the narrowest part, when a run first passes its place, and the way out; none where tol was not kept before."""
+    """Name the narrowest term, the time at which a run first passes it, and the way out; "" if tol was not kept before."""
     if not narrow or len(run.t) < 2:
         return ""
     narrowness = [_narrowness(system, values, part, run.states) for part in narrow]
@@ -116,7 +117,7 @@ def narrowest_words(
 
 
 def _narrowness(system: Equations, values: Mapping[Any, Any], part: NarrowPart, states: Array) -> float:
-    """The most by which ψ changes over the swing of a component, at its rate at one place; 0 where D is zero somewhere."""
+    """Return the largest change of ψ over the swing of a component, at its rate at one place; 0 where D is zero somewhere."""
     every, g = (*system.c.q, *system.speeds), part.argument
     moving = [i for i, s in enumerate(every) if s in g.free_symbols and np.ptp(states[:, i]) > 0]
     if not moving:

@@ -1,8 +1,8 @@
 """A motion in phases, each smooth: between them velocities jump, gaps close and open, dry friction sticks and slips.
 
-In a phase every sign is fixed, what sticks is a rolling constraint, and a closed gap is a holonomic one. The phase ends where
-one of its conditions does: a gap or a sliding velocity reaches zero, a reaction its bound. All are sought on the solver's
-own steps, as zeros of smooth functions, so none depends on the times at which a run is read.
+In a phase every sign is constant, sticking friction is a rolling constraint, and a closed gap is a holonomic one. The phase
+ends with one of its conditions: a gap or a sliding velocity reaches zero, a reaction its bound. These times are sought on the
+solver's own steps, as zeros of smooth functions, so none depends on the sample times of the run.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -34,26 +34,26 @@ from lagrotor.numerics.solver_constants import MOST_EVENTS
 from lagrotor.numerics.solvers import dop853_steps
 from lagrotor.numerics.zeros import zeros_between
 
-_BESIDE = 1e-7  # of a step: a condition that has just become true is not sought so near to its start
-_FRESH = 0.01  # of the first step of a phase, in which that is looked at
-_ROUNDINGS = 64.0  # of a state, of which a condition is unsure
+_BESIDE = 1e-7  # of a step: so near to its start no zero is sought, as a condition may have just become true
+_FRESH = 0.01  # of the first step of a phase, in which a zero may be a condition that has just become true
+_ROUNDINGS = 64.0  # rounding errors of a state that make the noise of a condition
 _NOISE = 1e-12  # of the size of a velocity or a reaction, below which it is zero
 _STEP = 1e-5  # of a size, by which a component is varied for the size of a function
-_AT_ONCE = 20  # events without time between them, after which the motion is outside what is followed
-_HABIT, _GONE = 8, 1e-8  # impacts whose intervals shrink alike; what is left to their end, of the run
-SAFETY = 20.0  # local error of a run over that of the steps on which its events are sought
+_AT_ONCE = 20  # events at one time, after which the motion is refused
+_HABIT, _GONE = 8, 1e-8  # impacts whose intervals shrink by one factor; the time to their accumulation over the run
+SAFETY = 20.0  # local error of a run over the local error of the steps on which its events are sought
 
 
 class ContactMode(NamedTuple):
-    """The sign of each surface, 0 where it sticks; whether each impact's gap is closed; ended: 0, or which ending froze the
-    motion, counted from 1. Components of the state of a run, after q, v and t."""
+    """The contacts of a motion: the sign of each surface (0: it sticks), 1 for each closed gap, and the ending. `ended` is 0,
+    or the number from 1 of the ending that froze the motion. These follow q, v and t in the state of a run."""
 
     signs: tuple[int, ...]
     closed: tuple[int, ...]
     ended: int = 0
 
     def with_value(self, component: Literal["signs", "closed"], i: int, value: int) -> "ContactMode":
-        """The mode with another value of one component."""
+        """Return the mode with another value of one component."""
         values: list[int] = [*getattr(self, component)]
         values[i] = int(value)
         changed: dict[str, Any] = {component: tuple(values)}
@@ -61,7 +61,7 @@ class ContactMode(NamedTuple):
 
 
 class Moment(NamedTuple):
-    """A state (q, v, …), when, and the mode of its contacts."""
+    """A state (q, v, …), its time, and the mode of its contacts."""
 
     y: Array
     t: float
@@ -69,7 +69,7 @@ class Moment(NamedTuple):
 
 
 class Hit(NamedTuple):
-    """The end of a phase: the time since its start, and of which kind is the condition that ended, with its index."""
+    """The end of a phase: the time since its start, and kind and index of the condition that ended."""
 
     since: float
     kind: str
@@ -78,7 +78,8 @@ class Hit(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Phase:
-    """A smooth system: what sticks and what is closed among its constraints; conditions: (kind, index, expression > 0)."""
+    """A smooth system, with sticking surfaces and closed gaps among its constraints; conditions: (kind, index, expression >
+    0)."""
 
     system: Equations
     conditions: tuple[tuple[str, int, sp.Expr], ...]
@@ -97,12 +98,9 @@ Observer = Callable[[float, float, float, Callable[[Array], Array]], None]
 
 @dataclass(frozen=True, eq=False)
 class Switched:
-    """A system with events: its smooth part, the values of the parameters, the surfaces of its jumps, and the events.
-
-    scale (N + m,): of each component, for the solver; sizes: of each, zero before they are known.
-    windows: where something acts briefly by the clock. narrow: parts that change within a small part of the swing.
-    While it is run: the phases that it was in, the endings of its runs, and the times between which a step may hide an event.
-    """
+    """A system with events: its smooth part, parameter values, surfaces of jumps and events. `scale` and `sizes` (N + m,)
+    belong to the components; sizes are zero before they are measured. A run adds its phases, its endings, the times between
+    which a step may hide an event, and accumulations of impacts."""
 
     system: Equations
     values: Mapping[Any, Any]
@@ -123,12 +121,12 @@ class Switched:
 
     @property
     def size(self) -> int:
-        """N + m, of q and u."""
+        """The number N + m of components of q and u."""
         return self.n + len(self.system.speeds)
 
     @property
     def smooth(self) -> bool:
-        """Whether nothing switches."""
+        """True if nothing switches."""
         return not (self.surfaces or self.events)
 
     @property
@@ -146,16 +144,16 @@ class Switched:
         return ContactMode(numbers[:signs], numbers[signs:-1], numbers[-1])
 
     def state(self, y: Array, time: float, mode: ContactMode) -> Array:
-        """(q, v, t, mode): what a run carries from stage to stage."""
+        """Return (q, v, t, mode), the state that a run passes from stage to stage."""
         return np.concatenate([y[: self.size], [time], mode.signs, mode.closed, [mode.ended]])
 
     def evaluate(self, system: Equations, expressions: Sequence[sp.Expr], at: Moment) -> Array:
-        """Expressions at one moment, of the motion of `system`."""
+        """Evaluate expressions at one moment of the motion of `system`."""
         program = function_program(system, *expressions)
         return program.along(self.numbers(at.mode))(at.y[None], np.array([at.t]))[:, 0]
 
     def sizes_of(self, system: Equations, expressions: Sequence[sp.Expr], at: Moment) -> Array:
-        """The sizes (k,) of terms of expressions at one moment, in any units: Σ |∂e/∂y| times the size of y."""
+        """Return the sizes (k,) of the terms of expressions at one moment, Σ |∂e/∂y| times the size of y."""
         y = at.y[: self.size]
         steps = np.diag(_STEP * np.maximum(np.abs(y), self.sizes))
         values = function_program(system, *expressions).along(self.numbers(at.mode))(
@@ -166,14 +164,14 @@ class Switched:
         return np.asarray(np.nan_to_num(sizes, posinf=0.0))
 
     def numbers(self, mode: ContactMode) -> dict[str, Any]:
-        """The values of the parameters, and of the signs in this mode."""
+        """Return the values of the parameters, and of the signs in this mode."""
         if not isinstance(self.values, Mapping):
-            return self.values  # and are refused where a parameter is sought
+            return self.values  # `parameter_values` will refuse it
         signs = zip(self.surfaces, mode.signs, strict=True)
         return {str(k): v for k, v in self.values.items()} | {str(s.sign): float(sign) for s, sign in signs}
 
     def phase(self, mode: ContactMode) -> Phase:
-        """The phase of a mode. Which way what slips does not change its equations, only the value of a sign."""
+        """Return the phase of a mode; the sign of a slipping surface is a parameter of its equations."""
         sticking = tuple(i for i, s in enumerate(mode.signs) if s == 0)
         key = (sticking, mode.closed)
         if key not in self.phases:
@@ -184,13 +182,8 @@ class Switched:
         base, still = self.system, {self.surfaces[i].sign: sp.S.Zero for i in sticking}
         slips = [self.surfaces[i].argument.xreplace(still) for i in sticking]
         gaps = [i for i, state in enumerate(closed) if state]
-        multiplier_names, count = base.multiplier_names, len(base.constraints)
-        names = (
-            *multiplier_names[:count],
-            *(f"gap {i + 1}" for i in gaps),
-            *multiplier_names[count:],
-            *(f"held {i + 1}" for i in sticking),
-        )
+        labels, h = base.multiplier_names, len(base.constraints)
+        names = (*labels[:h], *(f"gap {i + 1}" for i in gaps), *labels[h:], *(f"held {i + 1}" for i in sticking))
         system = Equations(
             base.c,
             base.lagrangian.xreplace(still),
@@ -224,14 +217,14 @@ class Switched:
 
 
 def with_events(system: Equations, values: Mapping[Any, Any], events: tuple[Event | Impact, ...] = ()) -> Switched:
-    """The system with its events and the surfaces of its jumps."""
+    """Return the system with its events and the surfaces of its jumps."""
     smooth, surfaces = without_jumps(system)
     size = len(system.c.q) + len(system.speeds)
     return Switched(smooth, values, surfaces, events, np.ones(size), np.zeros(size))
 
 
 def begin(h: Switched, q: Array, v: Array, time: float) -> Array:
-    """The state (q, v, t, mode) at the start: signs as the velocities are, all gaps open but those that are at rest on zero."""
+    """Return the initial state (q, v, t, mode): signs of the velocities, and all gaps open except those at rest on zero."""
     start = Moment(np.concatenate([q, v]), time, h.slipping)
     try:
         mode = _settle(h, start)
@@ -249,15 +242,10 @@ def march(
     observe: Observer | None = None,
     companion: bool = False,
 ) -> Stretch:
-    """The states (q, v, t, mode) at the times, the first of which is that of the start, and the times of jumps.
-
-    Time is counted from the start: by a clock far from zero each event would be rounded to the spacing of doubles there.
-
-    Where an event ends the motion, or it cannot be followed further, the state stays as it is there, its time included.
-    observe: called with the time at which a phase began, the ends of each step since then, and its dense output, (q, u).
-    companion: by other steps in narrow parts and brief windows.
-    Raises StopError with what was reached, where the solver stops.
-    """
+    """Return the states (q, v, t, mode) at the times, from `start` at the first of them, and the times of jumps. Time counts
+    from the start, since far from zero the clock would round each event. After an event that ends the motion, the state with
+    its time stays constant. `observe` is called with the time of the phase's start, and the ends and dense output of each
+    step. A companion takes other steps in narrow terms and brief windows."""
     clock, since = float(start[h.size]), times - times[0]
     end, y, now, mode, evaluations = float(since[-1]), start[: h.size], 0.0, h.mode(start), 0
     if mode.ended:
@@ -273,9 +261,8 @@ def march(
     while now < end and not mode.ended:
         try:
             later = since[since > now] - now
-            stretch, hit = _smooth(
-                h, y, clock + now, mode, later, local, budget - evaluations, observe, habit, companion
-            )
+            unused = budget - evaluations
+            stretch, hit = _smooth(h, y, clock + now, mode, later, local, unused, observe, habit, companion)
         except StopError as stop:
             reached = stop.reached or Stretch(np.empty((0, h.size)), y, 0)
             add(reached.states)
@@ -306,7 +293,7 @@ def march(
 
 
 def _end(h: Switched, mode: ContactMode, ending: Ending) -> ContactMode:
-    """The mode of a motion that has ended; endings for the same reason are one, whatever their times."""
+    """Return the mode of a motion that has ended; endings for the same reason are one, whatever their times."""
     same = [i for i, earlier in enumerate(h.endings) if (earlier.kind, earlier.reason) == (ending.kind, ending.reason)]
     if not same:
         h.endings.append(ending)
@@ -325,8 +312,8 @@ def _smooth(
     habit: float,
     companion: bool,
 ) -> tuple[Stretch, Hit | None]:
-    """The motion in one phase, from `now` to the first of its conditions that ends, or to the last of the times, which count
-    from there. habit: the time that has passed between the last two events of a kind."""
+    """Integrate one phase from `now` to the first condition that ends, or through the times since then. `habit` is the time
+    between the last two events of a kind."""
     phase, numbers = h.phase(mode), h.numbers(mode)
     system, scale = phase.system, h.scale
     if depends_on_time(system):
@@ -375,31 +362,29 @@ def _smooth(
 
 
 def _steps(segment: Segment, windows: Sequence[Window], error: float) -> Iterator[Any]:
-    """As `dop853_steps` has it, by steps that are bounded in windows; evaluations are those of all of the segment."""
-    y, evaluations = segment.start, 0
+    """Yield the steps of `dop853_steps`, bounded in windows; `nfev` counts all evaluations of the segment."""
+    y, nfev = segment.start, 0
     for begin, until, longest in segments(segment.begin, segment.until, windows):
-        piece = replace(
-            segment, start=y, begin=begin, until=until, longest=longest, budget=segment.budget - evaluations
-        )
+        piece = replace(segment, start=y, begin=begin, until=until, longest=longest, budget=segment.budget - nfev)
         try:
             for solver in dop853_steps(piece, error):
-                solver.nfev += evaluations
+                solver.nfev += nfev
                 yield solver
-                solver.nfev -= evaluations
+                solver.nfev -= nfev
         except StopError as stop:
-            stop.evaluations += evaluations
+            stop.evaluations += nfev
             raise
-        solver.nfev += evaluations
-        y, evaluations = solver.y, solver.nfev
+        solver.nfev += nfev
+        y, nfev = solver.y, solver.nfev
 
 
 def _first(
     h: Switched, phase: Phase, conditions: Any, lower: float, upper: float, habit: float, noise: Array
 ) -> tuple[Hit | None, list[tuple[float, float]]]:
-    """The first condition of a phase that ends in a step, and where one may be hidden; times count from the start of the phase.
-    noise: of each condition, by rounding."""
+    """Return the first condition of a phase that ends in a step, and the intervals that may hide one. Times count from the
+    start of the phase; `noise` is the rounding error of each condition."""
     begun = lower > 0
-    # The next of impacts that accumulate is near to the start of a step that is made for the motion between them.
+    # The next of accumulating impacts is near to the start of a step, whose size the motion between them determines.
     soon = 4 * habit if not begun and 0 < 4 * habit < upper else lower
     start = lower if begun else _BESIDE * (soon or upper)
     intervals = [zeros_between(conditions, a, b, noise=noise) for a, b in ((lower, soon), (soon, upper)) if b > a]
@@ -410,11 +395,11 @@ def _first(
             kind, i, _ = phase.conditions[k]
             event = h.events[i] if kind == "event" else None
             direction = event.direction if isinstance(event, Event) else -1
-            # A condition that began at zero touches it once more by rounding, and is true again at twice the time.
+            # A condition that starts at zero may touch zero again by rounding; then it is true at twice the time.
             rounding = not begun and s < _FRESH * upper and event is None and conditions(np.array([2 * s]))[k, 0] > 0
             if s > start and direction in (0, way) and not rounding:
                 hits.append(Hit(polish(conditions, int(k), float(s), lower, upper), kind, i))
-    if not begun and not hits:  # a condition that does not hold from the start on
+    if not begun and not hits:  # seek a condition that is false from the start on
         ends = conditions(np.array([10 * start, upper]))
         scale = np.abs(ends).max(1)
         for k, (kind, i, _) in enumerate(phase.conditions):
@@ -424,7 +409,7 @@ def _first(
 
 
 def polish(functions: Any, k: int, t: float, lower: float, upper: float) -> float:
-    """A zero to the last digit that the dense output has, by the secant method."""
+    """Improve a zero by the secant method to the last digit of the dense output."""
     second = min(t + 1e-5 * (upper - lower), upper) if t < upper else t - 1e-5 * (upper - lower)
     f, g = functions(np.array([t, second]))[k]
     for _ in range(4):
@@ -439,7 +424,7 @@ def polish(functions: Any, k: int, t: float, lower: float, upper: float) -> floa
 
 
 def _switch(h: Switched, at: Moment, hit: Hit, gone: float | None) -> Moment:
-    """The state and the mode after an event. gone: the time after which infinitely many of them will be over."""
+    """Return state and mode after an event; after the time `gone` infinitely many of them are over."""
     kind, i = hit.kind, hit.i
     mode, v = at.mode, at.y[h.n : h.size]
     if kind == "surface" and h.surfaces[i].argument.free_symbols & {*h.system.multipliers}:
@@ -478,8 +463,7 @@ def _switch(h: Switched, at: Moment, hit: Hit, gone: float | None) -> Moment:
 
 
 def _rebound(h: Switched, at: Moment, i: int, e: float) -> tuple[Array, bool]:
-    """The velocities after an impact: M Δv = Gᵀ Λ, the approach reversed and multiplied by e, all else held; and whether
-    there was no velocity of approach."""
+    """Return the velocities after an impact, M Δv = Gᵀ Λ with −e times the approach, and True if there was no approach."""
     mode = at.mode.with_value("closed", i, True)
     n, system = h.n, h.phase(mode._replace(signs=tuple(s or 1 for s in mode.signs))).system
     numbers, state = h.numbers(mode), np.append(at.y[: h.size], at.t)
@@ -494,7 +478,7 @@ def _rebound(h: Switched, at: Moment, i: int, e: float) -> tuple[Array, bool]:
 
 
 def _sign_beyond(h: Switched, at: Moment, i: int) -> int:
-    """The sign of a surface where the state is on it: by the rates of w on either side (Filippov); 0 where both lead to it."""
+    """Return the sign of a surface beyond it, by the rates of w on either side (Filippov); 0 where both lead to it."""
     argument = h.surfaces[i].argument
     above, below = _rates_beside(h, at, i, 1)
     if not argument.free_symbols & {*h.system.c.v} and max(abs(above), abs(below)) <= _NOISE * float(
@@ -518,7 +502,7 @@ def _sign_beyond(h: Switched, at: Moment, i: int) -> int:
 
 
 def _rates_beside(h: Switched, at: Moment, i: int, order: int) -> tuple[float, float]:
-    """The first or second rate of w above and below its surface."""
+    """Return the first or second rate of w above and below its surface."""
 
     def rate(sign: int) -> float:
         mode, e = at.mode.with_value("signs", i, sign), h.surfaces[i].argument
@@ -531,7 +515,7 @@ def _rates_beside(h: Switched, at: Moment, i: int, order: int) -> tuple[float, f
 
 
 def _settle(h: Switched, at: Moment, fixed: bool = False) -> ContactMode:
-    """A mode that the state and its reactions agree with. fixed: the signs are those that were decided at an event."""
+    """Find a mode that agrees with the state and its reactions; `fixed` keeps the signs that an event decided."""
     mode = at.mode
     if h.surfaces and not fixed:
         arguments = [s.argument for s in h.surfaces]
@@ -552,17 +536,14 @@ def _settle(h: Switched, at: Moment, fixed: bool = False) -> ContactMode:
         if values[worst] >= -_NOISE * (size + float(h.sizes_of(phase.system, expressions, moment)[worst])):
             break
         kind, i, _ = reactions[worst]
-        mode = (
-            mode.with_value("closed", i, False)
-            if kind == "reaction"
-            else mode.with_value("signs", i, -1 if kind == "above" else 1)
-        )
+        change: tuple[Any, int] = ("closed", 0) if kind == "reaction" else ("signs", -1 if kind == "above" else 1)
+        mode = mode.with_value(change[0], i, change[1])
     return mode
 
 
 def _accumulating(history: Mapping[Any, list[float]], past: list[float], span: float, clock: float) -> float | None:
-    """What is left to the time at which events accumulate, each a constant part of the one before it: where that is next to
-    nothing. clock: what it showed at the start. Raises StopError where they are too many."""
+    """Return the time to the accumulation of events whose intervals shrink by a constant factor, where it is negligible.
+    `clock` is the time at the start. Raises StopError for too many events."""
     now = past[-1]
     if len(past) > _HABIT:
         intervals = np.diff(past[-_HABIT - 1 :])
@@ -578,8 +559,8 @@ def _accumulating(history: Mapping[Any, list[float]], past: list[float], span: f
 
 
 def evaluate(h: Switched, expression: sp.Expr, times: Array, states: Array) -> Array:
-    """An expression along a motion in phases (n,): accelerations and multipliers are those of each phase, and the sign of what
-    sticks is what holds it over its bound."""
+    """Evaluate an expression along a motion in phases, shape (n,), with the accelerations and multipliers of each phase. The
+    sign of a sticking surface is its friction force over the bound."""
     c, values = len(h.system.constraints), np.empty(len(times))
     modes = [h.mode(state) for state in states]
     for mode in dict.fromkeys(modes):

@@ -1,8 +1,7 @@
 """The equations of motion as generated programs: state → its derivative, in stages that never multiply out.
 
-The state is (q, u), u the velocities of one's own or v, with t as a last component where time enters explicitly. The
-mass matrix is factored by L D Lᵀ, the
-constraints by that of their Schur complement S = G M⁻¹ Gᵀ, element by element as stages.
+The state is (q, u), u the quasi-velocities or v, with t as a last component where time enters explicitly. The mass matrix is
+factored by L D Lᵀ, the constraints by that of their Schur complement S = G M⁻¹ Gᵀ, element by element as stages.
 """
 
 import math
@@ -32,19 +31,19 @@ from lagrotor.numerics.codegen import Program, Stage, solve_symmetric, tangent_p
 from lagrotor.numerics.printers import compile_program, rhs_source
 from lagrotor.numerics.source_cache import function_of
 
-LEAST_TREE = 2  # coordinates from which on the recursion of a tree takes less operations than the mass matrix
+LEAST_TREE = 2  # coordinates from which the recursion of a tree takes fewer operations than the mass matrix
 _OWN = "s y t I Q rate bare make pulse width begin LOST OutsideError"  # names of generated code
-_LONG = 300  # operations of a Lagrangian from which on its equations are made by sweeps
-_STATES = 3  # random ones, at which the rank of a matrix is read off
+_LONG = 300  # operations of a Lagrangian from which its equations are made by sweeps
+_STATES = 3  # random states at which the rank of a matrix is measured
 _NEWTON = 20  # steps that bring them onto the constraints
 _ROUNDING = 1e-12  # of a matrix with a unit diagonal, in its singular values
-FOLLOWED = 1000  # times ψ: heyoka carries it, as what no rate depends on, at a millionth
-MANY = 100  # stages from which on common parts of their sums and products are not worth the search
+FOLLOWED = 1000  # factor of ψ: heyoka scales ψ, on which no rate depends, down to a millionth
+MANY = 100  # stages from which common parts of their sums and products are not worth the search
 
 
 @dataclass(frozen=True)
 class Jet:
-    """An unknown function in a program, or a derivative of one: how often by each argument."""
+    """An unknown function in a program, or a derivative of one; `orders` counts the derivatives by each argument."""
 
     name: str
     orders: tuple[int, ...]
@@ -55,11 +54,9 @@ class Jet:
 
 @dataclass(frozen=True, eq=False)
 class Generated:
-    """The program of a system's motion, (state, parameters) → d(state)/dt, with names that any language takes.
-
-    states: the symbols q, v and, where time enters, t; parameters: the other symbols, sorted by name, and after them the
-    functions and derivatives of functions that are called.
-    """
+    """The program of a system's motion, (state, parameters) → d(state)/dt, with names that any language accepts. `states` are
+    the symbols q, v and, where time enters, t; `parameters` the other symbols sorted by name, then the functions and
+    derivatives of functions that are called."""
 
     program: Program
     states: tuple[sp.Symbol, ...]
@@ -72,21 +69,21 @@ class Generated:
 
     @cached_property
     def rhs(self) -> Callable[..., Any]:
-        """parameters → rhs(t, y)."""
+        """The function parameters → rhs(t, y)."""
         clock = self.states.index(t) if t in self.states else None
         return function_of(rhs_source(self.program, len(self.states), clock=clock))
 
     def rate(self, parameters: Sequence[Any], begin: float) -> Callable[..., Any]:
-        """rhs(s, y), the time being begin + s: as a state it would be off by the rounding of all steps together."""
+        """Return rhs(s, y) at the time begin + s: as a state, the time would accumulate the rounding of all steps."""
         return self.rhs(*parameters, begin) if t in self.states else self.rhs(*parameters)
 
     @cached_property
     def function(self) -> Callable[..., Any]:
-        """(*arguments) → outputs, for numbers and arrays."""
+        """The function (*arguments) → outputs, for numbers and arrays."""
         return compile_program(self.program, "numpy")
 
     def along(self, values: Mapping[Any, Any], where: str = "simulate") -> Callable[[Array, Array], Array]:
-        """(states (n, ≥ N + m), q and u first; times (n,)) → outputs (k, n), for a program in q, u and t."""
+        """Return (states (n, ≥ N + m), q and u first; times (n,)) → outputs (k, n), for a program in q, u and t."""
         function, parameters, d = self.function, parameter_values(self, values, where), len(self.states) - 1
 
         def outputs(states: Array, times: Array) -> Array:
@@ -102,14 +99,19 @@ class Generated:
 
 @lru_cache(maxsize=64)
 def motion_program(system: Equations, followed: tuple[Any, ...] = ()) -> Generated:
-    """The program of a system's right-hand side, (q, u[, t], ψ) → (v, u'[, 1], ψ').
+    """Generate the right-hand side (q, u[, t], ψ) → (v, u'[, 1], ψ') of a system.
 
-    followed: g, the factor and the part of each ψ, ψ' = factor · g'; FOLLOWED ψ is integrated with the motion.
+    Parameters
+    ----------
+    system : Equations
+        The system.
+    followed : tuple of NarrowPart, default ()
+        Each gives a ψ with ψ' = factor · g'; FOLLOWED ψ is integrated with the motion.
 
-    Raises
-    ------
-    SingularError
-        When the mass matrix or the Schur complement is singular in its structure.
+    Returns
+    -------
+    Generated
+        The program.
     """
     stages, rates, _ = motion_of_speeds(system)
     clock = [sp.S.One] * depends_on_time(system)
@@ -122,17 +124,15 @@ def motion_program(system: Equations, followed: tuple[Any, ...] = ()) -> Generat
 
 
 def state_symbols(system: Equations) -> tuple[sp.Symbol, ...]:
-    """The state of a motion: q, u and, where the time enters, t."""
+    """Return the state of a motion: q, u and, where the time enters, t."""
     return (*system.c.q, *system.speeds, *((t,) if depends_on_time(system) else ()))
 
 
 def _program(
     states: tuple[sp.Symbol, ...], stages: Sequence[Stage], outputs: Sequence[sp.Expr], moving: bool = False
 ) -> Generated:
-    """A program of a state and parameters, its symbols renamed where a language would not take their names.
-
-    moving: it is evaluated so often that common parts are worth the search.
-    """
+    """Return a program of a state and parameters, with new names where a language would not accept a symbol's. In a program
+    for a motion, which is evaluated often, common parts of sums and products are sought."""
     stages, outputs, functions = _with_calls(stages, outputs)
     names = dict.fromkeys(name for name, _ in stages)
     used = set().union(*(e.free_symbols for _, e in stages), *(e.free_symbols for e in outputs)) - names.keys()
@@ -167,8 +167,8 @@ def _program(
 def _with_calls(
     stages: Sequence[Stage], outputs: Sequence[sp.Expr], calls: Mapping[sp.Symbol, Jet] | None = None
 ) -> tuple[list[Stage], list[sp.Expr], dict[sp.Symbol, Jet]]:
-    """Stages and outputs that call what stands for unknown functions and their derivatives, and these, by the names of which
-    they are arguments of the program. known: those that are called already."""
+    """Replace unknown functions and their derivatives by calls; return stages, outputs, and the functions by name of
+    argument. `calls` are the functions that are called already."""
     jets = {str(name): jet for name, jet in (calls or {}).items()}
     symbols = {jet: name for name, jet in (calls or {}).items()}
 
@@ -184,7 +184,7 @@ def _with_calls(
 
 
 def velocities_along(system: Equations, values: Mapping[Any, Any], states: Array, times: Array) -> Array:
-    """v (n, N) at states (n, ≥ N + m), q and u first."""
+    """Return v (n, N) at states (n, ≥ N + m), q and u first."""
     if system.kinematics is None:
         return states[:, len(system.c.q) : 2 * len(system.c.q)]
     return function_program(system, *system.c.v).along(values)(states, times).T
@@ -192,23 +192,21 @@ def velocities_along(system: Equations, values: Mapping[Any, Any], states: Array
 
 @lru_cache(maxsize=64)
 def rows_program(system: Equations) -> Generated:
-    """(q, u, t) → the rows of the constraints that multipliers keep, for u', one after another."""
+    """Generate (q, u, t) → the rows, for u', of the constraints that multipliers keep, one after another."""
     return function_program(system, *rows_left(system)[0])
 
 
 @lru_cache(maxsize=64)
 def mass_program(system: Equations) -> Generated:
-    """(q, u, t) → the mass matrix of u', one row after another."""
+    """Generate (q, u, t) → the mass matrix of u', one row after another."""
     stages, M, _ = equations_of_speeds(system)
     return _program((*system.c.q, *system.speeds, t), stages, [*M])
 
 
 @lru_cache(maxsize=64)
 def start_program(system: Equations) -> Generated:
-    """(q, u, t) → M, g, ∂g/∂q, and of the constraints that multipliers keep, the rows for u' and the residuals.
-
-    M is the mass matrix in the velocities v, and the unit matrix of u for those of one's own.
-    """
+    """Generate (q, u, t) → M, g, ∂g/∂q, and rows for u' and residuals of the constraints that multipliers keep. M is the mass
+    matrix of the velocities v, and the unit matrix for quasi-velocities."""
     h, M = len(system.constraints), system.mass if system.kinematics is None else sp.eye(len(system.speeds))
     residual = [system.residual[i] for i in system.left]
     return function_program(system, *M, *system.constraints, *system.rows[:h, :], *rows_left(system)[0], *residual)
@@ -216,7 +214,7 @@ def start_program(system: Equations) -> Generated:
 
 @lru_cache(maxsize=256)
 def function_program(system: Equations, *expressions: sp.Expr) -> Generated:
-    """(q, u, t) → expressions in q, v, u, t, the accelerations and the multipliers of a motion."""
+    """Generate (q, u, t) → expressions in q, v, u, t, the accelerations and the multipliers of a motion."""
     states = (*system.c.q, *system.speeds, t)
     named = dict(zip(system.reactions, system.multipliers, strict=True))
     expressions = tuple(e.xreplace(named) for e in expressions) if named else expressions
@@ -231,7 +229,7 @@ def function_program(system: Equations, *expressions: sp.Expr) -> Generated:
 
 
 def velocity_stages(system: Equations) -> list[Stage]:
-    """v, made of velocities of one's own."""
+    """Return stages of v from quasi-velocities."""
     kinematics = system.kinematics
     if kinematics is None:
         return []
@@ -241,7 +239,8 @@ def velocity_stages(system: Equations) -> list[Stage]:
 
 @lru_cache(maxsize=64)
 def clock_program(system: Equations) -> Generated | None:
-    """(t) → the largest parts of the equations of motion that are made of t and parameters alone; None where there are none."""
+    """Generate (t) → the largest terms of the equations of motion that contain t and parameters alone; None without such
+    terms."""
     if not depends_on_time(system):
         return None
     stages, rates, _ = motion_of_speeds(system)
@@ -251,7 +250,7 @@ def clock_program(system: Equations) -> Generated | None:
 
 @lru_cache(maxsize=64)
 def energy_program(system: Equations) -> Generated:
-    """(q, u, t) → the Jacobi integral."""
+    """Generate (q, u, t) → the Jacobi integral."""
     tree = tree_of(system) if len(system.c.q) >= LEAST_TREE else None
     if tree is None and _is_long(system):
         swept, energy = swept_energy(system)
@@ -264,7 +263,7 @@ def energy_program(system: Equations) -> Generated:
 
 
 def _is_plain(name: str) -> bool:
-    """Return whether generated code may have it for a name: one of mathematics, no word of a language, none that stages have."""
+    """Return True if generated code may use a name: no function of mathematics, no keyword, and no name of a stage."""
     return name.isidentifier() and not (
         iskeyword(name)
         or name in vars(math)
@@ -275,16 +274,14 @@ def _is_plain(name: str) -> bool:
 
 
 def depends_on_time(system: Equations) -> bool:
-    """Return whether t is in the Lagrangian, a force, the friction, a constraint or a velocity of one's own."""
+    """Return True if t is in the Lagrangian, a force, the friction, a constraint or a quasi-velocity."""
     expressions = (*system.acting, *(e for _, e in system.velocities))
     return t in system.letters or any(t in e.free_symbols for e in expressions)
 
 
 def constrained_motion(system: Equations, every: bool = True) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
-    """Stages, and accelerations and multipliers made of them; of all constraints, or of those that are left.
-
-    Those of constraints that velocities of one's own keep are what is missing in M α + h = Q + Gᵀ λ, by [A; G]⁻ᵀ.
-    """
+    """Return stages, accelerations and multipliers, of all constraints or of those not kept by quasi-velocities. The
+    multipliers of constraints that quasi-velocities keep follow from M α + h = Q + Gᵀ λ, by [A; G]⁻ᵀ."""
     stages, rates, lam = motion_of_speeds(system)
     kinematics = system.kinematics
     if kinematics is None:
@@ -300,8 +297,7 @@ def constrained_motion(system: Equations, every: bool = True) -> tuple[list[Stag
 
 
 def motion_of_speeds(system: Equations) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
-    """Stages, and u' and the multipliers that are left made of them: of a tree of bodies by its recursion, else from the mass
-    matrix."""
+    """Return stages, u' and the independent multipliers, by the recursion of a tree of bodies or from the mass matrix."""
     G, gamma = rows_left(system)
     friction = bool(system.push.free_symbols & {*system.multipliers})
     if (by_tree := tree_motion(system)) is not None:
@@ -319,11 +315,8 @@ def _is_long(system: Equations) -> bool:
 
 @lru_cache(maxsize=64)
 def equations_of_speeds(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matrix]:
-    """Stages, and made of them M and Q − h of M u' = Q − h + Gᵀ λ, with v in them.
-
-    Of a long Lagrangian by sweeps; of a short one for velocities of one's own by the equations of Boltzmann and Hamel, or,
-    where these velocities are made in stages, as they are projected.
-    """
+    """Return stages, M and Q − h of M u' = Q − h + Gᵀ λ, with v in them. A long Lagrangian takes sweeps; a short one with
+    quasi-velocities the equations of Boltzmann and Hamel, or their projection where the quasi-velocities have stages."""
     if _is_long(system):
         return swept_equations(system)
     kinematics, first = system.kinematics, velocity_stages(system)
@@ -338,8 +331,8 @@ def equations_of_speeds(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.M
 
 
 def tree_motion(system: Equations) -> tuple[list[Stage], sp.Matrix] | None:
-    """Stages, and M⁻¹ (Q − h) and M⁻¹ Gᵀ column by column, of a tree of bodies by its recursion; None where it is none, or
-    where constraints must bind what no mass moves with."""
+    """Return stages, and M⁻¹ (Q − h) and M⁻¹ Gᵀ in columns, by the recursion of a tree of bodies. None for any other system,
+    and where constraints bind a direction without mass."""
     tree = tree_of(system) if len(system.c.q) >= LEAST_TREE else None
     if tree is None:
         return None
@@ -358,14 +351,10 @@ def tree_motion(system: Equations) -> tuple[list[Stage], sp.Matrix] | None:
 
 @lru_cache(maxsize=64)
 def inertia(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matrix]:
-    """Stages of W, then W and M + Gᵀ W G made of them; W = 0 where M is regular.
-
-    Where a massless direction is bound by the constraints, as the length of a quaternion is, the equations with these rows
-    added, (M + Gᵀ W G) a = Q − h − Gᵀ W γ + Gᵀ λ, have the same solutions, accelerations and multipliers, and a positive
-    definite matrix. W is the mean mass over the squared length of each row. Decided at random states.
-
-    Raises SingularError where the constraints do not bind it.
-    """
+    """Return stages of W, then W and M + Gᵀ W G; W = 0 where M is regular. Where the constraints bind a massless direction,
+    as the length of a quaternion, (M + Gᵀ W G) a = Q − h − Gᵀ W γ + Gᵀ λ has the same solutions, accelerations and
+    multipliers, and a positive definite matrix. W is the mean mass over the squared length of each row. Random states decide;
+    SingularError where the constraints do not bind the direction."""
     (stages, M, _), (G, _) = equations_of_speeds(system), rows_left(system)
     if _regular(system, stages, M):
         return [], sp.zeros(G.rows, G.rows), M
@@ -378,8 +367,7 @@ def inertia(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matrix]:
 
 
 def _regular(system: Equations, stages: Sequence[Stage], matrix: sp.Matrix) -> bool:
-    """Whether a symmetric matrix made of stages has full rank at one of some random states on the constraints; where it has
-    no value, it is taken to."""
+    """Return True if a symmetric matrix made of stages has full rank, or no value, at random states on the constraints."""
     bound = (*system.constraints, *jacobian(system.constraints, system.c.q))
     program = _program((*system.c.q, *system.speeds, t), stages, [*matrix, *bound])
     letters = (*system.c.q, *system.speeds, t, *(p for p in program.parameters if not isinstance(p, Jet)))
@@ -408,8 +396,8 @@ def _regular(system: Equations, stages: Sequence[Stage], matrix: sp.Matrix) -> b
 def under_constraints(
     stages: list[Stage], solved: sp.Matrix, G: sp.Matrix, gamma: sp.Matrix, friction: bool = False
 ) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
-    """From M⁻¹ (Q − h) and, column by column, W = M⁻¹ (Gᵀ + ∂Q/∂λ) to the accelerations under the constraints, and the
-    multipliers."""
+    """Return stages, accelerations and multipliers under the constraints. `solved` is M⁻¹ (Q − h) and, column by column, W =
+    M⁻¹ (Gᵀ + ∂Q/∂λ)."""
     free, W = solved[:, :1], solved[:, 1:]
     if not G.rows:
         return stages, list(free), []
@@ -421,7 +409,7 @@ def under_constraints(
 
 
 def constraint_solve(S: sp.Matrix, right: sp.Matrix, prefix: str) -> tuple[list[Stage], sp.Matrix]:
-    """Stages that solve S x = right for the Schur complement S."""
+    """Return stages that solve S x = right for the Schur complement S, and x."""
     try:
         return solve_symmetric(S, right, prefix)
     except SingularError:
@@ -430,10 +418,8 @@ def constraint_solve(S: sp.Matrix, right: sp.Matrix, prefix: str) -> tuple[list[
 
 @lru_cache(maxsize=64)
 def projection_program(system: Equations) -> Generated:
-    """One Newton step of the state onto the constraints, along M⁻¹ Gᵀ: q − M⁻¹ Gᵀ S⁻¹ g, v − M⁻¹ Gᵀ S⁻¹ (G v + b).
-
-    Rolling constraints bind velocities alone. With velocities of one's own, along Gᵀ: M = 1.
-    """
+    """Generate one Newton step onto the constraints, along M⁻¹ Gᵀ: q − M⁻¹ Gᵀ S⁻¹ g, v − M⁻¹ Gᵀ S⁻¹ (G v + b). Rolling
+    constraints bind velocities alone. For quasi-velocities the step is along Gᵀ: M = 1."""
     G, n, h = system.rows, len(system.c.q), len(system.constraints)
     if system.kinematics is None:
         added, _, M = inertia(system)
@@ -455,7 +441,7 @@ def projection_program(system: Equations) -> Generated:
 
 
 def tangent_motion(motion: Generated) -> Generated:
-    """The motion with its linearisation, (y, δ; parameters) → (f, (∂f/∂y) δ)."""
+    """Return the motion with its linearisation, (y, δ; parameters) → (f, (∂f/∂y) δ)."""
     d, arguments = len(motion.states), motion.program.arguments
     names = [sp.Symbol(f"d{i}_", real=True) for i in range(d)]
     slopes = {y: [name] for y, name in zip(arguments, names, strict=False)}
@@ -468,10 +454,7 @@ def tangent_motion(motion: Generated) -> Generated:
 
 
 def parameter_values(program: Generated, values: Mapping[Any, Any], where: str = "simulate") -> tuple[Any, ...]:
-    """The parameters' values in the program's order, numbers and callables; keys are symbols or their names.
-
-    Raises InputError, on behalf of the function `where`, when one is missing or is not a finite number.
-    """
+    """Return the parameters' values in the program's order, numbers and callables; keys are symbols or their names."""
     if not isinstance(values, Mapping):
         raise InputError(f"{where}: values = {values!r} must be {{symbol: number, …}}, a dictionary")
     by_name = {str(key): value for key, value in values.items()}

@@ -1,7 +1,7 @@
-"""The scales of a motion and its conserved quantities, by which errors of a run are judged in any units.
+"""The scales of a motion and its conserved quantities, by which errors of a run are measured in any units.
 
-Jacobi's integral and the momenta of cyclic coordinates are watched while a motion is run. A run that does not keep them within
-its error estimate is not the system's motion. Constraints are kept by projection.
+Jacobi's integral and the momenta of cyclic coordinates are checked while a motion is run: a run that does not conserve them
+within its error estimate is refused. Projection keeps the constraints.
 """
 
 from collections.abc import Callable
@@ -34,25 +34,23 @@ from lagrotor.numerics.segment import Integrate, Segment, StopError, Stretch
 from lagrotor.numerics.solvers import dop853, lsoda
 
 _COARSE, _EVALUATIONS = 1e-3, 4_000  # local error and budget of the survey of a motion
-_PEAK = 100.0  # times what a component mostly is, beyond which it does not count for its size
-_AT_REST = 1e-10  # of the largest value of a component: one that is mostly smaller was at rest
-_PER_TURN = 50  # evaluations that the survey takes for a turn
-_STIFF = 30.0  # rate at which neighbours are drawn together, times the duration
-_LOST = 1e-12  # of the largest velocity, below which another has no digit in the energy
-_ROUNDING = 1e-14  # of the largest place: under constraints a smaller one is rounding of the others
-_OVERFLOWS = 1e75  # of a number whose fourth power is in the energy
-_QUIET = 1e-3  # of the velocity that all of the kinetic energy gives a coordinate: what moves less is at rest
+_PEAK = 100.0  # a component over its median, beyond which it does not count for its size
+_AT_REST = 1e-10  # median over the largest value of a component, below which it was at rest
+_PER_TURN = 50  # evaluations of the survey per turn
+_STIFF = 30.0  # rate at which neighbouring motions approach each other, times the duration
+_LOST = 1e-12  # velocity over the largest, below which it does not change the energy in a double
+_ROUNDING = 1e-14  # position over the largest, below which it is rounding of the others under constraints
+_OVERFLOWS = 1e75  # a number whose fourth power overflows
+_QUIET = 1e-3  # least velocity over the velocity that all kinetic energy would give a coordinate
 _WRITTEN = 600  # operations of a Lagrangian up to which its cyclic coordinates are sought
 _STEP = 1e-5  # of a size, by which a component is varied for the slope of an integral
 
 
 @dataclass(frozen=True, eq=False)
 class Scales:
-    """turn: the time (s) in which the motion typically turns. sizes (N + m,): the largest value of each coordinate and velocity,
-    not less than what a thousandth of the kinetic velocity makes it. evaluations: what it took to find them. stiff: whether
-    neighbouring motions are drawn together so fast that a run may be by a stiff method. windows: where something acts briefly by
-    the clock. survey (m, d): the states that they are made of.
-    """
+    """The typical period `turn` in s and the size of each coordinate and velocity, shape (N + m,), of a motion. A size is the
+    largest value, at least the value that a thousandth of the kinetic velocity gives. In a stiff motion neighbouring motions
+    approach each other so fast that a stiff method may be used. `survey` (m, d) are the states that were measured."""
 
     turn: float
     sizes: Array
@@ -62,17 +60,14 @@ class Scales:
     survey: Array = field(default_factory=lambda: np.empty((0, 0)))
 
     def distance(self, first: Array, second: Array) -> Array:
-        """How far apart two runs (n, d) are, (n,): the largest difference of a component over its size."""
+        """Return the largest difference over its size of two runs (n, d) at each time, shape (n,)."""
         size = len(self.sizes)
         sizes = np.maximum(self.sizes, np.abs(second[:, :size]))
         return np.asarray(np.minimum((np.abs(first[:, :size] - second[:, :size]) / sizes).max(1), 2.0))
 
 
 def clock_windows(system: Equations, values: Values, times: Array) -> tuple[Window, ...]:
-    """Where something that is made of the time alone changes faster than it mostly does.
-
-    Raises InputError where a function refuses a time of the run.
-    """
+    """Find the windows in which terms of the time alone change faster than in most of the run."""
     program = clock_program(system)
     if program is None:
         return ()
@@ -95,11 +90,8 @@ def motion_scales(
     windows: tuple[Window, ...] = (),
     followed: tuple[NarrowPart, ...] = (),
 ) -> Scales:
-    """The scales of a motion from a coarse integration over the times, or over what a small budget reaches of them.
-
-    motion: where it is not smooth. windows: where something acts briefly by the clock. followed: what is integrated with the
-    motion.
-    """
+    """Measure the scales of a motion by a coarse integration over the times, or over the part that a small budget reaches.
+    `motion` is the integration of a motion that is not smooth, `followed` the narrow terms integrated with it."""
     span = float(times[-1] - times[0])
     if span == 0:
         return Scales(1.0, _sizes(system, values, start[None], 1.0), 0, survey=start[None])
@@ -112,9 +104,9 @@ def motion_scales(
         stretch, reached = motion(start, grid, _COARSE, False, _EVALUATIONS), span
     except StopError as stop:
         stretch = stop.reached or Stretch(start[None], start, 1)
-        # Of a motion that stops at once little is known; one whose budget is spent was followed for as long as that.
+        # A motion that stops at once has an unknown scale; one whose budget is spent was followed up to there.
         reached = max(stop.at - float(times[0]), 0.0 if stop.cause == "budget" else 1e-3 * span)
-        if stop.cause != "budget":  # it may go to infinity, and be as large as its last steps make it
+        if stop.cause != "budget":  # a motion to infinity is as large as its last steps make it
             stretch = replace(stretch, states=stretch.states[: len(stretch.states) * 9 // 10], end=start)
     states, evaluations, stiff = _finite(start, stretch), guess + stretch.evaluations, False
     if smooth and (system.forces or system.dissipation != 0):
@@ -123,7 +115,7 @@ def motion_scales(
         n, some = len(system.c.q), states[:: max(1, len(states) // 8)]
         stiff = min(_rates(bare, state, n, size).real.min() for state in some) * span < -_STIFF
         evaluations += len(some) * (size + 1)
-    if stiff and reached < span:  # DOP853's steps are set by what dies out, not by the motion
+    if stiff and reached < span:  # the decaying modes, not the motion, determine DOP853's steps
         try:
             motion = _coarsely(system, values, start, span, windows, followed, lsoda)
             stretch = motion(start, grid, _COARSE, False, _EVALUATIONS)
@@ -131,18 +123,13 @@ def motion_scales(
         except StopError as stop:
             evaluations += guess + stop.evaluations
     turn = min(reached * _PER_TURN / max(stretch.evaluations, 1), span)
-    usual = (
-        states if windows else _but_for_peaks(states)
-    )  # what acts briefly leaves a motion that is far larger than before it
+    usual = states if windows else _but_for_peaks(states)  # after a pulse a motion may be far larger than before
     return Scales(turn, _sizes(system, values, usual, turn), evaluations, bool(stiff), windows, states)
 
 
 def _but_for_peaks(states: Array) -> Array:
-    """The states (m, d) of which no component is far larger than it mostly is.
-
-    On its way to infinity a motion is as large at its end as no step before may be wrong by. What was at rest before has no such
-    size.
-    """
+    """Remove states in which a component is far above its median. On its way to infinity a motion has large values at its
+    end, by which earlier errors must not be measured. A component that was at rest has no such bound."""
     mostly, largest = np.median(np.abs(states), 0), np.abs(states).max(0)
     return np.asarray(states[(np.abs(states) <= np.where(mostly > _AT_REST * largest, _PEAK * mostly, np.inf)).all(1)])
 
@@ -168,7 +155,7 @@ def _coarsely(
 
 
 def first_sizes(bare: Rhs, start: Array, span: float, n: int, m: int) -> Array:
-    """A first guess of the sizes, from the state, its derivative and the fastest rate of the linear motion about it."""
+    """Guess the sizes from the state, its derivative and the fastest rate of the linear motion about it."""
     rates = np.nan_to_num(np.asarray(bare(0.0, start), float)[: n + m], posinf=0.0, neginf=0.0)
     q, u, v, a = start[:n], start[n : n + m], rates[:n], rates[n:]
     rate = max(float(np.abs(_rates(bare, start, n, n + m)).max()), 1 / span)
@@ -179,7 +166,7 @@ def first_sizes(bare: Rhs, start: Array, span: float, n: int, m: int) -> Array:
 
 
 def _rates(bare: Rhs, state: Array, n: int, size: int) -> NDArray[np.complex128]:
-    """The eigenvalues of the linear motion about a state, 1/s; zero where it is not finite."""
+    """Return the eigenvalues of the linear motion about a state in 1/s; zero where it is not finite."""
     value, slope = np.asarray(bare(0.0, state), float)[:size], np.zeros((size, size))
     for j in range(size):
         step = 1e-6 * (np.abs(state[:n] if j < n else state[n:size]).max() or 1.0)
@@ -190,7 +177,7 @@ def _rates(bare: Rhs, state: Array, n: int, size: int) -> NDArray[np.complex128]
 
 
 def _sizes(system: Equations, values: Values, states: Array, turn: float) -> Array:
-    """The largest value of each component of states (m, d), with its least."""
+    """Return the size of each component of states (m, d)."""
     n, m, jacobi = len(system.c.q), len(system.speeds), energy_program(system).along(values)
     q, u = states[:, :n], states[:, n : n + m]
     times = states[:, n + m] if states.shape[1] > n + m else np.zeros(len(states))
@@ -227,14 +214,14 @@ def _sizes(system: Equations, values: Values, states: Array, turn: float) -> Arr
 
 
 def _positive(sizes: Array, least: float = 0.0) -> Array:
-    """The sizes, the largest one for those that are not finite or no more than `least` of it."""
+    """Replace sizes that are not finite, or at most `least` of the largest, by the largest."""
     largest = float(np.nanmax(sizes, initial=0.0)) or 1.0
     return np.where(np.isfinite(sizes) & (sizes > least * largest), sizes, largest)
 
 
 @lru_cache(maxsize=64)
 def integrals(system: Equations) -> tuple[Generated, ...]:
-    """The programs of what every motion of the system conserves, as far as that is seen at once."""
+    """Return the programs of conserved quantities that follow from the form of the equations."""
     is_expression = isinstance(system.lagrangian, sp.Expr)
     programs = []
     if not (depends_on_time(system) or system.forces or system.dissipation != 0):
@@ -248,7 +235,8 @@ def integrals(system: Equations) -> tuple[Generated, ...]:
 
 
 def defect_of(system: Equations, values: Values, sizes: Array) -> Callable[[Array, Array], Array] | None:
-    """(times (n,), states (n, d)) → the errors, relative to the sizes, that would explain how far the integrals are off."""
+    """Return (times (n,), states (n, d)) → the errors, relative to the sizes, that would explain the change of the
+    integrals."""
     conserved = [program.along(values) for program in integrals(system)]
     n = len(system.c.q) + len(system.speeds)
 
@@ -261,12 +249,10 @@ def defect_of(system: Equations, values: Values, sizes: Array) -> Callable[[Arra
                 with np.errstate(all="ignore"):
                     slope += np.abs(integral(y + step, times) - integral(y - step, times))[0] / (2 * _STEP)
             slope = np.nan_to_num(slope, posinf=0.0)  # where a step leaves the integral's domain
-            values_along = integral(y, times)[0]
-            rounding = 1e-15 * np.abs(values_along).max()
-            violation = np.sign(values_along - values_along[0]) * np.maximum(
-                np.abs(values_along - values_along[0]) - rounding, 0.0
-            )
-            errors.append(violation / np.maximum(slope, 1e-3 * slope.max() + 1e-300))
+            level = integral(y, times)[0]
+            change, rounding = level - level[0], 1e-15 * np.abs(level).max()
+            change = np.sign(change) * np.maximum(np.abs(change) - rounding, 0.0)
+            errors.append(change / np.maximum(slope, 1e-3 * slope.max() + 1e-300))
         return np.concatenate(errors)
 
     return defect if conserved else None

@@ -1,16 +1,16 @@
-"""Crossings of sections, and Poincaré sections, on the steps of the run itself, whatever the times at which it was read.
+"""Crossings of sections on the steps of the run, independent of its sample times.
 
 A smooth motion is integrated again from sample to sample, by the solver and the local error of the run, in stages that begin at
-samples. A first pass records the times at which the solver evaluates; a second one reads the states at Chebyshev's nodes of
-panels of _STEPS such times. Between its nodes a panel is a polynomial, resolved to the local error or halved; a section that has
-no zero by the sizes of its coefficients is left at once. So the search costs two integrations, where a run is two or more.
+samples. A first pass records the times of the evaluations; a second one reads the states at Chebyshev's nodes of panels of
+_STEPS such times. A panel is a polynomial, resolved to the local error or halved. The sizes of its coefficients exclude a zero
+of the section in most panels. So the search costs two integrations, where a run is two or more.
 """
 
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from math import inf
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 import sympy as sp
@@ -21,7 +21,7 @@ from lagrotor.mechanics.expressions import expression, vector_of
 from lagrotor.mechanics.lagrangian import t
 from lagrotor.mechanics.running.flow import Array
 from lagrotor.mechanics.running.function_values import with_values
-from lagrotor.mechanics.running.motion import SampledMotion, integration_of
+from lagrotor.mechanics.running.motion import Kind, SampledMotion, integration_of, with_states
 from lagrotor.mechanics.running.narrow_features import narrow_parts
 from lagrotor.mechanics.running.phases import Observer, march, polish
 from lagrotor.mechanics.running.programs import function_program
@@ -29,24 +29,21 @@ from lagrotor.numerics.segment import StopError
 from lagrotor.numerics.solver_constants import CROSSOVER
 from lagrotor.numerics.zeros import chebyshev_nodes, interpolant, may_vanish, zeros_between
 
-Kind = TypeVar("Kind", bound=SampledMotion)
-_ONE = 1e-5  # of a step: zeros so near to each other and in the same direction are one
+_ONE = 1e-5  # distance, over the step, below which zeros of the same direction are one
 _LEAST = 1e-13  # of the section's size, below which it is zero
-_TURNS = 8  # of a stage: few, so that neighbouring motions do not part in it; more than the first steps cost
+_TURNS = 8  # turns in a stage: few, so that neighbouring motions stay close, but the first steps of a stage cost little
 _STEPS = 8  # times of evaluations in a panel, which has twice as many intervals between its nodes
 _HALVINGS = 8  # of a panel whose polynomial is not resolved
-_BUDGET = 60_000, 4_800  # evaluations of a stage, to begin and for each turn: three times those that a run may take
-_CLOCK = 1e3  # spacings of doubles at the time, of a shortest panel
-_Step = tuple[float, float, float, Callable[[Array], Array]]  # as an Observer has it
-Values = Callable[[Array, Array], Array]  # of the section: states (m, d) and times (m,) → (1, m)
+_BUDGET = 60_000, 4_800  # evaluations of a stage, in all and per turn: three times those of a run
+_CLOCK = 1e3  # spacings of doubles at the time in the shortest panel
+_Step = tuple[float, float, float, Callable[[Array], Array]]  # the arguments of an Observer
+Values = Callable[[Array, Array], Array]  # states (m, d) and times (m,) → the section (1, m)
 
 
 @dataclass
 class _Search:
-    """The crossings of a section (time, direction, state) from the time `begin` on, of steps in the order of time.
-
-    within: short steps that follow each other, in which the section is within `touch` of zero all along.
-    """
+    """The crossings (time, direction, state) from the time `begin` on, in steps in the order of time. `near_zero` collects
+    consecutive short steps in which the section stays within `touch` of zero."""
 
     value: Values
     begin: float
@@ -91,23 +88,7 @@ class _Search:
 
 
 def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
-    """Return the states where section(q, v, t) = 0 is crossed, in the order of time; there may be none.
-
-    Times and states are as exact as the run. Every zero of the polynomials through the solver's steps is a crossing, also two
-    in one step. Where the section turns round within tol of zero it is touched, and two crossings there may be one or none. The
-    search takes at most twice the evaluations of the run, by the engine "core", and more only of a section that is narrow
-    itself. A LagrotorWarning says where the section changes faster than the polynomials can follow.
-
-    Parameters
-    ----------
-    section : expression in q, v and t
-    direction : 1 for upward crossings, −1 for downward ones, 0 for both and for states where the section is touched.
-
-    Raises
-    ------
-    InputError
-        For another direction, a section that does not change, and a run of one sample.
-    """
+    """Find the crossings of a section for `SystemRun.crossings`."""
     if direction not in (-1, 0, 1):
         raise InputError(f"crossings: direction = {direction!r} must be 1 (upward), −1 (downward) or 0 (both)")
     if len(run.t) < 2:
@@ -116,11 +97,8 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
     value = function_program(run.system, section).along(run.values, "crossings")
     touch = max(run.tol, _LEAST) * _change(run, section)
     h = run.switched
-    narrow = {
-        feature.argument: feature
-        for feature in narrow_parts(h.system, h.numbers(h.slipping), run.scales.survey, section)
-    }
-    narrow |= {feature.argument: feature for feature in h.narrow}
+    features = (*narrow_parts(h.system, h.numbers(h.slipping), run.scales.survey, section), *h.narrow)
+    narrow = {feature.argument: feature for feature in features}
     run = replace(run, switched=replace(h, narrow=tuple(narrow.values())))
     search = _Search(value, float(run.t[0]), size, touch)
     passages, evaluations = search.passages, run.evaluations
@@ -129,7 +107,7 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
         end, cost = _stage(run, i, j, value, touch, search.observe)
         evaluations += cost
         side = float(value(end[None], run.t[[j]])[0, 0])
-        if side * values_at_samples[j] < 0:  # between the end of a stage and the beginning of the next
+        if side * values_at_samples[j] < 0:  # a zero between the end of a stage and the beginning of the next
             way = 1 if values_at_samples[j] > 0 else -1
             near_end = bool(passages) and run.t[j] - passages[-1][0] < 1e-3 * (run.t[j] - run.t[j - 1])
             if near_end and passages[-1][1] == -way:
@@ -142,7 +120,7 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
             f"crossings: between t = {hidden[0][0]:.6g} and {hidden[0][1]:.6g} s the section changes faster than it can be "
             "followed: crossings may be hidden there",
             LagrotorWarning,
-            stacklevel=2,
+            stacklevel=3,
         )
     selected = [(t, y) for t, way, y in passages if direction in (0, way)]
     times = np.array([t for t, _ in selected])
@@ -152,11 +130,13 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
     clock_and_mode = run.states[samples, size:].copy()
     if tail:
         clock_and_mode[:, 0] = times
-    return replace(run.read(times, np.hstack([rows, clock_and_mode])), evaluations=evaluations, switched=h)
+    states = np.hstack([rows, clock_and_mode])
+    return replace(with_states(run, times, states), evaluations=evaluations, switched=h)
 
 
 def _stages(run: SampledMotion) -> Iterator[tuple[int, int]]:
-    """Yield the first and the last sample of each stage; of several samples at one time a stage begins at the last."""
+    """Yield the first and the last sample of each stage; after several samples at one time a stage begins at the last of
+    them."""
     i, n = 0, len(run.t)
     while (i := int(np.searchsorted(run.t, run.t[i], side="right")) - 1) < n - 1:
         j = int(np.searchsorted(run.t, run.t[i] + _TURNS * run.scales.turn, side="right")) - 1
@@ -167,7 +147,7 @@ def _stages(run: SampledMotion) -> Iterator[tuple[int, int]]:
 def _stage(run: SampledMotion, i: int, j: int, value: Values, touch: float, observe: Observer) -> tuple[Array, int]:
     """Observe the motion from sample i to sample j where the section may be zero; return its last state and the evaluations."""
     begin, end = run.t[[i, j]]
-    # Below CROSSOVER no method for stiff motions is chosen, and the others take too many steps.
+    # Below CROSSOVER no stiff method is chosen, and the others take too many steps.
     local = max(run.local, CROSSOVER.value) if run.scales.stiff else run.local
     if not run.switched.smooth:
         stretch = march(run.switched, run.states[i], run.t[[i, j]], local, inf, observe)
@@ -180,7 +160,7 @@ def _stage(run: SampledMotion, i: int, j: int, value: Values, touch: float, obse
         run_on = integration_of(run.system, run.values, "core", run.scales, run.switched, run.states[0], record)
         try:
             stretch = run_on(start, times, local, False, budget)
-        except StopError:  # LSODA may fail by rounding where it is read at many times
+        except StopError:  # LSODA may fail by rounding at many output times
             stretch = run_on(start, times, 10 * local, False, budget)
         evaluations += stretch.evaluations
         return stretch.states
@@ -210,14 +190,14 @@ def _stage(run: SampledMotion, i: int, j: int, value: Values, touch: float, obse
 
 
 def poincare(run: SampledMotion, section: sp.Expr, of: Sequence[sp.Expr], direction: int = 1) -> Array:
-    """The values of the expressions `of` at the crossings, (m, len(of)): of two, the points of a Poincaré section."""
+    """Evaluate expressions at the crossings, shape (m, len(of))."""
     outputs = vector_of("poincare: of", of, len(of) if isinstance(of, Sequence) else 2)
     crossing_run = crossings(run, section, direction)
     return np.stack([crossing_run.evaluate(e) for e in outputs], axis=1)
 
 
 def _change(run: SampledMotion, section: sp.Expr) -> float:
-    """The most by which a section changes where each component of the state changes by its size."""
+    """Return the largest change of a section when each component of the state changes by its size."""
     symbols, sizes = (*run.system.c.q, *run.system.speeds), run.scales.sizes
     if not section.free_symbols & {*symbols, *run.system.c.v, *run.system.c.a, *run.system.multipliers, t}:
         raise InputError(f"crossings: section = {section} does not change: give q, v or t in it")

@@ -1,8 +1,8 @@
 """Small motion about an equilibrium or a steady motion in numbers: x' = A x + B u, y = C x + D u, under any constraints.
 
-With the motion s' = f(s, u) of the state s = (q, v), and the constraints Φ(s) = (g, G v + b) = 0, small displacements are
-δs = T x, T a basis of the null space of ∂Φ/∂s in which the independent states x are their own names. Then A = ∂f/∂s T and
-B = ∂f/∂u, in the rows of x. Derivatives are by a complex step, which rounds no difference (Squire & Trapp 1998).
+With the motion s' = f(s, u) of the state s = (q, v), and the constraints Φ(s) = (g, G v + b) = 0, small displacements are δs =
+T x, T a basis of the null space of ∂Φ/∂s in which the independent states x are their own names. Then A = ∂f/∂s T and B = ∂f/∂u,
+in the rows of x. Derivatives are by a complex step, which rounds no difference (Squire & Trapp 1998).
 
 Schwab & Meijaard, Linearized dynamics of nonholonomic systems (2003) for what rolls.
 """
@@ -32,10 +32,10 @@ from lagrotor.mechanics.running.programs import (
 from lagrotor.mechanics.steady_motions import small_states, small_turns
 
 _STEP = 1e-30  # of the complex step, whose square is below all rounding
-_OTHER = -4  # of the step: another one, which gives the same derivative where there is one
-_STEADY, _SAME = 1e-8, 1e-7  # relative: accelerations left, a matrix that stays
+_OTHER = -4  # factor of a second step, which gives the same derivative if one exists
+_STEADY, _SAME = 1e-8, 1e-7  # relative: accelerations of a steady motion, changes of a constant matrix
 _ROUNDING = 1e-12  # of accelerations of free motion
-_DEPENDENT = 1e-10  # constraints whose normals are in a plane but for rounding
+_DEPENDENT = 1e-10  # least pivot of the constraints' rows, relative, below which they are dependent
 _NOT_ANALYTIC = (sp.Abs, sp.sign, sp.Max, sp.Min, sp.Heaviside, sp.atan2, sp.floor, sp.ceiling, sp.Mod, sp.Piecewise)
 
 
@@ -47,11 +47,32 @@ class Slope(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class StateSpace:
-    """x' = A x + B u, y = C x + D u for small x: displacements of `states`, symbols of coordinates and velocities; turn_p is
-    the small turn of a ball joint about the axis of p, in its turned axes.
+    """The linear system x' = A x + B u, y = C x + D u for small displacements x from a steady motion.
 
-    rates: the eigenvalues of A, 1/s, sorted by their real parts, the greatest first; those of coordinates on which nothing
-    depends are zero.
+    The state turn_p is the small turn of a ball joint about the axis of p, in its turned axes.
+
+    Attributes
+    ----------
+    states : tuple of Symbol
+        The coordinates and velocities that x displaces, n symbols.
+    A : Array
+        Shape (n, n).
+    B : Array
+        Shape (n, p) for p inputs.
+    C : Array
+        Shape (k, n) for k outputs.
+    D : Array
+        Shape (k, p).
+
+    Examples
+    --------
+    >>> from sympy import Symbol
+    >>> from lagrotor.mechanics import System, coordinates
+    >>> c, F = coordinates("x"), Symbol("F")
+    >>> linear = System(c, c.v[0]**2 / 2 - c.q[0]**2, forces=(F,)).linearise({c.q[0]: 0}, {}, [F], [c.q[0]])
+    >>> linear.A, linear.B.T, linear.C
+    (array([[ 0.,  1.],
+           [-2.,  0.]]), array([[0., 1.]]), array([[1., 0.]]))
     """
 
     states: tuple[sp.Symbol, ...]
@@ -62,7 +83,15 @@ class StateSpace:
 
     @property
     def rates(self) -> NDArray[np.complex128]:
-        """The eigenvalues of A, (n,)."""
+        """The eigenvalues of A in 1/s, the largest real part first, shape (n,); zero for coordinates on which nothing depends.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import System, coordinates
+        >>> c = coordinates("x")
+        >>> System(c, c.v[0]**2 / 2 + 2 * c.q[0]**2).linearise({c.q[0]: 0}, {}).rates.real
+        array([ 2., -2.])
+        """
         roots = np.linalg.eigvals(self.A).astype(complex)
         return roots[np.lexsort((roots.imag, -roots.real))]
 
@@ -75,19 +104,19 @@ def state_space(
     outputs: Sequence[sp.Expr] = (),
     where: str = "linearise",
 ) -> StateSpace:
-    """The linear system about a point at which all accelerations vanish: see `steady_motions.linearise`."""
+    """Linearise a system about a point at which all accelerations vanish, for `System.linearise`."""
     output_expressions = tuple(expression(f"{where}: outputs[{i}]", e) for i, e in enumerate(outputs))
     if not isinstance(values, Mapping):
         raise InputError(f"{where}: values = {values!r} must be a dictionary")
     if strangers := {*inputs} & {*system.c.q, *system.c.v, *system.speeds, t}:
         raise InputError(
-            f"{where}: the input {min(strangers, key=str)} moves: inputs are letters of forces or constraints"
+            f"{where}: the input {min(strangers, key=str)} moves: inputs are symbols of forces or constraints"
         )
     numbers = {str(s): 0.0 for s in inputs} | {str(s): value for s, value in values.items()}
     check_values(where, system, numbers, output_expressions)
     if depends_on_time(system):
         raise InputError(
-            f"{where}: the motion depends on time explicitly: write a letter for an input F(t), or simulate it"
+            f"{where}: the motion depends on time explicitly: write a symbol for an input F(t), or simulate it"
         )
     start = point_state(where, system, at, numbers)
     motion = motion_slope(where, motion_program(system), numbers, inputs)
@@ -113,10 +142,8 @@ def state_space(
             "turn along with the motion"
         )
     free, T = tangent_space(where, system, numbers, start)
-    output_slope, output_state = (
-        motion_slope(where, function_program(system, *output_expressions), numbers, inputs),
-        np.append(start, 0.0),
-    )
+    output_slope = motion_slope(where, function_program(system, *output_expressions), numbers, inputs)
+    output_state = np.append(start, 0.0)
     check_smooth(where, output_slope, output_state, output_expressions, at)
     _, C, D = output_slope(output_state)
     states = tuple(s for s, independent in zip(small_states(system), free, strict=True) if independent)
@@ -124,7 +151,7 @@ def state_space(
 
 
 def local_slope(system: Equations, state: Array, rate: Array, J: Array) -> tuple[Array, Array, Array]:
-    """P⁻ (J P − P'), P and P⁻ of `small_turns`, of a state (q, u) of a motion, its rate (q', u') and J = ∂f/∂(q, u)."""
+    """Return P⁻ (J P − P'), P and P⁻ of `small_turns` at a state (q, u), with its rate (q', u') and J = ∂f/∂(q, u)."""
     P, inverse = (np.array(e, np.float64) for e in small_turns(system, state))
     change_of_P = np.array(small_turns(system, rate)[0], np.float64) - np.array(
         small_turns(system, 0 * rate)[0], np.float64
@@ -133,11 +160,11 @@ def local_slope(system: Equations, state: Array, rate: Array, J: Array) -> tuple
 
 
 def point_state(where: str, system: Equations, at: Mapping[Any, Any], values: Values, time: float = 0.0) -> Array:
-    """The state of the point; coordinates on which the motion depends are named in it, others are zero."""
+    """Return the state of a point, with zeros for omitted coordinates on which the motion does not depend."""
     c = system.c
     point = by_symbol(f"{where}: at", at, (*c.q, *system.speeds))
     used, _ = _parts(motion_program(system))
-    moving = dict(zip(c.q, motion_program(system).program.arguments, strict=False))  # which may have other names there
+    moving = dict(zip(c.q, motion_program(system).program.arguments, strict=False))  # a program may rename symbols
     if missing := [str(q) for q in c.q if q not in point and moving[q] in used]:
         raise InputError(f"{where}: {', '.join(missing)} without a value: the point needs each coordinate's")
     if strangers := [str(s) for s in point if s not in {*c.q, *system.speeds}]:
@@ -169,14 +196,14 @@ def point_state(where: str, system: Equations, at: Mapping[Any, Any], values: Va
 
 @lru_cache(maxsize=64)
 def _parts(program: Generated) -> tuple[set[sp.Basic], set[sp.Basic]]:
-    """The letters of a program's stages and outputs, and their parts that have no derivative everywhere."""
+    """Return the symbols of a program, and its terms that lack a derivative somewhere."""
     expressions = [*(e for _, e in program.program.stages), *program.program.outputs]
     symbols = set().union(*(e.free_symbols for e in expressions))
     return symbols, set().union(*(e.atoms(*_NOT_ANALYTIC) for e in expressions))
 
 
 def motion_slope(where: str, program: Generated, values: Values, inputs: Sequence[sp.Symbol] = ()) -> Slope:
-    """state → outputs (k,), their derivatives by the state (k, d), and by the inputs (k, p)."""
+    """Return state → outputs (k,), their derivatives by the state (k, d), and by the inputs (k, p)."""
     _, jumping = _parts(program)
     if jumping:
         raise InputError(
@@ -202,7 +229,8 @@ def motion_slope(where: str, program: Generated, values: Values, inputs: Sequenc
 
 
 def check_smooth(where: str, slope: Slope, state: Array, names: Sequence[Any], at: Mapping[Any, Any]) -> None:
-    """Raise SingularError where an output has no value or no derivative, as √x at zero, whose steps give others each time."""
+    """Raise SingularError where an output has no value or no derivative, as √x at zero: there its derivative depends on the
+    step."""
     first, second = (np.column_stack(slope(state, h))[: len(names)] for h in (_STEP, _OTHER * _STEP))
     with np.errstate(invalid="ignore"):
         smooth = np.abs(first - second) <= _SAME * np.abs(first) + _ROUNDING * (1 + np.abs(first).max(initial=0))
@@ -216,24 +244,21 @@ def check_smooth(where: str, slope: Slope, state: Array, names: Sequence[Any], a
 def tangent_space(
     where: str, system: Equations, values: Values, state: Array, time: float = 0.0
 ) -> tuple[NDArray[np.bool_], Array]:
-    """Which of the states y of `small_turns` are independent, and T that gives all of them."""
+    """Return a mask of the independent states y of `small_turns`, and T, which gives all states from these."""
     P = np.array(small_turns(system, state)[0], np.float64)
     d = P.shape[1]
     n = d - len(system.speeds)
     units = [joint.unit_length for joint in system.ball_joints]
-    held_by = [g for g in system.constraints if g not in units]
-    if not held_by and not system.left:
+    holonomic = [g for g in system.constraints if g not in units]
+    if not holonomic and not system.left:
         return np.ones(d, bool), np.eye(d)
     from scipy.linalg import qr
 
-    h = len(held_by)
-    bound = function_program(system, *held_by, *(system.residual[i] for i in system.left))
+    h = len(holonomic)
+    bound = function_program(system, *holonomic, *(system.residual[i] for i in system.left))
     slope = motion_slope(where, bound, values)(np.append(state, time))[1][:, : len(state)] @ P
     dependent = np.zeros(0, int)
-    for rows, first in (
-        (slope[:h, :n], 0),
-        (slope[h:, n:], n),
-    ):  # coordinates, then velocities, are given by the others
+    for rows, first in ((slope[:h, :n], 0), (slope[h:, n:], n)):  # dependent coordinates, then velocities
         if len(rows):
             _, triangle, order = qr(rows, pivoting=True)
             diagonal = np.abs(np.diag(triangle))

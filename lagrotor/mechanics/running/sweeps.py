@@ -1,7 +1,7 @@
-"""A long Lagrangian's equations by sweeps through its parts, each a stage: backward for a gradient, forward along a direction.
+"""The equations of a long Lagrangian by sweeps through its stages: backward for a gradient, forward along a direction.
 
-With p = ∂L/∂v, M b = dp along v' = b and M α + h = dp/dt − ∂L/∂q at v' = α. A gradient costs some three times L, however many
-coordinates there are, a derivative along a direction some two times what is differentiated.
+With p = ∂L/∂v, M b = dp along v' = b and M α + h = dp/dt − ∂L/∂q at v' = α. A gradient costs about three times L for any number
+of coordinates, a derivative along a direction about twice its expression.
 
 Griewank & Walther, Evaluating Derivatives, 2nd ed., ch. 3.
 """
@@ -23,7 +23,7 @@ from lagrotor.numerics.codegen import Stage
 
 
 def swept_equations(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matrix]:
-    """Stages, and made of them M and Q − h of M u' = Q − h + Gᵀ λ; in velocities of one's own Bᵀ M B and Bᵀ (Q − M α − h)."""
+    """Return stages, M and Q − h of M u' = Q − h + Gᵀ λ; for quasi-velocities Bᵀ M B and Bᵀ (Q − M α − h)."""
     keep, c, kinematics = Stages(), system.c, system.kinematics
     n, m = len(c.q), len(system.speeds)
     B, alpha, first, place = sp.eye(n), sp.zeros(n, 1), list[Stage](), 0
@@ -55,14 +55,14 @@ def swept_equations(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matri
 
 
 def swept_energy(system: Equations) -> tuple[list[Stage], sp.Expr]:
-    """Stages, and the Jacobi integral v·∂L/∂v − L made of them."""
+    """Return stages and the Jacobi integral v·∂L/∂v − L."""
     keep, v = Stages(), system.c.v
     L = expression_stages(keep, system.L)
     return keep.made, sp.Add(-L, *(a * p for a, p in zip(v, backward_sweep(keep, L, v), strict=True)))
 
 
 def expression_stages(keep: Stages, e: sp.Expr) -> sp.Expr:
-    """An expression as a stage after those of all its parts. A sum that has all terms of another one is made of that."""
+    """Return an expression as a stage after those of all its subexpressions; a sum uses a shorter one that it contains."""
     sums = sorted((s for s in subexpressions(e) if s.is_Add), key=lambda s: len(s.args))
     terms = {s: {*s.args} for s in sums if len({*s.args}) == len(s.args)}  # left unevaluated, one may have a term twice
     stages = dict[sp.Expr, sp.Expr]()
@@ -71,7 +71,7 @@ def expression_stages(keep: Stages, e: sp.Expr) -> sp.Expr:
         if term.is_Atom:
             return term
         if term not in stages and not all(isinstance(a, sp.Expr) for a in term.args):
-            stages[term] = keep(term)  # whose parts are no values: a case and its condition, an integral and its letter
+            stages[term] = keep(term)  # a Piecewise or an integral, whose arguments are no values
         if term not in stages:
             shorter = (
                 next((s for s in reversed(sums) if s in terms and terms[s] < terms[term]), None)
@@ -88,7 +88,7 @@ def expression_stages(keep: Stages, e: sp.Expr) -> sp.Expr:
 
 
 def backward_sweep(keep: Stages, output: sp.Expr, symbols: Sequence[sp.Symbol]) -> list[sp.Expr]:
-    """∂output/∂s of a stage, or of a multiple of one, for each symbol, backward."""
+    """Return ∂output/∂s for each symbol, backward from a stage or a multiple of one."""
     shares: dict[sp.Expr, list[sp.Expr]] = defaultdict(list)
     for s, slope in _slopes(output):
         shares[s].append(slope)
@@ -100,7 +100,7 @@ def backward_sweep(keep: Stages, output: sp.Expr, symbols: Sequence[sp.Symbol]) 
 
 
 def forward_sweep(keep: Stages, outputs: Sequence[sp.Expr], direction: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Expr]:
-    """The derivatives of stages where the symbols change at the rates `direction`, forward."""
+    """Return the derivatives of stages where the symbols change at the rates `direction`."""
     rates = {s: rate for s, rate in direction.items() if rate != 0}
 
     def rate(e: sp.Expr) -> sp.Expr:
@@ -113,7 +113,7 @@ def forward_sweep(keep: Stages, outputs: Sequence[sp.Expr], direction: Mapping[s
 
 
 def _below(keep: Stages, outputs: Sequence[sp.Expr]) -> list[Stage]:
-    """The stages that outputs are made of, in order."""
+    """Return the stages that the outputs need, in order."""
     body, needed = dict(keep.made), set[sp.Symbol]()
     queue = [s for e in outputs for s in e.free_symbols]
     while queue:

@@ -1,7 +1,7 @@
-"""What makes a motion switch: given events, impacts, and the surfaces on which a force jumps.
+"""Switches of a motion: events, impacts, and the surfaces on which a force jumps.
 
 An impact on a gap g(q, t) ≥ 0 changes the velocities along M⁻¹ Gᵀ alone, G = ∂g/∂q, so that (G v + b)⁺ = −e (G v + b)⁻; all
-constraints hold on both sides of it (Pfeiffer & Glocker, Multibody Dynamics with Unilateral Contacts, ch. 7). A force with
+constraints hold before and after it (Pfeiffer & Glocker, Multibody Dynamics with Unilateral Contacts, ch. 7). A force with
 sign(w) or |w| jumps on w = 0. It is dry friction where it is −F sign(w) ∂w/∂v: there it may hold w at zero, with a reaction of
 at most F (Filippov, Differential Equations with Discontinuous Righthand Sides, §4).
 """
@@ -23,12 +23,23 @@ from lagrotor.mechanics.lagrangian import force_column, gradient, jacobian, t
 
 @dataclass(frozen=True)
 class Event:
-    """Where section(q, v, t) = 0 is crossed: upward (direction = 1), downward (−1), or both (0).
+    """An event at the crossings of a section; it ends the run or changes the velocities.
 
     Attributes
     ----------
-    velocities : tuple[Expr, ...] or None, optional
-        Those after it, an expression of the state before it for each coordinate; without them the run ends there.
+    section : Expr
+        In q, v and t; the event is where it is zero.
+    velocities : tuple of Expr or None, optional
+        The velocities after the event, as functions of the state before it; without them the run ends.
+    direction : {0, 1, -1}, default 0
+        Upward crossings (1), downward ones (−1), or both (0).
+
+    Examples
+    --------
+    >>> from lagrotor.mechanics import Event, System, coordinates
+    >>> c = coordinates("x")
+    >>> System(c, c.v[0]**2 / 2).simulate({}, (0,), (1,), [0, 5], events=Event(c.q[0] - 2)).t
+    array([0., 2.])
     """
 
     section: sp.Expr
@@ -53,16 +64,29 @@ class Event:
 
     @property
     def expressions(self) -> tuple[sp.Expr, ...]:
-        """Those of the event, which have a value along a motion."""
+        """The expressions of the event, which have a value along a motion."""
         return self.section, *(self.velocities or ())
 
 
 @dataclass(frozen=True)
 class Impact:
-    """A gap g(q, t) that does not become negative: where it closes, the velocity of approach is reversed and multiplied by the
-    coefficient of restitution, a number from 0 to 1 or a parameter.
+    """An impact where a gap closes: the velocity of approach is reversed and multiplied by the coefficient of restitution.
 
-    Where nothing rebounds the gap stays closed, as a constraint, while its reaction pushes.
+    Without a rebound the gap stays closed, as a constraint, while its reaction pushes.
+
+    Attributes
+    ----------
+    gap : Expr
+        In q and t; it does not become negative.
+    restitution : Expr, default 1
+        A number from 0 to 1 or a parameter.
+
+    Examples
+    --------
+    >>> from lagrotor.mechanics import Impact, System, coordinates
+    >>> c = coordinates("x")
+    >>> System(c, c.v[0]**2 / 2).simulate({}, (2,), (-1,), [0, 4], events=Impact(c.q[0], 0.5)).q.round(6).T
+    array([[2., 1.]])
     """
 
     gap: sp.Expr
@@ -77,13 +101,13 @@ class Impact:
 
     @property
     def expressions(self) -> tuple[sp.Expr, ...]:
-        """Those of the impact, which have a value along a motion."""
+        """The expressions of the impact, which have a value along a motion."""
         return self.gap, self.restitution
 
 
 @dataclass(frozen=True)
 class Surface:
-    """w(q, v, t) = 0, on which a force jumps; `sign` stands for sign(w) in the equations. bound: F of dry friction, or none."""
+    """A surface w(q, v, t) = 0 on which a force jumps; `sign` replaces sign(w), `bound` is F of dry friction or None."""
 
     argument: sp.Expr
     sign: sp.Symbol
@@ -91,7 +115,7 @@ class Surface:
 
 
 def check_events(system: Equations, events: Any) -> tuple[Event | Impact, ...]:
-    """The events of a run as a tuple. Raises InputError for what is none, or does not fit the system."""
+    """Return the events of a run as a tuple, or raise InputError if they do not fit the system."""
     event_tuple = (events,) if isinstance(events, Event | Impact) else events
     if not isinstance(event_tuple, Sequence) or not all(isinstance(event, Event | Impact) for event in event_tuple):
         raise InputError(f"simulate: events = {events!r} must be Event(section) or Impact(gap), or several in a tuple")
@@ -114,14 +138,10 @@ def check_events(system: Equations, events: Any) -> tuple[Event | Impact, ...]:
 
 
 def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
-    """The system with a symbol for each sign that jumps where the state passes a surface, and these surfaces.
-
-    sign(w) → σ, |w| → σ w, Heaviside(w) → (1 + σ)/2, the larger of a and b → (a + b + σ (a − b))/2, the smaller likewise.
-    """
+    """Return the system with a symbol for each sign that jumps where the state passes a surface, and these surfaces. sign(w)
+    → σ, |w| → σ w, Heaviside(w) → (1 + σ)/2, Max(a, b) → (a + b + σ (a − b))/2, Min(a, b) likewise with −σ."""
     moving = {*system.c.q, *system.c.v, *system.reactions, t}
-    L = getattr(
-        system.lagrangian, "rest", system.lagrangian
-    )  # of an energy of bodies the expression that is added to them
+    L = getattr(system.lagrangian, "rest", system.lagrangian)  # for bodies, the terms added to their energy
     places = [*system.forces, system.dissipation, L]
     substitutions: dict[sp.Expr, sp.Expr] = {}
     signs: dict[sp.Expr, sp.Expr] = {}
@@ -151,7 +171,7 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
             f"simulate: the Lagrangian jumps where {w} = 0, and its force is infinite there: give an Impact or an Event; of a "
             f"potential without a jump write {w} as a factor"
         )
-    # A solver looks beyond the surface before it ends its phase there: Hertz's (−z)^(5/2) has |z| for −z.
+    # A solver evaluates beyond the surface before its phase ends there, so Hertz's (−z)^(5/2) gets |z| for −z.
     roots = {
         e: sp.Abs(e.base.xreplace(substitutions)) ** e.exp
         for e in subexpressions(*places)
@@ -166,10 +186,8 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
 
 
 def _is_a_jump(step: sp.DiracDelta, slope: sp.Expr, moving: Sequence[sp.Symbol]) -> bool:
-    """Whether the factor of δ(w) in a slope differs from zero where w = 0, at the first such point that Newton's method gives.
-
-    The lengths of a rope with and without a drum are equal where it touches, by an identity that is not written out.
-    """
+    """Return True if the factor of δ(w) in a slope differs from zero at the first root of w that Newton's method gives. The
+    lengths of a rope with and without a drum are equal where it touches, by an identity that sympy does not see."""
     mark, w = sp.Dummy(), step.args[0]
     factor = derivative(slope.xreplace({step: mark}), mark)
     letters = sorted((factor.free_symbols | w.free_symbols), key=str)
@@ -188,13 +206,13 @@ def _is_a_jump(step: sp.DiracDelta, slope: sp.Expr, moving: Sequence[sp.Symbol])
     return False
 
 
-_TRIALS, _NO_JUMP = 12, 1e-8  # points at which a root is sought, and the size of a factor that is rounding
+_TRIALS, _NO_JUMP = 12, 1e-8  # points from which a root is sought; a factor below which there is no jump
 _JUMPING = (sp.sign, sp.Abs, sp.Heaviside, sp.Max, sp.Min)
 
 
 def _jumps_at_zero(push: sp.Matrix, e: sp.Expr, v: Sequence[sp.Symbol]) -> bool:
-    """Whether a square e of several velocities, under roots of a force, is zero at rest, or where it is least and the force,
-    by √e → 0, does not vanish with it."""
+    """Return True if √e under a force, e a square of several velocities, is zero at rest or at its least value without the
+    force."""
     speeds = [s for s in v if s in e.free_symbols]
     still = dict.fromkeys(speeds, sp.S.Zero)
     value_at_rest, slope = e.xreplace(still), gradient(e, speeds).xreplace(still)
@@ -226,7 +244,7 @@ def _smooth(atom: sp.Expr, w: sp.Expr, s: sp.Symbol) -> sp.Expr:
 
 
 def _friction(system: Equations, w: sp.Expr, s: sp.Symbol) -> sp.Expr | None:
-    """F, where the force that jumps with the sign s of w is −F s ∂w/∂v; None where it is another."""
+    """Return F if the force that jumps with the sign s of w is −F s ∂w/∂v; None for any other force."""
     c = system.c
     slope = gradient(w, c.v)
     lagrangian = s in system.lagrangian.free_symbols

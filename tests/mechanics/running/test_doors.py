@@ -38,7 +38,7 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
     "twice": (lambda: run(values={m: 1, length: 1, "m": 3}), "m with two values"),
     "strangers": (
         lambda: run(values={m: 1, length: 1, "b": 1, "a": 1}),
-        "values name a, b, which .* its letters are length, m: leave them out",
+        "values name a, b, which .* its symbols are length, m: leave them out",
     ),
     "overflow": (lambda: forced(x).simulate({}, (1e300,), (1e300,), T), "the energy overflows at the start"),
     "no energy": (lambda: System(c, v**2 / 2 - sp.sqrt(x - 1)).simulate({}, (0,), (0,), T), "energy has no real value"),
