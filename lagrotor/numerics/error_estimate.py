@@ -409,9 +409,9 @@ def first_time(t: Array, where: NDArray[np.bool_]) -> float:
 
 
 def _hopeless(course: _Course, pair: _Pair) -> bool:
-    """Return True if two integrations separated so fast that no tolerance keeps the error below LOST to the end. Their
-    difference grew from the looser local error to LOST at `lost`, and half the way (in logarithms) at `early`, as e^(λt) or
-    as a power of t. A tighter tolerance reaches at most the later of the two extrapolated times."""
+    """Return True if two integrations separated so fast that no tolerance keeps the error below LOST to the end. The difference
+    grew as e^(λt) or as a power of t, to LOST at `lost` and half the way in logarithms at `early`. A tighter tolerance reaches
+    at most the later of the two extrapolated times."""
     local, begin = pair.loose.local, float(course.times[0])
     grown, tighter = log(LOST.value / local), log(local / TIGHTEST)
     if pair.lost == inf or grown <= 0:

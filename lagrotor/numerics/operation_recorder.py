@@ -56,19 +56,16 @@ class Recorded:
         return self._with("neg", self)
 
     def sqrt(self) -> Recorded:
-        """Record a square root; numpy calls this method and the next three."""
+        """Record a square root; numpy calls this method, `sin`, `cos` and `hypot`."""
         return self._with("sqrt", self)
 
     def sin(self) -> Recorded:
-        """Record a sine."""
         return self._with("sin", self)
 
     def cos(self) -> Recorded:
-        """Record a cosine."""
         return self._with("cos", self)
 
     def hypot(self, term: Term) -> Recorded:
-        """Record the root of the sum of two squares."""
         return self._with("hypot", self, term)
 
 

@@ -80,7 +80,7 @@ class _Arrays(_Printer, SciPyPrinter):  # type: ignore[misc]
         return self._of_two("minimum", expr)
 
     def _of_two(self, name: str, expr: sp.Expr) -> str:
-        """Nest a function of two arguments: sympy 1.13.0 stacks the arguments, which fails for a number beside an array."""
+        """Nest a function of two arguments: sympy 1.13.0 stacks the arguments, which fails for a number with an array."""
         name = self._module_format(f"numpy.{name}")
         return reduce(lambda a, b: f"{name}({a}, {b})", map(self._print, expr.args))
 

@@ -27,9 +27,9 @@ def body_rotations(t: Array, axes: Array, rates: Array, spins: Array) -> Array:
 
     At t[0] the body is turned the shortest way from e_z to r (by way of ±e_x where r hangs down). From sample to sample r is
     carried along the great circle, Q → P(r_0 → r_1) exp([r_0]× (omega h + area)) Q, with the area between the path and that
-    circle. Its rate is p·(u × u')/(1 + p·u) about the pole p = r_0, to first order zero at p. A third of h times the rate at
-    the other end, averaged over both poles, leaves an error of order h⁵ a step: r is exact to rounding, the angle about r to
-    O(h⁴).
+    circle. Its rate is p·(u × u')/(1 + p·u) about the pole p = r_0, to first order zero at p. The area is a third of h times
+    the rate at the other end, averaged over both poles. Its error is O(h⁵) a step: r is exact to rounding, the angle about r
+    to O(h⁴).
 
     Parameters
     ----------

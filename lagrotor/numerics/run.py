@@ -28,21 +28,17 @@ _SAYS = {
 
 @dataclass(frozen=True)
 class Ending:
-    """The ending of a run: its kind, the time `at` in s where it differs from the last time, and a reason in words. Kinds:
-    the last time was reached (end), there although neighbouring motions had separated from `at` on (lost); the evaluations
-    were spent (budget); a singular position was measured (singular); an event; or the solver cannot continue (stopped)."""
+    """The ending of a run: its kind, explained in _SAYS, the time `at` in s where it differs from the last time, and a
+    reason.
+    """
 
     kind: Literal["end", "lost", "budget", "singular", "event", "stopped"] = "end"
     at: float = inf
     reason: str = ""
 
     def __post_init__(self) -> None:
-        if (
-            self.kind not in _SAYS
-            or not isinstance(self.at, float)
-            or self.at != self.at
-            or type(self.reason) is not str
-        ):
+        valid = isinstance(self.at, float) and self.at == self.at and type(self.reason) is str
+        if self.kind not in _SAYS or not valid:
             raise InputError(f"Ending: {self.kind!r} at {self.at!r} for {self.reason!r} is none")
 
     @property
@@ -110,7 +106,7 @@ class Run(Shown):
         }
 
     def _about(self) -> dict[str, Any]:
-        """Return the entries that `save` writes as JSON beside the arrays."""
+        """Return the entries that `save` writes as JSON with the arrays."""
         return {}
 
     def _columns(self) -> Iterator[tuple[str, Array, str]]:
@@ -164,12 +160,7 @@ class Run(Shown):
         Returns
         -------
         pandas.DataFrame
-            Indexed by t in s.
-
-        Raises
-        ------
-        InputError
-            If pandas is not installed.
+            Indexed by t in s; pandas must be installed.
         """
         pandas = optional_package("pandas")
         return pandas.DataFrame(
@@ -182,12 +173,7 @@ class Run(Shown):
         Returns
         -------
         xarray.Dataset
-            Over t in s and the other axes of the quantities.
-
-        Raises
-        ------
-        InputError
-            If xarray is not installed.
+            Over t in s and the other axes of the quantities; xarray must be installed.
         """
         xarray, quantities = optional_package("xarray"), self.quantities()
         places: dict[str, Any] = {"t": ("t", self.t, {"units": "s"})}

@@ -53,7 +53,6 @@ class Stretch:
     jumps: tuple[float, ...] = ()
 
     def cut(self, d: int) -> "Stretch":
-        """Return the first d components."""
         return replace(self, states=self.states[:, :d], end=self.end[:d])
 
 

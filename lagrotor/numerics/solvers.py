@@ -378,8 +378,8 @@ def _first_nodes(
 
 def adams(segment: Segment, error: float) -> Stretch:
     """Solve the segment by Adams predictor and corrector in equal steps, which change where their difference requires it.
-    Raises StopError also where the evaluations far exceed the completed share of the budget, and where shorter steps have no
-    smaller error: then the right-hand side is not accurate enough for the tolerance."""
+    StopError also says that the evaluations far exceed the completed share of the budget, or that shorter steps have no smaller
+    error, since the right-hand side is not accurate enough."""
     t_eval, right, y, t, longest = segment.t_eval, segment.until, segment.start, segment.begin, segment.longest
     q, limit = adams_order(error), min(100 * error, 1e-3)  # at order 10, steps with a larger difference are unstable
     h = min(

@@ -1,11 +1,11 @@
 """The engine "fast": heyoka's functions and Taylor integrator, compiled from the same generated programs.
 
-Cyclic coordinates and angles, which may grow without end, are scaled so small that they are never the largest component of the
-state, on which heyoka bases its error. Compiling takes one or two seconds for each program and order; the process keeps the
-result in memory, heyoka on disk. States at any time are as exact as the run.
+heyoka's error is relative to the largest component of the state. Cyclic coordinates and angles, which may grow without end, are
+scaled so small that they are never the largest. Compiling takes one or two seconds for each program and order; the process
+keeps the result in memory, heyoka on disk. States at any time are as exact as the run.
 
 heyoka chooses its order by the tolerance for which it is compiled. Its error of a step is that tolerance times the largest
-component of the state. The last component is a constant whose size is set for each run: it decouples the step size from the
+component of the state. The last component is a constant whose size is set for each run. It decouples the step size from the
 order, so that three orders serve every tolerance.
 """
 

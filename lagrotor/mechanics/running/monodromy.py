@@ -89,7 +89,6 @@ class MonodromyMatrix(Shown):
 
 
 def monodromy_matrix(system: Equations, at: Mapping[Any, Any], values: Values, period: float) -> MonodromyMatrix:
-    """Compute the monodromy matrix for `System.floquet`."""
     duration = _number(period)
     if not 0 < duration < np.inf:
         raise InputError(f"floquet: period = {period!r} must be a positive time in s")
@@ -150,7 +149,6 @@ def monodromy_matrix(system: Equations, at: Mapping[Any, Any], values: Values, p
 
 
 def _at(slope: tuple[Array, Array, Array], size: int) -> tuple[Array, Array]:
-    """Return the rate of (q, u) and its derivatives by them."""
     return slope[0][:size], slope[1][:size, :size]
 
 
@@ -173,7 +171,6 @@ class Lyapunov(Shown):
     history: Array
 
     def summary(self) -> dict[str, str]:
-        """Summarise the exponent, its error and its time in words."""
         return {
             "largest exponent [1/s]": f"{self.exponent:.4g} ± {self.error:.1g}",
             "over": f"{self.t[-1] - self.t[0]:g} s" if len(self.t) else "no time",

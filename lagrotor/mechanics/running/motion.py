@@ -127,8 +127,8 @@ class SampledMotion(Run):
         >>> bool(pendulum.simulate({}, (0, -1), (1, 0), [0, 1]).drift.max() < 1e-12)
         True
         """
-        off = (*self.system.constraints, *self.system.residual)
-        return np.abs(self._values(*off)).max(0) if off else np.zeros(len(self.t))
+        residuals = (*self.system.constraints, *self.system.residual)
+        return np.abs(self._values(*residuals)).max(0) if residuals else np.zeros(len(self.t))
 
     @property
     def reactions(self) -> dict[str, Array]:
@@ -212,15 +212,15 @@ class SampledMotion(Run):
         instants = check_times("at", np.atleast_1d(times))
         if instants[0] < self.t[0] or instants[-1] > self.t[-1]:
             raise InputError(f"at: times must lie between {self.t[0]:g} and {self.t[-1]:g} s, the ends of the run")
-        before = np.clip(np.searchsorted(self.t, instants, side="right") - 1, 0, len(self.t) - 1)
+        samples = np.clip(np.searchsorted(self.t, instants, side="right") - 1, 0, len(self.t) - 1)
         run_on = integration_of(self.system, self.values, self.engine, self.scales, self.switched, self.states[0])
         states, evaluations = np.empty((len(instants), self.states.shape[1])), self.evaluations
-        for i in np.unique(before):
-            inside = before == i
+        for i in np.unique(samples):
+            inside = samples == i
             grid = np.union1d(self.t[i], instants[inside])
-            part = run_on(self.states[i], grid, self.local, False, inf)
-            states[inside] = part.states[np.searchsorted(grid, instants[inside])]
-            evaluations += part.evaluations
+            stretch = run_on(self.states[i], grid, self.local, False, inf)
+            states[inside] = stretch.states[np.searchsorted(grid, instants[inside])]
+            evaluations += stretch.evaluations
         return replace(with_states(self, instants, states), evaluations=evaluations)
 
     def quantities(self) -> dict[str, Quantity]:
@@ -240,11 +240,11 @@ class SampledMotion(Run):
         """
         c, system = self.system.c, self.system
         names, columns = (*c.q, *c.v, *system.speeds), (*self.q.T, *self.v.T, *self.u.T)
-        held = {str(s): Quantity(column, ("t",), "") for s, column in zip(names, columns, strict=True)}
-        held["energy"] = Quantity(self.energy, ("t",), "J")
+        table = {str(s): Quantity(column, ("t",), "") for s, column in zip(names, columns, strict=True)}
+        table["energy"] = Quantity(self.energy, ("t",), "J")
         if self.system.multipliers:
-            held["drift"] = Quantity(self.drift, ("t",), "")
-        return held
+            table["drift"] = Quantity(self.drift, ("t",), "")
+        return table
 
     def _about(self) -> dict[str, Any]:
         """Describe the run for `save` without an equation, which would have to be read as one."""
@@ -273,7 +273,7 @@ def with_states(run: Kind, times: Array, states: Array) -> Kind:
 
 def digest_of(system: Equations) -> str:
     """Return a digest that identifies the equations of a system."""
-    parts = (
+    equations = (
         system.lagrangian if system.bodies else written(system.L),
         system.constraints,
         system.rolling,
@@ -281,7 +281,7 @@ def digest_of(system: Equations) -> str:
         system.forces,
         *([system.velocities] if system.velocities else []),
     )
-    return sha256("; ".join(map(str, parts)).encode()).hexdigest()
+    return sha256("; ".join(map(str, equations)).encode()).hexdigest()
 
 
 def integration_of(
@@ -307,5 +307,5 @@ def integration_of(
             progress,
             stiff=scales.stiff,
         )
-    observe: Observer | None = progress and (lambda now, left, until, curve: progress(now + until))
+    observe: Observer | None = progress and (lambda now, lower, until, curve: progress(now + until))
     return lambda start, times, local, companion, budget: march(h, start, times, local, budget, observe, companion)

@@ -1,10 +1,10 @@
 """Narrow terms of a system, which change within a small part of the motion: bumps, steps and walls of coordinates and
 velocities.
 
-A solver whose step is longer than such a term misses it. Its argument g, of exp(g), tanh(g) or another function, is followed
-with the motion, as ψ = asinh(g): ψ' grows like 1/distance on the way to g = 0, so that steps shrink before it. For a power Dᵖ
-or log(D), a Lorentzian, ψ = log|D|. A term is narrow if ψ changes by more than MOST where one component moves through its swing
-at the rate there. Newton's method seeks that place, from states of the motion, at zeros and turning points of g.
+A solver whose step is longer than such a term misses it. The argument g of exp(g), tanh(g) or another function is followed with
+the motion as ψ = asinh(g). ψ' is proportional to 1/distance from g = 0, so that steps shrink before it. For a power Dᵖ or
+log(D), a Lorentzian, ψ = log|D|. A term is narrow if ψ changes by more than MOST where one component moves through its swing at
+the rate there. Newton's method seeks that place, from states of the motion, at zeros and turning points of g.
 """
 
 from collections.abc import Mapping, Sequence
@@ -89,13 +89,13 @@ def narrow_parts(
     return tuple(candidate for candidate in candidates if _narrowness(system, values, candidate, states) > MOST)
 
 
-def _with_edge(system: Equations, values: Mapping[Any, Any], part: NarrowPart, states: Array) -> NarrowPart:
+def _with_edge(system: Equations, values: Mapping[Any, Any], feature: NarrowPart, states: Array) -> NarrowPart:
     """Give a condition of a Piecewise the width EDGE of the swing of g: ψ = asinh(g/width)."""
-    if not isinstance(part.term, Relational):
-        return part
-    swing = np.ptp(function_program(system, part.argument).along(values)(states, np.zeros(len(states))))
+    if not isinstance(feature.term, Relational):
+        return feature
+    swing = np.ptp(function_program(system, feature.argument).along(values)(states, np.zeros(len(states))))
     width = sp.Float(EDGE * 10.0 ** np.ceil(np.log10(swing or 1.0)))
-    return part._replace(factor=(width**2 + part.argument**2) ** sp.Rational(-1, 2))
+    return feature._replace(factor=(width**2 + feature.argument**2) ** sp.Rational(-1, 2))
 
 
 def narrowest_words(
@@ -104,28 +104,28 @@ def narrowest_words(
     """Name the narrowest term, the time at which a run first passes it, and the way out; "" if tol was not kept before."""
     if not narrow or len(run.t) < 2:
         return ""
-    narrowness = [_narrowness(system, values, part, run.states) for part in narrow]
-    part, greatest = max(zip(narrow, narrowness, strict=True), key=itemgetter(1))
-    g = function_program(system, part.argument).along(values)(run.states, run.t)[0]
+    narrowness = [_narrowness(system, values, feature, run.states) for feature in narrow]
+    feature, greatest = max(zip(narrow, narrowness, strict=True), key=itemgetter(1))
+    g = function_program(system, feature.argument).along(values)(run.states, run.t)[0]
     passed = np.flatnonzero(g[:-1] * g[1:] <= 0)
     i = int(passed[0] if len(passed) else np.argmin(np.abs(g[:-1])))
     words = (
-        f"{part.term} changes within {scientific(1 / max(greatest, MOST), 1)} of the swing, first between t = {run.t[i]:.6g} and "
-        f"{run.t[i + 1]:.6g} s: a step or a wall so steep is followed exactly as an Event or an Impact"
+        f"{feature.term} changes within {scientific(1 / max(greatest, MOST), 1)} of the swing, first between t = "
+        f"{run.t[i]:.6g} and {run.t[i + 1]:.6g} s: a step or a wall so steep is followed exactly as an Event or an Impact"
     )
     return words if run.horizon >= run.t[i] else ""
 
 
-def _narrowness(system: Equations, values: Mapping[Any, Any], part: NarrowPart, states: Array) -> float:
+def _narrowness(system: Equations, values: Mapping[Any, Any], feature: NarrowPart, states: Array) -> float:
     """Return the largest change of ψ over the swing of a component, at its rate at one place; 0 where D is zero somewhere."""
-    every, g = (*system.c.q, *system.speeds), part.argument
+    every, g = (*system.c.q, *system.speeds), feature.argument
     moving = [i for i, s in enumerate(every) if s in g.free_symbols and np.ptp(states[:, i]) > 0]
     if not moving:
         return 0.0
     slopes = [derivative(g, every[i]) for i in moving]
     bends = [derivative(e, every[i]) for e, i in zip(slopes, moving, strict=True)]
-    outputs = function_program(system, g, part.factor, *slopes, *bends).along(values)
-    logarithmic = part.factor == 1 / g
+    outputs = function_program(system, g, feature.factor, *slopes, *bends).along(values)
+    logarithmic = feature.factor == 1 / g
     start = states[:: max(1, len(states) // _PLACES)]
     times = start[:, len(every)] if states.shape[1] > len(every) else np.zeros(len(start))
     swing, k, greatest, size = np.ptp(states[:, moving], axis=0)[:, None], len(moving), 0.0, 0.0

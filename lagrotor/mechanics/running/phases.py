@@ -131,7 +131,6 @@ class Switched:
 
     @property
     def slipping(self) -> ContactMode:
-        """The mode in which nothing sticks and no gap is closed."""
         return ContactMode((1,) * len(self.surfaces), (0,) * len(self.impacts))
 
     @property
@@ -148,7 +147,6 @@ class Switched:
         return np.concatenate([y[: self.size], [time], mode.signs, mode.closed, [mode.ended]])
 
     def evaluate(self, system: Equations, expressions: Sequence[sp.Expr], at: Moment) -> Array:
-        """Evaluate expressions at one moment of the motion of `system`."""
         program = function_program(system, *expressions)
         return program.along(self.numbers(at.mode))(at.y[None], np.array([at.t]))[:, 0]
 

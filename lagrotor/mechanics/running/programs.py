@@ -55,8 +55,7 @@ class Jet:
 @dataclass(frozen=True, eq=False)
 class Generated:
     """The program of a system's motion, (state, parameters) → d(state)/dt, with names that any language accepts. `states` are
-    the symbols q, v and, where time enters, t; `parameters` the other symbols sorted by name, then the functions and
-    derivatives of functions that are called."""
+    q, v and, where time enters, t. `parameters` are the other symbols by name, then the functions that are called."""
 
     program: Program
     states: tuple[sp.Symbol, ...]
@@ -351,10 +350,10 @@ def tree_motion(system: Equations) -> tuple[list[Stage], sp.Matrix] | None:
 
 @lru_cache(maxsize=64)
 def inertia(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matrix]:
-    """Return stages of W, then W and M + Gᵀ W G; W = 0 where M is regular. Where the constraints bind a massless direction,
-    as the length of a quaternion, (M + Gᵀ W G) a = Q − h − Gᵀ W γ + Gᵀ λ has the same solutions, accelerations and
-    multipliers, and a positive definite matrix. W is the mean mass over the squared length of each row. Random states decide;
-    SingularError where the constraints do not bind the direction."""
+    """Return stages of W, then W and M + Gᵀ W G; W = 0 where M is regular. Where constraints bind a massless direction, as the
+    length of a quaternion, (M + Gᵀ W G) a = Q − h − Gᵀ W γ + Gᵀ λ has the same solutions. Its matrix is positive definite, with
+    the mean mass over the squared length of each row as W. Random states decide; SingularError where the constraints do not
+    bind the direction."""
     (stages, M, _), (G, _) = equations_of_speeds(system), rows_left(system)
     if _regular(system, stages, M):
         return [], sp.zeros(G.rows, G.rows), M

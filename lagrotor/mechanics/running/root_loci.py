@@ -76,7 +76,6 @@ class RootLocus:
 def root_locus(
     system: Equations, at: Mapping[Any, Any], values: Values, letter: sp.Symbol | str, numbers: ArrayLike
 ) -> RootLocus:
-    """Compute the root locus for `System.root_locus`."""
     grid, name = increasing_array("root_locus: numbers", numbers), str(letter)
     rates_at = _rates("root_locus", system, at, values, [name])
     rates_on_grid = [rates_at(x) for x in grid.tolist()]
@@ -125,7 +124,6 @@ class StabilityChart:
 def stability_chart(
     system: Equations, at: Mapping[Any, Any], values: Values, numbers: Mapping[Any, ArrayLike], period: Any = None
 ) -> StabilityChart:
-    """Compute the chart for `System.stability_chart`."""
     if not isinstance(numbers, Mapping) or len({*map(str, numbers)}) != 2:
         raise InputError(f"stability_chart: numbers = {numbers!r} must be {{symbol: numbers, symbol: numbers}}")
     names = [str(letter) for letter in numbers]

@@ -30,7 +30,6 @@ _NOTHING = (
 
 
 def plot(run: SampledMotion, *quantities: Any) -> "RunFigure":
-    """Draw quantities over time for `SystemRun.plot`."""
     from lagrotor.drawing.run_figure import coordinates_figure, curves_figure
 
     check_nonempty("plot", run.t)

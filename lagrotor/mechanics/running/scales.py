@@ -1,6 +1,6 @@
 """The scales of a motion and its conserved quantities, by which errors of a run are measured in any units.
 
-Jacobi's integral and the momenta of cyclic coordinates are checked while a motion is run: a run that does not conserve them
+Jacobi's integral and the momenta of cyclic coordinates are checked while a motion is run. A run that does not conserve them
 within its error estimate is refused. Projection keeps the constraints.
 """
 

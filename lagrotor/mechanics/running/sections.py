@@ -190,7 +190,6 @@ def _stage(run: SampledMotion, i: int, j: int, value: Values, touch: float, obse
 
 
 def poincare(run: SampledMotion, section: sp.Expr, of: Sequence[sp.Expr], direction: int = 1) -> Array:
-    """Evaluate expressions at the crossings, shape (m, len(of))."""
     outputs = vector_of("poincare: of", of, len(of) if isinstance(of, Sequence) else 2)
     crossing_run = crossings(run, section, direction)
     return np.stack([crossing_run.evaluate(e) for e in outputs], axis=1)

@@ -53,8 +53,8 @@ _BETWEEN = 8  # intervals between two samples in which dependent constraints are
 class SystemRun(SampledMotion):
     """A simulated motion of a system, returned by `System.simulate`.
 
-    The errors are relative: of each coordinate to its largest value over the run, of each velocity to its largest value, and
-    both values are at least a thousandth of the value that all kinetic energy would give.
+    The error of a coordinate or velocity is relative to its largest value over the run, or to a thousandth of the value that
+    all kinetic energy would give, if that is larger.
 
     Attributes
     ----------
@@ -230,7 +230,7 @@ class SystemRun(SampledMotion):
         return sections.poincare(self, section, of, direction)
 
     def lyapunov(self) -> Lyapunov:
-        """Compute the largest Lyapunov exponent over the time of the run; for a regular motion it falls like log(t)/t.
+        """Compute the largest Lyapunov exponent over the time of the run, ∝ log(t)/t for a regular motion.
 
         Returns
         -------

@@ -44,9 +44,8 @@ def singular_position(
 
 
 def unbounded_force(system: Equations, values: Mapping[Any, Any], start: Array, state: Array, sizes: Array) -> str:
-    """Return the words for a force that grows without bound, as at a collision; "" for any other. The acceleration at the
-    state has grown since the start, and would change a velocity by its size in 10⁻⁸ of the time in which the motion covers
-    its sizes."""
+    """Return the words for a force that grows without bound, as at a collision; "" for any other. The acceleration has grown
+    since the start, and changes a velocity by its size in 10⁻⁸ of the typical time."""
     n, program = len(system.c.q), function_program(system, *system.c.a)
     first, change = (_at(program, system, values, y)[:, 0] for y in (start, state))
     i, typical = int(np.argmax(np.abs(change))), float(np.max(sizes[n:]) / np.max(sizes[:n]))

@@ -1,10 +1,10 @@
 """Small motion about an equilibrium or a steady motion in numbers: x' = A x + B u, y = C x + D u, under any constraints.
 
-With the motion s' = f(s, u) of the state s = (q, v), and the constraints Φ(s) = (g, G v + b) = 0, small displacements are δs =
-T x, T a basis of the null space of ∂Φ/∂s in which the independent states x are their own names. Then A = ∂f/∂s T and B = ∂f/∂u,
-in the rows of x. Derivatives are by a complex step, which rounds no difference (Squire & Trapp 1998).
+The motion is s' = f(s, u) with the state s = (q, v) under the constraints Φ(s) = (g, G v + b) = 0. Small displacements are
+δs = T x. The columns of T span the null space of ∂Φ/∂s; its rows at the independent states x are the unit matrix. Then
+A = ∂f/∂s T and B = ∂f/∂u, in the rows of x. Derivatives are by a complex step, which rounds no difference (Squire & Trapp 1998).
 
-Schwab & Meijaard, Linearized dynamics of nonholonomic systems (2003) for what rolls.
+Rolling: Schwab & Meijaard, Linearized dynamics of nonholonomic systems (2003).
 """
 
 from collections.abc import Mapping, Sequence

@@ -1,9 +1,10 @@
 """Switches of a motion: events, impacts, and the surfaces on which a force jumps.
 
-An impact on a gap g(q, t) ≥ 0 changes the velocities along M⁻¹ Gᵀ alone, G = ∂g/∂q, so that (G v + b)⁺ = −e (G v + b)⁻; all
-constraints hold before and after it (Pfeiffer & Glocker, Multibody Dynamics with Unilateral Contacts, ch. 7). A force with
-sign(w) or |w| jumps on w = 0. It is dry friction where it is −F sign(w) ∂w/∂v: there it may hold w at zero, with a reaction of
-at most F (Filippov, Differential Equations with Discontinuous Righthand Sides, §4).
+An impact on a gap g(q, t) ≥ 0 changes the velocities along M⁻¹ Gᵀ alone, G = ∂g/∂q, so that (G v + b)⁺ = −e (G v + b)⁻. All
+constraints hold before and after it. Pfeiffer & Glocker, Multibody Dynamics with Unilateral Contacts, ch. 7.
+
+A force with sign(w) or |w| jumps on w = 0. The force −F sign(w) ∂w/∂v is dry friction: it may hold w at zero, with a reaction
+of at most F. Filippov, Differential Equations with Discontinuous Righthand Sides, §4.
 """
 
 from collections.abc import Sequence
@@ -138,8 +139,8 @@ def check_events(system: Equations, events: Any) -> tuple[Event | Impact, ...]:
 
 
 def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
-    """Return the system with a symbol for each sign that jumps where the state passes a surface, and these surfaces. sign(w)
-    → σ, |w| → σ w, Heaviside(w) → (1 + σ)/2, Max(a, b) → (a + b + σ (a − b))/2, Min(a, b) likewise with −σ."""
+    """Return the system with a symbol σ for each sign that jumps where the state passes a surface, and these surfaces. sign(w)
+    → σ, |w| → σ w, Heaviside(w) → (1 + σ)/2, Max(a, b) → (a + b + σ (a − b))/2, Min(a, b) with −σ."""
     moving = {*system.c.q, *system.c.v, *system.reactions, t}
     L = getattr(system.lagrangian, "rest", system.lagrangian)  # for bodies, the terms added to their energy
     places = [*system.forces, system.dissipation, L]
