@@ -127,9 +127,9 @@ class EstimatedRun:
         if error > tol:
             apart = error / self.local
             reason = (
-                f"neighbouring motions part about {scientific(apart)}-fold, and tol can be meant only up to"
+                f"neighbouring motions separate {scientific(apart)}-fold, and tol is kept only up to"
                 if apart > 1e5
-                else "it is below what the solver can give after"
+                else "the solver cannot keep it after"
             )
             sentences.append(
                 f"{name} does not keep tol = {tol:g}: the estimated error is {scientific(error, 1)}; {reason} "
@@ -272,7 +272,7 @@ def _asking(evolution: Evolution, times: Array, tol: float) -> Generator[Leg, St
     unavoidable = ROUNDING.value * (START.value + turns)
     if unavoidable > UNKNOWN:
         raise IntegrationError(
-            f"the run has {turns:.1e} turns, after which rounding leaves nothing known: take a shorter run"
+            f"the run has {turns:.1e} turns, over which rounding errors exceed the states: take a shorter run"
         )
     if _LEAST_A_TURN * turns > MOST_EVALUATIONS:
         raise IntegrationError(
@@ -348,7 +348,7 @@ def _compared(course: _Course, local: float, companion: bool) -> Generator[Leg, 
             refusal = IntegrationError(f"a value is not finite: {way_out}")
         elif violations and (violation := _largest(violations[1])) > KEPT.value * estimate:
             refusal = IntegrationError(
-                f"what the motion conserves is off by as much as an error of {violation:.1e} makes, although {estimate:.1e} is "
+                f"the conserved quantities change by as much as for an error of {violation:.1e}, although {estimate:.1e} is "
                 f"estimated: the run followed another motion; {way_out}"
             )
     return _Pair(loose, tight, np.where(together, grown, np.maximum(errors, grown)), lost, refusal)

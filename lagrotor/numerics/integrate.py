@@ -45,7 +45,7 @@ class Problem:
 def check_tolerance(tol: float, caller: str = "simulate") -> float:
     """Return `tol` as a float, or raise InputError outside [1e-13, 0.1]."""
     if not (isinstance(tol, int | float | np.floating) and TIGHTEST <= tol <= 0.1):
-        raise InputError(f"{caller}: tol = {tol!r} must lie between {TIGHTEST:g}, what doubles can carry, and 0.1")
+        raise InputError(f"{caller}: tol = {tol!r} must lie between {TIGHTEST:g}, the limit of doubles, and 0.1")
     return float(tol)
 
 

@@ -17,7 +17,7 @@ def turn_between(u: Array, v: Array) -> Array:
     InputError where v is opposite to u, since no rotation is the shortest."""
     n, c = np.cross(u, v), (u * v).sum(-1)[..., None, None]
     if (1 + c < 1e-12).any():
-        raise InputError("turn_between: an axis turns round between two samples; take more samples")
+        raise InputError("turn_between: an axis reverses between two samples; take more samples")
     rotation: Array = c * np.eye(3) + skew_matrix(n) + n[..., :, None] * n[..., None, :] / (1 + c)
     return rotation
 
@@ -70,7 +70,7 @@ def between_samples(t: Array, axes: Array, rates: Array, times: Array) -> tuple[
     """Interpolate unit axes and their tangent rates (k, n, 3) at other times (m,) by Hermite cubics, to O(h⁴). Raises
     InputError for times outside the samples, or fewer than two samples."""
     if len(t) < 2 or times.min() < t[0] or times.max() > t[-1]:
-        raise InputError("between_samples: the run needs two times at least, and holds no time outside them")
+        raise InputError("between_samples: the run needs at least two times, and all times must lie between them")
     from scipy.interpolate import CubicHermiteSpline
 
     curve = CubicHermiteSpline(t, axes, rates, axis=1)

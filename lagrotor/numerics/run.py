@@ -18,7 +18,7 @@ from lagrotor.result_display import Shown, scientific
 
 _SAYS = {
     "end": "the last time was reached",
-    "lost": "the last time was reached, but neighbouring motions part: nothing is known of the states",
+    "lost": "the last time was reached, but neighbouring motions separate: the states are unknown",
     "budget": "its evaluations are spent",
     "singular": "a singular position was reached",
     "event": "an event ends it",
@@ -39,7 +39,7 @@ class Ending:
     def __post_init__(self) -> None:
         valid = isinstance(self.at, float) and self.at == self.at and type(self.reason) is str
         if self.kind not in _SAYS or not valid:
-            raise InputError(f"Ending: {self.kind!r} at {self.at!r} for {self.reason!r} is none")
+            raise InputError(f"Ending: {self.kind!r} at {self.at!r} for {self.reason!r} is no valid ending")
 
     @property
     def early(self) -> bool:
@@ -232,7 +232,7 @@ class Run(Shown):
 def check_nonempty(where: str, t: Array) -> None:
     """Raise InputError for a run without times."""
     if not len(t):
-        raise InputError(f"{where}: the run has no times, as that of crossings where there are none")
+        raise InputError(f"{where}: the run has no times, as for a section that is never crossed")
 
 
 class Saved(NamedTuple):

@@ -409,7 +409,7 @@ def adams(segment: Segment, error: float) -> Stretch:
         share = (t - segment.begin) / (right - segment.begin)
         exhausted = evaluations > min(segment.budget, _PATIENCE + share * segment.budget)
         if t < right and (exhausted or in_vain == _IN_VAIN or t + h == t):
-            reason = f"steps of {h:.1e} leave as much as longer ones"
+            reason = f"steps of {h:.1e} have no smaller error than longer ones"
             reason = f"{evaluations} evaluations spent" if exhausted else reason
             reached = Stretch(states_on_constraints(segment.project, states[:count]), y, evaluations)
             raise StopError(t, reason, reached, cause="budget" if exhausted else "stopped")

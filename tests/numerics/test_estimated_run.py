@@ -265,7 +265,7 @@ def test_between_two_events_that_differ_only_what_is_read_there_is_compared() ->
 
 def test_of_too_many_turns_nothing_is_begun() -> None:
     made = Made()
-    with pytest.raises(IntegrationError, match=r"1\.0e\+300 turns, after which rounding leaves nothing known"):
+    with pytest.raises(IntegrationError, match=r"1\.0e\+300 turns, over which rounding errors exceed the states"):
         made.run(1e-6, np.array([0.0, 1e300]))
     assert not made.locals
 
@@ -315,7 +315,7 @@ def test_where_two_have_parted_nothing_is_known_from_that_time_on() -> None:
     assert run.ending.kind == "lost" and run.horizon < run.ending.at < 60 and run.t[-1] == 200
     assert run.t[at] == run.ending.at and run.errors[at] == run.errors[-1] == UNKNOWN > run.errors[at - 1] > LOST / 10
     with pytest.warns(
-        LagrotorWarning, match=r"neighbouring motions part .*, and tol can be meant only up to t = [\d.]+ s$"
+        LagrotorWarning, match=r"neighbouring motions separate .*, and tol is kept only up to t = [\d.]+ s$"
     ):
         run.warn_unless_kept("made", 1e-6)
 

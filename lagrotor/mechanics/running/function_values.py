@@ -115,8 +115,8 @@ def put_functions(where: str, system: Kind, values: Any, others: Sequence[sp.Exp
         if isinstance(resolved, sp.Lambda):
             if moving := resolved.free_symbols & {*system.c.q, *system.c.v, *system.c.a, t}:
                 raise InputError(
-                    f"{where}: {name} = {resolved.expr} contains {', '.join(sorted(map(str, moving)))}, of which "
-                    f"{applied[0]} is no function: write it into the system, {name} with more arguments"
+                    f"{where}: {name} = {resolved.expr} contains {', '.join(sorted(map(str, moving)))}, but "
+                    f"{applied[0]} does not depend on it: write it into the system, {name} with more arguments"
                 )
             lambdas[name] = resolved
         numbers[name] = resolved
@@ -180,7 +180,7 @@ def _value(where: str, name: str, places: set[tuple[sp.Expr, ...]], value: Any) 
         if letters is None or not all(a.is_Symbol for a in letters) or len({*letters}) < count:
             if body.free_symbols & set().union(*(a.free_symbols for place in places for a in place)):
                 raise InputError(
-                    f"{where}: {name} = {body} is of no argument that is a letter alone, as in "
+                    f"{where}: {name} = {body} has no argument that is a symbol alone, as in "
                     f"{name}({min(', '.join(map(str, place)) for place in places)}): "
                     "give sympy's Lambda(x, expression in x)"
                 )

@@ -70,7 +70,7 @@ def check_values(where: str, system: Equations, values: Values, others: Iterable
         if wrong or (letter.is_integer and value != round(value)):
             kind = "a whole number" if letter.is_integer and not wrong else "positive" if value < 0 else "negative"
             raise InputError(
-                f"{where}: {letter} = {value:g} was declared {kind}: what is derived of it holds for these alone"
+                f"{where}: {letter} = {value:g} was declared {kind}: derived results hold only for such values"
             )
     numbers = {
         s: sp.sympify(value, strict=True)
@@ -102,11 +102,11 @@ def check_pole(where: str, system: Equations, values: Values, state: Array) -> N
     if (lost := np.abs(poles) <= _POLE).any():
         raise SingularError(
             f"{where}: {kinematics.poles[int(np.argmax(lost))]} = 0 there, where {speeds} do not give the velocities "
-            "of the coordinates: start beside it, or turn by unit quaternions, which have no pole: frame.ball(…)"
+            "of the coordinates: start near it, or turn by unit quaternions, which have no pole: frame.ball(…)"
         )
     if not np.isfinite(velocities_along(system, values, at, now)).all():
         raise SingularError(
-            f"{where}: {speeds} do not give the velocities of the coordinates there: det [A; G] = 0; start beside it"
+            f"{where}: {speeds} do not give the velocities of the coordinates there: det [A; G] = 0; start near it"
         )
 
 
@@ -129,7 +129,7 @@ def check_inertia(where: str, system: Equations, values: Values, state: Array) -
         names = ", ".join(str(v) for v, weight in zip(system.speeds, idle, strict=True) if weight > 0.2 * idle.max())
         raise SingularError(
             f"{where}: the mass matrix is singular at the start (det M = 0): no mass moves with {names}, and no constraint "
-            "gives it; use fewer coordinates, give what it moves a mass, or start beside a pole"
+            "determines it; use fewer coordinates, give its body a mass, or start away from a pole"
         )
     if np.linalg.svd(M, compute_uv=False)[-1] <= _RANK * np.abs(M).max() and tree_motion(system) is not None:
         raise SingularError(

@@ -432,8 +432,8 @@ def _switch(h: Switched, at: Moment, hit: Hit, gone: float | None) -> Moment:
     elif kind == "pull":
         raise StopError(
             at.t,
-            f"{h.surfaces[i].bound} becomes negative: what rubs would pull, and is let go or held on its other side; a guide "
-            "that holds on both sides rubs by |reaction(…)|",
+            f"{h.surfaces[i].bound} becomes negative: the rubbing contact would pull, and opens or touches on its "
+            "other side; a guide that holds on both sides rubs by |reaction(…)|",
         )
     elif kind in ("above", "below"):
         mode = mode.with_value("signs", i, -1 if kind == "above" else 1)
@@ -491,10 +491,10 @@ def _sign_beyond(h: Switched, at: Moment, i: int) -> int:
     if below < -size and above <= size:
         return -1
     if above > size and below < -size:
-        raise StopError(at.t, f"on {h.surfaces[i].argument} = 0 the motion may go on to either side")
+        raise StopError(at.t, f"on {h.surfaces[i].argument} = 0 the motion may continue to either side")
     if h.surfaces[i].bound is None:
         raise StopError(
-            at.t, f"the motion stays on {h.surfaces[i].argument} = 0, where a force jumps that is no dry friction"
+            at.t, f"the motion stays on {h.surfaces[i].argument} = 0, where a force jumps that is not dry friction"
         )
     return 0
 

@@ -151,7 +151,7 @@ def _program(
     numbers = set().union(*(e.atoms(sp.Float) for e in (*(e for _, e in stages), *outputs)))
     if lost := [c for c in numbers if c != 0 and float(c) in (0.0, math.inf, -math.inf)]:
         raise InputError(
-            f"{sp.Float(lost[0], 3)} is beyond what a double holds: sympy takes it out of an exponent with decimals, as in "
+            f"{sp.Float(lost[0], 3)} is outside the range of doubles: sympy separates it from an exponent with decimals, as in "
             "exp(x + 1838.0); write the exponent with symbols, and give them values"
         )
     program = Program(
@@ -463,7 +463,7 @@ def parameter_values(program: Generated, values: Mapping[Any, Any], where: str =
         raise InputError(f"{where}: {', '.join(twice)} with two values, of the symbol and of its name: give one")
     if moving := [str(s) for s in program.states if str(s) in by_name]:
         raise InputError(
-            f"{where}: values give {', '.join(moving)} a value, which moves: a start is given by q0 and v0, a time by t"
+            f"{where}: values give {', '.join(moving)} a value, which varies in time: give a start as q0 and v0, a time as t"
         )
     if missing := [name for name in program.letters if name not in by_name]:
         misspelt = near(missing[0], by_name.keys() - {str(p) for p in program.parameters})

@@ -76,7 +76,7 @@ def clock_windows(system: Equations, values: Values, times: Array) -> tuple[Wind
         return brief_windows(lambda looks: outputs(looks[:, None], looks), float(times[0]), float(times[-1]))
     except (ArithmeticError, ValueError) as refusal:
         raise InputError(
-            f"simulate: a function of time refuses a time between t = {times[0]:g} and {times[-1]:g} s ({refusal}): end the run "
+            f"simulate: a function of time fails at a time between t = {times[0]:g} and {times[-1]:g} s ({refusal}): end the run "
             "before, or return a number"
         ) from None
 

@@ -128,7 +128,7 @@ def state_space(
     if np.abs(rate[n:]).max() > least:
         rates = system.c.a if system.kinematics is None else [f"{u}'" for u in system.speeds]
         rates_text = ", ".join(f"{a} = {x:.3g}" for a, x in zip(rates, rate[n:], strict=True) if abs(x) > least)
-        raise SingularError(f"{where}: {dict(at)} is no steady motion: {rates_text} is left over; start from one")
+        raise SingularError(f"{where}: {dict(at)} is no steady motion: {rates_text}, not zero; give a steady motion")
     A, P, inverse = local_slope(system, start, rate, J)
     later = start + np.concatenate([rate[:n], np.zeros(d - n)]) / size
     for joint in system.ball_joints:  # a turn about a fixed axis
@@ -138,7 +138,7 @@ def state_space(
     later_A = local_slope(system, later, onward, J)[0]
     if np.abs(onward[n:]).max() > least or np.abs(later_A - A).max() > _SAME * max(1.0, float(np.abs(A).max())):
         raise InputError(
-            f"{where}: what moves there enters the equations, whose coefficients change with time: use coordinates that "
+            f"{where}: the coefficients of the linear equations change with time: use coordinates that "
             "turn along with the motion"
         )
     free, T = tangent_space(where, system, numbers, start)
@@ -170,7 +170,7 @@ def point_state(where: str, system: Equations, at: Mapping[Any, Any], values: Va
     if strangers := [str(s) for s in point if s not in {*c.q, *system.speeds}]:
         names = "" if system.kinematics is None else f" ({', '.join(map(str, system.speeds))})"
         raise InputError(
-            f"{where}: {', '.join(strangers)} in the point: it gives coordinates and velocities{names}; others are values"
+            f"{where}: {', '.join(strangers)} in the point: give it coordinates and velocities{names}, other symbols in values"
         )
     entries = [expression(f"{where}: {s}", point.get(s, 0)) for s in (*c.q, *system.speeds)]
     inside = {s for e in entries for s in e.free_symbols}
@@ -207,7 +207,7 @@ def motion_slope(where: str, program: Generated, values: Values, inputs: Sequenc
     _, jumping = _parts(program)
     if jumping:
         raise InputError(
-            f"{where}: {min(jumping, key=str)} has no derivative everywhere: write the case that holds there"
+            f"{where}: {min(jumping, key=str)} has no derivative everywhere: write only the case that applies there"
         )
     numbers, d = parameter_values(program, values, where), len(program.states)
     calls = [f for f in numbers if callable(f)]

@@ -157,8 +157,8 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
         if root.exp == sp.Rational(-1, 2) and _jumps_at_zero(system.push, root.base, system.c.v):
             raise InputError(
                 f"simulate: {root} is not defined where {root.base} = 0, and dry friction in several directions at once, "
-                f"which sticks there, is not run: add the square of a small speed under the root, {root.base} + v_0**2; what "
-                "would stick under a load f below the bound F then creeps at v_0 f/sqrt(F**2 - f**2)"
+                f"which sticks there, is not supported: add the square of a small speed under the root, {root.base} + v_0**2; "
+                "a contact that would stick under a load f below the bound F then creeps at v_0 f/sqrt(F**2 - f**2)"
             )
     if not substitutions:
         return system, ()

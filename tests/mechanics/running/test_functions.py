@@ -105,7 +105,7 @@ def test_what_is_no_function_is_refused_in_words() -> None:
         (([1, 2], [2, np.nan]), "finite"),
         (([1, 2, 3], [2, 3]), "3 and 2"),
         (sp.Function("W")(x), "without a value"),
-        (v, "no function"),
+        (v, "does not depend on it"),
         (sp.Symbol("zz") * x, "zz without a value"),
         (sp.Lambda((x, v), x), "has 2 arguments"),
         (lambda s: s**2, r"U', which a callable for U alone does not give: give values={U: \(U, U'\)}"),
