@@ -112,7 +112,7 @@ class EstimatedRun:
         return {name: getattr(self, name) for name in ("t", "errors", "horizon", "evaluations", "ending")}
 
     def by_clock(self, begin: float, unit: float) -> "EstimatedRun":
-        """Return the run on a clock (s) that shows `begin` at time 0, the unit of time being `unit` s."""
+        """Return the run on another clock, which shows `begin` (s) at time 0 and has the unit of time `unit` (s)."""
 
         def at(time: float) -> float:
             return begin + unit * time
@@ -169,7 +169,7 @@ class _Pair:
 
     @property
     def merit(self) -> tuple[bool, float, float, int, float]:
-        """Sort key, the least being best: not refused, small error, lost late, many times, small error up to a stop."""
+        """A sort key, smallest for the best pair: not refused, small error, lost late, many times, small error up to a stop."""
         estimate = float(np.max(self.errors, initial=0.0))
         return self.refusal is not None, self.error, -self.lost, -len(self.errors), estimate
 
@@ -222,9 +222,9 @@ def perturbed_state(y0: Array, epsilons: float = 1.0) -> Array:
 
 
 def estimate_run(evolution: Evolution, times: Array, tol: float) -> EstimatedRun:
-    """Integrate a motion at increasing times (n,) so that the estimated error is below `tol`, or return the best integration.
-    Raises IntegrationError with its evaluations, where conserved quantities change, no time is reached, or rounding alone
-    over so many turns exceeds the size of the states."""
+    """Integrate a motion at increasing times (n,) so that the estimated error is below `tol`, or as well as possible. Raises
+    IntegrationError where conserved quantities change, no time is reached, or the rounding of so many turns exceeds the
+    states."""
 
     def alone(legs: Mapping[int, Leg]) -> dict[int, Stretch | StopError]:
         try:
@@ -244,29 +244,29 @@ def estimate_runs(
     tol: float,
     integrate: Callable[[Mapping[int, Leg]], Mapping[int, Stretch | StopError]],
 ) -> list[EstimatedRun | IntegrationError]:
-    """Estimate many motions together; `integrate` maps {number: leg} to {number: stretch or stop}. A refusal takes the place
-    of a run."""
-    askings = [_asking(evolution, t, tol) for evolution, t in zip(evolutions, times, strict=True)]
+    """Estimate many motions together. `integrate` maps {number: leg} to {number: stretch or stop}. An IntegrationError takes
+    the place of a run that is refused."""
+    requests = [_requests(evolution, t, tol) for evolution, t in zip(evolutions, times, strict=True)]
     ended: dict[int, EstimatedRun | IntegrationError] = {}
-    answers: Mapping[int, Stretch | StopError | None] = dict.fromkeys(range(len(askings)))
+    answers: Mapping[int, Stretch | StopError | None] = dict.fromkeys(range(len(requests)))
     while answers:
         legs = dict[int, Leg]()
         for i, answer in answers.items():
             try:
                 # The first answer is None: it starts the generator.
-                legs[i] = askings[i].throw(answer) if isinstance(answer, StopError) else askings[i].send(answer)  # type: ignore[arg-type]
+                legs[i] = requests[i].throw(answer) if isinstance(answer, StopError) else requests[i].send(answer)  # type: ignore[arg-type]
             except StopIteration as end:
                 ended[i] = end.value
             except IntegrationError as refusal:
                 ended[i] = refusal
         answers = integrate(legs) if legs else {}
-    return [ended[i] for i in range(len(askings))]
+    return [ended[i] for i in range(len(requests))]
 
 
-def _asking(evolution: Evolution, times: Array, tol: float) -> Generator[Leg, Stretch, EstimatedRun]:
-    """Yield integrations in pairs until a pair keeps `tol`: the first at the largest useful local error, the next as the
-    error requires. Local errors add up to less in a short run, so its first local error is larger. After a refusal looser
-    pairs follow up to GIVEN_UP. A pair whose looser integration exists already costs one integration only."""
+def _requests(evolution: Evolution, times: Array, tol: float) -> Generator[Leg, Stretch, EstimatedRun]:
+    """Yield integrations in pairs until a pair keeps `tol`, then return the run. The first pair has the largest useful local
+    error, the next the one that the error requires. Local errors add up to less in a short run, so its first one is larger.
+    After a refusal looser pairs follow up to GIVEN_UP."""
     course = _Course(evolution, times)
     turns = float(course.turns[-1])
     unavoidable = ROUNDING.value * (START.value + turns)
@@ -281,12 +281,12 @@ def _asking(evolution: Evolution, times: Array, tol: float) -> Generator[Leg, St
         )
     shortness = 10 / max(turns, 10 / SHORTEST.value)
     local = max(min(tol * FIRST.value * max(1.0, shortness), LOOSEST.value), APART.value * TIGHTEST)
-    best = pair = yield from _compared(course, local, True)
+    best = pair = yield from _compare(course, local, True)
     final = evolution.has_other_coordinates
     while pair.refusal and not (final or local > GIVEN_UP.value or _at_singular(pair.refusal)):
         again = pair.loose.stop is None  # then the looser integration is compared with one looser still
         local *= APART.value if again else APART.value**2
-        pair = yield from _compared(course, local, pair.loose.companion ^ again)
+        pair = yield from _compare(course, local, pair.loose.companion ^ again)
         best = min(pair, best, key=lambda candidate: candidate.merit)
     pair = best
     while unavoidable <= tol < pair.error and not pair.refusal and not _hopeless(course, pair):
@@ -295,7 +295,7 @@ def _asking(evolution: Evolution, times: Array, tol: float) -> Generator[Leg, St
         local, companion = (pair.tight.local, pair.tight.companion) if third else (local, True)
         if local / APART.value <= 1.1 * course.refused or local >= pair.loose.local:
             break
-        pair = yield from _compared(course, local, companion)
+        pair = yield from _compare(course, local, companion)
         best = min(pair, best, key=lambda candidate: candidate.merit)
     refusal = best.refusal
     if refusal and not (isinstance(refusal, StopError) and len(best.errors) > 1):
@@ -308,7 +308,7 @@ def _at_singular(refusal: IntegrationError) -> bool:
     return isinstance(refusal, StopError) and refusal.cause == "singular"
 
 
-def _compared(course: _Course, local: float, companion: bool) -> Generator[Leg, Stretch, _Pair]:
+def _compare(course: _Course, local: float, companion: bool) -> Generator[Leg, Stretch, _Pair]:
     """Compare the integrations at a local error and at 1/APART of it; refuse the better one if conserved quantities change."""
     evolution = course.evolution
     loose = yield from course.integration(local, companion)
@@ -335,7 +335,7 @@ def _compared(course: _Course, local: float, companion: bool) -> Generator[Leg, 
     lost = first_time(t, (difference + least > LOST.value) & together)
     conserved = evolution.conservation_error
     violations = [conserved(t, states) for states in (looser, better)] if conserved and finite else []
-    factor = _alikeness(violations, rounding[-1])
+    factor = _shared_error_factor(violations, rounding[-1])
     errors = factor * difference + least
     grown = errors_up_to(t, np.where(together, errors, 0.0), evolution.turn, evolution.sudden)
     refusal: IntegrationError | None = stop
@@ -354,9 +354,9 @@ def _compared(course: _Course, local: float, companion: bool) -> Generator[Leg, 
     return _Pair(loose, tight, np.where(together, grown, np.maximum(errors, grown)), lost, refusal)
 
 
-def _alikeness(defects: Sequence[Array], rounding: float) -> float:
-    """Return a factor ≥ 1 for the difference of two runs that share an error, measured by the conserved quantities. SAFETY
-    allows an error of the better run up to half the difference. Defects that are mostly rounding tell nothing."""
+def _shared_error_factor(defects: Sequence[Array], rounding: float) -> float:
+    """Return the factor, at least 1, by which two runs share an error that their difference hides. The conserved quantities
+    measure it, unless their change is mostly rounding. SAFETY allows an error of the better run up to half the difference."""
     if not defects or _largest(defects[1]) < 10 * rounding:
         return 1.0
     return max(1.0, 2 * _largest(defects[1]) / max(_largest(defects[1] - defects[0]), rounding))

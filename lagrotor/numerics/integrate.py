@@ -62,10 +62,9 @@ def check_progress(progress: object) -> None:
 
 
 def integrate(problem: Problem, times: Array, tol: float, solver: SegmentSolver | None = None) -> Stretch:
-    """Integrate from `begin` through increasing times (n,) with a local error `tol`, by the given solver or the fastest of
-    the core. In the time s = t − at a pulse far shorter than the spacing of doubles near `at` is still resolved. The run is
-    cut at the edges of its windows, in which steps are bounded, so no tolerance can miss a brief force. Raises StopError with
-    the states up to the stop."""
+    """Integrate from `begin` through increasing times (n,) with a local error `tol`, by the given solver or the fastest of the
+    core. In the time s = t − at, a pulse far shorter than the spacing of doubles near `at` is resolved. The run is cut at the
+    edges of its windows, so no tolerance can miss a brief force. StopError holds the states up to the stop."""
     t_eval = times - problem.at
     begin, end = problem.begin - problem.at, float(t_eval[-1])
     y, evaluations = problem.start, 0
@@ -131,9 +130,9 @@ class _Progress:
 
 
 def by_fastest(segment: Segment, pulsed: bool, tol: float) -> Stretch:
-    """Solve a segment by the fastest solver at this tolerance; where that stops, DOP853 continues for a while. The fast
-    solver is tried again once DOP853 has taken as many evaluations as the last trial lost, if the rest would cost more than
-    that. All trials but the last together lose no more evaluations than DOP853 takes."""
+    """Solve a segment by the fastest solver at this tolerance, or by DOP853 for a while where that solver stops. The fast
+    solver is tried again when DOP853 has taken as many evaluations as the last trial lost. All trials but the last together
+    lose no more evaluations than DOP853 takes."""
     # From a rate that is not finite a solver makes a step that is not finite, and repeats it for ever.
     by_dop853, progress = pulsed and tol < CROSSOVER.value, _Progress(segment)
     progress.evaluations = 1

@@ -86,7 +86,7 @@ class _Arrays(_Printer, SciPyPrinter):  # type: ignore[misc]
 
 
 class _Digits(_Printer, MpmathPrinter):  # type: ignore[misc]
-    """For mpmath's numbers."""
+    """For numbers of mpmath."""
 
     module = "mpmath"
     _print_Float = MpmathPrinter._print_Float
@@ -130,7 +130,7 @@ def _assignments(stages: Sequence[Stage], outputs: Sequence[sp.Expr], show: _Pri
 
 
 def program_source(program: Program, module: str = "math") -> str:
-    """Return the source of a function (arguments) → list of outputs."""
+    """Return the source of a function of the arguments that returns the list of outputs."""
     stages, outputs = reduce_common(program)
     show = _PRINTERS[module]()
     lines = _assignments(stages, outputs, show, program.shared)
@@ -185,7 +185,8 @@ def rhs_source(
 
 
 def rhs_text(body: list[str], fixed: list[str], names: list[str], outputs: int) -> str:
-    """Return the source of (parameters) → rhs(s, y) with the lines `body`; the lines `fixed` are evaluated once."""
+    """Return the source of a function of parameters that returns rhs(s, y) with the lines `body`; the lines `fixed` are
+    evaluated once."""
     source = [
         "from math import *",
         "from lagrotor.numerics.segment import LOST, OutsideError",

@@ -29,8 +29,7 @@ _SAYS = {
 @dataclass(frozen=True)
 class Ending:
     """The ending of a run: its kind, explained in _SAYS, the time `at` in s where it differs from the last time, and a
-    reason.
-    """
+    reason."""
 
     kind: Literal["end", "lost", "budget", "singular", "event", "stopped"] = "end"
     at: float = inf
@@ -110,7 +109,7 @@ class Run(Shown):
         return {}
 
     def _columns(self) -> Iterator[tuple[str, Array, str]]:
-        """Yield the name, the values (n,) and the unit of each component of each quantity."""
+        """Yield the name, the values (n,) and the unit of each component."""
         for name, quantity in self.quantities().items():
             values = np.moveaxis(quantity.values, quantity.axes.index("t"), -1)
             others = [axis for axis in quantity.axes if axis != "t"]

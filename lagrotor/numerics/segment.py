@@ -18,8 +18,8 @@ LOST = ValueError, ZeroDivisionError, OverflowError  # raised by arithmetic outs
 @dataclass(frozen=True)
 class Segment:
     """The problem y' = rhs(s, y) from the state `start` at the time `begin` to `until`, with states at `t_eval`. No step is
-    longer than `longest` or half of `time_to_singular` of the state where it begins. `project` brings a state (d,), or states
-    (d, n), back onto the constraints. The solver stops after `budget` evaluations."""
+    longer than `longest`, or than half the time from its first state to a singular position. `project` brings a state (d,), or
+    states (d, n), back onto the constraints. The solver stops after `budget` evaluations."""
 
     rhs: RightHandSide
     start: Array

@@ -48,8 +48,8 @@ _IN_VAIN = 3  # times that a step is shortened at one place without a smaller er
 
 
 def dop853_steps(segment: Segment, error: float) -> Iterator[Any]:
-    """Yield scipy's solver after each step at a local error `error`, relative and absolute; a state is projected before the
-    next step."""
+    """Yield scipy's solver after each step at a local error `error`, relative and absolute, and project the state before the
+    next."""
     from scipy.integrate import DOP853
 
     project = segment.project
@@ -377,9 +377,9 @@ def _first_nodes(
 
 
 def adams(segment: Segment, error: float) -> Stretch:
-    """Solve the segment by Adams predictor and corrector in equal steps, which change where their difference requires it.
-    StopError also says that the evaluations far exceed the completed share of the budget, or that shorter steps have no smaller
-    error, since the right-hand side is not accurate enough."""
+    """Solve the segment by Adams predictor and corrector in equal steps, whose length changes with their difference. StopError
+    says that the cost far exceeds the completed share of the budget, or that shorter steps have no smaller error. Then the
+    right-hand side is not accurate enough."""
     t_eval, right, y, t, longest = segment.t_eval, segment.until, segment.start, segment.begin, segment.longest
     q, limit = adams_order(error), min(100 * error, 1e-3)  # at order 10, steps with a larger difference are unstable
     h = min(

@@ -21,7 +21,8 @@ _MOST = 64  # functions of one kind in the memory of a process
 
 @dataclass(frozen=True, eq=False)
 class GeneratedFunction:
-    """A function of arguments for which `derive` returns the source, whose last definition it is; `cases` are stored."""
+    """A function whose source `derive` returns for given arguments; it is the last function of that source. The sources for
+    `cases` are stored."""
 
     derive: Callable[..., str]
     cases: tuple[tuple[Any, ...], ...]

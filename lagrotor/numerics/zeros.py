@@ -43,7 +43,7 @@ def zeros_between(
     zero. `noise` is the rounding of the values, which no halving resolves."""
     roots: list[tuple[float, int, int]] = []
     hidden = _search(functions, lower, upper, touch, noise, roots, _HALVINGS)
-    roots = _each_once(sorted(roots), _SLACK * (upper - lower))
+    roots = _distinct(sorted(roots), _SLACK * (upper - lower))
     t, index, direction = (np.array(column) for column in zip(*roots, strict=True)) if roots else (np.zeros(0),) * 3
     return Zeros(t, index.astype(int), direction.astype(int), hidden)
 
@@ -132,7 +132,7 @@ def _real_roots(series: Array) -> list[float]:
     return sorted(float(x) for x in np.clip(real, -1, 1))
 
 
-def _each_once(roots: list[tuple[float, int, int]], near: float) -> list[tuple[float, int, int]]:
+def _distinct(roots: list[tuple[float, int, int]], near: float) -> list[tuple[float, int, int]]:
     """Remove the second of two zeros that neighbouring intervals share."""
     unique: list[tuple[float, int, int]] = []
     for t, i, way in roots:

@@ -24,8 +24,8 @@ _LIKE = 8.0  # ratio of a component to one up to which no component is scaled
 
 
 def rhs(system: Equations, values: Values, engine: Engine = "core") -> Rhs:
-    """Return the right-hand side (t, y) → (v, u') for `System.rhs`, for the state y = (q, u), shape (N + m,). Raises
-    InputError for a missing value, another engine, and without heyoka; when called, for any other y."""
+    """Return the right-hand side (t, y) → (v, u') for `System.rhs`; the state y = (q, u) has shape (N + m,). It raises
+    InputError for any other y."""
     check_engine(engine)
     program = motion_program(system)
     parameters = parameter_values(program, values, "rhs")
@@ -82,10 +82,9 @@ def smooth_motion(
     solver: SegmentSolver | None = None,
     stiff: bool = False,
 ) -> Integrate:
-    """Return (start, times, local error, companion, budget) → the motion of a system without events, with its start at
-    times[0]. The solver takes each component in units of its size. `turn` is the typical period, `start` a regular state,
-    `followed` the narrow terms integrated with the motion. In a stiff motion neighbouring motions approach each other so fast
-    that a stiff method may be chosen."""
+    """Return the integration (start, times, local error, companion, budget) → motion of a system without events. The solver
+    takes each component in units of its size. `turn` is the typical period, `start` a regular state, `followed` the narrow
+    terms integrated with the motion. For a stiff motion a stiff method may be chosen."""
     program, size = motion_program(system, followed), len(sizes)
     parameters, d = parameter_values(program, values), len(program.states) - len(followed)
     project = projection_of(system, values) if system.multipliers else None

@@ -80,8 +80,8 @@ def jet_name(name: str, orders: Orders) -> str:
 
 
 def put_functions(where: str, system: Kind, values: Any, others: Sequence[sp.Expr] = ()) -> tuple[Kind, Any]:
-    """Substitute values that are expressions into the system; return it with the values, functions as `Lambda` or
-    `FunctionValue`. `others` are further expressions that may contain functions."""
+    """Substitute those values of functions that are expressions into the system. Return it with all values: numbers, and a
+    `Lambda` or `FunctionValue` for each function. `others` are further expressions that may contain functions."""
     energy = system.L if system.bodies else system.lagrangian
     expressions = [energy, *system.acting, *(e for _, e in system.velocities), *others]
     applied = unknown_functions(expressions)
@@ -163,7 +163,7 @@ def with_values(e: sp.Expr, values: Mapping[Any, Any]) -> sp.Expr:
 
 
 def _value(where: str, name: str, places: set[tuple[sp.Expr, ...]], value: Any) -> sp.Lambda | FunctionValue:
-    """A value as an expression of its arguments or as a function of numbers."""
+    """Return a value as an expression of its arguments or as a function of numbers."""
     count = len(next(iter(places)))
     if isinstance(value, FunctionValue):
         return value

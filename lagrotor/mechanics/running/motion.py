@@ -31,7 +31,7 @@ Kind = TypeVar("Kind", bound="SampledMotion")
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class SampledMotion(Run):
-    """The states of a simulated motion, and the functions of them; `SystemRun` lists its fields."""
+    """The states of a simulated motion, and functions of them; `SystemRun` lists the fields."""
 
     system: Equations
     values: Values

@@ -83,8 +83,7 @@ def with_followed(scale: Array, followed: Sequence[NarrowPart], local: float, co
 def narrow_parts(
     system: Equations, values: Mapping[Any, Any], states: Array, section: sp.Expr | None = None
 ) -> tuple[NarrowPart, ...]:
-    """Return the terms of the system, or of a section, that are narrow for states (n, d): q, u and, in an explicit column,
-    the time."""
+    """Return the terms of the system, or of a section, that are narrow for states (n, d) = (q, u), or (q, u, t)."""
     candidates = (_with_edge(system, values, candidate, states) for candidate in _parts(system, section))
     return tuple(candidate for candidate in candidates if _narrowness(system, values, candidate, states) > MOST)
 
@@ -101,7 +100,8 @@ def _with_edge(system: Equations, values: Mapping[Any, Any], feature: NarrowPart
 def narrowest_words(
     system: Equations, values: Mapping[Any, Any], narrow: Sequence[NarrowPart], run: EstimatedRun
 ) -> str:
-    """Name the narrowest term, the time at which a run first passes it, and the way out; "" if tol was not kept before."""
+    """Name the narrowest term, the time at which a run first passes it, and the way out; "" if tol was not kept before that
+    time."""
     if not narrow or len(run.t) < 2:
         return ""
     narrowness = [_narrowness(system, values, feature, run.states) for feature in narrow]
@@ -117,7 +117,8 @@ def narrowest_words(
 
 
 def _narrowness(system: Equations, values: Mapping[Any, Any], feature: NarrowPart, states: Array) -> float:
-    """Return the largest change of ψ over the swing of a component, at its rate at one place; 0 where D is zero somewhere."""
+    """Return the largest change of ψ over the swing of a component, if ψ changed everywhere at its fastest rate; 0 where D is
+    zero."""
     every, g = (*system.c.q, *system.speeds), feature.argument
     moving = [i for i, s in enumerate(every) if s in g.free_symbols and np.ptp(states[:, i]) > 0]
     if not moving:

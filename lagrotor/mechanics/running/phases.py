@@ -169,7 +169,7 @@ class Switched:
         return {str(k): v for k, v in self.values.items()} | {str(s.sign): float(sign) for s, sign in signs}
 
     def phase(self, mode: ContactMode) -> Phase:
-        """Return the phase of a mode; the sign of a slipping surface is a parameter of its equations."""
+        """Return the phase of a mode. The sign of a slipping surface is a parameter, so it does not change the equations."""
         sticking = tuple(i for i, s in enumerate(mode.signs) if s == 0)
         key = (sticking, mode.closed)
         if key not in self.phases:
@@ -291,7 +291,7 @@ def march(
 
 
 def _end(h: Switched, mode: ContactMode, ending: Ending) -> ContactMode:
-    """Return the mode of a motion that has ended; endings for the same reason are one, whatever their times."""
+    """Return the mode of a motion that has ended; endings with the same reason share one entry."""
     same = [i for i, earlier in enumerate(h.endings) if (earlier.kind, earlier.reason) == (ending.kind, ending.reason)]
     if not same:
         h.endings.append(ending)
@@ -310,8 +310,8 @@ def _smooth(
     habit: float,
     companion: bool,
 ) -> tuple[Stretch, Hit | None]:
-    """Integrate one phase from `now` to the first condition that ends, or through the times since then. `habit` is the time
-    between the last two events of a kind."""
+    """Integrate one phase from `now` to the first condition that ends, or through the times. `habit` is the time between the
+    last two events of a kind."""
     phase, numbers = h.phase(mode), h.numbers(mode)
     system, scale = phase.system, h.scale
     if depends_on_time(system):
@@ -422,7 +422,7 @@ def polish(functions: Any, k: int, t: float, lower: float, upper: float) -> floa
 
 
 def _switch(h: Switched, at: Moment, hit: Hit, gone: float | None) -> Moment:
-    """Return state and mode after an event; after the time `gone` infinitely many of them are over."""
+    """Return state and mode after an event. `gone` is the time after which infinitely many events are over, or None."""
     kind, i = hit.kind, hit.i
     mode, v = at.mode, at.y[h.n : h.size]
     if kind == "surface" and h.surfaces[i].argument.free_symbols & {*h.system.multipliers}:
@@ -461,7 +461,7 @@ def _switch(h: Switched, at: Moment, hit: Hit, gone: float | None) -> Moment:
 
 
 def _rebound(h: Switched, at: Moment, i: int, e: float) -> tuple[Array, bool]:
-    """Return the velocities after an impact, M Δv = Gᵀ Λ with −e times the approach, and True if there was no approach."""
+    """Return the velocities after an impact, M Δv = Gᵀ Λ, with −e times the velocity of approach, and True if that was zero."""
     mode = at.mode.with_value("closed", i, True)
     n, system = h.n, h.phase(mode._replace(signs=tuple(s or 1 for s in mode.signs))).system
     numbers, state = h.numbers(mode), np.append(at.y[: h.size], at.t)
@@ -476,7 +476,8 @@ def _rebound(h: Switched, at: Moment, i: int, e: float) -> tuple[Array, bool]:
 
 
 def _sign_beyond(h: Switched, at: Moment, i: int) -> int:
-    """Return the sign of a surface beyond it, by the rates of w on either side (Filippov); 0 where both lead to it."""
+    """Return the sign of w after the motion meets w = 0, by the rates of w on both sides (Filippov); 0 where both lead to w =
+    0."""
     argument = h.surfaces[i].argument
     above, below = _rates_beside(h, at, i, 1)
     if not argument.free_symbols & {*h.system.c.v} and max(abs(above), abs(below)) <= _NOISE * float(
@@ -540,8 +541,8 @@ def _settle(h: Switched, at: Moment, fixed: bool = False) -> ContactMode:
 
 
 def _accumulating(history: Mapping[Any, list[float]], past: list[float], span: float, clock: float) -> float | None:
-    """Return the time to the accumulation of events whose intervals shrink by a constant factor, where it is negligible.
-    `clock` is the time at the start. Raises StopError for too many events."""
+    """Return the time to the accumulation of events if it is negligible, None otherwise; the intervals shrink by a constant
+    factor. `clock` is the time at the start. Raises StopError for too many events."""
     now = past[-1]
     if len(past) > _HABIT:
         intervals = np.diff(past[-_HABIT - 1 :])

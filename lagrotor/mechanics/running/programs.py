@@ -82,7 +82,7 @@ class Generated:
         return compile_program(self.program, "numpy")
 
     def along(self, values: Mapping[Any, Any], where: str = "simulate") -> Callable[[Array, Array], Array]:
-        """Return (states (n, ≥ N + m), q and u first; times (n,)) → outputs (k, n), for a program in q, u and t."""
+        """Return a function of states (n, ≥ N + m), q and u first, and times (n,) that returns the outputs (k, n)."""
         function, parameters, d = self.function, parameter_values(self, values, where), len(self.states) - 1
 
         def outputs(states: Array, times: Array) -> Array:
@@ -130,8 +130,8 @@ def state_symbols(system: Equations) -> tuple[sp.Symbol, ...]:
 def _program(
     states: tuple[sp.Symbol, ...], stages: Sequence[Stage], outputs: Sequence[sp.Expr], moving: bool = False
 ) -> Generated:
-    """Return a program of a state and parameters, with new names where a language would not accept a symbol's. In a program
-    for a motion, which is evaluated often, common parts of sums and products are sought."""
+    """Return a program of a state and parameters, in which symbols get new names that any language accepts. In the program of a
+    motion, which is evaluated often, common parts of sums and products are sought."""
     stages, outputs, functions = _with_calls(stages, outputs)
     names = dict.fromkeys(name for name, _ in stages)
     used = set().union(*(e.free_symbols for _, e in stages), *(e.free_symbols for e in outputs)) - names.keys()
@@ -191,7 +191,7 @@ def velocities_along(system: Equations, values: Mapping[Any, Any], states: Array
 
 @lru_cache(maxsize=64)
 def rows_program(system: Equations) -> Generated:
-    """Generate (q, u, t) → the rows, for u', of the constraints that multipliers keep, one after another."""
+    """Generate (q, u, t) → G for u', the rows of the constraints that multipliers keep, one after another."""
     return function_program(system, *rows_left(system)[0])
 
 
@@ -213,7 +213,7 @@ def start_program(system: Equations) -> Generated:
 
 @lru_cache(maxsize=256)
 def function_program(system: Equations, *expressions: sp.Expr) -> Generated:
-    """Generate (q, u, t) → expressions in q, v, u, t, the accelerations and the multipliers of a motion."""
+    """Generate (q, u, t) → values of expressions in q, v, u, t, the accelerations and the multipliers of a motion."""
     states = (*system.c.q, *system.speeds, t)
     named = dict(zip(system.reactions, system.multipliers, strict=True))
     expressions = tuple(e.xreplace(named) for e in expressions) if named else expressions
@@ -350,10 +350,10 @@ def tree_motion(system: Equations) -> tuple[list[Stage], sp.Matrix] | None:
 
 @lru_cache(maxsize=64)
 def inertia(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matrix]:
-    """Return stages of W, then W and M + Gᵀ W G; W = 0 where M is regular. Where constraints bind a massless direction, as the
-    length of a quaternion, (M + Gᵀ W G) a = Q − h − Gᵀ W γ + Gᵀ λ has the same solutions. Its matrix is positive definite, with
-    the mean mass over the squared length of each row as W. Random states decide; SingularError where the constraints do not
-    bind the direction."""
+    """Return stages of W, then W and M + Gᵀ W G; W = 0 where M is regular. Constraints may bind a massless direction, as the
+    length of a quaternion. Then (M + Gᵀ W G) a = Q − h − Gᵀ W γ + Gᵀ λ has the same solutions and a positive definite matrix. W
+    is the mean mass over the squared length of each row. Random states decide; SingularError where the constraints do not bind
+    the direction."""
     (stages, M, _), (G, _) = equations_of_speeds(system), rows_left(system)
     if _regular(system, stages, M):
         return [], sp.zeros(G.rows, G.rows), M

@@ -141,7 +141,8 @@ def stability_chart(
 def _rates(
     where: str, system: Equations, at: Mapping[Any, Any], values: Values, names: Sequence[str], period: Any = None
 ) -> Callable[..., NDArray[np.complex128]]:
-    """Return the function (number of each parameter, …) → rates; with a period T, ln(μ)/T of the multipliers μ."""
+    """Return a function of one number for each parameter that returns the rates there; with a period T, ln(μ)/T of the
+    multipliers μ."""
     if not isinstance(values, Mapping) or {*names} & {*map(str, values)}:
         raise InputError(
             f"{where}: values = {values!r} must be a dictionary without {', '.join(names)}, which takes the numbers"
@@ -188,7 +189,7 @@ def _boundaries(
     rates_on_grid: Sequence[NDArray[np.complex128]],
     halvings: int,
 ) -> list[float]:
-    """Find the numbers at which the motion becomes stable or unstable by bisection."""
+    """Find by bisection the numbers at which the motion becomes stable or unstable."""
 
     def grows(rates: NDArray[np.complex128]) -> bool:
         return bool(rates.real.max() > _GROWS * np.abs(rates).max())

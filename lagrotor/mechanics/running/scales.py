@@ -60,7 +60,8 @@ class Scales:
     survey: Array = field(default_factory=lambda: np.empty((0, 0)))
 
     def distance(self, first: Array, second: Array) -> Array:
-        """Return the largest difference over its size of two runs (n, d) at each time, shape (n,)."""
+        """Return the distance of two runs (n, d) at each time, shape (n,): the largest difference of a component over its
+        size."""
         size = len(self.sizes)
         sizes = np.maximum(self.sizes, np.abs(second[:, :size]))
         return np.asarray(np.minimum((np.abs(first[:, :size] - second[:, :size]) / sizes).max(1), 2.0))
@@ -99,7 +100,7 @@ def motion_scales(
     size = len(system.c.q) + len(system.speeds)
     guess = size + 2 if smooth else 0  # evaluations of `first_sizes`
     if motion is None:
-        motion = _coarsely(system, values, start, span, windows, followed)
+        motion = _coarse_motion(system, values, start, span, windows, followed)
     try:
         stretch, reached = motion(start, grid, _COARSE, False, _EVALUATIONS), span
     except StopError as stop:
@@ -117,19 +118,19 @@ def motion_scales(
         evaluations += len(some) * (size + 1)
     if stiff and reached < span:  # the decaying modes, not the motion, determine DOP853's steps
         try:
-            motion = _coarsely(system, values, start, span, windows, followed, lsoda)
+            motion = _coarse_motion(system, values, start, span, windows, followed, lsoda)
             stretch = motion(start, grid, _COARSE, False, _EVALUATIONS)
             states, evaluations, reached = _finite(states, stretch), evaluations + guess + stretch.evaluations, span
         except StopError as stop:
             evaluations += guess + stop.evaluations
     turn = min(reached * _PER_TURN / max(stretch.evaluations, 1), span)
-    usual = states if windows else _but_for_peaks(states)  # after a pulse a motion may be far larger than before
+    usual = states if windows else _without_peaks(states)  # after a pulse a motion may be far larger than before
     return Scales(turn, _sizes(system, values, usual, turn), evaluations, bool(stiff), windows, states)
 
 
-def _but_for_peaks(states: Array) -> Array:
-    """Remove states in which a component is far above its median. On its way to infinity a motion has large values at its
-    end, by which earlier errors must not be measured. A component that was at rest has no such bound."""
+def _without_peaks(states: Array) -> Array:
+    """Remove states in which a component is far above its median. A motion to infinity has large values at its end, by which
+    earlier errors must not be measured. A component that was at rest has no such bound."""
     mostly, largest = np.median(np.abs(states), 0), np.abs(states).max(0)
     return np.asarray(states[(np.abs(states) <= np.where(mostly > _AT_REST * largest, _PEAK * mostly, np.inf)).all(1)])
 
@@ -139,7 +140,7 @@ def _finite(start: Array, stretch: Stretch) -> Array:
     return np.asarray(states[np.isfinite(states).all(1)])
 
 
-def _coarsely(
+def _coarse_motion(
     system: Equations,
     values: Values,
     start: Array,
@@ -234,13 +235,13 @@ def integrals(system: Equations) -> tuple[Generated, ...]:
     return tuple(programs)
 
 
-def defect_of(system: Equations, values: Values, sizes: Array) -> Callable[[Array, Array], Array] | None:
-    """Return (times (n,), states (n, d)) → the errors, relative to the sizes, that would explain the change of the
+def conservation_error_of(system: Equations, values: Values, sizes: Array) -> Callable[[Array, Array], Array] | None:
+    """Return a function (times (n,), states (n, d)) → signed relative errors of the states that would explain the change of the
     integrals."""
     conserved = [program.along(values) for program in integrals(system)]
     n = len(system.c.q) + len(system.speeds)
 
-    def defect(times: Array, states: Array) -> Array:
+    def conservation_error(times: Array, states: Array) -> Array:
         errors = []
         for integral in conserved:
             y = states[:, :n]
@@ -255,4 +256,4 @@ def defect_of(system: Equations, values: Values, sizes: Array) -> Callable[[Arra
             errors.append(change / np.maximum(slope, 1e-3 * slope.max() + 1e-300))
         return np.concatenate(errors)
 
-    return defect if conserved else None
+    return conservation_error if conserved else None

@@ -7,7 +7,7 @@ of the section in most panels. So the search costs two integrations, where a run
 """
 
 import warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from math import inf
 from typing import Any
@@ -17,7 +17,7 @@ import sympy as sp
 
 from lagrotor.algebra import derivative
 from lagrotor.errors import InputError, LagrotorWarning
-from lagrotor.mechanics.expressions import expression, vector_of
+from lagrotor.mechanics.expressions import expression
 from lagrotor.mechanics.lagrangian import t
 from lagrotor.mechanics.running.flow import Array
 from lagrotor.mechanics.running.function_values import with_values
@@ -187,12 +187,6 @@ def _stage(run: SampledMotion, i: int, j: int, value: Values, touch: float, obse
     edges = times[(times > begin) & (times < end - least)][_STEPS - 1 :: _STEPS]
     edges = edges[np.diff(edges, prepend=begin) > least]
     return look(np.concatenate([[begin], edges, [end]]), run.states[i], _HALVINGS), evaluations
-
-
-def poincare(run: SampledMotion, section: sp.Expr, of: Sequence[sp.Expr], direction: int = 1) -> Array:
-    outputs = vector_of("poincare: of", of, len(of) if isinstance(of, Sequence) else 2)
-    crossing_run = crossings(run, section, direction)
-    return np.stack([crossing_run.evaluate(e) for e in outputs], axis=1)
 
 
 def _change(run: SampledMotion, section: sp.Expr) -> float:

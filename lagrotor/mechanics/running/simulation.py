@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from lagrotor.errors import ConstraintError, InputError, LagrotorWarning
 from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.expressions import vector_of
 from lagrotor.mechanics.lagrangian import t as time
 from lagrotor.mechanics.running import run_plots, sections
 from lagrotor.mechanics.running.flow import Array, Values, powers_of_two, projection_of
@@ -29,7 +30,7 @@ from lagrotor.mechanics.running.motion import SampledMotion, digest_of, integrat
 from lagrotor.mechanics.running.narrow_features import narrow_parts, narrowest_words
 from lagrotor.mechanics.running.phases import Moment, Switched, begin, with_events
 from lagrotor.mechanics.running.programs import depends_on_time, function_program, parameter_values, rows_program
-from lagrotor.mechanics.running.scales import Scales, clock_windows, defect_of, motion_scales
+from lagrotor.mechanics.running.scales import Scales, clock_windows, conservation_error_of, motion_scales
 from lagrotor.mechanics.running.singular_positions import independence
 from lagrotor.mechanics.running.switches import Event, Impact, check_events
 from lagrotor.numerics.arrays import check_times
@@ -227,7 +228,9 @@ class SystemRun(SampledMotion):
         >>> run.poincare(c.v[0], (c.q[0], c.q[0]**2)).round(6)
         array([[-1.,  1.]])
         """
-        return sections.poincare(self, section, of, direction)
+        expressions = vector_of("poincare: of", of, len(of) if isinstance(of, Sequence) else 2)
+        crossings = self.crossings(section, direction)
+        return np.stack([crossings.evaluate(e) for e in expressions], axis=1)
 
     def lyapunov(self) -> Lyapunov:
         """Compute the largest Lyapunov exponent over the time of the run, ∝ log(t)/t for a regular motion.
@@ -391,9 +394,11 @@ def simulate_system(
         turn=scales.turn,
         budget=_STIFF if scales.stiff else _BUDGET,
         project=projection_of(system, values) if system.multipliers and h.smooth else None,
-        constraint_uncertainty=_slack(system, values, scales.sizes) if len(system.left) > 1 and h.smooth else None,
+        constraint_uncertainty=_uncertainty(system, values, scales.sizes)
+        if len(system.left) > 1 and h.smooth
+        else None,
         sizes=np.append(scales.sizes, np.zeros(len(start) - len(scales.sizes))),
-        conservation_error=defect_of(system, values, scales.sizes) if h.smooth else None,
+        conservation_error=conservation_error_of(system, values, scales.sizes) if h.smooth else None,
         sudden=bool(h.narrow),
     )
     estimate = estimate_run(evolution, times, tol)
@@ -405,18 +410,19 @@ def simulate_system(
     estimate.warn_unless_kept(", ".join(map(str, system.c.q)), tol, 3, hint)
     if system.multipliers:
         _warn_of_dependence(run)
-    return run if h.smooth else _up_to_its_end(run)
+    return run if h.smooth else _cut_at_event(run)
 
 
-def _slack(system: Equations, values: Values, sizes: Array) -> Callable[[Array], Array]:
-    """Return states (n, d) → error (n,) along nearly dependent constraints, in units of machine epsilon and of the sizes."""
+def _uncertainty(system: Equations, values: Values, sizes: Array) -> Callable[[Array], Array]:
+    """Return a function of states (n, d): their error (n,) along nearly dependent constraints, in machine epsilons of the
+    sizes."""
     unit = sizes[: len(system.c.q)] if system.kinematics is None else sizes[len(system.c.q) :]
 
-    def slack(states: Array) -> Array:
+    def uncertainty(states: Array) -> Array:
         least = independence(system, values, states, unit)
         return np.where(least < DEPENDENT.value, 1 / np.maximum(least, np.finfo(float).eps), 1.0)
 
-    return slack
+    return uncertainty
 
 
 def _check_gaps(h: Switched, at: Moment) -> None:
@@ -432,8 +438,8 @@ def _check_gaps(h: Switched, at: Moment) -> None:
             )
 
 
-def _up_to_its_end(run: SystemRun) -> SystemRun:
-    """Cut the run where an event ended it, with the state there as its last."""
+def _cut_at_event(run: SystemRun) -> SystemRun:
+    """Cut the run where an event ended it; the state there is the last."""
     h = run.switched
     if h.hidden:
         a, b = h.hidden[0]

@@ -19,7 +19,8 @@ _TAKES_PART = 0.2  # component of a direction from which on a coordinate is name
 def singular_position(
     system: Equations, values: Mapping[Any, Any], start: Array, sizes: Array
 ) -> Callable[[Array], str]:
-    """Return state → the words for a singular position there, "" where it is regular; `start` is a regular state."""
+    """Return a function of a state that returns the words for a singular position, "" where it is regular. `start` is a regular
+    state."""
     lengths = np.sqrt(np.abs(np.diag(mass_at(system, values, start))))
     scale = np.where(lengths > 0, lengths, 1.0)
 
@@ -44,8 +45,8 @@ def singular_position(
 
 
 def unbounded_force(system: Equations, values: Mapping[Any, Any], start: Array, state: Array, sizes: Array) -> str:
-    """Return the words for a force that grows without bound, as at a collision; "" for any other. The acceleration has grown
-    since the start, and changes a velocity by its size in 10⁻⁸ of the typical time."""
+    """Return the words for a force that grows without bound, as at a collision; "" for any other. Its acceleration has grown
+    since the start, and would change a velocity by its size in 10⁻⁸ of the typical time."""
     n, program = len(system.c.q), function_program(system, *system.c.a)
     first, change = (_at(program, system, values, y)[:, 0] for y in (start, state))
     i, typical = int(np.argmax(np.abs(change))), float(np.max(sizes[n:]) / np.max(sizes[:n]))

@@ -40,7 +40,8 @@ _NOT_ANALYTIC = (sp.Abs, sp.sign, sp.Max, sp.Min, sp.Heaviside, sp.atan2, sp.flo
 
 
 class Slope(Protocol):
-    """state → outputs (k,), their derivatives by the state (k, d), and by the inputs (k, p), by a complex step."""
+    """A function of the state: outputs (k,), their derivatives by the state (k, d) and by the inputs (k, p), by a complex
+    step."""
 
     def __call__(self, state: Array, step: float = _STEP) -> tuple[Array, Array, Array]: ...
 
@@ -203,7 +204,7 @@ def _parts(program: Generated) -> tuple[set[sp.Basic], set[sp.Basic]]:
 
 
 def motion_slope(where: str, program: Generated, values: Values, inputs: Sequence[sp.Symbol] = ()) -> Slope:
-    """Return state → outputs (k,), their derivatives by the state (k, d), and by the inputs (k, p)."""
+    """Return the function of the state with the outputs of a program and their derivatives by the state and the inputs."""
     _, jumping = _parts(program)
     if jumping:
         raise InputError(
@@ -229,7 +230,7 @@ def motion_slope(where: str, program: Generated, values: Values, inputs: Sequenc
 
 
 def check_smooth(where: str, slope: Slope, state: Array, names: Sequence[Any], at: Mapping[Any, Any]) -> None:
-    """Raise SingularError where an output has no value or no derivative, as √x at zero: there its derivative depends on the
+    """Raise SingularError where an output has no value or no derivative, as √x at zero. There the derivative depends on the
     step."""
     first, second = (np.column_stack(slope(state, h))[: len(names)] for h in (_STEP, _OTHER * _STEP))
     with np.errstate(invalid="ignore"):

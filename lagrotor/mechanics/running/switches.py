@@ -187,8 +187,8 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
 
 
 def _is_a_jump(step: sp.DiracDelta, slope: sp.Expr, moving: Sequence[sp.Symbol]) -> bool:
-    """Return True if the factor of δ(w) in a slope differs from zero at the first root of w that Newton's method gives. The
-    lengths of a rope with and without a drum are equal where it touches, by an identity that sympy does not see."""
+    """Return True if the factor of δ(w) in a slope differs from zero at a root of w, found by Newton's method. The lengths of a
+    rope with and without a drum are equal where it touches, by an identity that sympy does not see."""
     mark, w = sp.Dummy(), step.args[0]
     factor = derivative(slope.xreplace({step: mark}), mark)
     letters = sorted((factor.free_symbols | w.free_symbols), key=str)
@@ -212,8 +212,7 @@ _JUMPING = (sp.sign, sp.Abs, sp.Heaviside, sp.Max, sp.Min)
 
 
 def _jumps_at_zero(push: sp.Matrix, e: sp.Expr, v: Sequence[sp.Symbol]) -> bool:
-    """Return True if √e under a force, e a square of several velocities, is zero at rest or at its least value without the
-    force."""
+    """Return True if a force with √e, e quadratic in several velocities, jumps at rest or at the least value of e."""
     speeds = [s for s in v if s in e.free_symbols]
     still = dict.fromkeys(speeds, sp.S.Zero)
     value_at_rest, slope = e.xreplace(still), gradient(e, speeds).xreplace(still)
