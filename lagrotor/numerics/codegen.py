@@ -132,8 +132,7 @@ def tangent_program(
     program: Program, slopes: Mapping[sp.Symbol, Sequence[sp.Expr]], arguments: tuple[sp.Symbol, ...]
 ) -> Program:
     """Return the program of the outputs and, for each output, of its derivatives along k directions. `slopes` gives the k
-    derivatives of each argument that changes. Forward differentiation stage by stage takes at most about k + 1 times the
-    operations of the program."""
+    derivatives of each argument that changes. Forward differentiation takes at most about k + 1 times the operations."""
     stages, outputs = reduce_common(program)
     derivatives, count = {s: list(row) for s, row in slopes.items()}, len(next(iter(slopes.values())))
     both: list[Stage] = []

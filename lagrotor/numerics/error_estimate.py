@@ -50,8 +50,7 @@ _SAMPLES = 65  # times at which two runs are compared besides the requested time
 
 
 class EvaluationBudget(NamedTuple):
-    """The number of evaluations that an integration may take: `base` in all, and `per_turn` more for each turn of the
-    motion."""
+    """The number of evaluations that an integration may take: `base`, and `per_turn` for each turn of the motion."""
 
     base: float
     per_turn: float
@@ -94,9 +93,8 @@ class Leg(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class EstimatedRun:
-    """States (n, d) at the times (n,) that were reached, the largest error up to each time (n,), and the ending. The horizon
-    is the time in s from which the errors exceed tol, `local` the local error of the better run. All integrations count as
-    evaluations."""
+    """States (n, d) at the times (n,) that were reached, the largest error up to each time (n,), and the ending. The horizon is
+    the time in s from which the errors exceed tol, `local` the local error of the better run."""
 
     t: Array
     states: Array
@@ -222,7 +220,7 @@ def perturbed_state(y0: Array, epsilons: float = 1.0) -> Array:
 
 
 def estimate_run(evolution: Evolution, times: Array, tol: float) -> EstimatedRun:
-    """Integrate a motion at increasing times (n,) so that the estimated error is below `tol`, or as well as possible. Raises
+    """Integrate a motion at increasing times (n,) with an estimated error below `tol`, or as small as possible. Raises
     IntegrationError where conserved quantities change, no time is reached, or the rounding of so many turns exceeds the
     states."""
 
@@ -244,8 +242,8 @@ def estimate_runs(
     tol: float,
     integrate: Callable[[Mapping[int, Leg]], Mapping[int, Stretch | StopError]],
 ) -> list[EstimatedRun | IntegrationError]:
-    """Estimate many motions together. `integrate` maps {number: leg} to {number: stretch or stop}. An IntegrationError takes
-    the place of a run that is refused."""
+    """Estimate many motions together; an IntegrationError takes the place of a refused run. `integrate` maps {number: leg} to
+    {number: stretch or stop}."""
     requests = [_requests(evolution, t, tol) for evolution, t in zip(evolutions, times, strict=True)]
     ended: dict[int, EstimatedRun | IntegrationError] = {}
     answers: Mapping[int, Stretch | StopError | None] = dict.fromkeys(range(len(requests)))

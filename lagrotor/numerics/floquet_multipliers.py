@@ -18,10 +18,9 @@ _APART = 1e-12  # entry of a direction below which two blocks count as separated
 
 
 def product_eigenvalues(factors: Sequence[Array], error: float) -> tuple[NDArray[np.complex128], Array]:
-    """Return the eigenvalues of a product of matrices (n, n), the first factor acting first, and their errors, shape (n,)
-    each. Orthogonal iteration makes the factors upper triangular in blocks, each of eigenvalues of nearly equal size, so that
-    no larger eigenvalue hides them. `error` is the error of each factor relative to its norm, absolute where the norm is
-    below one."""
+    """Return the eigenvalues (n,) of a product of matrices (n, n), the first factor acting first, and their errors (n,).
+    Orthogonal iteration makes the factors upper triangular in blocks, each of eigenvalues of nearly equal size, so that no
+    larger one hides them. `error` is the error of each factor relative to its norm, absolute where the norm is below one."""
     start, n = np.eye(len(factors[0])), len(factors[0])
     for _ in range(_SWEEPS):
         basis, triangles = start, list[tuple[Array, float]]()
@@ -46,8 +45,7 @@ def product_eigenvalues(factors: Sequence[Array], error: float) -> tuple[NDArray
 
 
 def resolved_multipliers(values: NDArray[np.complex128], errors: Array) -> tuple[NDArray[np.complex128], Array]:
-    """Return the multipliers, NaN where one is below its error, and the errors; for NaN the error bounds the multiplier's
-    size."""
+    """Return the multipliers, NaN where one is below its error, and the errors; for NaN a bound of the multiplier's size."""
     below = ~(np.abs(values) > errors)
     return np.where(below, complex(np.nan, np.nan), values), np.where(below, np.abs(values) + errors, errors)
 

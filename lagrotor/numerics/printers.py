@@ -185,8 +185,7 @@ def rhs_source(
 
 
 def rhs_text(body: list[str], fixed: list[str], names: list[str], outputs: int) -> str:
-    """Return the source of a function of parameters that returns rhs(s, y) with the lines `body`; the lines `fixed` are
-    evaluated once."""
+    """Return the source of a function of parameters that returns rhs(s, y); the lines `fixed` are evaluated once."""
     source = [
         "from math import *",
         "from lagrotor.numerics.segment import LOST, OutsideError",

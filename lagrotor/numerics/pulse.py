@@ -61,8 +61,7 @@ def brief_windows(functions: Callable[[Array], Array], begin: float, end: float)
     """Find the windows in which functions of t, times (n,) → values (k, n), change faster than in most of the run. A cell is
     smooth if a polynomial of degree 4 fits the function to 10⁻⁶ of its range. Cells are doubled as long as most are smooth;
     each other cell is a window. Its longest step is its length, or in the smallest cells the time of the fastest change.
-    Changes inside a window are removed before cells are doubled, or all larger cells would contain them. NaN takes a
-    neighbour's value."""
+    Changes inside a window are removed before cells are doubled, or all larger cells would contain them."""
     import numpy as np  # imported late: a scene needs only the reach of a pulse
 
     if not begin < end:

@@ -28,8 +28,7 @@ _SAYS = {
 
 @dataclass(frozen=True)
 class Ending:
-    """The ending of a run: its kind, explained in _SAYS, the time `at` in s where it differs from the last time, and a
-    reason."""
+    """The ending of a run: its kind (see _SAYS), the time `at` in s if it differs from the last time, and a reason."""
 
     kind: Literal["end", "lost", "budget", "singular", "event", "stopped"] = "end"
     at: float = inf

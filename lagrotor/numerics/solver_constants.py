@@ -7,8 +7,8 @@ Value = TypeVar("Value", float, tuple[float, ...])
 
 
 class Calibrated(NamedTuple, Generic[Value]):
-    """A number, or factors c_1, c_2, …, with its meaning (`of`), its calibration (`on`), and the test that a wrong value
-    fails."""
+    """A number, or factors c_1, c_2, …, with its meaning (`of`), its calibration (`on`) and the test that refuses wrong
+    values."""
 
     value: Value
     of: str

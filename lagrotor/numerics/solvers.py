@@ -48,8 +48,7 @@ _IN_VAIN = 3  # times that a step is shortened at one place without a smaller er
 
 
 def dop853_steps(segment: Segment, error: float) -> Iterator[Any]:
-    """Yield scipy's solver after each step at a local error `error`, relative and absolute, and project the state before the
-    next."""
+    """Yield scipy's solver after each step at a local error `error`, relative and absolute; the state is then projected."""
     from scipy.integrate import DOP853
 
     project = segment.project
@@ -264,10 +263,9 @@ def adams_order(error: float) -> int:
 @lru_cache(maxsize=8)
 def adams_weights(q: int) -> tuple[Array, Array, Array, Array]:
     """Return the weights A, B, S, P of an Adams pair of q nodes, from the Lagrange polynomials l_j, exact before rounding. A:
-    integrals over the step after the last node (Adams–Bashforth); B: over the step before it (Adams–Moulton). Both are (2,
-    q), the rounded weights and their rounding error; without the second row all steps of all runs share an error that no
-    comparison shows. S (q, q): from the first node to each; P (q, q + 1): the integral of l_j from node q // 2 as a
-    polynomial in steps."""
+    integrals over the step after the last node (Adams–Bashforth); B: over the step before it (Adams–Moulton). Both are (2, q),
+    the rounded weights and their rounding error, which else all steps of all runs would share. S (q, q): from the first node to
+    each; P (q, q + 1): the integral of l_j from node q // 2 as a polynomial in steps."""
     middle, last = q // 2, q - 1 - q // 2
     nodes = [i - middle for i in range(q)]
     rows = []
@@ -293,8 +291,7 @@ def adams_weights(q: int) -> tuple[Array, Array, Array, Array]:
 
 @dataclass(frozen=True)
 class _Piece:
-    """Equal steps h from t by the pair of order q: states and rates y' (n + 1, d), evaluations, and the factor for the next
-    h."""
+    """Equal steps h from t by the pair of order q: states and rates y' (n + 1, d), evaluations, the factor for the next h."""
 
     q: int
     t: float

@@ -21,8 +21,7 @@ _MOST = 64  # functions of one kind in the memory of a process
 
 @dataclass(frozen=True, eq=False)
 class GeneratedFunction:
-    """A function whose source `derive` returns for given arguments; it is the last function of that source. The sources for
-    `cases` are stored."""
+    """A function whose source `derive` returns, as its last definition; the sources for `cases` are stored."""
 
     derive: Callable[..., str]
     cases: tuple[tuple[Any, ...], ...]

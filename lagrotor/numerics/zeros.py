@@ -118,8 +118,7 @@ def _zeros_of(series: Array, touch: float) -> list[tuple[float, int]]:
 
 
 def _keeps_its_sign(series: Array) -> bool:
-    """Return True if the constant outweighs all other terms on [−1, 1] and slightly beyond. |T_k| is at most cosh(k √(2 ·
-    10⁻⁶)) there."""
+    """Return True if the constant outweighs all other terms where |T_k| ≤ cosh(k √(2 · 10⁻⁶)), slightly beyond [−1, 1]."""
     return bool(abs(series[0]) > 1.001 * np.abs(series[1:]).sum())
 
 

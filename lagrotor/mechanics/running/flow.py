@@ -24,8 +24,7 @@ _LIKE = 8.0  # ratio of a component to one up to which no component is scaled
 
 
 def rhs(system: Equations, values: Values, engine: Engine = "core") -> Rhs:
-    """Return the right-hand side (t, y) → (v, u') for `System.rhs`; the state y = (q, u) has shape (N + m,). It raises
-    InputError for any other y."""
+    """Return the right-hand side (t, y) → (v, u') for `System.rhs`; the state y = (q, u) has shape (N + m,)."""
     check_engine(engine)
     program = motion_program(system)
     parameters = parameter_values(program, values, "rhs")

@@ -32,8 +32,7 @@ class FunctionValue:
     spline: Any = None
 
     def jet(self, where: str, orders: Orders) -> Callable[..., Any]:
-        """Return a derivative as a function of numbers, of arrays, or of numbers with small imaginary parts (a complex
-        step)."""
+        """Return a derivative as a function of numbers or arrays, also with small imaginary parts (a complex step)."""
         f = self._known(where, orders)
 
         def one(*at: float) -> float:

@@ -100,8 +100,7 @@ def _with_edge(system: Equations, values: Mapping[Any, Any], feature: NarrowPart
 def narrowest_words(
     system: Equations, values: Mapping[Any, Any], narrow: Sequence[NarrowPart], run: EstimatedRun
 ) -> str:
-    """Name the narrowest term, the time at which a run first passes it, and the way out; "" if tol was not kept before that
-    time."""
+    """Name the narrowest term, the time of its first passage, and the way out; "" if tol was not kept before that time."""
     if not narrow or len(run.t) < 2:
         return ""
     narrowness = [_narrowness(system, values, feature, run.states) for feature in narrow]
@@ -117,8 +116,7 @@ def narrowest_words(
 
 
 def _narrowness(system: Equations, values: Mapping[Any, Any], feature: NarrowPart, states: Array) -> float:
-    """Return the largest change of ψ over the swing of a component, if ψ changed everywhere at its fastest rate; 0 where D is
-    zero."""
+    """Return the largest change of ψ over the swing of a component at its fastest rate; 0 where D is zero."""
     every, g = (*system.c.q, *system.speeds), feature.argument
     moving = [i for i, s in enumerate(every) if s in g.free_symbols and np.ptp(states[:, i]) > 0]
     if not moving:

@@ -78,8 +78,7 @@ class Hit(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Phase:
-    """A smooth system, with sticking surfaces and closed gaps among its constraints; conditions: (kind, index, expression >
-    0)."""
+    """A smooth system with sticking surfaces and closed gaps as constraints; conditions: (kind, index, expression > 0)."""
 
     system: Equations
     conditions: tuple[tuple[str, int, sp.Expr], ...]
@@ -310,8 +309,7 @@ def _smooth(
     habit: float,
     companion: bool,
 ) -> tuple[Stretch, Hit | None]:
-    """Integrate one phase from `now` to the first condition that ends, or through the times. `habit` is the time between the
-    last two events of a kind."""
+    """Integrate one phase to its first condition that ends; `habit` is the time between the last two events of a kind."""
     phase, numbers = h.phase(mode), h.numbers(mode)
     system, scale = phase.system, h.scale
     if depends_on_time(system):
@@ -476,8 +474,7 @@ def _rebound(h: Switched, at: Moment, i: int, e: float) -> tuple[Array, bool]:
 
 
 def _sign_beyond(h: Switched, at: Moment, i: int) -> int:
-    """Return the sign of w after the motion meets w = 0, by the rates of w on both sides (Filippov); 0 where both lead to w =
-    0."""
+    """Return the sign of w after w = 0, by the rates of w on both sides (Filippov); 0 where both lead to w = 0."""
     argument = h.surfaces[i].argument
     above, below = _rates_beside(h, at, i, 1)
     if not argument.free_symbols & {*h.system.c.v} and max(abs(above), abs(below)) <= _NOISE * float(

@@ -238,8 +238,7 @@ def velocity_stages(system: Equations) -> list[Stage]:
 
 @lru_cache(maxsize=64)
 def clock_program(system: Equations) -> Generated | None:
-    """Generate (t) → the largest terms of the equations of motion that contain t and parameters alone; None without such
-    terms."""
+    """Generate (t) → the largest terms of the equations of motion in t and parameters alone; None without such terms."""
     if not depends_on_time(system):
         return None
     stages, rates, _ = motion_of_speeds(system)
@@ -352,8 +351,8 @@ def tree_motion(system: Equations) -> tuple[list[Stage], sp.Matrix] | None:
 def inertia(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matrix]:
     """Return stages of W, then W and M + Gᵀ W G; W = 0 where M is regular. Constraints may bind a massless direction, as the
     length of a quaternion. Then (M + Gᵀ W G) a = Q − h − Gᵀ W γ + Gᵀ λ has the same solutions and a positive definite matrix. W
-    is the mean mass over the squared length of each row. Random states decide; SingularError where the constraints do not bind
-    the direction."""
+    is the mean mass over the squared length of each row. Random states decide; SingularError if no constraint binds the
+    direction."""
     (stages, M, _), (G, _) = equations_of_speeds(system), rows_left(system)
     if _regular(system, stages, M):
         return [], sp.zeros(G.rows, G.rows), M
@@ -395,8 +394,7 @@ def _regular(system: Equations, stages: Sequence[Stage], matrix: sp.Matrix) -> b
 def under_constraints(
     stages: list[Stage], solved: sp.Matrix, G: sp.Matrix, gamma: sp.Matrix, friction: bool = False
 ) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
-    """Return stages, accelerations and multipliers under the constraints. `solved` is M⁻¹ (Q − h) and, column by column, W =
-    M⁻¹ (Gᵀ + ∂Q/∂λ)."""
+    """Return stages, accelerations and multipliers under the constraints; `solved` is M⁻¹ (Q − h, Gᵀ + ∂Q/∂λ)."""
     free, W = solved[:, :1], solved[:, 1:]
     if not G.rows:
         return stages, list(free), []

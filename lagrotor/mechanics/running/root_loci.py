@@ -141,8 +141,8 @@ def stability_chart(
 def _rates(
     where: str, system: Equations, at: Mapping[Any, Any], values: Values, names: Sequence[str], period: Any = None
 ) -> Callable[..., NDArray[np.complex128]]:
-    """Return a function of one number for each parameter that returns the rates there; with a period T, ln(μ)/T of the
-    multipliers μ."""
+    """Return a function of one number for each parameter with the rates there; with a period T, ln(μ)/T of the multipliers
+    μ."""
     if not isinstance(values, Mapping) or {*names} & {*map(str, values)}:
         raise InputError(
             f"{where}: values = {values!r} must be a dictionary without {', '.join(names)}, which takes the numbers"

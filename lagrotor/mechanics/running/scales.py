@@ -60,8 +60,7 @@ class Scales:
     survey: Array = field(default_factory=lambda: np.empty((0, 0)))
 
     def distance(self, first: Array, second: Array) -> Array:
-        """Return the distance of two runs (n, d) at each time, shape (n,): the largest difference of a component over its
-        size."""
+        """Return the largest difference of a component over its size between two runs (n, d) at each time, shape (n,)."""
         size = len(self.sizes)
         sizes = np.maximum(self.sizes, np.abs(second[:, :size]))
         return np.asarray(np.minimum((np.abs(first[:, :size] - second[:, :size]) / sizes).max(1), 2.0))
@@ -236,7 +235,7 @@ def integrals(system: Equations) -> tuple[Generated, ...]:
 
 
 def conservation_error_of(system: Equations, values: Values, sizes: Array) -> Callable[[Array, Array], Array] | None:
-    """Return a function (times (n,), states (n, d)) → signed relative errors of the states that would explain the change of the
+    """Return a function (times (n,), states (n, d)) → signed relative state errors that would explain the change of the
     integrals."""
     conserved = [program.along(values) for program in integrals(system)]
     n = len(system.c.q) + len(system.speeds)

@@ -135,8 +135,7 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
 
 
 def _stages(run: SampledMotion) -> Iterator[tuple[int, int]]:
-    """Yield the first and the last sample of each stage; after several samples at one time a stage begins at the last of
-    them."""
+    """Yield the first and the last sample of each stage; of several samples at one time the last begins a stage."""
     i, n = 0, len(run.t)
     while (i := int(np.searchsorted(run.t, run.t[i], side="right")) - 1) < n - 1:
         j = int(np.searchsorted(run.t, run.t[i] + _TURNS * run.scales.turn, side="right")) - 1

@@ -414,8 +414,7 @@ def simulate_system(
 
 
 def _uncertainty(system: Equations, values: Values, sizes: Array) -> Callable[[Array], Array]:
-    """Return a function of states (n, d): their error (n,) along nearly dependent constraints, in machine epsilons of the
-    sizes."""
+    """Return a function of states (n, d): errors (n,) along nearly dependent constraints, in machine epsilons of the sizes."""
     unit = sizes[: len(system.c.q)] if system.kinematics is None else sizes[len(system.c.q) :]
 
     def uncertainty(states: Array) -> Array:

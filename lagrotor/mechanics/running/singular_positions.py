@@ -19,8 +19,7 @@ _TAKES_PART = 0.2  # component of a direction from which on a coordinate is name
 def singular_position(
     system: Equations, values: Mapping[Any, Any], start: Array, sizes: Array
 ) -> Callable[[Array], str]:
-    """Return a function of a state that returns the words for a singular position, "" where it is regular. `start` is a regular
-    state."""
+    """Return a function of a state with the words for a singular position, "" where it is regular; `start` is regular."""
     lengths = np.sqrt(np.abs(np.diag(mass_at(system, values, start))))
     scale = np.where(lengths > 0, lengths, 1.0)
 

@@ -40,8 +40,7 @@ _NOT_ANALYTIC = (sp.Abs, sp.sign, sp.Max, sp.Min, sp.Heaviside, sp.atan2, sp.flo
 
 
 class Slope(Protocol):
-    """A function of the state: outputs (k,), their derivatives by the state (k, d) and by the inputs (k, p), by a complex
-    step."""
+    """A function of the state: outputs (k,), and by a complex step their derivatives by the state (k, d) and inputs (k, p)."""
 
     def __call__(self, state: Array, step: float = _STEP) -> tuple[Array, Array, Array]: ...
 
@@ -230,8 +229,7 @@ def motion_slope(where: str, program: Generated, values: Values, inputs: Sequenc
 
 
 def check_smooth(where: str, slope: Slope, state: Array, names: Sequence[Any], at: Mapping[Any, Any]) -> None:
-    """Raise SingularError where an output has no value or no derivative, as √x at zero. There the derivative depends on the
-    step."""
+    """Raise SingularError where an output has no value or no derivative, as √x at zero, so that it depends on the step."""
     first, second = (np.column_stack(slope(state, h))[: len(names)] for h in (_STEP, _OTHER * _STEP))
     with np.errstate(invalid="ignore"):
         smooth = np.abs(first - second) <= _SAME * np.abs(first) + _ROUNDING * (1 + np.abs(first).max(initial=0))
