@@ -1,14 +1,14 @@
 # %% [markdown]
-# # Standing under load
+# # Stability under load
 #
-# **Objective.** Which structures of rotors and bars stand under weight, how fast they must spin, and what friction does
-# to it.
+# **Objective.** The structures of rotors and bars that are stable under weight, the spins that they need, and the effect of
+# friction.
 #
 # **Assumptions.** Small motion about upright axes; in the closed forms equal rotors and loads and massless bars. The
-# numbers compare the linear results with the exact motion, with heavy bars too. Known: that spins hold an even number of
-# motions alone, Thomson & Tait, Natural Philosophy, § 345; tops that spins hold one upon another, Greenhill, Encyclopædia
-# Britannica, 11th ed. (1911), Gyroscope and Gyrostat, §§ 14 and 15; what friction does, Merkin, Introduction to the Theory of
-# Stability, ch. 6. For rotors side by side under bars the least spins are new, as far as we know.
+# numbers compare the linear results with the exact motion, with heavy bars too. Known results: spins stabilise only an even
+# number of unstable degrees of freedom (Thomson & Tait, Natural Philosophy, § 345); stacks of tops (Greenhill, Encyclopædia
+# Britannica, 11th ed. (1911), Gyroscope and Gyrostat, §§ 14 and 15); friction (Merkin, Introduction to the Theory of Stability,
+# ch. 6). The least spins for rotors side by side under bars are new, as far as we know.
 #
 # **Notation.** $u_i=(x_i,y_i)$ the tilt of axis $i$; $a$ the inertia of an axis about its joint, load included; $\kappa=gS$
 # its weight's moment, $S$ the sum of its masses times their heights; $N$ the number of rotors; $b$ the coupling by a heavy
@@ -50,9 +50,8 @@ pair = {"joints": [(0, 0), (1, 0)], "bars": [(0, 1)]}
 # $$L=\sum_i\Big(\frac a2|\dot u_i|^2+\frac{G_i}2\,(y_i\dot x_i-x_i\dot y_i)+\frac\kappa2|u_i|^2\Big)
 # +\sum_{\text{bars }ij}b\,\dot u_i\cdot\dot u_j.$$
 #
-# Each bar holds the two tilts along it equal. With that put in, the Euler–Lagrange equations of the degrees of freedom that
-# are left are
-# linear. For degrees of freedom that go as $e^{st}$ they are $D(s)\,q=0$, and such a motion exists where $P(s)=\det D(s)=0$.
+# Each bar keeps the two tilts along it equal. The Euler–Lagrange equations of the remaining degrees of freedom are linear. For
+# motion as $e^{st}$ they are $D(s)\,q=0$, and such a motion exists where $P(s)=\det D(s)=0$.
 
 
 # %%
@@ -79,14 +78,14 @@ def pencil(*of: object, **more: object) -> sp.Matrix:
 # %% [markdown]
 # ## The loaded pair
 #
-# The bar holds $x_1=x_2$: three degrees of freedom, $x_1$, $y_1$, $y_2$, with the equations
+# The bar keeps $x_1=x_2$. Three degrees of freedom remain, $x_1$, $y_1$, $y_2$, with the equations
 
 # %%
 tilts_of_two, G_12 = ["x_1 y_1", "x_1 y_2"], (G_1, G_2)
 Formula(small_motion(tilts_of_two, G_12, bars=((0, 1),))[0], "E")
 
 # %% [markdown]
-# each to vanish. For motion as $e^{st}$
+# each equal to zero. For motion as $e^{st}$
 
 # %%
 coupled = pencil(tilts_of_two, G_12, bars=((0, 1),))
@@ -106,9 +105,9 @@ prove(
 )
 
 # %% [markdown]
-# The factor $\lambda$ contains no spin: one motion grows at the rate $\sqrt{\kappa/a}$, as without spins. It is the one on
-# which the two gyroscopic moments cancel, $x_1=0$, $G_1y_1+G_2y_2=0$: equal spins fall by yaw, opposite ones by toppling about
-# the joint line. A heavy bar mixes the motions, but at $s=0$ and for large $s$ its polynomial has the signs
+# The factor $\lambda$ contains no spin: one motion grows at the rate $\sqrt{\kappa/a}$, as without spins. In this motion the two
+# gyroscopic moments cancel, $x_1=0$, $G_1y_1+G_2y_2=0$. Equal spins are unstable to yaw, opposite spins to toppling about the
+# joint line. A heavy bar couples the motions, but at $s=0$ and for large $s$ its polynomial has the signs
 
 # %%
 heavy = sp.Poly(coupled.det(), s)
@@ -126,20 +125,18 @@ prove(
 )
 
 # %% [markdown]
-# As $a>|b|$, the polynomial changes its sign between: a positive root exists for every pair of spins. **No loaded pair
-# stands.** (In these letters the bar's weight is in $\kappa$.)
+# As $a>|b|$, the polynomial changes its sign in between, so a positive root exists for every pair of spins. **No loaded pair is
+# stable.** ($\kappa$ includes the weight of the bar.)
 #
-# ## The same for any structure
+# ## Any structure
 #
-# On $n$ degrees of freedom $\det(Ms^2+Cs+K)$ is $\det K$ at $s=0$ and positive for large $s$. Where an odd number of degrees
-# of freedom falls
-# without spins, $\det K<0$, and a positive root exists whatever the spins are (Thomson & Tait). Each independent bar takes
-# one of $2N$ degrees of freedom, so that under weight alone **an odd number of bars never stands**: no pair, no triangle, no
-# rigid
-# plate ($n=3$).
+# For $n$ degrees of freedom $\det(Ms^2+Cs+K)$ is $\det K$ at $s=0$ and positive for large $s$. If an odd number of degrees of
+# freedom is unstable without spins, $\det K<0$, and a positive root exists for all spins (Thomson & Tait). Each independent bar
+# removes one of $2N$ degrees of freedom. Under weight alone **a structure with an odd number of bars is therefore never
+# stable**: no pair, no triangle, no rigid plate ($n=3$).
 #
-# Where all fall alike, every degree of freedom belongs to a pair of motions on which the spins act with one $\beta$:
-# $\lambda^2+\beta^2s^2=0$, which is a quadratic in $p=s^2$ with the discriminant
+# If all degrees of freedom have the same $\lambda$, they form pairs, on each of which the spins act with one $\beta$:
+# $\lambda^2+\beta^2s^2=0$. This is a quadratic in $p=s^2$ with the discriminant
 
 # %%
 p, beta = sp.Symbol("p"), sp.Symbol("beta", positive=True)
@@ -147,10 +144,10 @@ quadratic = sp.Poly((a * p - kappa) ** 2 + beta**2 * p, p)
 prove(quadratic.discriminant(), beta**2 * (beta**2 - 4 * a * kappa), "the discriminant", names=r"\Delta")
 
 # %% [markdown]
-# Its roots are negative, and the pair of motions stands, where $\beta^2>4a\kappa$. $\beta=0$, as in the pair, never does.
-# A single top has $\beta=G$.
+# Its roots are negative, and the pair of degrees of freedom is stable, if $\beta^2>4a\kappa$. With $\beta=0$, as in the pair of
+# rotors, it is unstable. A single top has $\beta=G$.
 #
-# ## The smallest jointed structure that stands
+# ## The smallest stable structure
 #
 # Three rotors and two bars at a corner: $x_1=x_2$, $y_2=y_3$, four degrees of freedom, $x_1$, $x_3$, $y_1$, $y_2$. Massless bars:
 
@@ -169,16 +166,16 @@ prove(
 )
 
 # %% [markdown]
-# With $\lambda^2=-\beta^2s^2$ the two $\beta^2$ have the product $G_1^2G_3^2/4$ and the sum $(2G_1^2+G_2^2+2G_3^2)/4$:
-# the lesser is largest where the middle rotor rests. Then $\beta=G/\sqrt2$ for $G_1=\pm G_3=G$:
+# With $\lambda^2=-\beta^2s^2$ the two $\beta^2$ have the product $G_1^2G_3^2/4$ and the sum $(2G_1^2+G_2^2+2G_3^2)/4$. The
+# smaller one is largest if the middle rotor does not spin. Then $\beta=G/\sqrt2$ for $G_1=\pm G_3=G$:
 
 # %%
 resting = polynomial([3, 0, 3], **corner).subs(G_3, G_1)
 prove(resting, (2 * lam**2 + G_1**2 * s**2) ** 2, "the corner with its middle rotor at rest", names="P(s)")
 
 # %% [markdown]
-# so that it stands from $G=2\sqrt2\sqrt{a\kappa}$ on. In a straight row all $x_i$ are one, the spins act on $x$ and one
-# mean of the $y_i$ alone, and the other motions fall:
+# so that it is stable for $G>2\sqrt2\sqrt{a\kappa}$. In a straight row all $x_i$ are equal. The spins act only on $x$ and on one
+# mean of the $y_i$, and the other degrees of freedom are unstable:
 
 # %%
 in_row = pencil(["x_1 y_1", "x_1 y_2", "x_1 y_3"], (G_1, G_2, G_3))
@@ -215,7 +212,8 @@ prove(
 )
 
 # %% [markdown]
-# Equal spins, and spins that alternate, have $G_1G_3=G_2G_4$: they never stand. One spin against the other three does:
+# For equal spins and for alternating spins $G_1G_3=G_2G_4$, and the square is unstable. With one spin opposite to the other three
+# it can be stable:
 
 # %%
 odd = polynomial([-1, 1, 1, 1], **square).subs({G_1: -G_2, G_3: G_2, G_4: G_2})
@@ -224,10 +222,11 @@ prove(odd, 4 * (2 * lam**2 + G_2**2 * s**2) ** 2, "the square with one spin oppo
 # %% [markdown]
 # In general the $\beta$ of an $L\times L$ grid are the singular values of the matrix of its $G_{rc}$, row $r$ and column $c$,
 # over $L$: a rotor couples the $x$ of its row with the $y$ of its column, $L\lambda x_r+s\sum_cG_{rc}y_c=0$ and
-# $L\lambda y_c-s\sum_rG_{rc}x_r=0$. The grid stands from some spin on exactly if that matrix is regular. As the squares of
-# its $L$ singular values add up to $\sum G^2\le L^2G_{max}^2$, no choice of spins needs less than $2\sqrt L\sqrt{a\kappa}$,
-# and only Hadamard matrices reach it. For $L=3$ there is none; there the determinant bounds more closely: linear in each
-# $G_{rc}$, it is largest at $\pm G_{max}$, and the least singular value is at most its cube root.
+# $L\lambda y_c-s\sum_rG_{rc}x_r=0$. The grid is stable for sufficiently large spins if and only if that matrix is regular. The
+# squares of its $L$ singular values add up to $\sum G^2\le L^2G_{max}^2$, so every choice of spins needs at least
+# $2\sqrt L\sqrt{a\kappa}$, and only Hadamard matrices reach this bound. For $L=3$ there is none, and the determinant gives a
+# sharper bound: it is linear in each $G_{rc}$, so it is largest at $\pm G_{max}$, and the least singular value is at most its
+# cube root.
 
 
 # %%
@@ -253,7 +252,7 @@ assert abs(least[2] - 2 * sqrt(2)) < 1e-9
 assert abs(least[3] - 6) < 1e-9
 assert abs(needs - 4) < 1e-9 and abs(largest - 4) < 1e-9 and len(signs) == 512
 Remark(
-    "Which signs need the least spin",
+    "The signs of the spins that need the least spin",
     "; ".join(
         f"{found.standing} of the {found.tried} sign patterns of the {L} × {L} grid stand at some spin, the best from "
         f"{least[L]:.3f} √(aκ) on"
@@ -267,9 +266,8 @@ Remark(
 # %% [markdown]
 # ## A brace across the bar
 #
-# A spring $k$ on $y_1$ of the pair ($k$ times $R^2$ against $\kappa$) leaves two degrees of freedom that fall where
-# $k>\kappa$, an
-# even number:
+# With a spring $k>\kappa$ on $y_1$ of the pair ($k$ times $R^2$ compared with $\kappa$) two degrees of freedom are unstable
+# without spins, an even number:
 
 # %%
 y_1, y_2 = coordinates("y_1 y_2").q
@@ -287,15 +285,15 @@ prove(
 )
 
 # %% [markdown]
-# Divided by $k$, for a stiff brace, it is $2\lambda^2+G_2^2s^2$: the pair stands from $G_2=2\sqrt2\sqrt{a\kappa}$ on, the
-# spin of the rotor without the brace, whichever sense the other has.
+# Divided by $k$, for a stiff brace, it is $2\lambda^2+G_2^2s^2$. The pair is stable for $G_2>2\sqrt2\sqrt{a\kappa}$, where
+# $G_2$ is the spin of the rotor without the brace; the sign of the other spin does not matter.
 
 # %%
 stiff = sp.Limit(terms / k, k, sp.oo).doit()
 prove(stiff, 2 * lam**2 + G_2**2 * s**2, "a stiff brace", names=r"\lim_{k\to\infty} P(s)/k")
 
 # %% [markdown]
-# A spring that acts on yaw alone, $k(y_1-y_2)^2/2$, leaves the two sways to fall:
+# With a spring that acts only on yaw, $k(y_1-y_2)^2/2$, the two sways are unstable without spins:
 
 # %%
 yaw = k * (y_1 - y_2) ** 2 / 2
@@ -310,8 +308,8 @@ prove(
 )
 
 # %% [markdown]
-# With $2k>\kappa$ equal spins make the pair stand from $2\sqrt{a\kappa}$ on, as a rotor alone does; opposite spins never do,
-# whatever the spring: the factor $\lambda$ is toppling, on which they do not act.
+# With $2k>\kappa$ the pair is stable for equal spins above $2\sqrt{a\kappa}$, like a single rotor. With opposite spins it is
+# unstable for any spring: the factor $\lambda$ is toppling, on which opposite spins do not act.
 #
 # ## Friction
 #
@@ -330,9 +328,9 @@ prove(
 )
 
 # %% [markdown]
-# The slow precession, $0<w<\beta/2a$, grows at $cw/(\beta-2aw)$, the fast one decays: under weight friction makes unstable
-# what the spins stabilise, at any spin (Kelvin, Tait & Chetaev). Where springs hold, $\kappa<0$ and $w<0$ or $w>\beta/a$:
-# both decay.
+# The slow precession, $0<w<\beta/2a$, grows at $cw/(\beta-2aw)$, and the fast one decays. Under weight, friction therefore
+# destabilises a position that the spins stabilise, at any spin (Kelvin, Tait & Chetaev). If springs make it stable,
+# $\kappa<0$ and $w<0$ or $w>\beta/a$: both precessions decay.
 #
 # ## Compared with the exact motion
 
@@ -357,7 +355,7 @@ falling = with_friction.stands()
 assert falling.critical_spin == inf
 Remark(
     "Thresholds on the exact motion",
-    "Exact runs 3 % under and over the least spin: "
+    "Exact runs 3 % below and above the least spin: "
     + "; ".join(
         f"{name}: from {factor:.5g} times the spins; growth under it measured within {abs(growth):.0e}, motion "
         "over it bounded and "
@@ -370,8 +368,8 @@ Remark(
 # %%
 kappa_over_a = (coefficients(with_friction).gravity * coefficients(with_friction).S / coefficients(with_friction).A)[0]
 Remark(
-    "With friction it falls slowly",
-    "A corner that stands with spins of 40 rad/s falls with a friction of 0.5 N m s/rad: its tilt grows by the factor e every "
+    "With friction the structure falls slowly",
+    "A corner that is stable with spins of 40 rad/s falls with a friction of 0.5 N m s/rad: its tilt grows by the factor e every "
     f"{1 / falling.growth:.2f} s, "
     f"measured on the exact motion every {1 / measured_growth(with_friction, folds=0.2):.2f} s; without spin every "
     f"{kappa_over_a**-0.5:.2f} s.",

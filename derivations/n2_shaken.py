@@ -1,11 +1,11 @@
 # %% [markdown]
-# # Shaken: spins against a tuned mass
+# # Vibration: spins compared with a tuned mass
 #
-# **Objective.** What spins do to the resonance of a pair that is held elastically; the optimal brace and damper for it;
-# from which spin on it does better than a tuned mass damper of the same mass.
+# **Objective.** The effect of spins on the resonance of a pair on elastic hinges, the optimal brace and damper, and the spin
+# above which the pair is better than a tuned mass damper of the same mass.
 #
-# **Assumptions.** Small motion, massless bars, equal rotors; the optima are those of an undamped sway. The closed forms
-# are compared with the transfer functions of the library, those with the exact motion.
+# **Assumptions.** Small motion, massless bars, equal rotors; the optima are for an undamped sway. The closed forms are compared
+# with the transfer functions of the library, and these with the exact motion.
 #
 # **Notation.** $a$ the inertia of an axis about its joint, $h$ its hinge's stiffness less its weight's moment; $u$ the
 # common tilt along the bar, $v_1, v_2$ the tilts across it; $\Omega$ the rate of the sway without spins; $\mu$ the mass
@@ -29,7 +29,7 @@ a, h, G, w, F = sp.symbols("a h G omega F", positive=True)
 s = sp.Symbol("s")
 
 # %% [markdown]
-# ## What spins do to the resonance
+# ## Resonances with spins
 #
 # On the degrees of freedom $(u,v_1,v_2)$ a force $F$ along the bar, times the length of the axis, drives $u$:
 
@@ -59,8 +59,8 @@ prove(
 )
 
 # %% [markdown]
-# The resonance at $\sqrt{h/a}$ becomes a pair of them, $a\omega^2\mp G\omega-h=0$, and at $\sqrt{h/a}$ itself nothing
-# moves along the bar:
+# The resonance at $\sqrt{h/a}$ splits into two, $a\omega^2\mp G\omega-h=0$, and at $\sqrt{h/a}$ itself there is no motion along
+# the bar:
 
 # %%
 split = sp.expand(((a * s**2 + h) ** 2 + G**2 * s**2).subs(s, sp.I * w))
@@ -110,10 +110,10 @@ prove(
 )
 
 # %% [markdown]
-# The true peak is higher: the usual damper, $q=3\gamma^2/2$ (Brock 1946), makes neither of them a maximum. The least peak $h$ is
-# found exactly, as Nishihara & Asami (2002) found that of a tuned mass. Both maxima are as high as $h$ if $D-N/h^2$ is the square
-# of a quadratic in $\nu$, $\nu^2-S\nu+f^2\rho$ with $\rho^2=1-1/h^2$. Its coefficients of $\nu^3$ and $\nu$ give $S$ and the
-# damper,
+# The true peak is higher: with the usual damper, $q=3\gamma^2/2$ (Brock 1946), neither point is a maximum. The least peak $h$
+# follows exactly, by the method of Nishihara & Asami (2002) for a tuned mass. Both maxima equal $h$ if $D-N/h^2$ is the
+# square of a quadratic in $\nu$, $\nu^2-S\nu+f^2\rho$ with $\rho^2=1-1/h^2$. The coefficients of $\nu^3$ and $\nu$ give $S$
+# and the damper,
 
 # %%
 rho, F2 = sp.symbols("rho F", positive=True)  # F = f²
@@ -130,7 +130,7 @@ prove(
 )
 
 # %% [markdown]
-# and that of $\nu^2$ leaves a curve of tunings with equal peaks:
+# and the coefficient of $\nu^2$ gives a curve of tunings with equal peaks:
 
 # %%
 curve = ((F2 - rho) ** 2 + F2 * gamma**2) ** 2 * (1 + rho) - 2 * F2 * gamma**4 * rho**2
@@ -142,8 +142,8 @@ prove(
 )
 
 # %% [markdown]
-# The peak is least where $\rho$ is stationary along the curve: its slope in $f^2$ vanishes too. With $f^2=(1-d)\rho$ both
-# equations are linear in what is left, and everything is a rational function of $d$:
+# The peak is least where $\rho$ is stationary along the curve, so the derivative by $f^2$ vanishes, too. With $f^2=(1-d)\rho$
+# both equations are linear in the other unknowns, and everything is a rational function of $d$:
 
 # %%
 d = sp.Symbol("d", positive=True)
@@ -193,7 +193,7 @@ prove(
 )
 
 # %% [markdown]
-# It is least in $f^2$ at the same tuning as before, and in $\zeta$ at
+# It is least for the same $f^2$ as before, and for
 
 # %%
 damping = gamma * sp.sqrt(4 - gamma**2) / 4
@@ -228,7 +228,7 @@ prove(
 )
 
 # %% [markdown]
-# For the worst sway the best mass, with $s=\sqrt{4+3\mu}$, has two peaks of one height too: again a square is left:
+# For the largest sway the best mass, with $s=\sqrt{4+3\mu}$, also has two equal peaks, and the difference is again a square:
 
 # %%
 r = sp.Symbol("s", positive=True)
@@ -246,13 +246,13 @@ prove(
 )
 
 # %% [markdown]
-# Under white noise the spins do as well as the mass at
+# Under white noise spins and mass are equally good at
 
 # %%
 prove(
     (4 / gamma**2 - 1) - (4 + 3 * mu) / (mu * (1 + mu)),
     4 / gamma**2 * (1 - gamma**2 * (2 + mu) ** 2 / (4 * mu * (1 + mu))),
-    "they are even at γ² = 4μ(1 + μ)/(2 + μ)²",
+    "they are equally good at γ² = 4μ(1 + μ)/(2 + μ)²",
     names=r"\mathrm{mean\ squares}",
 )
 

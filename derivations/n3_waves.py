@@ -1,15 +1,15 @@
 # %% [markdown]
 # # Waves in rows, rings and nets
 #
-# **Objective.** How small waves run through periodic patterns of rotors and rigid bars: bands, zero bands, long-wave
-# speed, what weight does, and how finite pieces approach them.
+# **Objective.** Small waves in periodic patterns of rotors and rigid bars: bands, zero bands, the speed of long waves, the
+# effect of weight, and the convergence of finite patterns.
 #
 # **Assumptions.** Small motion about upright axes; bars are constraints. In the closed forms the rotors are equal and the
 # bars massless, except where $b$ is named.
 #
 # **Notation.** $u=(x,y)$ tilt of an axis; $a$ its inertia about the joint, $b$ the coupling by a heavy bar, $G$ the axial
-# momentum; $\kappa$ hinge stiffness less the weight's moment $gS$. Waves $u_n\propto e^{i(qn-\omega t)}$. With $Z$ a
-# basis of what the bars leave at $q$: $\det(-\omega^2Z^\dagger MZ-i\omega Z^\dagger CZ+Z^\dagger KZ)=0$.
+# momentum; $\kappa$ hinge stiffness minus the weight's moment $gS$. Waves $u_n\propto e^{i(qn-\omega t)}$. With $Z$ a basis
+# of the motions that the bars allow at $q$: $\det(-\omega^2Z^\dagger MZ-i\omega Z^\dagger CZ+Z^\dagger KZ)=0$.
 
 # %%
 from math import pi
@@ -47,10 +47,9 @@ crossed = sp.Matrix([[0, 1], [-1, 0]])  # C = G times it
 # %% [markdown]
 # ## The ring
 #
-# Each bar is turned by $\theta$ against the one before it, and one bar a rotor leaves one degree of freedom a rotor: the speed
-# $s_k$
-# of bar $k$ along itself. In the frame of joint 0 its own bar lies along $x$, the one before it along $(\cos\theta,-\sin
-# \theta)$; with $s_k=e^{iqk}$ the two projections of $u$ are $1$ and $e^{-iq}$:
+# The angle between consecutive bars is $\theta$. With one bar per rotor there is one degree of freedom per rotor: the speed
+# $s_k$ of bar $k$ along itself. In the frame of joint 0 bar 0 lies along $x$ and bar −1 along $(\cos\theta,-\sin\theta)$;
+# with $s_k=e^{iqk}$ the two projections of $u$ are $1$ and $e^{-iq}$:
 
 # %%
 u = sp.Matrix([[1, 0], [(c - sp.cos(q)) / s, sp.sin(q) / s]])
@@ -72,8 +71,8 @@ prove(gyroscopic, 2 * sp.sin(q) / s, "the gyroscopic term over G", names=r"-iu^\
 # %% [markdown]
 # so that without weight the ring has one band,
 # $$\omega(q)=\frac Ga\,\frac{\sin\theta\sin q}{1-\cos\theta\cos q},\qquad q=\frac{2\pi m}N,\quad\theta=\frac{2\pi}N .$$
-# A positive rate belongs to one sense of $q$ alone: waves of this kind run one way. The highest rate, $G/a$, is that of the
-# free precession of all axes together, at $q=\theta$:
+# A positive rate belongs to only one sign of $q$: these waves run one way. The highest rate, $G/a$, is the free precession of all
+# axes in phase, at $q=\theta$:
 
 # %%
 band = s * sp.sin(q) / (1 - c * sp.cos(q))
@@ -98,8 +97,8 @@ prove(
 )
 
 # %% [markdown]
-# The flatter the ring, the faster its long waves, $\omega\approx(G/a)\cot(\theta/2)\,q$: in a straight row, where a rigid
-# bar carries a push at once, no wave along the row is left.
+# Long waves are faster for smaller $\theta$, $\omega\approx(G/a)\cot(\theta/2)\,q$. In a straight row, where rigid bars
+# transmit a push instantly, there is no wave along the row.
 #
 # A heavy bar couples neighbours by $b$; its coupling is $2b\,\mathrm{Re}(e^{iq}u^\dagger R_\theta u)$:
 
@@ -117,12 +116,12 @@ prove(
 #
 # ## The zigzag
 #
-# Bars turned by $+\theta$ and $-\theta$ in turn: the mass has the same $\cos\theta$, the gyroscopic term changes its
-# sign with $\sin\theta$ from joint to joint. With spins $\pm G$ in turn the two signs cancel, and with massless bars every
-# zigzag has the band of the ring, $q$ counted from rotor to rotor; $\theta=\pi/2$ is the staircase, $\omega=(G/a)\sin q$.
-# With heavy bars it has not: with $p$ the speed of a bar along itself and $p_\pm$ those of its neighbours, the ends of the bar
-# move by $-(p_--p\cos\theta)/\sin\theta$ and $(p_+-p\cos\theta)/\sin\theta'$ across it, $\theta'=\theta$ in the ring and
-# $-\theta$ in the zigzag, so that a part of the coupling changes its sign:
+# Bars turned by $+\theta$ and $-\theta$ in turn: the mass has the same $\cos\theta$, the gyroscopic term changes its sign
+# with $\sin\theta$ from joint to joint. With spins $\pm G$ in turn the two signs cancel, and with massless bars every zigzag
+# has the band of the ring, $q$ counted from rotor to rotor; $\theta=\pi/2$ is the staircase, $\omega=(G/a)\sin q$. With heavy
+# bars the bands differ. Let $p$ be the speed of a bar along itself and $p_\pm$ the speeds of its neighbours. Across the bar
+# its ends move by $-(p_--p\cos\theta)/\sin\theta$ and $(p_+-p\cos\theta)/\sin\theta'$, with $\theta'=\theta$ in the ring and
+# $-\theta$ in the zigzag, so a part of the coupling changes its sign:
 
 # %%
 squared = (sp.cos(q) - c) ** 2 - sp.sin(q) ** 2  # the real part of (exp(iq) − cos θ)²
@@ -186,11 +185,9 @@ Remark(
 # %% [markdown]
 # ## An open zigzag of N rotors, exactly
 #
-# At an end the axis is free across its one bar. That degree of freedom is the speed of a bar that is not there, so that the
-# chain of
-# $N$ rotors is $N+1$ degrees of freedom with $N$ equal terms, and the condition at an end is that the missing rotor's term
-# vanishes,
-# $f(q)=0$ for a single wave with
+# At an end the axis is free to move across its single bar. This degree of freedom is equivalent to the speed of a missing bar, so
+# that the chain of $N$ rotors has $N+1$ degrees of freedom with $N$ equal terms. At an end the term of the missing rotor must
+# vanish, $f(q)=0$ for a single wave with
 
 # %%
 w = sp.Symbol("w", positive=True)  # omega in units of G/a
@@ -260,8 +257,8 @@ Remark(
 )
 
 # %% [markdown]
-# A long wave goes out with one branch and comes back with the other: the lowest mode approaches $2\pi$ over that round trip
-# as the chain grows.
+# A long wave travels out on one branch and returns on the other. In a long chain the lowest rate approaches $2\pi$ over the
+# time of this round trip.
 
 
 # %%
@@ -317,11 +314,11 @@ prove(
 )
 
 # %% [markdown]
-# The two axes of a cell turn in opposite senses. Equal spins cancel: **a honeycomb of rigid bars and equal spins has
-# one zero band and nothing else.** Opposite spins add, $|u|^2=\tfrac23\sum|f_j|^2$ and the area is $2/\sqrt3$ times
+# The two axes of a cell circle in opposite senses. The effects of equal spins cancel: **a honeycomb of rigid bars and equal spins
+# has only one zero band.** The effects of opposite spins add. With $|u|^2=\tfrac23\sum|f_j|^2$ and the area $2/\sqrt3$ times
 # $f_1\times f_2$:
 # $$\omega=\frac{G_A-G_B}{2a}\,\frac{\sqrt3\,\sum\sin\Delta_j}{3-\sum\cos\Delta_j}$$
-# (one sense of each $q$). For long waves,
+# (for one sign of each $q$). For long waves,
 # $\Delta=\epsilon(d_1,d_2,-d_1-d_2)$,
 
 # %%
@@ -357,8 +354,8 @@ Remark(
 # %% [markdown]
 # ## Zero bands and special wave numbers
 #
-# In the straight row the bars hold all $x$ equal: a wave $q\ne0$ has $x=0$, no spin acts on it, and only hinges and heavy
-# bars give it a rate, $\omega^2=\kappa/(a+2b\cos q)$.
+# In the straight row the bars keep all $x$ equal. A wave $q\ne0$ has $x=0$, and no spin acts on it. Its rate depends only on
+# hinges and bars, $\omega^2=\kappa/(a+2b\cos q)$.
 
 # %%
 row = straight_row(spins=10.0, hinge=50.0, link=Link(mass=1.0, inertia=0.1))
@@ -369,9 +366,8 @@ assert off_row < 1e-12
 Remark("The straight row", f"With hinges and heavy bars its rates are the closed form's within {off_row:.0e}.")
 
 # %% [markdown]
-# In the square net two bars a rotor leave no degree of freedom but on the lines $q_x=0$ and $q_y=0$, where a row or a column
-# moves as
-# one.
+# The square net has two bars per rotor. It has no degree of freedom except on the lines $q_x=0$ and $q_y=0$, where a row or a
+# column moves as a whole.
 
 # %%
 counted = {
@@ -407,12 +403,12 @@ prove(
 )
 
 # %% [markdown]
-# Hinges, $\kappa>0$: two rates, one of each sense, and a gap from zero on. Weight, $\kappa<0$: the wave stands only where
-# $\beta(q)^2>4a|\kappa|$. As $\beta$ passes through zero in the bands above, **no endless zigzag or honeycomb of rigid bars
-# whose spins have one size stands under weight**. A finite zigzag has its own $q$ alone: of an even number of rotors one
-# rate is zero, and it falls; of an odd number $N$ the least $\beta$ is that of $x=\pi/2-\pi/2N$, and it stands from
-# $$G=2\sqrt{a|\kappa|}\;\frac{\sqrt{1-\cos^2\theta\sin^2(\pi/2N)}}{\sin\theta\,\sin(\pi/2N)}$$
-# on, in proportion to its length.
+# With hinges, $\kappa>0$, there are two rates, one of each sense, and a gap above zero. With weight, $\kappa<0$, the wave is
+# stable only if $\beta(q)^2>4a|\kappa|$. As $\beta$ passes through zero in the bands above, **no infinite zigzag or honeycomb
+# of rigid bars with spins of one magnitude is stable under weight**. A finite zigzag has only certain $q$. For an even number
+# of rotors one rate is zero, and the zigzag is unstable. For an odd number $N$ the least $\beta$ belongs to $x=\pi/2-\pi/2N$,
+# and it is stable above $$G=2\sqrt{a|\kappa|}\;\frac{\sqrt{1-\cos^2\theta\sin^2(\pi/2N)}}{\sin\theta\,\sin(\pi/2N)}$$ which
+# is proportional to its length.
 
 # %%
 loaded = zigzag(pi / 2, spins=(40.0, -40.0), gravity=9.81)
@@ -423,7 +419,7 @@ weight = 9.81 * Rotor().mass * Rotor().length / 2
 growing = falling.growth.max(axis=1) > 0
 assert (growing == (turning**2 < 4 * Rotor().J * weight)).all()
 Remark(
-    "An endless staircase under weight",
+    "An infinite staircase under weight",
     f"Spins of ±40 rad/s: of {len(fine)} waves {growing.sum()} grow, those and only those with β² < 4a|κ|.",
 )
 
@@ -449,7 +445,7 @@ Remark(
 )
 
 # %% [markdown]
-# ## Spins of two sizes: a gap, in which long rows stand
+# ## Spins of two magnitudes: a gap, and stable long rows
 #
 # In a staircase with $G_1$ and $G_2$ in turn a cell has a tilt $X$ shared by its two rotors and a $Y$ shared by the second
 # and the first of the next cell. With $\lambda=as^2+\kappa$ for motion as $e^{st}$ and $Q$ the phase of a cell
@@ -467,9 +463,9 @@ prove(
 
 # %% [markdown]
 # so that $4\beta^2=G_1^2+G_2^2+2G_1G_2\cos Q$, the bands of Su, Schrieffer and Heeger's chain with spins for hoppings. They
-# keep away from zero by $||G_1|-|G_2||/2$, and an endless staircase stands under weight where this exceeds
-# $2\sqrt{a|\kappa|}$. With every second rotor at rest the tilts fall into pairs, and the spin needed no longer grows with
-# the length:
+# have the distance $||G_1|-|G_2||/2$ from zero, and an infinite staircase is stable under weight if this exceeds
+# $2\sqrt{a|\kappa|}$. If every second rotor does not spin, the tilts form pairs, and the necessary spin does not grow with the
+# length:
 
 
 # %%
@@ -488,9 +484,9 @@ for N in (5, 9, 17, 33):
 two = zigzag(pi / 2, spins=(12.0, -7.0)).dispersion(np.linspace(0, 2 * pi, 61))
 assert np.allclose(two.gaps, [(0, 5 / 2 / Rotor().J)], rtol=1e-9)
 Remark(
-    "Long rows stand with every second rotor at rest",
-    "Least spin, in √(a|κ|)/I_3, at which a staircase of N rotors stands under load, with all spins equal and with every second "
-    "rotor at rest: "
+    "Long rows are stable if every second rotor does not spin",
+    "Least spin, in √(a|κ|)/I_3, at which a staircase of N rotors is stable under load, with all spins equal "
+    "and with every second rotor not spinning: "
     + "; ".join(f"N = {N}: {all_:.2f} and {half:.2f}" for N, (all_, half) in least_spins.items())
     + ".",
 )
@@ -498,7 +494,7 @@ Remark(
 # %% [markdown]
 # ## Compared with the exact motion
 #
-# The polygon of $N$ rotors closes: its modes are the band at $q=2\pi m/N$ without error, and one of them is run.
+# The modes of the closed polygon of $N$ rotors are the band at $q=2\pi m/N$ exactly. One of them is simulated.
 
 # %%
 ring = polygon_ring(12, spins=10.0, link=Link(mass=0.3, inertia=0.1))

@@ -1,8 +1,8 @@
 # %% [markdown]
 # # Friction and spin-down of the pair
 #
-# **Objective.** How the paired precession decays under friction of the axes, by what angle friction topples it, and how its
-# radius changes as the rotors spin down.
+# **Objective.** The decay of the paired precession under friction of the axes, the angle by which friction topples the pair, and
+# the change of the radius as the rotors spin down.
 #
 # **Assumptions.** No weight; friction $-c\,r_i'$ on each axis, and $-c_s\omega_i$ on the spins. The first section is linear,
 # the second of second order in the tilt; both are compared with the exact motion.
@@ -23,7 +23,7 @@ s, beta = sp.Symbol("s"), sp.Symbol("beta", positive=True)
 # %% [markdown]
 # ## Decay
 #
-# With a massless bar the degrees of freedom are $(x,y_1,y_2)$ as in "Standing under load", each with $as^2+cs$:
+# With a massless bar the degrees of freedom are $(x,y_1,y_2)$ as in "Stability under load", each with $as^2+cs$:
 
 # %%
 own = a * s**2 + c * s
@@ -36,12 +36,12 @@ prove(
 )
 
 # %% [markdown]
-# Every root but the three zero ones has the real part $-c/a$: precession and toppling decay at one rate, whatever the
-# spins, and displacements stay. For massless bars the energy says the same of any motion of any number of rotors, however
-# large: it is $\tfrac a2\sum|r_i'|^2$, bars and spins do no work, and $E'=-c\sum|r_i'|^2=-2cE/a$.
+# All roots except the three zero roots have the real part $-c/a$: precession and toppling decay at the same rate for any
+# spins, and displacements remain. For massless bars the energy gives the same rate for any motion of any number of rotors and
+# any amplitude. It is $\tfrac a2\sum|r_i'|^2$; bars and spins do no work, so $E'=-c\sum|r_i'|^2=-2cE/a$.
 #
-# A heavy bar makes the inertia of $x$ and of $y_1+y_2$ twice $A=a+b$, that of the twist $y_1-y_2$ half of $D=a-b$. Opposite
-# spins couple $x$ and the twist:
+# With a heavy bar the inertia of $x$ and of $y_1+y_2$ is twice $A=a+b$, and that of the twist $y_1-y_2$ is half of $D=a-b$.
+# Opposite spins couple $x$ and the twist:
 
 # %%
 A, D = a + b, a - b
@@ -89,7 +89,7 @@ Remark(
 )
 
 # %% [markdown]
-# With a massless bar the energy decays as $e^{-2ct/a}$ at any amplitude, also while the spins run down:
+# With a massless bar the energy decays as $e^{-2ct/a}$ at any amplitude, even while the spins decrease:
 
 # %%
 large = paired_scene(Scene(spins=(10.0, -10.0), link=Link(1, 0, 0)), 0.3)
@@ -103,7 +103,7 @@ Remark("The decay at a large amplitude", f"From amplitude 0.3 the energy is E_0 
 # %% [markdown]
 # ## Friction topples the pair
 #
-# Friction takes momentum about the joint line: $P'=-c\sum(r_i\times r_i')_x$, and
+# Friction changes the momentum about the joint line: $P'=-c\sum(r_i\times r_i')_x$, and
 
 # %%
 x, x_v, alpha, alpha_v = sp.symbols("x x_v alpha alpha_v", real=True)
@@ -118,9 +118,9 @@ prove(
 )
 
 # %% [markdown]
-# so that to second order $P+c\,(\alpha_1+\alpha_2)$ is constant. In the end nothing moves, and $P$, but for what a
-# twist at rest keeps of it, has gone into an angle: **the pair turns about the joint line by $\Delta\alpha=\Delta P/2c$
-# in all**, the farther the less friction there is.
+# so that to second order $P+c\,(\alpha_1+\alpha_2)$ is constant. At the end the pair is at rest. Apart from the momentum of a
+# static twist, $P$ has changed into an angle: **the pair rotates about the joint line by $\Delta\alpha=\Delta P/2c$ in
+# total**. This angle is larger for smaller friction.
 #
 # A paired precession has such a $P$. The bar makes $x_1-x_2$ of second order:
 
@@ -133,7 +133,7 @@ bar = (k - epsilon**2 * gap) ** 2 + epsilon**2 * (y_2 - y_1) ** 2 + (z_2 - z_1) 
 prove(
     bar,
     0,
-    "the bar is held through third order by x_1 − x_2 = (y_1 − y_2)²/2k",
+    "the constraint of the bar is satisfied through third order by x_1 − x_2 = (y_1 − y_2)²/2k",
     small=epsilon,
     order=3,
     names=r"|\ell e_x+R(r_2-r_1)|^2/R^2-k^2",
@@ -151,7 +151,7 @@ mean = sp.integrate(G * twist**2 / (2 * k), (phase, 0, 2 * sp.pi)) / (2 * sp.pi)
 prove(mean, G * r_0**2 * (a + b) / (k * (a - b)), "the momentum of the paired precession", names="P")
 
 # %% [markdown]
-# It topples by $Gr_0^2(a+b)/(2ck(a-b))$ in all. On the exact motion:
+# The total angle is $Gr_0^2(a+b)/(2ck(a-b))$. On the exact motion:
 
 
 # %%
@@ -195,7 +195,7 @@ Remark(
 # %% [markdown]
 # ## Spin-down
 #
-# With $G(t)=G e^{-c_st/I_3}$ the linear motion of the complex tilt is still solved: $au''+cu'=iG(t)u'$ by
+# With $G(t)=G e^{-c_st/I_3}$ the linear equation of the complex tilt, $au''+cu'=iG(t)u'$, still has a closed solution:
 
 # %%
 turn = sp.Function("Phi")(t)
@@ -209,9 +209,9 @@ prove(
 )
 
 # %% [markdown]
-# A precession's radius is its velocity over its rate $G(t)/a$: it goes as $e^{(c_s/I_3-c/a)t}$. Spin-down alone widens
-# it as $1/G$; and where the friction of the joint is the same in every direction, $c_s=c$, it **widens for $I_3<a$** and
-# shrinks for $I_3>a$.
+# The radius of a precession is its velocity over its rate $G(t)/a$, which is proportional to $e^{(c_s/I_3-c/a)t}$. Spin-down
+# alone increases it as $1/G$. If the friction of the joint is the same in every direction, $c_s=c$, the radius **grows for
+# $I_3<a$** and decreases for $I_3>a$.
 
 # %%
 friction, spin, r0, until = 0.05, 40.0, 0.02, 8.0
@@ -227,20 +227,20 @@ expected = float(np.exp((friction / 1 - friction / 1.25) * middle))
 assert abs(found_radius / expected - 1) < 0.01
 assert found_radius > 1
 Remark(
-    "The precession widens as the rotors spin down",
+    "The radius of the precession grows as the rotors spin down",
     f"Friction {friction:g} N m s/rad in every direction, I_3 = 1 and a = 1.25 kg m²: after {until:g} s the exact paired "
     f"precession has {found_radius:.4f} of its radius, exp((1/I_3 − 1/a) c t) is {expected:.4f}.",
 )
 
 # %% [markdown]
-# ## What spin-down conserves
+# ## Conserved quantities under spin-down
 #
 # The torque that slows a spin is along its axis: it does no work on the tilt, as the spin itself does none. With $c=0$
 # the energy of the tilt is constant while $G$ falls, at any amplitude and any speed of the spin-down; the action
 # $E/\Omega$, the adiabatic invariant of a Lagrangian that depends on time, is not, and grows as $1/G$.
 #
-# It does carry momentum about the joint line, $P'=\sum G_i'x_i$. With $r=r_0G_0/G$ the mean of $P$ is
-# $2A\bar\alpha'+Gr^2A/(kD)$ and that of $P'$ is $G'r^2A/(kD)$; from $G_0$ to $G$ what is left for $2A\bar\alpha'$ is
+# The torque does change the momentum about the joint line, $P'=\sum G_i'x_i$. With $r=r_0G_0/G$ the mean of $P$ is
+# $2A\bar\alpha'+Gr^2A/(kD)$, and the mean of $P'$ is $G'r^2A/(kD)$. From $G_0$ to $G$ the term $2A\bar\alpha'$ becomes
 
 # %%
 G_0, now = sp.symbols("G_0 g", positive=True)
@@ -254,7 +254,7 @@ prove(
 )
 
 # %% [markdown]
-# The wider the precession gets, the faster the pair topples; over the time $t$ by
+# The pair topples faster as the radius grows; in the time $t$ it topples by
 # $-\frac{G_0r_0^2}{kD}\left(\frac{e^{\nu t}-1}{\nu}-t\right)$ with $\nu=c_s/I_3$.
 
 

@@ -1,10 +1,10 @@
 # %% [markdown]
 # # Bands with a Chern number
 #
-# **Objective.** Which patterns of rotors on hinges have bands with a Chern number, so that waves run one way along their
-# border: springs between the tips, and rigid bars.
+# **Objective.** Patterns of rotors on hinges whose bands have a nonzero Chern number, so that waves run one way along their
+# border: with springs between the tips, and with rigid bars.
 #
-# **Assumptions.** Small motion about upright axes that stand on hinges, no friction.
+# **Assumptions.** Small motion about upright axes on elastic hinges, no friction.
 #
 # **Notation.** $a$ the inertia of an axis, $G$ its momentum, $\kappa$ its hinge, $k$ the stiffness of a spring between tips,
 # lengths of axes 1; $\mu=\kappa+\tfrac32k-a\omega^2$. The Chern numbers are computed by the method of Fukui, Hatsugai and
@@ -24,9 +24,9 @@ mu, mu_A, mu_B = sp.symbols("mu mu_A mu_B", real=True)
 i, root = sp.I, sp.sqrt(3)
 
 # %% [markdown]
-# ## The honeycomb of springs where its bands come nearest
+# ## The honeycomb of springs at the smallest gap
 #
-# Three springs hold each tip, along $n_1,n_2,n_3$ at 120°, $k\sum nn^T=\tfrac32k$. At the corner $K$ of the zone the far
+# Three springs act on each tip, along $n_1,n_2,n_3$ at 120°, $k\sum nn^T=\tfrac32k$. At the corner $K$ of the zone the far
 # ends have the phases $1,\varepsilon,\varepsilon^2$ with $\varepsilon=e^{2\pi i/3}$. The springs of one tip add up to
 
 # %%
@@ -41,8 +41,8 @@ prove(
 )
 
 # %% [markdown]
-# A wave $e^{-i\omega t}$ at $K$ needs $\det D(K)=0$, where $D$ is the stiffness less $\omega^2$ times the mass matrix and
-# $i\omega$ times the gyroscopic one. With equal spins
+# A wave $e^{-i\omega t}$ at $K$ needs $\det D(K)=0$. $D$ is the stiffness minus $\omega^2$ times the mass matrix minus
+# $i\omega$ times the gyroscopic matrix. With equal spins
 
 # %%
 joined = -k * sum((n * n.T * phase for n, phase in zip(directions, phases, strict=True)), sp.zeros(2, 2))
@@ -64,8 +64,8 @@ prove(
 )
 
 # %% [markdown]
-# Of each axis one sense of circling is left alone by the springs at $K$, $\mu=\pm\omega G$, and the other senses are
-# coupled by $\tfrac32k$. The two precessions differ there: a gap at every spin and spring. With opposite spins
+# At $K$ the springs do not act on one sense of circling of each axis, $\mu=\pm\omega G$, and couple the other senses by
+# $\tfrac32k$. The two precessions have different rates there: a gap exists for every spin and spring. With opposite spins
 
 # %%
 prove(
@@ -84,9 +84,9 @@ prove(corner(mu_A, mu_B, G, G), unequal, "unequal hinges at K", names=r"\det D(K
 
 # %% [markdown]
 # The gap closes where $\mu_A=\omega G$ and $(\mu_A+\omega G)(\mu_B-\omega G)=\tfrac94k^2$ together, that is where
-# $$\kappa_B-\kappa_A=\frac{9k^2}{8\omega G},\qquad a\omega^2+G\omega=\kappa_A+\tfrac32k .$$
-# There the numbers of the precessions change from those of the spins to zero. Those of the nutations, with $-G$ for $G$ in
-# the second equation and a faster $\omega$, change at a smaller difference.
+# $$\kappa_B-\kappa_A=\frac{9k^2}{8\omega G},\qquad a\omega^2+G\omega=\kappa_A+\tfrac32k .$$ There the Chern numbers of the
+# precessions change from the numbers that the spins give to zero. The numbers of the nutations, with $-G$ for $G$ in the
+# second equation and a larger $\omega$, change at a smaller difference.
 
 # %%
 spring, hinge, spin = 50.0, 200.0, 30.0
@@ -122,9 +122,9 @@ Remark(
 # %% [markdown]
 # ## A packet on the border, in the exact motion
 #
-# The bands below the gap add up to −1: along the lower border one wave runs against the first step, and so round the whole
-# piece clockwise. A push on a rotor of the lower border, of which the modes in the gap are kept, shows where it goes in
-# the exact motion; with reversed spins it must go the other way round.
+# The Chern numbers of the bands below the gap add up to −1. One wave therefore runs along the lower border in the direction
+# opposite to the first step, and clockwise around the whole piece. The exact motion shows its direction after a push on a
+# rotor of the lower border, projected onto the modes in the gap. With reversed spins it must run in the opposite direction.
 
 
 # %%
@@ -157,20 +157,18 @@ Remark(
 # %% [markdown]
 # ## Rigid bars
 #
-# Bars leave, at each $q$, the null space of their rows. A Chern number needs as many degrees of freedom at every $q$. At $q=0$
-# two
-# translations are among them, and if the bars carry a self-stress there, tensions that balance at every joint, one degree of
-# freedom
-# more appears for each. In a honeycomb equal tensions balance: it has one degree of freedom a cell, two at $q=0$, and no Chern
-# number.
+# At each $q$ the degrees of freedom are the null space of the bars' constraints. A Chern number needs the same number of
+# degrees of freedom at every $q$. At $q=0$ they include two translations. Each self-stress of the bars there, a set of
+# tensions that balance at every joint, adds one degree of freedom. In a honeycomb equal tensions balance: it has one degree
+# of freedom per cell, two at $q=0$, and no Chern number.
 
 # %%
 rows = sp.Matrix([[*n, *(-n)] for n in directions])
 prove(sp.ones(1, 3) * rows, sp.zeros(1, 4), "equal tensions of the honeycomb balance at q = 0", names="A^T t")
 
 # %% [markdown]
-# Squares joined into octagons have two degrees of freedom a cell. Tensions of 1 in the squares and $\sqrt2$ between them balance,
-# until one joint is moved out of its place along both axes:
+# Squares joined into octagons have two degrees of freedom per cell. Tensions of 1 in the squares and $\sqrt2$ between them
+# balance, unless one joint is displaced along both axes:
 
 # %%
 square = [sp.Matrix([1, 0]), sp.Matrix([0, 1]), sp.Matrix([-1, 0]), sp.Matrix([0, -1])]
@@ -189,7 +187,7 @@ def pull(joint: int) -> sp.Matrix:
 prove(
     [sum((pull(joint)[axis] ** 2 for axis in (0, 1)), sp.Integer(0)) for joint in range(4)],
     [0] * 4,
-    "the squares of what is left at the four joints",
+    "the squares of the unbalanced forces at the four joints",
     names=tuple(f"|f_{joint + 1}|^2" for joint in range(4)),
 )
 

@@ -1,11 +1,12 @@
 # %% [markdown]
-# # Resonances of what spins hold
+# # Resonances of structures stabilised by spins
 #
-# **Objective.** Why a structure that stands to first order can fall from any push, however small: where, from which pushes, and
-# in what time.
+# **Objective.** A structure that is stable to first order can be unstable to arbitrarily small pushes: the resonances, the pushes
+# and the times.
 #
-# **Assumptions.** Rotors under weight, held by their spins, without friction; motion about upright through the terms of third
-# order, the exact motion beside it. Cherry, Trans. Camb. Phil. Soc. 23 (1925) 199; Kelvin & Tait, Natural Philosophy, § 345.
+# **Assumptions.** Rotors under weight, stabilised by their spins, without friction; motion about upright through the terms of
+# third order, compared with the exact motion. Cherry, Trans. Camb. Phil. Soc. 23 (1925) 199; Kelvin & Tait, Natural
+# Philosophy, § 345.
 #
 # **Notation.** $a$ the inertia of a degree of freedom, $\kappa$ the moment of its weight, $\beta$ the spins' coupling of two;
 # $z_j$ the normal coordinates, $\{z_j,\bar z_j\}=-i$, $\omega_j$ their rates with the sign of their energy, $N=\sum|z_j|^2$.
@@ -27,15 +28,17 @@ fast, slow = ((beta + sign * sp.sqrt(beta**2 - 4 * a * kappa)) / (2 * a) for sig
 # %% [markdown]
 # ## Signs of energy
 #
-# Two degrees of freedom that weight would tip over turn about each other at rates $a\omega^2-\beta\omega+\kappa=0$. A circular
-# motion of radius $\rho$ has the energy $\tfrac12(a\omega^2-\kappa)\rho^2$: the spins' part does no work. With the two rates
+# Two degrees of freedom that are unstable under weight, coupled by the spins, have the rates of
+# $a\omega^2-\beta\omega+\kappa=0$. A circular motion of radius $\rho$ has the energy $\tfrac12(a\omega^2-\kappa)\rho^2$,
+# because the spins do no work. With the two rates
 
 # %%
 prove(sp.expand(fast * slow), kappa / a, "the product of the rates", names=r"\omega_f\omega_s")
 
 # %% [markdown]
-# the slow one is below $\sqrt{\kappa/a}$ and has less energy than rest, the fast one more: what takes energy from a slow
-# precession makes it grow. A slow rate twice is a fast one where the spins exceed the critical ones, $\beta=2\sqrt{a\kappa}$, by
+# the slow precession has a rate below $\sqrt{\kappa/a}$ and less energy than the rest state; the fast one has more. A slow
+# precession therefore grows if it loses energy. The fast rate is twice the slow one if the spins exceed the critical ones,
+# $\beta=2\sqrt{a\kappa}$, by
 
 # %%
 at_resonance = {beta: 2 * sp.sqrt(a * kappa) * f}
@@ -44,7 +47,7 @@ prove(ratio.subs(f, 3 / sp.sqrt(8)), 2, "fast = 2 × slow at 3/√8 times the cr
 prove(ratio.subs(f, 2 / sp.sqrt(3)), 3, "and fast = 3 × slow, of fourth order, at 2/√3", names=r"\omega_f/\omega_s")
 
 # %% [markdown]
-# ## Three waves that feed each other
+# ## Three resonant waves
 #
 # With rates of signed energy, $H=\sum\omega_j|z_j|^2+\dots$, and $\omega_1+\omega_2+\omega_3=0$, the terms $P=c\,z_1z_2z_3$ and
 # $\bar P$ cannot be removed by a canonical transformation. Of them
@@ -64,7 +67,7 @@ actions = [p * q for p, q in zip(z, w, strict=True)]
 prove(
     [bracket(action, P + P_bar) for action in actions],
     [sp.I * (P - P_bar)] * 3,
-    "each action gains as much",
+    "the actions grow at the same rate",
     names=[rf"\{{|z_{j}|^2,P+\bar P\}}" for j in (1, 2, 3)],
 )
 
@@ -72,14 +75,14 @@ prove(
 prove(
     bracket(sum(actions), P + P_bar),
     3 * sp.I * (P - P_bar),
-    "so do they all, −6 Im P, and nothing bounds the sum",
+    "their sum grows at −6 Im P and is unbounded",
     names=r"\dot N",
 )
 
 # %% [markdown]
-# Were one of the signs another, the sum of two actions would be conserved and bound them. Of any $P$ of third degree, with $c$
-# the largest $|P|$ at $N=1$, $|\dot N|\le6cN^{3/2}$, by Euler's theorem on homogeneous functions: no start with
-# $N=\rho^2$ falls before the time at which
+# If one of the signs were different, the sum of two actions would be conserved and would bound them. For any $P$ of third degree,
+# with $c$ the largest $|P|$ at $N=1$, Euler's theorem on homogeneous functions gives $|\dot N|\le6cN^{3/2}$. From $N=\rho^2$ no
+# motion therefore diverges before the time at which
 
 # %%
 t = sp.Symbol("t", nonnegative=True)
@@ -89,8 +92,8 @@ prove(
 )
 
 # %% [markdown]
-# is infinite, $t=1/(3c\rho)$: one over the push. Cherry's own example is a solution in closed form, of
-# $H=\tfrac12(q_1^2+p_1^2)-(q_2^2+p_2^2)+\tfrac12\bigl(2q_1p_1p_2-q_2(q_1^2-p_1^2)\bigr)$, linearly stable:
+# is infinite, $t=1/(3c\rho)$, inversely proportional to the push. Cherry's example has a solution in closed form. Its
+# Hamiltonian is $H=\tfrac12(q_1^2+p_1^2)-(q_2^2+p_2^2)+\tfrac12\bigl(2q_1p_1p_2-q_2(q_1^2-p_1^2)\bigr)$, linearly stable:
 
 # %%
 tau, gamma = sp.symbols("tau gamma", real=True)
@@ -112,10 +115,10 @@ prove(
 )
 
 # %% [markdown]
-# ## Beside the resonance
+# ## Near the resonance
 #
-# Where the rates miss it by $\delta=k\cdot\omega$, $\tfrac13\delta N+2\operatorname{Re}P$ is conserved, and
-# $2|\operatorname{Re}P|\le2cN^{3/2}$. The least that it can be at $N$ has its barrier at $N=\delta^2/81c^2$:
+# With the detuning $\delta=k\cdot\omega$, $\tfrac13\delta N+2\operatorname{Re}P$ is conserved, and
+# $2|\operatorname{Re}P|\le2cN^{3/2}$. Its minimum at given $N$ has a barrier at $N=\delta^2/81c^2$:
 
 # %%
 N = sp.Symbol("N", positive=True)
@@ -124,22 +127,22 @@ barrier = (delta / (9 * c)) ** 2
 prove(lowest.diff(N).subs(N, barrier), 0, "the barrier", names=r"\partial_N(\tfrac13\delta N-2cN^{3/2})")
 
 # %% [markdown]
-# and a start at $\rho$, where it is at most $\tfrac13\delta\rho^2+2c\rho^3$, cannot pass it for
+# and a motion that starts at $\rho$, where the conserved quantity is at most $\tfrac13\delta\rho^2+2c\rho^3$, cannot pass it for
 
 # %%
 edge = delta / (18 * c)
 prove(
     delta * edge**2 / 3 + 2 * c * edge**3,
     lowest.subs(N, barrier),
-    "the largest push that stays whatever its direction: ρ = δ/(18 c)",
+    "the largest push that stays bounded in any direction: ρ = δ/(18 c)",
     names=r"\tfrac13\delta\rho^2+2c\rho^3",
 )
 
 # %% [markdown]
 # ## The corner of three
 #
-# Two rotors that spin on both sides of one at rest, bars at a right angle: four degrees of freedom in two equal pairs. Rates,
-# coefficient and reach come from the expansion of its Lagrangian, all in $\sqrt{\kappa/a}$.
+# The middle rotor does not spin, the two others do, and the bars form a right angle: four degrees of freedom in two equal
+# pairs. The expansion of the Lagrangian gives rates, coefficient and largest push, all in units of $\sqrt{\kappa/a}$.
 
 # %%
 corner = Structure(joints=[(0, 0), (1, 0), (1, 1)], bars=[(0, 1), (1, 2)], spins=[1, 0, 1], gravity=9.81, load=2.0)
@@ -159,7 +162,7 @@ seen = [measured_fall(at_third, push * rate * direction, 2 / (push * rate)) * ra
 slope = float(np.polyfit(np.log(pushes), np.log(seen), 1)[0])
 assert abs(slope + 1) < 0.1 and all(abs(x - y) < 5 for x, y in zip(said, seen, strict=True))
 Remark(
-    "At the resonance any push makes it fall",
+    "At the resonance any push makes the corner fall",
     f"At {third / critical:.4f} times its critical spins the corner's slow precessions have the rate "
     f"{-resonance.rates[0] / rate:.4f}, "
     f"the fast ones {resonance.rates[-1] / rate:.4f} √(κ/a); c = {resonance.growth / rate:.4f}. No push of "
@@ -185,17 +188,17 @@ equal = replace(corner, spins=1)
 holding = replace(equal, spins=1.0607 * equal.critical_spin()).stands()
 assert holding.kind == "holds"
 Remark(
-    "Equal spins do not fall by it",
+    "With equal spins the corner does not fall by this resonance",
     "On the same corner with three equal spins the rates add up at the same factor, but the coefficient vanishes: at 1.0607 "
     f"times the critical spins no push below {holding.resonance.push() / rate:.2f} √(κ/a) makes it fall.",
 )
 
 # %% [markdown]
-# ## How long it holds
+# ## The time of stability
 #
-# In the coordinates of the normal form through order $N$ what it leaves begins with degree $N+1$, and with resonances kept in
-# degree $d\le N$. A term $c\,z^\alpha\bar z^\beta$ changes $Q=\sum_j|z_j|^2$ by
-# $|\dot Q|\le\big||\alpha|-|\beta|\big|\,|c|\,|z|^d$, so that with the sizes $g_d$ of what changes $Q$
+# In the coordinates of the normal form through order $N$ the remainder begins with degree $N+1$, or with the degree $d\le N$
+# of the resonant terms. A term $c\,z^\alpha\bar z^\beta$ changes $Q=\sum_j|z_j|^2$ by $|\dot
+# Q|\le\big||\alpha|-|\beta|\big|\,|c|\,|z|^d$. With $g_d$ the sum of these coefficients in degree $d$,
 #
 # $$|\dot Q|\le\sum_d g_d\,Q^{d/2},\qquad t\ge\int_{\rho^2}^{2\rho^2}\frac{dQ}{\sum_d g_dQ^{d/2}},$$
 #
@@ -216,7 +219,7 @@ for push in small:
     times.append(unequal.stands().hold_time(push * rate) * unit / (2 * np.pi))
 assert abs(measured_order(small, times) + 4) < 0.1
 Remark(
-    "How long it holds",
+    "The time of stability",
     "With spins as 1 : 0.3 : 1.2 and 1.5 times the critical ones no resonance is near. By the normal form of fifth order no push "
     "of "
     + ", ".join(f"{push:g}" for push in small)

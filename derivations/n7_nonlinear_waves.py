@@ -1,11 +1,11 @@
 # %% [markdown]
-# # Waves that have a size
+# # Nonlinear waves
 #
-# **Objective.** How the rate of a wave of rotors shifts with its amplitude, and where three waves feed each other.
+# **Objective.** The shift of the frequency of a wave of rotors with its amplitude, and the resonances of three waves.
 #
 # **Assumptions.** A periodic pattern of rotors, bars or springs between them, without friction. Whitham, Linear and Nonlinear
-# Waves (1974), chs. 14 and 15; Craik, Wave Interactions and Fluid Flows (1985), ch. 5. That they hold is known; for rotors and
-# bars the coefficients are new.
+# Waves (1974), chs. 14 and 15; Craik, Wave Interactions and Fluid Flows (1985), ch. 5. The equations are known; the coefficients
+# for rotors and bars are new.
 #
 # **Notation.** $a$ the largest tilt (its sine) of a wave, $z=a/2$, $\theta=qn-\omega t$ its phase in cell $n$;
 # $g(\omega)|z|^2$ the mean of the quadratic Lagrangian; $A$ the inertia of an axis, $G$ its momentum, $S$ its first moment.
@@ -26,7 +26,7 @@ B, f, b, shift = sp.symbols("B f b delta", real=True)
 # %% [markdown]
 # ## The averaged Lagrangian
 #
-# With $u=z\,s\,e^{i\theta}+\text{c.c.}$ and what this forces at the phases 0 and $2\theta$, of size $b|z|^2$, the mean of the
+# The wave $u=z\,s\,e^{i\theta}+\text{c.c.}$ forces responses at the phases 0 and $2\theta$, of size $b|z|^2$. The mean of the
 # Lagrangian over cells and phases is, through fourth order and with $N=|z|^2$, $g(\omega_0)=0$ and $\omega=\omega_0+\delta$,
 # $$\langle L\rangle=g'\delta\,N+\bigl(c+f\,b+\tfrac12B\,b^2\bigr)N^2.$$
 
@@ -34,14 +34,19 @@ B, f, b, shift = sp.symbols("B f b delta", real=True)
 averaged = g_1 * shift * N + (c + f * b + B * b**2 / 2) * N**2
 
 # %% [markdown]
-# Hamilton's principle makes it stationary in $b$ and in $N$ (the phase's own equation keeps the wave action $g'N$): at
+# By Hamilton's principle it is stationary in $b$ and in $N$; the equation of the phase conserves the wave action $g'N$. Hence
 # $b=-f/B$ and $\delta=-(2c-f^2/B)\,N/g'$,
 
 # %%
 forced = -f / B
-prove(averaged.diff(b).subs(b, forced), 0, "what the wave forces", names=r"\partial_b\langle L\rangle")
+prove(averaged.diff(b).subs(b, forced), 0, "the forced response", names=r"\partial_b\langle L\rangle")
 moved = -2 * (c - f**2 / (2 * B)) * N / g_1
-prove(averaged.diff(N).subs({b: forced, shift: moved}), 0, "the shift of its rate", names=r"\partial_N\langle L\rangle")
+prove(
+    averaged.diff(N).subs({b: forced, shift: moved}),
+    0,
+    "the shift of the frequency",
+    names=r"\partial_N\langle L\rangle",
+)
 
 # %% [markdown]
 # In a cell $k$ steps away each product of exponentials has the factor $e^{ikqm}$, $m$ its multiple of $\theta$, and a time
@@ -50,8 +55,8 @@ prove(averaged.diff(N).subs({b: forced, shift: moved}), 0, "the shift of its rat
 #
 # ## A case in closed form
 #
-# Where all rotors lean alike, $q=0$, springs between them are not strained, and each is a heavy top. Leaning by
-# $\sin\vartheta=a$ it turns steadily, with the Lagrangian (spins and precession of one sense)
+# For $q=0$ all rotors have the same tilt, the springs between them are not strained, and each rotor is a heavy top. At the tilt
+# $\sin\vartheta=a$ it precesses steadily, with the Lagrangian (spin and precession in the same sense)
 
 # %%
 C = sp.Symbol("C", positive=True)  # cos of the lean
@@ -81,7 +86,7 @@ prove(
 )
 
 # %% [markdown]
-# which the expansion of the waves gives, too:
+# The expansion of the waves gives the same:
 
 # %%
 row = straight_row(spring=31.0, spins=26.0, gravity=9.81, load=0.4)
@@ -92,7 +97,7 @@ closed = np.array([float(law.subs(numbers)) for law in laws])
 expanded = np.array([row.nonlinear_wave(0.0, band).shift for band in (1, 0)])
 assert np.abs(expanded / closed - 1).max() < 1e-9
 Remark(
-    "A row of heavy tops in step",
+    "A row of heavy tops in phase",
     f"Shifts of {expanded[0]:.5f} a² and −{-expanded[1]:.5f} a² rad/s by the expansion, those of the closed form but for "
     f"{np.abs(expanded / closed - 1).max():.0e}.",
 )
@@ -100,8 +105,8 @@ Remark(
 # %% [markdown]
 # ## Rings, compared with the exact motion
 #
-# A regular polygon of rotors closes after $2\pi/q$ cells where $q$ is a multiple of $2\pi/n$. The exact run starts from the wave
-# through second order; its rate is the slope of the phase of its symplectic product with the linear wave.
+# A regular polygon of rotors closes after $2\pi/q$ cells if $q$ is a multiple of $2\pi/n$. The exact run starts from the wave
+# through second order. Its frequency is the slope of the phase of its symplectic product with the linear wave.
 
 # %%
 ring = polygon_ring(7, spins=17.0, hinge=45.0, link=Link(mass=0.15, inertia=0.03))
@@ -159,7 +164,7 @@ prove(
 )
 
 # %% [markdown]
-# What wave 3 loses of its action $g_j|z_j|^2$ waves 1 and 2 gain (Manley & Rowe 1956):
+# Waves 1 and 2 gain the action $g_j|z_j|^2$ that wave 3 loses (Manley & Rowe 1956):
 
 # %%
 action = [g[k] * (change[k] * w[k] + z[k] * back[k]) for k in range(3)]
@@ -167,12 +172,12 @@ prove(action[0] + action[2], 0, "actions 1 and 3", names=r"\dot N_1+\dot N_3")
 prove(action[1] + action[2], 0, "actions 2 and 3", names=r"\dot N_2+\dot N_3")
 
 # %% [markdown]
-# so that $N_1+N_3$ and $N_2+N_3$ bound all three where the energies $\omega_jg_j|z_j|^2$ have one sign, and where waves 1 and 2
-# have another sign than 3 nothing does: all grow, as in n6. A small wave 1 beside wave 3 grows by
+# If the energies $\omega_jg_j|z_j|^2$ have one sign, $N_1+N_3$ and $N_2+N_3$ bound all three waves. If waves 1 and 2 have the
+# opposite sign of wave 3, the waves are unbounded and all grow, as in n6. A small wave 1 in the presence of wave 3 grows by
 
 # %%
 second = i * v_bar * z[2] * back[1] / g[0]
-prove(second, v * v_bar * z[2] * w[2] / (g[0] * g[1]) * z[0], "with wave 3 kept", names=r"\ddot z_1")
+prove(second, v * v_bar * z[2] * w[2] / (g[0] * g[1]) * z[0], "with wave 3 constant", names=r"\ddot z_1")
 
 # %% [markdown]
 # at the rate $|v||z_3|/\sqrt{g_1g_2}$, which is real where $g_1g_2>0$: the pumped wave decays.
@@ -205,7 +210,8 @@ explosive = [t for m in range(6) for t in heavy.three_waves(np.pi / 3 * m) if t.
 assert explosive and all(t.energy_signs == (-1, -1, 1) for t in explosive)
 Remark(
     "Waves that grow together",
-    "Under weight, beside the critical spins, two slow precessions and a fast one that is their sum grow together without end by "
-    f"the terms of third order: {len(explosive)} such triads in a heavy hexagon of springs with one of its own wave numbers, the "
+    "Under weight, near the critical spins, two slow precessions and a fast one whose frequency is their sum "
+    f"grow without bound by the terms of third order: {len(explosive)} such triads in a heavy hexagon of springs with "
+    "one of its own wave numbers, the "
     f"first at rates {explosive[0].rates[0]:.3f} + {explosive[0].rates[1]:.3f} = {explosive[0].rates[2]:.3f} rad/s.",
 )

@@ -1,13 +1,13 @@
 # %% [markdown]
 # # The limit of fast spins
 #
-# **Objective.** What is left of the motion where spins are fast: equations of first order, how far they are off, and the
-# published lattices of hanging gyroscopes as the case that they must give.
+# **Objective.** The limit of fast spins: equations of first order, their error, and the published lattices of hanging
+# gyroscopes as a special case.
 #
 # **Assumptions.** Small motion about upright (or hanging) axes, without friction. Nash, Kleckner, Read, Vitelli, Turner & Irvine,
 # PNAS 112, 14495 (2015).
 #
-# **Notation.** $a$ the inertia of an axis, $G$ its momentum, $\kappa$ what holds it (hinge or weight), $k$ the stiffness of a
+# **Notation.** $a$ the inertia of an axis, $G$ its momentum, $\kappa$ its stiffness (hinge or weight), $k$ the stiffness of a
 # spring between tips, lengths of axes 1; $\psi=x+iy$ of an axis; $\delta$ the angle between one bond and the two others of a
 # honeycomb.
 
@@ -29,7 +29,8 @@ i = sp.I
 # %% [markdown]
 # ## Slow precessions
 #
-# One axis, $au''+Cu'+\kappa u=0$, turns at rates with $a\omega^2+G\omega-\kappa=0$, one sense slow. In $\varepsilon=a\kappa/G^2$
+# One axis, $au''+Cu'+\kappa u=0$, precesses at the rates of $a\omega^2+G\omega-\kappa=0$; one of them is slow. With
+# $\varepsilon=a\kappa/G^2$
 
 # %%
 slow = (sp.sqrt(G**2 + 4 * a * kappa) - G) / (2 * a)
@@ -37,7 +38,7 @@ in_limit = kappa / G
 prove(
     slow.subs(a, epsilon * G**2 / kappa),
     in_limit * (1 - epsilon),
-    "the slow precession: κ/G, too large by the share ε",
+    "the slow precession: κ/G, with the relative error ε",
     small=epsilon,
     order=1,
     names=r"\omega",
@@ -45,7 +46,7 @@ prove(
 
 # %% [markdown]
 # For any network $-\omega^2M-i\omega C+K$ has, from $(K-i\omega_0C)u=0$, the slow rate $\omega_0-\omega_0^2\,u^\dagger
-# Mu/|u^\dagger Cu|+\dots$, of which the limit keeps the first part. Fast precessions, at rates as $G/a$, are gone.
+# Mu/|u^\dagger Cu|+\dots$, and the limit keeps the first term. It has no fast precessions, whose rates are about $G/a$.
 
 # %%
 network = Structure(
@@ -64,10 +65,11 @@ for factor in factors:
 powers = [measured_order(factors, errors) for errors in (off, rest)]
 assert abs(powers[0] + 2) < 0.1 and abs(powers[1] + 4) < 0.1
 Remark(
-    "How far the limit is off",
+    "The error of the limit",
     f"Four hanging gyroscopes joined by five springs, spins as 1 : 1.2 : −0.9 : 1.1 times {', '.join(f'{f:g}' for f in factors)} "
-    f"rad/s: slow rates in the limit are off by {', '.join(f'{e:.1e}' for e in off)}, the power −{-powers[0]:.2f} of "
-    f"the spins, and with the second part taken off by {', '.join(f'{e:.1e}' for e in rest)}, the power −{-powers[1]:.2f}.",
+    f"rad/s: the relative errors of the slow rates in the limit are {', '.join(f'{e:.1e}' for e in off)}, ∝ the power "
+    f"−{-powers[0]:.2f} of the spins; with the second term subtracted they are {', '.join(f'{e:.1e}' for e in rest)}, ∝ the "
+    f"power −{-powers[1]:.2f}.",
 )
 
 # %% [markdown]
@@ -84,7 +86,7 @@ prove(along, (psi + turn * sp.conjugate(psi)) / 2, "a spring", names=r"n\,(n\cdo
 # %% [markdown]
 # and $Cu'$ is $-iG\psi'$, so that the limit is $i\psi_p'=\Omega_g\psi_p+\tfrac12\sum\Omega_k\bigl((\psi_p-\psi_q)+e^{2i\theta}
 # (\psi_p-\psi_q)^*\bigr)$, $\Omega_g=\kappa/G$, $\Omega_k=k/G$: equation 1 of Nash et al. On a honeycomb the springs of one
-# tip add up to $\tfrac32k$ in all directions (n5): at $q=0$ the two axes of a cell lean alike or opposite,
+# tip add up to $\tfrac32k$ in all directions (n5): at $q=0$ the two axes of a cell have equal or opposite tilts,
 
 # %%
 mu = kappa + sp.Rational(3, 2) * k
@@ -98,7 +100,7 @@ prove(
 )
 
 # %% [markdown]
-# and at the corner $K$ of the zone, where n5 has the determinant, with $a=0$
+# and at the corner $K$ of the zone (determinant in n5), with $a=0$
 
 # %%
 upper = mu / G
@@ -123,12 +125,12 @@ with_inertia = honeycomb(**hanging | {"inertia": True}).dispersion(grid).gaps[1]
 # %% [markdown]
 # ## The bond angle
 #
-# Two bonds of each gyroscope stand at the angles $\pm\delta$ from the third, $\theta=0$. What tells the sense of time is
-# $e^{2i\theta}$: with $\psi\to\psi^*$ and $t\to-t$ the equation keeps its form where these are real.
+# Two bonds of each gyroscope have the angles $\pm\delta$ to the third, $\theta=0$. The factors $e^{2i\theta}$ break time
+# reversal: under $\psi\to\psi^*$ and $t\to-t$ the equation keeps its form if they are real.
 
 # %%
 sense = sp.sin(2 * delta)
-prove(sense.subs(delta, sp.pi / 2), 0, "at right angles they are", names=r"\operatorname{Im}e^{2i\delta}")
+prove(sense.subs(delta, sp.pi / 2), 0, "at right angles they are real", names=r"\operatorname{Im}e^{2i\delta}")
 
 # %%
 angles = (120, 105, 90, 75, 60)
@@ -143,5 +145,5 @@ Remark(
         f"{angle}°: {', '.join(f'{n:+d}'.replace('-', '−') for n in chern.numbers) if len(chern.groups) > 1 else 'they touch'}"
         for angle, chern in found.items()
     )
-    + ". The sense of the waves on the border turns round at right angles, as Nash et al. found.",
+    + ". The direction of the waves on the border reverses at right angles, as Nash et al. found.",
 )

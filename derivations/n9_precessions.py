@@ -1,13 +1,13 @@
 # %% [markdown]
 # # Precessions at finite tilt
 #
-# **Objective.** How fast the precession turns that a mode of a structure becomes at finite tilt, and up to which tilt it is
+# **Objective.** Each mode of a structure continues as a precession at finite tilt. Its frequency, and the tilt up to which it is
 # stable.
 #
-# **Assumptions.** Rotors and bars without friction, upright at rest, every mode an oscillation; small tilts, the exact motion
-# beside them. That each mode of a rate of its own goes on as a family of periodic motions: Lyapunov (1907), where no multiple
-# of its rate is another mode's; of equal rates Weinstein (1973) and Moser (1976). The precession and nutation of one top:
-# Routh, Advanced Rigid Dynamics, § 207. For rotors and bars the coefficients are new, as far as we know.
+# **Assumptions.** Rotors and bars without friction, upright at rest, every mode an oscillation; small tilts, compared with
+# the exact motion. Each mode of a simple frequency continues as a family of periodic motions if no multiple of its frequency
+# is another mode's (Lyapunov 1907); for equal frequencies see Weinstein (1973) and Moser (1976). The precession and nutation
+# of one top: Routh, Advanced Rigid Dynamics, § 207. The coefficients for rotors and bars are new, as far as we know.
 #
 # **Notation.** $I_k=|z_k|^2$ the actions of the normal coordinates, $\{z_k,\bar z_k\}=-i$, $\omega_k$ their rates with the sign
 # of their energy; $\tau$ the tilt (its sine) of the axis that moves most; $\Omega$ the rate and $T=2\pi/\Omega$ the period of
@@ -26,11 +26,10 @@ tau, ell, R, phi, A, G, w, p = sp.symbols("tau ell R phi A G w p", positive=True
 b, omega, curvature = sp.symbols("b omega_j A_jj", real=True)
 
 # %% [markdown]
-# ## Why it is a periodic motion, and no steady turning
+# ## A periodic motion that is no steady rotation
 #
-# One top may turn about the vertical: its precession is steady, at rest in a turning frame. A bar keeps its direction in space.
-# Were all axes turned about the vertical by $\varphi$, the distance $|\ell e_x+R(r_2-r_1)|$ of two tips would change at the
-# rate
+# The precession of one top is steady: it is at rest in a rotating frame. The joints of a bar are fixed in space. If all axes were
+# rotated about the vertical by $\varphi$, the distance $|\ell e_x+R(r_2-r_1)|$ of two tips would change at the rate
 
 # %%
 x, y, z = sp.symbols("x y z", real=True)  # of r_2 − r_1
@@ -39,19 +38,19 @@ apart = sp.Matrix([ell, 0, 0]) + R * turned
 prove(
     sp.expand(apart.dot(apart)).diff(phi),
     -2 * ell * R * (x * sp.sin(phi) + y * sp.cos(phi)),
-    "a common turn does not keep a bar's length",
+    "a common rotation changes a bar's length",
     names=r"\partial_\varphi|\ell e_x+R(r_2-r_1)|^2",
 )
 
 # %% [markdown]
-# so that with bars no frame has the motion at rest: what is left of the precession is that all axes return after $T$.
+# so that with bars the motion is at rest in no frame. The precession is a periodic motion: all axes return after $T$.
 #
 # ## The rate
 #
-# In the normal form through fourth order the plane of mode $j$ is invariant where no multiple of $\omega_j$ is another rate, as
-# each term linear in another $z_k$ has been removed. There $H=\omega_jI+\tfrac12A_{jj}I^2$, and $\Omega=\partial H/\partial I$.
-# The axis that moves most tilts by $a\cos\Omega t$ with $a=p\sqrt I$, and by $b\,a^2$ more at its extreme, by what is forced at
-# the rates 0 and $2\Omega$:
+# In the normal form through fourth order the plane of mode $j$ is invariant where no multiple of $\omega_j$ is another rate,
+# as each term linear in another $z_k$ has been removed. There $H=\omega_jI+\tfrac12A_{jj}I^2$, and $\Omega=\partial
+# H/\partial I$. The tilt of the axis that moves most is $a\cos\Omega t$ with $a=p\sqrt I$. The responses forced at the
+# frequencies 0 and $2\Omega$ add $b\,a^2$ at the extreme:
 
 # %%
 I = sp.Symbol("I", positive=True)
@@ -68,9 +67,9 @@ prove(
 )
 
 # %% [markdown]
-# Of one top $A\Omega^2\cos\vartheta-G\Omega+w=0$ with $w=gS$ and $\sin\vartheta=\tau$, and the rates upright $\omega_\pm$.
-# About it the axis nutates at $\nu^2=\Omega^2-2(w/A)\cos\vartheta+(w/A\Omega)^2$, which upright is the difference of the two
-# rates:
+# For one top $A\Omega^2\cos\vartheta-G\Omega+w=0$ with $w=gS$ and $\sin\vartheta=\tau$; in the upright limit the rates are
+# $\omega_\pm$. The nutation about this precession has $\nu^2=\Omega^2-2(w/A)\cos\vartheta+(w/A\Omega)^2$, in the upright
+# limit the difference of the two rates:
 
 # %%
 root = sp.Symbol("r", positive=True)  # sqrt(G² − 4 A w)
@@ -80,7 +79,7 @@ nutation = [rate**2 - 2 * pull / A + (pull / (A * rate)) ** 2 for rate in (fast,
 prove(
     [sp.cancel(square) for square in nutation],
     [sp.cancel((fast - slow) ** 2)] * 2,
-    "Routh's nutation of no tilt",
+    "Routh's nutation in the limit of zero tilt",
     names=(r"\nu_+^2", r"\nu_-^2"),
 )
 
@@ -116,9 +115,9 @@ Remark(
 # %% [markdown]
 # ## The multipliers
 #
-# In the precession another mode turns at $\omega_k+A_{jk}I_j$, and returns after $T$ with the multipliers $e^{\pm
-# iT(\omega_k+A_{jk}I_j)}$, on the circle. Two of the others may be coupled, by terms that are nearly resonant. In a frame that
-# turns with the precession let them miss the resonance by $\Delta_k$ and $\Delta_l$. Terms
+# During the precession another mode has the frequency $\omega_k+A_{jk}I_j$, and after $T$ the multipliers $e^{\pm
+# iT(\omega_k+A_{jk}I_j)}$, on the unit circle. Two other modes may be coupled by nearly resonant terms. In a frame that
+# rotates with the precession let $\Delta_k$ and $\Delta_l$ be their detunings. Terms
 # $g(\zeta_k\zeta_l+\bar\zeta_k\bar\zeta_l)$, $g=|c|I_j^{m/2}$, of rates that add up to $m|\omega_j|$, give
 
 # %%
@@ -145,10 +144,10 @@ prove(
 )
 
 # %% [markdown]
-# As $\omega_k$ is negative where the energy is, rates "add up" with their signs: $|\omega_k+\omega_l|=m|\omega_j|$. Positive
-# ones take what the precession has, and give it back; two of negative energy under weight, $\omega_j=|\omega_k|+|\omega_l|$,
-# grow together with it. By one quantum of the mode, $m=1$ and $g=|c|\sqrt I$, the edge is where $|c|\sqrt I=|\delta|/2$, a tilt
-# in proportion to the detuning, and beyond it the square of the growth is a line in $\tau^2$:
+# The sign of $\omega_k$ is the sign of the energy, so the frequencies add up with their signs:
+# $|\omega_k+\omega_l|=m|\omega_j|$. Modes of positive energy exchange energy with the precession. Two modes of negative
+# energy, $\omega_j=|\omega_k|+|\omega_l|$ under weight, grow together with it. For $m=1$, $g=|c|\sqrt I$, the edge is
+# $|c|\sqrt I=|\delta|/2$, a tilt proportional to the detuning. Beyond it the square of the growth is linear in $\tau^2$:
 
 # %%
 c, miss = sp.symbols("c delta", positive=True)
@@ -207,17 +206,17 @@ for name, (structure, mode) in STRUCTURES.items():
     assert np.abs(np.subtract(measured[name], (2, 4, 2, 4))).max() < 0.1, (name, measured[name])
 Remark(
     "Orders",
-    "What the rate upright leaves, what the law leaves, and the same of the multipliers, as powers of the tilt against 2, 4, 2, "
-    "4: "
+    "Measured exponents of the errors in the tilt: of the upright frequency (expected 2), of the law of the "
+    "frequency (4), of the upright multipliers (2), of the law of the multipliers (4): "
     + "; ".join(f"{', '.join(f'{order:.2f}' for order in orders)} ({name})" for name, orders in measured.items())
     + ".",
 )
 
 # %% [markdown]
-# ## Where it loses its stability
+# ## The edge of stability
 #
-# A triangle on hinges whose fastest rate is nearly the sum of the two others. The exact edge is where the line through the
-# squares of two growths beyond it is zero.
+# In this triangle on hinges the largest frequency is nearly the sum of the two others. The exact edge is the zero of the line
+# through the squares of two growth rates beyond it.
 
 # %%
 near = Structure([(0, 0), (1, 0), (0.3, 0.9)], [*BARS, (2, 0)], [-6.5, 7.7, 7.5], hinge=20.0)
@@ -230,6 +229,6 @@ assert abs(seen / said.edge - 1) < 0.05 and near.steady_precession(2, 0.9 * said
 Remark(
     "The edge of stability",
     f"At {', '.join(f'{rate:.4f}' for rate in near.modes().rates)} rad/s the precession of the fastest is stable up to a tilt "
-    f"of {said.edge:.4f} by the law, {seen:.4f} on exact orbits; at {beyond[1]:.4f} what is beside it grows by "
+    f"of {said.edge:.4f} by the law, {seen:.4f} on exact orbits; at {beyond[1]:.4f} a perturbation grows by "
     f"{grown[1]:.4f} per turn, {said.growth_at(beyond[1]):.4f} by the law.",
 )

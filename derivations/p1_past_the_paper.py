@@ -1,10 +1,10 @@
 # %% [markdown]
-# # What the paper has, what holds
+# # The paper's results and the extended theory
 #
-# **Objective.** One row for each of the subjects of the theory past the paper: what the paper has, what holds and to
-# which order, a comparison with the exact model, and the figure.
+# **Objective.** One row for each subject of the extended theory: the paper's result, the derived result with its order, a
+# comparison with the exact model, and the figure.
 #
-# **Assumptions.** Those of the scripts t1 to t15 and n6 to n9, from which every formula and every number is taken.
+# **Assumptions.** As in the scripts t1 to t15 and n6 to n9, which give every formula and every number.
 
 # %%
 import sympy as sp
@@ -82,7 +82,7 @@ said, given, seen = t5["edges"][1.2]
 rows = (
     (
         "normal modes",
-        "one constant, fitted, for every bar and spin",
+        "one fitted constant for any bar and any spins",
         ("one oscillation and four zero roots, for any spins and bar, in the limit of small motion:", frequency),
         f"paper's scene of 5.2.1: {t1['value']:.5f} rad/s; the spectrum lies on it (figure)",
         FigureLink("t1"),
@@ -96,17 +96,20 @@ rows = (
     ),
     (
         "paired precession",
-        "an ansatz of first order, with the bar at the wrong length",
+        "an ansatz of first order, which gives the bar the wrong length",
         ("a periodic orbit as a series of any order, for any bar:", series, momentum),
-        f"slopes of the error: frequency {t3['slopes']['frequency']:.3f} for 4, momentum {t3['slopes']['momentum']:.3f} for 6; "
-        f"at r_0 = {t3['amplitudes'][-1]} the frequency is off by {t3['off']['frequency'][-1]:.1e}, bound "
+        f"exponents of the error: frequency {t3['slopes']['frequency']:.3f} (expected 4), momentum "
+        f"{t3['slopes']['momentum']:.3f} (6); at r_0 = {t3['amplitudes'][-1]} the error of the frequency is "
+        f"{t3['off']['frequency'][-1]:.1e}, its bound "
         f"{t3['bounds']['frequency'][-1]:.1e}",
         FigureLink("t3"),
     ),
     (
         "the whole family",
-        "a frequency 1/cos, rising for every bar",
-        ("for ell = R the frequency falls, passes a least value and rises; the family ends at r_0 = 1 without a turn",),
+        "a frequency ∝ 1/cos θ, increasing for every bar",
+        (
+            "for ell = R the frequency decreases to a minimum and then increases; the family ends at r_0 = 1 without a fold",
+        ),
         f"massless bar, Omega/Omega_0 = {least}",
         FigureLink("t4"),
     ),
@@ -124,47 +127,47 @@ rows = (
         "drift after a shock",
         "a force of −11 N along y, without a reason",
         (
-            "a twist takes momentum about the joint line, so that the pair turns; second order. The impulse that cancels it:",
+            "a twist carries momentum about the joint line, so the pair rotates, in second order. The impulse that cancels it:",
             cancelling,
         ),
         f"{t6['tried'][1]:.2f} N to second order; on exact runs {cancelled}",
         FigureLink("t6"),
     ),
     (
-        "how long x stays",
+        "time until x leaves",
         "the x direction is stable",
-        ("turning carries the twist into the mean of x, at an initial rate of third order in the shock:", walk),
-        f"powers of the force {t7['slopes'][0]:.3f} (leaning) and {t7['slopes'][1]:.3f} (mean of x). At 20 N the mean of x, over "
-        f"swing and axes, keeps within 0.1 for {t7['times'][20.0][0]:.2f} s by the initial rate, {t7['followed']:.2f} s on the "
-        f"exact run; x_1 itself for {t7['single'][0]:.2f} s",
+        ("the rotation turns the twist into a mean of x, at an initial rate of third order in the shock:", walk),
+        f"exponents in the force: {t7['slopes'][0]:.3f} (lean) and {t7['slopes'][1]:.3f} (mean of x). At 20 N the mean of x over "
+        f"an oscillation and both axes stays below 0.1 for {t7['times'][20.0][0]:.2f} s by the initial rate and for "
+        f"{t7['followed']:.2f} s on the exact run; x_1 itself for {t7['single'][0]:.2f} s",
         FigureLink("t7"),
     ),
     (
         "toppling",
         "opposite spins topple",
-        ("uniform turning is exact at any angle; it is stable where b nu² > G nu/k, with the threshold", edge),
+        ("uniform rotation is exact at any angle; it is stable if b nu² > G nu/k, with the threshold", edge),
         f"growth rates {tilts}",
         FigureLink("t8"),
     ),
     (
         "equal spins",
         "one rotor, the axes aligned",
-        ("exact, but a twist grows where K > m ell²/4, b < 0; first order in the half-angle:", twist),
+        ("exact, but a twist grows if K > m ell²/4, b < 0; first order in the half-angle:", twist),
         f"growth rates {twists}",
         FigureLink("t9"),
     ),
     (
         "conserved quantities",
         "A and B",
-        ("E, G_1, G_2 and P, and along the paired precession no other; B holds, A does not",),
-        f"drift over 3 s at most {max(t10['drift'].values()):.1e}; the swing of A goes as r_0 to the power {t10['order']:.2f}",
+        ("E, G_1, G_2 and P, and along the paired precession no other; B is conserved, A is not",),
+        f"drift over 3 s at most {max(t10['drift'].values()):.1e}; A oscillates ∝ r_0 to the power {t10['order']:.2f}",
         FigureLink("t10"),
     ),
     (
         "the slow motion",
         "none",
         (
-            "the averaged motion of opposite spins at any lean, in closed form; x turns back only where (σ − 1) k² passes",
+            "the averaged motion of opposite spins at any lean, in closed form; x turns back only if (σ − 1) k² exceeds",
             t11["threshold"],
         ),
         "time to x = 0.5: "
@@ -179,7 +182,8 @@ rows = (
         "unequal spins",
         "none",
         (
-            "the rate shifts by c r_0² of itself, one formula from equal (ζ = 0) to opposite spins (ζ = 1); a twist grows by "
+            "the relative shift of the rate is c r_0², one formula from equal (ζ = 0) to opposite spins (ζ = 1); a "
+            "twist grows by "
             "lambda per radian, leading term:",
             t12["law"],
             equal(power**2, t12["growth"]),
@@ -193,16 +197,17 @@ rows = (
     (
         "further integrals",
         "none",
-        "small swings keep one more to every order, the averaged action; on runs, wider ones of a heavy bar are chaotic",
-        f"neighbours of a swing of r_0 = 0.05 part as the power {t13['power']:.2f} of time, of one of 0.3 by a factor "
-        f"exp({t13['fast'][40] / 40:.2f}) per turn; such a run is known for {t13['horizon']:.0f} turns",
+        "small oscillations conserve the averaged action to every order; larger ones with a heavy bar are chaotic in runs",
+        f"the distance of neighbouring motions grows as the power {t13['power']:.2f} of time at r_0 = 0.05, and by the factor "
+        f"exp({t13['fast'][40] / 40:.2f}) per turn at 0.3; such a run is reliable for {t13['horizon']:.0f} turns",
         FigureLink("t13"),
     ),
     (
         "the guiding centre",
         "none",
         (
-            "unequal spins are a charged particle in three dimensions; where nearly nothing swings the centre keeps to a line of "
+            "unequal spins move like a charged particle in three dimensions; for small oscillations the centre stays "
+            "on a line of "
             "constant flux, with h half the angle between the axes,",
             t14["flux"],
         ),
@@ -214,8 +219,9 @@ rows = (
         "about a periodic orbit",
         "none",
         (
-            "the angle of a return is a series in the action, of any Hamiltonian system: known, Birkhoff (1927), Moser (1973); "
-            "of Hénon's map, with c = cot α/2 of the orbit's own angle, α + τI + …,",
+            "the angle of a return is a series in the action, α + τI + …, for any Hamiltonian system (known: Birkhoff "
+            "1927, Moser "
+            "1973); for Hénon's map, with c = cot α/2,",
             equal(turned, t15["twist"]),
         ),
         "orders of the error with the twist, and through sixth order: "
@@ -223,28 +229,28 @@ rows = (
         FigureLink("t15"),
     ),
     (
-        "what spins hold",
+        "resonances under load",
         "none",
         (
-            "stands to first order, and falls from any push where two slow precessions add up to a fast one; the largest push "
-            "that stays, c the coefficient of third order:",
+            "linearly stable, but unstable to any push if two slow rates add up to a fast one; near this resonance the largest "
+            "push that stays bounded, c the coefficient of third order:",
             equal(reached, n6["edge"]),
         ),
-        f"a corner of three at {n6['third'] / n6['critical']:.4f} times its critical spins: the time goes as the push to the "
-        "power "
-        f"−{-n6['slope']:.3f}; new for rotors and bars, the mechanism is Cherry's (1925)",
+        f"a corner of three at {n6['third'] / n6['critical']:.4f} times its critical spins: the time is ∝ the push to the "
+        f"power −{-n6['slope']:.3f}; new for rotors and bars, the mechanism is Cherry's (1925)",
         FigureLink("n6"),
     ),
     (
         "waves of rows and rings",
         "none",
         (
-            "the rate of a wave shifts by the square of its amplitude, N = a²/4, with what it forces:",
+            "the rate of a wave shifts ∝ the square of its amplitude, N = a²/4, including the forced response:",
             equal(shift, n7["moved"]),
         ),
-        "orders of what the shift leaves: "
+        "orders of the remaining error: "
         + ", ".join(f"{order:.2f} ({name})" for name, order in n7["orders"].items())
-        + f"; a wave of amplitude {n7['pumped'][0]:g} feeds two others {100 * n7['short'][0]:.1f} % slower than by its coupling; "
+        + f"; with a wave of amplitude {n7['pumped'][0]:g} two others grow {100 * n7['short'][0]:.1f} % more slowly "
+        "than predicted; "
         "new for rotors and bars, the method is Whitham's (1965)",
         FigureLink("n7"),
     ),
@@ -252,12 +258,13 @@ rows = (
         "fast spins",
         "none",
         (
-            "slow precessions alone are left, by equations of first order: with springs those of Nash et al. (2015); of one axis "
-            "held by κ, with ε = aκ/G²,",
+            "only slow precessions remain, in equations of first order; with springs those of Nash et al. (2015). For "
+            "one axis with "
+            "the stiffness κ and ε = aκ/G²,",
             equal(n8["omega"], n8["in_limit"]),
-            "too large by the share ε",
+            "with the relative error ε",
         ),
-        f"error of the slow rates of four gyroscopes as the power −{-n8['powers'][0]:.2f} of the spins, with the next part "
+        f"error of the slow rates of four gyroscopes ∝ the power −{-n8['powers'][0]:.2f} of the spins, with the next term "
         f"−{-n8['powers'][1]:.2f}; the gap of hanging gyroscopes on a honeycomb from {n8['low']:.4f} to {n8['high']:.4f} rad/s, "
         f"with inertia from {n8['with_inertia'][0]:.4f} to {n8['with_inertia'][1]:.4f}",
         FigureLink("n8"),
@@ -266,22 +273,23 @@ rows = (
         "precessions of structures",
         "none",
         (
-            "each mode of a rate of its own goes on at finite tilt τ as a periodic motion: known, Lyapunov (1907). Its rate, "
-            "with p the axis' tilt over √I and b what is forced besides:",
+            "each mode with a simple rate continues at finite tilt τ as a periodic motion (known: Lyapunov 1907). Its "
+            "rate, with p "
+            "the tilt of the axis over √I and b the forced response:",
             equal(Omega, n9["law"]),
-            "and its multipliers, until two modes whose rates nearly add up to its own are fed; new for rotors and bars",
+            "and its multipliers, up to the resonance of two modes whose rates nearly add up to it; new for rotors and bars",
         ),
-        "orders of what the law leaves, of the rate and of the multipliers: "
+        "orders of the remaining errors of rate and multipliers: "
         + "; ".join(f"{orders[1]:.2f} and {orders[3]:.2f} ({name})" for name, orders in n9["measured"].items())
-        + f"; a triangle's fastest is stable up to a tilt of {n9['said'].edge:.4f}, exact {n9['seen']:.4f}",
+        + f"; the fastest precession of a triangle is stable up to a tilt of {n9['said'].edge:.4f}, exact {n9['seen']:.4f}",
         FigureLink("n9"),
     ),
 )
 
 tables = [
     Table(
-        "What the paper has, what holds",
-        ("subject", "the paper has", "what holds", "measured against the exact model", "figure"),
+        "The paper's results and the extended theory",
+        ("subject", "the paper", "derived result", "compared with the exact model", "figure"),
         rows,
         "Formulas come from the closed forms, numbers from the runs of this report; a and b are the inertias with the bar's "
         "share, k = ell/R, sigma = (a + b)/(a − b).",

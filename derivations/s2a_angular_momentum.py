@@ -1,8 +1,8 @@
 # %% [markdown]
 # # Force and angular momentum of each rotor (2.01 to 2.05)
 #
-# **Objective.** The start of the paper's first theory: how the external force divides at the link, and how each rotor
-# answers to its share.
+# **Objective.** The start of the paper's first theory: the link divides the external force, and each rotor responds to its
+# share.
 #
 # **Assumptions.** No gravity, ideal joints, symmetric rotors that turn about the lower end of their axes.
 #
@@ -42,14 +42,16 @@ verdict(
     "2.01",
     shared,
     premises=[massless_link],
-    evidence=["With a mass the two forces fall short of F by the mass times the acceleration of the link's centre."],
+    evidence=[
+        "With a massive link the sum of the two forces is F minus the mass times the acceleration of the link's centre."
+    ],
     written=form("F - m*A"),
 )
 
 # %% [markdown]
 # ## Angular momentum about the joint
 #
-# With $\phi$ the azimuth of the axis, the body's frame is carried by $Q = R_z(\phi + \pi/2)\,R_x(\theta)\,R_z(\psi)$:
+# With $\phi$ the azimuth of the axis, the rotation $Q = R_z(\phi + \pi/2)\,R_x(\theta)\,R_z(\psi)$ gives the body's frame:
 
 # %%
 
@@ -86,8 +88,8 @@ prove(
 )
 
 # %% [markdown]
-# The paper keeps the part along the axis. That is its leading part where the axis turns slowly against the spin:
-# $\dot\theta$ and $\dot\phi$ of the order $\varepsilon\omega$.
+# The paper keeps the component along the axis. It dominates if the axis turns slowly compared with the spin: $\dot\theta$ and
+# $\dot\phi$ are of order $\varepsilon\omega$.
 
 # %%
 eps = sp.Symbol("epsilon", positive=True)
@@ -97,13 +99,13 @@ p, q, p_t, q_t = sp.symbols("p q p_t q_t", real=True)
 def slow_axis(omega: sp.Symbol) -> Premise:
     """The axis turns slowly against the spin omega."""
     return Premise(
-        "the axis turns slowly against the spin, |r̂′| ≪ ω",
+        "the axis turns slowly compared with the spin, |r̂′| ≪ ω",
         {theta_v: eps * omega * p, phi_v: eps * omega * q},
         small=eps,
     )
 
 
-neglected = "What is left out, J r × r', is of first order in epsilon; the paper's footnote 1 says as much."
+neglected = "The neglected term J r × r' is of first order in epsilon, as the paper's footnote 1 says."
 verdict(
     "2.02",
     angular_momentum(omega_1),
@@ -167,7 +169,7 @@ prove(
 )
 
 # %% [markdown]
-# The paper's shock does not allow that: it lasts about $1/50$ s, less than the time in which the rotor turns once.
+# The paper's shock violates this condition: it lasts about $1/50$ s, less than one revolution of the rotor.
 
 # %%
 SPIN, WIDTH = 10, sp.Rational(1, 50)  # rad/s and s: the paper's rotor and its shock (section 4.2)
@@ -176,7 +178,7 @@ SPIN, WIDTH = 10, sp.Rational(1, 50)  # rad/s and s: the paper's rotor and its s
 def slow_force(omega: sp.Symbol) -> Premise:
     """The rate of the axis changes slowly against the spin omega."""
     return Premise(
-        "the force changes slowly against the spin, |r̂″| ≪ ω |r̂′|",
+        "the force changes slowly compared with the spin, |r̂″| ≪ ω |r̂′|",
         {theta_a: (eps * omega) ** 2 * p_t, phi_a: (eps * omega) ** 2 * q_t},
         small=eps,
         broken=f"its shock lasts {float(WIDTH):g} s, while the rotor turns by {float(SPIN * WIDTH):.1g} rad",
@@ -190,9 +192,9 @@ def torque_written(omega: str) -> Form:
 
 
 slowness = (
-    "A force switched on at once also starts a nutation, whose acceleration J r × r'' is as large as the torque; the "
-    "formula is then right for the mean motion only.",
-    "The lever is R r, not the unit vector that the paper's hats mix it with; the paper has R = 1.",
+    "A force switched on at once also starts a nutation, whose acceleration J r × r'' is as large as the "
+    "torque. The formula then describes only the mean motion.",
+    "The lever is R r. The paper's notation confuses it with the unit vector; the paper has R = 1.",
 )
 verdict(
     "2.04",

@@ -1,8 +1,8 @@
 # %% [markdown]
 # # Can the bar keep the axes parallel?
 #
-# **Objective.** The paper's first theory takes both axes to be parallel. The exact pair, linearised about rest, shows for
-# which spins and forces a bar can keep them so, and how they drift where it cannot.
+# **Objective.** The paper's first theory assumes parallel axes. The exact pair, linearised about rest, shows for which spins and
+# forces the axes stay parallel, and how they drift otherwise.
 #
 # **Assumptions.** No gravity, ideal joints, small tilts from rest. A force acts on the tip of rotor 1. Nothing is assumed of
 # the spins or of the bar.
@@ -50,7 +50,7 @@ linear = linearised(balance)
 prove(linearised(system.constraints[2]), k * (x2 - x1), "the bar's length, to first order: both tips have the same x")
 
 # %% [markdown]
-# With the common tilt $X = x_1 = x_2$, whose two equations are added so that the bar's pull $N$ drops out, three equations
+# The common tilt is $X = x_1 = x_2$. The sum of its two equations does not contain the bar's force $N$, so three equations
 # remain.
 
 # %%
@@ -71,12 +71,12 @@ prove(
 # %% [markdown]
 # ## Parallel axes
 #
-# If the axes are parallel, $y_1 = y_2$, the difference of the last two equations must vanish by itself, at every $\dot X$.
-# From rest the axes therefore stay parallel only if the spins are equal and the force acts along the bar.
+# For parallel axes, $y_1 = y_2$, the difference of the last two equations must vanish for every $\dot X$. From rest the axes
+# therefore stay parallel only if the spins are equal and the force acts along the bar.
 
 # %%
 twisting = (reduced[2] - reduced[1]).subs({y2_v: y1_v, y2_a: y1_a})
-prove(twisting, (G_1 - G_2) * X_v + R * F[1], "what must vanish for the axes to stay parallel")
+prove(twisting, (G_1 - G_2) * X_v + R * F[1], "the condition for parallel axes: this expression vanishes")
 
 # %% [markdown]
 # ## Drift under a steady force
@@ -108,7 +108,7 @@ D = a * (G_1**2 + G_2**2) - 2 * b * G_1 * G_2
 prove(drift[X_1], -R * (a * G_1 - b * G_2) * F[1] / D, "the common drift along the bar", names="X_1")
 
 # %% [markdown]
-# Across the bar the two axes drift by themselves; their mean is
+# Across the bar the two axes drift independently; their mean is
 
 # %%
 mean_drift_y = R * (a - b) * (G_1 + G_2) * F[0] / (2 * D) + R * G_2 * (G_2 - G_1) * F[1] * t / (2 * D)
@@ -129,7 +129,7 @@ mean_drift = (drift_1 + drift_2) / 2
 Formula(sp.Matrix([drift_1[1], drift_2[1]]), r"\langle(\dot y_1, \dot y_2)\rangle")
 
 # %% [markdown]
-# Under a force along a massless bar the shares of the force are as the squares of the spins, not as the spins:
+# A massless bar divides a force along it in the ratio of the squares of the spins, not of the spins:
 
 # %%
 shares = (G_1 * y_drift[0] / (G_2 * y_drift[1])).subs({b: 0, F[1]: 0})
@@ -161,17 +161,17 @@ opposite = [sp.cancel(e[1].diff(F[0]).subs({b: 0, omega_2: -omega_1})) for e in 
 apart = sp.cancel(opposite[1] / opposite[0])  # of the drifts of the two axes
 twist_rate = sp.factor((y_drift[0] - y_drift[1]).subs(G_2, G_1))
 Remark(
-    "How far the paper's drift is off",
+    "Error of the paper's drift",
     f"Mean drift of the axes under a steady force along a massless bar, as a multiple of the paper's rate, at each ω₂/ω₁: "
-    f"{table}. For opposite spins the paper's rate has no bound; the axes drift at {opposite[0]} and {opposite[1]} per unit of "
+    f"{table}. For opposite spins the paper's rate is infinite; the axes drift at {opposite[0]} and {opposite[1]} per unit of "
     f"force. A force across the bar on one tip twists a pair of equal spins: y₁′ − y₂′ grows as {twist_rate}.",
 )
 
 # %% [markdown]
 # ## Response to an impulse
 #
-# After an impulse $P$ on tip 1 the equations across the bar integrate to $A\,\dot y = G X + (R P_y, 0)$. Put into the
-# equation along it, $2(a+b)\ddot X + G\cdot\dot y = 0$, they make an oscillator about a new centre.
+# After an impulse $P$ on tip 1 the equations across the bar integrate to $A\,\dot y = G X + (R P_y, 0)$. Substituted into the
+# equation along the bar, $2(a+b)\ddot X + G\cdot\dot y = 0$, they give an oscillator about a new centre.
 
 # %%
 P_x, P_y = sp.symbols("P_x P_y", real=True)

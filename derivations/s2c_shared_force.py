@@ -1,11 +1,11 @@
 # %% [markdown]
 # # How the rotors share the force (2.06 to 2.13)
 #
-# **Objective.** The paper's lines from the torques on the two rotors to the rate of the parallel pair, each from its
-# premises; then the rate that the exact pair has.
+# **Objective.** The paper's equations from the torques on the two rotors to the rate of the parallel pair, each derived from its
+# premises; then the rate of the exact pair.
 #
-# **Assumptions.** No gravity, ideal joints. Of the axes, of the link and of the spins nothing is assumed beforehand: what the
-# paper assumes of them are the premises of its lines.
+# **Assumptions.** No gravity, ideal joints. The paper's assumptions about the axes, the link and the spins are premises of its
+# equations.
 #
 # **Notation.** $\vec r$, $\vec r_2$ the levers of the two rotors, $\hat r_i$ their axes; $\vec A$ the acceleration of the
 # link's centre; $\vec a_i = \ddot{\hat r}_i$; $\rho = \omega_1/\omega_2$.
@@ -40,7 +40,7 @@ verdict(
     {r"\vec F_A + \vec F_B": shared, r"\vec F_A": F_A, r"\vec F_B": F_B},
     premises=[massless_link],
     uses=["2.01"],
-    evidence=["The source is garbled by scanning (F_1 to F_4, a sixth); what 2.07 uses of it is what is judged."],
+    evidence=["The scanned source is garbled (F_1 to F_4, a sixth); only the lines that 2.07 uses are judged."],
     written={
         r"\vec F_A + \vec F_B": form("F - m*A"),
         r"\vec F_A": form("(F - m*A)/2 + f"),
@@ -87,8 +87,8 @@ prove(
 )
 
 # %% [markdown]
-# They stay parallel if this vanishes: the other factor of the product then lies along $\vec r$. This fixes
-# $\vec f$ but for a part along $\vec r$.
+# The axes stay parallel if this vanishes, so the other factor of the product lies along $\vec r$. This fixes $\vec f$ up to a
+# component along $\vec r$.
 
 # %%
 along_r = sp.Symbol("lambda_r", real=True)
@@ -96,22 +96,22 @@ f_parallel = (omega_1 - omega_2) / (omega_1 + omega_2) * (shared / 2 - J / R * a
 prove(
     (rate_1 - rate_2).xreplace(dict(zip(f, f_parallel, strict=True))).xreplace(together),
     sp.zeros(3, 1),
-    "with this f both axes turn alike",
+    "with this f both axes have the same rate",
     written=r"\dot{\vec r}_1 - \dot{\vec r}_2 = 0",
 )
 
 # %% [markdown]
-# These are the premises of the paper's lines. The exact pair does not keep the first for any but equal spins.
+# These are the premises of the paper's equations. The exact pair satisfies the first only for equal spins.
 
 # %%
-parallel = Premise("the axes are parallel, r̂₁ = r̂₂, and so are their accelerations", together)
+parallel = Premise("the axes are parallel, r̂₁ = r̂₂, and have equal accelerations", together)
 turning_alike = Premise(
-    "they stay parallel: f has the value with which both axes turn alike, but for a part along r",
+    "the axes stay parallel, which fixes f up to a component along r",
     dict(zip(f, f_parallel, strict=True)),
     broken=f"with opposite spins the drift of axis 2 is {pair['apart']} times that of axis 1",
 )
 slow = Premise(
-    "the axes turn slowly against the spins, J r̂ × r̂″ is left out as in (3) and (4)",
+    "the axes turn slowly compared with the spins, so that J r̂ × r̂″ is neglected as in (3) and (4)",
     dict.fromkeys(a_1, sp.S.Zero),
     broken=rotors["slow_force"](omega_1).broken,
 )
@@ -129,8 +129,8 @@ verdict(
 # %% [markdown]
 # ## Solved for $\vec r\times\vec f$
 #
-# Under the premises the faster rotor takes more of the force, $\vec f = \frac{\rho - 1}{2(1 + \rho)}\vec F$ but for a part
-# along $\vec r$. The paper collects the terms with the opposite sign.
+# Under the premises the faster rotor takes the larger share of the force, $\vec f = \frac{\rho - 1}{2(1 + \rho)}\vec F$ up to a
+# component along $\vec r$. The paper collects the terms with the opposite sign.
 
 # %%
 rho = omega_1 / omega_2
@@ -166,7 +166,9 @@ verdict(
     correction=right_9,
     wrong="The sign error of the line before (5) is carried on.",
     uses=["2.08"],
-    evidence=["It inherits the sign of 2.08: the faster rotor takes more of the force, not less."],
+    evidence=[
+        "The sign error of 2.08 propagates: the faster rotor takes the larger share of the force, not the smaller."
+    ],
     written=right_9,
 )
 
@@ -195,13 +197,13 @@ verdict(
     correction=right_11,
     wrong="The sign error of the line before (5) makes the factor 2/(1 + rho); it is 2 rho/(1 + rho), rho = omega_1/omega_2.",
     uses=["2.10"],
-    evidence=["(7) is what the premises give: the sign lost in 2.08 is made good between (6) and (7)."],
+    evidence=["(7) follows from the premises: a second sign error between (6) and (7) cancels that of 2.08."],
     written=right_11,
 )
 
 # %% [markdown]
-# From the premises (7) follows for any spins. The premise of parallel axes does not: linearised, the exact pair has another
-# drift of its mean axis, which is the paper's only for equal spins.
+# The premises imply (7) for any spins, but the exact pair violates the premise of parallel axes. Its linearised equations give a
+# different drift of the mean axis, which agrees with the paper only for equal spins.
 
 # %%
 a, b, t = (pair[name] for name in ("a", "b", "t"))
@@ -222,8 +224,9 @@ verdict(
     correction={mean_axis: mean_drift},
     uses=["2.11", "2.04", "2.05"],
     evidence=[
-        f"From rest the axes stay parallel only if {sp.factor(pair['twisting'])} = 0, since the bar pulls along itself alone. A "
-        "force along the bar leaves them parallel if omega_1 = omega_2, a force across it on one tip, from rest, never: for "
+        f"From rest the axes stay parallel only if {sp.factor(pair['twisting'])} = 0, because the bar exerts a "
+        "force only along itself. A force along the bar leaves them parallel if omega_1 = omega_2, a force across it "
+        "on one tip, from rest, never: for "
         "equal spins the mean axis still follows (7), while the axes twist apart.",
         f"Mean drift under a steady force along a massless bar, over the paper's, by omega_2/omega_1: {pair['table']}. The "
         f"bar shares the force as {pair['shares']}, squares of the spins, not as the spins.",
@@ -237,8 +240,8 @@ verdict(
 # %% [markdown]
 # ## Equal spins
 #
-# The drifts of the two axes under a steady force on one tip, for any spins and any bar, come from the linearised exact pair;
-# that small tilts are meant is a premise here. The lever is then $R$ along the vertical.
+# The linearised exact pair gives the drifts of the two axes under a steady force on one tip, for any spins and any bar. Small
+# tilts are a premise. The lever is then $R$ along the vertical.
 
 # %%
 eps = pair["eps"]

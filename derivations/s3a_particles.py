@@ -1,11 +1,11 @@
 # %% [markdown]
 # # Particles (3.01 to 3.08)
 #
-# **Objective.** The mechanics behind the paper's simulator, from Newton's law for particles: mass, centre of mass, angular
-# momentum, torque, and how the two momenta change.
+# **Objective.** The mechanics of the paper's simulator, from Newton's law for particles: mass, centre of mass, angular momentum,
+# torque, and the rates of momentum and angular momentum.
 #
-# **Assumptions.** Three particles with any masses, places and velocities: every sum in these equations runs over single
-# particles or pairs, so three show what any number does. Of the forces between them nothing is assumed beforehand.
+# **Assumptions.** Three particles with any masses, positions and velocities. Every sum in these equations runs over single
+# particles or pairs, so three particles represent any number. The forces between them are arbitrary.
 #
 # **Notation.** $m_i$, $\vec X_i$, $\vec U_i$, $\vec A_i$ the particles' masses, places, velocities, accelerations;
 # $\vec F_i$ the external forces, $\vec f_{ij}$ the force of particle $j$ on particle $i$.
@@ -55,8 +55,8 @@ mass
 # %% [markdown]
 # ## Force
 #
-# For each particle $m_i\vec A_i = \vec F_i + \sum_j\vec f_{ij}$. The force on the whole is the rate of its momentum, the
-# internal forces included.
+# For each particle $m_i\vec A_i = \vec F_i + \sum_j\vec f_{ij}$. The total force is the rate of the total momentum, including
+# the internal forces.
 
 
 # %%
@@ -126,8 +126,8 @@ verdict(
 # %% [markdown]
 # ## Angular momentum about the centre of mass
 #
-# It is that of the motion relative to the centre. The centre's own velocity contributes nothing, because the first moment
-# vanishes:
+# This is the angular momentum of the motion relative to the centre. The velocity of the centre does not contribute, because the
+# first moment vanishes:
 
 # %%
 arms = [X - X_cm for X in places]
@@ -182,7 +182,7 @@ verdict(
 # %% [markdown]
 # ## The torque is the rate of the angular momentum
 #
-# The internal forces turn nothing if they are opposite and act along the line between their particles.
+# The internal forces have no total torque if they are opposite and act along the line between their particles.
 
 # %%
 put_central = {}
@@ -200,8 +200,8 @@ prove(
 )
 
 # %% [markdown]
-# The paper requires the first of these only. Two particles a unit apart along $x$ that push each other across that line
-# satisfy it, and start to turn without any torque from outside:
+# The paper requires only that they are opposite. Two particles on the $x$ axis that push each other perpendicularly to it satisfy
+# this, but start to rotate without an external torque:
 
 # %%
 opposite = action_and_reaction.on(twisting)
@@ -217,8 +217,9 @@ verdict(
     premises=[action_and_reaction, central],
     uses=["3.05", "3.06"],
     evidence=[
-        "The paper requires f_ij = -f_ji only. Two particles 1 m apart that push each other with 1 N across the line between "
-        f"them obey that and turn by themselves: dL/dt = {tuple(spin_up)} N m without any torque from outside."
+        "The paper requires f_ij = -f_ji only. Two particles 1 m apart that push each other with 1 N "
+        f"perpendicularly to the line between them obey that and start to rotate: dL/dt = {tuple(spin_up)} N m "
+        "without any torque from outside."
     ],
     written=form("sum_i(m_i*cross(X_i - X_cm, A_i))", X_cm=X_cm),
 )

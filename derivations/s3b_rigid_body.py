@@ -1,13 +1,13 @@
 # %% [markdown]
 # # Rigid bodies (3.09 to 3.12)
 #
-# **Objective.** The velocity field of a rigid body, its angular momentum by the inertia tensor, and how the tensor turns with
-# the body.
+# **Objective.** The velocity field of a rigid body, its angular momentum by the inertia tensor, and the tensor of the rotated
+# body.
 #
-# **Assumptions.** A body of three particles, as in the script before; of the tensor, any body. That it is rigid is a premise,
-# named where it is used.
+# **Assumptions.** A body of three particles as in the previous script; for the tensor, any body. Rigidity is a premise, named
+# where it is used.
 #
-# **Notation.** $Q = R_z(\phi)R_x(\theta)R_z(\psi)$ carries the body's frame; $\vec d_i = \vec X_i - \vec X_{cm}$, in the
+# **Notation.** $Q = R_z(\phi)R_x(\theta)R_z(\psi)$ is the rotation of the body; $\vec d_i = \vec X_i - \vec X_{cm}$, in the
 # body's frame $\vec d = Q^T\vec d_i$; $\vec\Omega$ the angular velocity in the ground's frame; $\mathbb 1(\vec d)^2$ is read
 # as $|\vec d|^2\,\mathbb 1$.
 
@@ -71,7 +71,7 @@ prove(
 # %%
 U_cm, d, d_v = vector("U_cm"), vector("d"), vector("d_dot")
 field = U_cm + rate(Q) * d + Q * d_v
-rigid = Premise("the body is rigid, its particles rest in the body's frame", dict.fromkeys(d_v, sp.S.Zero))
+rigid = Premise("the body is rigid, its particles are at rest in the body's frame", dict.fromkeys(d_v, sp.S.Zero))
 verdict(
     "3.09",
     field,
@@ -82,8 +82,8 @@ verdict(
 # %% [markdown]
 # ## Angular momentum
 #
-# With this field the velocities of the particles are $\vec U_i = \vec U_{cm} + \vec\Omega\times\vec d_i$. As a premise on the
-# angular momentum (3.05) of any system of particles:
+# With this field the velocities of the particles are $\vec U_i = \vec U_{cm} + \vec\Omega\times\vec d_i$. This is the premise
+# for the angular momentum (3.05) of a system of particles:
 
 # %%
 Omega = vector("Omega")
@@ -103,8 +103,7 @@ verdict(
 # %% [markdown]
 # ## Inertia tensor
 #
-# What multiplies $\vec\Omega$ is also the matrix of the kinetic energy of turning, $\frac12\vec\Omega\cdot I\,\vec\Omega$,
-# which is what the name means:
+# The factor of $\vec\Omega$ is also the matrix of the rotational kinetic energy, $\frac12\vec\Omega\cdot I\,\vec\Omega$:
 
 # %%
 turning = sum(m * cross(Omega, arm).dot(cross(Omega, arm)) / 2 for m, arm in zip(masses, arms, strict=True))
@@ -112,7 +111,7 @@ inertia = hessian(turning, list(Omega))
 prove(
     turning,
     (Omega.T * inertia * Omega)[0] / 2,
-    "the energy of turning",
+    "the rotational energy",
     written=r"\sum_i \tfrac{m_i}{2}\,\big|\vec\Omega\times(\vec X_i - \vec X)\big|^2 = \tfrac12\,\vec\Omega\cdot I\,\vec\Omega",
 )
 
@@ -130,7 +129,7 @@ verdict(
 )
 
 # %% [markdown]
-# ## The tensor of the turned body
+# ## The tensor of the rotated body
 #
 # The tensor depends on the body through the second moments $C = \int \vec d\,\vec d^T\,dm$ alone,
 # $I = \mathrm{tr}\,C\;\mathbb 1 - C$.
@@ -145,8 +144,8 @@ prove(
 )
 
 # %% [markdown]
-# Solved for the moments of the first orientation, $C = \frac12\mathrm{tr}\,I_0\;\mathbb 1 - I_0$. As $\vec d$ turns to
-# $R\vec d$, $C$ turns to $R\,C R^T$; here $R$ is any rotation $Q$.
+# The moments of the first orientation are $C = \frac12\mathrm{tr}\,I_0\;\mathbb 1 - I_0$. A rotation takes $\vec d$ to
+# $R\vec d$ and $C$ to $R\,C R^T$; here $R$ is any rotation $Q$.
 
 # %%
 I_0 = symmetric("I_0")
@@ -156,8 +155,8 @@ I_turned = sp.eye(3) * C_turned.trace() - C_turned
 prove(sp.eye(3) * C_0.trace() - C_0, I_0, "these moments have the tensor I_0", names=r"\mathrm{tr}\,C\;1 - C")
 
 # %% [markdown]
-# The paper has the transpose on the wrong side. A body with the principal inertias $1, 2, 3$ shows it in a quarter turn about
-# $x$ and then one about $z$:
+# The paper has the transpose on the wrong side. A body with the principal inertias $1, 2, 3$ shows the difference after a quarter
+# turn about $x$ and another about $z$:
 
 # %%
 unequal, quarter = sp.diag(1, 2, 3), {phi: sp.pi / 2, theta: sp.pi / 2, psi: 0}
@@ -165,7 +164,7 @@ right, wrong = ((turn * unequal * turn.T).subs(quarter) for turn in (Q, Q.T))
 Formula(right, "R I_0 R^T"), Formula(wrong, "R^T I_0 R")
 
 # %% [markdown]
-# With equal inertias there is nothing to see:
+# With equal inertias the two agree:
 
 # %%
 isotropic = sp.Symbol("I", positive=True) * sp.eye(3)
@@ -182,7 +181,7 @@ verdict(
     "3.12",
     I_turned,
     correction=turned,
-    wrong="R and its transpose have changed places.",
+    wrong="R and its transpose are interchanged.",
     uses=["3.11"],
     evidence=[
         "With X_r(t) = R X_r(0), as the update X_r -> dR X_r, R -> dR R demands, the tensor is R I_0 R^T. The listing "

@@ -1,8 +1,7 @@
 # %% [markdown]
 # # The simulator's time step (3.13)
 #
-# **Objective.** One step of Euler's method in the paper's rigid body program, against the exact motion: to which order it is
-# right.
+# **Objective.** The order of accuracy of one Euler step in the paper's rigid body program.
 #
 # **Assumptions.** A rigid body under a force and a torque that vary in time.
 #
@@ -81,8 +80,8 @@ verdict(
     uses=["3.07", "3.08", "3.12"],
     evidence=[
         "All the paper's bodies have equal inertias. For unequal ones Omega, computed with the tensor of the old orientation, "
-        f"is off at order {lag.order} in the step, its x component by {sp.factor(lag.coefficient)}; as L and R are what is "
-        "carried on, the step stays a first-order method.",
+        f"is off at order {lag.order} in the step, its x component by {sp.factor(lag.coefficient)}; the program "
+        "propagates L and R, so the step remains a first-order method.",
         f"X_cm with the old U first differs at order {by_old}, with the new U at order {by_new}.",
     ],
     written={

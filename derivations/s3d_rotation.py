@@ -1,8 +1,8 @@
 # %% [markdown]
 # # The rotation of a body in a step (3.14 to 3.18)
 #
-# **Objective.** How the paper's program turns the vertices of a body in one step, and how it finds the angular velocity
-# without inverting a matrix, in columns and in the rows of the code.
+# **Objective.** The rotation of a body's vertices in one step of the paper's program, and its angular velocity without a matrix
+# inversion, for columns and for the rows of the code.
 #
 # **Assumptions.** The angular velocity is constant during a step. Vectors are columns; the program stores them as rows, which
 # are written here as transposes.
@@ -30,8 +30,8 @@ Omega, L, X_r = map(vector, ("Omega", "L", "X_r"))
 # ## A vertex
 #
 # A vertex at $\vec X_r = Q\vec d$ from the centre moves with $\dot Q\vec d + Q\dot{\vec d}$, the field of 3.09. The paper has
-# the factors of the cross product in the other order. Its next sentence has $1 + \Delta t\,\Omega_\times$, which is no
-# rotation: it stretches what lies across $\vec\Omega$, squared, by
+# the factors of the cross product in the other order. Its next sentence has $1 + \Delta t\,\Omega_\times$, which is not a
+# rotation: it stretches the squares of vectors perpendicular to $\vec\Omega$ by
 
 # %%
 Q, d, d_v = (body[name] for name in ("Q", "d", "d_v"))
@@ -48,11 +48,12 @@ verdict(
     vertex_rate,
     premises=[body["rigid"]],
     correction=turning_vertex,
-    wrong="The two factors of the cross product have changed places.",
+    wrong="The two factors of the cross product are interchanged.",
     uses=["3.09"],
     evidence=[
-        "The sign is that of 3.09 turned round; rows instead of columns do not change it. The next sentence, "
-        "(1 + dt Omega_x) X_r, and 3.15 have the right one. That sentence also holds: 1 + dt Omega_x is not a rotation, it "
+        "The sign is opposite to that of 3.09; storing rows instead of columns does not change it. The next "
+        "sentence, (1 + dt Omega_x) X_r, and 3.15 have the right sign. That sentence is also true: 1 + dt Omega_x is "
+        "not a rotation, it "
         f"stretches by the square root of {stretched} across a spin of {SPIN} rad/s."
     ],
     written=turning_vertex,
@@ -61,7 +62,7 @@ verdict(
 # %% [markdown]
 # ## The projection
 #
-# The projector on $n$ keeps what lies along $n$ and takes away what $n_\times$ turns: $P = 1 + n_\times^2$.
+# The projector on $n$ keeps the component along $n$ and removes the perpendicular one: $P = 1 + n_\times^2$.
 
 # %%
 n = axis(theta, phi)
@@ -117,7 +118,7 @@ prove(
 )
 
 # %% [markdown]
-# The print has $\sin(\|\Delta t\|\Omega)$, the sine of a vector; the bars belong to $\Omega$.
+# The paper prints $\sin(\|\Delta t\|\Omega)$, the sine of a vector; the bars belong to $\Omega$.
 
 # %%
 sine = sp.Symbol("Omega_in_sine", real=True)
@@ -143,8 +144,8 @@ verdict(
 # %% [markdown]
 # ## The angular velocity without a matrix inversion
 #
-# In the body's frame the tensor is always $I_0$, diagonal if the ground's frame lies along the principal axes in the first
-# orientation, and the angular momentum is $R^T\vec L$. Its angular velocity there, carried back to the ground's frame:
+# In the body's frame the tensor is always $I_0$, and the angular momentum is $R^T\vec L$. ($I_0$ is diagonal if the principal
+# axes coincide with the ground's axes in the first orientation.) The angular velocity, transformed back to the ground's frame:
 
 # %%
 R = Q
@@ -155,7 +156,7 @@ Omega_of_L = R * in_body
 Formula(in_body, r"R^T\vec\Omega")
 
 # %% [markdown]
-# It belongs to $\vec L$ by the tensor of the turned body (3.12 corrected), so that only $I_0$ was inverted:
+# It agrees with $\vec L$ and the tensor of the rotated body (3.12 corrected), so only $I_0$ is inverted:
 
 # %%
 prove((R * principal * R.T) * Omega_of_L, L, "L = I(t) Ω", written=r"R\,I_0\,R^T\,\vec\Omega = \vec L")
@@ -169,7 +170,7 @@ verdict(
     correction=without_inversion,
     wrong="R and its transpose have changed places, as in the rotated tensor of section 3.1.",
     uses=["3.12"],
-    evidence=["It follows from 3.12 as printed and falls with it; with equal inertias the two agree."],
+    evidence=["It follows from 3.12 as printed, which is wrong; with equal inertias the two agree."],
     written=without_inversion,
 )
 

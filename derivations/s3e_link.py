@@ -67,8 +67,8 @@ prove(
 )
 
 # %% [markdown]
-# The print sets a number equal to a vector. The number is the tension, if $\hat e_{21}$ points from 2 to 1. With the force
-# along $\hat e$ restored, the link's energy never grows:
+# The printed equation sets a number equal to a vector. The number is the tension, if $\hat e_{21}$ points from 2 to 1. With the
+# direction $\hat e$ restored, the link's energy never grows:
 
 # %%
 power = on_1.dot(U_1) + on_2.dot(U_2)
@@ -76,12 +76,12 @@ growing = rate(stored, (X_1, X_2), (U_1, U_2)).subs(at_distance)
 prove(
     power + growing,
     -D * s_rate**2,
-    "work of the forces and growth of the spring's energy: what is lost",
+    "the power of the forces plus the rate of the spring's energy: the dissipated power",
     written=r"\vec F_1\cdot\vec U_1 + \vec F_2\cdot\vec U_2 + \frac{d}{dt}\,\frac{S s^2}{2} = -D\,\dot s^2",
 )
 
 # %% [markdown]
-# Read with $\hat e_{21}$ from 1 to 2, and with the force along it, the damper would feed the link with the power $P$:
+# If $\hat e_{21}$ pointed from 1 to 2, and the force along it, the damper would supply the power $P$ to the link:
 
 # %%
 other_way = D * (U_1 - U_2).dot(-e_hat) * -e_hat
@@ -91,7 +91,7 @@ fed = gained.subs(opening)
 prove(
     gained,
     D * (U_1 - U_2).dot(e_hat) ** 2,
-    "what the damper would feed",
+    "the power that the damper would supply",
     written=r"P = D\,\big((\vec U_1 - \vec U_2)\cdot\hat e\big)^2",
 )
 
@@ -101,11 +101,11 @@ link_force = verdict(
     "3.19",
     on_1,
     correction=pull,
-    wrong="A number stands for a vector: the direction of the link is missing.",
+    wrong="A number is equated to a vector: the direction of the link is missing.",
     evidence=[
         "The right side is a number, the left a vector. The number is the tension of the link, S s + D s', if e_21 points "
-        "from 2 to 1; the force on vertex 1 is the tension along -e_21. With e_21 from 1 to 2 the damper would feed the "
-        f"link: {fed} W to a link that opens at 1 m/s.",
+        "from 2 to 1; the force on vertex 1 is the tension along -e_21. With e_21 from 1 to 2 the damper would "
+        f"supply power: {fed} W to a link that opens at 1 m/s.",
         "With the force corrected the link's energy changes by -D ((U_1 - U_2).e)^2, never upwards. The direction is "
         "undefined at s = 0. The sentence before it calls S the damping and D the spring constant: exchanged.",
     ],

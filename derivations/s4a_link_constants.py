@@ -1,7 +1,7 @@
 # %% [markdown]
 # # Stiffness and damping of the links (4.01)
 #
-# **Objective.** What the constants of the paper's links mean: their units, and how strongly they damp.
+# **Objective.** The units of the constants of the paper's links, and their damping ratio.
 #
 # **Assumptions.** The links of section 3.3: force $S s$ of the spring, $D\dot s$ of the damper.
 #

@@ -1,10 +1,10 @@
 # %% [markdown]
-# # The energy that is watched (4.02, 4.03, 4.05)
+# # The recorded energy (4.02, 4.03, 4.05)
 #
-# **Objective.** The energy of the paper's system of three bodies and four links, against what the paper prints and what its
-# program computes.
+# **Objective.** The energy of the paper's system of three bodies and four links, compared with the paper's equation and with its
+# program.
 #
-# **Assumptions.** Three rigid bodies of any shape, linked by springs of rest length zero; no gravity. The energy is what is
+# **Assumptions.** Three rigid bodies of any shape, linked by springs of rest length zero; no gravity. The energy is the quantity
 # conserved without damping and external force.
 #
 # **Notation.** $M_i$, $\vec U_i$, $\vec\Omega_i$, $I_i$ mass, velocity, angular velocity and inertia tensor of body $i$; $s_j$
@@ -50,7 +50,8 @@ prove(
 )
 
 # %% [markdown]
-# Solved for the moments, $C = \frac12\mathrm{tr}\,I\;\mathbb 1 - I$: the kinetic energy of any body by its mass and its tensor.
+# The moments are $C = \frac12\mathrm{tr}\,I\;\mathbb 1 - I$. They give the kinetic energy of any body from its mass and its
+# tensor.
 
 
 # %%
@@ -71,8 +72,8 @@ prove(
 # %% [markdown]
 # ## The energy of the system
 #
-# The Lagrangian of bodies and springs is $K - \frac S2\sum_j s_j^2$; four links, two to the ground and two to the bar. What is
-# conserved without damping and external force is its Jacobi integral.
+# The Lagrangian of bodies and springs is $K - \frac S2\sum_j s_j^2$, with two links to the ground and two to the bar. Its Jacobi
+# integral is conserved without damping and external force.
 
 # %%
 S = sp.Symbol("S", positive=True)
@@ -85,13 +86,13 @@ total = energy(lagrangian, bodies).xreplace(dict(zip(bodies.v, rates, strict=Tru
 prove(
     total,
     sum(K) + held,
-    "the energy: what moves, and what the springs hold",
+    "the energy: kinetic energy and energy of the springs",
     written=r"E = \sum_i K_i + \frac S2\sum_j s_j^2",
 )
 
 # %% [markdown]
-# The paper records the kinetic part as "the energy of the system". That is all of it only while no link is stretched. In its
-# first run the bar is set half a metre too high, and two links hold
+# The paper records the kinetic energy as "the energy of the system". This is the total energy only while no link is stretched. In
+# its first run the bar starts half a metre too high, and two links store
 
 # %%
 first_run = held.subs(dict(zip(lengths.q, (0, 0, sp.S.Half, sp.S.Half), strict=True)))
@@ -101,7 +102,7 @@ Formula(first_run, "E - K")
 unstretched = Premise(
     "no link is stretched, s_j = 0",
     dict.fromkeys(lengths.q, sp.S.Zero),
-    broken=f"its first run begins with two links stretched by 0.5 m, which hold {first_run}",
+    broken=f"its first run begins with two links stretched by 0.5 m, which store {first_run}",
 )
 whole_energy = form(
     "sum_i(M_i*dot(U_i, U_i) + dot(I_i*Omega_i, Omega_i))/2 + S/2*(s_1**2 + s_2**2 + s_3**2 + s_4**2)", S=S
@@ -113,10 +114,10 @@ energy_verdict = verdict(
     correction=whole_energy,
     uses=["3.09", "3.11"],
     evidence=[
-        "It is the kinetic energy. What is conserved without damping and force has the springs' S/2 sum s_j^2 too, which is "
-        "given as the correction.",
-        f"The paper's first run, with the bar half a metre too high, starts with {first_run} in its springs, none of which is "
-        "in this E: hence the spike.",
+        "It is the kinetic energy. The conserved energy also contains S/2 sum s_j^2 of the springs, which the "
+        "correction adds.",
+        f"The paper's first run, with the bar half a metre too high, starts with {first_run} in its springs, "
+        "which this E omits: hence the spike.",
     ],
     written=whole_energy,
 )
@@ -156,7 +157,7 @@ excess = K[2].subs(M_3, M_2) - K[2]
 prove(
     excess,
     (M_2 - M_3) * dot(velocities[2], velocities[2]) / 2,
-    "what the listing has too much",
+    "the excess of the listing",
     names=r"K_{\text{listing}} - K",
 )
 

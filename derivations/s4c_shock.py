@@ -15,8 +15,8 @@ from lagrotor.paper import Remark, prove, verdict
 # %% [markdown]
 # ## The pulse
 #
-# $F(t) = h\,e^{-((t - t_0)/w)^2}$ has its greatest value $h$ at $t_0$, where the exponent vanishes. In the print $h = 50$ N,
-# $t_0 = 2$ s, as the text says, and $w = 1/50$ s.
+# $F(t) = h\,e^{-((t - t_0)/w)^2}$ has its maximum $h$ at $t_0$, where the exponent vanishes. The paper prints $h = 50$ N and
+# $t_0 = 2$ s, as in its text, and $w = 1/50$ s.
 
 # %%
 h, w, t_0 = sp.symbols("h w t_0", positive=True)
@@ -43,5 +43,5 @@ prove(impulse**2, plane, "the square of the impulse", names=r"\left(\int F\,dt\r
 Remark(
     "The impulse of the shock",
     f"The impulse is {impulse.subs(own)} = {float(impulse.subs(own)):.4g} N s over all time. The run begins "
-    f"{own[t_0] / own[w]} widths before the peak; what it leaves out is below the rounding of a double.",
+    f"{own[t_0] / own[w]} widths before the peak; the omitted part is below the rounding error of a double.",
 )

@@ -1,8 +1,8 @@
 # %% [markdown]
 # # Why the pair topples across the joint line and not along it (5.1)
 #
-# **Objective.** Section 5.1 argues with force diagrams and prints no equation. The linear pair says the same in three
-# equations: what a steady force and a shock on one tip do, and whether the axes are on average displaced in $x$.
+# **Objective.** Section 5.1 argues with force diagrams and prints no equation. Three equations of the linear pair answer the same
+# questions: the effect of a steady force and of a shock on one tip, and the mean displacement of the axes in $x$.
 #
 # **Assumptions.** Small motion about the upright rest state, any bar, opposite spins $G_1 = -G_2 = G$; a shock short against
 # the period is an impulse.
@@ -48,7 +48,7 @@ opposite = gyroscopic.subs({G_1: G, G_2: -G})
 prove(opposite, sp.Matrix([[0, 0, 0], [0, 0, G], [0, -G, 0]]), "the gyroscopic matrix of opposite spins")
 
 # %% [markdown]
-# A force $(F_x, F_y)$ on a tip works along what the tip can do:
+# The generalized forces of a force $(F_x, F_y)$ on a tip follow from the possible displacements of the tip:
 
 # %%
 pushes = sp.Matrix([F_x, F_y, 0, 0, 0, 0]), sp.Matrix([0, 0, 0, F_x, F_y, 0])
@@ -58,8 +58,8 @@ prove(
 )
 
 # %% [markdown]
-# Nothing couples $S$: the gyroscopic forces of the common motion along the bar are equal and opposite, and the bar carries
-# them. $X$ and $D$ hold each other; those of $X$ twist the bar, and the twist reacts on $X$:
+# $S$ is decoupled: the gyroscopic forces of the common motion along the bar are equal and opposite, and the bar carries them. $X$
+# and $D$ are coupled: motion in $X$ twists the bar, and the twist reacts on $X$:
 
 # %%
 equations = mass * sp.Matrix([S_a, X_a, D_a]) + opposite * sp.Matrix([S_v, X_v, D_v]) - on_tip_1
@@ -68,7 +68,7 @@ Formula(equations, "0")
 # %% [markdown]
 # ## Responses
 #
-# Each response is put into the equations, with $\Omega^2 = G^2/(pq)$, and must start from rest upright.
+# Each response is substituted into the equations, with $\Omega^2 = G^2/(pq)$, and must start from rest in the upright position.
 
 # %%
 rest = sp.zeros(3, 1)
@@ -84,7 +84,7 @@ def balance(motion: sp.Matrix) -> sp.Matrix:
 
 
 # %% [markdown]
-# A steady force along the joint line is held: $X$ stays bounded, and what gives way is the twist, which drifts.
+# Under a steady force along the joint line $X$ stays bounded, while the twist drifts.
 
 # %%
 bound = R * F_x / (2 * p * Omega**2)
@@ -92,8 +92,8 @@ steady_x = sp.Matrix([0, bound * (1 - cosine), R * F_x / G * (t - sine / Omega)]
 prove(balance(steady_x), sp.Matrix([on_tip_1.subs(F_y, 0), rest, rest]), "the response to a steady force along x")
 
 # %% [markdown]
-# Across it the pair topples with the acceleration $RF_y/p$, as it would without spins, and $X$ drifts: a force across on one
-# tip alone twists the pair too.
+# Under a force across the joint line the pair topples with the acceleration $RF_y/p$, as without spins. $X$ drifts, because a
+# force on one tip also twists the pair.
 
 # %%
 steady_y = sp.Matrix(
@@ -118,7 +118,7 @@ shock_y = sp.Matrix([R * P_y / p * t, mean_y * (1 - cosine), p * R * P_y * Omega
 prove(balance(shock_y), sp.Matrix([rest, on_tip_1_P.subs(P_x, 0), rest]), "the response to an impulse across")
 
 # %% [markdown]
-# Equal impulses across on both tips leave $X$ and $D$ alone:
+# Equal impulses across on both tips do not change $X$ and $D$:
 
 # %%
 both = sp.Matrix([2 * R * P_y / p * t, 0, 0])
@@ -128,8 +128,9 @@ prove(balance(both), sp.Matrix([rest, loads, rest]), "the response to equal impu
 # %% [markdown]
 # ## Against the exact pair
 #
-# An impulse sets the velocities and nothing else, so the exact pair starts upright with those of the linear one. Bar of
-# mass 1 and inertia 1, spins ±10: the largest error of $X$ over a period, and the mean of $X$ over the linear one's.
+# An impulse changes only the velocities, so the exact pair starts upright with the velocities of the linear one. For a bar of
+# mass 1 and inertia 1 and spins ±10, the table gives the largest error of $X$ over a period, and the ratio of the two means
+# of $X$.
 
 # %%
 still = Scene(spins=(10, -10), link=HEAVY_LINK)
@@ -161,7 +162,7 @@ means = [
 orders
 
 # %% [markdown]
-# The shock of figure 13, 50 N across: the mean of $X$ over the first period after it, and how far the pair leans by then.
+# For the shock of figure 13, 50 N across: the mean of $X$ over the first period after it, and the tilt of the pair at its end.
 
 # %%
 just_after = SHOCK_Y.at + 5 * SHOCK_Y.width
@@ -173,21 +174,20 @@ paper_over = float(np.degrees(paper.inclinations[:, -1]).mean())
 paper_mean, paper_linear
 
 # %% [markdown]
-# ## What the diagrams should say
+# ## Corrected statements of the diagrams
 
 # %%
 Remark(
-    "Across the joint line it topples as without spins",
+    "Across the joint line the pair topples as without spins",
     "The spins drop out of the equation of S = y₁ + y₂: the gyroscopic forces of the common motion along the bar are equal and "
     "opposite, and the bar carries them. A steady force across gives S the acceleration RF/(a + b), with spins and without.",
 )
 
 # %%
 Remark(
-    "Along the joint line it is held, while the twist is small",
-    "A steady force F along x moves X by RF/((a + b)Ω²) at most; the twist grows at the rate RF/G. A force across on one tip "
-    "alone "
-    "is not held: X drifts at −RF/(2G).",
+    "Along the joint line it stays bounded, while the twist is small",
+    "A steady force F along x moves X by RF/((a + b)Ω²) at most; the twist grows at the rate RF/G. Under a "
+    "force across on one tip X is not bounded: it drifts at −RF/(2G).",
 )
 
 # %%
@@ -203,8 +203,9 @@ Remark(
 
 # %%
 Remark(
-    "An impulse along x parts the two centres in y",
-    "D = y₁ − y₂ swings about RP/G: the centres of precession lie apart across the joint line. The shock of 5.2.1 leaves y₁ − "
+    "An impulse along x separates the two centres in y",
+    "D = y₁ − y₂ swings about RP/G: the centres of precession are separated across the joint line. The shock of 5.2.1 "
+    "leaves y₁ − "
     "y₂ = "
     f"{skew_twist:.4f} and X = {skew_x:.4f} on average, a skewness such as figure 23 shows.",
 )

@@ -29,9 +29,9 @@ c, s = sp.cos(theta), sp.sin(theta)
 # %% [markdown]
 # ## Angular velocity
 #
-# The body's frame is carried by $Q = R_z(\phi) R_x(\theta) R_z(\psi)$; its angular velocity in that frame is the axial
-# vector of $Q^T\dot Q$. Across the axis its square is $\dot\theta^2 + \dot\phi^2\sin^2\theta$; along the axis it is
-# $\omega$.
+# The rotation of the body is $Q = R_z(\phi) R_x(\theta) R_z(\psi)$, and its angular velocity in the body's frame is the axial
+# vector of $Q^T\dot Q$. The square of its component across the axis is $\dot\theta^2 + \dot\phi^2\sin^2\theta$; the component
+# along the axis is $\omega$.
 
 # %%
 Q = rotation(phi, theta, psi)
@@ -60,8 +60,8 @@ prove(
 )
 
 # %% [markdown]
-# Rotation about the centre and translation of the centre together are the Lagrangian; the translation adds $M R^2/4$ to
-# $I_1$, which makes it $J$.
+# The Lagrangian is the sum of rotation about the centre and translation of the centre. The translation adds $M R^2/4$ to $I_1$,
+# which gives $J$.
 
 # %%
 kinetic = I1 / 2 * across + I3 / 2 * along**2 + M / 2 * centre_velocity.dot(centre_velocity)
@@ -109,8 +109,8 @@ verdict(
 )
 
 # %% [markdown]
-# With all inertias equal to $I$ the first is simpler. The paper's rotor is not of this kind: its inertias are equal about
-# the centre, not about the joint.
+# With all inertias equal to $I$ the first integral is simpler. For the paper's rotor the inertias are equal about the centre, not
+# about the joint.
 
 # %%
 verdict(
@@ -160,7 +160,7 @@ verdict(
 # %% [markdown]
 # ## The constant $a$
 #
-# In terms of the motion it is $p_\phi/I$. Along the motion it does not change:
+# It is $p_\phi/I$, and it is conserved:
 
 # %%
 motion = dict(zip(ROTOR.a, accelerations(L, ROTOR), strict=True))

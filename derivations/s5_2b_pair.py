@@ -1,8 +1,8 @@
 # %% [markdown]
 # # The pair, its bar and the ansatz (5.07 to 5.11)
 #
-# **Objective.** The Lagrangian of two rotors that a bar joins, in two sets of Euler angles; what the bar demands; and
-# what it means to put $\dot\phi_1 = -\dot\phi_2$, $\dot\psi_1 = -\dot\psi_2$ into the Lagrangian before varying it.
+# **Objective.** The Lagrangian of two rotors and a bar, in two sets of Euler angles; the constraint of the bar; and the
+# consequences of substituting $\dot\phi_1 = -\dot\phi_2$, $\dot\psi_1 = -\dot\psi_2$ into the Lagrangian before varying it.
 #
 # **Assumptions.** Equal rotors, ideal joints, no gravity. The bar has a mass $m$ and an inertia $K$ about its centre.
 #
@@ -63,7 +63,7 @@ prove(
 )
 
 # %% [markdown]
-# The paper has the two rotors alone, in the angles of the nodes:
+# The paper's Lagrangian has only the two rotors, in the angles of the nodes:
 
 # %%
 lagrangian_written = form(
@@ -84,7 +84,7 @@ verdict(
 # %% [markdown]
 # ## The azimuth of the axis
 #
-# A constant shift of both azimuths leaves the Lagrangian alone, whatever its size:
+# Any constant shift of both azimuths leaves the Lagrangian unchanged:
 
 # %%
 shift = sp.Symbol("gamma", real=True)
@@ -106,8 +106,8 @@ verdict(
 )
 
 # %% [markdown]
-# Which shift turns the node angle $\varphi$ of the cited book into the azimuth of the axis is another question: the third
-# axis of the body is $R_z(\varphi)R_x(\theta)\,e_z$.
+# The shift from the node angle $\varphi$ of the cited book to the azimuth of the axis follows from the third axis of the body,
+# $R_z(\varphi)R_x(\theta)\,e_z$.
 
 # %%
 node, tilt = sp.symbols("varphi theta", real=True)
@@ -126,7 +126,7 @@ Remark(
 )
 
 # %% [markdown]
-# ## What the bar demands
+# ## The constraint of the bar
 #
 # One holonomic constraint, $g = k(x_2 - x_1) + 1 - r_1\cdot r_2 = 0$, keeps the distance of the tips at $\ell$:
 
@@ -143,14 +143,14 @@ prove(
 )
 
 # %% [markdown]
-# It is the distance that the tips have upright:
+# This is the distance of the tips in the upright position:
 
 # %%
 bar_upright = (tip_2 - tip_1).subs({theta_1: 0, theta_2: 0})
 prove(bar_upright, sp.Matrix([ell, 0, 0]), "the bar, the axes upright", names=r"\vec r_2 - \vec r_1")
 
 # %% [markdown]
-# Its gradient has rank one where the pair is free to move, so that five of the six angles remain:
+# Its gradient has rank one where it does not vanish, so five of the six degrees of freedom remain:
 
 # %%
 state = {theta_1: sp.Rational(1, 3), phi_1: sp.Rational(2, 5), theta_2: sp.Rational(1, 4), phi_2: sp.Rational(-3, 7)}
@@ -161,7 +161,7 @@ verdict(
         r"\text{degrees of freedom}": degrees_of_freedom(system, somewhere),
         r"\text{degrees of freedom without the bar}": len(PAIR.q),
     },
-    evidence=["The length R = 1 is chosen: that ℓ = R is what the line says, and no premise of it."],
+    evidence=["The length R = 1 is a choice; ℓ = R is the statement of the line, not a premise."],
 )
 
 # %% [markdown]
@@ -184,7 +184,7 @@ verdict(
 # ## The ansatz in the Lagrangian
 #
 # With $\dot\phi_1 = -\dot\phi_2$ as well, $\phi_1 + \phi_2$ and $\psi_1 + \psi_2$ are constant: two holonomic constraints.
-# Putting them in before varying is right for a system on which something enforces them without doing work. Nothing does.
+# Substituting them before the variation is correct if forces enforce them without doing work. The pair has no such forces.
 
 # %%
 ansatz_case = verdict(
@@ -193,16 +193,16 @@ ansatz_case = verdict(
     premises=[ABOUT_JOINT, MASSLESS_BAR, opposite_spin_angles(), opposite_azimuths()],
     uses=["5.10"],
     evidence=[
-        "As algebra the line follows from its premises. To vary it is another matter: it is the Lagrangian of a pair in "
-        "which constraints that do not exist hold φ₁ + φ₂ and ψ₁ + ψ₂ constant, and on which no bar acts."
+        "As algebra the line follows from its premises. Its variation is wrong: this is the Lagrangian of a "
+        "pair without a bar, in which nonexistent constraints keep φ₁ + φ₂ and ψ₁ + ψ₂ constant."
     ],
     written=lagrangian_written,
 )
 ansatz_case
 
 # %% [markdown]
-# Nor can the bar be kept under the ansatz: at $\phi_1 = -\phi_2 = \pi/2$, with $\ell = R$, its constraint leaves only
-# $\theta_2 = -\theta_1$, no inclination at all.
+# The ansatz also contradicts the bar: at $\phi_1 = -\phi_2 = \pi/2$, with $\ell = R$, its constraint allows only
+# $\theta_2 = -\theta_1$, that is zero inclination.
 
 # %%
 quarter = {phi_1: sp.pi / 2, phi_2: -sp.pi / 2, k: 1}
@@ -214,7 +214,7 @@ prove(
 )
 
 # %% [markdown]
-# On the exact orbit $\phi_1 + \phi_2$ swings in the first power of the amplitude. From the second order of its series
+# On the exact orbit $\phi_1 + \phi_2$ oscillates in proportion to the amplitude. From the second order of its series
 # ($\sigma = k = 1$; $x_i$, $y_i$ through $r_0^2$, with $x_2 = -x_1$ and $y_2 = y_1$ in the second order):
 
 # %%

@@ -1,9 +1,9 @@
 # %% [markdown]
 # # The first integrals A and B (5.12 to 5.14)
 #
-# **Objective.** $A$ and $B$ by Noether's theorem, and what is left of them on the exact pair, where the bar acts.
+# **Objective.** $A$ and $B$ by Noether's theorem, and their conservation on the exact pair, where the bar acts.
 #
-# **Assumptions.** Equal rotors, ideal joints, no gravity, any bar. What the paper assumes besides is named where it is
+# **Assumptions.** Equal rotors, ideal joints, no gravity, any bar. Further assumptions of the paper are named where they are
 # used.
 #
 # **Notation.** $p_i$ the momenta of the pair's own angles; $g = 0$ the bar's constraint and $\lambda$ its multiplier, the
@@ -30,10 +30,10 @@ _, phi_1_v, psi_1_v, _, phi_2_v, psi_2_v = PAIR.v
 _, _, phi_v, psi_v = ANSATZ.v
 
 # %% [markdown]
-# ## What the paper differentiates
+# ## The momenta of the ansatz
 #
-# The ansatz turns $\phi_1$ forward and $\phi_2$ backward by one angle $\phi$, and the spin angles by one angle $\psi$. So
-# the momenta of $\phi$ and $\psi$ in the ansatz Lagrangian are differences of the pair's momenta,
+# In the ansatz $\phi_1 = \phi$ and $\phi_2 = -\phi$, likewise $\psi_1 = \psi$ and $\psi_2 = -\psi$. So the momenta of $\phi$ and
+# $\psi$ in the ansatz Lagrangian are differences of the pair's momenta,
 # $\partial\mathcal L/\partial\dot\phi = p_{\phi_1} - p_{\phi_2}$ and
 # $\partial\mathcal L/\partial\dot\psi = p_{\psi_1} - p_{\psi_2}$:
 
@@ -55,10 +55,10 @@ prove(
 )
 
 # %% [markdown]
-# ## How they change
+# ## The rates of $A$ and $B$
 #
 # Along a motion with constraint forces $\frac{d}{dt}(p\cdot\xi) = \delta_\xi\mathcal L + \lambda\,\nabla g\cdot\xi$. The
-# turning $\xi$ of the spin angles leaves the Lagrangian and the bar alone, so $B$ is constant on the exact pair:
+# rotation $\xi$ of the spin angles changes neither the Lagrangian nor the bar's length, so $B$ is constant on the exact pair:
 
 # %%
 of_B = system.noether_rate([0, 0, 1, 0, 0, -1])
@@ -76,8 +76,8 @@ prove(
 )
 
 # %% [markdown]
-# Turning the azimuths oppositely changes the length of the bar, so the bar's force changes $A$; a bar with $b \neq 0$
-# changes it also by its inertia. Without inertia of the bar:
+# Opposite rotations of the azimuths change the length of the bar, so the bar's force changes $A$. For $b \neq 0$ the inertia of
+# the bar changes it, too. For a massless bar:
 
 # %%
 of_A = system.noether_rate([0, 1, 0, 0, -1, 0])
@@ -90,8 +90,8 @@ prove(
 )
 
 # %% [markdown]
-# How far $A$ swings is measured on two kinds of motion with a massless bar: the periodic orbit, and the motion after a
-# shock from rest.
+# The oscillation of $A$ is measured on two kinds of motion with a massless bar: the periodic orbit, and the motion after a shock
+# from rest.
 
 
 # %%
@@ -150,7 +150,7 @@ integral_B = verdict(
     {"B": B, r"\dot B": of_B},
     premises=ansatz,
     uses=["5.11"],
-    evidence=["B = I₃(ω₁ − ω₂) is constant on the exact pair, whatever the bar and the inertias: I is I₃ alone."],
+    evidence=["B = I₃(ω₁ − ω₂) is constant on the exact pair for any bar and any inertias; the I of the paper is I₃."],
     written={
         "B": form("I_3*(psi_1_dot + phi_1_dot*cos(theta_1) - psi_2_dot - phi_2_dot*cos(theta_2))"),
         r"\dot B": form("0"),

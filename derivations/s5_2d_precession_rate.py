@@ -1,7 +1,7 @@
 # %% [markdown]
 # # The rate of precession of the pair (5.15, 5.16)
 #
-# **Objective.** $\dot\phi$ from $A$ and $B$, the values that the paper gives $A$ and $B$, and what the formula then predicts.
+# **Objective.** $\dot\phi$ from $A$ and $B$, the values that the paper gives $A$ and $B$, and the prediction of the formula.
 #
 # **Assumptions.** Those of $A$ and $B$ (5.12, 5.13), named where they are used.
 #
@@ -55,9 +55,9 @@ verdict(
     premises=[MASSLESS_BAR, EQUAL_INERTIAS, opposite_azimuths(), opposite_spin_angles(), no_bar_force()],
     uses=[on_pair["5.12"], on_pair["5.13"], "5.14"],
     evidence=[
-        "The rest state θ₁ = θ₂ = 0 is a singular point of the formula, where its numerator vanishes too.",
-        "With the values of A and B (5.16) it returns the φ₀′ that was put into A, whatever φ₀′ is: it is an identity, not a "
-        "prediction of the rate.",
+        "The rest state θ₁ = θ₂ = 0 is a singular point of the formula: numerator and denominator vanish.",
+        "With the values of A and B (5.16) the formula reduces to φ′ = φ₀′ for any φ₀′, so it does not predict "
+        "the rate.",
         f"The equations of motion fix the rate: {massless:.4g} rad/s for spins ±10 and a massless bar, {heavy:.4g} rad/s "
         "with the bar of section 4.1.",
     ],
@@ -99,7 +99,7 @@ prove(
 # %%
 mean, half = sp.symbols("theta_m delta", real=True)
 one_inclination = Premise(
-    "the inclinations differ little, θ₁ − θ₂ = 2δ", {theta_1: mean + half, theta_2: mean - half}, small=half
+    "the inclinations are nearly equal, θ₁ − θ₂ = 2δ", {theta_1: mean + half, theta_2: mean - half}, small=half
 )
 phi_1, phi_2 = PAIR.q[1], PAIR.q[4]
 r_1, r_2 = axis(theta_1, phi_1), axis(theta_2, phi_2)

@@ -1,11 +1,10 @@
 # %% [markdown]
 # # The length of the bar under the ansatz (5.17 to 5.19)
 #
-# **Objective.** How long the bar would be if both inclinations stayed constant: projected on the X-Y plane, under the
-# ansatz, and its range.
+# **Objective.** The length that the bar would have if both inclinations were constant: its projection on the X-Y plane, its value
+# under the ansatz, and its range.
 #
-# **Assumptions.** Ideal joints $\ell$ apart, axes of length $R$. That the paper puts $\ell = R = 1$ is named where it is
-# used.
+# **Assumptions.** Ideal joints at the distance $\ell$, axes of length $R$. The paper's $\ell = R = 1$ is named where it is used.
 #
 # **Notation.** $\theta_i$, $\phi_i$ inclinations and azimuths of the axes; $\varepsilon$ scales both inclinations,
 # $\theta_i = \varepsilon\,\vartheta_i$; $C$ the projected length.

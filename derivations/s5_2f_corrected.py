@@ -1,10 +1,10 @@
 # %% [markdown]
 # # The corrected trajectories (5.20 to 5.22)
 #
-# **Objective.** The paired precession that the exact pair has: its inclinations, trajectories and frequency as series in the
-# amplitude, against the paper's amplitude-based correction.
+# **Objective.** The paired precession of the exact pair: its inclinations, trajectories and frequency as series in the amplitude,
+# compared with the paper's amplitude-based correction.
 #
-# **Assumptions.** Opposite spins, the symmetric periodic orbit, any bar. That the paper's bar is massless and as long as the
+# **Assumptions.** Opposite spins, the symmetric periodic orbit, any bar. The paper's massless bar with the length of the
 # rotors is named where it is used.
 #
 # **Notation.** $r_0 = \sin\theta_0$ the sine of the inclination when the axes are parallel; $\Phi = \Omega t$ the phase;
@@ -32,8 +32,8 @@ bar_ratio = {k: ell / R}
 # %% [markdown]
 # ## The series
 #
-# Lindstedt–Poincaré on the exact equations with their multipliers (derived in t3), the symmetry of the orbit used. Through
-# the second order:
+# The Lindstedt–Poincaré series of the exact equations with their multipliers is derived in t3, using the symmetry of the orbit.
+# Through the second order:
 
 # %%
 x_1, y_1, _, x_2, y_2, _ = (e.subs(bar_ratio) for e in corrected_trajectories(3).expressions)
@@ -79,8 +79,8 @@ prove(
 )
 
 # %% [markdown]
-# The paper's correction removes the swing of the bar's length but keeps the bar at the wrong one: it sets it where constant
-# inclinations have it at its longest. With the printed sines, $\ell = R = 1$ and opposite azimuths, the squared length is
+# The paper's correction removes the oscillation of the bar's length, but the constant length is wrong: it is the maximum for
+# constant inclinations. With the printed sines, $\ell = R = 1$ and opposite azimuths, the squared length is
 
 # %%
 shorter, longer = r0 - r0**2 * cosine, r0 + r0**2 * cosine
@@ -119,7 +119,7 @@ verdict(
 # %% [markdown]
 # ## The rate after the correction: at constant $A$ and $B$
 #
-# The paper varies the formula of the rate (5.15) with $A$ and $B$ held. The correction makes $\sin\theta_1$ smaller and
+# The paper varies the formula of the rate (5.15) at constant $A$ and $B$. The correction makes $\sin\theta_1$ smaller and
 # $\sin\theta_2$ larger by the same $\varepsilon = \sin^2\theta_0\cos\phi$, so to first order the two changes of the rate
 # have opposite signs:
 
@@ -142,12 +142,12 @@ unvaried = (A - B * sp.cos(theta_0)) / (2 * J * s**2)
 prove(varied, unvaried, "the rate to first order in the correction, at constant A and B", names=r"\dot\phi")
 
 # %% [markdown]
-# The paper multiplies the two derivatives where their difference is needed; that its last line follows all the same is a
-# second error, which cancels the first.
+# The paper multiplies the two derivatives where their difference is needed. A second error cancels the first, so its last line is
+# correct.
 #
-# ## The rate after the correction: the orbit's
+# ## The frequency of the orbit
 #
-# What is varied there is an identity (5.15). The frequency of the orbit does change with the amplitude:
+# The varied formula is an identity (5.15). The frequency of the orbit does change with the amplitude:
 
 # %%
 frequency = paired_frequency(3).expressions[0].subs(bar_ratio)
@@ -163,8 +163,8 @@ prove(
 )
 
 # %% [markdown]
-# The print compares with the constant inclination $\theta_0$. A rotor without a bar keeps it where its equation of motion in
-# $\theta$ has no acceleration; with $G = I_3(\dot\psi + \dot\phi\cos\theta)$
+# The paper compares with a constant inclination $\theta_0$. A rotor without a bar keeps it if its equation of motion in $\theta$
+# has no acceleration; with $G = I_3(\dot\psi + \dot\phi\cos\theta)$
 
 # %%
 (theta, _, _), (theta_v, phi_v, psi_v), (theta_a, *_) = ROTOR.q, ROTOR.v, ROTOR.a
@@ -177,8 +177,8 @@ prove(
 )
 
 # %% [markdown]
-# so that it precesses at $G/(J\cos\theta_0)$. With a massless bar $\Omega_0 = G/J$: beside that rate, the orbit's is, for
-# $\ell = R$,
+# so that it precesses at $G/(J\cos\theta_0)$. With a massless bar $\Omega_0 = G/J$. The ratio of the orbit's frequency to this
+# rate is, for $\ell = R$,
 
 # %%
 prove(
@@ -270,9 +270,9 @@ verdict(
 # %% [markdown]
 # ## The trajectories
 #
-# The left joint is at $-\ell/2$, the right one at $+\ell/2$. In $x$ the paper has the right second harmonic and lacks a
-# constant of second order, by which the two centres are apart. The mean of a polynomial of second degree in $\cos\Phi$ and
-# $\sin\Phi$ is that of its values at four phases a quarter turn apart:
+# The left joint is at $-\ell/2$, the right one at $+\ell/2$. In $x$ the paper's second harmonic is right, but a constant of
+# second order is missing, the displacement of the two centres. The mean of a polynomial of second degree in $\cos\Phi$ and
+# $\sin\Phi$ is the mean of its values at four phases a quarter turn apart:
 
 # %%
 tips = -ell / 2 + R * x_1, ell / 2 + R * x_2

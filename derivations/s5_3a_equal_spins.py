@@ -136,7 +136,7 @@ pair_gentle, _ = rate_after(Scene(spins=(20, 20), link=heavy, shock=gentle))
 eta = sp.Symbol("eta", real=True)
 change = 100 * (pair_rate / pair_gentle - 1)
 small_motion = Premise(
-    "the motion is so small that its amplitude does not change the rate",
+    "the motion is so small that the rate does not depend on its amplitude",
     {eta: 0},
     broken=f"by {change:.1f} % after the shock of 40 N",
 )
@@ -171,7 +171,7 @@ verdict(
 # 1 kg; a massless bar leaves $c = 1$. In the general line the spins are open: opposite ones have another constant (5.28).
 
 # %%
-forward = Premise("the spin is positive, as the rate is that is printed", where=(sp.Gt(omega, 0),))
+forward = Premise("the spin is positive, like the printed rate", where=(sp.Gt(omega, 0),))
 (mass_of_c,) = sp.solve(PAPERS_ROTOR.on(in_parameters(constant)) - sp.Rational(7125, 10000), m)
 verdict(
     "5.25",

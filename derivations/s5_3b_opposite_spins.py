@@ -104,7 +104,7 @@ any_rate = form(
     G_1=I3 * omega_1,
     G_2=I3 * omega_2,
 )
-small_motion = Premise("the motion is so small that its amplitude does not change the rate", {eta: 0})
+small_motion = Premise("the motion is so small that the rate does not depend on its amplitude", {eta: 0})
 of_a_kilogram = float(inertia_of_product.subs(m, 1))
 listed = "; ".join(f"{rate:.4f} for {name}" for name, rate in rates.items())
 verdict(

@@ -1,5 +1,5 @@
 # %% [markdown]
-# # What the pair conserves
+# # Conserved quantities of the pair
 #
 # **Objective.** Every conserved quantity by Noether's theorem, checked on the exact models; whether the list is complete.
 #

@@ -31,8 +31,6 @@ from lagrotor.paper import Formula, Remark, prove
 from lagrotor.theory import (
     averaged_hamiltonian,
     growth_squared,
-    next_brackets,
-    shift_coefficient,
     slow_frequency,
     slow_motion,
     slow_rates,
@@ -40,6 +38,8 @@ from lagrotor.theory import (
     turns_back,
     wander_after_shock,
 )
+from lagrotor.theory.averaged_motion import next_brackets
+from lagrotor.theory.rate_shift import shift_coefficient
 
 # %% [markdown]
 # ## The bar in one equation

@@ -29,14 +29,8 @@ from lagrotor.numerics import measured_order
 from lagrotor.pair import leaning_lagrangian
 from lagrotor.pair.notation import G_1, G_2, LEANING, a, b, k, r0, sigma
 from lagrotor.paper import Remark, prove
-from lagrotor.theory import (
-    azimuth_drift,
-    drift_coefficient,
-    frequency_shift,
-    shift_coefficient,
-    twist_coefficient,
-)
-from lagrotor.theory.rate_shift import opposite_share
+from lagrotor.theory import azimuth_drift, frequency_shift
+from lagrotor.theory.rate_shift import drift_coefficient, opposite_share, shift_coefficient, twist_coefficient
 
 # %% [markdown]
 # ## The Lagrangian through fifth order

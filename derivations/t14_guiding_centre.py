@@ -22,8 +22,9 @@ from lagrotor.numerics import measured_order
 from lagrotor.pair import leaning_frame, leaning_lagrangian
 from lagrotor.pair.notation import G_1, G_2, LEANING, a, b, k, r0, sigma
 from lagrotor.paper import Remark, prove
-from lagrotor.theory import GuidingCentre, guiding_centre, leaning_field, twist_coefficient
+from lagrotor.theory import GuidingCentre, guiding_centre, leaning_field
 from lagrotor.theory.natural_frequency import natural_frequency
+from lagrotor.theory.rate_shift import twist_coefficient
 
 # %% [markdown]
 # ## A charged particle

@@ -1,8 +1,8 @@
 # %% [markdown]
 # # Stability of the paired precession
 #
-# **Objective.** The growth of the neighbours of the periodic orbit, derived from the variational equations: the exponents as
-# a power series in the amplitude, where the orbit is elliptic and where hyperbolic, and the edge between them.
+# **Objective.** The growth of perturbations of the periodic orbit, derived from the variational equations: the exponents as a
+# power series in the amplitude, the domains where the orbit is elliptic and hyperbolic, and the boundary between them.
 #
 # **Assumptions.** Opposite spins, any bar; the orbit's series of t3. The laws are leading terms, each with its error.
 #
@@ -24,17 +24,18 @@ from lagrotor.paper import Formula, Remark, prove
 from lagrotor.theory import averaged_hamiltonian, elliptic_edge, exponent_series, growth_squared, paired_series
 
 # %% [markdown]
-# ## Which perturbations can grow
+# ## The perturbations that can grow
 #
-# At rest four of the six multipliers belong to displacements that stay: turning about the joint line, its rate, a shift of
-# both axes along $x$, and a twist. Along the orbit the energy with the shift of time, and the momentum with the turning, keep
-# four multipliers at 1. Exchanging the rotors half a period later ($S$, t3) maps the orbit to itself; shift of time and turning
-# are even under it, the shift along $x$ and the twist are odd. So the last pair is made of perturbations odd under $S$,
+# At rest four of the six multipliers are 1. They belong to turning about the joint line, its rate, a shift of both axes along
+# $x$, and a twist. Along the orbit four multipliers stay 1: two for the energy and the shift of time, two for the momentum and
+# the turning. The exchange of the rotors half a period later ($S$, t3) maps the orbit to itself. The shift of time and the
+# turning are even under $S$, the shift along $x$ and the twist are odd. The last pair of multipliers therefore belongs to
+# perturbations odd under $S$,
 #
 # $$\delta=\xi\,p(\Phi)+\eta\,q(\Phi),\qquad \frac{d\xi}{d\Phi}=A\,\eta,\qquad \frac{d\eta}{d\Phi}=B\,\xi,$$
 #
-# $p$ and $q$ periodic, $p=(1,0,0)$ and $q=(0,1,0)$ in $(x,Y,z)$ at $r_0=0$. Then $\lambda^2=AB$. Time reversed with $y\to-y$,
-# $p$ is even, $q$ odd; hence the shape of the two equations.
+# with $p$ and $q$ periodic, $p=(1,0,0)$ and $q=(0,1,0)$ in $(x,Y,z)$ at $r_0=0$. Then $\lambda^2=AB$. The two equations have
+# this form because $p$ is even and $q$ odd under the reversal of time with $y\to-y$.
 #
 # ## The variational equations
 #
@@ -55,19 +56,20 @@ equations[1] /= sp.sqrt(sigma)
 Formula(equations, "E")
 
 # %% [markdown]
-# With $\delta x$ and so on put in, to first order in $\xi$ and $\eta$, and $A\eta$, $B\xi$ for the derivatives of $\xi$ and
-# $\eta$: a velocity varies by $(p'+Bq)\,\xi+(q'+Ap)\,\eta$, an acceleration by
-# $(p''+2Bq'+ABp)\,\xi+(q''+2Ap'+ABq)\,\eta$, times $\Omega$ and $\Omega^2$. So each of the five equations gives two to be solved,
+# A perturbation is of first order in $\xi$ and $\eta$, whose derivatives are $A\eta$ and $B\xi$. A velocity varies by $\Omega$
+# times $(p'+Bq)\,\xi+(q'+Ap)\,\eta$, an acceleration by $\Omega^2$ times $(p''+2Bq'+ABp)\,\xi+(q''+2Ap'+ABq)\,\eta$. Each of the
+# five equations therefore gives two,
 #
 # $$E_\xi=\sum_j\Big(\frac{\partial E}{\partial q_j}\,p_j+\Omega\,\frac{\partial E}{\partial\dot q_j}\,(p_j'+Bq_j)
 # +\Omega^2\,\frac{\partial E}{\partial\ddot q_j}\,(p_j''+2Bq_j'+ABp_j)\Big)=0,$$
 #
 # and $E_\eta=0$, in which $p$ and $q$, $A$ and $B$ are exchanged. The derivatives of $E$ are taken on the orbit; $j$ runs over
-# both axes and the multipliers, and as $p$ and $q$ are odd under $S$, those of rotor 2 are $x_2(\Phi)=x_1(\Phi+\pi)$,
-# $Y_2(\Phi)=-Y_1(\Phi+\pi)$, $z_2(\Phi)=-z_1(\Phi+\pi)$, and so for $\lambda_2$; the bar's $\tau(\Phi+\pi)=-\tau(\Phi)$.
+# both axes and the multipliers. Since $p$ and $q$ are odd under $S$, the terms of rotor 2 are $x_2(\Phi)=x_1(\Phi+\pi)$,
+# $Y_2(\Phi)=-Y_1(\Phi+\pi)$, $z_2(\Phi)=-z_1(\Phi+\pi)$, $\lambda_2(\Phi)=-\lambda_1(\Phi+\pi)$, and
+# $\tau(\Phi+\pi)=-\tau(\Phi)$.
 #
 # From $p=(1,0,0)$, $q=(0,1,0)$ and the orbit's first order, $x=r_0\cos\Phi$ and $Y_1=-Y_2=r_0\sin\Phi$, the coefficients of
-# $r_0$ are, each letter being the first-order term of $p$ or of $q$, a dot $d/d\Phi$ and $y$ written for $Y$,
+# $r_0$ are as follows. Each symbol is the first-order term of $p$ or of $q$, a dot is $d/d\Phi$, and $y$ stands for $Y$:
 
 
 # %%
@@ -79,7 +81,7 @@ for names, slower in ((AXES.v, AXES.q), (AXES.a, AXES.v)):
 
 
 def first_order(displaced: dict) -> list[sp.Expr]:
-    """The coefficient of r_0 in the five equations for what varies from the displacement at rest."""
+    """Return the coefficient of r_0 in the five equations for a perturbation of the displacement at rest."""
     vary = sp.Symbol("vary")
     put = {s: int(s in (z1, z2)) + r0 * swinging.get(s, 0) + vary * (displaced.get(s, 0) + r0 * s) for s in unknown}
     return [sp.expand(sp.expand(e.xreplace(put)).coeff(vary, 1)).coeff(r0, 1) for e in equations]
@@ -112,10 +114,11 @@ prove(
 )
 
 # %% [markdown]
-# At every order the next terms of $p$ and $q$ stand in these same left sides, and what is known drives them. They leave the means
-# of $x$ and of $Y$ undetermined, which $p=(1,0,0)$ and $q=(0,1,0)$ fix, and drop out of the means of the first two equations.
-# By the velocities $p'+Bq$ and $q'+Ap$ the mean of the first has the term $B$ for $p$, that of the second $-A/\sigma$ for $q$:
-# these determine $A$ and $B$. (The other two means vanish, as odd in $\Phi$.) The solution through second order:
+# At every order the next terms of $p$ and $q$ have these same left sides, and the earlier terms are the right sides. The means of
+# $x$ and of $Y$ are free; the choice $p=(1,0,0)$ and $q=(0,1,0)$ fixes them. The means of the first two equations do not contain
+# the next terms. By the velocities $p'+Bq$ and $q'+Ap$, the mean of the first contains $B$ for $p$, the mean of the second
+# $-A/\sigma$ for $q$; these determine $A$ and $B$. (The other two means vanish, since they are odd in $\Phi$.) The solution
+# through second order:
 
 # %%
 orbit, found = paired_series(4), exponent_series(4)
@@ -148,7 +151,7 @@ prove(
 # %% [markdown]
 # ## The two coefficients
 #
-# The twist drives the shift from second order on; the shift drives the twist from fourth order on:
+# The twist drives the shift from second order on, $A$; the shift drives the twist from fourth order on, $B$:
 
 # %%
 A, B = (orbit.expression(part) for part in (found.A, found.B))
@@ -161,13 +164,13 @@ prove(
 )
 
 # %% [markdown]
-# With them and with $p$, $q$ through fourth order the variational equations hold: their coefficients of $\xi$ and of $\eta$
+# With $A$, $B$ and with $p$, $q$ through fourth order the variational equations hold: their coefficients of $\xi$ and of $\eta$
 # vanish in orders 0 to 4.
 
 
 # %%
 def three(own: tuple, other: tuple, by: FourierSeries, back: FourierSeries, sign: int) -> dict:
-    """Coordinates, velocities and accelerations of both axes of what varies as own, driven by other; sign under S."""
+    """Return coordinates, velocities and accelerations of both axes for the perturbation `own`, driven by `other`."""
     rate, values = orbit.frequency, {}
     for i in range(3):
         once = own[i].derivative() + by * other[i]
@@ -179,7 +182,7 @@ def three(own: tuple, other: tuple, by: FourierSeries, back: FourierSeries, sign
 
 
 def put(e: sp.Expr, values: dict) -> FourierSeries:
-    """A polynomial of the coordinates with their series put in."""
+    """Return a polynomial of the coordinates for their series."""
     polynomial, total = sp.Poly(e, *values), FourierSeries({}, 4)
     for powers, coefficient in polynomial.terms():
         term = total.constant(orbit.field.from_sympy(coefficient))
@@ -191,7 +194,7 @@ def put(e: sp.Expr, values: dict) -> FourierSeries:
 
 
 def left(variations: dict) -> sp.Matrix:
-    """What the variational equations leave in orders 0 to 4 of r_0."""
+    """Return the residual of the variational equations in orders 0 to 4 of r_0."""
     rows = []
     for e in equations:
         terms = (put(sp.expand(e).diff(symbol), along) * change for symbol, change in variations.items())
@@ -218,9 +221,9 @@ prove(
 )
 
 # %% [markdown]
-# The averaged motion (t11) says the same of $A$: it gives the half-angle $\eta$ between the axes the stiffness $H_{\eta\eta}$,
-# and $2G\dot\beta=H_{\eta\eta}\,\eta$. A unit of $q$ turns $\eta$ by $\sqrt\sigma$, the orbit swings by $s=\sqrt\sigma\,r_0$ and
-# has $P=Gs^2/k$; per radian of phase, $1/\Omega_0$ each:
+# The averaged motion (t11) gives the same $A$. There the half-angle $\eta$ between the axes has the stiffness $H_{\eta\eta}$,
+# and $2G\dot\beta=H_{\eta\eta}\,\eta$. A unit of $q$ is $\eta=\sqrt\sigma$; the orbit has the swing $s=\sqrt\sigma\,r_0$ and
+# $P=Gs^2/k$. Per radian of phase, that is per time $1/\Omega_0$:
 
 # %%
 still = {LEAN: 0, HALF: 0, P: G * SWING**2 / k}
@@ -235,7 +238,7 @@ prove(
 )
 
 # %% [markdown]
-# ## Growth a turn
+# ## Growth per turn
 #
 # $\lambda^2=AB$. For a bar with $b\neq0$ the leading term is
 
@@ -272,17 +275,17 @@ prove(growth_squared(8, dumbbell=True).expressions[0], sp.Rational(9, 32) * r0**
       names=r"\lambda^2")  # fmt: skip
 
 # %% [markdown]
-# ## The edge
+# ## The boundary between elliptic and hyperbolic
 #
-# For $\sigma>1$ the first two terms of $A$ have opposite signs: beyond the amplitude where they cancel even $b>0$ gives a
-# hyperbolic orbit.
+# For $\sigma>1$ the first two terms of $A$ have opposite signs. Beyond the amplitude at which they cancel, the orbit is
+# hyperbolic for $b>0$, too.
 
 # %%
 edge = elliptic_edge().expressions[0]
 prove(edge**2, 24 * k**2 * (sigma - 1) / fourth, "where the first two terms of A cancel", names="r_0^2")
 
 # %% [markdown]
-# It is right to first order in $\sigma-1$, where it is
+# This amplitude is correct to first order in $\sigma-1$, where it is
 
 # %%
 delta = sp.Symbol("delta", positive=True)
@@ -307,7 +310,7 @@ BARS = {
 
 
 def measure(link: Link, amplitudes: tuple[float, ...]) -> tuple[str, float, float, float]:
-    """(kind, slope of |mu + 1/mu − 2|, largest relative error of the law, the one that it gives there)."""
+    """Return kind, power of |mu + 1/mu − 2|, largest relative error of the law, and its estimate."""
     scene = Scene(spins=(10, -10), link=link)
     law = growth_squared(8, dumbbell=True) if scene.sigma == 1 else growth_squared()
     exact = [floquet(scene, amplitude) for amplitude in amplitudes]
@@ -331,8 +334,8 @@ Remark(
     "Stability of the paired precession",
     "At small amplitude it is elliptic for b > 0 and hyperbolic for b ≤ 0. Exact multipliers: "
     + "; ".join(
-        f"{name}, r_0 = {BARS[name][1][-1]}: {kind}, μ + 1/μ − 2 ~ r_0^{slope:.2f}, the law off by {100 * abs(off):.1f} %, "
-        f"at most {100 * abs(given):.1f} % given"
+        f"{name}, r_0 = {BARS[name][1][-1]}: {kind}, μ + 1/μ − 2 ∝ r_0^{slope:.2f}, error of the law {100 * abs(off):.1f} %, "
+        f"estimated as at most {100 * abs(given):.1f} %"
         for name, (kind, slope, off, given) in measured.items()
     )
     + f". In the paper's scene the growth per turn at r_0 = 0.204 is {paper.growth:.5f}, known to {paper.exponent_error:.0e}.",
@@ -341,7 +344,7 @@ Remark(
 
 # %%
 def edge_at(sigma_value: float) -> tuple[float, float, float]:
-    """r_0 at k = 1 where the orbit of a bar with K = 0 turns hyperbolic: the law, its given error, exact orbits to 5e-6."""
+    """Return r_0 at the boundary for k = 1 and K = 0: by the law, its estimated error, and by exact orbits to 5e-6."""
     law, given = (float(of(sigma_value, 1.0)) for of in (elliptic_edge(), elliptic_edge().error))
     scene = Scene(spins=(10, -10), link=Link(1, 2 * 1.25 * (sigma_value - 1), 0))
 
@@ -356,8 +359,8 @@ assert all(abs(said - seen) < given for said, given, seen in edges.values())
 ratios = [abs(said - seen) / seen for said, _, seen in edges.values()]
 Remark(
     "Elliptic to hyperbolic",
-    "The edge at k = 1, its given error, and that of exact orbits: "
+    "The amplitude of the boundary at k = 1 by the law with its estimated error, and by exact orbits: "
     + "; ".join(f"σ = {value}: {said:.4f} ± {given:.4f}, {seen:.4f}" for value, (said, given, seen) in edges.items())
-    + ". The law is asymptotic in σ − 1: its relative error grows from "
-    + f"{100 * ratios[0]:.1f} % to {100 * ratios[-1]:.0f} % here.",
+    + ". The law is asymptotic in σ − 1: over these values its relative error grows from "
+    + f"{100 * ratios[0]:.1f} % to {100 * ratios[-1]:.0f} %.",
 )

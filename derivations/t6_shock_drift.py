@@ -1,11 +1,11 @@
 # %% [markdown]
 # # The slow drift after a shock
 #
-# **Objective.** The drift in y that first order does not have, its rate and cause, and the force along y in the shock
-# of section 5.2.1 that cancels it: the paper's $-11$ N, chosen without saying why.
+# **Objective.** The drift in y, which is absent to first order: its rate, its cause, and the force along y in the shock of
+# section 5.2.1 that cancels it. The paper chooses $-11$ N without a reason.
 #
-# **Assumptions.** Opposite spins at rest upright; shock on rotor 1; second order in it. The rates are those just after the
-# shock; the last section shows how they change later.
+# **Assumptions.** Opposite spins; the pair is at rest and upright; a shock on rotor 1; second order in the shock. The rates are
+# those just after the shock; the last section shows how they change later.
 #
 # **Notation.** $p_x$, $p_y$ the impulses times $R$; $G=G_1=-G_2$; $A_w = e^{-(\Omega_0 w)^2/4}$ with $w$ the width of the
 # pulse; $\sigma=(a+b)/(a-b)$; $k=\ell/R$; $P$ the momentum about the joint line, which runs through both ground joints;
@@ -44,8 +44,8 @@ from lagrotor.theory import (
 # %% [markdown]
 # ## The conserved momentum
 #
-# Turning everything about the joint line is a symmetry (t10), so that
-# $P=\sum_i \partial T/\partial\dot r_i\cdot(e_x\times r_i)+G_i x_i$ is constant, for any bar; $T$ is the kinetic energy.
+# Rotation of the whole system about the joint line is a symmetry (t10). For any bar
+# $P=\sum_i \partial T/\partial\dot r_i\cdot(e_x\times r_i)+G_i x_i$ is therefore constant; $T$ is the kinetic energy.
 
 # %%
 x1, y1, z1, x2, y2, z2 = AXES.q
@@ -53,7 +53,7 @@ v1, v2 = AXES.v[1], AXES.v[4]
 Formula(joint_line_momentum(), "P")
 
 # %% [markdown]
-# ## The bar makes twisted axes lean
+# ## The bar inclines twisted axes
 #
 # With $z_i=\sqrt{1-x_i^2-y_i^2}$ and deviations of first order ($\epsilon$), the bar's constraint holds in first order if
 # $x_1=x_2$. In second order a difference of the $y_i$ requires a difference of the $x_i$:
@@ -67,7 +67,7 @@ second = truncated_series(scaled.subs(apart, eps * apart), eps, 2).coeff(eps, 2)
 prove(second, -k * apart + (y1 - y2) ** 2 / 2, "the bar's constraint, second order, x_12 = x_1 − x_2")
 
 # %% [markdown]
-# so $x_1-x_2=(y_1-y_2)^2/(2k)$. Put into $P$ with opposite spins, where the gyroscopic part is $G(x_1-x_2)$:
+# so $x_1-x_2=(y_1-y_2)^2/(2k)$. The gyroscopic part of $P$ is $G(x_1-x_2)$ for opposite spins, and $P$ becomes
 
 # %%
 still = {AXES.v[2]: 0, AXES.v[5]: 0, z1: 1, z2: 1, G_1: G, G_2: -G}  # y z' and (z − 1) y' are of third order
@@ -77,8 +77,8 @@ prove(momentum, -(a + b) * (v1 + v2) + G * (y1 - y2) ** 2 / (2 * k), "the moment
 # %% [markdown]
 # ## The twist just after the shock
 #
-# The linear response (t2) twists the pair by a constant and lets it swing about that. The twist's offset, and the amplitudes
-# of its cosine and sine for a short pulse, are
+# In the linear response (t2) the twist is a constant plus a swing. The constant, and the amplitudes of the swing's cosine and
+# sine for a short pulse, are
 
 # %%
 matrices, impulse = impulse_matrices(), sp.Matrix([P_X, p_y, 0])
@@ -95,7 +95,8 @@ prove(
 )
 
 # %% [markdown]
-# A pulse multiplies the swing by $A_w$; a cosine and a sine have mean square ½. The mean of the squared twist is then
+# The width of the pulse multiplies the swing by $A_w$. A cosine and a sine have the mean square ½. The mean of the squared twist
+# is then
 
 # %%
 mean_twist = (P_X / G) ** 2 * (1 + att**2 / 2) + att**2 / 2 * shape * p_y**2 / G**2
@@ -109,8 +110,8 @@ prove(
 # %% [markdown]
 # ## The rate
 #
-# The shock gives $P=-p_y$ and $P$ stays. Its mean over the swing, with $\langle\dot y_i\rangle=-\langle\dot\alpha\rangle$, is
-# one linear equation for the mean rate:
+# The shock gives $P=-p_y$, and $P$ is conserved. With $\langle\dot y_i\rangle=-\langle\dot\alpha\rangle$ the mean of $P$ over
+# the swing is a linear equation for the mean rate:
 
 # %%
 mean_rate = sp.Symbol("alpha_mean")
@@ -129,8 +130,8 @@ prove(shock_toppling().expressions[0], rate, "the library's rate", names=r"\lang
 # %% [markdown]
 # ## The force that cancels it
 #
-# Where the bracket vanishes, the mean turning does: a quadratic equation for $p_y$. Its small root, written so that no
-# digits cancel, is $p_y=-(2+A_w^2)\,p_x^2/\big(2kG\,(1+\rho)\big)$ with
+# The mean rate vanishes if the bracket does, a quadratic equation for $p_y$. Its small root, in a form without cancellation of
+# digits, is $p_y=-(2+A_w^2)\,p_x^2/\big(2kG\,(1+\rho)\big)$ with
 
 # %%
 root = sp.Symbol("rho_r")
@@ -146,7 +147,7 @@ held = sp.cancel(small_root * (1 + root) / cancelling_impulse().expressions[0]) 
 prove(sp.expand(held**2), inside, "ρ² of the library's cancelling impulse", names=r"\rho^2")
 
 # %% [markdown]
-# It is a root: with $\rho^2$ for its value, the rate there has no remainder.
+# It is a root: with the value of $\rho^2$ the rate vanishes there.
 
 # %%
 numerator = sp.Poly(sp.expand(sp.numer(sp.together(rate.subs(p_y, small_root)))), root)
@@ -160,18 +161,18 @@ prove(sp.rem(numerator, modulus).as_expr(), 0, "the rate at the cancelling impul
 
 # %%
 def scene(force: float, across: float = 0.0) -> Scene:
-    """The shock of section 5.2.1 at another size."""
+    """Return the scene of section 5.2.1 with a shock of another size."""
     return Scene(spins=(10, -10), link=Link(1, 0.01, 0.1), shock=Shock((force, across, 0), 0.5, 1 / 20))
 
 
 def duration(turns: int) -> float:
-    """Time (s) from the pulse's peak to the end of a run of so many swings."""
+    """Return the time in s from the peak of the pulse to the end of a run of some swings."""
     one = scene(40)
     return one.shock.end - one.shock.at + turns * 2 * np.pi / natural_rate(one)
 
 
 def exact_forces(forces: tuple[float, ...] = (10, 20, 40)) -> tuple[list[float], float]:
-    """Exact cancelling forces (N), and the slope of their difference from the second order (slow)."""
+    """Return exact cancelling forces in N, and the power of their difference from the second order (slow)."""
     exact = [exact_cancelling_force(scene(force)) for force in forces]
     off = [abs(cancelling_force(scene(force)) - value) for force, value in zip(forces, exact, strict=True)]
     return exact, measured_order(forces[:2], off[:2])
@@ -183,8 +184,8 @@ slope = measured_order(forces, off)
 assert slope > 3.5
 Remark(
     "The drift after a shock",
-    "⟨y′⟩ = (p_y + G ⟨(y_1 − y_2)²⟩/(2 k))/(2 (a + b)): P is conserved, and a twist of either sign costs momentum because the "
-    f"bar makes the axes lean. The next order is the fourth (measured {slope:.2f}): "
+    "⟨y′⟩ = (p_y + G ⟨(y_1 − y_2)²⟩/(2 k))/(2 (a + b)): P is conserved, and a twist of either sign takes momentum, because the "
+    f"bar then inclines the axes. The next order is the fourth (measured {slope:.2f}); errors: "
     + "; ".join(f"{x:.1e} rad/s at {f} N" for f, x in zip(forces, off, strict=True))
     + ". `toppling_error` measures it on an exact run.",
 )
@@ -197,8 +198,8 @@ exact = by_window[8]
 assert abs(at_paper) < abs(at_second) < abs(without) / 10
 Remark(
     "The force −11",
-    f"Against F_x = 40 N the force along y that cancels the drift is −{-tried[1]:.2f} N to second order. On exact runs it "
-    "depends on the time over which one averages: "
+    f"For F_x = 40 N the force along y that cancels the drift is −{-tried[1]:.2f} N to second order. On exact runs it "
+    "depends on the averaging time: "
     + ", ".join(f"−{-force:.2f} N over {turns} swings" for turns, force in by_window.items())
     + f"; the paper took −11 N. Mean α′ over 8 swings: {without:+.4f} rad/s with F_y = 0, {at_second:+.4f} with the second "
     f"order's, {at_paper:+.4f} with −11 N. The error of the second order is "
@@ -222,7 +223,7 @@ field = QQ_I.frac_field(k, root_sigma)
 
 
 def linear(**terms: sp.Expr | float) -> Polynomial:
-    """A linear function of the normal coordinates."""
+    """Return a linear function of the normal coordinates."""
     chosen = {tuple(int(n == name) for n in LETTERS): field.from_sympy(sp.sympify(c)) for name, c in terms.items()}
     return polynomial(chosen, 6, object)
 
@@ -252,7 +253,7 @@ form = birkhoff(H, weights, ORDER, field=field)
 
 
 def expression(f: Polynomial, at: dict[str, sp.Expr]) -> sp.Expr:
-    """A polynomial at normal coordinates."""
+    """Return the value of a polynomial at normal coordinates."""
     terms = (
         field.to_sympy(c) * sp.Mul(*(at[n] ** m for n, m in zip(LETTERS, e, strict=True))) for e, c in f.terms.items()
     )
@@ -269,13 +270,14 @@ prove(
 )
 
 # %% [markdown]
-# A short pulse along $x$ leaves $p_\beta=\delta=p_x/(2G)$ and all else zero, that is $Z=-\delta$, $W=-\delta/(2\varsigma)$,
-# $\eta=\delta$ in the coordinates of the quadratic part. In those of the normal form, which the generators lead to,
+# After a short pulse along $x$, $p_\beta=\delta=p_x/(2G)$ and all other variables are zero: $Z=-\delta$,
+# $W=-\delta/(2\varsigma)$, $\eta=\delta$ in the coordinates of the quadratic part. In the coordinates of the normal form, by the
+# generators,
 
 
 # %%
 def new(name: str) -> sp.Expr:
-    """A normal coordinate after the pulse, through the order."""
+    """Return a normal coordinate after the pulse, through the order."""
     f = linear(**{name: 1})
     for generator in reversed(form.generators):
         f = lie_transform(f, generator.times(number(-1)), weights, ORDER - 1)
@@ -312,8 +314,8 @@ prove(
 )
 
 # %% [markdown]
-# It takes the error of the closed form from fourth to sixth order. Of a bar with $bk^2/(a-b)=3$ the mean $x$ stays in third order
-# (t7), so that the rate is that of the start for long:
+# This term reduces the error of the closed form from fourth to sixth order. The test uses a bar with $bk^2/(a-b)=3$: its mean $x$
+# stays zero to third order (t7), so that the rate keeps its initial value for a long time.
 
 # %%
 long, spun = 1.7, 7.0
@@ -329,18 +331,18 @@ orders = measured_order(sizes, without_next), measured_order(sizes, with_next)
 assert abs(orders[0] - 4) < 0.1 and abs(orders[1] - 6) < 0.1, orders
 Remark(
     "The next order of the drift",
-    f"After a short pulse along x, δ = p_x/(2G): the error of the second order goes as δ to the {orders[0]:.2f}, with the fourth "
-    f"order as δ to the {orders[1]:.2f}. For other pulses and directions `toppling_error` and `wander_error` measure the error "
-    "on an exact run.",
+    f"After a short pulse along x, δ = p_x/(2G), the error of the second order is ∝ δ^{orders[0]:.2f}, the error with the fourth "
+    f"order ∝ δ^{orders[1]:.2f}. For other pulses and directions `toppling_error` and `wander_error` measure the error on an "
+    "exact run.",
 )
 
 # %% [markdown]
-# ## Why the rate depends on the window
+# ## The rate depends on the averaging time
 #
-# The mean $x$ does not stay at zero: it grows at the rate $\dot X$ of t7. Let both axes lean along the joint line by $X$ and
-# turn about it at the rate $\nu$. The square of a tip's distance from the line then has the factor $1-X^2$, and so has what
-# the twist $\Delta=y_1-y_2$ makes of $x_1-x_2$, now $(1-X^2)\Delta^2/(2k)$. With $S=G\langle\Delta^2\rangle/(2k)$ the
-# Lagrangian of the turning is $(1-X^2)\,\big((a+b)\,\nu^2+S\,\nu\big)$, and its energy, with $P=\partial L/\partial\nu$,
+# The mean $x$ does not stay zero: it grows at the rate $\dot X$ of t7. Let both axes lean along the joint line by $X$ and
+# turn about it at the rate $\nu$. The squared distance of a tip from the line then has the factor $1-X^2$. So has the difference
+# of the $x_i$ due to the twist $\Delta=y_1-y_2$, $x_1-x_2=(1-X^2)\Delta^2/(2k)$. With $S=G\langle\Delta^2\rangle/(2k)$ the
+# Lagrangian of the turning is $(1-X^2)\,\big((a+b)\,\nu^2+S\,\nu\big)$. With $P=\partial L/\partial\nu$ its energy is
 
 # %%
 lean, taken, nu = sp.symbols("X S nu", real=True)
@@ -376,7 +378,7 @@ prove(
 )
 
 # %% [markdown]
-# Without a force along y, $P=0$ and, at the start, $S=-2(a+b)\,\nu$. In the time $T$, with $X=\dot X T$, the twist $p_x/G$
+# Without a force along y, $P=0$ and initially $S=-2(a+b)\,\nu$. In the time $T$, with $X=\dot X T$, the twist $p_x/G$
 # grows by the integral of $-\partial E/\partial X/G$,
 
 # %%
@@ -393,7 +395,7 @@ changed = -G * (P_X / G) * grown / (2 * k * (a + b))
 prove(changed, -P_X / G * nu**2 * X_dot * T**2 / (2 * k), "the change of the rate of turning", names=r"\delta\nu")
 
 # %% [markdown]
-# Compared with exact runs, by their mean rates over 8 and over 24 swings:
+# The comparison is with the mean rates of exact runs over 8 and over 24 swings.
 
 # %%
 tested = scene(12)
@@ -406,6 +408,6 @@ said = mean_over(long.t, law(long.t - tested.shock.at)) - mean_over(short.t, law
 assert abs(said / seen - 1) < 0.15
 Remark(
     "Why the force depends on the window",
-    "The mean x grows and changes both the inertia about the joint line and the twist; the rate of turning changes as the square "
-    f"of the time. At 12 N the mean over 24 swings differs from that over 8 by {seen:.2e} rad/s, by this law {said:.2e}.",
+    "The mean x grows and changes both the inertia about the joint line and the twist; the rate of turning changes ∝ T². "
+    f"At 12 N the mean over 24 swings differs from that over 8 by {seen:.2e} rad/s; this law gives {said:.2e} rad/s.",
 )

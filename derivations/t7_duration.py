@@ -1,11 +1,11 @@
 # %% [markdown]
-# # How long the x direction stays stable after a shock
+# # Time of stability in x after a shock
 #
-# **Objective.** The rate at which the mean of $x$ leaves zero after a shock along $x$, by averaging; the time in which the
-# mean, and the time in which an axis itself, passes a bound.
+# **Objective.** The initial rate of the mean of $x$ after a shock along $x$, by averaging; the times after which the mean of
+# $x$, and the $x$ of one axis, exceed a bound.
 #
-# **Assumptions.** Opposite spins, $G_1=G$, $G_2=-G$, at rest upright; a shock on rotor 1; third order in it. The law is the
-# initial rate; each time of the mean is given with the error of that rate over it, from an exact run.
+# **Assumptions.** Opposite spins, $G_1=G$, $G_2=-G$; the pair is at rest and upright; a shock on rotor 1; third order in the
+# shock. The law is the initial rate. Each time of the mean comes with the error of this rate over that time, from an exact run.
 #
 # **Notation.** $\beta_s$, $\eta$ the means of the lean of the mean axis along the joint line and of half the angle between the
 # axes, $s$ the swing's amplitude in it (t11); $X$ the mean of $x=\sin\beta$; $P$ the momentum about the joint line, which runs
@@ -34,7 +34,7 @@ from lagrotor.theory import (
 #
 # Averaged over the swing (t11) the centre moves by
 # $2G\dot\beta_s=\partial H/\partial\eta$, $2G\dot\eta=-\partial H/\partial\beta_s$.
-# At $\beta_s=0$ the twist stays, and turning about the joint line carries it into $x=\sin\beta$:
+# At $\beta_s=0$ the twist is constant, and turning about the joint line changes $x=\sin\beta$:
 
 # %%
 bracket = (2 * HALF**2 + SWING**2 - k * P / G) / k**2 - b * SWING**2 / (a - b)
@@ -60,7 +60,7 @@ prove(
 # %% [markdown]
 # ## After a shock
 #
-# The shock leaves $\eta=p_x/(2G)$, $P=-p_y$ and, with $\sigma=(a+b)/(a-b)$, $s^2=A_w^2(p_x^2+\sigma p_y^2)/(4G^2)$ (t6).
+# After the shock $\eta=p_x/(2G)$, $P=-p_y$ and, with $\sigma=(a+b)/(a-b)$, $s^2=A_w^2(p_x^2+\sigma p_y^2)/(4G^2)$ (t6).
 # The rate of turning is that of t6,
 
 # %%
@@ -68,7 +68,7 @@ size = {HALF: P_X / (2 * G), P: -p_y, SWING: att * sp.sqrt(P_X**2 + (a + b) / (a
 prove(turned.subs(size), shock_toppling().expressions[0], "t6's rate of turning", names=r"\langle\dot\alpha\rangle")
 
 # %% [markdown]
-# and the mean $x$ leaves zero, after a shock along $x$ alone, at
+# and the initial rate of the mean $x$, after a shock along $x$ alone, is
 
 # %%
 law = P_X**3 / (8 * (a + b) * G**2) * ((2 + att**2) / k**2 - att**2 * b / (a - b))
@@ -92,7 +92,7 @@ BOUND, LEAN = 0.1, 0.5
 
 
 def scene(force: float, across: float = 0.0) -> Scene:
-    """The bar of section 5.2.1 and a shock of width 1/20."""
+    """Return a pair with the bar of section 5.2.1 and a shock of width 1/20."""
     return Scene(spins=(10, -10), link=Link(1, 0.01, 0.1), shock=Shock((force, across, 0), 0.5, 1 / 20))
 
 
@@ -108,33 +108,32 @@ off_order = measured_order(forces[1:], off[1:])  # at 2 N what is left of the sw
 assert abs(off_order - 2) < 0.1
 Remark(
     "The rate of the mean x",
-    f"After a shock F along x the pair turns about the joint line as F² (measured {slopes[0]:.3f}) and the mean of x leaves zero "
-    f"as F³ (measured {slopes[1]:.3f}). Mean rates over 20 swings against the law: "
+    f"After a shock F along x the rate of turning about the joint line is ∝ F² (measured power {slopes[0]:.3f}), the rate of the "
+    f"mean of x ∝ F³ (measured power {slopes[1]:.3f}). Mean rates over 20 swings against the law: "
     + "; ".join(
         f"{F:g} N: {seen:.3e} against {law_rate:.3e} 1/s"
         for F, seen, law_rate in zip(forces, wander, said, strict=True)
     )
-    + f"; the relative error of the larger two falls as F to the {off_order:.2f}.",
+    + f"; the relative error of the larger two is ∝ F^{off_order:.2f}.",
 )
 
 
 # %% [markdown]
 # ## Times: of the mean, and of an axis
 #
-# Two different quantities. The mean of $x$ over the swing, of both axes, reaches the bound after about $0.1/\dot X$, if the
-# initial rate lasts; an axis itself swings, in first order by $u=A_wp_x/(2G\sqrt\sigma)$, and may pass the bound within the
-# first swings.
+# The two times differ. The mean of $x$ over the swing and both axes reaches the bound after about $0.1/\dot X$ at the initial
+# rate. One axis swings by $u=A_wp_x/(2G\sqrt\sigma)$ to first order, and can exceed the bound within the first swings.
 
 
 # %%
 def mean_time(force: float) -> tuple[float, float | None]:
-    """(time by the initial rate, the rate's relative error over it on an exact run, or None where that would be long)."""
+    """Return the time by the initial rate, and the rate's relative error on an exact run; None if that run would be long."""
     rate = abs(wander_after_shock(scene(force)))
     return BOUND / rate, wander_error(scene(force), BOUND / rate) / rate if BOUND / rate < 1000 else None
 
 
 def axis_time(force: float, axis: int) -> float:
-    """Time (s) from the pulse's peak until |x| of an axis itself passes the bound; inf when it does not within 3 s."""
+    """Return the time in s from the pulse's peak until |x| of an axis exceeds the bound; inf if that takes over 3 s."""
     t = np.linspace(0, 3, 601)
     x = simulate(scene(force), t, "minimal", 1e-9).axes[axis, :, 0]
     return min(first_passage(t, sign * x, BOUND) for sign in (1, -1)) - 0.5
@@ -149,15 +148,15 @@ assert single[0] < 0.5 * followed
 assert abs(followed / times[strong][0] - 1) < 2 * times[strong][1]
 Remark(
     "How long x stays",
-    f"By the initial rate the mean of x, over the swing and both axes, keeps within {BOUND:g} for "
+    f"At the initial rate the mean of x, over the swing and both axes, stays below {BOUND:g} for "
     + "; ".join(
         f"{time:.3g} s at {force:g} N "
-        + ("(not compared)" if error is None else f"(mean rate off by {100 * error:.0f} %)")
+        + ("(not compared)" if error is None else f"(error of the rate {100 * error:.0f} %)")
         for force, (time, error) in times.items()
     )
-    + f". Followed on the exact run at {strong:g} N it takes {followed:.2f} s. An axis itself passes {BOUND:g} much "
-    f"earlier there, by its swing: x_1 after {single[0]:.2f} s, x_2 after {single[1]:.2f} s, counted from the pulse's peak. By "
-    "the initial rate of turning the pair leans by "
+    + f". The exact run at {strong:g} N takes {followed:.2f} s. There the swing of one axis exceeds {BOUND:g} much earlier: "
+    f"x_1 after {single[0]:.2f} s, x_2 after {single[1]:.2f} s, counted from the pulse's peak. At the initial rate of turning "
+    "the pair leans by "
     f"{LEAN:g} rad after " + ", ".join(f"{time:.3g} s" for time in lean.values()) + ".",
 )
 
@@ -165,7 +164,7 @@ Remark(
 spared = wander_after_shock(scene(20, -2.633)) / wander_after_shock(scene(20))
 Remark(
     "Why x does not stay for ever",
-    "The shock leaves a mean twist Δ = p_x/G; turning about the joint line carries it into x, Ẋ = −α′ Δ/k "
-    f"for b = 0, less for b > 0 and more for b < 0. The force along y that "
-    f"cancels the drift (t6) leaves {spared:.3f} of that rate.",
+    "The shock leaves a mean twist Δ = p_x/G. Turning about the joint line then changes x at the rate Ẋ = −α′ Δ/k "
+    f"for b = 0, less for b > 0 and more for b < 0. With the force along y that cancels the drift (t6), {spared:.3f} of that "
+    "rate remains.",
 )

@@ -18,7 +18,7 @@ from lagrotor.pair import SCENES
 TOL = 1e-10
 SCENE = SCENES["free-precession"].scene
 
-TITLE = "Oscillation along the skew axis against the prediction"
+TITLE = "Oscillation along the skew axis, simulated and predicted"
 ALT = (
     "Two panels with the displacement of the right and the left tip along the skew axis from 2.4 s to 10 s, some nine "
     "oscillations of amplitude 0.2 m. The corrected series lies on the simulated curve; the paper's formula is "

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from lagrotor.benchmark.limits.error_map import USEFUL, Usefulness, usefulness
 from lagrotor.pictures.benchmark_figures import stability_figure
 
-TITLE = "Where the closed forms stop being useful"
+TITLE = "Range of use of the closed forms"
 ALT = (
     "Three maps, for orders 1, 3 and 5, of the error of the closed form over amplitude from 0.01 to 0.5 and departure from "
     "opposite spins from one in a million to three tenths; a line bounds the region at lower left in which the form is useful."

@@ -41,9 +41,9 @@ def measure() -> dict[str, float]:
 
 
 CAPTION = (
-    "The gallery of lagrotor structure, from above; 2 kg on each tip but for the pair, which has no weight and drifts "
-    f"after a push. {int(data()['stands'].sum())} of {len(GALLERY)} stand; under weight without a brace none with an odd "
-    "number of bars does. Least factors on the spins shown: "
+    "The gallery of `lagrotor structure`, from above, with 2 kg on each tip; the pair has no weight and drifts after a push. "
+    f"{int(data()['stands'].sum())} of {len(GALLERY)} are stable. Under weight, no structure with an odd number of bars and no "
+    "brace is. Least factors on the spins: "
     + ", ".join(f"{name.removeprefix('least factor, ')} {factor:.3f}" for name, factor in measure().items())
     + "."
 )

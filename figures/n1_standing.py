@@ -25,7 +25,7 @@ SHOWN = {
 }
 TRIED = (0.5, 1.2, 1.8, 2.5)  # spins of the exact runs, in sqrt(a κ)/I3
 
-TITLE = "Standing under load"
+TITLE = "Stability under load"
 ALT = (
     "Left: growth rate against spin for a loaded rotor alone, a pair, a corner of three and a square; the pair's does not "
     "depend on the spin, the others end at thresholds. Exact runs lie on the curves. Right: the corner after a push, with "
@@ -79,11 +79,10 @@ def measure() -> dict[str, float]:
 
 _alone, _corner, _square, _off, _under, _over = measure().values()
 CAPTION = (
-    "Equal rotors, 2 kg on each tip, massless bars. From which spin on each stands, in units of √(aκ)/I₃ (a "
-    "the inertia about the "
-    f"joint, κ the weight's moment): a rotor alone {_alone:.3f}, corner {_corner:.3f}, square with one spin opposite "
-    f"{_square:.3f}; no pair at any. Exact runs are within {_off:.0e} √(κ/a) of the growth rates. The corner 3 % under its "
-    f"threshold, pushed at 0.001 /s, tilts by {_under:.2f}, 3 % over it by {_over:.4f}."
+    "Equal rotors, 2 kg on each tip, massless bars. Least spin for stability, in units of √(aκ)/I₃ (a the inertia about the "
+    f"joint, κ the weight's moment): single rotor {_alone:.3f}, corner {_corner:.3f}, square with one spin opposite "
+    f"{_square:.3f}; a pair is never stable. Growth rates of exact runs differ by at most {_off:.0e} √(κ/a). After a push of "
+    f"0.001 /s the corner tilts by {_under:.2f} at 3 % below its threshold, and by {_over:.4f} at 3 % above it."
 )
 
 

@@ -19,7 +19,7 @@ INERTIA = ROTOR.J + LOAD * ROTOR.length**2
 MASSES = (0.01, 0.02, 0.05)
 SHOWN = 0.3
 
-TITLE = "A sway under spins, and under a tuned mass"
+TITLE = "A sway with spins, and with a tuned mass"
 ALT = (
     "Left: the largest amplification against the ratio of spin to sway rate. The spins' falls as one over the spin and "
     "crosses the level lines of tuned masses of 1, 2 and 5 per cent; peaks found on structures lie on it. Right: transfer "
@@ -86,11 +86,11 @@ def measure() -> dict[str, float]:
 
 _one, _two, _five, _above, _higher, _same, _spun, _tuned = measure().values()
 CAPTION = (
-    "Two discs of 1 kg under 50 kg each, swaying along the bar at 1 Hz; brace and damper across it at their optimum, peak √2/γ "
-    f"and up to {100 * _higher:.1f} % above it, γ = G/(aΩ). Spins and a tuned mass are even at γ = {_one:.3f}, {_two:.3f}, "
-    f"{_five:.3f} for masses of 1, 2 and 5 %; 2 % is that of the discs, and γ = {_two:.3f} is "
-    f"{_two * INERTIA * SWAY / ROTOR.I3:.0f} rad/s. Peaks of the structures are on it within {100 * _above:.3f} %, the same for "
-    f"equal and opposite spins. Right: γ = {SHOWN}, peak {_spun:.2f}; mass, {_tuned:.2f}."
+    "Two discs of 1 kg under 50 kg each, swaying along the bar at 1 Hz. Brace and damper across the bar are optimal; the peak is "
+    f"√2/γ and up to {100 * _higher:.1f} % above it, γ = G/(aΩ). Spins equal a tuned mass of 1, 2 and 5 % at γ = {_one:.3f}, "
+    f"{_two:.3f}, {_five:.3f}. The discs have 2 %, and γ = {_two:.3f} is {_two * INERTIA * SWAY / ROTOR.I3:.0f} rad/s. The peaks "
+    f"of the structures agree within {100 * _above:.3f} %, for equal and for opposite spins. Right: γ = {SHOWN}, peak "
+    f"{_spun:.2f}; tuned mass, {_tuned:.2f}."
 )
 
 

@@ -117,13 +117,13 @@ def measure() -> dict[str, float]:
 
 *_, _top, _held = measure().values()
 CAPTION = (
-    f"Massless bars, rotors of 1 kg and 1 m, spins of {SPIN:g} rad/s; wave numbers per rotor. Curves: bands; marks: modes of "
-    f"closed polygons and of open zigzags of {ROTORS} rotors at q = πm/{ROTORS}, on the bands to rounding. The "
-    "highest rate is "
-    f"G/a = {_top:.0f} rad/s. Staircase of alternating spins: on hinges of {HINGE:g} N m/rad; and under its weight with "
-    f"{LOADED:g} rad/s, where waves within {_held:.2f} of q = 0 and of q = π fall. Honeycomb of opposite spins, "
-    "from q = 0 to "
-    "K and M; equal spins leave it at rate zero."
+    f"Massless bars, rotors of 1 kg and 1 m, spins of {SPIN:g} rad/s; wave numbers per rotor. Curves: bands. Marks: modes of "
+    f"closed polygons and of open zigzags of {ROTORS} rotors at q = πm/{ROTORS}, which lie on the bands to rounding error. The "
+    f"highest rate is G/a = {_top:.0f} rad/s. Staircase of alternating spins: on hinges of {HINGE:g} N m/rad; and "
+    "under its weight "
+    f"with {LOADED:g} rad/s, where waves within {_held:.2f} of q = 0 and of q = π are unstable. Honeycomb of opposite "
+    "spins, from "
+    "q = 0 to K and M; with equal spins its rate is zero."
 )
 
 

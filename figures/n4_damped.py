@@ -18,7 +18,7 @@ FRICTIONS = (0.3, 0.5, 0.8)  # N m s/rad
 SHOWN, AT_REST = 6.0, 20.0  # a/c: what is drawn, and when the motion is e^−20 of its start
 FAST, SMALL, WEAR, LONG = 40.0, 0.02, 0.1, 6.0
 
-TITLE = "What friction does to the paired precession"
+TITLE = "Friction of the paired precession"
 ALT = (
     "Left: the angle about the joint line over time for three frictions. Each run swings, then comes to rest at an angle, "
     "which is the larger the smaller the friction, at a dashed level that is G r0 squared over 2 c. Right: the radius of "
@@ -77,12 +77,11 @@ def measure() -> dict[str, float]:
 
 _found = list(measure().values())
 CAPTION = (
-    f"Massless bar, spins ± {SPIN:g} rad/s, amplitude {TILT:g}: the pair comes to rest rotated about the joint line by "
+    f"Massless bar, spins ± {SPIN:g} rad/s, amplitude {TILT:g}. The pair comes to rest rotated about the joint line by "
     f"{', '.join(f'{x:.3f}' for x in _found[:3])} of G r0²/2c (dashed) at c = "
     f"{', '.join(f'{c:g}' for c in FRICTIONS)} N m s/rad. Right: "
-    f"± {FAST:g} rad/s, c = {WEAR:g}: the radius goes as exp((1/I₃ − 1/a) c t) where the friction acts on the spins "
-    "too, as exp(−c t/a) "
-    f"where they are kept up, within {100 * max(abs(x - 1) for x in _found[3:]):.1f} % after {LONG - 0.25:g} s."
+    f"± {FAST:g} rad/s, c = {WEAR:g}. The radius is ∝ exp((1/I₃ − 1/a) c t) if the friction also acts on the spins, and "
+    f"∝ exp(−c t/a) if the spins are constant, within {100 * max(abs(x - 1) for x in _found[3:]):.1f} % after {LONG - 0.25:g} s."
 )
 
 

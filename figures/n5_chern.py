@@ -62,14 +62,12 @@ def signed(number: float) -> str:
 _low, _high, _number, _first, _last, _low_2, _high_2, _number_2, *_ = measure().values()
 CAPTION = (
     f"Strips of {WIDTH} cells, rotors of 1 kg and 1 m on hinges of {HINGE:g} N m/rad. Left: springs of "
-    f"{SPRING:g} N/m, spins "
-    f"of {SPIN:g} rad/s; the bulk has a gap from {_low:.2f} to {_high:.2f} rad/s, the band below it the Chern number "
-    f"{signed(_number)}. Right: rigid bars, one joint of four moved by 0.3 m along both axes, spins of {SPIN:g} and "
-    f"{SPIN / 3:g} rad/s in turn; gap from {_low_2:.2f} to {_high_2:.2f} rad/s, number {signed(_number_2)}. "
-    "Dashed: the gaps. "
-    f"Coloured waves are within {100 * NEAR:.0f} % of the width from a border; across the gap the net count of "
-    "rising curves is "
-    f"{signed(_first)} on the first and {signed(_last)} on the last."
+    f"{SPRING:g} N/m, spins of {SPIN:g} rad/s. The bulk has a gap from {_low:.2f} to {_high:.2f} rad/s, and the band "
+    "below it has "
+    f"the Chern number {signed(_number)}. Right: rigid bars, one joint of four displaced by 0.3 m along both axes, alternating "
+    f"spins of {SPIN:g} and {SPIN / 3:g} rad/s; gap from {_low_2:.2f} to {_high_2:.2f} rad/s, Chern number {signed(_number_2)}. "
+    f"Dashed: the gaps. Coloured waves are within {100 * NEAR:.0f} % of the width from a border. The net number of rising curves "
+    f"across the gap is {signed(_first)} at the first border and {signed(_last)} at the last."
 )
 
 

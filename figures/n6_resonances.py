@@ -21,7 +21,7 @@ DIRECTION = np.array(
     [[-0.051, -0.647], [-0.051, -0.265], [0.661, -0.265]]
 )  # of length 1, rates of the axes; a steep one
 
-TITLE = "Spins, pushes and falls"
+TITLE = "Resonances: spins, pushes and falls"
 ALT = (
     "Left: pushes against spins in units of the critical ones; two straight lines rise from a point at 1.0607, and exact runs "
     "that fell all lie between them, those outside stayed. Right: times to fall against the push on logarithmic axes; exact runs "
@@ -74,13 +74,13 @@ def measure() -> dict[str, float]:
 
 _centre, _half, _outside, _runs, _, _slope, _off, _over = measure().values()
 CAPTION = (
-    "A corner of three rotors, the middle one at rest, 2 kg on each tip, massless bars. Left: at "
-    f"{_centre:.4f} times the critical spins two slow precessions add up to a fast one. Outside the lines, "
-    f"{_half:.4f} to each side for a push of 0.01, no start falls by the terms of third order: of {_runs:.0f} exact runs there "
-    f"{_outside:.0f} fell. Right: times to fall at the resonance, pushed in one steep direction: exact, of slope "
-    f"−{-_slope:.3f}, within {_off:.1f} of those by the normal form of fourth order, and at "
-    f"least {_over:.2f} times the least of any direction. Pushes in √(κ/a), "
-    "times in √(a/κ)."
+    "A corner of three rotors, the middle one without spin, 2 kg on each tip, massless bars. Left: at "
+    f"{_centre:.4f} times the critical spins two slow rates add up to a fast one. Outside the lines, {_half:.4f} to "
+    "each side for "
+    f"a push of 0.01, no motion falls by the terms of third order; {_outside:.0f} of {_runs:.0f} exact runs fell there. Right: "
+    f"times of fall at the resonance, for a push in a steep direction. The exact times (slope −{-_slope:.3f}) differ by at most "
+    f"{_off:.1f} from the normal form of fourth order and are at least {_over:.2f} times the minimum over all directions. Pushes "
+    "in √(κ/a), times in √(a/κ)."
 )
 
 

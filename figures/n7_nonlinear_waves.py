@@ -23,7 +23,7 @@ HEXAGON = polygon_ring(
 )  # three and four turns of phase add up to one
 PUMPED, SEED = 0.03, 0.003
 
-TITLE = "Waves that have a size"
+TITLE = "Nonlinear waves"
 ALT = (
     "Left: the shift of the rate over the square of the amplitude against the wave number, a curve that is positive for waves of "
     "one to two turns and negative beyond, with marks of exact runs on it. Right: amplitudes of three waves against time; the "
@@ -85,12 +85,13 @@ def measure() -> dict[str, float]:
 
 _off, _apart, _least = measure().values()
 CAPTION = (
-    f"Left: ring of {CORNERS} rotors with heavy bars, on hinges; exact runs of amplitude {AMPLITUDE:g} are within "
-    f"{100 * _off:.1f} % of the largest of their shifts from the law. At the poles the second harmonic is itself a wave; the "
-    f"kink at 2π/{CORNERS} is that of the amplitude, a path's larger semi-axis: there tips move on circles. Right: "
-    "a hexagon of springs, tuned so that the waves of three and four turns of phase add up to that of one, which starts with "
-    f"{PUMPED:g} beside {SEED:g} of the first, falls to {_least:.2f} of its size and returns. In 30 s exact amplitudes are "
-    f"within {100 * _apart:.0f} % of it from the law of second order, which leaves out that the rates shift."
+    f"Left: ring of {CORNERS} rotors with heavy bars, on hinges. Exact runs of amplitude {AMPLITUDE:g} differ from the law by at "
+    f"most {100 * _off:.1f} % of the largest shift. At the poles the second harmonic is itself a wave. The kink at 2π/{CORNERS} "
+    "comes from the definition of the amplitude, the larger semi-axis of a tip's path: there the paths are circles. Right: a "
+    "hexagon of springs, in which the rates of the waves of three and four turns of phase add up to that of one turn. This wave "
+    f"starts with {PUMPED:g}, the first with {SEED:g}; it decreases to {_least:.2f} of its size and returns. In 30 s the exact "
+    f"amplitudes differ by at most {100 * _apart:.0f} % of it from the law of second order, which neglects the shifts "
+    "of the rates."
 )
 
 

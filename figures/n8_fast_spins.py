@@ -78,10 +78,10 @@ def measure() -> dict[str, float]:
 
 _over, _, _wide, *_ = measure().values()
 CAPTION = (
-    f"Hanging gyroscopes of 1 kg, {SPIN:g} rad/s, springs of {SPRING:g} N/m. Left: bands of the limit, a path from q = 0 to K, "
-    f"M and back; the whole motion has rates up to {100 * (1 - 1 / _over):.1f} % below. Right: rates between which no wave of "
-    f"the bulk is, {_wide:.3f} rad/s wide on the honeycomb; at bond angles of 90° the bands touch, and the Chern number of the "
-    "lower one changes its sign (Nash et al. 2015)."
+    f"Hanging gyroscopes of 1 kg, {SPIN:g} rad/s, springs of {SPRING:g} N/m. Left: bands of the limit along a path from q = 0 to "
+    f"K, M and back; the full equations have rates up to {100 * (1 - 1 / _over):.1f} % lower. Right: the gap of the bulk, "
+    f"{_wide:.3f} rad/s wide on the honeycomb. At bond angles of 90° the bands touch, and the Chern number of the lower one "
+    "changes its sign (Nash et al. 2015)."
 )
 
 

@@ -19,7 +19,7 @@ from lagrotor.pair import ansatz_A
 AMPLITUDES = np.array([0.05, 0.1, 0.2, 0.4])
 FLOOR, MODELS = 1e-16, ("minimal", "euler")
 
-TITLE = "What the pair conserves"
+TITLE = "Conserved quantities of the pair"
 
 
 # %%
@@ -58,10 +58,9 @@ ALT = (
     f"the paper's B stay at the rounding and step errors of the run, all below {_largest:.0e}."
 )
 CAPTION = (
-    f"Opposite spins ±10 rad/s, bar m = 0.01 kg, K = 0.1 kg m², one turn of the exact orbit, tolerance 1e-12; what is "
-    f"smaller than {FLOOR:g} is drawn there: the axial momenta are parameters of the reduced models. E, G_1, P and B = G_1 − "
-    f"G_2 swing by {_largest:.1e} at most; the paper's A by {_swing:.3f} kg m²/s at r_0 = 0.2, as the amplitude to the power "
-    f"{_power:.2f}."
+    f"Opposite spins ±10 rad/s, bar m = 0.01 kg, K = 0.1 kg m², one turn of the exact orbit, tolerance 1e-12. Values below "
+    f"{FLOOR:g} are drawn there; the axial momenta are parameters of the reduced models. E, G_1, P and B = G_1 − G_2 vary by at "
+    f"most {_largest:.1e}. The paper's A varies by {_swing:.3f} kg m²/s at r_0 = 0.2, ∝ the amplitude to the power {_power:.2f}."
 )
 
 

@@ -85,12 +85,13 @@ def measure() -> dict[str, float]:
 
 _off, _lean, _apart = measure().values()
 CAPTION = (
-    f"Opposite spins ±10 rad/s, {FORCE:g} N along x. Left: bar of 0.01 kg; the exact run, averaged over three swings, leans to "
-    f"{np.degrees(_lean):.0f}° in {LASTS:g} s and leaves its curve by at most {_off:.2f} of the half-angle at the start. Middle: "
-    "bar of 12 kg, beyond the threshold from which x turns back; the curves of the same value at large lean are not reached. "
-    "Right: square of the slow frequency beside the paired "
-    f"precession of r₀ = {R0}, massless bar, against a push d = k P/G about the joint line, in units of g² s⁶; exact multipliers "
-    f"are off by at most {1e4 * _apart:.1f}×10⁻⁴ of the largest. Negative: a neighbour grows."
+    f"Opposite spins ±10 rad/s, {FORCE:g} N along x. Left: bar of 0.01 kg. The exact run, averaged over three "
+    "oscillations, leans "
+    f"to {np.degrees(_lean):.0f}° in {LASTS:g} s; its distance from its curve is at most {_off:.2f} of the initial half-angle. "
+    "Middle: bar of 12 kg, above the threshold at which x turns back; the motion does not reach the curves of the same value at "
+    "large lean. Right: square of the slow frequency near the paired "
+    f"precession of r₀ = {R0}, massless bar, against a push d = k P/G about the joint line, in units of g² s⁶. Exact multipliers "
+    f"differ by at most {1e4 * _apart:.1f}×10⁻⁴ of the largest. Negative values: a perturbation grows."
 )
 
 

@@ -65,9 +65,10 @@ def measure() -> dict[str, float]:
 
 _shift, _drift = measure().values()
 CAPTION = (
-    f"Spins of 10 rad/s and a share of it; exact orbits of r₀ = {R0} (circles) are off by at most {100 * _shift:.1f} % and "
-    f"{100 * _drift:.1f} % of the largest value. For opposite spins the paired precession closes; the drift's law holds "
-    "for r₀² well below (G₁ + G₂)/(G₁ − G₂)."
+    f"The first spin is 10 rad/s, the second a multiple of it. Exact orbits of r₀ = {R0} (circles) differ by at most "
+    f"{100 * _shift:.1f} % and {100 * _drift:.1f} % of the largest value. For opposite spins the paired precession "
+    "closes; the law "
+    "of the drift requires r₀² well below (G₁ + G₂)/(G₁ − G₂)."
 )
 
 

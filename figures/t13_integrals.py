@@ -92,14 +92,15 @@ ALT = (
     "chaotic ones for some twenty turns, the others to the end."
 )
 CAPTION = (
-    f"Opposite spins ±10 rad/s, a bar of {PAIR.link.mass:g} kg and {PAIR.link.length:g} m. Exponents over {TURNS} turns of "
-    f"swings of amplitude r_0 with the momentum P about the joint line: at most {_small:.2f} per turn at r_0 = 0.05 with P ≤ 0, "
-    f"what a power of time leaves, and up to {_largest:.1f}; {_chaotic:.0f} of {AMPLITUDES.size * MOMENTA.size} are beyond "
-    f"{CHAOTIC:g}, {_lined:.0f} (×) end with bar and axes in line. Sections where the mean x stops growing, one colour for each "
-    f"start, while the error is below 10⁻⁶: at r_0 = {SECTIONS[0][0]:g}, P/G = {SECTIONS[0][1]:g} the averaged action keeps "
-    f"each on a curve; at r_0 = {SECTIONS[1][0]:g}, P/G = {SECTIONS[1][1]:g}, {_wild:.0f} of {PHASES.size} are "
-    f"chaotic: 10⁻⁶ is kept for "
-    f"{_short:.0f} turns or more, the others for all {_long:.0f}. The line is where 10⁻¹⁴ has grown to tol."
+    f"Opposite spins ±10 rad/s, a bar of {PAIR.link.mass:g} kg and {PAIR.link.length:g} m. Exponents over {TURNS} turns for "
+    f"amplitudes r_0 and momenta P about the joint line: at most {_small:.2f} per turn at r_0 = 0.05 with P ≤ 0, as for growth "
+    f"by a power of time, and up to {_largest:.1f}. {_chaotic:.0f} of {AMPLITUDES.size * MOMENTA.size} exceed {CHAOTIC:g}; "
+    f"{_lined:.0f} (×) end with bar and axes in line. Sections at the maxima of the mean x, one colour for each start, while the "
+    f"error is below 10⁻⁶. At r_0 = {SECTIONS[0][0]:g}, P/G = {SECTIONS[0][1]:g} each start stays on a curve of "
+    "constant averaged "
+    f"action; at r_0 = {SECTIONS[1][0]:g}, P/G = {SECTIONS[1][1]:g}, {_wild:.0f} of {PHASES.size} are chaotic. The "
+    "error of these "
+    f"stays below 10⁻⁶ for at least {_short:.0f} turns, of the others for all {_long:.0f}. Line: 10⁻¹⁴ grows to tol."
 ).replace("-", "−")
 
 

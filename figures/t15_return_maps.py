@@ -71,10 +71,10 @@ def measure() -> dict[str, float]:
 _form, _line, _driven_form, _driven_line = measure().values()
 CAPTION = (
     f"Left and middle: the orbit of Hénon–Heiles along the axis; it crosses y = 0 at {MADE['CASES'][AXIS][1][MADE['y_v']]:g}. "
-    "Left: its section by the form of sixth order (curves) and 120 exact returns of each run (dots); the widest turns once in "
-    f"{1 / data()[f'exact, {AXIS}'][-1]:.2f} returns, so that its dots are in clusters. Middle and right: turns about the orbit "
-    f"in a return. But for the widest run the form is off by at most {_form:.5f} and {_driven_form:.4f} turns, the line of the "
-    f"twist alone by {_line:.5f} and {_driven_line:.4f}. Birkhoff (1927)."
+    "Left: its section by the form of sixth order (curves) and 120 exact returns of each run (dots). The widest run rotates once "
+    f"in {1 / data()[f'exact, {AXIS}'][-1]:.2f} returns, so its dots form clusters. Middle and right: rotations about the orbit "
+    f"per return. Except for the widest run the error of the form is at most {_form:.5f} and {_driven_form:.4f} turns, that of "
+    f"the linear twist {_line:.5f} and {_driven_line:.4f}. Birkhoff (1927)."
 )
 
 

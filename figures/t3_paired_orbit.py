@@ -69,11 +69,11 @@ def measure() -> dict[str, float]:
 
 
 CAPTION = (
-    f"Bar ell = 1.3 R, m = 0.35 kg, K = 0.11 kg m², not used while the series was made; spins ±10 rad/s. Largest "
-    f"distance of the tip in units of R at equal phase from the periodic orbit found by shooting. An order n promises an "
-    f"error of order n + 1; measured slopes are at most {np.abs(slopes() - np.array(ORDERS) - 1).max():.2f} away. Dashed: "
-    "bounds from the series' own terms, which the errors reach to at most "
-    f"{100 * measure()['largest error over its bound']:.0f} %."
+    f"Bar ell = 1.3 R, m = 0.35 kg, K = 0.11 kg m², not used in the derivation; spins ±10 rad/s. Largest distance of the tip, in "
+    f"units of R, at equal phase from the periodic orbit found by shooting. The error of order n should be ∝ r_0 to the power "
+    f"n + 1; measured slopes differ by at most {np.abs(slopes() - np.array(ORDERS) - 1).max():.2f}. Dashed: bounds "
+    "from the terms "
+    f"of the series; the errors are at most {100 * measure()['largest error over its bound']:.0f} % of them."
 )
 
 

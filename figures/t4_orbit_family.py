@@ -66,7 +66,7 @@ def measure() -> dict[str, float]:
 
 CAPTION = (
     "Omega over Omega_0; r_0 is the sine of the inclination when the axes are parallel. Paper: 1/cos theta_0, for every "
-    "bar. Exact: the family of periodic orbits continued from small amplitudes, without a turn; it ends at r_0 = 1, "
+    "bar. Exact: the family of periodic orbits, continued from small amplitudes without a fold. It ends at r_0 = 1, "
     "where the axes lie along the joint line. At r_0 = "
     f"{READ_AT:g} with the massless bar the errors are "
     + ", ".join(f"{list(measure().values())[i]:+.4f} ({said})" for i, said in ((1, "paper"), (2, "3"), (3, "9")))

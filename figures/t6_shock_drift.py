@@ -60,9 +60,8 @@ def measure() -> dict[str, float]:
 _second, _exact, _without, _chosen = measure().values()
 CAPTION = (
     f"Opposite spins ±10 rad/s, bar m = 0.01 kg, K = 0.1 kg m², F_x = {ALONG:g} N for 1/20 s. Mean of alpha' over "
-    f"{SWINGS} swings. It vanishes at F_y = −{-_second:.2f} N to second order in the shock and at −{-_exact:.2f} N on the exact "
-    f"motion; the paper chose −{-CHOSEN:g} N, which leaves {_chosen:+.4f} rad/s of the −{-_without:.4f} rad/s there are "
-    "without it."
+    f"{SWINGS} oscillations. It vanishes at F_y = −{-_second:.2f} N to second order in the shock and at −{-_exact:.2f} N in the "
+    f"exact motion. With the paper's −{-CHOSEN:g} N it is {_chosen:+.4f} rad/s, without F_y −{-_without:.4f} rad/s."
 )
 
 

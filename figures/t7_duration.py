@@ -21,7 +21,7 @@ LEAN, BOUND, SHOWN, AT = 0.5, 0.1, 12.0, 0.5
 FORCES = np.array([2.0, 3.6, 6.3, 11.2, 20.0])
 FOLLOWED = np.array([9.0, 13.0, 18.0])
 
-TITLE = "How long the x direction stays stable after a shock"
+TITLE = "Time of stability in x after a shock"
 ALT = (
     "Left, in logarithms: time to lean by half a radian falls as the square, time for the mean x to move by a tenth as the "
     "cube of the force, from 2 to 20 newtons; exact points lie on both lines. Right: one run at 12 newtons; x swings about "
@@ -76,11 +76,11 @@ def measure() -> dict[str, float]:
 
 _lean, _leave, *_ratios = measure().values()
 CAPTION = (
-    f"Opposite spins ±10 rad/s at rest, bar m = 0.01 kg, K = 0.1 kg m². Left: time to lean by {LEAN:g} rad and for the mean "
-    f"of x to move by {BOUND:g} R, at the initial rates; measured powers of the force −{-_lean:.3f} and −{-_leave:.3f}. "
-    f"Circles: from the mean rate of exact runs of 16 swings; crosses: until the mean of x is there, "
-    f"{min(_ratios):.2f} to {max(_ratios):.2f} of the law's time. "
-    f"Right: {SHOWN:g} N. The shock leaves a twist p_x/G; leaning about the joint line turns it into x."
+    f"Opposite spins ±10 rad/s at rest, bar m = 0.01 kg, K = 0.1 kg m². Left: time until the lean is {LEAN:g} rad, and until the "
+    f"mean of x is {BOUND:g} R, at the initial rates; measured exponents of the force −{-_lean:.3f} and −{-_leave:.3f}. "
+    f"Circles: from the mean rate of exact runs of 16 oscillations. Crosses: exact times, "
+    f"{min(_ratios):.2f} to {max(_ratios):.2f} of the law's. "
+    f"Right: {SHOWN:g} N. The shock leaves a twist p_x/G; leaning about the joint line rotates it into x."
 )
 
 

@@ -85,10 +85,14 @@ def measure() -> dict[str, float]:
 
 _threshold, _other, _plus, _wide, _minus, _wider, _off = measure().values()
 CAPTION = (
-    f"G = {SPIN:g} kg m²/s, ell = R = 1 m; nu = alpha' in the sense of G positive. Unstable where b nu² < G nu/k: with b = 0 "
-    f"only the sense counts; thresholds G/(k b): −{-_threshold:.2f} and {_other:.2f} rad/s. Exact: tilt of 1e-9 fitted from 8 "
-    f"to 12 growth times, at most {100 * _off:.2f} % away. A shock of +{FORCE:g} N along y turns the pair at −{-_plus:.3f} "
-    f"rad/s, stable, mean x within {_wide:.2f} R up to 20 s; −{FORCE:g} N at {_minus:+.3f} rad/s, unstable, {_wider:.2f} R."
+    f"G = {SPIN:g} kg m²/s, ell = R = 1 m; nu = alpha' in the sense of G positive. Unstable if b nu² < G nu/k: with b = 0 "
+    f"only the sense matters; thresholds G/(k b): −{-_threshold:.2f} and {_other:.2f} rad/s. Exact: a tilt of 1e-9, "
+    "fitted from 8 "
+    f"to 12 growth times, differs by at most {100 * _off:.2f} %. After a shock of +{FORCE:g} N along y the pair "
+    "rotates stably at "
+    f"−{-_plus:.3f} rad/s, mean x within {_wide:.2f} R up to 20 s; after −{FORCE:g} N it rotates at {_minus:+.3f} "
+    "rad/s, unstably, "
+    f"mean x up to {_wider:.2f} R."
 )
 
 

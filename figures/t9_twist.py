@@ -70,9 +70,11 @@ def measure() -> dict[str, float]:
 
 _edge, _narrow, _wide, _off = measure().values()
 CAPTION = (
-    f"Equal spins of {SPIN:g} rad/s on a common cone, bar of mass {MASS:g} kg. Below K = m ell²/4 = {_edge:g} kg m² a twist "
-    f"stays small, above it grows. Closed form: first order in the half-angle. Hill's equation: exact in it. Exact motion: "
-    f"a twist rate of 1e-7 rad/s, at most {100 * _off:.1g} % from Hill's equation; at K = {TRIED[-1]:g} it grows at "
+    f"Equal spins of {SPIN:g} rad/s on a common cone, bar of mass {MASS:g} kg. A twist grows above K = m ell²/4 = "
+    f"{_edge:g} kg m² "
+    "and stays small below it. Closed form: first order in the half-angle. Hill's equation: exact in the half-angle. "
+    "Exact motion: "
+    f"a twist rate of 1e-7 rad/s, at most {100 * _off:.1g} % from Hill's equation; at K = {TRIED[-1]:g} kg m² it grows at "
     f"{_narrow:.3f} and {_wide:.3f} per second."
 )
 

@@ -19,6 +19,8 @@ RENAMED = {
 NAMES = {
     "lagrotor.mechanics.FourierSeries": "lagrotor.mechanics.fourier.FourierSeries",
     "lagrotor.mechanics.characteristic_exponents": "lagrotor.mechanics.weakly_nonlinear.characteristic_exponents",
+    "lagrotor.mechanics.lindstedt_poincare": "lagrotor.mechanics.weakly_nonlinear.periodic_series",
+    "lagrotor.theory.most_growth": "lagrotor.theory.paired_precession.stability.growth_bound",
     "lagrotor.mechanics.map_normal_form": "lagrotor.mechanics.canonical.return_maps.map_normal_form",
     "lagrotor.mechanics.project_position": "lagrotor.mechanics.constraints.project_position",
     "lagrotor.mechanics.project_velocity": "lagrotor.mechanics.constraints.project_velocity",
@@ -32,7 +34,12 @@ NAMES = {
 }
 
 # Function or method, by its qualified name → {old keyword: new keyword}.
-KEYWORDS: dict[str, dict[str, str]] = {}
+KEYWORDS: dict[str, dict[str, str]] = {
+    "bare": {"seen": "points"},
+    "canvas": {"seen": "points"},
+    "distance_over_one_turn": {"most": "greatest"},
+    "periodic_series": {"rest": "equilibrium", "begins_at": "mode_power"},
+}
 
 P = ParamSpec("P")
 R = TypeVar("R")

@@ -1,4 +1,4 @@
-"""The commands that measure: chart (speed against accuracy) and stability (where methods fail)."""
+"""The benchmark commands: chart (speed against accuracy) and stability (limits of methods, throughput)."""
 
 import argparse
 import json
@@ -14,13 +14,13 @@ if TYPE_CHECKING:
     from lagrotor.benchmark.runner import Benchmark
     from lagrotor.benchmark.throughput import Throughput
 
-LIMIT_HEAD = ("regime", "what", "predicted", "found", "ratio", "what the tool does")
-THROUGHPUT_HEAD = ("what", "a second", "share", "of")
+LIMIT_HEAD = ("regime", "quantity", "predicted", "measured", "ratio", "behaviour of the tool")
+THROUGHPUT_HEAD = ("quantity", "per second", "share", "of")
 
 
 def add_benchmark_commands(command: Command) -> None:
-    """chart, stability."""
-    added = command("chart", chart_command, "chart speed against accuracy", "lagrotor chart --quick --out .")
+    """Add chart and stability."""
+    added = command("chart", chart_command, "measure speed against accuracy", "lagrotor chart --quick --out .")
     added.add_argument(
         "--quick", action="store_true", help="fewer methods, tolerances and repeats: seconds for minutes"
     )
@@ -30,84 +30,84 @@ def add_benchmark_commands(command: Command) -> None:
     added = command(
         "stability",
         stability_command,
-        "where methods fail, predicted and found; how much runs in a second",
+        "show where methods fail, predicted and measured, and the throughput",
         "lagrotor stability --quick",
     )
     added.add_argument("--quick", action="store_true", help="shorter runs and coarser thresholds: seconds, not minutes")
     add_json(added)
 
 
-def chart_command(given: argparse.Namespace) -> int:
-    """Run the charts; write chart-SCENE.svg and .png and chart.json; print the fronts, the ratios and the files."""
+def chart_command(options: argparse.Namespace) -> int:
+    """Run the charts; write chart-SCENE.svg, .png and chart.json; print the tables and the files."""
     from lagrotor.benchmark.scenes_and_methods import benchmarks
     from lagrotor.drawing.style import paper_style
     from lagrotor.files import write_beside, write_text
     from lagrotor.pictures.benchmark_figures import speed_chart
 
-    check_folder(given.out)
+    check_folder(options.out)
     with progress(4) as step:
-        charts = benchmarks(given.quick, step)
+        charts = benchmarks(options.quick, step)
     data = chart_data(charts)
     text = json.dumps(data, indent=1, ensure_ascii=False)
-    written = [write_text(given.out / "chart.json", text)]
-    for one in charts:
+    files = [write_text(options.out / "chart.json", text)]
+    for chart in charts:
         with paper_style():
-            figure = speed_chart(one)
+            figure = speed_chart(chart)
             for form in ("svg", "png"):
-                target = given.out / f"chart-{one.scene}.{form}"
-                written.append(write_beside(target, partial(figure.savefig, format=form)))
-    if given.json:
+                target = options.out / f"chart-{chart.scene}.{form}"
+                files.append(write_beside(target, partial(figure.savefig, format=form)))
+    if options.json:
         print(text)
     else:
-        print(chart_tables(charts), *written, sep="\n")
+        print(chart_tables(charts), *files, sep="\n")
     return 0
 
 
 def chart_data(charts: "list[Benchmark]") -> dict[str, Any]:
-    """Return the benchmarks and the ratios of the displaced scene, for JSON."""
+    """Return the benchmarks and the ratios of the displaced scene as JSON data."""
     from lagrotor.benchmark.scenes_and_methods import ratios
 
-    return {"charts": [asdict(one) for one in charts], "ratios": ratios(charts[0])}
+    return {"charts": [asdict(chart) for chart in charts], "ratios": ratios(charts[0])}
 
 
 def chart_tables(charts: "list[Benchmark]") -> str:
-    """Return the front of each scene, set-up times, failures and ratios as tables."""
+    """Return tables of each scene's front, set-up times and failures, and of the ratios."""
     from lagrotor.benchmark.runner import failure_sentences, front
     from lagrotor.benchmark.scenes_and_methods import OURS, ratios
 
-    parts = []
-    for one in charts:
+    blocks = []
+    for chart in charts:
         rows = [
             (p.method, f"{p.setting:g}", f"{p.error:.1e}", f"{p.nfev}", f"{1e3 * p.seconds:.3g}")
-            for p in front(one.points)
+            for p in front(chart.points)
         ]
-        parts += [f"{one.scene}: {one.says}; the reference's two formulations agree to {one.floor:.1e} m"]
-        parts += [table(("front", "tol or step", "error (m)", "nfev", "ms"), rows)]
-        slow = sorted(((s, name) for name, s in one.setup.items() if s > 0.2), reverse=True)
-        parts += [f"  set-up: {', '.join(f'{name} {s:.2g} s' for s, name in slow)}"] if slow else []
-        parts += [f"  left out: {failure}" for failure in failure_sentences(one.failures)]
-        parts += [""]
+        blocks += [f"{chart.scene}: {chart.says}; the reference's two formulations agree to {chart.floor:.1e} m"]
+        blocks += [table(("front", "tol or step", "error (m)", "nfev", "ms"), rows)]
+        slow = sorted(((s, name) for name, s in chart.setup.items() if s > 0.2), reverse=True)
+        blocks += [f"  set-up: {', '.join(f'{name} {s:.2g} s' for s, name in slow)}"] if slow else []
+        blocks += [f"  left out: {failure}" for failure in failure_sentences(chart.failures)]
+        blocks += [""]
     compared = [
         (error, name, f"{1e3 * value:.3g} ms" if name in OURS else f"{value:.3g}")
         for error, row in ratios(charts[0]).items()
         for name, value in row.items()
         if value is not None
     ]
-    parts += [table(("error (m)", "at equal error, displaced", "time or ratio"), compared)]
-    return "\n".join(parts)
+    blocks += [table(("error (m)", "at equal error, displaced", "time or ratio"), compared)]
+    return "\n".join(blocks)
 
 
-def stability_command(given: argparse.Namespace) -> int:
+def stability_command(options: argparse.Namespace) -> int:
     from lagrotor.benchmark.limits.step_size import LIMITS, limits
     from lagrotor.benchmark.throughput import throughput
 
     with progress(len(LIMITS) + 1) as step:
-        thresholds = limits(given.quick, step)
+        thresholds = limits(options.quick, step)
         step("throughput")
-        rates = _throughput(throughput, given.quick)
-    if given.json:
-        shown = [asdict(limit) | {"ratio": limit.ratio} for limit in thresholds]
-        print_json({"quick": given.quick, "limits": shown, "throughput": [asdict(rate) for rate in rates]})
+        rates = _throughput(throughput, options.quick)
+    if options.json:
+        data = [asdict(limit) | {"ratio": limit.ratio} for limit in thresholds]
+        print_json({"quick": options.quick, "limits": data, "throughput": [asdict(rate) for rate in rates]})
     else:
         limit_rows = [
             (x.regime, x.what, f"{x.predicted:.3g}", f"{x.measured:.3g}", f"{x.ratio:.3g}", x.tool) for x in thresholds
@@ -118,7 +118,7 @@ def stability_command(given: argparse.Namespace) -> int:
 
 
 def _throughput(measure: Any, quick: bool) -> "list[Throughput]":
-    """In one process a core; here, when quick, as starting them costs more than the run."""
+    """Measure the throughput with one process per core; the quick measurement uses this process only."""
     if quick:
         return list(measure(256))
     from concurrent.futures import ProcessPoolExecutor

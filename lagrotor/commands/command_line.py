@@ -1,6 +1,6 @@
 """The command `lagrotor`.
 
-Exit status: 0 as recorded, 1 a verdict changed, 2 bad usage or input, 130 interrupted.
+Exit status: 0 as recorded, 1 a verdict changed, 2 bad usage or input, 130 interrupted, 143 terminated.
 """
 
 import argparse
@@ -20,11 +20,11 @@ from lagrotor.commands.terminal import Parser, say
 from lagrotor.errors import LagrotorError
 from lagrotor.process_settings import begin_process
 
-_CLOSED_PIPE = 141  # what a shell reports for a program stopped by SIGPIPE
+_CLOSED_PIPE = 141  # exit status in a shell after SIGPIPE
 
 
 class _Terminated(BaseException):
-    """SIGTERM, which ends a run as an interrupt does: what it began is removed."""
+    """The signal SIGTERM. It ends a run as an interrupt does: unfinished files are removed."""
 
 
 def _raise_terminated(number: int, frame: Any) -> None:
@@ -32,29 +32,29 @@ def _raise_terminated(number: int, frame: Any) -> None:
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run one command and give its exit status; every refusal is one line on stderr."""
+    """Run one command and return its exit status; every refusal is one line on stderr."""
     if sys.stdout is None:  # started with its output closed
         sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
     begin_process()
-    with suppress(ValueError):  # not in the main thread: the caller keeps its signals
+    with suppress(ValueError):  # outside the main thread, signals belong to the caller
         signal.signal(signal.SIGTERM, _raise_terminated)
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
-            stream.reconfigure(errors="replace")  # a pipe's encoding may lack a letter: ? for it, no traceback
+            stream.reconfigure(errors="replace")  # a character outside a pipe's encoding becomes ?
     try:
-        parser, given = _parser(), sys.argv[1:] if argv is None else argv
-        if not given:
+        parser, words = _parser(), sys.argv[1:] if argv is None else argv
+        if not words:
             parser.print_help()
             return 0
-        arguments = parser.parse_args(given)
+        arguments = parser.parse_args(words)
         with warnings.catch_warnings(record=True) as caught:
             status = int(arguments.run(arguments))
         for warning in caught:
             say(f"warning: {warning.message}", 0)
         sys.stdout.flush()
         return status
-    except SystemExit as done:  # --help, --version
-        return _flush(int(done.code or 0))
+    except SystemExit as stop:  # --help, --version
+        return _flush(int(stop.code or 0))
     except BrokenPipeError:
         return _close_pipe()
     except _Terminated:
@@ -66,7 +66,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     except LagrotorError as error:
         return say(str(error), 2)
     except OSError as error:
-        return say(": ".join(str(part) for part in (error.filename, error.strerror) if part) or str(error), 2)
+        return say(": ".join(str(text) for text in (error.filename, error.strerror) if text) or str(error), 2)
 
 
 def _flush(status: int) -> int:
@@ -78,7 +78,7 @@ def _flush(status: int) -> int:
 
 
 def _close_pipe() -> int:
-    """The reader has left: what is still in the buffer goes nowhere, so that nothing complains at exit."""
+    """Redirect the buffered output to the null device, because the reader of the pipe has closed it."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     return _CLOSED_PIPE
 

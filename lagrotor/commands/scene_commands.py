@@ -15,55 +15,52 @@ from lagrotor.pair.scene import Link, Scene, Shock
 
 
 def add_scene(parser: argparse.ArgumentParser) -> None:
-    """Add the options of spins and bar; a scene file has all else."""
+    """Add the options of spins and bar; a scene file has all other data."""
     group = parser.add_argument_group("scene")
     group.add_argument("--spins", nargs=2, type=float, metavar=("W1", "W2"), help="axial angular velocities, rad/s")
     group.add_argument("--link-mass", type=float, metavar="KG", help=f"mass of the bar (default: {Link.mass:g})")
     says = f"transverse inertia of the bar, kg m² (default: {Link.inertia:g})"
     group.add_argument("--link-inertia", type=float, metavar="X", help=says)
-    says = (
-        "the whole scene from a TOML file instead: rotors, bar, axes, rates, shock; simulate --write-scene writes one"
-    )
+    says = "the whole scene from a TOML file: rotors, bar, axes, rates, shock; simulate --write-scene writes one"
     group.add_argument("--scene", type=Path, metavar="FILE", help=says)
 
 
 def add_shock(parser: argparse.ArgumentParser) -> None:
-    """Add the options of a shock."""
     group = parser.add_argument_group("shock: force exp(-((t - time)/width)^2) on the tip of rotor 1")
     group.add_argument("--shock", nargs=3, type=float, metavar=("FX", "FY", "FZ"), help="force, N")
     group.add_argument("--shock-time", type=float, metavar="S", help="centre of the pulse, s")
     group.add_argument("--shock-width", type=float, metavar="S", help="width of the pulse, s")
 
 
-def scene_from_options(given: argparse.Namespace) -> Scene:
-    """Return the scene that the options describe, or that of the file. Raises InputError for one that makes no sense."""
-    shock = _shock(given) if "shock" in given else None  # rate takes none
-    link = {name: value for name in ("mass", "inertia") if (value := vars(given)[f"link_{name}"]) is not None}
-    if given.scene:
+def scene_from_options(options: argparse.Namespace) -> Scene:
+    """Return the scene of the options or of the scene file. Raises InputError for contradictory options."""
+    shock = _shock(options) if "shock" in options else None  # rate takes none
+    link = {name: value for name in ("mass", "inertia") if (value := vars(options)[f"link_{name}"]) is not None}
+    if options.scene:
         from lagrotor.pair.scene_document import read_scene
 
-        named = {"--spins": given.spins, "--shock": shock, **{f"--link-{name}": value for name, value in link.items()}}
+        named = {"--spins": options.spins, "--shock": shock} | {f"--link-{name}": x for name, x in link.items()}
         if both := [name for name, value in named.items() if value is not None]:
             raise InputError(f"--scene and {both[0]}: the file has the whole scene; change it there")
-        return read_scene(given.scene)
-    if given.spins is None:
+        return read_scene(options.scene)
+    if options.spins is None:
         raise InputError("--spins W1 W2 is missing: give the axial angular velocities in rad/s, or --scene FILE")
-    return Scene(spins=tuple(given.spins), link=Link(**link), shock=shock)
+    return Scene(spins=tuple(options.spins), link=Link(**link), shock=shock)
 
 
-def _shock(given: argparse.Namespace) -> Shock | None:
-    """Return the shock that the options describe, if any. Raises InputError when a part of it is missing."""
-    parts = {"--shock": given.shock, "--shock-time": given.shock_time, "--shock-width": given.shock_width}
-    missing = [name for name, value in parts.items() if value is None]
-    if len(missing) == len(parts):
+def _shock(options: argparse.Namespace) -> Shock | None:
+    """Return the shock of the options, or None. Raises InputError if one of its options is missing."""
+    values = {"--shock": options.shock, "--shock-time": options.shock_time, "--shock-width": options.shock_width}
+    missing = [name for name, value in values.items() if value is None]
+    if len(missing) == len(values):
         return None
     if missing:
         raise InputError(f"a shock needs {' and '.join(missing)}")
-    return Shock(tuple(given.shock), given.shock_time, given.shock_width)
+    return Shock(tuple(options.shock), options.shock_time, options.shock_width)
 
 
 def check_file(path: Path) -> None:
-    """Raises InputError unless a run can be written there."""
+    """Raise InputError unless a run can be written to the path."""
     endings = (".npz", ".csv", *PICTURES, *FILMS)
     if path.suffix not in endings:
         raise InputError(f"--out {path}: the name must end in {', '.join(endings)}")
@@ -72,7 +69,7 @@ def check_file(path: Path) -> None:
     check_folder(path.parent)
 
 
-# What can be varied: name → (what it is, the scene with that value).
+# A function that returns a scene with one value changed.
 _Change = Callable[[Scene, float], Scene]
 
 
@@ -99,12 +96,12 @@ _VARIED: dict[str, tuple[str, _Change]] = {
     "link-mass": ("mass of the bar, kg", _bar_field("mass")),
     "link-inertia": ("inertia of the bar, kg m²", _bar_field("inertia")),
 }
-_MOST = 100_000  # runs of a sweep, which are all in memory at once
+_MOST = 100_000  # runs of a sweep; all are in memory at once
 _TOLERANCE = "target for the estimated largest error of an axis over the run"
 
 
 def add_sweep(added: argparse.ArgumentParser) -> None:
-    """The options of a sweep."""
+    """Add the options of a sweep."""
     add_scene(added)
     add_shock(added)
     says = "; ".join(f"{name}: {what}" for name, (what, _) in _VARIED.items())
@@ -114,24 +111,24 @@ def add_sweep(added: argparse.ArgumentParser) -> None:
     )
     added.add_argument("--t-end", type=float, default=10.0, metavar="S", help="end of the runs, s (default: 10)")
     added.add_argument("--tol", type=float, default=1e-8, help=f"{_TOLERANCE} (default: 1e-8)")
-    add_json(added, "a JSON list, one object a run")
+    add_json(added, "a JSON list, one object per run")
 
 
-def _values(given: argparse.Namespace) -> list[float]:
+def _values(options: argparse.Namespace) -> list[float]:
     try:
-        first, last, count = float(given.between[0]), float(given.between[1]), int(given.between[2])
+        first, last, count = float(options.between[0]), float(options.between[1]), int(options.between[2])
     except ValueError:
-        raise InputError(f"--between {' '.join(given.between)}: give two numbers and a count") from None
+        raise InputError(f"--between {' '.join(options.between)}: give two numbers and a count") from None
     if not (math.isfinite(first) and math.isfinite(last) and 1 <= count <= _MOST):
-        raise InputError(f"--between {' '.join(given.between)}: two finite numbers and a count from 1 to {_MOST}")
+        raise InputError(f"--between {' '.join(options.between)}: two finite numbers and a count from 1 to {_MOST}")
     return [first + (last - first) * i / max(count - 1, 1) for i in range(count)]
 
 
-def sweep_command(given: argparse.Namespace) -> int:
-    """Run the family; a line a run."""
-    if not (math.isfinite(given.t_end) and given.t_end > 0):
-        raise InputError(f"--t-end {given.t_end:g} must be above zero")
-    values, scene, change = _values(given), scene_from_options(given), _VARIED[given.vary][1]
+def sweep_command(options: argparse.Namespace) -> int:
+    """Run the family of scenes and print one line per run."""
+    if not (math.isfinite(options.t_end) and options.t_end > 0):
+        raise InputError(f"--t-end {options.t_end:g} must be above zero")
+    values, scene, change = _values(options), scene_from_options(options), _VARIED[options.vary][1]
     family = [change(scene, value) for value in values]
 
     import numpy as np
@@ -140,21 +137,21 @@ def sweep_command(given: argparse.Namespace) -> int:
 
     with progress(1) as step:
         step(f"{len(family)} runs")
-        ensemble = sweep(family, np.linspace(0.0, given.t_end, 3), tol=given.tol)
+        ensemble = sweep(family, np.linspace(0.0, options.t_end, 3), tol=options.tol)
     runs = [ensemble.trajectory(i) for i in range(len(family))]
     rows = [
-        {given.vary: value, "model": run.model, "evaluations": run.evaluations,
+        {options.vary: value, "model": run.model, "evaluations": run.evaluations,
          "tip_1": run.tips[0, -1].tolist(), "tip_2": run.tips[1, -1].tolist()}
         for value, run in zip(values, runs, strict=True)
     ]  # fmt: skip
-    if given.json:
+    if options.json:
         print_json(rows)
     else:
         cells = [
-            (f"{r[given.vary]:.6g}", r["model"], str(r["evaluations"]), "  ".join(f"{x:.6f}" for x in r["tip_1"]))
+            (f"{r[options.vary]:.6g}", r["model"], str(r["evaluations"]), "  ".join(f"{x:.6f}" for x in r["tip_1"]))
             for r in rows
         ]
-        print(table((given.vary, "model", "evaluations", f"tip 1 at {given.t_end:g} s [m]"), cells))
+        print(table((options.vary, "model", "evaluations", f"tip 1 at {options.t_end:g} s [m]"), cells))
     return 1 if len(ensemble.failed) else 0
 
 
@@ -163,12 +160,12 @@ _FPS = 25.0  # frames per second
 
 
 def add_scene_commands(command: Command) -> None:
-    """simulate, sweep, animate, rate."""
+    """Add simulate, sweep, animate and rate."""
     _add_simulate(
         command(
             "simulate",
             simulate_command,
-            "run a rotor pair and keep or show its motion",
+            "simulate a rotor pair; save or show the motion",
             "lagrotor simulate --spins 10 -10 --shock 40 -11 0 --shock-time 2 --shock-width 0.05 --t-end 10 --out run.npz",
         )
     )
@@ -176,14 +173,14 @@ def add_scene_commands(command: Command) -> None:
         command(
             "sweep",
             sweep_command,
-            "run a rotor pair many times with one of its numbers varied",
+            "simulate a rotor pair for many values of one parameter",
             "lagrotor sweep --spins 10 -10 --vary paired --between 0.05 0.3 6",
         )
     )
     added = command(
         "animate",
         animate_command,
-        "write a ready scene's motion as a GIF",
+        "write the motion of an example scene as a GIF",
         "lagrotor animate free-precession --out pair.gif",
     )
     says = "\n".join(f"  {name:<18} {ready.says}" for name, ready in SCENES.items())
@@ -194,7 +191,7 @@ def add_scene_commands(command: Command) -> None:
     add_json(added, "a JSON object with the file's name")
 
     added = command(
-        "rate", rate_command, "the natural rate of a rotor pair, in closed form", "lagrotor rate --spins 10 -10 --json"
+        "rate", rate_command, "compute the natural rate of a rotor pair", "lagrotor rate --spins 10 -10 --json"
     )
     add_scene(added)
     add_json(added)
@@ -205,9 +202,9 @@ def _add_simulate(added: argparse.ArgumentParser) -> None:
     add_shock(added)
     says = "start on the paired precession of this amplitude (opposite spins)"
     added.add_argument("--paired", type=float, metavar="R0", help=says)
-    added.add_argument("--write-scene", type=Path, metavar="FILE", help="write the scene as TOML too, for --scene")
+    added.add_argument("--write-scene", type=Path, metavar="FILE", help="also write the scene as TOML, for --scene")
     added.add_argument("--t-end", type=float, default=10.0, metavar="S", help="end of the run, s (default: 10)")
-    added.add_argument("--samples", type=int, default=1001, metavar="N", help="times kept (default: 1001)")
+    added.add_argument("--samples", type=int, default=1001, metavar="N", help="number of saved times (default: 1001)")
     says = "auto, closed_form, linear, averaged, minimal, spheres or euler (default: auto)"
     added.add_argument("--model", default="auto", help=says)
     added.add_argument("--tol", type=float, default=1e-9, help=f"{_TOLERANCE} (default: 1e-9)")
@@ -215,16 +212,16 @@ def _add_simulate(added: argparse.ArgumentParser) -> None:
         "--out",
         type=Path,
         metavar="FILE",
-        help="write the run (.npz, .csv), a picture of it (.png, .svg, .pdf) or a film (.gif); a line, no table",
+        help="write the run (.npz, .csv), a picture (.png, .svg, .pdf) or a film (.gif), and print one line instead of the table",
     )
     add_json(added, "the summary as a JSON object")
 
 
-def animate_command(given: argparse.Namespace) -> int:
+def animate_command(options: argparse.Namespace) -> int:
     from lagrotor.drawing.film import check_film
 
-    ready, target = SCENES[given.scene], given.out or Path(f"{given.scene}.gif")
-    t_end = ready.duration if given.t_end is None else given.t_end
+    ready, target = SCENES[options.scene], options.out or Path(f"{options.scene}.gif")
+    t_end = ready.duration if options.t_end is None else options.t_end
     check_film(target, t_end, _FPS)
     check_folder(target.parent)
 
@@ -236,38 +233,38 @@ def animate_command(given: argparse.Namespace) -> int:
         step("motion")
         run = simulate(ready.scene, np.linspace(0.0, t_end, math.ceil(100 * t_end) + 1))
         run.animate(target, _FPS, step)
-    print_json({"file": str(target)}) if given.json else print(target)
+    print_json({"file": str(target)}) if options.json else print(target)
     return 0
 
 
-def simulate_command(given: argparse.Namespace) -> int:
-    if not (math.isfinite(given.t_end) and given.t_end > 0):
-        raise InputError(f"--t-end {given.t_end:g} must be greater than zero and finite, in s")
-    if not 2 <= given.samples <= _MOST_SAMPLES:
-        raise InputError(f"--samples {given.samples} must lie between 2 and {_MOST_SAMPLES}")
-    if given.write_scene and given.write_scene.suffix != ".toml":
-        raise InputError(f"--write-scene {given.write_scene}: the name must end in .toml")
-    if given.out:
-        check_file(given.out)
-    if given.out and given.out.suffix in FILMS:
+def simulate_command(options: argparse.Namespace) -> int:
+    if not (math.isfinite(options.t_end) and options.t_end > 0):
+        raise InputError(f"--t-end {options.t_end:g} must be greater than zero and finite, in s")
+    if not 2 <= options.samples <= _MOST_SAMPLES:
+        raise InputError(f"--samples {options.samples} must lie between 2 and {_MOST_SAMPLES}")
+    if options.write_scene and options.write_scene.suffix != ".toml":
+        raise InputError(f"--write-scene {options.write_scene}: the name must end in .toml")
+    if options.out:
+        check_file(options.out)
+    if options.out and options.out.suffix in FILMS:
         from lagrotor.drawing.film import check_film
 
-        check_film(given.out, given.t_end, _FPS)
-    scene = _scene_with_start(scene_from_options(given), given)
+        check_film(options.out, options.t_end, _FPS)
+    scene = _scene_with_start(scene_from_options(options), options)
 
     import numpy as np
 
     from lagrotor.models.simulate import simulate
 
-    times = np.linspace(0.0, given.t_end, given.samples)
-    run = simulate(scene, times, given.model, given.tol)
-    if given.out:
-        run.save(given.out)
+    times = np.linspace(0.0, options.t_end, options.samples)
+    run = simulate(scene, times, options.model, options.tol)
+    if options.out:
+        run.save(options.out)
     summary = {
         "model": run.model,
         "why": run.why,
-        "samples": given.samples,
-        "t_end": given.t_end,
+        "samples": options.samples,
+        "t_end": options.t_end,
         "evaluations": run.evaluations,
         "energy_first": float(run.energy[0]),
         "energy_last": float(run.energy[-1]),
@@ -275,25 +272,25 @@ def simulate_command(given: argparse.Namespace) -> int:
         "tip_1": run.tips[0, -1].tolist(),
         "tip_2": run.tips[1, -1].tolist(),
     }
-    if given.json:
+    if options.json:
         print_json(summary)
-    elif given.out:
-        print(f"{given.out}: {given.samples} times by the model {run.model} ({run.why})")
+    elif options.out:
+        print(f"{options.out}: {options.samples} times by the model {run.model} ({run.why})")
     else:
         print(_run_table(summary))
     return 0
 
 
-def _scene_with_start(scene: Scene, given: argparse.Namespace) -> Scene:
-    """Return the scene, on its paired precession with `--paired`, written with `--write-scene`."""
-    if given.paired is not None:
+def _scene_with_start(scene: Scene, options: argparse.Namespace) -> Scene:
+    """Return the scene, on its paired precession with `--paired`; write it with `--write-scene`."""
+    if options.paired is not None:
         from lagrotor.models.orbits.precession import paired_scene
 
-        scene = paired_scene(scene, given.paired)
-    if given.write_scene:
+        scene = paired_scene(scene, options.paired)
+    if options.write_scene:
         from lagrotor.pair.scene_document import write_scene
 
-        write_scene(scene, given.write_scene)
+        write_scene(scene, options.write_scene)
     return scene
 
 
@@ -304,8 +301,8 @@ def _run_table(run: dict[str, Any]) -> str:
     rows = [
         ("model", f"{run['model']} ({run['why']})"),
         ("evaluations", str(run["evaluations"])),
-        ("energy at first [J]", f"{run['energy_first']:.12g}"),
-        ("energy at last [J]", f"{run['energy_last']:.12g}"),
+        ("initial energy [J]", f"{run['energy_first']:.12g}"),
+        ("final energy [J]", f"{run['energy_last']:.12g}"),
         ("link length, spread [m]", f"{run['link_length_spread']:.3g}"),
         ("tip 1 at the end [m]", point(run["tip_1"])),
         ("tip 2 at the end [m]", point(run["tip_2"])),
@@ -313,14 +310,14 @@ def _run_table(run: dict[str, Any]) -> str:
     return table((f"{run['t_end']:g} s", f"{run['samples']} times"), rows)
 
 
-def rate_command(given: argparse.Namespace) -> int:
-    scene = scene_from_options(given)
+def rate_command(options: argparse.Namespace) -> int:
+    scene = scene_from_options(options)
 
     from lagrotor.theory.natural_rate import natural_rate, natural_rate_limits
 
     rate, limits = natural_rate(scene), natural_rate_limits(scene) if scene.link else {}
     period = 2 * math.pi / abs(rate) if rate else None
-    if given.json:
+    if options.json:
         rates = {name: limit.rate for name, limit in limits.items()}
         print_json({"rate": rate, "period": period, "limits": rates})
     else:
@@ -330,7 +327,7 @@ def rate_command(given: argparse.Namespace) -> int:
             return 0
         print()
         rows = [(name, limit.formula, f"{limit.rate:.12g}", limit.says) for name, limit in limits.items()]
-        print(table(("limit", "formula", "rad/s", "what is changed"), rows))
+        print(table(("limit", "formula", "rad/s", "change"), rows))
     return 0
 
 
@@ -338,39 +335,39 @@ _ENDINGS = (*PICTURES, *FILMS, ".toml")
 
 
 def add_structure_commands(command: Command) -> None:
-    """structure."""
+    """Add structure."""
     added = command(
         "structure",
         structure_command,
-        "whether a structure of rotors and bars stands, and its modes",
+        "show the stability and the modes of a structure of rotors and bars",
         "lagrotor structure corner --out corner.png",
     )
-    says = "a TOML file with joints, bars, spins …, or a name of the gallery, such as corner; list names them"
+    says = "a TOML file with joints, bars, spins …, or a name of the gallery, such as corner; list prints the names"
     added.add_argument("structure", metavar="FILE", help=says)
     added.add_argument("--out", type=Path, metavar="FILE", help="write a picture, a film (.gif) or the .toml itself")
     add_json(added)
 
 
-def structure_command(given: argparse.Namespace) -> int:
+def structure_command(options: argparse.Namespace) -> int:
     from lagrotor.structures.gallery import GALLERY, example
     from lagrotor.structures.structure import read_structure
 
-    if given.structure == "list":
-        listed = {name: each.says for name, each in GALLERY.items()}
-        print_json(listed) if given.json else print(table(("name", "what it shows"), list(listed.items())))
+    if options.structure == "list":
+        listed = {name: entry.says for name, entry in GALLERY.items()}
+        print_json(listed) if options.json else print(table(("name", "description"), list(listed.items())))
         return 0
-    if given.out and given.out.suffix not in _ENDINGS:
-        raise InputError(f"--out {given.out}: the name must end in {', '.join(_ENDINGS)}")
-    if given.out:
-        check_folder(given.out.parent)
-    s = read_structure(given.structure) if given.structure.endswith(".toml") else example(given.structure)
-    if given.out:
-        ready = GALLERY.get(given.structure)
-        _write(s, given.out, ready.duration if ready else 5.0)
+    if options.out and options.out.suffix not in _ENDINGS:
+        raise InputError(f"--out {options.out}: the name must end in {', '.join(_ENDINGS)}")
+    if options.out:
+        check_folder(options.out.parent)
+    s = read_structure(options.structure) if options.structure.endswith(".toml") else example(options.structure)
+    if options.out:
+        ready = GALLERY.get(options.structure)
+        _write(s, options.out, ready.duration if ready else 5.0)
     summary = _summary(s)
-    print_json(summary) if given.json else print(_table(summary))
-    if given.out and not given.json:
-        print(given.out)
+    print_json(summary) if options.json else print(_table(summary))
+    if options.out and not options.json:
+        print(options.out)
     return 0
 
 
@@ -415,15 +412,15 @@ def _summary(s: Any) -> dict[str, Any]:
 
 def _table(summary: dict[str, Any]) -> str:
     verdict = {True: "yes", False: "no", None: "not judged"}[summary["stands"]]
-    rows = [("stands", f"{verdict}: {summary['why']}")]
+    rows = [("stable", f"{verdict}: {summary['why']}")]
     count = f"{summary['degrees_of_freedom']}; rotors: {summary['rotors']}, bars: {summary['bars']}"
     if summary["stands"] is None:
         return table(("structure", ""), [*rows, ("degrees of freedom", count)])
     factor = summary["critical_spin"]
-    least = "none holds it" if factor is None else f"{factor:.6g} times its spins" if factor else "none is needed"
+    least = "no spin suffices" if factor is None else f"{factor:.6g} times its spins" if factor else "none needed"
     modes = enumerate(summary["modes"], 1)
     kind = "never at these spins" if summary["kind"] == "never" and factor else summary["kind"]
-    rows.insert(0, ("standing", kind))
+    rows.insert(0, ("stability", kind))
     rows += [
         ("least spin, to first order", least),
         ("degrees of freedom", f"{count}; modes that grow: {summary['topple']}"),

@@ -1,4 +1,4 @@
-"""The terminal: a parser that refuses in one line, tables as wide as the terminal is, and progress while people wait."""
+"""The terminal: a parser with errors in one line, tables as wide as the terminal, and progress."""
 
 import argparse
 import json
@@ -15,12 +15,12 @@ from typing import Any, NoReturn
 
 from lagrotor.errors import InputError, near
 
-# Adds a command: its name, what runs it, what it does, an example.
+# A function that adds a command: name, function to run, description, example.
 Command = Callable[[str, Callable[[argparse.Namespace], int], str, str], argparse.ArgumentParser]
 
 
 class Parser(argparse.ArgumentParser):
-    """argparse, but a refusal is an InputError, and -1e-3 and -inf are numbers, not options."""
+    """An argparse parser that raises InputError, and reads -1e-3 and -inf as numbers rather than options."""
 
     def __init__(self, **settings: Any) -> None:
         super().__init__(formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False, **settings)
@@ -33,7 +33,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def check_folder(folder: Path) -> None:
-    """Raises InputError unless files can be written into the folder."""
+    """Raise InputError unless files can be written into the folder."""
     if folder.exists() and not folder.is_dir():
         raise InputError(f"--out: {folder} is a file: give a folder")
     if not folder.is_dir():
@@ -48,34 +48,33 @@ def add_json(parser: argparse.ArgumentParser, what: str = "a JSON object") -> No
 
 
 def print_json(data: Any) -> None:
-    """Print data as JSON."""
     print(json.dumps(data, indent=1, ensure_ascii=False))
 
 
-_NARROWEST, _WIDTH = 20, 100  # columns: the least of a wrapped text; the width where there is no terminal
+_NARROWEST, _WIDTH = 20, 100  # columns: least width of wrapped text, width without a terminal
 
 
 def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """Rows under a head; the last column wraps at the terminal's edge, and runs on where there is no terminal."""
+    """Return rows under a head; the last column wraps at the terminal's edge, or not at all without a terminal."""
     widths = [max(len(row[i]) for row in (head, *rows)) for i in range(len(head) - 1)]
     indent = sum(widths) + 2 * len(widths)
     room = max(shutil.get_terminal_size().columns - indent, _NARROWEST) if sys.stdout.isatty() else sys.maxsize
     lines = []
     for row in (head, *rows):
         first = "".join(f"{cell:<{width}}  " for cell, width in zip(row, widths, strict=False))
-        for i, part in enumerate(textwrap.wrap(row[-1], room) or [""]):
-            lines.append(((first if i == 0 else " " * indent) + part).rstrip())
+        for i, text in enumerate(textwrap.wrap(row[-1], room) or [""]):
+            lines.append(((first if i == 0 else " " * indent) + text).rstrip())
     return "\n".join(lines)
 
 
 def wrap(text: str, indent: int) -> str:
-    """Text in lines as wide as the terminal, or of 100 characters where there is none; all but the first indented."""
+    """Return text wrapped to the terminal's width, or to 100 characters; all lines but the first are indented."""
     width = shutil.get_terminal_size().columns if sys.stdout.isatty() else _WIDTH
     return textwrap.fill(text, max(width, indent + _NARROWEST), subsequent_indent=" " * indent)
 
 
 def say(message: str, status: int) -> int:
-    """One line on stderr; hands the exit status on."""
+    """Print one line on stderr and return the exit status."""
     print("lagrotor:", " ".join(message.split()), file=sys.stderr)
     return status
 
@@ -86,21 +85,21 @@ def _clear_line() -> None:
 
 @contextmanager
 def progress(total: int) -> Iterator[Callable[[str], None]]:
-    """A function to call with the name of each of `total` steps as it begins.
+    """Yield a function to call with the name of each of `total` steps at its begin.
 
-    A terminal shows the step in one line that is written over; elsewhere each step is a line on stderr.
+    A terminal shows the steps in one line; any other stderr gets one line per step.
     """
-    done, began, live = 0, time.perf_counter(), sys.stderr.isatty()
+    count, start, live = 0, time.perf_counter(), sys.stderr.isatty()
 
     def step(name: str) -> None:
-        nonlocal done
-        done += 1
-        line = f"[{done}/{total}] {time.perf_counter() - began:4.0f} s  {name}"
+        nonlocal count
+        count += 1
+        line = f"[{count}/{total}] {time.perf_counter() - start:4.0f} s  {name}"
         width = shutil.get_terminal_size().columns - 1
         print(f"\r{line[:width]:<{width}}" if live else line, end="" if live else "\n", file=sys.stderr, flush=True)
 
     try:
         yield step
     finally:
-        if live and done:
+        if live and count:
             _clear_line()

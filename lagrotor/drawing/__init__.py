@@ -1,4 +1,4 @@
-"""Curves and moving bodies from arrays: colours, one style, the picture of a rotor."""
+"""Figures, films and interactive views of motions: colours, one style, the drawing of a rotor."""
 
 from typing import TYPE_CHECKING
 
@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from lagrotor.drawing.style import paper_style as paper_style
     from lagrotor.drawing.style import with_residual as with_residual
     from lagrotor.drawing.view import View as View
-    from lagrotor.drawing.view import view_lines as view_lines
-    from lagrotor.drawing.view import view_times as view_times
     from lagrotor.drawing.wheel import BAR as BAR
     from lagrotor.drawing.wheel import GROUND as GROUND
     from lagrotor.drawing.wheel import INK as INK

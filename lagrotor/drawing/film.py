@@ -1,4 +1,4 @@
-"""Films, as GIF, of lines that move: rods, wheels, whatever joins points, some leaving the path of their last point."""
+"""Films (GIF) of moving lines such as rods and wheels; a line may leave a trace of its last point."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -20,40 +20,36 @@ from lagrotor.errors import InputError
 from lagrotor.files import path_of, write_beside
 from lagrotor.numerics.rotations import Array
 
-FASTEST = 50.0  # frames per second: a GIF counts in hundredths of a second, and players take 2 of them at least
+FASTEST = 50.0  # frames per second; a GIF counts in 0.01 s, and players show a frame for at least 0.02 s
 SIZE = (720, 420)  # of a frame, in pixels
-SPOKES = 5  # few, so that a turn of 0.4 rad from frame to frame is not seen as one backwards
+SPOKES = 5  # few, so that a turn of 0.4 rad per frame does not look like a backward turn
 LONGEST = 600  # s of a film
 _DPI = 100
 Pixels = NDArray[np.uint8]
-# On a figure: axes, and what gives, for a frame's number, the artists to draw.
+# A function of a figure that returns its axes, and a function of the frame number that returns the artists to draw.
 Stage = Callable[[Figure], tuple[Axes, Callable[[int], list[Artist]]]]
 
 
 def check_film(path: str | Path, duration: float, fps: float) -> None:
-    """Raises InputError unless a film of `duration` s, at `fps` frames per second, can be written to `path`."""
+    """Raise InputError unless a film of `duration` s, at `fps` frames per second, can be written to `path`."""
     path = path_of("animate: path", path)
     if path.suffix != ".gif":
-        raise InputError(
-            f"animate: {path}: the name must end in .gif; `ffmpeg -i run.gif run.mp4` makes other films of it"
-        )
+        raise InputError(f"animate: {path}: the name must end in .gif; `ffmpeg -i run.gif run.mp4` converts it")
     if path.is_dir():
         raise InputError(f"animate: {path} is a folder: give a file")
     if not 1 <= fps <= FASTEST:
         raise InputError(f"animate: fps = {fps:g} must lie between 1 and {FASTEST:g} frames per second")
     if not 1 / fps <= duration <= LONGEST:
-        raise InputError(
-            f"animate: {duration:g} s: a film lasts one frame ({1 / fps:g} s) at least, {LONGEST} s at most"
-        )
+        raise InputError(f"animate: {duration:g} s: a film must last from one frame ({1 / fps:g} s) to {LONGEST} s")
 
 
 def frame_times(begin: float, end: float, fps: float) -> Array:
-    """Times of the frames (m,) in s, 1/fps apart from `begin` to `end`, both counted where the last falls on it."""
+    """Return the times of the frames (m,) in s, 1/fps apart from `begin` to at most `end`."""
     return np.minimum(begin + np.arange(int((end - begin) * fps * (1 + 1e-12)) + 1) / fps, end)
 
 
 class Film(type(Path())):  # type: ignore[misc]
-    """The file of a film; a notebook shows it."""
+    """The file of a film; a notebook displays it."""
 
     def _repr_html_(self) -> str:
         from base64 import b64encode
@@ -74,13 +70,13 @@ def _announce_seconds(
 
 
 def _write_gif(file: IO[bytes], frames: Iterator[Pixels], count: int, fps: float) -> None:
-    """Frames in one palette, so that nothing flickers; durations in hundredths of a second whose sum is right."""
+    """Write the frames with one palette, so that nothing flickers; rounded durations add up to the exact total."""
     from PIL import Image
 
     palette = Image.new("P", (1, 1))
     palette.putpalette(_palette().ravel().tolist())
     images = (Image.fromarray(frame).quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames)
-    # Two neighbours that are the same become one frame that lasts as long as both.
+    # Pillow merges equal neighbouring frames into one that lasts as long as both.
     ends = 10 * np.rint(100 / fps * np.arange(count + 1)).astype(int)
     next(images).save(
         file, "GIF", save_all=True, append_images=images, duration=np.diff(ends).tolist(), loop=0, optimize=False
@@ -88,15 +84,14 @@ def _write_gif(file: IO[bytes], frames: Iterator[Pixels], count: int, fps: float
 
 
 def _palette() -> Pixels:
-    """Every ink in steps from white to itself, (96, 3): what anti-aliasing makes of it on white, of which nothing is so near
-    that the nearest colour of white could be another."""
+    """Return the palette (96, 3): every ink in steps from white, because anti-aliasing mixes inks with white only."""
     inks = np.array([to_rgb(ink) for ink in (INK, *ROTORS, MARK)])
     share = np.append(0, np.linspace(0.08, 1, 23))[:, None, None]
     return np.rint(255 * (1 + share * (inks - 1))).astype(np.uint8).reshape(-1, 3)
 
 
 def _frames(count: int, stage: Stage) -> Iterator[Pixels]:
-    """The frames (height, width, 3). What does not move is drawn once; of the rest only the data change."""
+    """Yield the frames (height, width, 3). The static background is drawn once; only data of the artists change."""
     with paper_style():
         figure = Figure(figsize=(SIZE[0] / _DPI, SIZE[1] / _DPI), dpi=_DPI)
         canvas = FigureCanvasAgg(figure)
@@ -106,7 +101,7 @@ def _frames(count: int, stage: Stage) -> Iterator[Pixels]:
         for i in range(count):
             canvas.restore_region(still)  # type: ignore[no-untyped-call]
             for artist in update(i):
-                axes.draw_artist(artist)  # which hands it to the figure's renderer: any of the figure's axes will do
+                axes.draw_artist(artist)  # draws with the figure's renderer, so any of its axes will do
             yield np.ascontiguousarray(np.asarray(canvas.buffer_rgba())[..., :3])  # type: ignore[no-untyped-call]
 
 
@@ -116,9 +111,9 @@ def _line(axes: Axes, colour: str, width: float) -> Line2D:
 
 @dataclass(frozen=True, eq=False)
 class FilmedMotion:
-    """The motion of N rotors at the times t (m,) in s: rotations (N, m, 3, 3), tips, centres (N, m, 3), joints (N, 3) in m.
+    """The motion of N rotors at the times t (m,) in s, for a film.
 
-    length: of an axis, m. joined: whether a bar is drawn between the tips.
+    rotations (N, m, 3, 3); tips, centres (N, m, 3), joints (N, 3), in m; length of an axis in m; joined: draw the bar.
     """
 
     t: Array
@@ -130,9 +125,9 @@ class FilmedMotion:
     joined: bool
 
     def lines(self) -> tuple[list[Array], list[str], list[int]]:
-        """Return lines (m, p, 3) in m, their colours, and which leave a path: wheels with a spoke marked, axes, bar, ground.
+        """Return lines (m, p, 3) in m, their colours, and the indices of traced lines.
 
-        The wheels are not to the inertia's scale.
+        The lines are wheels with one marked spoke, axes, bar and ground. The wheels do not show the inertia to scale.
         """
         angles = np.linspace(0, 2 * np.pi, 6 * SPOKES + 1)
         rim = RADIUS * self.length * np.column_stack([np.cos(angles), np.sin(angles), 0 * angles])
@@ -158,14 +153,14 @@ def animate_lines(
     traced: Sequence[int] | None = None,
     step: Callable[[str], None] = lambda name: None,
 ) -> Path:
-    """Write lines (m, p, 3) in m at the times t (m,) of the frames as a film, `.gif`, at its own speed.
+    """Write moving lines as a film, `.gif`, in real time.
 
-    Seen along y where nothing moves along it, from above where nothing rises, else obliquely.
+    The view is along y if nothing moves along y, from above if nothing moves along z, and oblique otherwise.
 
     Parameters
     ----------
     path : str or Path
-        Of the file, which is written whole or not at all.
+        The file; it is written completely or not at all.
     t : Array
         Times of the frames, (m,), in s.
     lines : sequence
@@ -173,31 +168,31 @@ def animate_lines(
     fps : float
         Frames per second.
     inks : sequence, default ROTORS
-        Colours of the lines, again from the first where there are fewer than lines.
+        Colours of the lines; they repeat if there are fewer colours than lines.
     traced : Sequence[int] or None, optional
-        The lines whose last point leaves its path; all where it is not given.
+        Indices of the lines whose last point leaves a trace; the default is all.
     step : callable, default lambda name: None
-        Called with each second of the film as it begins.
+        Called at the begin of each second of the film.
 
     Raises
     ------
     InputError
-        For a name or a rate that will not do, before anything is drawn.
+        Before anything is drawn, for an unsuitable file name, rate or duration.
     """
     target, flat = Path(path), _flat(lines)
     check_film(target, float(t[-1] - t[0]), fps)
-    seen = [Camera()(line) if flat is None else np.delete(line, flat, axis=-1) for line in lines]
+    views = [Camera()(line) if flat is None else np.delete(line, flat, axis=-1) for line in lines]
 
     def stage(figure: Figure) -> tuple[Axes, Callable[[int], list[Artist]]]:
         axes = figure.subplots()
-        _limits(axes, np.concatenate([line.reshape(-1, 2) for line in seen]))
-        drawn = [_line(axes, inks[i % len(inks)], 2.0) for i in range(len(seen))]
-        traces = [(_line(axes, GROUND, 1.0), seen[i]) for i in (range(len(seen)) if traced is None else traced)]
+        _limits(axes, np.concatenate([line.reshape(-1, 2) for line in views]))
+        drawn = [_line(axes, inks[i % len(inks)], 2.0) for i in range(len(views))]
+        traces = [(_line(axes, GROUND, 1.0), views[i]) for i in (range(len(views)) if traced is None else traced)]
         clock = axes.text(0.02, 0.98, "", transform=axes.transAxes, va="top", animated=True, fontsize=11)
 
         def update(i: int) -> list[Artist]:
             clock.set_text(f"t = {t[i]:5.2f} s")
-            for artist, line in zip(drawn, seen, strict=True):
+            for artist, line in zip(drawn, views, strict=True):
                 artist.set_data(*line[i].T)
             for trace, line in traces:
                 trace.set_data(*line[: i + 1, -1].T)
@@ -210,13 +205,13 @@ def animate_lines(
 
 
 def _flat(lines: Sequence[Array]) -> int | None:
-    """The direction (0, 1, 2) along which nothing extends, if there is one: 1 before 2 before 0."""
+    """Return the direction (preferably 1, then 2, then 0) without extent of the lines, or None."""
     extent = np.ptp(np.concatenate([line.reshape(-1, 3) for line in lines]), axis=0)
     return next((i for i in (1, 2, 0) if extent[i] <= 1e-9 * extent.max()), None)
 
 
-def _limits(axes: Axes, seen: Array) -> None:
-    low, high = seen.min(0), seen.max(0)
+def _limits(axes: Axes, points: Array) -> None:
+    low, high = points.min(0), points.max(0)
     room = 0.08 * (high - low).max() or 1.0
     axes.set(xlim=(low[0] - room, high[0] + room), ylim=(low[1] - room, high[1] + room), aspect="equal")
     axes.axis("off")

@@ -1,4 +1,4 @@
-"""A run over time: of the pair its tips, their paths from above, energy; of any system its coordinates and energy."""
+"""Figures of a run over time: tips, their paths and the energy of a pair; coordinates and energy of any system."""
 
 from collections.abc import Collection, Mapping, Sequence
 from io import BytesIO
@@ -11,11 +11,11 @@ from lagrotor.drawing.style import paper_style
 from lagrotor.drawing.wheel import BAR, GROUND, INK, ROTORS
 from lagrotor.numerics.rotations import Array
 
-_CONSTANT = 1e-7  # of its size, by which what is constant may change
+_CONSTANT = 1e-7  # relative variation of a curve that counts as constant
 
 
 class RunFigure(Figure):
-    """A figure that a notebook shows by itself, without pyplot."""
+    """A figure that a notebook displays without pyplot."""
 
     def _repr_png_(self) -> bytes:
         with BytesIO() as file:
@@ -31,9 +31,9 @@ def run_figure(
     inks: Sequence[str] = ROTORS,
     bars: Sequence[tuple[int, int]] = (),
 ) -> RunFigure:
-    """Draw the way of tips (N, n, 3) in m over t (n,) in s, their paths from above, and the change of the energy (n,) in J.
+    """Draw the displacements of tips (N, n, 3) in m over t (n,) in s, their top view, and the energy change (n,) in J.
 
-    inks: colours of the rotors, again from the first where there are fewer. bars: pairs of tips that a line joins.
+    inks: colours of the rotors, repeated if necessary. bars: pairs of tips joined by a line.
     """
     with paper_style():
         figure = RunFigure(figsize=(9.0, 6.0))
@@ -63,13 +63,13 @@ def run_figure(
 
 
 def coordinates_figure(t: Array, coordinates: Mapping[str, Array], energy: Array, drift: Array) -> RunFigure:
-    """Coordinates {label: (n,)} over t (n,) in s, the change of the energy, and the constraints' violation if there is any."""
+    """Draw coordinates {label: (n,)} over t (n,) in s, the energy change, and the constraint violation if not zero."""
     below = {"E − E(0)": energy - energy[0]} | ({"largest |g|": drift} if drift.any() else {})
     return curves_figure(t, {**coordinates, **below}, below)
 
 
 def curves_figure(t: Array, curves: Mapping[str, Array], others: Collection[str] = ()) -> RunFigure:
-    """Curves {label: (n,)} over t (n,) in s, a panel each; others: labels of those in another colour."""
+    """Draw curves {label: (n,)} over t (n,) in s, one panel each; `others` are labels in a second colour."""
     with paper_style():
         figure = RunFigure(figsize=(7.0, max(3.0, 1.4 * len(curves))))
         axes = figure.subplots(len(curves), 1, sharex=True, squeeze=False)[:, 0]
@@ -77,22 +77,22 @@ def curves_figure(t: Array, curves: Mapping[str, Array], others: Collection[str]
             panel.plot(t, values, color=ROTORS[label in others])
             panel.set_ylabel(label)
             middle = float(np.abs(values).max(initial=0.0))
-            if np.ptp(values) < _CONSTANT * middle:  # but for rounding
+            if np.ptp(values) < _CONSTANT * middle:  # rounding only
                 panel.set_ylim(*sorted((0.9 * values[0], 1.1 * values[0])))
         axes[-1].set_xlabel("time [s]")
     return figure
 
 
 def rates_figure(letter: str, numbers: Array, rates: NDArray[np.complex128], marks: Sequence[float]) -> RunFigure:
-    """Real and imaginary parts of rates (m, n), 1/s, over the numbers (m,) of a letter, with marks on its axis."""
+    """Draw real and imaginary parts of rates (m, n), 1/s, over the values (m,) of a symbol, with marked values."""
     with paper_style():
         figure = RunFigure(figsize=(7.0, 5.0))
         above, below = figure.subplots(2, 1, sharex=True)
-        for panel, parts, label in (
+        for panel, values, label in (
             (above, rates.real, "real part [1/s]"),
             (below, rates.imag, "imaginary part [1/s]"),
         ):
-            panel.plot(numbers, parts, color=ROTORS[0])
+            panel.plot(numbers, values, color=ROTORS[0])
             panel.axhline(0, color=GROUND, linewidth=1)
             panel.set_ylabel(label)
             for mark in marks:
@@ -102,12 +102,12 @@ def rates_figure(letter: str, numbers: Array, rates: NDArray[np.complex128], mar
 
 
 def chart_figure(names: tuple[str, str], numbers: tuple[Array, Array], growth: Array, edges: Array) -> RunFigure:
-    """Growth rates (n, m), 1/s, over the numbers (m,) and (n,) of two letters, and points (k, 2) of the boundary."""
+    """Draw growth rates (n, m), 1/s, over the values (m,) and (n,) of two symbols, with boundary points (k, 2)."""
     with paper_style():
         figure = RunFigure(figsize=(7.0, 5.0))
         panel = figure.subplots()
-        shown = np.where(growth > 1e-6 * max(float(growth.max()), 1e-300), growth, np.nan)
-        mesh = panel.pcolormesh(*numbers, shown, cmap="Blues", vmin=0, shading="nearest")
+        visible = np.where(growth > 1e-6 * max(float(growth.max()), 1e-300), growth, np.nan)
+        mesh = panel.pcolormesh(*numbers, visible, cmap="Blues", vmin=0, shading="nearest")
         figure.colorbar(mesh, label="growth rate [1/s]")
         panel.plot(*edges.T, ".", color=ROTORS[1], markersize=4)
         panel.set_xlabel(names[0])

@@ -1,4 +1,4 @@
-"""One look for every figure: colours fixed by meaning, distinguishable by the colour-blind (Okabe & Ito), a light grid."""
+"""One style for every figure: colours with a fixed meaning, distinguishable by the colour-blind (Okabe & Ito)."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -22,17 +22,17 @@ OKABE_ITO = {
     "reddish purple": "#CC79A7",
 }
 
-# What a curve means: the paper's own formula, its correction, the exact limit it is held to, a simulated model.
+# Meaning of curves: the paper's formula, its correction, the exact reference, a simulated model.
 PAPER_COLOUR = OKABE_ITO["vermillion"]
 CORRECTION_COLOUR = OKABE_ITO["bluish green"]
-HIGH_ORDER_COLOUR = "#7FD3B8"  # of the correction through a high order, drawn wide under it
+HIGH_ORDER_COLOUR = "#7FD3B8"  # high-order correction, a wide line below the correction
 EXACT_COLOUR = OKABE_ITO["black"]
 MODEL_COLOUR = OKABE_ITO["blue"]
-# Curves that differ by a case alone, such as a bar or a spin: no colour of these means anything by itself.
+# Curves that differ by a case, such as a bar or a spin; these colours have no fixed meaning.
 CASE_COLOURS = OKABE_ITO["sky blue"], OKABE_ITO["orange"], OKABE_ITO["reddish purple"], "#7A5C1E"
 FORCE_COLOUR = "#777777"
 
-HALO = [withStroke(linewidth=3, foreground="white")]  # round a label that lies on a line
+HALO = [withStroke(linewidth=3, foreground="white")]  # around a label on a line
 
 _GRID = "#dddddd"
 _INK = "#222222"
@@ -46,7 +46,7 @@ _STYLE: dict[Any, Any] = {
     "font.family": "DejaVu Sans",
     "font.size": 10,
     "axes.titlesize": 11,
-    "axes.titley": 1.0,  # where it would be found to be, at each drawing: no panel has ticks above
+    "axes.titley": 1.0,  # fixed position saves its computation; no panel has ticks above
     "axes.labelsize": 10,
     "axes.edgecolor": _INK,
     "axes.linewidth": 0.8,
@@ -75,7 +75,7 @@ _STYLE: dict[Any, Any] = {
 
 @contextmanager
 def paper_style() -> Iterator[None]:
-    """The style, for what is drawn and saved inside the `with` block, whatever the user's own settings are."""
+    """Apply the figure style inside a `with` block, independent of the user's matplotlib settings."""
     with mpl.rc_context():
         mpl.rcdefaults()
         mpl.rcParams.update(_STYLE)
@@ -84,10 +84,10 @@ def paper_style() -> Iterator[None]:
 
 @contextmanager
 def laid_out(figure: Figure, dpi: float = _STYLE["savefig.dpi"]) -> Iterator[Figure]:
-    """The figure with its panels placed, once for all files that are written of it inside the `with` block.
+    """Yield the figure with its panels placed once for all files written inside the `with` block.
 
-    dpi: pixels an inch. What is placed and what is saved at the same density on the same canvas measures its letters once.
-    Where an engine for the layout is left, even an idle one, matplotlib draws each file twice.
+    dpi: pixels per inch; one density for layout and files measures the text only once. The layout engine is removed,
+    because with any engine, even an idle one, matplotlib draws each file twice.
     """
     FigureCanvasAgg(figure)
     figure.set_dpi(dpi)
@@ -100,6 +100,6 @@ def laid_out(figure: Figure, dpi: float = _STYLE["savefig.dpi"]) -> Iterator[Fig
 
 
 def with_residual(figure: Figure) -> tuple[Axes, Axes]:
-    """A panel for the curves and under it a lower one for their residual, on one time axis."""
+    """Create a panel for curves and a lower panel for their residual, with a common time axis."""
     main, residual = figure.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": (3, 1)})
     return main, residual

@@ -1,4 +1,4 @@
-"""A motion that a page shows, turned by hand and played, without a network: lines that move, drawn by a script beside them."""
+"""An interactive view of a motion for web pages and notebooks: moving lines that can be turned and played, offline."""
 
 import json
 from base64 import b64encode
@@ -15,37 +15,53 @@ from lagrotor.files import write_text
 from lagrotor.numerics.arrays import Array
 from lagrotor.numerics.run import optional_package
 
-FRAMES = 600  # of a view at most, so that it stays small
+FRAMES = 600  # largest number of frames of a view, for a small page
 FPS = 30.0
 _HERE = Path(__file__).parent
-_LARGEST = 32_000  # what a coordinate is written up to, as a 16-bit number
+_LARGEST = 32_000  # largest coordinate as a 16-bit integer
 
 
 @dataclass(frozen=True, eq=False)
 class View:
-    """A motion: a page that a notebook shows and `save` writes, or, in a running notebook, a widget."""
+    """A motion as a page, which a notebook displays and `save` writes, or as a widget in a running notebook.
+
+    Attributes
+    ----------
+    motion : dict
+        Times in s, and the lines as encoded points.
+    title : str
+        A line above the motion.
+    """
 
     motion: dict[str, Any]
     title: str
 
     @property
     def html(self) -> str:
-        """The page, which needs no network."""
-        parts = {
+        """The page as HTML text; it needs no network."""
+        replacements = {
             "/* style */": _text("view.css"),
             "/* script */": canvas_script() + _text("view.js"),
             "/* data */": json.dumps(self.motion),
             "<!-- motion -->": self._parts(),
         }
         page = _text("view.html")
-        for place, content in parts.items():
+        for place, content in replacements.items():
             page = page.replace(place, content)
         return page
 
     def widget(self) -> Any:
-        """The motion as an anywidget: its `time` (s) and `playing` may be set, observed and linked with another's.
+        """Return the motion as an anywidget.
 
-        Raises InputError where anywidget is not installed.
+        Returns
+        -------
+        anywidget.AnyWidget
+            Its `time` (s) and `playing` may be set, observed and linked to another widget's.
+
+        Raises
+        ------
+        InputError
+            If anywidget is not installed.
         """
         anywidget = optional_package("anywidget")
         import traitlets
@@ -65,7 +81,23 @@ class View:
         return _text("view_parts.html").replace("<!-- title -->", escape(self.title))
 
     def save(self, path: str | Path) -> Path:
-        """Write the page, `.html`; it needs no network. Raises InputError for another ending."""
+        """Write the page to a file.
+
+        Parameters
+        ----------
+        path : str or Path
+            A name that ends in `.html`.
+
+        Returns
+        -------
+        Path
+            The file.
+
+        Raises
+        ------
+        InputError
+            For another ending.
+        """
         if Path(path).suffix != ".html":
             raise InputError(f"view: {path}: the name must end in .html")
         return write_text(Path(path), self.html)
@@ -79,7 +111,7 @@ class View:
 
 
 def view_times(begin: float, end: float) -> Array:
-    """Times of the frames of a view, (m,) in s: FPS a second, FRAMES at most, both ends among them."""
+    """Return the times (m,) in s of the frames of a view: FPS per second, at most FRAMES, with both ends."""
     return np.linspace(begin, end, int(min(FRAMES, max(2, (end - begin) * FPS + 1))))
 
 
@@ -90,50 +122,35 @@ def view_lines(
     title: str = "",
     traced: Sequence[int] | None = None,
 ) -> View:
-    """Lines that move as a view.
+    """Return a view of moving lines, each (m, p, 3) in m at the times t (m,) in s; a fixed line is (1, p, 3).
 
-    Parameters
-    ----------
-    t : Array
-        Times of the frames, (m,), in s.
-    lines : sequence
-        Each (m, p, 3), in m; a line of one time stands still, (1, p, 3).
-    inks : sequence
-        Their colours, again from the first where there are fewer than lines.
-    title : str, default ''
-        A line above.
-    traced : Sequence[int] or None, optional
-        The lines whose last point leaves its path; all where it is not given.
-
-    Raises
-    ------
-    InputError
-        A motion that is empty or not finite.
+    inks: colours, repeated if necessary. traced: indices of the lines whose last point leaves a trace; the default is all.
+    Raises InputError for an empty or non-finite motion.
     """
-    held = [np.asarray(line, float) for line in lines]
-    if not held or len(t) < 2 or not all(line.size and np.isfinite(line).all() for line in held):
-        raise InputError(f"view: {len(held)} lines at {len(t)} times: there is nothing that moves, or it is not finite")
-    corners = np.array([[line.reshape(-1, 3).min(0), line.reshape(-1, 3).max(0)] for line in held])
+    arrays = [np.asarray(line, float) for line in lines]
+    if not arrays or len(t) < 2 or not all(line.size and np.isfinite(line).all() for line in arrays):
+        raise InputError(f"view: {len(arrays)} lines at {len(t)} times: nothing moves, or a coordinate is not finite")
+    corners = np.array([[line.reshape(-1, 3).min(0), line.reshape(-1, 3).max(0)] for line in arrays])
     low, high = corners[:, 0].min(0), corners[:, 1].max(0)
     middle, unit = (low + high) / 2, float((high - low).max() or 1.0) / 2 / _LARGEST
     paths = range(len(lines)) if traced is None else traced
 
-    def written(place: int, line: Array) -> dict[str, Any]:
+    def encoded(place: int, line: Array) -> dict[str, Any]:
         steps = np.rint((line - middle) / unit).astype("<i2")
         data = b64encode(steps.tobytes()).decode("ascii")
         return {"data": data, "points": line.shape[1], "ink": inks[place % len(inks)], "traced": place in paths}
 
     motion = {
-        "t": [float(f"{each:.6g}") for each in t],
+        "t": [float(f"{item:.6g}") for item in t],
         "unit": unit,
         "middle": middle.tolist(),
-        "lines": [written(*each) for each in enumerate(held)],
+        "lines": [encoded(*item) for item in enumerate(arrays)],
     }
     return View(motion, title)
 
 
 def canvas_script() -> str:
-    """The functions that every moving picture of a page draws with."""
+    """Return the JavaScript functions that draw every animation of a page."""
     return _text("canvas.js")
 
 

@@ -61,6 +61,5 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.systems import System as System
     from lagrotor.mechanics.weakly_nonlinear import AveragedMotion as AveragedMotion
     from lagrotor.mechanics.weakly_nonlinear import Oscillation as Oscillation
-    from lagrotor.mechanics.weakly_nonlinear import lindstedt_poincare as lindstedt_poincare
 
 __getattr__, __dir__, __all__ = face(__name__)

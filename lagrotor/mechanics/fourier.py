@@ -4,9 +4,8 @@
 
 with coefficients in any exact field (rationals, or rational functions of parameters as sympy domain elements).
 
-The coefficient of eps**n of a sum or product is computed from those of its parts up to n when it is read, and kept. An equation
-is therefore written once, of series whose higher orders are still unknown: through order N it costs about N**2 products of
-harmonics, where one that is evaluated anew for each order costs N**3.
+The coefficient of eps**n of a sum or product is computed when it is read, and cached. An equation is therefore written once, of
+series whose higher orders are still unknown. Order N costs about N**2 products of harmonics instead of N**3.
 van der Hoeven, Relax, but don't be too lazy, J. Symb. Comp. 34 (2002).
 """
 
@@ -21,13 +20,13 @@ from sympy import QQ, ZZ
 
 Key = tuple[int, int]  # (power of eps, harmonic): cos(h Phi) for h >= 0, sin(|h| Phi) for h < 0
 Coefficient = Any  # an element of the field
-Waves = Mapping[int, Coefficient]  # of one power of eps
-Series = Any  # a FourierSeries, or what is added, multiplied and differentiated like one
+Waves = Mapping[int, Coefficient]  # {harmonic: value} of one power of eps
+Series = Any  # a FourierSeries, or an object with the same arithmetic
 Pairs = list[tuple[Waves, Waves]]
 
 
 class FourierSeries:
-    """The nonzero coefficients {(n, h): value} through eps**order: of eps^n cos(h Phi), for h < 0 of eps^n sin(|h| Phi)."""
+    """The series of the coefficients {(n, h): value} through eps**order, of eps^n cos(h Phi), for h < 0 of eps^n sin(|h| Phi)."""
 
     def __init__(self, terms: Mapping[Key, Coefficient], order: int) -> None:
         powers: dict[int, dict[int, Coefficient]] = defaultdict(dict)
@@ -50,17 +49,7 @@ class FourierSeries:
         return self._cache[n]
 
     def assign(self, n: int, h: int, value: Coefficient) -> None:
-        """Set a coefficient of a series that is made of terms; `forget` what was computed without it.
-
-        Parameters
-        ----------
-        n : int
-            The power of eps.
-        h : int
-            The harmonic.
-        value : Coefficient
-            The coefficient.
-        """
+        """Set the coefficient of eps**n and harmonic h of a series given by terms; `forget` the results computed without it."""
         if value:
             self._compute(n)[h] = value  # type: ignore[index]
 
@@ -89,59 +78,56 @@ class FourierSeries:
         return self + (-other)
 
     def __mul__(self, other: FourierSeries) -> FourierSeries:
-        """Product; terms beyond the order are dropped."""
         return self._from(lambda n: _product([(self.at(m), other.at(n - m)) for m in range(n + 1)]), other)
 
     def times(self, factor: Coefficient) -> FourierSeries:
-        """factor × f."""
         return self._from(lambda n: {h: v * factor for h, v in self.at(n).items()})
 
     def raised(self, n: int) -> FourierSeries:
-        """eps**n × f."""
+        """Return eps**n × f."""
         return self._from(lambda k: self.at(k - n) if k >= n else {})
 
     def convert(self, value: Callable[[Any], Coefficient]) -> FourierSeries:
-        """The same series with its coefficients converted, as by `float`."""
+        """Return the same series with its coefficients converted, for instance by `float`."""
         return FourierSeries({k: value(v) for k, v in self.terms.items()}, self.order)
 
     def derivative(self) -> FourierSeries:
-        """df/dPhi."""
+        """Return df/dPhi."""
         return self._from(lambda n: {-h: -h * v for h, v in self.at(n).items() if h})
 
     def half_period_later(self) -> FourierSeries:
-        """f(Phi + pi)."""
+        """Return f(Phi + pi)."""
         return self._from(lambda n: {h: -v if h % 2 else v for h, v in self.at(n).items()})
 
     def constant(self, value: Coefficient) -> FourierSeries:
-        """The constant `value`, through the same order."""
+        """Return the constant series `value` of the same order."""
         return constant_series(value, self.order)
 
     def through(self, order: int) -> FourierSeries:
-        """The same series truncated at, or meant through, another order."""
+        """Return the terms up to an order, as a series of that order."""
         return FourierSeries({k: v for k, v in self.terms.items() if k[0] <= order}, order)
 
 
 def constant_series(value: Coefficient, order: int, power: int = 0) -> FourierSeries:
-    """value eps**power, without a phase."""
     return FourierSeries({(power, 0): value} if value else {}, order)
 
 
 def forget(series: Sequence[FourierSeries], n: int) -> None:
-    """Compute the coefficients of eps**n anew when they are next read, those of all parts too."""
+    """Discard the cached coefficients of eps**n of these series and of all series that they depend on."""
     queue, visited = [*series], set[FourierSeries]()
     while queue:
-        one = queue.pop()
-        if one not in visited:
-            visited.add(one)
-            one._cache.pop(n, None)
-            queue += one._parts
+        item = queue.pop()
+        if item not in visited:
+            visited.add(item)
+            item._cache.pop(n, None)
+            queue += item._parts
 
 
 def _product(pairs: Pairs) -> Waves:
-    """The sum of products of waves; of rational ones by whole numbers over one denominator, reduced once a harmonic."""
-    whole, below = _over_one_denominator(pairs)
+    """Return the sum of products of waves; rational ones as integers over one denominator, reduced once a harmonic."""
+    integers, below = _over_one_denominator(pairs)
     total: dict[int, Coefficient] = defaultdict(int)
-    for first, second in whole:
+    for first, second in integers:
         _add_twice_the_product(total, first, second)
     return {h: QQ(v, 2 * below) if isinstance(v, ZZ.dtype) else v / 2 for h, v in total.items() if v}
 
@@ -150,31 +136,31 @@ def _add_twice_the_product(total: dict[int, Coefficient], first: Waves, second: 
     """Add twice the product to the total, by 2 cos p cos q = cos(p−q) + cos(p+q) and its kin."""
     for q, v in second.items():
         for p, u in first.items():
-            part = u * v
+            product = u * v
             i, j = abs(p), abs(q)
             if p >= 0 and q >= 0:
-                total[abs(i - j)] += part
-                total[i + j] += part
+                total[abs(i - j)] += product
+                total[i + j] += product
             elif p < 0 and q < 0:
-                total[abs(i - j)] += part
-                total[i + j] -= part
+                total[abs(i - j)] += product
+                total[i + j] -= product
             else:
                 sine, cosine = (i, j) if p < 0 else (j, i)
-                total[-(i + j)] += part
+                total[-(i + j)] += product
                 if sine != cosine:
-                    total[-abs(sine - cosine)] += part if sine > cosine else -part
+                    total[-abs(sine - cosine)] += product if sine > cosine else -product
 
 
 def _over_one_denominator(pairs: Pairs) -> tuple[Pairs, int]:
-    """Pairs of rational waves as whole numbers, and the denominator of all their products; others as they are, over 1."""
+    """Return rational waves as integers, with the common denominator of all products; other waves unchanged, over 1."""
     if not all(isinstance(v, QQ.dtype) for pair in pairs for waves in pair for v in waves.values()):
         return pairs, 1
-    each = [(_whole(first), _whole(second)) for first, second in pairs]
-    below = lcm(*(a * b for (_, a), (_, b) in each))
-    return [(f, {h: v * (below // (a * b)) for h, v in s.items()}) for (f, a), (s, b) in each], below
+    integers = [(_integers(first), _integers(second)) for first, second in pairs]
+    below = lcm(*(a * b for (_, a), (_, b) in integers))
+    return [(f, {h: v * (below // (a * b)) for h, v in s.items()}) for (f, a), (s, b) in integers], below
 
 
-def _whole(waves: Waves) -> tuple[Waves, int]:
-    """Rational waves as whole numbers over one denominator."""
+def _integers(waves: Waves) -> tuple[Waves, int]:
+    """Return rational waves as integers over one denominator."""
     below = lcm(*(int(v.denominator) for v in waves.values()))
     return {h: v.numerator * (below // v.denominator) for h, v in waves.items()}, below

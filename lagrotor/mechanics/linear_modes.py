@@ -1,4 +1,4 @@
-"""The linear system of small motion, its modes, and the condition of its stability.
+"""The linear system of small motion, M a + C v + K q = 0, its modes, and the condition of its stability.
 
 Goldstein, Poole & Safko, Classical Mechanics, 3rd ed., ch. 6; Merkin, Introduction to the Theory of Stability, chs. 4, 6;
 Gantmacher, The Theory of Matrices, vol. 2, ch. XV (Routh–Hurwitz, Hankel forms).
@@ -19,7 +19,15 @@ _S = sp.Symbol("s")
 
 @dataclass(frozen=True)
 class Mode:
-    """A solution Re(shape exp(rate t)): rate = i ω for an oscillation, 1/s; shape (n, 1) in the full coordinates."""
+    """A solution Re(shape exp(rate t)) of a linear system.
+
+    Attributes
+    ----------
+    rate : Expr
+        Complex rate in 1/s, i ω for an undamped oscillation.
+    shape : Matrix
+        Amplitudes of the full coordinates, shape (n, 1), up to a factor.
+    """
 
     rate: sp.Expr
     shape: sp.Matrix
@@ -27,9 +35,27 @@ class Mode:
 
 @dataclass(frozen=True)
 class LinearSystem:
-    """M a + C v + K q = 0 in independent small coordinates; `basis` (n, d) carries them to the full ones.
+    """The linear system M a + C v + K q = 0 in d independent small coordinates.
 
-    `gyroscopic` is C, with friction and nonconservative forces in it where there are any.
+    Attributes
+    ----------
+    mass : Matrix
+        Mass matrix M, shape (d, d).
+    gyroscopic : Matrix
+        Matrix C of gyroscopic forces and friction, shape (d, d).
+    stiffness : Matrix
+        Matrix K of conservative and nonconservative forces, shape (d, d).
+    basis : Matrix
+        Change of all n coordinates per unit of each independent coordinate, shape (n, d).
+
+    Examples
+    --------
+    >>> import sympy as sp
+    >>> from lagrotor.mechanics import System, coordinates
+    >>> c = coordinates("x")
+    >>> oscillator = System(c, c.v[0] ** 2 / 2 - 9 * c.q[0] ** 2 / 2).linearise({"x": 0})
+    >>> [mode.rate for mode in oscillator.modes()], oscillator.stable_if
+    ([-3*I, 3*I], True)
     """
 
     mass: sp.Matrix
@@ -38,20 +64,41 @@ class LinearSystem:
     basis: sp.Matrix
 
     def characteristic(self, s: sp.Symbol) -> sp.Expr:
-        """det(s² M + s C + K), factored."""
+        """Return the characteristic polynomial det(s² M + s C + K), factored.
+
+        Parameters
+        ----------
+        s : Symbol
+            The rate.
+
+        Returns
+        -------
+        Expr
+            A polynomial in s of degree 2 d.
+        """
         return sp.factor(self._pencil(s).det(method="berkowitz"))
 
     def _pencil(self, s: sp.Expr) -> sp.Matrix:
         return s**2 * self.mass + s * self.gyroscopic + self.stiffness
 
     def modes(self, values: Mapping[sp.Symbol, Any] | None = None) -> tuple[Mode, ...]:
-        """The modes, exact where the factors of the characteristic polynomial are of degree two in s or s²; with `values`
-        for every symbol, numbers, sorted by |rate|.
+        """Return the modes, in closed form or in numbers.
+
+        Parameters
+        ----------
+        values : mapping, optional
+            {symbol: number} for every symbol. Without values each factor of the characteristic polynomial must have degree at
+            most two in s or in s².
+
+        Returns
+        -------
+        tuple[Mode, ...]
+            The exact modes, or with values the numeric ones, by ascending absolute rate.
 
         Raises
         ------
         InputError
-            When neither is possible, or a symbol has no value.
+            When no closed form exists, or a symbol has no value.
         """
         if values is not None:
             return self._numeric_modes(values)
@@ -63,7 +110,7 @@ class LinearSystem:
         return tuple(modes)
 
     def _shapes(self, rate: sp.Expr) -> list[sp.Matrix]:
-        """Null vectors at a root of the characteristic polynomial: a column of the adjugate, where one is not zero."""
+        """Return the null vectors at a root: a nonzero column of the adjugate, else a basis of the null space."""
         pencil = self._pencil(rate).applyfunc(reduced)
         columns = [pencil.adjugate()[:, j] for j in range(pencil.cols)]
         column = next((column for column in columns if not all(map(is_identically_zero, column))), None)
@@ -73,9 +120,9 @@ class LinearSystem:
         import numpy as np
 
         matrices = (self.mass, self.gyroscopic, self.stiffness, self.basis)
-        parts = [m.subs(by_symbol("modes: values", values, m.free_symbols)) for m in matrices]
-        no_letter("modes", set().union(*(m.free_symbols for m in parts)))
-        M, C, K, basis = (np.array(m.tolist(), dtype=float) for m in parts)
+        numeric = [m.subs(by_symbol("modes: values", values, m.free_symbols)) for m in matrices]
+        no_letter("modes", set().union(*(m.free_symbols for m in numeric)))
+        M, C, K, basis = (np.array(m.tolist(), dtype=float) for m in numeric)
         d = len(M)
         below = np.linalg.solve(M, np.hstack([-K, -C]))
         rates, vectors = np.linalg.eig(np.vstack([np.hstack([np.zeros((d, d)), np.eye(d)]), below]))
@@ -84,53 +131,52 @@ class LinearSystem:
 
     @property
     def stable_if(self) -> sp.Basic:
-        """When every mode stays bounded or decays: a condition on the parameters.
+        """The condition on the parameters under which every mode stays bounded or decays, a sympy relation.
 
-        It is sufficient and, but for equality, necessary.
-        Without friction (det(s² M + s C + K) even in s): all roots s² real, negative and distinct: the coefficients and
-        the Hankel minors of the roots' power sums are positive; without gyroscopic forces these are real, and may be equal.
-        Otherwise so for the product of its even factors, and for that of the others the Routh–Hurwitz determinants are positive.
-        Factors that are positive by the symbols' assumptions are divided out. Zero roots are left aside where they are those
-        of rest elsewhere and of drifts at constant velocity; where a motion grows as t², it is false.
-        Rates that several independent modes have at any parameters, as those of a spherical pendulum, count once.
+        It is sufficient and, but for equality, necessary. A polynomial det(s² M + s C + K) even in s needs real, negative,
+        distinct roots s²: positive coefficients and Hankel minors of the power sums. Without gyroscopic forces roots may
+        coincide. Otherwise the even factors satisfy this, and the Routh–Hurwitz determinants of the others are positive.
+
+        Factors that are positive by the assumptions are divided out, and an eigenvalue shared by independent modes counts once.
+        Zero roots of neighbouring equilibria and of drifts at constant velocity are allowed; growth as t² gives False.
         """
         natural = all(map(is_identically_zero, (*self.gyroscopic, *(self.stiffness - self.stiffness.T))))
         return sp.false if self._zeros > max(2, self._drifts) else stability_condition(self._pencil(_S), _S, natural)
 
     @property
     def _zeros(self) -> int:
-        """How often s = 0 is a root of det(s² M + s C + K)."""
+        """The multiplicity of the root s = 0 of det(s² M + s C + K)."""
         coefficients = sp.Poly(sp.numer(sp.together(self._pencil(_S).det(method="berkowitz"))), _S).all_coeffs()
         return next(i for i, e in enumerate(reversed(coefficients)) if not is_identically_zero(e))
 
     @property
     def _drifts(self) -> int:
-        """The dimension of K q = 0, of rest elsewhere, and that of K q + C v = 0 with K v = 0, of constant velocities v."""
+        """The number of independent solutions K q = 0 (equilibria) and K q + C v = 0 with K v = 0 (drifts)."""
         K = self.stiffness
-        right, left = (m.nullspace(iszerofunc=is_identically_zero) for m in (K, K.T))
-        coupled = sp.Matrix(len(left), len(right), lambda i, j: left[i].dot(self.gyroscopic * right[j]))
+        right, left_null = (m.nullspace(iszerofunc=is_identically_zero) for m in (K, K.T))
+        coupled = sp.Matrix(len(left_null), len(right), lambda i, j: left_null[i].dot(self.gyroscopic * right[j]))
         return 2 * len(right) - int(coupled.rank(iszerofunc=is_identically_zero))
 
 
 def stability_condition(pencil: sp.Matrix, s: sp.Symbol, natural: bool = False) -> sp.Basic:
-    """When the roots s of det(pencil) = 0 are as `LinearSystem.stable_if` says; natural: of s² M + K, both symmetric."""
+    """Return the condition of `LinearSystem.stable_if` for det(pencil) = 0; natural: s² M + K, both symmetric."""
     pencil = pencil.applyfunc(lambda e: e.xreplace({x: sp.Rational(x) for x in e.atoms(sp.Float)}))
     factors = _last_invariant(pencil, s)
-    parts = [sp.Mul(*factors)]
-    if not _is_even(parts[0], s):
-        parts = [sp.Mul(*(f for f in factors if _is_even(f, s) is even)) for even in (True, False)]
+    products = [sp.Mul(*factors)]
+    if not _is_even(products[0], s):
+        products = [sp.Mul(*(f for f in factors if _is_even(f, s) is even)) for even in (True, False)]
     conditions: list[sp.Expr] = []
-    for part in parts:
-        coefficients = _coefficients(part, s)
+    for product in products:
+        coefficients = _coefficients(product, s)
         if natural:
             conditions += [reduced(x / coefficients[0]) for x in coefficients[2::2]]
         else:
-            conditions += _all_negative(coefficients[::2]) if _is_even(part, s) else _hurwitz(coefficients)
+            conditions += _all_negative(coefficients[::2]) if _is_even(product, s) else _hurwitz(coefficients)
     return _conjunction(conditions)
 
 
 def _coefficients(e: sp.Expr, s: sp.Symbol) -> list[sp.Expr]:
-    """Those of a polynomial in s, the highest first, without its zero roots."""
+    """Return the coefficients of a polynomial in s, the highest first, without its zero roots."""
     coefficients = [reduced(c) for c in sp.Poly(e, s).all_coeffs()]
     while is_identically_zero(coefficients[-1]):
         coefficients.pop()
@@ -142,8 +188,10 @@ def _is_even(e: sp.Expr, s: sp.Symbol) -> bool:
 
 
 def _last_invariant(pencil: sp.Matrix, s: sp.Symbol) -> list[sp.Expr]:
-    """The determinant's factors without what the minors of order n − 1 have in common of repeated ones: these stay repeated where
-    motions grow as t exp(s t). Gantmacher, vol. 1, ch. VI (invariant polynomials)."""
+    """Return the factors of the last invariant polynomial: repeated roots stay repeated only where motions grow as t exp(s t).
+
+    The common divisor of the minors of order n − 1 is divided out. Gantmacher, vol. 1, ch. VI.
+    """
     _, factors = sp.factor_list(sp.numer(sp.together(pencil.det(method="berkowitz"))))
     lasting = {f: k for f, k in factors if f.has(s)}
     repeated = [(f, k) for f, k in factors if k > 1 and f.has(s) and f != s]
@@ -159,7 +207,7 @@ def _last_invariant(pencil: sp.Matrix, s: sp.Symbol) -> list[sp.Expr]:
 
 
 def reduced(e: sp.Expr) -> sp.Expr:
-    """A shorter form of the same: unique where the class of decisions has one."""
+    """Return a shorter equal form, unique where the class of decisions has a normal form."""
     try:
         return sp.factor(normal_form(e))
     except NotExactError:
@@ -171,7 +219,7 @@ def is_identically_zero(e: sp.Expr) -> bool:
 
 
 def _roots(factor: sp.Poly) -> list[sp.Expr]:
-    """Roots of a factor of degree one or two in s, or of degree one or two in s²."""
+    """Return the roots of a factor of degree one or two in s or in s²."""
     s = factor.gen
     if factor.degree() <= 2:
         return list(sp.roots(factor, multiple=True))
@@ -183,7 +231,7 @@ def _roots(factor: sp.Poly) -> list[sp.Expr]:
 
 
 def _all_negative(a: list[sp.Expr]) -> list[sp.Expr]:
-    """What must be positive for a_0 x^n + … + a_n to have real, negative and distinct roots only."""
+    """Return the expressions whose positivity makes all roots of a_0 x^n + … + a_n real, negative and distinct."""
     a = [reduced(x / a[0]) for x in a]
     n = len(a) - 1
     sums: list[sp.Expr] = [sp.Integer(n)]
@@ -195,7 +243,7 @@ def _all_negative(a: list[sp.Expr]) -> list[sp.Expr]:
 
 
 def _hurwitz(a: list[sp.Expr]) -> list[sp.Expr]:
-    """The leading coefficient divided out, the coefficients and the Routh–Hurwitz determinants."""
+    """Return the coefficients over the leading one, and the Routh–Hurwitz determinants."""
     a = [reduced(x / a[0]) for x in a]
     n = len(a) - 1
 
@@ -207,17 +255,17 @@ def _hurwitz(a: list[sp.Expr]) -> list[sp.Expr]:
 
 
 def _conjunction(expressions: list[sp.Expr]) -> sp.Basic:
-    """All of them positive: positive factors divided out, and what another one implies left out."""
-    kept = list(dict.fromkeys(part for e in expressions for part in _essential(e) if not part.is_positive))
-    if any(e.is_nonpositive for e in kept):
+    """Return the relation that all expressions are positive, without positive factors and without implied conditions."""
+    positive = list(dict.fromkeys(factor for e in expressions for factor in _essential(e) if not factor.is_positive))
+    if any(e.is_nonpositive for e in positive):
         return sp.false
-    more = {(e, other): sp.Add.make_args(sp.expand(e - other)) for e in kept for other in kept if e != other}
-    implied = {e for (e, _), terms in more.items() if all(term.is_nonnegative for term in terms)}
-    return sp.And(*(sp.Gt(e, 0) for e in kept if e not in implied))
+    differences = {(e, f): sp.Add.make_args(sp.expand(e - f)) for e in positive for f in positive if e != f}
+    implied = {e for (e, _), terms in differences.items() if all(term.is_nonnegative for term in terms)}
+    return sp.And(*(sp.Gt(e, 0) for e in positive if e not in implied))
 
 
 def _essential(e: sp.Expr) -> list[sp.Expr]:
-    """What must be positive for e to be: its factors of odd power together, the squares of the others each."""
+    """Return simpler expressions that are all positive exactly if e is: the odd factors together, the squares of the others."""
     above, below = sp.fraction(sp.together(reduced(e)))
     coefficient, factors = sp.factor_list(above * below)
     odd = [factor for factor, power in factors if power % 2 and not factor.is_positive]

@@ -1,16 +1,16 @@
-"""Velocities of one's own, u = A(q, t) v + a(q, t), and the velocities v = q' that they give.
+"""Quasi-velocities u = A(q, t) v + a(q, t), and the velocities v = q' that they give.
 
-Where there are fewer of them than coordinates, constraints G v + g = 0 supply the rows that are missing, and hold for every u:
+If u has fewer components than q, constraints G v + g = 0 supply the missing rows and hold for every u:
 
     [A]     [u − a]
     [G] v = [ − g ],        v = B u + b,        v' = B u' + α,
 
-with α the accelerations at u' = 0. The equations of motion along the columns of B are then free of these constraints'
-multipliers,
+with α the accelerations at u' = 0. The equations of motion along the columns of B are free of the multipliers of these
+constraints,
 
     Bᵀ (M B u' + M α + h − Q) = (G' B)ᵀ λ,
 
-G' the rows of the constraints that are left. Poles are where det [A; G] = 0.
+with G' the rows of the other constraints. Poles are where det [A; G] = 0.
 
 Hamel, Theoretische Mechanik (1949), §§ 235–242; Kane & Levinson, Dynamics: Theory and Applications (1985), ch. 2.
 """
@@ -32,17 +32,17 @@ from lagrotor.numerics.codegen import Stage, solve_symmetric
 
 Pairs = tuple[tuple[sp.Symbol, sp.Expr], ...]
 _SMALL = 3  # rows up to which a block is inverted by its adjugate
-_SHORT = 100  # operations of what is factored and reduced
-_STATES = 3  # random ones, at which ranks are read off
-_ROUNDING = 1e-9  # of the largest entry of a row, what is left of it where it depends on others
+_SHORT = 100  # operations up to which an expression is factored and reduced
+_STATES = 3  # random states at which ranks are determined
+_ROUNDING = 1e-9  # relative residual below which a row depends on the others
 
 
 @dataclass(frozen=True, eq=False)
 class Kinematics:
-    """v = B u + b and v' = B u' + α, in q, u and t; α with v in it. stages: what B, b and α are made of, before them.
+    """The maps v = B u + b and v' = B u' + α, in q, u and t (α also in v), after the stages of B, b and α.
 
-    rows: U = (A v + a, G v + g), (n, 1); inverse: [A; G]⁻¹, (n, n). used: the rows of the constraints in G, by number; left:
-    the others. poles: expressions in q and t, one of which vanishes where u does not give v, as far as that is written out.
+    rows: (A v + a, G v + g), shape (n, 1); inverse: [A; G]⁻¹, shape (n, n). used, left: the numbers of the constraints in G,
+    and of the others. poles: expressions in q and t; where one vanishes, u does not determine v (long ones are omitted).
     """
 
     stages: tuple[Stage, ...]
@@ -56,28 +56,23 @@ class Kinematics:
     poles: tuple[sp.Expr, ...]
 
 
-def check_velocities(c: Coordinates, given: Any, named: Mapping[sp.Symbol, sp.Expr] | None = None) -> Pairs:
-    """The velocities as pairs (u, expression affine in v). named: others, which the expressions may have.
-
-    Raises InputError for what is none.
-    """
-    pairs = list(given.items()) if isinstance(given, Mapping) else given
+def check_velocities(c: Coordinates, velocities: Any, named: Mapping[sp.Symbol, sp.Expr] | None = None) -> Pairs:
+    """Return the quasi-velocities as pairs (u, expression affine in v). named: symbols that the expressions may contain."""
+    pairs = list(velocities.items()) if isinstance(velocities, Mapping) else velocities
     if not isinstance(pairs, list | tuple) or not all(isinstance(pair, tuple) and len(pair) == 2 for pair in pairs):
-        raise InputError(
-            f"System: velocities = {given!r} must be {{symbol: expression in q, v and t, …}}, a dictionary"
-        )
+        raise InputError(f"System: velocities = {velocities!r} must be {{symbol: expression in q, v and t, …}}")
     checked: list[Stage] = []
-    known = dict(named or {})
+    definitions = dict(named or {})
     for u, e in pairs:
         name = f"System: velocities[{u}]"
         if not isinstance(u, sp.Symbol) or u in {*c.q, *c.a, t}:
-            raise InputError(f"{name}: a velocity of one's own is named by a symbol that nothing else has: rename it")
-        e = expression(name, e).xreplace(known)
+            raise InputError(f"{name}: a quasi-velocity is named by a symbol without another meaning: rename it")
+        e = expression(name, e).xreplace(definitions)
         if u in c.v and e != u:
-            raise InputError(f"{name} = {e}: {u} is the velocity of a coordinate, which stays what it is: rename it")
-        later = {other for other, form in pairs if other != form and other not in known}
+            raise InputError(f"{name} = {e}: {u} is the velocity of a coordinate and cannot be redefined: rename it")
+        later = {v for v, form in pairs if v != form and v not in definitions}
         if wrong := e.free_symbols & later:
-            raise InputError(f"{name} = {e} contains {min(map(str, wrong))}, which is given after it: put that first")
+            raise InputError(f"{name} = {e} contains {min(map(str, wrong))}, which is defined after it: put that first")
         if wrong := e.free_symbols & {*c.a}:
             raise InputError(f"{name} = {e} contains {min(map(str, wrong))}: write it in q, v and t")
         slope = jacobian([e], c.v)
@@ -86,63 +81,52 @@ def check_velocities(c: Coordinates, given: Any, named: Mapping[sp.Symbol, sp.Ex
         if any(decide_zero(entry).answer != "zero" for entry in jacobian(list(slope), c.v)):
             raise InputError(f"{name} = {e} is not affine in the velocities: write it as sum_j A_j(q, t) v_j + a(q, t)")
         checked.append((u, e))
-        known |= {u: e} if u != e else {}
+        definitions |= {u: e} if u != e else {}
     names = [str(u) for u, _ in checked]
     if len({*names}) < len(names):
-        raise InputError(f"System: velocities {', '.join(names)}: each needs a name of its own")
+        raise InputError(f"System: velocities {', '.join(names)}: each needs a different name")
     if len(names) > len(c.q):
-        raise InputError(
-            f"System: {len(names)} velocities for {len(c.q)} coordinates: there are at most as many; leave some out"
-        )
+        raise InputError(f"System: {len(names)} velocities for {len(c.q)} coordinates: leave some out")
     return tuple(checked)
 
 
 def kinematics(
     c: Coordinates, pairs: Pairs, constraints: Sequence[sp.Expr], residual: sp.Matrix, first: Sequence[int]
 ) -> Kinematics:
-    """The velocities solved for v. residual: G v + g of all constraints, those of places before others; first: what is used
-    before the rest.
+    """Solve the quasi-velocities for v; residual: G v + g of all constraints, first: the numbers of those to use first.
 
-    The ranks are decided at random states. Raises InputError where the velocities depend on each other, or do not give v
-    together with the constraints.
+    The ranks are decided at random states. Raises InputError for dependent velocities, or too few of them.
     """
-    own = [e for _, e in pairs]
+    velocities = [e for _, e in pairs]
     order = [*first, *(i for i in range(len(residual)) if i not in first)]
-    rows = [*own, *(residual[i] for i in order)]
+    rows = [*velocities, *(residual[i] for i in order)]
     matrix = jacobian(rows, c.v)
-    kept = independent_rows(matrix, len(c.q))
-    if any(i not in kept for i in range(len(own))):
-        name = next(u for i, (u, _) in enumerate(pairs) if i not in kept)
-        raise InputError(f"System: velocities: {name} follows from those before it: leave it out")
-    if len(kept) < len(c.q):
+    independent = independent_rows(matrix, len(c.q))
+    if any(i not in independent for i in range(len(velocities))):
+        name = next(u for i, (u, _) in enumerate(pairs) if i not in independent)
+        raise InputError(f"System: velocities: {name} depends on the velocities before it: leave it out")
+    if len(independent) < len(c.q):
         raise InputError(
-            f"System: {len(own)} velocities and {len(residual)} constraints do not give {', '.join(map(str, c.v))}: "
-            f"{len(c.q) - len(kept)} more are needed; one may be a velocity of a coordinate, {{c.v[0]: c.v[0]}}"
+            f"System: {len(velocities)} velocities and {len(residual)} constraints do not give {', '.join(map(str, c.v))}: "
+            f"{len(c.q) - len(independent)} more are needed; one may be a velocity of a coordinate, {{c.v[0]: c.v[0]}}"
         )
-    used = tuple(order[i - len(own)] for i in kept[len(own) :])
-    F, K = sp.Matrix([rows[i] for i in kept]), matrix.extract(kept, list(range(len(c.q))))
-    held = [constraints[i] for i in used if i < len(constraints)]
-    stages, inverse, poles = inverse_of(K, held, c)
+    used = tuple(order[i - len(velocities)] for i in independent[len(velocities) :])
+    F, K = sp.Matrix([rows[i] for i in independent]), matrix.extract(independent, list(range(len(c.q))))
+    relations = [constraints[i] for i in used if i < len(constraints)]
+    stages, inverse, poles = inverse_of(K, relations, c)
     u = sp.Matrix([*(u for u, _ in pairs), *[0] * len(used)])
     still, at_rest = dict.fromkeys(c.a, sp.S.Zero), dict.fromkeys(c.v, sp.S.Zero)
     gamma = F.applyfunc(lambda e: total_derivative(e, c).xreplace(still))
-    return Kinematics(
-        tuple(stages),
-        F,
-        inverse,
-        inverse[:, : len(own)],
-        inverse * (u - F.xreplace(at_rest)),
-        -inverse * gamma,
-        used,
-        tuple(i for i in range(len(residual)) if i not in used),
-        tuple(poles),
-    )
+    velocity, alpha = inverse * (u - F.xreplace(at_rest)), -inverse * gamma
+    left = tuple(i for i in range(len(residual)) if i not in used)
+    B = inverse[:, : len(velocities)]
+    return Kinematics(tuple(stages), F, inverse, B, velocity, alpha, used, left, tuple(poles))
 
 
 def boltzmann_hamel(
-    L: sp.Expr, c: Coordinates, given: Kinematics, speeds: Sequence[sp.Symbol]
+    L: sp.Expr, c: Coordinates, kinematics: Kinematics, speeds: Sequence[sp.Symbol]
 ) -> tuple[sp.Matrix, sp.Matrix]:
-    """M and h of d'Alembert's principle M u' + h = Bᵀ Q, in q, u and t, without a stage.
+    """Return M and h of d'Alembert's principle M u' + h = Bᵀ Q, in q, u and t, without a stage.
 
     With L̄(q, U, t) the Lagrangian in all rows U = (u, w), w = G v + g = 0, and π = ∂L̄/∂U, along the column i of B:
 
@@ -152,28 +136,28 @@ def boltzmann_hamel(
     """
     m, n = len(speeds), len(c.q)
     w = [sp.Symbol(f"_w{r}", real=True) for r in range(n - m)]
-    put = dict(zip(c.v, given.velocity, strict=True))
-    off = given.inverse[:, m:] * sp.Matrix(n - m, 1, w)
-    whole = shortest(L.xreplace({v: e + off[j] for j, (v, e) in enumerate(put.items())}))
+    velocity_of = dict(zip(c.v, kinematics.velocity, strict=True))
+    constraint_term = kinematics.inverse[:, m:] * sp.Matrix(n - m, 1, w)
+    whole = shortest(L.xreplace({v: e + constraint_term[j] for j, (v, e) in enumerate(velocity_of.items())}))
     at_rest = dict.fromkeys(w, sp.S.Zero)
     pi = gradient(whole, (*speeds, *w)).xreplace(at_rest)
-    bar, K = whole.xreplace(at_rest), jacobian(list(given.rows), c.v)
+    bar, K = whole.xreplace(at_rest), jacobian(list(kinematics.rows), c.v)
     still = dict.fromkeys(c.a, sp.S.Zero)
-    turns = jacobian(list(given.rows), c.q) - K.applyfunc(lambda e: total_derivative(e, c).xreplace(still))
-    twist = (turns * given.B).applyfunc(lambda e: shortest(e.xreplace(put)))
-    drift = pi[:m, :].applyfunc(lambda e: along(e, (*c.q, t), (*given.velocity, 1)))
-    h = drift - given.B.T * gradient(bar, c.q) - twist.T * pi
+    turns = jacobian(list(kinematics.rows), c.q) - K.applyfunc(lambda e: total_derivative(e, c).xreplace(still))
+    twist = (turns * kinematics.B).applyfunc(lambda e: shortest(e.xreplace(velocity_of)))
+    drift = pi[:m, :].applyfunc(lambda e: along(e, (*c.q, t), (*kinematics.velocity, 1)))
+    h = drift - kinematics.B.T * gradient(bar, c.q) - twist.T * pi
     return jacobian(list(pi[:m, :]), speeds), h.applyfunc(shortest)
 
 
 def inverse_of(
-    K: sp.Matrix, held: Sequence[sp.Expr], c: Coordinates, keep: Stages | None = None
+    K: sp.Matrix, relations: Sequence[sp.Expr], c: Coordinates, keep: Stages | None = None
 ) -> tuple[list[Stage], sp.Matrix, list[sp.Expr]]:
-    """Stages, K⁻¹ made of them, and the factors of det K that depend on q or t. held: polynomials in q that are zero. keep:
-    stages by which K is made, and each entry that is found is.
+    """Return stages, K⁻¹ in their symbols, and the factors of det K that depend on q or t.
 
-    Block by block, each solved after those that it depends on. A block with orthogonal rows is inverted by its transpose, a
-    small one by its adjugate, another by K⁻¹ = Kᵀ (K Kᵀ)⁻¹, which needs no pivots.
+    relations: polynomials in q that vanish. keep: the stages of K, to which each new entry is added. The blocks are solved in
+    order of dependence: orthogonal rows by the transpose, small blocks by the adjugate, others by K⁻¹ = Kᵀ (K Kᵀ)⁻¹, which
+    needs no pivots.
     """
     n = K.rows
     stages, short, prefix = (keep.made, keep, "_j") if keep else ([], _reduced, "_k")
@@ -182,43 +166,41 @@ def inverse_of(
         block = K.extract(rows, columns)
         gram = block * block.T
         if all(sp.expand(gram[i, j]) == 0 for i in range(len(rows)) for j in range(i)):
-            lengths = (
-                [_on(shortest(gram[i, i]), held, c) for i in range(len(rows))] if len(rows) > 1 else [block[0] ** 2]
-            )
-            own = block.T * sp.diag(*(1 / e for e in lengths))
+            squares = [shortest(gram[i, i]) for i in range(len(rows))]
+            lengths = [_modulo(e, relations, c) for e in squares] if len(rows) > 1 else [block[0] ** 2]
+            block_inverse = block.T * sp.diag(*(1 / e for e in lengths))
             factors += lengths
         elif len(rows) <= _SMALL:
             determinant = short(block.det(method="berkowitz"))
-            own = (block.adjugate(method="berkowitz") / determinant).applyfunc(short)
+            block_inverse = (block.adjugate(method="berkowitz") / determinant).applyfunc(short)
             factors.append(determinant)
         else:
-            made, normal = solve_symmetric(gram, sp.eye(len(rows)), f"{prefix}{number}")
-            stages += made
-            own = block.T * normal
-        right = sp.eye(n).extract(rows, list(range(n))) - K.extract(rows, solved) * inverse.extract(
-            solved, list(range(n))
-        )
-        for i, line in enumerate((own * right).tolist()):
+            solving, normal = solve_symmetric(gram, sp.eye(len(rows)), f"{prefix}{number}")
+            stages += solving
+            block_inverse = block.T * normal
+        known = K.extract(rows, solved) * inverse.extract(solved, list(range(n)))
+        right = sp.eye(n).extract(rows, list(range(n))) - known
+        for i, line in enumerate((block_inverse * right).tolist()):
             inverse[columns[i], :] = sp.Matrix([[short(e) for e in line]])
         solved += columns
     moving = {*c.q, t}
-    factors = [f for e in factors if _written(e) for f in sp.Mul.make_args(sp.factor(e))]
+    factors = [f for e in factors if _is_short(e) for f in sp.Mul.make_args(sp.factor(e))]
     poles = [f for f in factors if f.free_symbols & moving]
     return stages, inverse, list(dict.fromkeys(f.base if f.is_Pow else f for f in poles))
 
 
 def _blocks(K: sp.Matrix) -> list[tuple[list[int], list[int]]]:
-    """Rows and columns of the blocks of K, made triangular: rows with one unknown first, columns with one row last."""
+    """Return rows and columns of the blocks of a triangular form: rows with one unknown first, columns with one row last."""
     rows, columns = {*range(K.rows)}, {*range(K.rows)}
-    across = {i: {j for j in columns if K[i, j] != 0} for i in rows}
-    down = {j: {i for i in rows if j in across[i]} for j in columns}
+    columns_of = {i: {j for j in columns if K[i, j] != 0} for i in rows}
+    rows_of = {j: {i for i in rows if j in columns_of[i]} for j in columns}
     first, last = list[tuple[list[int], list[int]]](), list[tuple[list[int], list[int]]]()
 
     def unknowns(i: int) -> list[int]:
-        return sorted(across[i] & columns)
+        return sorted(columns_of[i] & columns)
 
     def users(j: int) -> list[int]:
-        return sorted(down[j] & rows)
+        return sorted(rows_of[j] & rows)
 
     while rows:
         if single := next((([i], unknowns(i)) for i in sorted(rows) if len(unknowns(i)) == 1), None):
@@ -229,67 +211,65 @@ def _blocks(K: sp.Matrix) -> list[tuple[list[int], list[int]]]:
             break
         rows, columns = rows - {*single[0]}, columns - {*single[1]}
     while rows:
-        block, held, fresh = set[int](), set[int](), {min(rows)}
+        block, members, fresh = set[int](), set[int](), {min(rows)}
         while fresh:
             block |= fresh
-            held |= set().union(*(unknowns(i) for i in fresh))
-            fresh = set[int]().union(*(users(j) for j in held)) - block
-        first.append((sorted(block), sorted(held)))
+            members |= set().union(*(unknowns(i) for i in fresh))
+            fresh = set[int]().union(*(users(j) for j in members)) - block
+        first.append((sorted(block), sorted(members)))
         rows -= block
     return [*first, *reversed(last)]
 
 
-def _written(e: Any) -> bool:
-    """Whether it is short enough to be factored and reduced."""
+def _is_short(e: Any) -> bool:
     return bool(sp.count_ops(e) <= _SHORT)
 
 
 def _reduced(e: sp.Expr) -> sp.Expr:
-    return shortest(e) if _written(e) else e
+    return shortest(e) if _is_short(e) else e
 
 
-def _on(e: sp.Expr, held: Sequence[sp.Expr], c: Coordinates) -> sp.Expr:
-    """A polynomial in q less what vanishes with `held`."""
-    own = [g for g in held if g.free_symbols <= {*c.q} and g.free_symbols & e.free_symbols]
-    if not own or not all(g.is_polynomial(*c.q) for g in (*own, e)):
+def _modulo(e: sp.Expr, relations: Sequence[sp.Expr], c: Coordinates) -> sp.Expr:
+    """Reduce a polynomial in q by relations that vanish."""
+    applicable = [g for g in relations if g.free_symbols <= {*c.q} and g.free_symbols & e.free_symbols]
+    if not applicable or not all(g.is_polynomial(*c.q) for g in (*applicable, e)):
         return e
-    return sp.reduced(e, own, *sorted(set().union(*(g.free_symbols for g in own)), key=str))[1]
+    return sp.reduced(e, applicable, *sorted(set().union(*(g.free_symbols for g in applicable)), key=str))[1]
 
 
 def _values(matrix: sp.Matrix) -> list[list[list[float]]]:
-    """The matrix in numbers at some random states, where it has a value."""
+    """Return the matrix in numbers at the random states at which it has values."""
     unknown = matrix.atoms(sp.Derivative, sp.core.function.AppliedUndef)
     plain = matrix.xreplace({f: sp.Symbol(f"_f{i}", real=True) for i, f in enumerate(sorted(unknown, key=str))})
-    letters = sorted(plain.free_symbols, key=str)
-    function = sp.lambdify(letters, plain.tolist(), "math", cse=True, dummify=True)
-    found = []
-    for point in points(letters, _STATES):
+    symbols = sorted(plain.free_symbols, key=str)
+    function = sp.lambdify(symbols, plain.tolist(), "math", cse=True, dummify=True)
+    values = []
+    for point in points(symbols, _STATES):
         with suppress(ArithmeticError, ValueError):
-            found.append([[float(e) for e in row] for row in function(*(float(point[s]) for s in letters))])
-    return found
+            values.append([[float(e) for e in row] for row in function(*(float(point[s]) for s in symbols))])
+    return values
 
 
-def independent_rows(matrix: sp.Matrix, most: int) -> list[int]:
-    """The rows, in order, that do not depend on those before them, at the random state where they are most; no more than
-    `most`."""
+def independent_rows(matrix: sp.Matrix, rank: int) -> list[int]:
+    """Return the first independent rows, at most `rank`, at the random state with the largest number of them."""
     best: list[int] = []
     for rows in _values(matrix):
-        kept, basis = list[int](), list[list[float]]()
+        chosen, basis = list[int](), list[list[float]]()
         for i, row in enumerate(rows):
-            rest = _without(row, basis)
-            if len(kept) < most and max(map(abs, rest)) > _ROUNDING * (max(map(abs, row)) or 1.0):
-                size = sum(x * x for x in rest) ** 0.5
-                kept.append(i)
-                basis.append([x / size for x in rest])
-        best = kept if len(kept) > len(best) else best
+            remainder = _without(row, basis)
+            if len(chosen) < rank and max(map(abs, remainder)) > _ROUNDING * (max(map(abs, row)) or 1.0):
+                size = sum(x * x for x in remainder) ** 0.5
+                chosen.append(i)
+                basis.append([x / size for x in remainder])
+        best = chosen if len(chosen) > len(best) else best
     return best
 
 
 def _without(row: Sequence[float], basis: Sequence[Sequence[float]]) -> list[float]:
-    """A row less its components along orthonormal ones, taken away twice."""
-    rest = list(row)
+    """Subtract the components along orthonormal vectors, twice against rounding."""
+    remainder = list(row)
     for _ in range(2):
-        for other in basis:
-            along = sum(x * y for x, y in zip(rest, other, strict=True))
-            rest = [x - along * y for x, y in zip(rest, other, strict=True)]
-    return rest
+        for direction in basis:
+            component = sum(x * y for x, y in zip(remainder, direction, strict=True))
+            remainder = [x - component * y for x, y in zip(remainder, direction, strict=True)]
+    return remainder

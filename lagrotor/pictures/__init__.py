@@ -1,4 +1,4 @@
-"""Diagrams and panels of the paper's figures."""
+"""Parts of the paper's figures: bodies, arrows, arcs and panels."""
 
 from typing import TYPE_CHECKING
 

@@ -1,4 +1,4 @@
-"""The figures of `lagrotor chart`, error against work, and of the error over amplitude and spins."""
+"""The figures of `lagrotor chart` (error against work), and the figure of the error over amplitude and spins."""
 
 import textwrap
 from typing import Any
@@ -13,7 +13,7 @@ from lagrotor.benchmark.runner import Benchmark, ChartPoint, Work, failure_sente
 from lagrotor.drawing.style import EXACT_COLOUR, OKABE_ITO
 
 _MARKS = "osD^vp*XP<>hd"
-# Family → what it is called, and its colour's name; in the order of the legend.
+# Family → label and name of the colour, in the order of the legend.
 _FAMILIES = {
     "closed": ("closed forms", "reddish purple"),
     "core": ("core: sympy, numpy, scipy", "blue"),
@@ -24,7 +24,7 @@ _FAMILIES = {
     "peer": ("other tools", "bluish green"),
     "trap": ("one call over the shock, which it may miss", "grey"),
 }
-_WRAP = 225  # characters of a failure on a line as wide as the figure
+_WRAP = 225  # characters per line of a failure
 _ACROSS: dict[Work, str] = {
     "seconds": "processor time of a run (s)",
     "nfev": "evaluations of the right-hand side (steps × order for fast)",
@@ -32,7 +32,7 @@ _ACROSS: dict[Work, str] = {
 
 
 def speed_chart(chart: Benchmark) -> Figure:
-    """Error against seconds and against nfev, with the front, a colour a family; under it what failed."""
+    """Draw error against seconds and evaluations, with the front, a colour per family and a list of failures."""
     failures = [
         line
         for failure in failure_sentences(chart.failures)
@@ -60,7 +60,7 @@ def speed_chart(chart: Benchmark) -> Figure:
 
 
 def _panel(axes: Axes, chart: Benchmark, work: Work) -> list[tuple[Line2D, bool]]:
-    """One panel, `work` along it; the lines of its legend, and whether each is the heading of a family."""
+    """Draw one panel; return its legend lines, each with True for the heading of a family."""
     best = [p for p in front(chart.points, work) if getattr(p, work) > 0]
     grey: dict[str, Any] = {"color": "#bbbbbb", "linewidth": 6, "alpha": 0.5}
     axes.step([getattr(p, work) for p in best], [p.error for p in best], where="post", label="front", **grey)
@@ -87,9 +87,9 @@ def _panel(axes: Axes, chart: Benchmark, work: Work) -> list[tuple[Line2D, bool]
 
 
 def _curve(axes: Axes, points: list[ChartPoint], work: Work, number: int, look: dict[str, Any]) -> Line2D:
-    """One method's curve, with its number at its most accurate point."""
-    across, errors = [getattr(p, work) for p in points], [p.error for p in points]
-    (line,) = axes.loglog(across, errors, markersize=4, linewidth=0.9, **look)
+    """Draw one method's curve, with its number at the most accurate point."""
+    costs, errors = [getattr(p, work) for p in points], [p.error for p in points]
+    (line,) = axes.loglog(costs, errors, markersize=4, linewidth=0.9, **look)
     if points:
         end = min(points, key=lambda p: p.error)
         at = getattr(end, work), end.error
@@ -98,13 +98,13 @@ def _curve(axes: Axes, points: list[ChartPoint], work: Work, number: int, look: 
 
 
 def stability_figure(useful: Usefulness) -> Figure:
-    """Error of each order over amplitude and departure from opposite spins, and the line beyond which it is no use."""
+    """Draw the error of each order over amplitude and departure from opposite spins, and the limit of use."""
     figure = Figure(figsize=(7.4, 3.9))
     panels = figure.subplots(1, len(useful.orders), sharey=True, squeeze=False)[0]
     levels = np.arange(-8, 1)
     for panel, order, errors in zip(panels, useful.orders, useful.errors, strict=True):
-        shown = np.clip(np.log10(errors), levels[0], levels[-1])
-        filled = panel.contourf(useful.amplitudes, useful.departures, shown, levels, cmap="cividis")
+        clipped = np.clip(np.log10(errors), levels[0], levels[-1])
+        filled = panel.contourf(useful.amplitudes, useful.departures, clipped, levels, cmap="cividis")
         panel.contour(
             useful.amplitudes,
             useful.departures,

@@ -1,11 +1,9 @@
-"""Run a figure's script and keep its picture.
+"""The figures of a paper: run a figure's script and save its picture.
 
-A script `figures/figNN_*.py` (one of the paper's figures) or `figures/tN_*.py` (another, by a letter and a number) defines
-`figure() -> matplotlib.figure.Figure`, the strings TITLE, CAPTION and ALT, and may define `measure() -> dict[str, float]`,
-the numbers read off it.
+A script `figures/figNN_*.py` (a figure of the paper) or `figures/tN_*.py` (any other) defines TITLE, CAPTION and ALT, and
+`figure() -> matplotlib.figure.Figure`. It may define `measure() -> dict[str, float]`, numbers read off the figure.
 
-The SVG is written in half as many characters as matplotlib's: as a PNG in a palette of 256 colours most figures are larger,
-and blurred on a good screen.
+The SVG has half as many characters as matplotlib's; a PNG with 256 colours is larger for most figures, and blurred.
 """
 
 import re
@@ -21,15 +19,15 @@ from lagrotor.errors import InputError, near
 from lagrotor.files import write_beside, write_text
 from lagrotor.paper.scripts import Scripts
 
-# The same bytes every time; pixels compressed a little less, and faster, than by default.
+# No metadata, for reproducible bytes; faster compression than by default.
 _PNG: dict[str, Any] = {"metadata": {"Software": None}, "pil_kwargs": {"compress_level": 2}}
 
 
 @dataclass(frozen=True)
 class Picture:
-    """A figure as saved: `svg` and `png` are the two files, `measured` the numbers its script reads off it.
+    """A saved figure: texts of its script, the files `svg` and `png`, and numbers `measured` by the script.
 
-    key: the paper's number, such as "17", or the name of another figure, such as "t6".
+    key: the paper's number, such as "17", or the name of another figure, such as "t6". stem: name of script and files.
     """
 
     stem: str
@@ -43,26 +41,26 @@ class Picture:
 
 
 def stems(scripts: Scripts) -> dict[str, str]:
-    """The scripts that draw figures: key → stem; the paper's by number, then those with a letter, "b1" …, "t1" …."""
+    """Return key → stem of the scripts that draw figures: the paper's by number, then others such as "b1", "t1"."""
     matches = [(re.match(r"(?:fig0*)?([a-z]?\d+)_", stem), stem) for stem in scripts.names("figures")]
     return dict(sorted(((match[1], stem) for match, stem in matches if match), key=lambda row: not row[0].isdigit()))
 
 
 def check_keys(keys: Iterable[str], scripts: Scripts) -> list[str]:
-    """The keys, each once, 07 read as 7; raises InputError for one that no script draws."""
+    """Return the keys without repetition, 07 as 7. Raises InputError for a key without a script."""
     drawn = stems(scripts)
-    wanted = list(dict.fromkeys(key.lstrip("0") or key for key in keys))
-    for key in wanted:
+    unique = list(dict.fromkeys(key.lstrip("0") or key for key in keys))
+    for key in unique:
         if key not in drawn:
             listed = ", ".join(drawn) or "none"
             raise InputError(f"figure {key!r} has no script: those drawn are {listed}{near(key, drawn)}")
-    return wanted
+    return unique
 
 
 def draw_figure(key: str, folder: Path, scripts: Scripts) -> Picture:
-    """Draw one figure of `stems()` and write `<stem>.svg` and `<stem>.png` into `folder`: the same bytes every time.
+    """Draw one figure and write `<stem>.svg` and `<stem>.png` into `folder`, reproducibly to the byte.
 
-    Raises InputError when the folder cannot be written to or a script lacks what every figure has, ScriptError where it fails.
+    Raises InputError if the folder is not writable or the script lacks a definition, ScriptError if the script fails.
     """
     from lagrotor.drawing.style import laid_out, paper_style
 
@@ -70,7 +68,7 @@ def draw_figure(key: str, folder: Path, scripts: Scripts) -> Picture:
     with paper_style():
         script = scripts.run("figures", stem)
         if lacking := [name for name in ("TITLE", "CAPTION", "ALT", "figure") if name not in script]:
-            raise InputError(f"{scripts.path('figures', stem)}: it defines no {lacking[0]}")
+            raise InputError(f"{scripts.path('figures', stem)}: it does not define {lacking[0]}")
         with laid_out(scripts.called("figures", stem, "figure")) as figure:
             drawn = StringIO()
             figure.savefig(drawn, format="svg", metadata={"Date": None})
@@ -89,12 +87,12 @@ def draw_figure(key: str, folder: Path, scripts: Scripts) -> Picture:
     )
 
 
-# Coordinates in points to a hundredth: a fortieth of a pixel on a screen of twice the usual density.
+# Digits of coordinates in points; 0.01 is 1/40 pixel on a screen of double density.
 _DECIMALS = 2
 
 
 def lean_svg(source: str) -> str:
-    """The same drawing in fewer characters: no metadata, short ids, rounded and relative coordinates."""
+    """Return the same drawing in fewer characters: no metadata, short ids, rounded and relative coordinates."""
     text = re.sub(r"<\?xml.*?\?>|<!DOCTYPE.*?>|<!--.*?-->|<metadata>.*?</metadata>", "", source, flags=re.DOTALL)
     text = re.sub(r">\s+<", "><", text.strip())
     used = set(re.findall(r'(?:href="#|url\(#)([^")]+)', text))
@@ -109,7 +107,7 @@ def lean_svg(source: str) -> str:
 
 
 def _with_classes(text: str) -> str:
-    """Name each style that stands more than once: hundreds of markers and grid lines have the same one."""
+    """Replace each repeated style by a class: hundreds of markers and grid lines share one style."""
     counts = Counter(re.findall(r' style="([^"]*)"', text))
     names = {style: f"_{i:x}" for i, (style, n) in enumerate(counts.most_common()) if n > 1}
     rules = "".join(f".{name}{{{style}}}" for style, name in names.items())
@@ -124,7 +122,7 @@ def _position(match: re.Match[str]) -> str:
 
 
 def _round_numbers(match: re.Match[str]) -> str:
-    if "scale" in match[2]:  # of letters: few, and each digit counts
+    if "scale" in match[2]:  # glyphs need all digits
         return match[0]
     numbers = re.sub(r"-?\d+\.\d+", lambda number: _short(float(number[0])), match[2])
     return f' {match[1]}="{numbers}"'
@@ -136,18 +134,18 @@ def _short(value: float) -> str:
 
 
 def _relative(path: str) -> str:
-    """A path of M, L, Q, C and z with each point relative to the one before, rounding errors not carried along."""
-    written, at, start, last = [], (0.0, 0.0), (0.0, 0.0), ""
-    for letter, rest in re.findall(r"([MLQCz])([^MLQCz]*)", path):
-        numbers = [float(number) for number in rest.split()]
+    """Return a path of M, L, Q, C and z in relative coordinates, without accumulation of rounding errors."""
+    pieces, at, start, last = [], (0.0, 0.0), (0.0, 0.0), ""
+    for letter, coordinates in re.findall(r"([MLQCz])([^MLQCz]*)", path):
+        numbers = [float(number) for number in coordinates.split()]
         if letter == "z":
-            written.append("z")
+            pieces.append("z")
             at, last = start, letter
             continue
         points = list(zip(numbers[::2], numbers[1::2], strict=True))
         steps = [(round(x - at[0], _DECIMALS), round(y - at[1], _DECIMALS)) for x, y in points]
         again = letter == last and letter != "M"
-        written.append((" " if again else letter.lower()) + " ".join(f"{_short(x)} {_short(y)}" for x, y in steps))
+        pieces.append((" " if again else letter.lower()) + " ".join(f"{_short(x)} {_short(y)}" for x, y in steps))
         at = (at[0] + steps[-1][0], at[1] + steps[-1][1])
         start, last = at if letter == "M" else start, letter
-    return "".join(written).replace(" -", "-")
+    return "".join(pieces).replace(" -", "-")

@@ -1,4 +1,4 @@
-"""The parts that figures of the paper share: bodies, arrows, arcs; runs after a shock (11 to 13, 25, 27); orbits (17 to 20)."""
+"""Parts of the paper's figures: bodies, arrows, arcs; runs after a shock (11 to 13, 25, 27); orbits (17 to 20)."""
 
 from collections.abc import Callable, Sequence
 from functools import cache
@@ -18,18 +18,21 @@ from lagrotor.numerics.rotations import Array
 from lagrotor.pair.examples import DAMPING, STEP, STIFFNESS
 from lagrotor.pair.scene import Scene
 from lagrotor.paper.rotor_pair.runs import SPECTRUM_FROM, centre_numbers, centre_off, centre_runs
+from lagrotor.renamed import accept_old_keywords
 
 
-def canvas(figure: Figure, seen: Array, room: float = 0.12) -> Axes:
-    """The figure's one panel, without axes, of equal scales, around the points seen (…, 2) with `room` (m) about them."""
+@accept_old_keywords
+def canvas(figure: Figure, points: Array, room: float = 0.12) -> Axes:
+    """Create the figure's only panel, without axes, around points (…, 2) with a margin `room` (m)."""
     axes = figure.subplots()
-    bare(axes, seen, room)
+    bare(axes, points, room)
     return axes
 
 
-def bare(axes: Axes, seen: Array, room: float = 0.12) -> None:
-    """Take the frame off a panel and fit it around the points seen (…, 2), with `room` (m) about them."""
-    low, high = seen.reshape(-1, 2).min(0) - room, seen.reshape(-1, 2).max(0) + room
+@accept_old_keywords
+def bare(axes: Axes, points: Array, room: float = 0.12) -> None:
+    """Remove the frame of a panel and fit it around points (…, 2), with a margin `room` (m)."""
+    low, high = points.reshape(-1, 2).min(0) - room, points.reshape(-1, 2).max(0) + room
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal")
     axes.axis("off")
 
@@ -37,7 +40,7 @@ def bare(axes: Axes, seen: Array, room: float = 0.12) -> None:
 def arrow(
     axes: Axes, start: ArrayLike, end: ArrayLike, colour: str = INK, width: float = 2.0, style: str = "-|>"
 ) -> None:
-    """An arrow from `start` (2,) to `end` (2,)."""
+    """Draw an arrow from `start` (2,) to `end` (2,)."""
     (x, y), (u, v) = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
     axes.add_patch(
         FancyArrowPatch((x, y), (u, v), arrowstyle=style, mutation_scale=14, color=colour, linewidth=width,
@@ -46,37 +49,37 @@ def arrow(
 
 
 def path_arrow(axes: Axes, points: Array, colour: str = INK, width: float = 1.6) -> None:
-    """A line through points (n, 2) with a head at its end: an arc that says which way."""
+    """Draw a line through points (n, 2) with an arrow head at its end."""
     axes.plot(points[:-1, 0], points[:-1, 1], color=colour, linewidth=width, zorder=4)
     arrow(axes, points[-2], points[-1], colour, width)
 
 
 def label(
-    axes: Axes, at: ArrayLike, text: str, colour: str = INK, shift: tuple[float, float] = (0, 0), **more: Any
+    axes: Axes, at: ArrayLike, text: str, colour: str = INK, shift: tuple[float, float] = (0, 0), **settings: Any
 ) -> None:
-    """Text near `at` (2,), moved by `shift` points, with a white rim so that no line runs through it."""
+    """Write text near `at` (2,), displaced by `shift` points, with a white rim that hides lines below."""
     x, y = np.asarray(at, dtype=float)
-    style: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 11, "color": colour, "zorder": 6} | more
+    style: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 11, "color": colour, "zorder": 6} | settings
     axes.annotate(text, (x, y), xytext=shift, textcoords="offset points", path_effects=HALO, **style)
 
 
 def arc(centre: ArrayLike, u: Array, v: Array, radius: float, begin: float, end: float, n: int = 41) -> Array:
-    """Points (n, 3) of centre + radius (u cos a + v sin a), a from `begin` to `end` (rad); u, v unit and orthogonal."""
+    """Return points (n, 3) of centre + radius (u cos a + v sin a), a from `begin` to `end` (rad); u, v orthonormal."""
     a = np.linspace(begin, end, n)[:, None]
     return np.asarray(centre, dtype=float) + radius * (np.cos(a) * u + np.sin(a) * v)
 
 
 def arc_between(u: Array, v: Array, radius: float, centre: ArrayLike = (0.0, 0.0, 0.0)) -> Array:
-    """Points (31, 3) of the arc of `radius` (m) about `centre` from the direction u to the direction v, unit vectors."""
+    """Return points (31, 3) of the arc of `radius` (m) about `centre` from unit vector u to unit vector v."""
     angle = float(np.arccos(np.clip(u @ v, -1, 1)))
-    across = v - (u @ v) * u
-    return arc(centre, u, across / np.linalg.norm(across), radius, 0.0, angle, 31)
+    normal = v - (u @ v) * u
+    return arc(centre, u, normal / np.linalg.norm(normal), radius, 0.0, angle, 31)
 
 
 def draw_wheel(
     axes: Axes, camera: Camera, rotation: Array, centre: Array, size: tuple[float, float], colour: str
 ) -> None:
-    """A wheel of eight spokes and (radius, axle) in m carried by a body's rotation and centre, one spoke marked."""
+    """Draw a wheel of eight spokes, one marked, with `size` (radius, axle) in m, at a body's rotation and centre."""
     points, segments = wheel(*size, 8, 8)
     placed = place_points(points, rotation, centre)
     ends = camera(placed)[segments]
@@ -89,16 +92,16 @@ def draw_wheel(
 
 
 def ground(axes: Axes, at: Sequence[ArrayLike], size: float = 9) -> None:
-    """Ground joints at points (2,)."""
+    """Mark ground joints at points (2,)."""
     for x, y in np.asarray(at, dtype=float):
         axes.plot([x], [y], "^", color=INK, markersize=size, zorder=5)
 
 
 def shock_figure(data: dict[str, Array], letter: str) -> Figure:
-    """Energy, force and centre of rotor 1 over time, as in the paper's figures 11 to 13; dashed, the exact model.
+    """Draw energy, force and centre of rotor 1 over time, as in figures 11 to 13; the exact model is dashed.
 
-    data: t (n,) in s, energy (n,) in J, force (n,) in N along `letter`, centre (n, 3) in m, exact_energy, exact_centre;
-    exact_t (m,) where the exact model ends before the run.
+    data: t (n,) in s; energy (n,) in J; force (n,) in N along `letter`; centre (n, 3) in m; exact_energy, exact_centre;
+    exact_t (m,) if the exact model ends before the run.
     """
     figure = Figure(figsize=(7.0, 7.0))
     upper, middle, lower = figure.subplots(3, 1, sharex=True, height_ratios=(1, 0.7, 1.6))
@@ -128,7 +131,7 @@ def shock_figure(data: dict[str, Array], letter: str) -> Figure:
 
 
 def shock_script(scene: Scene, letter: str) -> tuple[Callable[[], Any], Callable[[], Any], str, Callable[[], Figure]]:
-    """Return data, measure, caption and figure of a pair of opposite spins after a shock of 50 N along `letter` (12, 13)."""
+    """Return data, measure, caption and figure of a pair after a shock of 50 N along `letter` (figures 12, 13)."""
 
     @cache
     def data() -> dict[str, Array]:
@@ -138,28 +141,28 @@ def shock_script(scene: Scene, letter: str) -> tuple[Callable[[], Any], Callable
     def measure() -> dict[str, float]:
         return centre_numbers(data()) | {"centre at 10 s, off the exact model (m)": centre_off(data())}
 
-    energy, exact, x, y, z, off = measure().values()
+    energy, exact, x, y, z, distance = measure().values()
     caption = (
         f"Spring-link model by the paper's step of {STEP:g} s, S = {STIFFNESS:g} N/m and D = {DAMPING:g} kg/s (n = 20, "
         "omega_s = 10 rad/s in 4.01, as in figure 10), bar of 1 kg and 1 kg m², spins 10 and −10 rad/s, "
         f"shock 50 exp(−(50 (t − 2))²) N in {letter} on the tip of rotor 1. "
         f"Energy 100 to {energy:.3f} J (exact: {exact:.3f} J); "
         f"in 10 s x keeps within {x:.2f} m, y moves by {y:.2f} m, z by {z:.2f} m. "
-        f"Dashed: the exact model, {1000 * off:.1f} mm away at 10 s. The paper's z is 0.5 m less."
+        f"Dashed: the exact model, {1000 * distance:.1f} mm away at 10 s. The paper's z is 0.5 m less."
     )
     return data, measure, caption, lambda: shock_figure(data(), letter)
 
 
-# Where the curves of a rate can be distinguished (s): the first swings after the shock, and the last ones of the run.
+# Time spans (s) in which the curves differ visibly: first swings after the shock, last swings of the run.
 _FIRST, _LAST = (1.9, 4.0), (8.5, 10.0)
 
 
 def rate_figure(data: dict[str, Array], printed: float) -> Figure:
-    """x of tip 1 at first and at last, its residual and its spectrum, as in figures 25 and 27; `printed`: the rate, rad/s.
+    """Draw the first and last swings of tip 1 along x, its residual and spectrum, as in figures 25 and 27.
 
-    data: t (n,) in s, force (n,) in N; exact, springs, printed, corrected (n,): x of tip 1 from its start in m; rate,
-    exact_amplitude, springs_amplitude: the spectra; closed_form_rate (1,) in rad/s. The sines start with the shock; their
-    residual is shown from its end on.
+    printed: the paper's rate, rad/s. data: t (n,) in s; force (n,) in N; exact, springs, printed, corrected (n,): x of tip 1
+    from its start in m; rate, exact_amplitude, springs_amplitude: the spectra; closed_form_rate (1,) in rad/s. The sines
+    start with the shock; their residual is shown from its end on.
     """
     figure = Figure(figsize=(7.0, 8.4))
     panels = figure.subplot_mosaic(
@@ -198,19 +201,20 @@ def rate_figure(data: dict[str, Array], printed: float) -> Figure:
 
 
 def orbits_from_above(panel: Axes, wide: float, high: float) -> None:
-    """The frame of a top view of both tips: ground joints at ∓0.5 m, x within ±`wide` and y within ±`high` (m)."""
+    """Prepare a top view of both tips: ground joints at ∓0.5 m, x within ±`wide` and y within ±`high` (m)."""
     panel.plot([-0.5, 0.5], [0, 0], "s", color="#222222", ms=6, label="ground joints")
     panel.set(xlabel="x [m]", ylabel="y [m]", title="Top view", xlim=(-wide, wide), ylim=(-high, high))
     panel.set_aspect("equal")
 
 
 def over_one_turn(panel: Axes) -> None:
-    """Quarter turns on the axis of the phase."""
+    """Set quarter turns as ticks on the axis of the phase."""
     panel.set_xticks(np.arange(5) * np.pi / 2, ["0", "π/2", "π", "3π/2", "2π"])
 
 
-def distance_over_one_turn(panel: Axes, least: float, most: float) -> None:
-    """The frame of a panel for the distance of tip 1 from the exact one, from `least` to `most` (m), over the phase."""
+@accept_old_keywords
+def distance_over_one_turn(panel: Axes, least: float, greatest: float) -> None:
+    """Prepare a panel for the distance (m) of tip 1 from the exact one over the phase."""
     panel.set(xlabel="phase [rad]", ylabel="distance [m]", title="Residual: distance of tip 1 from the exact one")
-    panel.set_ylim(least, most)
+    panel.set_ylim(least, greatest)
     over_one_turn(panel)

@@ -1,14 +1,14 @@
 """Closed forms of the pair, each with its error.
 
-- `natural_frequency` and `natural_rate`: the slow rate of a pair of any two spins.
+- `natural_frequency` and `natural_rate`: the frequency of small motion of a pair of any two spins.
 - `paired_precession`: opposite spins as a periodic series (`series`), its closed forms (`closed_forms`), their errors
   (`remainder`) and its stability (`stability`). `rate_shift` has other orbits about the upright position.
 - `impulse_response` and `shock_response`: the linear response to an impulse and to a Gaussian pulse.
 - `drift_after_shock`, `averaged_motion`, `charged_particle`: opposite spins averaged over the fast precession, and
-  the slow motion of a scene that follows. `toppling` and `parallel_twist` treat motions with parallel axes.
+  the slow motion of a scene. `toppling` and `parallel_twist` treat motions with parallel axes.
 
-A `ClosedForm` (`closed_form`) joins expressions with their arguments, domain and order, and is generated as numpy
-functions. The scripts in `derivations/t….py` derive each formula; a new one comes with its script.
+A `ClosedForm` (`closed_form`) joins expressions with their arguments, domain and order, and gives numpy functions.
+A script in `derivations/` derives each formula; a new formula comes with its script.
 """
 
 from typing import TYPE_CHECKING
@@ -17,7 +17,6 @@ from lagrotor.lazy_imports import face
 
 if TYPE_CHECKING:
     from lagrotor.theory.averaged_motion import SlowMotion as SlowMotion
-    from lagrotor.theory.averaged_motion import next_brackets as next_brackets
     from lagrotor.theory.averaged_motion import slow_frequency as slow_frequency
     from lagrotor.theory.averaged_motion import slow_motion as slow_motion
     from lagrotor.theory.averaged_motion import time_to_reach as time_to_reach
@@ -46,7 +45,6 @@ if TYPE_CHECKING:
     from lagrotor.theory.paired_precession.stability import elliptic_edge as elliptic_edge
     from lagrotor.theory.paired_precession.stability import exponent_series as exponent_series
     from lagrotor.theory.paired_precession.stability import growth_squared as growth_squared
-    from lagrotor.theory.paired_precession.stability import most_growth as most_growth
     from lagrotor.theory.parallel_twist import lyapunov_criterion as lyapunov_criterion
     from lagrotor.theory.parallel_twist import parallel_scene as parallel_scene
     from lagrotor.theory.parallel_twist import twist_bounded as twist_bounded
@@ -54,10 +52,7 @@ if TYPE_CHECKING:
     from lagrotor.theory.parallel_twist import twist_growth_error as twist_growth_error
     from lagrotor.theory.parallel_twist import twist_multiplier_growth as twist_multiplier_growth
     from lagrotor.theory.rate_shift import azimuth_drift as azimuth_drift
-    from lagrotor.theory.rate_shift import drift_coefficient as drift_coefficient
     from lagrotor.theory.rate_shift import frequency_shift as frequency_shift
-    from lagrotor.theory.rate_shift import shift_coefficient as shift_coefficient
-    from lagrotor.theory.rate_shift import twist_coefficient as twist_coefficient
     from lagrotor.theory.toppling import toppling_growth as toppling_growth
     from lagrotor.theory.toppling import toppling_polynomial as toppling_polynomial
     from lagrotor.theory.toppling import toppling_threshold as toppling_threshold

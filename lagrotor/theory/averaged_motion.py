@@ -1,11 +1,11 @@
-"""The slow motion of opposite spins for a scene: its frequency beside the paired precession, and how far a shock carries x.
+"""The slow motion of opposite spins: its frequency about the paired precession, and the drift of x after a shock.
 
-The centre of the fast swing obeys, with rate g = G/(2 (a + b) k²) and W of `theory.drift_after_shock`,
+The centre (beta, eta) of the fast oscillation obeys, with rate g = G/(2 (a + b) k²) and W of `theory.drift_after_shock`,
 
     beta' = g dW/deta,    eta' = −g dW/dbeta,    W = ((eta² + (s² − p)/2)² − 3 s⁴/8)/c − kappa s² eta²,    c = cos² beta.
 
-After a shock along x alone that leaves s = eta, x turns back if (sigma − 1) k² > 3 + sqrt(3/2); for less, it grows until bar and
-axes come into line. The next order moves this threshold by the part by which it changes the slow frequency.
+After a shock along x alone, with s = eta, x turns back if (sigma − 1) k² > 3 + sqrt(3/2); otherwise it grows until bar and axes
+are in line. The next order shifts this threshold by as much as it changes the slow frequency.
 """
 
 from dataclasses import dataclass, replace
@@ -21,28 +21,34 @@ from lagrotor.theory.fitted_factors import LARGEST_SWING
 from lagrotor.theory.paired_precession.series_orbit import amplitude_of
 from lagrotor.theory.shock_response import shock_response
 
-# sin chi = sin h/(k cos beta) beyond which no expansion in it is made; upright the bar tilts by 2 chi.
+# Largest sin chi = sin h/(k cos beta) of the expansion; upright the bar tilts by 2 chi.
 FARTHEST_TWIST = 0.5
-LARGEST_SHARE = 0.5  # of the leading order, that the next one may be
-_ROUNDED = 1e-13  # part of a vector that is rounding
+LARGEST_SHARE = 0.5  # largest ratio of the next order to the leading one
+_ROUNDED = 1e-13  # relative size of a component that is rounding
 _IN_LINE = pi / 2 - 1e-3  # rad, the lean at which bar and axes count as in line
-_LONGEST = 1e4  # units of time of a motion, which takes some to grow or to turn, but beside a saddle
+_LONGEST = 1e4  # in units of the motion's time; only motions near a saddle take longer
 
 
 @dataclass(frozen=True)
 class SlowMotion:
-    """The centre (lean beta, half-angle eta, rad) of a swing of amplitude `swing` s (rad, in the half-angle).
+    """The slow motion of the centre of a fast oscillation, for opposite spins.
 
     Attributes
     ----------
+    lean : float
+        Lean beta of the centre along the joint line, in rad.
+    half : float
+        Half-angle eta between the axes at the centre, in rad.
+    swing : float
+        Amplitude s of the fast oscillation in the half-angle, in rad.
     momentum : float
-        P = k P/G.
+        Momentum about the joint line, p = k P/G, dimensionless.
     weight : float
-        Kappa = (sigma − 1) k²/2.
+        Coefficient kappa = (sigma − 1) k²/2.
     ratio : float
-        K.
+        Length ratio k = ell/R.
     rate : float
-        G = G/(2 (a + b) k²), rad/s.
+        Rate g = G/(2 (a + b) k²) in rad/s.
     """
 
     lean: float
@@ -55,22 +61,21 @@ class SlowMotion:
 
     @property
     def invariant(self) -> float:
-        """W, which is conserved."""
+        """The conserved quantity W, dimensionless."""
         y, s2, c = self.half**2, self.swing**2, cos(self.lean) ** 2
         return ((y + (s2 - self.momentum) / 2) ** 2 - 3 * s2**2 / 8) / c - self.weight * s2 * y
 
-    def slopes(self, lean: float, half: float) -> tuple[float, float]:
-        """Return (beta', eta') in rad/s at a centre."""
+    def _slopes(self, lean: float, half: float) -> tuple[float, float]:
+        """Return the rates (beta', eta') of the centre in rad/s."""
         s2, c = self.swing**2, cos(lean) ** 2
         inner = half**2 + (s2 - self.momentum) / 2
-        across = 4 * half * inner / c - 2 * self.weight * s2 * half
-        return self.rate * across, -2 * self.rate * tan(lean) / c * (inner**2 - 3 * s2**2 / 8)
+        half_slope = 4 * half * inner / c - 2 * self.weight * s2 * half
+        return self.rate * half_slope, -2 * self.rate * tan(lean) / c * (inner**2 - 3 * s2**2 / 8)
 
-    def until(self, lean: float) -> tuple[float, float, float]:
-        """Return the time (s), |beta| and eta when |beta| has grown to `lean` (rad), or where it turns back before.
+    def _until(self, lean: float) -> tuple[float, float, float]:
+        """Return the time (s), |beta| and eta when |beta| reaches `lean` (rad) or turns back; the time is inf if it turns back.
 
-        The time is infinite where |beta| turns back, and beside a saddle, which is followed for 10⁴ units of time. Beyond
-        beta = 0 the motion goes on as its mirror image.
+        Near a saddle the integration stops after 10⁴ units of time. Beyond beta = 0 the motion continues as its mirror image.
         """
         from scipy.integrate import solve_ivp
         from scipy.optimize import brentq
@@ -83,60 +88,62 @@ class SlowMotion:
         unit = abs(self.rate) * scale**3
 
         def rhs(_: float, y: Any) -> list[float]:
-            c = cos(y[0])  # of a time that runs slower by c³ than t, for rates that stay finite where c vanishes
-            along, across = self.slopes(y[0], scale * y[1])
-            return [along * c**3 / unit, across * c**3 / (unit * scale), c**3]
+            c = cos(y[0])  # the time is scaled by c³, so that rates stay finite where c vanishes
+            lean_rate, half_rate = self._slopes(y[0], scale * y[1])
+            return [lean_rate * c**3 / unit, half_rate * c**3 / (unit * scale), c**3]
 
-        def there(_: float, y: Any) -> float:
+        def reached(_: float, y: Any) -> float:
             return abs(y[0]) - lean
 
         def turning(_: float, y: Any) -> float:
             return float(y[0] * rhs(0.0, y)[0])
 
-        there.terminal = turning.terminal = True  # type: ignore[attr-defined]
+        reached.terminal = turning.terminal = True  # type: ignore[attr-defined]
         turning.direction = -1  # type: ignore[attr-defined]
-        run = solve_ivp(
-            rhs,
-            (0, _LONGEST),
-            (self.lean, self.half / scale, 0.0),
-            "DOP853",
-            events=(there, turning),
-            dense_output=True,
-            rtol=1e-9,
-            atol=1e-30,
-        )
+        options = {"events": (reached, turning), "dense_output": True, "rtol": 1e-9, "atol": 1e-30}
+        run = solve_ivp(rhs, (0, _LONGEST), (self.lean, self.half / scale, 0.0), "DOP853", **options)
         end = run.t[-1]
-        if not len(run.t_events[0]) and there(end, run.y[:, -1]) > 0:  # reached and left again within the last step
-            end = brentq(lambda t: there(t, run.sol(t)), *run.t[-2:])
+        if not len(run.t_events[0]) and reached(end, run.y[:, -1]) > 0:  # reached and left again within the last step
+            end = brentq(lambda t: reached(t, run.sol(t)), *run.t[-2:])
         beta, eta, time = run.sol(end).tolist()
         return (time / unit if end < run.t[-1] or len(run.t_events[0]) else inf), abs(beta), scale * eta
 
-    def time_to(self, lean: float) -> float:
-        """Return the time (s) until |beta| grows to `lean` (rad); inf where it does not get there."""
-        return self.until(lean)[0]
-
     @property
     def farthest(self) -> float:
-        """The largest |beta| of the motion (rad), pi/2 where it does not turn back."""
-        time, lean, _ = self.until(_IN_LINE)
+        """The largest |beta| of the motion in rad; pi/2 if it does not turn back."""
+        time, lean, _ = self._until(_IN_LINE)
         return lean if time == inf else pi / 2
 
-    def twist(self, lean: float, half: float) -> float:
-        """Return the largest sin chi in a swing about a centre, chi the turn of the plane of the axes about their mean."""
+    def _twist(self, lean: float, half: float) -> float:
+        """Return the largest sin chi in an oscillation about a centre; chi is the rotation of the plane of the axes."""
         return (abs(half) + self.swing) / (self.ratio * cos(lean))
 
 
 def slow_motion(scene: Scene) -> SlowMotion:
-    """Return the slow motion after the scene's shock of opposite spins from rest upright.
+    """Return the slow motion of opposite spins after the scene's shock, from rest upright.
 
-    The pulse leaves the centre (x, (y_1 − y_2)/2) of the linear response, its swing s in (y_1 − y_2)/2, and P = −p_y.
+    The linear response gives the centre (x, (y_1 − y_2)/2), the amplitude s in (y_1 − y_2)/2, and P = −p_y.
+
+    Parameters
+    ----------
+    scene : Scene
+        Opposite spins with a bar and a shock.
+
+    Returns
+    -------
+    SlowMotion
+        The motion of leading order in the shock.
 
     Raises
     ------
     InputError
-        As `shock_response`, and unless the spins are opposite.
+        Unless opposite spins with a bar and a shock start at rest upright.
     DomainError
         Where |eta| + s > 0.4.
+
+    References
+    ----------
+    derivations/t11_slow_motion.py.
     """
     response = shock_response(scene)
     if scene.spins[0] != -scene.spins[1] or scene.spins[0] == 0:
@@ -146,7 +153,7 @@ def slow_motion(scene: Scene) -> SlowMotion:
         return float(vector[1] - vector[2]) / 2
 
     swing, apart = hypot(half(response.cosine), half(response.sine)), half(response.displacement)
-    if abs(apart) < _ROUNDED * hypot(*response.displacement, swing):  # a shock along y starts where beta turns
+    if abs(apart) < _ROUNDED * hypot(*response.displacement, swing):  # a shock along y starts where beta' = 0
         apart = 0.0
     if not abs(apart) + swing <= LARGEST_SWING.value:
         raise DomainError(
@@ -163,27 +170,43 @@ def _motion(scene: Scene, lean: float, half: float, swing: float, momentum: floa
 
 
 def time_to_reach(scene: Scene, x: float) -> float:
-    """Return the time (s) from the peak of the scene's shock until the mean |x| of opposite spins reaches `x`.
+    """Return the time from the peak of the shock until the mean |x| of opposite spins reaches a value.
 
-    It is inf where x turns back before. Of the averaged motion, to leading order in the shock at any x; the relative error is of
-    second order in it, and `lagrotor.models.time_to_reach_error` measures it.
+    The averaged motion is of leading order in the shock at any x; the relative error is of second order, and
+    `lagrotor.models.time_to_reach_error` measures it.
+
+    Parameters
+    ----------
+    scene : Scene
+        Opposite spins with a bar and a shock.
+    x : float
+        Value of |x| between 0 and 1.
+
+    Returns
+    -------
+    float
+        Time in s; inf if x turns back before.
 
     Raises
     ------
     InputError
-        As `slow_motion`.
+        Unless opposite spins with a bar and a shock start at rest upright.
     DomainError
-        As `slow_motion`, unless 0 < x < 1, where the pair comes to twist by more than 30 degrees before,
-        sin chi = (|eta| + s)/(k sqrt(1 − x²)), and where x turns back before but `turns_back` refuses to say so.
+        Unless 0 < x < 1; for |eta| + s > 0.4; for a twist above 30 degrees, sin chi = (|eta| + s)/(k sqrt(1 − x²)); and where
+        `turns_back` cannot decide.
+
+    References
+    ----------
+    derivations/t11_slow_motion.py.
     """
     if not 0 < finite_number(x, "time_to_reach: x", "1") < 1:
         raise DomainError(f"time_to_reach: x = {x:g} must lie between 0 and 1")
     motion = slow_motion(scene)
-    time, _, half = motion.until(asin(x))
+    time, _, half = motion._until(asin(x))
     if time == inf:
-        turns_back(scene)  # which refuses where the next order decides
+        turns_back(scene)  # raises DomainError where the next order decides
         return time
-    twist = motion.twist(asin(x), max(abs(half), abs(motion.half)))
+    twist = motion._twist(asin(x), max(abs(half), abs(motion.half)))
     if twist > FARTHEST_TWIST:
         raise DomainError(
             f"time_to_reach: at x = {x:g} the pair twists by {np.degrees(asin(min(1.0, twist))):.0f}°, more than 30°: take a "
@@ -193,36 +216,55 @@ def time_to_reach(scene: Scene, x: float) -> float:
 
 
 def turns_back(scene: Scene) -> bool:
-    """Return whether the mean x of opposite spins stays bounded after the scene's shock: it turns back, again and again.
+    """Return True if the mean x of opposite spins stays bounded after the scene's shock.
 
-    Of the averaged motion. To leading order it does after a shock along x, which leaves eta = p_x/(2 G) and s = A |eta|, if
+    To leading order it does after a shock along x, with eta = p_x/(2 G) and s = A |eta|, if
 
         (sigma − 1) k² > 1 + 2/A² + sqrt(3/2),
 
-    3 + sqrt(3/2) for a short pulse. Below it x grows, at least until the pair twists by 30 degrees, the end of the expansion.
+    3 + sqrt(3/2) for a short pulse. Otherwise x grows, at least until a twist of 30 degrees, the limit of the expansion.
+
+    Parameters
+    ----------
+    scene : Scene
+        Opposite spins with a bar and a shock.
+
+    Returns
+    -------
+    bool
+        True if x turns back again and again.
 
     Raises
     ------
     InputError
-        As `slow_motion`.
+        Unless opposite spins with a bar and a shock start at rest upright.
     DomainError
-        As `slow_motion`, where the pair twists by more than 30 degrees from the start or before x turns back, and
-        beside the threshold, where twice the next order's part of the slow frequency could decide it.
+        For |eta| + s > 0.4; for a twist above 30 degrees; and so near the threshold that twice the next order could decide.
+
+    References
+    ----------
+    derivations/t11_slow_motion.py.
+
+    Examples
+    --------
+    >>> from lagrotor import Link, Scene, Shock
+    >>> shock = Shock((100, 0, 0), at=1.0, width=0.01)
+    >>> [turns_back(Scene((20, -20), link=link, shock=shock)) for link in (Link(1.0), Link(1.0, 50.0))]
+    [False, True]
     """
     motion = slow_motion(scene)
     size = motion.swing**2 + motion.half**2
     share = 2 * _next_share(size, motion.momentum - size, scene.sigma, motion.ratio**2) if size else 0.0
-    more = share * max(1.0, abs(motion.weight))
-    endings = [replace(motion, weight=motion.weight + change).until(_IN_LINE) for change in (0.0, more, -more)]
+    margin = share * max(1.0, abs(motion.weight))
+    endings = [replace(motion, weight=motion.weight + change)._until(_IN_LINE) for change in (0.0, margin, -margin)]
     time, lean, half = endings[0]
-    if motion.twist(motion.lean, motion.half) > FARTHEST_TWIST or (
-        time == inf and motion.twist(lean, half) > FARTHEST_TWIST
-    ):
+    twist_before = motion._twist(lean, half) if time == inf else 0.0
+    if max(motion._twist(motion.lean, motion.half), twist_before) > FARTHEST_TWIST:
         raise DomainError(
             "turns_back: the pair twists by more than 30° from the start or before x turns back: take a smaller shock, or run it "
             "with lagrotor.simulate"
         )
-    if len({one[0] == inf for one in endings}) > 1:
+    if len({ending[0] == inf for ending in endings}) > 1:
         raise DomainError(
             "turns_back: so near the threshold the next order of the averaged motion decides: take a smaller shock, or run it "
             "with lagrotor.simulate"
@@ -231,19 +273,7 @@ def turns_back(scene: Scene) -> bool:
 
 
 def next_brackets(s2: Any, d: Any, sigma: Any, k2: Any) -> tuple[Any, Any]:
-    """Return (F_6, L_4) of `slow_frequency`, of numbers or symbols.
-
-    Parameters
-    ----------
-    s2
-        S² = sigma r0².
-    d
-        The push.
-    sigma
-        Shape of the bar.
-    k2
-        K².
-    """
+    """Return F_6 and L_4 of `slow_frequency`, of numbers or symbols; s2 = sigma r0², d = k momentum/G, k2 = k²."""
     cubic = (3 / sigma + 10 - 8 * sigma) * k2 - 12, 8 * k2 / sigma + 14, (4 / sigma + 2) * k2 + 8
     square = (8 / sigma + 15 - 54 * sigma + 31 * sigma**2) * k2 + 6 / sigma - 21 + 51 * sigma
     F_6 = s2 * (cubic[0] * s2**2 - cubic[1] * d * s2 - cubic[2] * d**2) / (4 * k2)
@@ -252,13 +282,13 @@ def next_brackets(s2: Any, d: Any, sigma: Any, k2: Any) -> tuple[Any, Any]:
 
 
 def _next_share(s2: float, d: float, sigma: float, k2: float) -> float:
-    """Return how large the next order of the slow frequency is beside the leading one with all its terms positive."""
+    """Return the ratio of the next order of the slow frequency to the leading one with positive terms."""
     sizes = 1.5 * s2**2 + d**2, abs(d) + max(1.0, abs(sigma - 1) * k2 / 2) * s2
     return max((abs(n) / size for n, size in zip(next_brackets(s2, d, sigma, k2), sizes, strict=True) if n), default=0)
 
 
 def slow_frequency(scene: Scene, r0: float, momentum: float = 0.0) -> complex:
-    """Return the slow angular frequency (rad/s) beside the paired precession of amplitude r0: imaginary where the motion grows.
+    """Return the slow angular frequency about the paired precession of amplitude r0.
 
     With s² = sigma r0², d = k momentum/G, kappa = (sigma − 1) k²/2 and g = G/(2 (a + b) k²),
 
@@ -269,26 +299,40 @@ def slow_frequency(scene: Scene, r0: float, momentum: float = 0.0) -> complex:
         48 k² L_4 = 12 (k²/sigma − k² + 4) d² − 48 (k²/sigma − 2) d s²
                     − (8 k⁴/sigma + 15 k⁴ − 54 k⁴ sigma + 31 k⁴ sigma² + 6 k²/sigma − 21 k² + 51 k² sigma) s⁴.
 
-    The relative error of a bracket is of fourth order in r0 where r0² and d are small alike; that of the frequency, which
-    `lagrotor.models.slow_frequency_error` measures, is large where a bracket nearly vanishes.
+    The relative error of a bracket is O(r0⁴) for d of order r0²; `lagrotor.models.slow_frequency_error` measures the error of
+    the frequency, which is large where a bracket nearly vanishes.
 
     Parameters
     ----------
     scene : Scene
-        With opposite spins and a bar.
+        Opposite spins with a bar.
     r0 : float
-        Sine of the inclination at the moments when the axes are parallel, with the push.
+        Sine of the inclination at the moments of parallel axes.
     momentum : float, default 0.0
-        P about the joint line (kg m²/s) less that of the exact paired precession of this r0: a push, by which the pair
-        turns. That of the precession is G s²/k to leading order only; with P less G s²/k the law is off at the next order.
+        Momentum about the joint line in kg m²/s, relative to the exact paired precession of this r0; a push adds it. The
+        leading order G s²/k of the precession's momentum is not accurate enough here.
+
+    Returns
+    -------
+    complex
+        Frequency in rad/s; imaginary if the motion grows.
 
     Raises
     ------
     InputError
         Unless the spins are opposite and there is a bar.
     DomainError
-        Where F_6 and L_4 are more than half of what F and L are with all their leading terms positive, and s² for
-        kappa s² where that is larger.
+        Where the next order exceeds half of the leading one with positive terms.
+
+    References
+    ----------
+    derivations/t11_slow_motion.py.
+
+    Examples
+    --------
+    >>> from lagrotor import Link, Scene
+    >>> round(slow_frequency(Scene(spins=(10, -10), link=Link(1.0, 1.0, 0.1)), r0=0.1).real, 5)
+    0.00139
     """
     amplitude = amplitude_of(r0, "slow_frequency")
     push = finite_number(momentum, "slow_frequency: momentum", "kg m²/s")
@@ -296,7 +340,7 @@ def slow_frequency(scene: Scene, r0: float, momentum: float = 0.0) -> complex:
         raise InputError(f"slow_frequency: {scene!r} needs a bar and opposite spins")
     sigma, k2 = scene.sigma, scene.k**2
     s2, d = sigma * amplitude**2, push * scene.k / scene.momenta[0]
-    one = _motion(scene, 0.0, 0.0, sqrt(s2), 0.0)
+    motion = _motion(scene, 0.0, 0.0, sqrt(s2), 0.0)
     share, (F_6, L_4) = _next_share(s2, d, sigma, k2), next_brackets(s2, d, sigma, k2)
     if not share <= LARGEST_SHARE:
         raise DomainError(
@@ -304,5 +348,5 @@ def slow_frequency(scene: Scene, r0: float, momentum: float = 0.0) -> complex:
             f"sigma = {sigma:.3g} the next order is {share:.2g} of the leading one, more than {LARGEST_SHARE:g}; use "
             "lagrotor.floquet"
         )
-    squared = (1.5 * s2**2 - d**2 + F_6) * (d + one.weight * s2 + L_4)
-    return abs(one.rate) * complex(squared) ** 0.5
+    squared = (1.5 * s2**2 - d**2 + F_6) * (d + motion.weight * s2 + L_4)
+    return abs(motion.rate) * complex(squared) ** 0.5

@@ -1,21 +1,21 @@
-"""The guiding centre about which the pair swings, for any two spins, bar, lean and twist, and the path that it takes.
+"""The guiding centre about which the pair oscillates, for any two spins, bar, lean and twist, and its path.
 
 With the spins eliminated the pair is a charged particle in three dimensions, q = (beta, h, alpha) of `leaning_lagrangian`,
 
     L = q'·M q'/2 + g·q',    f = curl g,
 
-of mass M in the field f that the spins make, and nothing else acts. At rest it stays anywhere; a push along the field carries
-it on, one across makes it swing, at the rate Omega of the place. The swing's energy over that rate, J, is the adiabatic
-invariant, and the centre Q, with the speed u along the unit vector b of the field, obeys to leading order in the motion
+of mass matrix M in the field f of the spins, without other forces. It can rest anywhere. A push along the field carries it on;
+a push perpendicular to the field makes it oscillate at the local rate Omega. The oscillation's energy over that rate, J, is the
+adiabatic invariant. The centre Q, with the speed u along the unit vector b of the field, obeys to leading order
 
     L = (g + u b)·Q' − H,    H = J Omega + u²/2,    Omega² = f·M f/det M,    b = M f/sqrt(f·M f),
     Q' = (u B + b × J grad Omega)/(b·B),    u' = −J B·grad Omega/(b·B),    B = f + u curl b.
 
-alpha is cyclic: P = g_alpha + u b_alpha stays, and with H gives the path of (beta, h) without integration,
+alpha is cyclic: P = g_alpha + u b_alpha is conserved, and with H gives the path of (beta, h) without integration,
 
     J Omega + (P − g_alpha)²/(2 b_alpha²) = H,    g_alpha = (G_1 + G_2) sin beta cos h + (G_1 − G_2) sin² h/k.
 
-So a slow pair keeps to the line g_alpha = P, and turns back on it where J Omega has grown to H.
+So a slow pair follows the line g_alpha = P, and turns back on it where J Omega reaches H.
 
 Derived in derivations/t14_guiding_centre.py. Northrop, The Adiabatic Motion of Charged Particles, 1963; Littlejohn,
 J. Plasma Phys. 29 (1983) 111, in flat space.
@@ -37,17 +37,17 @@ from lagrotor.theory.fitted_factors import LARGEST_SWING
 if TYPE_CHECKING:
     import sympy as sp
 
-_IN_LINE = 0.999  # sin(h)/(k cos beta), beyond which the bar lies across the joint line no more: the coordinates end
-_LOCAL = 1e-9, 1e-12  # of the path's integration
+_IN_LINE = 0.999  # largest sin(h)/(k cos beta): at 1 the coordinates are singular
+_LOCAL = 1e-9, 1e-12  # relative and absolute tolerance of the path
 
 
 class _Place(NamedTuple):
-    """At a place: M (3, 3), g_alpha, f and b (3,), curl b (3,), Omega and its gradient (3,)."""
+    """M (3, 3), g_alpha, f and its direction b (3,), curl b (3,), Omega and its gradient (3,) at a place."""
 
     mass: Array
     flux: float
     field: Array
-    along: Array
+    direction: Array
     curl: Array
     rate: float
     gradient: Array
@@ -55,7 +55,19 @@ class _Place(NamedTuple):
 
 @dataclass(frozen=True)
 class GuidingCentre:
-    """A guiding centre: place (beta, h, alpha) in rad, speed u along the field ((kg m²)^(1/2)/s), action J (kg m²/s)."""
+    """A guiding centre of the pair.
+
+    Attributes
+    ----------
+    scene : Scene
+        The scene, with its start at time 0.
+    place : tuple[float, float, float]
+        Lean beta, half-angle h and azimuth alpha in rad.
+    speed : float
+        Speed u along the field in (kg m²)^(1/2)/s.
+    action : float
+        Adiabatic invariant J in kg m²/s.
+    """
 
     scene: Scene
     place: tuple[float, float, float]
@@ -64,20 +76,30 @@ class GuidingCentre:
 
     @property
     def energy(self) -> float:
-        """H = J Omega + u²/2 (J)."""
+        """The energy H = J Omega + u²/2 in J."""
         return self.action * _at(self.scene, *self.place[:2]).rate + self.speed**2 / 2
 
     def path(self, t: ArrayLike) -> Array:
-        """Return (beta, h, alpha) in rad at ascending times t (n,) in s after the scene's start: (n, 3), to leading order.
+        """Integrate the path of the centre, to leading order.
 
-        No bound of what is left is known; `lagrotor.models.guiding_centre_error` measures it on the exact motion.
+        No error bound is known; `lagrotor.models.guiding_centre_error` measures the error on the exact motion.
+
+        Parameters
+        ----------
+        t : array_like
+            Ascending times in s after the scene's start, shape (n,).
+
+        Returns
+        -------
+        ndarray
+            The angles (beta, h, alpha) in rad, shape (n, 3).
 
         Raises
         ------
         InputError
-            Unless the times are finite, ascending and not before 0.
+            Unless the times are finite, ascending and not negative.
         DomainError
-            Where the bar comes into line with an axis before.
+            When the bar comes into line with an axis before.
         """
         from scipy.integrate import solve_ivp
 
@@ -88,10 +110,10 @@ class GuidingCentre:
         def rhs(_: float, y: Array) -> Array:
             try:
                 at = _at(self.scene, y[0], y[1])
-            except DomainError:  # of a trial: the step is made smaller
+            except DomainError:  # in a trial step, which the solver then shortens
                 return np.full(4, np.nan)
             B, pull = at.field + y[3] * at.curl, self.action * at.gradient
-            return np.append(y[3] * B + np.cross(at.along, pull), -(B @ pull)) / (at.along @ B)
+            return np.append(y[3] * B + np.cross(at.direction, pull), -(B @ pull)) / (at.direction @ B)
 
         def in_line(_: float, y: Array) -> float:
             return _IN_LINE * self.scene.k * float(np.cos(y[0])) - abs(float(np.sin(y[1])))
@@ -108,17 +130,31 @@ class GuidingCentre:
 
 
 def guiding_centre(scene: Scene) -> GuidingCentre:
-    """The guiding centre of the scene's start, of any two spins that are not opposite: leading order in the motion.
+    """Return the guiding centre of the scene's start, for spins that are not opposite, to leading order in the motion.
 
-    Over the time in which it goes some finite way its path is off by an angle of first order in the amplitude of the swing.
+    While the centre moves a finite distance, the error of its path is of first order in the amplitude of the oscillation.
+
+    Parameters
+    ----------
+    scene : Scene
+        Two spins with a bar and no shock.
+
+    Returns
+    -------
+    GuidingCentre
+        The centre at time 0.
 
     Raises
     ------
     InputError
-        Without a bar or spin, with a shock, and for opposite spins: near upright the rate of their swing is the
-        same everywhere, so that the next order counts (`slow_motion`).
+        Without a bar or spin, with a shock, and for opposite spins, whose uniform rate near upright makes the next order count
+        (`slow_motion`).
     DomainError
-        Where the swing exceeds 0.4 rad, or the bar is in line with an axis.
+        Where the oscillation exceeds 0.4 rad, or the bar is in line with an axis.
+
+    References
+    ----------
+    derivations/t14_guiding_centre.py.
     """
     if not isinstance(scene, Scene) or scene.link is None or scene.shock is not None or sum(scene.spins) == 0:
         raise InputError(f"guiding_centre: {scene!r} needs a bar, spins that are not opposite, and no shock")
@@ -130,32 +166,56 @@ def guiding_centre(scene: Scene) -> GuidingCentre:
             f"guiding_centre: the pair swings by {np.linalg.norm(swing):.3g} rad, beyond {LARGEST_SWING.value:g}: it has no "
             "centre near; take a smaller motion, or lagrotor.simulate"
         )
-    speed = float(at.along @ velocity)
+    speed = float(at.direction @ velocity)
     action = (float(velocity @ at.mass @ velocity) - speed**2) / (2 * at.rate)
     return GuidingCentre(scene, tuple(place + swing), speed, action)
 
 
 def leaning_state(scene: Scene) -> tuple[Array, Array]:
-    """(beta, h, alpha) of a scene's start and their rates, (3,) each: see `leaning_frame`."""
+    """Return the coordinates of `leaning_frame` at a scene's start, and their rates.
+
+    Parameters
+    ----------
+    scene : Scene
+        A scene with a bar.
+
+    Returns
+    -------
+    tuple[ndarray, ndarray]
+        The angles (beta, h, alpha) in rad and the rates in rad/s, shape (3,) each.
+
+    References
+    ----------
+    derivations/t14_guiding_centre.py.
+    """
     (r1, r2), (v1, v2) = np.array(scene.axes), np.array(scene.rates)
     height = np.linalg.norm(r1 + r2) / 2  # cos h
     mean, apart = (r1 + r2) / (2 * height), (r2 - r1) / 2
     beta, alpha = np.arcsin(mean[0]), np.arctan2(-mean[1], mean[2])
     c, s = np.cos(alpha), np.sin(alpha)
     lean = np.array([np.cos(beta), np.sin(beta) * s, -np.sin(beta) * c])
-    across = np.array([0.0, -c, -s])
-    sine = np.copysign(np.linalg.norm(apart), apart @ across)
+    normal = np.array([0.0, -c, -s])
+    sine = np.copysign(np.linalg.norm(apart), apart @ normal)
     tilt = -sine / (scene.k * np.cos(beta))
-    turned = (v1 + v2) / (2 * height)
-    turned -= mean * (mean @ turned)
-    half = (across * np.sqrt(1 - tilt**2) + lean * tilt) @ (v2 - v1) / (2 * height)
-    return np.array([beta, np.arctan2(sine, height), alpha]), np.array(
-        [lean @ turned, half, across @ turned / np.cos(beta)]
-    )
+    mean_rate = (v1 + v2) / (2 * height)
+    mean_rate -= mean * (mean @ mean_rate)
+    half = (normal * np.sqrt(1 - tilt**2) + lean * tilt) @ (v2 - v1) / (2 * height)
+    rates = lean @ mean_rate, half, normal @ mean_rate / np.cos(beta)
+    return np.array([beta, np.arctan2(sine, height), alpha]), np.array(rates)
 
 
 def leaning_field() -> "tuple[sp.Matrix, sp.Matrix]":
-    """M (3, 3) and g (3, 1) of the spin-reduced pair L = q'·M q'/2 + g·q' in (beta, h, alpha)."""
+    """Derive M and g of the spin-reduced pair, L = q'·M q'/2 + g·q' in (beta, h, alpha).
+
+    Returns
+    -------
+    tuple[Matrix, Matrix]
+        The mass matrix M in kg m², shape (3, 3), and the vector potential g in kg m²/s, shape (3, 1).
+
+    References
+    ----------
+    derivations/t14_guiding_centre.py.
+    """
     from lagrotor.algebra import hessian
     from lagrotor.mechanics.lagrangian import gradient
     from lagrotor.pair.lagrangians import leaning_lagrangian
@@ -167,7 +227,7 @@ def leaning_field() -> "tuple[sp.Matrix, sp.Matrix]":
 
 @generated(((),))
 def _field_functions() -> str:
-    """(beta, h, a, b, k, G_1, G_2) → M, f and their derivatives by beta and by h, and g_alpha: 37 numbers."""
+    """Generate (beta, h, a, b, k, G_1, G_2) → M, f, their derivatives by beta and by h, and g_alpha: 37 numbers."""
     import sympy as sp
 
     from lagrotor.numerics.codegen import Program
@@ -175,8 +235,8 @@ def _field_functions() -> str:
     from lagrotor.pair.notation import G_1, G_2, LEANING, a, b, k
 
     (beta, h, _), (M, g) = LEANING.q, leaning_field()
-    parts = [*M, g[2].diff(h), -g[2].diff(beta), g[1].diff(beta) - g[0].diff(h)]
-    outputs = [*parts, *(e.diff(s) for s in (beta, h) for e in parts), sp.expand(g[2])]
+    values = [*M, g[2].diff(h), -g[2].diff(beta), g[1].diff(beta) - g[0].diff(h)]
+    outputs = [*values, *(e.diff(s) for s in (beta, h) for e in values), sp.expand(g[2])]
     return program_source(Program((beta, h, a, b, k, G_1, G_2), (), tuple(outputs)))
 
 
@@ -188,14 +248,14 @@ def _at(scene: Scene, beta: float, h: float) -> _Place:
             "lagrotor.simulate"
         )
     *numbers, flux = _field_functions()(beta, h, *scene.inertias, scene.k, *scene.momenta)
-    parts = np.array(numbers).reshape(3, 12)
-    (M, *M_slopes), (f, *f_slopes) = parts[:, :9].reshape(3, 3, 3), parts[:, 9:]
+    blocks = np.array(numbers).reshape(3, 12)
+    (M, *M_slopes), (f, *f_slopes) = blocks[:, :9].reshape(3, 3, 3), blocks[:, 9:]
     size, det = sqrt(f @ M @ f), float(np.linalg.det(M))
-    along, rate = M @ f / size, size / sqrt(det)
+    direction, rate = M @ f / size, size / sqrt(det)
     gradient, slopes = np.zeros(3), np.zeros((3, 3))
     for i, (dM, df) in enumerate(zip(M_slopes, f_slopes, strict=True)):
         log_size = (f @ dM @ f / 2 + f @ M @ df) / size**2
         gradient[i] = rate * (log_size - np.trace(np.linalg.solve(M, dM)) / 2)
-        slopes[i] = (dM @ f + M @ df) / size - along * log_size
+        slopes[i] = (dM @ f + M @ df) / size - direction * log_size
     curl = np.array([slopes[1, 2], -slopes[0, 2], slopes[0, 1] - slopes[1, 0]])
-    return _Place(M, float(flux), f, along, curl, rate, gradient)
+    return _Place(M, float(flux), f, direction, curl, rate, gradient)

@@ -17,17 +17,42 @@ from lagrotor.numerics.codegen import Program
 from lagrotor.numerics.printers import compile_program, in_blocks, program_source
 from lagrotor.pair.notation import GLOSSARY
 
-# From the arguments, each (n,): estimated bounds of the errors, (outputs, n) or what broadcasts to it.
 _Bound = Callable[..., Array]
 
 
 @dataclass(frozen=True)
 class ClosedForm:
-    """Expressions of `arguments`, valid under `assumptions` where every condition of `domain` holds.
+    """Expressions with their arguments and domain. A call with numbers or arrays in the order of `arguments` evaluates them.
 
-    `order`: through which power of `small` a series is right; None for an exact form. `source`: the paper's equation.
-    Called with numbers or arrays in the order of `arguments` it returns the expressions' values, broadcast; `error` takes
-    the same arguments. `bound`: of a series, the errors' bounds for arguments (n,) each.
+    Attributes
+    ----------
+    name : str
+        Name of the form in messages.
+    outputs : tuple[str, ...]
+        Name of each output.
+    expressions : tuple[Expr, ...]
+        Expression of each output.
+    arguments : tuple[Symbol, ...]
+        Symbols of the arguments; units as in `lagrotor.pair.notation`.
+    domain : tuple[Basic, ...]
+        Conditions that the arguments must satisfy.
+    assumptions : str
+        Physical assumptions in words.
+    source : str
+        Equation or section of the paper.
+    order : int, optional
+        Power of `small` through which a series is correct; None for an exact form.
+    small : Symbol, optional
+        The expansion parameter of a series.
+    bound : callable, optional
+        Function from arguments, shape (n,) each, to bounds of the errors, shape (outputs, n) after broadcasting.
+
+    Examples
+    --------
+    >>> from lagrotor import paired_frequency
+    >>> form = paired_frequency(3)
+    >>> form.arguments, round(float(form(0.2, 1.0, 1.0)), 12)
+    ((r_0, sigma, k), 0.99)
     """
 
     name: str
@@ -43,7 +68,7 @@ class ClosedForm:
 
     @cached_property
     def _functions(self) -> tuple[Callable[..., Any], Callable[..., Any]]:
-        """Of the arguments: the outputs, and whether each condition of the domain holds."""
+        """The functions from arguments to the outputs, and to the truth of each condition of the domain."""
         units = ", ".join(f"{s} [{GLOSSARY[s].unit}]" if s in GLOSSARY else str(s) for s in self.arguments)
         doc = f"{self.name}({units}) -> {', '.join(self.outputs)}"
         conditions = Program(self.arguments, (), self.domain)
@@ -54,7 +79,18 @@ class ClosedForm:
         return Program(self.arguments, (), self.expressions)
 
     def code(self, module: str = "math") -> str:
-        """Source of the function arguments → list of outputs, without the conditions of the domain."""
+        """Generate source code of the function from arguments to a list of outputs, without checks of the domain.
+
+        Parameters
+        ----------
+        module : str, default 'math'
+            Module of the elementary functions, 'math' or 'numpy'.
+
+        Returns
+        -------
+        str
+            Python source.
+        """
         return program_source(self._program, module)
 
     def _repr_latex_(self) -> str:
@@ -64,33 +100,39 @@ class ClosedForm:
         return rf"$\displaystyle \begin{{aligned}} {lines} \end{{aligned}}$"
 
     def __call__(self, *values: ArrayLike) -> Array | tuple[Array, ...]:
-        """The outputs at these argument values: one array, or a tuple where there are several outputs.
+        """Return the outputs, one array or a tuple of arrays.
 
-        Raises InputError for a wrong number of arguments, DomainError where a value is outside the domain.
+        Raises InputError for a wrong number of arguments, DomainError for a value outside the domain.
         """
         flat, shape = self._check_arguments(values)
         rows = in_blocks(self._functions[0], flat, len(self.outputs), prod(shape))
         return self._in_shape(rows, shape)
 
     def error(self, *values: ArrayLike) -> Array | tuple[Array, ...]:
-        """Bounds of the outputs' errors at these argument values, in the form of the outputs; rounding is not counted.
+        """Compute bounds of the errors of the outputs, without rounding.
 
-        Zero for an exact form (order None), under its assumptions.
+        Parameters
+        ----------
+        *values : array_like
+            The arguments in the order of `arguments`.
+
+        Returns
+        -------
+        ndarray or tuple[ndarray, ...]
+            Bounds in the form of the outputs; zero for an exact form.
 
         Raises
         ------
         InputError
-            As a call does, and for a series of which no bound is known.
+            For a wrong number of arguments, and for a series without a known bound.
         DomainError
-            As a call does, and where the series is beyond its range.
+            Outside the domain, and where the series does not converge.
         """
         flat, shape = self._check_arguments(values)
         if self.order is None:
             bounds = np.zeros(1)
         elif self.bound is None:
-            raise InputError(
-                f"{self.name}: no bound of this series' error is known; compare it with a simulated motion"
-            )
+            raise InputError(f"{self.name}: no bound of this series' error is known; compare it with a simulation")
         else:
             bounds = self.bound(*(np.broadcast_to(v, prod(shape)) for v in flat))
         return self._in_shape(np.broadcast_to(bounds, (len(self.outputs), prod(shape))).copy(), shape)
@@ -100,30 +142,26 @@ class ClosedForm:
         return results if len(results) > 1 else results[0]
 
     def _check_arguments(self, values: tuple[ArrayLike, ...]) -> tuple[list[float | Array], tuple[int, ...]]:
-        """The arguments as numbers or rows, and the shape that they broadcast to; refused outside the domain."""
+        """Return the arguments as numbers or rows, and their broadcast shape. Raises DomainError outside the domain."""
         if len(values) != len(self.arguments):
-            raise InputError(
-                f"{self.name}: takes {len(self.arguments)} arguments ({', '.join(map(str, self.arguments))})"
-            )
+            names = ", ".join(map(str, self.arguments))
+            raise InputError(f"{self.name}: takes {len(self.arguments)} arguments ({names})")
         try:
-            given = [np.asarray(v, dtype=float) for v in values]
+            arrays = [np.asarray(v, dtype=float) for v in values]
         except (TypeError, ValueError) as error:
             raise InputError(f"{self.name}: {error}: give numbers or arrays of them") from None
-        shape = np.broadcast_shapes(*(array.shape for array in given))
-        for argument, array in zip(self.arguments, given, strict=True):
+        shape = np.broadcast_shapes(*(array.shape for array in arrays))
+        for argument, array in zip(self.arguments, arrays, strict=True):
             if not np.isfinite(array).all():
                 raise DomainError(f"{self.name}: {argument} holds a value that is not finite")
             if argument.is_positive and not (array > 0).all():
                 raise DomainError(f"{self.name}: {argument} = {array.min():g} must be greater than zero")
-        # One value for all stays one number.
-        flat = [float(v.flat[0]) if v.size == 1 else np.broadcast_to(v, shape).ravel() for v in given]
+        flat = [float(v.flat[0]) if v.size == 1 else np.broadcast_to(v, shape).ravel() for v in arrays]
         for relation, holds in zip(self.domain, self._functions[1](*flat), strict=True):
             inside = np.broadcast_to(holds, prod(shape))
             if not inside.all():
                 where = int(np.argmin(inside))
-                at = ", ".join(
-                    f"{s} = {v if isinstance(v, float) else v[where]:g}"
-                    for s, v in zip(self.arguments, flat, strict=True)
-                )
+                numbers = [v if isinstance(v, float) else v[where] for v in flat]
+                at = ", ".join(f"{s} = {v:g}" for s, v in zip(self.arguments, numbers, strict=True))
                 raise DomainError(f"{self.name}: outside its domain {relation}: {at}")
         return flat, shape

@@ -1,16 +1,16 @@
-"""Opposite spins averaged over the fast paired precession, at any lean, and the slow drift that a shock from rest starts.
+"""Opposite spins averaged over the fast paired precession, at any lean, and the slow drift after a shock from rest.
 
-beta is the lean of the mean axis along the joint line, h half the angle between the axes. To leading order they swing as
-beta = beta_s + s/sqrt(sigma) cos Phi, h = eta + s sin Phi with the same frequency at every lean, and s² is the adiabatic
-invariant. The centre (beta_s, eta), conjugate to each other through 2 G, has the averaged Hamiltonian
+beta is the lean of the mean axis along the joint line, h half the angle between the axes. To leading order they oscillate as
+beta = beta_s + s/sqrt(sigma) cos Phi, h = eta + s sin Phi with one frequency at every lean, and s² is the adiabatic invariant.
+The centre (beta_s, eta), conjugate to each other through 2 G, has the averaged Hamiltonian, up to a function of s alone,
 
     H = G²/((a + b) k²) W,    W = ((eta² + (s² − p)/2)² − 3 s⁴/8) / cos² beta_s − kappa s² eta²,
 
-up to a part in s alone, with p = k P/G, P the momentum about the joint line, and kappa = (sigma − 1) k²/2.
+with p = k P/G, P the momentum about the joint line, and kappa = (sigma − 1) k²/2.
 
-A shock (p_x, p_y) on rotor 1, upright, leaves eta = p_x/(2 G), P = −p_y and s² = A² (p_x² + sigma p_y²)/(4 G²). The bar lets the
-axes twist apart only by leaning towards each other, so that a twist of either sign takes momentum and the pair turns about
-the joint line; turning carries the twist into x.
+A shock (p_x, p_y) on rotor 1, upright, gives eta = p_x/(2 G), P = −p_y and s² = A² (p_x² + sigma p_y²)/(4 G²). The bar lets the
+axes twist apart only by leaning towards each other. A twist of either sign therefore takes momentum, the pair turns about the
+joint line, and the turning converts the twist into x.
 
 Derived in derivations/t11_slow_motion.py and t6_shock_drift.py; `theory.averaged_motion` follows the motion.
 """
@@ -31,7 +31,17 @@ _SHAPE = (a + b) / (a - b)  # sigma
 
 @cache
 def averaged_hamiltonian() -> sp.Expr:
-    """Return H in beta_s, eta, s and P, with its part in s alone (J)."""
+    """Derive the averaged Hamiltonian of opposite spins, with its function of s alone.
+
+    Returns
+    -------
+    Expr
+        H in J, by beta_s, eta and s (rad), P and G (kg m²/s), a and b (kg m²), and k.
+
+    References
+    ----------
+    derivations/t11_slow_motion.py.
+    """
     square, inner = SWING**2, HALF**2 + (SWING**2 - k * P / G) / 2
     W = (inner**2 - 3 * square**2 / 8) / sp.cos(LEAN) ** 2 - (_SHAPE - 1) * k**2 / 2 * square * HALF**2
     return G**2 / ((a + b) * k**2) * W + G**2 * (a - 2 * b) * square**2 / (4 * (a**2 - b**2))
@@ -39,46 +49,80 @@ def averaged_hamiltonian() -> sp.Expr:
 
 @cache
 def slow_rates() -> tuple[sp.Expr, sp.Expr]:
-    """Return (beta_s', eta') of the centre, to third order in eta, s and the root of P at any lean."""
+    """Derive the rates of the centre, to third order in eta, s and the square root of P, at any lean.
+
+    Returns
+    -------
+    tuple[Expr, Expr]
+        The rates (beta_s', eta') in rad/s, by the symbols of `averaged_hamiltonian`.
+
+    References
+    ----------
+    derivations/t11_slow_motion.py.
+    """
     mean = averaged_hamiltonian()
     return sp.factor(mean.diff(HALF) / (2 * G)), sp.factor(-mean.diff(LEAN) / (2 * G))
 
 
 @cache
 def shock_toppling() -> ClosedForm:
-    """Return alpha' of the mean motion after a shock (p_x, p_y) on rotor 1 of opposite spins, to second order (rad/s).
+    """Derive the mean rate alpha' about the joint line after a shock on rotor 1 of opposite spins, to second order.
 
-    −(p_y + ((2 + A²) p_x² + A² sigma p_y²)/(4 k G)) / (2 (a + b)),  sigma = (a + b)/(a − b), A = exp(−(Omega_0 w)²/4).
-    Arguments: p_x, p_y (N m s), A, G = G_1 = −G_2, a, b, k.
+    alpha' = −(p_y + ((2 + A²) p_x² + A² sigma p_y²)/(4 k G)) / (2 (a + b)),  sigma = (a + b)/(a − b), A = exp(−(Omega_0 w)²/4).
+
+    Returns
+    -------
+    ClosedForm
+        The rate in rad/s, by p_x, p_y (N m s), A, G = G_1 = −G_2 (kg m²/s), a, b (kg m²), k.
+
+    References
+    ----------
+    Section 5.2.1 of the paper; derivations/t6_shock_drift.py.
     """
     rate = _after_shock(averaged_hamiltonian().diff(P))
-    return _form("shock_toppling", "alpha'", rate, (P_X, p_y, att, G, a, b, k), (), 2)
+    return _form("shock_toppling", "alpha'", rate, (P_X, p_y, att, G, a, b, k), 2)
 
 
 @cache
 def cancelling_impulse() -> ClosedForm:
-    """Return p_y that cancels the drift after a shock p_x on rotor 1: the small root of shock_toppling = 0 (N m s).
+    """Derive the impulse p_y that cancels the drift after a shock p_x on rotor 1: the small root of shock_toppling = 0.
 
-    p_y = −2 (2 + A²) p_x² / (4 k G (1 + sqrt(1 − A² sigma (2 + A²) p_x²/(4 k² G²)))). Arguments: p_x, A, G, a, b, k.
-    Beyond the root's domain no force along y stops the drift.
+    p_y = −2 (2 + A²) p_x² / (4 k G (1 + sqrt(1 − A² sigma (2 + A²) p_x²/(4 k² G²)))). Outside the domain of the root no force
+    along y stops the drift.
+
+    Returns
+    -------
+    ClosedForm
+        The impulse in N m s, by p_x (N m s), A, G (kg m²/s), a, b (kg m²), k.
+
+    References
+    ----------
+    Section 5.2.1 of the paper; derivations/t6_shock_drift.py.
     """
-    two, one, zero = sp.Poly(sp.numer(sp.together(shock_toppling().expressions[0])), p_y).all_coeffs()
-    inside = sp.factor(1 - 4 * sp.cancel(two * zero / one**2))
-    root = sp.factor(-2 * sp.cancel(zero / one)) / (1 + sp.sqrt(inside))
-    return _form("cancelling_impulse", "p_y", root, (P_X, att, G, a, b, k), (sp.Ge(inside, 0),), 2)
+    quadratic, linear, constant = sp.Poly(sp.numer(sp.together(shock_toppling().expressions[0])), p_y).all_coeffs()
+    inside = sp.factor(1 - 4 * sp.cancel(quadratic * constant / linear**2))
+    root = sp.factor(-2 * sp.cancel(constant / linear)) / (1 + sp.sqrt(inside))
+    return _form("cancelling_impulse", "p_y", root, (P_X, att, G, a, b, k), 2, sp.Ge(inside, 0))
 
 
 @cache
 def shock_wander() -> ClosedForm:
-    """Return X' of the mean x after a shock (p_x, p_y) on rotor 1 of opposite spins, to third order (1/s).
+    """Derive the rate X' of the mean x after a shock on rotor 1 of opposite spins, to third order.
 
-    With the mean twist Delta = p_x/G and d² = A² (p_x² + sigma p_y²)/G², the swing's part,
+    With the mean twist Delta = p_x/G and d² = A² (p_x² + sigma p_y²)/G² of the oscillation,
 
         X' = Delta ( (2 G Delta² + G d² + 4 k p_y) / k² − G b d² / (a − b) ) / (8 (a + b)).
 
-    Without p_y it goes as the cube of the shock. Arguments: p_x, p_y, A, G, a, b, k.
+    Returns
+    -------
+    ClosedForm
+        The rate in 1/s, by p_x, p_y (N m s), A, G (kg m²/s), a, b (kg m²), k.
+
+    References
+    ----------
+    Section 5.2.1 of the paper; derivations/t7_duration.py.
     """
-    return _form("shock_wander", "X'", _after_shock(slow_rates()[0]), (P_X, p_y, att, G, a, b, k), (), 3)
+    return _form("shock_wander", "X'", _after_shock(slow_rates()[0]), (P_X, p_y, att, G, a, b, k), 3)
 
 
 def _after_shock(e: sp.Expr) -> sp.Expr:
@@ -87,58 +131,114 @@ def _after_shock(e: sp.Expr) -> sp.Expr:
 
 
 def _form(
-    name: str,
-    output: str,
-    expression: sp.Expr,
-    arguments: tuple[sp.Symbol, ...],
-    domain: tuple[sp.Basic, ...],
-    order: int,
+    name: str, output: str, e: sp.Expr, arguments: tuple[sp.Symbol, ...], order: int, *condition: sp.Basic
 ) -> ClosedForm:
-    domain = (sp.Gt(a, sp.Abs(b)), sp.Ne(G, 0), *domain)
+    domain = sp.Gt(a, sp.Abs(b)), sp.Ne(G, 0), *condition
     assumptions = "opposite spins at rest upright, a shock on rotor 1"
-    return ClosedForm(name, (output,), (expression,), arguments, domain, assumptions, "5, 5.2.1", order, P_X)
+    return ClosedForm(name, (output,), (e,), arguments, domain, assumptions, "5, 5.2.1", order, P_X)
 
 
 def toppling_after_shock(scene: Scene) -> float:
-    """Return the mean rate alpha' (rad/s) about the joint line just after the shock of opposite spins, to second order.
+    """Compute the mean rate alpha' about the joint line just after a shock, for opposite spins, to second order.
 
-    `lagrotor.models.toppling_error` measures its error.
+    `lagrotor.models.toppling_error` measures the error.
+
+    Parameters
+    ----------
+    scene : Scene
+        Opposite spins at rest upright, with a bar and a shock.
+
+    Returns
+    -------
+    float
+        The rate alpha' in rad/s.
 
     Raises
     ------
     InputError
-        As `shock_response` does, and unless the spins are opposite.
+        Unless opposite spins with a bar and a shock start at rest upright.
+
+    References
+    ----------
+    Section 5.2.1 of the paper; derivations/t6_shock_drift.py.
+
+    Examples
+    --------
+    >>> from lagrotor import Scene, Shock
+    >>> round(toppling_after_shock(Scene(spins=(20, -20), shock=Shock((100, 0, 0), at=1.0, width=0.01))), 6)
+    -0.046924
     """
     return float(shock_toppling()(*_arguments(scene, "toppling_after_shock")))  # type: ignore[arg-type]
 
 
 def wander_after_shock(scene: Scene) -> float:
-    """Return the mean rate of x (1/s, in units of R) just after the shock of opposite spins, to third order.
+    """Compute the mean rate of x just after a shock, for opposite spins, to third order.
 
-    `lagrotor.models.wander_error` measures its error.
+    `lagrotor.models.wander_error` measures the error.
+
+    Parameters
+    ----------
+    scene : Scene
+        Opposite spins at rest upright, with a bar and a shock.
+
+    Returns
+    -------
+    float
+        The rate in 1/s, in units of R.
 
     Raises
     ------
     InputError
-        As `toppling_after_shock`.
+        Unless opposite spins with a bar and a shock start at rest upright.
+
+    References
+    ----------
+    Section 5.2.1 of the paper; derivations/t7_duration.py.
+
+    Examples
+    --------
+    >>> from lagrotor import Scene, Shock
+    >>> round(wander_after_shock(Scene(spins=(20, -20), shock=Shock((100, 0, 0), at=1.0, width=0.01))), 6)
+    0.004159
     """
     sign = 1.0 if scene.shock is None or scene.shock.body == 1 else -1.0
     first, *others = _arguments(scene, "wander_after_shock")
-    # A shock on rotor 2 is the mirror image, x → −x, of one on rotor 1.
+    # A shock on rotor 2 is the mirror image, x → −x, of a shock on rotor 1.
     return sign * float(shock_wander()(sign * first, *others))  # type: ignore[arg-type]
 
 
 def cancelling_force(scene: Scene) -> float:
-    """Return F_y (N) which, added to the shock along x, leaves no mean turning about the joint line, to second order.
+    """Compute the force along y that, added to the shock along x, cancels the mean rotation about the joint line.
 
-    The force that does so on exact runs depends on how long one averages: `lagrotor.models.cancelling_force_error`.
+    The law is of second order. On exact runs the force depends on the time of averaging:
+    `lagrotor.models.cancelling_force_error`.
+
+    Parameters
+    ----------
+    scene : Scene
+        Opposite spins at rest upright, with a bar and a shock along x.
+
+    Returns
+    -------
+    float
+        The force F_y in N, with the time course of the shock.
 
     Raises
     ------
     InputError
-        As `toppling_after_shock`.
+        Unless opposite spins with a bar and a shock start at rest upright.
     DomainError
-        Where no force does.
+        When no force cancels the rotation.
+
+    References
+    ----------
+    Section 5.2.1 of the paper; derivations/t6_shock_drift.py.
+
+    Examples
+    --------
+    >>> from lagrotor import Scene, Shock
+    >>> round(cancelling_force(Scene(spins=(20, -20), shock=Shock((100, 0, 0), at=1.0, width=0.01))), 6)
+    -6.628133
     """
     p_x, _, *others = _arguments(scene, "cancelling_force")
     assert scene.shock is not None
@@ -147,7 +247,7 @@ def cancelling_force(scene: Scene) -> float:
 
 
 def _arguments(scene: Scene, where: str) -> tuple[float, ...]:
-    """(p_x, p_y, A, G, a, b, k) of a scene, for the forms above."""
+    """Return (p_x, p_y, A, G, a, b, k) of a scene, for the forms above."""
     response = shock_response(scene)
     if scene.spins[0] != -scene.spins[1] or scene.spins[0] == 0 or scene.link is None:
         raise InputError(f"{where}: needs opposite spins, not {scene.spins}")

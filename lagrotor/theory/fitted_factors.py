@@ -1,6 +1,6 @@
-"""Numbers of this room that were found by trial: what each one is, what it was calibrated on, and the test that holds it.
+"""Empirical constants of the closed forms, each with its calibration and the test that checks it.
 
-The powers and the letters that they multiply are derived; the factors in front are empirical wherever they are used.
+The powers and the quantities that they multiply are derived; only the factors are empirical.
 """
 
 from lagrotor.numerics.solver_constants import Calibrated
@@ -12,12 +12,10 @@ LARGEST_SWING = Calibrated(
     "150 pairs with 0.5 < k < 2, any two spins, 20 swings; beyond it runs over 24 swings topple over",
     _RATE + "test_an_amplitude_out_of_range_is_refused",
 )
-_SWUNG = (
-    "pairs with 0.15 < k < 4, bars up to 50 kg, any two spins, swings of any phase over 20 turns and exact orbits; "
-)
+_SWUNG = "pairs with 0.15 < k < 4, bars up to 50 kg, any two spins, swings of any phase over 20 turns and orbits; "
 NEXT_SHIFT = Calibrated(
     3.0,
-    "N r⁴, of which size the next order of the natural rate's shift is",
+    "factor of N r⁴, the size of the next order of the natural rate's shift",
     _SWUNG + "1.22 is the most of 3,319 orbits",
     _RATE + "test_natural_rate",
 )

@@ -1,11 +1,11 @@
 """The linear response of the coupled pair at rest to an impulse, in closed form, for any two spins and any bar.
 
-With q = (x, y_1, y_2) the linear pair is M q'' + C q' = Q(t). One integral is at once M q' + C q = p(t), the impulse
-received so far. C has one null vector n, along which the pair topples or twists, and N = M⁻¹ C satisfies
-N³ = −Omega² N. So the response to a unit impulse is a polynomial in N:
+The linear pair, q = (x, y_1, y_2), is M q'' + C q' = Q(t), and one integration gives M q' + C q = p(t), with p the impulse
+received. C has one null vector n, the direction of toppling or twisting, and N = M⁻¹ C satisfies N³ = −Omega² N. So the
+response to a unit impulse is a polynomial in N:
 
     H(s) = n nᵀ s / (n.M n) + D (1 − cos Omega s) + S sin(Omega s) / Omega,
-    D = −N M⁻¹ / Omega²  (displacement that stays),    S = −N² M⁻¹ / Omega²  (velocity of the swing).
+    D = −N M⁻¹ / Omega²  (permanent displacement),    S = −N² M⁻¹ / Omega²  (velocity of the oscillation).
 
 Derived in derivations/t2_shock_response.py. `theory.shock_response` evaluates it for a scene and its Gaussian pulse.
 """
@@ -25,9 +25,10 @@ _SPUN = (sp.Gt(a, sp.Abs(b)), sp.Gt(G_1**2 + G_2**2, 0))
 
 @dataclass(frozen=True)
 class ImpulseMatrices:
-    """H(s) = drift s + displacement (1 − cos Omega s) + swing sin(Omega s)/Omega, all (3, 3), in (x, y_1, y_2).
+    """Matrices of the response H(s) = drift s + displacement (1 − cos Omega s) + swing sin(Omega s)/Omega, in (x, y_1, y_2).
 
-    `mass`, `gyroscopic`: M and C in the same order; `null`: n, (3, 1); `frequency_squared`: Omega².
+    The shape is (3, 3), except of `null`, the null vector n of C, (3, 1). `mass`, `gyroscopic`: M and C. `frequency_squared`:
+    Omega².
     """
 
     mass: sp.Matrix
@@ -41,7 +42,17 @@ class ImpulseMatrices:
 
 @cache
 def impulse_matrices() -> ImpulseMatrices:
-    """The matrices of the response to a unit impulse, from the linear pair (symbols a, b, G_1, G_2)."""
+    """Derive the matrices of the response to a unit impulse from the linear pair.
+
+    Returns
+    -------
+    ImpulseMatrices
+        Matrices in (x, y_1, y_2), by a, b (kg m²), G_1, G_2 (kg m²/s).
+
+    References
+    ----------
+    derivations/t2_shock_response.py.
+    """
     linear = _in_plane_order(linear_pair())
     M, C = linear.mass, linear.gyroscopic
     inverse = M.inv().applyfunc(sp.factor)
@@ -57,48 +68,61 @@ def impulse_matrices() -> ImpulseMatrices:
 
 
 def _in_plane_order(linear: LinearSystem) -> LinearSystem:
-    """The linear pair with its coordinates in the order (x, y_1, y_2), read off the basis (rows x_1, y_1, …, z_2)."""
+    """Return the linear pair in the coordinates (x, y_1, y_2), by the rows x_1, y_1, y_2 of its basis."""
     rows = [linear.basis.row(i) for i in (0, 1, 4)]
     change = sp.Matrix.vstack(*rows).inv()
-    parts = (change.T * m * change for m in (linear.mass, linear.gyroscopic, linear.stiffness))
-    mass, gyroscopic, stiffness = parts
+    matrices = (change.T * m * change for m in (linear.mass, linear.gyroscopic, linear.stiffness))
+    mass, gyroscopic, stiffness = matrices
     return LinearSystem(mass, gyroscopic, stiffness, linear.basis * change)
 
 
 def shock_displacement() -> ClosedForm:
-    """(x, y_1, y_2) about which the pair precesses just after an impulse: the permanent displacement (1).
+    """Derive the permanent displacement D p, about which the pair precesses just after an impulse p.
 
-    D p with D = −M⁻¹ C M⁻¹ / Omega_0². Arguments: a, b, G_1, G_2 and the impulse's moment R × N s along x, y_1, y_2.
+    Returns
+    -------
+    ClosedForm
+        The displacement (x, y_1, y_2) in units of R, by a, b (kg m²), G_1, G_2 (kg m²/s), p_x, p_1, p_2 (N m s).
+
+    References
+    ----------
+    Sections 4.2, 5 and 5.2.1 of the paper; derivations/t2_shock_response.py.
     """
     return _form("shock_displacement", ("x", "y_1", "y_2"), impulse_matrices().displacement * _impulse())
 
 
 def shock_drift() -> ClosedForm:
-    """(x', y_1', y_2') of the mean motion after an impulse, (1/s): n (n.p)/(n.M n), n = (0, G_2, −G_1) up to sign.
+    """Derive the mean velocity (x', y_1', y_2') after an impulse in 1/s, n (n.p)/(n.M n) with n = (0, G_2, −G_1).
 
-    Toppling, y_1' = y_2', for opposite spins; twisting, y_1' = −y_2', for equal ones; never along x.
+    Opposite spins topple, y_1' = y_2'; equal spins twist, y_1' = −y_2'; no pair drifts along x.
     """
     return _form("shock_drift", ("x'", "y_1'", "y_2'"), impulse_matrices().drift * _impulse())
 
 
 def shock_swing() -> ClosedForm:
-    """Velocity amplitudes (x, y_1, y_2) of the swing's sine, (1/s), in the limit of a short pulse: S p.
-
-    The motion is displacement (1 − cos Omega s) + (swing/Omega) sin Omega s + drift s.
-    """
+    """Derive S p, the velocity amplitudes (x, y_1, y_2) in 1/s of the oscillation after a short pulse."""
     return _form("shock_swing", ("x", "y_1", "y_2"), impulse_matrices().swing * _impulse())
 
 
 def shock_energy() -> ClosedForm:
-    """(E_drift, E_swing) in J gained from an impulse: (n.p)²/(2 n.M n) and p.S p/2; their sum is p.M⁻¹ p/2.
+    """Derive the energies that an impulse adds, (n.p)²/(2 n.M n) of the drift and p.S p/2 of the oscillation.
 
-    A Gaussian pulse of width w gives E_drift + exp(−(Omega_0 w)²/2) E_swing.
+    Their sum is p.M⁻¹ p/2. A Gaussian pulse of width w gives E_drift + exp(−(Omega_0 w)²/2) E_swing.
+
+    Returns
+    -------
+    ClosedForm
+        The energies (E_drift, E_swing) in J, by a, b (kg m²), G_1, G_2 (kg m²/s), p_x, p_1, p_2 (N m s).
+
+    References
+    ----------
+    Sections 4.2, 5 and 5.2.1 of the paper; derivations/t2_shock_response.py.
     """
     matrices, p = impulse_matrices(), _impulse()
-    along, swing = ((p.T * m * p)[0] / 2 for m in (matrices.drift, matrices.swing))
-    across = swing.subs(P_X, 0)
-    form = _form("shock_energy", ("E_drift", "E_swing"), sp.Matrix([along, sp.factor(swing - across)]))
-    return replace(form, expressions=(form.expressions[0], form.expressions[1] + sp.factor(across)))
+    drift, swing = ((p.T * m * p)[0] / 2 for m in (matrices.drift, matrices.swing))
+    transverse = swing.subs(P_X, 0)
+    form = _form("shock_energy", ("E_drift", "E_swing"), sp.Matrix([drift, sp.factor(swing - transverse)]))
+    return replace(form, expressions=(form.expressions[0], form.expressions[1] + sp.factor(transverse)))
 
 
 def _impulse() -> sp.Matrix:
@@ -106,13 +130,6 @@ def _impulse() -> sp.Matrix:
 
 
 def _form(name: str, outputs: tuple[str, ...], column: sp.Matrix) -> ClosedForm:
-    return ClosedForm(
-        name,
-        outputs,
-        tuple(sp.factor(e) for e in column),
-        (a, b, G_1, G_2, P_X, P_1, P_2),
-        _SPUN,
-        "first order in the impulse, from rest upright, any spins not both zero, any bar",
-        "4.2, 5, 5.2.1",
-        1,
-    )
+    assumptions = "first order in the impulse, from rest upright, any spins not both zero, any bar"
+    expressions, arguments = tuple(sp.factor(e) for e in column), (a, b, G_1, G_2, P_X, P_1, P_2)
+    return ClosedForm(name, outputs, expressions, arguments, _SPUN, assumptions, "4.2, 5, 5.2.1", 1)

@@ -1,15 +1,15 @@
-"""Equal spins: the parallel pair is one rotor, exactly; and the twist that may grow out of it.
+"""Equal spins: the parallel pair is exactly one rotor; the growth of a small twist on it.
 
-With r_1 = r_2 = r nothing drives the twist when G_1 = G_2: the pair is one rotor of inertia a + b and
-momentum G for each axis, and precesses steadily about any fixed direction h at G / ((a + b) cos theta). A small twist
-Delta obeys, on any parallel motion r(t), x = r . e_x,
+With r_1 = r_2 = r and G_1 = G_2 no force drives a twist: the pair is one rotor of inertia a + b and momentum G for each axis,
+and precesses steadily about any fixed direction h at G / ((a + b) cos theta). A small twist Delta obeys, on any parallel motion
+r(t), x = r . e_x,
 
     d/dt ( (a − b)/2 (1 − x²) Delta' ) + b (|r'|² + x x'') Delta = 0,
 
-free of G and of ell / R. With beta = b/(a − b) it grows for b < 0, K > m ell²/4: a bar of more inertia than two point
-masses at its ends have. It drifts for b = 0. For b > 0 it is bounded on cones with pi² beta sin² theta <= 4 cos theta
-(Lyapunov's criterion; Magnus & Winkler, Hill's Equation, 1966, ch. V); on wider ones it may grow by resonance.
-Derived in derivations/t9_twist.py.
+independent of G and ell / R. It grows for b < 0: a bar with K > m ell²/4, more inertia than two point masses at its ends. It
+drifts for b = 0. For b > 0 it is bounded on cones with pi² beta sin² theta <= 4 cos theta, beta = b/(a − b) (Lyapunov's
+criterion; Magnus & Winkler, Hill's Equation, 1966, ch. V); on wider cones it may grow by resonance. Derived in
+derivations/t9_twist.py.
 """
 
 from dataclasses import replace
@@ -28,54 +28,70 @@ from lagrotor.theory.closed_form import ClosedForm
 
 @cache
 def twist_growth() -> ClosedForm:
-    """Growth rate (1/s) of a small twist on the steady precession of equal spins, to first order in its half-angle:
+    """Derive the growth rate of a small twist on the steady precession of equal spins, to first order in the half-angle.
 
-    rho |G| sqrt(−b / (a − b)) / (a + b) for b < 0, and zero for b >= 0 (b = 0: a drift in time);
-    rho the sine of the half-angle of the cone.
-    The mean of the twist's stiffness b Omega² rho² sin² Phi over its inertia (a − b)/2. `twist_growth_error` gives its error.
+    It is rho |G| sqrt(−b / (a − b)) / (a + b) for b < 0, and zero for b >= 0 (b = 0: a drift in time), with rho the sine of the
+    half-angle of the cone: the mean of the twist's stiffness b Omega² rho² sin² Phi over its inertia (a − b)/2.
 
-    Raises
-    ------
-    DomainError
-        For b > 0 on a cone wider than Lyapunov's criterion covers.
+    Returns
+    -------
+    ClosedForm
+        The rate in 1/s, by rho, G (kg m²/s), a, b (kg m²). A call raises DomainError for b > 0 on a cone wider than Lyapunov's
+        criterion.
+
+    References
+    ----------
+    Section 5 of the paper; derivations/t9_twist.py.
     """
     rate = G / (a + b)
     mean = sp.integrate(b * rate**2 * rho**2 * sp.sin(Phi) ** 2, (Phi, 0, 2 * sp.pi)) / (2 * sp.pi)
     squared = sp.factor(-mean / ((a - b) / 2))
-    return ClosedForm(
-        "twist_growth",
-        ("growth",),
-        (sp.sqrt(sp.Max(squared, 0)),),
-        (rho, G, a, b),
-        (sp.Gt(a, sp.Abs(b)), sp.Lt(rho, 1), lyapunov_criterion()),
-        "equal spins, parallel axes on a cone about the vertical",
-        "5",
-        1,
-        rho,
-        lambda *values: np.asarray(twist_growth_error()(*values)),
-    )
+    growth, domain = sp.sqrt(sp.Max(squared, 0)), (sp.Gt(a, sp.Abs(b)), sp.Lt(rho, 1), lyapunov_criterion())
+    validity = "equal spins, parallel axes on a cone about the vertical", "5", 1, rho
+
+    def error(*values: Array) -> Array:
+        return np.asarray(twist_growth_error()(*values))
+
+    return ClosedForm("twist_growth", ("growth",), (growth,), (rho, G, a, b), domain, *validity, error)
 
 
 @cache
 def twist_growth_error() -> ClosedForm:
-    """Error (1/s) of `twist_growth`: its next term, of third order, rho² (3/4 + |beta|/16) of it, over 1 − rho².
+    """Derive the error of `twist_growth`: its third-order term over 1 − rho².
 
-    The exact growth is rho |G| sqrt(−beta)/(a + b) (1 + (3/4 + beta/16) rho² + …), beta = b/(a − b), −1/2 < beta < 0; what is
-    left out grows at most as 1/(1 − rho²) (derived in derivations/t9_twist.py, the last factor seen on Hill's equation).
+    The exact growth is rho |G| sqrt(−beta)/(a + b) (1 + (3/4 + beta/16) rho² + …), beta = b/(a − b), −1/2 < beta < 0. The
+    factor 1/(1 − rho²) for higher orders is an observation on Hill's equation.
+
+    Returns
+    -------
+    ClosedForm
+        The error in 1/s, by rho, G (kg m²/s), a, b (kg m²).
+
+    References
+    ----------
+    derivations/t9_twist.py.
     """
     form, beta = twist_growth(), b / (a - b)
     error = form.expressions[0] * rho**2 * (sp.Rational(3, 4) + sp.Abs(beta) / 16) / (1 - rho**2)
-    return replace(
-        form, name="twist_growth_error", outputs=("error",), expressions=(error,), order=None, small=None, bound=None
-    )
+    name = "twist_growth_error"
+    return replace(form, name=name, outputs=("error",), expressions=(error,), order=None, small=None, bound=None)
 
 
 @cache
 def lyapunov_criterion() -> sp.Rel:
-    """pi² beta rho² <= 4 sqrt(1 − rho²), beta = b/(a − b): where a small twist is bounded for b > 0.
+    """Derive the condition under which a small twist is bounded for b > 0: pi² beta rho² <= 4 sqrt(1 − rho²).
 
-    Lyapunov: all solutions of (p y')' + q y = 0 with p > 0, q >= 0 of period T are bounded where the mean of q is positive
-    and ∫ dΦ/p ∫ q dΦ <= 4 over the period; here p = 1 − rho² cos² Phi, q = 2 beta rho² sin² Phi, T = pi.
+    Lyapunov: all solutions of (p y')' + q y = 0 with p > 0, q >= 0 of period T are bounded if the mean of q is positive and ∫
+    dΦ/p ∫ q dΦ <= 4 over a period; p = 1 − rho² cos² Phi, q = 2 beta rho² sin² Phi, T = pi.
+
+    Returns
+    -------
+    Rel
+        The inequality in rho, a and b, with beta = b/(a − b).
+
+    References
+    ----------
+    derivations/t9_twist.py.
     """
     length = sp.pi / sp.sqrt(1 - rho**2)
     stiffness = sp.integrate(2 * b / (a - b) * rho**2 * sp.sin(Phi) ** 2, (Phi, 0, sp.pi))
@@ -83,21 +99,30 @@ def lyapunov_criterion() -> sp.Rel:
 
 
 def parallel_scene(scene: Scene, angle: float, twist_rate: float = 0.0) -> Scene:
-    """A scene started in parallel steady precession, at x = sin(angle), of rate G / ((a + b) cos angle).
+    """Return a scene in parallel steady precession of rate G / ((a + b) cos angle), at x = sin(angle).
 
     Parameters
     ----------
     scene : Scene
-        With equal spins and a bar.
+        Equal spins with a bar.
     angle : float
-        Half that of the cone about the vertical, rad.
+        Half-angle of the cone about the vertical in rad.
     twist_rate : float, default 0.0
-        Delta' at the start, small, rad/s.
+        Initial twist rate Delta' in rad/s, small.
+
+    Returns
+    -------
+    Scene
+        The same rotors and bar on the precession.
 
     Raises
     ------
     InputError
         Unless the spins are equal and there is a bar.
+
+    References
+    ----------
+    derivations/t9_twist.py.
     """
     from lagrotor.pair.initial_conditions import consistent_scene
 
@@ -110,18 +135,34 @@ def parallel_scene(scene: Scene, angle: float, twist_rate: float = 0.0) -> Scene
 
 
 def twist_multiplier_growth(scene: Scene, angle: float) -> float:
-    """Growth rate (1/s) of a small twist on the cone of half-angle `angle`, from Hill's equation, exact in the angle:
+    """Compute the growth rate of a small twist from Hill's equation, exact in the angle of the cone.
 
-    ((1 − rho² cos² Phi) Delta')' + 2 b rho² sin² Phi / (a − b) Delta = 0,  of period pi in the phase Phi.
-    Zero where it is bounded. Error, of the integration over a period: 5e-6 of the rate of precession where it is below
-    that, less beyond.
+    The equation has period pi in the phase Phi, and the error is at most 5·10⁻⁶ of the precession rate:
+
+        ((1 − rho² cos² Phi) Delta')' + 2 b rho² sin² Phi / (a − b) Delta = 0.
+
+    Parameters
+    ----------
+    scene : Scene
+        Equal spins with a bar.
+    angle : float
+        Half-angle of the cone in rad.
+
+    Returns
+    -------
+    float
+        The rate in 1/s; 0 for a bounded twist.
 
     Raises
     ------
     InputError
-        Unless the spins are equal.
+        Unless the spins are equal and there is a bar.
     DomainError
         Unless 0 < angle < pi/2.
+
+    References
+    ----------
+    derivations/t9_twist.py.
     """
     from scipy.integrate import solve_ivp
 
@@ -140,14 +181,36 @@ def twist_multiplier_growth(scene: Scene, angle: float) -> float:
 
 
 def twist_bounded(scene: Scene, angle: float) -> bool:
-    """Whether the parallel precession of equal spins on a cone of half-angle `angle` (rad) keeps a small twist bounded:
+    """Return True if the parallel precession of equal spins keeps a small twist bounded.
 
-    b > 0, that is K < m ell²/4, and Lyapunov's criterion holds.
+    The condition is b > 0, that is K < m ell²/4, and Lyapunov's criterion.
+
+    Parameters
+    ----------
+    scene : Scene
+        Equal spins with a bar.
+    angle : float
+        Half-angle of the cone in rad.
+
+    Returns
+    -------
+    bool
+        True if both conditions hold.
 
     Raises
     ------
     InputError
-        As `parallel_scene`.
+        Unless the spins are equal and there is a bar.
+
+    References
+    ----------
+    derivations/t9_twist.py.
+
+    Examples
+    --------
+    >>> from lagrotor import Link, Scene
+    >>> [twist_bounded(Scene((10, 10), link=Link(1.0, 1.0, K)), angle=0.3) for K in (0.1, 0.5)]
+    [True, False]
     """
     inertia_a, inertia_b, _ = _equal(scene, angle, "twist_bounded")
     criterion = lyapunov_criterion().subs({a: inertia_a, b: inertia_b, rho: sin(angle)})

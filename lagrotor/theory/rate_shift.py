@@ -1,15 +1,15 @@
-"""An orbit about upright of any two spins: how its rate shifts with the amplitude, how its azimuth drifts, how a twist grows.
+"""An orbit about upright of any two spins: the shift of its rate with amplitude, its azimuth drift, the growth of a twist.
 
-An orbit about upright swings between x = ±r0, where the axes are parallel, and closes up to a turn about the joint line. With
+The orbit oscillates between x = ±r0, where the axes are parallel, and closes up to a rotation about the joint line. With
 share = sigma (G_1 − G_2)² / ((G_1 + G_2)² + sigma (G_1 − G_2)²), 0 for equal and 1 for opposite spins, and k = ell/R,
 
     Omega = Omega_0 (1 + c r0² + …),
     c = 1/2 + 3/4 share (sigma − 1) − 1/4 share² (sigma² − 1) − 3/4 share² sigma/k²,
     alpha' = Omega_0 share^(3/2) sqrt(sigma) (sigma − 5)/(16 k) r0⁴ + …, of the sign of G_1 − G_2.
 
-About a twist eta the pair swings at Omega_0 (1 − (sigma − 1)((sigma + 1) share − 1)/(2 sigma) eta² + …). Where that falls with
-the twist, for a heavy bar and spins far from equal or for a light one with b < 0 and spins near equal, a twist beside the orbit
-grows, as exp(lambda t) with lambda² = Omega_0² (1 − share)(sigma − 1)((sigma + 1) share − 1)/2 r0² + ….
+About a twist eta the frequency is Omega_0 (1 − (sigma − 1)((sigma + 1) share − 1)/(2 sigma) eta² + …). If it decreases with the
+twist (a heavy bar and spins far from equal, or a light bar with b < 0 and nearly equal spins), a twist of the orbit grows as
+exp(lambda t), lambda² = Omega_0² (1 − share)(sigma − 1)((sigma + 1) share − 1)/2 r0² + ….
 
 Derived in derivations/t12_unequal_spins.py.
 """
@@ -22,45 +22,22 @@ from lagrotor.pair.scene import Scene
 
 
 def shift_coefficient(sigma: Any, k: Any, share: Any) -> Any:
-    """c of Omega = Omega_0 (1 + c r0² + …), of numbers or symbols.
-
-    Parameters
-    ----------
-    sigma
-        Shape of the bar.
-    k
-        Ell / R.
-    share
-        As `opposite_share` has it.
-    """
+    """Return c of Omega = Omega_0 (1 + c r0² + …), of numbers or symbols."""
     return (2 + 3 * share * (sigma - 1) - share**2 * (sigma**2 - 1) - 3 * share**2 * sigma / k**2) / 4
 
 
 def drift_coefficient(sigma: Any, k: Any, root: Any) -> Any:
-    """alpha'/(Omega_0 r0⁴), of numbers or symbols.
-
-    Parameters
-    ----------
-    sigma
-        Shape of the bar.
-    k
-        Ell / R.
-    root
-        Sqrt(share/sigma), of the sign of G_1 − G_2.
-    """
+    """Return alpha'/(Omega_0 r0⁴) of numbers or symbols; root: sqrt(share/sigma) with the sign of G_1 − G_2."""
     return root**3 * sigma**2 * (sigma - 5) / (16 * k)
 
 
 def twist_coefficient(sigma: Any, share: Any) -> Any:
-    """lambda²/(Omega_0 r0)², of numbers or symbols: growth of a twist where positive, its slow frequency where negative."""
+    """Return lambda²/(Omega_0 r0)² of a twist, of numbers or symbols: positive for growth, negative for oscillation."""
     return (1 - share) * (sigma - 1) * ((sigma + 1) * share - 1) / 2
 
 
 def opposite_share(scene: Scene) -> float:
-    """sigma (G_1 − G_2)² / ((G_1 + G_2)² + sigma (G_1 − G_2)²): 0 for equal spins, 1 for opposite ones.
-
-    Raises InputError without a bar, and without any spin.
-    """
+    """Return the share of opposite spins. Raises InputError without a bar, and without any spin."""
     if not isinstance(scene, Scene) or scene.link is None or scene.spins == (0, 0):
         raise InputError(f"the shift of the natural rate: {scene!r} needs a bar and a spin")
     first, second = scene.momenta
@@ -69,29 +46,67 @@ def opposite_share(scene: Scene) -> float:
 
 
 def frequency_shift(scene: Scene) -> float:
-    """c of Omega = Omega_0 (1 + c r0² + …): the relative shift of the natural rate over the square of the amplitude.
+    """Return the relative shift c of the natural rate over the squared amplitude, Omega = Omega_0 (1 + c r0² + …).
 
-    For any two spins, any bar: 1/2 for equal ones, as 1/cos has it.
+    Parameters
+    ----------
+    scene : Scene
+        Any two spins with a bar.
+
+    Returns
+    -------
+    float
+        The coefficient c, dimensionless; 1/2 for equal spins.
 
     Raises
     ------
     InputError
         Without a bar, and without any spin.
+
+    References
+    ----------
+    derivations/t12_unequal_spins.py.
+
+    Examples
+    --------
+    >>> from lagrotor import Scene
+    >>> [frequency_shift(Scene(spins=spins)) for spins in ((10, 10), (10, -10))]
+    [0.5, -0.25]
     """
     share = opposite_share(scene)
     return float(shift_coefficient(scene.sigma, scene.k, share))
 
 
 def azimuth_drift(scene: Scene) -> float:
-    """alpha'/r0⁴ (rad/s): how fast an orbit about upright turns about the joint line, which keeps it from closing.
+    """Return the rate alpha'/r0⁴ at which an orbit about upright rotates about the joint line, and so does not close.
 
-    Leading order for r0² well below |G_1 + G_2|/|G_1 − G_2|. Zero for equal spins; zero for opposite ones, of whose orbits, with
-    any rate of turning, this is the paired precession.
+    The law is of leading order, for r0² well below |G_1 + G_2|/|G_1 − G_2|. Orbits of opposite spins with any rate of rotation
+    are the paired precession.
+
+    Parameters
+    ----------
+    scene : Scene
+        Any two spins with a bar.
+
+    Returns
+    -------
+    float
+        The rate in rad/s; 0 for equal and for opposite spins.
 
     Raises
     ------
     InputError
         Without a bar, and without any spin.
+
+    References
+    ----------
+    derivations/t12_unequal_spins.py.
+
+    Examples
+    --------
+    >>> from lagrotor import Scene
+    >>> round(azimuth_drift(Scene(spins=(10, -20))), 9)
+    -2.7
     """
     share, (first, second) = opposite_share(scene), scene.momenta
     if first == -second:

@@ -1,8 +1,8 @@
-"""The linear response of a scene at rest and upright to its Gaussian pulse: motion, drift, swing and energy.
+"""The linear response of a scene at rest and upright to its Gaussian pulse: motion, drift, oscillation and energy.
 
-A Gaussian pulse of width w leaves what an impulse of the same size leaves, but for the swing, which is multiplied by
-exp(−(Omega_0 w)²/4); the matrices are those of `theory.impulse_response`. First order in the shock: the error is of
-second order, and `lagrotor.models.linear.shock_response_error` estimates it.
+A Gaussian pulse of width w has the effect of an impulse of the same size, with the oscillation multiplied by exp(−(Omega_0
+w)²/4). The matrices are those of `theory.impulse_response`. The response is of first order in the shock, with an error of
+second order.
 """
 
 from dataclasses import dataclass
@@ -18,22 +18,38 @@ from lagrotor.pair.scene import Scene, Shock
 from lagrotor.result_display import Shown
 from lagrotor.theory.natural_rate import natural_frequency_value
 
-# A pulse that peaks later than this many widths after the start has lost less than 1e-8 of its impulse before it.
+# A pulse that peaks later than this many widths after the start has less than 1e-8 of its impulse before the start.
 _WIDTHS_BEFORE = 4.0
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ShockResponse(Shown):
-    """What a pulse leaves, to first order in it. Vectors are (x, y_1, y_2), (3,).
+    """The response to a pulse, to first order in it. Vectors are (x, y_1, y_2), shape (3,).
 
-    shock: the pulse, whole. frequency: Omega_0 (rad/s). impulse: R times the impulse on the tip (N m s). displacement:
-    centre of the precession when the pulse peaks (1); with `drift` (1/s) it moves. swing: velocity of the swing that a
-    short pulse of the same impulse would start (1/s). attenuation: A = exp(−(Omega_0 w)²/4). After the pulse, with
-    s = t − at,
+    After the pulse, with s = t − at,
 
         q = displacement (1 − A cos Omega_0 s) + drift s + A swing sin(Omega_0 s) / Omega_0.
 
-    energy: gained (J); impulse_energy: the limit of a short pulse (J).
+    Attributes
+    ----------
+    shock : Shock
+        The whole pulse.
+    frequency : float
+        Natural frequency Omega_0 in rad/s.
+    impulse : ndarray
+        R times the impulse on the tip, in N m s.
+    displacement : ndarray
+        Centre of the precession at the peak of the pulse, in units of R.
+    drift : ndarray
+        Velocity of the centre in 1/s.
+    swing : ndarray
+        Velocity of the oscillation after a short pulse of the same impulse, in 1/s.
+    attenuation : float
+        Factor A = exp(−(Omega_0 w)²/4).
+    energy : float
+        Energy gained, in J.
+    impulse_energy : float
+        Energy gained in the limit of a short pulse, in J.
     """
 
     shock: Shock
@@ -47,7 +63,7 @@ class ShockResponse(Shown):
     impulse_energy: float
 
     def summary(self) -> dict[str, str]:
-        """What the pulse leaves, name → words; vectors are (x, y_1, y_2)."""
+        """Return the response as {name: value in words}; vectors are (x, y_1, y_2)."""
 
         def three(vector: Array) -> str:
             return ", ".join(f"{value + 0.0:.6g}" for value in vector)  # −0 is 0
@@ -64,38 +80,38 @@ class ShockResponse(Shown):
 
     @property
     def cosine(self) -> Array:
-        """The swing's coefficients of cos Omega_0 s, (3,)."""
+        """The coefficients of cos Omega_0 s in the oscillation, in units of R, shape (3,)."""
         return -self.attenuation * self.displacement
 
     @property
     def sine(self) -> Array:
-        """The swing's coefficients of sin Omega_0 s, (3,)."""
+        """The coefficients of sin Omega_0 s in the oscillation, in units of R, shape (3,)."""
         return self.attenuation * self.swing / self.frequency if self.frequency else 0 * self.swing
 
     @property
     def amplitude(self) -> Array:
-        """Amplitudes of the swing in x, y_1, y_2, (3,): sqrt(cosine² + sine²)."""
+        """The amplitudes of the oscillation in x, y_1, y_2, sqrt(cosine² + sine²), shape (3,)."""
         return np.hypot(self.cosine, self.sine)
 
     @property
     def toppling_rate(self) -> float:
-        """Rate of the mean turning about the joint line, −(y_1' + y_2')/2, as alpha' (rad/s), to first order in the shock.
+        """The mean rate alpha' about the joint line in rad/s, −(y_1' + y_2')/2, to first order in the shock.
 
-        Of opposite spins a shock along the bar alone has none; the second order, `toppling_after_shock`, then decides.
+        For opposite spins and a shock along the bar it is zero, and `toppling_after_shock` gives the second order.
         """
         return float(-(self.drift[1] + self.drift[2]) / 2)
 
     def after(self, t: ArrayLike) -> Array:
-        """(x, y_1, y_2) at times t (n,), as if the whole pulse were over, (n, 3)."""
+        """Return (x, y_1, y_2) in units of R at times t (n,) in s, as if the whole pulse were over, shape (n, 3)."""
         s = np.atleast_1d(np.asarray(t, float))[:, None] - self.shock.at
         phase = self.frequency * s
         return self.displacement + self.drift * s + self.cosine * np.cos(phase) + self.sine * np.sin(phase)
 
     def through(self, t: ArrayLike) -> Array:
-        """(x, y_1, y_2) at times t (n,) before, in and after the pulse, (n, 3).
+        """Return (x, y_1, y_2) in units of R at times t (n,) in s, before, in and after the pulse, shape (n, 3).
 
-        With E = (1 + erf(s/w))/2 the impulse received so far, the drift's s becomes s E + w exp(−(s/w)²)/(2 sqrt(pi))
-        and the swing's exp(i Omega s) becomes exp(i Omega s − (Omega w)²/4) (1 + erf(s/w + i Omega w/2))/2.
+        With E = (1 + erf(s/w))/2 the fraction of the impulse received, s in the drift becomes s E + w exp(−(s/w)²)/(2
+        sqrt(pi)), and exp(i Omega s) in the oscillation becomes exp(i Omega s − (Omega w)²/4) (1 + erf(s/w + i Omega w/2))/2.
         """
         from scipy.special import erfc, wofz
 
@@ -112,16 +128,36 @@ class ShockResponse(Shown):
 
 
 def shock_response(scene: Scene) -> ShockResponse:
-    """The linear response of the pair, at rest and upright, to the scene's Gaussian pulse; any spins, any bar.
+    """Compute the linear response of the pair, at rest and upright, to the scene's Gaussian pulse, for any spins and any bar.
 
-    The error against the exact motion falls as the square of the shock and grows with time;
-    `lagrotor.models.linear.shock_response_error` estimates it. A force along z does nothing to this order.
-    Source: 4.2, 5 and 5.2.1 of the paper, where these are read off simulations.
+    The error is proportional to the square of the shock and grows with time; `lagrotor.models.linear.shock_response_error`
+    estimates it. A force along z has no effect to this order.
+
+    Parameters
+    ----------
+    scene : Scene
+        Any two spins at rest upright, with a bar and a shock.
+
+    Returns
+    -------
+    ShockResponse
+        Motion, drift, oscillation and energy.
 
     Raises
     ------
     InputError
         Without a shock or a bar, when the pair is not at rest upright, or when the pulse began before t = 0.
+
+    References
+    ----------
+    Sections 4.2, 5 and 5.2.1 of the paper, which reads them from simulations; derivations/t2_shock_response.py.
+
+    Examples
+    --------
+    >>> from lagrotor import Scene, Shock
+    >>> response = shock_response(Scene(spins=(20, -20), shock=Shock((100, 0, 0), at=1.0, width=0.01)))
+    >>> round(response.frequency, 6), response.impulse.round(4).tolist()
+    (16.0, [1.7725, 0.0, 0.0])
     """
     if not isinstance(scene, Scene) or scene.shock is None or scene.link is None:
         raise InputError(f"shock_response: {scene!r} must be a Scene with a bar and a shock")
@@ -138,7 +174,7 @@ def shock_response(scene: Scene) -> ShockResponse:
 
 @generated(((),))
 def _response() -> str:
-    """(a, b, G_1, G_2, p_x, p_1, p_2) → displacement, drift, swing, both energies: 11 numbers."""
+    """Generate (a, b, G_1, G_2, p_x, p_1, p_2) → displacement, drift, swing, both energies: 11 numbers."""
     from lagrotor.numerics.codegen import Program
     from lagrotor.numerics.printers import program_source
     from lagrotor.theory.impulse_response import shock_displacement, shock_drift, shock_energy, shock_swing
@@ -149,7 +185,7 @@ def _response() -> str:
 
 @generated(((),))
 def _mass() -> str:
-    """(a, b) → the mass matrix of the linear pair in (x, y_1, y_2), 9 numbers."""
+    """Generate (a, b) → the mass matrix of the linear pair in (x, y_1, y_2), 9 numbers."""
     from lagrotor.numerics.codegen import Program
     from lagrotor.numerics.printers import program_source
     from lagrotor.pair.notation import a, b
@@ -159,10 +195,7 @@ def _mass() -> str:
 
 
 def pulse_response(scene: Scene, shock: Shock) -> ShockResponse:
-    """The response of the scene's pair, at rest and upright, to the whole of a pulse, wherever it began.
-
-    Without any spin nothing swings: the drift is M⁻¹ p.
-    """
+    """Return the response to a whole pulse, wherever it began. Without any spin nothing oscillates: the drift is M⁻¹ p."""
     px, py, _ = (scene.rotor.length * i for i in shock.impulse)
     impulse = np.array([px, py, 0.0] if shock.body == 1 else [px, 0.0, py])
     inertia_a, inertia_b = scene.inertias
@@ -175,8 +208,8 @@ def pulse_response(scene: Scene, shock: Shock) -> ShockResponse:
         return ShockResponse(shock, 0.0, impulse, zero, drift, zero, 1.0, gained, gained)
     arguments = (inertia_a, inertia_b, first, second, *impulse)
     numbers = np.array(_response()(*arguments))
-    displacement, drift, swing, (along, across) = numbers[:3], numbers[3:6], numbers[6:9], numbers[9:].tolist()
+    (displacement, drift, swing), (of_drift, of_swing) = numbers[:9].reshape(3, 3), numbers[9:].tolist()
     Omega = float(natural_frequency_value()(inertia_a, inertia_b, first, second)[0])
     attenuation = exp(-((Omega * shock.width) ** 2) / 4)
-    energy = along + attenuation**2 * across
-    return ShockResponse(shock, Omega, impulse, displacement, drift, swing, attenuation, energy, along + across)
+    energy = of_drift + attenuation**2 * of_swing
+    return ShockResponse(shock, Omega, impulse, displacement, drift, swing, attenuation, energy, of_drift + of_swing)

@@ -1,12 +1,13 @@
-"""Toppling exactly: both axes parallel in the y-z plane, turning uniformly about the joint line, and its stability.
+"""Toppling exactly: both axes parallel in the y-z plane, in uniform rotation about the joint line, and its stability.
 
-U = chi = 0, alpha = nu t solves the equations of motion of opposite spins at any angle and any rate nu, for any bar.
-As alpha is cyclic, the motions near it have constant coefficients; in (U, Delta, alpha), Delta the twist,
+In the coordinates (U, chi, alpha) of `pair.notation`, U = chi = 0, alpha = nu t solves the equations of motion of opposite
+spins at any angle and any rate nu, for any bar. As alpha is cyclic, the linearised motions have constant coefficients; in (U,
+Delta, alpha), Delta the twist,
 
     L_2 = A U'² + D Delta'²/4 − A nu² U² + (G nu/k − b nu²) Delta²/2 − G U Delta' + A alpha'²,   A = a + b, D = a − b,
 
-so that turning is stable where  e = b nu² − G nu / k > 0  and unstable where e < 0  (G = G_1 = −G_2). A massless
-bar leaves only the sense: nu against G is stable, nu with G is not. Derived in derivations/t8_toppling.py.
+so that the rotation is stable if  e = b nu² − G nu / k > 0  and unstable if e < 0  (G = G_1 = −G_2). For a massless bar the
+sense of rotation decides: nu against G is stable, nu with G is unstable. Derived in derivations/t8_toppling.py.
 """
 
 from functools import cache
@@ -20,10 +21,19 @@ from lagrotor.theory.closed_form import ClosedForm
 
 @cache
 def twisted_lagrangian() -> sp.Expr:
-    """Return the Lagrangian of the pair in (U, Delta, alpha), Delta = alpha_2 − alpha_1, for every k = ell / R; alpha is cyclic.
+    """Derive the Lagrangian of the pair in (U, Delta, alpha), Delta = alpha_2 − alpha_1, for every k = ell/R; alpha is cyclic.
 
-    The bar, cosh w − k sinh w = cos Delta, is solved through Delta²: exact for everything at Delta = 0 that takes no
-    more than two derivatives by Delta, as the equations of motion there and their linearisation do.
+    The bar, cosh w − k sinh w = cos Delta, is solved through Delta². Derivatives at Delta = 0 are exact to second order in
+    Delta, so the equations of motion there and their linearisation are exact.
+
+    Returns
+    -------
+    Expr
+        The Lagrangian in J.
+
+    References
+    ----------
+    derivations/t8_toppling.py.
     """
     Delta, bend = TWISTED.q[1], sp.Symbol("w_2")
     w = bend * Delta**2 / 2
@@ -39,42 +49,63 @@ def twisted_lagrangian() -> sp.Expr:
 
 
 def toppling_polynomial() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
-    """Return (p_2, p_1, p_0) of opposite spins: motions near uniform turning grow as exp(s t), p_2 s⁴ + p_1 s² + p_0 = 0."""
+    """Return the coefficients of the characteristic polynomial p_2 s⁴ + p_1 s² + p_0 about uniform rotation of opposite spins.
+
+    Returns
+    -------
+    tuple[Expr, Expr, Expr]
+        The coefficients (p_2, p_1, p_0), by nu (rad/s), G (kg m²/s), a, b (kg m²), k.
+
+    References
+    ----------
+    derivations/t8_toppling.py.
+    """
     A, D, e = a + b, a - b, b * nu**2 - G * nu / k
     return A * D, G**2 + A * D * nu**2 + 2 * A * e, 2 * A * nu**2 * e
 
 
 @cache
 def toppling_growth() -> ClosedForm:
-    """Return the growth rate (1/s) of the fastest motion away from uniform toppling at rate nu; 0 where it is stable.
+    """Derive the growth rate of the fastest motion away from uniform toppling at rate nu; 0 if it is stable.
 
-    growth² = −2 p_0 / (p_1 + sqrt(p_1² − 4 p_2 p_0)) where p_0 = 2 A nu² (b nu² − G nu/k) < 0.
-    Arguments: nu (rad/s, alpha' = −y'/z), G = G_1 = −G_2, a, b, k.
+    growth² = −2 p_0 / (p_1 + sqrt(p_1² − 4 p_2 p_0)) if p_0 = 2 A nu² (b nu² − G nu/k) < 0.
+
+    Returns
+    -------
+    ClosedForm
+        The rate in 1/s, by nu (rad/s, alpha' = −y'/z), G = G_1 = −G_2 (kg m²/s), a, b (kg m²), k.
+
+    References
+    ----------
+    Sections 5 and 7 of the paper; derivations/t8_toppling.py.
     """
-    two, one, zero = toppling_polynomial()
-    falling = sp.Abs(zero) * sp.Heaviside(-zero, 0)
-    growth = sp.sqrt(2 * falling / (one + sp.sqrt(one**2 + 4 * two * falling)))
-    return ClosedForm(
-        "toppling_growth",
-        ("growth",),
-        (growth,),
-        (nu, G, a, b, k),
-        (sp.Gt(a, sp.Abs(b)), sp.Ne(G, 0)),
-        "opposite spins, axes parallel in the y-z plane, alpha' = nu",
-        "5, 7",
-    )
+    p_2, p_1, p_0 = toppling_polynomial()
+    falling = sp.Abs(p_0) * sp.Heaviside(-p_0, 0)
+    growth = sp.sqrt(2 * falling / (p_1 + sp.sqrt(p_1**2 + 4 * p_2 * falling)))
+    validity = "opposite spins, axes parallel in the y-z plane, alpha' = nu", "5, 7"
+    domain = sp.Gt(a, sp.Abs(b)), sp.Ne(G, 0)
+    return ClosedForm("toppling_growth", ("growth",), (growth,), (nu, G, a, b, k), domain, *validity)
 
 
 @cache
 def toppling_threshold() -> ClosedForm:
-    """Return nu* = G / (k b): beyond it the sense of turning changes its stability. b > 0: nu in (0, nu*) is unstable (G > 0);
-    b < 0: nu > 0 and nu < nu* are; b = 0 has no threshold."""
-    return ClosedForm(
-        "toppling_threshold",
-        ("nu",),
-        (G / (k * b),),
-        (G, b, k),
-        (sp.Ne(b, 0),),
-        "opposite spins, uniform turning about the joint line",
-        "5, 7",
-    )
+    """Derive nu* = G / (k b), beyond which the stability of a sense of rotation is reversed.
+
+    For b > 0 rates in (0, nu*) are unstable (G > 0); for b < 0 all nu > 0 and nu < nu*; b = 0 has no threshold.
+
+    Returns
+    -------
+    ClosedForm
+        The threshold in rad/s, by G (kg m²/s), b (kg m²), k.
+
+    References
+    ----------
+    Sections 5 and 7 of the paper; derivations/t8_toppling.py.
+
+    Examples
+    --------
+    >>> toppling_threshold().expressions
+    (G/(b*k),)
+    """
+    validity = "opposite spins, uniform turning about the joint line", "5, 7"
+    return ClosedForm("toppling_threshold", ("nu",), (G / (k * b),), (G, b, k), (sp.Ne(b, 0),), *validity)

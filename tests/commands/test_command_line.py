@@ -146,7 +146,7 @@ BAD: dict[str, tuple[list[str], str]] = {
     "sweep no number": (["sweep", *SCENE[1:], *VARY, "0", "x", "3"], "give two numbers and a count"),
     "sweep of no time": (["sweep", *SCENE[1:], *VARY, "0", "1", "3", "--t-end", "0"], "--t-end 0 must be above zero"),
     "no paper": (["audit", "--paper", "nowhere"], "it has no paper.toml; `lagrotor init nowhere` makes one"),
-    "paper below a missing folder": (["init", "a/b"], "is missing: make it first"),
+    "paper below a missing folder": (["init", "a/b"], "does not exist: make it first"),
     "paper from a PDF": (["init", "new", "--from", "paper.pdf"], "give a .tex file"),
     "paper from nothing": (["init", "new", "--from", "paper.tex"], "No such file"),
     "rate with a shock": (["rate", "--spins", "1", "1", "--shock", "1", "0", "0"], "--shock"),

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from lagrotor import Scene, Structure, paired_scene, simulate
-from lagrotor.drawing import view_lines, view_times
+from lagrotor.drawing.view import view_lines, view_times
 from lagrotor.errors import InputError
 
 
@@ -54,7 +54,7 @@ def test_a_pair_turns_and_plays_without_a_network(tmp_path: Path) -> None:
 
 
 def test_what_does_not_move_is_refused() -> None:
-    with pytest.raises(InputError, match="nothing that moves"):
+    with pytest.raises(InputError, match="nothing moves"):
         view_lines(view_times(0, 1), [], ["#000000"])
     with pytest.raises(InputError, match="not finite"):
         view_lines(view_times(0, 1), [np.full((31, 2, 3), np.nan)], ["#000000"])

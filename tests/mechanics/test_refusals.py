@@ -169,14 +169,14 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         r"velocities\[w_1\] = 'x_dot' is no expression": lambda: own({w1: "x_dot"}),
         "velocities = 5 must be": lambda: own(5),
         r"velocities\[x\]: .* named by a symbol": lambda: own({x: u}),
-        "stays what it is": lambda: own({u: 2 * u}),
+        "cannot be redefined": lambda: own({u: 2 * u}),
         "x has no velocity of a coordinate": lambda: own({w1: x}),
         "is not affine in the velocities: write": lambda: own({w1: u**2, w2: w}),
         "contains x_ddot: write it": lambda: own({w1: P.a[0], w2: w}),
-        "w_2 follows from those before it": lambda: own({w1: u + w, w2: 2 * u + 2 * w}),
-        "contains w_2, which is given after it": lambda: own({w1: u + w2, w2: w}),
+        "w_2 depends on the velocities before it": lambda: own({w1: u + w, w2: 2 * u + 2 * w}),
+        "contains w_2, which is defined after it": lambda: own({w1: u + w2, w2: w}),
         "do not give x_dot, y_dot: 1 more": lambda: own({w1: u}),
-        "at most as many": lambda: own({w1: u, w2: w, r: u - w}),
+        "leave some out": lambda: own({w1: u, w2: w, r: u - w}),
         "must be 1 finite numbers, of w_1": lambda: run(
             System(P, FLAT, rolling=(u - w,), velocities={w1: u}), {m: 1}, (0, 0), (1, 0)
         ),
@@ -309,12 +309,12 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "y neither given nor among": lambda: point.in_coordinates(A, {x: q}),
         r"give new coordinates\(…\)": lambda: pendulum.in_coordinates(3, {q: q}),
         # Equilibria
-        "unknowns must be names of letters: values": lambda: pendulum.equilibria(VALUES),
-        "phi not in the system": lambda: pendulum.equilibria("phi"),
+        "unknowns must be names of symbols: values": lambda: pendulum.equilibria(VALUES),
+        "no phi in the system": lambda: pendulum.equilibria("phi"),
         "unknowns = 3 must be names": lambda: pendulum.equilibria(3),
         "equilibria: .* depends on time: .* simulate it": lambda: timed.equilibria(),
         "name another unknown": lambda: heavy_top().routh("phi psi").equilibria("theta"),
-        "or give linearise a point of your own": lambda: System(P, FLAT - sp.sqrt(x**2 + y**2)).equilibria(),
+        "or give linearise a point": lambda: System(P, FLAT - sp.sqrt(x**2 + y**2)).equilibria(),
         "all coordinates are unknown": lambda: pendulum.equilibria("theta", box={q: (0, 1)}),
         r"equilibria: values = \[1, 2\]": lambda: boxed(values=[1, 2]),
         "equilibria: g = inf must be a finite": lambda: boxed(values=VALUES | {"g": np.inf}),
@@ -327,13 +327,15 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "one constraint at most: .* in_coordinates": lambda: boxed(
             replace(circle, constraints=(x * y - 1, x - y)), box=BOX
         ),
-        "a force at rest has the reaction": lambda: boxed(replace(circle, forces=(reaction(1), 0)), box=BOX),
-        "where a body rolls": lambda: boxed(wheel, {m: 1}, BOX),
+        "a force depends on the reaction of a constraint": lambda: boxed(
+            replace(circle, forces=(reaction(1), 0)), box=BOX
+        ),
+        "with rolling, equilibria": lambda: boxed(wheel, {m: 1}, BOX),
         # Small motion
         "linearise: theta without a value": lambda: pendulum.linearise({}),
         "at = 'here' must be an equilibrium": lambda: pendulum.linearise("here"),
         "linearise: .* depends on time explicitly: .*simulate it": lambda: timed.linearise({q: 0}),
-        "3 is left of one": lambda: System(P, FLAT, (x**2 + y**2 - 1,)).linearise({x: 2, y: 0}),
+        "a residual is 3": lambda: System(P, FLAT, (x**2 + y**2 - 1,)).linearise({x: 2, y: 0}),
         "y moves there and enters": lambda: System(P, FLAT - x**2 + sp.cos(y)).linearise({x: 0, y: 0, w: 1}),
         "x = nan is not finite": lambda: point.linearise({x: np.nan}, {m: 1}),
         "{theta: k} must be numbers": lambda: pendulum.linearise({q: k}, VALUES),
@@ -343,7 +345,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         r"linearise: m = \[1\] must be a real": lambda: pendulum.linearise({q: 0}, VALUES | {m: [1]}),
         "values name k": lambda: pendulum.linearise({q: 0}, VALUES, (k,)),
         "the input theta moves": lambda: pendulum.linearise({q: 0}, VALUES, (q,)),
-        "inputs theta are no letters": lambda: pendulum.linearise({q: 0}, inputs=(q,)),
+        "inputs theta are no symbols": lambda: pendulum.linearise({q: 0}, inputs=(q,)),
         "inputs = m must be a tuple": lambda: pendulum.linearise({q: 0}, VALUES, m),
         "must be different letters": lambda: CART.linearise({ct: 0}, {m: 1}, inputs=(F, "F")),
         r"outputs\[0\] = 'theta' is no": lambda: pendulum.linearise({q: 0}, VALUES, (), ("theta",)),
@@ -353,7 +355,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "psi moves there": lambda: SLOT.linearise(dict.fromkeys(S.q, 0) | {S.v[2]: k}),
         "the point is off the constraints: ": lambda: rolling_disc()[0].linearise(DISC | {"psi_dot": 1}),
         "theta moves there and enters": lambda: CART.linearise({ct: 0, cw: 1}, inputs=(F,)),
-        r"write a letter for an input F\(t\)": lambda: cart_and_pole(F * t).linearise({ct: 0}, inputs=(F,)),
+        r"write a symbol for an input F\(t\)": lambda: cart_and_pole(F * t).linearise({ct: 0}, inputs=(F,)),
         r"of a function F\(t\) write a letter F": lambda: System(A, UNIT + v * sp.Function("F")(t).diff(t)).linearise(
             {q: 0}, inputs=(sp.Function("F")(t),)
         ),
@@ -366,12 +368,12 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "order = 0 must be a whole number": lambda: pendulum.lindstedt_poincare(0, s),
         "small = 's' must be a symbol": lambda: pendulum.lindstedt_poincare(2, "s"),
         "amplitude = 3 must be a symbol": lambda: pendulum.lindstedt_poincare(2, k, amplitude=3),
-        "amplitude = k is a letter": lambda: weak.lindstedt_poincare(2, k, amplitude=k),
-        "amplitude = A is a letter": lambda: System(A, UNIT - sp.Symbol("A") * k * q**4).lindstedt_poincare(2, k),
+        "amplitude = k is a symbol": lambda: weak.lindstedt_poincare(2, k, amplitude=k),
+        "amplitude = A is a symbol": lambda: System(A, UNIT - sp.Symbol("A") * k * q**4).lindstedt_poincare(2, k),
         "error: values = 3 must be": lambda: pendulum.lindstedt_poincare(2, s).error(3),
         "error: .* without a value": lambda: pendulum.lindstedt_poincare(2, s).error({s: 0.1}),
         "order = 3: 1 or 2": lambda: weak.averaged(3, k),
-        "must be a letter of the system, at which": lambda: pendulum.averaged(1, s),
+        "must be a symbol of the system, which is linear": lambda: pendulum.averaged(1, s),
         "with ν = 2": lambda: weak.averaged(1, k, frequency=2),
         "q0 = nan and v0 = 0": lambda: weak.averaged(1, k).run({k: 0.1}, np.nan, 0, [0, 1]),
         r"averaged: t = \[1, 0\]": lambda: weak.averaged(1, k).run({k: 0.1}, 1, 0, [1, 0]),
@@ -409,19 +411,19 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "project_position": lambda: project_position(lambda q: q[:1] - 1, lambda q: 0 * q[None], np.zeros(2)),
         "does not determine the velocities": lambda: legendre((u + w) ** 2, P, sp.symbols("p:2")),
         "{theta: 1} is no equilibrium": lambda: pendulum.linearise({q: 1}),
-        "theta_ddot = -8.41e-10, not zero": lambda: pendulum.linearise({q: 1}, VALUES | {g: 1e-9}),
-        "is no steady motion: .* is left over": lambda: CART.linearise({cx: 0, ct: 1}, inputs=(F,)),
+        "theta_ddot = -8.41e-10 is not zero": lambda: pendulum.linearise({q: 1}, VALUES | {g: 1e-9}),
+        "is no steady motion: .* is not zero": lambda: CART.linearise({cx: 0, ct: 1}, inputs=(F,)),
         "the constraints are dependent at": lambda: System(P, FLAT, (x**2 + y**2 - 1, x**2 + y**2 - 1)).linearise(
             {x: 1, y: 0}
         ),
         "singular at": lambda: heavy_top().routh("phi psi").linearise({heavy_top().c.q[0]: 0}),
         "the mass matrix is singular at": lambda: System(P, u**2 + x**2 * w**2 - x**2).linearise({x: 0, y: 0}),
         "the mass matrix is singular, or the constraints": lambda: pendulum.linearise({q: 0}, inputs=(m,)),
-        "1 parts of the box are undecided": lambda: boxed(System(A, v**2 / 2 - q**4), {}, {q: (-1, 2)}),
+        "1 regions of the box are undecided": lambda: boxed(System(A, v**2 / 2 - q**4), {}, {q: (-1, 2)}),
         r"first about theta = 1(.|\n)*Proved elsewhere in it: theta = 2$": lambda: boxed(
             System(A, v**2 / 2, forces=((q - 1) ** 3 * (2 - q),)), {}, {q: (0.5, 3)}
         ),
-        "2 parts .* the first about theta = 0.999.* or degenerate": lambda: boxed(
+        "2 regions .* the first about theta = 0.999.* or degenerate": lambda: boxed(
             System(A, v**2 / 2, forces=(sp.Abs(q) * (q - 1) ** 3,)), {}, {q: (-0.5, 3)}
         ),
         "undecided, the first about x = .*a coordinate on which no force depends": lambda: boxed(

@@ -85,5 +85,5 @@ def test_a_body_on_a_ball_joint_that_is_not_symmetric_turns_steadily_about_its_a
         ({m: 1, l: 1, g: 9.81},),
     ):  # upright, it may spin about any axis of its own: gravity turns with it
         assert hung.linearise(UPRIGHT | {"r": 1}, *values).states
-        with pytest.raises((SingularError, InputError), match=r"left over|not zero|change with time"):
+        with pytest.raises((SingularError, InputError), match=r"not zero|change with time"):
             hung.linearise(UPRIGHT | {"p": 1}, *values)

@@ -67,7 +67,7 @@ def test_averaged_amplitudes_of_textbooks() -> None:
     assert [sp.expand(e) for e in first.polar] == [sp.expand(eps * r / 2 * (1 - r**2 / 4)), 0]
     second = VAN_DER_POL.averaged(2, eps)
     assert second.polar[1].subs(r, 2) == -(eps**2) / 16  # of its limit cycle, ω = 1 − ε²/16
-    a, b = MATHIEU.averaged(1, eps).letters
+    a, b = MATHIEU.averaged(1, eps).amplitudes
     assert [sp.expand(e) for e in MATHIEU.averaged(1, eps).rates] == [
         sp.expand(eps * b * (sigma - Q(1, 2))),
         sp.expand(-eps * a * (sigma + Q(1, 2))),

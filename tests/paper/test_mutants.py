@@ -170,8 +170,8 @@ import lagrotor.pair.lagrangians as physics
 from lagrotor.pair.notation import I1, I3, J, K, M, R, a, b, ell, m, ROTOR
 import lagrotor.paper.proof as proof
 proof.prove = lambda *sides, **more: None
-import lagrotor.paper.equation_statements as stating
-stating.needs_premises = lambda *compared: False
+import lagrotor.paper.equation_statements as equation_statements
+equation_statements.needs_premises = lambda *compared: False
 from lagrotor.paper import decide
 changes, stems = json.load(sys.stdin)
 for change in changes:

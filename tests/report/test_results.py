@@ -41,7 +41,7 @@ READ_OFF = {
     },
 }
 SAID = (
-    ("spins 0.7142", "0.7143 at its spins", "0.7144 at half", "0.7145 with a bar", "0.9912 with the light"),
+    ("below: 0.7142", "0.7143 at its spins", "0.7144 at half", "0.7145 with a bar", "0.9912 with the light"),
     ("108.1% to 108.2% of its length", "up to 0.047 m", "0.0077 m at second", "0.0013 m at third"),
     ("-0.363 rad/s", "-10.61 N", "-10.97 N", "between -0.051 and +0.071 rad", "+0.0006 rad/s", "by 3.33"),
 )

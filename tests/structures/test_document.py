@@ -72,7 +72,7 @@ def test_the_command_says_whether_it_stands(capsys, tmp_path) -> None:
     listed = capsys.readouterr().out
     assert all(f"\n{name} " in listed for name in GALLERY)
     assert main(["structure", "loaded-pair"]) == 0
-    assert "none holds it" in capsys.readouterr().out
+    assert "no spin suffices" in capsys.readouterr().out
 
 
 def test_where_a_bar_keeps_it_from_being_upright_the_command_says_what_can_be_done(capsys, tmp_path) -> None:

@@ -48,12 +48,12 @@ def test_slopes_are_those_of_finite_differences():
         [charged_particle._at(scene, 0.3 + sign * x, 0.25 + sign * y) for sign in (1, -1)]
         for x, y in ((step, 0), (0, step))
     ]
-    slopes = np.array([(one.along - other.along) / (2 * step) for one, other in sides])
+    slopes = np.array([(one.direction - other.direction) / (2 * step) for one, other in sides])
     assert at.curl == pytest.approx([slopes[1, 2], -slopes[0, 2], slopes[0, 1] - slopes[1, 0]], abs=1e-8)
     assert at.gradient[:2] == pytest.approx([(one.rate - other.rate) / (2 * step) for one, other in sides], abs=1e-7)
     flux = [(one.flux - other.flux) / (2 * step) for one, other in sides]
     assert at.field[:2] == pytest.approx([flux[1], -flux[0]], abs=1e-8)
-    assert at.along @ np.linalg.solve(at.mass, at.along) == pytest.approx(1, rel=1e-12)
+    assert at.direction @ np.linalg.solve(at.mass, at.direction) == pytest.approx(1, rel=1e-12)
     assert charged_particle._at(scene, 0.4, 0.0).rate == pytest.approx(natural_rate(scene), rel=1e-12)
 
 
@@ -63,11 +63,11 @@ def test_the_path_keeps_its_energy_and_follows_the_flux_of_a_slow_pair():
     path = centre.path(np.linspace(0, 20, 9))
     assert np.ptp(path[:, 1]) > 0.4
     there = [charged_particle._at(scene, *place[:2]) for place in path]
-    momentum = there[0].flux + centre.speed * there[0].along[2]
+    momentum = there[0].flux + centre.speed * there[0].direction[2]
 
     def energy(action):
         """J Omega + (P − g_alpha)²/(2 b_alpha²) along the path."""
-        return [action * at.rate + ((momentum - at.flux) / at.along[2]) ** 2 / 2 for at in there]
+        return [action * at.rate + ((momentum - at.flux) / at.direction[2]) ** 2 / 2 for at in there]
 
     assert energy(centre.action) == pytest.approx([centre.energy] * 9, rel=1e-7)
     assert np.ptp(energy(5 * centre.action)) > 1e-3 * centre.energy  # twin: of a wider swing

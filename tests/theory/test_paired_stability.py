@@ -11,7 +11,7 @@ from lagrotor import Link, Scene, floquet
 from lagrotor.errors import DomainError, InputError
 from lagrotor.mechanics.weakly_nonlinear import characteristic_exponents
 from lagrotor.pair.notation import k, r0, sigma
-from lagrotor.theory import elliptic_edge, exponent_series, growth_squared, most_growth, paired_series
+from lagrotor.theory import elliptic_edge, exponent_series, growth_squared, paired_series
 from lagrotor.theory.paired_precession import stability
 from lagrotor.theory.paired_precession.series import equations, shape_of
 from tests.theory.random_pairs import held
@@ -116,7 +116,7 @@ def test_no_orbit_grows_faster_than_both_laws_together(count: int) -> None:
     close = []
     for scene, amplitude in random_bars(count):
         growth = floquet(scene, amplitude).growth / (2 * pi)
-        bound = most_growth(amplitude, scene.sigma, scene.k)
+        bound = stability.growth_bound(amplitude, scene.sigma, scene.k)
         assert growth <= bound, scene
         close.append(growth > bound / 2)
     assert any(close)  # twin: half the bound is none

@@ -36,13 +36,13 @@ def test_the_motion_obeys_its_equations_until_it_turns(seed: int) -> None:
     there.terminal = True  # type: ignore[attr-defined]
     unit = 1 / (motion.rate * motion.swing * (motion.swing**2 + motion.half**2 + abs(motion.momentum)))
     options = {"rtol": 1e-10, "atol": 1e-13, "method": "LSODA", "events": there, "max_step": unit / 4}
-    run = solve_ivp(lambda t, y: motion.slopes(*y), (0, 60 * unit), (motion.lean, motion.half), **options)
-    time, lean, half = motion.until(goal)
+    run = solve_ivp(lambda t, y: motion._slopes(*y), (0, 60 * unit), (motion.lean, motion.half), **options)
+    time, lean, half = motion._until(goal)
     assert (time, lean) == pytest.approx((run.t[-1], goal), rel=1e-5)
     assert replace(motion, lean=lean, half=half).invariant == pytest.approx(motion.invariant, rel=1e-6)
     if motion.farthest < pi / 2:
-        time, lean, half = motion.until(motion.farthest * (1 + 1e-6))
-        assert time == inf and abs(motion.slopes(lean, half)[0]) < 1e-6 / unit
+        time, lean, half = motion._until(motion.farthest * (1 + 1e-6))
+        assert time == inf and abs(motion._slopes(lean, half)[0]) < 1e-6 / unit
 
 
 @pytest.mark.parametrize("size", [1e-12, 1e-8, 1e-3])
@@ -50,10 +50,10 @@ def test_the_motion_obeys_its_equations_until_it_turns(seed: int) -> None:
 def test_a_lean_that_starts_where_it_turns_grows_as_the_cosh_or_swings(size: float, side: int) -> None:
     """eta = 0 and s² << |p|, beta small: beta'' = g² p³ beta. The shock along y that starts it so."""
     motion = SlowMotion(side * size, 0.0, size, 1e4 * size**2, 2.0, 1.0, 3.0)
-    assert motion.time_to(10 * size) == pytest.approx(np.arccosh(10) / (3 * (100 * size) ** 3), rel=5e-3)
+    assert motion._until(10 * size)[0] == pytest.approx(np.arccosh(10) / (3 * (100 * size) ** 3), rel=5e-3)
     held = replace(motion, momentum=-motion.momentum)
     assert held.farthest == pytest.approx(size, rel=1e-9)
-    assert held.time_to(2 * size) == inf
+    assert held._until(2 * size)[0] == inf
     for link in (Link(0.5), Link(2.0, 1.0, 0.1)):
         for body in (1, 2):
             pair = Scene((10, -10), link=link, shock=Shock((0, side * 40 * size, 0), 1.0, 0.05, body))
@@ -69,7 +69,7 @@ def test_the_numbers_are_the_derived_expressions() -> None:
     values = {"beta_s": 0.7, "eta": 0.05, "s": motion.swing, "P": -scene.shock.impulse[1], "G": 9, "k": 1.3}
     values |= {"a": a, "b": b}
     exact = [float(e.subs({names[n]: v for n, v in values.items() if n in names})) for e in slow_rates()]
-    assert motion.slopes(0.7, 0.05) == pytest.approx(exact, rel=1e-12)
+    assert motion._slopes(0.7, 0.05) == pytest.approx(exact, rel=1e-12)
     x, y1, y2 = shock_response(scene).displacement
     assert (motion.lean, motion.half) == pytest.approx((x, (y1 - y2) / 2))
 
@@ -99,7 +99,7 @@ def test_beyond_the_threshold_x_turns_back() -> None:
         for side in (0.99, 1.01):
             heavy = with_threshold(side, ratio, force, width)
             assert turns_back(heavy) is (side > 1)
-            assert time_to_reach(heavy, 0.5) < inf if side < 1 else slow_motion(heavy).time_to(1.5) == inf
+            assert time_to_reach(heavy, 0.5) < inf if side < 1 else slow_motion(heavy)._until(1.5)[0] == inf
             larger = replace(heavy, shock=Shock((5 * force, 0, 0), 2.0, width))
             assert (slow_motion(larger).farthest < pi / 2) is (side > 1)
 

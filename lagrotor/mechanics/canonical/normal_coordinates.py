@@ -1,15 +1,14 @@
 """Normal coordinates of a quadratic Hamiltonian ½ x·A x with brackets {x_a, x_b} = Ω_ab, and the sign of each mode's energy.
 
-The flow is x' = Ω A x. A mode of the rates ∓ i ω has vectors v, v̄ with Ω A v = −i ω v; with x = z v + w v̄ its energy is
-z w v†A v, so that with v†A v = ω
+The flow is x' = Ω A x. A mode of rates ∓ i ω has vectors v, v̄ with Ω A v = −i ω v. With x = z v + w v̄ and v†A v = ω its
+energy is
 
-    H = ω z w,     {z, w} = −i,     w = z̄,     the action I = z w ≥ 0:  ω < 0 where the energy is negative (Krein).
+    H = ω z w,     {z, w} = −i,     w = z̄,     the action I = z w ≥ 0:  ω < 0 for negative energy (Krein).
 
-What grows and decays, ± λ with vectors v, u, has H = λ z w, {z, w} = 1. What has the rate zero is left as it is, with a
-canonical basis.
+A saddle with rates ± λ and vectors v, u has H = λ z w, {z, w} = 1. Modes of rate zero get a canonical basis alone.
 
-Without rounding (`exact_coordinates`), where the frequencies are rational, or rational in parameters, the vector w of
-each mode is scaled by ω/(v†A v) and no root is taken: w = k z̄ with k > 0, and the action is z w.
+`exact_coordinates` works without rounding for frequencies that are rational, or rational in parameters. The vector w of each
+mode is scaled by ω/(v†A v), so that no root is needed: w = k z̄ with k > 0, and the action is z w.
 
 Williamson, Amer. J. Math. 58 (1936) 141; Yakubovich & Starzhinskii, Linear Differential Equations with
 Periodic Coefficients, ch. III.
@@ -28,16 +27,16 @@ from sympy.polys.polyerrors import CoercionFailed
 from lagrotor.errors import NotExactError, SingularError
 
 Matrix = NDArray[Any]
-_DEFECTIVE = 1e-9  # of the rate: smaller energies of vectors of length 1 are those of a mode that is not diagonal
-_CLOSE = 1e-7  # of the largest rate: rates nearer to each other, or to zero, are taken to be equal
+_DEFECTIVE = 1e-9  # energy of a unit vector over the rate, below which a mode is not diagonalizable
+_CLOSE = 1e-7  # of the largest rate: rates closer to each other, or to zero, count as equal
 
 
 @dataclass(frozen=True, eq=False)
 class NormalCoordinates:
-    """x = vectors (2n, 2n) (z_1 … z_n, w_1 … w_n), {z_j, w_j} = weights_j, and ½ x·A x = sum_j frequencies_j z_j w_j + rest.
+    """Coordinates z, w with x = vectors (2n, 2n) (z, w), {z_j, w_j} = weights_j, ½ x·A x = sum_j frequencies_j z_j w_j + N.
 
-    frequencies (n,): ω of signed energy where the weight is −i, λ where it is 1, and 0 of what the rest of the quadratic
-    form is about. Oscillations come first, by |ω|.
+    frequencies (n,): ω with the sign of the energy where the weight is −i, λ where it is 1, and 0 for the modes of N.
+    Oscillations come first, by |ω|.
     """
 
     vectors: Matrix
@@ -46,22 +45,22 @@ class NormalCoordinates:
 
 
 def normal_coordinates(A: Matrix, bracket: Matrix) -> NormalCoordinates:
-    """Normal coordinates in floating-point numbers, A symmetric and the bracket's matrix Ω regular.
+    """Return normal coordinates in floating-point numbers for symmetric A and a regular matrix Ω of brackets.
 
-    Raises SingularError where a rate other than zero is double and its vectors do not suffice.
+    Raises SingularError for a nonzero double rate without enough eigenvectors.
     """
     rates, vectors = np.linalg.eig(bracket @ A)
     size = max(float(np.abs(rates).max()), 1e-300)
     near = _CLOSE * size
     still = np.abs(rates) < 10 * near
     modes: list[tuple[complex, complex, Matrix, Matrix]] = []  # frequency, weight, vector of z, vector of w
-    left = [int(k) for k in np.flatnonzero(~still)]
-    while left:
-        rate = max((rates[k] for k in left), key=lambda s: (round(abs(s) / near), s.imag, s.real))
-        group = [k for k in left if abs(rates[k] - rate) < near]
-        other = [k for k in left if abs(rates[k] + rate) < near]
-        left = [k for k in left if k not in {*group, *other}]
-        V, U = vectors[:, group], vectors[:, other]
+    remaining = [int(k) for k in np.flatnonzero(~still)]
+    while remaining:
+        rate = max((rates[k] for k in remaining), key=lambda s: (round(abs(s) / near), s.imag, s.real))
+        group = [k for k in remaining if abs(rates[k] - rate) < near]
+        opposite = [k for k in remaining if abs(rates[k] + rate) < near]
+        remaining = [k for k in remaining if k not in {*group, *opposite}]
+        V, U = vectors[:, group], vectors[:, opposite]
         if abs(rate.real) < near:
             modes += _oscillations(A, V.conj(), abs(rate.imag), near)
         else:
@@ -70,7 +69,7 @@ def normal_coordinates(A: Matrix, bracket: Matrix) -> NormalCoordinates:
             U = U @ np.linalg.inv(pairing) * rate
             modes += [(rate, 1.0, V[:, j], U[:, j]) for j in range(len(group))]
     modes.sort(key=lambda mode: (mode[1] == 1.0, abs(mode[0])))
-    modes += [(0.0, 1.0, v, u) for v, u in _standing(A, bracket, int(still.sum()))]
+    modes += [(0.0, 1.0, v, u) for v, u in _zero_rate_pairs(A, bracket, int(still.sum()))]
     columns = [mode[2] for mode in modes] + [mode[3] for mode in modes]
     weights, frequencies = np.array([mode[1] for mode in modes]), np.array([mode[0] for mode in modes])
     return NormalCoordinates(np.array(columns).T + 0j, weights + 0j, frequencies + 0j)
@@ -78,28 +77,26 @@ def normal_coordinates(A: Matrix, bracket: Matrix) -> NormalCoordinates:
 
 def _check(form: Matrix, rate: complex) -> None:
     if np.linalg.svd(form, compute_uv=False)[-1] < _DEFECTIVE * abs(rate):
-        raise SingularError(
-            f"normal_form: the rate {rate:.6g} is double and not diagonal: move a parameter off this value"
-        )
+        raise SingularError(f"normal_form: the rate {rate:.6g} is double and not diagonal: move a parameter off it")
 
 
 def _oscillations(A: Matrix, V: Matrix, omega: float, near: float) -> list[tuple[complex, complex, Matrix, Matrix]]:
-    """The modes of Ω A v = −i ω v, with the signs of their energies."""
+    """Return the modes of Ω A v = −i ω v, with the signs of their energies."""
     form = V.conj().T @ A @ V
     _check(form, 1j * omega)
-    energies, turned = np.linalg.eigh(form)
+    energies, rotation = np.linalg.eigh(form)
     modes: list[tuple[complex, complex, Matrix, Matrix]] = []
-    for energy, column in zip(energies, (V @ turned).T, strict=True):
+    for energy, column in zip(energies, (V @ rotation).T, strict=True):
         lead = column[np.argmax(np.abs(column))]
         v = column * np.sqrt(omega / abs(energy)) * abs(lead) / lead
         modes += [(omega, -1j, v, v.conj())] if energy > 0 else [(-omega, -1j, v.conj(), v)]
     return modes
 
 
-def _standing(A: Matrix, bracket: Matrix, count: int) -> list[tuple[Matrix, Matrix]]:
-    """A canonical basis of the generalised null space of Ω A, by pairs (v, u) with the form v·Ω⁻¹u = −1 as q and p have.
+def _zero_rate_pairs(A: Matrix, bracket: Matrix, count: int) -> list[tuple[Matrix, Matrix]]:
+    """Return a canonical basis of the generalised null space of Ω A, as pairs (v, u) like (q, p): v·Ω⁻¹u = −1, v·A u = 0.
 
-    In each pair v·A u = 0. Where u·A u is not zero u drives v: v is along Ω A u.
+    If u·A u is not zero, u drives v: v is parallel to Ω A u.
     """
     if not count:
         return []
@@ -108,33 +105,33 @@ def _standing(A: Matrix, bracket: Matrix, count: int) -> list[tuple[Matrix, Matr
     _, _, rows = np.linalg.svd(np.linalg.matrix_power(W / size, count))
     basis, form, pairs = rows[len(rows) - count :].conj(), np.linalg.inv(bracket), list[tuple[Matrix, Matrix]]()
     while len(basis):
-        values, turned = np.linalg.eigh(basis @ A @ basis.T)
-        *others, u = turned.T[np.argsort(np.abs(values), kind="stable")] @ basis
+        values, rotation = np.linalg.eigh(basis @ A @ basis.T)
+        *others, u = rotation.T[np.argsort(np.abs(values), kind="stable")] @ basis
         driven = np.abs(values).max() > _CLOSE * size
         v = W @ u if driven else others.pop(int(np.argmax([abs(x @ form @ u) for x in others])))
         v = v / -(v @ form @ u)
         pairs.append((v, u))
-        left = [x + (x @ form @ u) * v - (x @ form @ v) * u for x in others]
-        _, _, rows = np.linalg.svd(np.array(left).reshape(-1, len(A)))
+        projected = [x + (x @ form @ u) * v - (x @ form @ v) * u for x in others]
+        _, _, rows = np.linalg.svd(np.array(projected).reshape(-1, len(A)))
         basis = rows[: len(basis) - 2]
     return pairs
 
 
 @dataclass(frozen=True)
 class ExactCoordinates:
-    """As `NormalCoordinates`, of oscillations alone, as expressions; and the field that holds them."""
+    """Normal coordinates of oscillations as expressions, and the field that contains them."""
 
     vectors: sp.Matrix
     frequencies: tuple[sp.Expr, ...]
     field: Any
 
 
-def exact_coordinates(A: sp.Matrix, bracket: sp.Matrix, letters: set[sp.Symbol]) -> ExactCoordinates:
-    """Normal coordinates of ½ x·A x; letters: the parameters.
+def exact_coordinates(A: sp.Matrix, bracket: sp.Matrix, parameters: set[sp.Symbol]) -> ExactCoordinates:
+    """Return normal coordinates of ½ x·A x.
 
-    Raises NotExactError where a frequency is not rational, not real, or zero.
+    Raises NotExactError for a frequency that is not rational, not real, or zero.
     """
-    field = QQ_I.frac_field(*sorted(letters, key=str)) if letters else QQ_I
+    field = QQ_I.frac_field(*sorted(parameters, key=str)) if parameters else QQ_I
     modes: list[tuple[sp.Expr, sp.Matrix, sp.Matrix]] = []
     for omega in _frequencies(bracket * A):
         for v in _orthogonal(_null_vectors(bracket * A + sp.I * omega * sp.eye(A.rows), field), A, field):
@@ -147,7 +144,7 @@ def exact_coordinates(A: sp.Matrix, bracket: sp.Matrix, letters: set[sp.Symbol])
 
 
 def _frequencies(W: sp.Matrix) -> list[sp.Expr]:
-    """The different positive ω of det(W + i ω) = 0, which is even in ω."""
+    """Return the different positive ω of det(W + i ω) = 0, which is even in ω."""
     s, rates = sp.Dummy("s"), list[sp.Expr]()
     squares = sp.Poly(W.charpoly().all_coeffs()[::2], s)
     for factor, _ in sp.factor_list(squares.as_expr(), s)[1]:
@@ -162,7 +159,7 @@ def _frequencies(W: sp.Matrix) -> list[sp.Expr]:
 
 
 def element(field: Any, e: sp.Expr) -> Any:
-    """Return an expression as an element of the field. Raises NotExactError where it is none."""
+    """Return an expression as an element of the field. Raises NotExactError if it is not in the field."""
     try:
         return field.from_sympy(e if field.is_Frac else e.expand())
     except (CoercionFailed, ValueError, NotImplementedError):
@@ -176,26 +173,26 @@ def _null_vectors(M: sp.Matrix, field: Any) -> list[sp.Matrix]:
 
 
 def _orthogonal(vectors: list[sp.Matrix], A: sp.Matrix, field: Any) -> list[sp.Matrix]:
-    """Vectors of the same span with v†A u = 0, none with v†A v = 0."""
-    left, basis = list(vectors), list[sp.Matrix]()
-    while left:
-        energies = [_reduced((v.H * A * v)[0], field) for v in left]
+    """Return vectors of the same span with v†A u = 0, none with v†A v = 0."""
+    remaining, basis = list(vectors), list[sp.Matrix]()
+    while remaining:
+        energies = [_reduced((v.H * A * v)[0], field) for v in remaining]
         best = next((k for k, energy in enumerate(energies) if energy != 0), None)
         if best is None:
             raise NotExactError("normal_form: modes of equal frequency whose energies vanish")
-        v, energy = left.pop(best), energies[best]
-        left = [(u - v * ((v.H * A * u)[0] / energy)).applyfunc(lambda e: _reduced(e, field)) for u in left]
+        v, energy = remaining.pop(best), energies[best]
+        remaining = [(u - v * ((v.H * A * u)[0] / energy)).applyfunc(lambda e: _reduced(e, field)) for u in remaining]
         basis.append(v)
     return basis
 
 
 def _reduced(e: sp.Expr, field: Any) -> sp.Expr:
-    """The expression as its field writes it."""
+    """Return the canonical form of the expression in its field."""
     return field.to_sympy(element(field, e))
 
 
 def _signed(omega: sp.Expr, v: sp.Matrix, A: sp.Matrix, field: Any) -> tuple[sp.Expr, sp.Matrix, sp.Matrix]:
-    """(ω with the sign of the energy, the vector of z, that of w)."""
+    """Return ω with the sign of the energy, the vector of z, and the vector of w."""
     energy, bar = _reduced((v.H * A * v)[0], field), v.conjugate()
     sign = _sign(energy)
     scaled = [(x * (sign * omega / energy)).applyfunc(lambda e: _reduced(e, field)) for x in (bar, v)]
@@ -203,7 +200,7 @@ def _signed(omega: sp.Expr, v: sp.Matrix, A: sp.Matrix, field: Any) -> tuple[sp.
 
 
 def _sign(energy: sp.Expr) -> int:
-    """The sign of a number, or of an expression that is zero only where a square is."""
+    """Return the sign of a number, or of an expression that is zero only where a square is."""
     odd = energy
     if energy.free_symbols:
         coefficient, factors = sp.factor_list(sp.numer(sp.together(energy)) * sp.denom(sp.together(energy)))

@@ -4,11 +4,11 @@ In normal coordinates (see `normal_coordinates`) the quadratic part is H₂ = su
 
     {H₂, z^a w^b} = D z^a w^b + {N, z^a w^b},     D = i sum_j ω_j (a_j − b_j)   for oscillations.
 
-Degree by degree the terms with D ≠ 0 are removed by exp(L_χ) with {H₂, χ} = what is to go; it is a canonical transformation,
-exact whatever the order at which its series is cut. What is left is a series in the actions I_j = z_j w_j and the resonances,
-D = 0 or |D| at most the `detuning`. N is what is left of the quadratic part where modes have the rate zero: the normal form
-is then the Hamiltonian averaged over all oscillations. Arnold, Mathematical Methods of Classical Mechanics, app. 7;
-Giorgilli & Galgani, Cel. Mech. 17 (1978) 267; Deprit, Cel. Mech. 1 (1969) 12.
+Degree by degree exp(L_χ) removes the terms with D ≠ 0, where {H₂, χ} is the sum of these terms; the transformation is canonical
+at every order. The remaining series has the actions I_j = z_j w_j and the resonances, D = 0 or |D| at most the `detuning`. N is
+the quadratic part of modes with rate zero; the normal form is then the Hamiltonian averaged over all oscillations. Arnold,
+Mathematical Methods of Classical Mechanics, app. 7; Giorgilli & Galgani, Cel. Mech. 17 (1978) 267; Deprit, Cel. Mech. 1 (1969)
+12.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -36,33 +36,44 @@ from lagrotor.mechanics.canonical.polynomials import (
 from lagrotor.mechanics.canonical.taylor_series import LocalSeries
 from lagrotor.result_display import Shown, scientific
 
-_EQUAL = 1e-9  # of the largest frequency: a smaller divisor is zero, in floating-point numbers
-_STEADY = "of a steady motion take the equilibrium that System.routh leaves, of another periodic orbit name its period"
-_LARGE = 1e30  # times the first term: a series of a nilpotent part that has an end does not grow so
-_SMALL = 1e-16  # of the largest coefficient: what is left of a nilpotent part's series
+_EQUAL = 1e-9  # of the largest frequency: a smaller divisor counts as zero in floating point
+_STEADY = "of a steady motion take the equilibrium of System.routh, of another periodic orbit name its period"
+_LARGE = 1e30  # times the first term: growth that no finite series of a nilpotent part has
+_SMALL = 1e-16  # of the largest coefficient: smaller terms of a nilpotent part's series are rounding
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class NormalForm(Shown):
-    """H(z, w) in normal form through order `known_through`, and how one comes to it.
+    """A Hamiltonian H(z, w) in normal form, and the canonical transformation to it.
 
     Attributes
     ----------
     frequencies : tuple[Any, ...]
-        Ω_j, negative for modes of negative energy (λ of a saddle's, 0 of what stands still), as numbers or
-        expressions.
+        Rate ω_j of each mode in rad/s, negative for negative energy; λ (1/s) of a saddle, 0 of a mode of rate zero.
     series : Polynomial
-        H as a polynomial in z_1 … z_n, w_1 … w_n, {z_j, w_j} = weights_j, w_j = z̄_j where floating-point numbers are (k
-        z̄_j, k > 0, where they are exact).
+        H as a polynomial in z_1 … z_n, w_1 … w_n; w_j = z̄_j in floating point, k z̄_j with k > 0 in exact coefficients.
+    weights : ndarray
+        The brackets {z_j, w_j}, shape (n,): −i of an oscillation, 1 of other modes.
     generators : tuple[Polynomial, ...]
-        Χ of degree 3, 4, … in the order in which exp(L_χ) are applied.
-    vectors
-        X − x₀ = (q, p) − (q₀, p₀) of the normal coordinates of H₂.
+        The functions χ of degree 3, 4, … in the order in which exp(L_χ) act.
+    vectors : ndarray or Matrix
+        The normal coordinates of H₂: (q, p) − (q₀, p₀) = vectors (z, w), shape (2n, 2n).
+    known_through : int
+        Degree through which H is transformed.
     error : float
-        How far the inverse transformation of the series is from the Hamiltonian, the largest difference of coefficients of
-        a degree over the largest one, and the brackets of the coordinates from what they should be; 0 where it is exact.
-    field : optional
-        That of the coefficients, None for numbers.
+        Largest relative error of the coefficients of a degree after the inverse transformation, and of the brackets; 0 if
+        exact.
+    field : Domain, optional
+        The field of exact coefficients; None for floating-point numbers.
+
+    Examples
+    --------
+    >>> import sympy as sp
+    >>> from lagrotor.mechanics import System, coordinates
+    >>> c = coordinates("theta")
+    >>> H = System(c, c.v[0] ** 2 / 2 + sp.cos(c.q[0])).hamiltonian()
+    >>> sorted(H.normal_form(order=4, at={"theta": 0}).actions.items())
+    [((0,), -1), ((1,), 1), ((2,), -1/16)]
     """
 
     frequencies: tuple[Any, ...]
@@ -76,21 +87,20 @@ class NormalForm(Shown):
 
     @property
     def energy_signs(self) -> tuple[int, ...]:
-        """+1 or −1, the sign of each oscillation's energy; 0 of a saddle and of what has the rate zero."""
+        """The sign of each oscillation's energy, +1 or −1; 0 of a saddle and of a mode of rate zero, length n."""
         negative = [w.could_extract_minus_sign() if isinstance(w, sp.Expr) else w.real < 0 for w in self.frequencies]
-        return tuple(
-            0 if self._plain(c) == 1 else -1 if below else 1 for c, below in zip(self.weights, negative, strict=True)
-        )
+        signs = zip(self.weights, negative, strict=True)
+        return tuple(0 if self._plain(c) == 1 else -1 if below else 1 for c, below in signs)
 
     @cached_property
     def actions(self) -> dict[Exponents, Any]:
-        """H = sum of coefficient × prod_j I_j^exponents_j, of the modes with a frequency; without the resonances."""
+        """H without resonances: {exponents: coefficient of prod_j I_j^exponents_j}, over the modes with a frequency."""
         n = len(self.frequencies)
         return {e[:n]: self._real(c) for e, c in self.series.terms.items() if self._is_of_actions(e)}
 
     @cached_property
     def resonances(self) -> dict[Exponents, Any]:
-        """The terms z^a w^b that were kept besides: {(a_1 … a_n, b_1 … b_n): coefficient}."""
+        """The resonant terms z^a w^b: {(a_1 … a_n, b_1 … b_n): coefficient}."""
         return {e: self._plain(c) for e, c in self.series.terms.items() if not self._is_of_actions(e)}
 
     def _is_of_actions(self, e: Exponents) -> bool:
@@ -98,28 +108,54 @@ class NormalForm(Shown):
         return e[:n] == e[n:] and not any(m and w == 0 for m, w in zip(e[:n], self.frequencies, strict=True))
 
     def frequencies_at(self, actions: Sequence[Any]) -> tuple[Any, ...]:
-        """∂H/∂I_j of the series in the actions, resonances left out."""
+        """Return the frequencies ∂H/∂I_j at given actions, without the resonances.
+
+        Parameters
+        ----------
+        actions : sequence
+            The action of each mode in J s, numbers or expressions.
+
+        Returns
+        -------
+        tuple[Any, ...]
+            Rates in rad/s, numbers or expressions.
+        """
         slopes = []
         for j in range(len(self.frequencies)):
             lower = {e: tuple(m - (i == j) for i, m in enumerate(e)) for e in self.actions if e[j]}
-            slopes.append(sum(e[j] * self.actions[e] * prod(map(pow, actions, less)) for e, less in lower.items()))
+            slopes.append(sum(e[j] * self.actions[e] * prod(map(pow, actions, d)) for e, d in lower.items()))
         return tuple(slopes)
 
     def original(self, f: Polynomial) -> Polynomial:
-        """A function of the coordinates of H₂ in the new ones, through the order: exp(L_χ) of each generator applied."""
+        """Transform a function of the normal coordinates of H₂ to those of the normal form.
+
+        Parameters
+        ----------
+        f : Polynomial
+            A function of (z, w) of H₂.
+
+        Returns
+        -------
+        Polynomial
+            The same function of the new coordinates, through the order.
+        """
         for generator in self.generators:
             f = lie_transform(f, generator, self.weights, self.known_through)
         return f
 
     def summary(self) -> dict[str, str]:
-        """Frequencies, the series in the actions, resonances and what is known of the error, name → words."""
-        rows = {
-            f"frequency {j + 1}": f"{w}" if self.field is not None else f"{w:.8g}"
-            for j, w in enumerate(self.frequencies)
-        }
+        """Summarise frequencies, action terms, resonances and error.
+
+        Returns
+        -------
+        dict[str, str]
+            Name → value in words.
+        """
+        exact = self.field is not None
+        rows = {f"frequency {j + 1}": f"{w}" if exact else f"{w:.8g}" for j, w in enumerate(self.frequencies)}
         rows |= {f"I^{e}": f"{c}" if self.field is not None else f"{c:.8g}" for e, c in list(self.actions.items())[:12]}
-        kept = {"resonances": ", ".join(map(str, self.resonances)) or "none"}
-        return rows | kept | {"known through": str(self.known_through), "error": scientific(self.error, 1)}
+        resonant = {"resonances": ", ".join(map(str, self.resonances)) or "none"}
+        return rows | resonant | {"known through": str(self.known_through), "error": scientific(self.error, 1)}
 
     def _plain(self, c: Any) -> Any:
         return c if self.field is None else self.field.to_sympy(c)
@@ -133,18 +169,32 @@ class NormalForm(Shown):
 def birkhoff(
     H: Polynomial, weights: Coefficients, order: int, detuning: float = 0.0, vectors: Any = None, field: Any = None
 ) -> NormalForm:
-    """The normal form of H(z, w), a polynomial that begins with sum_j ω_j z_j w_j + N, through an order.
-
-    Floating-point coefficients are complex; those of a `field` are its elements.
+    """Compute the normal form of H(z, w), which begins with sum_j ω_j z_j w_j + N.
 
     Parameters
     ----------
-    weights : Coefficients
-        {z_j, w_j}, (n,), −i of oscillations and 1 of saddles and of what has the rate zero.
+    H : Polynomial
+        The Hamiltonian, with complex coefficients or elements of `field`.
+    weights : ndarray
+        The brackets {z_j, w_j}, shape (n,): −i of oscillations, 1 of saddles and of modes of rate zero.
+    order : int
+        Highest degree.
     detuning : float, default 0.0
-        |D| up to which terms are kept, in rad/s.
+        Largest |D| in rad/s of a term that is kept as resonant.
     vectors : optional
-        X − x₀ = (q, p) − (q₀, p₀) of the normal coordinates of H₂, handed on.
+        The normal coordinates of H₂, for the result.
+    field : Domain, optional
+        The field of the coefficients; None for numbers.
+
+    Returns
+    -------
+    NormalForm
+        The normal form through the order.
+
+    Raises
+    ------
+    SingularError
+        When rates are so small that they count as zero, and are not.
     """
     n = len(weights)
     pair = [tuple(int(i in (j, n + j)) for i in range(2 * n)) for j in range(n)]
@@ -152,20 +202,20 @@ def birkhoff(
     frequencies = np.array([H.terms.get(e, zero) for e in pair], dtype=weights.dtype)
     rates = weights * frequencies
     plain = [w * frequencies[j] for j, w in enumerate(weights)] if field is None else [field.to_sympy(r) for r in rates]
-    letters = field is not None and any(r.free_symbols for r in plain)
-    least = 0.0 if letters else max(detuning, _EQUAL * max((abs(complex(r)) for r in plain), default=0.0))
+    has_parameters = field is not None and any(r.free_symbols for r in plain)
+    least = 0.0 if has_parameters else max(detuning, _EQUAL * max((abs(complex(r)) for r in plain), default=0.0))
 
     def split(f: Polynomial) -> tuple[Polynomial, Polynomial, Coefficients]:
-        """What of f is kept, what can be removed, and its divisors D."""
+        """Return the resonant terms of f, the removable ones, and their divisors D."""
         steps = f.exponents[:, n:] - f.exponents[:, :n]
         D = (steps.astype(weights.dtype) * rates).sum(1)
         if field is None:
-            kept = np.abs(D) <= least
-        elif letters or not detuning:
-            kept = ~D.astype(bool)
+            resonant = np.abs(D) <= least
+        elif has_parameters or not detuning:
+            resonant = ~D.astype(bool)
         else:
-            kept = np.array([abs(complex(field.to_sympy(d))) <= least for d in D], dtype=bool)
-        return f.where(kept), f.where(~kept), D[~kept]
+            resonant = np.array([abs(complex(field.to_sympy(d))) <= least for d in D], dtype=bool)
+        return f.where(resonant), f.where(~resonant), D[~resonant]
 
     quadratic = H.part(2)
     steady, _, _ = split(quadratic)
@@ -173,12 +223,12 @@ def birkhoff(
     nilpotent = steady.where(~diagonal)
     K, generators = total([H.part(0), steady, *(H.part(d) for d in range(3, order + 1))]), list[Polynomial]()
     for degree in range(3, order + 1):
-        _, rest, D = split(K.part(degree))
-        term = generator = rest.over(-D) if len(rest.coefficients) else rest
+        _, removable, D = split(K.part(degree))
+        term = generator = removable.over(-D) if len(removable.coefficients) else removable
         first = np.abs(generator.coefficients).max(initial=0) if field is None else 0
         while len(nilpotent.coefficients) and len(term.coefficients):
-            _, rest, D = split(poisson_bracket(nilpotent, term, weights, degree))
-            term = rest.over(-D) if len(rest.coefficients) else rest
+            _, removable, D = split(poisson_bracket(nilpotent, term, weights, degree))
+            term = removable.over(-D) if len(removable.coefficients) else removable
             if field is None:
                 if np.abs(term.coefficients).max(initial=0) > _LARGE * first:
                     raise SingularError(
@@ -189,14 +239,13 @@ def birkhoff(
             generator = generator + term
         generators.append(generator)
         K = lie_transform(K, generator, weights, order)
-        kept, _, _ = split(K.part(degree))  # what was removed leaves rounding behind
-        K = total([*(part for d, part in K.parts.items() if d != degree), kept])
+        resonant, _, _ = split(K.part(degree))  # drops the rounding errors of the removed terms
+        K = total([*(term_d for d, term_d in K.parts.items() if d != degree), resonant])
     error = 0.0 if field is not None else _error(H.through(order) - H.part(1), K, generators, weights, order)
-    values = (
-        tuple(field.to_sympy(f) for f in frequencies)
-        if field is not None
-        else tuple(complex(f) if abs(f.imag) > 0 else float(f.real) for f in frequencies)
-    )
+    if field is not None:
+        values = tuple(field.to_sympy(f) for f in frequencies)
+    else:
+        values = tuple(complex(f) if abs(f.imag) > 0 else float(f.real) for f in frequencies)
     return NormalForm(values, K, weights, tuple(generators), vectors, order, error, field)
 
 
@@ -204,12 +253,12 @@ def _error(H: Polynomial, K: Polynomial, generators: Sequence[Polynomial], weigh
     for generator in reversed(generators):
         K = lie_transform(K, generator.times(-1), weights, order) if len(generator.coefficients) else K
     sizes = {d: np.abs(H.part(d).coefficients).max(initial=0.0) for d in range(order + 1)}
-    left = {d: float(np.abs(part.coefficients).max()) for d, part in (H - K).parts.items()}
-    return max((size / max(sizes[d], sizes[2]) for d, size in left.items()), default=0.0)
+    differences = {d: float(np.abs(difference.coefficients).max()) for d, difference in (H - K).parts.items()}
+    return max((size / max(sizes[d], sizes[2]) for d, size in differences.items()), default=0.0)
 
 
 def check_form_order(order: int, detuning: float) -> None:
-    """Raises InputError for an order or a detuning that is none."""
+    """Raise InputError for an order below 2 or a negative detuning."""
     if not isinstance(order, int | np.integer) or isinstance(order, bool) or order < 2:
         raise InputError(f"normal_form: order = {order!r} must be a whole number from 2 on")
     if not isinstance(detuning, int | float | np.number) or not 0 <= detuning < np.inf:
@@ -219,19 +268,19 @@ def check_form_order(order: int, detuning: float) -> None:
 def normal_form_at(
     H: sp.Expr, x: Sequence[sp.Symbol], at: Mapping[sp.Symbol, sp.Expr], order: int, detuning: float = 0.0
 ) -> NormalForm:
-    """The normal form of H(x), x = (q_1 … q_n, p_1 … p_n) with canonical brackets, about the equilibrium `at`.
+    """Return the normal form of H(x), x = (q_1 … q_n, p_1 … p_n) with canonical brackets, about the equilibrium `at`.
 
-    Exact where no number of H is a floating-point one and the frequencies are rational, or rational in H's letters; numbers
-    otherwise. Raises InputError where `at` is no equilibrium or letters are left that need values, DomainError
-    where H is not analytic there, SingularError where a rate other than zero is double and not diagonal.
+    Exact if H has no floating-point number and the frequencies are rational, or rational in the symbols of H. Raises InputError
+    where `at` is no equilibrium or symbols need values, DomainError where H is not analytic, SingularError for a double rate
+    that is not diagonal.
     """
     check_form_order(order, detuning)
-    letters = H.free_symbols - {*x} | set().union(*(sp.sympify(v, strict=True).free_symbols for v in at.values()))
+    parameters = H.free_symbols - {*x} | set().union(*(sp.sympify(v, strict=True).free_symbols for v in at.values()))
     try:
         return _exact(H, x, at, order, detuning)
     except NotExactError as error:
-        if letters:
-            names = ", ".join(sorted(map(str, letters)))
+        if parameters:
+            names = ", ".join(sorted(map(str, parameters)))
             raise InputError(f"{error}: give {names} values, {{symbol: number, …}}") from None
     plain = _expanded(H, x, at, sp.eye(len(x)), order, lambda e: complex(sp.N(e, 20)), complex)
     slope, curvature = (np.abs(plain.part(n).coefficients).max(initial=0.0) for n in (1, 2))
@@ -241,10 +290,7 @@ def normal_form_at(
 
 
 def normal_form_of_series(H: Polynomial, order: int, detuning: float = 0.0) -> NormalForm:
-    """The normal form of H(q_1 … q_n, p_1 … p_n), a polynomial with real coefficients and canonical brackets, about 0.
-
-    Raises as `normal_coordinates`.
-    """
+    """Return the normal form of H(q_1 … q_n, p_1 … p_n), a polynomial with real coefficients and canonical brackets, about 0."""
     n, A = H.variables // 2, np.zeros((H.variables, H.variables))
     for e, c in H.part(2).terms.items():
         i, j = (k for k, m in enumerate(e) for _ in range(m))
@@ -256,11 +302,11 @@ def normal_form_of_series(H: Polynomial, order: int, detuning: float = 0.0) -> N
     quadratic = normal_quadratic(A, normal.vectors, normal.weights, normal.frequencies)
     series = total([quadratic, *(full.part(d) for d in (0, *range(3, order + 1)))])
     form = birkhoff(series, normal.weights, order, detuning, normal.vectors)
-    # Rates so near that they are taken as equal have coordinates that are not quite canonical, or a rest of H₂.
+    # Close rates that count as equal make the coordinates slightly noncanonical, or H₂ slightly coupled.
     pair, none = np.diag(normal.weights), np.zeros((n, n))
     brackets = normal.vectors @ np.block([[none, pair], [-pair, none]]) @ normal.vectors.T - _symplectic(n)
-    rest = np.abs((full.part(2) - quadratic).coefficients).max(initial=0.0) / np.abs(A).max(initial=1e-300)
-    return replace(form, error=max(form.error, float(rest), float(np.abs(brackets).max())))
+    discrepancy = np.abs((full.part(2) - quadratic).coefficients).max(initial=0.0) / np.abs(A).max(initial=1e-300)
+    return replace(form, error=max(form.error, float(discrepancy), float(np.abs(brackets).max())))
 
 
 def _symplectic(n: int) -> Any:
@@ -268,7 +314,7 @@ def _symplectic(n: int) -> Any:
 
 
 def normal_quadratic(A: Any, vectors: Any, weights: Coefficients, frequencies: Coefficients) -> Polynomial:
-    """½ x·A x in normal coordinates: the frequencies, and the whole of what has the rate zero, without rounding's rest."""
+    """Return ½ x·A x in normal coordinates: the frequencies and the block of the modes of rate zero, without rounding errors."""
     n, terms = len(weights), dict[Exponents, complex]()
     B = vectors.T @ A @ vectors / 2
     still = [j for j in range(n) if frequencies[j] == 0]
@@ -304,8 +350,8 @@ def _exact(
     if "undecided" in answers:
         raise NotExactError(f"normal_form: whether ∂H/∂x = {list(slope)} is zero at {dict(at)} is not decided")
     bracket = sp.Matrix(sp.BlockMatrix([[sp.zeros(n), sp.eye(n)], [-sp.eye(n), sp.zeros(n)]]))
-    letters = H.free_symbols - {*x} | A.free_symbols
-    normal = exact_coordinates(A, bracket, letters)
+    parameters = H.free_symbols - {*x} | A.free_symbols
+    normal = exact_coordinates(A, bracket, parameters)
 
     def value(e: sp.Expr) -> Any:
         return element(normal.field, sp.sympify(e, strict=True))
@@ -328,7 +374,7 @@ def _expanded(
     value: Callable[[sp.Expr], Any],
     kind: Any,
 ) -> Polynomial:
-    """H at x = at + vectors y, a polynomial in y."""
+    """Return H at x = at + vectors y as a polynomial in y."""
     convert = value if kind is object else complex
-    moved = {s: linear_form([convert(vectors[k, j]) for j in range(len(x))], kind) for k, s in enumerate(x)}
-    return LocalSeries(at, moved, order, value).of(H)
+    displacements = {s: linear_form([convert(vectors[k, j]) for j in range(len(x))], kind) for k, s in enumerate(x)}
+    return LocalSeries(at, displacements, order, value).of(H)

@@ -1,11 +1,11 @@
-"""Polynomials in many variables as arrays, cut off at an order: products, Poisson brackets, Lie transforms.
+"""Polynomials in many variables as arrays, truncated at an order: products, Poisson brackets, Lie transforms.
 
 Coefficients are floating-point numbers, or elements of a field in arrays of objects: rational, or rational in
 parameters. Variables come in canonical pairs, z_1 … z_n and then w_1 … w_n, with {z_j, w_j} = c_j:
 
     {f, g} = sum_j c_j (∂f/∂z_j ∂g/∂w_j − ∂f/∂w_j ∂g/∂z_j),       exp(L_g) f = f + {f, g} + {{f, g}, g}/2! + …
 
-Equal exponents are found by a key that adds as exponents do, sum_j e_j r_j modulo 2⁶⁴ with r_j drawn once.
+Equal exponents have equal keys, sum_j e_j r_j modulo 2⁶⁴ with fixed random r_j; keys add like exponents.
 Dragt & Finn, J. Math. Phys. 17 (1976) 2215; Hori, Publ. Astron. Soc. Japan 18 (1966) 287.
 """
 
@@ -25,24 +25,24 @@ Exponents = tuple[int, ...]
 
 @dataclass(frozen=True, eq=False)
 class Polynomial:
-    """sum_k coefficients[k] × prod_j x_j^exponents[k, j]: exponents (m, n), each row once, coefficients (m,), none of them 0."""
+    """The sum of coefficients[k] × prod_j x_j^exponents[k, j]: exponents (m, n), rows unique, coefficients (m,), nonzero."""
 
     exponents: NDArray[np.int64]
     coefficients: Coefficients
 
     @property
     def variables(self) -> int:
-        """How many variables there are."""
+        """The number of variables."""
         return int(self.exponents.shape[1])
 
     @cached_property
     def terms(self) -> dict[Exponents, Any]:
-        """{exponents: coefficient}."""
+        """The nonzero coefficients, {exponents: coefficient}."""
         return {tuple(e): c for e, c in zip(self.exponents.tolist(), self.coefficients.tolist(), strict=True)}
 
     @cached_property
     def parts(self) -> dict[int, Polynomial]:
-        """{degree: the homogeneous part of that degree}."""
+        """The homogeneous polynomials by degree, {degree: polynomial}."""
         degrees = self.exponents.sum(1)
         return {int(d): self.where(degrees == d) for d in np.unique(degrees)}
 
@@ -51,15 +51,15 @@ class Polynomial:
         return self.exponents.astype(np.uint64) @ _multipliers(self.variables)
 
     def where(self, chosen: NDArray[np.bool_]) -> Polynomial:
-        """The terms of a mask (m,)."""
+        """Return the terms selected by a mask (m,)."""
         return Polynomial(self.exponents[chosen], self.coefficients[chosen])
 
     def part(self, degree: int) -> Polynomial:
-        """The homogeneous part of a degree."""
+        """Return the homogeneous polynomial of a degree."""
         return self.parts.get(degree, self.where(np.zeros(len(self.coefficients), dtype=bool)))
 
     def through(self, order: int) -> Polynomial:
-        """The terms up to a degree."""
+        """Return the terms up to a degree."""
         return self.where(self.exponents.sum(1) <= order)
 
     def __add__(self, other: Polynomial) -> Polynomial:
@@ -69,43 +69,42 @@ class Polynomial:
         return total([self, other.times(-1)])
 
     def times(self, factor: Any) -> Polynomial:
-        """The polynomial multiplied by a number, which is not zero, or by one for each term (m,)."""
+        """Return the product with a nonzero number, or with a number for each term (m,)."""
         return Polynomial(self.exponents, self.coefficients * factor)
 
     def over(self, divisor: Any) -> Polynomial:
-        """The polynomial divided by a number, or by one for each term (m,)."""
+        """Return the quotient by a number, or by a number for each term (m,)."""
         return Polynomial(self.exponents, self.coefficients / divisor)
 
-    def product(self, other: Polynomial, order: int) -> Polynomial:
-        """The product through an order."""
-        pairs = [(a, b) for d, a in self.parts.items() for e, b in other.parts.items() if d + e <= order]
+    def product(self, factor: Polynomial, order: int) -> Polynomial:
+        """Return the product through an order."""
+        pairs = [(a, b) for d, a in self.parts.items() for e, b in factor.parts.items() if d + e <= order]
         return total([_product(a, b) for a, b in pairs] or [self.part(-1)])
 
     def power(self, n: int, order: int) -> Polynomial:
-        """The n-th power through an order, n ≥ 1."""
+        """Return the n-th power through an order, n ≥ 1."""
         return reduce(lambda a, b: a.product(b, order), [self] * n)
 
     def derivative(self, k: int) -> Polynomial:
-        """∂/∂x_k."""
+        """Return ∂/∂x_k."""
         by = self.where(self.exponents[:, k] > 0)
         lower = by.exponents.copy()
         lower[:, k] -= 1
         return Polynomial(lower, by.coefficients * by.exponents[:, k].astype(by.coefficients.dtype))
 
     def substitute(self, values: Sequence[Polynomial], order: int, first: int = 0) -> Polynomial:
-        """The polynomial at x_k = values[k], polynomials themselves, through an order: Horner's rule, variable by variable."""
+        """Substitute polynomials x_k = values[k], through an order, by Horner's rule variable by variable."""
         if first == self.variables:
-            return Polynomial(
-                np.zeros((len(self.coefficients), values[0].variables), dtype=np.int64), self.coefficients
-            )
+            constants = np.zeros((len(self.coefficients), values[0].variables), dtype=np.int64)
+            return Polynomial(constants, self.coefficients)
         powers, result = self.exponents[:, first], None
         for power in range(int(powers.max(initial=0)), -1, -1):
-            part = self.where(powers == power).substitute(values, order, first + 1)
-            result = part if result is None else result.product(values[first], order) + part
+            term = self.where(powers == power).substitute(values, order, first + 1)
+            result = term if result is None else result.product(values[first], order) + term
         return result if result is not None else self
 
     def at(self, point: Coefficients) -> Any:
-        """Its values at points (…, n)."""
+        """Return the values at points (…, n)."""
         return (np.prod(np.asarray(point)[..., None, :] ** self.exponents, axis=-1) * self.coefficients).sum(-1)
 
 
@@ -115,38 +114,34 @@ def _multipliers(n: int) -> NDArray[np.uint64]:
 
 
 def polynomial(terms: Mapping[Exponents, Any], variables: int, kind: Any = complex) -> Polynomial:
-    """The polynomial of {exponents: coefficient}; kind: of its coefficients, complex or object."""
-    kept = {e: c for e, c in terms.items() if c}
-    values = np.empty(len(kept), dtype=kind)
-    values[:] = list(kept.values())
-    return Polynomial(np.array(list(kept), dtype=np.int64).reshape(-1, variables), values)
+    """Return the polynomial of {exponents: coefficient}; kind: complex or object, the type of the coefficients."""
+    nonzero = {e: c for e, c in terms.items() if c}
+    values = np.empty(len(nonzero), dtype=kind)
+    values[:] = list(nonzero.values())
+    return Polynomial(np.array(list(nonzero), dtype=np.int64).reshape(-1, variables), values)
 
 
-def variable(k: int, variables: int, one: Any = 1.0, kind: Any = complex) -> Polynomial:
-    """x_k."""
-    return polynomial({tuple(int(j == k) for j in range(variables)): one}, variables, kind)
+def variable(k: int, variables: int, unit: Any = 1.0, kind: Any = complex) -> Polynomial:
+    return polynomial({tuple(int(j == k) for j in range(variables)): unit}, variables, kind)
 
 
 def linear_form(row: Sequence[Any] | Coefficients, kind: Any = complex) -> Polynomial:
-    """sum_j row_j x_j."""
+    """Return sum_j row_j x_j."""
     units = map(tuple, np.eye(len(row), dtype=int).tolist())
     return polynomial(dict(zip(units, row, strict=True)), len(row), kind)
 
 
 def constant(value: Any, variables: int, kind: Any = complex) -> Polynomial:
-    """A number as a polynomial."""
     return polynomial({(0,) * variables: value}, variables, kind)
 
 
-def total(parts: Sequence[Polynomial]) -> Polynomial:
-    """The sum of polynomials."""
-    return _collect(
-        *(np.concatenate(rows) for rows in zip(*((p._keys, p.exponents, p.coefficients) for p in parts), strict=True))
-    )
+def total(polynomials: Sequence[Polynomial]) -> Polynomial:
+    rows = zip(*((p._keys, p.exponents, p.coefficients) for p in polynomials), strict=True)
+    return _collect(*map(np.concatenate, rows))
 
 
 def _product(a: Polynomial, b: Polynomial) -> Polynomial:
-    """All products of a term of each."""
+    """Return the sum of all products of a term of a and a term of b."""
     if not len(a.coefficients) or not len(b.coefficients):
         return a.part(-1)
     keys = (a._keys[:, None] + b._keys).ravel()
@@ -155,7 +150,7 @@ def _product(a: Polynomial, b: Polynomial) -> Polynomial:
 
 
 def _collect(keys: NDArray[np.uint64], exponents: NDArray[np.int64], coefficients: Coefficients) -> Polynomial:
-    """Terms of equal exponents added, and what is zero left out."""
+    """Add terms of equal exponents, and drop zeros."""
     if not len(keys):
         return Polynomial(exponents, coefficients)
     order = np.argsort(keys, kind="stable")
@@ -167,35 +162,33 @@ def _collect(keys: NDArray[np.uint64], exponents: NDArray[np.int64], coefficient
 
 
 def inverse_matrix(m: Sequence[Sequence[Polynomial]], order: int) -> list[list[Polynomial]]:
-    """m⁻¹ = m₀⁻¹ − m₀⁻¹ (m − m₀) m₀⁻¹ + … of a matrix of polynomials through an order, m₀ regular."""
+    """Return m⁻¹ = m₀⁻¹ − m₀⁻¹ (m − m₀) m₀⁻¹ + … of a matrix of polynomials through an order, m₀ regular."""
     n, some = range(len(m)), m[0][0]
     over = np.linalg.inv([[f.part(0).coefficients.sum() for f in row] for row in m])
-    rest = [[f - f.part(0) for f in row] for row in m]
+    higher = [[f - f.part(0) for f in row] for row in m]
     start = [[constant(c, some.variables, some.coefficients.dtype) for c in row] for row in over]
     inverse = start
     for _ in range(order):
-        moved = [[total([rest[a][k].product(inverse[k][b], order) for k in n]) for b in n] for a in n]
+        product = [[total([higher[a][k].product(inverse[k][b], order) for k in n]) for b in n] for a in n]
         inverse = [
-            [total([start[a][b], *(moved[k][b].times(-over[a, k]) for k in n if over[a, k])]) for b in n] for a in n
+            [total([start[a][b], *(product[k][b].times(-over[a, k]) for k in n if over[a, k])]) for b in n] for a in n
         ]
     return inverse
 
 
 def poisson_bracket(f: Polynomial, g: Polynomial, weights: Coefficients, order: int) -> Polynomial:
-    """{f, g} through an order, weights c (n,) of the n canonical pairs."""
+    """Return {f, g} through an order, weights c (n,) of the n canonical pairs."""
     n = len(weights)
-    parts = [f.part(-1)]
+    summands = [f.part(-1)]
     for j in range(n):
-        up, down = (
-            f.derivative(j).product(g.derivative(n + j), order),
-            f.derivative(n + j).product(g.derivative(j), order),
-        )
-        parts += [(up - down).times(weights[j])]
-    return total(parts)
+        up = f.derivative(j).product(g.derivative(n + j), order)
+        down = f.derivative(n + j).product(g.derivative(j), order)
+        summands += [(up - down).times(weights[j])]
+    return total(summands)
 
 
 def lie_transform(f: Polynomial, g: Polynomial, weights: Coefficients, order: int) -> Polynomial:
-    """exp(L_g) f through an order: f where the flow of g arrives in unit time. g has no terms below degree 3."""
+    """Return exp(L_g) f through an order, f along the flow of g for unit time; g has no terms below degree 3."""
     result = term = f
     k = 0
     while len(term.coefficients):

@@ -1,9 +1,9 @@
 """Taylor series in several variables, of expressions and of programs.
 
-`LocalSeries` gives the Taylor polynomial of an expression about a point, exact or in floating-point numbers. A `TruncatedSeries`
-holds all coefficients through a degree, lowest degrees first, as a number that a compiled program runs on: jet transport. Its
-motion is the motion with all its derivatives by the start, the variational equations to any order. Both expand a function about
-the value u of its argument, f(u + v) = sum_m f^(m)(u) v^m / m!, of which v, without a constant, leaves finitely many terms.
+`LocalSeries` gives the Taylor polynomial of an expression about a point, exact or in floating-point numbers. A
+`TruncatedSeries` stores all coefficients through a degree, lowest degrees first, and compiled programs accept it as a number:
+jet transport. Its motion contains all derivatives by the initial state, the variational equations to any order. Both expand f
+about the value u of its argument, f(u + v) = sum_m f^(m)(u) v^m / m!; v has no constant term, so that the sum is finite.
 
 Berz, Modern Map Methods in Particle Beam Physics, ch. 2; Jorba & Zou, Experimental Mathematics 14 (2005) 99.
 """
@@ -34,33 +34,33 @@ _CORNERED = (sp.Abs, sp.sign, sp.Heaviside, sp.floor, sp.ceiling, sp.re, sp.im, 
 
 @dataclass(frozen=True)
 class LocalSeries:
-    """Polynomials of expressions at x = at[x] + moved[x] for each x of `moved`, polynomials without constant terms.
+    """Polynomials of expressions at x = at[x] + displacements[x], where the displacements are polynomials without constant terms.
 
-    value: a number of sympy as a coefficient. Raises DomainError where an expression is not analytic at the point.
+    value: conversion of a sympy number to a coefficient. Raises DomainError where an expression is not analytic at the point.
     """
 
     at: Mapping[sp.Symbol, sp.Expr]
-    moved: Mapping[sp.Symbol, Polynomial]
+    displacements: Mapping[sp.Symbol, Polynomial]
     order: int
     value: Callable[[sp.Expr], Any]
-    known: dict[sp.Expr, Polynomial] = field(default_factory=dict)
+    cache: dict[sp.Expr, Polynomial] = field(default_factory=dict)
 
     def of(self, e: sp.Expr) -> Polynomial:
-        """The polynomial of an expression, through the order."""
-        if e not in self.known:
-            self.known[e] = self._expanded(e)
-        return self.known[e]
+        """Return the polynomial of an expression, through the order."""
+        if e not in self.cache:
+            self.cache[e] = self._expanded(e)
+        return self.cache[e]
 
     def _expanded(self, e: sp.Expr) -> Polynomial:
-        if not e.free_symbols & self.moved.keys():
+        if not e.free_symbols & self.displacements.keys():
             return self._number(e)
-        if e in self.moved:
-            return self.moved[e] + self._number(e)
+        if e in self.displacements:
+            return self.displacements[e] + self._number(e)
         if isinstance(e, sp.Add):
-            return total([self.of(part) for part in e.args])
+            return total([self.of(argument) for argument in e.args])
         if isinstance(e, sp.Mul):
-            first, *rest = map(self.of, e.args)
-            for factor in rest:
+            first, *factors = map(self.of, e.args)
+            for factor in factors:
                 first = first.product(factor, self.order)
             return first
         if isinstance(e, sp.Pow):
@@ -72,17 +72,16 @@ class LocalSeries:
     def _power(self, e: sp.Expr) -> Polynomial:
         if e.exp.is_Integer and e.exp > 0:
             return self.of(e.base).power(int(e.exp), self.order)
-        if e.exp.free_symbols & self.moved.keys():
+        if e.exp.free_symbols & self.displacements.keys():
             return self._composed(sp.exp(_Z), e.exp * sp.log(e.base))
         return self._composed(_Z**e.exp, e.base)
 
     def _composed(self, f: sp.Expr, inner: sp.Expr) -> Polynomial:
-        """f(inner): Horner's rule in what of `inner` vanishes at the point."""
+        """Return f(inner), by Horner's rule in the polynomial of inner without its constant."""
         u, v = inner.xreplace(self.at), self.of(inner)
         v = v.where(v.exponents.sum(1) > 0)
-        *lower, result = (
-            self._number(_derivative(f, m).xreplace({_Z: u}) / sp.factorial(m)) for m in range(self.order + 1)
-        )
+        values = (_derivative(f, m).xreplace({_Z: u}) / sp.factorial(m) for m in range(self.order + 1))
+        *lower, result = map(self._number, values)
         for coefficient in reversed(lower):
             result = result.product(v, self.order) + coefficient
         return result
@@ -90,10 +89,8 @@ class LocalSeries:
     def _number(self, e: sp.Expr) -> Polynomial:
         at_point = e.xreplace(self.at)
         if at_point.has(sp.zoo, sp.nan, sp.oo, -sp.oo):
-            raise DomainError(
-                f"normal_form: {e} is singular at {dict(self.at)}: use coordinates that are regular there"
-            )
-        some = next(iter(self.moved.values()))
+            raise DomainError(f"normal_form: {e} is singular at {dict(self.at)}: use coordinates regular there")
+        some = next(iter(self.displacements.values()))
         return constant(self.value(at_point), some.variables, some.coefficients.dtype)
 
 
@@ -108,55 +105,45 @@ _SMOOTH = ("sqrt", "exp", "log", "sin", "cos", "tan", "sinh", "cosh", "tanh", *_
 
 @dataclass(frozen=True, eq=False)
 class JetSpace:
-    """All exponents (N, n) through a degree; of a product's term `begins[k]` on are left × right of term k."""
+    """All exponents (N, n) through a degree; term k of a product sums first × second from place `begins[k]` on."""
 
     exponents: NDArray[np.int64]
-    left: NDArray[np.int64]
-    right: NDArray[np.int64]
+    first: NDArray[np.int64]
+    second: NDArray[np.int64]
     begins: NDArray[np.int64]
 
     @property
     def degree(self) -> int:
-        """The highest degree."""
         return int(self.exponents[-1].sum())
 
     def product(self, a: Array, b: Array) -> Array:
-        """The coefficients of a product through the degree."""
-        return np.add.reduceat(a[self.left] * b[self.right], self.begins)
+        """Return the coefficients of a product through the degree."""
+        return np.add.reduceat(a[self.first] * b[self.second], self.begins)
 
     def constant(self, value: float) -> TruncatedSeries:
-        """A number."""
         return TruncatedSeries(np.append(value, np.zeros(len(self.exponents) - 1)), self)
 
     def variable(self, k: int) -> TruncatedSeries:
-        """x_k."""
         unit = np.arange(self.exponents.shape[1]) == k
         return TruncatedSeries((self.exponents == unit).all(axis=1).astype(float), self)
 
 
 @lru_cache(maxsize=16)
 def jet_space(variables: int, degree: int) -> JetSpace:
-    """The space of the series in so many variables through a degree."""
-    rows = [
-        np.bincount(np.array(chosen, dtype=int), minlength=variables)
-        for d in range(degree + 1)
-        for chosen in combinations_with_replacement(range(variables), d)
-    ]
+    """Return the space of series in so many variables through a degree."""
+    choices = [choice for d in range(degree + 1) for choice in combinations_with_replacement(range(variables), d)]
+    rows = [np.bincount(np.array(choice, dtype=int), minlength=variables) for choice in choices]
     exponents = np.array(rows, dtype=np.int64).reshape(-1, variables)
     place = {tuple(e): k for k, e in enumerate(exponents.tolist())}
-    triples = sorted(
-        (place[tuple((a + b).tolist())], i, j)
-        for i, a in enumerate(exponents)
-        for j, b in enumerate(exponents)
-        if a.sum() + b.sum() <= degree
-    )
-    out, left, right = np.array(triples).T
-    return JetSpace(exponents, left, right, np.searchsorted(out, np.arange(len(exponents))))
+    pairs = [(i, j, a + b) for i, a in enumerate(exponents) for j, b in enumerate(exponents)]
+    triples = sorted((place[tuple(e.tolist())], i, j) for i, j, e in pairs if e.sum() <= degree)
+    out, first, second = np.array(triples).T
+    return JetSpace(exponents, first, second, np.searchsorted(out, np.arange(len(exponents))))
 
 
 @dataclass(frozen=True, eq=False)
 class TruncatedSeries(NDArrayOperatorsMixin):
-    """sum_k coefficients[k] × prod_j x_j^exponents[k, j]. numpy's functions of one argument take it where they are analytic.
+    """A series sum_k coefficients[k] × prod_j x_j^exponents[k, j], which numpy's analytic functions of one argument accept.
 
     Raises DomainError for another function.
     """
@@ -166,7 +153,7 @@ class TruncatedSeries(NDArrayOperatorsMixin):
 
     @property
     def polynomial(self) -> Polynomial:
-        """The terms that are not zero."""
+        """The nonzero terms."""
         return Polynomial(self.space.exponents, self.coefficients + 0j).where(self.coefficients != 0)
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **_: Any) -> TruncatedSeries:
@@ -185,14 +172,11 @@ class TruncatedSeries(NDArrayOperatorsMixin):
             return TruncatedSeries(ufunc(*rows), self.space)
         if name == "multiply":
             plain = not (isinstance(a, TruncatedSeries) and isinstance(b, TruncatedSeries))
-            one = rows[0][0] * rows[1] if not isinstance(a, TruncatedSeries) else rows[0] * rows[1][0]
-            return TruncatedSeries(one if plain else self.space.product(*rows), self.space)
+            scaled = rows[0][0] * rows[1] if not isinstance(a, TruncatedSeries) else rows[0] * rows[1][0]
+            return TruncatedSeries(scaled if plain else self.space.product(*rows), self.space)
         if name == "divide":
-            return (
-                TruncatedSeries(rows[0] / b, self.space)
-                if not isinstance(b, TruncatedSeries)
-                else a * b._composed("power", -1.0)
-            )
+            plain = not isinstance(b, TruncatedSeries)
+            return TruncatedSeries(rows[0] / b, self.space) if plain else a * b._composed("power", -1.0)
         raise _not_analytic(name)
 
     def _power(self, n: float) -> TruncatedSeries:
@@ -200,12 +184,12 @@ class TruncatedSeries(NDArrayOperatorsMixin):
             return self._composed("power", float(n))
         return reduce(mul, [self] * int(n)) if n else self.space.constant(1.0)
 
-    def _composed(self, name: str, *more: float) -> TruncatedSeries:
-        """f of this jet by Horner's rule in what of it is not constant."""
-        f = _taylor(name, self.space.degree, *more)
+    def _composed(self, name: str, *exponent: float) -> TruncatedSeries:
+        """Return f of this jet, by Horner's rule in the jet without its constant."""
+        f = _taylor(name, self.space.degree, *exponent)
         try:
             *lower, last = f(float(self.coefficients[0]))
-        except (ArithmeticError, TypeError, ValueError):  # out of the function's range: a solver makes its step shorter
+        except (ArithmeticError, TypeError, ValueError):  # outside the function's domain: the solver shortens its step
             return TruncatedSeries(np.full(len(self.coefficients), np.nan), self.space)
         v = self.coefficients.copy()
         v[0] = 0.0

@@ -124,13 +124,13 @@ def paired_answer(scene: Scene, axes: Array, rates: Array, t_end: float, tol: fl
     turned, velocity = natural * t_end, rates / signed
     guess = _guess(axes, velocity, width)
 
-    from lagrotor.theory.paired_precession.stability import most_growth
+    from lagrotor.theory.paired_precession.stability import growth_bound
 
     shape, ratio = _shape(scene.rotor, scene.link)
     error, before = inf, inf
     orders = (*_ORDERS, *_FURTHER) if best else _ORDERS
     r0 = float(guess[0])
-    growth = exp(min(most_growth(r0, float(shape), float(ratio)) * turned, 700.0))
+    growth = exp(min(growth_bound(r0, float(shape), float(ratio)) * turned, 700.0))
     for order in orders:
         series = _series(order, shape, ratio)
         last = range(order - 1, order + 1)

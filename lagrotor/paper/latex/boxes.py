@@ -1,7 +1,4 @@
-r"""A formula as it is printed: letters with their marks, numbers, fractions, brackets, each with its scripts.
-
-Nothing is interpreted here; every token is in one box.
-"""
+"""A formula as printed: a row of boxes (symbols, numbers, fractions, brackets) with their scripts; no interpretation."""
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -74,11 +71,11 @@ _PAIRS = ("aligned", "alignedat", "align", "align*", "split")
 _ROWS = (*_PAIRS, "gathered", "multlined", "gather", "gather*", "eqnarray*", "eqnarray", "equation", "equation*")
 _CASES = ("cases", "dcases")
 _ROW_ENDS = ("&", r"\\", r"\end", r"\hline", r"\cr")
-_MOST = 200  # brackets within brackets
+_MOST = 200  # nested brackets
 
 
 class FormulaError(Exception):
-    """Where the reading stops: what stands there, and what would help."""
+    """The reason for which a formula is not read, and the remedy."""
 
     def __init__(self, what: str, help_: str) -> None:
         super().__init__(what)
@@ -87,18 +84,19 @@ class FormulaError(Exception):
 
 @dataclass(slots=True)
 class Box:
-    """One thing as it is printed, from `at` to `end` in the LaTeX.
+    """One printed object, from position `at` to `end` in the LaTeX.
 
-    kind: letter number operator relation bracket fraction binomial root function big matrix cases rows accent text wide comma
-    dots arrow bar group partial nabla infinity. name: of the letter or the command; style, marks, upright: of a
-    letter; parts: the rows in it; sub, sup: its scripts; closing: of a bracket; spaced: whether a thin space stands before it.
+    kind: letter (any symbol), number, operator, relation, bracket, fraction, binomial, root, function, big, matrix, cases,
+    rows, accent, text, wide, comma, dots, arrow, bar, group, partial, nabla, infinity.
+    name: the symbol or the command. style, marks, upright: the font and the accents of a symbol. contents: the rows of
+    boxes inside, such as numerator and denominator. closing: the closing bracket. spaced: True after a thin space.
     """
 
     kind: str
     name: str
     at: int
     end: int
-    parts: Sequence[list["Box"]] = ()
+    contents: Sequence[list["Box"]] = ()
     style: str = ""
     marks: tuple[str, ...] = ()
     sub: "list[Box] | None" = None
@@ -110,12 +108,12 @@ class Box:
 
 
 def boxes(latex: str) -> list[Box]:
-    """Return the boxes of a formula. Raises FormulaError at a token that has no place."""
+    """Return the boxes of a formula. Raises FormulaError at a token that is not allowed in its position."""
     reader = _Reader(latex)
-    found = reader.sequence(())
+    row = reader.sequence(())
     if reader.ahead:
-        raise FormulaError(f"{reader.ahead} is not opened", "write the bracket that it closes")
-    return found
+        raise FormulaError(f"{reader.ahead} has no opening bracket", "write the opening bracket")
+    return row
 
 
 class _Reader:
@@ -129,12 +127,12 @@ class _Reader:
 
     @property
     def ahead(self) -> str:
-        """The text of the token that comes next; empty at the end."""
+        """The text of the next token; empty at the end."""
         return self.items[self.place].text
 
     @property
     def opens(self) -> bool:
-        """Whether a brace comes next."""
+        """True if the next token is an opening brace."""
         return self.items[self.place].kind == "open"
 
     def take(self) -> Token:
@@ -144,45 +142,45 @@ class _Reader:
 
     @property
     def end(self) -> int:
-        """The place behind the last token that was taken."""
+        """The position after the last consumed token."""
         last = self.items[self.place - 1]
         return last.at + len(last.text)
 
-    def made(self, kind: str, name: str, item: Token, *parts: list[Box], **more: Any) -> Box:
-        """Return a box that ends with the last token."""
-        return Box(kind, name, item.at, self.end, list(parts), **more)
+    def box(self, kind: str, name: str, item: Token, *contents: list[Box], **fields: Any) -> Box:
+        """Return a box that ends with the last consumed token."""
+        return Box(kind, name, item.at, self.end, list(contents), **fields)
 
     def argument(self, style: str = "") -> list[Box]:
-        """Return the boxes in braces, or the next single thing."""
+        """Read the boxes in braces, or the next single object."""
         if not self.ahead:
-            raise FormulaError(f"{self.items[self.place - 1].text} has no argument", "write it in braces")
+            raise FormulaError(f"{self.items[self.place - 1].text} has no argument", "write the argument in braces")
         if self.opens:
             return self.group(style)
         if not self.ahead.isdecimal():
             return self.single(style)
         item = self.take()
-        return [self.made("number", item.text, item)]
+        return [self.box("number", item.text, item)]
 
     def group(self, style: str = "") -> list[Box]:
         opened = self.take()
-        found = self.sequence(("}",), style)
+        row = self.sequence(("}",), style)
         if not self.ahead:
-            raise FormulaError("{ is not closed", "write the brace that closes it")
+            raise FormulaError("{ is not closed", "write the closing brace")
         self.take()
-        if found:  # its ends have their braces
-            found[0].at, found[-1].end = opened.at, self.end
-        return found
+        if row:  # its ends have their braces
+            row[0].at, row[-1].end = opened.at, self.end
+        return row
 
     def plain(self) -> str:
-        """Return an argument in braces as it stands."""
+        """Consume an argument in braces and return its text."""
         return self.enclosed("}") if self.opens else self.take().text
 
     def bracketed(self) -> str:
-        """Return an optional argument as it stands."""
+        """Consume an optional argument and return its text."""
         return self.enclosed("]") if self.ahead == "[" else ""
 
     def enclosed(self, closing: str) -> str:
-        """Return the text between the sign that comes next and the one that closes it."""
+        """Consume and return the text between the next sign and its closing sign."""
         start, depth = self.take().at + 1, 0
         while self.ahead:
             item = self.take()
@@ -192,11 +190,11 @@ class _Reader:
         return self.latex[start:]
 
     def sequence(self, ends: tuple[str, ...], style: str = "") -> list[Box]:
-        """Return the boxes until one of the ends comes next."""
+        """Read boxes until one of the ends comes next."""
         self.depth += 1
         if self.depth > _MOST:
-            raise FormulaError(f"{self.ahead} is too deep", "write fewer brackets within brackets")
-        found: list[Box] = []
+            raise FormulaError(f"{self.ahead} is nested too deeply", "write fewer nested brackets")
+        row: list[Box] = []
         while self.ahead and self.ahead not in ends:
             item = self.items[self.place]
             if item.kind == "close" or (item.text in _CLOSE and item.text != "]"):
@@ -205,55 +203,55 @@ class _Reader:
                 style = STYLES[self.take().text[1:]] or "upright"
             elif item.text in _INFIX:
                 self.take()
-                found = [self.made(_INFIX[item.text], "", item, _without_spaces(found), self.sequence(ends, style))]
+                row = [self.box(_INFIX[item.text], "", item, _without_spaces(row), self.sequence(ends, style))]
             elif item.kind == "script":
-                self.script(found)
+                self.script(row)
             elif item.text in ("'", "’", "′"):
                 self.take()
-                self.prime(found, 1)
-            elif self.latex.startswith("{,}", item.at) and found and found[-1].kind == "number":
-                self.comma_in_number(found[-1])
+                self.prime(row, 1)
+            elif self.latex.startswith("{,}", item.at) and row and row[-1].kind == "number":
+                self.comma_in_number(row[-1])
             else:
-                self.extend(found, style)
+                self.extend(row, style)
         self.depth -= 1
-        return _without_spaces(found)
+        return _without_spaces(row)
 
-    def extend(self, found: list[Box], style: str) -> None:
-        """Add the next thing to a row; more boxes than one with a script are a group."""
-        braced, made = self.opens, self.single(style)
-        if found and len(made) == 1 and found[-1].end == made[0].at and _joins(found[-1], made[0], style):
-            found[-1].name += made[0].name
-            found[-1].end = made[0].end
+    def extend(self, row: list[Box], style: str) -> None:
+        """Append the next object to a row; several boxes with a common script form a group."""
+        braced, new = self.opens, self.single(style)
+        if row and len(new) == 1 and row[-1].end == new[0].at and _joins(row[-1], new[0], style):
+            row[-1].name += new[0].name
+            row[-1].end = new[0].end
             return
-        scripted = any(box.sub is not None or box.sup is not None or box.primes for box in made)
-        if self.items[self.place].kind == "script" and (len(made) > 1 or (braced and scripted)):
-            made = [Box("group", "", made[0].at, self.end, [made])]
-        found += made
+        scripted = any(box.sub is not None or box.sup is not None or box.primes for box in new)
+        if self.items[self.place].kind == "script" and (len(new) > 1 or (braced and scripted)):
+            new = [Box("group", "", new[0].at, self.end, [new])]
+        row += new
 
     def comma_in_number(self, number: Box) -> None:
         self.place += 3
         if not self.ahead.isdecimal():
-            raise FormulaError("{,} is no part of a number", "write digits behind the comma")
+            raise FormulaError("{,} is not part of a number", "write digits after the comma")
         number.name += "{,}"
         while self.ahead.isdecimal():
             number.name += self.take().text
         number.end = self.end
 
-    def prime(self, found: list[Box], count: int) -> None:
-        if not found or found[-1].kind != "letter":
-            raise FormulaError("' stands behind a sign that is no letter", "write the derivative, or give it a letter")
-        found[-1].primes += count
-        found[-1].end = self.end
+    def prime(self, row: list[Box], count: int) -> None:
+        if not row or row[-1].kind != "letter":
+            raise FormulaError("' follows a sign that is not a symbol", "write the derivative, or give it a symbol")
+        row[-1].primes += count
+        row[-1].end = self.end
 
-    def script(self, found: list[Box]) -> None:
-        item, target = self.take(), found[-1] if found else None
+    def script(self, row: list[Box]) -> None:
+        item, target = self.take(), row[-1] if row else None
         if target is None or target.kind in ("operator", "relation", "comma", "wide", "text", "thin", "arrow"):
-            raise FormulaError(f"{item.text} has nothing before it", "write the letter that the script belongs to")
+            raise FormulaError(f"{item.text} has nothing before it", "write the symbol that the script belongs to")
         content = self.argument()
         if item.text == "^" and content and all(b.kind == "letter" and b.name == "prime" for b in content):
-            self.prime(found, len(content))
+            self.prime(row, len(content))
         elif (target.sup if item.text == "^" else target.sub) is not None:
-            raise FormulaError(f"{item.text} follows another {item.text}", "write one pair of braces")
+            raise FormulaError(f"{item.text} follows another {item.text}", "write both in one pair of braces")
         elif item.text == "^":
             target.sup = content
         else:
@@ -261,16 +259,16 @@ class _Reader:
         target.end = self.end
 
     def single(self, style: str) -> list[Box]:
-        """Return the next thing without its scripts; a group in braces gives all that stands in it."""
+        """Read the next object without its scripts; a group in braces gives all its boxes."""
         if self.opens:
             return self.group(style)
         item = self.take()
         text, sign = item.text, _SIGNS.get(item.text)
         if sign is not None:
-            return [self.made(*sign, item)]
+            return [self.box(*sign, item)]
         if text in _LETTERS:
             upright = style == "upright"
-            return [self.made("letter", _LETTERS[text], item, style="" if upright else style, upright=upright)]
+            return [self.box("letter", _LETTERS[text], item, style="" if upright else style, upright=upright)]
         if item.kind == "command":
             return self.command(item, style)
         if item.kind == "align":
@@ -278,17 +276,17 @@ class _Reader:
         if text == "." and self.ahead == ".":
             while self.ahead == ".":
                 self.take()
-            return [self.made("dots", "dots", item)]
+            return [self.box("dots", "dots", item)]
         if text.isdecimal() or (text == "." and self.ahead.isdecimal() and self.items[self.place].at == self.end):
             return [self.number(item)]
         if text in _OPEN:
             return [self.bracket(text, item, style)]
         if text == ":" and self.ahead == "=":
             self.take()
-            return [self.made("relation", ":=", item)]
+            return [self.box("relation", ":=", item)]
         if text in (":", "."):
-            return [self.made("operator" if text == ":" else "comma", text, item)]
-        raise FormulaError(f"{text} is not known", "write it in LaTeX")
+            return [self.box("operator" if text == ":" else "comma", text, item)]
+        raise FormulaError(f"{text} is unknown", "write the character in LaTeX")
 
     def number(self, item: Token) -> Box:
         digits = item.text
@@ -297,7 +295,7 @@ class _Reader:
             if not point and not (self.ahead.isdecimal() and self.items[self.place].at == self.end):
                 break
             digits += self.take().text
-        return self.made("number", digits, item)
+        return self.box("number", digits, item)
 
     def command(self, item: Token, style: str) -> list[Box]:
         name = item.text[1:]
@@ -307,7 +305,7 @@ class _Reader:
             return [self.accent(ACCENTS[name], item, style)]
         if item.text in _OPEN:
             return [self.bracket(item.text, item, style)]
-        if _SIZES.fullmatch(item.text):  # the bracket comes next
+        if _SIZES.fullmatch(item.text):  # a size command precedes a bracket
             bar = self.ahead in (r"\|", r"\Vert", "|", r"\vert")
             return self.single(style) if bar else []
         form = _FORMS.get(name.rstrip("*"))
@@ -315,39 +313,39 @@ class _Reader:
             return form(self, item, style)
         if name in STYLES:
             return self.styled(name, item)
-        raise FormulaError(f"{item.text} is not known", r"write what it stands for, or define it by \newcommand")
+        raise FormulaError(f"{item.text} is unknown", r"write what it means, or define it by \newcommand")
 
     def accent(self, mark: str, item: Token, style: str) -> Box:
         content = self.argument(style)
         only = content[0] if len(content) == 1 else None
         if only is None or only.kind != "letter" or only.sup is not None or only.primes:
-            return self.made("accent", mark, item, content)
+            return self.box("accent", mark, item, content)
         only.marks += (mark,)
         only.at, only.end = item.at, self.end
         return only
 
     def styled(self, name: str, item: Token) -> list[Box]:
-        r"""Read \mathbf{r}, \mathrm{kin} and \text{and}: letters one by one, or a word."""
+        r"""Read \mathbf{r}, \mathrm{kin} and \text{and}: single symbols, or a word."""
         style, start = STYLES[name], self.place
         worded = self.opens and name in (*_TEXT, "mathrm", "operatorname", "mathit", "mathsf", "mathtt")
         word = self.plain().strip() if worded else "-"
         if name == "operatorname" or (len(word) > 1 and word in FUNCTIONS):
-            return [self.made("function", word, item)]
+            return [self.box("function", word, item)]
         if worded and name in _TEXT and word != "d":
             if "$" in word:
-                raise FormulaError("a formula stands within words", "write it between the words")
-            return [self.made("text" if word else "thin", word, item)]
+                raise FormulaError("words contain a formula", "write the formula between the words")
+            return [self.box("text" if word else "thin", word, item)]
         if len(word) == 2 and word[0] == "d" and word.isalpha() and name == "mathrm":
-            return [self.made("letter", letter, item, upright=letter == "d") for letter in word]
+            return [self.box("letter", letter, item, upright=letter == "d") for letter in word]
         if len(word) > 1 and word.isascii() and word.isalpha():
-            return [self.made("letter", word, item, upright=True)]
+            return [self.box("letter", word, item, upright=True)]
         if len(word) > 1 and re.search(r"[/%^~.·]", word):
             raise FormulaError(f"{item.text}{{{word}}} is a unit", "write the numbers without units")
         self.place = start
         content = self.argument(style or "upright")
         for box in content:
             if box.kind == "number" and style and box.name != "0":
-                raise FormulaError(f"{item.text}{{{box.name}}} is not read", "give the unit matrix a letter")
+                raise FormulaError(f"{item.text}{{{box.name}}} is not read", "give the unit matrix a symbol")
             if box.kind == "letter":
                 box.style, box.upright = style or box.style, box.upright or not style
         if content:
@@ -360,49 +358,48 @@ class _Reader:
         if _SIZES.fullmatch(self.ahead):
             self.take()
         if self.ahead != closing:
-            raise FormulaError(f"{opening} is not closed by {closing}", f"write {closing} where it ends")
+            raise FormulaError(f"{opening} is not closed by {closing}", f"write {closing} at the end")
         self.take()
-        return self.made("bracket", opening, item, content, closing=closing)
+        return self.box("bracket", opening, item, content, closing=closing)
 
-    # ---- commands with a form of their own
+    # ---- commands with special arguments
 
     def _left(self, item: Token, style: str) -> list[Box]:
         opening, content = self.take().text, self.sequence((r"\right",), style)
         if not self.take().text or not self.ahead:
             raise FormulaError(r"\left is not closed", r"write \right with its bracket")
         closing = self.take().text
-        return [self.made("bracket", opening, item, content, closing=closing)]
+        return [self.box("bracket", opening, item, content, closing=closing)]
 
     def _frac(self, item: Token, style: str) -> list[Box]:
         style = "" if style == "upright" else style
         kind = "binomial" if item.text.endswith("binom") else "fraction"
         over, under = self.argument(style), self.argument(style)
-        return [self.made(kind, "", item, over, under)]
+        return [self.box(kind, "", item, over, under)]
 
     def _derivative(self, item: Token, style: str) -> list[Box]:
-        r"""Read \dv[2]{x}{t}, \pdv{L}{q} and \dv{t} as fractions."""
-        degree, parts = self.bracketed(), [self.argument(style)]
+        degree, arguments = self.bracketed(), [self.argument(style)]
         if self.opens:
-            parts.append(self.argument(style))
-        under, order = parts[-1], boxes(degree) if degree else None
+            arguments.append(self.argument(style))
+        under, order = arguments[-1], boxes(degree) if degree else None
         if len(under) != 1 or under[0].sup is not None:
-            raise FormulaError(f"{item.text} is by more than a letter", r"write \frac{d f}{d x}")
+            raise FormulaError(f"{item.text} differentiates by more than one symbol", r"write \frac{d f}{d x}")
         kind, name = ("letter", "d") if item.text == r"\dv" else ("partial", "partial")
-        above, below = (self.made(kind, name, item, upright=True, sup=sup) for sup in (order, None))
-        over = [above, *(parts[0] if parts[1:] else [])]
-        return [self.made("fraction", "", item, over, [below, replace(under[0], sup=order)])]
+        above, below = (self.box(kind, name, item, upright=True, sup=sup) for sup in (order, None))
+        over = [above, *(arguments[0] if arguments[1:] else [])]
+        return [self.box("fraction", "", item, over, [below, replace(under[0], sup=order)])]
 
     def _sqrt(self, item: Token, style: str) -> list[Box]:
         degree, content = self.bracketed(), self.argument("" if style == "upright" else style)
-        return [self.made("root", "", item, content, *([boxes(degree)] if degree else []))]
+        return [self.box("root", "", item, content, *([boxes(degree)] if degree else []))]
 
     def _begin(self, item: Token, style: str) -> list[Box]:
         name = self.plain()
         if name not in (*_MATRICES, *_ROWS, *_CASES):
-            raise FormulaError(rf"\begin{{{name}}} is not known", "write the formula without this environment")
+            raise FormulaError(rf"\begin{{{name}}} is unknown", "write the formula without this environment")
         self.bracketed()
         if name in ("array", "alignedat") and "|" in self.plain():
-            raise FormulaError("a line stands in the matrix", "write its blocks by themselves")
+            raise FormulaError("the matrix contains a line", "write its blocks separately")
         rows: list[list[list[Box]]] = [[[]]]
         sign = ""
         while sign != r"\end":
@@ -412,54 +409,54 @@ class _Reader:
             sign = self.take().text
             if sign == "&":
                 second = name in _PAIRS and len(rows[-1]) % 2 == 0  # every second & begins another equation
-                rows[-1][-1] += [self.made("wide", "", self.items[self.place - 1])] if second else []
+                rows[-1][-1] += [self.box("wide", "", self.items[self.place - 1])] if second else []
                 rows[-1].append([])
             elif sign in (r"\\", r"\cr"):
                 self.bracketed()
                 rows.append([[]])
         self.plain()
         kind = "cases" if name in _CASES else "rows" if name in _ROWS else "matrix"
-        return [self.made(kind, name, item, [self.made("row", "", item, *row) for row in rows if any(row)])]
+        return [self.box(kind, name, item, [self.box("row", "", item, *row) for row in rows if any(row)])]
 
     def _underbrace(self, item: Token, style: str) -> list[Box]:
         content = self.argument(style)
         if self.items[self.place].kind == "script":
             self.take()
             self.plain()
-        joined = bool(content) and content[0].kind == "operator"  # the sign joins it to what stands before
-        return content if joined else [self.made("group", "brace", item, content)]
+        joined = bool(content) and content[0].kind == "operator"  # the sign joins it to the term before
+        return content if joined else [self.box("group", "brace", item, content)]
 
-    def _passed_over(self, item: Token, style: str) -> list[Box]:
+    def _skip(self, item: Token, style: str) -> list[Box]:
         self.plain()
-        return [self.made("thin", "", item)] if item.text == r"\hspace" else []
+        return [self.box("thin", "", item)] if item.text == r"\hspace" else []
 
     def _line_end(self, item: Token, style: str) -> list[Box]:
-        """Read the end of a line in a display that has one line only."""
+        """Read a line break in a display of one line."""
         self.bracketed()
-        return [self.made("wide", "", item)]
+        return [self.box("wide", "", item)]
 
 
 def _without_spaces(row: list[Box]) -> list[Box]:
-    """Return a row without its thin spaces, each of which is said of the box behind it; three in a row part formulas."""
-    parts, after_thin = list[Box](), False
+    """Remove thin spaces, and mark the box after each as spaced; three in a row separate formulas."""
+    result, after_thin = list[Box](), False
     for thin, run in groupby(row, key=lambda box: box.kind == "thin"):
         boxes = list(run)
         if thin and len(boxes) > 2:
-            parts.append(replace(boxes[0], kind="wide"))
+            result.append(replace(boxes[0], kind="wide"))
         elif not thin:
             boxes[0].spaced |= after_thin
-            parts += boxes
+            result += boxes
         after_thin = thin
-    return parts
+    return result
 
 
-def _joins(before: Box, made: Box, style: str) -> bool:
-    """Return whether an upright letter goes on with the word before it."""
-    letters = before.kind == made.kind == "letter" and before.upright and made.upright and len(made.name) == 1
-    return style == "upright" and letters and before.sub is None and before.sup is None and not before.marks
+def _joins(word: Box, letter: Box, style: str) -> bool:
+    """Return True if an upright symbol continues the word before it."""
+    letters = word.kind == letter.kind == "letter" and word.upright and letter.upright and len(letter.name) == 1
+    return style == "upright" and letters and word.sub is None and word.sup is None and not word.marks
 
 
-# Characters and commands that are a letter, with its name; those that are another box whatever stands beside them: (kind, name).
+# Characters and commands of symbols → name; those of other boxes, independent of their neighbours → (kind, name).
 _LETTERS = {letter: letter for letter in ascii_letters} | _UNICODE
 _LETTERS |= {command: re.sub(r"var(?=[A-Z])", "", command[1:]) for command in GREEK}  # \varDelta is an italic \Delta
 _LETTERS |= {rf"\{'Up' if name[0].isupper() else 'up'}{name.lower()}": name for name in _GREEK_NAMES.split()}
@@ -492,7 +489,7 @@ _FORMS: dict[str, Callable[[_Reader, Token, str], list[Box]]] = {
     **dict.fromkeys(_FRACTIONS, _Reader._frac),
     **dict.fromkeys(("dv", "pdv"), _Reader._derivative),
     **dict.fromkeys(("underbrace", "overbrace"), _Reader._underbrace),
-    **dict.fromkeys(("label", "cite", "vspace", "tag", "hspace"), _Reader._passed_over),
+    **dict.fromkeys(("label", "cite", "vspace", "tag", "hspace"), _Reader._skip),
     **{"left": _Reader._left, "sqrt": _Reader._sqrt, "begin": _Reader._begin, "\\": _Reader._line_end},
 }
 
@@ -501,7 +498,7 @@ _FORMS: dict[str, Callable[[_Reader, Token, str], list[Box]]] = {
 
 
 def is_printed_as_vector(box: Box) -> bool:
-    """Return whether a letter is printed as a vector: bold, with an arrow or with a line below."""
+    """Return True for a symbol in bold, with an arrow or with a line below."""
     return box.style == "bold" or "vec" in box.marks or "under" in box.marks
 
 
@@ -515,42 +512,42 @@ def strip(row: list[Box]) -> list[Box]:
     return row[start:end]
 
 
-def parted(row: list[Box], *kinds: str) -> list[list[Box]]:
-    """Return the parts of a row between the boxes of these kinds; a full stop parts nothing."""
+def split_at(row: list[Box], *kinds: str) -> list[list[Box]]:
+    """Split a row at the boxes of these kinds; a full stop is no separator."""
     ends = [-1, *(k for k, box in enumerate(row) if box.kind in kinds and box.name != "."), len(row)]
     return [row[first + 1 : last] for first, last in pairwise(ends)]
 
 
 def all_boxes(row: Iterable[Box]) -> Iterator[Box]:
-    """Yield the boxes of a row and all that they hold."""
+    """Yield the boxes of a row and all boxes inside them."""
     for box in row:
         yield box
-        for held in (*box.parts, box.sub or (), box.sup or ()):
-            yield from all_boxes(held)
+        for inner in (*box.contents, box.sub or (), box.sup or ()):
+            yield from all_boxes(inner)
 
 
 def is_mark(box: Box, mark: str) -> bool:
-    """Return whether a box is the d or the ∂ of a derivative."""
+    """Return True for the d or the ∂ of a derivative."""
     if mark == "partial":
         return box.kind == "partial" and box.sub is None
     return box.kind == "letter" and box.name == mark and not (box.marks or box.sub or box.primes or box.style)
 
 
 def is_derivative(box: Box) -> str:
-    """Return d or partial where a fraction is a derivative; nothing where it is none."""
+    """Return 'd' or 'partial' for a fraction that is a derivative, '' for any other box."""
     if box.kind == "fraction":
-        over, under = box.parts
+        over, under = box.contents
         for mark in ("d", "partial") if over and len(under) > 1 and under[1].kind == "letter" else ():
             if is_mark(over[0], mark) and is_mark(under[0], mark):
                 return mark
     return ""
 
 
-# ---- names of letters
+# ---- names of symbols
 
 
 def stem_of(box: Box) -> str:
-    """Return the name of a letter with its font and marks, without index, dots and primes."""
+    """Return the name of a symbol with its font and marks, without index, dots and primes."""
     return {"lambda": "lamda"}.get(box.name, box.name) + box.style + "".join(_marks(box))
 
 
@@ -559,47 +556,47 @@ def _marks(box: Box) -> list[str]:
 
 
 def name_of(box: Box, index: Iterable[str] = (), raised: Iterable[str] = ()) -> str:
-    r"""Return the name of a letter in Python: theta_1_dot for \dot\theta_1, rvec_1 for \vec r_1, T__max for T^{\max}."""
+    r"""Return the Python name of a symbol: theta_1_dot for \dot\theta_1, rvec_1 for \vec r_1, T__max for T^{\max}."""
     rates = sum(len(mark) - len("ot") for mark in box.marks if mark.endswith("dot"))
-    name = stem_of(box) + "prime" * box.primes + "".join(f"__{part}" for part in raised)
-    name += "".join(f"_{part}" for part in index) + (f"_{'d' * rates}ot" if rates else "")
-    taken = name in CALLED or iskeyword(name) or (name == "hbar" and box.name == "h")  # a mean h is no ħ
-    return f"{name}_" if taken else name
+    name = stem_of(box) + "prime" * box.primes + "".join(f"__{word}" for word in raised)
+    name += "".join(f"_{word}" for word in index) + (f"_{'d' * rates}ot" if rates else "")
+    reserved = name in CALLED or iskeyword(name) or (name == "hbar" and box.name == "h")  # a mean h is no ħ
+    return f"{name}_" if reserved else name
 
 
 def index_of(box: Box) -> list[str]:
-    """Return the parts of an index, such as ["1"], ["cm"] or ["i", "j"]. Raises FormulaError for other signs in it."""
-    found: list[str] = []
-    alone = True  # a comma or a Greek letter ends a run of letters
-    for part in box.sub or ():
-        if part.kind == "comma" and part.name != ".":
+    """Return the words of an index, such as ["1"], ["cm"] or ["i", "j"]. Raises FormulaError for other signs."""
+    words: list[str] = []
+    alone = True  # a comma or a Greek letter ends a word
+    for entry in box.sub or ():
+        if entry.kind == "comma" and entry.name != ".":
             alone = True
             continue
-        inner = _index(part)
-        greek = part.kind == "letter" and len(part.name) > 1 and not part.upright
-        if alone or greek or len(inner) != 1 or not found:
-            found += inner
+        inner = _index(entry)
+        greek = entry.kind == "letter" and len(entry.name) > 1 and not entry.upright
+        if alone or greek or len(inner) != 1 or not words:
+            words += inner
         else:
-            found[-1] += inner[0]
+            words[-1] += inner[0]
         alone = greek
-    return found
+    return words
 
 
-def _index(part: Box) -> list[str]:
+def _index(entry: Box) -> list[str]:
     """Return the words of one box of an index."""
-    if part.kind == "letter" and part.sup is None:
-        return [part.name + part.style + "prime" * part.primes + "".join(part.marks), *index_of(part)]
-    plain = part.sup is None and part.sub is None
-    if part.kind == "number" and plain and "," not in part.name:
-        return [part.name.replace(".", "p")]
-    name = "".join(c for c in part.name if c.isalnum())
-    if part.kind in ("text", "function") and plain and 0 < len(name) <= 24 and not re.search(r"\\|d?dot", part.name):
+    if entry.kind == "letter" and entry.sup is None:
+        return [entry.name + entry.style + "prime" * entry.primes + "".join(entry.marks), *index_of(entry)]
+    plain = entry.sup is None and entry.sub is None
+    if entry.kind == "number" and plain and "," not in entry.name:
+        return [entry.name.replace(".", "p")]
+    name = "".join(c for c in entry.name if c.isalnum())
+    if entry.kind in ("text", "function") and plain and 0 < len(name) <= 24 and not re.search(r"\\|d?dot", entry.name):
         return [name]
-    if part.kind in ("operator", "infinity", "relation") and part.name in _INDEX_SIGNS:
-        return [_INDEX_SIGNS[part.name]]
-    if part.kind in ("group", "fraction") and plain:  # i + 1/2
-        return ["over".join("".join(word for each in held for word in _index(each)) for held in part.parts)]
-    raise FormulaError("an index is not letters and numbers", "give the letter another index")
+    if entry.kind in ("operator", "infinity", "relation") and entry.name in _INDEX_SIGNS:
+        return [_INDEX_SIGNS[entry.name]]
+    if entry.kind in ("group", "fraction") and plain:  # i + 1/2
+        return ["over".join("".join(word for inner in row for word in _index(inner)) for row in entry.contents)]
+    raise FormulaError("an index has signs other than letters and numbers", "give the symbol another index")
 
 
 _INDEX_SIGNS = {"+": "plus", "-": "minus", "*": "star", "/": "over", "infty": "inf", "=": "eq", "->": "to"}

@@ -1,11 +1,11 @@
-r"""The check of a source without any derivation: steps of chains, claimed orders, indices of sums.
+"""The check of a source without derivations: steps of chains, claimed orders, indices of sums.
 
-A step holds if its two members are proved equal, as they stand or with derivatives and integrals taken. It is refuted if
-the members differ, no equation before relates their letters, and one changed sign, factor, power or function of a member
-makes them equal: this tells a slip from a law. Every other step is not judged, for a reason below. The first step of a chain
-may define a letter or state a condition, so it is never refuted.
+A step holds if its two members are proved equal, as printed or after evaluation of derivatives and integrals. It is
+refuted if the members differ, no earlier equation relates their symbols, and one small change makes them equal. The
+change is one sign, factor, power or function; it distinguishes a slip from a law. Any other step is not judged, for a
+reason listed below. The first step of a chain may define a symbol or state a condition, so it is never refuted.
 
-No reading is confirmed here: the kinds of letters are those that `paper.toml` beside the source declares, or one sweep proposes.
+No reading is confirmed: the kinds of symbols come from the `paper.toml` next to the source, or from one sweep.
 """
 
 import re
@@ -24,9 +24,9 @@ from lagrotor.paper.latex.comparison import (
     TOO_LARGE,
     agree,
     agree_for_positive,
-    bounded,
-    counted,
-    decided,
+    bound_work,
+    count_calls,
+    equality,
     expression_of,
     is_large,
     may_agree,
@@ -57,16 +57,16 @@ from lagrotor.paper.latex.tree import (
 
 HOLDS, REFUTED, NOT_JUDGED = "holds", "refuted", "not judged"
 INDEX, FAULT = "index outside its sum", "no LaTeX"
-# Findings that are shown without --all, which are errors.
+# Findings that are errors; they are listed even without --all.
 WRONG = (REFUTED, INDEX, FAULT)
-# Reasons for which a step is not judged.
+# Reasons not to judge a step.
 NOT_READ = "the display is not read"
-UNCOMPARABLE = "a member has no value that could be compared"
-OUTSIDE = "the difference is outside what is decided exactly"
+UNCOMPARABLE = "a member has no value for a comparison"
+OUTSIDE = "the exact decision does not cover the difference"
 FUNCTIONS = "derivatives, integrals or functions may be related"
-LETTERS = "the right member has letters that the left one has not"
-BEFORE = "an equation before relates its letters"
-MAYBE = "it may be a condition"
+LETTERS = "the right member has symbols that the left member lacks"
+BEFORE = "an earlier equation relates its symbols"
+MAYBE = "the step may be a condition"
 ROUNDED = "a decimal number may be rounded"
 ALL_REAL = Notation()
 _VERDICT = tuple[str, str]
@@ -78,7 +78,7 @@ _BOUNDS = frozenset(("<", ">", "<=", ">=", "!="))
 class StepFinding:
     """One finding. `step` counts the relations of a chain from 1; 0 means the whole equation.
 
-    equation: its id, empty where LaTeX itself would stop at the line. members: the two sides of a step as they were read.
+    equation: its id, '' for a LaTeX error. members: the two sides of a step as read.
     """
 
     equation: str
@@ -90,7 +90,7 @@ class StepFinding:
     file: str = ""
 
     def as_data(self) -> dict[str, Any]:
-        """Return the finding as an object of JSON, without what is empty."""
+        """Return the finding as a JSON object without empty fields."""
         return {key: value for key, value in asdict(self).items() if value not in ("", ()) or key == "equation"}
 
 
@@ -102,36 +102,24 @@ class Check:
 
     @property
     def counts(self) -> dict[str, int]:
-        """The number of steps that hold, are refuted, and are not judged."""
-        counts = Counter(each.verdict for each in self.findings)
+        """The numbers of steps that hold, are refuted, and are not judged."""
+        counts = Counter(finding.verdict for finding in self.findings)
         return {verdict: counts[verdict] for verdict in (HOLDS, REFUTED, NOT_JUDGED)}
 
     @property
     def reasons(self) -> dict[str, int]:
-        """The three commonest reasons for which steps are not judged, with their numbers."""
-        reasons = Counter(each.why.partition(": ")[0] for each in self.findings if each.verdict == NOT_JUDGED)
+        """The three most frequent reasons for steps that are not judged, with their numbers."""
+        reasons = Counter(finding.why.partition(": ")[0] for finding in self.findings if finding.verdict == NOT_JUDGED)
         return dict(reasons.most_common(3))
 
 
 def check_source(source: Source, declared: Notation = ALL_REAL) -> Check:
-    """Check the displayed equations of a source.
-
-    Parameters
-    ----------
-    source : Source
-        The displays.
-    declared : Notation
-        The kinds of letters that the author declares; one sweep proposes the others.
-
-    Returns
-    -------
-    Check
-        The findings in the order of the source.
-    """
-    notation = with_proposals(declared, propose([*(each.latex for each in source.equations), *source.inline]))
-    readings = [(each, read_formula(each.latex, notation, each.lead)) for each in source.equations]
+    """Check the displayed equations of a source; one sweep proposes the kinds of symbols that are not declared."""
+    notation = with_proposals(declared, propose([*(equation.latex for equation in source.equations), *source.inline]))
+    readings = [(equation, read_formula(equation.latex, notation, equation.lead)) for equation in source.equations]
     faults = [
-        StepFinding("", 0, n, FAULT, said, file=file if file != source.file else "") for file, n, said in source.faults
+        StepFinding("", 0, n, FAULT, sentence, file=file if file != source.file else "")
+        for file, n, sentence in source.faults
     ]
     return Check((*faults, *_Checker(source, readings, notation).findings()))
 
@@ -141,112 +129,116 @@ class _Checker:
         self.source, self.readings, self.notation = source, readings, notation
         sides = (s.node for _, reading in readings for statement in reading.statements for s in statement.sides)
         self.opaque = Opaque()
-        self.moving = Opaque(self.opaque.names, rates_of(sides))  # derivatives taken
+        self.moving = Opaque(self.opaque.names, rates_of(sides))  # with rates: derivatives are evaluated
         self.place = 0
 
     def findings(self) -> Iterator[StepFinding]:
-        """Yield every finding."""
-        for place, (each, reading) in enumerate(self.readings):
+        for place, (equation, reading) in enumerate(self.readings):
             self.place = place
             if not reading.whole:
                 what, helps = reading.stop or ("", "")
-                yield self._finding(each, 0, None, NOT_JUDGED, f"{NOT_READ}: {what}: {helps}")
+                yield self._finding(equation, 0, None, NOT_JUDGED, f"{NOT_READ}: {what}: {helps}")
             for nth, statement in enumerate(reading.statements):
-                yield from (self._finding(each, 0, None, INDEX, why) for why in _open_indices(statement))
-                yield from self._steps(each, statement, statement if nth else self._continued(each, statement))
+                yield from (self._finding(equation, 0, None, INDEX, why) for why in _open_indices(statement))
+                yield from self._steps(equation, statement, statement if nth else self._join_row(equation, statement))
 
     def _finding(
-        self, each: Displayed, step: int, sides: tuple[Side, Side] | None, verdict: str, why: str
+        self, equation: Displayed, step: int, sides: tuple[Side, Side] | None, verdict: str, why: str
     ) -> StepFinding:
-        file, line = each.place
-        if sides is not None and len(each.rows) > 1:
-            line = each.rows[min(each.latex[: sides[1].at].count(r"\\"), len(each.rows) - 1)]
+        file, line = equation.place
+        if sides is not None and len(equation.rows) > 1:
+            line = equation.rows[min(equation.latex[: sides[1].at].count(r"\\"), len(equation.rows) - 1)]
         members = tuple(text_of(side.node) for side in sides or ())
-        return StepFinding(each.id, step, line, verdict, why, members, file if file != self.source.file else "")
+        return StepFinding(equation.id, step, line, verdict, why, members, file if file != self.source.file else "")
 
-    def _steps(self, each: Displayed, printed: PrintedStatement, statement: PrintedStatement) -> Iterator[StepFinding]:
-        """Yield the steps of a chain, the first only if it is an identity; printed: without the row before."""
+    def _steps(
+        self, display: Displayed, printed: PrintedStatement, statement: PrintedStatement
+    ) -> Iterator[StepFinding]:
+        """Yield the steps of a chain, the first only if it is an identity; `printed` omits the previous row."""
         order_before = None if statement is printed else self.readings[self.place - 1][1].statements[-1].order
         steps = enumerate(zip(statement.sides, statement.sides[1:], statement.relations, strict=False), 1)
-        for step, (left, right, relation) in steps:
-            claimed = (right is statement.sides[-1] and statement.order) or (step == 2 and order_before)
-            if step == 1 and (statement is not printed or not _may_be_identity(left.node, right.node)):
+        for step, (lhs, rhs, relation) in steps:
+            claimed = (rhs is statement.sides[-1] and statement.order) or (step == 2 and order_before)
+            if step == 1 and (statement is not printed or not _may_be_identity(lhs.node, rhs.node)):
                 continue
             decide: Callable[..., _VERDICT] = self._step
-            arguments: tuple[Any, ...] = (left.node, right.node)
+            arguments: tuple[Any, ...] = (lhs.node, rhs.node)
             if claimed and step > 1:
                 decide, arguments = self._order, (*arguments, claimed)
             elif relation not in ("=", ":="):
                 continue
-            verdict, why = bounded(decide, *arguments, too_large=(NOT_JUDGED, TOO_LARGE))
+            verdict, why = bound_work(decide, *arguments, too_large=(NOT_JUDGED, TOO_LARGE))
             if step > 1 or verdict == HOLDS:
-                yield self._finding(each, step, (left, right), verdict, why)
+                yield self._finding(display, step, (lhs, rhs), verdict, why)
 
-    def _continued(self, each: Displayed, statement: PrintedStatement) -> PrintedStatement:
-        """Return a row that continues the one before, with the last side of that row in its place."""
-        before = self.readings[self.place - 1][1] if each.lead and self.place else None
-        if before is None or not before.whole or before.statements[-1].kind != "equation":
+    def _join_row(self, equation: Displayed, statement: PrintedStatement) -> PrintedStatement:
+        """Return a continuing row with the last side of the previous row inserted."""
+        previous = self.readings[self.place - 1][1] if equation.lead and self.place else None
+        if previous is None or not previous.whole or previous.statements[-1].kind != "equation":
             return statement
-        last = replace(before.statements[-1].sides[-1], at=0)
+        last = replace(previous.statements[-1].sides[-1], at=0)
         first = replace(statement.sides[0], at=0)
-        shifted = [replace(side, at=max(side.at - len(each.lead) - 1, 0)) for side in statement.sides[1:]]
+        shifted = [replace(side, at=max(side.at - len(equation.lead) - 1, 0)) for side in statement.sides[1:]]
         return replace(statement, sides=(first, last, *shifted), relations=("=", *statement.relations))
 
-    def _step(self, left: Node, right: Node) -> _VERDICT:
-        """Return the verdict on a step, and the reason."""
-        a, b = self._value(left), self._value(right)
+    def _step(self, lhs: Node, rhs: Node) -> _VERDICT:
+        """Return the verdict on a step and the reason."""
+        a, b = self._value(lhs), self._value(rhs)
         if a is None or b is None:
             return NOT_JUDGED, UNCOMPARABLE
         if a != b and is_large(a, b):
             return NOT_JUDGED, TOO_LARGE
-        answer = decided(a, b) if may_agree(a, b) else "nonzero"
+        answer = equality(a, b) if may_agree(a, b) else "nonzero"
         if answer == "zero":
             return HOLDS, "an identity where its roots are real" if radicands(a, b) else "an identity"
         if agree_for_positive(a, b):
-            return HOLDS, "for positive letters"
+            return HOLDS, "for positive symbols"
         if answer == "undecided":
             return NOT_JUDGED, OUTSIDE
-        if said := self._with_derivatives_taken(left, right, (a, b)):
-            return HOLDS, said
-        reason, why = self._refuted(left, right, a, b)
-        if reason or decided(a, b) != "nonzero":
+        if assumption := self._with_derivatives_taken(lhs, rhs, (a, b)):
+            return HOLDS, assumption
+        reason, why = self._refuted(lhs, rhs, a, b)
+        if reason or equality(a, b) != "nonzero":
             return NOT_JUDGED, reason or OUTSIDE
         return REFUTED, why
 
-    def _with_derivatives_taken(self, left: Node, right: Node, before: tuple[Any, Any]) -> str:
-        """Return the assumptions under which two members agree once derivatives and integrals are taken; "" if they do not."""
+    def _with_derivatives_taken(self, lhs: Node, rhs: Node, values: tuple[Any, Any]) -> str:
+        """Return the assumptions under which the members agree after evaluation of derivatives, or ""."""
         self.moving.fixing = False
-        a, b = (expression_of(node, self.moving) for node in (left, right))
-        if a is None or b is None or (a, b) == before or is_large(a, b) or not agree(a, b):
+        a, b = (expression_of(node, self.moving) for node in (lhs, rhs))
+        if a is None or b is None or (a, b) == values or is_large(a, b) or not agree(a, b):
             return ""
-        fixed = "the other letters fixed in derivatives and integrals"
+        fixed = "the other symbols constant in derivatives and integrals"
         return f"with {fixed if self.moving.fixing else 'derivatives taken'}"
 
-    def _refuted(self, left: Node, right: Node, a: Any, b: Any) -> tuple[str, str]:
-        """Return the reason for which a difference that is not zero refutes nothing, or "" and how the members differ."""
-        letters, others = set(letters_of(left)), set(letters_of(right))
+    def _refuted(self, lhs: Node, rhs: Node, a: Any, b: Any) -> tuple[str, str]:
+        """Return the reason not to refute unequal members and "", or "" and how they differ."""
+        letters, others = set(letters_of(lhs)), set(letters_of(rhs))
         if not _comparable(a, b):
             return FUNCTIONS, ""
         if others - letters:
             return LETTERS, ""
-        numbers = (each.value for side in (left, right) for each in walk(side) if isinstance(each, Number))
+        numbers = (node.value for side in (lhs, rhs) for node in walk(side) if isinstance(node, Number))
         if any(value.denominator not in (1, 2, 4) for value in numbers):
             return ROUNDED, ""
-        if not others:  # a constant on the right is wrong only where the left member is another
+        if not others:  # a constant on the right is refuted only by another constant
             value = constant_value(a)
-            return (MAYBE, "") if value is None else ("", f"the left member is {value} for all values of its letters")
-        if self._related(letters):
+            return (MAYBE, "") if value is None else ("", f"the left member is {value} for all values of its symbols")
+        if self._has_relation(letters):
             return BEFORE, ""
-        slip = change_to_agree(a, right, self._value) or change_to_agree(b, left, self._value)
-        return ("", f"the members differ by {_difference(a, b)}; {slip}") if slip else (MAYBE, "")
+        for side, fixed, changing in (("right", a, rhs), ("left", b, lhs)):
+            if slip := change_to_agree(fixed, changing, self._value):
+                differ = f"the members differ by {_difference(a, b)}"
+                return "", f"{differ}; they would agree with {slip} in the {side} member"
+        return MAYBE, ""
 
     def _value(self, node: Node) -> Any:
         return expression_of(node, self.opaque)
 
-    def _related(self, letters: set[str]) -> bool:
-        """Return whether an equation of these letters only stands in the text or before, so that two members may agree."""
+    def _has_relation(self, letters: set[str]) -> bool:
+        """Return True if an earlier equation or the text relates only these symbols: the members may then agree."""
         stems = {letter.split("_")[0] for letter in letters}
-        for latex, reading in (*((each.latex, r) for each, r in self.readings[: self.place]), *self._text):
+        for latex, reading in (*((equation.latex, r) for equation, r in self.readings[: self.place]), *self._text):
             if not reading.whole and (names := letters_printed(latex)) and names <= stems:
                 return True
             if any(self._explains(s, letters) for s in reading.statements):
@@ -254,7 +246,7 @@ class _Checker:
         return False
 
     def _explains(self, statement: PrintedStatement, letters: set[str]) -> bool:
-        """Return whether a statement relates no other letters than these: no bound, and no identity."""
+        """Return True if a statement relates only these symbols and is no bound and no identity."""
         nodes = [side.node for side in statement.sides]
         if not {name for node in nodes for name in letters_of(node)} <= letters or {*statement.relations} <= _BOUNDS:
             return False
@@ -263,21 +255,21 @@ class _Checker:
 
     @cached_property
     def _text(self) -> list[tuple[str, Reading]]:
-        """The relations of the text, with their readings."""
+        """The relations in the text, with their readings."""
         formulas = (latex for latex in self.source.inline if _RELATION.search(latex))
         return [(latex, read_formula(latex, self.notation)) for latex in formulas]
 
-    def _order(self, left: Node, right: Node, order: tuple[str, int]) -> _VERDICT:
-        """Return the verdict on a step that is claimed through an order of a small letter."""
+    def _order(self, lhs: Node, rhs: Node, order: tuple[str, int]) -> _VERDICT:
+        """Return the verdict on a step claimed up to an order in a small symbol."""
         name, power = order
         small = sp.Symbol(name, real=True)
         try:
-            a, b = sympy_expression(left, self.opaque), sympy_expression(right, self.opaque)
+            a, b = sympy_expression(lhs, self.opaque), sympy_expression(rhs, self.opaque)
             if isinstance(a, sp.MatrixBase) or isinstance(b, sp.MatrixBase) or small not in a.free_symbols:
                 return NOT_JUDGED, LETTERS
-            rates = re.compile(rf"{re.escape(name)}_d+ot")  # the rates of a small quantity are as small
+            rates = re.compile(rf"{re.escape(name)}_d+ot")  # rates of a small quantity are of the same order
             scaled = {s: small * s for s in a.free_symbols | b.free_symbols if rates.fullmatch(s.name)}
-            term = counted(agreement_order, a.xreplace(scaled), b.xreplace(scaled), small, power - 1)
+            term = count_calls(agreement_order, a.xreplace(scaled), b.xreplace(scaled), small, power - 1)
         except WorkError:
             raise
         except (LagrotorError, TypeError, ValueError, ArithmeticError, AttributeError):
@@ -289,17 +281,17 @@ class _Checker:
         return REFUTED, f"the members differ at order {term.order} in {name}; O({name}**{power}) is claimed"
 
 
-def _may_be_identity(left: Node, right: Node) -> bool:
-    """Return whether the first step of a chain may be an identity, and no definition."""
-    numeric = isinstance(right, Number) and right.value != 0 and any(each.name in KNOWN for each in _calls(left))
-    return isinstance(left, Call) and (numeric or bool(letters_of(right) and not isinstance(right, Letter)))
+def _may_be_identity(lhs: Node, rhs: Node) -> bool:
+    """Return True if the first step of a chain can be an identity rather than a definition."""
+    numeric = isinstance(rhs, Number) and rhs.value != 0 and any(call.name in KNOWN for call in _calls(lhs))
+    return isinstance(lhs, Call) and (numeric or bool(letters_of(rhs) and not isinstance(rhs, Letter)))
 
 
 def _open_indices(statement: PrintedStatement) -> Iterator[str]:
-    """Sentences on indices that stand outside their sum on one side, and on another side do not.
+    """Yield sentences on indices that occur outside their sum on one side of a statement, but not on another.
 
-    An index is the letter itself, or a subscript of a letter that also stands inside the sum: E_k = Σ_k v_k has a label.
-    Products and integrals over the same letter bind it as well.
+    An index is the symbol itself, or a subscript that also occurs inside the sum. In E_k = Σ_k v_k the k of E_k is a
+    label. Products and integrals also bind it.
     """
     sums = [n for side in statement.sides for n in _calls(side.node) if n.name == "Sum"]
     for index in dict.fromkeys(n.args[1].name for n in sums if isinstance(n.args[1], Letter)):
@@ -307,24 +299,26 @@ def _open_indices(statement: PrintedStatement) -> Iterator[str]:
         names = {name for name in inside if index in name.split("_")[1:]} | {index}
         outside = [names & set(letters_of(_without_bound(side.node, index))) for side in statement.sides]
         if not all(outside) and (side := next((s for s, n in zip(statement.sides, outside, strict=True) if n), None)):
-            yield f"{index} stands outside the sum over it in {text_of(side.node)}"
+            yield f"{index} is outside the sum over it in {text_of(side.node)}"
 
 
 def _calls(node: Node) -> Iterator[Call]:
-    return (each for each in walk(node) if isinstance(each, Call))
+    return (inner for inner in walk(node) if isinstance(inner, Call))
 
 
 def _without_bound(node: Node, index: str) -> Node:
     """Return a node with zero for its sums, products and integrals over an index."""
-    calls = (each for each in _calls(node) if each.name in BINDING)
-    return put_for(node, {each: number(0) for each in calls if any(index in letters_of(e) for e in each.args[1:])})
+    calls = (call for call in _calls(node) if call.name in BINDING)
+    return put_for(node, {call: number(0) for call in calls if any(index in letters_of(e) for e in call.args[1:])})
 
 
 def _difference(a: Any, b: Any) -> str:
-    return "a vector" if isinstance(a, sp.MatrixBase) else sp.sstr(counted(sp.factor_terms, counted(sp.expand, a - b)))
+    if isinstance(a, sp.MatrixBase):
+        return "a vector"
+    return sp.sstr(count_calls(sp.factor_terms, count_calls(sp.expand, a - b)))
 
 
 def _comparable(a: Any, b: Any) -> bool:
-    """Return whether both members have the same derivatives, integrals and unknown functions, and are vectors or not."""
+    """Return True if both members have the same non-explicit terms and are both vectors or both numbers."""
     hidden = [{symbol for symbol in side.free_symbols if has_opaque(symbol)} for side in (a, b)]
     return hidden[0] == hidden[1] and isinstance(a, sp.MatrixBase) == isinstance(b, sp.MatrixBase)

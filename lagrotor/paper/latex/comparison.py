@@ -1,4 +1,4 @@
-"""Whether two printed sides agree: at points in floating point, then exactly; with a bound on the work."""
+"""The equality of two printed sides: tested at points in floating point, then decided exactly with bounded work."""
 
 from collections.abc import Callable
 from random import Random
@@ -12,53 +12,52 @@ from lagrotor.algebra.work_budget import Calls, at_most
 from lagrotor.errors import LagrotorError, WorkError
 from lagrotor.paper.latex.tree import Node, Opaque, sympy_expression
 
-# The degree and the calls of functions, a few seconds, beyond which a step is not decided.
+# Bounds on the degree, and on the function calls (a few seconds), for the decision of one step.
 _MOST_DEGREE, MOST_CALLS = 1000, 3_000_000
 TOO_LARGE = "the difference is too large"
-LARGEST = 1e300  # numbers that are compared
-# Points at which two sides are evaluated until both are real.
-_MOST_POINTS = 16
+LARGEST = 1e300  # bound on compared numbers
+_MOST_POINTS = 16  # test points at which two sides are evaluated until both are real
 
-_step: Calls | None = None  # the calls that are left to the step that is being decided
+_step: Calls | None = None  # remaining calls of the current step
 
 
-def bounded(work: Callable[..., Any], *arguments: Any, too_large: Any = None) -> Any:
-    """Return work(*arguments), or `too_large` beyond the bound on the work of a step."""
+def bound_work(work: Callable[..., Any], *arguments: Any, too_large: Any = None) -> Any:
+    """Return work(*arguments), or `too_large` if the work exceeds the bound for one step."""
     global _step
-    before, _step = _step, Calls(MOST_CALLS)
+    previous, _step = _step, Calls(MOST_CALLS)
     try:
         return work(*arguments)
     except (WorkError, RecursionError):
         return too_large
     finally:
-        _step = before
+        _step = previous
 
 
-def counted(work: Callable[..., Any], *arguments: Any) -> Any:
-    """Return work(*arguments), whose calls count for the step that is being decided."""
+def count_calls(work: Callable[..., Any], *arguments: Any) -> Any:
+    """Return work(*arguments); its calls count for the current step."""
     return work(*arguments) if _step is None else at_most(_step, work, *arguments)
 
 
 def expression_of(node: Node, opaque: Opaque) -> Any:
-    """Return the node as a sympy expression; None where it has none."""
+    """Return the node as a sympy expression, or None."""
     try:
-        return counted(sympy_expression, node, opaque)
+        return count_calls(sympy_expression, node, opaque)
     except (TypeError, ValueError, ArithmeticError, AttributeError):
         return None
 
 
 def value_at(side: Any, point: dict[sp.Symbol, sp.Rational]) -> Any:
-    """Return the value at a point; nan beyond the range of floats."""
+    """Return the value at a point; nan outside the range of floats."""
     entry = next((e for e in side if e != 0), sp.S.Zero) if isinstance(side, sp.MatrixBase) else side
     try:
-        value = counted(sp.N, entry.xreplace(point), 15)
+        value = count_calls(sp.N, entry.xreplace(point), 15)
         return value if abs(complex(value)) < LARGEST else sp.nan
     except (ArithmeticError, AttributeError, ValueError, TypeError):
         return sp.nan
 
 
 def nearly_equal(a: Any, b: Any) -> bool:
-    """Return whether two numbers agree within rounding."""
+    """Return True if two numbers agree to 1e-9 relative to their size."""
     try:
         return bool(abs(a - b) <= 1e-9 * (abs(a) + abs(b)))
     except TypeError:
@@ -66,14 +65,14 @@ def nearly_equal(a: Any, b: Any) -> bool:
 
 
 def may_agree(a: Any, b: Any) -> bool:
-    """Return whether no point is known at which two expressions are real and differ: only then is the exact decision tried."""
+    """Return False if two expressions are real and differ at a test point; the exact decision is then not needed."""
     if isinstance(a, sp.MatrixBase) or isinstance(b, sp.MatrixBase):
         return True
     symbols = sorted(a.free_symbols | b.free_symbols, key=str)
     random = Random(len(symbols))
     for trial in range(_MOST_POINTS):
         point = {s: sp.Rational(2 * n + 4 * trial + 3, 5 * n + 7) for n, s in enumerate(symbols)}
-        if trial > 2:  # of any sign and size: a root of a negative number may be real there
+        if trial > 2:  # any sign and size: roots may be real there
             point = {s: sp.Rational(random.randrange(-99, 100, 2), random.choice((7, 80))) for s in symbols}
         values = value_at(a, point), value_at(b, point)
         if all(value.is_real and value.is_finite for value in values):
@@ -82,38 +81,38 @@ def may_agree(a: Any, b: Any) -> bool:
 
 
 def is_large(*sides: Any) -> bool:
-    """Return whether a degree is beyond the products that are multiplied out."""
+    """Return True if a degree is too large to multiply out."""
     entries = (e for side in sides for e in (side if isinstance(side, sp.MatrixBase) else [side]))
     return any(degree(e) > _MOST_DEGREE for e in entries)
 
 
 def agree(a: Any, b: Any) -> bool:
-    """Return whether two sides are proved equal."""
-    return may_agree(a, b) and decided(a, b) == "zero"
+    """Return True if two sides are proved equal."""
+    return may_agree(a, b) and equality(a, b) == "zero"
 
 
-def decided(a: Any, b: Any) -> str:
-    """Return zero, nonzero or undecided; shape where one side is a vector and the other is not."""
+def equality(a: Any, b: Any) -> str:
+    """Return 'zero', 'nonzero' or 'undecided' for a − b; 'shape' for a vector and a number."""
     matrices = isinstance(a, sp.MatrixBase), isinstance(b, sp.MatrixBase)
     if all(matrices):
-        return _all(a - b) if a.shape == b.shape else "shape"
+        return _matrix_equality(a - b) if a.shape == b.shape else "shape"
     if any(matrices):
-        return _all(a if matrices[0] else b) if sp.S.Zero in (a, b) else "shape"
-    return _single(a, b)
+        return _matrix_equality(a if matrices[0] else b) if sp.S.Zero in (a, b) else "shape"
+    return _scalar_equality(a, b)
 
 
-def _all(matrix: sp.MatrixBase) -> str:
-    answers = {_single(entry, sp.S.Zero) for entry in matrix}
-    return next(each for each in ("nonzero", "undecided", "zero") if each in answers)
+def _matrix_equality(matrix: sp.MatrixBase) -> str:
+    answers = {_scalar_equality(entry, sp.S.Zero) for entry in matrix}
+    return next(answer for answer in ("nonzero", "undecided", "zero") if answer in answers)
 
 
-def _single(a: Any, b: Any) -> str:
-    if any(part.has(sp.oo, sp.nan, sp.zoo, sp.I) for part in (a, b)):
+def _scalar_equality(a: Any, b: Any) -> str:
+    if any(side.has(sp.oo, sp.nan, sp.zoo, sp.I) for side in (a, b)):
         return "undecided"
-    if a == b and radicands(a):  # also where its roots are real nowhere
+    if a == b and radicands(a):  # even if its roots are real nowhere
         return "zero"
     try:
-        decision = counted(decide_equal, a, b, [sp.Gt(each, 0) for each in radicands(a, b)])
+        decision = count_calls(decide_equal, a, b, [sp.Gt(radicand, 0) for radicand in radicands(a, b)])
     except WorkError:
         raise
     except (LagrotorError, TypeError, ValueError, ArithmeticError):
@@ -122,14 +121,14 @@ def _single(a: Any, b: Any) -> str:
 
 
 def radicands(*sides: Any) -> set[Any]:
-    """Return the bases of roots. Sides are compared where these are positive: √(x/y) = 1/√(y/x) has i and −i at x = −1."""
-    roots = (each for side in sides for each in side.atoms(sp.Pow) if each.exp.is_Rational and not each.exp.is_Integer)
-    return {each.base for each in roots if each.free_symbols}
+    """Return the bases of roots. Sides are compared where these are positive: √(x/y) = 1/√(y/x) fails at x = −1."""
+    roots = (root for side in sides for root in side.atoms(sp.Pow) if root.exp.is_Rational and not root.exp.is_Integer)
+    return {root.base for root in roots if root.free_symbols}
 
 
 def agree_for_positive(a: Any, b: Any) -> bool:
-    """Return whether two sides with roots or magnitudes, as √(x²) = x, agree where all letters are positive."""
+    """Return True if two sides with roots or magnitudes, such as √(x²) = x, agree for positive symbols."""
     if isinstance(a, sp.MatrixBase) or isinstance(b, sp.MatrixBase) or not (radicands(a, b) or (a - b).has(sp.Abs)):
         return False
-    positive = {each: sp.Symbol(each.name, positive=True) for each in a.free_symbols | b.free_symbols}
+    positive = {symbol: sp.Symbol(symbol.name, positive=True) for symbol in a.free_symbols | b.free_symbols}
     return agree(a.subs(positive), b.subs(positive))

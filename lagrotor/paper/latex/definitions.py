@@ -1,4 +1,4 @@
-r"""Commands of LaTeX that define others, choose between branches and take in files."""
+"""Commands of LaTeX that define macros, choose between branches and include files."""
 
 from lagrotor.paper.latex.macros import Expander, Macro, Parameter, Primitive, head_of
 from lagrotor.paper.latex.tokens import Token, latex_of, plain
@@ -9,9 +9,9 @@ DISPLAYS = ("equation", "align", "gather", "multline", "eqnarray", "flalign", "a
 
 
 def _define(expander: Expander, name: str, macro: Macro, token: Token) -> None:
-    """Define a name, unless its meaning is fixed here: headings, definitions, counters and files."""
+    """Define a name, unless its meaning is fixed: headings, definitions, counters and files."""
     if name in expander.primitives and name not in _REPLACEABLE:
-        expander.notes.append(f"{expander.place(token.at)}: {name} is defined anew: its standard meaning is taken")
+        expander.notes.append(f"{expander.place(token.at)}: {name} is redefined: its standard meaning is used")
     elif name.startswith("\\") and name not in HEADINGS:
         expander.define(name, macro)
 
@@ -24,7 +24,7 @@ def _newcommand(expander: Expander, token: Token) -> None:
 
 
 def _head(expander: Expander) -> tuple[Parameter, ...]:
-    """Take [number of arguments][default of the first]."""
+    """Consume [number of arguments][default of the first]."""
     digits = latex_of(expander.optional() or ()).strip()
     head = [Parameter("m")] * (int(digits) if digits.isdecimal() and int(digits) < 10 else 0)
     if head and (default := expander.optional()) is not None:
@@ -40,11 +40,11 @@ def _document_command(expander: Expander, token: Token) -> None:
 def _def(expander: Expander, token: Token) -> None:
     target = _next_name(expander)
     marks: list[Token] = []
-    while (part := expander.next()) is not None and part.kind != "open":
-        marks.append(part)
+    while (delimiter := expander.next()) is not None and delimiter.kind != "open":
+        marks.append(delimiter)
     body, head = expander.group(token.at), tuple(Parameter("m") for mark in marks if mark.kind == "param")
-    # \edef expands its body at once, and arguments with marks between them are not read: such a name has no meaning
-    if token.text in (r"\edef", r"\xdef") or len(head) < len([each for each in marks if each.text.strip()]):
+    # \edef expands its body at once, and delimited arguments are not read: such a name becomes undefined
+    if token.text in (r"\edef", r"\xdef") or len(head) < len([item for item in marks if item.text.strip()]):
         expander.define(target.text, None, everywhere=True)
     else:
         _define(expander, target.text, Macro(tuple(body), head), token)
@@ -65,7 +65,7 @@ def _let(expander: Expander, token: Token) -> None:
 
 
 def _next_name(expander: Expander) -> Token:
-    """Take the next token, without space before it."""
+    """Consume the next token and the space before it."""
     expander.skip_spaces()
     return expander.next() or Token("text", "", 0)
 
@@ -77,13 +77,13 @@ def _operator(expander: Expander, token: Token) -> None:
 
 
 def _pair(expander: Expander, token: Token) -> None:
-    r"""\DeclarePairedDelimiter{\abs}{|}{|}: * and [\big] may come before the argument."""
-    name, left, right = expander.name(), expander.name(), expander.name()
-    _define(expander, name, Macro.of(rf"\left{left}#3\right{right}", "som"), token)
+    r"""Define \abs by \DeclarePairedDelimiter{\abs}{|}{|}; * and [\big] may precede the argument."""
+    name, opening, closing = expander.name(), expander.name(), expander.name()
+    _define(expander, name, Macro.of(rf"\left{opening}#3\right{closing}", "som"), token)
 
 
 def _new_environment(expander: Expander, token: Token) -> None:
-    r"""\newenvironment{x} defines \x and \endx, as LaTeX does."""
+    r"""Define \x and \endx for \newenvironment{x}, as LaTeX does."""
     expander.star()
     name, head = expander.name(), _head(expander)
     begin, end = expander.argument(), expander.argument()
@@ -92,7 +92,7 @@ def _new_environment(expander: Expander, token: Token) -> None:
 
 
 def _new_theorem(expander: Expander, token: Token) -> None:
-    r"""\newtheorem{name}[equation]{Title} numbers theorems and equations together: such numbers are not followed."""
+    r"""Note that \newtheorem{name}[equation]{Title} shares the counter of equations: such numbers are not followed."""
     expander.star()
     expander.name()
     if latex_of(expander.optional() or ()).strip() == "equation":
@@ -117,7 +117,6 @@ def _end(expander: Expander, token: Token) -> None:
 
 
 def _is_command(expander: Expander, token: Token, name: str) -> bool:
-    r"""Return True if \begin{x} is the command \x."""
     macros = expander.macros if token.kind == "command" else ()
     return (rf"\{name}" in macros and rf"\end{name}" in macros) or name == "appendix"
 
@@ -137,7 +136,7 @@ def _else(expander: Expander, token: Token) -> bool:
 
 
 def _if_value(expander: Expander, token: Token) -> None:
-    r"""\IfValueTF, \IfNoValueT, \IfBooleanTF: of an argument of \NewDocumentCommand."""
+    r"""Choose a branch of \IfValueTF, \IfNoValueT or \IfBooleanTF by an argument of \NewDocumentCommand."""
     tested = expander.name()
     holds = tested == "*" if "Boolean" in token.text else (tested == r"\NoValue") == ("NoValue" in token.text)
     ending = "TF" if token.text.endswith("TF") else token.text[-1]
@@ -146,7 +145,7 @@ def _if_value(expander: Expander, token: Token) -> None:
 
 
 def _text(expander: Expander, token: Token) -> bool:
-    r"""\mbox{…} and \textrm{…} are \text{…}."""
+    r"""Replace \mbox{…} and \textrm{…} by \text{…}."""
     if not expander.begins("{"):
         return False
     inside = expander.argument()
@@ -156,7 +155,7 @@ def _text(expander: Expander, token: Token) -> bool:
 
 
 def _use(expander: Expander, token: Token) -> None:
-    r"""\usepackage: the commands known here. A package beside the source is not read."""
+    r"""Load the known packages of \usepackage. A package file in the source's folder is not read."""
     expander.optional()
     for name in map(str.strip, expander.name().split(",")):
         expander.load(name)
@@ -164,9 +163,9 @@ def _use(expander: Expander, token: Token) -> None:
 
 def _input(expander: Expander, token: Token) -> None:
     expander.skip_spaces()
-    after = expander.peek()
-    if token.text == r"\input" and after is not None and after.kind == "text":
-        name = after.text.split()[0]
+    following = expander.peek()
+    if token.text == r"\input" and following is not None and following.kind == "text":
+        name = following.text.split()[0]
         expander.take(name)
     else:
         name = expander.name()
@@ -177,13 +176,13 @@ def _end_input(expander: Expander, token: Token) -> None:
     expander.end_file(token.at)
 
 
-def _pass_name(expander: Expander, token: Token) -> None:
-    r"""Take the name of a condition, \newif\ifx, which is not decided."""
+def _skip_name(expander: Expander, token: Token) -> None:
+    r"""Skip the name of a condition in \newif\ifx, which is not decided."""
     expander.argument()
 
 
-def _with_argument(expander: Expander, token: Token) -> None:
-    r"""Leave out the argument of \titleformat, \tikzset …"""
+def _skip_argument(expander: Expander, token: Token) -> None:
+    r"""Skip the argument of \titleformat, \tikzset …"""
     expander.star()
     expander.argument()
 
@@ -201,7 +200,7 @@ PRIMITIVES: dict[str, Primitive] = {
     **_commands("let", _let),
     **_commands("newenvironment renewenvironment", _new_environment),
     **_commands("newtheorem", _new_theorem),
-    **_commands("newif", _pass_name),
+    **_commands("newif", _skip_name),
     **_commands("DeclareMathOperator", _operator),
     **_commands("DeclarePairedDelimiter", _pair),
     **_commands("usepackage RequirePackage", _use),
@@ -212,6 +211,6 @@ PRIMITIVES: dict[str, Primitive] = {
     **_commands("else fi", _else),
     **{rf"\If{test}{end}": _if_value for test in ("Value", "NoValue", "Boolean") for end in ("T", "F", "TF")},
     **_commands("long protected outer relax protect expandafter makeatletter makeatother xspace", lambda *_: None),
-    **_commands("titleformat titlespacing tikzset pgfkeys pgfplotsset", _with_argument),
+    **_commands("titleformat titlespacing tikzset pgfkeys pgfplotsset", _skip_argument),
     **_commands("endinput", _end_input),
 }

@@ -1,4 +1,4 @@
-r"""The displayed equations of a LaTeX source with their numbers as printed, their labels, sections and places."""
+"""The displayed equations of a LaTeX source with printed numbers, labels, sections and positions."""
 
 import re
 from collections.abc import Iterator
@@ -15,15 +15,15 @@ from lagrotor.paper.latex.numbers import Counters, aux_numbers, plain_number
 from lagrotor.paper.latex.token_stream import EMPTY_LINE, ends_paragraph
 from lagrotor.paper.latex.tokens import BRACES, Token, latex_of, plain
 
-# Each row of these is an equation with a number; the others have one number.
+# Each row of these environments has a number; any other display has one number.
 _ROWS = ("align", "gather", "eqnarray", "alignat", "flalign")
 _PAIRS = ("align", "alignat", "flalign")  # in which every second & begins another equation
 _BEGINS = {rf"\begin{{{name}{star}}}": name + star for name in DISPLAYS for star in ("", "*")}
 _NESTING = {"begin": 1, "end": -1}
 _FAULTS = {
-    "verb": r"\verb is not closed in its line",
-    "]": r"\] ends nothing that has begun",
-    ")": r"\) ends nothing that has begun",
+    "verb": r"\verb is not closed on its line",
+    "]": r"\] has no matching opening",
+    ")": r"\) has no matching opening",
 }
 _ROW_ENDS = (r"\\", r"\cr")
 _NO_NUMBER = (r"\nonumber", r"\notag")
@@ -32,21 +32,21 @@ _RELATIONS = re.compile(
     r"[=<>]|\\(?:approx|sim|simeq|equiv|neq|ne|leq?|geq?|ll|gg|propto|to|cong|doteq|in|Rightarrow|implies|iff|Leftrightarrow"
     r"|overset|stackrel|longrightarrow|rightarrow|lesssim|gtrsim)(?![A-Za-z])"
 )
-_NO_FORMULA = (r"\[", r"\]", *HEADINGS)  # TeX does not go on in a formula behind these
+_NO_FORMULA = (r"\[", r"\]", *HEADINGS)  # TeX ends an open formula at these
 _LEADING = re.compile(r"(?:[\s&~]|\{\}|\\(?:quad|qquad|,|;|:|!| |hskip|null|displaystyle)(?![A-Za-z]))*")
-# Environments of displays that are not read.
+# Display environments that are refused.
 _REFUSED = ("dmath", "dgroup", "darray", "numcases", "subnumcases", "empheq", "IEEEeqnarray")
 _SUFFIXES, _LARGEST = (".tex", ".ltx", ".latex"), 20  # MB
 _CONTROLS = [chr(code) for code in range(32) if chr(code) not in "\t\n\r\f"]
-# Packages that a formula may need, and whose commands other formulas do not disturb.
+# Packages that a formula may need and that change no other formula.
 _NEEDED = "mathrsfs dsfont bbm bbold esint stmaryrd cancel euscript wasysym textcomp upgreek"
 
 
 @dataclass(frozen=True, slots=True)
 class Displayed:
-    """One displayed equation: `number` as printed, empty if there is none; `latex` expanded, without labels and numbers.
+    """One displayed equation; `number` is the printed one or ''; `latex` is expanded, without labels and numbers.
 
-    lead: the left side of the row before, which this row continues. place: file and line; rows: the line of each row.
+    lead: the left side of the previous row, if this row continues it. place: file and line. rows: the line of each row.
     """
 
     id: str
@@ -63,8 +63,8 @@ class Displayed:
 class Source:
     """The displayed equations of a source; section number → heading; inline formula → section; label → number.
 
-    notes: sentences about what could not be known; faults: file, line, and the error at which TeX would stop; preamble: packages
-    that the formulas need; file: its name.
+    notes: sentences about doubtful readings. faults: (file, line, error at which TeX would stop). preamble: packages for
+    the formulas.
     """
 
     title: str
@@ -81,10 +81,10 @@ class Source:
 
 @dataclass
 class _Row:
-    """One row of a display as it is read."""
+    """One row of a display; `stepped` is True if the counter was stepped at the begin of the display."""
 
     numbered: bool
-    stepped: bool  # whether the counter was stepped as the display began
+    stepped: bool
     tokens: list[Token] = field(default_factory=list)
     labels: list[str] = field(default_factory=list)
     tag: str = ""
@@ -93,19 +93,19 @@ class _Row:
 
 
 def read_source(file: Path) -> Source:
-    """Return the displayed equations of a .tex file. Raises InputError for another one."""
+    """Read the displayed equations of a .tex file. Raises InputError for any other file."""
     if file.suffix.lower() not in _SUFFIXES:
         raise InputError(f"{file}: give a .tex file")
     if file.is_file() and (size := file.stat().st_size / 1e6) > _LARGEST:
-        raise InputError(f"{file} has {size:.0f} MB, more than {_LARGEST}: give its parts")
+        raise InputError(f"{file} has {size:.0f} MB, more than {_LARGEST}: give its parts one by one")
     text = read_text(file, "latin-1")
     if text.startswith("%PDF") or 20 * sum(map(text.count, _CONTROLS)) > len(text):
-        raise InputError(f"{file} is no text: give the source that it was made from")
+        raise InputError(f"{file} is not text: give its LaTeX source")
     return read_latex(text, file, file.stem)
 
 
 def read_latex(text: str, file: Path | None = None, title: str = "") -> Source:
-    """Return the displayed equations of a LaTeX source. Raises InputError for a macro without end."""
+    """Read the displayed equations of a LaTeX text. Raises InputError for an endless macro."""
     walker = _Walker(text, file, title)
     try:
         walker.read()
@@ -115,7 +115,7 @@ def read_latex(text: str, file: Path | None = None, title: str = "") -> Source:
 
 
 class _Walker:
-    """A reader of the expanded tokens, which counts as LaTeX does."""
+    """A reader of the expanded tokens that counts as LaTeX does."""
 
     def __init__(self, text: str, file: Path | None, title: str) -> None:
         self.source = Source(title, file=file.name if file is not None else "")
@@ -125,27 +125,26 @@ class _Walker:
         self.aux, self.aux_name = ({}, "") if file is None else (aux_numbers(file), file.with_suffix(".aux").name)
         self.body = r"\documentclass" not in text
         self.section, self.starred, self.numbered_chapters = "0", 0, True
-        self.last, self.since = "0", 0  # the last number, and how many displays without one came since
-        self.outer: list[tuple[int, Macro | None, str]] = []  # subequations: the counter's value and print, the number
+        self.last, self.since = "0", 0  # the last number, the count of later displays without number
+        self.outer: list[tuple[int, Macro | None, str]] = []  # subequations: counter value, its macro, number
         self.ids: set[str] = set()
-        self.ended = ""  # the end of a display that was missing: it ends nothing later
+        self.ended = ""  # missing end of a display; its later appearance is no second fault
 
     def read(self) -> None:
-        """Read the whole source."""
         for token in self.expander:
             if token.text == r"\end{document}" and not self.expander.end_file(token.at):
                 break
             self._take(token)
         source, expander = self.source, self.expander
-        source.faults = [(*expander.line(at), said) for at, said in sorted(expander.faults)]
+        source.faults = [(*expander.line(at), sentence) for at, sentence in sorted(expander.faults)]
         source.preamble = "\n".join(rf"\usepackage{{{name}}}" for name in _NEEDED.split() if name in expander.loaded)
         source.notes += dict.fromkeys(expander.notes)
         name, missing = self.aux_name, [label for label in source.labels if self.aux and label not in self.aux]
         if missing:
             source.notes.append(f"{name} has no label {missing[0]}: run LaTeX again, which writes the numbers there")
-        elif expander.doubt and name and not self.aux and any(each.number for each in source.equations):
-            helps = f"put {name}, which LaTeX writes, beside the source"
-            source.notes.append(f"{expander.doubt}, and the numbers may be others: {helps}")
+        elif expander.doubt and name and not self.aux and any(equation.number for equation in source.equations):
+            helps = f"put {name}, which LaTeX writes, next to the source"
+            source.notes.append(f"{expander.doubt}, and the equation numbers may differ: {helps}")
 
     def _take(self, token: Token) -> None:
         if token.text == r"\[":
@@ -166,29 +165,29 @@ class _Walker:
             self.counters.values["equation"], printed, _ = self.outer.pop()
             self.expander.define(r"\theequation", printed)
         elif token.text.replace(r"\end", r"\begin") in _BEGINS:
-            self._stray(token, f"{token.text} ends nothing that has begun")
+            self._unmatched(token, f"{token.text} has no matching opening")
         elif token.text == "^" and self.body:
             inside = next((name for name, _ in self.expander.scopes[::-1] if name != "{"), "")
-            where = rf"in \begin{{{inside}}}, which is not known: define it"
-            if not inside.startswith("tikz"):  # a drawing
-                alone = "alone: define the command that begins it"
-                self._pass_over(token.at, f"a formula stands {where if inside else alone}")
+            where = rf"in \begin{{{inside}}}, which is unknown: define it"
+            if not inside.startswith("tikz"):
+                alone = "outside any environment: define the command that begins it"
+                self._note(token.at, f"a formula is {where if inside else alone}")
 
-    def _pass_over(self, at: int, said: str) -> None:
-        """Note a formula that is not read, once for each sentence."""
-        if not any(said in note for note in self.expander.notes):
-            self.expander.notes.append(f"{self.expander.place(at)}: {said}")
-            self.expander.doubt = self.expander.doubt or "a part of the source is left out"
+    def _note(self, at: int, sentence: str) -> None:
+        """Note a formula that is not read; each sentence appears once."""
+        if not any(sentence in note for note in self.expander.notes):
+            self.expander.notes.append(f"{self.expander.place(at)}: {sentence}")
+            self.expander.doubt = self.expander.doubt or "a part of the source is skipped"
 
-    def _stray(self, token: Token, fault: str) -> None:
-        """Keep a fault, unless the token ends a display that is known to be without end."""
+    def _unmatched(self, token: Token, fault: str) -> None:
+        """Record a fault, unless the token is the late end of a display that was closed with a fault."""
         if token.text != self.ended:
             self.expander.fault(token.at, fault)
         self.ended = ""
 
     def _command(self, token: Token) -> None:
         name, expander = token.text[1:], self.expander
-        if token.text in HEADINGS and self.body and not ((after := expander.peek()) and after.kind == "close"):
+        if token.text in HEADINGS and self.body and not ((following := expander.peek()) and following.kind == "close"):
             star = expander.star()
             expander.optional()
             self._section(name, self._argument(), star)
@@ -200,19 +199,19 @@ class _Walker:
             else:
                 self.source.authors += names_of_authors(text)
         elif name in _FAULTS and self.body:
-            self._stray(token, _FAULTS[name])
+            self._unmatched(token, _FAULTS[name])
         elif name == "label":
             label = expander.name()
             if self.outer:
                 self.source.labels[label] = self.aux.get(label, self.outer[-1][2])
         elif name in DISPLAYS and self.body:
-            self._pass_over(token.at, rf"\{name} begins a display as a command: write \begin{{{name}}}")
+            self._note(token.at, rf"\{name} begins a display as a command: write \begin{{{name}}}")
         elif name == "appendix":
             self.counters.begin_appendix(expander)
         elif name in ("frontmatter", "mainmatter", "backmatter"):
             self.numbered_chapters = name == "mainmatter"
         elif name == "mathtoolsset" and "showonlyrefs" in expander.name():
-            expander.doubt = "showonlyrefs of mathtools withdraws numbers"
+            expander.doubt = "showonlyrefs of mathtools removes numbers"
 
     def _argument(self) -> str:
         return latex_of(self.expander.expand(self.expander.argument()))
@@ -229,7 +228,7 @@ class _Walker:
                 self.expander.argument()
             self._display(kind, token, end, name != kind)
         elif kind in _REFUSED:
-            self._pass_over(token.at, rf"\begin{{{name}}} is not read: write equation or align")
+            self._note(token.at, rf"\begin{{{name}}} is not read: write equation or align")
 
     def _begin_subequations(self) -> None:
         """Number by letters within the next number."""
@@ -261,7 +260,7 @@ class _Walker:
         braces = 0
         self.expander.in_formula = True
         for token in self.expander:
-            if token.text == end and (end != "$" or braces <= 0):  # \text{if $x$} is within
+            if token.text == end and (end != "$" or braces <= 0):  # \text{if $x$}
                 break
             if token.text in _NO_FORMULA or token.text in _BEGINS or ends_paragraph(token):
                 if not self.expander.doubt:
@@ -276,7 +275,7 @@ class _Walker:
             self.source.inline.setdefault(latex, self.section)
 
     def _display(self, kind: str, token: Token, end: str, starred: bool = False) -> None:
-        """Read a display row by row, each of which gets its number as it ends."""
+        """Read a display row by row; each row gets its number at its end."""
         by_rows = kind in _ROWS
         numbered = not starred and kind != "displaymath"
         rows = [_Row(numbered, numbered and not by_rows)]
@@ -284,57 +283,57 @@ class _Walker:
             self.counters.step("equation")
         depth = braces = 0
         self.expander.in_formula = True
-        for part in self._inside(token, end):
-            depth += _NESTING.get(part.kind, 0)
-            braces += BRACES.get(part.kind, 0)
+        for item in self._inside(token, end):
+            depth += _NESTING.get(item.kind, 0)
+            braces += BRACES.get(item.kind, 0)
             row = rows[-1]
-            if depth == braces == 0 and part.text in _ROW_ENDS:
-                self._pass_end(part)
+            if depth == braces == 0 and item.text in _ROW_ENDS:
+                self._skip_row_end(item)
                 if by_rows:
                     self._finish(row)
                     rows.append(_Row(numbered, False))
                 else:
-                    row.tokens.append(part)
-            elif part.kind != "command" or not self._sets_number(part, row):
-                row.tokens.append(part)
+                    row.tokens.append(item)
+            elif item.kind != "command" or not self._sets_number(item, row):
+                row.tokens.append(item)
         self.expander.in_formula = False
         self._finish(rows[-1])
-        self._keep(rows, kind, token)
+        self._store(rows, kind, token)
 
     def _inside(self, begin: Token, end: str) -> Iterator[Token]:
-        """Yield the tokens of a display. A display that is not ended where TeX would stop is ended there, with a fault."""
+        """Yield the tokens of a display. A missing end is assumed where TeX would stop, with a fault."""
         depth = braces = 0
         may_nest = begin.text.startswith(r"\begin{gather")  # align within gather
-        for part in self.expander:
+        for token in self.expander:
             if depth == 0:
-                if part.text == end and part.kind != "text":
+                if token.text == end and token.kind != "text":
                     return
-                if part.kind == "end" and part.text != r"\end{document}":
-                    return self.expander.fault(part.at, f"{part.text} ends {begin.text}")
-                stops = part.kind == "end" or part.text in _NO_FORMULA
-                stops |= part.text in _BEGINS and not (braces or may_nest)
-                if stops or (braces == 0 and ends_paragraph(part)):
-                    line = EMPTY_LINE.search(part.text) if part.kind == "text" else None
-                    before = part.text[: line.start()] if line else ""
-                    yield Token("text", before, part.at)
-                    self.expander.push((Token(part.kind, part.text[len(before) :], part.at + len(before)),))
+                if token.kind == "end" and token.text != r"\end{document}":
+                    return self.expander.fault(token.at, f"{token.text} ends {begin.text}")
+                stops = token.kind == "end" or token.text in _NO_FORMULA
+                stops |= token.text in _BEGINS and not (braces or may_nest)
+                if stops or (braces == 0 and ends_paragraph(token)):
+                    line = EMPTY_LINE.search(token.text) if token.kind == "text" else None
+                    head = token.text[: line.start()] if line else ""
+                    yield Token("text", head, token.at)
+                    self.expander.push((Token(token.kind, token.text[len(head) :], token.at + len(head)),))
                     break
-            depth += _NESTING.get(part.kind, 0)
-            braces += BRACES.get(part.kind, 0)
-            yield part
+            depth += _NESTING.get(token.kind, 0)
+            braces += BRACES.get(token.kind, 0)
+            yield token
         self.ended = end
         return self.expander.fault(begin.at, f"{begin.text} is not {'ended' if begin.kind == 'begin' else 'closed'}")
 
-    def _pass_end(self, part: Token) -> None:
-        r"""Take the star and the space behind \\."""
+    def _skip_row_end(self, token: Token) -> None:
+        r"""Consume the star and the space argument after \\."""
         self.expander.star()
         space = latex_of(self.expander.optional() or ()) if self.expander.begins("[") else ""
-        if space and not re.search(r"\d|\\", space):  # no length: the row begins with it
-            self.expander.push(plain(f"[{space}]", part.at))
+        if space and not re.search(r"\d|\\", space):  # not a length: it begins the next row
+            self.expander.push(plain(f"[{space}]", token.at))
 
-    def _sets_number(self, part: Token, row: _Row) -> bool:
-        """Take a command that says something of the number of a row only; return False for another one."""
-        name, expander = part.text, self.expander
+    def _sets_number(self, token: Token, row: _Row) -> bool:
+        """Consume a command that concerns the number of a row; return False for any other command."""
+        name, expander = token.text, self.expander
         if name == r"\tag" or name in _NO_NUMBER:
             self.counters.values["equation"] -= row.stepped
             row.stepped = False
@@ -353,7 +352,7 @@ class _Walker:
         return self.source.labels.get(label[1], "")
 
     def _finish(self, row: _Row) -> None:
-        """Give a row that has ended its number."""
+        """Set the number of a complete row."""
         if row.numbered and not row.tag:
             if not row.stepped:
                 self.counters.step("equation")
@@ -363,12 +362,12 @@ class _Walker:
 
     # ---- equations
 
-    def _keep(self, rows: list[_Row], kind: str, token: Token) -> None:
-        """Keep the equations of a display: rows that continue the one before are joined with it."""
+    def _store(self, rows: list[_Row], kind: str, token: Token) -> None:
+        """Store the equations of a display; a row that continues the previous one is joined to it."""
         groups: list[list[_Row]] = []
-        for row, after in pairwise(rows):
-            if kind in (*_PAIRS, "gather") and not row.number:  # amsmath keeps a label until a row has a number
-                row.labels, after.labels = [], row.labels + after.labels
+        for row, following in pairwise(rows):
+            if kind in (*_PAIRS, "gather") and not row.number:  # amsmath moves a label to the next numbered row
+                row.labels, following.labels = [], row.labels + following.labels
         for row in rows:
             for label in row.labels if row.number else ():
                 self.source.labels[label] = row.number = self.aux.get(label, row.number)
@@ -382,7 +381,7 @@ class _Walker:
             lead = self._add(group, kind, token, lead)
 
     def _add(self, group: list[_Row], kind: str, token: Token, lead: str) -> str:
-        """Keep one equation of rows, of which the first may continue another with this left side; return its left side."""
+        """Store one equation; `lead` is the left side that its first row may continue. Return its left side."""
         number = next((row.number for row in group if row.number), "")
         label = next((label for row in group for label in row.labels), "")
         latex = _without_columns(group[0].tokens, kind)
@@ -390,7 +389,7 @@ class _Walker:
             latex = r"\begin{aligned} " + r" \\ ".join(row.latex for row in group) + r" \end{aligned}"
         elif kind == "multline" and r"\\" in latex:
             latex = rf"\begin{{gathered}} {latex} \end{{gathered}}"
-        latex = re.sub(r"\\(begin|end)\{split\}", r"\\\1{aligned}", latex)  # which stands in any formula
+        latex = re.sub(r"\\(begin|end)\{split\}", r"\\\1{aligned}", latex)  # split is valid in a display only
         lead = lead if len(group) == 1 and _RELATIONS.match(_body(latex)) else ""
         self.since = 0 if number else self.since + 1
         self.last = number or self.last
@@ -407,7 +406,7 @@ class _Walker:
 
 
 def _is_empty(row: _Row) -> bool:
-    return not any(each.text.strip(" \n\t&") for each in row.tokens)
+    return not any(token.text.strip(" \n\t&") for token in row.tokens)
 
 
 def _body(latex: str) -> str:
@@ -415,14 +414,14 @@ def _body(latex: str) -> str:
 
 
 def _continues(group: list[_Row], row: _Row) -> bool:
-    """Return True if a row continues the equation of the rows before."""
-    body, before = _body(row.latex), group[-1].latex.rstrip(" &~")
-    if re.search(r"(?:[+\-*/=<>(]|\\(?:times|cdot|pm|left|approx|equiv))\s*$", before):
+    """Return True if a row continues the equation of the previous rows."""
+    body, last = _body(row.latex), group[-1].latex.rstrip(" &~")
+    if re.search(r"(?:[+\-*/=<>(]|\\(?:times|cdot|pm|left|approx|equiv))\s*$", last):
         return True
     if _OPERATORS.match(body):
-        return not before.endswith((",", ";", ".")) or not body.startswith("-")
+        return not last.endswith((",", ";", ".")) or not body.startswith("-")
     if _RELATIONS.match(body) and not body.startswith((r"\Rightarrow", r"\implies", r"\iff", r"\Leftrightarrow")):
-        return sum(bool(each.number) for each in (*group, row)) <= 1
+        return sum(bool(member.number) for member in (*group, row)) <= 1
     return False
 
 
@@ -433,19 +432,18 @@ def _left_side(source: str) -> str:
 
 
 def _without_columns(tokens: list[Token], kind: str) -> str:
-    """Return a row as LaTeX without the & of the row itself; every second one parts two equations of align."""
+    """Return a row as LaTeX without its own &; every second & of align separates two equations."""
     depth = columns = 0
     row: list[Token] = []
     for token in tokens:
         depth += _NESTING.get(token.kind, 0)
         if token.kind == "align" and depth == 0:
             columns += 1
-            parts = columns % 2 == 0 and kind in _PAIRS
-            token = Token("command", r"\quad", token.at) if parts else Token("text", " ", token.at)
+            separates = columns % 2 == 0 and kind in _PAIRS
+            token = Token("command", r"\quad", token.at) if separates else Token("text", " ", token.at)
         row.append(token)
     return " ".join(latex_of(row).split())
 
 
 def _letters(count: int) -> str:
-    """Return 1 as a, 26 as z, 27 as aa."""
     return (_letters((count - 1) // 26) if count > 26 else "") + chr(ord("a") + (count - 1) % 26)

@@ -1,4 +1,4 @@
-"""The reading of a formula: every token is accounted for, or the reading names the token where it stopped and what would help."""
+"""The reading of a formula: every token is used, or the reading names the token where it stopped and the remedy."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -15,29 +15,19 @@ _NOTHING = Notation()
 
 @dataclass(frozen=True)
 class Reading:
-    """The statements of a formula; none where it is not read. stop: (token, the entry or the words that would allow it)."""
+    """The statements of a formula, empty if it is not read; `stop` is (token, remedy) where the reading stopped."""
 
     statements: tuple[PrintedStatement, ...] = ()
     stop: tuple[str, str] | None = None
 
     @property
     def whole(self) -> bool:
-        """Whether it was read."""
+        """True if the formula was read."""
         return self.stop is None and bool(self.statements)
 
 
 def read_formula(latex: str, notation: Notation = _NOTHING, lead: str = "") -> Reading:
-    """Return the reading of a displayed formula.
-
-    Parameters
-    ----------
-    latex : str
-        The formula, macros expanded.
-    notation : Notation
-        The declared kinds of the letters.
-    lead : str
-        The left side of the row before, which the formula continues.
-    """
+    """Read a displayed formula after macro expansion; `lead` is the left side of the row that it continues."""
     source = f"{lead} {latex}" if lead else latex
     try:
         row = boxes(source)
@@ -49,26 +39,26 @@ def read_formula(latex: str, notation: Notation = _NOTHING, lead: str = "") -> R
     except RecursionError:
         return Reading(stop=("the formula is nested too deeply", "write it in parts"))
     if not statements:
-        return Reading(stop=("there is no formula", "keep it aside"))
+        return Reading(stop=("there is no formula", "leave the display out"))
     return Reading(statements)
 
 
 def _alone(row: Iterable[Box]) -> Iterator[str]:
-    """Yield the letters that stand in no index, and a Δ that no letter follows."""
-    for box, after in pairwise([*row, None]):
+    """Yield the symbols that are in no index, and a Δ that no symbol follows."""
+    for box, following in pairwise([*row, None]):
         if (
             box is not None
             and box.kind == "letter"
-            and not (after and after.kind == "letter" and box.name in ("Delta", "delta"))
+            and not (following and following.kind == "letter" and box.name in ("Delta", "delta"))
         ):
             yield stem_of(box)
-        for held in box.parts if box else ():
-            yield from _alone(held)
+        for inner in box.contents if box else ():
+            yield from _alone(inner)
 
 
 @lru_cache(maxsize=10_000)
 def letters_printed(latex: str) -> frozenset[str]:
-    """Return the letters of a formula, whether it is read or not; none where it falls into no parts."""
+    """Return the symbols of a formula, read or not; the set is empty if the formula cannot be split into boxes."""
     try:
         return frozenset(stem_of(box) for box in all_boxes(boxes(latex)) if box.kind == "letter")
     except (FormulaError, RecursionError):

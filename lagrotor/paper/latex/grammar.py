@@ -1,8 +1,8 @@
-r"""The reader of expressions: a row of boxes as a tree of sums, products, functions, derivatives and integrals.
+"""The reader of expressions: a row of boxes becomes a tree of sums, products, functions, derivatives and integrals.
 
-The reader takes nothing for granted that the print leaves open: a letter before a bracket is a function where the notation
-declares it, x(t) is the coordinate x, and a sum in brackets is a factor. Every other sign that may mean two things stops the
-reading with the entry of [notation], or the way of writing, that would settle it.
+The reader guesses nothing. A symbol before a bracket is a function if the notation declares it; x(t) is the coordinate x;
+a sum in brackets is a factor. Any other ambiguous sign stops the reading, and the message names the entry of [notation]
+or the spelling that removes the ambiguity.
 """
 
 import re
@@ -22,7 +22,7 @@ from lagrotor.paper.latex.boxes import (
     is_mark,
     is_printed_as_vector,
     name_of,
-    parted,
+    split_at,
     stem_of,
     strip,
 )
@@ -45,16 +45,16 @@ _NO_NAMES = "sin cos tan exp log ln det max min lim cot sinh cosh tanh const var
 _WORDS = frozenset(_NO_NAMES.split())
 _MOST_DIGITS = 1000
 _INVERSE = {"sin": "asin", "cos": "acos", "tan": "atan", "sinh": "asinh", "cosh": "acosh", "tanh": "atanh"}
-_BRACKETED = ("det", "tr", "Tr", "arg", "Re", "Im", "max", "min")  # functions of what stands in brackets
+_BRACKETED = ("det", "tr", "Tr", "arg", "Re", "Im", "max", "min")  # functions that need brackets
 _ANGLES = ("theta", "phi", "varphi", "psi", "vartheta", "chi", "alpha", "beta", "gamma")
-_LAST = ("t", "tau", "x", "y", "z", "s")  # in which the argument of a sine without brackets ends
+_LAST = ("t", "tau", "x", "y", "z", "s")  # last symbols of a sine's argument without brackets
 _HELPS = {
     "cases": "write one statement for each case", "nabla": "write its components",
     "partial": r"write \frac{\partial f}{\partial x}", "text": "write words between statements, and numbers without units",
 }  # fmt: skip
 _LABELS = {"*": "star", "star": "star", "+": "plus", "-": "minus"}
 _TRANSPOSES = ("T", "top", "intercal")
-# Letters that may be functions before a sum in brackets.
+# Symbols that may be functions before a sum in brackets.
 _NO_FACTORS = ("delta", "Delta", "Gamma", "zeta", "f", "F", "U", "V", "phi", "psi", "Phi", "Psi")
 _NAMES = {"lbrace": r"\{", "rbrace": r"\}", **dict.fromkeys(("vert", "lvert", "rvert"), "|")}
 _NAMES |= dict.fromkeys(("Vert", "lVert", "rVert"), r"\|")
@@ -65,40 +65,41 @@ _SETTLED = ("functions", "vectors", "matrices", "indices", "positive", "real")
 class Grammar:
     """The reader of one formula in the notation of its paper.
 
-    bound: the indices of the sums that are open. alone: names of the letters that stand in no index; indices: of those that do.
+    bound: indices of the open sums. alone: names of symbols outside indices. indices: names of symbols inside indices.
     """
 
     def __init__(self, source: str, notation: Notation, alone: frozenset[str], indices: frozenset[str]) -> None:
         self.source, self.notation, self.alone, self.indices = source, notation, alone, indices
         self.bound: list[str] = []
 
-    def _open(self, box: Box, what: str, *kinds: str, way: str = r"write \cdot for a product") -> FormulaError:
-        """Return the stop at a letter, with the entries of [notation] that would settle what it is."""
+    def _unclear(self, box: Box, what: str, *kinds: str, way: str = r"write \cdot for a product") -> FormulaError:
+        """Return the error for an ambiguous symbol, with the entries of [notation] that would decide its kind."""
         entries = " or ".join(f'{kind} = "{stem_of(box)}"' for kind in kinds)
-        return FormulaError(f"whether {what} is open", f"write in paper.toml [notation] {entries}" if kinds else way)
+        way = f"write in paper.toml [notation] {entries}" if kinds else way
+        return FormulaError(f"it is unclear whether {what}", way)
 
     def _text(self, first: Box, last: Box | None = None) -> str:
         return self.source[first.at : (last or first).end]
 
     def _kind(self, box: Box, *kinds: str) -> bool:
-        """Return whether the notation declares a letter to be one of these kinds."""
+        """Return True if the notation declares one of these kinds for a symbol."""
         return any(has_kind(self.notation, kind, box) for kind in kinds)
 
-    def _each(self, row: list[Box]) -> tuple[Node, ...]:
-        """Return what stands between the commas of a row."""
-        return tuple(map(self.expression, parted(row, "comma")))
+    def _expressions(self, row: list[Box]) -> tuple[Node, ...]:
+        """Read the expressions between the commas of a row."""
+        return tuple(map(self.expression, split_at(row, "comma")))
 
     # ---- sums and products
 
     def expression(self, row: list[Box]) -> Node:
-        """Return the sum that a row of boxes is. Raises FormulaError where it is none."""
-        row = _paired(strip(row))
+        """Read a row of boxes as a sum. Raises FormulaError if it is not one."""
+        row = _pair_bars(strip(row))
         terms: list[tuple[str, list[Box]]] = [("+", [])]
         integrals = 0
         for place, box in enumerate(row):
             integrals += _opens_integral(box) - (integrals > 0 and _closes_integral(row, place))
             if box.kind == "operator" and box.name in ("pm", "mp"):
-                raise FormulaError(f"\\{box.name} stands for two signs", "write two statements, one for each sign")
+                raise FormulaError(f"\\{box.name} means two signs", "write two statements, one for each sign")
             if box.kind == "operator" and box.name in ("+", "-") and not integrals:
                 if not terms[-1][1] and place:
                     raise FormulaError("two signs follow each other", "write brackets around the second")
@@ -106,195 +107,196 @@ class Grammar:
             else:
                 terms[-1][1].append(box)
         if not terms[-1][1]:
-            raise FormulaError("nothing follows the sign" if row else "nothing stands here", "write what is meant")
-        made = [Call("negative", (self.term(part),)) if sign == "-" else self.term(part) for sign, part in terms]
-        if len(made) == 1:
-            return made[0]
-        _check_sums([part for _, part in terms])
-        if len({(is_vector(each), is_matrix(each)) for each in made if not _is_any_kind(each)}) > 1:
+            raise FormulaError("nothing follows the sign" if row else "the expression is empty", "write the expression")
+        values = [Call("negative", (self.term(run),)) if sign == "-" else self.term(run) for sign, run in terms]
+        if len(values) == 1:
+            return values[0]
+        _check_sums([run for _, run in terms])
+        if len({(is_vector(value), is_matrix(value)) for value in values if not _is_any_kind(value)}) > 1:
             raise FormulaError("a vector and a number are added", "declare the vectors in [notation]")
-        return Call("sum", tuple(made))
+        return Call("sum", tuple(values))
 
     def term(self, row: list[Box]) -> Node:
-        """Return the product that a row of boxes is, its groups joined by signs."""
+        """Read a row of boxes as a product of groups joined by signs."""
         row = strip(row)
         groups: list[tuple[str, list[Node], list[Box]]] = [("", [], [])]
         place = 0
         while place < len(row):
-            box, (sign, factors, part) = row[place], groups[-1]
+            box, (sign, factors, content) = row[place], groups[-1]
             if box.kind == "operator" and box.name in ("cdot", "times", "/", "*"):
                 if not factors:
-                    raise FormulaError(f"nothing stands before {box.name}", "write the first factor")
+                    raise FormulaError(f"nothing precedes {box.name}", "write the first factor")
                 groups.append((box.name, [], []))
                 place += 1
                 continue
             if factors and sign == "/":
-                raise FormulaError("what the slash divides by is open", r"write \frac or brackets")
-            _check_neighbours(row, place, part[-1] if part else None)
+                raise FormulaError("it is unclear what the slash divides by", r"write \frac or brackets")
+            _check_neighbours(row, place, content[-1] if content else None)
             node, behind = self.factor(row, place)
             factors.append(node)
-            part += row[place:behind]
+            content += row[place:behind]
             place = behind
         if not groups[-1][1]:
             raise FormulaError("nothing follows the sign", "write the second factor")
-        made: Node | None = None
-        for sign, factors, part in groups:
-            if len(factors) > 1 and any(isinstance(each, Call) and each.name == "order" for each in factors):
-                raise FormulaError("whether O(…) beside a factor is an order is open", r"write \cdot for a product")
+        product: Node | None = None
+        for sign, factors, content in groups:
+            if len(factors) > 1 and any(isinstance(factor, Call) and factor.name == "order" for factor in factors):
+                raise FormulaError("it is unclear whether O(…) next to a factor is an order", r"write \cdot if not")
             right = _product(factors)
-            made = right if made is None else self._joined(made, sign, right, part[0])
-        assert made is not None
-        return made
+            product = right if product is None else self._join(product, sign, right, content[0])
+        assert product is not None
+        return product
 
-    def _joined(self, made: Node, sign: str, right: Node, first: Box) -> Node:
-        """Return two factors joined by a sign; first: the box behind the sign."""
-        before = self.source[: first.at].rstrip()
+    def _join(self, product: Node, sign: str, right: Node, first: Box) -> Node:
+        """Return two factors joined by a sign; `first` is the box after the sign."""
+        text = self.source[: first.at].rstrip()
         if sign == "/":
-            return self._divided(made, right, before)
-        vectors = is_vector(made), is_vector(right)
-        if all(vectors) and not (is_matrix(made) or is_matrix(right)):
+            return self._divide(product, right, text)
+        vectors = is_vector(product), is_vector(right)
+        if all(vectors) and not (is_matrix(product) or is_matrix(right)):
             if sign == "*":
                 raise FormulaError("two vectors are multiplied by *", r"write \cdot or \times")
-            chain = sign == "times" and isinstance(made, Call) and made.name == "cross"
-            if chain and not re.search(r"[)\]]\s*\\times$", before):
-                raise FormulaError("which × comes first is open", "write brackets")
-            return Call("dot" if sign == "cdot" else "cross", (made, right))
+            chain = sign == "times" and isinstance(product, Call) and product.name == "cross"
+            if chain and not re.search(r"[)\]]\s*\\times$", text):
+                raise FormulaError("it is unclear which × comes first", "write brackets")
+            return Call("dot" if sign == "cdot" else "cross", (product, right))
         if all(vectors):
             if sign == "times":
-                raise FormulaError("× stands between matrices", "write them side by side")
-            return _product([made, right])
-        other = right if vectors[0] else made if vectors[1] else None
-        if sign == "cdot" and isinstance(other, Call) and other.name not in (*_SCALARS, *FUNCTIONS.values()):
-            raise FormulaError(f"whether {other.name} is a vector is open", "write it without the dot")
-        if sign == "times" and not (_is_numeric(made) or _is_numeric(right)):
+                raise FormulaError("× is between matrices", "write the matrices side by side")
+            return _product([product, right])
+        cofactor = right if vectors[0] else product if vectors[1] else None
+        if sign == "cdot" and isinstance(cofactor, Call) and cofactor.name not in (*_SCALARS, *FUNCTIONS.values()):
+            raise FormulaError(f"it is unclear whether {cofactor.name} is a vector", "remove the dot")
+        if sign == "times" and not (_is_numeric(product) or _is_numeric(right)):
             way = r"declare the vectors in [notation], or write \cdot"
-            raise FormulaError("whether × is of vectors or of numbers is open", way)
-        return product_of([made, right])
+            raise FormulaError("it is unclear whether × is of vectors or of numbers", way)
+        return product_of([product, right])
 
-    def _divided(self, made: Node, right: Node, before: str) -> Node:
-        if is_vector(right):
-            raise FormulaError("a vector is divided by", "write its length")
-        last = made.args[-1] if isinstance(made, Call) and made.name == "product" else made
+    def _divide(self, dividend: Node, divisor: Node, text: str) -> Node:
+        if is_vector(divisor):
+            raise FormulaError("the divisor is a vector", "divide by its length")
+        last = dividend.args[-1] if isinstance(dividend, Call) and dividend.name == "product" else dividend
         last = last.args[0] if isinstance(last, Call) and last.name == "power" else last
-        if isinstance(last, Call) and last.name in _OPEN_ENDED and before.rstrip(" /")[-1:] not in ")]}":
-            raise FormulaError("whether the slash is within the function is open", "write brackets")
-        return Call("quotient", (made, right))
+        if isinstance(last, Call) and last.name in _OPEN_ENDED and text.rstrip(" /")[-1:] not in ")]}":
+            raise FormulaError("it is unclear whether the slash is inside the function", "write brackets")
+        return Call("quotient", (dividend, divisor))
 
     def factor(self, row: list[Box], place: int) -> tuple[Node, int]:
-        """Return one factor and the place behind it."""
+        """Read one factor; return it and the position after it."""
         box = row[place]
         named = box.kind == "letter" and box.upright and len(box.name) > 1 and box.name in FUNCTIONS and not box.marks
         read = Grammar._function if named else _FACTORS.get(box.kind)
         if box.sub is not None and box.kind not in ("letter", "function", "big", "partial") and box.closing != "|":
-            raise FormulaError(f"an index stands at {self._text(box)}", "write it on a letter")
+            raise FormulaError(f"{self._text(box)} has an index", "write the index on a symbol")
         if box.kind in _SIMPLE:
             node, behind = self.power(_SIMPLE[box.kind](self, box), box), place + 1
         elif read is not None:
             node, behind = read(self, row, place)
         else:
-            raise FormulaError(f"{self._text(box)} is not read here", _HELPS.get(box.kind, "write what it stands for"))
+            raise FormulaError(f"{self._text(box)} cannot be read", _HELPS.get(box.kind, "write what it means"))
         if behind < len(row) and row[behind].name == "!":
             if box.kind == "function" or [b.name for b in row[behind + 1 : behind + 2]] == ["!"]:
-                raise FormulaError("what ! belongs to is open", "write brackets, or the product")
+                raise FormulaError("it is unclear what ! belongs to", "write brackets, or the product")
             node, behind = Call("factorial", (node,)), behind + 1
         return node, behind
 
     # ---- letters
 
     def letter(self, box: Box) -> Letter:
-        """Return the letter without its power. Raises FormulaError where its kind is not declared."""
+        """Read a symbol without its power. Raises FormulaError if its kind is not declared."""
         if self._kind(box, "operators"):
             raise FormulaError(f"{stem_of(box)} is an operator", "products with operators are not read")
         dots = [mark.endswith("dot") for mark in box.marks]
         if dots != sorted(dots):
-            raise FormulaError(f"a mark stands over the dot of {box.name}", "give the rate a letter")
+            raise FormulaError(f"a mark is above the dot of {box.name}", "give the rate a symbol")
         if "hat" in box.marks and box.name.isupper() and not self._kind(box, *_SETTLED):
-            raise self._open(box, f"{stem_of(box)} is an operator or a letter", "operators", "vectors", "real")
+            raise self._unclear(box, f"{stem_of(box)} is an operator or a symbol", "operators", "vectors", "real")
         matrix = self._kind(box, "matrices")
         vector = matrix or self._kind(box, "vectors")
         if is_printed_as_vector(box) and not vector:
-            raise self._open(box, f"{stem_of(box)} is a vector or a matrix", "vectors", "matrices")
+            raise self._unclear(box, f"{stem_of(box)} is a vector or a matrix", "vectors", "matrices")
         return Letter(name_of(box, index_of(box), self._label(box)), vector, matrix)
 
     def _label(self, box: Box) -> list[str]:
-        """Return what a superscript adds to the name of a letter; nothing where the superscript is a power."""
+        """Return the words that a superscript adds to the name of a symbol; a power adds none."""
         if not box.sup or len(box.sup) > 1 or box.kind != "letter":
             return []
         only = box.sup[0]
         if only.kind == "operator" and only.name in _LABELS:
             return [_LABELS[only.name]]
-        if only.kind == "bracket" and only.name == "(" and len(only.parts[0]) == 1 and not self._kind(box, "functions"):
-            inner = only.parts[0][0]
+        bracket = (only.kind, only.name) == ("bracket", "(")
+        if bracket and len(only.contents[0]) == 1 and not self._kind(box, "functions"):
+            inner = only.contents[0][0]
             return [inner.name] if inner.kind in ("number", "letter") and not (inner.sup or inner.sub) else []
         upright = only.upright and (len(only.name) > 1 or only.name not in (*_TRANSPOSES, "d", "e", "i"))
         worded = only.kind == "text" and only.name.isalnum()
         return [only.name] if worded or (only.kind == "letter" and upright) else []
 
     def _letter(self, row: list[Box], place: int) -> tuple[Node, int]:
-        box, after = row[place], row[place + 1] if place + 1 < len(row) else None
-        kind = after.kind if after else ""
+        box, right = row[place], row[place + 1] if place + 1 < len(row) else None
+        kind = right.kind if right else ""
         if not (box.marks or box.style or box.sub or box.primes):
-            made = self._sign(row, place, after)
-            if made is not None:
-                return made
+            constant = self._special_symbol(row, place, right)
+            if constant is not None:
+                return constant
         word = box.upright and len(box.name) > 1 and rf"\{box.name}" not in GREEK and kind in ("letter", "bracket")
         if word or (box.name == "d" and box.upright and box.primes):
             way = rf"write \cdot, or \operatorname{{{box.name}}}(…)"
-            raise self._open(box, f"{box.name} acts on what follows", way=way)
-        if after is not None and kind == "bracket" and _plain(after.name) in _ROUND:
-            applied = self._applied(box, after)
+            raise self._unclear(box, f"{box.name} is an operator", way=way)
+        if right is not None and kind == "bracket" and _plain(right.name) in _ROUND:
+            applied = self._application(box, right)
             if applied is not None:
                 return applied, place + 2
         node: Node = self.letter(box)
         if box.primes and self._kind(box, "functions"):
             if self._kind(box, "proposed"):
-                raise self._open(box, f"{self._text(box)} is a derivative or another letter", "functions", "real")
+                raise self._unclear(box, f"{self._text(box)} is a derivative or another symbol", "functions", "real")
             node = self.letter(replace(box, primes=0))
             if is_vector(node):
-                raise self._open(box, f"{self._text(box)} is a derivative or another vector", "vectors")
+                raise self._unclear(box, f"{self._text(box)} is a derivative or another vector", "vectors")
             for _ in range(box.primes):
                 node = Call("prime", (node,))
         return self.power(node, box), place + 1
 
-    def _sign(self, row: list[Box], place: int, after: Box | None) -> tuple[Node, int] | None:
-        """Return a letter that is a sign, e, i, π, d and Δ; None where it is a letter like others."""
+    def _special_symbol(self, row: list[Box], place: int, right: Box | None) -> tuple[Node, int] | None:
+        """Read the special symbols e, i, π, d and Δ; return None for an ordinary symbol."""
         box, name, number_ = row[place], row[place].name, self._kind(row[place], "numbers")
-        settled, kind = self._kind(box, *_SETTLED), after.kind if after else ""
+        settled, kind = self._kind(box, *_SETTLED), right.kind if right else ""
         if name == "e" and (number_ or box.upright):
             return Call("exp", (self.expression(box.sup) if box.sup else number(1),)), place + 1
         if name == "e" and not settled and any(b.kind in ("letter", "infinity") for b in all_boxes(box.sup or ())):
-            raise self._open(box, "e is Euler's number", "numbers", "real")
+            raise self._unclear(box, "e is Euler's number", "numbers", "real")
         if name in ("i", "j") and name not in self.bound:
             if number_ or (box.upright and name == "i"):
                 return self.power(Letter("imaginary_unit"), box), place + 1
             if name == "i" and not settled:
-                raise self._open(box, "i is the imaginary unit", "numbers", "indices", "real")
+                raise self._unclear(box, "i is the imaginary unit", "numbers", "indices", "real")
         if name == "pi" and self._kind(box, "functions") and kind != "bracket":
-            raise self._open(box, "pi is the number or a quantity", way="give the quantity an index")
+            raise self._unclear(box, "pi is the number or a quantity", way="give the quantity an index")
         if name == "pi" and not settled:
             return self.power(Letter("pi"), box), place + 1
         proposed = name in ("Delta", "delta") and self._kind(box, "proposed") and kind != "bracket"
-        if (settled and not proposed) or after is None or kind in ("operator", "comma", "dots", "percent"):
+        if (settled and not proposed) or right is None or kind in ("operator", "comma", "dots", "percent"):
             return None
         if name in ("Delta", "delta"):
             return None if box.sup else self._difference(row, place)
         if name == "d" and kind in ("letter", "bracket", "group", "partial"):
-            raise FormulaError("d stands before a letter", r"write \cdot for a product, or a derivative or an integral")
+            raise FormulaError("d precedes a symbol", r"write \cdot for a product, or a derivative or an integral")
         return None
 
     def _difference(self, row: list[Box], place: int) -> tuple[Node, int]:
-        r"""Read \Delta x as one letter."""
-        box, after = row[place : place + 2]
-        if after.kind != "letter" or box.name == "delta" or stem_of(box) in self.alone:
-            raise self._open(box, f"\\{box.name} is a factor or acts on what follows", "functions", "real")
-        letter = self.letter(after)
+        r"""Read \Delta x as one symbol."""
+        box, right = row[place : place + 2]
+        if right.kind != "letter" or box.name == "delta" or stem_of(box) in self.alone:
+            raise self._unclear(box, f"\\{box.name} is a factor or an operator", "functions", "real")
+        letter = self.letter(right)
         if place + 2 < len(row) and row[place + 2].kind == "bracket":
-            raise self._open(after, f"\\{box.name} {after.name} is a function or a factor", "functions")
-        return self.power(replace(letter, name=f"{box.name}_{letter.name}"), after), place + 2
+            raise self._unclear(right, f"\\{box.name} {right.name} is a function or a factor", "functions")
+        return self.power(replace(letter, name=f"{box.name}_{letter.name}"), right), place + 2
 
-    def _applied(self, box: Box, bracket: Box) -> Node | None:
-        """Return a letter as a function of the bracket behind it, x for x(t); None where it is a factor."""
-        content, name = bracket.parts[0], stem_of(box)
+    def _application(self, box: Box, bracket: Box) -> Node | None:
+        """Read a symbol as a function of the next bracket, x for x(t); return None if it is a factor."""
+        content, name = bracket.contents[0], stem_of(box)
         if name in ("O", "Ocal") and not (box.sub or box.sup):
             return Call("order", (self.expression(content),))
         if self._kind(box, "real", "positive"):
@@ -306,7 +308,7 @@ class Grammar:
             return self.power(self.power(self.letter(box), box), bracket)
         bars = bool(content) and content[0].name in ("|", "||")  # V(|x - y|)
         adds = not bars and any(b.kind == "operator" and b.name in ("+", "-") for b in content[1:])
-        late = any([b.name for b in part] == ["t"] for part in parted(content, "operator"))  # x(t - \tau)
+        late = any([b.name for b in piece] == ["t"] for piece in split_at(content, "operator"))  # x(t - \tau)
         derived = [b.kind for b in content] == ["fraction"] and bool(bracket.sup or is_derivative(content[0]))
         listed = any(b.kind in ("comma", "relation") for b in content)
         doubtful = name in _NO_FACTORS or self._kind(box, "proposed")
@@ -316,41 +318,42 @@ class Grammar:
             and (any(mark.endswith("dot") for mark in box.marks) or not doubtful)
         ):
             return None
-        raise self._open(box, f"{self._text(box)} before {bracket.name} is a function or a factor", "functions", "real")
+        what = f"{self._text(box)} before {bracket.name} is a function or a factor"
+        raise self._unclear(box, what, "functions", "real")
 
     def _call(self, box: Box, bracket: Box) -> Node:
-        """Return a declared function of its arguments; of V'(r) the derivative."""
-        held, above = bracket.parts[0], box.sup or []
-        derived = any(b.kind == "partial" or is_derivative(b) for b in held) or any(map(self._moves, held[1:]))
-        itself = len(held) > 1 and any(b.kind == "letter" and stem_of(b) == stem_of(box) for b in held)
-        if (derived or itself) and not any(b.kind == "comma" for b in held):
-            raise self._open(box, f"{stem_of(box)} is a factor here")
+        """Read a declared function with its arguments, and V'(r) as its derivative."""
+        content, above = bracket.contents[0], box.sup or []
+        derived = any(b.kind == "partial" or is_derivative(b) for b in content) or any(map(self._is_rate, content[1:]))
+        itself = len(content) > 1 and any(b.kind == "letter" and stem_of(b) == stem_of(box) for b in content)
+        if (derived or itself) and not any(b.kind == "comma" for b in content):
+            raise self._unclear(box, f"{stem_of(box)} is a factor here")
         if [b.name for b in above] == ["-", "1"] or any(b.kind in ("bracket", "letter") for b in above):
-            way = "write brackets around what is raised, or another letter"
-            raise self._open(box, f"{self._text(box)} has a power", way=way)
+            way = "write brackets around the base, or use another symbol"
+            raise self._unclear(box, f"{self._text(box)} has a power", way=way)
         if bracket.sub:
-            raise FormulaError("an index stands at a bracket", "write it on a letter")
-        named, arguments = self.letter(replace(box, primes=0)), self._each(held)
+            raise FormulaError("a bracket has an index", "write the index on a symbol")
+        named, arguments = self.letter(replace(box, primes=0)), self._expressions(content)
         if named.vector and not named.name.split("_")[0].endswith(("bold", "vec")):
-            raise FormulaError(f"{named.name} is a vector and a function", "print it in bold")
+            raise FormulaError(f"{named.name} is a vector and a function", "write the vector in bold")
         if box.primes and len(arguments) == 1 and isinstance(arguments[0], Letter):
-            made = _derived(Call(named.name, arguments), arguments[0], box.primes)
+            value = _derivative_of(Call(named.name, arguments), arguments[0], box.primes)
         else:
-            made = Call(name_of(box, index_of(box)) if box.primes else named.name, arguments)
-        return self.power(self.power(made, box), bracket)
+            value = Call(name_of(box, index_of(box)) if box.primes else named.name, arguments)
+        return self.power(self.power(value, box), bracket)
 
     # ---- powers
 
     def power(self, node: Node, box: Box) -> Node:
-        """Return the node to the power that its box has."""
+        """Return the node raised to the superscript of its box."""
         if box.sup is None or self._label(box):
             return node
         if not box.sup:
-            raise FormulaError("a power is empty", "write it")
+            raise FormulaError("a power is empty", "write the exponent")
         only = box.sup[0].name if len(box.sup) == 1 and box.sup[0].kind == "letter" else ""
         if only in _TRANSPOSES and (is_vector(node) or only != "T" or isinstance(node, Letter)):
             if not is_vector(node):
-                raise self._open(box, f"{self._text(box)} is transposed or has a power", "matrices", "real")
+                raise self._unclear(box, f"{self._text(box)} is transposed or has a power", "matrices", "real")
             return Call("transpose", (node,))
         self._check_power(box, box.sup)
         power = self.expression(box.sup)
@@ -358,55 +361,55 @@ class Grammar:
             if power == Call("negative", (number(1),)):
                 return Call("inverse", (node,))
             if not isinstance(power, Number):
-                raise FormulaError("a matrix has a power that is no number", "write the product")
+                raise FormulaError("the power of a matrix is not a number", "write the product")
         elif is_vector(node):
             if power != number(2):
-                raise FormulaError("a vector has a power", "write its length")
+                raise FormulaError("a vector has a power", "write the power of its length")
             return Call("dot", (node, node))
         half = power == Call("quotient", (number(1), number(2)))
         return Call("sqrt", (node,)) if half else Call("power", (node, power))
 
     def _check_power(self, box: Box, row: list[Box]) -> None:
-        """Raise FormulaError for marks and upper indices that stand where a power does."""
+        """Raise FormulaError for a superscript that is a mark or an upper index."""
         text, letters = self._text(row[0], row[-1]), [b for b in row if b.kind == "letter"]
         text = text[1:-1] if text[0] == "{" else text
         if any(b.kind in ("text", "relation", "comma") or b.primes or b.name in ("dagger", "prime", "*") for b in row):
-            raise FormulaError(f"{text} stands where a power does", "write it as an index")
+            raise FormulaError(f"{text} is in the place of a power", "write it as an index")
         if row[0].kind == "bracket" and len(row) == 1:
-            raise FormulaError("whether a number in brackets is a power is open", "write a power without them")
+            raise FormulaError("it is unclear whether a number in brackets is a power", "write a power without them")
         if box.kind != "letter":
             return
         if [b.name for b in row] in (["0"], ["e"]):
-            raise FormulaError(f"whether {text} is an upper index or a power is open", "write the index below")
+            raise FormulaError(f"it is unclear whether {text} is an upper index or a power", "write the index below")
         unsettled = [b for b in letters if not self._kind(b, "positive", "real")]
         lowered = {"mu", "nu", *(self.indices - self.alone)}
         upper = any(b.name in lowered or self._kind(b, "indices") for b in unsettled)
         below = bool(unsettled) and any(b.kind == "letter" for b in box.sub or ())
         if len(letters) == len(row) > 1 or upper or below:
-            raise self._open(letters[0], f"{text} is an upper index or a power", "real")
+            raise self._unclear(letters[0], f"{text} is an upper index or a power", "real")
 
     # ---- numbers
 
     def _number(self, row: list[Box], place: int) -> tuple[Node, int]:
         box, behind = row[place], place + 1
         node: Node = Number(self._value(box.name))
-        after = row[behind] if behind < len(row) else box
+        right = row[behind] if behind < len(row) else box
         degrees = box.sup is not None and [b.name for b in box.sup] in (["circ"], ["o"])
-        if (after.upright and after.name not in (*FUNCTIONS, "d", "e", "i")) or (degrees and after.name in ("C", "F")):
-            raise FormulaError(f"upright {after.name} behind a number is a unit", "write the number without it")
+        if (right.upright and right.name not in (*FUNCTIONS, "d", "e", "i")) or (degrees and right.name in ("C", "F")):
+            raise FormulaError(f"upright {right.name} after a number is a unit", "write the number without it")
         if degrees:
             return Call("quotient", (product_of([node, Letter("pi")]), number(180))), behind
         return self.power(node, box), behind
 
     def _value(self, text: str) -> Fraction:
         if len(text) > _MOST_DIGITS:
-            raise FormulaError(f"{text[:12]}…: a number has more than {_MOST_DIGITS} digits", "give it a letter")
+            raise FormulaError(f"{text[:12]}…: a number has more than {_MOST_DIGITS} digits", "give it a symbol")
         whole, *groups = text.split("{,}")
-        thousands = whole != "0" and all(len(each.partition(".")[0]) == 3 for each in groups)
+        thousands = whole != "0" and all(len(group.partition(".")[0]) == 3 for group in groups)
         if not groups or (thousands and not self.notation.decimal_comma):
             return Fraction(whole + "".join(groups))
         if len(groups) > 1 or "." in text:
-            raise FormulaError(f"{text} is no number", "write a decimal point")
+            raise FormulaError(f"{text} is not a number", "write a decimal point")
         return Fraction(f"{whole}.{groups[0]}")
 
     # ---- functions by name
@@ -414,116 +417,118 @@ class Grammar:
     def _function(self, row: list[Box], place: int) -> tuple[Node, int]:
         box, name = row[place], FUNCTIONS.get(row[place].name, row[place].name)
         inner, behind = self._argument(row, place)
-        if behind < len(row) and row[behind].kind == "bracket" and [b.name for b in row[behind].parts[0]] == ["t"]:
-            raise FormulaError(f"where the argument of {box.name} ends is open", "write it in brackets")
+        if behind < len(row) and row[behind].kind == "bracket" and [b.name for b in row[behind].contents[0]] == ["t"]:
+            raise FormulaError(f"it is unclear where the argument of {box.name} ends", "write the argument in brackets")
         above = [b.name for b in box.sup or ()]
         if box.sub is not None and name != "log":
-            raise FormulaError(f"{box.name} has an index", "write what it means")
+            raise FormulaError(f"{box.name} has an index", "write the function without index")
         if above == ["-", "1"] and name in _INVERSE:
             return Call(_INVERSE[name], inner), behind
         if above == ["-", "1"] or (above and (box.name not in FUNCTIONS or (box.sup or [box])[0].kind == "bracket")):
-            raise self._open(box, f"{box.name} has a mark or a power", way="write brackets around what is raised")
-        made = Call(name.lower() if name == "Tr" else name, inner)
+            raise self._unclear(box, f"{box.name} has a mark or a power", way="write brackets around the base")
+        value = Call(name.lower() if name == "Tr" else name, inner)
         if name == "log10" or (name == "log" and box.sub):
             base = self.expression(box.sub) if box.sub else number(10)
-            made = Call("quotient", (Call("log", inner), Call("log", (base,))))
-        return Call("power", (made, self.expression(box.sup))) if box.sup else made, behind
+            value = Call("quotient", (Call("log", inner), Call("log", (base,))))
+        return Call("power", (value, self.expression(box.sup))) if box.sup else value, behind
 
     def _argument(self, row: list[Box], place: int) -> tuple[tuple[Node, ...], int]:
-        """Return the arguments of a function and the place behind them."""
+        """Read the arguments of a function; return them and the position after them."""
         box, start = row[place], place + 1
         first = row[start] if start < len(row) else box
         if first is box or first.kind in ("operator", "comma", "big"):
-            raise FormulaError(f"{box.name} has no argument", "write it in brackets")
-        raised = FormulaError("whether the power is of the argument or of the function is open", "write brackets")
+            raise FormulaError(f"{box.name} has no argument", "write the argument in brackets")
+        raised = FormulaError("it is unclear whether the power is of the argument or of the function", "write brackets")
         if first.kind == "bracket" and _plain(first.name) in _ROUND:
             if first.sub or first.sup:
                 raise raised
-            return self._each(first.parts[0]), start + 1
+            return self._expressions(first.contents[0]), start + 1
         alone = first.kind == "letter" and all(b.kind == "operator" for b in row[start + 1 : start + 2])
         if (first.kind == "matrix" and not first.sup) or (box.name in _BRACKETED and alone):
             return (self.expression([first]),), start + 1
         if box.name not in FUNCTIONS or box.name in _BRACKETED:
-            raise FormulaError(f"where the argument of {box.name} ends is open", "write it in brackets")
+            raise FormulaError(f"it is unclear where the argument of {box.name} ends", "write the argument in brackets")
         if first.kind in ("function", "bracket") and not first.sup:
             node, behind = self.factor(row, start)
             return (node,), behind
-        end = self._reach(row, start)
-        if any(each.sup is not None and not self._label(each) and each.name != "e" for each in row[start:end]):
+        end = self._argument_end(row, start)
+        if any(item.sup is not None and not self._label(item) and item.name != "e" for item in row[start:end]):
             raise raised
         return (self.term(row[start:end]),), end
 
-    def _reach(self, row: list[Box], start: int) -> int:
-        """Return where the argument of a function without brackets ends: 2θ, ωt, kx, nπ, one sign, before a velocity."""
+    def _argument_end(self, row: list[Box], start: int) -> int:
+        """Return the end of a function's argument without brackets: 2θ, ωt, kx, nπ, one symbol."""
         end, kinds = start, ("number", "letter", "fraction", "root", "group")
-        while end < len(row) and row[end].kind in kinds and not self._moves(row[end]):
+        while end < len(row) and row[end].kind in kinds and not self._is_rate(row[end]):
             end += 1
             if end < len(row) and row[end].spaced:
                 break
-        run, after = row[start:end], row[end] if end < len(row) else None
-        names, letters = [each.name for each in run], [each for each in run if each.kind == "letter"]
-        ends = after is None or after.spaced or after.kind in ("operator", "function", "big") or self._moves(after)
+        run, right = row[start:end], row[end] if end < len(row) else None
+        names, letters = [item.name for item in run], [item for item in run if item.kind == "letter"]
+        stops = ("operator", "function", "big")
+        ends = right is None or right.spaced or right.kind in stops or self._is_rate(right)
         angle = bool(run) and names[0] in _ANGLES and not run[0].sub
-        if len(run) == 1 and (ends or (angle and after is not None and after.kind == "bracket")):
+        if len(run) == 1 and (ends or (angle and right is not None and right.kind == "bracket")):
             return end
         plain = run and len(letters) + (run[0].kind == "number") == len(run) > 1 and names[0] not in _LAST
-        known = run and (names[-1] in _LAST or "pi" in names or len(letters) == 1)
-        if ends and plain and known and (not angle or names[1:] == ["t"]):  # of cos θ x the angle may be θ x
+        is_clear = run and (names[-1] in _LAST or "pi" in names or len(letters) == 1)
+        if ends and plain and is_clear and (not angle or names[1:] == ["t"]):  # of cos θ x the angle may be θ x
             return end
-        raise FormulaError(f"where the argument of {row[start - 1].name} ends is open", "write it in brackets")
+        function = row[start - 1].name
+        raise FormulaError(f"it is unclear where the argument of {function} ends", "write the argument in brackets")
 
-    def _moves(self, box: Box) -> bool:
-        """Return whether a box is a velocity or a vector, which ends the argument of a function."""
+    def _is_rate(self, box: Box) -> bool:
+        """Return True for a velocity or a vector, which ends the argument of a function."""
         dotted = any(mark.endswith("dot") for mark in box.marks)
         return bool(is_derivative(box)) or (box.kind == "letter" and (dotted or self._kind(box, "vectors")))
 
     # ---- brackets, roots, matrices
 
     def _bracket(self, box: Box) -> Node:
-        pair, content = (_plain(box.name), _plain(box.closing)), box.parts[0]
+        pair, content = (_plain(box.name), _plain(box.closing)), box.contents[0]
         if pair == (".", "|"):
-            return self._at(box, content)
+            return self._evaluation(box, content)
         if pair in (("|", "|"), (r"\|", r"\|")):
             inner = self.expression(content)
             pairs = any(re.search(r"_(?:ij|ik|jk|kl|i_j|i_k|j_k)\b", name) for name in letters_of(inner))
             if is_matrix(inner) or (pairs and not is_vector(inner)):
-                raise FormulaError("whether the bars are a determinant or a length is open", r"write \det")
+                raise FormulaError("it is unclear whether the bars are a determinant or a length", r"write \det")
             if pair[0] != "|" and not is_vector(inner):
-                raise FormulaError("‖…‖ is of no vector", 'write in paper.toml [notation] vectors = "…"')
+                raise FormulaError("‖…‖ encloses no vector", 'write in paper.toml [notation] vectors = "…"')
             return Call("norm" if is_vector(inner) else "Abs", (inner,))
         if any(b.kind == "relation" for b in content):
-            raise FormulaError("a relation stands in brackets", "write it by itself")
-        parts = parted(content, "comma")
-        if pair not in (("(", ")"), ("[", "]"), (r"\{", r"\}"), (".", ".")) or (len(parts) > 1 and box.name != "("):
+            raise FormulaError("a relation is inside brackets", "write the relation separately")
+        pieces = split_at(content, "comma")
+        if pair not in (("(", ")"), ("[", "]"), (r"\{", r"\}"), (".", ".")) or (len(pieces) > 1 and box.name != "("):
             way = "means, kets, commutators, Poisson brackets and intervals are not read"
             raise FormulaError(f"{box.name} … {box.closing} is not read", way)
-        return self.expression(content) if len(parts) == 1 else Call("column", self._each(content))
+        return self.expression(content) if len(pieces) == 1 else Call("column", self._expressions(content))
 
-    def _at(self, box: Box, content: list[Box]) -> Node:
-        """Read an expression at a place, |_{x = 0}."""
-        where = parted(box.sub or [], "relation")
+    def _evaluation(self, box: Box, content: list[Box]) -> Node:
+        """Read an expression evaluated at a point, |_{x = 0}."""
+        where = split_at(box.sub or [], "relation")
         if len(where) != 2 or not all(where) or box.sup:
-            raise FormulaError("where it is evaluated is not an equation", "write |_{x = 0}")
+            raise FormulaError("the point of evaluation is not an equation", "write |_{x = 0}")
         return Call("at", (self.expression(content), *map(self.expression, where)))
 
     def _group(self, box: Box) -> Node:
-        """Read what stands in braces that have a script, or above a brace."""
-        if any(b.kind == "operator" and b.name in ("+", "-") for b in box.parts[0][1:]):
-            raise FormulaError("whether brackets stand around a sum is open", "write brackets")
-        return self.expression(box.parts[0])
+        """Read a group in braces that has a script, or a group with a brace above or below."""
+        if any(b.kind == "operator" and b.name in ("+", "-") for b in box.contents[0][1:]):
+            raise FormulaError("it is unclear whether brackets enclose the sum", "write brackets")
+        return self.expression(box.contents[0])
 
     def _root(self, box: Box) -> Node:
-        inner, *degree = map(self.expression, box.parts)
+        inner, *degree = map(self.expression, box.contents)
         return Call("power", (inner, Call("quotient", (number(1), degree[0])))) if degree else Call("sqrt", (inner,))
 
     def _matrix(self, box: Box) -> Node:
-        lines = [tuple(map(self.expression, line.parts)) for line in box.parts[0]]
+        lines = [tuple(map(self.expression, line.contents)) for line in box.contents[0]]
         if len({len(line) for line in lines}) != 1:
             raise FormulaError("the rows of a matrix have different lengths", "write every entry")
         if len(lines[0]) == 1 and box.name != "vmatrix":
             return Call("column", tuple(line[0] for line in lines))
-        made = Call("matrix", tuple(Call("row", line) for line in lines))
-        return Call("det", (made,)) if box.name == "vmatrix" else made
+        matrix = Call("matrix", tuple(Call("row", line) for line in lines))
+        return Call("det", (matrix,)) if box.name == "vmatrix" else matrix
 
     # ---- fractions and derivatives
 
@@ -531,21 +536,21 @@ class Grammar:
         box = row[place]
         if mark := is_derivative(box):
             return self._derivative(row, place, mark)
-        first, second = (part[0].name if part else "" for part in box.parts)
-        if first == second and first in ("d", "D", "partial", "delta") and len(box.parts[1]) > 1:
+        first, second = (content[0].name if content else "" for content in box.contents)
+        if first == second and first in ("d", "D", "partial", "delta") and len(box.contents[1]) > 1:
             way = r"write \frac{\mathrm{d} f}{\mathrm{d} x}"
-            raise FormulaError(f"whether the fraction with {first} is a derivative is open", way)
-        over, under = map(self.expression, box.parts)
+            raise FormulaError(f"it is unclear whether the fraction with {first} is a derivative", way)
+        over, under = map(self.expression, box.contents)
         if is_vector(under):
-            raise FormulaError("a vector is divided by", "write its length")
+            raise FormulaError("the divisor is a vector", "divide by its length")
         return self.power(Call("quotient", (over, under)), box), place + 1
 
     def _derivative(self, row: list[Box], place: int, mark: str) -> tuple[Node, int]:
-        box, (over, under) = row[place], row[place].parts
+        box, (over, under) = row[place], row[place].contents
         order, behind, variables = _order(over[0]), place + 1, list[tuple[Letter, int]]()
         for sign, target in zip(under[::2], under[1::2], strict=False):
             if not is_mark(sign, mark) or sign.sup or target.kind != "letter" or len(under) % 2:
-                raise FormulaError("what is differentiated by is not clear", r"write \frac{d f}{d x}")
+                raise FormulaError("the variable of the derivative is not clear", r"write \frac{d f}{d x}")
             variables.append((self.letter(replace(target, sup=None)), _order(target)))
         if sum(times for _, times in variables) != order:
             raise FormulaError("the orders of the derivative differ", "write the same order above and below")
@@ -553,43 +558,43 @@ class Grammar:
         if not over[1:]:
             node, behind = self._operand(row, behind)
         else:
-            node, after = self.expression(over[1:]), row[behind] if behind < len(row) else box
-            held = after.parts[0] if after.kind == "bracket" and after.name == "(" else []
-            if in_time and [(b.name, b.sub) for b in held] == [("t", None)]:
+            node, right = self.expression(over[1:]), row[behind] if behind < len(row) else box
+            content = right.contents[0] if right.kind == "bracket" and right.name == "(" else []
+            if in_time and [(b.name, b.sub) for b in content] == [("t", None)]:
                 behind += 1  # \frac{dx}{dt}(t)
-            elif held and not any(b.kind == "operator" for b in held[1:]):
-                raise self._open(box, "a derivative is taken there or multiplied", way=r"write |_{t = 0} or \cdot")
-        made = _rate(node, order) if in_time else node
+            elif content and not any(b.kind == "operator" for b in content[1:]):
+                raise self._unclear(box, "a derivative is taken there or multiplied", way=r"write |_{t = 0} or \cdot")
+        value = _rate(node, order) if in_time else node
         for variable, times in variables if not in_time else ():
-            made = _derived(made, variable, times)
-        return (self.power(made, box) if over[1:] else made), behind
+            value = _derivative_of(value, variable, times)
+        return (self.power(value, box) if over[1:] else value), behind
 
     def _operand(self, row: list[Box], place: int) -> tuple[Node, int]:
-        """Return what a derivative acts on: the last factor of a term, or a bracket."""
+        """Read the operand of a derivative: the last factor of a term, or a bracket."""
         if place >= len(row) or row[place].kind == "operator":
             raise FormulaError("the derivative has nothing to act on", "operators by themselves are not read")
         node, behind = self.factor(row, place)
         if behind < len(row) and row[place].kind != "bracket":
-            raise FormulaError("how far the derivative reaches is open", "write brackets around what is differentiated")
+            raise FormulaError("it is unclear how far the derivative reaches", "write brackets around its operand")
         return node, behind
 
     # ---- sums, integrals, limits
 
     def _big(self, row: list[Box], place: int) -> tuple[Node, int]:
-        box, rest, below = row[place], row[place + 1 :], row[place].sub or []
+        box, terms, below = row[place], row[place + 1 :], row[place].sub or []
         if BIG[box.name] == "Integral":
             return self._integral(row, place)
         if BIG[box.name] == "limit":
             raise FormulaError("\\lim is not read", "limits are not decided")
-        if not rest:
-            raise FormulaError(f"\\{box.name} has no terms", "write them")
+        if not terms:
+            raise FormulaError(f"\\{box.name} has no terms", "write the terms")
         ends = [*map(self.expression, (below[2:], box.sup))] if below[2:] and box.sup else []
         signs = [b.name for b in below[1:2]]
         if not below or below[0].kind != "letter" or signs != ["="] * len(ends[:1]) or bool(box.sup) != bool(ends):
-            raise FormulaError("what the sum runs over is not clear", r"write \sum_{i=1}^{n}")
+            raise FormulaError("the range of the sum is not clear", r"write \sum_{i=1}^{n}")
         self.bound.append(below[0].name)
         try:
-            return Call(BIG[box.name], (self.term(rest), self.letter(below[0]), *ends)), len(row)
+            return Call(BIG[box.name], (self.term(terms), self.letter(below[0]), *ends)), len(row)
         finally:
             self.bound.pop()
 
@@ -599,49 +604,50 @@ class Grammar:
         while depth:
             at += 1
             if at >= len(row):
-                raise FormulaError("the differential of the integral is missing", "write d and its letter")
+                raise FormulaError("the differential of the integral is missing", "write d and the variable")
             depth += _opens_integral(row[at]) - _closes_integral(row, at)
         variables, end, inner = list[Letter](), at, row[place + 1 : at]
         if row[at].kind == "fraction":  # \int \frac{dx}{x} f
             end = next((k for k in range(at, len(row)) if row[k].kind == "operator"), len(row))
-            over = row[at].parts[0]
+            over = row[at].contents[0]
             start = next(k for k, b in enumerate(over) if is_mark(b, "d"))
             variables.append(self._variable(over[start:]))
-            rest = over[:start] or [Box("number", "1", row[at].at, row[at].at)]
+            numerator = over[:start] or [Box("number", "1", row[at].at, row[at].at)]
             if any(b.kind == "operator" for b in inner):
-                raise FormulaError("a differential stands in one term only", "write it at the end")
-            inner = [*inner, replace(row[at], parts=[rest, row[at].parts[1]]), *row[at + 1 : end]]
+                raise FormulaError("only one term has a differential", "write the differential at the end")
+            inner = [*inner, replace(row[at], contents=[numerator, row[at].contents[1]]), *row[at + 1 : end]]
         else:
             variables.append(self._variable(row[end : end + 2]))
             end += 2
             if end < len(row) and (row[end].kind != "operator" or not inner):
-                raise self._open(box, "what follows the differential is integrated", way="write the differential last")
-        limits = [self.expression(each) for each in (box.sub, box.sup) if each]
+                way = "write the differential last"
+                raise self._unclear(box, "the factors after the differential are integrated", way=way)
+        limits = [self.expression(limit) for limit in (box.sub, box.sup) if limit]
         if len(limits) == 1 or box.name != "int" or (inner and inner[-1].kind == "operator"):
             raise FormulaError("the integral is over a line or a region", "write one variable and two limits")
         return Call("Integral", (self.expression(inner) if inner else number(1), variables[0], *limits)), end
 
     def _variable(self, marks: list[Box]) -> Letter:
-        """Return what an integral is over, from its d and the letter behind."""
+        """Read the variable of an integral from its d and the symbol after it."""
         if len(marks) != 2 or marks[1].kind != "letter" or marks[1].sup or marks[0].sup:
-            raise FormulaError("the differential of the integral is not clear", "write d and its letter")
+            raise FormulaError("the differential of the integral is not clear", "write d and the variable")
         letter = self.letter(marks[1])
         if letter.vector:
             raise FormulaError("the integral is over a vector", "write one variable and two limits")
         return letter
 
 
-# Readers of the boxes that are a factor by themselves, and of those that take in what follows them.
+# Readers of boxes that are a whole factor, and of boxes whose factor includes later boxes.
 _SIMPLE: dict[str, Callable[[Grammar, Box], Node]] = {
     "bracket": Grammar._bracket, "group": Grammar._group, "root": Grammar._root, "matrix": Grammar._matrix,
     "infinity": lambda reader, box: Letter("oo"), "dots": lambda reader, box: Call("dots", ()),
-    "binomial": lambda reader, box: Call("binomial", tuple(map(reader.expression, box.parts))),
+    "binomial": lambda reader, box: Call("binomial", tuple(map(reader.expression, box.contents))),
 }  # fmt: skip
 _FACTORS: dict[str, Callable[[Grammar, list[Box], int], tuple[Node, int]]] = {
     "number": Grammar._number, "letter": Grammar._letter, "fraction": Grammar._fraction, "function": Grammar._function,
     "big": Grammar._big,
 }  # fmt: skip
-# Calls of which a vector can be a multiple; functions whose argument may go on behind a slash.
+# Calls that can multiply a vector; functions whose argument may continue after a slash.
 _SCALARS = ("sum", "product", "quotient", "negative", "power", "sqrt", "Abs", "norm", "dot", "Derivative", "rate")
 _OPEN_ENDED = {*FUNCTIONS.values()} - {"exp"}
 
@@ -651,61 +657,60 @@ def _plain(bracket: str) -> str:
 
 
 def _product(factors: list[Node]) -> Node:
-    """Return the product of factors side by side. Raises FormulaError for vectors among them."""
-    vectors = [each for each in factors if is_vector(each)]
+    """Return the product of adjacent factors. Raises FormulaError for two vectors."""
+    vectors = [factor for factor in factors if is_vector(factor)]
     if len(vectors) > 1 and not all(map(is_matrix, vectors[:-1])):
         way = 'write \\cdot or \\times, or declare matrices = "…" in [notation]'
-        raise FormulaError("two vectors stand side by side", way)
+        raise FormulaError("two vectors are side by side", way)
     return Call("matmul", tuple(factors)) if len(vectors) > 1 else product_of(factors)
 
 
-def _check_sums(parts: list[list[Box]]) -> None:
-    """Raise FormulaError where a term behind a sum holds the index of that sum."""
+def _check_sums(terms: list[list[Box]]) -> None:
+    """Raise FormulaError if a term after a sum contains the index of that sum."""
     indices: set[str] = set()
-    for part in parts:
-        held = {each.name for box in part for each in all_boxes(box.sub or ()) if each.kind == "letter"}
-        sums = [box for box in part if box.kind == "big"]
-        if held & indices and not sums:
-            raise FormulaError("whether the sum ends here is open", "write brackets around what is summed")
+    for term in terms:
+        letters = {inner.name for box in term for inner in all_boxes(box.sub or ()) if inner.kind == "letter"}
+        sums = [box for box in term if box.kind == "big"]
+        if letters & indices and not sums:
+            raise FormulaError("it is unclear whether the sum ends here", "write brackets around the summand")
         indices |= {b.name for box in sums if box.name in ("sum", "prod") for b in box.sub or () if b.kind == "letter"}
 
 
-def _check_neighbours(row: list[Box], place: int, before: Box | None) -> None:
-    """Raise FormulaError for a digit behind a factor, a mixed number, dots, and letters that are a word."""
+def _check_neighbours(row: list[Box], place: int, previous: Box | None) -> None:
+    """Raise FormulaError for a number after a factor, a mixed number, dots, and symbols that form a word."""
     box = row[place]
     if box.kind == "dots" and len(row) > 1:
-        raise FormulaError("dots stand for factors", "write them, or as a product")
-    if before is not None and box.kind == "number" and (before.kind == "number" or not box.spaced):
-        raise FormulaError(f"the number {box.name} stands behind a factor", r"write \cdot, or braces around the power")
-    numeric = box.kind == "fraction" and all(b.kind == "number" for part in box.parts for b in part)
-    if before is not None and before.kind == "number" and numeric:
-        raise FormulaError("whether a mixed number or a product is meant is open", r"write \cdot")
+        raise FormulaError("dots replace factors", "write the factors, or a product sign")
+    if previous is not None and box.kind == "number" and (previous.kind == "number" or not box.spaced):
+        raise FormulaError(f"the number {box.name} follows a factor", r"write \cdot, or braces around the power")
+    numeric = box.kind == "fraction" and all(b.kind == "number" for content in box.contents for b in content)
+    if previous is not None and previous.kind == "number" and numeric:
+        raise FormulaError("it is unclear whether a mixed number or a product is meant", r"write \cdot")
     run = ""
-    for each in row[place:]:
-        plain = each.kind == "letter" and len(each.name) == 1 and not (each.style or each.marks or each.upright)
-        run += each.name if plain else ""
-        if not plain or run in _WORDS or len(run) > 4 or each.sub or each.sup or each.primes:
+    for item in row[place:]:
+        plain = item.kind == "letter" and len(item.name) == 1 and not (item.style or item.marks or item.upright)
+        run += item.name if plain else ""
+        if not plain or run in _WORDS or len(run) > 4 or item.sub or item.sup or item.primes:
             break
     if run in _WORDS or len(run) > 4:
         raise FormulaError(f"{run} is a word", r"write \text{…} for words, and \sin for functions")
 
 
 def _is_numeric(node: Node) -> bool:
-    """Return whether a node has no letters."""
-    return not any(isinstance(each, Letter) for each in walk(node))
+    return not any(isinstance(inner, Letter) for inner in walk(node))
 
 
 def _is_any_kind(node: Node) -> bool:
-    """Return whether a term may be a number or a vector: 0, dots and O(…)."""
+    """Return True for a term that may be a number or a vector: 0, dots and O(…)."""
     return is_printed_zero(node) or (isinstance(node, Call) and node.name in ("dots", "order"))
 
 
-def _derived(node: Node, variable: Letter, times: int) -> Call:
+def _derivative_of(node: Node, variable: Letter, times: int) -> Call:
     return Call("Derivative", (node, variable, number(times)) if times > 1 else (node, variable))
 
 
 def _rate(node: Node, order: int) -> Node:
-    r"""Return dx/dt as \dot x, and d/dt of other expressions as `rate`."""
+    r"""Return dx/dt as \dot x, and d/dt of any other expression as `rate`."""
     dots = re.search(r"_(d*)dot$", node.name) if isinstance(node, Letter) else None
     total = order + (len(dots[1]) + 1 if dots else 0)
     if isinstance(node, Letter) and total <= 4:
@@ -716,12 +721,12 @@ def _rate(node: Node, order: int) -> Node:
 
 
 def _order(box: Box) -> int:
-    """Return the order of a derivative, the number above its sign."""
+    """Return the order of a derivative from the superscript of its sign."""
     if not box.sup:
         return 1
     if len(box.sup) == 1 and box.sup[0].kind == "number" and box.sup[0].name in "123456789":
         return int(box.sup[0].name)
-    raise FormulaError("the order of the derivative is no number", "write a number")
+    raise FormulaError("the order of the derivative is not a number", "write a number")
 
 
 def _opens_integral(box: Box) -> bool:
@@ -729,16 +734,16 @@ def _opens_integral(box: Box) -> bool:
 
 
 def _closes_integral(row: list[Box], place: int) -> bool:
-    """Return whether a differential begins here: d before a letter, or above a fraction bar."""
+    """Return True if a differential begins at this position: d before a symbol, or above a fraction bar."""
     box = row[place]
     if box.kind == "fraction":
-        return any(is_mark(b, "d") for b in box.parts[0]) and not is_derivative(box)
+        return any(is_mark(b, "d") for b in box.contents[0]) and not is_derivative(box)
     target = row[place + 1] if place + 1 < len(row) else None
     return is_mark(box, "d") and target is not None and target.kind == "letter" and not is_mark(target, "d")
 
 
-def _paired(row: list[Box]) -> list[Box]:
-    """Return a row with its bars in pairs as brackets."""
+def _pair_bars(row: list[Box]) -> list[Box]:
+    """Return a row in which each pair of bars is one bracket."""
     places = [k for k, box in enumerate(row) if box.kind == "bar"]
     if len(places) % 2:
         raise FormulaError("a bar has no partner", r"write \left| and \right|")
@@ -749,7 +754,7 @@ def _paired(row: list[Box]) -> list[Box]:
         nested = last and between and all(x.kind not in ("operator", "relation") for x in between)
         odd = not inner or inner[-1].kind == "operator" or row[a].name != row[b].name
         if nested or odd or row[a].sup or row[a].sub:
-            raise FormulaError("how the bars belong together is open", r"write \left| and \right|")
+            raise FormulaError("it is unclear how the bars belong together", r"write \left| and \right|")
         sign, shut = r"\|" if row[a].name == "||" else "|", row[b]
         bars = Box("bracket", sign, row[a].at, shut.end, [inner], sub=shut.sub, sup=shut.sup, closing=sign)
         paired += [*between, bars]

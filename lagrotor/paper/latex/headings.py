@@ -1,4 +1,4 @@
-r"""Titles, headings and names of authors as plain text: accents as letters, formulas as they are read, notes left out."""
+"""Titles, headings and names of authors as plain text: accented letters, formulas in Unicode, no notes."""
 
 import re
 import unicodedata
@@ -27,24 +27,24 @@ _LETTERS = {
 
 
 def plain_heading(text: str) -> str:
-    r"""A heading or a name: Jos\'e~\surname{Garc{\'\i}a}\thanks{…} is José García, $E=mc^2$ is E=mc²."""
+    r"""Return plain text: Jos\'e~\surname{Garc{\'\i}a}\thanks{…} becomes José García, $E=mc^2$ becomes E=mc²."""
     text = re.sub(r"``|''", '"', _LATTER.sub(" ", _NOTES.sub("", text)))
     text = _ACCENT.sub(_accented, re.sub(r"(?<!\\)\\[,;:!/ ]", " ", text))
-    text = _FORMULA.sub(lambda found: from_latex(next(filter(None, found.groups()), "")), text)
-    text = re.sub(rf"\\({'|'.join(_LETTERS)})(?![A-Za-z])(?:\s+|\{{\}})?", lambda found: _LETTERS[found[1]], text)
+    text = _FORMULA.sub(lambda match: from_latex(next(filter(None, match.groups()), "")), text)
+    text = re.sub(rf"\\({'|'.join(_LETTERS)})(?![A-Za-z])(?:\s+|\{{\}})?", lambda match: _LETTERS[match[1]], text)
     text = re.sub(r"\\[A-Za-z]+\*?(?=\{)|(?<!\\)[{}$*]", "", text)
     text = re.sub(r"\\[A-Za-z]+\*?|\\\\(?:\[[^][]*\])?|~", " ", text)
     return " ".join(re.sub(r"\\([&%_#${}])", r"\1", text).split())
 
 
-def _accented(found: re.Match[str]) -> str:
-    mark = ACCENTS[found[1] or found[2]]
-    return unicodedata.normalize("NFC", (found[3] or found[4] or found[5]) + mark)
+def _accented(match: re.Match[str]) -> str:
+    mark = ACCENTS[match[1] or match[2]]
+    return unicodedata.normalize("NFC", (match[3] or match[4] or match[5]) + mark)
 
 
 def names_of_authors(text: str) -> tuple[str, ...]:
-    r"""The names in the argument of \author, between \and and commas; what follows the first line of a name is left out."""
+    r"""Return the names in the argument of \author, separated by \and or commas; only the first line of each."""
     blocks = re.split(r"\\and\b", _NOTES.sub("", re.sub(r"(?<!\\)\\[,;:!/ ]", " ", text)))
     firsts = (re.split(r"\\\\", block)[0] for block in blocks)
-    names = (plain_heading(each) for first in firsts for each in re.split(r",|(?<=[\s~])and(?=[\s~])", first))
+    names = (plain_heading(name) for first in firsts for name in re.split(r",|(?<=[\s~])and(?=[\s~])", first))
     return tuple(filter(None, names))

@@ -1,7 +1,7 @@
-"""A new paper: a folder with one worked equation, or one made from a source; it can be made again from a changed source.
+"""A new paper: a folder with one worked example, or a folder made from a source and updated when the source changes.
 
-Made again, an equation keeps its id, its title, its confirmation and its comments if its label or its LaTeX is the same. An
-equation whose print has changed is marked, and its reading is to be confirmed again.
+An update keeps the id, title, confirmation and comments of an equation with the same label or LaTeX. An equation whose
+LaTeX has changed is marked, and its reading must be confirmed again.
 """
 
 import json
@@ -24,30 +24,29 @@ from lagrotor.paper.latex.notation import declared_notation
 from lagrotor.paper.latex.readings import Print, paper_notation, read_print
 from lagrotor.paper.scripts import beside
 
-# The worked example that a new folder begins with.
 _EXAMPLE = "papers/pendulum"
 _HOLDS = "It holds one worked equation, one claim and one figure of a pendulum; replace\nthem by your own."
 _HOLDS_SOURCE = (
     "It holds the displayed equations of {name} as they were read:\nconfirm the readings, then derive the equations."
 )
 _NOT_COPIED = shutil.ignore_patterns("__pycache__", "report", ".*")
-_SYMBOLS = '''"""The letters of the paper: give each its meaning, its unit, and what sympy may assume of it."""
+_SYMBOLS = '''"""The symbols of the paper: give each its meaning, its unit and its sympy assumptions."""
 
 from lagrotor.paper import Glossary
 
 GLOSSARY = Glossary()
 '''
 _HEAD = (
-    "# The displayed equations of {name}. `lagrotor readings` shows each reading beside its print; confirm it there.\n"
-    "# `lagrotor init` makes this file again: confirmed and derived equations stay, comments stand above their equation."
+    "# The displayed equations of {name}. `lagrotor readings` shows each reading and its formula; confirm it there.\n"
+    "# `lagrotor init` updates this file: confirmed and derived equations and the comments above an equation stay."
 )
 
 
 @dataclass(frozen=True)
 class NewPaper:
-    """The folder that was made, the number of its equations, and how many of them were read.
+    """The folder of a new paper, the number of its equations, and the number that were read.
 
-    notes: sentences on the source. changed, gone: ids of equations whose print has changed, and that the source no longer has.
+    notes: sentences on the source. changed: ids of equations with changed LaTeX. gone: ids missing from the source.
     """
 
     folder: Path
@@ -59,35 +58,35 @@ class NewPaper:
 
 
 def begin_paper(folder: Path, source: Path | None = None) -> NewPaper:
-    """Make the folder of a paper, or make it again from its source.
+    """Make the folder of a paper, or update it from its source.
 
     Parameters
     ----------
     folder : Path
-        A new or an empty folder, or a paper that is made again.
+        A new or empty folder, or an existing paper.
     source : Path, optional
-        LaTeX; without it the folder holds a worked example.
+        The LaTeX file; without it the folder gets a worked example.
 
     Raises
     ------
     InputError
-        Before anything is written, if the folder holds something else, or the source has no displayed equation.
+        Before any file is written, if the folder has other contents, or the source has no displayed equation.
     """
     again = (folder / "paper.toml").is_file()
     if again and source is None:
         raise InputError(f"{folder} is a paper already: give its source, --from paper.tex, to read it again")
     if not again and folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
-        raise InputError(f"{folder} is there already and is no paper: choose a new or an empty folder")
+        raise InputError(f"{folder} already exists and is not a paper: choose a new or an empty folder")
     if not folder.resolve().parent.is_dir():
-        raise InputError(f"{folder}: the folder {folder.resolve().parent} is missing: make it first")
+        raise InputError(f"{folder}: the folder {folder.resolve().parent} does not exist: make it first")
     if again and source is not None:
         return _from_source(folder, source, again)
     with TemporaryDirectory(prefix=".made.", dir=folder if folder.is_dir() else folder.resolve().parent) as near:
-        whole = Path(near) / "paper"  # so that an interrupt leaves nothing
+        whole = Path(near) / "paper"  # an interrupt then leaves no half-written paper
         paper = _example(whole, folder.resolve().name) if source is None else _from_source(whole, source, again)
         if folder.is_dir():
-            for each in whole.iterdir():
-                each.rename(folder / each.name)
+            for path in whole.iterdir():
+                path.rename(folder / path.name)
         else:
             whole.rename(folder)
     return replace(paper, folder=folder)
@@ -103,115 +102,116 @@ def _example(folder: Path, title: str) -> NewPaper:
 
 def _from_source(folder: Path, path: Path, again: bool) -> NewPaper:
     source = read_source(path)
-    faults = [f"{file or path.name}:{line}: {said}" for file, line, said in source.faults]
+    faults = [f"{file or path.name}:{line}: {sentence}" for file, line, sentence in source.faults]
     if not source.equations:
         why = "; ".join([f"--from {path}: it has no displayed equation", *(*faults, *source.notes)[:3]])
-        raise InputError(f"{why}: lagrotor init alone makes a folder to begin with")
+        raise InputError(f"{why}: lagrotor init without --from makes a folder with an example")
     old = toml(folder / "equations.toml") if again else {}
     table = toml(folder / "paper.toml").get("notation", {}) if again else {}
-    formulas = [*(each.latex for each in source.equations), *source.inline]
+    formulas = [*(equation.latex for equation in source.equations), *source.inline]
     notation = paper_notation(formulas, table, str(folder / "paper.toml"))
-    prints = [read_print(each.latex, notation, each.lead) for each in source.equations]
-    rows, changed, gone = _merged(source.equations, prints, old.get("equation", []), _derived(folder))
+    prints = [read_print(equation.latex, notation, equation.lead) for equation in source.equations]
+    rows, changed, gone = _merge(source.equations, prints, old.get("equation", []), _judged_ids(folder))
     (folder / "derivations").mkdir(parents=True, exist_ok=True)
     _write_about(folder, source, again)
     _write_symbols(folder, prints)
     vectors = _vectors(source.equations, prints, old.get("letters", {}))
-    before = _comments(read_text(folder / "equations.toml")) if again else {}
-    text = _catalogue(rows, vectors, before | {"": [_HEAD.format(name=path.name)]})
-    write_text(folder / "equations.toml", text)  # last: the other files are about these equations
+    comments = _comments(read_text(folder / "equations.toml")) if again else {}
+    text = _catalogue(rows, vectors, comments | {"": [_HEAD.format(name=path.name)]})
+    write_text(folder / "equations.toml", text)  # last, because the other files depend on it
     if not again:
         about = read_text(beside(_EXAMPLE) / "README.md").replace(_HOLDS, _HOLDS_SOURCE.format(name=path.name))
         write_text(folder / "README.md", about)
     notes = (*faults, *source.notes)
-    read = sum(each.stop is None for each in prints)
+    read = sum(equation.stop is None for equation in prints)
     return NewPaper(folder, len(prints), read, notes, tuple(changed), tuple(gone))
 
 
 # ---- equations.toml
 
 
-def _derived(folder: Path) -> set[str]:
-    """Return the ids that a derivation states."""
+def _judged_ids(folder: Path) -> set[str]:
+    """Return the ids for which a derivation gives a verdict."""
     scripts = (folder / "derivations").glob("*.py")
     return {i for script in scripts for i in re.findall(r"verdict\(\s*[\"']([^\"']+)[\"']", read_text(script))}
 
 
-def _merged(
+def _merge(
     equations: list[Displayed], prints: list[Print], old: list[dict[str, Any]], derived: set[str]
 ) -> tuple[list[dict[str, Any]], list[str], list[str]]:
-    """Return the rows of equations.toml with the entries of the old ones, the ids changed, and the ids gone."""
-    before, ids = _known(equations, old), {row["id"] for row in old}
-    taken: set[str] = set()
+    """Return the rows of equations.toml, updated from the old rows, and the ids of changed and of missing equations."""
+    matches, ids = _match_rows(equations, old), {row["id"] for row in old}
+    new_ids: set[str] = set()
     rows: list[dict[str, Any]] = []
     changed: list[str] = []
-    for place, (each, print_) in enumerate(zip(equations, prints, strict=True)):
-        row = _row(each, print_, old[before[place]] if place in before else None, changed)
-        while place not in before and (row["id"] in taken or row["id"] in ids):
+    for place, (equation, print_) in enumerate(zip(equations, prints, strict=True)):
+        row = _row(equation, print_, old[matches[place]] if place in matches else None, changed)
+        while place not in matches and (row["id"] in new_ids or row["id"] in ids):
             row["id"] += "'"
-        taken.add(row["id"])
+        new_ids.add(row["id"])
         rows.append(row)
-    gone = [row for row in old if row["id"] not in taken]
+    gone = [row for row in old if row["id"] not in new_ids]
     stay = [row | {"read": "gone"} for row in gone if row["id"] in derived or row.get("read") == "confirmed"]
     return [*rows, *stay], changed, [row["id"] for row in gone]
 
 
-def _known(equations: list[Displayed], old: list[dict[str, Any]]) -> dict[int, int]:
-    """Return place of an equation → place of its old row: alike in label and LaTeX, in label, in LaTeX with a new label."""
-    known: dict[int, int] = {}
+def _match_rows(equations: list[Displayed], old: list[dict[str, Any]]) -> dict[int, int]:
+    """Match equations to old rows by label and LaTeX, by label, or by LaTeX with a new label; return place → place."""
+    matches: dict[int, int] = {}
     rows = [(str(row.get("label", "")), str(row.get("latex"))) for row in old]
-    labels = {each.label for each in equations} & {label for label, _ in rows} - {""}
+    labels = {equation.label for equation in equations} & {label for label, _ in rows} - {""}
     keys = (
         lambda label, latex: (label, latex),
         lambda label, latex: label,
         lambda label, latex: "" if label in labels else latex,
     )
     for key in keys:
-        for place, each in enumerate(equations):
-            name = key(each.label, each.latex)
-            free = (row for row, names in enumerate(rows) if row not in known.values() and key(*names) == name)
-            if place not in known and name and (row := next(free, None)) is not None:
-                known[place] = row
-    return known
+        for place, equation in enumerate(equations):
+            name = key(equation.label, equation.latex)
+            free = (row for row, names in enumerate(rows) if row not in matches.values() and key(*names) == name)
+            if place not in matches and name and (row := next(free, None)) is not None:
+                matches[place] = row
+    return matches
 
 
-def _row(each: Displayed, print_: Print, known: Mapping[str, Any] | None, changed: list[str]) -> dict[str, Any]:
-    """Return the row of an equation, with the entries of the old row; its id is added to `changed` if its print has changed."""
-    row: dict[str, Any] = {"id": each.id, "number": each.number, "section": each.section}
-    row |= {"title": each.label or f"displayed equation {each.id}", "label": each.label, "latex": each.latex}
-    row |= {"lead": each.lead, "aside": list(print_.aside), "read": "unconfirmed" if print_.lines else ""}
+def _row(equation: Displayed, print_: Print, prior: Mapping[str, Any] | None, changed: list[str]) -> dict[str, Any]:
+    """Return the row of an equation with the entries of its old row; append its id to `changed` for new LaTeX."""
+    row: dict[str, Any] = {"id": equation.id, "number": equation.number, "section": equation.section}
+    title = equation.label or f"displayed equation {equation.id}"
+    row |= {"title": title, "label": equation.label, "latex": equation.latex}
+    row |= {"lead": equation.lead, "aside": list(print_.aside), "read": "unconfirmed" if print_.lines else ""}
     row["line"] = [dict(line) for line in print_.lines]
-    if known is not None:
-        stay = ("id",) if known.get("title") == known.get("label") else ("id", "title")
+    if prior is not None:
+        stay = ("id",) if prior.get("title") == prior.get("label") else ("id", "title")
         skip = (*row, "changed", "print")
-        row |= {key: value for key, value in known.items() if key not in skip or key in stay}
-        old = known.get("line", ())  # the author's additions to a line, such as an order, stay if it is read alike
+        row |= {key: value for key, value in prior.items() if key not in skip or key in stay}
+        old = prior.get("line", ())  # an author's additions, such as an order, stay if the reading is the same
         row["line"] = [next((dict(line) for line in old if line | new == line), new) for new in row["line"]]
-        if known.get("latex") != each.latex:
-            row["changed"] = str(known.get("latex"))
+        if prior.get("latex") != equation.latex:
+            row["changed"] = str(prior.get("latex"))
             changed.append(row["id"])
-        elif old and known.get("read") != "unconfirmed":
+        elif old and prior.get("read") != "unconfirmed":
             row["read"] = ""
-            row |= {key: value for key, value in known.items() if key in ("read", "print", "aside", "reading", "line")}
+            row |= {key: value for key, value in prior.items() if key in ("read", "print", "aside", "reading", "line")}
         else:
-            row["changed"] = known.get("changed")
+            row["changed"] = prior.get("changed")
     return {key: value for key, value in row.items() if value not in ("", [], None)}
 
 
 def _vectors(
     equations: list[Displayed], prints: list[Print], old: Mapping[str, Mapping[str, str]]
 ) -> dict[str, dict[str, str]]:
-    """Return the tables [letters.SECTION] with the letters that are vectors."""
+    """Return the tables [letters.SECTION] with the names of vectors."""
     letters = {section: dict(rows) for section, rows in old.items()}
-    for each, print_ in zip(equations, prints, strict=True):
+    for equation, print_ in zip(equations, prints, strict=True):
         if print_.vectors:
-            rows = letters.setdefault(each.section, {})
+            rows = letters.setdefault(equation.section, {})
             rows["vector"] = " ".join(dict.fromkeys([*rows.get("vector", "").split(), *print_.vectors]))
     return letters
 
 
 def _comments(text: str) -> dict[str, list[str]]:
-    """Return id → the comments above and within its equation; under "" those that the file begins with."""
+    """Return id → the comments above and inside its equation; "" → the comments at the top of the file."""
     ids = iter(row["id"] for row in tomllib.loads(text).get("equation", ()))
     lines = text.splitlines()
     head = list(takewhile(lambda line: line.startswith("#"), lines))
@@ -250,50 +250,43 @@ def _equation(row: Mapping[str, Any]) -> Iterator[str]:
 
 
 def _value(key: str, value: Any) -> str:
-    """A TOML value."""
     if isinstance(value, Mapping):
         return "{ " + ", ".join(f"{_text(str(k))} = {_value('', v)}" for k, v in value.items()) + " }"
     if isinstance(value, list | tuple):
-        return "[" + ", ".join(_value("", each) for each in value) + "]"
+        return "[" + ", ".join(_value("", item) for item in value) + "]"
     return _latex(value) if key in ("latex", "quantity", "lead", "changed") else _text(value)
 
 
 def confirm(folder: Path, ids: Iterable[str]) -> list[str]:
-    """Write `read = "confirmed"` and a hash of the print for these equations; return their ids.
+    """Write `read = "confirmed"` and a hash of the LaTeX for these equations; return their ids.
 
-    Raises InputError for one without a reading.
+    Raises InputError for an equation without a reading.
     """
     file = folder / "equations.toml"
-    given = toml(file)
-    rows = {row["id"]: row for row in given.get("equation", [])}
-    wanted = list(ids)
-    for identifier in wanted:
+    data = toml(file)
+    rows = {row["id"]: row for row in data.get("equation", [])}
+    identifiers = list(ids)
+    for identifier in identifiers:
         row = rows.get(identifier)
         if row is None:
             raise InputError(f"{file}: there is no equation {identifier!r}: its ids are {', '.join(list(rows)[:8])} …")
         if row.get("read") == "gone":
-            raise InputError(f"equation {identifier} is no longer in the source: there is no print to confirm it by")
+            raise InputError(f"equation {identifier} is no longer in the source: it cannot be confirmed")
         if not row.get("line"):
-            why = f"`lagrotor readings {folder}` says where its reading stopped, or what was kept aside"
+            why = f"`lagrotor readings {folder}` shows where its reading stopped, or which statements are not compared"
             raise InputError(f"equation {identifier} has no line to confirm: {why}")
-    for row in (rows[identifier] for identifier in wanted):
+    for row in (rows[identifier] for identifier in identifiers):
         row.pop("changed", None)
         row |= {"read": "confirmed", "print": reading_digest(row["latex"], row["line"])}
-    write_text(file, _catalogue(list(rows.values()), given.get("letters", {}), _comments(read_text(file))))
-    return wanted
+    write_text(file, _catalogue(list(rows.values()), data.get("letters", {}), _comments(read_text(file))))
+    return identifiers
 
 
 # ---- paper.toml and symbols.py
 
 
 def declare(folder: Path, kinds: Mapping[str, str]) -> None:
-    """Write letters with their kinds, "f" → "functions", into the table [notation] of paper.toml.
-
-    Raises
-    ------
-    InputError
-        If the table cannot be read, or a letter would have two kinds that exclude each other.
-    """
+    """Write symbol → kind into [notation] of paper.toml. Raises InputError for kinds that exclude each other."""
     file = folder / "paper.toml"
     table = dict(toml(file).get("notation", {}))
     for letter, kind in kinds.items():
@@ -303,7 +296,7 @@ def declare(folder: Path, kinds: Mapping[str, str]) -> None:
 
 
 def _write_table(file: Path, name: str, rows: list[str]) -> None:
-    """Write one table of a TOML file, in its place or at the end; comments within it stay, above its rows."""
+    """Replace or append one table of a TOML file; its comments stay above its rows."""
     text = read_text(file)
     old = re.search(rf"^\[{name}\][^\n]*\n(?:(?![\[\n])[^\n]*\n?)*", text, re.MULTILINE)
     comments = [line for line in old[0].splitlines()[1:] if line.startswith("#")] if old else []
@@ -312,7 +305,7 @@ def _write_table(file: Path, name: str, rows: list[str]) -> None:
 
 
 def _write_about(folder: Path, source: Source, again: bool) -> None:
-    """Write paper.toml; made again only its sections are renewed."""
+    """Write paper.toml; an update changes its sections only."""
     file = folder / "paper.toml"
     sections = [f"{_text(number)} = {_text(title)}" for number, title in source.sections.items()]
     if again:
@@ -328,11 +321,11 @@ def _write_about(folder: Path, source: Source, again: bool) -> None:
 
 
 def _write_symbols(folder: Path, prints: Iterable[Print]) -> None:
-    """Write symbols.py with the letters of the prints; where it is there already it gets those that are new."""
+    """Write symbols.py, or append the new symbols of the equations to it."""
     file = folder / "symbols.py"
     text = read_text(file) if file.is_file() else _SYMBOLS
     names = {name for call in re.findall(r"\(\s*[\"']([^\"']*)[\"']", text) for name in call.split()}
-    letters = dict.fromkeys(letter for each in prints for letter in each.letters)
+    letters = dict.fromkeys(letter for print_ in prints for letter in print_.letters)
     new = [_letter(name) for name in letters if re.sub(r"_d?dot$", "", name) not in names]
     write_text(file, "\n".join([text.rstrip("\n"), *new]) + "\n")
 
@@ -342,10 +335,9 @@ def _letter(name: str) -> str:
 
 
 def _text(value: str | float) -> str:
-    """Return a string, a number, true or false in TOML."""
     return json.dumps(value, ensure_ascii=False)
 
 
 def _latex(value: str) -> str:
-    """Return a TOML string in which a backslash is a backslash."""
+    """Return a TOML string that keeps backslashes."""
     return f"'''{value}'''" if "'''" not in value and not value.endswith("'") else _text(value)

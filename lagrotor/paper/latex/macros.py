@@ -1,7 +1,7 @@
-r"""A source as TeX sees it: macros expanded, and the parts left out that \iffalse hides.
+r"""A source after macro expansion, without the parts that \iffalse hides.
 
-Nothing is executed. A definition is a list of tokens, and the number of expansions is bounded. A condition other than
-\iftrue and \iffalse is not decided: a note names its lines, both branches are left out, and names that they define are unknown.
+Nothing is executed. A definition is a list of tokens, and the number of expansions is bounded. No condition other than
+\iftrue and \iffalse is decided: a note names its lines, both branches are skipped, names defined there are unknown.
 """
 
 import re
@@ -16,9 +16,9 @@ from lagrotor.paper.latex import packages
 from lagrotor.paper.latex.token_stream import TokenStream
 from lagrotor.paper.latex.tokens import Token, plain, tokenize
 
-_MOST_EXPANSIONS = 20_000  # at one place of the source; a macro that needs more calls itself without end
-_MOST_TOKENS = 2_000_000  # of all expansions, besides ten for each character of the source
-# Commands of which a branch without a decision may not have any unnoticed.
+_MOST_EXPANSIONS = 20_000  # at one position of the source; a macro that needs more is recursive
+_MOST_TOKENS = 2_000_000  # of all expansions, in addition to ten per character of the source
+# A skipped branch that contains one of these commands is reported in a note.
 _MATTER = [
     r"\begin",
     r"\[",
@@ -32,11 +32,12 @@ _MATTER = [
     r"\tag",
 ]
 _NO_VALUE = (Token("command", r"\NoValue", 0),)
-_LETTER = re.compile(r"([msg])|([oO]|[dD]\s*(\S)(\S))\s*(?:\{([^{}]*)\})?")  # of an argument of \NewDocumentCommand
+# One entry of an argument specification of \NewDocumentCommand.
+_ARGUMENT = re.compile(r"([msg])|([oO]|[dD]\s*(\S)(\S))\s*(?:\{([^{}]*)\})?")
 
 
 class Parameter(NamedTuple):
-    r"""One argument of a macro: m, s, o or g as in \NewDocumentCommand; marks: the two signs around an optional one."""
+    r"""One argument of a macro: `kind` as in \NewDocumentCommand; `marks` are the signs around an optional one."""
 
     kind: str
     marks: str = "[]"
@@ -44,48 +45,48 @@ class Parameter(NamedTuple):
 
 
 class Macro(NamedTuple):
-    """A definition: the tokens that stand for a name, with the arguments as #1."""
+    """A definition: the tokens that replace a name, with the arguments as #1, #2 …."""
 
     body: tuple[Token, ...]
     head: tuple[Parameter, ...] = ()
 
     @staticmethod
     def of(text: str, spec: str = "") -> "Macro":
-        r"""Return a macro by its LaTeX, with the arguments of \NewDocumentCommand."""
+        r"""Return a macro from its LaTeX, with an argument specification as in \NewDocumentCommand."""
         return Macro(tuple(tokenize(text)), head_of(spec))
 
 
 def head_of(spec: str) -> tuple[Parameter, ...]:
-    r"""Return the arguments that \NewDocumentCommand states by letters."""
+    r"""Return the arguments that a specification of \NewDocumentCommand lists."""
     head = []
-    for letter, optional, opening, closing, default in _LETTER.findall(spec):
+    for letter, optional, opening, closing, default in _ARGUMENT.findall(spec):
         value = tuple(tokenize(default)) if optional[:1] in ("O", "D") else _NO_VALUE
         head.append(Parameter(letter) if letter else Parameter("o", (opening + closing) or "[]", value))
     return tuple(head)
 
 
-# A command that acts on the expansion; it returns False if its token stays in the text.
+# A command that changes the expansion; it returns False if its token remains in the text.
 Primitive = Callable[["Expander", Token], bool | None]
 
 
 class Expander(TokenStream):
-    """The expanded tokens of a source, one after the other, by iteration.
+    """An iterator over the expanded tokens of a source.
 
-    `macros` are the definitions that hold here. In a formula (`in_formula`) a condition that is not decided stays, so that no
-    reader of formulas accepts it.
+    `macros` are the definitions valid at this position. In a formula (`in_formula`) an undecided condition remains as a
+    token, so that no reader of formulas accepts it.
     """
 
     def __init__(self, text: str, file: Path | None, primitives: Mapping[str, Primitive]) -> None:
         super().__init__(text, file)
         self.primitives = primitives
         self.macros: dict[str, Macro] = {}
-        self.scopes: list[tuple[str, dict[str, Macro | None]]] = []  # {, an environment: the definitions that it hides
+        self.scopes: list[tuple[str, dict[str, Macro | None]]] = []  # open groups: mark, hidden definitions
         self.in_formula = False
         self.loaded: set[str] = set()
-        self.doubt = ""  # why the numbers of equations may be others
-        self.branches = 0  # conditions of which a branch is being read
+        self.doubt = ""  # reason for which equation numbers may be wrong
+        self.branches = 0  # number of open conditions
         self._expansions: Counter[int] = Counter()
-        self._made = 0
+        self._output_size = 0
         self._stream = self._expanded()
         self.load("")
 
@@ -95,7 +96,7 @@ class Expander(TokenStream):
     def _expanded(self) -> Iterator[Token]:
         while (token := self.next()) is not None:
             if token.kind in ("command", "primitive"):
-                if self._acts(token):
+                if self._execute(token):
                     continue
                 token = Token("command", token.text, token.at)
             elif token.kind == "open":
@@ -108,7 +109,7 @@ class Expander(TokenStream):
             yield token
 
     def expand(self, tokens: Iterable[Token]) -> list[Token]:
-        """Return these tokens, expanded by themselves."""
+        """Return these tokens after expansion."""
         waiting, self.waiting = self.waiting, [iter(list(tokens))]
         depth = len(self.scopes)
         try:
@@ -117,16 +118,16 @@ class Expander(TokenStream):
             self.waiting = waiting
             self._close_to(depth)
 
-    def _acts(self, token: Token) -> bool:
-        """Expand or execute a command; return False if it stays."""
+    def _execute(self, token: Token) -> bool:
+        """Expand or execute a command; return False if its token remains in the text."""
         name = token.text
         if token.kind == "command" and (macro := self.macros.get(name)) is not None:
             body = self._body(macro, token)
             self._expansions[token.at] += 1
-            self._made += len(body)
-            if self._expansions[token.at] > _MOST_EXPANSIONS or self._made > _MOST_TOKENS + 10 * self.length:
-                said = f"{name} expands without end: a macro that calls itself cannot be taken in"
-                raise InputError(f"{self.place(token.at)}: {said}")
+            self._output_size += len(body)
+            if self._expansions[token.at] > _MOST_EXPANSIONS or self._output_size > _MOST_TOKENS + 10 * self.length:
+                sentence = f"{name} expands without end: a macro that calls itself cannot be expanded"
+                raise InputError(f"{self.place(token.at)}: {sentence}")
             self.push(body)
             return True
         if (primitive := self.primitives.get(name)) is not None:
@@ -136,12 +137,12 @@ class Expander(TokenStream):
         elif name in (r"\endgroup", r"\egroup"):
             self.end_group("{")
         elif name.startswith(r"\if") and name != r"\iff" and not self.in_formula:
-            self.leave_out(token)
+            self.skip_condition(token)
             return True
         return False
 
     def _body(self, macro: Macro, token: Token) -> list[Token]:
-        """Return the body of a macro with its arguments; tokens of the body have the place of the macro."""
+        """Return the body of a macro with its arguments; the tokens of the body get the position of the macro."""
         values: list[Iterable[Token]] = []
         for kind, marks, default in macro.head:
             value: list[Token] | None = None
@@ -152,20 +153,20 @@ class Expander(TokenStream):
             elif kind == "m" or self.begins("{"):
                 value = self.argument()
             values.append(default if value is None else value)
-        made: list[Token] = []
-        for part in macro.body:
-            if part.kind != "param":
-                made.append(Token(part.kind, part.text, token.at))
-            elif part.text[1:].isdigit():
-                made += values[int(part.text[1:]) - 1] if int(part.text[1:]) <= len(values) else ()
-            elif part.text.startswith("##"):
-                made.append(Token("param", part.text[1:], token.at))
-        return made
+        expansion: list[Token] = []
+        for item in macro.body:
+            if item.kind != "param":
+                expansion.append(Token(item.kind, item.text, token.at))
+            elif item.text[1:].isdigit():
+                expansion += values[int(item.text[1:]) - 1] if int(item.text[1:]) <= len(values) else ()
+            elif item.text.startswith("##"):
+                expansion.append(Token("param", item.text[1:], token.at))
+        return expansion
 
     # ---- definitions
 
     def define(self, name: str, macro: Macro | None, everywhere: bool = False) -> None:
-        """Give a name its meaning in the open group, or in all; None: no meaning."""
+        """Define a name in the open group, or in all groups; a macro of None makes the name undefined."""
         if everywhere:
             for _, hidden in self.scopes:
                 hidden.pop(name, None)
@@ -177,11 +178,11 @@ class Expander(TokenStream):
             self.macros[name] = macro
 
     def begin_group(self, mark: str) -> None:
-        """Begin a group: { or the name of an environment."""
+        """Begin a group; its mark is { or the name of an environment."""
         self.scopes.append((mark, {}))
 
     def end_group(self, mark: str) -> None:
-        """End the innermost group with this mark, and the groups within it."""
+        """End the innermost group with this mark, and the groups inside it."""
         for place in range(len(self.scopes) - 1, -1, -1):
             if self.scopes[place][0] == mark:
                 return self._close_to(place)
@@ -195,11 +196,11 @@ class Expander(TokenStream):
                     self.macros[name] = macro
 
     def load(self, package: str) -> None:
-        """Define the commands of a package that are known here."""
+        """Define the commands of a package from the table of known packages."""
         self.loaded.add(package)
         for line in packages.TABLE.get(package, "").splitlines():
-            names, _, rest = line.strip().partition(" ")
-            spec, _, body = rest.partition(" ")
+            names, _, definition = line.strip().partition(" ")
+            spec, _, body = definition.partition(" ")
             for name in filter(None, names.split(",")):
                 macro = Macro.of(body, spec)
                 same = tuple(Token("primitive" if t.text == name else t.kind, t.text, 0) for t in macro.body)
@@ -207,26 +208,26 @@ class Expander(TokenStream):
 
     # ---- conditions
 
-    def leave_out(self, condition: Token) -> None:
-        r"""Leave out the branches of a condition that is not decided; the names that they define have no meaning.
+    def skip_condition(self, condition: Token) -> None:
+        """Skip the branches of an undecided condition; the names that they define become undefined.
 
-        Branches with equations, headings, counters or files are noted.
+        A note names branches that contain equations, headings, counters or files.
         """
         passed: list[Token] = []
         if not self.begins("{"):
             self.skip((r"\fi",), condition, passed)
         while self.begins("{"):  # \ifthenelse{…}{…}{…}
             passed += self.argument()
-        for name, after in pairwise(token.text for token in passed if token.kind == "command"):
+        for name, following in pairwise(token.text for token in passed if token.kind == "command"):
             if name in (r"\let", r"\DeclareMathOperator") or "def" in name or "newcommand" in name:
-                self.define(after, None, everywhere=True)
+                self.define(following, None, everywhere=True)
         if any(token.text in _MATTER or token.text.endswith("counter") for token in passed):
-            helps = r"both branches are left out; write \iftrue or \iffalse"
+            helps = r"both branches are skipped; write \iftrue or \iffalse"
             self.notes.append(f"{self.place(condition.at)}: {condition.text} is not decided: {helps}")
-            self.doubt = self.doubt or "a part of the source is left out"
+            self.doubt = self.doubt or "a part of the source is skipped"
 
     def skip(self, ends: tuple[str, ...], condition: Token, passed: list[Token] | None = None) -> str:
-        r"""Pass over tokens up to the \else or \fi of a condition, and return which it is."""
+        r"""Skip tokens up to the \else or \fi of a condition, and return that token's text."""
         depth = 0
         while (token := self.next()) is not None:
             if depth == 0 and token.text in ends:
@@ -234,9 +235,9 @@ class Expander(TokenStream):
             depth += -1 if token.text == r"\fi" else self.is_condition(token)
             if passed is not None:
                 passed.append(token)
-        self.fault(condition.at, rf"{condition.text} has no \fi: the text up to the end is left out")
+        self.fault(condition.at, rf"{condition.text} has no \fi: the text up to the end is skipped")
         return ""
 
     def is_condition(self, token: Token) -> bool:
-        r"""Return True for a command that ends with \fi, as far as its name says; one with arguments in braces does not."""
+        r"""Return True for a command that needs a \fi; a command with arguments in braces does not."""
         return token.text.startswith(r"\if") and token.text != r"\iff" and not self.begins("{")

@@ -1,12 +1,12 @@
-r"""The notation of a paper: the kinds that its author declares for letters, and one sweep that proposes them.
+r"""The notation of a paper: the kinds that its author declares for symbols, and one sweep that proposes them.
 
-Every letter that the table does not name is a real number. A name is written as in a reading, without its index: `theta` for
+Every symbol outside the table is a real number. A name is written as in a reading, without its index: `theta` for
 \theta, `rbold` for \mathbf r, `rvec` for \vec r; the name `r` alone covers all three.
 """
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, fields, replace
-from itertools import pairwise
+from itertools import combinations, pairwise
 from typing import Any
 
 from lagrotor.errors import InputError
@@ -15,11 +15,10 @@ from lagrotor.paper.latex.boxes import Box, FormulaError, all_boxes, boxes, is_p
 
 @dataclass(frozen=True)
 class Notation:
-    """The declared kinds of a paper's letters; every other letter is a real number.
+    """The declared kinds of a paper's symbols; every other symbol is a real number.
 
-    numbers: e where it is Euler's number, i and j where they are the imaginary unit. real: letters that are real numbers although
-    a proposal says otherwise. proposed: functions that the sweep proposes and the author has not declared; they are read only
-    before an evident argument.
+    numbers: e as Euler's number, i and j as the imaginary unit. real: real numbers in spite of a proposal. proposed:
+    functions that the sweep proposes and the author has not declared; only an evident argument is accepted.
     """
 
     functions: frozenset[str] = frozenset()
@@ -34,8 +33,8 @@ class Notation:
     proposed: frozenset[str] = frozenset()
 
 
-# Keys of the table that hold letters; kinds of which a letter can have one only.
-KINDS = tuple(each.name for each in fields(Notation) if each.name not in ("decimal_comma", "proposed"))
+# Keys of the table that list symbols; groups of kinds that exclude each other.
+KINDS = tuple(key.name for key in fields(Notation) if key.name not in ("decimal_comma", "proposed"))
 _EXCLUSIVE = (
     ("real", "functions", "vectors", "matrices", "operators", "indices", "numbers"),
     ("vectors", "matrices", "operators", "indices", "positive", "numbers"),
@@ -48,67 +47,66 @@ def declared_notation(table: Mapping[str, Any], where: str = "paper.toml") -> No
     Parameters
     ----------
     table : Mapping[str, Any]
-        Kind to the names of its letters, parted by spaces, and `decimal_comma` to true or false.
+        Kind → names of its symbols, separated by spaces, and `decimal_comma` → true or false.
     where : str
         The name of the file, for messages.
 
     Raises
     ------
     InputError
-        For an unknown key, a value of the wrong type, and a letter of two kinds that exclude each other.
+        For an unknown key, a value of the wrong type, and a symbol with two kinds that exclude each other.
     """
     keys = (*KINDS, "decimal_comma")
     if unknown := sorted(table.keys() - set(keys)):
-        raise InputError(f"{where}: notation: {unknown[0]!r} is no key: the keys are {', '.join(keys)}")
+        raise InputError(f"{where}: notation: {unknown[0]!r} is not a key: the keys are {', '.join(keys)}")
     names: dict[str, frozenset[str]] = {}
     for kind in KINDS:
         value = table.get(kind, "")
         if not isinstance(value, str):
-            raise InputError(f'{where}: notation: {kind} is no text: write {kind} = "f V", names parted by spaces')
+            raise InputError(f'{where}: notation: {kind} is not text: write {kind} = "f V", names separated by spaces')
         names[kind] = frozenset(map(_name, value.replace(",", " ").split()))
     comma = table.get("decimal_comma", False)
     if not isinstance(comma, bool):
         raise InputError(f"{where}: notation: decimal_comma is {comma!r}: write true or false")
     for kinds in _EXCLUSIVE:
-        for one in kinds:
-            for other in kinds[: kinds.index(one)]:
-                if both := sorted(names[one] & names[other]):
-                    raise InputError(f"{where}: notation: {both[0]} stands in {other} and in {one}: keep one of them")
+        for first, second in combinations(kinds, 2):
+            if both := sorted(names[first] & names[second]):
+                raise InputError(f"{where}: notation: {both[0]} is in {first} and in {second}: keep one of them")
     return Notation(**names, decimal_comma=comma)
 
 
 def _name(word: str) -> str:
-    """The name of a letter as readings have it."""
+    """Return the name of a symbol as in readings."""
     word = word.removeprefix("\\")
     return "lamda" if word == "lambda" else word
 
 
 @dataclass(frozen=True)
 class Proposal:
-    """A kind that the print suggests for a letter; `evidence` is the formula where it is seen."""
+    """The kind that a formula (`evidence`) suggests for a symbol."""
 
     kind: str
-    letter: str
+    symbol: str
     evidence: str
 
 
 def with_proposals(notation: Notation, proposals: Iterable[Proposal]) -> Notation:
-    """Return the notation with the proposals for those letters that the author has not declared."""
-    known = {kind: getattr(notation, kind) for kind in KINDS}
-    settled = frozenset[str]().union(*known.values())
-    free = [each for each in proposals if each.letter not in settled]
-    more: dict[str, Any] = {kind: known[kind] | {each.letter for each in free if each.kind == kind} for kind in KINDS}
-    return replace(notation, proposed=more["functions"] - known["functions"], **more)
+    """Return the notation with the proposals for those symbols that the author has not declared."""
+    declared = {kind: getattr(notation, kind) for kind in KINDS}
+    settled = frozenset[str]().union(*declared.values())
+    free = [p for p in proposals if p.symbol not in settled]
+    extended: dict[str, Any] = {kind: declared[kind] | {p.symbol for p in free if p.kind == kind} for kind in KINDS}
+    return replace(notation, proposed=extended["functions"] - declared["functions"], **extended)
 
 
 def propose(formulas: Iterable[str]) -> tuple[Proposal, ...]:
-    """Return the kinds that the formulas of a source suggest for its letters, each with its first evidence.
+    """Return the kinds that the formulas of a source suggest for its symbols, each with its first evidence.
 
-    A letter before the bracket of an argument is a function; a letter in bold or with an arrow is a vector, or a matrix where
-    it multiplies another or is transposed; the letter below a sum is an index; e with letters in its power is Euler's number,
-    and i beside it the imaginary unit, unless they stand elsewhere as letters.
+    A symbol before an argument in brackets is a function. A symbol in bold or with an arrow is a vector, or a matrix if it
+    multiplies another or is transposed. The symbol below a sum is an index. An e whose power has symbols is Euler's number,
+    and an i in that power is the imaginary unit. Both remain symbols if they also occur as such elsewhere.
     """
-    seen: dict[tuple[str, str], str] = {}
+    sources: dict[tuple[str, str], str] = {}
     for latex in formulas:
         try:
             row = boxes(latex)
@@ -119,78 +117,78 @@ def propose(formulas: Iterable[str]) -> tuple[Proposal, ...]:
             hats = (box for box in all_boxes(row) if "hat" in box.marks and box.name.islower())
             evidence += [("vectors", stem_of(box)) for box in hats]
         for kind, letter in evidence:
-            seen.setdefault((kind, letter), latex)
-    for letter in ("e", "i", "j"):  # a charge e beside an exponential, an index i beside an imaginary unit
-        if ("letters", letter) in seen:
-            seen.pop(("numbers", letter), None)
-    for kind, letter in [*seen]:
-        if kind == "vectors" and ("matrices", letter) in seen:
-            del seen[kind, letter]
-    return tuple(Proposal(kind, letter, latex) for (kind, letter), latex in seen.items() if kind in KINDS)
+            sources.setdefault((kind, letter), latex)
+    for letter in ("e", "i", "j"):  # a charge e as well as an exponential, an index i as well as an imaginary unit
+        if ("letters", letter) in sources:
+            sources.pop(("numbers", letter), None)
+    for kind, letter in [*sources]:
+        if kind == "vectors" and ("matrices", letter) in sources:
+            del sources[kind, letter]
+    return tuple(Proposal(kind, letter, latex) for (kind, letter), latex in sources.items() if kind in KINDS)
 
 
 def has_kind(notation: Notation, kind: str, box: Box) -> bool:
-    """Return whether the notation declares a letter to be of a kind, by its name with its font and marks, or without them."""
+    """Return True if the notation declares this kind for a symbol, with or without its font and marks."""
     names = getattr(notation, kind)
     return bool(names) and (stem_of(box) in names or _name(box.name) in names)
 
 
 def _evidence(row: list[Box]) -> Iterator[tuple[str, str]]:
-    """Kinds and letters that a row of boxes suggests, with those of all that it holds."""
-    for place, (box, after) in enumerate(pairwise([*row, Box("thin", "", 0, 0)])):
+    """Yield (kind, symbol) pairs that a row of boxes and the boxes inside suggest."""
+    for place, (box, following) in enumerate(pairwise([*row, Box("thin", "", 0, 0)])):
         if box.kind == "letter":
-            yield from _of_letter(box, after)
+            yield from _of_letter(box, following)
             yield from _of_value(row, place)
         elif box.kind == "function" and box.name in ("det", "tr", "Tr"):
-            inside = after.parts[0] if after.kind == "bracket" else [after]
+            inside = following.contents[0] if following.kind == "bracket" else [following]
             yield from (("matrices", stem_of(b)) for b in inside if b.kind == "letter" and b.name.isupper())
         elif box.kind == "big" and box.name in ("sum", "prod"):
             below = box.sub or []
-            yield from (("indices", stem_of(each)) for each in below[:1] if each.kind == "letter")
-        for held in (*box.parts, box.sub or [], box.sup or []):
-            yield from _evidence(held)
+            yield from (("indices", stem_of(index)) for index in below[:1] if index.kind == "letter")
+        for inner in (*box.contents, box.sub or [], box.sup or []):
+            yield from _evidence(inner)
 
 
 def _of_value(row: list[Box], place: int) -> Iterator[tuple[str, str]]:
-    """Kinds that a letter has as it is equal to a matrix or a column."""
-    after = [each for each in row[place + 1 : place + 3] if each.kind != "align"]
-    if len(after) == 2 and after[0].name in ("=", ":=") and row[place].kind == "letter":
-        closed = after[1].kind == "bracket" and after[1].closing != "."
-        inside = after[1].parts[0] if closed else after[1:]
+    """Yield the kind of a symbol that equals a matrix or a column."""
+    following = [item for item in row[place + 1 : place + 3] if item.kind != "align"]
+    if len(following) == 2 and following[0].name in ("=", ":=") and row[place].kind == "letter":
+        closed = following[1].kind == "bracket" and following[1].closing != "."
+        inside = following[1].contents[0] if closed else following[1:]
         if len(inside) == 1 and inside[0].kind == "matrix" and inside[0].name != "vmatrix":
-            columns = max(len(line.parts) for line in inside[0].parts[0])
+            columns = max(len(line.contents) for line in inside[0].contents[0])
             yield "matrices" if columns > 1 else "vectors", stem_of(row[place])
 
 
-def _of_letter(box: Box, after: Box) -> Iterator[tuple[str, str]]:
-    """Kinds that a letter and the box behind it suggest."""
+def _of_letter(box: Box, following: Box) -> Iterator[tuple[str, str]]:
+    """Yield the kinds that a symbol and the box after it suggest."""
     power = box.sup or []
     if box.name in ("e", "i", "j") and not (box.marks or box.style or box.primes or box.sub):
-        letters = {each.name for each in all_boxes(power) if each.kind == "letter"}
+        letters = {inner.name for inner in all_boxes(power) if inner.kind == "letter"}
         if box.name == "e" and letters:
             yield "numbers", "e"
             yield from (("numbers", unit) for unit in ("i", "j") if unit in letters and len(power) > 1)
         elif box.name == "e":
             yield "letters", "e"
-        elif after.name == "hbar":
+        elif following.name == "hbar":
             yield "numbers", box.name
     if is_printed_as_vector(box):
-        transposed = [each.name for each in power] in (["T"], ["top"], ["intercal"])
-        acts = box.name.isupper() and after.kind == "letter" and is_printed_as_vector(after)
+        transposed = [inner.name for inner in power] in (["T"], ["top"], ["intercal"])
+        acts = box.name.isupper() and following.kind == "letter" and is_printed_as_vector(following)
         yield ("matrices" if box.name.isupper() and (transposed or acts) else "vectors"), stem_of(box)
-    if box.name not in ("O", "d") and is_evident_argument(box, after):
+    if box.name not in ("O", "d") and is_evident_argument(box, following):
         yield "functions", stem_of(box)
 
 
 def is_evident_argument(box: Box, bracket: Box) -> bool:
-    """Return whether what stands behind a letter is an argument and no factor: one letter other than t, or a list.
+    """Return True if the bracket after a symbol is an argument, not a factor: one symbol other than t, or a list.
 
-    A number may stand for a letter, and a prime makes a sum an argument. A power of the letter or of the bracket makes a product.
+    A power of the symbol or of the bracket makes a product.
     """
     if bracket.kind != "bracket" or bracket.name != "(" or bracket.sup or (box.sup and box.sup[0].kind == "number"):
         return False
-    content = bracket.parts[0]
-    if any(each.kind == "relation" for each in content):
+    content = bracket.contents[0]
+    if any(item.kind == "relation" for item in content):
         return False
     single = len(content) == 1 and content[0].kind == "letter" and content[0].name != "t"
-    return single or any(each.kind == "comma" for each in content)
+    return single or any(item.kind == "comma" for item in content)

@@ -1,6 +1,6 @@
-r"""Equation numbers: LaTeX's own from the .aux beside the source; otherwise those of the counters of the standard classes.
+r"""Equation numbers: from the .aux file next to the source; otherwise from the counters of the standard classes.
 
-A number is printed by \theequation, a macro as in LaTeX, which a source may define anew.
+A number is printed by \theequation, a macro as in LaTeX, which a source may redefine.
 """
 
 import re
@@ -39,36 +39,35 @@ STYLES: dict[str, Callable[[int], str]] = {
 
 
 class Counters:
-    """LaTeX's counters: their values, and which counter sets which to zero."""
+    """LaTeX's counters: their values, and which counter resets which."""
 
     def __init__(self) -> None:
         self.values = dict.fromkeys(("part", "chapter", *_ARTICLE), 0)
-        self.parents = dict(_WITHIN)  # counter → the one whose step sets it to zero
+        self.parents = dict(_WITHIN)  # counter → the counter that resets it
         self.document_class = ""
 
     def begin(self, expander: Expander, document_class: str) -> None:
-        """Print counters as a class does."""
+        """Define the printed form of the counters of a document class."""
         formats = _CLASSES.get(document_class, _ARTICLE)
         if document_class not in _CLASSES:
-            expander.doubt = f"the class {document_class} is not known"
+            expander.doubt = f"the class {document_class} is unknown"
         if "chapter" in formats:
             self.parents["equation"] = "chapter"
         for name, text in formats.items():
             expander.define(rf"\the{name}", Macro.of(text), everywhere=True)
 
     def step(self, name: str, by: int = 1) -> None:
-        """Add one to a counter, and set those to zero that are numbered within it."""
+        """Add one to a counter, and reset the counters numbered within it."""
         self.values[name] = self.values.get(name, 0) + by
-        for inner in [each for each, parent in self.parents.items() if parent == name]:
+        for inner in [counter for counter, parent in self.parents.items() if parent == name]:
             self.values[inner] = 0
             self.step(inner, by=0)
 
     def printed(self, expander: Expander, name: str) -> str:
-        """Return a counter as it is printed."""
         return plain_number(latex_of(expander.expand((Token("command", rf"\the{name}", 0),))))
 
     def begin_appendix(self, expander: Expander) -> None:
-        r"""\appendix: letters for chapters or sections."""
+        r"""Number chapters or sections by letters, as after \appendix."""
         top, below = ("chapter", "section") if r"\thechapter" in expander.macros else ("section", "subsection")
         self.values |= {top: 0, below: 0}
         expander.define(rf"\the{top}", Macro.of(rf"\Alph{{{top}}}"), everywhere=True)
@@ -76,20 +75,20 @@ class Counters:
     def primitives(self) -> dict[str, Primitive]:
         """Return the commands that set and print counters."""
         setting = (r"\setcounter", r"\addtocounter", r"\stepcounter", r"\refstepcounter")
-        within = (r"\@addtoreset", r"\numberwithin", r"\counterwithin", r"\counterwithout")
-        shown = [rf"\{style}" for style in STYLES]
+        nesting = (r"\@addtoreset", r"\numberwithin", r"\counterwithin", r"\counterwithout")
+        printing = [rf"\{style}" for style in STYLES]
         return {
             r"\documentclass": self._class,
             r"\chapterdot": self._chapter,
             **dict.fromkeys(setting, self._set),
-            **dict.fromkeys(within, self._number_within),
-            **dict.fromkeys(shown, self._show),
+            **dict.fromkeys(nesting, self._number_within),
+            **dict.fromkeys(printing, self._show),
         }
 
     def _class(self, expander: Expander, token: Token) -> None:
         expander.optional()
         name = expander.name()
-        if not self.document_class:  # a part that could stand by itself has another
+        if not self.document_class:  # an included document may have another
             self.document_class = name
             self.begin(expander, name)
 
@@ -97,10 +96,10 @@ class Counters:
         name, values = expander.name(), self.values
         if "step" in token.text:
             self.step(name)
-        elif re.fullmatch(r"[+-]?\d+", shown := latex_of(expander.expand(expander.argument())).strip()):
-            values[name] = int(shown) + (values.get(name, 0) if token.text == r"\addtocounter" else 0)
+        elif re.fullmatch(r"[+-]?\d+", text := latex_of(expander.expand(expander.argument())).strip()):
+            values[name] = int(text) + (values.get(name, 0) if token.text == r"\addtocounter" else 0)
         else:
-            expander.doubt = f"{expander.place(token.at)}: {token.text}{{{name}}}{{{shown}}} is not known"
+            expander.doubt = f"{expander.place(token.at)}: {token.text}{{{name}}}{{{text}}} is unknown"
 
     def _number_within(self, expander: Expander, token: Token) -> None:
         star = expander.star()
@@ -115,7 +114,7 @@ class Counters:
         expander.push(plain(STYLES[token.text[1:]](value), token.at))
 
     def _chapter(self, expander: Expander, token: Token) -> None:
-        """Print the number of the chapter before an equation's, where there is one."""
+        """Print the chapter number before an equation number, if there is one."""
         expander.push(tokenize(r"\thechapter.", token.at) if self.values["chapter"] else ())
 
 
@@ -126,7 +125,7 @@ _MARKS = {r"\ast": "*", r"\star": "*", r"\ddagger": "‡", r"\dagger": "†", r"
 
 
 def plain_number(text: str) -> str:
-    r"""Return a number without fonts, dollar signs, braces and brackets around it: \textbf{2.1} is 2.1, $3'$ is 3'."""
+    r"""Return a number without fonts, dollar signs, braces and brackets: 2.1 for \textbf{2.1}, 3' for $3'$."""
     text = _FONTS.sub("", text)
     for mark, sign in _MARKS.items():
         text = text.replace(mark, sign)
@@ -142,7 +141,7 @@ def _roman(value: int) -> str:
 
 
 def aux_numbers(source: Path) -> dict[str, str]:
-    """Return label → number as LaTeX wrote it beside the source, for labels that it wrote once; empty where it has not."""
+    """Return label → number from the .aux file, without repeated labels; the result is empty without the file."""
     file = source.with_suffix(".aux")
     text = file.read_text(encoding="utf-8", errors="replace") if file.is_file() else ""
     for name in re.findall(r"\\@input\{([^{}]*)\}", text):

@@ -1,6 +1,6 @@
-r"""The commands of common packages as macros, each with its arguments in the letters of \NewDocumentCommand."""
+r"""The commands of common packages as macros, each with its argument specification as in \NewDocumentCommand."""
 
-# A line: commands, their arguments, their definition. The commands of "" are known without a package.
+# Each line: commands, argument specification, definition. The commands under "" need no package.
 TABLE = {
     "": r"""
         \bm,\pmb m \boldsymbol{#1}

@@ -1,4 +1,4 @@
-"""The readings of a paper's equations beside their print: confirmed, unconfirmed, written by hand, or where they stopped."""
+"""The readings of a paper's equations, for comparison with the source, and the kinds of its symbols."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -18,8 +18,8 @@ from lagrotor.paper.latex.tree import Letter, Number, in_catalogue, is_constant,
 class Print:
     """The reading of an equation as data.
 
-    lines: for the catalogue. aside: statements that no line can hold, as text. letters, vectors: names of scalars and vectors.
-    stop: (token, the way out) where it is not read.
+    lines: rows of the catalogue. aside: statements that no row can hold, as text. letters, vectors: names of scalars and of
+    vectors. stop: (token, remedy) if the equation is not read.
     """
 
     lines: tuple[Mapping[str, Any], ...] = ()
@@ -30,7 +30,7 @@ class Print:
 
 
 def paper_notation(formulas: Iterable[str], table: Mapping[str, Any], where: str = "paper.toml") -> Notation:
-    """Return the kinds of a paper's letters: those that its [notation] declares, and the proposals of one sweep."""
+    """Return the kinds of a paper's symbols: those declared in its [notation], and the proposals of one sweep."""
     return with_proposals(declared_notation(table, where), propose(formulas))
 
 
@@ -39,28 +39,27 @@ def read_print(latex: str, notation: Notation, lead: str = "") -> Print:
     reading = read_formula(latex, notation, lead)
     if not reading.whole:
         return Print(stop=reading.stop)
-    rows = [(each, _line(each)) for each in reading.statements]
-    sides = (side.node for each, line in rows if line is not None for side in each.sides if in_catalogue(side.node))
-    letters = {
-        each: None for side in sides for each in walk(side) if isinstance(each, Letter) and not is_constant(each)
-    }
+    rows = [(statement, _line(statement)) for statement in reading.statements]
+    sides = (side.node for statement, line in rows if line is not None for side in statement.sides)
+    nodes = (node for side in sides if in_catalogue(side) for node in walk(side))
+    symbols = dict.fromkeys(node for node in nodes if isinstance(node, Letter) and not is_constant(node))
     return Print(
         tuple(line for _, line in rows if line is not None),
-        tuple(statement_text(each) for each, line in rows if line is None),
-        tuple(dict.fromkeys(each.name for each in letters if not each.vector)),
-        tuple(dict.fromkeys(each.name for each in letters if each.vector)),
+        tuple(statement_text(statement) for statement, line in rows if line is None),
+        tuple(dict.fromkeys(symbol.name for symbol in symbols if not symbol.vector)),
+        tuple(dict.fromkeys(symbol.name for symbol in symbols if symbol.vector)),
     )
 
 
 def _line(statement: PrintedStatement) -> dict[str, Any] | None:
-    """Return the quantity, the members, and the order that is claimed; None for what no line of the catalogue can hold."""
+    """Return a row with quantity, members and claimed order; None if no row of the catalogue can hold the statement."""
     sides = statement.sides
-    known = [in_catalogue(side.node) for side in sides]
-    first = next((place for place, each in enumerate(known) if place and each), 0)
-    if statement.kind != "equation" or not first or not all(known[first:]):
+    allowed = [in_catalogue(side.node) for side in sides]
+    first = next((place for place, fits in enumerate(allowed) if place and fits), 0)
+    if statement.kind != "equation" or not first or not all(allowed[first:]):
         return None
-    names, members = sides[:first], sides[first:]  # p = ∂L/∂q̇ before the members: the subject of the line
-    if isinstance(sides[0].node, Number) and all(known):
+    names, members = sides[:first], sides[first:]  # p = ∂L/∂q̇ before the members is the quantity of the line
+    if isinstance(sides[0].node, Number) and all(allowed):
         names, members = sides[1:2], (sides[0], *sides[2:])
     line = {"quantity": " = ".join(map(_latex, names)), "members": [text_of(side.node) for side in members]}
     small, power = statement.order or ("", 0)
@@ -81,93 +80,82 @@ def statement_text(statement: PrintedStatement) -> str:
     """Return a statement as one line of text."""
     first, *others = (text_of(side.node) for side in statement.sides)
     order = "" if statement.order is None else f" + O({statement.order[0]}**{statement.order[1]})"
-    rest = (f" {relation} {text}" for relation, text in zip(statement.relations, others, strict=False))
-    return "".join([first, *rest, order])
+    tail = (f" {relation} {text}" for relation, text in zip(statement.relations, others, strict=False))
+    return "".join([first, *tail, order])
 
 
 @dataclass(frozen=True)
 class EquationReading:
     """The reading of one equation.
 
-    status: confirmed, unconfirmed, by hand, changed (the print has changed since), gone (the source no longer has it), aside
-    (read, and nothing in it is compared), not read. said: its lines, and statements that are kept aside, as text. stopped,
-    helps: the token where a reading stopped, and the way out. number: the printed one, where it is another than the id.
+    status: confirmed, unconfirmed, by hand, changed (new LaTeX), gone (no longer in the source), aside (read, but no
+    statement can be compared), not read. lines: its printed lines and uncompared statements, as text. stopped, helps: the
+    token at which a reading stopped, and the remedy. number: the printed number, if it is not the id.
     """
 
     id: str
     title: str
     print: str
     status: str
-    said: tuple[str, ...] = ()
+    lines: tuple[str, ...] = ()
     stopped: str = ""
     helps: str = ""
     number: str = ""
 
 
 def readings(paper: Catalogue) -> Iterator[EquationReading]:
-    """Read every equation, in the paper's order.
-
-    Parameters
-    ----------
-    paper : Catalogue
-        The paper.
-
-    Raises
-    ------
-    InputError
-        If the table [notation] cannot be read.
-    """
+    """Read every equation in the paper's order. Raises InputError if the table [notation] cannot be read."""
     equations = list(paper.equations.values())
     notation = paper_notation((e.latex for e in equations), paper.about.notation, str(paper.folder / "paper.toml"))
     for entry in equations:
-        moved = entry.number and entry.read != "gone" and str(entry.number) != entry.id
-        yield replace(_reading(entry, notation), number=str(entry.number) if moved else "")
+        renumbered = entry.number and entry.read != "gone" and str(entry.number) != entry.id
+        yield replace(_reading(entry, notation), number=str(entry.number) if renumbered else "")
 
 
 def _reading(entry: Equation, notation: Notation) -> EquationReading:
-    shown = EquationReading(entry.id, entry.title, entry.latex, "gone", _said(entry.line))
+    result = EquationReading(entry.id, entry.title, entry.latex, "gone", _line_texts(entry.line))
     if entry.read == "gone":
-        return shown
+        return result
     if entry.line:
         status = "by hand" if not entry.read else "confirmed" if entry.is_confirmed else "unconfirmed"
         status = "changed" if entry.changed and status == "unconfirmed" else status
-        return replace(shown, status=status, said=(*shown.said, *entry.aside))
+        return replace(result, status=status, lines=(*result.lines, *entry.aside))
     print_ = read_print(entry.latex, notation, entry.lead)
     if print_.stop is not None:
-        return replace(shown, status="not read", stopped=print_.stop[0], helps=print_.stop[1])
+        return replace(result, status="not read", stopped=print_.stop[0], helps=print_.stop[1])
     if print_.lines:  # [notation] has changed since init
-        return replace(shown, status="unread so far", said=_said(print_.lines))
-    return replace(shown, status="aside", said=print_.aside)
+        return replace(result, status="unread so far", lines=_line_texts(print_.lines))
+    return replace(result, status="aside", lines=print_.aside)
 
 
 @dataclass(frozen=True)
-class LetterKind:
-    """The kind of one letter: declared in [notation], or proposed by the formula `evidence`."""
+class SymbolKind:
+    """The kind of one symbol: declared in [notation], or proposed by the formula `evidence`."""
 
-    letter: str
+    symbol: str
     kind: str
     declared: bool
     evidence: str = ""
 
 
-def letter_kinds(paper: Catalogue) -> list[LetterKind]:
-    """Return the letters of a paper that are no plain real numbers, the declared ones first."""
+def symbol_kinds(paper: Catalogue) -> list[SymbolKind]:
+    """Return the symbols of a paper that are not plain real numbers, the declared ones first."""
     table = declared_notation(paper.about.notation, str(paper.folder / "paper.toml"))
-    kinds = [LetterKind(letter, kind, True) for kind in KINDS for letter in sorted(getattr(table, kind))]
-    known = {each.letter for each in kinds}
+    kinds = [SymbolKind(name, kind, True) for kind in KINDS for name in sorted(getattr(table, kind))]
+    declared = {kind.symbol for kind in kinds}
     proposals = propose(entry.latex for entry in paper.equations.values())
-    return kinds + [LetterKind(p.letter, p.kind, False, p.evidence) for p in proposals if p.letter not in known]
+    return kinds + [SymbolKind(p.symbol, p.kind, False, p.evidence) for p in proposals if p.symbol not in declared]
 
 
-def _said(lines: Iterable[Mapping[str, Any]]) -> tuple[str, ...]:
-    """Printed lines as text, with the order that each claims."""
+def _line_texts(lines: Iterable[Mapping[str, Any]]) -> tuple[str, ...]:
+    """Return printed lines as text, each with its claimed order."""
     claimed = (f" + O({row['small']}**{row.get('order', 0) + 1})" if row.get("small") else "" for row in lines)
     texts = (" = ".join([row["quantity"], *map(str, row.get("members", ()))]) for row in lines)
     return tuple(map("".join, zip(texts, claimed, strict=True)))
 
 
 def typeset_lines(paper: Catalogue, identifier: str) -> tuple[str, ...]:
-    """The printed lines of an equation as they are judged, in LaTeX; none where a letter of theirs is not declared."""
+    """Return the judged lines of an equation in LaTeX; the tuple is empty if a symbol is not declared."""
     try:
         lines = paper.lines(identifier)
     except InputError:

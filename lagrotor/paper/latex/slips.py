@@ -1,4 +1,4 @@
-"""Slips of an author: one sign, factor, power or function of a side changed, so that it agrees with another."""
+"""Typical slips of an author: one sign, factor, power or function whose change makes two sides equal."""
 
 from collections.abc import Callable, Iterator
 from fractions import Fraction
@@ -8,81 +8,74 @@ from typing import Any
 
 import sympy as sp
 
-from lagrotor.paper.latex.comparison import LARGEST, decided, nearly_equal, value_at
+from lagrotor.paper.latex.comparison import LARGEST, equality, nearly_equal, value_at
 from lagrotor.paper.latex.tree import KNOWN, Call, Letter, Node, Number, has_opaque, rational_value, text_of
 
-# Functions that are taken for each other.
+# Functions that authors confuse.
 _TAKEN_FOR = {"sin": "cos", "cos": "sin", "sinh": "cosh", "cosh": "sinh"}
 _FACTORS = (
     (Fraction(-1), "the sign of {} changed"),
     (Fraction(2), "{} doubled"),
     (Fraction(1, 2), "{} halved"),
 )
-_MOST_SLIPS = 100  # changes that are tried
-_MOST_PARTS = 100  # denominator of a factor
+_MOST_SLIPS = 100  # number of changes tried
+_MOST_PARTS = 100  # largest denominator of a factor
 
 
 def change_to_agree(fixed: Any, changing: Node, value: Callable[[Node], Any]) -> str:
-    """Return the one change of a side with which it agrees with another, in words; "" where there is none.
+    """Return the one change that makes a side equal to a fixed one, in words; "" if there is none.
 
-    Parameters
-    ----------
-    fixed : sympy.Expr or sympy.Matrix
-        The other side.
-    changing : Node
-        The side that is changed.
-    value : callable
-        Called with a changed side; returns its expression, or None.
+    `value` maps a changed side to its expression, or to None.
     """
     expression = value(changing)
     point = point_of(fixed, expression)
     number = value_at(fixed, point)
     ratio = _ratio(number, value_at(expression, point))
-    if ratio and not has_opaque(fixed) and decided(fixed, sp.Rational(str(ratio)) * expression) == "zero":
-        return f"with the factor {ratio} of the whole they agree"
-    for other, said in islice(_slips(changing), _MOST_SLIPS):
-        slip = value(other)
-        if slip is not None and nearly_equal(number, value_at(slip, point)) and decided(fixed, slip) == "zero":
-            return f"with {said} they agree"
+    if ratio and not has_opaque(fixed) and equality(fixed, sp.Rational(str(ratio)) * expression) == "zero":
+        return f"an additional factor {ratio}"
+    for variant, change in islice(_slips(changing), _MOST_SLIPS):
+        slip = value(variant)
+        if slip is not None and nearly_equal(number, value_at(slip, point)) and equality(fixed, slip) == "zero":
+            return change
     return ""
 
 
-def _slips(node: Node, put: Callable[[Node], Node] = lambda new: new) -> Iterator[tuple[Node, str]]:
-    """Yield a side with one part of `node` changed as authors do, and the change in words; put: puts a new node into the side."""
-    yield from ((put(changed), said) for changed, said in _changes(node))
+def _slips(node: Node, embed: Callable[[Node], Node] = lambda new: new) -> Iterator[tuple[Node, str]]:
+    """Yield a side with one node changed, and the change in words; `embed` puts the changed node into the side."""
+    yield from ((embed(changed), change) for changed, change in _changes(node))
     if isinstance(node, Call):
-        for place, part in enumerate(node.args):
-            yield from _slips(part, partial(_put_within, put, node, place))
+        for place, argument in enumerate(node.args):
+            yield from _slips(argument, partial(_embed_argument, embed, node, place))
 
 
-def _put_within(put: Callable[[Node], Node], node: Call, place: int, new: Node) -> Node:
-    return put(_with(node, place, new))
+def _embed_argument(embed: Callable[[Node], Node], node: Call, place: int, new: Node) -> Node:
+    return embed(_with_argument(node, place, new))
 
 
-def _with(node: Call, place: int, part: Node) -> Call:
-    return Call(node.name, (*node.args[:place], part, *node.args[place + 1 :]))
+def _with_argument(node: Call, place: int, argument: Node) -> Call:
+    return Call(node.name, (*node.args[:place], argument, *node.args[place + 1 :]))
 
 
 def _changes(node: Node) -> Iterator[tuple[Node, str]]:
-    """Yield a node with another power, function or argument, or with another factor of a term."""
-    base, power, more = _powers(node)
-    for each in (power + difference for difference in more):
-        if each:  # cos² nπ is 1 for whole n
-            yield Call("power", (base, Number(each))), f"the power {each} of {text_of(base)}"
+    """Yield the node with another power, function or argument, or with a factor on one term."""
+    base, power, steps = _powers(node)
+    for exponent in (power + difference for difference in steps):
+        if exponent:  # not 0: cos² nπ = 1 for integer n is no slip
+            yield Call("power", (base, Number(exponent))), f"the power {exponent} of {text_of(base)}"
     if isinstance(node, Call) and node.name in KNOWN:
-        if other := _TAKEN_FOR.get(node.name):
-            yield Call(other, node.args), f"{other} for {node.name}"
-        for factor, said in _FACTORS:
-            changed = _with(node, 0, _times(factor, node.args[0]))
-            yield changed, said.format(f"the argument of {text_of(node)}")
+        if function := _TAKEN_FOR.get(node.name):
+            yield Call(function, node.args), f"{function} for {node.name}"
+        for factor, words in _FACTORS:
+            changed = _with_argument(node, 0, _times(factor, node.args[0]))
+            yield changed, words.format(f"the argument of {text_of(node)}")
     if isinstance(node, Call) and node.name == "sum":
         for place, term in enumerate(node.args):
-            for factor, said in _FACTORS:
-                yield _with(node, place, _times(factor, term)), said.format(text_of(term))
+            for factor, words in _FACTORS:
+                yield _with_argument(node, place, _times(factor, term)), words.format(text_of(term))
 
 
 def _powers(node: Node) -> tuple[Node, Fraction, tuple[Fraction | int, ...]]:
-    """Return the base and the power that a node is, and the differences of powers that are tried."""
+    """Return the base and the exponent of a node, and the changes of the exponent to try."""
     if isinstance(node, Call) and node.name == "power" and (power := rational_value(node.args[1])) is not None:
         return node.args[0], power, (1, -1, 2, -2)
     if isinstance(node, Call) and node.name == "sqrt":
@@ -95,22 +88,22 @@ def _times(factor: Fraction, node: Node) -> Node:
     return Call("product", (Number(factor), node))
 
 
-def _ratio(value: Any, other: Any) -> Fraction | None:
-    """Return the quotient of two numbers as a fraction of small numbers; None where it is none."""
-    if not (value.is_real and other.is_real and other and abs(value / other) < LARGEST):
+def _ratio(a: Any, b: Any) -> Fraction | None:
+    """Return a/b as a fraction with a small denominator, or None."""
+    if not (a.is_real and b.is_real and b and abs(a / b) < LARGEST):
         return None
-    fraction = Fraction(float(value / other)).limit_denominator(_MOST_PARTS)
-    return fraction if nearly_equal(value, sp.Rational(str(fraction)) * other) else None
+    fraction = Fraction(float(a / b)).limit_denominator(_MOST_PARTS)
+    return fraction if nearly_equal(a, sp.Rational(str(fraction)) * b) else None
 
 
 def constant_value(a: Any) -> sp.Rational | None:
-    """Return the number that an expression is for all values of its letters; None where it is none."""
+    """Return the value of an expression that is constant in its symbols, or None."""
     ratio = None if isinstance(a, sp.MatrixBase) else _ratio(value_at(a, point_of(a)), sp.S.One)
     constant = None if ratio is None else sp.Rational(str(ratio))
-    return constant if constant is not None and decided(a, constant) == "zero" else None
+    return constant if constant is not None and equality(a, constant) == "zero" else None
 
 
 def point_of(*sides: Any) -> dict[sp.Symbol, sp.Rational]:
-    """Return a value for each letter of some sides."""
+    """Return a rational value for each symbol of some sides."""
     symbols = sorted(set().union(*(side.free_symbols for side in sides)), key=str)
     return {symbol: sp.Rational(2 * place + 3, 2 * place + 5) for place, symbol in enumerate(symbols)}

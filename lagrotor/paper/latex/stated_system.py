@@ -1,13 +1,13 @@
-r"""A derivation stated as text: coordinates, a Lagrangian and constraints in `paper.toml`, and the role of each equation.
+"""A derivation stated as text: coordinates, a Lagrangian and constraints in `paper.toml`, and the role of each equation.
 
     [system]
     coordinates = "theta"
     L = "m*R**2*theta_dot**2/2 + m*g*R*cos(theta)"
     constraints = []                        # each expression is zero
-    forces = []                             # on each coordinate, besides those of L: friction, "-c*theta_dot"
-    where = ["omega_0 = sqrt(g/R)"]         # definitions of letters that L does not have, by constants
+    forces = []                             # one per coordinate, in addition to L: friction, "-c*theta_dot"
+    where = ["omega_0 = sqrt(g/R)"]         # definitions of symbols outside L, by constants
 
-    [system.derives]                        # equation id → the quantity that the equation prints
+    [system.derives]                        # equation id → the printed quantity
     "1" = "L"
     "2" = "acceleration theta"              # θ̈ from the equations of motion, multipliers eliminated
     "3" = "energy"                          # q̇ ∂L/∂q̇ − L
@@ -16,10 +16,10 @@ r"""A derivation stated as text: coordinates, a Lagrangian and constraints in `p
     "6" = "motion theta"                    # any equation that follows from the equations of motion
     "7" = "integral"                        # F with dF/dt = 0 along every motion
 
-The constraints, their rates and the definitions are premises of every verdict. A verdict names those that it needs. A
-print with a letter that neither the system nor a definition has is refused: its value decides whether the print is right.
+The constraints, their rates and the definitions are premises of every verdict; a verdict names those that it needs. An
+equation with a symbol outside the system and the definitions is refused, because the symbol's value decides the verdict.
 
-The text is parsed by the reader of expressions; nothing in it runs. Goldstein, Poole & Safko, Classical Mechanics, 3rd ed.,
+The text is parsed by the reader of expressions and never executed. Goldstein, Poole & Safko, Classical Mechanics, 3rd ed.,
 §§1.4, 2.4, 2.6, 2.7, 6.2.
 """
 
@@ -62,12 +62,12 @@ _ROLE = re.compile(
     r"|(?P<form>frequency|frequency\^2|period)(?: +(?P<which>\d+))?(?: +at +(?P<at>.*))?"
 )
 _ROLES = "L, energy, integral, momentum q, acceleration q, motion q, frequency at q = 0, frequency^2 or period"
-_LAGRANGIANS = ("L", "Lcal", "Lscr")  # names of L in a print, where they are no letters of the system
+_LAGRANGIANS = ("L", "Lcal", "Lscr")  # printed names of L, unless the system has such a symbol
 
 
 @dataclass(frozen=True)
 class StatedSystem:
-    """The system of a paper's `paper.toml`; `system["2"]` is the derived expression for equation 2."""
+    """The system in a paper's `paper.toml`; `system["2"]` is the derived expression for equation 2."""
 
     c: Coordinates
     L: sp.Expr
@@ -80,52 +80,52 @@ class StatedSystem:
     paper: Catalogue
 
     def __getitem__(self, identifier: str) -> sp.Expr:
-        """Return the derived expression to which the printed members of an equation are compared.
+        """Return the derived expression for the printed members of an equation.
 
         Raises
         ------
         InputError
-            If the equation has no role, or its print cannot be judged by this system.
+            If the equation has no role, or this system cannot decide it.
         """
         if identifier not in self.derives:
             raise self._error(f"equation {identifier} has no role: {', '.join(self.derives)} have one")
         role = _ROLE.fullmatch(_one_line(self.derives[identifier]))
         if role is None:
-            raise self._error(f"{self.derives[identifier]!r} is not known: write {_ROLES}")
+            raise self._error(f"{self.derives[identifier]!r} is unknown: write {_ROLES}")
         self._check_letters(identifier)
-        said = role.groupdict(default="")
-        if said["form"]:
-            return self._frequency(said["form"], int(said["which"] or 1), said["at"])
-        if said["whole"] == "integral":
-            return self._conserved(identifier)
-        if said["whole"]:
-            return self.L if said["whole"] == "L" else shortest(energy(self.L, self.c))
+        words = role.groupdict(default="")
+        if words["form"]:
+            return self._frequency(words["form"], int(words["which"] or 1), words["at"])
+        if words["whole"] == "integral":
+            return self._integral(identifier)
+        if words["whole"]:
+            return self.L if words["whole"] == "L" else shortest(energy(self.L, self.c))
         names = [q.name for q in self.c.q]
-        if said["name"] not in names:
-            raise self._error(f"{said['kind']} {said['name'] or '?'}: the coordinates are {', '.join(names)}")
-        if said["kind"] == "motion":
-            return shortest(self._as_printed(identifier))
-        rows = momenta(self.L, self.c) if said["kind"] == "momentum" else self.accelerations
-        return shortest(rows[names.index(said["name"])])
+        if words["name"] not in names:
+            raise self._error(f"{words['kind']} {words['name'] or '?'}: the coordinates are {', '.join(names)}")
+        if words["kind"] == "motion":
+            return shortest(self._motion_equation(identifier))
+        rows = momenta(self.L, self.c) if words["kind"] == "momentum" else self.accelerations
+        return shortest(rows[names.index(words["name"])])
 
     @cached_property
     def premises(self) -> tuple[Premise, ...]:
-        """The premises of every print: the constraints with their rates, and the definitions of letters."""
+        """The premises of every equation: the constraints with their rates, and the definitions of symbols."""
         rates = [sp.Eq(e, 0) for g in self.constraints for e in (g, total_derivative(g, self.c))]
         definitions = (sp.Eq(letter, value, evaluate=False) for letter, value in self.where.items())
         return (
             *([Premise("the constraints hold", where=tuple(rates))] if rates else []),
-            *(Premise("as the text says", where=(each,), defines=True) for each in definitions),
+            *(Premise("as the text says", where=(definition,), defines=True) for definition in definitions),
         )
 
     @cached_property
     def accelerations(self) -> sp.Matrix:
-        """The accelerations a of M a + h = Gᵀ λ with the constraints differentiated twice, the multipliers λ eliminated."""
+        """The accelerations a of M a + h = Gᵀ λ and the constraints differentiated twice, the multipliers λ eliminated."""
         multipliers = sp.symbols(f"multiplier_1:{len(self.constraints) + 1}")
         rows = euler_lagrange(self.L, self.c) - sp.Matrix(self.forces)
         for multiplier, constraint in zip(multipliers, self.constraints, strict=True):
             rows -= multiplier * gradient(constraint, self.c.q)
-        second = [total_derivative(total_derivative(each, self.c), self.c) for each in self.constraints]
+        second = [total_derivative(total_derivative(g, self.c), self.c) for g in self.constraints]
         equations, unknown = sp.Matrix([*rows, *second]), sp.Matrix([*self.c.a, *multipliers])
         singular = f"{self.place}: its equations of motion are singular"
         solution = linear_solve(equations.jacobian(unknown), -equations.subs(dict.fromkeys(unknown, 0)), singular)
@@ -136,62 +136,62 @@ class StatedSystem:
 
     @cached_property
     def _known(self) -> set[sp.Basic]:
-        """The letters of the system, of its coordinates and their rates, of the definitions, and the time."""
+        """The symbols of the system, the coordinates with their rates, the definitions, and the time."""
         expressions = (self.L, *self.constraints, *self.forces, *self.where.values(), *self.where)
         return {t, *self.c.q, *self.c.v, *self.c.a}.union(*(e.free_symbols for e in expressions))
 
     def _check_letters(self, identifier: str) -> None:
-        """Raise InputError if an equation has no line, or a printed member has a letter that the system does not have."""
+        """Raise InputError if an equation has no line, or a member has a symbol outside the system."""
         if not self.paper.equation(identifier).line:
-            says = "has no printed line: write it as an [[equation.line]] in equations.toml, or leave it out here"
+            says = "has no printed line: write it as an [[equation.line]] in equations.toml, or remove it here"
             raise self._error(f"equation {identifier} {says}")
         for line in self.paper.lines(identifier):
             letters = set[sp.Basic]().union(*(e.free_symbols for e in line.members))
             for name in sorted(str(s) for s in letters - self._known - {line.small}):
                 says = (
-                    f'is printed with {name}, of which the system says nothing: define it, as in where = ["{name} = …"]'
+                    f'is printed with {name}, which the system does not define: define it, as in where = ["{name} = …"]'
                 )
-                raise self._error(f"equation {identifier} {says}, or leave the equation out here")
+                raise self._error(f"equation {identifier} {says}, or remove the equation here")
 
     def _point(self, text: str) -> dict[sp.Symbol, sp.Expr]:
         """Return the coordinates of `theta = 0, x = a`; those without a value are zero."""
         values = dict.fromkeys(self.c.q, sp.S.Zero)
-        for each in filter(None, (part.strip() for part in text.split(","))):
-            name, _, value = each.partition("=")
+        for assignment in filter(None, (piece.strip() for piece in text.split(","))):
+            name, _, value = assignment.partition("=")
             values[read(name.strip(), self.names, self.place)] = read(value.strip() or "0", self.names, self.place)
         return values
 
     def _along(self, e: sp.Expr) -> sp.Expr:
-        """Return an expression with the accelerations of the motion put in."""
+        """Substitute the accelerations of the motion."""
         return shortest(e.xreplace(dict(zip(self.c.a, self.accelerations, strict=True))) if e.has(*self.c.a) else e)
 
     def _rate(self, e: sp.Expr) -> sp.Expr:
         """Return de/dt along the motion."""
         return self._along(total_derivative(self._along(e), self.c))
 
-    def _conserved(self, identifier: str) -> sp.Expr:
-        """Return a printed F less its change after a short time: F itself where dF/dt = 0 along every motion."""
+    def _integral(self, identifier: str) -> sp.Expr:
+        """Return F − τ dF/dt along the motion; it equals the printed F if F is conserved."""
         F = self.paper.lines(identifier)[0].members[0]
         if not F.has(*self.c.q, *self.c.v):
-            says = f"prints {F}, which depends on no coordinate or velocity: leave it out here"
+            says = f"has the expression {F}, which depends on no coordinate or velocity: remove the equation here"
             raise self._error(f"equation {identifier} {says}")
         time = next(name for name in ("tau", "short_time", "time_since") if name not in self.names)
         return F - sp.Symbol(time, positive=True) * self._rate(F)
 
-    def _as_printed(self, identifier: str) -> sp.Expr:
+    def _motion_equation(self, identifier: str) -> sp.Expr:
         """Return the right side of a printed equation of motion, plus left − right along the motion."""
-        (line, *more), left = self.paper.lines(identifier), self._left_side(identifier)
-        moving = any(each.has(*self.c.a) for each in line.members)
-        if left is None or more or (moving and len(line.members) > 1):
+        (line, *further), lhs = self.paper.lines(identifier), self._left_side(identifier)
+        moving = any(member.has(*self.c.a) for member in line.members)
+        if lhs is None or further or (moving and len(line.members) > 1):
             says = (
-                "has no single left side in the coordinates and the letters of the system, or accelerations in a chain"
+                "has no single left side in the coordinates and the symbols of the system, or accelerations in a chain"
             )
-            helps = "print one equation, define its letters in where, or leave it out here"
+            helps = "print one equation, define its symbols in where, or remove it here"
             raise self._error(f"equation {identifier} {says}: {helps}")
-        return line.members[0] + self._along(left - line.members[0]) if moving else self._along(left)
+        return line.members[0] + self._along(lhs - line.members[0]) if moving else self._along(lhs)
 
     def _left_side(self, identifier: str) -> sp.Expr | None:
-        """Return what stands before the first member of a print; None where it has other letters, or sides that differ."""
+        """Return the side before the first member; None if it has unknown symbols, or parts that differ."""
 
         def partial(f: sp.Expr, by: sp.Symbol, order: int = 1) -> sp.Expr:
             if by == t:
@@ -206,16 +206,16 @@ class StatedSystem:
         names |= {name: symbol for name, symbol in self.names.items() if symbol in self._known}
         texts = [text_of(side.node) for statement in reading.statements for side in statement.sides]
         try:
-            left, *others = (read(text, names, self.place) for text in texts)
+            lhs, *others = (read(text, names, self.place) for text in texts)
         except (InputError, ValueError):
             return None
-        same = all(_is_zero(self._along(left - each)) for each in others)
-        return left if same and left.free_symbols <= self._known else None
+        same = all(_is_zero(self._along(lhs - value)) for value in others)
+        return lhs if same and lhs.free_symbols <= self._known else None
 
     def _frequency(self, form: str, which: int, point: str) -> sp.Expr:
-        """Return ω of a small oscillation about an equilibrium, ω², or its period; the mode's rate is i ω."""
+        """Return ω, ω² or the period of a small oscillation about an equilibrium; a mode's rate is i ω."""
         if any(force.has(*self.c.v) for force in self.forces):
-            raise self._error("with friction small motion has no frequency: leave it out here")
+            raise self._error("a system with friction has no frequency of small oscillations: remove the equation here")
         system = System(self.c, self.L, constraints=self.constraints, forces=self.forces)
         modes = system.linearise(self._point(point)).modes()
         squares = sorted({sp.factor(-(mode.rate**2)) for mode in modes if mode.rate != 0}, key=sp.default_sort_key)
@@ -237,57 +237,71 @@ def stated_system(paper: Catalogue) -> StatedSystem:
     Raises
     ------
     InputError
-        If none is stated, or a key, an expression or a definition cannot be read.
+        If there is no system, or a key, an expression or a definition cannot be read.
     """
-    given, where = paper.about.system, f"{paper.folder / 'paper.toml'}: system"
-    if unknown := sorted(given.keys() - set(_KEYS)):
-        raise InputError(f"{where}: {unknown[0]!r} means nothing here: the keys are {', '.join(_KEYS)}")
-    if missing := [key for key in ("coordinates", "L") if not given.get(key)]:
+    table, where = paper.about.system, f"{paper.folder / 'paper.toml'}: system"
+    if unknown := sorted(table.keys() - set(_KEYS)):
+        raise InputError(f"{where}: {unknown[0]!r} is not a key of [system]: the keys are {', '.join(_KEYS)}")
+    if missing := [key for key in ("coordinates", "L") if not table.get(key)]:
         raise InputError(
             f"{where}: {missing[0]} is missing: state the coordinates and the Lagrangian L, as in "
             '[system] coordinates = "theta", L = "m*l**2*theta_dot**2/2 + m*g*l*cos(theta)"'
         )
-    known = {symbol.name: symbol for symbol in paper.glossary}
-    fresh = coordinates(given["coordinates"])
-    c = Coordinates(*(tuple(known.get(s.name, s) for s in row) for row in (fresh.q, fresh.v, fresh.a)))
-    names = known | {s.name: s for row in (c.q, c.v, c.a) for s in row}
-    for identifier in given.get("derives", {}):
+    symbols = {symbol.name: symbol for symbol in paper.glossary}
+    fresh = coordinates(table["coordinates"])
+    c = Coordinates(*(tuple(symbols.get(s.name, s) for s in row) for row in (fresh.q, fresh.v, fresh.a)))
+    names = symbols | {s.name: s for row in (c.q, c.v, c.a) for s in row}
+    for identifier in table.get("derives", {}):
         paper.equation(identifier)
-    forces = tuple(read(each, names, f"{where}: forces") for each in given.get("forces", ())) or (sp.S.Zero,) * len(c.q)
+    forces = tuple(read(text, names, f"{where}: forces") for text in table.get("forces", ())) or (sp.S.Zero,) * len(c.q)
     if len(forces) != len(c.q):
         raise InputError(
             f'{where}: forces: {len(forces)} for {len(c.q)} coordinates: write one each, "0" where none acts'
         )
-    L = read(given["L"], names, f"{where}: L")
-    constraints = tuple(read(each, names, f"{where}: constraints") for each in given.get("constraints", ()))
+    L = read(table["L"], names, f"{where}: L")
+    constraints = tuple(read(text, names, f"{where}: constraints") for text in table.get("constraints", ()))
     fixed = set[sp.Basic]().union(*(e.free_symbols for e in (L, *constraints, *forces, *c.q, *c.v, *c.a)))
-    definitions = _definitions(given.get("where", ()), names, fixed, c, f"{where}: where")
-    return StatedSystem(c, L, constraints, forces, definitions, given.get("derives", {}), names, where, paper)
+    definitions = _definitions(table.get("where", ()), names, fixed, c, f"{where}: where")
+    return StatedSystem(c, L, constraints, forces, definitions, table.get("derives", {}), names, where, paper)
 
 
 def _definitions(
     rows: tuple[str, ...], names: Mapping[str, Any], fixed: set[sp.Basic], c: Coordinates, where: str
 ) -> dict[sp.Symbol, sp.Expr]:
-    """Return letter → expression in constants; refuse another relation, a letter of L, and one that is defined twice."""
+    """Return symbol → expression in constants. Raises InputError for a symbol of L or a repeated definition."""
     definitions: dict[sp.Symbol, sp.Expr] = {}
     for row in rows:
-        left, equals, right = str(row).partition("=")
-        letter = names.get(left.strip())
-        if not equals or "=" in right or not isinstance(letter, sp.Symbol):
+        name, equals, text = str(row).partition("=")
+        letter = names.get(name.strip())
+        if not equals or "=" in text or not isinstance(letter, sp.Symbol):
             raise InputError(
-                f'{where}: {row!r} defines no letter of symbols.py: write one, as in "omega_0 = sqrt(g/l)"'
+                f'{where}: {row!r} defines no symbol of symbols.py: write a definition, as in "omega_0 = sqrt(g/l)"'
             )
-        value = read(right.strip(), names, where)
-        twice, own = letter in definitions, letter in fixed
-        if twice or own or value.free_symbols & {*c.q, *c.v, *c.a, t}:
-            says = "is defined twice" if twice else "is a letter of the system" if own else "is defined by coordinates"
-            raise InputError(f"{where}: {row!r}: {letter} {says}: write it out in L or in the print")
+        value = read(text.strip(), names, where)
+        problems = {
+            "is defined twice": letter in definitions,
+            "is a symbol of the system": letter in fixed,
+            "is defined by coordinates": value.free_symbols & {*c.q, *c.v, *c.a, t},
+        }
+        if problem := next((words for words, holds in problems.items() if holds), ""):
+            raise InputError(f"{where}: {row!r}: {letter} {problem}: write the expression in L or in the equation")
         definitions[letter] = value
     return definitions
 
 
 def stated(script: str) -> StatedSystem:
-    """Return the system of the paper whose folder holds `derivations/` with this script, given as `__file__`."""
+    """Return the stated system of the paper to which a derivation belongs.
+
+    Parameters
+    ----------
+    script : str
+        The derivation's `__file__`, in the folder `derivations/` of the paper.
+
+    Returns
+    -------
+    StatedSystem
+        The system in the paper's `paper.toml`.
+    """
     return stated_system(Catalogue(Path(script).resolve().parent.parent))
 
 
@@ -303,7 +317,7 @@ system = stated(__file__)
 """
 _CELL = """
 # %% [markdown]
-# ## ({title}): {said}
+# ## ({title}): {role}
 
 # %%
 verdict({id}, system[{id}]{premises})
@@ -315,17 +329,17 @@ def _one_line(text: str) -> str:
 
 
 def write_derivation(paper: Catalogue) -> tuple[Path, dict[str, str]]:
-    """Write `derivations/s_system.py`, which states each equation of [system.derives] that can be judged.
+    """Write `derivations/s_system.py`, with a verdict for each equation of [system.derives] that can be decided.
 
     Returns
     -------
     tuple of Path and dict
-        The script, and id → reason of the equations that are left out.
+        The script, and id → reason for the equations left out.
 
     Raises
     ------
     InputError
-        If the system cannot be read, or none of its equations can be judged.
+        If the system cannot be read, or none of its equations can be decided.
     """
     system, cells, refused = stated_system(paper), "", dict[str, str]()
     premises = ", premises=system.premises" if system.premises else ""
@@ -335,7 +349,7 @@ def write_derivation(paper: Catalogue) -> tuple[Path, dict[str, str]]:
         except (InputError, SingularError) as error:
             refused[i] = str(error)
         else:
-            cells += _CELL.format(title=_one_line(i), said=_one_line(role), id=json.dumps(i), premises=premises)
+            cells += _CELL.format(title=_one_line(i), role=_one_line(role), id=json.dumps(i), premises=premises)
     if refused and not cells:
         raise InputError("; ".join(dict.fromkeys(refused.values())))
     folder = paper.folder / "derivations"

@@ -1,17 +1,17 @@
-"""The statements of a formula: rows that continue each other, parts between commas and words, sides and relations."""
+"""The statements of a formula: joined rows, parts between commas and words, sides and relations."""
 
 import re
 from dataclasses import dataclass, replace
 
-from lagrotor.paper.latex.boxes import Box, FormulaError, parted, strip
+from lagrotor.paper.latex.boxes import Box, FormulaError, split_at, strip
 from lagrotor.paper.latex.grammar import Grammar
 from lagrotor.paper.latex.tree import Call, Letter, Node, Number, is_printed_zero, is_vector, letters_of, number
 
 _JOINING = re.compile(r"(?:and|where|with|for|if|when|at)\b")
 _CONDITION = re.compile(r"(?:if|for|when|whenever|at|provided|as long as|with)\b")
 _DENYING = re.compile(r"\b(?:not|nor|neither|unless|except|instead|rather|or)\b")
-_SETS = ("in", "->")  # relations of what need not be alike
-# Kinds of statements, each with the relations that it may have.
+_SETS = ("in", "->")  # relations between objects of different kinds
+# Kinds of statements → their possible relations.
 _EQUAL, _BOUNDS = {"=", ":="}, {"<", ">", "<=", ">=", "<<", ">>", "!=", "<~", ">~"}
 _KINDS = {"expression": set[str](), "equation": _EQUAL, "approximation": {*_EQUAL, "~"}, "inequality": _EQUAL | _BOUNDS}
 _PARTING = ("wide", "arrow", "text")
@@ -28,9 +28,9 @@ class Side:
 
 @dataclass(frozen=True)
 class PrintedStatement:
-    """Sides and the relations between them; `order`: (small letter, power) of a term O(…) that the last side had.
+    """Sides and the relations between them; `order` is (small symbol, power) of a term O(…) of the last side.
 
-    kind: equation, approximation, inequality, range, condition, expression or other.
+    kind: equation, approximation, inequality, condition, expression or other.
     """
 
     sides: tuple[Side, ...]
@@ -40,11 +40,11 @@ class PrintedStatement:
 
 
 def read_statements(reader: Grammar, row: list[Box]) -> list[PrintedStatement]:
-    """Return the statements of a formula, its rows joined where one continues the other."""
-    found: list[PrintedStatement] = []
+    """Return the statements of a formula; rows that continue each other are joined."""
+    statements: list[PrintedStatement] = []
     for piece in _pieces(strip(row)):
-        found += _statements(reader, piece)
-    return found
+        statements += _statements(reader, piece)
+    return statements
 
 
 def _is_related(row: list[Box]) -> bool:
@@ -52,10 +52,10 @@ def _is_related(row: list[Box]) -> bool:
 
 
 def _pieces(row: list[Box]) -> list[list[Box]]:
-    """Return the rows of a display, each with the rows that continue it; what stands beside them is a piece of its own."""
+    """Return the rows of a display, each with the rows that continue it; boxes after the rows are a last piece."""
     lines = _system(row[0]) if row else None
-    beside = strip(row[1:])
-    if lines is None or (beside and row[1].kind not in ("wide", "comma", "text")):
+    remainder = strip(row[1:])
+    if lines is None or (remainder and row[1].kind not in ("wide", "comma", "text")):
         return [row]
     pieces: list[list[Box]] = []
     for line in lines:
@@ -68,100 +68,100 @@ def _pieces(row: list[Box]) -> list[list[Box]]:
             pieces[-1] = [*pieces[-1][: -1 if twice else None], *line]
         else:
             pieces.append(line)
-    held = [each for piece in pieces for each in (_pieces(strip(piece)) if len(strip(piece)) == 1 else [piece])]
-    return [*held, *([beside] if beside else [])]
+    split = [inner for piece in pieces for inner in (_pieces(strip(piece)) if len(strip(piece)) == 1 else [piece])]
+    return [*split, *([remainder] if remainder else [])]
 
 
 def _system(box: Box) -> list[list[Box]] | None:
-    """Return the lines of rows, which may stand in a brace; None where a box is none."""
+    """Return the lines of rows, possibly inside a brace; None for any other box."""
     if box.sub is not None or box.sup is not None:
         return None
     if box.kind == "bracket" and box.name in (r"\{", ".", r"\lbrace") and "." in (box.closing, box.name):
-        inside = strip(box.parts[0])
+        inside = strip(box.contents[0])
         return _system(inside[0]) if len(inside) == 1 else None
-    return [[part for cell in line.parts for part in cell] for line in box.parts[0]] if box.kind == "rows" else None
+    return [[b for cell in line.contents for b in cell] for line in box.contents[0]] if box.kind == "rows" else None
 
 
-def _continues(before: list[Box], line: list[Box]) -> bool:
-    last, first = before[-1], line[0]
+def _continues(previous: list[Box], line: list[Box]) -> bool:
+    last, first = previous[-1], line[0]
     if last.kind in ("operator", "relation"):
         return True
     if last.kind == "comma" or first.kind in ("arrow", "text"):
         return False
     starts = first.kind == "relation" or (first.kind == "operator" and first.name in ("+", "-", "cdot", "times", "/"))
     if starts and _is_related(line) and first.kind != "relation":
-        raise FormulaError("whether a row continues the row before is open", "write a comma between statements")
-    if starts and any(box.kind in ("text", "wide", "comma") for box in strip(before)):
+        raise FormulaError("it is unclear whether a row continues the row before", "write a comma between statements")
+    if starts and any(box.kind in ("text", "wide", "comma") for box in strip(previous)):
         raise FormulaError("a row continues one of several statements", "write each statement in its rows")
     if not starts and not _is_related(line):
-        raise FormulaError("a row has no relation", "begin it with the sign that joins it to the row before")
+        raise FormulaError("a row has no relation", "begin the row with the sign that joins it to the row before")
     return starts
 
 
-def _parts(reader: Grammar, row: list[Box]) -> list[tuple[str, list[Box]]]:
-    """Return a piece in parts between wide spaces, words, arrows and commas: the sign before each part, and its boxes."""
-    parts: list[tuple[str, list[Box]]] = [("", [])]
+def _segments(reader: Grammar, row: list[Box]) -> list[tuple[str, list[Box]]]:
+    """Split a piece at wide spaces, words, arrows and commas into pairs of separator and boxes."""
+    segments: list[tuple[str, list[Box]]] = [("", [])]
     for place, box in enumerate(row):
         following = next((b for b in row[place + 1 :] if b.kind != "wide"), None)
         if box.kind in ("arrow", "text"):
             if box.kind == "text" and _DENYING.search(box.name):
-                raise FormulaError(f"{box.name}: the words deny what they join", "write each statement by itself")
+                raise FormulaError(f"{box.name}: the words negate a statement", "write each statement separately")
             behind = row[place - 1].kind if place else "wide"
             if box.kind == "text" and behind in ("number", "relation", "operator") and not _JOINING.match(box.name):
                 raise FormulaError(
-                    f"the words {box.name} are a unit or a side", "write a letter, or numbers without units"
+                    f"the words {box.name} are a unit or a side", "write a symbol, or numbers without units"
                 )
             condition = box.name == "forall" or (box.kind == "text" and _CONDITION.match(box.name))
-            parts.append(("condition" if condition else box.kind, []))
-        elif box.kind == "bracket" and box.name == "(" and _is_related(box.parts[0]) and not (box.sup or box.sub):
-            parts += [("condition", list(box.parts[0])), ("wide", [])]
+            segments.append(("condition" if condition else box.kind, []))
+        elif box.kind == "bracket" and box.name == "(" and _is_related(box.contents[0]) and not (box.sup or box.sub):
+            segments += [("condition", list(box.contents[0])), ("wide", [])]
         elif box.name == "." and box.kind == "comma" and following and row[place + 1].kind not in _PARTING:
-            raise FormulaError("a full stop stands within the formula", r"write \cdot for a product")
+            raise FormulaError("a full stop is inside the formula", r"write \cdot for a product")
         elif box.kind in ("wide", "comma"):
-            before, after = strip(parts[-1][1]), following or box
-            goes_on = before and before[-1].kind in ("operator", "relation")
-            signed = after.kind == "relation" or (box.kind == "wide" and after.kind == "operator" and after.name != "-")
-            if not (goes_on or (signed and before)):
-                waiting = not before and parts[-1][0] in ("text", "condition")
-                parts.append((parts[-1][0] if waiting else box.kind, []))
-        elif not (box.name == ":" and not parts[-1][1]):
-            parts[-1][1].append(box)
-    return parts
+            previous, right = strip(segments[-1][1]), following or box
+            goes_on = previous and previous[-1].kind in ("operator", "relation")
+            signed = right.kind == "relation" or (box.kind == "wide" and right.kind == "operator" and right.name != "-")
+            if not (goes_on or (signed and previous)):
+                waiting = not previous and segments[-1][0] in ("text", "condition")
+                segments.append((segments[-1][0] if waiting else box.kind, []))
+        elif not (box.name == ":" and not segments[-1][1]):
+            segments[-1][1].append(box)
+    return segments
 
 
 def _statements(reader: Grammar, row: list[Box]) -> list[PrintedStatement]:
     """Return the statements of one piece."""
-    found: list[PrintedStatement] = []
-    parts = _parts(reader, row)
-    for sign, part in parts:
-        part = strip(part)
-        if not part:
+    statements: list[PrintedStatement] = []
+    segments = _segments(reader, row)
+    for sign, segment in segments:
+        segment = strip(segment)
+        if not segment:
             continue
-        if _is_related(part) and found and sign == "comma" and found[-1].kind == "expression":
-            raise FormulaError("what stands before the comma has no relation", "write it for each letter")
-        if not _is_related(part) and found and sign in ("comma", "wide"):
-            raise FormulaError("what follows the comma has no relation", "write it as a statement of its own")
+        if _is_related(segment) and statements and sign == "comma" and statements[-1].kind == "expression":
+            raise FormulaError("the part before the comma has no relation", "write the relation for each symbol")
+        if not _is_related(segment) and statements and sign in ("comma", "wide"):
+            raise FormulaError("the part after the comma has no relation", "write it as a separate statement")
         elif sign == "condition":
-            stated = _statements(reader, part)
-            found += [replace(each, kind=sign) for each in stated]
+            conditions = _statements(reader, segment)
+            statements += [replace(condition, kind=sign) for condition in conditions]
         else:
-            found.append(read_statement(reader, part))
-    return found
+            statements.append(read_statement(reader, segment))
+    return statements
 
 
 def read_statement(reader: Grammar, row: list[Box]) -> PrintedStatement:
-    """Return one statement. Raises FormulaError where a side is missing, or a vector is equal to a number."""
-    sides = [strip(side) for side in parted(row, "relation")]
+    """Read one statement. Raises FormulaError if a side is missing, or a vector equals a number."""
+    sides = [strip(side) for side in split_at(row, "relation")]
     relations = [box.name for box in row if box.kind == "relation"]
     if len(sides) > 2 and [b.kind for b in sides[-1]] == ["dots"]:
         sides, relations = sides[:-1], relations[:-1]  # the chain goes on
     if not all(sides):
-        raise FormulaError("a side of the relation is missing", "write it, or join it to the row before")
+        raise FormulaError("a side of the relation is missing", "write the side, or join the row to the row before")
     read: list[Side] = []
     for place, side in enumerate(sides):
         _check_side(side)
         index = not place and len(sides) > 1 and [(b.name, b.sup) for b in side] in ([("i", None)], [("j", None)])
-        node: Node = reader.letter(side[0]) if index else _side(reader, side)
+        node: Node = reader.letter(side[0]) if index else reader.expression(side)
         read.append(Side(node, reader.source[side[0].at : side[-1].end].strip(), side[0].at))
     kinds = {is_vector(side.node) for side in read if not is_printed_zero(side.node) and side.node != Call("dots", ())}
     if len(kinds) > 1 and not {*relations} & {*_SETS}:
@@ -170,46 +170,42 @@ def read_statement(reader: Grammar, row: list[Box]) -> PrintedStatement:
         missing = summed - set[str].intersection(*(_indices(side.node) for side in read))
         if missing and len(read) > 1:
             raise FormulaError(
-                f"whether {min(missing)} is summed over is open", r"write \sum, or give it another index"
+                f"it is unclear whether {min(missing)} is summed over", r"write \sum, or give it another index"
             )
-    order, kept = without_order(read[-1].node)
-    read[-1] = replace(read[-1], node=kept)
+    order, value = without_order(read[-1].node)
+    read[-1] = replace(read[-1], node=value)
     return PrintedStatement(tuple(read), tuple(relations), _kind(relations), order)
 
 
 def _indices(node: Node) -> set[str]:
-    """Return i, j, k, μ and ν where they are indices of the letters of a node, outside the sums over them."""
+    """Return those of i, j, k, μ and ν that are indices of symbols in a node and not bound by a sum."""
     if isinstance(node, Call):
         bound = set(letters_of(Call("", node.args[1:]))) if node.name in ("Sum", "Product") else set[str]()
         return set[str]().union(*map(_indices, node.args)) - bound
-    parts = node.name.split("_")[1:] if isinstance(node, Letter) else []
+    words = node.name.split("_")[1:] if isinstance(node, Letter) else []
     return {
-        each for part in parts for each in ([part] if part in ("mu", "nu") else part if {*part} <= {*"ijk"} else "")
+        index for word in words for index in ([word] if word in ("mu", "nu") else word if {*word} <= {*"ijk"} else "")
     }
 
 
 def _repeated(node: Node) -> set[str]:
-    """Return the indices that two factors of a product share and no sum binds: they may stand for a sum."""
+    """Return the unbound indices that two factors of a product share: a summation convention is possible."""
     if not isinstance(node, Call):
         return set()
-    shared = [_indices(each) for each in node.args] if node.name in ("product", "dot") else []
-    twice = {index for place, one in enumerate(shared) for other in shared[:place] for index in one & other}
+    shared = [_indices(argument) for argument in node.args] if node.name in ("product", "dot") else []
+    twice = {index for place, a in enumerate(shared) for b in shared[:place] for index in a & b}
     return twice.union(*map(_repeated, node.args)) & _indices(node)
 
 
 def _check_side(side: list[Box]) -> None:
-    """Raise FormulaError for a side that is an acronym or stands in square brackets."""
+    """Raise FormulaError for a side that is an acronym or has square brackets."""
     plain = [b for b in side if b.kind == "letter" and not (b.sub or b.sup or b.marks or b.style)]
     name = "".join(box.name for box in plain)
     if 2 < len(side) == len(name) and name.isupper():
-        raise FormulaError(f"{name} is a word", r"write \mathrm for it, or \cdot")
+        raise FormulaError(f"{name} is a word", r"write \mathrm{…} for a word, or \cdot for a product")
     square = len(side) == 1 and side[0].name == "[" and not (side[0].sub or side[0].sup)
-    if square and [b.kind for b in side[0].parts[0]] != ["matrix"]:
-        raise FormulaError("what the square brackets mean is open", "leave them out, or write what it is")
-
-
-def _side(reader: Grammar, row: list[Box]) -> Node:
-    return reader.expression(row)
+    if square and [b.kind for b in side[0].contents[0]] != ["matrix"]:
+        raise FormulaError("it is unclear what the square brackets mean", "write the meaning, or omit the brackets")
 
 
 def _kind(relations: list[str]) -> str:
@@ -217,7 +213,7 @@ def _kind(relations: list[str]) -> str:
 
 
 def without_order(node: Node) -> tuple[tuple[str, int] | None, Node]:
-    """Return the power of a term O(x^n) in which a sum ends, and the sum without it."""
+    """Split a sum into the (symbol, power) of its last term O(x^n), None without one, and the remaining sum."""
     last = node.args[-1] if isinstance(node, Call) and node.name == "sum" else None
     if not (isinstance(node, Call) and isinstance(last, Call) and last.name == "order"):
         return None, node
@@ -227,5 +223,5 @@ def without_order(node: Node) -> tuple[tuple[str, int] | None, Node]:
         inner, power = inner.args
     if not (isinstance(inner, Letter) and isinstance(power, Number) and power.value.denominator == 1):
         return None, node
-    rest = node.args[:-1]
-    return (inner.name, int(power.value)), rest[0] if len(rest) == 1 else Call("sum", rest)
+    terms = node.args[:-1]
+    return (inner.name, int(power.value)), terms[0] if len(terms) == 1 else Call("sum", terms)

@@ -1,4 +1,4 @@
-"""The tokens of a source and of the files that it takes in, in their order, and the arguments read from them."""
+"""The tokens of a source and of the files that it includes, in order, and the arguments read from them."""
 
 import re
 from bisect import bisect_left, bisect_right
@@ -10,16 +10,16 @@ from lagrotor.files import read_text
 from lagrotor.paper.latex.tokens import BRACES, Token, latex_of, plain, tokens_of
 
 _MOST_FILES, _LONGEST_NAME = 500, 80
-# TeX passes over NUL; another control character is no part of a formula, nor of a file that stores one.
+# TeX ignores NUL. Another control character belongs to no formula and to no file that stores one.
 _CONTROL = {0: None, **{c: "\ufffd" for c in (*range(1, 32), 127) if chr(c) not in "\t\n\r"}}
 EMPTY_LINE = re.compile(r"\n\s*\n\s*")
 _NO_ARGUMENT = (r"\left", r"\right", r"\begin", r"\end")
 
 
 class TokenStream:
-    """Tokens as they stand, by `next()`; `push()` puts tokens before them.
+    """A stream of tokens without expansion: `next()` returns the next one, `push()` puts tokens before it.
 
-    `notes` are sentences about what could not be known; `faults` are (place, sentence) of errors at which TeX would stop.
+    `notes` are sentences about doubtful readings. `faults` are (position, sentence) of errors at which TeX would stop.
     """
 
     def __init__(self, text: str, file: Path | None = None) -> None:
@@ -28,21 +28,19 @@ class TokenStream:
         self.faults: dict[tuple[int, str], None] = {}
         self.waiting: list[Iterator[Token]] = []  # the innermost file or expansion is the last
         self.length = 0  # of all files, in characters
-        self._starts: list[
-            tuple[int, str, list[int]]
-        ] = []  # of each file: its first place, its name, its ends of lines
+        self._starts: list[tuple[int, str, list[int]]] = []  # a row per file: first position, name, line ends
         self._reading: list[tuple[Path, Iterator[Token]]] = []
         self.take_in(text, file or Path("source"))
 
     # ---- files
 
     def take_in(self, text: str, file: Path) -> None:
-        """Read this text next. Raises InputError for a file that is being read already, and for too many files."""
+        """Read this text next. Raises InputError if the file is open already, or after too many files."""
         text = text.translate(_CONTROL)
         if file in (path for path, _ in self._open_files()):
-            raise InputError(f"{file} takes in itself, by itself or through another file: leave out one \\input")
+            raise InputError(f"{file} includes itself, directly or through another file: remove one \\input")
         if len(self._starts) == _MOST_FILES:
-            raise InputError(f"{self.file}: more than {_MOST_FILES} files are taken in: give its parts")
+            raise InputError(f"{self.file}: more than {_MOST_FILES} files are included: give its parts one by one")
         name = "" if self.file is None else file.name
         if self.file is not None and self._starts:
             name = file.resolve().relative_to(self.file.resolve().parent).as_posix()
@@ -52,10 +50,10 @@ class TokenStream:
         self._reading.append((file, tokens))
         self.length += len(text) + 1
 
-    def _file_beside(self, name: str) -> Path | None:
-        """Return the file of this name in the folder of the source or of the file that names it; None if there is none.
+    def _included_file(self, name: str) -> Path | None:
+        """Return the path of an included file from the folder of the source or of the including file; None if missing.
 
-        A file outside the folder of the source is not read: a note says so.
+        A file outside the source's folder is not read, and a note says so.
         """
         if self.file is None or len(name) > _LONGEST_NAME:
             return None
@@ -69,8 +67,8 @@ class TokenStream:
         return None
 
     def read_file(self, name: str, at: int) -> None:
-        r"""Take in a part of the source, the argument of \input; a note says that it is missing."""
-        if (path := self._file_beside(name)) is not None:
+        r"""Read the file that \input names; add a note if it is missing."""
+        if (path := self._included_file(name)) is not None:
             self.take_in(read_text(path, "latin-1"), path)
         elif self.file is not None:
             self.notes.append(
@@ -78,7 +76,7 @@ class TokenStream:
             )
 
     def end_file(self, at: int) -> bool:
-        r"""Leave the file of a place, where it is a part that could stand by itself; return False for the first file."""
+        r"""Stop reading an included file at its \end{document}; return False for the main file."""
         if self._file_of(at) == 0 or len(reading := self._open_files()) < 2:
             return False
         while self.waiting.pop() is not reading[-1][1]:
@@ -86,30 +84,30 @@ class TokenStream:
         return True
 
     def _open_files(self) -> list[tuple[Path, Iterator[Token]]]:
-        """Return the files that are not read to their end, the innermost last."""
-        return [each for each in self._reading if each[1] in self.waiting]
+        """Return the files that are not yet read to their end, the innermost last."""
+        return [row for row in self._reading if row[1] in self.waiting]
 
     def _file_of(self, at: int) -> int:
-        return max(bisect_right(self._starts, at, key=lambda each: each[0]) - 1, 0)
+        return max(bisect_right(self._starts, at, key=lambda start: start[0]) - 1, 0)
 
     def line(self, at: int) -> tuple[str, int]:
-        """Return the file and the line of a place."""
+        """Return the file and the line number of a position."""
         start, name, ends = self._starts[self._file_of(at)]
         return name, bisect_left(ends, at - start) + 1
 
     def place(self, at: int) -> str:
-        """Return the file and the line of a place as a message begins with them."""
+        """Return the file and line of a position in the form that opens a message."""
         name, line = self.line(at)
         return f"{name}:{line}" if name else f"line {line}"
 
     def fault(self, at: int, sentence: str) -> None:
-        """Keep a sentence about a place at which TeX would stop."""
+        """Record an error at which TeX would stop."""
         self.faults[at, sentence] = None
 
     # ---- tokens
 
     def next(self) -> Token | None:
-        """Return the next token as it stands; None at the end."""
+        """Return the next token without expansion, or None at the end."""
         while self.waiting:
             for token in self.waiting[-1]:
                 return token
@@ -117,29 +115,27 @@ class TokenStream:
         return None
 
     def push(self, tokens: Iterable[Token]) -> None:
-        """Put tokens before the next one."""
         self.waiting.append(iter(tokens))
 
     def peek(self) -> Token | None:
-        """Return the next token, which stays."""
+        """Return the next token without consuming it."""
         token = self.next()
         if token is not None:
             self.push((token,))
         return token
 
     def begins(self, sign: str) -> bool:
-        """Return True if the next token begins with this sign."""
         token = self.peek()
         return token is not None and token.text.startswith(sign)
 
-    def take(self, part: str) -> None:
-        """Take the next token; of a run of characters, this part."""
+    def take(self, prefix: str) -> None:
+        """Consume the next token; of a run of characters consume only this prefix."""
         token = self.next()
-        if token is not None and token.kind == "text" and token.text.startswith(part):
-            self.push(plain(token.text[len(part) :], token.at + len(part)))
+        if token is not None and token.kind == "text" and token.text.startswith(prefix):
+            self.push(plain(token.text[len(prefix) :], token.at + len(prefix)))
 
     def skip_spaces(self) -> str:
-        """Take the white space that comes next."""
+        """Consume white space and return it."""
         spaces = ""
         while (token := self.next()) is not None:
             text = token.text.lstrip() if token.kind == "text" else token.text
@@ -152,7 +148,7 @@ class TokenStream:
     # ---- arguments
 
     def argument(self) -> list[Token]:
-        """Take the next argument: the tokens in braces, or one character or command."""
+        """Consume the next argument: the tokens in braces, or one character or command."""
         self.skip_spaces()
         token = self.next()
         if token is None or token.kind in ("close", "math") or token.text in _NO_ARGUMENT:
@@ -165,11 +161,11 @@ class TokenStream:
         return [Token(token.kind, token.text[0] if token.kind == "text" else token.text, token.at)]
 
     def name(self) -> str:
-        """Take an argument as plain text."""
+        """Consume an argument and return it as plain text."""
         return latex_of(self.argument()).strip()
 
     def group(self, at: int) -> list[Token]:
-        """Take the tokens before the brace that closes the one at a place."""
+        """Consume the tokens up to the brace that closes the group opened at a position."""
         inside: list[Token] = []
         depth = 1
         while (token := self.next()) is not None:
@@ -177,11 +173,11 @@ class TokenStream:
             if depth == 0:
                 return inside
             inside.append(token)
-        self.fault(at, "{ is not closed: the text up to the end is taken as an argument")
+        self.fault(at, "{ is not closed: the text up to the end becomes the argument")
         return inside
 
     def _until(self, opening: str, closing: str, at: int) -> list[Token]:
-        """Take the tokens before a closing sign, and the sign; an opening one needs a closing one for itself."""
+        """Consume the tokens up to the matching closing sign, and the sign; pairs of signs may be nested."""
         inside: list[Token] = []
         braces, depth = 0, 1
         while (token := self.next()) is not None:
@@ -200,7 +196,7 @@ class TokenStream:
         return inside
 
     def delimited(self, opening: str, closing: str) -> list[Token] | None:
-        """Take the tokens between two characters; None if the first does not come next."""
+        """Consume the tokens between two characters; return None if the first does not come next."""
         spaces, first = self.skip_spaces(), self.peek()
         if first is None or first.kind != "text" or not first.text.startswith(opening):
             self.push(plain(spaces, first.at - len(spaces) if first else 0))
@@ -209,11 +205,11 @@ class TokenStream:
         return self._until(opening, closing, first.at)
 
     def optional(self) -> list[Token] | None:
-        """Take an optional argument, [..]; None if there is none."""
+        """Consume an optional argument [..]; return None if there is none."""
         return self.delimited("[", "]")
 
     def star(self) -> bool:
-        """Take a star; return True if it came next."""
+        """Consume a star; return True if there was one."""
         if not self.begins("*"):
             return False
         self.take("*")
@@ -221,5 +217,4 @@ class TokenStream:
 
 
 def ends_paragraph(token: Token) -> bool:
-    r"""Return True for \par and for a run of characters with an empty line."""
     return token.text == r"\par" or (token.kind == "text" and EMPTY_LINE.search(token.text) is not None)

@@ -1,11 +1,11 @@
-"""LaTeX as TeX's tokens: commands, braces, scripts and runs of characters, without comments; and tokens as LaTeX again."""
+"""LaTeX text as a list of TeX tokens (commands, braces, scripts, runs of characters), and tokens as LaTeX."""
 
 import re
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 _VERBATIM = r"verbatim\*?|Verbatim\*?|BVerbatim|lstlisting|minted|comment|filecontents\*?|asy|asydef"
-_DEFINED = r"(?:\[[^][\n]*\]|\{[^{}\n]*\})*[\s%]*\}[\s%]*\{"  # in the definition of another environment
+_DEFINED = r"(?:\[[^][\n]*\]|\{[^{}\n]*\})*[\s%]*\}[\s%]*\{"  # the definition of another environment follows
 _TOKEN = re.compile(
     rf"(?P<raw>\\begin\{{(?P<name>{_VERBATIM})\}}(?!{_DEFINED}).*?\\end\{{(?P=name)\}}"
     r"|\\(?:verb\*?|lstinline(?:\[[^][\n]*\])?)(?P<mark>[^A-Za-z\s*{[])[^\n]*?(?P=mark)"
@@ -17,16 +17,16 @@ _TOKEN = re.compile(
     re.DOTALL,
 )
 
-# The change of depth that a token makes: of environments, by its text, and of braces, by its kind.
+# The change of nesting depth at a token: of environments by its text, of braces by its kind.
 NESTING = {r"\begin": 1, r"\end": -1}
 BRACES = {"open": 1, "close": -1}
 
 
 class Token(NamedTuple):
-    r"""One token: `kind` is command, open, close, math, align, script, param, text or raw; `at`: its place.
+    r"""One token; `kind` is command, open, close, math, align, script, param, text or raw; `at` is its position.
 
-    An `Expander` adds begin and end, \begin{x} and \end{x} as one token; primitive, a command that no definition changes; and
-    scope, the end of the definitions of an environment.
+    An `Expander` adds the kinds begin and end (\begin{x} and \end{x} as one token) and primitive (a command that no
+    definition changes). Its kind scope marks the end of the definitions inside an environment.
     """
 
     kind: str
@@ -35,12 +35,11 @@ class Token(NamedTuple):
 
 
 def tokenize(text: str, base: int = 0) -> list[Token]:
-    """Return the tokens of a text without its comments; base: the place of its first character."""
+    """Return the tokens of a text without its comments; `base` is the position of its first character."""
     return list(tokens_of(text, base))
 
 
 def tokens_of(text: str, base: int = 0) -> Iterator[Token]:
-    """Yield the tokens of a text one by one."""
     for match in _TOKEN.finditer(text):
         kind = match.lastgroup or "text"
         if kind in ("name", "mark"):
@@ -50,17 +49,17 @@ def tokens_of(text: str, base: int = 0) -> Iterator[Token]:
 
 
 def latex_of(tokens: Iterable[Token]) -> str:
-    """Return the tokens as LaTeX, with a space between a command and a letter that follows it."""
-    parts: list[str] = []
+    """Return the tokens as LaTeX, with a space between a command and a letter after it."""
+    pieces: list[str] = []
     word = False
     for token in tokens:
         if word and token.text[:1].isalpha():
-            parts.append(" ")
-        parts.append(token.text)
+            pieces.append(" ")
+        pieces.append(token.text)
         word = token.kind == "command" and token.text[-1].isalpha()
-    return "".join(parts)
+    return "".join(pieces)
 
 
 def plain(text: str, at: int) -> list[Token]:
-    """Return a run of characters as a list of one token; the list is empty if the text is."""
+    """Return a run of characters as a list with one token; an empty text gives an empty list."""
     return [Token("text", text, at)] if text else []

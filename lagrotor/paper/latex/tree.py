@@ -1,4 +1,4 @@
-"""What a printed formula says: numbers, letters and calls; as text in the names of letters, and as a sympy expression."""
+"""The tree of a printed formula (numbers, symbols, calls), its text with Python names, and its sympy expression."""
 
 import operator
 import re
@@ -17,14 +17,14 @@ from lagrotor.paper.grammar import FUNCTIONS
 
 @dataclass(frozen=True)
 class Number:
-    """A number as printed, exact."""
+    """An exact printed number."""
 
     value: Fraction
 
 
 @dataclass(frozen=True)
 class Letter:
-    r"""A letter with its index, marks and dots, theta_1_dot for \dot\theta_1; a matrix is a vector, too."""
+    r"""A printed symbol with index, marks and dots: theta_1_dot for \dot\theta_1. Every matrix is also a vector."""
 
     name: str
     vector: bool = False
@@ -33,7 +33,7 @@ class Letter:
 
 @dataclass(frozen=True)
 class Call:
-    """An operation, sum product quotient power negative, or a function by its name, of its arguments."""
+    """An operation (sum, product, quotient, power, negative) or a named function, with its arguments."""
 
     name: str
     args: tuple["Node", ...]
@@ -49,15 +49,15 @@ class Call:
 Node: TypeAlias = Number | Letter | Call
 
 _PRECEDENCE = {"sum": 1, "negative": 2, "product": 3, "quotient": 3, "power": 5}
-# Operations whose value is a vector or a matrix, and those that are one where their first argument is.
+# Operations with a vector or matrix as value; operations whose value has the kind of their first argument.
 _VECTORS = ("cross", "column", "matrix", "inverse", "transpose")
 _CARRYING_NAMES = "sum negative quotient Derivative rate prime Integral Sum at power"
 _CARRYING = frozenset(_CARRYING_NAMES.split())
-# What a line of the catalogue may call, but in another sense than a print.
+# Names that a line of the catalogue may call with a meaning other than the printed one.
 _NOT_PRINTED = "rate diff integrate diag eye zeros rotation Integer Float Rational"
 _CALLED = FUNCTIONS.keys() - {*_NOT_PRINTED.split()}
 _MOST_BITS = 20_000  # of a number that is evaluated
-_MOST_ADDED = 40  # terms of a sum that is written out
+_MOST_ADDED = 40  # terms of an explicit sum
 _DOTTED = re.compile(r"(\w+?)_(d*)ot")
 _CONSTANTS = {"pi": sp.pi, "imaginary_unit": sp.I, "oo": sp.oo}
 _ARITHMETIC = ("sum", "product", "quotient", "power", "negative")
@@ -70,16 +70,15 @@ KNOWN = {name: getattr(sp, name) for name in _KNOWN_NAMES.split()}
 
 
 def number(value: int | str) -> Number:
-    """A number from its digits."""
     return Number(Fraction(value))
 
 
 def rational_value(node: Node) -> Fraction | None:
-    """Return the number that a node prints, such as 2, -1 or 3/2; None where it prints another thing."""
+    """Return the number that a node prints, such as 2, -1 or 3/2, or None."""
     if isinstance(node, Number):
         return node.value
-    parts = [rational_value(part) for part in node.args] if isinstance(node, Call) else []
-    match (node.name, *parts):
+    values = [rational_value(arg) for arg in node.args] if isinstance(node, Call) else []
+    match (node.name, *values):
         case ("negative", Fraction() as value):
             return -value
         case ("quotient", Fraction() as above, Fraction() as below) if below:
@@ -88,7 +87,7 @@ def rational_value(node: Node) -> Fraction | None:
 
 
 def walk(node: Node) -> Iterator[Node]:
-    """The node and all that it holds."""
+    """Yield the node and all nodes below it."""
     waiting = [node]
     while waiting:
         node = waiting.pop()
@@ -98,17 +97,17 @@ def walk(node: Node) -> Iterator[Node]:
 
 
 def letters_of(node: Node) -> list[str]:
-    """The names of its letters, in the order in which they are printed; pi, e and i as numbers are none."""
-    return list(dict.fromkeys(each.name for each in walk(node) if isinstance(each, Letter) and not is_constant(each)))
+    """Return the names of the symbols in printed order, without the constants pi, e and i."""
+    return list(dict.fromkeys(n.name for n in walk(node) if isinstance(n, Letter) and not is_constant(n)))
 
 
 def is_constant(letter: Letter) -> bool:
-    """Return whether it is pi, i or infinity."""
+    """Return True for pi, i and infinity."""
     return letter.name in _CONSTANTS
 
 
 def is_vector(node: Node) -> bool:
-    """Return whether its value is a vector or a matrix."""
+    """Return True if the value is a vector or a matrix."""
     if not isinstance(node, Call):
         return isinstance(node, Letter) and node.vector
     if node.name in ("product", "matmul"):
@@ -124,13 +123,13 @@ def is_printed_zero(node: Node) -> bool:
 
 def product_of(factors: list[Node]) -> Node:
     flat: list[Node] = []
-    for each in factors:
-        flat += each.args if isinstance(each, Call) and each.name == "product" else (each,)
+    for factor in factors:
+        flat += factor.args if isinstance(factor, Call) and factor.name == "product" else (factor,)
     return flat[0] if len(flat) == 1 else Call("product", tuple(flat))
 
 
 def is_matrix(node: Node) -> bool:
-    """Return whether a node is a matrix: a declared one, one that is written out, a transposed one, a product of such."""
+    """Return True for a declared or explicit matrix, a transpose, and a product with one."""
     if not isinstance(node, Call):
         return isinstance(node, Letter) and node.matrix
     if node.name in ("sum", "negative", "quotient", "power", "rate", "Derivative", "Sum"):
@@ -142,18 +141,18 @@ def is_matrix(node: Node) -> bool:
 
 
 def divisors(node: Node) -> Iterator[Node]:
-    """Yield what a node divides by, and what it takes a logarithm of, but within sums and integrals."""
+    """Yield divisors and arguments of logarithms, except inside sums and integrals."""
     if isinstance(node, Call) and node.name not in BINDING:
         if node.name == "quotient":
             yield node.args[1]
         elif node.name == "log" or (node.name == "power" and "-" in text_of(node.args[1])):
             yield node.args[0]
-        for each in node.args:
-            yield from divisors(each)
+        for arg in node.args:
+            yield from divisors(arg)
 
 
 def put_for(node: Node, values: Mapping[Node, Node]) -> Node:
-    """Return a node with parts replaced; not the variable of a derivative or an integral, nor what that variable is in it."""
+    """Substitute nodes, except the variable of a derivative or an integral inside that derivative or integral."""
     if node in values:
         return values[node]
     if not isinstance(node, Call) or not values:
@@ -161,19 +160,19 @@ def put_for(node: Node, values: Mapping[Node, Node]) -> Node:
     if node.name in BINDING and len(node.args) > 1:
         inner, variable, *ends = node.args
         free = {key: value for key, value in values.items() if key != variable}
-        return Call(node.name, (put_for(inner, free), variable, *(put_for(each, values) for each in ends)))
-    return Call(node.name, tuple(put_for(each, values) for each in node.args))
+        return Call(node.name, (put_for(inner, free), variable, *(put_for(arg, values) for arg in ends)))
+    return Call(node.name, tuple(put_for(arg, values) for arg in node.args))
 
 
 def in_catalogue(node: Node) -> bool:
-    """Return whether a printed line of the catalogue can hold it: arithmetic and what a line may call in the same sense."""
-    each = list(walk(node))
-    names = {part.name for part in each if isinstance(part, Call)}
-    return names <= {*_ARITHMETIC, *_CALLED} and Letter("imaginary_unit") not in each
+    """Return True if a line of the catalogue can contain the node: arithmetic and functions with the same meaning."""
+    nodes = list(walk(node))
+    names = {call.name for call in nodes if isinstance(call, Call)}
+    return names <= {*_ARITHMETIC, *_CALLED} and Letter("imaginary_unit") not in nodes
 
 
 def text_of(node: Node) -> str:
-    """The node as text, in the order of the print: 1/2*m*x_dot**2."""
+    """Return the node as text in printed order: 1/2*m*x_dot**2."""
     return _text(node, 0)
 
 
@@ -184,18 +183,18 @@ def _text(node: Node, above: int) -> str:
         text = str(node.value)
         return f"({text})" if above > 3 and ("/" in text or "-" in text) else text
     if node.name not in _PRECEDENCE:
-        return f"{node.name}({', '.join(_text(each, 0) for each in node.args)})"
+        return f"{node.name}({', '.join(_text(term, 0) for term in node.args)})"
     level = _PRECEDENCE[node.name]
     if node.name == "sum":
         text = _text(node.args[0], 1)
-        for each in node.args[1:]:
-            taken = isinstance(each, Call) and each.name == "negative"
-            inner = each.args[0] if isinstance(each, Call) and taken else each
-            text += (" - " if taken else " + ") + _text(inner, 2)
+        for term in node.args[1:]:
+            subtracted = isinstance(term, Call) and term.name == "negative"
+            inner = term.args[0] if isinstance(term, Call) and subtracted else term
+            text += (" - " if subtracted else " + ") + _text(inner, 2)
     elif node.name == "negative":
         text = "-" + _text(node.args[0], 3)
     elif node.name == "product":
-        text = "*".join([_text(node.args[0], 3), *(_text(each, 4) for each in node.args[1:])])
+        text = "*".join([_text(node.args[0], 3), *(_text(term, 4) for term in node.args[1:])])
     elif node.name == "quotient":
         text = f"{_text(node.args[0], 3)}/{_text(node.args[1], 4)}"
     else:
@@ -205,12 +204,11 @@ def _text(node: Node, above: int) -> str:
 
 @dataclass
 class Opaque:
-    """Parts that stand for themselves in a sympy expression: derivatives, integrals, functions that are not known.
+    """The symbols that replace non-explicit terms in a sympy expression: derivatives, integrals, unknown functions.
 
-    rates: letters and components to their rates. Where they are known, derivatives and integrals of explicit expressions are
-    taken, the other letters held fixed, and `fixing` says whether any were. refuses: whether a part that stands for itself is
-    refused in words; then a letter before its argument is a function of sympy, and sums are left to the decision. letters:
-    symbols with other assumptions than to be real.
+    rates: symbols and components → their rates. With them, derivatives and integrals of explicit expressions are evaluated;
+    the other symbols are constant, and `fixing` becomes True if there were any. refuses: raise InputError for a
+    non-explicit term; f(x) is then a sympy function, and sums remain unevaluated. letters: symbols with other assumptions.
     """
 
     names: dict[str, sp.Symbol] = field(default_factory=dict)
@@ -220,39 +218,39 @@ class Opaque:
     letters: Mapping[str, sp.Symbol] = field(default_factory=dict)
 
     def symbol(self, node: Node) -> Any:
-        """Return the symbol that stands for a part; of a vector, its components. Raises InputError where none may."""
+        """Return the symbol of a non-explicit term; of a vector, its components. Raises InputError with `refuses`."""
         text = text_of(node)
         if self.refuses and isinstance(node, Call):
             if isinstance(getattr(sp, node.name, None), sp.FunctionClass) and node.name not in _GREEK:
                 raise InputError(f"{text} is not decided: judge has no rules for the function {node.name}")
             if node.name not in _UNDECIDED and not any(map(is_vector, (node, *node.args))):
-                return sp.Function(node.name, real=True)(*(sympy_expression(each, self) for each in node.args))
+                return sp.Function(node.name, real=True)(*(sympy_expression(arg, self) for arg in node.args))
             raise InputError(f"{text} is not decided: {_UNDECIDED.get(node.name, 'write its components')}")
         if is_vector(node) and not is_matrix(node):
             return sp.Matrix(sp.symbols([f"[{text}]_{k}" for k in (1, 2, 3)], real=True))
         return self.names.setdefault(text, sp.Symbol(f"[{text}]", real=True))
 
 
-_GREEK = ("beta", "gamma", "zeta")  # as a rule a function of the author's
-# Calls without a value of sympy that is decided, and what would help.
+_GREEK = ("beta", "gamma", "zeta")  # usually a function of the author
+# Calls that are not decided → remedy.
 _UNDECIDED = {
     "Integral": "write an integral of an explicit expression between two limits",
     "Derivative": "write the expression that is differentiated, or give it by a premise, L = …",
     "rate": "write the expression that is differentiated, or give it by a premise", "prime": "write the argument, V'(r)",
-    "Sum": "write the first and the last index as numbers, or without letters that bear the index",
-    "Product": "write the factors", "at": "write the value", "dots": "write what is left out",
+    "Sum": "write the first and the last index as numbers, or use no symbols with the index",
+    "Product": "write the factors", "at": "write the value", "dots": "write the omitted terms",
     "matmul": "write the entries of the matrices", "det": "write the entries of the matrix", "order": "write O(x^n) at the end",
     "transpose": "write the entries of the matrix", "inverse": "write the entries of the matrix",
     "tr": "write the entries of the matrix",
-    "arg": "write it by real letters", "Re": "write it by real letters", "Im": "write it by real letters",
-    "max": "write one of them", "min": "write one of them",
+    "arg": "write it with real symbols", "Re": "write it with real symbols", "Im": "write it with real symbols",
+    "max": "write one of the arguments", "min": "write one of the arguments",
     **dict.fromkeys(("sum", "product", "quotient", "power", "cross", "dot", "norm", "column", "matrix", "row"),
-                    "its parts are a vector and a number, or of different sizes, or too large"),
+                    "its arguments are a vector and a number, of different sizes, or too large"),
 }  # fmt: skip
 
 
 def sympy_expression(node: Node, opaque: Opaque) -> Any:
-    """Return the node as a sympy expression of real letters; a part that is not explicit stands for itself."""
+    """Return the node as a sympy expression of real symbols; a non-explicit term becomes a symbol."""
     if isinstance(node, Number):
         return sp.Rational(node.value.numerator, node.value.denominator)
     if isinstance(node, Letter):
@@ -266,25 +264,25 @@ def sympy_expression(node: Node, opaque: Opaque) -> Any:
 
 
 def _value(node: Call, opaque: Opaque) -> Any:
-    """Return the value of arithmetic, of a known function, of vectors and of matrices that are written out; else None."""
+    """Return the value of arithmetic, a known function, vectors or explicit matrices; None for any other call."""
     if node.name == "matrix":
         rows = (row.args for row in node.args if isinstance(row, Call))
-        return sp.Matrix([[sympy_expression(each, opaque) for each in row] for row in rows])
+        return sp.Matrix([[sympy_expression(arg, opaque) for arg in row] for row in rows])
     if node.name not in _VALUES and node.name not in KNOWN:
         return None
-    if node.name in _OF_MATRICES and any(isinstance(each, Letter) and each.matrix for each in walk(node)):
-        return None  # a matrix whose entries are not known
-    parts = [sympy_expression(each, opaque) for each in node.args]
-    sizes = [part.shape if isinstance(part, sp.MatrixBase) else () for part in parts]
-    if _too_large(node, parts) or not _fits(node.name, sizes):
+    if node.name in _OF_MATRICES and any(isinstance(arg, Letter) and arg.matrix for arg in walk(node)):
+        return None  # the entries are unknown
+    values = [sympy_expression(arg, opaque) for arg in node.args]
+    sizes = [value.shape if isinstance(value, sp.MatrixBase) else () for value in values]
+    if _too_large(node, values) or not _fits(node.name, sizes):
         return None
     if node.name in KNOWN:
-        return KNOWN[node.name](*parts, evaluate=not any(part.has(sp.Function) for part in parts))
-    return _VALUES[node.name](*parts)
+        return KNOWN[node.name](*values, evaluate=not any(value.has(sp.Function) for value in values))
+    return _VALUES[node.name](*values)
 
 
 def _fits(name: str, sizes: list[tuple[int, ...]]) -> bool:
-    """Return whether an operation is defined for parts of these sizes; () is the size of a number."""
+    """Return True if an operation is defined for arguments of these shapes; () is the shape of a number."""
     if name == "sum":
         return len(set(sizes)) == 1
     if name == "product":
@@ -302,14 +300,14 @@ def _fits(name: str, sizes: list[tuple[int, ...]]) -> bool:
 
 
 def has_opaque(*values: Any) -> bool:
-    """Return whether a part of an expression stands for itself."""
+    """Return True if an expression contains a symbol for a non-explicit term."""
     return any(symbol.name.startswith("[") for value in values for symbol in value.free_symbols)
 
 
 def rates_of(nodes: Iterable[Node]) -> dict[sp.Symbol, sp.Symbol]:
-    """Return the letters with dots, and the components of vectors, with their rates."""
+    """Return the map from symbols with dots, and components of vectors, to their rates."""
     rates: dict[sp.Symbol, sp.Symbol] = {}
-    for letter in {each for node in nodes for each in walk(node)}:
+    for letter in {inner for node in nodes for inner in walk(node)}:
         if isinstance(letter, Letter) and (dotted := _DOTTED.fullmatch(letter.name)):
             names = [dotted[1], *(f"{dotted[1]}_{'d' * n}ot" for n in range(1, len(dotted[2]) + 2))]
             for end in ("_1", "_2", "_3") if letter.vector else ("",):
@@ -318,27 +316,27 @@ def rates_of(nodes: Iterable[Node]) -> dict[sp.Symbol, sp.Symbol]:
 
 
 def _bound(node: Call, opaque: Opaque) -> Any:
-    """Return the value of a sum of a few terms, of the derivative or integral of an explicit expression; else None."""
+    """Return the value of a short sum, or of the derivative or integral of an explicit expression; else None."""
     inner = sympy_expression(node.args[0], opaque)
     if node.name == "rate":
         return None if isinstance(node.args[0], Letter) or opaque.rates is None else _rate(inner, opaque)
     if not isinstance(node.args[1], Letter) or node.args[1].vector or isinstance(inner, sp.MatrixBase):
         return None
-    name, ends = node.args[1].name, [sympy_expression(each, opaque) for each in node.args[2:]]
+    name, ends = node.args[1].name, [sympy_expression(limit, opaque) for limit in node.args[2:]]
     variable = opaque.letters.get(name, sp.Symbol(name, real=True))
     if has_opaque(inner):
         return None
     if node.name == "at":
         return None if len(ends) != 1 else inner.subs(variable, ends[0])
     if node.name in ("Sum", "Product"):
-        return _added(node, inner, variable, ends, opaque)
+        return _series(node, inner, variable, ends, opaque)
     others = inner.free_symbols - {variable}
     if (variable not in inner.free_symbols and (others or not opaque.refuses)) or (others and opaque.rates is None):
         return None
     if node.name == "Derivative":
         order = ends[0] if ends else sp.S.One
         value = sp.diff(inner, variable, int(order)) if order.is_Integer and 0 < order < 20 else None
-    elif len(ends) != 2 or inner.has(sp.I):  # what is complex is not decided
+    elif len(ends) != 2 or inner.has(sp.I):  # complex integrals are not decided
         return None
     else:
         value = sp.Integral(inner, (variable, *ends))
@@ -346,30 +344,30 @@ def _bound(node: Call, opaque: Opaque) -> Any:
     return None if value is None or value.has(sp.nan, sp.zoo) else value
 
 
-def _added(node: Call, inner: Any, variable: sp.Symbol, ends: list[Any], opaque: Opaque) -> Any:
-    """Return a sum or a product of a few terms; for a decision a sum of any length, but for letters that bear its index."""
+def _series(node: Call, inner: Any, variable: sp.Symbol, ends: list[Any], opaque: Opaque) -> Any:
+    """Return a short sum or product term by term; for a decision, a sum of any length without indexed symbols."""
     name = variable.name
     if len(ends) != 2 or ends[0].is_Integer is not True:
         return None
     if ends[1].is_Integer and ends[1] - ends[0] <= _MOST_ADDED:
         numbers = range(int(ends[0]), int(ends[1]) + 1)
-        terms = [sympy_expression(_indexed(node.args[0], name, k), opaque) for k in numbers]
+        terms = [sympy_expression(_with_index(node.args[0], name, k), opaque) for k in numbers]
         return (sp.Add if node.name == "Sum" else sp.Mul)(*terms)
     free = not any(name in symbol.name.split("_")[1:] for symbol in inner.free_symbols)
     return sp.Sum(inner, (variable, *ends)) if opaque.refuses and free and node.name == "Sum" else None
 
 
-def _indexed(node: Node, name: str, k: int) -> Node:
-    """Return a term of a sum, the index and the letters that bear it replaced: x_i by x_2."""
+def _with_index(node: Node, name: str, k: int) -> Node:
+    """Return the k-th term of a sum: the index and the symbols with it are replaced, x_i by x_2."""
     if isinstance(node, Letter):
         stem, *index = node.name.split("_")
-        named = replace(node, name="_".join((stem, *(str(k) if part == name else part for part in index))))
+        named = replace(node, name="_".join((stem, *(str(k) if word == name else word for word in index))))
         return number(k) if node.name == name else named
-    return Call(node.name, tuple(_indexed(each, name, k) for each in node.args)) if isinstance(node, Call) else node
+    return Call(node.name, tuple(_with_index(arg, name, k) for arg in node.args)) if isinstance(node, Call) else node
 
 
 def _rate(inner: Any, opaque: Opaque) -> Any:
-    """Return the derivative by t along the rates of the letters, those without one held fixed; None where none has a rate."""
+    """Return the time derivative along the rates of the symbols, others constant; None if no symbol has a rate."""
     time = sp.Symbol("t", real=True)
     rates = {**(opaque.rates or {}), time: sp.S.One}
     moving = sorted(inner.free_symbols & rates.keys(), key=str)
@@ -379,16 +377,16 @@ def _rate(inner: Any, opaque: Opaque) -> Any:
     return reduce(operator.add, [inner.diff(symbol) * rates[symbol] for symbol in moving])
 
 
-# Operations whose second part is a letter that they use up; `rate` uses t.
+# Operations that bind their second argument; `rate` binds t.
 BINDING = ("Sum", "Product", "Derivative", "Integral", "at", "rate")
 _OF_MATRICES = ("matmul", "det", "inverse", "transpose", "tr", "power")
 _VALUES: dict[str, Any] = {
-    "sum": lambda *parts: reduce(operator.add, parts),
-    "product": lambda *parts: reduce(operator.mul, parts),
-    "matmul": lambda *parts: reduce(operator.mul, parts),
+    "sum": lambda *values: reduce(operator.add, values),
+    "product": lambda *values: reduce(operator.mul, values),
+    "matmul": lambda *values: reduce(operator.mul, values),
     "negative": operator.neg,
     "quotient": operator.truediv,
-    "power": lambda base, exponent: _raised(base, exponent),
+    "power": lambda base, exponent: _power(base, exponent),
     "cross": lambda u, v: u.cross(v),
     "dot": lambda u, v: u.dot(v),
     "norm": lambda u: sp.sqrt(u.dot(u)),
@@ -401,19 +399,19 @@ _VALUES: dict[str, Any] = {
 }
 
 
-def _raised(base: Any, exponent: Any) -> Any:
-    """Return a power; sympy does not evaluate the root of a function."""
+def _power(base: Any, exponent: Any) -> Any:
+    """Return a power; the root of a function remains unevaluated."""
     if isinstance(base, sp.Expr) and base.has(sp.Function) and not exponent.is_Integer:
         return sp.Pow(base, exponent, evaluate=False)
     return base**exponent
 
 
-def _too_large(node: Call, parts: list[Any]) -> bool:
-    """Return whether the value is a number that no one writes out: 9**9**9, 99999!."""
-    if node.name == "power" and all(isinstance(part, sp.Rational) for part in parts):
-        base, exponent = parts
+def _too_large(node: Call, values: list[Any]) -> bool:
+    """Return True if the value has too many digits: 9**9**9, 99999!."""
+    if node.name == "power" and all(isinstance(value, sp.Rational) for value in values):
+        base, exponent = values
         return bool(abs(exponent) * max(base.p.bit_length(), base.q.bit_length()) > _MOST_BITS)
-    if node.name == "power" and isinstance(parts[0], sp.MatrixBase):
-        return not (isinstance(parts[1], sp.Integer) and 0 < parts[1] < 10)
-    numbers = node.name in ("factorial", "binomial") and all(isinstance(part, sp.Rational) for part in parts)
-    return numbers and any(abs(part) > _MOST_BITS // 10 for part in parts)
+    if node.name == "power" and isinstance(values[0], sp.MatrixBase):
+        return not (isinstance(values[1], sp.Integer) and 0 < values[1] < 10)
+    numbers = node.name in ("factorial", "binomial") and all(isinstance(value, sp.Rational) for value in values)
+    return numbers and any(abs(value) > _MOST_BITS // 10 for value in values)

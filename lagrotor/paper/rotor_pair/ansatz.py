@@ -49,7 +49,7 @@ def opposite_spin_angles() -> Premise:
     psi, psi_v = ANSATZ.q[3], ANSATZ.v[3]
     put = {psi_1: psi, psi_2: -psi, psi_1_v: psi_v, psi_2_v: -psi_v}
     broken = f"ψ₁′ + ψ₂′ reaches {_reaches('spin angles', 'ω')}"
-    return Premise("the spin angles turn oppositely, ψ₁′ = −ψ₂′ = ψ′", put, broken=broken)
+    return Premise("the spin angles have opposite rates, ψ₁′ = −ψ₂′ = ψ′", put, broken=broken)
 
 
 def one_inclination() -> Premise:

@@ -1,7 +1,7 @@
 """The paired precession as a program for generated code: Horner's rule in the cosine of the phase.
 
-With c = cos Phi, s = sin Phi, w = c² the symmetry of the orbit halves the work: each coordinate has a part even in c
-and one odd in c, and the other rotor, half a period later, has the same parts with another sign,
+With c = cos Phi, s = sin Phi, w = c² the symmetry of the orbit halves the work: each coordinate is a sum of an even and an odd
+function of c, and the other rotor, half a period later, has the same functions with other signs,
 
     x_1, x_2 = c O_x(w) ± E_x(w),    y_1, y_2 = s (c O_y(w) ± E_y(w)),    z_1, z_2 = E_z(w) ± c O_z(w).
 """
@@ -12,7 +12,7 @@ from lagrotor.numerics.codegen import Program
 
 
 def horner_program(order: int) -> Program:
-    """(c, s, coefficients of x, y, z) → x_1, y_1, z_1, x_2, y_2, z_2: Horner's rule in w = c², generated."""
+    """Return the program (c, s, coefficients of x, y, z) → x_1, y_1, z_1, x_2, y_2, z_2."""
     c, s, w = sp.symbols("c s w", real=True)
     names = [[sp.Symbol(f"{q}{n}", real=True) for n in range(order + 1)] for q in "xyz"]
     stages = [(w, c * c)]

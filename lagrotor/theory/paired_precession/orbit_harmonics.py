@@ -13,7 +13,7 @@ from lagrotor.numerics.printers import in_blocks
 
 
 def axes_of(harmonics: Array, phase: ArrayLike) -> Array:
-    """Both axes (2, …, 3) at phases (…) in rad, by Clenshaw's recurrence in 2 Phi for even and odd harmonics."""
+    """Return both axes (2, …, 3) at phases (…) in rad, by Clenshaw's recurrence in 2 Phi for even and odd harmonics."""
     phases = np.asarray(phase, dtype=float)
     padded = np.pad(harmonics, ((0, len(harmonics) % 2), (0, 0)))
     rows = padded.reshape(-1, 6, 1)[::-1]  # even x, y, z and odd x, y, z, the highest first
@@ -21,12 +21,12 @@ def axes_of(harmonics: Array, phase: ArrayLike) -> Array:
     def of(block: Array) -> list[Array]:
         c, s = np.cos(block), np.sin(block)
         c_2, s_2 = 2 * c * c - 1, 2 * s * c
-        now, before = np.zeros((6, block.size)), np.zeros((6, block.size))
+        b_1, b_2 = np.zeros((6, block.size)), np.zeros((6, block.size))
         for row in rows:
-            now, before = row + 2 * c_2 * now - before, now
-        even_x, even_z = (now[i] - before[i] * c_2 for i in (0, 2))
-        odd_x, odd_z = (c * (now[i] - before[i]) for i in (3, 5))
-        even_y, odd_y = s_2 * before[1], s * (now[4] + before[4])
+            b_1, b_2 = row + 2 * c_2 * b_1 - b_2, b_1
+        even_x, even_z = (b_1[i] - b_2[i] * c_2 for i in (0, 2))
+        odd_x, odd_z = (c * (b_1[i] - b_2[i]) for i in (3, 5))
+        even_y, odd_y = s_2 * b_2[1], s * (b_1[4] + b_2[4])
         first = [odd_x + even_x, even_y + odd_y, even_z + odd_z]
         return [*first, odd_x - even_x, even_y - odd_y, even_z - odd_z]
 
@@ -35,20 +35,17 @@ def axes_of(harmonics: Array, phase: ArrayLike) -> Array:
 
 
 def start_of(harmonics: Array) -> tuple[Array, Array]:
-    """Both axes and their derivatives by the phase, each (2, 3), at Phi = 0."""
+    """Return both axes and their derivatives by the phase, each (2, 3), at Phi = 0."""
     h = np.arange(len(harmonics))
     signs = np.stack([h**0, (-1) ** h])
-    parallel, across = np.array([1.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.0])
+    parallel, perpendicular = np.array([1.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.0])
     exchanged = np.array([[1.0, 1.0, 1.0], [-1.0, 1.0, 1.0]])
-    return exchanged * parallel * (signs @ harmonics), across * (signs * h @ harmonics)
+    return exchanged * parallel * (signs @ harmonics), perpendicular * (signs * h @ harmonics)
 
 
 def harmonic_momentum(harmonics: Array, frequency: float, inertias: tuple[float, float], momentum: float) -> float:
-    """P about the joint line of the motion at `frequency`, inertias (a, b) and G of rotor 1, evaluated at Phi = 0.
-
-    P = sum_i (r_i × (a r_i' + b r_j'))_x + G (x_1 − x_2).
-    """
-    own, shared = inertias
+    """Return P = sum_i (r_i × (a r_i' + b r_j'))_x + G (x_1 − x_2) about the joint line, at Phi = 0."""
+    a, b = inertias
     r, slope = start_of(harmonics)
-    turning = np.cross(r, frequency * (own * slope + shared * slope[::-1]))[:, 0].sum()
+    turning = np.cross(r, frequency * (a * slope + b * slope[::-1]))[:, 0].sum()
     return float(turning + momentum * (r[0, 0] - r[1, 0]))

@@ -1,12 +1,12 @@
 """The paired precession of opposite spins as a periodic orbit, by Lindstedt–Poincaré, for any bar.
 
-Symmetry: exchanging the rotors, mirrored in the plane between them, is the orbit half a period later,
+Exchanging the rotors, with a reflection in the plane between them, shifts the orbit by half a period,
 
     x_2(Phi) = −x_1(Phi + pi),   y_2(Phi) = y_1(Phi + pi),   z_2(Phi) = z_1(Phi + pi),
 
-and reversing time with y → −y makes x, z even and y odd in Phi. Unknown are x_1, y_1, z_1 and two multipliers.
+and time reversal with y → −y makes x, z even and y odd in Phi. The unknowns are x_1, y_1, z_1 and two multipliers.
 
-Scaled by Omega_0 = |G| / sqrt(a² − b²) and y = sqrt(sigma) Y, sigma = (a + b)/(a − b), every coefficient is rational in
+In units of Omega_0 = |G| / sqrt(a² − b²) and with y = sqrt(sigma) Y, sigma = (a + b)/(a − b), every coefficient is rational in
 sigma and k = ell / R. The amplitude r_0 is x_1(0) = x_2(0): the sine of the inclination when both axes are parallel.
 """
 
@@ -23,22 +23,24 @@ from sympy.polys.domains.domain import Domain
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.fourier import FourierSeries, Series
-from lagrotor.mechanics.weakly_nonlinear import PeriodicSeries, Residual, lindstedt_poincare
+from lagrotor.mechanics.weakly_nonlinear import PeriodicSeries, Residual, periodic_series
 from lagrotor.pair.lagrangians import INERTIAS, J_OF
 from lagrotor.pair.notation import I1, J, K, M, Phi, R, a, b, ell, k, m, r0, sigma
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.paired_precession.orbit_harmonics import Array, axes_of
 
-# The remainder of a series is estimated as a geometric series; calibrated by tests/models/test_orbit_errors.py on random
-# bars and amplitudes. LARGEST_RATIO: of consecutive pairs of orders, beyond which no estimate is given. OF_AXES: the
-# least size, in those of the axes, of the terms of a frequency or an exponent, of which single ones may vanish.
+# The remainder is estimated as a geometric series, calibrated by tests/models/test_orbit_errors.py on random bars and amplitudes.
+# LARGEST_RATIO: of consecutive pairs of orders, for an estimate. OF_AXES: least size of the terms of a frequency or an exponent
+# over the terms of the axes, since single terms may vanish.
 GROWTH_OF_RATIO, SERIES_SAFETY, LARGEST_RATIO, OF_AXES = 1.3, 2.5, 0.9, 0.25
-_MOST_WITH_SYMBOLS, _MOST_OF_NUMBERS = 16, 32  # orders that take seconds, not minutes
+_HIGHEST_WITH_SYMBOLS, _HIGHEST_OF_NUMBERS = 16, 32  # orders that take seconds, not minutes
 
 
 class Remainder(NamedTuple):
-    """Estimated bounds of what a truncated series leaves out: of the axes and of dr/dPhi at equal phase, and of
-    Omega/Omega_0. Infinite where its terms do not fall."""
+    """Estimated bounds of the truncation error, inf without convergence.
+
+    `axes` bounds the axes and dr/dPhi at equal phase, `frequency` bounds Omega/Omega_0.
+    """
 
     axes: float
     frequency: float
@@ -46,8 +48,10 @@ class Remainder(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class PairedSeries:
-    """The orbit through r0**order for sigma = `shape`, k = `ratio`: axis of rotor 1 (x, Y, z), Y = y / sqrt(sigma), and
-    frequency / Omega_0. `solution`: with the multipliers of unit length and bar."""
+    """The orbit through r0**order for sigma = `shape`, k = `ratio`.
+
+    The axis of rotor 1 is (x, Y, z), Y = y / sqrt(sigma), with frequency / Omega_0; `solution` also has the multipliers.
+    """
 
     solution: PeriodicSeries
     order: int
@@ -57,26 +61,26 @@ class PairedSeries:
 
     @property
     def x(self) -> FourierSeries:
-        """x_1."""
+        """The series of x_1."""
         return self.solution.unknowns[0]
 
     @property
     def Y(self) -> FourierSeries:
-        """y_1 / sqrt(sigma)."""
+        """The series of y_1 / sqrt(sigma)."""
         return self.solution.unknowns[1]
 
     @property
     def z(self) -> FourierSeries:
-        """z_1."""
+        """The series of z_1."""
         return self.solution.unknowns[2]
 
     @property
     def frequency(self) -> FourierSeries:
-        """Omega / Omega_0."""
+        """The series of Omega / Omega_0."""
         return self.solution.frequency
 
     def expression(self, series: FourierSeries) -> sp.Expr:
-        """A series as an expression in r_0 and Phi (and sigma, k where they were left free)."""
+        """Return a series as an expression in r_0 and Phi, and in sigma and k unless they are numbers."""
         total = sp.Integer(0)
         for (n, h), value in sorted(series.terms.items()):
             wave = sp.cos(h * Phi) if h >= 0 else sp.sin(-h * Phi)
@@ -85,75 +89,72 @@ class PairedSeries:
 
     @property
     def coefficients(self) -> Array:
-        """Of r_1, for a numeric bar, (order + 1, order + 1, 3): [n, h] belongs to r0**n and harmonic h."""
+        """The coefficients of r_1 for a numeric bar, shape (order + 1, order + 1, 3): [n, h] of r0**n and harmonic h."""
         table = np.zeros((self.order + 1, self.order + 1, 3))
-        for i, (part, width) in enumerate(((self.x, 1.0), (self.Y, sqrt(self.shape)), (self.z, 1.0))):
-            for (n, h), value in part.terms.items():
+        for i, (component, width) in enumerate(((self.x, 1.0), (self.Y, sqrt(self.shape)), (self.z, 1.0))):
+            for (n, h), value in component.terms.items():
                 table[n, abs(h), i] = width * float(value)
         return table
 
     @property
     def frequency_coefficients(self) -> Array:
-        """Of Omega/Omega_0 in powers of r0, for a numeric bar: (order + 1,)."""
+        """The coefficients of Omega/Omega_0 in powers of r0 for a numeric bar, shape (order + 1,)."""
         row = np.zeros(self.order + 1)
         for (n, _), value in self.frequency.terms.items():
             row[n] = float(value)
         return row
 
     def harmonics(self, r0: float) -> Array:
-        """Harmonics (order + 1, 3) of r_1 at amplitude r0."""
+        """Return the harmonics of r_1 at amplitude r0, shape (order + 1, 3)."""
         return np.tensordot(r0 ** np.arange(self.order + 1), self.coefficients, 1)
 
     def axes(self, r0: float, phase: ArrayLike) -> Array:
-        """Both axes (2, …, 3) at amplitude r0 and phases (…) in rad."""
+        """Return both axes (2, …, 3) at amplitude r0 and phases (…) in rad."""
         return axes_of(self.harmonics(r0), phase)
 
     def relative_frequency(self, r0: float) -> float:
-        """Omega / Omega_0 at amplitude r0."""
+        """Return Omega / Omega_0 at amplitude r0."""
         return float(np.polynomial.polynomial.polyval(r0, self.frequency_coefficients))
 
     def remainder(self, r0: float) -> Remainder:
-        """Estimated bound of what the series leaves out at amplitude r0, from the fall of its own terms.
+        """Estimate the truncation error at amplitude r0 from the decay of the series.
 
-        With t_n the size of the terms in r0**n, two orders together fall by a factor q, the largest seen in the last
-        orders and some more; the rest is at most q/(1 − q) times the last two, and a safety factor. Tested on random bars.
+        If two consecutive orders decrease at least by a factor q, the remainder is at most q/(1 − q) times the last two; q has
+        a margin, and the bound a safety factor, both tested on random bars.
         """
-        rest = rest_of(self._sizes * abs(r0) ** np.arange(self.order + 1))
-        return Remainder(rest, self.remainder_like(self.frequency_coefficients, r0))
+        of_axes = tail_bound(self._sizes * abs(r0) ** np.arange(self.order + 1))
+        return Remainder(of_axes, self.remainder_like(self.frequency_coefficients, r0))
 
     def remainder_like(self, coefficients: Array, r0: float) -> float:
-        """Estimated bound of what is left out of another power series of the orbit, given its first coefficients.
-
-        Its terms are a fraction of those of the axes, the largest seen; single ones may vanish.
-        """
+        """Estimate the truncation error of another power series of the orbit, whose terms are a fraction of those of the axes."""
         sizes = self._sizes[: len(coefficients)]
-        part = max(OF_AXES, float((np.abs(coefficients)[2:] / sizes[2:]).max(initial=0.0)))
-        return part * rest_of(sizes * abs(r0) ** np.arange(len(sizes)))
+        ratio = max(OF_AXES, float((np.abs(coefficients)[2:] / sizes[2:]).max(initial=0.0)))
+        return ratio * tail_bound(sizes * abs(r0) ** np.arange(len(sizes)))
 
     @property
     def _sizes(self) -> Array:
-        """Sizes of the coefficients of r0**n in the axes and their derivatives by the phase, (order + 1,)."""
+        """The size of each power of r0 in the axes and their derivatives by the phase, shape (order + 1,)."""
         harmonic = np.maximum(np.arange(self.order + 1), 1)[:, None]
         return np.linalg.norm((np.abs(self.coefficients) * harmonic).sum(1), axis=-1)
 
 
-def rest_of(terms: Array) -> float:
-    """Estimated bound of the terms beyond the last of `terms`, infinite where they do not fall."""
+def tail_bound(terms: Array) -> float:
+    """Estimate a bound of the terms beyond the last of `terms`; inf if they do not decrease."""
     pairs = terms[1:] + terms[:-1]  # pairs[n]: orders n and n + 1
     if not pairs[-1]:
         return 0.0
     if len(pairs) < 5:
         return inf
-    # From order 3 on: below, the terms say little about those that follow.
+    # From order 3 on: lower orders do not predict the decay.
     ratios = pairs[3:] / np.maximum(pairs[1:-2], np.finfo(float).tiny)
     fall = GROWTH_OF_RATIO * float(ratios[-4:].max())
     return SERIES_SAFETY * float(pairs[-1]) * fall / (1 - fall) if fall < LARGEST_RATIO else inf
 
 
 def shape_of(scene: Scene) -> tuple[sp.Rational, sp.Rational]:
-    """(sigma, k) of a scene as exact rationals, its parameters read as the decimals they are written as.
+    """Return (sigma, k) of a scene as exact rationals of the decimals of its parameters.
 
-    Raises InputError unless the spins are opposite and there is a bar: the paired precession needs both.
+    Raises InputError unless the spins are opposite and there is a bar.
     """
     if not isinstance(scene, Scene):
         raise InputError(f"the paired precession needs a Scene, not {scene!r}")
@@ -167,69 +168,83 @@ def shape_of(scene: Scene) -> tuple[sp.Rational, sp.Rational]:
 
 
 def coefficient_field(shape: sp.Expr, ratio: sp.Expr) -> Domain:
-    """The field of the coefficients: rational functions of whichever of sigma and k is left a symbol."""
+    """Return the field of the coefficients: rational functions of sigma and k where they are symbols."""
     free = sorted((sp.sympify(shape, strict=True).free_symbols | sp.sympify(ratio, strict=True).free_symbols), key=str)
-    return sp.ZZ.frac_field(*free) if free else sp.QQ  # of whole numbers: reduced faster than of fractions
+    return sp.ZZ.frac_field(*free) if free else sp.QQ  # integer coefficients reduce faster than fractions
 
 
 def equations(shape: sp.Expr, ratio: sp.Expr, field: Domain | None = None) -> Residual:
-    """The equations of motion of r_1 with the multipliers of |r_1| = 1 and of the bar, and these two constraints.
+    """Return the equations of motion of r_1, with the multipliers of |r_1| = 1 and of the bar, and these two constraints.
 
-    In units a + b = 1, of Omega_0 and of y / sqrt(sigma); r_2 is r_1 exchanged, half a period later. Derived from the
-    Lagrangian in derivations/t3_paired_orbit.py. Without a field the coefficients are floating-point numbers.
+    Units: a + b = 1, Omega_0, and y / sqrt(sigma); r_2 is r_1 exchanged, half a period later. Without a field the coefficients
+    are floating-point numbers. Derived from the Lagrangian in derivations/t3_paired_orbit.py.
     """
-    s, length, one = (float(v) if field is None else field.from_sympy(v) for v in (shape, ratio, sp.S.One))
-    own, shared = (one + one / s) / 2, (one - one / s) / 2  # a, b
+    s, length, unit_value = (float(v) if field is None else field.from_sympy(v) for v in (shape, ratio, sp.S.One))
+    a_scaled, b_scaled = (unit_value + unit_value / s) / 2, (unit_value - unit_value / s) / 2  # a, b
 
     def residual(unknowns: Sequence[Series], frequency: Series) -> list[Series]:
         x, Y, z, unit, pull = unknowns
-        tension = (pull + pull.half_period_later()).times(one / 2)  # the same bar for both rotors
+        tension = (pull + pull.half_period_later()).times(unit_value / 2)  # the same bar for both rotors
         x2, Y2, z2 = -x.half_period_later(), Y.half_period_later(), z.half_period_later()
         xd, Yd, zd = x.derivative(), Y.derivative(), z.derivative()
         squared = frequency * frequency
 
         def inertia(first: Series, second: Series) -> Series:
-            return squared * (
-                first.derivative().derivative().times(own) + second.derivative().derivative().times(shared)
-            )
+            accelerations = first.derivative().derivative(), second.derivative().derivative()
+            return squared * (accelerations[0].times(a_scaled) + accelerations[1].times(b_scaled))
 
         return [
             inertia(x, x2) - frequency * (Y * zd - z * Yd) - unit * x + tension * (x.constant(length) + x2),
-            inertia(Y, Y2) - frequency * (z * xd - x * zd).times(one / s) - unit * Y + tension * Y2,
+            inertia(Y, Y2) - frequency * (z * xd - x * zd).times(unit_value / s) - unit * Y + tension * Y2,
             inertia(z, z2) - frequency * (x * Yd - Y * xd) - unit * z + tension * z2,
-            x * x + (Y * Y).times(s) + z * z - x.constant(one),
-            (x2 - x).times(length) + x.constant(one) - x * x2 - (Y * Y2).times(s) - z * z2,
+            x * x + (Y * Y).times(s) + z * z - x.constant(unit_value),
+            (x2 - x).times(length) + x.constant(unit_value) - x * x2 - (Y * Y2).times(s) - z * z2,
         ]
 
     return residual
 
 
 def check_order(order: int) -> int:
-    """The order of a series. Raises InputError unless it is a whole number, 1 or more."""
+    """Return the order of a series. Raises InputError unless it is an integer, at least 1."""
     if isinstance(order, bool) or not isinstance(order, int) or order < 1:
         raise InputError(f"the series of the paired precession: order = {order!r} must be a whole number, 1 or more")
     return order
 
 
 def paired_series(order: int, shape: sp.Expr = sigma, ratio: sp.Expr = k, exact: bool = True) -> PairedSeries:
-    """The orbit for sigma = `shape` and k = `ratio`, rational numbers or symbols, through r0**order.
+    """Compute the paired precession as a series through r0**order.
 
     Parameters
     ----------
+    order : int
+        Highest power of the amplitude r0, at least 1; at most 16 with a symbol and 32 without.
+    shape : Expr, default sigma
+        Shape (a + b)/(a − b) of the bar, a rational number or symbol.
+    ratio : Expr, default k
+        Length ratio ell/R, a rational number or symbol.
     exact : bool, default True
-        With coefficients of the field; otherwise, for numbers only, in floating point, a tenth of the work.
+        If True, exact coefficients; if False, floating point, for numbers only, ten times as fast.
+
+    Returns
+    -------
+    PairedSeries
+        The orbit and its frequency.
 
     Raises
     ------
     InputError
-        Unless the order is a whole number, 1 or more, and at most 16 with a symbol, 32 without.
+        For any other order.
+
+    References
+    ----------
+    Equations (5.21) and (5.22) of the paper, corrected; derivations/t3_paired_orbit.py.
     """
     check_order(order)
     shape, ratio = sp.sympify(shape, strict=True), sp.sympify(ratio, strict=True)
-    most = _MOST_WITH_SYMBOLS if shape.free_symbols | ratio.free_symbols else _MOST_OF_NUMBERS
-    if order > most:
+    highest = _HIGHEST_WITH_SYMBOLS if shape.free_symbols | ratio.free_symbols else _HIGHEST_OF_NUMBERS
+    if order > highest:
         raise InputError(
-            f"the series of the paired precession: order = {order} is above {most}, from where it takes minutes and more; "
+            f"the series of the paired precession: order = {order} is above {highest}, from where it takes minutes and more; "
             "for one pair lagrotor.precession_orbit gives the exact orbit at any amplitude"
         )
     return _solve_series(order, shape, ratio, exact)
@@ -240,6 +255,6 @@ def _solve_series(order: int, shape: sp.Expr, ratio: sp.Expr, exact: bool) -> Pa
     field = coefficient_field(shape, ratio)
     mode: list[dict[int, Any]] = [{1: field.one}, {-1: field.one}, {}, {}, {}]
     exactly, numeric = equations(shape, ratio, field), None if exact else equations(shape, ratio)
-    rest = [field.zero, field.zero, field.one, field.zero, field.zero]  # x, Y, z and the two multipliers
-    solution = lindstedt_poincare(exactly, rest, mode, order, field, numeric=numeric)
+    equilibrium = [field.zero, field.zero, field.one, field.zero, field.zero]  # x, Y, z and the two multipliers
+    solution = periodic_series(exactly, equilibrium, mode, order, field, numeric=numeric)
     return PairedSeries(solution, order, shape, ratio, field)

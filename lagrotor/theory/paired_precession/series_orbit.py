@@ -1,4 +1,4 @@
-"""The paired precession of a scene as a function of time, with its error; by the series through one order."""
+"""The paired precession of a scene as a function of time, by the series through one order, with its error."""
 
 from dataclasses import dataclass
 from math import copysign, inf
@@ -19,21 +19,24 @@ SERIES_ROUNDING = 1e-13  # of a sum of harmonics and of a frequency, relative to
 
 @dataclass(frozen=True, eq=False, repr=False)
 class PrecessionOrbit(Shown):
-    """A paired precession with bounds of its errors. Called with times it gives both axes. At t = 0 they are parallel.
+    """A paired precession with error bounds. A call with times returns both axes; at t = 0 they are parallel.
 
     Attributes
     ----------
+    scene : Scene
+        The rotors, the bar and the spins.
+    r0 : float
+        Amplitude, the sine of the inclination at the moments of parallel axes.
     frequency : float
-        Angular, rad/s, negative where rotor 1 spins negatively.
+        Angular frequency in rad/s, negative if rotor 1 spins negatively.
     frequency_error : float
-        Its bound, rad/s.
+        Bound of the frequency's error in rad/s.
     error : float
-        Bound of the distance of an axis, and of its derivative by the phase, from the exact orbit's at equal phase, over a
-        whole turn (of a tip: in units of R).
+        Bound of the error of an axis, and of its derivative by the phase, at equal phase over a whole period, in units of R.
     method : str
-        How it was found.
-    harmonics : Array
-        Of r_1, (H + 1, 3), as in lagrotor.theory.paired_precession.orbit_harmonics.
+        Method of computation in words.
+    harmonics : ndarray
+        Harmonics of r_1, shape (H + 1, 3), as in lagrotor.theory.paired_precession.orbit_harmonics.
     """
 
     scene: Scene
@@ -45,7 +48,13 @@ class PrecessionOrbit(Shown):
     harmonics: Array
 
     def summary(self) -> dict[str, str]:
-        """The orbit, how it was found and how well it is known, name → words."""
+        """Summarise the orbit, its method and its errors.
+
+        Returns
+        -------
+        dict[str, str]
+            Name → value in words.
+        """
         return {
             "amplitude": f"{self.r0:g}",
             "frequency [rad/s]": f"{self.frequency:.12g}, known to {self.frequency_error:.1g}",
@@ -55,11 +64,21 @@ class PrecessionOrbit(Shown):
         }
 
     def __call__(self, t: ArrayLike) -> Array:
-        """Axes at times t (…) in s: (2, …, 3). Raises DomainError for a time that is not finite."""
+        """Return the axes at times t (…) in s, shape (2, …, 3). Raises DomainError for a time that is not finite."""
         return self.at_phase(self.frequency * np.asarray(t, dtype=float))
 
     def at_phase(self, phase: ArrayLike) -> Array:
-        """Axes at phases (…) in rad: (2, …, 3), as of a run.
+        """Return both axes at phases.
+
+        Parameters
+        ----------
+        phase : array_like
+            Phases in rad, any shape.
+
+        Returns
+        -------
+        ndarray
+            Unit vectors, shape (2, …, 3).
 
         Raises
         ------
@@ -72,82 +91,103 @@ class PrecessionOrbit(Shown):
         return axes_of(self.harmonics, phases)
 
     def error_at(self, t: ArrayLike) -> Array:
-        """Bound of an axis' error at times t (…) in s: `error`, and the phase that the frequency's error adds up to."""
+        """Return a bound of the error of an axis, with the accumulated phase error.
+
+        Parameters
+        ----------
+        t : array_like
+            Times in s, any shape.
+
+        Returns
+        -------
+        ndarray
+            Bounds in units of R, of the same shape.
+        """
         speed = np.linalg.norm(np.arange(len(self.harmonics)) @ np.abs(self.harmonics))  # a bound of |dr/dPhi|
         return self.error + speed * self.frequency_error * np.abs(np.asarray(t, dtype=float))
 
     @property
     def momentum(self) -> float:
-        """P about the joint line, kg m²/s."""
+        """The momentum P about the joint line in kg m²/s."""
         return harmonic_momentum(self.harmonics, self.frequency, self.scene.inertias, self.scene.momenta[0])
 
     @property
     def momentum_error(self) -> float:
-        """Bound of the momentum's error, kg m²/s.
+        """A bound of the momentum's error in kg m²/s.
 
-        At Phi = 0 the axes of both orbits are parallel, so that G drops out and P = −sum_i z_i (a y_i' + b y_j').
+        At Phi = 0 the axes of both orbits are parallel: G cancels, and P = −sum_i z_i (a y_i' + b y_j').
         """
-        own, shared = self.scene.inertias
+        a, b = self.scene.inertias
         r, slope = start_of(self.harmonics)
-        height, across = np.abs(r[:, 2]), np.abs(slope[:, 1])
-        of_axes = abs(self.frequency) * (height.sum() + across.sum() + 2 * self.error) * self.error
-        of_frequency = (height.max() + self.error) * (across.sum() + 2 * self.error) * self.frequency_error
-        return float((own + abs(shared)) * (of_axes + of_frequency))
+        height, slopes = np.abs(r[:, 2]), np.abs(slope[:, 1])
+        of_axes = abs(self.frequency) * (height.sum() + slopes.sum() + 2 * self.error) * self.error
+        of_frequency = (height.max() + self.error) * (slopes.sum() + 2 * self.error) * self.frequency_error
+        return float((a + abs(b)) * (of_axes + of_frequency))
 
     @property
     def start(self) -> Scene:
-        """The scene started on the orbit at t = 0, to be simulated: exact on the bar, within twice `error` of the orbit.
+        """The scene started on the orbit at t = 0: the bar's constraint holds exactly.
 
-        So are its rates, in units of `frequency`.
+        Axes, and rates in units of `frequency`, are within twice `error` of the orbit.
         """
         (axes, slope), scene = start_of(self.harmonics), self.scene
         return consistent_scene(scene.spins, axes, self.frequency * slope, scene.rotor, scene.link, scene.shock)
 
 
 def amplitude_of(r0: object, where: str) -> float:
-    """r0 as a number. Raises DomainError unless −1 < r0 < 1."""
+    """Return r0 as a number. Raises DomainError unless −1 < r0 < 1."""
     if isinstance(r0, bool) or not (isinstance(r0, int | float | np.floating) and -1 < r0 < 1):
         raise DomainError(f"{where}: r0 = {r0} must lie between −1 and 1: it is the sine of an inclination")
     return float(r0)
 
 
 def series_orbit(scene: Scene, r0: float, order: int) -> PrecessionOrbit:
-    """The paired precession of amplitude r0 by its series, of whatever error that has.
+    """Compute the paired precession of amplitude r0 by its series, whatever the error.
 
-    At equal phase the error is O(r0**(order + 1)), the frequency's O(r0**(order + 1)) for an odd order. Both are infinite
-    for order < 5, whose terms are too few for an estimate. Source: 5.21 and 5.22 of the paper, corrected.
+    The error at equal phase, and of the frequency for an odd order, is O(r0**(order + 1)). The bounds are inf for order < 5,
+    which has too few terms for an estimate.
 
     Parameters
     ----------
     scene : Scene
-        With opposite spins and a bar.
+        Opposite spins with a bar.
     r0 : float
-        Sine of the inclination when the axes are parallel.
+        Sine of the inclination at the moments of parallel axes.
     order : int
-        Through r0**order.
+        Highest power of r0.
+
+    Returns
+    -------
+    PrecessionOrbit
+        The orbit with its error bounds.
 
     Raises
     ------
     InputError
         Unless the spins are opposite, there is a bar, and order is at least 1.
     DomainError
-        Unless |r0| < 1, and where the terms of the series do not fall.
+        Unless |r0| < 1, and if the terms of the series do not decrease.
+
+    References
+    ----------
+    Equations (5.21) and (5.22) of the paper, corrected; derivations/t3_paired_orbit.py.
+
+    Examples
+    --------
+    >>> from lagrotor import Scene
+    >>> round(series_orbit(Scene(spins=(10, -10)), r0=0.2, order=9).frequency, 3)
+    7.921
     """
     amplitude = amplitude_of(r0, "precession_orbit")
     series = paired_series(order, *shape_of(scene))
-    rest = series.remainder(amplitude)
-    if rest.axes == inf and order >= 5:
+    remainder = series.remainder(amplitude)
+    if remainder.axes == inf and order >= 5:
         raise DomainError(
             f"precession_orbit: at r0 = {r0:g} the terms of the series of order {order} do not fall: it does not converge "
             "there; take a smaller amplitude, or lagrotor.precession_orbit, which goes over to the exact orbit"
         )
     natural = natural_rate(scene)
-    return PrecessionOrbit(
-        scene,
-        amplitude,
-        copysign(natural * series.relative_frequency(amplitude), scene.spins[0]),
-        natural * (rest.frequency + SERIES_ROUNDING),
-        rest.axes + SERIES_ROUNDING,
-        f"series through r₀{superscript(order)}",
-        series.harmonics(amplitude),
-    )
+    frequency = copysign(natural * series.relative_frequency(amplitude), scene.spins[0])
+    errors = natural * (remainder.frequency + SERIES_ROUNDING), remainder.axes + SERIES_ROUNDING
+    method, harmonics = f"series through r₀{superscript(order)}", series.harmonics(amplitude)
+    return PrecessionOrbit(scene, amplitude, frequency, *errors, method, harmonics)

@@ -277,5 +277,5 @@ def test_symmetries_and_single_degrees_of_freedom_are_refused():
     with pytest.raises(DomainError, match="leave out the period"):
         driven(lambda x: x**4).normal_form(order=4, at={q: 1}, period=3.0)
     for wrong in (3.0, pi / 1.7):
-        with pytest.raises(InputError, match="what drives"):
+        with pytest.raises(InputError, match="the period of the drive"):
             driven(lambda x: x**2 * (1 + sp.cos(R(17, 10) * t) / 5)).normal_form(order=4, at={q: 0}, period=wrong)

@@ -71,7 +71,7 @@ CHAINS = [
     (r"y = e^{10^{24} x} z = z e^{10^{24} x}", HOLDS),
     (r"y = x^{10^{12}} = x^{10^{12}+1}", NOT_JUDGED),
     (r"y = (10^{10^5} + x)^{50} = x^{50}", NOT_JUDGED),
-    (r"y = \sqrt{x^2} = x", HOLDS),  # for positive letters, and it says so
+    (r"y = \sqrt{x^2} = x", HOLDS),  # for positive symbols, and it says so
     (r"y = \cosh^2 x - \sinh^2 x = -1", REFUTED),
     (r"y = x - x = 1", REFUTED),
     (r"y = x\sqrt{-1 - x^2} = \sqrt{-1 - x^2}\,x", HOLDS),
@@ -187,7 +187,7 @@ def test_the_command_counts_steps_names_reasons_and_shows_both_members(
     said = " ".join("".join(capsys.readouterr()).split())
     assert "(1), step 2: refuted" in said and "·φ̇)² = m·(" in said
     assert "3 displayed equations; steps: holds: 1; refuted: 1; not judged: 1" in said
-    assert "the right member has letters that the left one has not (1)" in said
+    assert "the right member has symbols that the left member lacks (1)" in said
     assert main(["check", str(file), "--all"]) == 1
     assert "k·x = m·" in capsys.readouterr().out, "the members of what is not judged"
     assert main(["check", str(file), "--json"]) == 1

@@ -45,4 +45,4 @@ def test_what_a_step_may_cost_does_not_hang_on_the_length_of_the_source(monkeypa
         next(f for f in check_source(read_latex(text)).findings if f.step == 2) for text in (chain, chain + others)
     )
     assert (among.verdict, among.why) == (alone.verdict, alone.why)
-    assert "letters that the left one has not" in among.why
+    assert "symbols that the left member lacks" in among.why

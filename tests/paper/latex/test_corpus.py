@@ -128,18 +128,18 @@ def test_standard_classes_number_as_latex_does(document_class: str, body: str, n
 
 ARTICLE = r"\documentclass{article}\begin{document}"
 AUX = r"\relax\newlabel{a}{{4.2}{7}}\newlabel{b}{{$3^\prime $}{7}{Title}{equation.3}{}}"
-MAY_BE_OTHERS = "and the numbers may be others: put paper.aux, which LaTeX writes, beside the source"
+MAY_BE_OTHERS = "and the equation numbers may differ: put paper.aux, which LaTeX writes, next to the source"
 COUNTS = r"\begin{equation}\label{a} a = b \end{equation}\begin{equation}\label{b} c = d \end{equation}"
 
 
 @pytest.mark.parametrize(
     ("start", "said"),
     [
-        (r"\documentclass{strange}\begin{document}", "the class strange is not known"),
-        (ARTICLE + r"\setcounter{equation}{\x}", r"paper.tex:1: \setcounter{equation}{\x} is not known"),
+        (r"\documentclass{strange}\begin{document}", "the class strange is unknown"),
+        (ARTICLE + r"\setcounter{equation}{\x}", r"paper.tex:1: \setcounter{equation}{\x} is unknown"),
         (ARTICLE + r"\newtheorem{law}[equation]{Law}", "theorems share the counter of equations"),
-        (ARTICLE + r"\mathtoolsset{showonlyrefs}", "showonlyrefs of mathtools withdraws numbers"),
-        (ARTICLE + r"\ifnum1=1 \stepcounter{equation}\fi", "a part of the source is left out"),
+        (ARTICLE + r"\mathtoolsset{showonlyrefs}", "showonlyrefs of mathtools removes numbers"),
+        (ARTICLE + r"\ifnum1=1 \stepcounter{equation}\fi", "a part of the source is skipped"),
         (ARTICLE, ""),
     ],
 )

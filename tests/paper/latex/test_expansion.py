@@ -114,15 +114,15 @@ def test_commands_that_are_nested_too_deeply_are_refused() -> None:
 DERIVATIVES = [
     (r"\dv{f}{x}", "Derivative(f, x)"),
     (r"\dv[2]{f}{x}", "Derivative(f, x, 2)"),
-    (r"\pdv{f}{x,y}", "what is differentiated by is not clear"),
+    (r"\pdv{f}{x,y}", "the variable of the derivative is not clear"),
     (r"\pdv{f}{x}{y}", "Derivative(Derivative(f, x), y)"),
     (r"\pdv[2]{f}{x}{y}", "Derivative(Derivative(f, x), y)"),
     (r"\pdv[2]{f}{x}", "Derivative(f, x, 2)"),
     (r"\pdv{x} f", "Derivative(f, x)"),
     (r"\sin[2](x)", "sin(x)**2"),
     (r"\qty(a + b) \qty[c]", "(a + b)*c"),
-    (r"\ket{a}", r"\ket is not known"),
-    (r"\SI{2}{m}", r"\SI is not known"),
+    (r"\ket{a}", r"\ket is unknown"),
+    (r"\SI{2}{m}", r"\SI is unknown"),
 ]
 
 

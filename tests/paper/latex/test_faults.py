@@ -18,7 +18,7 @@ FAULTS = {
         r"\end{equation} ends \begin{align}",
         ["a = b", "c = d", "x = y"],
     ),
-    "\\end{equation}": (2, r"\end{equation} ends nothing that has begun", ["x = y"]),
+    "\\end{equation}": (2, r"\end{equation} has no matching opening", ["x = y"]),
     "\\def\\be{\\begin{equation}}\\def\\ee{\\end{equation}}\n\\be a = b \\ee\n\\be c = d\n\nText.": (
         4,
         r"\begin{equation} is not ended",
@@ -27,11 +27,11 @@ FAULTS = {
     "$$ a = b\n\nThen we know. $$ c = d $$": (2, "$$ is not closed", ["a = b", "c = d", "x = y"]),
     "\\[ a = b\n\n": (2, r"\[ is not closed", ["a = b", "x = y"]),
     "\\[ a = b \\section{S}": (2, r"\[ is not closed", ["a = b", "x = y"]),
-    "a = b \\]": (2, r"\] ends nothing that has begun", ["x = y"]),
+    "a = b \\]": (2, r"\] has no matching opening", ["x = y"]),
     "It costs $5.": (2, "$ is not closed in its paragraph", ["x = y"]),
-    "\\verb|a": (2, r"\verb is not closed in its line", ["x = y"]),
-    "\\iffalse hidden": (2, r"\iffalse has no \fi: the text up to the end is left out", []),
-    "\\newcommand{\\q}{a": (2, "{ is not closed: the text up to the end is taken as an argument", []),
+    "\\verb|a": (2, r"\verb is not closed on its line", ["x = y"]),
+    "\\iffalse hidden": (2, r"\iffalse has no \fi: the text up to the end is skipped", []),
+    "\\newcommand{\\q}{a": (2, "{ is not closed: the text up to the end becomes the argument", []),
     "\\newcommand{\\q}[1][a]{#1} \\q[0, 1)": (2, "the argument has no end, ], in its paragraph", ["x = y"]),
 }
 
@@ -82,13 +82,13 @@ def test_a_fault_is_a_finding_and_a_note(tmp_path: Path, capsys: pytest.CaptureF
 @pytest.mark.parametrize(
     ("name", "content", "said"),
     [
-        ("a.tex", bytes(range(256)) * 9, "is no text"),
-        ("a.tex", b"%PDF-1.4 text", "is no text"),
+        ("a.tex", bytes(range(256)) * 9, "is not text"),
+        ("a.tex", b"%PDF-1.4 text", "is not text"),
         ("a.pdf", b"%PDF-1.4 text", "give a .tex file"),
         (
             "a.tex",
             b"\\[ a = b \\] \\input{b}",
-            r"takes in itself, by itself or through another file: leave out one \\input",
+            r"includes itself, directly or through another file: remove one \\input",
         ),
         ("a.tex", b"%" * 21_000_000, "has 21 MB, more than 20: give its parts"),
     ],
@@ -124,11 +124,11 @@ def test_a_part_that_could_stand_by_itself_does_not_end_the_source(tmp_path: Pat
 @pytest.mark.parametrize(
     ("body", "said"),
     [
-        (r"\begin{seq} x^2 = y+1 \end{seq}", r"a formula stands in \begin{seq}, which is not known: define it"),
-        (r"\def\bq{\begin{seq}}\def\eq{\end{seq}} \bq \alpha^2 \text{ for all} \eq", r"a formula stands in \begin{seq}"),
+        (r"\begin{seq} x^2 = y+1 \end{seq}", r"a formula is in \begin{seq}, which is unknown: define it"),
+        (r"\def\bq{\begin{seq}}\def\eq{\end{seq}} \bq \alpha^2 \text{ for all} \eq", r"a formula is in \begin{seq}"),
         (r"\begin{numcases}{f =} a = b \end{numcases}", r"\begin{numcases} is not read: write equation or align"),
-        (r"\begin{box}Words. \begin{seq} x^2 \end{seq}\end{box}", r"a formula stands in \begin{seq}"),
-        (r"\beq E = m v^2 \eeq", "a formula stands alone: define the command that begins it"),
+        (r"\begin{box}Words. \begin{seq} x^2 \end{seq}\end{box}", r"a formula is in \begin{seq}"),
+        (r"\beq E = m v^2 \eeq", "a formula is outside any environment: define the command that begins it"),
         (r"\begin{lemmaq}[Euler $x = y$] Let $x_1 = y$. \[ a^2 = b \] \begin{align} \frac12 &= a \end{align} \end{lemmaq}", ""),
         (r"\begin{block}{x = y} \includegraphics[width=0.5\textwidth]{a_b} \cite{a_b} \caption{$a$ = b} \end{block}", ""),
         (r"\begin{tikzcd} A_1 \arrow[r] & B^2 \end{tikzcd}", ""),
@@ -144,6 +144,6 @@ def test_a_formula_that_nothing_known_displays_is_said_once(body: str, said: str
 def test_a_source_whose_only_displays_are_unknown_says_why(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (file := tmp_path / "paper.tex").write_text(whole(r"\begin{seq} x^1 = y+1 \end{seq}").replace(AFTER, ""))
     assert main(["init", str(tmp_path / "new"), "--from", str(file)]) != 0
-    assert r"in \begin{seq}, which is not known" in capsys.readouterr().err
+    assert r"in \begin{seq}, which is unknown" in capsys.readouterr().err
     assert main(["check", str(file)]) == 0
-    assert r"in \begin{seq}, which is not known" in capsys.readouterr().err
+    assert r"in \begin{seq}, which is unknown" in capsys.readouterr().err

@@ -223,7 +223,7 @@ def test_a_definition_is_named_as_a_premise_and_what_is_left_out_is_said(
     capsys.readouterr()
     assert main(["derive", str(paper.folder)]) == 1
     said = " ".join(capsys.readouterr().err.split())
-    assert "equation 1 has no single left side" in said and "define its letters in where" in said
+    assert "equation 1 has no single left side" in said and "define its symbols in where" in said
     assert [v.id for v in Paper(paper.folder).audit()] == ["2"], "the other is judged"
     edit(paper.folder / "paper.toml", '2 = "integral"\n', "")
     assert main(["derive", str(paper.folder)]) == 2, "none can be judged"
@@ -240,13 +240,13 @@ def test_a_left_side_that_is_no_expression_is_no_equation_of_motion(folder: Path
 @pytest.mark.parametrize(
     ("old", "new", "says"),
     [
-        ('coordinates = "theta"', 'coordinate = "theta"', "'coordinate' means nothing here"),
+        ('coordinates = "theta"', 'coordinate = "theta"', "'coordinate' is not a key"),
         ('"acceleration theta"', '"acceleration phi"', "the coordinates are theta"),
-        ('"energy"', '"action"', "'action' is not known"),
-        ("coordinates =", 'where = ["g"]\ncoordinates =', "defines no letter"),
-        ("coordinates =", 'where = ["g = R"]\ncoordinates =', "g is a letter of the system"),
+        ('"energy"', '"action"', "'action' is unknown"),
+        ("coordinates =", 'where = ["g"]\ncoordinates =', "defines no symbol"),
+        ("coordinates =", 'where = ["g = R"]\ncoordinates =', "g is a symbol of the system"),
         ("coordinates =", 'where = ["theta_0 = theta"]\ncoordinates =', "theta_0 is defined by coordinates"),
-        ('"acceleration theta"', '"small motion theta"', "is not known"),
+        ('"acceleration theta"', '"small motion theta"', "is unknown"),
         ("coordinates =", 'forces = ["0", "0"]\ncoordinates =', "2 for 1 coordinates"),
         ("theta_dot**2 +", "__import__('os') +", "no part of an expression|is not defined"),
         ('"7" = "acceleration theta"', '"9" = "energy"', "'9' is not in the catalogue"),

@@ -218,7 +218,7 @@ def test_readings_are_shown_beside_the_print_and_confirmed(source: Path, capsys:
     folder = str(source.parent / "mine")
     assert main(["readings", folder]) == 0
     out = capsys.readouterr().out
-    assert "1  eq:T: unconfirmed" in out and r"print    T = \frac{1}{2} m v^2" in out
+    assert "1  eq:T: unconfirmed" in out and r"printed  T = \frac{1}{2} m v^2" in out
     assert main(["readings", folder, "--confirm", "1"]) == 0
     assert main(["readings", folder, "--json"]) == 0
     assert '"status": "confirmed"' in capsys.readouterr().out
@@ -227,7 +227,7 @@ def test_readings_are_shown_beside_the_print_and_confirmed(source: Path, capsys:
 def test_a_folder_that_is_no_paper_is_refused_before_anything_is_written(source: Path, tmp_path: Path) -> None:
     (tmp_path / "full").mkdir()
     (tmp_path / "full" / "note.txt").write_text("mine", encoding="utf-8")
-    with pytest.raises(InputError, match="is no paper"):
+    with pytest.raises(InputError, match="is not a paper"):
         begin_paper(tmp_path / "full", source)
     with pytest.raises(InputError, match="is a paper already"):
         begin_paper(tmp_path / "mine")
@@ -264,6 +264,6 @@ def test_the_kinds_of_letters_are_proposed_and_declared_once(
     assert '[notation]\nfunctions = "f"\nreal = "g"\n' in about
     begin_paper(folder, file)
     assert rows(folder)["2"]["aside"] == ["p = f(x) + g*y"], "no line of the catalogue has an unknown function"
-    with pytest.raises(InputError, match="g stands in"):
+    with pytest.raises(InputError, match="g is in"):
         declare(folder, {"g": "functions"})
     assert main(["notation", str(folder), "--confirm", "q"]) == 2, "nothing is proposed for it"

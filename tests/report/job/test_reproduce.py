@@ -34,7 +34,7 @@ from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.paper.scripts import Scripts
 from lagrotor.pictures import figures
 from lagrotor.report import content, facts
-from lagrotor.report.job import cache, reach, reproduce
+from lagrotor.report.job import cache, dependencies, reproduce
 from lagrotor.report.page import sections as page_sections
 from lagrotor.report.page import interactive
 """
