@@ -13,11 +13,11 @@
 
 # %%
 from lagrotor.benchmark.mechanism_tables import (
-    BESIDE_HEAD,
+    COMPARISON_HEAD,
     DECISION_HEAD,
     MECHANISM_HEAD,
     TARGET_HEAD,
-    beside_rows,
+    comparison_rows,
     decision_rows,
     mechanism_rows,
     target_rows,
@@ -68,8 +68,8 @@ tables = [
     ),
     Table(
         "Mechanisms from bodies and from a Lagrangian, beside sympy",
-        BESIDE_HEAD,
-        tuple(beside_rows(beside["rows"], beside["longest"])),
+        COMPARISON_HEAD,
+        tuple(comparison_rows(beside["rows"], beside["longest"])),
         "From bodies beside KanesMethod; from the Lagrangian written out, the writing included, beside LagrangesMethod, of "
         "sympy's own energies of the same bodies, for the bicycle of this one. sympy's right-hand sides are lambdify's "
         "with common subexpressions, then numpy's solve. rhs differs by: from lagrotor's of bodies, relative. A method that used "

@@ -22,7 +22,7 @@ x, y, z, phi, lean, psi = c.q
 axle = Frame(c).moved(x, y, z).turned("zx", (phi, lean))
 wheel = axle.turned("y", psi)
 disc = wheel.body(m, (m * R**2 / 4, m * R**2 / 2, m * R**2 / 4))
-slip = wheel.velocity((0, 0, -R), seen=axle)
+slip = wheel.velocity((0, 0, -R), frame=axle)
 rolling = System(c, disc.kinetic - disc.potential((0, 0, -g)), (z - R * sp.cos(lean),), rolling=tuple(slip[:2, 0]))
 
 # %% [markdown]

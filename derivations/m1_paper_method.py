@@ -10,7 +10,7 @@
 
 # %%
 from lagrotor import Link, Scene, natural_rate
-from lagrotor.benchmark.limits.step_size import found_step_limit
+from lagrotor.benchmark.limits.step_size import step_limit_by_bisection
 from lagrotor.models import paper_system, step_limit
 from lagrotor.paper import Table
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
@@ -85,7 +85,7 @@ systems = (
 )
 limits = []
 for springs, bar, system in systems:
-    predicted, found = step_limit(system), found_step_limit(system, 5)
+    predicted, found = step_limit(system), step_limit_by_bisection(system, 5)
     row = (springs, bar, 1e3 * predicted.whole, 1e3 * found, found / predicted.whole, 1e3 * predicted.joints.min())
     limits.append((*row[:2], *(f"{value:.3g}" for value in row[2:])))
 

@@ -254,7 +254,7 @@ assert abs(needs - 4) < 1e-9 and abs(largest - 4) < 1e-9 and len(signs) == 512
 Remark(
     "The signs of the spins that need the least spin",
     "; ".join(
-        f"{found.standing} of the {found.tried} sign patterns of the {L} × {L} grid stand at some spin, the best from "
+        f"{found.standing} of the {found.count} sign patterns of the {L} × {L} grid stand at some spin, the best from "
         f"{least[L]:.3f} √(aκ) on"
         for L, found in tried.items()
     )

@@ -19,8 +19,9 @@ import sympy as sp
 
 from lagrotor import Link, Rotor, Structure
 from lagrotor.paper import Remark, prove
-from lagrotor.structures import dispersion, honeycomb, long_wave_speeds, polygon_ring, square, straight_row, zigzag
+from lagrotor.structures import honeycomb, polygon_ring, square, straight_row, zigzag
 from lagrotor.structures.coefficients import coefficients
+from lagrotor.structures.waves.dispersion import dispersion, long_wave_speeds
 
 a, G, kappa, omega = sp.symbols("a G kappa omega", positive=True)
 b, q, theta = sp.symbols("b q theta", real=True)

@@ -17,7 +17,8 @@ import sympy as sp
 from lagrotor import Rotor
 from lagrotor.errors import InputError
 from lagrotor.paper import Remark, prove
-from lagrotor.structures import chern_numbers, edge_waves, honeycomb, square_octagon
+from lagrotor.structures import honeycomb, square_octagon
+from lagrotor.structures.waves.chern import chern_numbers, edge_waves
 
 a, k, G, omega = sp.symbols("a k G omega", positive=True)
 mu, mu_A, mu_B = sp.symbols("mu mu_A mu_B", real=True)

@@ -20,7 +20,8 @@ import sympy as sp
 from lagrotor import Structure
 from lagrotor.numerics import measured_order
 from lagrotor.paper import Remark, prove
-from lagrotor.structures import chern_numbers, honeycomb
+from lagrotor.structures import honeycomb
+from lagrotor.structures.waves.chern import chern_numbers
 
 a, kappa, k, G, omega, epsilon = sp.symbols("a kappa k G omega epsilon", positive=True)
 x, y, theta, delta = sp.symbols("x y theta delta", real=True)

@@ -32,7 +32,7 @@ F = vector("F")
 system = axes_pair()
 pull = sp.Matrix(sp.symbols("lambda_1 lambda_2 N", real=True))
 tip_force = sp.Matrix([F[0], F[1], 0, 0, 0, 0]) * R
-balance = euler_lagrange(system.L, AXES) - system.push - system.rows.T * pull - tip_force
+balance = euler_lagrange(system.L, AXES) - system.generalised_forces - system.rows.T * pull - tip_force
 
 x1, y1, z1, x2, y2, z2 = AXES.q
 still = (AXES.v[2], AXES.v[5], AXES.a[2], AXES.a[5])

@@ -85,7 +85,11 @@ for names, order in ((AXES.q, 0), (AXES.v, 1), (AXES.a, 2)):
     motion = Omega**order * circle.diff(Phi, order) if order else circle
     parallel |= dict(zip(names, [*motion, *motion], strict=True))
 mu = sp.Symbol("mu", real=True)
-exact = euler_lagrange(system.L, AXES) - system.push.subs({G_1: G, G_2: G}) - system.rows.T * sp.Matrix([mu, mu, 0])
+exact = (
+    euler_lagrange(system.L, AXES)
+    - system.generalised_forces.subs({G_1: G, G_2: G})
+    - system.rows.T * sp.Matrix([mu, mu, 0])
+)
 together = exact.xreplace(parallel)
 turning = {Omega: G / ((a + b) * sp.cos(theta))}
 (lift,) = sp.solve(together[2], mu, simplify=False)

@@ -2,11 +2,11 @@
 # # The slow motion of opposite spins at any lean
 #
 # **Objective.** The Hamiltonian of opposite spins averaged over the fast paired precession, for any bar and at any lean along
-# the joint line, with its adiabatic invariant: its phase portrait, the slow frequency beside the paired precession, the time in
-# which a shock carries $x$ anywhere, and whether $x$ ever turns back.
+# the joint line, with its adiabatic invariant: its phase portrait, the slow frequency near the paired precession, the time after
+# a shock until $x$ reaches a given value, and the condition under which $x$ turns back.
 #
 # **Assumptions.** Opposite spins, $G_1=G=-G_2$; the angle between the axes and their swing are small, the lean along the joint
-# line is not. Leading order, whose error is of second order in the angle; the slow frequency to the next order, too.
+# line is arbitrary. Leading order, with an error of second order in the angle; for the slow frequency also the next order.
 #
 # **Notation.** $n$ the mean axis, which leans by $\beta$ along the joint line and is turned by $\alpha$ about it; $h$ half the
 # angle between the axes; $a$, $b$ the inertias with the bar's share, $\sigma=(a+b)/(a-b)$, $k=\ell/R$; $P$ the momentum about
@@ -14,8 +14,8 @@
 # $\kappa=(\sigma-1)k^2/2=b\,k^2/(a-b)$; $c=\cos^2\beta_s$.
 #
 # **What is known, what is new.** Averaging and the adiabatic invariant are classical (Arnold, Kozlov & Neishtadt, *Mathematical
-# Aspects of Classical and Celestial Mechanics*, ch. 6). Of this pair we know no earlier averaged motion; the one near upright
-# of an earlier edition of this work is its limit $\beta_s\to0$.
+# Aspects of Classical and Celestial Mechanics*, ch. 6). We know no earlier averaged motion of this pair. An earlier edition of
+# this work has its limit $\beta_s\to0$, near upright.
 
 # %%
 import numpy as np
@@ -45,8 +45,8 @@ from lagrotor.theory.rate_shift import shift_coefficient
 # ## The bar in one equation
 #
 # Let $r_1=n\cos h-q\sin h$ and $r_2=n\cos h+q\sin h$ with $q$ a unit vector at right angles to the mean axis $n$. The bar needs
-# $k(x_2-x_1)+1-r_1\cdot r_2=2\sin h\,(k\,q_x+\sin h)=0$, that is $q_x=-\sin h/k$: for any $k$, and at any lean, the bar only
-# fixes the inclination of $q$. With the directions across and along the lean,
+# $k(x_2-x_1)+1-r_1\cdot r_2=2\sin h\,(k\,q_x+\sin h)=0$, that is $q_x=-\sin h/k$. For any $k$ and any lean, the bar therefore
+# fixes the inclination of $q$ only. With the directions across and along the lean,
 
 # %%
 (beta, h, alpha), (beta_v, h_v, alpha_v) = LEANING.q, LEANING.v
@@ -77,7 +77,7 @@ turned = across * sp.cos(chi) + lengthwise * sp.sin(chi)
 
 
 def velocity(r: sp.Matrix) -> sp.Matrix:
-    """dr/dt in the letters, chi among them."""
+    """Return dr/dt in the coordinates and chi."""
     return r.diff(beta) * beta_v + r.diff(h) * h_v + r.diff(alpha) * alpha_v + r.diff(chi) * chi_v
 
 
@@ -113,21 +113,21 @@ spins += (G_1 - G_2) * sp.sin(h) * (beta_v * sp.cos(chi) + alpha_v * sp.sin(h) /
 prove(exact - kinetic - spins.subs(on_bar), 0, "the spins' terms, exact", names=r"L-T-\Gamma")
 
 # %% [markdown]
-# They act by forces $G_i\,r_i\times\dot r_i$. Of terms $A_\beta\dot\beta+A_h\dot h+A_\alpha\dot\alpha$ in a Lagrangian only
-# the curl acts; it must be $F_{uv}=-\sum_i G_i\,r_i\cdot(\partial r_i/\partial u\times\partial r_i/\partial v)$ for each pair
-# $u$, $v$ of coordinates:
+# The spins act by forces $G_i\,r_i\times\dot r_i$. Terms $A_\beta\dot\beta+A_h\dot h+A_\alpha\dot\alpha$ of a Lagrangian act only
+# by their curl. For each pair $u$, $v$ of coordinates it must be
+# $F_{uv}=-\sum_i G_i\,r_i\cdot(\partial r_i/\partial u\times\partial r_i/\partial v)$:
 
 # %%
 potential = [exact.subs({a: 0, b: 0}).diff(v) for v in LEANING.v]
 
 
 def curl(i: int, j: int) -> sp.Expr:
-    """dA_j/dq_i − dA_i/dq_j."""
+    """Return dA_j/dq_i − dA_i/dq_j."""
     return potential[j].diff(LEANING.q[i]) - potential[i].diff(LEANING.q[j])
 
 
 def flux(i: int, j: int) -> sp.Expr:
-    """−sum_i G_i r_i . (dr_i/dq_i × dr_i/dq_j)."""
+    """Return −sum_i G_i r_i . (dr_i/dq_i × dr_i/dq_j)."""
     u, v = LEANING.q[i], LEANING.q[j]
     pairs = ((G_1, first), (G_2, second))
     return -sum((spin * r.dot(r.diff(u).cross(r.diff(v))) for spin, r in pairs), sp.Integer(0))
@@ -147,8 +147,8 @@ prove(
 # %% [markdown]
 # ## Orders
 #
-# With $h$, $\dot\beta$, $\dot h$ of first order, $\dot\alpha$ and $P$ of second and $\beta$ of none, no odd order occurs. The
-# second order is that of a charge in a uniform field on a plane: the same at every lean.
+# Let $h$, $\dot\beta$, $\dot h$ be of first order, $\dot\alpha$ and $P$ of second, and $\beta$ of order zero. Then no odd order
+# occurs. The second order is the Lagrangian of a charge on a plane in a uniform field, the same at every lean.
 
 # %%
 eps = sp.Symbol("epsilon", positive=True)
@@ -177,10 +177,10 @@ turning = (a + b) * c * alpha_v**2 + 2 * G * h**2 * alpha_v / k
 prove(quartic, swinging + turning, "the fourth order of the Lagrangian", names="L_4")
 
 # %% [markdown]
-# ## The cyclic angle eliminated
+# ## Elimination of the cyclic angle
 #
-# $\partial L_4/\partial\dot\alpha=P$ gives $\dot\alpha=(P-2Gh^2/k)/(2(a+b)\cos^2\beta)$: a twist takes momentum, as the bar makes
-# twisted axes lean (t6). $R_4=L_4-P\dot\alpha$ is
+# $\partial L_4/\partial\dot\alpha=P$ gives $\dot\alpha=(P-2Gh^2/k)/(2(a+b)\cos^2\beta)$: a twist takes momentum, since the bar
+# inclines twisted axes (t6). $R_4=L_4-P\dot\alpha$ is
 
 # %%
 alpha_rate = sp.solve(quartic.diff(alpha_v) - P, alpha_v, simplify=False)[0]
@@ -195,8 +195,8 @@ prove(
 # ## The swing and its adiabatic invariant
 #
 # $L_2$ has the solution $\beta=\beta_s+(s/\sqrt\sigma)\cos\Phi$, $h=\eta+s\sin\Phi$, $\dot\Phi=\Omega_0=G/\sqrt{a^2-b^2}$ with
-# any constant $\beta_s$, $\eta$, $s$. Its energy $(a-b)\,\Omega_0^2s^2$ over the frequency, which depends on nothing, is
-# its action:
+# any constant $\beta_s$, $\eta$, $s$. Its frequency is a constant, and its action is the energy $(a-b)\,\Omega_0^2s^2$ over the
+# frequency:
 
 # %%
 Phi = sp.Symbol("Phi", real=True)
@@ -212,11 +212,11 @@ prove(
 )  # fmt: skip
 
 # %% [markdown]
-# So $s^2$ is the adiabatic invariant. As the frequency is the same everywhere, $L_2$ does not move the centre.
+# So $s^2$ is the adiabatic invariant. Since the frequency is the same everywhere, $L_2$ does not move the centre.
 #
 # ## The average
 #
-# The fourth order moves it, through its mean over the swing, with $\beta=\beta_s$ where it is not differentiated. The mean of
+# The mean of the fourth order over the swing moves the centre; undifferentiated, $\beta$ is replaced by $\beta_s$. The mean of
 # $\cos^m\Phi\sin^n\Phi$ is $(m-1)!!\,(n-1)!!/(m+n)!!$ for even $m$, $n$, else zero.
 
 # %%
@@ -247,7 +247,7 @@ prove(
 prove(averaged_hamiltonian(), mean, "which the library holds", names="H")
 
 # %% [markdown]
-# In the means $2Gh\dot\beta$ of $L_2$ makes $2G\eta$ the momentum of $\beta_s$:
+# By the mean of the term $2Gh\dot\beta$ of $L_2$, $2G\eta$ is the momentum of $\beta_s$:
 
 # %%
 g = G / (2 * (a + b) * k**2)
@@ -263,8 +263,8 @@ prove(slow.diff(P), -2 * g * k * inner / c, "the mean rate of turning", names=r"
 # %% [markdown]
 # ## The phase portrait
 #
-# $W$ is conserved and quadratic in $\eta^2$. Its curves are $\eta^2=D-(s^2-p-\kappa s^2c)/2$ with $D$ of either sign,
-# $D^2=\tfrac38s^4+\big(W-\kappa s^2(s^2-p)/2\big)\,c+(\kappa s^2c/2)^2$: put in, $W$ comes out,
+# $W$ is conserved and quadratic in $\eta^2$. Its curves are $\eta^2=D-(s^2-p-\kappa s^2c)/2$ with $D$ of either sign and
+# $D^2=\tfrac38s^4+\big(W-\kappa s^2(s^2-p)/2\big)\,c+(\kappa s^2c/2)^2$. Substitution confirms them,
 
 # %%
 D, level, lean = sp.symbols("D W_0 c", real=True)
@@ -279,7 +279,7 @@ on_curve = ((y + (SWING**2 - momentum) / 2) ** 2 - sp.Rational(3, 8) * SWING**4)
 prove(sp.expand(on_curve).subs(D**2, squared), level, "W on the curve", names="W")
 
 # %% [markdown]
-# and along it $\dot\beta_s=4g\,\eta D/c$, so that the time to any lean is the integral of $c\,d\beta/(4g\,\eta D)$:
+# and along a curve $\dot\beta_s=4g\,\eta D/c$, so that the time to any lean is the integral of $c\,d\beta/(4g\,\eta D)$:
 
 # %%
 along = 4 * HALF * inner / c - 2 * kappa * SWING**2 * HALF
@@ -287,7 +287,7 @@ of_D = HALF**2 + (SWING**2 - p - kappa * SWING**2 * c) / 2
 prove(along, 4 * HALF * of_D / c, "the rate of the lean over g", names=r"\dot\beta_s/g")
 
 # %% [markdown]
-# ## Does x ever turn back?
+# ## The condition under which x turns back
 #
 # After a shock along $x$ the centre starts at $\beta_s=0$ with $P=0$, $\eta^2=y_0=(p_x/2G)^2$ and $s^2=A^2y_0$ (t2, t6). The
 # square bracket of $W$ is $(y-y_+)(y-y_-)$ with $y_\pm=s^2\,\big(-\tfrac12\pm\sqrt{3/8}\big)$, and on the curve
@@ -299,8 +299,9 @@ bracket = (y_0 + s2 / 2) ** 2 - sp.Rational(3, 8) * s2**2
 prove(bracket, (y_0 - high) * (y_0 - low), "the bracket in its factors", names="F")
 
 # %% [markdown]
-# $\cos^2\beta_s=F(y)/\big(F(y_0)-\kappa s^2(y_0-y)\big)$. As $y$ falls from $y_0$ the lean grows. It comes to $90°$ if the
-# numerator vanishes first, at $y_+$; if the denominator does, $\cos^2\beta_s$ must turn before. Both vanish together for
+# $\cos^2\beta_s=F(y)/\big(F(y_0)-\kappa s^2(y_0-y)\big)$. As $y$ falls from $y_0$ the lean grows. It reaches $90°$ if the
+# numerator vanishes first, at $y_+$. If the denominator vanishes first, $\cos^2\beta_s$ has a minimum before. Both vanish
+# together for
 
 # %%
 edge = sp.solve(bracket - weight * s2 * (y_0 - high), weight, simplify=False)[0]
@@ -315,15 +316,15 @@ prove(
 
 # %% [markdown]
 # $3+\sqrt{3/2}=4.22$ for a short pulse, $A_w=1$: a bar as long as an axis, its mass in its middle
-# ($K=0$, $(\sigma-1)k^2=mR^2/2J$), must weigh more than $8.4\,J/R^2$. The next order, below, moves the threshold: `turns_back`
-# refuses where it decides.
+# ($K=0$, $(\sigma-1)k^2=mR^2/2J$), must have a mass above $8.4\,J/R^2$. The next order, below, moves the threshold; `turns_back`
+# refuses cases that depend on it.
 #
-# ## Beside the paired precession
+# ## Near the paired precession
 #
-# There $\beta_s=\eta=0$, $s^2=\sigma r_0^2$. A momentum $P=G(s^2+d)/k$ more than its own by $Gd/k$ makes the pair turn. At the
-# next order $Gd/k$ is what the pair has beyond the exact precession of the same $r_0$, the sine of the inclination where the
-# axes are parallel; $P-Gs^2/k$ is another number there. About
-# it $W=\tfrac12W_{\beta\beta}\beta_s^2+\tfrac12W_{\eta\eta}\eta^2$ and the square of the slow frequency is
+# The precession has $\beta_s=\eta=0$, $s^2=\sigma r_0^2$. With a momentum $P=G(s^2+d)/k$, larger by $Gd/k$ than that of the
+# precession, the pair turns. At the next order $Gd/k$ is the momentum beyond that of the exact precession with the same $r_0$,
+# the sine of the inclination where the axes are parallel, and differs from $P-Gs^2/k$. Near the precession
+# $W=\tfrac12W_{\beta\beta}\beta_s^2+\tfrac12W_{\eta\eta}\eta^2$, and the square of the slow frequency is
 # $g^2W_{\beta\beta}W_{\eta\eta}$:
 
 # %%
@@ -338,7 +339,7 @@ prove(
 )
 
 # %% [markdown]
-# Without a push it is the leading term that t5 derives from the orbit itself, per radian of the phase:
+# Without a push ($d=0$) it is the leading term that t5 derives from the orbit itself, per radian of the phase:
 
 # %%
 unpushed = (curvatures[0] * curvatures[1]).subs(push, 0) * (g / natural) ** 2
@@ -351,21 +352,21 @@ prove(
 )
 
 # %% [markdown]
-# A push in one sense, $-\kappa s^2<d<\sqrt{3/2}\,s^2$, holds the precession of any bar; in the other it does not.
+# A push with $-\kappa s^2<d<\sqrt{3/2}\,s^2$ stabilizes the precession of any bar; other pushes do not.
 #
 # ## The next order
 #
 # With $a+b=1$, $1/\sigma=r^2$ and $\Omega_0=1$ the Hamiltonian is $H=I+H_4+H_5+H_6+\dots$ of the centre $(\beta_s,2r\eta)$ and of
-# the swing's phase and action $(\Phi,I)$, $I=r^2s^2$, all of it at $\beta=\beta_s+\delta$, $\delta=r\,s\cos\Phi$. What $H_4$
-# lacks of its mean moves the centre and the action by $\chi$, $\partial\chi/\partial\Phi=H_4-\langle H_4\rangle$, and leaves of
-# sixth order
+# the swing's phase and action $(\Phi,I)$, $I=r^2s^2$, all at $\beta=\beta_s+\delta$, $\delta=r\,s\cos\Phi$. The generator $\chi$
+# with $\partial\chi/\partial\Phi=H_4-\langle H_4\rangle$ removes the oscillating part of $H_4$. It changes the centre and the
+# action, and the sixth order becomes
 #
 # $$\Big\langle H_6+\delta\,\partial_\beta H_5+\tfrac12\delta^2\,\partial_\beta^2H_4\Big\rangle
 # -\tfrac12\,\frac{\partial}{\partial I}\big\langle(H_4-\langle H_4\rangle)^2\big\rangle.$$
 #
 # The bracket of $H_4$ with $\chi$ in the centre is of seventh order, and so is that of $H_4$ with $H_5$; the mean of $H_5$ is
-# zero. The sum, in the units of $W$, is $W_6$ at any lean; its parts in $s$ alone move nothing. To leading order
-# $\dot\beta$ and $\dot h$ are those of the swing; the orders left add the squares of what $L_4$ gives of the momenta.
+# zero. The sum, in the units of $W$, is $W_6$ at any lean; its terms in $s$ alone have no effect. To leading order
+# $\dot\beta$ and $\dot h$ are those of the swing; the higher orders add the squares of the momenta of $L_4$.
 
 # %%
 root, secant = sp.symbols("r w", positive=True)  # w = 1/cos beta
@@ -383,13 +384,13 @@ on_swing = {h: HALF + SWING * sine, h_v: SWING * cosine, beta_v: -root * SWING *
 
 
 def in_swing(e: sp.Expr) -> sp.Poly:
-    """An expression over the swing, a polynomial in `SWING_LETTERS`."""
+    """Return an expression along the swing as a polynomial in `SWING_LETTERS`."""
     put = e.subs(secant, sp.sqrt(1 + tangent**2)).subs(on_swing, simultaneous=True)
     return sp.Poly(sp.expand(put), *SWING_LETTERS, domain=fractions)
 
 
 def over_swing(f: sp.Poly) -> sp.Poly:
-    """The mean over Phi."""
+    """Return the mean over Phi."""
     means: dict[tuple[int, ...], sp.Expr] = {}
     for (*slowly, m, n), coefficient in f.as_dict(native=False).items():
         if m % 2 == n % 2 == 0:
@@ -425,7 +426,7 @@ W_6 = sp.Add(
 )
 
 # %% [markdown]
-# Beside the paired precession of amplitude $r_0$, $\beta_s=\eta=0$. It does not turn, $\partial(W+W_6)/\partial p=0$:
+# The paired precession of amplitude $r_0$ has $\beta_s=\eta=0$. It does not turn, $\partial(W+W_6)/\partial p=0$:
 
 # %%
 both = W.subs(P, G * p_push / k).subs(shape) + W_6
@@ -456,15 +457,15 @@ prove(
 )
 
 # %% [markdown]
-# So $r^2s^2=r_0^2+\tfrac13r_0^4+2r_0\,(rs-\arcsin r_0)$, and $p$ is that of no push, which has another $s$, and $d$. In the slow
-# frequency's brackets, with $s_0^2=\sigma r_0^2$ and $d$ of one order:
+# So $r^2s^2=r_0^2+\tfrac13r_0^4+2r_0\,(rs-\arcsin r_0)$. The momentum $p$ is the sum of $d$ and the value without a push, which
+# has another $s$. In the brackets of the slow frequency, with $s_0^2=\sigma r_0^2$ and $d$ of the same order:
 
 # %%
 square, small = sp.Symbol("s_2", positive=True), sp.Symbol("epsilon", positive=True)  # s_0², and what counts orders
 
 
 def swing_squared(p_now: sp.Expr) -> sp.Expr:
-    """s² of the amplitude r_0, to the next order."""
+    """Return s² for the amplitude r_0, to the next order."""
     r_0 = root * sp.sqrt(square)
     more = farther.subs({p_push: p_now, SWING: sp.sqrt(square)})
     return sp.expand((r_0**2 + r_0**4 / 3 + 2 * r_0 * more) / root**2)
@@ -505,14 +506,14 @@ prove(
 # %% [markdown]
 # ## Measured on exact runs
 #
-# Parameters used nowhere else.
+# The parameters occur nowhere else in this work.
 
 # %%
 BAR, SPIN = Link(1.25, 0.3, 0.02), 13.0
 
 
 def shocked(force: float, link: Link = BAR) -> Scene:
-    """Opposite spins and a shock along x."""
+    """Return a pair with opposite spins and a shock along x."""
     return Scene((SPIN, -SPIN), link=link, shock=Shock((force, 0, 0), 0.4, 0.04))
 
 
@@ -529,13 +530,13 @@ twin = np.abs(exact_times / initial - 1)
 assert twin.min() > 2 * off[0]
 Remark(
     "The time to reach any x",
-    f"Until the mean of x is {REACHED:g}: "
+    f"Time until the mean of x is {REACHED:g}: "
     + "; ".join(
         f"{time:.2f} s by the averaged motion, {seen:.2f} s exact at {F:g} N"
         for F, time, seen in zip(FORCES, law, exact_times, strict=True)
     )
-    + f". The relative error falls as the force to the {time_order:.2f}. At the initial rate, which lean and twist change, "
-    f"it would not fall: {twin[0]:.3f} and {twin[-1]:.3f}.",
+    + f". The relative error is ∝ F^{time_order:.2f}. A prediction with the initial rate, which lean and twist change, has an "
+    f"error that does not fall: {twin[0]:.3f} and {twin[-1]:.3f}.",
 )
 
 # %%
@@ -543,7 +544,7 @@ AMPLITUDES = (0.05, 0.07, 0.1)
 
 
 def apart_from(link: Link, share: float, change: float = 0.0) -> list[float]:
-    """Relative distance of the law's frequency² from the exact multipliers', for d = share s²; by `change` r0² more as a twin."""
+    """Return the relative error of the law's frequency² for d = share s²; `change` r0² is added for a negative control."""
     distances = []
     for amplitude in AMPLITUDES:
         scene = Scene((SPIN, -SPIN), link=link)
@@ -565,10 +566,10 @@ assert all(abs(order - 4) < 0.1 for order in orders.values()), orders
 assert failing < 2.5
 Remark(
     "The slow frequency under a push",
-    "Against Floquet multipliers of exact orbits that close up to a turn about the joint line: the relative error of its square "
-    "falls as the amplitude to the "
+    "The comparison is with Floquet multipliers of exact orbits that close up to a turn about the joint line. The relative error "
+    "of the squared frequency is proportional to the amplitude to the power "
     + ", ".join(f"{order:.2f} ({name})" for name, order in orders.items())
-    + f"; with another coefficient of the next order to the {failing:.2f}.",
+    + f"; with a wrong coefficient of the next order the power is {failing:.2f}.",
 )
 
 # %%
@@ -584,8 +585,8 @@ assert not light_turns and light_last > 0.99 * light_most > 0.8
 assert heavy_turns and heavy_last < 0.9 * heavy_most < 0.4
 Remark(
     "Beyond the threshold x turns back",
-    f"Exact runs at 40 N, means over 10 s: at (σ − 1) k² = 3.6 the mean x grows to {light_most:.2f} in {HEAVY[3.6]} s and "
-    f"goes on; at 5.2 it grows to {heavy_most:.2f} and comes back to {heavy_last:.2f} in {HEAVY[5.2]} s. The leading order "
-    f"says {heavy_law:.2f}: beside the threshold the farthest x is the ratio of two small differences, and its error is large "
-    "for such a shock.",
+    f"Exact runs at 40 N, means over 10 s: at (σ − 1) k² = 3.6 the mean x grows to {light_most:.2f} within {HEAVY[3.6]} s and "
+    f"continues to grow; at 5.2 it grows to {heavy_most:.2f} and returns to {heavy_last:.2f} within {HEAVY[5.2]} s. The leading "
+    f"order predicts a maximum of {heavy_law:.2f}. Near the threshold the maximum is the ratio of two small differences, and its "
+    "error is large for such a shock.",
 )

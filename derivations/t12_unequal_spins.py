@@ -1,11 +1,11 @@
 # %% [markdown]
 # # Unequal spins: the shift of the rate, the drift of the azimuth, and where a twist grows
 #
-# **Objective.** How the rate of an orbit about upright changes with its amplitude, for any two spins, any bar and length, as one
-# formula that joins equal and opposite spins; and how fast the orbit turns about the joint line, so that it does not close; and
-# which of these orbits lose a small twist.
+# **Objective.** Three properties of an orbit about upright for any two spins, any bar and length: the shift of its rate with the
+# amplitude, in one formula that includes equal and opposite spins; its drift about the joint line, by which it does not close;
+# and its stability against a small twist.
 #
-# **Assumptions.** An orbit that swings between $x=\pm r_0$, where the axes are parallel; a series in $r_0$.
+# **Assumptions.** The orbit swings between $x=\pm r_0$, where the axes are parallel; series in $r_0$.
 #
 # **Notation.** As in t11: $n$ the mean axis, $\beta$ its lean, $\alpha$ its azimuth about the joint line, $h$ half the angle
 # between the axes. Units: $2(a+b)=1$, $\Omega_0=1$, so that with $\Sigma=G_1+G_2$, $D=G_1-G_2$,
@@ -14,7 +14,7 @@
 # $\dot\Phi=\Omega=1+c\,r_0^2+\dots$; $z=e^{i\Phi}$.
 #
 # **What is known, what is new.** The method is Lindstedt's (1882). For $\zeta=0$ the shift is that of one top on a cone,
-# $1/\cos$; for $\zeta=1$ that of t3. Between them, for the drift, and for the growth of a twist, we know no source.
+# $1/\cos$; for $\zeta=1$ that of t3. We know no source for other $\zeta$, for the drift, and for the growth of a twist.
 
 # %%
 import numpy as np
@@ -52,7 +52,7 @@ prove(
 )
 
 # %% [markdown]
-# In third order, besides a derivative by the time, a twist takes momentum about the joint line (t6):
+# In third order, apart from a time derivative, a twist takes momentum about the joint line (t6):
 
 # %%
 tilt = h**3 * (sp.Rational(1, 3) / k - sp.Rational(1, 6) / k**3) - h * beta**2 / (2 * k)
@@ -66,8 +66,8 @@ prove(
 # %% [markdown]
 # ## The orbit
 #
-# Even in $\Phi$ are $\beta$ and $\dot\alpha$, odd is $h$. Half a turn later $\beta$ ends at $-r_0$. First order is the normal
-# mode, and the unknowns of second and third are
+# $\beta$ and $\dot\alpha$ are even in $\Phi$, $h$ is odd. Half a turn later $\beta$ is $-r_0$. The first order is the normal
+# mode, and the unknowns of the second and third orders are
 
 # %%
 z, r = sp.symbols("z r")
@@ -76,12 +76,12 @@ b20, b22, b33, h22, h31, h33, n2, a22, a31, a33, P2, c = sp.symbols(names)
 
 
 def cosine(n: int) -> sp.Expr:
-    """cos(n Phi)."""
+    """Return cos(n Phi)."""
     return (z**n + z**-n) / 2
 
 
 def sine(n: int) -> sp.Expr:
-    """sin(n Phi)."""
+    """Return sin(n Phi)."""
     return (z**n - z**-n) / (2 * sp.I)
 
 
@@ -92,12 +92,12 @@ Omega = 1 + c * r**2
 
 
 def later(e: sp.Expr) -> sp.Expr:
-    """d/dt of a series in z."""
+    """Return the time derivative of a series in z."""
     return sp.expand(sp.I * z * e.diff(z)) * Omega
 
 
 def put(e: sp.Expr, most: int) -> sp.Expr:
-    """A polynomial of the coordinates and rates along the orbit, through r**most."""
+    """Return a polynomial of the coordinates and rates along the orbit, through r**most."""
     along = dict(zip((beta, h, beta_v, h_v, alpha_v), (lean, half, later(lean), later(half), turning), strict=True))
     powers: dict[tuple[sp.Symbol, int], sp.Expr] = {}
 
@@ -129,12 +129,12 @@ momentum = sp.expand(put(L.diff(alpha_v), 3) - P2 * r**2)
 
 
 def part(e: sp.Expr, n: int, harmonic: int) -> sp.Expr:
-    """The coefficient of r**n z**harmonic."""
+    """Return the coefficient of r**n z**harmonic."""
     return e.coeff(r, n).coeff(z, harmonic)
 
 
 def reduced(e: sp.Expr) -> sp.Expr:
-    """With Sigma² = 1 − sigma D²."""
+    """Return an expression with Sigma² = 1 − sigma D²."""
     modulus = sp.Poly(total**2 + sigma * apart**2 - 1, total)
     above, below = (sp.rem(sp.Poly(sp.expand(p), total), modulus) for p in sp.fraction(sp.together(e)))
     return sp.factor(above.as_expr() / below.as_expr())
@@ -146,7 +146,7 @@ prove(
 )
 
 # %% [markdown]
-# In second order the lean has no part, the twist and the turning have one of twice the frequency:
+# The second order has no term of the lean, and terms of the twist and of the turning with twice the frequency:
 
 # %%
 second = [
@@ -164,7 +164,7 @@ prove(
 # %% [markdown]
 # ## The shift of the rate
 #
-# In third order the terms of the frequency of the orbit itself give three equations for $h_{31}$, $a_{31}$ and $c$:
+# In third order, the terms with the frequency of the orbit give three equations for $h_{31}$, $a_{31}$ and $c$:
 
 # %%
 third = [part(e, 3, 1).subs(at_second) for e in (equation_beta, equation_h, momentum)]
@@ -183,7 +183,7 @@ law -= share**2 * (sigma**2 - 1) / 4 + sp.Rational(3, 4) * share**2 * sigma / k*
 prove(shift_coefficient(sigma, k, share), law, "in full, by ζ", names="c")
 
 # %% [markdown]
-# It joins what was known: equal spins, ½ from $1/\cos$, and opposite spins, the series of t3.
+# It contains the known cases: for equal spins ½, from $1/\cos$, and for opposite spins the series of t3.
 
 # %%
 prove(
@@ -197,7 +197,7 @@ prove(
 # ## The drift of the azimuth
 #
 # The mean of $\partial L/\partial\beta=d(\partial L/\partial\dot\beta)/dt$ vanishes. Its first term is
-# $\Sigma\langle\dot\alpha\rangle$, and the others of fourth order follow from the orbit through third:
+# $\Sigma\langle\dot\alpha\rangle$, and the other terms of fourth order follow from the orbit through third order:
 
 # %%
 thrice = [part(e, 3, 3).subs(at_second).subs(at_third) for e in (equation_beta, equation_h, momentum)]
@@ -219,12 +219,13 @@ prove(
 )
 
 # %% [markdown]
-# A bar of $\sigma=5$ would let the orbits of all spins close to this order.
+# With a bar of $\sigma=5$ the orbits of all spins would close to this order.
 #
-# ## A twist beside the orbit
+# ## Growth of a twist
 #
-# Axes at rest in any twist $\eta$ are in equilibrium. The small swing about them is that of the inertia $M$ and of the spins'
-# skew $F$, 3 by 3, $M\ddot q+F\dot q=0$; with $f$ the axial vector of $F$ its rate is $\Omega^2=f^TMf/\det M$:
+# Axes at rest with any twist $\eta$ are in equilibrium. The small swing about this equilibrium obeys $M\ddot q+F\dot q=0$, with
+# the mass matrix $M$ and the gyroscopic matrix $F$, skew, 3 by 3. With $f$ the axial vector of $F$ its rate is
+# $\Omega^2=f^TMf/\det M$:
 
 # %%
 eta = sp.Symbol("eta", real=True)
@@ -247,8 +248,8 @@ prove(
 
 # %% [markdown]
 # The action of the swing, $J=\tfrac12r_0^2$ at $\eta=0$, is its adiabatic invariant, so that $J\,\Omega(\eta)$ is the potential
-# of a slow twist. A twist that changes at the rate $\dot\eta$ makes the pair turn, as $\ddot\beta=0$ needs
-# $\Sigma\dot\alpha=D\dot\eta$, and its energy is
+# of a slow twist. A twist that changes at the rate $\dot\eta$ turns the pair, since $\ddot\beta=0$ requires
+# $\Sigma\dot\alpha=D\dot\eta$. The kinetic energy is
 
 # %%
 steady = {beta_v: 0, h_v: eta, alpha_v: apart * eta / total}
@@ -277,8 +278,9 @@ prove(
 #
 # ## Measured on exact orbits
 #
-# Parameters used nowhere else: orbits of the exact equations, found by Newton's method. The last bar is a light one with much
-# inertia: there what follows the drift's law is only $-0.048\,r_0^2$ of it, so that the order after shows early.
+# The parameters occur nowhere else in this work; Newton's method gives the orbits of the exact equations. The last bar is light
+# with a large inertia. For it the next term of the drift is only $-0.048\,r_0^2$ times the law, so that the term after it is
+# visible early.
 
 # %%
 AMPLITUDES = (0.02, 0.03, 0.045)
@@ -291,7 +293,7 @@ SCENES = {
 
 
 def distances(scene: Scene, change: float = 0.0) -> tuple[list[float], list[float]]:
-    """Distance of both laws from the exact orbits, over Omega_0 r0² and over the drift; `change` of c, as a twin."""
+    """Return the errors of both laws over Omega_0 r0² and over the drift; `change` of c for a negative control."""
     natural, shift, drift = natural_rate(scene), [], []
     for amplitude in AMPLITUDES:
         orbit = upright_orbit(scene, amplitude)
@@ -308,7 +310,7 @@ GROWING = {
 
 
 def growth_distances(scene: Scene, change: float = 0.0) -> list[float]:
-    """Relative distance of lambda² from that of the exact orbits' multipliers; `change` of it, as a twin."""
+    """Return the relative error of lambda² against the exact multipliers; `change` of it for a negative control."""
     law, off = float(twist_coefficient(scene.sigma, opposite_share(scene))) * (1 + change), []
     for amplitude in AMPLITUDES:
         orbit = upright_orbit(scene, amplitude)
@@ -328,19 +330,19 @@ assert all(abs(order - 2) < 0.1 for pair in measured.values() for order in pair)
 assert abs(twin) < 1
 Remark(
     "Unequal spins",
-    "Against exact orbits the shift of the rate and the drift of the azimuth are off by relative errors that fall as "
-    "the amplitude to the "
+    "Against exact orbits the relative errors of the shift of the rate and of the drift of the azimuth are proportional to the "
+    "amplitude to the powers "
     + "; ".join(f"{one:.2f} and {two:.2f} ({name})" for name, (one, two) in measured.items())
-    + f". With a twentieth more in c the error does not fall ({twin:.2f}). In the paper's scene with spins 10 and −9 rad/s the "
+    + f". With 5 % more in c the error does not fall (power {twin:.2f}). In the paper's scene with spins 10 and −9 rad/s the "
     f"orbit of r_0 = 0.204 turns by {np.degrees(azimuth_drift(Scene((10, -9), link=Link(1, 0.01, 0.1))) * 0.204**4):.4f} "
-    "degrees a second.",
+    "degrees per second.",
 )
 
 # %%
 Remark(
     "Where a twist grows",
-    "Against the multipliers of exact orbits λ² is off by a relative error that falls as the amplitude to the "
+    "Against the multipliers of exact orbits the relative error of λ² is proportional to the amplitude to the power "
     + ", ".join(f"{order:.2f} ({name})" for name, order in grown.items())
-    + f"; with a twentieth more it does not fall ({ungrown:.2f}). The growth is of first order in the amplitude: a swing of a "
-    "heavy bar with unequal spins soon leaves upright.",
+    + f"; with 5 % more it does not fall (power {ungrown:.2f}). The growth rate is of first order in the amplitude: a swing of "
+    "a heavy bar with unequal spins soon leaves upright.",
 )

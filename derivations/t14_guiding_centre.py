@@ -1,17 +1,17 @@
 # %% [markdown]
 # # The guiding centre of two unequal spins
 #
-# **Objective.** Where the centre goes about which the pair swings, at any lean and any twist of the axes, for any two spins and
+# **Objective.** The path of the centre about which the pair swings, at any lean and any twist of the axes, for any two spins and
 # any bar.
 #
-# **Assumptions.** A motion slow beside the spins, of which the swing's amplitude $\varepsilon$ is the measure; spins that are not
-# opposite (t11 has those).
+# **Assumptions.** The motion is slow compared with the spins; the amplitude $\varepsilon$ of the swing is its measure. The spins
+# are not opposite (t11 treats opposite spins).
 #
 # **Notation.** As in t11: $\beta$ the lean of the mean axis, $h$ half the angle between the axes, $\alpha$ the azimuth about the
 # joint line; $q=(\beta,h,\alpha)$, $\Sigma=G_1+G_2$, $D=G_1-G_2$, $\sigma=(a+b)/(a-b)$, $\zeta=\sigma D^2/(\Sigma^2+\sigma D^2)$.
 #
 # **What is known, what is new.** The guiding centre of a charged particle: Alfvén (1940), Northrop (1963), Littlejohn (1983).
-# That two coupled rotors are such a particle, and what follows for them, is new as far as we know.
+# As far as we know, it is new that two coupled rotors are such a particle, with the consequences below.
 
 # %%
 import numpy as np
@@ -29,8 +29,8 @@ from lagrotor.theory.rate_shift import twist_coefficient
 # %% [markdown]
 # ## A charged particle
 #
-# With the spins eliminated the Lagrangian of t11 is exactly that of a particle in three dimensions with a mass $M(q)$ and a
-# vector potential $g(q)$, the derivatives of $L$ by the velocities, without any other force:
+# With the spins eliminated, the Lagrangian of t11 is exactly that of a particle in three dimensions with a mass matrix $M(q)$ and
+# a vector potential $g(q)$, the coefficients of the velocities in $L$, without any other force:
 
 # %%
 (beta, h, alpha), v = LEANING.q, sp.Matrix(LEANING.v)
@@ -43,8 +43,8 @@ prove(
 )
 
 # %% [markdown]
-# The field $f=\operatorname{curl}g$ has lines on which $g_\alpha$, the spins' own part $G_1x_1+G_2x_2$ of the momentum about the
-# joint line, stays:
+# On the lines of the field $f=\operatorname{curl}g$, the function $g_\alpha$ is constant. It is the contribution
+# $G_1x_1+G_2x_2$ of the spins to the momentum about the joint line:
 
 # %%
 f = sp.Matrix([g[2].diff(h), -g[2].diff(beta), g[1].diff(beta) - g[0].diff(h)])
@@ -57,10 +57,10 @@ prove((g[2], G_1 * x_1 + G_2 * x_2), (flux, flux), "the flux", names=(r"g_\alpha
 prove(f[0] * flux.diff(beta) + f[1] * flux.diff(h), 0, "along the field", names=r"f\cdot\nabla g_\alpha")
 
 # %% [markdown]
-# ## The swing about a rest
+# ## The swing about an equilibrium
 #
-# The pair at rest stays anywhere. A small velocity obeys $M\dot v=v\times f$. For any symmetric $M$ and any $f$ one root is zero,
-# that of a push along $f$, and the others are $\pm i\Omega$:
+# The pair at rest is in equilibrium at any position. A small velocity obeys $M\dot v=v\times f$. For any symmetric $M$ and any
+# $f$ one root is zero, for a velocity along $f$, and the others are $\pm i\Omega$:
 
 # %%
 m = sp.Matrix(3, 3, lambda i, j: sp.Symbol(f"m_{min(i, j)}{max(i, j)}"))
@@ -75,7 +75,7 @@ prove(
 )
 
 # %% [markdown]
-# With the axes parallel it is the natural rate at every lean:
+# For parallel axes $\Omega$ is the natural rate at every lean:
 
 # %%
 untwisted = [e.subs(h, 0) for e in ((f.T * M * f)[0], M.det())]
@@ -89,10 +89,10 @@ prove(
 # %% [markdown]
 # ## The centre
 #
-# The swing's energy $J\Omega$ over its rate, $J$, is its adiabatic invariant. The centre $Q$ has the speed $u$ along the unit
-# vector $b=Mf/\sqrt{f\cdot Mf}$ of the field, and the Lagrangian $(g+ub)\cdot\dot Q-J\Omega-u^2/2$. With
+# The energy of the swing is $J\Omega$, and the action $J$ is its adiabatic invariant. The centre $Q$ has the speed $u$ along the
+# unit vector $b=Mf/\sqrt{f\cdot Mf}$ of the field, and the Lagrangian $(g+ub)\cdot\dot Q-J\Omega-u^2/2$. With
 # $B=f+u\operatorname{curl}b$ its equations are $\dot Q\times B=\dot u\,b+J\nabla\Omega$ and $b\cdot\dot Q=u$. For any $b$, $B$
-# and $\nabla\Omega$ they are solved by $\dot Q=(u\,B+J\,b\times\nabla\Omega)/b\cdot B$ and
+# and $\nabla\Omega$ their solution is $\dot Q=(u\,B+J\,b\times\nabla\Omega)/b\cdot B$ and
 # $\dot u=-J\,B\cdot\nabla\Omega/b\cdot B$:
 
 # %%
@@ -110,21 +110,21 @@ prove(
 )
 
 # %% [markdown]
-# The energy stays, and, as $\alpha$ is cyclic, so does $P=g_\alpha+ub_\alpha$. Both give the path of $(\beta,h)$ without
+# The energy is conserved, and since $\alpha$ is cyclic, so is $P=g_\alpha+ub_\alpha$. They give the path of $(\beta,h)$ without
 # integration: $J\Omega+(P-g_\alpha)^2/(2b_\alpha^2)=H$.
 
 # %%
 prove(J * slope.dot(Q_v) + u * u_v, 0, "the energy of the centre stays", names=r"\dot H")
 
 # %% [markdown]
-# The slower the motion, the closer it keeps to the line $g_\alpha=P$; it turns back on it where $J\Omega$ has grown to $H$.
-# Beside upright this is the growth of a twist, or its slow frequency, of t12: along the line $\ddot s=-J\,d^2\Omega/ds^2\,s$,
-# with $J=(a+b)r_0^2\Omega_0$ of the swing between $x=\pm r_0$:
+# A slower motion stays closer to the line $g_\alpha=P$; on it the motion turns back where $J\Omega$ has grown to $H$. Near
+# upright this gives the growth of a twist, or its slow frequency, of t12: along the line $\ddot s=-J\,d^2\Omega/ds^2\,s$, with
+# $J=(a+b)r_0^2\Omega_0$ for the swing between $x=\pm r_0$:
 
 
 # %%
 def square_of(e: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-    """Coefficients of h⁰ and h² upright, of an even function of h, upright."""
+    """Return the coefficients of h⁰ and h² of an even function of h, upright."""
     return sp.factor(e.subs(h, 0)), sp.factor(e.diff(h, 2).subs(h, 0) / 2)
 
 
@@ -145,9 +145,10 @@ prove(
 # %% [markdown]
 # ## Measured on exact runs
 #
-# Starts that lean and are twisted, with the motion of size $\varepsilon$ followed for a time $\propto1/\varepsilon$, in which the
-# centre goes as far for every $\varepsilon$; parameters used nowhere else. The centre of an exact state is $q+\dot v/\Omega^2$.
-# The first correction depends on the phase in which the swing begins: the largest of four starts is taken.
+# The starts have a lean and a twist. A motion of size $\varepsilon$ is integrated for a time $\propto1/\varepsilon$, so that the
+# path of the centre has the same length for every $\varepsilon$. The parameters occur nowhere else in this work. The centre of an
+# exact state is $q+\dot v/\Omega^2$. The first correction depends on the initial phase of the swing; the largest error of four
+# phases counts.
 
 # %%
 SIZES = (0.01, 0.015, 0.0225)
@@ -160,13 +161,13 @@ PUSHES = ((3.0, 2.0, 3.0, -1.5), (-3.0, 2.0, -3.0, -1.5), (1.0, 4.0, 1.0, 0.5), 
 
 
 def moving(pair: Scene, size: float, push: tuple[float, ...]) -> Scene:
-    """Axes that lean by 0.3 and are twisted, with rates of a size."""
+    """Return a pair with a lean of 0.3, a twist, and rates of a given size."""
     rates = size * np.array([[push[0], push[1], 0], [push[2], push[3], 0]])
     return consistent_scene(pair.spins, ((0.3, 0.1, 1), (0.3, -0.1, 1)), rates, pair.rotor, pair.link)
 
 
 def distance(pair: Scene, size: float, push: tuple[float, ...], straight: bool = False) -> float:
-    """The largest distance (rad) of the centre's path from the centres of the exact run; `straight`: without ∇Ω, as a twin."""
+    """Return the largest distance in rad of the path from the exact centres; `straight`: without ∇Ω, a negative control."""
     start = moving(pair, size, push)
     run = simulate(start, np.linspace(0, 0.3 / size, 13), "minimal", 1e-9)
     seen = [
@@ -188,7 +189,8 @@ assert all(abs(order - 1) < 0.1 for order in measured.values()), measured
 assert abs(twin) < 0.5, twin
 Remark(
     "The guiding centre",
-    "The path of the centre is off the centres of exact runs by angles that fall as these powers of the size of the motion: "
+    "The predicted guiding centre differs from the centres of exact runs by an angle proportional to these powers of the size of "
+    "the motion: "
     + "; ".join(f"{order:.2f} ({name})" for name, order in measured.items())
-    + f"; where the swing's energy is taken as motion along the field the distance does not fall (power {twin:z.2f}).",
+    + f"; if the energy of the swing is counted as motion along the field, the distance does not fall (power {twin:z.2f}).",
 )

@@ -1,10 +1,10 @@
 # %% [markdown]
 # # The normal form about a periodic orbit
 #
-# **Objective.** How the angle of a return depends on the size of a motion about a periodic orbit, for any Hamiltonian system,
-# and the same for Hénon's map in closed form.
+# **Objective.** The dependence of the angle of a return on the size of a motion about a periodic orbit, for any Hamiltonian
+# system, and for Hénon's map in closed form.
 #
-# **Assumptions.** A section across the orbit, motions of the orbit's energy; no multiplier is 1 or −1.
+# **Assumptions.** A section across the orbit; motions with the energy of the orbit; no multiplier is 1 or −1.
 #
 # **Notation.** $y=(u,v)$ the displacement on the section, $F$ the return map, $\Lambda$ its linear part; $z$, $w$ normal
 # coordinates with $\{z,w\}=-i$, $I=zw$; $\Phi_h$ the flow of $h$ in unit time; $\alpha$ the angle of a return,
@@ -24,8 +24,8 @@ from lagrotor.paper import Remark, prove
 # %% [markdown]
 # ## The return map is canonical
 #
-# In canonical coordinates $(x_1,u,p_1,v)$ with $x_1$ along the motion the section is $x_1=0$, and $p_1=P(u,v)$ is what the energy
-# leaves. The embedding's derivative $E$ keeps the bracket's matrix:
+# In canonical coordinates $(x_1,u,p_1,v)$ with $x_1$ along the motion the section is $x_1=0$, and the energy determines
+# $p_1=P(u,v)$. The derivative $E$ of this embedding preserves the matrix of the Poisson bracket:
 
 # %%
 P_u, P_v = sp.symbols("P_u P_v")
@@ -34,7 +34,7 @@ E = sp.Matrix([[0, 0], [1, 0], [P_u, P_v], [0, 1]])
 prove(E.T * Omega * E, sp.Matrix([[0, 1], [-1, 0]]), "y has canonical brackets", names=r"E^T\Omega E")
 
 # %% [markdown]
-# Coordinates with $x_1$ along any velocity: a unitary matrix for $q+ip$, here of two degrees of freedom:
+# A unitary matrix for $q+ip$ turns $x_1$ into the direction of any velocity, shown for two degrees of freedom:
 
 # %%
 phi_1, phi_2, theta = sp.symbols("phi_1 phi_2 theta", real=True)
@@ -45,21 +45,21 @@ S = sp.Matrix(sp.BlockMatrix([[A, -B], [B, A]]))
 prove(S.T * Omega * S, Omega, "the frame is canonical", names=r"S^T\Omega S")
 
 # %% [markdown]
-# ## What a change of coordinates removes
+# ## Terms that a change of coordinates removes
 #
-# $\chi\circ\Lambda^{-1}$ of a term $z^aw^b$, with $\Lambda:z\to e^{i\alpha}z$, $w\to e^{-i\alpha}w$ and $q=e^{i\alpha}$:
+# $\chi\circ\Lambda^{-1}$ for a term $z^aw^b$, with $\Lambda:z\to e^{i\alpha}z$, $w\to e^{-i\alpha}w$ and $q=e^{i\alpha}$:
 
 # %%
 z, w, turn = sp.symbols("z w q")  # q = exp(i alpha)
 
 
 def bracket(f, g):
-    """{f, g} with {z, w} = −i."""
+    """Return {f, g} with {z, w} = −i."""
     return sp.expand(-sp.I * (f.diff(z) * g.diff(w) - f.diff(w) * g.diff(z)))
 
 
 def turned(f):
-    """f ∘ Λ⁻¹."""
+    """Return f ∘ Λ⁻¹."""
     return sp.expand(f.subs({z: z / turn, w: w * turn}, simultaneous=True))
 
 
@@ -68,7 +68,7 @@ prove(turned(z**3 * w), z**3 * w / turn**2, "a term is multiplied by exp(iα(b �
 # %% [markdown]
 # ## Hénon's map
 #
-# A kick $y\to y-x^2$ and the turn $\Lambda$ by $\alpha$, with $x=(z+w)/\sqrt2$ and $y=i(w-z)/\sqrt2$:
+# Hénon's map is a kick $y\to y-x^2$ and the rotation $\Lambda$ by $\alpha$, with $x=(z+w)/\sqrt2$ and $y=i(w-z)/\sqrt2$:
 
 # %%
 x, y = (z + w) / sp.sqrt(2), sp.I * (w - z) / sp.sqrt(2)
@@ -95,8 +95,8 @@ prove(
 )
 
 # %% [markdown]
-# At fourth degree $\Phi_\chi^{-1}\Phi_h\Phi_{\chi\circ\Lambda^{-1}}$ leaves $\tfrac12\{h,\chi\}$ (Campbell, Baker, Hausdorff),
-# and of it what $\Lambda$ keeps, $K=\tfrac12\tau I^2$. With $e^{i\alpha}=(c+i)/(c-i)$ the twist is
+# The term of fourth degree of $\Phi_\chi^{-1}\Phi_h\Phi_{\chi\circ\Lambda^{-1}}$ is $\tfrac12\{h,\chi\}$ (Campbell, Baker,
+# Hausdorff). Its part invariant under $\Lambda$ is $K=\tfrac12\tau I^2$. With $e^{i\alpha}=(c+i)/(c-i)$ the twist is
 
 # %%
 c = sp.Symbol("c", real=True)
@@ -106,8 +106,7 @@ triple = (c**3 - 3 * c) / (3 * c**2 - 1)  # cot(3 alpha/2)
 prove(twist, (3 * c + triple) / 8, "the twist of Hénon's map", names=r"\tau")
 
 # %% [markdown]
-# It vanishes at $\cos\alpha=-1/4$, where the published twistless bifurcation is, and has no bound at the resonance of third
-# order:
+# The twist vanishes at $\cos\alpha=-1/4$, the published twistless bifurcation, and diverges at the resonance of third order:
 
 # %%
 root = sp.sqrt(sp.Rational(3, 5))
@@ -121,10 +120,10 @@ prove(
 # %% [markdown]
 # ## Measured on exact runs
 #
-# The series of any system's return map comes from the motion of power series (jets). Through sixth order the angle of a return
-# is $\alpha+\tau I+cI^2$: $\alpha$ alone is off by the second order of the size, with the twist by the fourth, whole by the
-# sixth. Exact runs, by an integrator that is not ours, are read at 120 returns: where they cross the section, or once a period of
-# the drive.
+# The series of the return map of any system comes from the motion of power series (jets). Through sixth order the angle of a
+# return is $\alpha+\tau I+cI^2$. The error of $\alpha$ alone is of second order in the size, the error with the twist of fourth,
+# that of the whole sum of sixth order. Exact runs, by an independent integrator, are read at 120 returns: at the crossings of
+# the section, or once per period of the drive.
 
 # %%
 line, plane = coordinates("x"), coordinates("x y")
@@ -143,7 +142,7 @@ forms = {name: sides[name].normal_form(order=6, at=at, period=T) for name, (_, a
 
 
 def returns(h, n, size, count=120):
-    """(q, p) less the orbit's start at the returns of the exact motion from z = size."""
+    """Return (q, p) minus the orbit's start at the returns of the exact motion from z = size."""
     states, base, driven = (*h.q, *h.p), np.array(list(n.orbit.values())), h.H.has(t)
     rates = sp.lambdify((*states, t), [*(h.H.diff(p) for p in h.p), *(-h.H.diff(q) for q in h.q)], "math")
     along = np.array(rates(*base, 0.0))
@@ -161,7 +160,7 @@ def returns(h, n, size, count=120):
 
 
 def angle(n, apart):
-    """The mean angle (rad) of these returns, weighted by a bump, which converges faster than any power."""
+    """Return the mean angle in rad of these returns, weighted by a bump function, which converges faster than any power."""
     slope = np.array([[f.terms.get(e, 0.0) for e in ((1, 0), (0, 1))] for f in n.frame]) @ n.vectors
     around = np.linalg.lstsq(slope, apart.T + 0j)[0][0]
     turned = np.angle(around[:-1] / around[1:] * np.exp(-1j * n.frequencies[0])) + n.frequencies[0]
@@ -180,8 +179,8 @@ for name, n in forms.items():
     assert np.abs(np.array(measured[name]) - (2, 4, 6)).max() < 0.1, measured
 Remark(
     "Normal forms about periodic orbits",
-    "The angle of a return of exact runs differs from the orbit's own, from it with the twist, and from the form of sixth order "
-    "by amounts that fall as these powers of the size: "
+    "The angle of a return of exact runs differs from the angle of the orbit, from this angle with the twist, and from the "
+    "normal form of sixth order. The differences are proportional to these powers of the size: "
     + "; ".join(", ".join(f"{order:.2f}" for order in orders) + f" ({name})" for name, orders in measured.items())
     + ".",
 )

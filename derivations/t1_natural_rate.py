@@ -2,7 +2,7 @@
 # # Normal modes of the coupled pair
 #
 # **Objective.** The small motions about the upright rest position for any two spins and any bar: the matrices, the natural
-# frequency, the zero modes; and how far the frequency holds at an amplitude.
+# frequency, the zero modes, and the error of the frequency at a finite amplitude.
 #
 # **Assumptions.** No gravity; ideal joints; the spins eliminated (Routh), which leaves the force $G_i\,r_i\times\dot r_i$ on
 # each axis. The bar may have mass and inertia or none.
@@ -40,9 +40,9 @@ r1, r2 = sp.Matrix([x1, y1, z1]), sp.Matrix([x2, y2, z2])
 Formula(link_constraint(r1, r2), "g")
 
 # %% [markdown]
-# ## What the constraints allow
+# ## Directions that the constraints allow
 #
-# About $r_1=r_2=e_z$ the two unit lengths hold $z_1$ and $z_2$, and the bar holds $x_1-x_2$, to first order. Three
+# About $r_1=r_2=e_z$ and to first order, the two unit lengths fix $z_1$ and $z_2$, and the bar fixes $x_1-x_2$. Three
 # coordinates are free: the common $x$, and $y_1$, $y_2$.
 
 # %%
@@ -59,12 +59,12 @@ prove(
 # %% [markdown]
 # ## Equations of motion
 #
-# The Euler–Lagrange expressions less the gyroscopic forces, to first order, along those three directions:
+# The Euler–Lagrange expressions minus the gyroscopic forces, to first order, along these three directions:
 
 # %%
 x, x_v, x_a = sp.symbols("x x_dot x_ddot", real=True)
 small = sp.Symbol("epsilon")
-motion = euler_lagrange(pair.L, AXES) - pair.push
+motion = euler_lagrange(pair.L, AXES) - pair.generalised_forces
 still = {q: value + small * q for q, value in upright.items()} | {v: small * v for v in (*AXES.v, *AXES.a)}
 first = motion.xreplace(still).diff(small).subs(small, 0)
 common = {x1: x, x2: x, AXES.v[0]: x_v, AXES.v[3]: x_v, AXES.a[0]: x_a, AXES.a[3]: x_a}
@@ -97,7 +97,7 @@ prove(C, linear.jacobian([x_v, v1, v2]), "the gyroscopic matrix, antisymmetric",
 # %% [markdown]
 # ## The natural frequency
 #
-# The last two equations integrate once. With constants that shift the origin of $x$ they give the velocities
+# The last two equations can be integrated once. The integration constants only shift the origin of $x$. The velocities are
 
 # %%
 velocities = sp.solve([a * v1 + b * v2 - G_1 * x, b * v1 + a * v2 - G_2 * x], [v1, v2], dict=True, simplify=False)[0]
@@ -109,7 +109,7 @@ prove(
 )
 
 # %% [markdown]
-# and, put into the first equation, an oscillator for $x$ alone:
+# In the first equation they give an oscillator for $x$ alone:
 
 # %%
 oscillator = sp.expand(linear[0].subs(velocities) / (2 * (a + b)))
@@ -162,12 +162,12 @@ prove(
 )
 
 # %% [markdown]
-# Three of them are displacements: without gravity every position at rest is an equilibrium.
+# Three of the zero modes are displacements: without gravity every position at rest is an equilibrium.
 
 # %%
 rest = dict.fromkeys(AXES.v, 0)
 prove(
-    (pair.L.subs(rest), sum(e**2 for e in pair.push.subs(rest))),
+    (pair.L.subs(rest), sum(e**2 for e in pair.generalised_forces.subs(rest))),
     (0, 0),
     "at rest there is neither energy nor force",
     names=("L", "|Q|^2"),
@@ -183,7 +183,7 @@ prove(C * n, sp.zeros(3, 1), "the direction n that no gyroscopic force opposes",
 value = natural_rate(Scene((10, -10), link=Link(1, 0.01, 0.1)))
 Remark(
     "The zero mode",
-    "The free direction is n = (0, −G_2, G_1) in (x, y_1, y_2): toppling for opposite spins, twisting for equal ones, never x. "
+    "The free direction is n = (0, −G_2, G_1) in (x, y_1, y_2): toppling for opposite spins, twist for equal spins, never x. "
     "Every position at rest is an equilibrium.",
 )
 
@@ -191,22 +191,22 @@ Remark(
 Remark(
     "Normal modes",
     "One oscillation and four zero roots: det(s² M + s C) = 2 (a + b)(a² − b²) s⁴ (s² + Ω_0²), "
-    "Ω_0² = (a (G_1² + G_2²) − 2 b G_1 G_2)/(2 (a + b)(a² − b²)). Equal spins G/(a + b), opposite G/√(a² − b²), one spin and a "
-    f"dumbbell G/(√2 a). Paper's scene of 5.2.1: {value:.5f} rad/s.",
+    "Ω_0² = (a (G_1² + G_2²) − 2 b G_1 G_2)/(2 (a + b)(a² − b²)). Ω_0 is G/(a + b) for equal spins, G/√(a² − b²) for opposite "
+    f"spins, G/(√2 a) for one spin and a dumbbell. Paper's scene of 5.2.1: {value:.5f} rad/s.",
 )
 
 # %% [markdown]
 # ## Range of validity
 #
-# The frequency is that of the limit of small motion. At an amplitude $r$ (sine of the inclination) it is off in second order:
-# parallel axes of equal spins precess at $\Omega_0/\cos\theta$ exactly (derived with 5.24), and
-# `natural_rate_error` bounds every pair by the shift of the rate that t12 derives and what a swing's phase and the next order
-# add to it. Measured on exact runs of 20 swings:
+# The frequency is the limit for small motions. At an amplitude $r$ (sine of the inclination) its relative error is of second
+# order: parallel axes of equal spins precess at $\Omega_0/\cos\theta$ exactly (derived with 5.24). `natural_rate_error` bounds
+# the error of any pair: it adds the shift of the rate from t12, the effect of the swing's phase, and the next order. Measured
+# on exact runs of 20 swings:
 
 
 # %%
 def shift(amplitude: float) -> float:
-    """Relative distance of the swing's rate from the natural one, started on the linear mode at its largest x."""
+    """Return the relative difference of the swing's rate from the natural rate, from the largest x of the linear mode."""
     numbers = {
         a: TESTED.inertias[0],
         b: TESTED.inertias[1],
@@ -230,10 +230,10 @@ slope = measured_order(amplitudes, shifts)
 assert abs(slope - 2) < 0.2 and all(off < bound for off, bound in zip(shifts, bounds, strict=True))
 Remark(
     "Error of the natural rate",
-    "Second order in the amplitude; spins 10 and −4, bar of 0.8 R: "
+    "The error is of second order in the amplitude. With spins 10 and −4 and a bar of 0.8 R it is "
     + "; ".join(
         f"{100 * off:.2g} % at r = {r} (bound {100 * bound:.2g} %)"
         for r, off, bound in zip(amplitudes, shifts, bounds, strict=True)
     )
-    + f"; measured power {slope:.2f}. Amplitudes beyond r = 0.4 are refused, and those whose shift may pass 0.12.",
+    + f"; measured power {slope:.2f}. Amplitudes beyond r = 0.4 are refused, and those with a possible shift above 0.12.",
 )

@@ -1,10 +1,10 @@
 # %% [markdown]
 # # The linear response to a shock
 #
-# **Objective.** What a Gaussian pulse leaves: centre of the precession, permanent displacement, drift, amplitude, energy, for
-# any two spins and any bar; the paper's $100 \to 100.45$ as a formula.
+# **Objective.** The motion after a Gaussian pulse, for any two spins and any bar: the centre of the precession, the permanent
+# displacement, the drift, the amplitude and the energy; and the paper's $100 \to 100.45$ as a formula.
 #
-# **Assumptions.** At rest and upright before the pulse; first order in it.
+# **Assumptions.** The pair is at rest and upright before the pulse; first order in the pulse.
 #
 # **Notation.** $q=(x,y_1,y_2)$; $M$, $C$ of t1; $p=(p_x,p_1,p_2)$ the impulse times $R$; $w$ the width of the pulse;
 # $N=M^{-1}C$; $n$ with $Cn=0$.
@@ -34,13 +34,13 @@ N = inverse * C
 Formula(N, "N")
 
 # %% [markdown]
-# $N$ satisfies a cubic equation, as one eigenvalue is zero and the others are $\pm i\Omega_0$ (t1):
+# $N$ satisfies a cubic equation, since one eigenvalue is zero and the others are $\pm i\Omega_0$ (t1):
 
 # %%
 prove(N**3, -squared * N, "N³ = −Ω_0² N", written=r"N^3 = -\Omega_0^2\,N")
 
 # %% [markdown]
-# so the exponential ends after the second power,
+# The exponential series therefore reduces to the powers up to the second,
 # $$e^{-Ns} = 1 - N\,\frac{\sin\Omega_0 s}{\Omega_0} + N^2\,\frac{1-\cos\Omega_0 s}{\Omega_0^2}.$$
 # It is 1 at $s=0$, and its derivative by $s$ is $-N$ times itself:
 
@@ -62,7 +62,7 @@ prove(
 # Integrated over $s$ and multiplied by $M^{-1}$,
 # $$H(s) = \Big(1+\frac{N^2}{\Omega_0^2}\Big)M^{-1}s + D\,(1-\cos\Omega_0 s) + S\,\frac{\sin\Omega_0 s}{\Omega_0},\qquad
 # D=-\frac{NM^{-1}}{\Omega_0^2},\quad S=-\frac{N^2M^{-1}}{\Omega_0^2}.$$
-# The first matrix projects onto $n$: the pair drifts along the one direction that nothing opposes.
+# The first matrix projects onto $n$: the pair drifts along the one direction that no gyroscopic force opposes.
 
 # %%
 drift, D, S = linear.drift, linear.displacement, linear.swing
@@ -98,7 +98,7 @@ prove(M * S, C * D, "the terms in the cosine", written=r"M\,S = C\,D")
 prove(squared * M * D, -C * S, "the terms in the sine", written=r"\Omega_0^2\,M\,D = -C\,S")
 
 # %% [markdown]
-# For opposite spins and a shock along the bar, the centre of the precession is twisted, and not displaced along $x$:
+# For opposite spins and a shock along the bar, the centre of the precession is a twist, without a displacement along $x$:
 
 # %%
 along_x = {G_1: G, G_2: -G, P_1: 0, P_2: 0}
@@ -113,8 +113,8 @@ prove(
 # %% [markdown]
 # ## The width of the pulse
 #
-# A pulse is a sum of impulses. The drift and the centre take its integral; the swing takes its Fourier component at
-# $\Omega_0$, which multiplies it by $A_w = e^{-(\Omega_0 w)^2/4}$.
+# A pulse is a sum of impulses. The drift and the centre depend on its integral. The swing depends on its Fourier component at
+# $\Omega_0$, which is the integral times $A_w = e^{-(\Omega_0 w)^2/4}$.
 
 # %%
 w = sp.Symbol("w", positive=True)
@@ -130,8 +130,8 @@ prove(
 # %% [markdown]
 # ## Energy
 #
-# The drift gains $p\cdot\text{drift}\,p/2$, the swing $p\cdot S\,p/2$, of a pulse times $A_w^2$. For a short one the sum is
-# the work of the impulse on a pair at rest:
+# The energy of the drift is $p\cdot\text{drift}\,p/2$, the energy of the swing $p\cdot S\,p/2$ times $A_w^2$. For a short pulse
+# the sum is the work of the impulse on a pair at rest:
 
 # %%
 p = sp.Matrix([P_X, P_1, P_2])
@@ -144,7 +144,7 @@ prove(
 )
 
 # %% [markdown]
-# The paper's shock, along $x$ on equal spins, makes no drift:
+# The paper's shock, along $x$ on equal spins, causes no drift:
 
 # %%
 equal_spins = {G_1: G, G_2: G, P_1: 0, P_2: 0}
@@ -166,14 +166,15 @@ Formula(equal_x * att**2, "E")
 Remark(
     "The energy of the shock, 100 to 100.45 J",
     "A shock along x gives equal spins p_x²/(4 (a + b)) exp(−(Ω_0 w)²/2) J: in the paper's scene "
-    f"100 + {answer.energy:.5f} J, exactly {exact:.5f} J. Without the factor of the width 100 + {answer.impulse_energy:.5f} J.",
+    f"100 + {answer.energy:.5f} J; the exact run gives {exact:.5f} J. Without the factor of the width it would be "
+    f"100 + {answer.impulse_energy:.5f} J.",
 )
 
 # %% [markdown]
 # ## Order of the error
 #
-# What is left out is of second order in the shock and grows with time. For a scene `shock_response_error` estimates it from
-# the defect of the linear motion in the exact equations.
+# The error is of second order in the shock and grows with time. For a scene, `shock_response_error` estimates it from the
+# residual of the linear motion in the exact equations.
 
 # %%
 sizes, times = (0.01, 0.02, 0.04), np.linspace(0, 2.5, 101)
@@ -187,15 +188,15 @@ slope = measured_order(sizes, errors)
 assert abs(slope - 2) < 0.1 and all(off < bound for off, bound in zip(errors, estimates, strict=True))
 Remark(
     "Shock response",
-    f"The closed form misses the exact motion by a term of second order in the shock (measured power {slope:.3f}; any spins, "
-    "any bar, during the pulse too): "
+    f"The error of the closed form is of second order in the shock (measured power {slope:.3f}), for any spins and any bar, also "
+    "during the pulse: "
     + "; ".join(f"{off:.2g} R, estimated {bound:.2g}" for off, bound in zip(errors, estimates, strict=True))
-    + f" at {', '.join(f'{50 * size:g}' for size in sizes)} N after 2.5 s. Beyond an estimate of 0.1 R it is refused.",
+    + f" at {', '.join(f'{50 * size:g}' for size in sizes)} N after 2.5 s. An estimate above 0.1 R is refused.",
 )
 
 # %%
 Remark(
     "What a shock along x leaves",
-    "Opposite spins: a displacement (x, y_1, y_2) = (0, 1, −1) p_x/(2 G): a permanent twist as large as the swing, and none "
-    "along x.",
+    "Opposite spins keep the displacement (x, y_1, y_2) = (0, 1, −1) p_x/(2 G): a permanent twist as large as the swing, and no "
+    "displacement along x.",
 )

@@ -4,7 +4,7 @@
 # **Objective.** The periodic orbit of opposite spins for any bar, order by order in its amplitude: the axes, the frequency,
 # the momentum about the joint line; and the error of the series.
 #
-# **Assumptions.** Opposite spins, $G_1=G$, $G_2=-G$; any bar. The orbit's symmetry: exchange of the rotors is half a period.
+# **Assumptions.** Opposite spins, $G_1=G$, $G_2=-G$; any bar. The exchange of the rotors is a shift by half a period.
 #
 # **Notation.** $r_i=(x_i,y_i,z_i)$ the axes; $a$, $b$ the inertias with the bar's share; $\sigma=(a+b)/(a-b)$, $k=\ell/R$;
 # $\Omega_0=G/\sqrt{a^2-b^2}$ the natural rate; $\Phi=\Omega t$ the phase; $r_0$ the sine of the inclination when the axes are
@@ -51,15 +51,15 @@ Formula(sp.Matrix(pair.constraints), "g")
 # %% [markdown]
 # ## Equations of motion
 #
-# $\frac{d}{dt}\frac{\partial L}{\partial\dot q}-Q=\lambda_1 r_1+\dots$: of the first axis, with the sign of $\tau$ chosen so
-# that the bar pulls,
+# $\frac{d}{dt}\frac{\partial L}{\partial\dot q}-Q=\lambda_1 r_1+\dots$ for the first axis, with the sign of $\tau$ chosen so
+# that a positive $\tau$ is a tension of the bar:
 
 # %%
 multipliers = sp.symbols("lambda_1 lambda_2 tau", real=True)
 opposite = {G_1: G, G_2: -G}
 slopes = sp.Matrix([pair.constraints]).jacobian(list(AXES.q))
 forces = slopes.T * sp.Matrix([*multipliers])
-motion = (euler_lagrange(pair.L, AXES) - sp.Matrix(pair.push) - forces).subs(opposite)
+motion = (euler_lagrange(pair.L, AXES) - sp.Matrix(pair.generalised_forces) - forces).subs(opposite)
 x1_v, y1_v, z1_v, x2_v, y2_v, z2_v = AXES.v
 x1_a, y1_a, z1_a, x2_a, y2_a, z2_a = AXES.a
 lambda_1, lambda_2, tau = multipliers
@@ -71,10 +71,11 @@ first = (
 prove(tuple(motion[:3]), first, "the equations of motion of rotor 1, each to vanish", names=("E_x", "E_y", "E_z"))
 
 # %% [markdown]
-# ## The rotors exchanged
+# ## Exchange of the rotors
 #
 # Under $r_1\leftrightarrow S r_2$, $S: x\to-x$, with the multipliers of the unit lengths exchanged, the equations of rotor 1
-# become those of rotor 2, mirrored. So a motion with $r_2(t)=S r_1(t+T/2)$ is consistent, and the equations of rotor 1 are all.
+# become those of rotor 2, mirrored. A motion with $r_2(t)=S r_1(t+T/2)$ is therefore consistent, and the equations of rotor 1
+# are sufficient.
 
 # %%
 exchange = {}
@@ -94,8 +95,8 @@ prove(
 # ## Units
 #
 # In units $a+b=1$, of $\Omega_0$ for rates and with $y=\sqrt\sigma\,Y$, every coefficient is rational in $\sigma$ and $k$.
-# Time is measured by the phase $\Phi$, so that each derivative brings a factor $w=\Omega/\Omega_0$. The equations that the
-# library solves, written for stand-ins of the unknowns, are those above:
+# Time is measured by the phase $\Phi$, so that each derivative brings a factor $w=\Omega/\Omega_0$. The library's equations,
+# in symbols for the unknowns, equal those above:
 
 
 # %%
@@ -154,14 +155,15 @@ prove([e.of for e in library[3:]], (2 * unit_length, bar), "the library's constr
 # %% [markdown]
 # ## First order
 #
-# Solutions are sought as $x=r_0x^{(1)}(\Phi)+r_0^2x^{(2)}(\Phi)+\dots$, likewise $Y$, $z$ and the multipliers, with
-# $\Omega/\Omega_0=1+w_2r_0^2+\dots$ (Lindstedt and Poincaré), about rest, $z=1$ and all else zero. The coefficients of $r_0$ in
-# the five equations are, a dot being $d/d\Phi$, and $y$ written for $Y$ and each letter for its first-order term,
+# The ansatz is $x=r_0x^{(1)}(\Phi)+r_0^2x^{(2)}(\Phi)+\dots$, and the same for $Y$, $z$ and the multipliers, with
+# $\Omega/\Omega_0=1+w_2r_0^2+\dots$ (Lindstedt and Poincaré). The pair at rest has $z=1$ and all other unknowns zero. Below are
+# the coefficients of $r_0$ in the five equations. A dot is $d/d\Phi$, $y$ stands for $Y$, and each symbol for its first-order
+# term:
 
 
 # %%
 def of_power(n: int, put: dict) -> list[sp.Expr]:
-    """The coefficient of r_0^n in the five equations, w = 1, where `put` gives what the unknowns are."""
+    """Return the coefficient of r_0^n in the five equations for w = 1 and the unknowns of `put`."""
     five = (scaled[0], scaled[1] / sp.sqrt(sigma), scaled[2], unit_length, bar)
     return [sp.expand(e.subs(w, 1).xreplace(put)).coeff(r0, n) for e in five]
 
@@ -179,9 +181,9 @@ prove(
 
 # %% [markdown]
 # The last two give $z=0$ and $x_1=x_2$. As $x_2(\Phi)=-x_1(\Phi+\pi)$ and $Y_2(\Phi)=Y_1(\Phi+\pi)$, the motion has odd
-# harmonics only, and $Y_2=-Y_1$. Half a period later the first equation has the opposite sign but for $k\tau$, as the bar is the
-# same for both rotors: $\tau=0$, and with the third $\lambda_1=0$. With $a+b=1$, $a-b=1/\sigma$ there remain
-# $\ddot x+\dot Y=0$ and $\ddot Y-\dot x=0$, and the pair swings as in t1:
+# harmonics only, and $Y_2=-Y_1$. Half a period later all terms of the first equation change their sign except $k\tau$, since the
+# bar is the same for both rotors. Hence $\tau=0$, and by the third equation $\lambda_1=0$. With $a+b=1$, $a-b=1/\sigma$ the
+# equations are $\ddot x+\dot Y=0$ and $\ddot Y-\dot x=0$, and the pair swings as in t1:
 
 # %%
 series = paired_series(3)
@@ -197,7 +199,7 @@ prove(
 # %% [markdown]
 # ## Second order
 #
-# With the first order put in, the coefficients of $r_0^2$ are, each letter being its second-order term,
+# With the first-order solution the coefficients of $r_0^2$ are, each symbol being its second-order term,
 
 # %%
 turning = {x1: sp.cos(Phi), y1: sp.sin(Phi), x2: sp.cos(Phi), y2: -sp.sin(Phi)}
@@ -212,8 +214,8 @@ prove(
 )
 
 # %% [markdown]
-# The left sides are those of the first order, as at every order. The unit length lowers $z$; with it the bar makes twisted axes
-# lean, $x_1-x_2=2\sigma\sin^2\Phi/k$, that is $\sigma(Y_1-Y_2)^2/(2k)$ of the first order. In even harmonics $x_2=-x_1$ and
+# The left sides are those of the first order, as at every order. The unit length lowers $z$. The bar then inclines twisted axes,
+# $x_1-x_2=2\sigma\sin^2\Phi/k$, that is $\sigma(Y_1-Y_2)^2/(2k)$ of the first order. In even harmonics $x_2=-x_1$ and
 # $Y_2=Y_1$: the gyroscopic force of the lean drives $Y$, $\ddot Y=\dot x/\sigma$:
 
 # %%
@@ -227,7 +229,7 @@ prove(
 )
 
 # %% [markdown]
-# and the multipliers begin there, $\tau$ from $E_x$ and $\lambda_1$ from $E_z$:
+# The multipliers begin at this order, $\tau$ from $E_x$ and $\lambda_1$ from $E_z$:
 
 # %%
 prove(
@@ -239,19 +241,19 @@ prove(
 
 
 # %% [markdown]
-# Put into the library's five equations, which are those above, these leave nothing through second order:
+# The library's five equations, which equal those above, hold through second order:
 
 
 # %%
 def left(order: int, rate: FourierSeries, field: Domain) -> list[FourierSeries]:
-    """The five equations with the series through an order put in, through third order."""
+    """Return the five equations through third order, with the series through an order as the unknowns."""
     known = (FourierSeries(part.through(order).terms, 3) for part in series.solution.unknowns)
     one = [FourierSeries({n: field.convert_from(c, FIELD) for n, c in part.terms.items()}, 3) for part in known]
     return equations(sigma, k, field)(one, rate)
 
 
 def of_order(n: int, found: list[FourierSeries]) -> list[sp.Expr]:
-    """The coefficient of r_0^n in each of the equations."""
+    """Return the coefficient of r_0^n in each equation."""
     return [series.expression(e).coeff(r0, n) for e in found]
 
 
@@ -266,8 +268,8 @@ prove(
 # ## Third order: the frequency
 #
 # The unknown first harmonics of $x^{(3)}$ and $Y^{(3)}$ enter both $E_x$ and $\sigma E_Y$ by their difference, with opposite
-# signs: they drop out of the sum. What is left of it, the coefficient of $\cos\Phi$ in $E_x$ and of $\sin\Phi$ in $\sigma E_Y$,
-# must vanish by itself:
+# signs, so that the sum does not contain them. The coefficient of $\cos\Phi$ in $E_x$ plus that of $\sin\Phi$ in $\sigma E_Y$
+# must therefore vanish:
 
 # %%
 w_2 = sp.Symbol("w_2", real=True)
@@ -284,7 +286,7 @@ prove(
 )
 
 # %% [markdown]
-# Hence the frequency, which is what the library holds:
+# It gives the frequency, which equals the library's:
 
 # %%
 frequency = paired_frequency(3).expressions[0]
@@ -302,13 +304,13 @@ prove(
 )
 
 # %% [markdown]
-# Every further order is solved in the same way; the equations are linear in it, and the frequency's correction makes the
-# first harmonic solvable.
+# Every further order has the same linear equations for its terms, and the correction of the frequency makes the first harmonic
+# solvable.
 #
 # ## Momentum about the joint line
 #
-# $P=\sum_i(r_i\times p_i)_x+G(x_1-x_2)$ with $p_i=a\dot r_i+b\dot r_j$ is conserved (t10), so that it must not depend on the
-# phase. With the orbit put in:
+# $P=\sum_i(r_i\times p_i)_x+G(x_1-x_2)$ with $p_i=a\dot r_i+b\dot r_j$ is conserved (t10), so that on the orbit it does not
+# depend on the phase:
 
 # %%
 one = (x, sp.sqrt(sigma) * Y, z)
@@ -332,7 +334,7 @@ prove(paired_momentum(3).expressions[0], second * r0**2, "which is what the libr
 # %% [markdown]
 # ## The error, against exact orbits of a bar not used elsewhere
 #
-# Each law gives its own error: its distance from the series of six more orders, and the estimated remainder of that.
+# The error bound of each law is its distance from the series of six more orders, plus the estimated remainder of that series.
 
 # %%
 scene = Scene(spins=(10, -10), link=Link(1.3, 0.35, 0.11))
@@ -350,12 +352,11 @@ assert abs(slopes["frequency"] - 4) < 0.2 and abs(slopes["momentum"] - 6) < 0.3
 assert all(one < most for name in off for one, most in zip(off[name], bounds[name], strict=True))
 Remark(
     "Frequency and momentum of the paired precession",
-    f"At σ = {scene.sigma:.4f}, k = {scene.k:g}, r_0 = {amplitudes[-1]}: the frequency through r_0³ is off by "
-    f"{off['frequency'][-1]:.1e}, with an error bound of {bounds['frequency'][-1]:.1e}; P/G through r_0⁴ by "
-    f"{off['momentum'][-1]:.1e}, "
-    f"with a bound of {bounds['momentum'][-1]:.1e}. Slopes of the errors: {slopes['frequency']:.2f} and "
-    f"{slopes['momentum']:.2f}. "
-    "A pair at rest has P = 0: a shock along x alone cannot put it on this orbit.",
+    f"At σ = {scene.sigma:.4f}, k = {scene.k:g}, r_0 = {amplitudes[-1]} the error of the frequency through r_0³ is "
+    f"{off['frequency'][-1]:.1e} (bound {bounds['frequency'][-1]:.1e}), that of P/G through r_0⁴ "
+    f"{off['momentum'][-1]:.1e} (bound {bounds['momentum'][-1]:.1e}). Measured powers of r_0: "
+    f"{slopes['frequency']:.2f} and {slopes['momentum']:.2f}. "
+    "A pair at rest has P = 0, and a shock along x does not change P: it cannot bring the pair onto this orbit.",
 )
 
 # %%
@@ -370,7 +371,7 @@ third_order = np.array(corrected_trajectories(3)(0.2, phases, *bar_of)).reshape(
 assert all(one < most for one, most in reach.values())
 Remark(
     "Error of the axes",
-    "Largest distance of an axis from the exact orbit over one turn at r_0 = 0.2, and its error bound: "
+    "Largest distance of an axis from the exact orbit over one turn at r_0 = 0.2, and the error bound: "
     + "; ".join(f"order {order}: {one:.1e}, {most:.1e}" for order, (one, most) in reach.items())
     + f". Through r_0³ it is {np.linalg.norm(third_order - truth, axis=-1).max():.1e}.",
 )

@@ -1,8 +1,8 @@
 # %% [markdown]
 # # The family of paired precessions to its end
 #
-# **Objective.** Why a quarter of a period decides the periodic orbit; frequency against amplitude, and where the family
-# turns or ends.
+# **Objective.** The proof that a quarter of a period determines the periodic orbit; the frequency against the amplitude, and
+# the turning point or end of the family.
 #
 # **Assumptions.** Opposite spins, any bar. Only a few orbits of each bar are computed here; `ends()` follows the families to
 # $r_0 = 0.99$.
@@ -10,7 +10,7 @@
 # **Notation.** Mercator coordinates about the joint line, which runs through both ground joints:
 # $r_i=(\tanh u_i,-\sin\alpha_i\,\mathrm{sech}\,u_i, \cos\alpha_i\,\mathrm{sech}\,u_i)$; $U=(u_1+u_2)/2$,
 # $\Delta=\alpha_2-\alpha_1$, $\alpha=(\alpha_1+\alpha_2)/2$; $r_0$ the sine of the inclination when the axes are parallel;
-# $\Omega_0$ the natural rate; $k=\ell/R$ the bar's length over an axis'.
+# $\Omega_0$ the natural rate; $k=\ell/R$ the length of the bar over that of an axis.
 
 # %%
 import numpy as np
@@ -38,9 +38,9 @@ Formula(L, "L")
 Formula(bar, "g")
 
 # %% [markdown]
-# ## First symmetry: time reversed and $y\to-y$
+# ## First symmetry: reversal of time and $y\to-y$
 #
-# $\alpha_i\to-\alpha_i$ with $t\to-t$, under which $\dot\alpha_i$ keeps and $\dot u_i$ changes its sign:
+# $\alpha_i\to-\alpha_i$ with $t\to-t$: $\dot\alpha_i$ keeps its sign, and $\dot u_i$ changes it.
 
 # %%
 mirrored = {al1: -al1, al2: -al2, u1_v: -u1_v, u2_v: -u2_v}
@@ -52,9 +52,9 @@ prove(
 )
 
 # %% [markdown]
-# ## Second symmetry: the rotors exchanged, $x\to-x$, and time reversed with $y\to-y$
+# ## Second symmetry: exchange of the rotors, $x\to-x$, and reversal of time with $y\to-y$
 #
-# $u_1\to-u_2$, $\alpha_1\to-\alpha_2$ and the other way about; time reversed:
+# $u_1\leftrightarrow-u_2$, $\alpha_1\leftrightarrow-\alpha_2$, $t\to-t$:
 
 # %%
 exchanged = {u1: -u2, u2: -u1, al1: -al2, al2: -al1, u1_v: u2_v, u2_v: u1_v, al1_v: al2_v, al2_v: al1_v}
@@ -66,10 +66,10 @@ prove(
 )
 
 # %% [markdown]
-# ## A quarter of a period decides
+# ## A quarter of a period determines the orbit
 #
-# A motion that meets the states unchanged by a time-reversing symmetry runs back on its own mirror image. By the first they
-# are $\Delta=\alpha=0$, $\dot U=0$; by the second those where
+# A motion through a fixed state of a time-reversing symmetry is its own mirror image. The fixed states of the first symmetry
+# are $\Delta=\alpha=0$, $\dot U=0$. For the second they are the states where
 
 # %%
 U_after, alpha_after = (
@@ -99,12 +99,12 @@ amplitudes = np.array([0.2, 0.6, 0.8, 0.9])
 
 
 def scene_of(link: Link) -> Scene:
-    """Opposite spins of 10 rad/s with a bar."""
+    """Return a pair with opposite spins of 10 rad/s and a bar."""
     return Scene(spins=(10, -10), link=link)
 
 
 def ends() -> dict[str, OrbitFamily]:
-    """Each family from r_0 = 0.05 as far as 0.99."""
+    """Return each family from r_0 = 0.05 to 0.99."""
     return {name: trace_family(scene_of(link)) for name, link in BARS.items()}
 
 
@@ -124,16 +124,16 @@ assert all(values[0] < 1 for values in curves.values())
 assert curves["massless, k = 1"][3] > curves["massless, k = 1"][2]
 Remark(
     "The family of orbits",
-    f"Ω/Ω_0 at r_0 = {', '.join(map(str, amplitudes))}: {rows}; errors given at most {max(errors):.1e}. For k = 1 the frequency "
-    "falls, passes a least value and rises again; with a massless bar longer than √(3/2) R it rises from the start (s5_3b). "
-    "The families are followed to "
-    "r_0 = 0.99 without a turn (ends(), slow): they end where the axes come to lie along the joint line, r_0 = 1.",
+    f"Ω/Ω_0 at r_0 = {', '.join(map(str, amplitudes))}: {rows}; estimated errors at most {max(errors):.1e}. For k = 1 the "
+    "frequency falls to a minimum and then rises; with a massless bar longer than √(3/2) R it rises from the start (s5_3b). "
+    "The families continue to r_0 = 0.99 without a turning point (ends(), slow). They end at r_0 = 1, where the axes lie along "
+    "the joint line.",
 )
 
 # %% [markdown]
 # ## How far the series reaches
 #
-# The frequency through $r_0^3$ (t3) and the error that it gives, at the least of these amplitudes:
+# The frequency through $r_0^3$ (t3) and its estimated error, at the smallest of these amplitudes:
 
 # %%
 law = paired_frequency(3)
@@ -144,7 +144,7 @@ for name, link in list(BARS.items())[:2]:
 assert all(off < bound for off, bound in reach.values())
 Remark(
     "The series at r_0 = 0.2",
-    "Distance of the frequency through r_0³ from the exact one, and the error that it gives: "
+    "Error of the frequency through r_0³, and its estimate: "
     + "; ".join(f"{off:.1e}, {bound:.1e} ({name})" for name, (off, bound) in reach.items())
     + ".",
 )

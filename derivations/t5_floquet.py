@@ -46,7 +46,7 @@ from lagrotor.theory import averaged_hamiltonian, elliptic_edge, exponent_series
 pair = axes_pair()
 multipliers = sp.symbols("lambda_1 lambda_2 tau", real=True)
 forces = sp.Matrix([pair.constraints]).jacobian(list(AXES.q)).T * sp.Matrix(multipliers)
-motion = (euler_lagrange(pair.L, AXES) - sp.Matrix(pair.push) - forces).subs({G_1: G, G_2: -G})
+motion = (euler_lagrange(pair.L, AXES) - sp.Matrix(pair.generalised_forces) - forces).subs({G_1: G, G_2: -G})
 units = {a: (1 + 1 / sigma) / 2, b: (1 - 1 / sigma) / 2, G: 1 / sp.sqrt(sigma)}
 wide = {q: sp.sqrt(sigma) * q for names in (AXES.q, AXES.v, AXES.a) for q in (names[1], names[4])}
 equations = sp.Matrix(

@@ -201,9 +201,9 @@ Remark(
     f"For F_x = 40 N the force along y that cancels the drift is −{-tried[1]:.2f} N to second order. On exact runs it "
     "depends on the averaging time: "
     + ", ".join(f"−{-force:.2f} N over {turns} swings" for turns, force in by_window.items())
-    + f"; the paper took −11 N. Mean α′ over 8 swings: {without:+.4f} rad/s with F_y = 0, {at_second:+.4f} with the second "
-    f"order's, {at_paper:+.4f} with −11 N. The error of the second order is "
-    f"{cancelling_force_error(scene(40), duration(8)):.2f} N for 8 swings, for F_x = 10 N and 40 swings "
+    + f"; the paper chose −11 N. Mean α′ over 8 swings: {without:+.4f} rad/s with F_y = 0, {at_second:+.4f} with the force of "
+    f"second order, {at_paper:+.4f} with −11 N. The error of the force of second order is "
+    f"{cancelling_force_error(scene(40), duration(8)):.2f} N for 8 swings; for F_x = 10 N and 40 swings it is "
     f"{cancelling_force_error(scene(10), duration(40)):.1e} N.",
 )
 
@@ -229,7 +229,7 @@ def linear(**terms: sp.Expr | float) -> Polynomial:
 
 
 def number(e: sp.Expr) -> Any:
-    """An element of the field."""
+    """Return an element of the field."""
     return field.from_sympy(sp.sympify(e))
 
 

@@ -1,8 +1,8 @@
 # %% [markdown]
 # # Toppling, exactly
 #
-# **Objective.** Uniform turning about the joint line as an exact solution at any angle, and its stability; what it says
-# of a shock of $+50$ N against one of $-50$ N along y.
+# **Objective.** Uniform turning about the joint line as an exact solution at any angle, and its stability; the difference
+# between a shock of $+50$ N and one of $-50$ N along y.
 #
 # **Assumptions.** Both axes parallel in the y-z plane; any bar. The stability is that of infinitesimal disturbances.
 #
@@ -32,7 +32,7 @@ A, D = a + b, a - b
 # ## The Lagrangian near parallel axes
 #
 # In Mercator coordinates about the joint line the bar holds $\cosh w-k\sinh w=\cos\Delta$ with $w=u_1-u_2$. For a small twist
-# its solution is $w=\Delta^2/(2k)+\dots$, which is all that second derivatives at $\Delta=0$ need:
+# its solution is $w=\Delta^2/(2k)+\dots$; the second derivatives at $\Delta=0$ need no further terms:
 
 # %%
 w = Delta**2 / (2 * k)
@@ -43,16 +43,16 @@ prove(
 )
 
 # %% [markdown]
-# With it the pair has three free coordinates $(U,\Delta,\alpha)$, of which $\alpha$ is cyclic.
+# The pair then has three free coordinates $(U,\Delta,\alpha)$, of which $\alpha$ is cyclic.
 
 # %%
 L = twisted_lagrangian()
 prove(L.diff(alpha), 0, "the angle about the joint line is cyclic")
 
 # %% [markdown]
-# ## An exact solution, of opposite spins only
+# ## An exact solution for opposite spins
 #
-# Uniform turning is $U=\Delta=0$, $\dot\alpha=\nu$. The Euler–Lagrange expressions leave of it
+# Uniform turning is $U=\Delta=0$, $\dot\alpha=\nu$. Its residual in the Euler–Lagrange equations is
 
 # %%
 turning = dict.fromkeys((*TWISTED.q, *TWISTED.v, *TWISTED.a), sp.Integer(0)) | {alpha_v: nu}
@@ -60,12 +60,12 @@ residual = [e.xreplace(turning) for e in euler_lagrange(L, TWISTED)]
 prove(residual, (-(G_1 + G_2) * nu, 0, 0), "what uniform turning leaves of the three equations")
 
 # %% [markdown]
-# Nothing, at any angle and rate, for any bar, exactly if $(G_1+G_2)\nu=0$.
+# It vanishes, at any angle and rate and for any bar, if and only if $(G_1+G_2)\nu=0$.
 #
-# ## Motions nearby
+# ## Small perturbations
 #
-# As $\alpha$ is cyclic, the equations of a small disturbance have constant coefficients: those of the Lagrangian's second
-# derivatives along the solution. The quadratic Lagrangian of opposite spins is
+# Since $\alpha$ is cyclic, the equations of a small perturbation have constant coefficients, the second derivatives of the
+# Lagrangian along the solution. The quadratic Lagrangian for opposite spins is
 
 # %%
 e = b * nu**2 - G * nu / k
@@ -81,7 +81,8 @@ prove(
 )
 
 # %% [markdown]
-# whose equations are $2A\ddot U + 2A\nu^2U + G\dot\Delta=0$ and $\tfrac D2\ddot\Delta + e\Delta - G\dot U=0$. With $e^{st}$:
+# with the equations $2A\ddot U + 2A\nu^2U + G\dot\Delta=0$ and $\tfrac D2\ddot\Delta + e\Delta - G\dot U=0$. The ansatz $e^{st}$
+# gives
 
 # %%
 s = sp.Symbol("s")
@@ -111,15 +112,15 @@ prove(
 # %% [markdown]
 # ## Stability
 #
-# It is quadratic in $s^2$ with the discriminant
+# The characteristic polynomial is quadratic in $s^2$ with the discriminant
 
 # %%
 discriminant = (A * D * nu**2 - 2 * A * e) ** 2 + G**4 + 2 * G**2 * (A * D * nu**2 + 2 * A * e)
 prove(one**2 - 4 * two * zero, discriminant, "the discriminant", names="p_1^2-4p_2p_0")
 
 # %% [markdown]
-# For $e>0$ it is positive and all coefficients are: both $s^2$ are negative, and turning is stable. For $e<0$ the product of
-# the two $s^2$ is negative: one is positive, and turning is unstable. The edge is $e=0$:
+# For $e>0$ the discriminant and all coefficients are positive: both $s^2$ are negative, and the turning is stable. For $e<0$ the
+# product of the two $s^2$ is negative: one is positive, and the turning is unstable. The boundary is $e=0$:
 
 # %%
 edge = toppling_threshold().expressions[0]
@@ -129,8 +130,8 @@ prove(e.subs(nu, edge), 0, "the threshold, where turning changes its stability")
 prove(edge, G / (k * b), "the threshold as a formula")
 
 # %% [markdown]
-# The positive root, written so that no digits cancel, is $s^2=-2p_0/(p_1+\sqrt{p_1^2-4p_2p_0})$; it is the library's
-# growth rate. Slow turning in the unstable sense grows with the power $3/2$ of its rate:
+# The positive root, in a form without cancellation of digits, is $s^2=-2p_0/(p_1+\sqrt{p_1^2-4p_2p_0})$; the library's growth
+# rate is this $s$. For slow turning in the unstable sense the growth rate is $\propto\nu^{3/2}$:
 
 # %%
 slow = sp.limit(-zero / one / nu**3, nu, 0)
@@ -140,14 +141,13 @@ prove(slow, 2 * A / (G * k), "s² over ν³ of slow turning")
 # %% [markdown]
 # ## Predicted and measured
 #
-# Exact runs start a tilt of $10^{-9}$ out of the plane; their growth is fitted between 8 and 13 growth times. The closed form
-# is exact for infinitesimal disturbances, so that nothing but the fit limits the agreement; it ends where a tilt of ten per
-# cent is reached.
+# Exact runs start with a tilt of $10^{-9}$ out of the plane; their growth is fitted between 8 and 13 growth times. The closed
+# form is exact for infinitesimal perturbations, so that only the fit limits the agreement, up to a tilt of ten per cent.
 
 
 # %%
 def measured(link: Link, rate: float) -> tuple[float, float]:
-    """(predicted, measured) growth rate (1/s) of a tilt of 1e-9 out of the plane."""
+    """Return the predicted and the measured growth rate in 1/s of a tilt of 1e-9 out of the plane."""
     scene = Scene(spins=(10, -10), link=link, rates=((1e-9, -rate, 0.0),) * 2)
     predicted = float(toppling_growth()(rate, 10.0, *scene.inertias, link.length))
     times = np.linspace(8 / predicted, 13 / predicted, 41)
@@ -170,9 +170,9 @@ Remark(
 # %%
 Remark(
     "Stability of toppling",
-    "Stable for b ν² > G ν/k, unstable for b ν² < G ν/k; without inertia in the bar only the sense counts. Threshold "
-    f"ν = G/(k b); slow unstable turning grows with s² = 2 (a + b) ν³/(G k). Growth rates (1/s): {rows}. The rates are those of "
-    "infinitesimal disturbances.",
+    "The turning is stable for b ν² > G ν/k, unstable for b ν² < G ν/k; for b = 0 it depends only on the sense of rotation. The "
+    f"threshold is ν = G/(k b). Perturbations of slow unstable turning grow with s² = 2 (a + b) ν³/(G k). Growth rates of "
+    f"infinitesimal perturbations (1/s): {rows}.",
 )
 
 # %% [markdown]

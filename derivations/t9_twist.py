@@ -1,8 +1,8 @@
 # %% [markdown]
 # # Equal spins: one rotor, until it twists
 #
-# **Objective.** That the parallel pair is one rotor, exactly; when the axes stay parallel; the rate at which they leave, and
-# the error of its closed form.
+# **Objective.** The proof that the parallel pair is exactly one rotor; the condition under which the axes stay parallel; the
+# growth rate of a twist otherwise, and the error of its closed form.
 #
 # **Assumptions.** Equal spins, any bar; an infinitesimal twist.
 #
@@ -33,8 +33,8 @@ from lagrotor.theory import (
 # %% [markdown]
 # ## The parallel pair is one rotor, exactly
 #
-# Of the three Euler–Lagrange expressions of the pair (t8), of $U$, $\Delta$ and $\alpha$, a parallel motion, $\Delta=0$ for
-# all time, leaves in the equation of the twist
+# The pair has three Euler–Lagrange equations (t8), for $U$, $\Delta$ and $\alpha$. A parallel motion has $\Delta=0$ for all time.
+# Its residual in the equation of the twist is
 
 # %%
 straight = {Delta: 0, Delta_v: 0, Delta_a: 0}
@@ -42,8 +42,8 @@ along, across, about = (e.subs(straight) for e in euler_lagrange(twisted_lagrang
 prove(across, (G_2 - G_1) * U_v / (2 * sp.cosh(U) ** 2), "what a parallel motion leaves in it", names=r"\text{across}")
 
 # %% [markdown]
-# It vanishes on every parallel motion if and only if $G_1=G_2$. The other two are then twice the equations of one rotor of
-# inertia $a+b$ and momentum $G$, whose Lagrangian in Mercator coordinates is
+# The residual vanishes on every parallel motion if and only if $G_1=G_2$. The other two equations are then twice those of one
+# rotor of inertia $a+b$ and momentum $G$, whose Lagrangian in Mercator coordinates is
 
 # %%
 one_rotor = (a + b) / 2 * (U_v**2 + alpha_v**2) / sp.cosh(U) ** 2 + G * sp.tanh(U) * alpha_v
@@ -62,8 +62,8 @@ prove(
 # %% [markdown]
 # ## The equation of a small twist
 #
-# To first order in $\Delta$, $\frac{d}{dt}(\text{inertia}\,\dot\Delta)+\text{stiffness}\,\Delta=0$, with no gyroscopic term
-# and without the length of the bar:
+# To first order in $\Delta$ the equation is $\frac{d}{dt}(\text{inertia}\,\dot\Delta)+\text{stiffness}\,\Delta=0$. It has no
+# gyroscopic term and does not contain the length of the bar:
 
 # %%
 x = sp.tanh(U)
@@ -113,7 +113,7 @@ hill = sp.expand(flux.diff(Phi) + mu * flux + 2 * beta * rho**2 * sp.sin(Phi) **
 
 
 def mean(order: int, weight: sp.Expr = sp.S.One) -> sp.Expr:
-    """The mean over a period of one order of Hill's equation, times `weight`: what is left where waves are left out."""
+    """Return the mean over a period of one order of Hill's equation, times `weight`."""
     return sp.expand((hill.coeff(rho, order) * weight).rewrite(sp.exp)).as_independent(Phi)[0]
 
 
@@ -155,8 +155,8 @@ prove(
 )
 
 # %% [markdown]
-# The first term is the library's closed form, and the second its error. The factor $1/(1-\rho^2)$ for all further terms is
-# empirical, checked on Hill's equation:
+# The first term is the library's closed form, the second its error. The factor $1/(1-\rho^2)$ for all further terms is
+# empirical; Hill's equation confirms it:
 
 # %%
 grown = twist_growth().expressions[0]
@@ -174,18 +174,18 @@ assert twist_growth_error().expressions[0] / grown == relative
 Formula(relative, r"\frac{\text{error}}{\text{growth}}")
 
 # %% [markdown]
-# ## Where the axes stay parallel
+# ## Cones on which the axes stay parallel
 #
 # For $b>0$ the stiffness is positive. Lyapunov's criterion for $(P y')'+Qy=0$ of period $T$, $\int d\Phi/P\int Q\,d\Phi\le4$
-# (Magnus & Winkler, Hill's Equation, ch. V), says that a small twist is bounded. As
+# (Magnus & Winkler, Hill's Equation, ch. V), implies that a small twist is bounded. Since
 # $\int_0^\pi d\Phi/(1-\rho^2\cos^2\Phi)=\pi/\sqrt{1-\rho^2}$ and $\int_0^\pi2\beta\rho^2\sin^2\Phi\,d\Phi=\pi\beta\rho^2$,
-# these are cones with
+# the criterion holds on cones with
 
 # %%
 lyapunov_criterion()
 
 # %% [markdown]
-# On wider ones the twist may grow by resonance, as Hill's equation shows:
+# On wider cones the twist can grow by resonance, as Hill's equation shows:
 
 # %%
 heavy, cones = Scene(spins=(10, 10), link=Link(1, 1, 0)), np.radians(np.arange(5, 90, 5))
@@ -194,20 +194,20 @@ within = max(np.degrees(c) for c in cones if twist_bounded(heavy, c))
 assert within < min(resonant)
 Remark(
     "Wide cones",
-    f"A point mass of 1 kg in the middle of the bar (K = 0, b > 0): of the cones tried, a small twist is bounded by Lyapunov's "
-    f"criterion up to {within:.0f}°, and the first on which it is not is {min(resonant):.0f}°, where it grows at "
+    f"A point mass of 1 kg in the middle of the bar (K = 0, b > 0): of the tested cones, Lyapunov's criterion bounds a small "
+    f"twist up to {within:.0f}°. The narrowest cone on which it grows is {min(resonant):.0f}°, with the rate "
     f"{resonant[min(resonant)]:.2f} 1/s.",
 )
 
 # %% [markdown]
 # ## Predicted and measured
 #
-# The tested start has a twist rate of $10^{-7}$ rad/s; the twist is read once a half turn.
+# The initial twist rate is $10^{-7}$ rad/s; the twist is read once every half turn.
 
 
 # %%
 def measured(link: Link, angle: float) -> tuple[float, float, float]:
-    """Growth rate (1/s): to first order in the angle, by Hill's equation, on the exact motion."""
+    """Return the growth rate in 1/s to first order in the angle, by Hill's equation, and of the exact motion."""
     scene = Scene(spins=(10, 10), link=link)
     first = float(twist_growth()(np.sin(angle), 10.0, *scene.inertias))
     hill = twist_multiplier_growth(scene, angle)
@@ -229,19 +229,19 @@ size = float(np.max(shock_response(paper).amplitude))
 rate = float(twist_growth()(size, 10.0, *paper.inertias))
 Remark(
     "Equal spins",
-    "Parallel axes stay parallel as a solution if and only if G_1 = G_2; the pair is then one rotor of inertia a + b and "
-    "momentum G an axis: both are derived above, exactly.",
+    "Motions with parallel axes are solutions if and only if G_1 = G_2. The pair is then one rotor of inertia a + b and momentum "
+    "G per axis. Both statements are exact.",
 )
 
 # %%
 Remark(
     "The twist instability",
-    "A small twist is bounded on narrow cones for b > 0, K < m ℓ²/4, and grows for b < 0 at ρ |G| √(−b/(a − b))/(a + b), ρ the "
-    "sine of the half-angle; the next term is of third order. Growth rates (1/s) for m = K = 1: "
+    "A small twist is bounded on narrow cones for b > 0, that is K < m ℓ²/4. For b < 0 it grows at the rate "
+    "ρ |G| √(−b/(a − b))/(a + b), ρ the sine of the half-angle; the next term is of third order. Rates (1/s) for m = K = 1: "
     + "; ".join(
         f"{angle} rad: {f:.4f}, error at most {errors[angle]:.4f}, Hill {h:.4f}, measured {s:.4f}"
         for angle, (f, h, s) in pairs.items()
     )
-    + f". The paper's scene of figure 10 (amplitude {size:.4f}) grows a twist at {rate:.3f} 1/s: its axes are not "
+    + f". In the paper's scene of figure 10 (amplitude {size:.4f}) a twist grows at {rate:.3f} 1/s: the axes are not "
     "'necessarily aligned at all times'.",
 )

@@ -11,7 +11,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor.drawing import CASE_COLOURS
-from lagrotor.structures import chern_numbers, edge_waves, honeycomb, square_octagon
+from lagrotor.structures import honeycomb, square_octagon
+from lagrotor.structures.waves.chern import chern_numbers, edge_waves
 
 WIDTH, POINTS, NEAR = 10, 91, 0.2  # cells; wave numbers; share of the strip that counts as a border
 SPIN, HINGE, SPRING = 30.0, 200.0, 50.0

@@ -13,7 +13,8 @@ from scipy.optimize import minimize
 
 from lagrotor import Pattern
 from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR
-from lagrotor.structures import chern_numbers, honeycomb
+from lagrotor.structures import honeycomb
+from lagrotor.structures.waves.chern import chern_numbers
 
 SPIN, SPRING = 30.0, 8.0  # rad/s, N/m
 LATTICE = {"spring": SPRING, "gravity": -9.81, "spins": SPIN}

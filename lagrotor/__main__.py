@@ -1,7 +1,7 @@
 """`python -m lagrotor` is the command `lagrotor`.
 
-An interrupt while the package loads, or after the command has ended, stops the process as it does any program, without a
-traceback; between the two `main` says it in words.
+An interrupt while the package loads, or after the command has ended, stops the process without a traceback. In between
+`main` reports it in words.
 """
 
 import signal
@@ -9,14 +9,14 @@ import sys
 
 
 def start() -> int:
-    """Load the command line, run it, and give its exit status."""
+    """Load the command line, run it, and return its exit status."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     from lagrotor.commands.command_line import main
 
     try:
         signal.signal(signal.SIGINT, signal.default_int_handler)
         return main()
-    except KeyboardInterrupt:  # a second one, while the first is said
+    except KeyboardInterrupt:  # a second one, while the first is reported
         return 130
     finally:
         signal.signal(signal.SIGINT, signal.SIG_DFL)

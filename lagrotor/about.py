@@ -1,3 +1,3 @@
-"""The version, known to every room without importing the package's face."""
+"""The version, for modules that must not import the package's face."""
 
 __version__ = "0.2.0"

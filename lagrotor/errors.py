@@ -4,11 +4,11 @@ from collections.abc import Iterable
 
 
 class LagrotorError(Exception):
-    """Every error this package raises on purpose."""
+    """The base class of the errors that this package raises on purpose."""
 
 
 class InputError(LagrotorError, ValueError):
-    """A value that makes no sense: refused before work starts."""
+    """An input without meaning, refused before work starts."""
 
 
 class NotExactError(LagrotorError, ValueError):
@@ -16,11 +16,11 @@ class NotExactError(LagrotorError, ValueError):
 
 
 class TooLargeError(NotExactError):
-    """An exact decision would take more work than it may."""
+    """An expression whose exact decision would take more work than allowed."""
 
 
 class WorkError(LagrotorError):
-    """A decision that needs more work than its caller allows; it is not kept as undecided."""
+    """A decision that needs more work than its caller allows. It is not recorded as undecided."""
 
 
 class DomainError(LagrotorError, ValueError):
@@ -48,23 +48,23 @@ class SingularError(LagrotorError, ArithmeticError):
 
 
 class IntegrationError(LagrotorError, ArithmeticError):
-    """An integration that could not reach the end of the run, or gave another motion. evaluations: those known to be spent."""
+    """An integration that could not reach the end of the run, or gave another motion, after so many evaluations."""
 
     evaluations: int = 0
 
 
 class NotProved(LagrotorError):  # noqa: N818
-    """A theorem that could not be proved, which does not make it false; the message says how far the proof came."""
+    """A theorem that could not be proved, which may still be true. The message says how far the proof came."""
 
 
 class LagrotorWarning(UserWarning):
-    """A result whose error may exceed the tolerance; the message says what it keeps."""
+    """A result whose error may exceed the tolerance. The message says by how much."""
 
 
 def near(name: object, names: Iterable[str]) -> str:
-    """The end of a refusal of a name: those of `names` that are near it, as a question; nothing where none is."""
+    """Return the names that are near a wrong one as a question for the end of a message; "" if none is near."""
     from difflib import get_close_matches
 
-    known = {each.lower(): each for each in names}
-    matches = get_close_matches(str(name).lower(), known, 2, 0.7)
-    return f": {' or '.join(known[each] for each in matches)}?" if matches else ""
+    by_lower = {candidate.lower(): candidate for candidate in names}
+    matches = get_close_matches(str(name).lower(), by_lower, 2, 0.7)
+    return f": {' or '.join(map(by_lower.__getitem__, matches))}?" if matches else ""

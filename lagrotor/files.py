@@ -1,4 +1,4 @@
-"""Files: written whole or not at all, and arrays that are checked before they are used."""
+"""Files, which are written atomically, and arrays, which are checked before they are used."""
 
 import json
 import os
@@ -17,17 +17,14 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 PICTURES, FILMS = (".png", ".svg", ".pdf"), (".gif",)
-# Bytes of one array and of the description; larger ones are not read.
+# The largest array and description that are read, in bytes.
 _LARGEST, _LARGEST_ABOUT = 2**31, 2**20
 
 Arrays: TypeAlias = "dict[str, NDArray[Any]]"
 
 
 def write_beside(target: Path, write: Callable[[IO[bytes]], Any]) -> Path:
-    """Let `write` fill a file beside `target`, then rename it: readers see the old file or the new, never half of one.
-
-    Raises InputError when the folder is missing or cannot be written to.
-    """
+    """Let `write` fill a file in the folder of `target`, then rename it, so that no reader sees half a file."""
     try:
         handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
     except OSError as error:
@@ -47,7 +44,7 @@ def write_beside(target: Path, write: Callable[[IO[bytes]], Any]) -> Path:
 
 
 def path_of(where: str, path: str | Path) -> Path:
-    """Return the path of a file or a folder. Raises InputError for what is neither a text nor a Path."""
+    """Return the path of a file or a folder; raise InputError unless it is a text or a Path."""
     try:
         return Path(path)
     except TypeError:
@@ -55,7 +52,7 @@ def path_of(where: str, path: str | Path) -> Path:
 
 
 def read_text(path: str | Path, otherwise: str = "") -> str:
-    """The UTF-8 text of a file; otherwise: the encoding of one that is not. Raises InputError where there is none."""
+    """Read the text of a file in UTF-8, or in the encoding `otherwise`; raise InputError if it cannot be read."""
     try:
         with path_of("path", path).open("rb") as file:
             wide = file.read(2) in (b"\xff\xfe", b"\xfe\xff")
@@ -69,7 +66,7 @@ def read_text(path: str | Path, otherwise: str = "") -> str:
 
 
 def read_toml(path: str | Path) -> dict[str, Any]:
-    """Return the content of a TOML file. Raises InputError where it cannot be read."""
+    """Read a TOML file; raise InputError if it cannot be read."""
     try:
         return tomllib.loads(read_text(path))
     except tomllib.TOMLDecodeError as error:
@@ -77,7 +74,7 @@ def read_toml(path: str | Path) -> dict[str, Any]:
 
 
 def write_text(target: Path, text: str) -> Path:
-    """Write UTF-8 text whole or not at all."""
+    """Write UTF-8 text atomically."""
     return write_beside(target, lambda file: file.write(text.encode()))
 
 
@@ -92,16 +89,16 @@ def write_arrays(target: Path, about: Mapping[str, Any], arrays: Mapping[str, An
 
 
 def read_arrays(path: Path) -> tuple[dict[str, Any], Arrays]:
-    """The description and the arrays that `write_arrays` wrote; raise InputError where the file is not whole.
+    """Read the description and the arrays of `write_arrays`; raise InputError if the file is damaged.
 
     Sizes and types are checked in the headers before any array is read.
     """
     try:
-        with ZipFile(path) as held:
-            entries = {entry.filename.removesuffix(".npy"): entry for entry in held.infolist()}
+        with ZipFile(path) as archive:
+            entries = {entry.filename.removesuffix(".npy"): entry for entry in archive.infolist()}
             if "about" not in entries:
                 raise InputError(f"{path}: it has no description: give a file that lagrotor wrote")
-            arrays = {name: _read_array(held, path, name, entry) for name, entry in entries.items()}
+            arrays = {name: _read_array(archive, path, name, entry) for name, entry in entries.items()}
         about = json.loads(str(arrays.pop("about")))
         if not isinstance(about, dict) or about.pop("digest", None) != _digest(about, arrays):
             raise InputError(f"{path}: its contents do not have the digest that it was written with: make it anew")
@@ -109,18 +106,18 @@ def read_arrays(path: Path) -> tuple[dict[str, Any], Arrays]:
         raise
     except OSError as error:
         raise InputError(f"{path}: {error.strerror or error}: give a file that can be read") from None
-    except Exception as error:  # which one a damaged archive raises depends on the byte that was changed
+    except Exception as error:  # the type depends on the damaged byte
         raise InputError(f"{path}: it is damaged or no .npz file ({type(error).__name__}): make it anew") from None
     return about, arrays
 
 
-def _read_array(held: ZipFile, path: Path, name: str, entry: ZipInfo) -> "NDArray[Any]":
-    """One array, read once its header has been found to agree with its size."""
+def _read_array(archive: ZipFile, path: Path, name: str, entry: ZipInfo) -> "NDArray[Any]":
+    """Read one array after its header agrees with its size."""
     import numpy as np
 
     if entry.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
         raise InputError(f"{path}: {name} is compressed in an unknown way: make it anew")
-    with held.open(entry) as file:
+    with archive.open(entry) as file:
         version = np.lib.format.read_magic(file)
         if version != (1, 0):
             raise InputError(f"{path}: the header of {name} has format {version}, not (1, 0): make it anew")
@@ -129,7 +126,7 @@ def _read_array(held: ZipFile, path: Path, name: str, entry: ZipInfo) -> "NDArra
             raise InputError(f"{path}: {name} holds {dtype}, not plain numbers: make it anew")
         size = int(np.prod(shape, dtype=object)) * dtype.itemsize
         if size > (_LARGEST_ABOUT if name == "about" else _LARGEST) or size != entry.file_size - file.tell():
-            raise InputError(f"{path}: {name} declares {size} bytes, which is too many or not what it holds")
+            raise InputError(f"{path}: {name} declares {size} bytes, which is too many or not its size")
         data = file.read(size)
     return np.frombuffer(data, dtype).reshape(shape).copy()
 

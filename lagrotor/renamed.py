@@ -17,6 +17,12 @@ RENAMED = {
 
 # Old name of a package → where it is defined now.
 NAMES = {
+    "lagrotor.mechanics.bias": "lagrotor.mechanics.lagrangian.bias",
+    "lagrotor.pair.JOINT_LINE": "lagrotor.pair.lagrangians.JOINT_LINE",
+    "lagrotor.pair.UNITS": "lagrotor.pair.trajectory.UNITS",
+    "lagrotor.pair.ansatz_lagrangian": "lagrotor.pair.lagrangians.ansatz_lagrangian",
+    "lagrotor.pair.scene_of": "lagrotor.pair.scene_document.scene_of",
+    "lagrotor.pair.scene_toml": "lagrotor.pair.scene_document.scene_toml",
     "lagrotor.mechanics.FourierSeries": "lagrotor.mechanics.fourier.FourierSeries",
     "lagrotor.mechanics.characteristic_exponents": "lagrotor.mechanics.weakly_nonlinear.characteristic_exponents",
     "lagrotor.mechanics.lindstedt_poincare": "lagrotor.mechanics.weakly_nonlinear.periodic_series",
@@ -31,13 +37,29 @@ NAMES = {
     "lagrotor.numerics.harmonics_at": "lagrotor.numerics.curves.harmonics_at",
     "lagrotor.numerics.mean_between": "lagrotor.numerics.curves.mean_between",
     "lagrotor.numerics.skew_matrix": "lagrotor.numerics.rotations.skew_matrix",
+    "lagrotor.models.closed_form": "lagrotor.models.closed_form_model.closed_form",
+    "lagrotor.structures.chern_numbers": "lagrotor.structures.waves.chern.chern_numbers",
+    "lagrotor.structures.dispersion": "lagrotor.structures.waves.dispersion.dispersion",
+    "lagrotor.structures.edge_waves": "lagrotor.structures.waves.chern.edge_waves",
+    "lagrotor.structures.long_wave_speeds": "lagrotor.structures.waves.dispersion.long_wave_speeds",
+}
+
+# Class → {old attribute: new attribute}. The class takes `old_attribute` as its `__getattr__`.
+ATTRIBUTES = {
+    "Equations": {"mass": "mass_matrix", "push": "generalised_forces"},
 }
 
 # Function or method, by its qualified name → {old keyword: new keyword}.
 KEYWORDS: dict[str, dict[str, str]] = {
+    "MovingFrame.place": {"seen": "frame"},
+    "MovingFrame.velocity": {"seen": "frame"},
+    "Pathway.spring": {"rest": "rest_length"},
     "bare": {"seen": "points"},
     "canvas": {"seen": "points"},
+    "crossing": {"before": "t_end"},
     "distance_over_one_turn": {"most": "greatest"},
+    "no_crossing": {"until": "t_end"},
+    "periodic_orbit": {"held": "fixed"},
     "periodic_series": {"rest": "equilibrium", "begins_at": "mode_power"},
 }
 
@@ -69,6 +91,15 @@ def old_name(package: str, name: str) -> Any:
     warn(f"{package}.{name} is now {new}: import that instead", DeprecationWarning, stacklevel=4)
     module, attribute = new.rsplit(".", 1)
     return getattr(import_module(module), attribute)
+
+
+def old_attribute(instance: Any, name: str) -> Any:
+    """Return the attribute that an object had under an old name; raise AttributeError where it had none."""
+    for kind in type(instance).__mro__:
+        if new := ATTRIBUTES.get(kind.__name__, {}).get(name):
+            warn(f"{kind.__name__}.{name} is now {new}: use that instead", DeprecationWarning, stacklevel=2)
+            return getattr(instance, new)
+    return object.__getattribute__(instance, name)
 
 
 def new_name(name: str) -> str | None:

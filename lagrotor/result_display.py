@@ -1,4 +1,4 @@
-"""The printed form of a result: numbers in powers of ten; its `summary`, name → words, in lines or as a table."""
+"""The printed form of results: numbers in powers of ten, and a `summary` in lines or as a table."""
 
 from abc import ABC, abstractmethod
 from html import escape
@@ -7,12 +7,12 @@ _HIGH = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def superscript(power: int) -> str:
-    """A whole power as people write it: −14 as ⁻¹⁴."""
+    """Return a whole power in superscript: −14 as ⁻¹⁴."""
     return str(power).translate(_HIGH)
 
 
 def scientific(value: float, digits: int = 0) -> str:
-    """A number in powers of ten: 3e-14 as 3×10⁻¹⁴, with `digits` after the point; 0 as 0, 2 as 2."""
+    """Return a number in powers of ten with `digits` after the point: 3e-14 as 3×10⁻¹⁴, 2 as 2."""
     if value == 0:
         return "0"
     mantissa, _, power = f"{value:.{digits}e}".partition("e")
@@ -20,7 +20,7 @@ def scientific(value: float, digits: int = 0) -> str:
 
 
 class Shown(ABC):
-    """A result with a `summary`, printed line by line; Jupyter draws it as a table. A dataclass of it has repr=False."""
+    """A result with a `summary`, printed in lines and in Jupyter as a table. A dataclass of this kind has repr=False."""
 
     @abstractmethod
     def summary(self) -> dict[str, str]:

@@ -131,7 +131,7 @@ def rolling_disc() -> tuple[System, Frame]:
     lean = Frame(c).moved(*c.q[:3]).turned("zx", c.q[3:5])
     wheel = lean.turned("y", c.q[5])
     body = wheel.body(m, (m * R**2 / 4, m * R**2 / 2, m * R**2 / 4))
-    slips = wheel.velocity((0, 0, -R), seen=lean)[:2, 0]
+    slips = wheel.velocity((0, 0, -R), frame=lean)[:2, 0]
     gap = c.q[2] - R * sp.cos(c.q[4])
     return System(c, body.kinetic - body.potential((0, 0, -g)), (gap,), rolling=tuple(slips)), wheel
 

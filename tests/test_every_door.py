@@ -21,7 +21,8 @@ from lagrotor import Link, Rotor, Scene, Structure, Trajectory, consistent_scene
 from lagrotor.errors import LagrotorError, LagrotorWarning
 from lagrotor.mechanics import System, SystemRun, coordinates
 from lagrotor.mechanics.running import simulation as system_door
-from lagrotor.models import SpringRun, averaged, paper_system, run_solver
+from lagrotor.models import averaged, paper_system, run_solver
+from lagrotor.models.spring_link.run import SpringRun
 from lagrotor.numerics import error_estimate
 from lagrotor.numerics.error_estimate import EstimatedRun
 from lagrotor.numerics.rotations import turn_about

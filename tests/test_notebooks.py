@@ -87,7 +87,7 @@ def test_an_orbit_proved() -> None:
     names, ends = ran("an_orbit_proved")
     assert ends[0] is names["orbit"] and "period [6.69997566437" in ends[1]
     assert ends[2].startswith("theta first passes zero") and ends[3] == "stable"
-    assert all(float(x.rad()) < 0.2 for x in ends[4].states) and "is not shown to change it" in ends[5]
+    assert all(float(x.rad()) < 0.2 for x in ends[4].states) and "is not proved to change it" in ends[5]
 
 
 def test_from_a_lagrangian() -> None:

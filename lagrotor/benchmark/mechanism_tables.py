@@ -1,4 +1,4 @@
-"""What was measured on the mechanisms, as tables, and beside the targets."""
+"""Tables of the measurements on mechanisms, also against the targets."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -7,24 +7,14 @@ from lagrotor.benchmark.records import LINKS, MECHANISM_ERROR, Decided, Measured
 from lagrotor.result_display import scientific
 
 _Row = tuple[str, ...]
-_RUN = f"run to {scientific(MECHANISM_ERROR)} rad (ms)"
-MECHANISM_HEAD = ("mechanism", "tool", "ready (ms)", "rhs (µs)", _RUN, "by", "rhs differs by")
+_RUN, _DIFF = f"run to {scientific(MECHANISM_ERROR)} rad (ms)", "rhs differs by"
+MECHANISM_HEAD = ("mechanism", "tool", "ready (ms)", "rhs (µs)", _RUN, "by", _DIFF)
 DECISION_HEAD = ("two formulations", "same_as (ms)", "they agree", "simplify (ms)", "they agree", "times")
-BESIDE_HEAD = (
-    "mechanism",
-    "from",
-    "ready (ms)",
-    "sympy (ms)",
-    "times",
-    "rhs (µs)",
-    "sympy (µs)",
-    "times",
-    "rhs differs by",
-)
+COMPARISON_HEAD = ("mechanism", "from", "ready (ms)", "sympy (ms)", "times", "rhs (µs)", "sympy (µs)", "times", _DIFF)
 TARGET_HEAD = ("what", "wanted", "measured")
 _AT: dict[MechanismKind, int] = {"rods": 6, "gyroscopes": 3}
 _OURS, _METHODS = "lagrotor, bodies", ("KanesMethod", "LagrangesMethod")
-_AGREE = {"zero": "yes", "nonzero": "no"}  # a difference that is zero
+_AGREE = {"zero": "yes", "nonzero": "no"}  # the difference of two formulations → they agree
 
 
 def mechanism_name(kind: MechanismKind, n: int) -> str:
@@ -33,7 +23,7 @@ def mechanism_name(kind: MechanismKind, n: int) -> str:
 
 
 def mechanism_rows(measured: Sequence[Measured]) -> list[_Row]:
-    """One row a tool and mechanism; a tool that was left out has its reason."""
+    """Return one row for each tool and mechanism; a tool that was not run has its reason."""
     return [
         (
             mechanism_name(x.kind, x.n),
@@ -46,13 +36,12 @@ def mechanism_rows(measured: Sequence[Measured]) -> list[_Row]:
     ]
 
 
-def beside_rows(rows: Sequence[dict[str, Any]], longest: float) -> list[_Row]:
-    """One row a mechanism and what it is made from, lagrotor beside sympy's method of the same; where that did not end within
-    the `longest` processor time, s, the reason, and the least that the times can be."""
-    table, made = list[_Row](), {(row["mechanism"], row["tool"]): row for row in rows}
+def comparison_rows(rows: Sequence[dict[str, Any]], longest: float) -> list[_Row]:
+    """Return one row for each mechanism and source, with sympy's method; `longest` is its limit in s of processor time."""
+    table, by_tool = list[_Row](), {(row["mechanism"], row["tool"]): row for row in rows}
     for name in dict.fromkeys(row["mechanism"] for row in rows):
         for source, method in zip(("bodies", "Lagrangian"), _METHODS, strict=True):
-            ours, theirs = made[name, f"lagrotor, {source}"], made[name, method]
+            ours, theirs = by_tool[name, f"lagrotor, {source}"], by_tool[name, method]
             reason = theirs["reason"]
             least = f"over {longest / ours['ready']:.0f}" if reason and ours["ready"] else "—"
             table.append(
@@ -74,59 +63,49 @@ def beside_rows(rows: Sequence[dict[str, Any]], longest: float) -> list[_Row]:
 
 
 def decision_rows(decided: Sequence[Decided]) -> list[_Row]:
-    """One row a pair of formulations."""
-    return [
-        (
-            x.pair,
-            _number(x.ours, 1e3),
-            _AGREE.get(x.answer, x.answer),
-            _number(x.theirs, 1e3),
-            _AGREE.get(x.their_answer, x.their_answer),
-            f"{_at_least(x)}{x.times:.0f}",
-        )
-        for x in decided
-    ]
+    rows = list[_Row]()
+    for x in decided:
+        ours, theirs = (_AGREE.get(answer, answer) for answer in (x.answer, x.their_answer))
+        times = f"{_at_least(x)}{x.times:.0f}"
+        rows.append((x.pair, _number(x.ours, 1e3), ours, _number(x.theirs, 1e3), theirs, times))
+    return rows
 
 
 def target_rows(
     measured: Sequence[Measured],
     decided: Sequence[Decided],
     operations: dict[MechanismKind, list[int]],
-    beside: Sequence[dict[str, Any]],
+    records: Sequence[dict[str, Any]],
 ) -> list[_Row]:
-    """What is wanted of the tool, and what was measured; — where a tool was not there.
+    """Return the targets with the measured values; — without a tool.
 
-    operations: of one evaluation, on each of LINKS. beside: the rows of the record of bodies and Lagrangians.
+    operations: of one evaluation, for each of LINKS; records: the rows of the record of bodies and Lagrangians.
     """
-    made = {(x.kind, x.n, x.tool): x for x in measured}
-    known, none = {(x["mechanism"], x["tool"]): x for x in beside}, {"ready": None, "rhs": None}
+    by_tool = {(x.kind, x.n, x.tool): x for x in measured}
+    recorded, none = {(x["mechanism"], x["tool"]): x for x in records}, {"ready": None, "rhs": None}
     table, nothing = list[_Row](), Measured("rods", 0, "")
     for kind, n in _AT.items():
         where = f"{n} {kind}"
-        fast, pydy = (made.get((kind, n, name), nothing) for name in ("lagrotor, fast", "PyDy, Cython"))
-        own, *others = (known.get((where, name), none) for name in (_OURS, *_METHODS))
+        fast, pydy = (by_tool.get((kind, n, name), nothing) for name in ("lagrotor, fast", "PyDy, Cython"))
+        ours, *others = (recorded.get((where, name), none) for name in (_OURS, *_METHODS))
         ready, rhs = (_least([x[what] for x in others]) for what in ("ready", "rhs"))
         table += [
-            (f"ready, {where}, over the faster of Kane's and Lagrange's method", "15", _ratio(ready, own["ready"])),
-            (f"right-hand side, {where}, over lambdify of the best of them", "4", _ratio(rhs, own["rhs"])),
+            (f"ready, {where}, over the faster of Kane's and Lagrange's method", "15", _ratio(ready, ours["ready"])),
+            (f"right-hand side, {where}, over lambdify of the best of them", "4", _ratio(rhs, ours["rhs"])),
             (f"right-hand side with the fast extra, {where}, over PyDy", "3", _ratio(pydy.rhs, fast.rhs)),
         ]
     for kind, numbers in LINKS.items():
-        ready_in = [known.get((mechanism_name(kind, n), _OURS), none)["ready"] for n in numbers]
+        ready_in = [recorded.get((mechanism_name(kind, n), _OURS), none)["ready"] for n in numbers]
         for what, values in (("operations", operations[kind]), ("time to be ready", ready_in)):
-            doubled = [
-                f"{b / a:.2f}" if a and b else "—"
-                for m, n, a, b in zip(numbers, numbers[1:], values, values[1:], strict=False)
-                if n == 2 * m
-            ]
-            table.append(
-                (f"{what}, twice the {kind}, from {numbers[-len(doubled) - 1]}", "at most 2.3", ", ".join(doubled))
-            )
+            steps = zip(numbers, numbers[1:], values, values[1:], strict=False)
+            doubled = [f"{b / a:.2f}" if a and b else "—" for m, n, a, b in steps if n == 2 * m]
+            head = f"{what}, twice the {kind}, from {numbers[-len(doubled) - 1]}"
+            table.append((head, "at most 2.3", ", ".join(doubled)))
     for what, answer in (("agree", "zero"), ("differ", "nonzero")):
         if pairs := [x for x in decided if x.answer == answer]:
             least = min(pairs, key=lambda x: x.times)
-            many = f"{_at_least(least)}{least.times:.0f}"
-            table.append((f"deciding that two formulations {what}, over simplify ({least.pair})", "20", many))
+            ratio = f"{_at_least(least)}{least.times:.0f}"
+            table.append((f"deciding that two formulations {what}, over simplify ({least.pair})", "20", ratio))
     return table
 
 

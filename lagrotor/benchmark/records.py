@@ -1,10 +1,10 @@
-"""Comparisons with other tools on record, each made in one run of one machine, which is named: the displaced pair by every
-method, mechanisms, and chains of rotors.
+"""Recorded comparisons with other tools, each from one run on a named machine: all methods on the displaced pair, mechanisms,
+chains.
 
-They are read here, so that what is shown is the same bytes everywhere. They are renewed in a checkout, where the other tools
-are run: `python -m benchmarks.speed`, `python -m benchmarks.mechanisms --record`, `python -m benchmarks.structure_comparison`,
-`python -m benchmarks.bodies_and_lagrangians --record`. Each record has its date and a digest of the code that it measured; the
-digest is null in a record that is older than the digest.
+Records make reports reproducible. They are renewed in a checkout with the other tools installed: `python -m
+benchmarks.speed`, `python -m benchmarks.mechanisms --record`, `python -m benchmarks.structure_comparison`, `python -m
+benchmarks.bodies_and_lagrangians --record`. Each record has its date and a digest of the measured code, null in older
+records.
 """
 
 import ast
@@ -21,10 +21,9 @@ from typing import Any, Literal, TypeVar
 from lagrotor import algebra, mechanics, models, numerics, pair, structures, theory
 from lagrotor.errors import LagrotorError
 
-SPEED, MECHANISMS, STRUCTURES, BODIES_AND_LAGRANGIANS = (
-    Path(__file__).with_name(f"recorded_{name}.json")
-    for name in ("speed", "mechanisms", "structures", "bodies_and_lagrangians")
-)
+_NAMES = ("speed", "mechanisms", "structures", "bodies_and_lagrangians")
+_FILES = [Path(__file__).with_name(f"recorded_{name}.json") for name in _NAMES]
+SPEED, MECHANISMS, STRUCTURES, BODIES_AND_LAGRANGIANS = _FILES
 RecordName = Literal["speed", "mechanisms", "structures", "bodies_and_lagrangians"]
 MEASURED_PACKAGES = {
     "speed": (models, numerics, pair, theory),
@@ -33,18 +32,18 @@ MEASURED_PACKAGES = {
     "bodies_and_lagrangians": (algebra, mechanics, numerics),
 }
 MechanismKind = Literal["rods", "gyroscopes"]
-LINKS: dict[MechanismKind, tuple[int, ...]] = {"rods": (3, 6, 12, 24), "gyroscopes": (1, 3, 6, 12)}  # of the mechanisms
-MECHANISM_ERROR = 1e-8  # rad, at which runs of mechanisms are timed
-CHAIN_SIZES = (16, 64, 256)  # of the chains
-CHAIN_ERROR = 1e-6  # m, at which runs of chains are timed
+LINKS: dict[MechanismKind, tuple[int, ...]] = {"rods": (3, 6, 12, 24), "gyroscopes": (1, 3, 6, 12)}  # numbers of links
+MECHANISM_ERROR = 1e-8  # rad, error of the timed runs of mechanisms
+CHAIN_SIZES = (16, 64, 256)  # rotors in a chain
+CHAIN_ERROR = 1e-6  # m, error of the timed runs of chains
 Record = TypeVar("Record")
 
 
 @dataclass(frozen=True)
 class Measured:
-    """One tool on one mechanism, processor time in s; a reason in place of what was not measured.
+    """One tool on one mechanism, processor times in s; `reason` says why a value is missing.
 
-    difference: of its right-hand side from lagrotor's, relative. by: what ran it to the error.
+    difference: relative, of its right-hand side from lagrotor's; by: the solver that reached the error.
     """
 
     kind: MechanismKind
@@ -60,7 +59,7 @@ class Measured:
 
 @dataclass(frozen=True)
 class Decided:
-    """Processor time in s of same_as and of simplify, and their answers; where simplify did not end, the time it was given."""
+    """Processor times in s of same_as (ours) and simplify (theirs), and their answers; the time limit if simplify did not end."""
 
     pair: str
     ours: float
@@ -70,14 +69,12 @@ class Decided:
 
     @property
     def times(self) -> float:
-        """How many times longer simplify takes."""
         return self.theirs / self.ours
 
 
 @dataclass(frozen=True)
 class Comparison:
-    """date and digest; machine and versions; tools on mechanisms; pairs of formulations; on each of LINKS operations of one
-    evaluation."""
+    """A record of mechanisms; operations: of one evaluation, for each of LINKS."""
 
     date: str
     digest: str | None
@@ -90,10 +87,10 @@ class Comparison:
 
 @dataclass(frozen=True)
 class Timed:
-    """A tool on a chain of n rotors: its setting, error (m), processor time of a run and of the first, with compiling (s).
+    """A tool on a chain of n rotors: setting, error in m, processor times in s of a run and of the first run with compilation.
 
-    seconds is None where no setting reaches CHAIN_ERROR before a run takes too long; error is then the least that was reached
-    (infinite where it was refused; null on record), and reason why it stopped, where it did.
+    seconds: None if no setting reaches CHAIN_ERROR in time; then error is the smallest reached, infinite (null on record)
+    if the tool refused the chain, and reason says why.
     """
 
     n: int
@@ -111,28 +108,27 @@ def code_digest(name: RecordName) -> str:
     digest = sha256()
     for folder in (Path(package.__path__[0]) for package in MEASURED_PACKAGES[name]):
         for file in sorted(folder.rglob("*.py")):
-            digest.update(
-                f"{file.relative_to(folder.parent).as_posix()} {_code(ast.parse(file.read_bytes()))}".encode()
-            )
+            name_in_package = file.relative_to(folder.parent).as_posix()
+            digest.update(f"{name_in_package} {_code(ast.parse(file.read_bytes()))}".encode())
     return digest.hexdigest()
 
 
 def _code(node: object) -> object:
-    """Return the syntax tree as tuples. Empty fields are left out, since Python versions differ in these."""
+    """Return the syntax tree as tuples. Empty fields are omitted, since Python versions differ in these."""
     if isinstance(node, ast.AST):
-        text = isinstance(node, ast.Expr) and isinstance(getattr(node.value, "value", None), str)  # such as a docstring
+        text = isinstance(node, ast.Expr) and isinstance(getattr(node.value, "value", None), str)  # a docstring
         fields = ((name, _code(value)) for name, value in ast.iter_fields(node) if value not in (None, []))
         return () if text else (type(node).__name__, *fields)
-    return tuple(part for part in map(_code, node) if part) if isinstance(node, list) else repr(node)
+    return tuple(item for item in map(_code, node) if item) if isinstance(node, list) else repr(node)
 
 
 def stamp(name: RecordName) -> dict[str, str]:
-    """Return the date and the digest of a record that is measured today."""
+    """Return date and digest of a record that is measured today."""
     return {"date": datetime.now(UTC).date().isoformat(), "digest": code_digest(name)}
 
 
 def record_age(name: RecordName, date: str, digest: str | None) -> str:
-    """Return the sentence that says when a record was measured, and whether its code has changed since then."""
+    """Return a sentence with the date of a record; it says if the measured code has changed since."""
     if digest == code_digest(name):
         return f"The measurement is of {date}, with the present code."
     packages = ", ".join(package.__name__.removeprefix("lagrotor.") for package in MEASURED_PACKAGES[name])
@@ -140,18 +136,20 @@ def record_age(name: RecordName, date: str, digest: str | None) -> str:
 
 
 def recorded_speed() -> dict[str, Any]:
-    """date, digest, machine, versions, at_error (error → method → s), set_up (method → s), throughput. Raises LagrotorError."""
+    """Return date, digest, machine, versions, at_error (error → method → s), set_up (method → s), throughput. Raises
+    LagrotorError.
+    """
     return _read(SPEED, dict)
 
 
 def recorded_multiple(record: dict[str, Any], name: str, error: str, of: str) -> float | None:
-    """Seconds of a method over those of another at the same error; None where one of them does not reach it."""
+    """Return the ratio of two methods' times at an error; None if one does not reach it."""
     seconds = record["at_error"][error]
     return None if None in (seconds[name], seconds[of]) else float(seconds[name] / seconds[of])
 
 
 def recorded_mechanisms() -> Comparison:
-    """Tools on mechanisms. Raises LagrotorError if it is unreadable."""
+    """Return the record of mechanisms. Raises LagrotorError if it is unreadable."""
     return _read(MECHANISMS, _comparison)
 
 
@@ -161,7 +159,7 @@ def _comparison(data: dict[str, Any]) -> Comparison:
 
 
 def recorded_structures() -> tuple[dict[str, Any], list[Timed]]:
-    """Chains of rotors: date, digest, machine and versions, and the rows. Raises LagrotorError if it is unreadable."""
+    """Return the record of chains and its rows. Raises LagrotorError if it is unreadable."""
     return _read(STRUCTURES, lambda data: (data, list(map(_timed, data["rows"]))))
 
 
@@ -170,16 +168,12 @@ def _timed(row: dict[str, Any]) -> Timed:
 
 
 def recorded_bodies_and_lagrangians() -> dict[str, Any]:
-    """Mechanisms from bodies and from their Lagrangian: date, digest, machine, longest (s, of one tool), rows of mechanism, tool,
-    ready and rhs in s, difference, reason.
-
-    Raises LagrotorError if it is unreadable.
-    """
+    """Return the record of mechanisms from bodies and from Lagrangians, times in s. Raises LagrotorError if it is unreadable."""
     return _read(BODIES_AND_LAGRANGIANS, dict)
 
 
-def _read(file: Path, made: Callable[[Any], Record]) -> Record:
+def _read(file: Path, build: Callable[[Any], Record]) -> Record:
     try:
-        return made(json.loads(file.read_text(encoding="utf-8")))
+        return build(json.loads(file.read_text(encoding="utf-8")))
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise LagrotorError(f"{file} cannot be read ({error}): install lagrotor anew") from None

@@ -1,4 +1,6 @@
-"""One scene, many methods: each at every accuracy setting, held to the reference; its points, its failures, and the front."""
+"""Benchmarks of one scene: each method at every setting against the reference, with its points, failures, and the Pareto
+front.
+"""
 
 import time
 from collections.abc import Callable, Iterable
@@ -52,9 +54,8 @@ LSODA_LEAST = Calibrated(
 def check_work(
     run: str, evaluations: float, states: Any, error: float = 0.0, bound: float = inf, least: float = 1.0
 ) -> None:
-    """Refuse a run that did not do the work which a benchmark reports, with a LagrotorError.
-
-    The run took at least so many evaluations, its states (…, n, …) change along axis 1, and its error is within the bound.
+    """Raise LagrotorError if a run has fewer evaluations than `least`, no motion along axis 1 of `states`, or an error above
+    `bound`.
     """
     motion = float((states.max(axis=1) - states.min(axis=1)).max())
     if not (evaluations >= least and motion > 0 and error <= bound):
@@ -66,10 +67,10 @@ def check_work(
 
 @dataclass(frozen=True)
 class Method:
-    """A benchmarked method: its family, how its runner is made, its accuracy settings.
+    """A benchmarked method: its family, its settings, and the package that pip installs for it.
 
-    prepare(scene, t_eval) → runner(setting) → tips (2, n, 3) in m, and nfev. The setting is a tolerance, or one of `steps`
-    (s) of a method with equal steps. install: what pip installs for it.
+    prepare(scene, t_eval) → runner(setting) → tips (2, n, 3) in m, and nfev. A setting is a tolerance or, for a method with
+    equal steps, one of `steps` in s.
     """
 
     family: Family
@@ -79,14 +80,14 @@ class Method:
 
 
 def tips(scene: Scene, axes: Array) -> Array:
-    """Tips (2, n, 3) in m of axes (2, n, 3)."""
+    """Return the tips (2, n, 3) in m of axes (2, n, 3)."""
     half = (scene.link.length if scene.link else scene.rotor.length) / 2
     return np.array([[[-half, 0, 0]], [[half, 0, 0]]]) + scene.rotor.length * axes
 
 
 @dataclass(frozen=True)
 class Case:
-    """A scene, its output times t_eval (n,) in s, how many samples are taken of each run after the first, and a sentence."""
+    """A scene, its output times (n,) in s, the number of samples of each run after the first, and a sentence."""
 
     scene: Scene
     t_eval: Array
@@ -94,7 +95,7 @@ class Case:
     says: str
 
 
-# Processor time, which other work on the machine does not lengthen, where its resolution is fine enough.
+# Processor time does not depend on other processes; the wall clock is used if its resolution is too coarse.
 _CLOCK = time.process_time if time.get_clock_info("process_time").resolution < 1e-6 else time.perf_counter
 Work = Literal["seconds", "nfev"]
 _COMPILING = "closed", "fast"  # families whose first run may derive or compile
@@ -104,31 +105,31 @@ _FLOOR = 1e-6  # m, the largest difference of the reference's two formulations
 
 @dataclass(frozen=True)
 class Reference:
-    """Tips (2, n, 3) in m, and `floor`: the largest distance (m) of the two formulations' tips, from rounding."""
+    """The tips (2, n, 3) in m, and `floor`, the largest distance in m between two formulations, which is their rounding error."""
 
     tips: Array
     floor: float
 
 
 def reference(scene: Scene, t_eval: Array) -> Reference:
-    """The bar eliminated (six states) and two unit vectors with multipliers (twelve), both at 1e-13.
+    """Return the reference by the minimal model (six states) and the spheres model (twelve), both at 1e-13.
 
-    tests/benchmark/reference.json holds 10 s of the displaced pair with thirty digits, by extrapolation, to compare.
-    Raises LagrotorError where the pair does not move, or where the two differ by more than _FLOOR.
+    tests/benchmark/reference.json has 10 s of the displaced pair to thirty digits, by extrapolation, for comparison. Raises
+    LagrotorError if the pair does not move, or if the two differ by more than _FLOOR.
     """
     runs = [(model, integrate_model(model, scene, t_eval, TIGHTEST)) for model in (minimal.MODEL, spheres.MODEL)]
-    one, other = (tips(scene, model.observe(scene, run.states).axes) for model, run in runs)
-    floor = float(np.linalg.norm(one - other, axis=-1).max())
-    check_work("the reference", min(run.evaluations for _, run in runs), one, floor, _FLOOR)
-    return Reference(one, floor)
+    first, second = (tips(scene, model.observe(scene, run.states).axes) for model, run in runs)
+    floor = float(np.linalg.norm(first - second, axis=-1).max())
+    check_work("the reference", min(run.evaluations for _, run in runs), first, floor, _FLOOR)
+    return Reference(first, floor)
 
 
 @dataclass(frozen=True)
 class ChartPoint:
-    """One method at one accuracy setting, a tolerance or a step in s.
+    """One method at one setting, a tolerance or a step in s.
 
-    error: largest of a tip (m; the reference's own where it is below that). nfev: evaluations of the right-hand side.
-    seconds: processor time of a run, the median of its samples. first: that of the first run, which may compile.
+    error: the largest of a tip in m, at least that of the reference; nfev: evaluations of the right-hand side; seconds:
+    processor time of a run, the median of its samples; first: that of the first run, which may compile.
     """
 
     method: str
@@ -142,7 +143,7 @@ class ChartPoint:
 
 @dataclass(frozen=True)
 class Failure:
-    """A method that gave no point at some settings, or at all (no settings), and why."""
+    """A method without a point at some settings, or at all (no settings), and the reason."""
 
     method: str
     settings: tuple[float, ...]
@@ -155,7 +156,7 @@ class Failure:
 
 @dataclass(frozen=True)
 class Benchmark:
-    """A scene's points and failures, the seconds that each method needs to set up, and the error of the reference (m)."""
+    """The points and failures of a scene, the set-up time of each method in s, and the error of the reference in m."""
 
     scene: str
     says: str
@@ -172,33 +173,33 @@ def benchmark(
     tolerances: Iterable[float] = TOLERANCES,
     longest: float = LONGEST_RUN.value,
 ) -> Benchmark:
-    """Run every method at every setting, from coarse to fine; medians of the samples' seconds.
+    """Run every method at every setting, from coarse to fine.
 
-    A method is not run at a finer setting once a run of it took more than `longest` s. Raises LagrotorError for a reference or
-    a method that integrates nothing.
+    After a run of more than `longest` s, a method is not run at finer settings. Raises LagrotorError for a reference or a
+    method that integrates nothing.
     """
     truth, points, failures, setup = reference(case.scene, case.t_eval), list[ChartPoint](), list[Failure](), {}
     tolerances = tuple(tolerances)
-    for method, one in methods.items():
-        began, settings = time.perf_counter(), one.steps or tolerances
+    for method, entry in methods.items():
+        began, settings = time.perf_counter(), entry.steps or tolerances
         try:
-            runner = one.prepare(case.scene, case.t_eval)
-            with suppress(*_REFUSALS):  # it fails again, and is recorded, in its turn
+            runner = entry.prepare(case.scene, case.t_eval)
+            with suppress(*_REFUSALS):  # the run below fails again and is recorded
                 runner(settings[0])
         except ImportError as absent:
-            failures.append(Failure(method, (), f"not installed ({absent.name}): pip install {one.install}"))
+            failures.append(Failure(method, (), f"not installed ({absent.name}): pip install {entry.install}"))
             continue
         except LagrotorError as refusal:
             failures.append(Failure(method, (), str(refusal)))
             continue
         setup[method] = time.perf_counter() - began
-        rows, reasons = _points(method, one, runner, settings, case.repeats, truth, longest)
+        rows, reasons = _points(method, entry, runner, settings, case.repeats, truth, longest)
         setup[method] += max([0.0, *(p.first - p.seconds for p in rows)])
         points += rows
         for reason in sorted(set(reasons.values())):
             at = tuple(setting for setting, why in reasons.items() if why == reason)
             failures.append(Failure(method, () if len(at) == len(settings) else at, reason))
-    failures.sort(key=lambda one: (one.method, one.reason))
+    failures.sort(key=lambda failure: (failure.method, failure.reason))
     return Benchmark(name, case.says, tuple(points), tuple(failures), setup, truth.floor)
 
 
@@ -211,7 +212,7 @@ def _points(
     truth: Reference,
     longest: float,
 ) -> tuple[list[ChartPoint], dict[float, str]]:
-    """Return the points of a method, and the reasons of the settings at which it failed or was left out."""
+    """Return the points of a method, and the reasons of the settings without one."""
     points, reasons, slow = list[ChartPoint](), dict[float, str](), ""
     for setting in settings:
         if slow:
@@ -241,16 +242,16 @@ def _points(
 
 
 def _sample(runner: Runner, setting: float) -> float:
-    """Seconds a run, over as many as take SAMPLE, and at least one."""
-    began, runs, spent = _CLOCK(), 0, 0.0
-    while spent < SAMPLE.value:
+    """Return the seconds of a run, averaged over SAMPLE seconds, at least one run."""
+    began, runs, elapsed = _CLOCK(), 0, 0.0
+    while elapsed < SAMPLE.value:
         runner(setting)
-        runs, spent = runs + 1, _CLOCK() - began
-    return spent / runs
+        runs, elapsed = runs + 1, _CLOCK() - began
+    return elapsed / runs
 
 
 def failure_sentences(failures: Iterable[Failure]) -> list[str]:
-    """Sentences, one for all methods that share settings and reason."""
+    """Return one sentence for all methods with the same settings and reason."""
     shared: dict[tuple[tuple[float, ...], str], list[str]] = {}
     for failure in failures:
         shared.setdefault((failure.settings, failure.reason), []).append(failure.method)
@@ -258,19 +259,19 @@ def failure_sentences(failures: Iterable[Failure]) -> list[str]:
 
 
 def front(points: Iterable[ChartPoint], work: Work = "seconds") -> list[ChartPoint]:
-    """The points that no other beats both in error and in work, from the cheapest to the most exact; traps left out."""
-    kept: list[ChartPoint] = []
+    """Return the Pareto front in error and work, from the cheapest to the most accurate point, without traps."""
+    best: list[ChartPoint] = []
     for point in sorted(points, key=lambda p: (getattr(p, work), p.error)):
-        if point.family != "trap" and (not kept or point.error < kept[-1].error):
-            kept.append(point)
-    return kept
+        if point.family != "trap" and (not best or point.error < best[-1].error):
+            best.append(point)
+    return best
 
 
 def work_at(points: Iterable[ChartPoint], error: float, work: Work = "seconds") -> float | None:
-    """Work for an error (m), between the neighbours of the front on logarithmic scales; None where none reaches it."""
+    """Return the work for an error in m, by logarithmic interpolation on the front; None if no point reaches it."""
     best = front(points, work)
     if not best or best[-1].error > error:
         return None
     with np.errstate(divide="ignore"):  # the closed form takes no evaluation
-        errors, spent = (np.log([getattr(p, name) for p in reversed(best)]) for name in ("error", work))
-    return float(np.exp(np.interp(np.log(error), errors, spent)))
+        errors, works = (np.log([getattr(p, name) for p in reversed(best)]) for name in ("error", work))
+    return float(np.exp(np.interp(np.log(error), errors, works)))

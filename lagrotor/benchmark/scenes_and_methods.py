@@ -1,4 +1,4 @@
-"""Speed against accuracy: every model, solver and tolerance on the same scenes, held to the same reference."""
+"""The benchmark's scenes and methods: every model, solver and tolerance against the same reference."""
 
 import warnings
 from collections.abc import Callable, Iterable
@@ -50,7 +50,7 @@ def _ten_seconds(scene: Scene, quick: bool, says: str) -> Case:
     return Case(scene, _TEN, 1 if quick else 2, says)
 
 
-# Name → case; quick: fewer repeats, and 100 turns for 1,000. Each is made when it is needed: a paired start is a series.
+# Name → function of `quick`, which takes fewer repeats, and 100 turns for 1,000. A start on the orbit costs a series.
 CASES: dict[str, Callable[[bool], Case]] = {
     "displaced": lambda quick: _ten_seconds(
         _scene_on_orbit(Link()), quick, f"paired precession, r0 = {AMPLITUDE}, 10 s"
@@ -75,7 +75,7 @@ def _model(model: str, engine: str = "core") -> Prepare:
 
 
 def _springs(stiffer: float) -> Prepare:
-    """The paper's own method, its springs `stiffer` times as stiff at the same ratio of damping."""
+    """Return the paper's own method with springs `stiffer` times as stiff, at the same damping ratio."""
 
     def prepare(scene: Scene, t_eval: Array) -> Runner:
         system = paper_system(scene, stiffer * STIFFNESS, stiffer**0.5 * DAMPING)
@@ -102,14 +102,14 @@ METHODS: dict[str, Method] = {
 }
 
 
-# Methods that are left out of quick runs, and of single cases, with the reason; they are listed with what failed.
+# Methods that quick runs or single cases omit, with the reason; they are listed with the failures.
 _ELSEWHERE = "takes seconds a run; see the displaced pair"
 _LEFT_OUT = {
     "quick": {
         "euler": "slower than minimal, which goes as far",
         "springs, 100 times as stiff": "takes two seconds a run",
     }
-    | {name: "slower than minimal" for name, given in ENGINES.items() if given.family == "scipy"},
+    | {name: "slower than minimal" for name, engine in ENGINES.items() if engine.family == "scipy"},
     "long": dict.fromkeys(
         (
             "minimal, DOP853",
@@ -125,7 +125,7 @@ _LEFT_OUT = {
 
 
 def benchmarks(quick: bool = False, step: Callable[[str], None] = lambda name: None) -> list[Benchmark]:
-    """All four cases; on the shock the plain calls, too. step: called with each name."""
+    """Run all four cases, and the plain solver calls on the shock; `step` is called with each name."""
     longest = (LONGEST_QUICK_RUN if quick else LONGEST_RUN).value
     charts = []
     for name, case in CASES.items():
@@ -136,20 +136,19 @@ def benchmarks(quick: bool = False, step: Callable[[str], None] = lambda name: N
         tolerances = TOLERANCES[:: 5 if quick else 2 if name == "long" else 1]
         with warnings.catch_warnings():  # a solver that warns fails, or its error shows why
             warnings.simplefilter("ignore")
-            kept = {method: given for method, given in methods.items() if method not in left_out}
-            one = benchmark(name, case(quick), kept, tolerances, longest)
+            included = {method: entry for method, entry in methods.items() if method not in left_out}
+            chart = benchmark(name, case(quick), included, tolerances, longest)
         omitted = tuple(Failure(method, (), f"left out: {why}") for method, why in left_out.items())
-        charts.append(replace(one, failures=one.failures + omitted))
+        charts.append(replace(chart, failures=chart.failures + omitted))
     return charts
 
 
-# Families of the package's own methods by what they need: the closed forms too, integrations with the four core packages,
-# integrations with the fast extra.
+# Families of lagrotor's methods: all models, integrations with the core packages, integrations with the fast extra.
 OURS: dict[str, tuple[Family, ...]] = {"any model": ("closed", "core"), "core": ("core",), "fast": ("fast",)}
 
 
 def ratios(chart: Benchmark, errors: Iterable[float] = (1e-6, 1e-8, 1e-10, 1e-12, 1e-13)) -> dict[str, dict[str, Any]]:
-    """Error → seconds of the best of OURS, and how many times longer core takes than fast; None where one does not reach it."""
+    """Return error → time in s of the best of OURS, and the ratio of core to fast; None if one does not reach the error."""
     points = {name: [p for p in chart.points if p.family in families] for name, families in OURS.items()}
     table = {}
     for error in errors:

@@ -1,4 +1,4 @@
-"""scipy's solvers by name, for runs in which the solver is studied, and as engines on the minimal right-hand side."""
+"""scipy's solvers by name, for studies of a solver, and as engines for the minimal right-hand side."""
 
 from collections.abc import Callable
 from typing import Any
@@ -29,9 +29,9 @@ IVP = ("RK45", "Radau", "BDF", "LSODA")
 def run_by(
     solver: str, rhs: RightHandSide, start: Array, t_eval: Array, tol: float, longest: float = np.inf
 ) -> tuple[Array, int]:
-    """States (n, d) at increasing t_eval (n,) from `start` (d,) at t_eval[0], by one of SOLVERS, and nfev.
+    """Return the states (n, d) at increasing times t_eval (n,) by one of SOLVERS, and nfev.
 
-    tol: relative and absolute local error in the solver's own sense. Raises IntegrationError when it stops.
+    tol: the solver's relative and absolute local error. Raises IntegrationError if the solver stops.
     """
     from scipy.integrate import ode
 
@@ -44,9 +44,8 @@ def run_by(
 
     name, settings = SOLVERS[solver]
     limit = 0.0 if np.isinf(longest) else longest
-    going = ode(counted).set_integrator(
-        name, rtol=max(tol, LSODA_LEAST.value), atol=tol, nsteps=2_000_000_000, max_step=limit, **settings
-    )
+    settings = settings | {"rtol": max(tol, LSODA_LEAST.value), "atol": tol}
+    going = ode(counted).set_integrator(name, nsteps=2_000_000_000, max_step=limit, **settings)
     going.set_initial_value(start, t_eval[0])
     states = [start]
     for t in t_eval[1:]:
@@ -57,7 +56,7 @@ def run_by(
 
 
 def ode_engine(solver: str) -> Solver:
-    """One of SOLVERS as an engine. It is called for every output time: a one-step method starts anew each time."""
+    """Return one of SOLVERS as an engine. It is called for every output time: a one-step method starts anew each time."""
 
     def run(segment: Segment, error: float) -> Stretch:
         t_eval = np.union1d([segment.begin], segment.t_eval)
@@ -68,7 +67,7 @@ def ode_engine(solver: str) -> Solver:
 
 
 def ivp_engine(method: str) -> Solver:
-    """A method of `solve_ivp` as an engine: one call over the segment. The evaluations for a Jacobian are counted too."""
+    """Return a method of `solve_ivp` as an engine: one call over the segment. The evaluations for a Jacobian are counted too."""
 
     def run(segment: Segment, error: float) -> Stretch:
         from scipy.integrate import solve_ivp
@@ -82,23 +81,23 @@ def ivp_engine(method: str) -> Solver:
                 raise StopError(s, f"{nfev - 1} evaluations by s = {s:.3g} s")
             return segment.rhs(s, y)
 
-        found = solve_ivp(
+        solution = solve_ivp(
             counted, (segment.begin, segment.until), segment.start, method=method, t_eval=segment.t_eval,
             rtol=max(error, 2.3e-14), atol=error, max_step=segment.longest,
         )  # fmt: skip
-        if not found.success:
-            raise StopError(segment.until, found.message)
-        if not np.isfinite(found.y).all():
+        if not solution.success:
+            raise StopError(segment.until, solution.message)
+        if not np.isfinite(solution.y).all():
             raise StopError(segment.until, "a value is not finite")
-        return Stretch(found.y.T, found.y[:, -1], nfev)
+        return Stretch(solution.y.T, solution.y[:, -1], nfev)
 
     return run
 
 
 def on_minimal(engine: Solver, sees_shock: bool = True) -> Prepare:
-    """The minimal right-hand side, pulse included, by an engine that is called once over the whole run.
+    """Return the benchmark of an engine on the minimal right-hand side with the pulse, in one call over the whole run.
 
-    sees_shock: no step is longer than the width of the pulse. Without it this is a plain call, which may step over it.
+    sees_shock: the width of the pulse limits the steps; without it, the solver may step over the pulse.
     """
 
     def prepare(scene: Scene, t_eval: Array) -> Runner:
@@ -116,8 +115,8 @@ def on_minimal(engine: Solver, sees_shock: bool = True) -> Prepare:
         )
 
         def run(tol: float) -> tuple[Array, int]:
-            found = engine(segment, tol)
-            return tips(scene, minimal.MODEL.observe(scene, found.states).axes), found.evaluations
+            stretch = engine(segment, tol)
+            return tips(scene, minimal.MODEL.observe(scene, stretch.states).axes), stretch.evaluations
 
         return run
 
@@ -130,8 +129,6 @@ ENGINES: dict[str, Method] = {
     **{f"solve_ivp, {name}": Method("scipy", on_minimal(ivp_engine(name))) for name in IVP},
     **{f"ode, {name}": Method("scipy", on_minimal(ode_engine(name))) for name in SOLVERS},
 }
-# Plain calls: a shock that comes after a rest is stepped over, but where a step happens to fall into it.
-TRAPS: dict[str, Method] = {
-    f"solve_ivp, {name}, one call": Method("trap", on_minimal(ivp_engine(name), sees_shock=False))
-    for name in ("RK23", *IVP, "DOP853")
-}
+# Plain calls can step over a shock that follows a state of rest.
+_ONE_CALL = {name: on_minimal(ivp_engine(name), sees_shock=False) for name in ("RK23", *IVP, "DOP853")}
+TRAPS: dict[str, Method] = {f"solve_ivp, {name}, one call": Method("trap", run) for name, run in _ONE_CALL.items()}

@@ -1,4 +1,4 @@
-"""Trajectories per second in ensembles."""
+"""Trajectories per second of ensembles."""
 
 import time
 from concurrent.futures import Executor
@@ -20,7 +20,7 @@ _RUN = 10.0  # s
 
 @dataclass(frozen=True)
 class Throughput:
-    """What was done, how many a second (`unit`), and as what share of what (`against`)."""
+    """A measured rate: the task, the rate in `unit`, and its ratio to the row `against`."""
 
     what: str
     unit: str
@@ -30,16 +30,16 @@ class Throughput:
 
 
 def displaced_family(n: int) -> list[Scene]:
-    """n opposite pairs displaced from the paired precession: its start at r₀ = 0.204 scaled from a quarter to one and a half."""
+    """Return n opposite pairs that start at 0.25 to 1.5 times the start of the paired precession with r₀ = 0.204."""
     scene = Scene((10.0, -10.0))
     return scenes_from_states(scene, np.linspace(0.25, 1.5, n)[:, None] * MODEL.start(exact_orbit(scene, 0.204).scene))
 
 
 def throughput(n: int = 4096, executor: Executor | None = None) -> list[Throughput]:
-    """Return the rates of an ensemble of n at 1e-6 and 1e-10, in `executor` or here; each the best of two.
+    """Return the rates of an ensemble of n at 1e-6 and 1e-10, each the better of two runs, in `executor` or in this process.
 
-    With the fast extra, where heyoka is installed, the ensembles once more by it. Raises LagrotorError for a run whose
-    evaluations, motion or error are not those of the work that it reports.
+    The fast extra with heyoka adds two rows. Raises LagrotorError if evaluations, motion or error of a run are not as
+    reported.
     """
     scenes = displaced_family(n)
     rows: list[Throughput] = []
@@ -47,7 +47,7 @@ def throughput(n: int = 4096, executor: Executor | None = None) -> list[Throughp
     chunk = max(1, min(CHUNK, n // 2))
     for engine in ("core", *(["fast"] if find_spec("heyoka") else [])):
         for tol in (1e-6, 1e-10):
-            # Compile now what is compiled once in a process.
+            # Compilation happens once in a process and is not part of the rate.
             sweep(scenes[:16], [0.0, 0.1], tol, chunk=4, executor=executor, engine=engine)
             seconds = []
             for _ in range(2):
@@ -64,10 +64,10 @@ def throughput(n: int = 4096, executor: Executor | None = None) -> list[Throughp
 
 
 def _check_ensemble(ensemble: Ensemble) -> None:
-    """Refuse an ensemble that did not run: compare evaluations, errors and the last axes of three runs with `spheres`."""
+    """Check evaluations, errors, and the last axes of three runs against `spheres`."""
     ends, errors = ensemble.axes[:, :, -1], [float(ensemble.error.max())]
     for i in (0, len(ends) // 2, len(ends) - 1):
         run = simulate(ensemble.scenes[i], [0.0, _RUN], "spheres", 1e-11)
         errors.append(float(np.linalg.norm(ends[i] - run.axes[:, -1], axis=-1).max()))
-    turned = natural_rate(ensemble.scenes[0]) * _RUN  # rad
-    check_work("sweep", ensemble.evaluations.min(), ensemble.axes[:, 0], max(errors), ensemble.tol, turned)
+    angle = natural_rate(ensemble.scenes[0]) * _RUN  # rad
+    check_work("sweep", ensemble.evaluations.min(), ensemble.axes[:, 0], max(errors), ensemble.tol, angle)

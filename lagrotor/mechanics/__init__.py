@@ -1,18 +1,18 @@
-"""Analytical mechanics in plain symbols: any Lagrangian system, its equations, symmetries, small motions and runs.
+"""Analytical mechanics in plain symbols: Lagrangian systems, their equations, symmetries, small motions and simulations.
 
 The main types, in the order in which data passes through them:
 
     Coordinates     q, v = q', a = q'' as independent symbols (`lagrangian`)
-    Frame, Body     a sketch of a mechanism: joints, bodies, contacts and force elements give energies (`bodies`)
-    System          L(q, v, t), constraints, what rolls, dissipation and forces (`systems`, `equations`, `quasi_velocities`)
-    FirstIntegral   Noether's integrals, Routh's reduction, equality of systems (`symmetry`)
-    Equilibrium     places at rest (`equilibria`), the LinearSystem there (`linear_modes`), steady motions (`steady_motions`)
+    Frame, Body     joints, bodies, contacts and force elements of a mechanism, which give energies and forces (`bodies`)
+    System          L(q, v, t), constraints, rolling, dissipation and forces (`systems`, `equations`, `quasi_velocities`)
+    FirstIntegral   Noether integrals, Routh's reduction, equality of systems (`symmetry`)
+    Equilibrium     equilibria (`equilibria`), the LinearSystem there (`linear_modes`), steady motions (`steady_motions`)
     Oscillation     series of a periodic motion, AveragedMotion of a slow amplitude (`weakly_nonlinear`, by `fourier`)
     Hamiltonian     brackets, canonical transformations, NormalForm (`canonical`)
-    SystemRun       a motion in numbers with its error (`running`)
+    SystemRun       a simulated motion with its error (`running`)
 
-Equations are expressions; nothing numeric is imported before a number is asked for. `System` in `systems` hands on what the other
-modules can do as methods of one line. A new analysis is a function of an `Equations` in a module of its own, and a method there.
+Equations are expressions; numpy and scipy are imported when a method needs numbers. `System` has every analysis as a method of
+one line. A new analysis is a function of an `Equations` in a module of its own, and such a method.
 """
 
 from typing import TYPE_CHECKING
@@ -37,7 +37,6 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.equilibria import Equilibrium as Equilibrium
     from lagrotor.mechanics.lagrangian import Coordinates as Coordinates
     from lagrotor.mechanics.lagrangian import accelerations as accelerations
-    from lagrotor.mechanics.lagrangian import bias as bias
     from lagrotor.mechanics.lagrangian import coordinates as coordinates
     from lagrotor.mechanics.lagrangian import energy as energy
     from lagrotor.mechanics.lagrangian import euler_lagrange as euler_lagrange

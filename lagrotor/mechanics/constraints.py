@@ -1,4 +1,4 @@
-"""Constraints in numbers: the multipliers at one state, and the way back onto the constraints.
+"""Constraints in numbers: the multipliers at one state, and the projection onto the constraints.
 
 With the mass matrix M, the bias h, the forces Q and the constraints' rows G and γ (see `equations`), the Schur complement
 S = G M⁻¹ Gᵀ gives the multipliers and then the accelerations,
@@ -24,26 +24,7 @@ WORST_CONDITION = 1e12
 
 
 def solve_constrained(M: Array, h: Array, G: Array, gamma: Array, Q: Array) -> tuple[Array, Array]:
-    """(a, λ) at one state, shapes (n,) and (k,).
-
-    Parameters
-    ----------
-    M : Array
-        Mass matrix (n, n).
-    h : Array
-        The other terms of M a + h = Q + Gᵀ λ, (n,).
-    G : Array
-        Jacobian (k, n) of the constraints.
-    gamma : Array
-        Γ of G a + γ = 0, (k,).
-    Q : Array
-        Generalised forces (n,).
-
-    Raises
-    ------
-    SingularError
-        When M is singular or the rows of G are linearly dependent.
-    """
+    """Solve M a + h = Q + Gᵀ λ and G a + γ = 0 for (a, λ), shapes (n,) and (k,)."""
     W, S = _normals("solve_constrained", G, M)
     free = np.linalg.solve(M, Q - h)
     lam = -np.linalg.solve(S, G @ free + gamma)
@@ -51,35 +32,16 @@ def solve_constrained(M: Array, h: Array, G: Array, gamma: Array, Q: Array) -> t
 
 
 _ROUNDING = 4 * float(np.finfo(float).eps)
-_SHORT, _STEPS = 1e-14, 20  # of Newton's method: a step that is none, and when it is given up
+_SHORT, _STEPS = 1e-14, 20  # Newton's method: the relative step at which it has converged, and the most steps
 
 
 def project_position(
     g_fun: Callable[[Array], Array], G_fun: Callable[[Array], Array], q: Array, mass: Array | None = None
 ) -> Array:
-    """The configuration with g = 0 reached from q by Newton's method along M⁻¹ Gᵀ: q ← q − M⁻¹ Gᵀ S⁻¹ g.
+    """Project a configuration onto g = 0 by Newton's method along M⁻¹ Gᵀ: q ← q − M⁻¹ Gᵀ S⁻¹ g.
 
-    To first order in the distance it is the nearest one in the mass metric. The steps end when one is shorter than
-    10⁻¹⁴ (1 + |q|), a length in q, whatever the units of g, or when g is below the rounding of its terms, 4 eps |G| |q|: beside
-    dependent constraints that rounding alone moves q by more.
-
-    Parameters
-    ----------
-    g_fun : callable
-        Q → g, (k,).
-    G_fun : callable
-        Q → G, (k, n).
-    q : Array
-        Where it begins, (n,).
-    mass : Array or None, optional
-        M, (n, n); 1 when none is given.
-
-    Raises
-    ------
-    ConstraintError
-        With the residual left after 20 steps.
-    SingularError
-        Where the rows of G are dependent.
+    To first order in the distance the result is the nearest one in the mass metric. Steps end below 10⁻¹⁴ (1 + |q|), whatever
+    the unit of g, or when g is below the rounding of its terms, which near dependent constraints moves q by more.
     """
     start, q = q, np.array(q, dtype=float)
     for _ in range(_STEPS):
@@ -91,34 +53,19 @@ def project_position(
         if below_rounding or np.linalg.norm(step) <= _SHORT * (1 + np.linalg.norm(q)):
             return q
     raise ConstraintError(
-        f"project_position: |g| = {np.linalg.norm(g_fun(q)):.3g} left after {_STEPS} steps from q = {start}: "
+        f"project_position: |g| = {np.linalg.norm(g_fun(q)):.3g} after {_STEPS} steps from q = {start}: "
         "Newton's method has not reached the constraints; start nearer to them"
     )
 
 
 def project_velocity(G: Array, v: Array, mass: Array | None = None) -> Array:
-    """v − M⁻¹ Gᵀ S⁻¹ G v, shape (n,): the velocity with G v = 0 nearest to v in the mass metric.
-
-    Parameters
-    ----------
-    G : Array
-        Jacobian (k, n) of the constraints.
-    v : Array
-        (n,).
-    mass : Array or None, optional
-        M, (n, n); 1 when none is given.
-
-    Raises
-    ------
-    SingularError
-        When M is singular or the rows of G are linearly dependent.
-    """
+    """Return the velocity with G v = 0 that is nearest to v in the mass metric, v − M⁻¹ Gᵀ S⁻¹ G v."""
     W, S = _normals("project_velocity", G, mass)
     return v - W @ np.linalg.solve(S, G @ v)
 
 
 def _normals(where: str, G: Array, mass: Array | None) -> tuple[Array, Array]:
-    """W = M⁻¹ Gᵀ and S = G W, once S is known to be invertible."""
+    """Return W = M⁻¹ Gᵀ and S = G W, or raise SingularError if M or S is singular."""
     try:
         W = G.T if mass is None else np.linalg.solve(mass, G.T)
     except np.linalg.LinAlgError:

@@ -2,9 +2,10 @@
 
     M a + h = Q + Gᵀ λ,        G v + b = 0,        G a + γ = 0.
 
-Q: the given forces less ∂D/∂v of Rayleigh's dissipation function D. The rows of G, b and γ come from the holonomic
-constraints g(q, t) = 0 (row ∂g/∂q, b = ∂g/∂t) and, after them, from the rolling constraints f(q, v, t) = 0, which are
-affine in the velocities (row ∂f/∂v, b what is left at v = 0); γ is the rest of the second, or first, time derivative.
+The generalised forces Q are the applied forces less ∂D/∂v of Rayleigh's dissipation function D. The rows of G, b and γ
+belong to the holonomic constraints g(q, t) = 0 (row ∂g/∂q, b = ∂g/∂t), and after them to the rolling constraints
+f(q, v, t) = 0, which are affine in the velocities (row ∂f/∂v, b = f at v = 0). γ is the part without a of the second, or
+first, time derivative.
 
 Goldstein, Poole & Safko, Classical Mechanics, 3rd ed., §§1.4, 1.5, 2.4, 2.7; Neimark & Fufaev, Dynamics of
 Nonholonomic Systems, ch. III.
@@ -14,7 +15,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
@@ -35,24 +36,14 @@ from lagrotor.mechanics.lagrangian import (
     total_derivative,
 )
 from lagrotor.mechanics.quasi_velocities import Kinematics, Pairs, boltzmann_hamel, check_velocities, kinematics
+from lagrotor.renamed import old_attribute
 
-_FAST = 1000  # by which random velocities are multiplied where friction must have grown
+_FAST = 1000  # the factor on random velocities at which friction must have increased
 
 
 @dataclass(frozen=True)
 class Equations:
-    """A Lagrangian L(q, v, t) in the coordinates c, and what else acts on it.
-
-    constraints: expressions g(q, t) that stay zero. rolling: expressions f(q, v, t), affine in the velocities, that stay
-    zero. dissipation: Rayleigh's function D(q, v, t), W. forces: the generalised forces Q(q, v, t), one for each
-    coordinate, or none. Constraints and rolling may be named, {name: expression}: so are their reactions then. velocities:
-    {u: expression affine in v} of one's own, in which the equations are written, as many as coordinates, or fewer where
-    constraints give the rest: see `quasi_velocities`; the other expressions may contain them. In any of them unknown
-    functions, as sympy's Function("U")(r), are among the letters: their derivatives stand in the equations, and a run takes
-    values for them.
-
-    Raises InputError for what does not make sense, with the way out.
-    """
+    """The equations of motion of a Lagrangian with constraints, friction and forces; `System` describes the fields."""
 
     c: Coordinates
     lagrangian: sp.Expr
@@ -63,20 +54,23 @@ class Equations:
     names: tuple[str, ...] = ()
     velocities: Mapping[sp.Symbol, sp.Expr] | Pairs = ()
 
+    if not TYPE_CHECKING:
+        __getattr__ = old_attribute
+
     def __post_init__(self) -> None:
         if not isinstance(self.c, Coordinates):
             raise InputError(
                 f"System: {self.c!r} must be Coordinates: coordinates('theta phi') makes them; they come first"
             )
         for name in ("constraints", "rolling", "forces"):
-            given = getattr(self, name)
-            if isinstance(given, Mapping) and name != "forces":
-                self._name(name, given)
-                given = tuple(given.values())
-            if isinstance(given, sp.Expr | str) or not isinstance(given, Sequence | sp.MatrixBase):
-                way = f": write ({given},)" if isinstance(given, sp.Expr) else ""
-                raise InputError(f"System: {name} = {given} must be a tuple of expressions{way}")
-            object.__setattr__(self, name, tuple(expression(f"System: {name}[{i}]", e) for i, e in enumerate(given)))
+            entries = getattr(self, name)
+            if isinstance(entries, Mapping) and name != "forces":
+                self._name(name, entries)
+                entries = tuple(entries.values())
+            if isinstance(entries, sp.Expr | str) or not isinstance(entries, Sequence | sp.MatrixBase):
+                way = f": write ({entries},)" if isinstance(entries, sp.Expr) else ""
+                raise InputError(f"System: {name} = {entries} must be a tuple of expressions{way}")
+            object.__setattr__(self, name, tuple(expression(f"System: {name}[{i}]", e) for i, e in enumerate(entries)))
         object.__setattr__(self, "dissipation", expression("System: dissipation", self.dissipation))
         self._take_velocities()
         if self.forces and len(self.forces) != len(self.c.q):
@@ -89,14 +83,14 @@ class Equations:
         self._check_symbols()
         self._check_reactions()
         if not self.bodies:
-            object.__setattr__(self, "lagrangian", self.L)  # now; an energy of bodies is written out when it is needed
+            object.__setattr__(self, "lagrangian", self.L)  # energies of bodies are multiplied out only when needed
         _ = self.kinematics
 
     def _take_velocities(self) -> None:
-        """The velocities as pairs, those of ball joints among them, and put in where an expression has them."""
+        """Store the quasi-velocities as pairs, those of ball joints included, and replace them in the expressions."""
         joints = self.ball_joints
         turns = dict.fromkeys((joint.quaternion, joint.omega) for joint in joints)
-        letters = [s for each in turns for part in each for s in part]
+        letters = [s for group in turns for symbols in group for s in symbols]
         if twice := [s for s in letters if letters.count(s) > 1]:
             raise InputError(
                 f"System: {twice[0]} is in two ball joints: give each four coordinates and three velocities of its own"
@@ -104,50 +98,50 @@ class Equations:
         for body in self.bodies:
             if used := {*letters} & (body.mass.free_symbols | body.inertia.free_symbols | body.centre.free_symbols):
                 raise InputError(
-                    f"System: {min(map(str, used))} is a velocity of a ball joint and a letter of a body: rename one"
+                    f"System: {min(map(str, used))} is a velocity of a ball joint and a symbol of a body: rename one"
                 )
-        named = {u: e for joint in joints for u, e in joint.own_velocities.items()}
-        given = dict(check_velocities(self.c, self.velocities, named))
-        turned = {q: joint for joint in joints for q in joint.quaternion}
-        if joints and not given:
+        named = {u: e for joint in joints for u, e in joint.ball_velocities.items()}
+        definitions = dict(check_velocities(self.c, self.velocities, named))
+        joint_of = {q: joint for joint in joints for q in joint.quaternion}
+        if joints and not definitions:
             for q, v in zip(self.c.q, self.c.v, strict=True):
-                given |= turned[q].own_velocities if q in turned else {v: v}
+                definitions |= joint_of[q].ball_velocities if q in joint_of else {v: v}
         for joint in joints:
-            given |= joint.own_velocities
+            definitions |= joint.ball_velocities
             if joint.unit_length not in self.constraints:
                 object.__setattr__(self, "constraints", (*self.constraints, joint.unit_length))
                 if self.names:
                     first = len(self.constraints) - 1
                     unit = f"unit {joint.quaternion[0]}"
                     object.__setattr__(self, "names", (*self.names[:first], unit, *self.names[first:]))
-        pairs = check_velocities(self.c, given)
-        own = {u: e for u, e in pairs if u != e}
+        pairs = check_velocities(self.c, definitions)
+        quasi = {u: e for u, e in pairs if u != e}
         object.__setattr__(self, "velocities", pairs)
-        if not own:
+        if not quasi:
             return
         for name in ("constraints", "rolling", "forces"):
-            object.__setattr__(self, name, tuple(e.xreplace(own) for e in getattr(self, name)))
-        object.__setattr__(self, "dissipation", self.dissipation.xreplace(own))
+            object.__setattr__(self, name, tuple(e.xreplace(quasi) for e in getattr(self, name)))
+        object.__setattr__(self, "dissipation", self.dissipation.xreplace(quasi))
         if hasattr(self.lagrangian, "xreplace"):
-            object.__setattr__(self, "lagrangian", self.lagrangian.xreplace(own))
+            object.__setattr__(self, "lagrangian", self.lagrangian.xreplace(quasi))
 
     @property
     def ball_joints(self) -> list[Any]:
-        """The frames of ball joints that carry bodies, from the ground outward."""
+        """The frames of the ball joints that carry bodies, from the ground outward."""
         steps = (frame for body in self.bodies for frame in reversed(body.frame.to_the_ground))
         return list(dict.fromkeys(frame for frame in steps if frame.omega))
 
-    def _name(self, part: str, given: Mapping[Any, Any]) -> None:
-        """Take the names of constraints or of rolling; those of the other part are numbers unless it is named, too."""
-        if wrong := [name for name in given if not isinstance(name, str) or not name.strip() or name in self.names]:
+    def _name(self, field: str, named: Mapping[Any, Any]) -> None:
+        """Store the names of the constraints or of rolling. Those of the other field are numbers unless it is named, too."""
+        if wrong := [name for name in named if not isinstance(name, str) or not name.strip() or name in self.names]:
             raise InputError(
-                f"System: {wrong[0]!r} in {part} is no name of its own: give {{name: expression}}, each name once"
+                f"System: {wrong[0]!r} in {field} is no name, or is in use: give {{name: expression}}, each name once"
             )
-        own, first = tuple(given), len(self.constraints)
+        labels, first = tuple(named), len(self.constraints)
         numbers = tuple(str(i + 1) for i in range(first + len(self.rolling)))
-        before = self.names or numbers
-        after = (*own, *before[first:]) if part == "constraints" else (*before[:first], *own)
-        object.__setattr__(self, "names", after)
+        names = self.names or numbers
+        renamed = (*labels, *names[first:]) if field == "constraints" else (*names[:first], *labels)
+        object.__setattr__(self, "names", renamed)
 
     def _check_symbols(self) -> None:
         velocities, higher = {*self.c.v}, {*self.c.a}
@@ -180,36 +174,36 @@ class Equations:
 
     @property
     def acting(self) -> tuple[sp.Expr, ...]:
-        """Constraints, rolling, friction and forces."""
+        """The expressions of constraints, rolling, dissipation and forces."""
         return (*self.constraints, *self.rolling, self.dissipation, *self.forces)
 
     def _check_reactions(self) -> None:
-        """Raise InputError for a reaction of no constraint, or one that stands elsewhere than in forces and dissipation."""
+        """Raise InputError for a reaction of no constraint, or one outside forces and dissipation."""
         names = self.multiplier_names
         places = (*self.constraints, *self.rolling, *(e for _, e in self.velocities))
         elsewhere = self.letters.union(*(e.free_symbols for e in places))
         for s in sorted(set().union(elsewhere, *(e.free_symbols for e in self.acting)), key=str):
             name = str(s)[len("reaction(") : -1] if str(s).startswith("reaction(") else None
             if name is not None and (s in elsewhere or name not in names):
-                what = "stands in forces and dissipation alone" if name in names else "is of none of the constraints"
+                what = "belongs into forces and dissipation alone" if name in names else "is of none of the constraints"
                 raise InputError(
                     f"System: {s} {what}: theirs are {', '.join(names) or 'none'}, as {{name: expression}} has them"
                 )
 
     @property
     def multiplier_names(self) -> tuple[str, ...]:
-        """The names of constraints and, after them, of rolling; their numbers, where they have none."""
+        """The names of the constraints and then of rolling, or their numbers from 1."""
         return self.names or tuple(str(i + 1) for i in range(len(self.constraints) + len(self.rolling)))
 
     @property
     def _letters(self) -> tuple[Any, ...]:
-        """What shares the letters of the system."""
+        """The symbols of the system, by group, whose names must differ."""
         moving = self.c.q, self.c.v, self.c.a, t
         return *moving, self.acting, self.velocities, self.letters if self.bodies else ()
 
     @cached_property
     def letters(self) -> set[sp.Symbol]:
-        """The symbols of the Lagrangian."""
+        """The symbols in the Lagrangian."""
         return (
             free_letters(self.lagrangian)
             if isinstance(self.lagrangian, sp.Basic)
@@ -223,8 +217,8 @@ class Equations:
         no_coordinate("System: L", L, (*self.c.q, *self.c.v, *self.c.a))
         check_names("System", *self._letters, self.letters)
         acting = self.letters.union(*(sp.sympify(e, strict=True).free_symbols for e in (*self.forces, *self.residual)))
-        if own := sorted(str(s) for s in acting if re.fullmatch(r"_a\d+", str(s))):
-            raise InputError(f"System: {', '.join(own)}: names as _a0 are those of generated programs; rename")
+        if reserved := sorted(str(s) for s in acting if re.fullmatch(r"_a\d+", str(s))):
+            raise InputError(f"System: {', '.join(reserved)}: names as _a0 are those of generated programs; rename")
         _free_of(
             "L",
             self.letters,
@@ -235,17 +229,17 @@ class Equations:
 
     @property
     def speeds(self) -> tuple[sp.Symbol, ...]:
-        """The velocities of a state (q, u): those of one's own, or v."""
+        """The velocities u of a state (q, u): the quasi-velocities, or v."""
         return tuple(u for u, _ in self.velocities) or self.c.v
 
     @property
     def speed_rates(self) -> tuple[sp.Symbol, ...]:
-        """Their derivatives: the names of u with _dot, or a."""
+        """The derivatives u' of `speeds`: symbols with the names of u and _dot, or a."""
         return tuple(sp.Symbol(f"{u}_dot", real=True) for u, _ in self.velocities) or self.c.a
 
     @cached_property
     def kinematics(self) -> Kinematics | None:
-        """How v follows from velocities of one's own, where there are any."""
+        """The relation v = B u + b to the quasi-velocities; None without any."""
         if not self.velocities:
             return None
         units = [self.constraints.index(joint.unit_length) for joint in self.ball_joints]
@@ -254,150 +248,196 @@ class Equations:
 
     @property
     def left(self) -> tuple[int, ...]:
-        """The rows of the constraints, by number, that are kept by multipliers."""
+        """The numbers of the constraints that multipliers maintain."""
         return self.kinematics.left if self.kinematics else tuple(range(len(self.residual)))
 
     @property
     def bodies(self) -> tuple[Any, ...]:
-        """The rigid bodies of which the Lagrangian is made, where it is."""
+        """The rigid bodies of which the Lagrangian is made; () for a plain expression."""
         return tuple(getattr(self.lagrangian, "bodies", ()))
 
+    @property
+    def momenta(self) -> sp.Matrix:
+        """The conjugate momenta p = ∂L/∂v, shape (n, 1)."""
+        return free.momenta(self.L, self.c)
+
     @cached_property
-    def mass(self) -> sp.Matrix:
-        """M = ∂²L/∂v∂v, shape (n, n)."""
+    def mass_matrix(self) -> sp.Matrix:
+        """The mass matrix M = ∂²L/∂v∂v, shape (n, n): M a = forcing, with constraints M a = forcing + Gᵀ λ."""
         return free.mass_matrix(self.L, self.c)
 
     @cached_property
     def bias(self) -> sp.Matrix:
-        """h = (∂²L/∂v∂q) v + ∂²L/∂v∂t − ∂L/∂q, shape (n, 1)."""
+        """The bias h = (∂²L/∂v∂q) v + ∂²L/∂v∂t − ∂L/∂q, shape (n, 1)."""
         return free.bias(self.L, self.c)
 
     @property
-    def push(self) -> sp.Matrix:
-        """Q: the given forces less ∂D/∂v, shape (n, 1)."""
+    def forcing(self) -> sp.Matrix:
+        """The column Q − h, shape (n, 1), without the multipliers: M a = forcing + Gᵀ λ along a motion."""
+        return self.generalised_forces - self.bias
+
+    @cached_property
+    def accelerations(self) -> sp.Matrix:
+        """The accelerations a in q, v and t, shape (n, 1); under constraints those of a state on them.
+
+        For small systems: the adjugate of M grows fast with n. `rhs` has them in numbers. SingularError is raised where
+        det M vanishes identically, or the constraints are dependent.
+        """
+        return constrained_accelerations(self)[0]
+
+    @property
+    def generalised_forces(self) -> sp.Matrix:
+        """The generalised forces Q, shape (n, 1): `forces` less ∂D/∂v."""
         return free.force_column(self.forces or None, self.c, "System") - gradient(self.dissipation, self.c.v)
 
     @cached_property
     def residual(self) -> sp.Matrix:
-        """G v + b, shape (k, 1): the time derivatives of the constraints, and the rolling constraints; zero on a motion."""
+        """The constraints on velocities G v + b, shape (k, 1): holonomic ones differentiated, then rolling ones."""
         rows = [*(total_derivative(g, self.c) for g in self.constraints), *self.rolling]
         return sp.Matrix(len(rows), 1, rows)
 
     @cached_property
     def rows(self) -> sp.Matrix:
-        """G, shape (k, n)."""
+        """The Jacobian G of the constraints, shape (k, n)."""
         return jacobian(self.residual, self.c.v)
 
     @cached_property
     def gamma(self) -> sp.Matrix:
-        """γ, shape (k, 1), so that the time derivative of `residual` is G a + γ."""
+        """The column γ of d/dt `residual` = G a + γ, shape (k, 1)."""
         still = dict.fromkeys(self.c.a, sp.S.Zero)
         return self.residual.applyfunc(lambda e: put_in(total_derivative(e, self.c), still))
 
     @cached_property
     def multipliers(self) -> tuple[sp.Symbol, ...]:
-        """λ_1 … λ_k, or λ with the names of the constraints, or Λ where the system has such letters, or `reaction(name)` where
-        forces have that: the multipliers in `motion` and `power`."""
+        """The multipliers in `motion` and `power`, one for each constraint.
+
+        They are λ with the name or the number of the constraint, Λ if the system uses λ, and `reaction(name)` if forces have it.
+        """
         names = [name.replace(" ", "_") for name in self.multiplier_names]
         names = names if len({*names}) == len(names) else list(self.multiplier_names)
         letters = self.letters.union(self.c.q, self.c.v, self.c.a, *(e.free_symbols for e in self.acting))
         stem = "Lambda" if {f"lambda_{name}" for name in names} & {str(s) for s in letters} else "lambda"
         plain = (sp.Symbol(f"{stem}_{name}", real=True) for name in names)
-        return tuple(own if own in letters else s for own, s in zip(self.reactions, plain, strict=True))
+        return tuple(symbol if symbol in letters else s for symbol, s in zip(self.reactions, plain, strict=True))
 
     @property
     def reactions(self) -> tuple[sp.Symbol, ...]:
-        """What `reaction` gives for each constraint."""
+        """The symbol `reaction(name)` of each constraint."""
         return tuple(map(reaction, self.multiplier_names))
 
     @cached_property
     def motion(self) -> sp.Matrix:
-        """M a + h − Q − Gᵀ λ, shape (n, 1): zero along a motion."""
+        """The equations of motion M a + h − Q − Gᵀ λ, shape (n, 1), zero along a motion."""
         lam = sp.Matrix(len(self.multipliers), 1, self.multipliers)
-        return free.euler_lagrange(self.L, self.c) - self.push - self.rows.T * lam
+        return free.euler_lagrange(self.L, self.c) - self.generalised_forces - self.rows.T * lam
 
     @cached_property
     def hamel(self) -> sp.Matrix:
-        """The equations of Boltzmann and Hamel in velocities of one's own, M u' + h − Bᵀ Q − (G' B)ᵀ λ, shape (m, 1), zero
-        along a motion; u' has the name of u with _dot. See `quasi_velocities`.
+        """The Boltzmann–Hamel equations in quasi-velocities, shape (m, 1), zero along a motion.
 
-        Raises InputError where there are none, or v is too long to be written in them.
+        They are M u' + h − Bᵀ Q − (G' B)ᵀ λ with u' = `speed_rates`: see `quasi_velocities`. InputError is raised without
+        quasi-velocities, or if v is too long to be written in them.
         """
-        given = self.kinematics
-        if given is None or given.stages:
-            lack = "has no velocities of its own: give velocities={…}" if given is None else "has too long an inverse"
+        relation = self.kinematics
+        if relation is None or relation.stages:
+            lack = (
+                "has no velocities of its own: give velocities={…}" if relation is None else "has too long an inverse"
+            )
             raise InputError(f"hamel: the system {lack}")
-        put = dict(zip(self.c.v, given.velocity, strict=True))
-        M, h = boltzmann_hamel(self.L, self.c, given, self.speeds)
-        lam = sp.Matrix(len(given.left), 1, [self.multipliers[i] for i in given.left])
+        velocities = dict(zip(self.c.v, relation.velocity, strict=True))
+        M, h = boltzmann_hamel(self.L, self.c, relation, self.speeds)
+        lam = sp.Matrix(len(relation.left), 1, [self.multipliers[i] for i in relation.left])
         reactions = rows_left(self)[0].T * lam
-        return M * sp.Matrix(self.speed_rates) + h - (given.B.T * self.push + reactions).xreplace(put)
+        forces = relation.B.T * self.generalised_forces + reactions
+        return M * sp.Matrix(self.speed_rates) + h - forces.xreplace(velocities)
 
     @property
     def energy(self) -> sp.Expr:
-        """The Jacobi integral E = v·∂L/∂v − L. `power` is its time derivative."""
+        """The Jacobi integral E = v·∂L/∂v − L; `power` is dE/dt."""
         return shortest(free.energy(self.L, self.c))
 
     @property
     def power(self) -> sp.Expr:
-        """dE/dt = Q·v − λ·b − ∂L/∂t along a motion, in q, v, t and the multipliers; b as in `Equations`."""
-        moved = -self.residual.subs(dict.fromkeys(self.c.v, 0))
-        work = sum((lam * b for lam, b in zip(self.multipliers, moved, strict=True)), sp.S.Zero)
+        """The rate dE/dt = Q·v − λ·b − ∂L/∂t along a motion, in q, v, t and the multipliers."""
+        drift = -self.residual.subs(dict.fromkeys(self.c.v, 0))
+        work = sum((lam * b for lam, b in zip(self.multipliers, drift, strict=True)), sp.S.Zero)
         by_time = derivative(self.L, t)
-        return self.push.dot(self.c.v) + work - (0 if decide_zero(by_time).answer == "zero" else by_time)
+        return self.generalised_forces.dot(self.c.v) + work - (0 if decide_zero(by_time).answer == "zero" else by_time)
 
 
 def reaction(name: str | int) -> sp.Symbol:
-    """The multiplier λ of a constraint by its name, or, where they have none, its number from 1, for forces and dissipation.
+    """Return the symbol of the multiplier of a constraint, for forces and dissipation.
 
-    Of a gap in m it is the force in N that presses. Coulomb's friction: dissipation = μ reaction("floor") |v|, or
-    μ |reaction("wire")| |v| where a guide holds on both sides.
+    Coulomb's friction is dissipation = μ reaction("floor") |v|, or μ |reaction("wire")| |v| of a guide that holds on both sides.
+
+    Parameters
+    ----------
+    name : str or int
+        The name of the constraint, or its number from 1.
+
+    Returns
+    -------
+    Symbol
+        λ; of a gap in m the normal force in N.
     """
     return sp.Symbol(f"reaction({name})", real=True)
 
 
 def push_left(system: Equations, push: sp.Matrix) -> tuple[sp.Matrix, sp.Matrix]:
-    """What of given forces is there without reactions, and ∂Q/∂λ, a column for each constraint that multipliers keep.
-
-    Raises InputError where Q is not affine in λ, or has that of a constraint that velocities of one's own use up.
-    """
+    """Return the forces without reactions, and ∂Q/∂λ with a column for each multiplier; Q must be affine in λ."""
     lam = [system.multipliers[i] for i in system.left]
-    own = jacobian(list(push), lam) if lam else sp.zeros(push.rows, 0)
-    rest = push.xreplace(dict.fromkeys(lam, sp.S.Zero))
-    if wrong := (own.free_symbols | rest.free_symbols) & {*system.multipliers}:
+    by_reaction = jacobian(list(push), lam) if lam else sp.zeros(push.rows, 0)
+    active = push.xreplace(dict.fromkeys(lam, sp.S.Zero))
+    if wrong := (by_reaction.free_symbols | active.free_symbols) & {*system.multipliers}:
         way = (
             "leave out velocities that use its constraint up"
             if min(wrong, key=str) not in lam
             else ("it must enter linearly, or by its size |λ| in a run")
         )
         raise InputError(f"System: {min(wrong, key=str)} in forces: {way}")
-    return rest, own
+    return active, by_reaction
 
 
 def rows_left(system: Equations) -> tuple[sp.Matrix, sp.Matrix]:
-    """The rows and γ of the constraints that multipliers keep, for u'."""
-    given = system.kinematics
-    if given is None:
+    """Return the rows and γ, for u', of the constraints that multipliers maintain."""
+    relation = system.kinematics
+    if relation is None:
         return system.rows, system.gamma
     every = list(range(len(system.c.q)))
-    G, gamma = system.rows.extract(list(given.left), every), system.gamma.extract(list(given.left), [0])
-    return G * given.B, G * given.alpha + gamma
+    G, gamma = system.rows.extract(list(relation.left), every), system.gamma.extract(list(relation.left), [0])
+    return G * relation.B, G * relation.alpha + gamma
 
 
 def constrained_accelerations(system: Equations) -> tuple[sp.Matrix, sp.Matrix]:
-    """(a, λ), shapes (n, 1) and (k, 1), at a state that satisfies the constraints, exact, by one division for each:
+    """Return the accelerations and multipliers at a state that satisfies the constraints.
 
-        λ = −S⁻¹ (G M⁻¹ (Q − h) + γ),   S = G M⁻¹ Gᵀ,        a = M⁻¹ (Q − h + Gᵀ λ).
+    With S = G M⁻¹ Gᵀ they are λ = −S⁻¹ (G M⁻¹ (Q − h) + γ) and a = M⁻¹ (Q − h + Gᵀ λ). The adjugates grow fast with n.
 
-    For small systems: the adjugate grows fast with their number of coordinates.
+    Parameters
+    ----------
+    system : System
+        A small system.
+
+    Returns
+    -------
+    tuple of Matrix
+        a and λ, shapes (n, 1) and (k, 1).
 
     Raises
     ------
     SingularError
-        When det M or det S vanishes identically.
+        If det M or det S vanishes identically.
+
+    Examples
+    --------
+    >>> from lagrotor.mechanics import System, coordinates
+    >>> c = coordinates("x y")
+    >>> slide = System(c, (c.x_dot**2 + c.y_dot**2) / 2 - 8 * c.y, constraints=(c.y - c.x,))
+    >>> constrained_accelerations(slide)[0].T
+    Matrix([[-4, -4]])
     """
-    M, G = system.mass, system.rows
-    push, by_reaction = push_left(replace(system, velocities=()), system.push)
+    M, G = system.mass_matrix, system.rows
+    push, by_reaction = push_left(replace(system, velocities=()), system.generalised_forces)
     # M⁻¹ (Q − h) and W = M⁻¹ Gᵀ side by side, so that M is inverted once.
     right = (push - system.bias).row_join(G.T + by_reaction)
     solved = linear_solve(M, right, singular_mass("accelerations", M, system.c))
@@ -407,12 +447,19 @@ def constrained_accelerations(system: Equations) -> tuple[sp.Matrix, sp.Matrix]:
 
 
 def degrees_of_freedom(system: Equations, at: Mapping[sp.Symbol, float]) -> int:
-    """n − rank G at one configuration. The rank is numerical: the singular values of G above rounding.
+    """Count the degrees of freedom n − rank G at one configuration.
 
-    Raises
-    ------
-    InputError
-        When a symbol of G has no value in `at`.
+    Parameters
+    ----------
+    system : System
+        The system.
+    at : mapping
+        {symbol: number} for each symbol of G.
+
+    Returns
+    -------
+    int
+        n less the number of singular values of G above rounding.
     """
     G = system.rows.subs(dict(at))
     if G.free_symbols:
@@ -427,9 +474,9 @@ def degrees_of_freedom(system: Equations, at: Mapping[sp.Symbol, float]) -> int:
 
 
 def check_friction(where: str, dissipation: sp.Expr, c: Coordinates) -> None:
-    """Raise InputError where D(q, v, t) falls below D(q, 0, t) at great velocities: −∂D/∂v would feed the motion.
+    """Raise InputError if D(q, v, t) is below D(q, 0, t) at great velocities: −∂D/∂v would drive the motion.
 
-    Tried at random states, for random values of its letters; refused where none of these makes it a dissipation.
+    D is evaluated at random states for random parameters, and refused if none of these makes it a dissipation.
     """
     moving = dissipation.free_symbols & {*c.q, *c.v, t}
     falls = [
@@ -439,12 +486,12 @@ def check_friction(where: str, dissipation: sp.Expr, c: Coordinates) -> None:
     if None not in falls:
         raise InputError(
             f"{where}: dissipation = {dissipation} falls as the velocities grow, as at {falls[0]}: its force −∂D/∂v would "
-            "feed the motion; k v**2/2 with a positive k is linear friction, and what drives is among the forces"
+            "feed the motion; k v**2/2 with a positive k is linear friction, and driving forces belong into forces"
         )
 
 
 def _falling(dissipation: sp.Expr, c: Coordinates) -> str | None:
-    """A state, in words, at which D is below its value at rest; None where there is none of some random ones."""
+    """Return a random state, in words, at which D is below its value at rest; None if there is none."""
     for point in points(dissipation.free_symbols):
         still, fast = ({s: x * scale if s in c.v else x for s, x in point.items()} for scale in (0, _FAST))
         if (put_in(dissipation, fast) - put_in(dissipation, still)).evalf(15).is_negative:

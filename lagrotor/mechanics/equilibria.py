@@ -63,20 +63,7 @@ def equilibria(
     values: Mapping[Any, Any] | None = None,
     box: Mapping[Any, tuple[Any, Any]] | None = None,
 ) -> tuple[Equilibrium, ...]:
-    """Configurations at rest where no force is left: ∂L/∂q + Q + Gᵀ λ = 0 and g = 0 at v = 0.
-
-    unknowns: what to solve for, the coordinates unless others are named: in a system from `routh` the momentum, as p_phi, that
-    a steady motion needs at any inclination. Angles in sines and cosines are found between −π and π.
-
-    With values of the parameters and a box, {coordinate: (least, largest)}: all equilibria there, each alone in its
-    `enclosure`, and none elsewhere in the box, by interval Newton, also under one constraint g(q) = 0. A pole of a force is no
-    equilibrium. An edge that is no rational, as π or 0.3, stands for all numbers that round to it: an equilibrium there is in
-    the box.
-
-    Raises InputError when the conditions depend on time, or cannot be solved exactly; SingularError where a part of the box
-    stays undecided, as about equilibria that are not isolated. A LagrotorWarning names each place where a force has no
-    derivative or no value and nothing is decided.
-    """
+    """Return the configurations at rest: `System.equilibria`."""
     if isinstance(unknowns, Mapping):
         raise InputError("equilibria: unknowns must be names of symbols: values are given as values={symbol: number}")
     if values is not None or box is not None:
@@ -100,12 +87,12 @@ def _in_box(
         raise InputError("equilibria: a box takes one constraint at most: solve the others by in_coordinates")
     if system.rolling:
         raise InputError("equilibria: with rolling, equilibria are not isolated: give linearise a point")
-    symbols = system.letters | system.push.free_symbols
+    symbols = system.letters | system.generalised_forces.free_symbols
     if strangers := {name for name in values if isinstance(name, str)} - {*map(str, symbols)}:
         raise InputError(f"equilibria: values name {min(strangers)}, which the system does not have: leave it out")
     numbers = {s: _rational(f"equilibria: {s}", x) for s, x in by_symbol("equilibria: values", values, symbols).items()}
     at_rest = dict.fromkeys((*c.v, *c.a), sp.S.Zero)
-    forces = [put_in(e, at_rest).subs(numbers) for e in euler_lagrange(system.L, c) - system.push]
+    forces = [put_in(e, at_rest).subs(numbers) for e in euler_lagrange(system.L, c) - system.generalised_forces]
     forces, constraints = (
         [e.xreplace({x: sp.Rational(x) for x in e.atoms(sp.Float)}) for e in expressions]
         for expressions in (forces, [g.subs(numbers) for g in system.constraints])
@@ -195,7 +182,7 @@ def _equilibria(system: Equations, unknowns: str | Sequence[str | sp.Symbol]) ->
     c = system.c
     at_rest = dict.fromkeys((*c.v, *c.a), 0)
     lam = sp.Matrix(system.multipliers)
-    force = euler_lagrange(system.L, c).subs(at_rest) - system.push.subs(at_rest)
+    force = euler_lagrange(system.L, c).subs(at_rest) - system.generalised_forces.subs(at_rest)
     pulled = (system.rows.T * lam).subs(at_rest) if len(lam) else sp.zeros(len(c.q), 1)
     conditions = [e for e in (*(force - pulled), *system.constraints, *system.residual.subs(at_rest)) if e != 0]
     if any(t in e.free_symbols for e in conditions):
@@ -216,14 +203,18 @@ def _equilibria(system: Equations, unknowns: str | Sequence[str | sp.Symbol]) ->
 
 
 def _regular(system: Equations, at: Mapping[sp.Symbol, sp.Expr]) -> bool:
-    return decide_zero(system.mass.subs(dict(at)).det(method="berkowitz")).answer != "zero"
+    return decide_zero(system.mass_matrix.subs(dict(at)).det(method="berkowitz")).answer != "zero"
 
 
 def _unknowns(system: Equations, unknowns: str | Sequence[str | sp.Symbol]) -> tuple[sp.Symbol, ...]:
     if not isinstance(unknowns, Sequence):
         raise InputError(f"equilibria: unknowns = {unknowns!r} must be names of symbols, 'theta phi'")
     names = unknowns.replace(",", " ").split() if isinstance(unknowns, str) else unknowns
-    symbols = (system.letters | {*system.c.q} | system.push.free_symbols) - {*system.c.v, *system.speeds, t}
+    symbols = (system.letters | {*system.c.q} | system.generalised_forces.free_symbols) - {
+        *system.c.v,
+        *system.speeds,
+        t,
+    }
     by_name = {str(s): s for s in sorted(symbols, key=str)}
     if strangers := [str(name) for name in names if str(name) not in by_name]:
         raise InputError(f"equilibria: no {', '.join(strangers)} in the system: solve for some of {', '.join(by_name)}")

@@ -1,4 +1,4 @@
-"""Formulas in LaTeX: a glossary of letters with meanings and units, expressions with the dots of velocities, whole systems."""
+"""Formulas in LaTeX: a glossary of symbols with meanings and units, expressions with dots over velocities, whole systems."""
 
 import re
 from collections.abc import Mapping
@@ -20,7 +20,7 @@ from lagrotor.mechanics.symmetry import cyclic_coordinates
 
 @dataclass(frozen=True)
 class Entry:
-    """One row of a glossary."""
+    """A row of a glossary."""
 
     symbol: sp.Symbol
     meaning: str
@@ -28,28 +28,29 @@ class Entry:
 
 
 class Glossary(dict[sp.Symbol, Entry]):
-    """Symbol → what it means, in the order in which the letters are declared."""
+    """The entries of symbols, in the order in which these are declared."""
 
     def letter(self, name: str, meaning: str, unit: str, **assumptions: bool) -> sp.Symbol:
-        """A symbol that enters the glossary as it is declared.
+        """Declare a symbol.
 
         Parameters
         ----------
-        name : str
-            As sympy takes it.
-        meaning : str
-            In words.
-        unit : str
-            As in "kg m^2"; 1 for a number.
+        name, meaning, unit : str
+            The name, the meaning in words, and the unit: "kg m^2", "1" for a number.
         assumptions : bool
-            Sympy's, such as positive=True.
+            The assumptions of sympy, such as positive=True.
+
+        Returns
+        -------
+        Symbol
+            The symbol.
         """
         symbol = sp.Symbol(name, **assumptions)
         self[symbol] = Entry(symbol, meaning, unit)
         return symbol
 
     def moving(self, c: Coordinates, *rows: tuple[str, str]) -> Coordinates:
-        """The coordinates with their velocities and accelerations; `rows`: (meaning, unit) of each coordinate."""
+        """Enter coordinates with their velocities and accelerations by (meaning, unit) of each coordinate."""
         for q, v, acc, (meaning, unit) in zip(c.q, c.v, c.a, rows, strict=True):
             self[q] = Entry(q, meaning, unit)
             self[v] = Entry(v, f"rate of {q.name}", f"{unit}/s")
@@ -57,22 +58,22 @@ class Glossary(dict[sp.Symbol, Entry]):
         return c
 
     def meaning(self, symbol: sp.Symbol) -> str:
-        """What a letter means, in a few words; "parameter" where the glossary does not hold it."""
+        """Return the meaning of a symbol in a few words; "parameter" if it is not in the glossary."""
         return self[symbol].meaning.split(":")[0] if symbol in self else "parameter"
 
 
 def latex(expression: Any, names: Mapping[sp.Symbol, str] | None = None) -> str:
-    """LaTeX of an expression, with dots over what a symbol's name calls a velocity or an acceleration; names: of letters."""
+    """Return LaTeX of an expression, with dots for symbols that end in _dot or _ddot, and names for some symbols."""
     free = (s for s in getattr(expression, "free_symbols", ()) if isinstance(s, sp.Symbol))
     return light(sp.latex(expression, symbol_names={s: letter_latex(s) for s in free} | dict(names or {})))
 
 
-# sin, cos or tan, perhaps to a power, of one letter in brackets.
+# sin, cos or tan, perhaps to a power, of a single symbol in brackets.
 _OF_A_LETTER = re.compile(r"(\\(?:sin|cos|tan)(?:\^\{\d+\})?)\{\\left\((\\?[A-Za-z]+(?:_(?:\{\w+\}|\w))?) ?\\right\)\}")
 
 
 def light(source: str) -> str:
-    r"""LaTeX in which sine, cosine and tangent of one letter need no brackets: \cos\theta."""
+    r"""Return LaTeX without brackets around a single symbol in sine, cosine and tangent: \cos\theta."""
     return _OF_A_LETTER.sub(r"\1 \2", source)
 
 
@@ -84,12 +85,12 @@ GREEK = {letter: tex_greek_dictionary.get(name, rf"\{name}") for name, letter in
 _GREEK = re.compile(f"[{''.join(GREEK)}](?=([A-Za-z{''.join(GREEK)}])?)")
 _MARKS = {"\\": r"\backslash ", "^": r"\wedge ", "~": r"\sim ", " ": r"\ "} | {c: rf"\{c}" for c in "&%#$_{}"}
 _MARKS |= {letter: f"{command} " for letter, command in GREEK.items()}
-_FOREIGN = re.compile(r"[^\x00-\x7f]+")  # letters that have no place in a formula: é
+_FOREIGN = re.compile(r"[^\x00-\x7f]+")  # characters without a command of LaTeX: é
 
 
 @cache
 def letter_latex(symbol: sp.Symbol) -> str:
-    r"""LaTeX of one letter: theta_1_dot is \dot{\theta}_1, d_dotx is \dot{d}_x, α is \alpha."""
+    r"""Return LaTeX of one symbol: theta_1_dot is \dot{\theta}_1, d_dotx is \dot{d}_x, α is \alpha."""
     if reaction := re.fullmatch(r"reaction\((.+)\)", symbol.name):
         return multiplier_latex("lambda", reaction[1])
     # A component of a vector of rates, d_dotx or r_1_dotx.
@@ -104,69 +105,67 @@ def letter_latex(symbol: sp.Symbol) -> str:
 
 
 def multiplier_latex(letter: str, name: str) -> str:
-    """LaTeX of λ with the name, in upright letters, or the number of its constraint."""
+    """Return LaTeX of a multiplier with the name, in upright letters, or the number of its constraint."""
     upright = _FOREIGN.sub(r"\\text{\g<0>}", "".join(_MARKS.get(c, c) for c in name))
     return rf"\{letter}_{{{name}}}" if name.isdigit() else rf"\{letter}_{{\mathrm{{{upright}}}}}"
 
 
-_MOST_COORDINATES, _MOST_OPERATIONS = 6, 400  # up to which energies of bodies are written out, and a formula is shown
+_MOST_COORDINATES, _MOST_OPERATIONS = 6, 400  # the largest system and formula that are printed
 
 
 def formulas(system: Equations) -> dict[str, list[str]]:
-    """Heading → LaTeX of the kinetic and potential energy, what rubs, the equations of motion, the constraints, and what is
-    conserved as far as that is seen at once: Jacobi's integral E, and momenta of cyclic coordinates.
+    """Return LaTeX by heading: energies, dissipation, equations of motion, constraints, Jacobi's integral, cyclic momenta.
 
-    In velocities of one's own, where they are short, q' = B u + b stands before the equations of Boltzmann and Hamel. A formula
-    of more than some hundred operations is only counted.
+    Short quasi-velocities q' = B u + b precede the Boltzmann–Hamel equations. Of a long formula only its operations are counted.
     """
     c = system.c
     if system.bodies and len(c.q) > _MOST_COORDINATES:
         return {"Bodies": [rf"{len(system.bodies)}\ \text{{bodies in {len(c.q)} coordinates}}"]}
     short = not longer(system.L, _MOST_OPERATIONS)
-    own = system.kinematics if short else None
-    put = dict(zip(c.v, own.velocity, strict=True)) if own and not own.stages else {}
+    relation = system.kinematics if short else None
+    velocities = dict(zip(c.v, relation.velocity, strict=True)) if relation and not relation.stages else {}
     rates = tuple(dict.fromkeys((*c.a, *system.speed_rates)))
     multipliers = {
         s: multiplier_latex("Lambda" if str(s).startswith("Lambda") else "lambda", name)
         for s, name in zip(system.multipliers, system.multiplier_names, strict=True)
     }
 
-    def line(left: sp.Expr | str, right: sp.Expr = sp.S.Zero) -> str:
-        return " = ".join(e if isinstance(e, str) else _side(e, rates, multipliers) for e in (left, right))
+    def line(side: sp.Expr | str, right: sp.Expr = sp.S.Zero) -> str:
+        return " = ".join(e if isinstance(e, str) else _side(e, rates, multipliers) for e in (side, right))
 
     still = system.L.subs(dict.fromkeys(c.v, 0))
     kinetic = sp.expand(system.L - still) if short else system.L - still
-    parts = {"Kinetic energy": [line("T", kinetic.xreplace(put))], "Potential energy": [line("V", -still)]}
+    sections = {"Kinetic energy": [line("T", kinetic.xreplace(velocities))], "Potential energy": [line("V", -still)]}
     if system.dissipation != 0:
-        parts["Dissipation"] = [line("D", system.dissipation.xreplace(put))]
-    parts["Equations of motion"] = [line(e) for e in (_in_own_velocities(system) if put else system.motion)]
-    if put:
-        parts["Equations of motion"][:0] = [line(latex(v), e) for v, e in put.items() if v != e]
+        sections["Dissipation"] = [line("D", system.dissipation.xreplace(velocities))]
+    sections["Equations of motion"] = [line(e) for e in (_in_own_velocities(system) if velocities else system.motion)]
+    if velocities:
+        sections["Equations of motion"][:0] = [line(latex(v), e) for v, e in velocities.items() if v != e]
     if system.multipliers:
         rolling = enumerate(system.rolling, len(system.constraints))
-        # Where q' = B u + b is written, without the rows that it keeps.
-        rows = [e for i, e in rolling if not (own and put) or i in own.left]
-        parts["Constraints"] = [line(e) for e in (*system.constraints, *rows)]
+        # Rows that q' = B u + b satisfies are not repeated.
+        rows = [e for i, e in rolling if not (relation and velocities) or i in relation.left]
+        sections["Constraints"] = [line(e) for e in (*system.constraints, *rows)]
     closed = not (system.forces or system.dissipation != 0 or t in system.L.free_symbols)
     steady = all(e.subs(dict.fromkeys(c.v, 0)) == 0 for e in system.residual)
     square = short and sp.expand(kinetic.xreplace({v: 2 * v for v in c.v}) - 4 * kinetic) == 0
-    kept = [line("E", "T + V" if square else system.energy.xreplace(put))] if closed and steady else []
+    integrals = [line("E", "T + V" if square else system.energy.xreplace(velocities))] if closed and steady else []
     if short:
         for q in cyclic_coordinates(system):
             momentum = derivative(system.L, c.v[c.q.index(q)])
-            kept.append(line(rf"p_{{{letter_latex(q)}}}", momentum.xreplace(put)))
-    return {heading: lines for heading, lines in (parts | {"Conserved": kept}).items() if lines}
+            integrals.append(line(rf"p_{{{letter_latex(q)}}}", momentum.xreplace(velocities)))
+    return {heading: lines for heading, lines in (sections | {"Conserved": integrals}).items() if lines}
 
 
 def _in_own_velocities(system: Equations) -> list[sp.Expr]:
-    """The equations of Boltzmann and Hamel, the derivative of a coordinate's velocity its acceleration."""
+    """Return the Boltzmann–Hamel equations, with the accelerations of coordinates by their names."""
     c = system.c
     named = {rate: c.a[c.v.index(u)] for u, rate in zip(system.speeds, system.speed_rates, strict=True) if u in c.v}
     return [e.xreplace(named) for e in system.hamel]
 
 
 def in_markdown(system: Equations) -> str:
-    """What a notebook shows."""
+    """Return the formulas as Markdown for a notebook."""
     return "\n\n".join(
         f"**{heading}**\n\n" + "\n\n".join(f"$${formula}$$" for formula in lines)
         for heading, lines in formulas(system).items()
@@ -174,15 +173,15 @@ def in_markdown(system: Equations) -> str:
 
 
 def in_latex(system: Equations) -> str:
-    """The equations of motion and the constraints as an `align` of LaTeX, with a number each."""
-    parts = formulas(system)
-    lines = [*parts.get("Equations of motion", parts.get("Bodies", [])), *parts.get("Constraints", [])]
+    """Return the equations of motion and the constraints as an `align` of LaTeX: `System.latex`."""
+    sections = formulas(system)
+    lines = [*sections.get("Equations of motion", sections.get("Bodies", [])), *sections.get("Constraints", [])]
     rows = " \\\\\n".join(line.replace(" = ", " &= ", 1) for line in lines)
     return f"\\begin{{align}}\n{rows}\n\\end{{align}}"
 
 
 def _side(e: sp.Expr, rates: tuple[sp.Symbol, ...], multipliers: dict[sp.Symbol, str]) -> str:
-    """A formula, the accelerations in front of what they are multiplied with."""
+    """Return LaTeX of one side of a formula, each acceleration before its coefficient."""
     count = sp.count_ops(e)
     if count > _MOST_OPERATIONS:
         return rf"\text{{{count:,} operations}}"
@@ -193,18 +192,20 @@ def _side(e: sp.Expr, rates: tuple[sp.Symbol, ...], multipliers: dict[sp.Symbol,
     if accelerated := [a for a in rates if a in e.free_symbols]:
         e = sp.expand(e)
         inertial = [a * e.coeff(a) for a in accelerated]
-        rest = sp.expand(e - sp.Add(*inertial))
-        terms = [*(a * shortest(e.coeff(a)) for a in accelerated), rest]
-    written = {dummy: _function(jet) for jet, dummy in names.items()} | multipliers
-    parts = [latex(term, written) for term in terms if term != 0] or ["0"]
-    return parts[0] + "".join(f" {part}" if part.startswith("-") else f" + {part}" for part in parts[1:])
+        remainder = sp.expand(e - sp.Add(*inertial))
+        terms = [*(a * shortest(e.coeff(a)) for a in accelerated), remainder]
+    names_of = {dummy: _function(jet) for jet, dummy in names.items()} | multipliers
+    formulas = [latex(term, names_of) for term in terms if term != 0] or ["0"]
+    return formulas[0] + "".join(
+        f" {formula}" if formula.startswith("-") else f" + {formula}" for formula in formulas[1:]
+    )
 
 
 def _function(jet: sp.Expr) -> str:
-    """A function or a derivative of one: U'(r); of time alone y with dots."""
-    found = jet_of(jet)
-    assert found is not None
-    (function, orders), arguments = found
+    """Return LaTeX of a function or a derivative: U'(r), or y with dots for a function of time."""
+    jets = jet_of(jet)
+    assert jets is not None
+    (function, orders), arguments = jets
     letter = letter_latex(sp.Symbol(str(function)))
     inside = ", ".join(latex(a) for a in arguments)
     if len(orders) > 1:

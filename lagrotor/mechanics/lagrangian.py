@@ -20,19 +20,32 @@ from dataclasses import dataclass
 import sympy as sp
 
 from lagrotor.algebra import along, decide_zero, derivative
-from lagrotor.errors import InputError, SingularError
+from lagrotor.errors import InputError, SingularError, near
 
 t = sp.Symbol("t", real=True)  # the time, s, where a Lagrangian, a force or a constraint depends on it explicitly
 
 
 @dataclass(frozen=True)
 class Coordinates:
-    """The names of one configuration: coordinates q, velocities v = q', accelerations a = q'', n of each.
+    """The coordinates of a system with their velocities and accelerations, n of each.
 
-    Raises
-    ------
-    InputError
-        When the lengths differ or a symbol appears twice.
+    Every symbol is found by its name, too: c.theta, c["theta_dot"]. Of coordinates called q, v or a only c["q"] is the symbol,
+    because c.q are all of them.
+
+    Attributes
+    ----------
+    q : tuple of Symbol
+        The coordinates.
+    v : tuple of Symbol
+        The velocities q'.
+    a : tuple of Symbol
+        The accelerations q''.
+
+    Examples
+    --------
+    >>> c = coordinates("theta")
+    >>> c.theta is c.q[0] and c["theta_dot"] is c.v[0]
+    True
     """
 
     q: tuple[sp.Symbol, ...]
@@ -49,14 +62,36 @@ class Coordinates:
         if repeated := sorted({str(s) for s in symbols if symbols.count(s) > 1}):
             raise InputError(f"Coordinates: {', '.join(repeated)} repeated: the symbols are independent; rename one")
 
+    def __getitem__(self, name: str) -> sp.Symbol:
+        """Return the coordinate, velocity or acceleration of a name."""
+        symbols = {str(s): s for s in (*self.q, *self.v, *self.a)}
+        if name not in symbols:
+            meant = near(name, symbols) or ": the symbols of a configuration are found by their names"
+            raise InputError(f"Coordinates: {name!r} is none of {', '.join(symbols)}{meant}")
+        return symbols[name]
+
+    def __getattr__(self, name: str) -> sp.Symbol:
+        """Return the symbol of a name that is no attribute."""
+        if name.startswith("_") or "a" not in vars(self):
+            raise AttributeError(name)
+        try:
+            return self[name]
+        except InputError as refusal:
+            raise AttributeError(str(refusal), name=name, obj=self) from None
+
 
 def coordinates(names: str | Sequence[str]) -> Coordinates:
-    """Real symbols for the named coordinates: "theta phi" gives theta, theta_dot, theta_ddot, phi, ...
+    """Return real symbols for the named coordinates: theta, theta_dot, theta_ddot, ….
 
-    Raises
-    ------
-    InputError
-        There is no name, one is repeated, or does not begin with a letter.
+    Parameters
+    ----------
+    names : str or sequence
+        "theta phi", or a list of names.
+
+    Returns
+    -------
+    Coordinates
+        The symbols.
 
     Examples
     --------
@@ -79,71 +114,141 @@ def coordinates(names: str | Sequence[str]) -> Coordinates:
 
 
 def gradient(f: sp.Expr, symbols: Sequence[sp.Symbol]) -> sp.Matrix:
-    """The column ∂f/∂s, one row for each symbol."""
+    """Return the column ∂f/∂s, one row for each symbol."""
     return sp.Matrix([derivative(f, s) for s in symbols])
 
 
 def jacobian(rows: Sequence[sp.Expr], symbols: Sequence[sp.Symbol]) -> sp.Matrix:
-    """∂f_i/∂s_j, one row for each f and one column for each symbol."""
+    """Return ∂f_i/∂s_j, one row for each f and one column for each symbol."""
     return sp.Matrix(len(rows), len(symbols), lambda i, j: derivative(rows[i], symbols[j]))
 
 
 def total_derivative(expression: sp.Expr, c: Coordinates) -> sp.Expr:
-    """df/dt = Σ v ∂f/∂q + a ∂f/∂v + ∂f/∂t, along any motion, of an expression f(q, v, t)."""
+    """Return df/dt = v·∂f/∂q + a·∂f/∂v + ∂f/∂t along any motion.
+
+    Parameters
+    ----------
+    expression : Expr
+        f(q, v, t).
+    c : Coordinates
+        The coordinates.
+
+    Returns
+    -------
+    Expr
+        df/dt in q, v, a and t.
+
+    Examples
+    --------
+    >>> c = coordinates("x")
+    >>> total_derivative(c.x * c.x_dot, c)
+    x*x_ddot + x_dot**2
+    """
     return along(expression, (*c.q, t, *c.v), (*c.v, 1, *c.a))
 
 
 def momenta(L: sp.Expr, c: Coordinates) -> sp.Matrix:
-    """The conjugate momenta p = ∂L/∂v, shape (n, 1). Goldstein §2.6."""
+    """Return the conjugate momenta p = ∂L/∂v.
+
+    Parameters
+    ----------
+    L, c : Expr, Coordinates
+        The Lagrangian and its coordinates.
+
+    Returns
+    -------
+    Matrix
+        p, shape (n, 1).
+    """
     return gradient(L, c.v)
 
 
 def mass_matrix(L: sp.Expr, c: Coordinates) -> sp.Matrix:
-    """M = ∂²L/∂v∂v, shape (n, n), symmetric."""
+    """Return the mass matrix M = ∂²L/∂v∂v.
+
+    Parameters
+    ----------
+    L, c : Expr, Coordinates
+        The Lagrangian and its coordinates.
+
+    Returns
+    -------
+    Matrix
+        M, symmetric, shape (n, n).
+    """
     return jacobian(momenta(L, c), c.v)
 
 
 def bias(L: sp.Expr, c: Coordinates) -> sp.Matrix:
-    """h = (∂²L/∂v∂q) v + ∂²L/∂v∂t − ∂L/∂q, shape (n, 1): centrifugal, gyroscopic and driving terms, −(potential forces)."""
+    """Return h = (∂²L/∂v∂q) v + ∂²L/∂v∂t − ∂L/∂q: centrifugal, gyroscopic and driving terms less the potential forces."""
     drift = momenta(L, c).applyfunc(lambda p: along(p, (*c.q, t), (*c.v, 1)))
     return drift - gradient(L, c.q)
 
 
 def energy(L: sp.Expr, c: Coordinates) -> sp.Expr:
-    """The Jacobi integral E = v·∂L/∂v − L, with dE/dt = Q·v − ∂L/∂t along a motion. Goldstein §2.7."""
+    """Return the Jacobi integral E = v·∂L/∂v − L, with dE/dt = Q·v − ∂L/∂t along a motion.
+
+    Parameters
+    ----------
+    L, c : Expr, Coordinates
+        The Lagrangian and its coordinates.
+
+    Returns
+    -------
+    Expr
+        E in q, v and t.
+    """
     return along(L, c.v, c.v) - L
 
 
 def euler_lagrange(L: sp.Expr, c: Coordinates) -> sp.Matrix:
-    """d/dt ∂L/∂v − ∂L/∂q, shape (n, 1), in q, v and a: equal to the generalised forces Q along a motion."""
+    """Return d/dt ∂L/∂v − ∂L/∂q, which equals the generalised forces Q along a motion.
+
+    Parameters
+    ----------
+    L, c : Expr, Coordinates
+        The Lagrangian and its coordinates.
+
+    Returns
+    -------
+    Matrix
+        The column in q, v and a, shape (n, 1).
+
+    Examples
+    --------
+    >>> c = coordinates("x")
+    >>> euler_lagrange(c.x_dot**2 / 2 - c.x**2 / 2, c)
+    Matrix([[x + x_ddot]])
+    """
     return momenta(L, c).applyfunc(lambda p: total_derivative(p, c)) - gradient(L, c.q)
 
 
 def accelerations(L: sp.Expr, c: Coordinates, forces: Sequence[sp.Expr] | None = None) -> sp.Matrix:
-    """a = M⁻¹ (Q − h), shape (n, 1).
+    """Return the accelerations a = M⁻¹ (Q − h).
 
     Parameters
     ----------
-    L : Expr
-        The Lagrangian.
-    c : Coordinates
-        Its coordinates.
-    forces : Sequence[Expr] or None, optional
-        Q, zero when none are given.
+    L, c : Expr, Coordinates
+        The Lagrangian and its coordinates.
+    forces : sequence or None, optional
+        Q, one component for each coordinate; zero by default.
+
+    Returns
+    -------
+    Matrix
+        a, shape (n, 1).
 
     Raises
     ------
     SingularError
-        When det M vanishes identically.
-    InputError
-        When there are not n forces.
+        If det M vanishes identically.
     """
     M = mass_matrix(L, c)
     return linear_solve(M, force_column(forces, c, "accelerations") - bias(L, c), singular_mass("accelerations", M, c))
 
 
 def force_column(forces: Sequence[sp.Expr] | None, c: Coordinates, where: str) -> sp.Matrix:
-    """The generalised forces Q as a column, shape (n, 1); zero when none are given."""
+    """Return the generalised forces Q as a column, shape (n, 1); zero for None."""
     if forces is None:
         return sp.zeros(len(c.q), 1)
     if len(forces) != len(c.q):
@@ -155,12 +260,12 @@ def force_column(forces: Sequence[sp.Expr] | None, c: Coordinates, where: str) -
 
 
 def dependent_rows(where: str, value: str) -> str:
-    """The refusal of constraints that repeat each other."""
+    """Return the message for dependent constraints."""
     return f"{where}: the constraints are dependent ({value}): their multipliers are not unique; drop a constraint"
 
 
 def singular_mass(where: str, M: sp.Matrix, c: Coordinates) -> str:
-    """The refusal of a Lagrangian whose velocities are not determined by its momenta."""
+    """Return the message for a Lagrangian whose momenta do not determine its velocities."""
     idle = [v for j, v in enumerate(c.v) if M[:, j].is_zero_matrix] or c.v
     return (
         f"{where}: the mass matrix is singular (det M = 0): the Lagrangian is not regular in "
@@ -169,9 +274,9 @@ def singular_mass(where: str, M: sp.Matrix, c: Coordinates) -> str:
 
 
 def linear_solve(A: sp.Matrix, B: sp.Matrix, refusal: str) -> sp.Matrix:
-    """A⁻¹ B = adj(A) B / det A; raises SingularError(refusal) when det A vanishes identically.
+    """Return A⁻¹ B = adj(A) B / det A, or raise SingularError(refusal) if det A vanishes identically.
 
-    The adjugate is free of division: no pivot has to be recognised as zero, and the one denominator is det A.
+    The adjugate needs no division, so no pivot has to be recognised as zero.
     """
     determinant = A.det(method="berkowitz")
     if decide_zero(determinant).answer == "zero":
@@ -182,16 +287,18 @@ def linear_solve(A: sp.Matrix, B: sp.Matrix, refusal: str) -> sp.Matrix:
 def clock_parts(
     stages: Iterable[tuple[sp.Symbol, sp.Expr]], outputs: Iterable[sp.Expr], moving: AbstractSet[sp.Basic]
 ) -> tuple[list[tuple[sp.Symbol, sp.Expr]], list[sp.Expr]]:
-    """The largest parts of stages, and of outputs made of them, that are made of t and parameters alone; and the stages that
-    these are made of. moving: what is no parameter."""
+    """Return the stages that depend on t and parameters alone, and the largest such subexpressions of stages and outputs.
+
+    `moving` are the symbols that are no parameters.
+    """
     moving, by_time = {*moving}, {t}
-    clocks, parts = list[tuple[sp.Symbol, sp.Expr]](), dict[sp.Expr, None]()
+    clocks, maximal = list[tuple[sp.Symbol, sp.Expr]](), dict[sp.Expr, None]()
     for name, whole in (*stages, *((None, e) for e in outputs)):
         if name is not None and not whole.free_symbols & moving:
-            clocks.append((name, whole))  # of parameters alone, too: another may be made of it
+            clocks.append((name, whole))  # also one of parameters alone: later stages may use it
             if whole.free_symbols & by_time:
                 by_time.add(name)
-                parts[name] = None
+                maximal[name] = None
             continue
         if name is not None:
             moving.add(name)
@@ -202,5 +309,5 @@ def clock_parts(
                 if e.free_symbols & moving:
                     queue += e.args
                 else:
-                    parts[e] = None
-    return clocks, list(parts)
+                    maximal[e] = None
+    return clocks, list(maximal)

@@ -134,7 +134,9 @@ def state_equations(
     units = [joint.unit_length for joint in system.ball_joints]
     configuration = [g for g in system.constraints if g not in units]
     residual = [system.residual[i].xreplace(velocity_of) for i in system.left]
-    symbols = system.L.free_symbols.union(system.push.free_symbols, *(e.free_symbols for e in system.residual))
+    symbols = system.L.free_symbols.union(
+        system.generalised_forces.free_symbols, *(e.free_symbols for e in system.residual)
+    )
     inputs = tuple({str(s): s for s in symbols}.get(str(u), u) for u in inputs)
     point = _place(system, at, inputs, [*F, *V], residual)
     evaluate = partial(_values, at, point)
@@ -175,9 +177,9 @@ def linearise(system: Equations, at: Mapping[Any, Any] | Equilibrium) -> LinearS
     dependent there; InputError when something depends on time.
     """
     c, point = system.c, at.at if isinstance(at, Equilibrium) else at
-    if system.push.free_symbols & {*system.multipliers}:
+    if system.generalised_forces.free_symbols & {*system.multipliers}:
         raise InputError("linearise: a force depends on a reaction: give outputs or a velocity, for A, B, C, D")
-    motion = euler_lagrange(system.L, c) - system.push
+    motion = euler_lagrange(system.L, c) - system.generalised_forces
     values = _place(system, point, (), motion, list(system.residual))
     evaluate = partial(_values, point, values)
     force, G = evaluate(motion), evaluate(system.rows)
@@ -203,7 +205,7 @@ def _place(
     """Return the point, zero where `at` names nothing. Raises InputError for wrong names, explicit time, violated constraints."""
     c, speeds, equations = system.c, system.speeds, [*motion, *system.residual]
     used = set[sp.Basic]().union(*(e.free_symbols for e in equations))
-    symbols = {*c.q, *speeds} | system.L.free_symbols | system.push.free_symbols | used
+    symbols = {*c.q, *speeds} | system.L.free_symbols | system.generalised_forces.free_symbols | used
     if strangers := [str(u) for u in inputs if u not in symbols or u in (*c.q, *c.v, *speeds, t)]:
         raise InputError(f"linearise: inputs {', '.join(strangers)} are no symbols of forces or constraints")
     symbols = symbols - {*c.v} | {*speeds}

@@ -1,4 +1,4 @@
-"""Symmetries, their Noether integrals, and the reductions they allow; and the decision whether two systems move alike.
+"""Symmetries, their Noether integrals and reductions, and the decision if two systems have the same motion.
 
 A transformation q → q + ε ξ(q, v, t) carries velocities along by v → v + ε ξ', so a Lagrangian changes by
 
@@ -38,58 +38,62 @@ from lagrotor.mechanics.lagrangian import (
 from lagrotor.mechanics.quasi_velocities import boltzmann_hamel
 
 Kind = TypeVar("Kind", bound=Equations)
-_MULTIPLIED_OUT = 100  # operations of L up to which the determinants of the Legendre transform are multiplied out
+_MULTIPLIED_OUT = 100  # operations of L up to which determinants are expanded in the Legendre transform
 
 
 @dataclass(frozen=True)
 class FirstIntegral:
-    """A conserved quantity in q, v and t; it was decided where none of the factors in `domain` vanishes."""
+    """A conserved quantity.
+
+    Attributes
+    ----------
+    expression : Expr
+        The quantity in q, v and t.
+    domain : tuple of Expr
+        Factors; the decision holds where none of them vanishes.
+    """
 
     expression: sp.Expr
     domain: tuple[sp.Expr, ...]
 
 
 def cyclic_coordinates(system: Equations) -> tuple[sp.Symbol, ...]:
-    """Those q with a conserved momentum: ∂L/∂q, Q and the column of G decided to vanish identically. Goldstein §2.6."""
+    """Return the coordinates for which ∂L/∂q, Q and the column of G vanish identically. Goldstein §2.6."""
     return tuple(
         q
         for j, q in enumerate(system.c.q)
-        if _vanish([derivative(system.L, q), system.push[j], *(system.rows[i, j] for i in range(system.rows.rows))])
+        if _vanish(
+            [
+                derivative(system.L, q),
+                system.generalised_forces[j],
+                *(system.rows[i, j] for i in range(system.rows.rows)),
+            ]
+        )
     )
 
 
 def variation(system: Equations, xi: Sequence[sp.Expr]) -> sp.Expr:
-    """δL = ∂L/∂q · ξ + ∂L/∂v · ξ' under q → q + ε ξ(q, v, t): L along the prolonged vector field.
-
-    Raises InputError when ξ does not have n components or contains an acceleration.
-    """
+    """Differentiate L along the prolonged vector field of ξ: `System.variation`."""
     c, field = system.c, _field(system, xi)
     carried = (total_derivative(component, c) for component in field)
     return along(system.L, (*c.q, *c.v), (*field, *carried))
 
 
 def invariance(system: Equations, xi: Sequence[sp.Expr], gauge: sp.Expr = sp.S.Zero) -> Decision:
-    """Whether δL + Q · ξ = dF/dt and G ξ = 0 identically, F the gauge function: then p · ξ − F is conserved.
-
-    Sufficient: a ξ that preserves the constraints only as a surface, or a δL that is dF/dt only on it, is not enough.
-    Raises InputError as `variation` does, and for a gauge function that contains an acceleration.
-    """
+    """Decide if δL + Q · ξ = dF/dt and G ξ = 0 identically: `System.invariance`."""
     gauge = expression("noether: gauge", gauge)
     if higher := gauge.free_symbols & {*system.c.a}:
         raise InputError(
             f"noether: gauge = {gauge} contains {', '.join(map(str, higher))}: F depends on q, v and t alone"
         )
     field = _field(system, xi)
-    left = variation(system, xi) + system.push.dot(field) - total_derivative(gauge, system.c)
-    entries = sp.Matrix([left, *(system.rows * field)])
+    residual = variation(system, xi) + system.generalised_forces.dot(field) - total_derivative(gauge, system.c)
+    entries = sp.Matrix([residual, *(system.rows * field)])
     return decide_equal(entries, sp.zeros(len(entries), 1))
 
 
 def noether(system: Equations, xi: Sequence[sp.Expr], gauge: sp.Expr = sp.S.Zero) -> FirstIntegral:
-    """p · ξ − F, conserved along every motion, because ξ changes L by dF/dt alone. Arnold §20.
-
-    Raises NotASymmetryError when that is not decided, InputError as `variation` does.
-    """
+    """Return p · ξ − F where `invariance` holds: `System.noether`."""
     decision = invariance(system, xi, gauge)
     if decision.answer != "zero":
         raise NotASymmetryError(
@@ -102,84 +106,76 @@ def noether(system: Equations, xi: Sequence[sp.Expr], gauge: sp.Expr = sp.S.Zero
 
 
 def noether_rate(system: Equations, xi: Sequence[sp.Expr]) -> sp.Expr:
-    """d/dt (p · ξ) = δL + Q · ξ + λ · (G ξ) along a motion, with the names of the system's multipliers."""
+    """Return d/dt (p · ξ) along a motion: `System.noether_rate`."""
     field = _field(system, xi)
     work = sum((lam * e for lam, e in zip(system.multipliers, system.rows * field, strict=True)), sp.S.Zero)
-    return variation(system, xi) + system.push.dot(field) + work
+    return variation(system, xi) + system.generalised_forces.dot(field) + work
 
 
 def conserved(system: Equations, f: sp.Expr) -> Decision:
-    """Whether f(q, v, t) is a first integral: df/dt with the accelerations put in, decided.
-
-    Under constraints the accelerations are those of a consistent state; what vanishes only by virtue of the constraints
-    is "undecided".
-    """
+    """Decide if df/dt vanishes with the accelerations put in: `System.conserved`."""
     f = expression("conserved: f", f)
     if f.free_symbols & {*system.c.a} or not f.free_symbols & {*system.c.q, *system.c.v, *system.speeds, t}:
         raise InputError(f"conserved: f = {f} must be an expression in q, v and t")
     if system.kinematics is not None and not system.kinematics.stages and not system.left:
-        moved = _rate_along_speeds(system, f)
+        rate = _rate_along_speeds(system, f)
     else:
         a, _ = constrained_accelerations(system)
-        moved = total_derivative(f, system.c).xreplace(dict(zip(system.c.a, a, strict=True)))
-    decision = decide_zero(moved)
+        rate = total_derivative(f, system.c).xreplace(dict(zip(system.c.a, a, strict=True)))
+    decision = decide_zero(rate)
     if decision.answer == "nonzero" and system.multipliers:
         return replace(decision, answer="undecided", reason=f"Off the constraints it is not zero. {decision.reason}")
     return decision
 
 
 def _rate_along_speeds(system: Equations, f: sp.Expr) -> sp.Expr:
-    """df/dt in q, u and t, with u' from the equations of Boltzmann and Hamel; unit quaternions have q0 > 0."""
-    given, c, u = system.kinematics, system.c, system.speeds
-    assert given is not None
-    put = dict(zip(c.v, given.velocity, strict=True))
-    M, h = boltzmann_hamel(system.L, c, given, u)
+    """Return df/dt in q, u and t, with u' from the Boltzmann–Hamel equations; unit quaternions have q0 > 0."""
+    relation, c, u = system.kinematics, system.c, system.speeds
+    assert relation is not None
+    velocities = dict(zip(c.v, relation.velocity, strict=True))
+    M, h = boltzmann_hamel(system.L, c, relation, u)
     singular = f"conserved: the mass matrix is singular in {', '.join(map(str, u))}: use fewer coordinates"
-    rates = linear_solve(M, given.B.T * system.push.xreplace(put) - h, singular)
-    moved = along(f.xreplace(put), (*c.q, t, *u), (*given.velocity, 1, *rates))
+    rates = linear_solve(M, relation.B.T * system.generalised_forces.xreplace(velocities) - h, singular)
+    rate = along(f.xreplace(velocities), (*c.q, t, *u), (*relation.velocity, 1, *rates))
     unit = {q[0]: sp.sqrt(1 - sum(x**2 for x in q[1:])) for q in (joint.quaternion for joint in system.ball_joints)}
-    return moved.xreplace(unit)
+    return rate.xreplace(unit)
 
 
 def legendre(L: sp.Expr, c: Coordinates, p: Sequence[sp.Symbol]) -> sp.Expr:
-    """H(q, p) = p · v − L at p = ∂L/∂v: for L = ½ v·M v + b·v − V,  H = ½ (p − b)·M⁻¹(p − b) + V. Goldstein §8.1.
+    """Return H(q, p) = p · v − L at p = ∂L/∂v.
+
+    For L = ½ v·M v + b·v − V it is H = ½ (p − b)·M⁻¹(p − b) + V.
 
     Parameters
     ----------
-    L : Expr
-        The Lagrangian.
-    c : Coordinates
-        Its coordinates.
+    L, c : Expr, Coordinates
+        The Lagrangian and its coordinates.
     p : sequence
-        Names of the momenta, or n symbols.
+        n new symbols of the momenta.
+
+    Returns
+    -------
+    Expr
+        H in q, p and t.
 
     Raises
     ------
     DomainError
-        When L is not quadratic in v.
+        If L is not quadratic in v.
     SingularError
-        When det M vanishes identically.
-    InputError
-        When p does not name n new symbols.
+        If det M vanishes identically.
     """
     if not all(isinstance(s, sp.Symbol) for s in p) or len({*p}) != len(p):
         raise InputError(f"legendre: momenta {tuple(p)}: each must be a symbol of its own; rename them")
     _check_momenta("legendre", c.v, p, {*c.q, *c.v, *c.a} | L.free_symbols)
-    # sympy multiplies out determinants of up to three rows: of a short L H is shorter so, of a long one longer, and late.
+    # sympy expands determinants of up to three rows. That shortens H for a short L, and takes too long for a long one.
     with dotprodsimp(False if longer(L, _MULTIPLIED_OUT) else None):
         velocities = _velocities("legendre", L, c.v, p)
     return -_legendre(L, c.v, p, velocities)
 
 
 def routh(system: Kind, cyclic: str | Sequence[str | sp.Symbol] | Mapping[str | sp.Symbol, sp.Expr]) -> Kind:
-    """The system in the other coordinates, whose Lagrangian is the Routhian R = L − Σ p v at the momentum values p.
-
-    cyclic: names of cyclic coordinates, "phi psi", with momenta called p_phi, p_psi; or a mapping from them to momenta of
-    your own. Forces, friction and constraints go with it, their cyclic velocities eliminated too; v = −∂R/∂p gives those
-    back. Goldstein §8.3 (there with the opposite sign). Only the cyclic velocities have to enter L quadratically.
-
-    Raises NotASymmetryError when a coordinate is not cyclic, and DomainError, SingularError, InputError as `legendre`.
-    """
+    """Reduce a system by cyclic coordinates: `System.routh`."""
     c, L = system.c, system.L
     chosen = _momenta(c, cyclic)
     free = cyclic_coordinates(system)
@@ -191,23 +187,27 @@ def routh(system: Kind, cyclic: str | Sequence[str | sp.Symbol] | Mapping[str | 
     L = _free_of(L, chosen)
     places = [c.q.index(q) for q in chosen]
     u, p = [c.v[i] for i in places], list(chosen.values())
-    taken = {*c.q, *c.v, *c.a, t} | (set() if isinstance(cyclic, Mapping) else L.free_symbols)
-    _check_momenta("routh", u, p, taken)
-    kept = [i for i in range(len(c.q)) if i not in places]
-    if not kept:
-        raise InputError("routh: every coordinate is cyclic: no coordinate is left to move; keep one")
+    used = {*c.q, *c.v, *c.a, t} | (set() if isinstance(cyclic, Mapping) else L.free_symbols)
+    _check_momenta("routh", u, p, used)
+    remaining = [i for i in range(len(c.q)) if i not in places]
+    if not remaining:
+        raise InputError("routh: every coordinate is cyclic: no coordinate remains; keep one")
     velocities = _velocities("routh", L, u, p)
-    rest = Coordinates(*(tuple(names[i] for i in kept) for names in (c.q, c.v, c.a)))
-    put = dict(zip(u, velocities, strict=True))
-    forces = tuple(system.push[i].subs(put) for i in kept) if system.forces or system.dissipation != 0 else ()
-    rolling = tuple(f.subs(put) for f in system.rolling)
+    reduced = Coordinates(*(tuple(names[i] for i in remaining) for names in (c.q, c.v, c.a)))
+    substitution = dict(zip(u, velocities, strict=True))
+    forces = (
+        tuple(system.generalised_forces[i].subs(substitution) for i in remaining)
+        if system.forces or system.dissipation != 0
+        else ()
+    )
+    rolling = tuple(f.subs(substitution) for f in system.rolling)
     if entering := {*chosen} & set().union(*(e.free_symbols for e in (*forces, *rolling, *system.constraints))):
         raise NotASymmetryError(
             f"routh: {', '.join(map(str, entering))} enters the forces or the constraints on the others: keep it"
         )
     return replace(
         system,
-        c=rest,
+        c=reduced,
         lagrangian=_legendre(L, u, p, velocities),
         rolling=rolling,
         dissipation=sp.S.Zero,
@@ -217,7 +217,7 @@ def routh(system: Kind, cyclic: str | Sequence[str | sp.Symbol] | Mapping[str | 
 
 
 def _free_of(L: sp.Expr, cyclic: Mapping[sp.Symbol, sp.Expr]) -> sp.Expr:
-    """L without the cyclic coordinates, on which it does not depend: at zero, where it is finite there."""
+    """Return L at zero values of the cyclic coordinates, if it is finite there."""
     at_zero = L.subs(dict.fromkeys(cyclic, 0))
     return L if at_zero.has(sp.nan, sp.zoo, sp.oo, -sp.oo) else at_zero
 
@@ -225,7 +225,7 @@ def _free_of(L: sp.Expr, cyclic: Mapping[sp.Symbol, sp.Expr]) -> sp.Expr:
 def _momenta(
     c: Coordinates, cyclic: str | Sequence[str | sp.Symbol] | Mapping[str | sp.Symbol, sp.Expr]
 ) -> dict[sp.Symbol, sp.Expr]:
-    """The coordinates that are named, each with its momentum."""
+    """Return the named coordinates with their momenta."""
     by_name = {str(q): q for q in c.q}
     if not isinstance(cyclic, Iterable):
         raise InputError(f"routh: {cyclic!r} must name cyclic coordinates, as 'phi psi'")
@@ -239,8 +239,8 @@ def _momenta(
     return {by_name[str(name)]: sp.Symbol(f"p_{name}", real=True) for name in names}
 
 
-def _check_momenta(where: str, u: Sequence[sp.Symbol], p: Sequence[sp.Expr], taken: set[sp.Basic]) -> None:
-    if len(p) != len(u) or set().union(*(e.free_symbols for e in p)) & taken:
+def _check_momenta(where: str, u: Sequence[sp.Symbol], p: Sequence[sp.Expr], used: set[sp.Basic]) -> None:
+    if len(p) != len(u) or set().union(*(e.free_symbols for e in p)) & used:
         raise InputError(
             f"{where}: momenta {tuple(p)} for the velocities {tuple(u)}: for each velocity a momentum of its own, in "
             "symbols that are not used yet; rename them"
@@ -248,7 +248,7 @@ def _check_momenta(where: str, u: Sequence[sp.Symbol], p: Sequence[sp.Expr], tak
 
 
 def _velocities(where: str, L: sp.Expr, u: Sequence[sp.Symbol], p: Sequence[sp.Expr]) -> list[sp.Expr]:
-    """u from p = b + A u, b = ∂L/∂u at u = 0, A = ∂²L/∂u∂u."""
+    """Solve p = b + A u for u, with b = ∂L/∂u at u = 0 and A = ∂²L/∂u∂u."""
     slope = gradient(L, u)
     A = jacobian(slope, u)
     if not _vanish([derivative(entry, w) for entry in A for w in u]):
@@ -263,7 +263,7 @@ def _velocities(where: str, L: sp.Expr, u: Sequence[sp.Symbol], p: Sequence[sp.E
 
 
 def _legendre(L: sp.Expr, u: Sequence[sp.Symbol], p: Sequence[sp.Expr], velocities: Sequence[sp.Expr]) -> sp.Expr:
-    """L − p·u at its stationary point, the velocities u = A⁻¹ (p − b):  L|₀ − ½ (p − b)·u."""
+    """Return L − p·u at u = A⁻¹ (p − b), which is L|₀ − ½ (p − b)·u."""
     at_rest = dict.fromkeys(u, 0)
     excess = sp.Matrix(list(p)) - gradient(L, u).subs(at_rest)
     return L.subs(at_rest) - excess.dot(sp.Matrix(list(velocities))) / 2
@@ -274,9 +274,9 @@ def _vanish(expressions: Sequence[sp.Expr]) -> bool:
 
 
 def _field(system: Equations, xi: Sequence[sp.Expr]) -> sp.Matrix:
-    given = isinstance(xi, Sequence | sp.MatrixBase) and not isinstance(xi, str) and len(xi) == len(system.c.q)
-    field = sp.Matrix([expression(f"noether: ξ[{i}]", e) for i, e in enumerate(xi)]) if given else sp.Matrix()
-    if not given or field.free_symbols & {*system.c.a}:
+    fits = isinstance(xi, Sequence | sp.MatrixBase) and not isinstance(xi, str) and len(xi) == len(system.c.q)
+    field = sp.Matrix([expression(f"noether: ξ[{i}]", e) for i, e in enumerate(xi)]) if fits else sp.Matrix()
+    if not fits or field.free_symbols & {*system.c.a}:
         raise InputError(
             f"noether: ξ = {xi}: a transformation has one component ξ(q, v, t) for each of {system.c.q}, free of "
             "accelerations; write it so"
@@ -284,17 +284,11 @@ def _field(system: Equations, xi: Sequence[sp.Expr]) -> sp.Matrix:
     return field
 
 
-_POINTS = 3  # at which accelerations are compared before anything is derived
+_POINTS = 3  # random points at which accelerations are compared first
 
 
 def same_as(system: Equations, other: Equations) -> Decision:
-    """Whether both have the same accelerations in the same coordinates: zero, or nonzero with a witness, and the domain.
-
-    Lagrangians may differ by a factor and a total time derivative; parts that do not interact, each with another factor, are
-    "undecided". Forces and constraints are compared by what they do; what agrees only by virtue of constraints is "undecided".
-
-    Raises InputError when the coordinates are not the same: bring one into those of the other by `in_coordinates`.
-    """
+    """Decide if two systems have the same accelerations: `System.same_as`."""
     if not isinstance(other, Equations):
         raise InputError(f"same_as: {other!r} is no System to compare with")
     if system.c != other.c:
@@ -302,20 +296,22 @@ def same_as(system: Equations, other: Equations) -> Decision:
             f"same_as: {system.c.q} and {other.c.q} are not the same coordinates: write one system in those of the other "
             "with in_coordinates"
         )
-    parts = [(e.constraints, e.rolling, e.dissipation, e.forces) for e in (system, other)]
-    if parts[0] == parts[1] and (direct := decide_equal(system.L, other.L)).answer == "zero":
+    loads = [(e.constraints, e.rolling, e.dissipation, e.forces) for e in (system, other)]
+    if loads[0] == loads[1] and (direct := decide_equal(system.L, other.L)).answer == "zero":
         return direct
     if system.multipliers or other.multipliers:
-        decision = decide_equal(*(constrained_accelerations(each)[0] for each in (system, other)))
+        decision = decide_equal(*(constrained_accelerations(system_of)[0] for system_of in (system, other)))
         reason = "Off the constraints they differ."
     elif refuted := _refutation(system, other):
         return refuted
     else:
         factor = _factor(system, other)
-        left = factor * system.L - other.L
+        difference = factor * system.L - other.L
         with suppress(NotExactError):
-            left = normal_form(left)
-        decision = decide_equal(euler_lagrange(left, system.c), factor * system.push - other.push)
+            difference = normal_form(difference)
+        decision = decide_equal(
+            euler_lagrange(difference, system.c), factor * system.generalised_forces - other.generalised_forces
+        )
         reason = "Their Lagrangians differ by more than one factor and a total derivative."
     if decision.answer == "nonzero":
         return replace(decision, answer="undecided", reason=f"{reason} {decision.reason}")
@@ -323,25 +319,25 @@ def same_as(system: Equations, other: Equations) -> Decision:
 
 
 def _refutation(system: Equations, other: Equations) -> Decision | None:
-    """Accelerations that differ at a point, where their enclosures are apart; None where none is seen or enclosed."""
-    given = [(each.mass, each.push - each.bias) for each in (system, other)]
-    symbols = set().union(*(part.free_symbols for pair in given for part in pair))
+    """Return the decision that accelerations differ if their enclosures at a point are disjoint; None otherwise."""
+    pairs = [(it.mass_matrix, it.generalised_forces - it.bias) for it in (system, other)]
+    symbols = set().union(*(entry.free_symbols for pair in pairs for entry in pair))
     for point in points(symbols, _POINTS):
         try:
-            left, right = (solved_at(*pair, point) for pair in given)
+            first, right = (solved_at(*pair, point) for pair in pairs)
         except NotExactError:
             continue
-        if (i := apart(left, right)) is not None:
-            one, two = (float(x[i].mid) for x in (left, right))
-            apart_by = sp.Rational(float((left[i] - right[i]).mid))
-            reason = f"At the witness {system.c.a[i]} is {one:.6g}, and {two:.6g} of the other."
+        if (i := apart(first, right)) is not None:
+            value, two = (float(x[i].mid) for x in (first, right))
+            apart_by = sp.Rational(float((first[i] - right[i]).mid))
+            reason = f"At the witness {system.c.a[i]} is {value:.6g}, and {two:.6g} of the other."
             return Decision("nonzero", (), reason, seen=apart_by, at=(point,))
     return None
 
 
 def _factor(system: Equations, other: Equations) -> sp.Expr:
-    """By what the other mass matrix is larger, where that is a number or a parameter: from its shortest entry; else 1."""
-    entries = [pair for pair in zip(system.mass, other.mass, strict=True) if 0 not in pair]
+    """Return the ratio of the mass matrices if it is constant, from their shortest entries; else 1."""
+    entries = [pair for pair in zip(system.mass_matrix, other.mass_matrix, strict=True) if 0 not in pair]
     mine, theirs = min(entries, key=lambda pair: sp.count_ops(pair), default=(sp.S.One, sp.S.One))
     try:
         ratio = normal_form(theirs / mine)
@@ -351,14 +347,7 @@ def _factor(system: Equations, other: Equations) -> sp.Expr:
 
 
 def in_coordinates(system: Kind, c: Coordinates, where: Mapping[sp.Symbol, sp.Expr]) -> Kind:
-    """The system in new coordinates: where = {old coordinate: expression in the new ones and t}, fewer where constraints
-    are solved by it; constraints that then vanish identically are left out.
-
-    L, D and the constraints are put in with q(Q, t) and v = dq/dt, forces by the virtual work Q' = (∂q/∂Q)ᵀ Q. Old
-    coordinates that are not named keep their names, and must be among the new ones.
-
-    Raises InputError when an old coordinate is neither given nor kept.
-    """
+    """Rewrite a system in new coordinates: `System.in_coordinates`."""
     old = system.c
     if not isinstance(c, Coordinates) or not isinstance(where, Mapping):
         raise InputError(
@@ -369,18 +358,18 @@ def in_coordinates(system: Kind, c: Coordinates, where: Mapping[sp.Symbol, sp.Ex
             f"in_coordinates: {', '.join(lost)} neither given nor among the new coordinates {c.q}: give it"
         )
     places = [expression(f"in_coordinates: {q}", where.get(q, q)) for q in old.q]
-    put = dict(zip(old.q, places, strict=True))
-    put |= {v: total_derivative(e, c) for v, e in zip(old.v, places, strict=True)}
+    substitution = dict(zip(old.q, places, strict=True))
+    substitution |= {v: total_derivative(e, c) for v, e in zip(old.v, places, strict=True)}
 
     def rewritten(e: sp.Expr) -> sp.Expr:
-        return put_in(sp.sympify(e, strict=True), put)
+        return put_in(sp.sympify(e, strict=True), substitution)
 
     slope = jacobian(places, c.q)
     forces = tuple(slope.T * sp.Matrix([rewritten(f) for f in system.forces])) if system.forces else ()
 
     def left(expressions: tuple[sp.Expr, ...]) -> list[tuple[int, sp.Expr]]:
-        moved = [rewritten(e) for e in expressions]
-        return [(i, e) for i, e in enumerate(moved) if decide_equal(e, sp.S.Zero).answer != "zero"]
+        expressed = [rewritten(e) for e in expressions]
+        return [(i, e) for i, e in enumerate(expressed) if decide_equal(e, sp.S.Zero).answer != "zero"]
 
     constraints, rolling = left(system.constraints), left(system.rolling)
     numbers = [*(i for i, _ in constraints), *(len(system.constraints) + i for i, _ in rolling)]

@@ -2,16 +2,19 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import sympy as sp
 
+from lagrotor.algebra import Decision
 from lagrotor.errors import InputError
 from lagrotor.mechanics import equilibria, glossary, steady_motions, symmetry, weakly_nonlinear
 from lagrotor.mechanics.canonical import hamiltonians
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.equilibria import Equilibrium
+from lagrotor.mechanics.expressions import in_order
 from lagrotor.mechanics.from_sympy import parts_from_sympy
+from lagrotor.mechanics.lagrangian import Coordinates
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -25,12 +28,36 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.running.switches import Event, Impact
     from lagrotor.numerics.integrate import Engine
 
+    Start = ArrayLike | Mapping[Any, float]
+
+Kind = TypeVar("Kind", bound=Equations)
+
 
 @dataclass(frozen=True)
 class System(Equations):
-    """System(c, L, constraints=(), rolling=(), dissipation=0, forces=()): a Lagrangian L(q, v, t), and what acts on it.
+    """A mechanical system: a Lagrangian L(q, v, t) with constraints, friction and forces.
 
-    The arguments are those of `Equations`, to which this class adds what is derived from them.
+    Unknown functions, as sympy's Function("U")(r), may stand in every expression; a run takes values for them. InputError is
+    raised for expressions that are no mechanical system.
+
+    Attributes
+    ----------
+    c : Coordinates
+        The coordinates.
+    lagrangian : Expr or Energy
+        L, or a sum of energies of bodies.
+    constraints : sequence or mapping
+        Expressions g(q, t) that stay zero; {name: expression} names their reactions.
+    rolling : sequence or mapping
+        Expressions f(q, v, t) that stay zero, affine in the velocities.
+    dissipation : Expr
+        Rayleigh's function D(q, v, t), in W, with the force −∂D/∂v.
+    forces : sequence
+        The generalised forces Q(q, v, t), one for each coordinate, or none.
+    names : tuple of str
+        The names of the constraints and of rolling.
+    velocities : mapping
+        Quasi-velocities {u: expression affine in v}, as many as coordinates, or fewer if constraints give the others.
 
     Examples
     --------
@@ -38,37 +65,448 @@ class System(Equations):
     >>> from lagrotor.mechanics import coordinates
     >>> m, l, g = symbols("m l g", positive=True)
     >>> c = coordinates("theta")
-    >>> pendulum = System(c, m * l**2 * c.v[0]**2 / 2 + m * g * l * cos(c.q[0]))
+    >>> pendulum = System(c, m * l**2 * c.theta_dot**2 / 2 + m * g * l * cos(c.theta))
+    >>> pendulum.mass_matrix, pendulum.forcing, pendulum.momenta
+    (Matrix([[l**2*m]]), Matrix([[-g*l*m*sin(theta)]]), Matrix([[l**2*m*theta_dot]]))
+    >>> pendulum.accelerations
+    Matrix([[-g*sin(theta)/l]])
     >>> pendulum.motion[0]
     g*l*m*sin(theta) + l**2*m*theta_ddot
-    >>> pendulum.linearise({c.q[0]: 0}).modes()[0].rate
-    I*sqrt(g)/sqrt(l)
     """
 
     @staticmethod
-    def from_sympy(given: Any, q: Sequence[Any] = ()) -> "System":
-        """The system of what sympy.physics.mechanics has: see `from_sympy`."""
-        return System(**parts_from_sympy(given, q))
+    def from_sympy(source: Any, q: Sequence[Any] = ()) -> "System":
+        """Return the system of an object of sympy.physics.mechanics.
+
+        Parameters
+        ----------
+        source : LagrangesMethod, KanesMethod, System or Expr
+            The object, after its equations are formed; or a Lagrangian in dynamicsymbols.
+        q : sequence, default ()
+            The coordinates of a Lagrangian.
+
+        Returns
+        -------
+        System
+            The system in plain symbols.
+
+        Examples
+        --------
+        >>> from sympy.physics.mechanics import dynamicsymbols
+        >>> x = dynamicsymbols("x")
+        >>> System.from_sympy(x.diff() ** 2 / 2 - x**2 / 2, (x,)).motion[0]
+        x + x_ddot
+        """
+        return System(**parts_from_sympy(source, q))
 
     @property
     def cyclic(self) -> tuple[sp.Symbol, ...]:
-        """The coordinates with a conserved momentum."""
+        """The coordinates whose momentum is conserved.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> c = coordinates("r phi")
+        >>> System(c, (c.r_dot**2 + c.r**2 * c.phi_dot**2) / 2 + 1 / c.r).cyclic
+        (phi,)
+        """
         return symmetry.cyclic_coordinates(self)
 
-    variation = symmetry.variation
-    invariance = symmetry.invariance
-    noether = symmetry.noether
-    noether_rate = symmetry.noether_rate
-    conserved = symmetry.conserved
-    routh = symmetry.routh
-    hamiltonian = hamiltonians.hamiltonian
-    equilibria = equilibria.equilibria
-    same_as = symmetry.same_as
-    in_coordinates = symmetry.in_coordinates
-    lindstedt_poincare = weakly_nonlinear.oscillation
-    averaged = weakly_nonlinear.averaged
-    latex = glossary.in_latex
-    _repr_markdown_ = glossary.in_markdown
+    def variation(self, xi: Sequence[sp.Expr]) -> sp.Expr:
+        """Return δL = ∂L/∂q · ξ + ∂L/∂v · ξ' under q → q + ε ξ(q, v, t).
+
+        Parameters
+        ----------
+        xi : sequence
+            The n components of ξ.
+
+        Returns
+        -------
+        Expr
+            δL in q, v, a and t.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> c = coordinates("x y")
+        >>> fall = System(c, (c.x_dot**2 + c.y_dot**2) / 2 - 9 * c.y)
+        >>> fall.variation((0, 1))
+        -9
+        """
+        return symmetry.variation(self, xi)
+
+    def invariance(self, xi: Sequence[sp.Expr], gauge: sp.Expr = sp.S.Zero) -> Decision:
+        """Decide if δL + Q · ξ = dF/dt and G ξ = 0 identically: then p · ξ − F is conserved.
+
+        The condition is sufficient. A ξ that preserves the constraints only on their surface does not satisfy it.
+
+        Parameters
+        ----------
+        xi, gauge : sequence, Expr
+            The n components of ξ(q, v, t) and the gauge function F(q, v, t).
+
+        Returns
+        -------
+        Decision
+            The answer "zero" if the condition holds, with its domain.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> c = coordinates("x y")
+        >>> fall = System(c, (c.x_dot**2 + c.y_dot**2) / 2 - 9 * c.y)
+        >>> fall.invariance((1, 0)).answer, fall.invariance((0, 1)).answer
+        ('zero', 'nonzero')
+        """
+        return symmetry.invariance(self, xi, gauge)
+
+    def noether(self, xi: Sequence[sp.Expr], gauge: sp.Expr = sp.S.Zero) -> symmetry.FirstIntegral:
+        """Return the Noether integral p · ξ − F of a symmetry ξ (Arnold §20).
+
+        Parameters
+        ----------
+        xi, gauge : sequence, Expr
+            The n components of ξ(q, v, t) and the gauge function F with δL = dF/dt.
+
+        Returns
+        -------
+        FirstIntegral
+            The conserved quantity and the domain of the decision.
+
+        Raises
+        ------
+        NotASymmetryError
+            If `invariance` does not answer "zero".
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> c = coordinates("x y")
+        >>> plane = System(c, (c.x_dot**2 + c.y_dot**2) / 2 - (c.x**2 + c.y**2) ** 2)
+        >>> plane.noether((-c.y, c.x)).expression
+        x*y_dot - x_dot*y
+        """
+        return symmetry.noether(self, xi, gauge)
+
+    def noether_rate(self, xi: Sequence[sp.Expr]) -> sp.Expr:
+        """Return d/dt (p · ξ) = δL + Q · ξ + λ · (G ξ) along a motion.
+
+        Parameters
+        ----------
+        xi : sequence
+            The n components of ξ(q, v, t).
+
+        Returns
+        -------
+        Expr
+            The rate, with the symbols of `multipliers`.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> c = coordinates("x")
+        >>> System(c, c.x_dot**2 / 2, dissipation=c.x_dot**2).noether_rate((1,))
+        -2*x_dot
+        """
+        return symmetry.noether_rate(self, xi)
+
+    def conserved(self, f: sp.Expr) -> Decision:
+        """Decide if f(q, v, t) is a first integral.
+
+        Parameters
+        ----------
+        f : Expr
+            An expression in q, v and t.
+
+        Returns
+        -------
+        Decision
+            "zero" if df/dt vanishes with the accelerations put in. Under constraints "undecided" if it does not vanish
+            identically, since it may vanish on the constraints.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> c = coordinates("x")
+        >>> spring = System(c, c.x_dot**2 / 2 - c.x**2 / 2)
+        >>> spring.conserved(c.x_dot**2 + c.x**2).answer
+        'zero'
+        """
+        return symmetry.conserved(self, f)
+
+    def routh(self: Kind, cyclic: "str | Sequence[str | sp.Symbol] | Mapping[str | sp.Symbol, sp.Expr]") -> Kind:
+        """Return the system in the other coordinates, with the Routhian R = L − Σ p v as its Lagrangian.
+
+        Forces, friction and constraints are carried over. The eliminated velocities are v = −∂R/∂p.
+        Goldstein §8.3 has the opposite sign of R.
+
+        Parameters
+        ----------
+        cyclic : str, sequence or mapping
+            Names of cyclic coordinates, "phi psi", whose momenta are then called p_phi, p_psi; or a mapping from
+            coordinates to momenta. L is quadratic in their velocities.
+
+        Returns
+        -------
+        System
+            The reduced system.
+
+        Raises
+        ------
+        NotASymmetryError
+            If a coordinate is not cyclic.
+        DomainError
+            If L is not quadratic in a cyclic velocity.
+        SingularError
+            If the momenta do not determine the cyclic velocities.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> c = coordinates("r phi")
+        >>> kepler = System(c, (c.r_dot**2 + c.r**2 * c.phi_dot**2) / 2 + 1 / c.r)
+        >>> kepler.routh("phi").L
+        -p_phi**2/(2*r**2) + r_dot**2/2 + 1/r
+        """
+        return symmetry.routh(self, cyclic)
+
+    def hamiltonian(self, momenta: Sequence[sp.Symbol] | None = None) -> hamiltonians.Hamiltonian:
+        """Return H = p·v − L with the momenta p = ∂L/∂v.
+
+        Parameters
+        ----------
+        momenta : sequence or None, optional
+            Symbols of the momenta; p_q for each coordinate q by default.
+
+        Returns
+        -------
+        Hamiltonian
+            H(q, p, t) with its brackets.
+
+        Raises
+        ------
+        DomainError
+            If forces, friction or constraints act, or L is not quadratic in the velocities.
+        SingularError
+            If det M vanishes identically.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> c = coordinates("x")
+        >>> System(c, c.x_dot**2 / 2 - c.x**2 / 2).hamiltonian().H
+        p_x**2/2 + x**2/2
+        """
+        return hamiltonians.hamiltonian(self, momenta)
+
+    def equilibria(
+        self,
+        unknowns: str | Sequence[str | sp.Symbol] = (),
+        values: Mapping[Any, Any] | None = None,
+        box: Mapping[Any, tuple[Any, Any]] | None = None,
+    ) -> tuple[Equilibrium, ...]:
+        """Return the configurations at rest: ∂L/∂q + Q + Gᵀ λ = 0 and g = 0 at v = 0.
+
+        Without a box they are exact, and angles in sines and cosines lie between −π and π. With values and a box, interval
+        Newton's method encloses all equilibria in it, also under one constraint g(q) = 0. A pole of a force is no
+        equilibrium. An edge that is no rational, as π or 0.3, stands for all numbers that round to it: an equilibrium there is
+        in the box.
+
+        Parameters
+        ----------
+        unknowns : str or sequence, default ()
+            Names of the symbols to solve for; the coordinates by default. In a system from `routh` it may be a momentum,
+            p_phi, that a steady motion needs at any inclination.
+        values : mapping or None, optional
+            {symbol: number} for all parameters.
+        box : mapping or None, optional
+            {coordinate: (lowest, highest)} for each coordinate.
+
+        Returns
+        -------
+        tuple of Equilibrium
+            Values of the unknowns with the conditions under which they are real; from a box numbers with an `enclosure`.
+
+        Raises
+        ------
+        InputError
+            If the conditions depend on time or cannot be solved exactly.
+        SingularError
+            If a part of the box stays undecided, as about equilibria that are not isolated.
+
+        Warns
+        -----
+        LagrotorWarning
+            Names each place where a force has no derivative or no value and nothing is decided.
+
+        Examples
+        --------
+        >>> from sympy import cos
+        >>> from lagrotor.mechanics import coordinates
+        >>> c = coordinates("theta")
+        >>> [dict(e.at) for e in System(c, c.theta_dot**2 / 2 + cos(c.theta)).equilibria()]
+        [{theta: 0}, {theta: pi}]
+        """
+        return equilibria.equilibria(self, unknowns, values, box)
+
+    def same_as(self, other: Equations) -> Decision:
+        """Decide if two systems have the same accelerations in the same coordinates.
+
+        Lagrangians may differ by a factor and a total time derivative. Blocks that do not interact, each with another factor,
+        are "undecided", and so is what agrees only on the constraints.
+
+        Parameters
+        ----------
+        other : System
+            The other system.
+
+        Returns
+        -------
+        Decision
+            "zero", or "nonzero" with a witness.
+
+        Raises
+        ------
+        InputError
+            If the coordinates differ: `in_coordinates` rewrites one system in those of the other.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> c = coordinates("x")
+        >>> System(c, c.x_dot**2 / 2).same_as(System(c, c.x_dot**2 + c.x * c.x_dot)).answer
+        'zero'
+        """
+        return symmetry.same_as(self, other)
+
+    def in_coordinates(self: Kind, c: Coordinates, where: Mapping[sp.Symbol, sp.Expr]) -> Kind:
+        """Return the system in new coordinates Q.
+
+        L, D and the constraints take q(Q, t) and v = dq/dt; forces take the virtual work (∂q/∂Q)ᵀ Q. Constraints that
+        vanish identically are left out.
+
+        Parameters
+        ----------
+        c : Coordinates
+            The new coordinates; fewer where they solve constraints.
+        where : mapping
+            {old coordinate: expression in the new ones and t}. The others keep their names and are among the new ones.
+
+        Returns
+        -------
+        System
+            The same system.
+
+        Examples
+        --------
+        >>> from sympy import cos, sin
+        >>> from lagrotor.mechanics import coordinates
+        >>> c, polar = coordinates("x y"), coordinates("theta")
+        >>> plane = System(c, (c.x_dot**2 + c.y_dot**2) / 2 + 9 * c.x, constraints=(c.x**2 + c.y**2 - 1,))
+        >>> plane.in_coordinates(polar, {c.x: cos(polar.theta), c.y: sin(polar.theta)}).motion[0].simplify()
+        theta_ddot + 9*sin(theta)
+        """
+        return symmetry.in_coordinates(self, c, where)
+
+    def lindstedt_poincare(
+        self, order: int, small: sp.Symbol, at: Any = 0, amplitude: sp.Symbol | None = None
+    ) -> weakly_nonlinear.Oscillation:
+        """Return the Lindstedt–Poincaré series of the periodic motions about the equilibrium q = at.
+
+        Parameters
+        ----------
+        order : int
+            The highest power of `small`.
+        small : Symbol
+            A parameter at zero of which the system is linear; or a new symbol, which is the amplitude then: the value of q
+            at phase 0 less `at`.
+        at : Expr, default 0
+            The equilibrium.
+        amplitude : Symbol or None, optional
+            The amplitude's name where `small` is a parameter; A by default.
+
+        Returns
+        -------
+        Oscillation
+            The frequency and the motion, with their O().
+
+        Raises
+        ------
+        InputError
+            For several coordinates, constraints, a system that depends on time, a motion that is damped or grows, or an
+            `at` that is no equilibrium.
+        DomainError
+            If the equation is no polynomial.
+
+        Examples
+        --------
+        >>> from sympy import Symbol, cos
+        >>> from lagrotor.mechanics import coordinates
+        >>> c = coordinates("theta")
+        >>> System(c, c.theta_dot**2 / 2 + cos(c.theta)).lindstedt_poincare(2, Symbol("a")).frequency
+        1 - a**2/16 + O(a**3)
+        """
+        return weakly_nonlinear.oscillation(self, order, small, at, amplitude)
+
+    def averaged(self, order: int, small: sp.Symbol, frequency: Any = None) -> weakly_nonlinear.AveragedMotion:
+        """Return the slow motion of the amplitudes of q = a cos νt + b sin νt.
+
+        Time may enter by sines and cosines whose frequencies are rational multiples of ν. A detuning is written into the
+        system, ω² = ν² + small σ.
+
+        Parameters
+        ----------
+        order : int
+            The highest power of `small`, 1 or 2.
+        small : Symbol
+            A parameter; at zero the system is q'' = −ν² q.
+        frequency : Expr or None, optional
+            ν, by default that of the system at small = 0.
+
+        Returns
+        -------
+        AveragedMotion
+            The rates of a and b.
+
+        Raises
+        ------
+        InputError
+            For several coordinates, constraints, another order, or a system that is not q'' = −ν² q at small = 0.
+        DomainError
+            If the equation is no polynomial in q, q' and such functions of time.
+
+        Examples
+        --------
+        >>> from sympy import Symbol
+        >>> from lagrotor.mechanics import coordinates
+        >>> c, eps = coordinates("x"), Symbol("eps", positive=True)
+        >>> damped = System(c, c.x_dot**2 / 2 - c.x**2 / 2, dissipation=eps * c.x_dot**2 / 2)
+        >>> damped.averaged(1, eps).polar
+        (-eps*r/2, 0)
+        """
+        return weakly_nonlinear.averaged(self, order, small, frequency)
+
+    def latex(self) -> str:
+        r"""Return the equations of motion and the constraints as an `align` of LaTeX.
+
+        Returns
+        -------
+        str
+            One numbered row for each equation.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> c = coordinates("x")
+        >>> print(System(c, c.x_dot**2 / 2 - c.x**2 / 2).latex())
+        \begin{align}
+        \ddot{x} + x &= 0
+        \end{align}
+        """
+        return glossary.in_latex(self)
+
+    def _repr_markdown_(self) -> str:
+        return glossary.in_markdown(self)
 
     def linearise(
         self,
@@ -77,41 +515,52 @@ class System(Equations):
         inputs: Sequence[sp.Symbol] = (),
         outputs: Sequence[sp.Expr] = (),
     ) -> Any:
-        """Small motion about an equilibrium or a steady motion, also where bodies roll.
-
-        Without values: M a + C v + K q = 0 in symbols, see `steady_motions.linearise`; for inputs and outputs, and about a motion
-        that rolls, A, B, C, D in symbols. With values: the numbers A, B, C, D and rates of x' = A x + B u, y = C x + D u.
+        """Linearise about an equilibrium or a steady motion, also where bodies roll.
 
         Parameters
         ----------
-        at : Mapping[Any, Any] or Equilibrium
-            The equilibrium, or the coordinates and velocities of the motion.
-        values : Values or None, optional
-            Of the parameters.
+        at : mapping or Equilibrium
+            {coordinate or velocity: value}; velocities that are not named are zero.
+        values : mapping or None, optional
+            {symbol: number} for all parameters.
         inputs : sequence, default ()
-            U, parameters, zero unless they have a value.
+            Parameters u, zero unless `at` or `values` name them.
         outputs : sequence, default ()
-            Y, expressions in q, v, a and the multipliers.
+            Expressions y in q, v, a and the multipliers.
 
         Returns
         -------
-            A LinearSystem, a StateEquations, or with values a StateSpace.
+        LinearSystem, StateEquations or StateSpace
+            Without values M a + C v + K q = 0 in symbols, a `LinearSystem`. With inputs or outputs, or about a motion that
+            rolls or is written in quasi-velocities, x' = A x + B u, y = C x + D u in symbols, a `StateEquations`.
+            With values the same in numbers with the eigenvalues of A in 1/s, a `StateSpace`.
 
         Raises
         ------
         SingularError
-            Where accelerations are left.
+            If an acceleration at the point is not zero, or the mass matrix is singular there.
         ConstraintError
-            Off the constraints.
+            If the point is off the constraints.
         InputError
-            Where the coefficients change with time.
+            If the coefficients change with time.
+
+        Examples
+        --------
+        >>> from sympy import cos, symbols
+        >>> from lagrotor.mechanics import coordinates
+        >>> (l, g), c = symbols("l g", positive=True), coordinates("theta")
+        >>> pendulum = System(c, l**2 * c.theta_dot**2 / 2 + g * l * cos(c.theta))
+        >>> pendulum.linearise({"theta": 0}).modes()[0].rate
+        I*sqrt(g)/sqrt(l)
+        >>> abs(pendulum.linearise({"theta": 0}, {l: 1, g: 9}).rates).round(9)
+        array([3., 3.])
         """
         for name, listed in (("inputs", inputs), ("outputs", outputs)):
             if isinstance(listed, str) or not isinstance(listed, Sequence | sp.MatrixBase):
                 raise InputError(f"linearise: {name} = {listed!r} must be a tuple")
         if len({*map(str, inputs)}) < len(inputs) or not all(isinstance(u, sp.Symbol | str) for u in inputs):
             raise InputError(
-                f"linearise: inputs = {inputs} must be different letters: of a function F(t) write a letter F"
+                f"linearise: inputs = {inputs} must be different symbols: for a function F(t) write a symbol F"
             )
         point = at.at if isinstance(at, Equilibrium) else at
         if not isinstance(point, Mapping):
@@ -128,23 +577,37 @@ class System(Equations):
         return state_space.state_space(self, point, values, inputs, outputs)
 
     def floquet(self, at: "Mapping[Any, Any]", values: "Values", period: float) -> "MonodromyMatrix":
-        """Return the monodromy matrix of a periodic motion and its multipliers, each with its error and NaN where it is below it.
+        """Return the monodromy matrix of a periodic motion with its multipliers.
 
         Parameters
         ----------
         at : mapping
-            Coordinates and velocities at t = 0, or at the value of t. A rest in a system that is driven is a motion, too.
-        values : Values
-            Of the parameters.
+            {coordinate or velocity: value} at t = 0, or at the value of t. A driven system at rest is a motion, too.
+        values : mapping
+            {symbol: number} for all parameters.
         period : float
-            S; at rest that of what drives.
+            The period in s; at rest that of the drive.
+
+        Returns
+        -------
+        MonodromyMatrix
+            The matrix and its multipliers, each with its error; a multiplier below its error is NaN.
 
         Raises
         ------
         InputError
-            Where the motion has not come back after the period, or forces jump.
+            If the motion does not return after the period, or forces jump.
         ConstraintError
-            As `linearise`.
+            If the point is off the constraints.
+
+        Examples
+        --------
+        >>> from math import pi
+        >>> from lagrotor.mechanics import coordinates
+        >>> c = coordinates("x")
+        >>> spring = System(c, c.x_dot**2 / 2 - c.x**2 / 2)
+        >>> abs(spring.floquet({"x": 1}, {}, 2 * pi).multipliers).round(6)
+        array([1., 1.])
         """
         from lagrotor.mechanics.running import function_values, monodromy
 
@@ -152,85 +615,139 @@ class System(Equations):
         return monodromy.monodromy_matrix(self, at, values, period)
 
     def root_locus(
-        self, at: "Mapping[Any, Any]", values: "Values", letter: sp.Symbol | str, numbers: "ArrayLike"
+        self, at: "Mapping[Any, Any]", values: "Values", symbol: sp.Symbol | str, numbers: "ArrayLike"
     ) -> "RootLocus":
-        """The rates of small motion as one letter takes numbers.
+        """Compute the rates of small motion as one symbol takes numbers.
 
         Parameters
         ----------
         at : mapping
-            Coordinates and velocities, which may be expressions in the letter.
-        values : Values
-            Of the other parameters.
-        letter : Symbol or str
-            The one that changes.
+            {coordinate or velocity: value}, which may be expressions in the symbol.
+        values : mapping
+            {symbol: number} for the other parameters.
+        symbol : Symbol or str
+            The parameter that changes.
         numbers : array_like
-            Increasing, (n,).
+            Its values, increasing, shape (n,).
 
-        Raises
-        ------
-        InputError
-            Where the letter has a value already, and as `linearise`.
+        Returns
+        -------
+        RootLocus
+            The rates in 1/s, and the values at which the motion becomes stable or unstable.
+
+        Examples
+        --------
+        >>> from sympy import Symbol
+        >>> from lagrotor.mechanics import coordinates
+        >>> c, k = coordinates("x"), Symbol("k", real=True)
+        >>> spring = System(c, c.x_dot**2 / 2 - k * c.x**2 / 2)
+        >>> abs(round(spring.root_locus({"x": 0}, {}, k, [-1, 2]).boundaries[0], 6))
+        0.0
         """
         from lagrotor.mechanics.running import function_values, root_loci
 
         self, values = function_values.put_functions("root_locus", self, values)
-        return root_loci.root_locus(self, at, values, letter, numbers)
+        return root_loci.root_locus(self, at, values, symbol, numbers)
 
     def stability_chart(
         self, at: "Mapping[Any, Any]", values: "Values", numbers: "Mapping[Any, ArrayLike]", period: Any = None
     ) -> "StabilityChart":
-        """The largest growth of small motion over two letters: as many evaluations as numbers, and twenty for each boundary.
+        """Compute the largest growth rate of small motion over two symbols.
+
+        It takes one evaluation for each pair of numbers, and twenty for each point of a boundary.
 
         Parameters
         ----------
         at : mapping
-            Coordinates and velocities, which may be expressions in the letters.
-        values : Values
-            Of the other parameters.
+            {coordinate or velocity: value}, which may be expressions in the symbols.
+        values : mapping
+            {symbol: number} for the other parameters.
         numbers : mapping
-            {letter: increasing numbers, …}.
+            {symbol: increasing numbers} of two symbols.
         period : optional
-            Of a periodic motion, which grows by its multipliers: a number or an expression in the letters.
+            The period of a periodic motion in s, a number or an expression in the symbols; its multipliers give the growth.
 
-        Raises
-        ------
-        InputError
-            As `root_locus`.
+        Returns
+        -------
+        StabilityChart
+            The growth rates in 1/s, and the points of the boundary.
+
+        Examples
+        --------
+        >>> from sympy import symbols
+        >>> from lagrotor.mechanics import coordinates
+        >>> c, (k, d) = coordinates("x"), symbols("k d", real=True)
+        >>> spring = System(c, c.x_dot**2 / 2 - k * c.x**2 / 2, forces=(-d * c.x_dot,))
+        >>> spring.stability_chart({"x": 0}, {}, {k: [1, 2], d: [-1, 2]}).growth.round(3)
+        array([[ 0.5,  0.5],
+               [-1. , -1. ]])
         """
         from lagrotor.mechanics.running import function_values, root_loci
 
         self, values = function_values.put_functions("stability_chart", self, values)
         return root_loci.stability_chart(self, at, values, numbers, period)
 
-    def consistent(self, values: "Values", q0: "ArrayLike", v0: "ArrayLike", t: float = 0.0) -> "tuple[Array, Array]":
-        """The state (q, v) on the constraints that is nearest to a start in the mass metric.
+    def consistent(self, values: "Values", q0: "Start", v0: "Start", t: float = 0.0) -> "tuple[Array, Array]":
+        """Return the state on the constraints that is nearest to (q0, v0) in the mass metric.
 
         Parameters
         ----------
-        values : Values
-            Of the parameters.
-        q0 : array_like
-            (N,).
-        v0 : array_like
-            (N,).
+        values : mapping
+            {symbol: number} for all parameters.
+        q0, v0 : array_like or mapping
+            Coordinates and velocities, shape (n,), or {symbol or name: number} for each.
         t : float, default 0.0
-            The time, s.
+            The time in s.
+
+        Returns
+        -------
+        tuple of ndarray
+            q and v, each of shape (n,).
 
         Raises
         ------
         ConstraintError
-            When it is not reached.
+            If Newton's method does not reach the constraints.
         SingularError
-            Where the constraints are dependent.
+            If the constraints are dependent.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> c = coordinates("x y")
+        >>> ring = System(c, (c.x_dot**2 + c.y_dot**2) / 2, constraints=(c.x**2 + c.y**2 - 1,))
+        >>> q, v = ring.consistent({}, q0={"x": 2, "y": 0}, v0={"x_dot": 1, "y_dot": 1})
+        >>> q.round(9), v.round(9)
+        (array([1., 0.]), array([0., 1.]))
         """
         from lagrotor.mechanics.running import function_values, initial_state
 
+        q, v = in_order("consistent: q0", q0, self.c.q), in_order("consistent: v0", v0, self.speeds)
         self, values = function_values.put_functions("consistent", self, values)
-        return initial_state.consistent("consistent", self, values, q0, v0, t)
+        return initial_state.consistent("consistent", self, values, q, v, t)
 
     def rhs(self, values: "Values", engine: "Engine" = "core") -> "Rhs":
-        """(t, y) → (v, a), for the state y = (q, v), an array (2 N,): see `running.flow`."""
+        """Return the right-hand side of y' = f(t, y) in numbers; `accelerations` has it in symbols.
+
+        Parameters
+        ----------
+        values : mapping
+            {symbol: number} for all parameters.
+        engine : Engine, default 'core'
+            "core", or "fast" with heyoka.
+
+        Returns
+        -------
+        callable
+            (t, y) → y' for the state y = (q, v), 2 n numbers each.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> c = coordinates("x")
+        >>> System(c, c.x_dot**2 / 2 - c.x**2 / 2).rhs({})(0, [1, 2])
+        [2.0, -1.0]
+        """
         from lagrotor.mechanics.running import flow, function_values, initial_state
 
         self, values = function_values.put_functions("rhs", self, values)
@@ -240,8 +757,8 @@ class System(Equations):
     def simulate(
         self,
         values: "Values",
-        q0: "ArrayLike",
-        v0: "ArrayLike",
+        q0: "Start",
+        v0: "Start",
         t: "ArrayLike",
         tol: float = 1e-9,
         engine: "Engine" = "core",
@@ -250,49 +767,58 @@ class System(Equations):
     ) -> "SystemRun":
         """Integrate the equations of motion. Forces that jump with sign(w) or |w| stick and slip.
 
-        A run that cannot reach its last time is handed back up to where it came; `run.ending` says why, with a LagrotorWarning.
-        One also names the time where it passed a position at which its constraints are dependent.
+        A run that cannot reach its last time ends earlier; `run.ending` gives the reason, with a LagrotorWarning. Another
+        warning names the time of a position at which the constraints are dependent.
 
-        Steps are as long as the motion allows, but short where a function of t alone changes faster than it mostly does: in
-        pulses and at steps that are longer than a ten-thousandth of the run. A briefer pulse may be passed over. Steps are
-        short, too, where an expression of coordinates or velocities changes within less than an eighth of their swing, however
-        narrow it is: exp(−((q − c)/w)²), tanh((q − c)/w), 1/(1 + ((q − c)/w)²). The narrow parts of a callable, a table or a
-        spline are not known: give an expression.
+        Integration steps are short where a function of t alone changes fast, if the change lasts a ten-thousandth of the run;
+        a briefer pulse may be missed. They are short, too, where an expression of coordinates or velocities changes within an
+        eighth of their range, however narrow it is: exp(−((q − c)/w)²), tanh((q − c)/w). Narrow features of a callable, a table
+        or a spline are not recognised: give an expression.
 
         Parameters
         ----------
-        values : Values
+        values : mapping
             {symbol or name: number} for every parameter, and for every unknown function an expression, a callable,
-            callables (U, U', …) as far as the equations need derivatives, a table (x, y) or a spline of scipy: where the
-            motion leaves a table, the run ends.
-        q0 : array_like
-            At t[0], (N,).
-        v0 : array_like
-            At t[0], (N,); u (m,) for velocities of one's own.
+            callables (U, U', …) as far as the equations need derivatives, a table (x, y) or a spline of scipy. The run
+            ends where the motion leaves a table.
+        q0, v0 : array_like or mapping
+            Coordinates and velocities, or quasi-velocities, at t[0]: arrays, or {symbol or name: number} for each.
         t : array_like
-            Increasing times (n,), s.
+            Increasing times in s, shape (k,).
         tol : float, default 1e-09
-            The largest error of the whole run, relative to the sizes of coordinates and velocities. It is estimated;
-            where it is not kept, a LagrotorWarning says up to which time it is, and what the error is: as `run.error`,
-            `run.errors` and `run.horizon`.
+            The largest error of the whole run, relative to the sizes of coordinates and velocities. It is estimated:
+            `run.error`, `run.errors`, and `run.horizon`, up to which it is kept. Beyond it a LagrotorWarning is given.
         engine : Engine, default 'core'
             "core", or "fast" with heyoka.
-        events : Event or Impact or Sequence[Event or Impact], default ()
-            What changes the velocities or ends the run.
+        events : Event, Impact or sequence, default ()
+            Conditions that change the velocities or end the run.
         progress : callable or None, optional
-            Called with the time (s) of each evaluation by the core, and of each step of a run with events.
+            Called with the time in s of each evaluation, or of each step of a run with events.
+
+        Returns
+        -------
+        SystemRun
+            The motion at the times t.
 
         Raises
         ------
-        InputError
-            For a value that is missing or makes no sense.
         ConstraintError
             For a start off the constraints.
         SingularError
             For a singular mass matrix.
         IntegrationError
-            Where nothing can be reached, or a run would take more than 10⁸ evaluations.
+            If no step succeeds, or the run would take more than 10⁸ evaluations.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> c = coordinates("x")
+        >>> spring = System(c, c.x_dot**2 / 2 - c.x**2 / 2)
+        >>> run = spring.simulate({}, q0={"x": 1}, v0={"x_dot": 0}, t=[0, 1, 2])
+        >>> run.q[:, 0].round(6)
+        array([ 1.      ,  0.540302, -0.416147])
         """
         from lagrotor.mechanics.running import simulation
 
-        return simulation.simulate_system(self, values, q0, v0, t, tol, engine, events, progress)
+        q, v = in_order("simulate: q0", q0, self.c.q), in_order("simulate: v0", v0, self.speeds)
+        return simulation.simulate_system(self, values, q, v, t, tol, engine, events, progress)

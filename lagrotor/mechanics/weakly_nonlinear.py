@@ -190,7 +190,7 @@ def harmonic_solver(
             abs(v) > _ROUNDING * (1 + largest) if value is float else v
             for v in (*solved[len(pivots) :], *remainder.values())
         ):
-            raise SingularError("lindstedt_poincare: an order cannot be solved: the mode is in resonance with another")
+            raise SingularError("periodic_series: an order cannot be solved: the mode is in resonance with another")
         values = [value(field.zero)] * len(system)
         for j, solution in zip(pivots, solved, strict=False):
             values[j] = solution
@@ -432,7 +432,7 @@ class Oscillation:
         omega = self.frequency.removeO().subs(numeric)
         start = self.motion.removeO().subs(_PHASE, 0).subs(numeric)
         no_letter("error", omega.free_symbols | start.free_symbols)
-        parameters = self.system.L.free_symbols | self.system.push.free_symbols
+        parameters = self.system.L.free_symbols | self.system.generalised_forces.free_symbols
         numbers = {str(s): float(x) for s, x in numeric.items() if s in parameters}
         (q,), (v,) = self.system.c.q, self.system.c.v
         period = 2 * float(sp.pi) / float(omega)
@@ -448,14 +448,7 @@ class Oscillation:
 def oscillation(
     system: Equations, order: int, small: sp.Symbol, at: Any = 0, amplitude: sp.Symbol | None = None
 ) -> Oscillation:
-    """The Lindstedt–Poincaré series of the periodic motions about the equilibrium q = at, through small**order.
-
-    small: a parameter of the system, which is linear where it is zero, or a letter of your own, the amplitude then: the value
-    of q at Φ = 0, less its rest. amplitude: its name where small is a parameter.
-
-    Raises InputError for a system with several coordinates, constraints, or time in it, and where q = at is no equilibrium or
-    the motion is damped or grows; DomainError where it is no polynomial.
-    """
+    """Return the series of the periodic motions about q = at: `System.lindstedt_poincare`."""
     _check_one("lindstedt_poincare", system, order, small)
     if not isinstance(amplitude, sp.Symbol | None):
         raise InputError(f"lindstedt_poincare: amplitude = {amplitude!r} must be a symbol")
@@ -625,14 +618,7 @@ class AveragedMotion:
 
 
 def averaged(system: Equations, order: int, small: sp.Symbol, frequency: Any = None) -> AveragedMotion:
-    """The slow motion of the amplitudes through small**order, 1 or 2: see the head of the module.
-
-    small: a parameter; where it is zero, q'' = −ν² q. frequency: ν, where it is not read off; a detuning is written into the
-    system, ω² = ν² + small σ. Time may enter by sines and cosines whose rates are rational parts of ν.
-
-    Raises InputError for several coordinates or constraints, an order that is none of these, or where the system is not that
-    of ν for small = 0; DomainError where it is no polynomial in q and q' and such functions of time.
-    """
+    """Return the slow motion of the amplitudes through small**order: `System.averaged`."""
     _check_one("averaged", system, order, small)
     if order > _HIGHEST_ORDER:
         raise InputError(f"averaged: order = {order}: 1 or 2 are known")

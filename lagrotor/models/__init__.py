@@ -1,15 +1,13 @@
-"""The ladder of models of the pair: no more than a scene needs.
+"""The models of the pair, from closed forms to rigid bodies on springs, and their choice by a tolerance.
 
 Data pass through these modules in this order:
 
-- `simulate` takes a `Scene`, times, a model and a tolerance. `model="auto"` calls `choose`, which names the cheapest
-  model whose error is known to be below `tol`.
-- `closed_form_model`, `linear` and `averaged` evaluate closed forms and normal modes. `minimal`, `spheres` and
-  `euler` each define a `Model`: a generated program (`programs`), a start, and the axes read back.
-- `model.py` integrates a `Model` in natural units and checks what the motion conserves. The result is a `Trajectory`.
-- `sweeps` runs many scenes at once, `spring_link` is the paper's own simulator of rigid bodies and springs.
-- `orbits` finds periodic orbits by shooting, with their Floquet multipliers. `mean_motion` measures drifts on exact
-  runs.
+- `simulate` takes a `Scene`, times, a model and a tolerance. `model="auto"` takes the cheapest whose error is below `tol`.
+- `closed_form_model`, `linear` and `averaged` evaluate closed forms and normal modes. `minimal`, `spheres` and `euler` each
+  define a `Model`: a generated program (`programs`), a start, and the axes of its states.
+- `model.py` integrates a `Model` in natural units and checks the conservation laws. The result is a `Trajectory`.
+- `sweeps` runs many scenes at once; `spring_link` is the paper's own simulator of rigid bodies and springs.
+- `orbits` finds periodic orbits by shooting, with their Floquet multipliers. `mean_motion` measures drifts on exact runs.
 
 A new model is a module with a `Model`, and a row in `simulate.py`.
 """
@@ -19,7 +17,6 @@ from typing import TYPE_CHECKING
 from lagrotor.lazy_imports import face
 
 if TYPE_CHECKING:
-    from lagrotor.models.closed_form_model import closed_form as closed_form
     from lagrotor.models.linear import shock_response_error as shock_response_error
     from lagrotor.models.mean_motion import cancelling_force_error as cancelling_force_error
     from lagrotor.models.mean_motion import exact_cancelling_force as exact_cancelling_force
@@ -34,13 +31,11 @@ if TYPE_CHECKING:
     from lagrotor.models.mean_motion import wandering_rate as wandering_rate
     from lagrotor.models.orbits.floquet import slow_frequency_error as slow_frequency_error
     from lagrotor.models.orbits.shooting import OrbitFamily as OrbitFamily
-    from lagrotor.models.orbits.shooting import UprightOrbit as UprightOrbit
     from lagrotor.models.orbits.shooting import exact_orbit as exact_orbit
     from lagrotor.models.orbits.shooting import trace_family as trace_family
     from lagrotor.models.orbits.shooting import upright_orbit as upright_orbit
     from lagrotor.models.spring_link.rigid_body import RigidBody as RigidBody
     from lagrotor.models.spring_link.rigid_body import finite_rotation as finite_rotation
-    from lagrotor.models.spring_link.run import SpringRun as SpringRun
     from lagrotor.models.spring_link.run import run_solver as run_solver
     from lagrotor.models.spring_link.run import run_steps as run_steps
     from lagrotor.models.spring_link.system import RigidBodySystem as RigidBodySystem

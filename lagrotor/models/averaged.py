@@ -1,16 +1,15 @@
-"""Opposite spins averaged over their swing: small motion at any lean, with any bar, ten thousand turns at once.
+"""Opposite spins averaged over their swing: small motion at any lean, with any bar, for ten thousand turns at once.
 
-Without weight a pair at rest stays wherever it is. About a rest, at the lean of the swing's centre, the Hamiltonian in the
-coordinates q of `minimal`,
+Without weight a pair at rest remains at rest in any position. About such an equilibrium, at the lean of the swing's centre, the
+Hamiltonian in the coordinates q of `minimal`,
 
     H = (p − g)·M⁻¹ (p − g)/2,    M(q) and g(q) of L = q'·M q'/2 + g·q',
 
-has one oscillation, the swing; the turning about the joint line and the swing's centre have the rate zero. The normal form
-through an order N (`lagrotor.mechanics.canonical.normal_forms`) is H averaged over the swing: its action and the momentum about
-the joint line are constant, and the centre moves so slowly that some hundred steps follow it, however long the run. The forms
-through N − 2 and N − 4 are parts of it; how the differences of the motions fall from one to the next tells the error.
-
-Spins that are not opposite let the axes twist apart freely, so that no motion beside the orbits stays small.
+has one oscillation, the swing; the rotation about the joint line and the centre of the swing have the rate zero. The normal
+form through an order N is H averaged over the swing. Its action and the momentum about the joint line are constant, and some
+hundred steps follow the slow centre over any time. The forms through N − 2 and N − 4 are truncations of it, and the decrease of
+the differences of their motions estimates the error. Spins that are not opposite let the axes twist apart freely, and no motion
+stays small.
 """
 
 from dataclasses import replace
@@ -39,17 +38,16 @@ FALLING = Calibrated(
     "74 random pairs over 10 to 300 turns: at most 6.2",
     "test_averaged.py::test_the_error_is_bounded",
 )
-_SLOWEST = 0.3  # of that ratio, beyond which the orders do not fall
-_ROUNDED = 3e-14  # rad: a turn's share of rounding, times the angle swung
+_SLOWEST = 0.3  # the largest ratio at which the orders converge
+_ROUNDED = 3e-14  # rad: rounding per rad of the swing
 _PULSE = 1e-12, 1e-11  # local errors of the two integrations through a pulse
 _MOST = 20_000  # evaluations through a pulse
-_TRIES = 60  # to find the normal coordinates of a start
-_AT_ONCE = 256  # times
+_TRIES = 60  # iterations for the normal coordinates of a start
+_AT_ONCE = 256  # times per batch
 
 
 class Forms(NamedTuple):
-    """A normal form about q = (lean, 0, 0), p = momentum; maps: the coordinates of H₂ in the new ones; turning: which of them
-    is the azimuth's."""
+    """A normal form about q = (lean, 0, 0), p = momentum. maps: the coordinates of H₂; turning: the index of the azimuth."""
 
     form: "NormalForm"
     maps: tuple[Polynomial, ...]
@@ -65,7 +63,7 @@ class _Sums(NamedTuple):
     coefficients: Any
 
     def at(self, points: Any) -> Any:
-        """Their values at points (n, d): (n, k)."""
+        """Return their values at points (n, d): (n, k)."""
         powers = points[..., None] ** np.arange(self.exponents.max(initial=0) + 1)
         terms = np.ones((len(points), len(self.exponents)), complex)
         for j, power in enumerate(self.exponents.T):
@@ -84,7 +82,7 @@ def _sums(polynomials: tuple[Polynomial, ...]) -> _Sums:
 
 @lru_cache(maxsize=3)
 def _kinetic(ratio: Any) -> tuple[Any, Any]:
-    """M (3, 3) and g (3) as expressions."""
+    """Return M (3, 3) and g (3) as expressions."""
     import sympy as sp
 
     from lagrotor.algebra import hessian
@@ -104,7 +102,7 @@ def _kinetic(ratio: Any) -> tuple[Any, Any]:
 
 @generated((ratio,) for ratio in RATIOS)
 def _momenta(ratio: Any) -> str:
-    """(U, chi; a, b, k, G_1, G_2) → M, row by row, and g on arrays."""
+    """Return the source of (U, chi; a, b, k, G_1, G_2) → M, row by row, and g on arrays."""
     from lagrotor.numerics.codegen import Program
     from lagrotor.numerics.printers import program_source
     from lagrotor.pair.notation import G_1, G_2, MINIMAL, a, b, k
@@ -114,7 +112,7 @@ def _momenta(ratio: Any) -> str:
 
 
 def _momenta_at(scene: Scene, q: Array) -> tuple[Array, Array]:
-    """M (n, 3, 3) and g (n, 3) at coordinates (n, 3)."""
+    """Return M (n, 3, 3) and g (n, 3) at coordinates (n, 3)."""
     (_, ratio, _), _ = MODEL.kind(scene, False)
     values = _momenta(ratio)(q[:, 0], q[:, 1], *scene.inertias, scene.k, *scene.momenta)
     columns = np.stack([np.broadcast_to(value, len(q)) for value in values], axis=1)
@@ -132,24 +130,25 @@ def _forms(ratio: Any, a: float, b: float, k: float, G_1: float, G_2: float, lea
     numbers = dict(zip((getattr(notation, s) for s in ("a", "b", "k", "G_1", "G_2")), (a, b, k, G_1, G_2), strict=True))
     at = {s: sp.Float(v, 17) for s, v in numbers.items()}
     q = notation.MINIMAL.q
-    rest = dict(zip(q, (sp.Float(lean, 17), sp.S.Zero, sp.S.Zero), strict=True))
-    moved = {s: variable(i, 6, kind=float) for i, s in enumerate(q)}
+    equilibrium = dict(zip(q, (sp.Float(lean, 17), sp.S.Zero, sp.S.Zero), strict=True))
+    displacement = {s: variable(i, 6, kind=float) for i, s in enumerate(q)}
     M, g = (e.xreplace(at) for e in _kinetic(ratio))
     mass, vector = (
-        LocalSeries(rest, moved, through, lambda e: float(sp.N(e, 20))) for through in (order - 2, order - 1)
+        LocalSeries(equilibrium, displacement, through, lambda e: float(sp.N(e, 20)))
+        for through in (order - 2, order - 1)
     )
     inverse = inverse_matrix([[mass.of(M[i, j]) for j in range(3)] for i in range(3)], order - 2)
-    own = [vector.of(e) for e in g]
-    free = [variable(3 + i, 6, kind=float) - (f - f.part(0)) for i, f in enumerate(own)]
+    gyroscopic = [vector.of(e) for e in g]
+    free = [variable(3 + i, 6, kind=float) - (f - f.part(0)) for i, f in enumerate(gyroscopic)]
     H = total(
         [free[i].product(inverse[i][j].product(free[j], order), order) for i in range(3) for j in range(3)]
     ).times(0.5)
     form = normal_form_of_series(H, order)
     maps = tuple(form.original(variable(j, 6)) for j in range(6))
-    turning = int(np.abs(form.vectors[2]).argmax())  # on which nothing depends: rounding is left out
+    turning = int(np.abs(form.vectors[2]).argmax())  # nothing depends on it but rounding
     maps = tuple(f.where((f.exponents[:, turning] == 0) | (f.exponents.sum(1) == 1)) for f in maps)
     form = replace(form, series=form.series.where(form.series.exponents[:, turning] == 0))
-    return Forms(form, maps, turning, lean, np.array([f.part(0).coefficients.sum() for f in own]))
+    return Forms(form, maps, turning, lean, np.array([f.part(0).coefficients.sum() for f in gyroscopic]))
 
 
 def _forms_about(scene: Scene, lean: float, order: int) -> Forms:
@@ -158,7 +157,7 @@ def _forms_about(scene: Scene, lean: float, order: int) -> Forms:
 
 
 def _linear(scene: Scene, forms: Forms, state: Array) -> Any:
-    """The coordinates of H₂ of a state of `minimal`, its azimuth left out."""
+    """Return the coordinates of H₂ of a state of `minimal` without its azimuth."""
     M, g = _momenta_at(scene, state[None, :3])
     p = M[0] @ state[3:] + g[0]
     x = np.concatenate([[state[0] - forms.lean, state[1], 0.0], p - forms.momentum])
@@ -166,28 +165,22 @@ def _linear(scene: Scene, forms: Forms, state: Array) -> Any:
 
 
 def _normal_start(scene: Scene, forms: Forms, order: int, start: Array) -> Any:
-    """Normal coordinates (6,) of a state of `minimal`, by the form through an order, its azimuth left out.
-
-    Raises DomainError where it has none.
-    """
+    """Return the normal coordinates (6,) of a state of `minimal` without its azimuth. Raises DomainError if it has none."""
     maps = _sums(tuple(f.through(order - 1) for f in forms.maps))
     linear = _linear(scene, forms, start)
     y, step = linear, np.inf
     for _ in range(_TRIES):
-        off = linear - maps.at(y[None])[0]
-        y, before, step = y + off, step, float(np.abs(off).max())
-        if not step < before or step < 1e-17:
+        residual = linear - maps.at(y[None])[0]
+        y, previous, step = y + residual, step, float(np.abs(residual).max())
+        if not step < previous or step < 1e-17:
             break
     if not step < 1e-13 or not np.abs(y).max() < 1:
-        raise DomainError("averaged: the start is no small motion about a rest; use model='minimal'")
+        raise DomainError("averaged: the start is no small motion about an equilibrium; use model='minimal'")
     return y
 
 
 def _states(scene: Scene, forms: Forms, order: int, start: Array, t: Array) -> tuple[Array, int]:
-    """States of `minimal` (n, 6) at times t (n,) by the normal form through an order, and the evaluations.
-
-    The slow motion is integrated without the swing's part exp(rate t). Raises DomainError where it does not stay small.
-    """
+    """Return states of `minimal` (n, 6) at times t (n,) by the normal form, and the evaluations. Raises DomainError."""
     from scipy.integrate import solve_ivp
 
     form, swing = forms.form, np.zeros(6, complex)
@@ -202,12 +195,12 @@ def _states(scene: Scene, forms: Forms, order: int, start: Array, t: Array) -> t
         return 1.0 - float(np.abs(form.vectors[:2] @ y).max())
 
     far.terminal = True  # type: ignore[attr-defined]
-    begin, end = _normal_start(scene, forms, order, start), float(t[-1]) or 1e-9  # of the start alone
+    begin, end = _normal_start(scene, forms, order, start), float(t[-1]) or 1e-9  # if the start alone is asked for
     run = solve_ivp(rate, (0.0, end), begin, "DOP853", t_eval=t, events=far, rtol=1e-13, atol=1e-16)
     if run.status != 0:
         raise DomainError("averaged: the swing's centre moves far from where it began; use model='minimal'")
     normal, maps = run.y.T * np.exp(swing * t[:, None]), _sums(tuple(f.through(order - 1) for f in forms.maps))
-    old = np.concatenate([maps.at(part) for part in np.array_split(normal, len(normal) // _AT_ONCE + 1)])
+    old = np.concatenate([maps.at(chunk) for chunk in np.array_split(normal, len(normal) // _AT_ONCE + 1)])
     x = (old @ form.vectors.T).real
     q = x[:, :3] + [forms.lean, 0.0, start[2]]
     M, g = _momenta_at(scene, q)
@@ -215,21 +208,21 @@ def _states(scene: Scene, forms: Forms, order: int, start: Array, t: Array) -> t
 
 
 def _centre(scene: Scene, state: Array) -> float:
-    """The lean U of the centre about which a state of `minimal` swings. Raises DomainError where that is far from it."""
+    """Return the lean U of the centre of the swing of a state of `minimal`. Raises DomainError if it is far away."""
     forms = _forms_about(scene, float(state[0]), 2)
     slow = _linear(scene, forms, state)
     slow[[0, 3]] = 0.0
-    off = float((forms.form.vectors[0] @ slow).real)
-    if not abs(off) < 1:
-        raise DomainError("averaged: the start is no small motion about a rest; use model='minimal'")
-    return float(state[0]) + off
+    offset = float((forms.form.vectors[0] @ slow).real)
+    if not abs(offset) < 1:
+        raise DomainError("averaged: the start is no small motion about an equilibrium; use model='minimal'")
+    return float(state[0]) + offset
 
 
 def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) -> ClosedMotion:
-    """The motion up to t_end (s), by the normal form through 6, or 8 where `tol` needs it.
+    """Return the motion up to t_end (s) by the normal form through order 6, or 8 if `tol` requires it.
 
-    Through a pulse it is integrated, twice. Raises SingularError without a bar, DomainError where the spins are not opposite,
-    the motion is not small or ends within the pulse.
+    A pulse is integrated, twice. Raises SingularError without a bar, DomainError if the spins are not opposite, the motion is
+    not small, or it ends within the pulse.
     """
     if scene.link is None:
         raise SingularError("averaged: the scene has no bar; use model='closed_form'")
@@ -240,64 +233,63 @@ def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) 
             "centre goes"
         )
     units = natural_units(replace(scene, shock=scene.shock_until(t_end)))
-    one, end, begin, starts, spent = units.scene, t_end * units.rate, 0.0, [MODEL.start(units.scene)], 0
-    if one.shock:
-        begin = one.shock.end
+    natural, end, begin, starts, count = units.scene, t_end * units.rate, 0.0, [MODEL.start(units.scene)], 0
+    if natural.shock:
+        begin = natural.shock.end
         if begin >= end:
             raise DomainError("averaged: the run ends within the pulse; use model='minimal'")
-        pulsed = [_pulsed(one, np.array([begin]), k) for k in (0, 1)]
-        starts, spent = [states[-1] for states, _ in pulsed], sum(count for _, count in pulsed)
-    # At single times an error may vanish: a few swings each, all along the run.
+        pulsed = [_pulsed(natural, np.array([begin]), k) for k in (0, 1)]
+        starts, count = [states[-1] for states, _ in pulsed], sum(evaluations for _, evaluations in pulsed)
+    # The error may vanish at single times: sample a few swings all along the run.
     ends = (end - begin) * np.r_[np.geomspace(1e-3, 1, 9), np.linspace(0, 1, 9)]
     grid = np.unique(np.r_[0.0, np.clip(ends[:, None] - np.linspace(0, 8 * np.pi / PACE, 9), 0, end - begin).ravel()])
-    lean = _centre(one, starts[0])
+    lean = _centre(natural, starts[0])
 
     def states(order: int, through: int, start: Array, t: Array) -> Array:
-        nonlocal spent
-        sampled, evaluations = _states(one, _forms_about(one, lean, order), through, start, t)
-        spent += evaluations
+        nonlocal count
+        sampled, evaluations = _states(natural, _forms_about(natural, lean, order), through, start, t)
+        count += evaluations
         return sampled
 
     def distance(first: Array, second: Array) -> Array:
-        apart = MODEL.observe(one, first).axes - MODEL.observe(one, second).axes
+        apart = MODEL.observe(natural, first).axes - MODEL.observe(natural, second).axes
         return np.asarray(np.maximum.accumulate(np.linalg.norm(apart, axis=-1).max(0)))
 
     for order in _ORDERS:
         motions = [states(order, through, starts[0], grid) for through in (order, order - 2, order - 4)]
-        last, before = distance(motions[0], motions[1]), distance(motions[1], motions[2])
+        last, previous = distance(motions[0], motions[1]), distance(motions[1], motions[2])
         rounded = _ROUNDED * (1 + PACE * grid)
-        # Two orders fall as the square of the motion. The first difference may be of another kind, as the turning about the joint
-        # line, which H₂ has not, or the last one nearly vanish, as beside the paired precession: no smaller fall is believed.
-        square = float(np.abs(_normal_start(one, _forms_about(one, lean, order), order, starts[0])).max()) ** 2
-        ratio = np.maximum(last / (before + 10 * rounded), square)
-        last = np.maximum(last, square * before)
+        # Two orders decrease as the square of the motion. A faster decrease is not trusted: the first difference may differ
+        # in kind (rotation about the joint line, which H₂ lacks), or the last nearly vanish (near the paired precession).
+        square = float(np.abs(_normal_start(natural, _forms_about(natural, lean, order), order, starts[0])).max()) ** 2
+        ratio = np.maximum(last / (previous + 10 * rounded), square)
+        last = np.maximum(last, square * previous)
         errors = np.where(ratio < _SLOWEST, FALLING.value * ratio * last, UNKNOWN) + rounded
         if errors.max() <= tol:
             break
-    if one.shock:
+    if natural.shock:
         errors += 3 * distance(motions[0], states(order, order, starts[1], grid))
     errors = np.maximum.accumulate(errors)
-    errors[errors > LOST.value] = UNKNOWN  # as of any run: what is no longer small is no estimate
+    errors[errors > LOST.value] = UNKNOWN  # a large value is no estimate
 
     def motion(t: Array) -> tuple[Array, Array]:
         s = t * units.rate
         early, later = s[s < begin], s[s >= begin] - begin
-        parts = [_pulsed(one, early, 0)[0]] if len(early) else []
-        parts += [_states(one, _forms_about(one, lean, order), order, starts[0], later)[0]] if len(later) else []
-        seen = MODEL.observe(one, np.vstack(parts))
-        return seen.axes, seen.rates * units.rate
+        blocks = [_pulsed(natural, early, 0)[0]] if len(early) else []
+        blocks += (
+            [_states(natural, _forms_about(natural, lean, order), order, starts[0], later)[0]] if len(later) else []
+        )
+        observed = MODEL.observe(natural, np.vstack(blocks))
+        return observed.axes, observed.rates * units.rate
 
     return ClosedMotion(
-        float(errors[-1]),
-        f"opposite spins averaged over the swing, by the normal form of order {order}",
-        motion,
-        lambda t: errors[np.minimum(np.searchsorted(grid, t * units.rate - begin), len(grid) - 1)],
-        spent,
-    )
+        float(errors[-1]), f"opposite spins averaged over the swing, by the normal form of order {order}", motion,
+        lambda t: errors[np.minimum(np.searchsorted(grid, t * units.rate - begin), len(grid) - 1)], count,
+    )  # fmt: skip
 
 
 def _pulsed(scene: Scene, t: Array, k: int) -> tuple[Array, int]:
-    """States of `minimal` through the pulse at times t, by the better integration (k = 0) or the other, and the evaluations."""
+    """Return the states of `minimal` through the pulse by integration k = 0 (more exact) or 1, and the evaluations."""
     times = np.unique(np.r_[0.0, t])
     try:
         run = integrate_model(MODEL, scene, times, _PULSE[k], companion=k > 0, budget=_MOST)

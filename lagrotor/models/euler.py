@@ -1,6 +1,6 @@
 """Rung 5: the paper's own coordinates, two sets of Euler angles with a multiplier for the bar. Twelve states.
 
-Exact for any bar, but singular at theta = 0, which is the rest state: kept to be compared, not to be preferred.
+Exact for any bar, but singular at theta = 0, the equilibrium: a model for comparison.
 """
 
 from __future__ import annotations
@@ -25,7 +25,6 @@ Kind = tuple[bool, int]  # massive bar, shocked rotor (0: none)
 
 
 def program(massive: bool, body: int) -> Program:
-    """The program of one kind; see `lagrotor.models.programs.euler_program`."""
     from lagrotor.models.programs import euler_program
 
     return euler_program.program(massive, body)
@@ -55,7 +54,7 @@ def _axes() -> str:
 
 
 def _kind(scene: Scene, driven: bool) -> tuple[Kind, tuple[float, ...]]:
-    """The scene's kind and the values of its parameters but for the force."""
+    """Return the scene's kind and its parameter values except the force."""
     inertia_a, inertia_b = scene.inertias
     massive = inertia_b != 0
     body = scene.shock.body if driven and scene.shock else 0
@@ -90,10 +89,10 @@ def _start(scene: Scene) -> Array:
 
 def _observe(scene: Scene, states: Array) -> Observed:
     columns = _axes()(*states.T)
-    parts = np.stack(columns).reshape(2, 2, 3, -1).transpose(0, 1, 3, 2)
+    blocks = np.stack(columns).reshape(2, 2, 3, -1).transpose(0, 1, 3, 2)
     theta, phi_v, psi_v = states[:, [0, 3]], states[:, [7, 10]], states[:, [8, 11]]
     spins = psi_v + phi_v * np.cos(theta)
-    return Observed(parts[0], parts[1], scene.rotor.I3 * spins.T)
+    return Observed(blocks[0], blocks[1], scene.rotor.I3 * spins.T)
 
 
 def _singular(axes: Array) -> str:

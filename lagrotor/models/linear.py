@@ -1,12 +1,12 @@
-"""Normal modes. Small motion about the upright rest state at any time at once, for any spins and any bar.
+"""Rung 2: normal modes. Small motion about the upright equilibrium at any time at once, for any spins and any bar.
 
-The coordinates are those of `minimal`, q = (U, chi, alpha): the bar keeps its length and the axes stay unit vectors, and
-turning about the joint line, a symmetry, may be large. To first order M q'' + C q' = Q(t); with N = M⁻¹ C and
-A = [[0, 1], [0, −N]] on (q, q'), A² (A² + Omega²) = 0, so
+The coordinates are those of `minimal`, q = (U, chi, alpha). The bar and the axes therefore keep their lengths, and the rotation
+about the joint line, a symmetry, may be large. To first order M q'' + C q' = Q(t). With N = M⁻¹ C and A = [[0, 1], [0, −N]] on
+(q, q'), A² (A² + Omega²) = 0, so that
 
     exp(A t) = 1 + A t + A² (1 − cos Omega t)/Omega² + A³ (Omega t − sin Omega t)/Omega³.
 
-A pulse adds the response of `theory.shock_response`. `linear_error` estimates what is left out.
+A pulse adds the response of `theory.shock_response`. `linear_error` estimates the error of the linearisation.
 """
 
 from dataclasses import dataclass, replace
@@ -31,18 +31,17 @@ LINEAR_MARGIN = Calibrated(
     "8,000 random scenes with an estimate up to 0.1: at most 1.05 times off",
     "test_linear.py::test_the_linear_error_is_bounded",
 )
-_FARTHEST = pi / 3  # lean across the joint line or twist (rad) beyond which small motion means nothing
-_SAFETY = 1.1  # of 500 shocks up to 0.4 of the spin's momentum and 3 swings: largest 1.02
-_FARTHEST_OFF = 0.1  # estimated error beyond which the next orders are no estimate
-_FAR = 0.1  # rad about the joint line below which turning spreads no error
-# Points of the error's quadrature: in all before, within and after a pulse each, more a turn, and the most.
+_FARTHEST = pi / 3  # the largest lean across the joint line, and twist (rad), of small motion
+_SAFETY = 1.1  # for 500 shocks up to 0.4 of the spin's momentum and 3 swings the largest ratio is 1.02
+_FARTHEST_OFF = 0.1  # the largest error that the next orders estimate
+_FAR = 0.1  # rad about the joint line: a smaller rotation spreads no error
+# Points of the quadrature: before, within and after a pulse each; per turn; at most.
 _A_PART, _A_TURN, _MOST = 17, 24, 100_000
 
 
 @dataclass(frozen=True, eq=False)
 class LinearPair:
-    """The linear pair of a scene in q = (U, chi, alpha). upright: dq → d(x, y_1, y_2); mass: M; turning: N = M⁻¹ C, all
-    (3, 3); frequency: Omega (rad/s)."""
+    """The matrices in q = (U, chi, alpha). upright: dq → d(x, y_1, y_2); M; turning: N = M⁻¹ C; frequency: Omega (rad/s)."""
 
     upright: Array
     mass: Array
@@ -50,7 +49,7 @@ class LinearPair:
     frequency: float
 
     def free(self, q: Array, v: Array, t: Array) -> Array:
-        """exp(A t) (q, v) at times t (n,): (n, 6)."""
+        """Return exp(A t) (q, v) at times t (n,): (n, 6)."""
         Omega, t = self.frequency, t[:, None]
         once, twice = self.turning @ v, self.turning @ self.turning @ v
         if Omega == 0:
@@ -59,7 +58,7 @@ class LinearPair:
         return np.hstack([q + t * v - versed * once + (t - sine) / Omega**2 * twice, v - sine * once + versed * twice])
 
     def answer(self, t: Array, push: Array) -> Array:
-        """What accelerations `push` (n, 3) at the times t (n,) change (q, v) by: ∫ (right half of exp A(t − s)) push ds."""
+        """Return the change of (q, v) by accelerations `push` (n, 3) at t (n,): ∫ (right half of exp A(t − s)) push ds."""
         Omega, t, once, twice = self.frequency, t[:, None], self.turning.T, (self.turning @ self.turning).T
         received = _integral(t, push)
         drift = t * received - _integral(t, t * push)
@@ -68,19 +67,19 @@ class LinearPair:
         c, s = np.cos(Omega * t), np.sin(Omega * t)
         even, odd = _integral(t, c * push), _integral(t, s * push)
         versed, sine = (received - c * even - s * odd) / Omega**2, (s * even - c * odd) / Omega
-        moved = drift - versed @ once + (drift - sine) / Omega**2 @ twice
-        return np.hstack([moved, received - sine @ once + versed @ twice])
+        displacement = drift - versed @ once + (drift - sine) / Omega**2 @ twice
+        return np.hstack([displacement, received - sine @ once + versed @ twice])
 
 
 def _integral(t: Array, values: Array) -> Array:
-    """∫ values dt from the first time to each, by trapezia, (n, 3)."""
+    """Return ∫ values dt from the first time to each, by trapezia, (n, 3)."""
     steps = np.diff(t, axis=0) * (values[1:] + values[:-1]) / 2
     return np.vstack([np.zeros((1, values.shape[1])), np.cumsum(steps, axis=0)])
 
 
 @generated(((),))
 def _matrices() -> str:
-    """(a, b, G_1, G_2) → M and C in (x, y_1, y_2) and Omega, 19 numbers."""
+    """Return the source of (a, b, G_1, G_2) → M and C in (x, y_1, y_2) and Omega, 19 numbers."""
     from lagrotor.numerics.codegen import Program
     from lagrotor.numerics.printers import program_source
     from lagrotor.theory.impulse_response import impulse_matrices
@@ -99,41 +98,37 @@ def _toppling_growth() -> str:
 
 
 def pair_modes(scene: Scene) -> LinearPair:
-    """The linear pair of a scene, about the upright rest state. Raises SingularError without a bar."""
+    """Return the linear pair about upright. Raises SingularError without a bar."""
     if scene.link is None:
         raise SingularError("linear: the scene has no bar; use model='closed_form' or 'spheres'")
     # sin Delta = k sin chi for a bar shorter than the axes; y_i = −alpha_i.
     twist = min(1.0, scene.link.length / scene.rotor.length) / 2
     upright = np.array([[1, 0, 0], [0, twist, -1], [0, -twist, -1]])
     numbers = _matrices()(*scene.inertias, *scene.momenta)
-    mass, gyroscopic = (upright.T @ np.reshape(part, (3, 3)) @ upright for part in (numbers[:9], numbers[9:18]))
+    mass, gyroscopic = (upright.T @ np.reshape(block, (3, 3)) @ upright for block in (numbers[:9], numbers[9:18]))
     return LinearPair(upright, mass, np.linalg.solve(mass, gyroscopic), float(numbers[18]))
 
 
 def _linear_states(scene: Scene, t: Array) -> Array:
-    """(U, chi, alpha, rates) of the linear motion at times t (n,) in s: (n, 6).
-
-    Raises SingularError without a bar or for an axis along the joint line, DomainError where the motion leaves
-    |U|, |chi| <= pi/3.
-    """
+    """Return (U, chi, alpha, rates) of the linear motion at t (n,): (n, 6). Raises DomainError beyond |U|, |chi| = pi/3."""
     linear, start = pair_modes(scene), MODEL.start(scene)
     states, shock = linear.free(start[:3], start[3:], t), scene.shock_until(float(t[-1]))
     if shock is not None:
         pulse, response = _pulsed(scene, linear, _straightened(linear, start, shock), np.append(t, 0.0))
-        # The pulse may have begun before t = 0: the start is what it is.
+        # The pulse may have begun before t = 0, and its earlier effect is part of the start.
         states += pulse - linear.free(response[:3], response[3:], t)
-    off = np.abs(states[:, :2]).max(axis=1)
-    if not off.max() <= _FARTHEST:
-        where = int(np.argmax(~(off <= _FARTHEST)))
+    tilts = np.abs(states[:, :2]).max(axis=1)
+    if not tilts.max() <= _FARTHEST:
+        where = int(np.argmax(~(tilts <= _FARTHEST)))
         raise DomainError(
-            f"linear: at t = {t[where]:.4g} s the motion is {np.degrees(off[where]):.3g}° from rest, across the joint line "
-            f"or in twist; beyond {np.degrees(_FARTHEST):.0f}° small motion means nothing: use model='minimal'"
+            f"linear: at t = {t[where]:.4g} s the motion is {np.degrees(tilts[where]):.3g}° from rest, across the joint line "
+            f"or in twist; above {np.degrees(_FARTHEST):.0f}° the linear model is meaningless: use model='minimal'"
         )
     return states
 
 
 def _straightened(linear: LinearPair, start: Array, shock: Shock) -> Shock:
-    """The shock as an upright pair feels it: turned back by the azimuth that its axis has when the pulse peaks."""
+    """Return the shock in the frame of an upright pair, rotated by the azimuth of the axis at the peak of the pulse."""
     at = linear.free(start[:3], start[3:], np.array([max(shock.at, 0.0)]))[0]
     angle = -(linear.upright @ at[:3])[shock.body]
     fx, fy, fz = shock.force
@@ -142,7 +137,7 @@ def _straightened(linear: LinearPair, start: Array, shock: Shock) -> Shock:
 
 
 def _pulsed(scene: Scene, linear: LinearPair, shock: Shock, t: Array) -> tuple[Array, Array]:
-    """The response to the pulse at all times but the last (n, 6), and at the last (6,)."""
+    """Return the response to the pulse at all times but the last (n, 6), and at the last (6,)."""
     from scipy.special import erfc
 
     response = pulse_response(scene, shock)
@@ -154,21 +149,12 @@ def _pulsed(scene: Scene, linear: LinearPair, shock: Shock, t: Array) -> tuple[A
 
 
 def linear_run(scene: Scene, t: Array) -> Observed:
-    """Axes and rates of the linear motion at times t (n,).
-
-    Raises
-    ------
-    SingularError
-        Without a bar, or for an axis along the joint line.
-    DomainError
-        Where the motion leaves |U|, |chi| <= pi/3.
-    """
+    """Return axes and rates of the linear motion at t (n,). Raises DomainError beyond |U|, |chi| = pi/3."""
     return MODEL.observe(scene, _linear_states(scene, t))
 
 
 def linear_motion(scene: Scene, t_end: float, tol: float, best: bool = False) -> ClosedMotion:
-    """The linear motion as `closed_form` gives its own, with its error up to t_end (s), whatever the tolerance. Raises as
-    `linear_error`; best: as `linear_run` alone, with an error of NaN where it is not known."""
+    """Return the linear motion with its error up to t_end (s); with `best` an unknown error is NaN."""
     try:
         error = linear_error(scene, t_end)
     except DomainError:
@@ -177,27 +163,20 @@ def linear_motion(scene: Scene, t_end: float, tol: float, best: bool = False) ->
         error = nan
 
     def motion(t: Array) -> tuple[Array, Array]:
-        seen = linear_run(scene, t)
-        return seen.axes, seen.rates
+        observed = linear_run(scene, t)
+        return observed.axes, observed.rates
 
     return ClosedMotion(error, "small motion: normal modes", motion)
 
 
 def linear_error(scene: Scene, t_end: float) -> float:
-    """Largest error of an axis (tips: in units of R) of the linear motion up to t_end (s): the next two terms, integrated.
+    """Return the largest error of an axis (tips: in units of R) of the linear motion up to t_end (s).
 
-    Along the linear motion the exact equations leave a defect of second order; the linear pair's answer to it is the
-    error, to leading order. The answer to the defect of the motion so corrected has the next order, too; by how much the
-    two differ is added for the orders beyond. A pair that turns far about the joint line carries this from one coordinate
-    into the other, and may leave the turning exponentially: `_spread` is by how much. LINEAR_MARGIN times the sum is given,
-    2 where that is not small: two axes are at most opposite.
-
-    Raises
-    ------
-    SingularError
-        As `linear_run`.
-    DomainError
-        As `linear_run`, and for a run of so many turns that the sum would cost more than it saves.
+    The exact equations have a residual of second order along the linear motion, and the response of the linear pair to it is
+    the leading error. The residual of the corrected motion has the next order; the difference of both is added. A rotation
+    far about the joint line mixes the coordinates and may grow exponentially: see `_spread`. The sum is multiplied by
+    LINEAR_MARGIN. The result is 2, the diameter, if it is not small. Raises the errors of `linear_run`, and DomainError for a
+    run of too many turns.
     """
     linear, shock = pair_modes(scene), scene.shock_until(t_end)
     turns = linear.frequency * t_end / (2 * pi)
@@ -206,39 +185,44 @@ def linear_error(scene: Scene, t_end: float) -> float:
     pulse = shock.at + shock.width * np.linspace(-4, 4, 65) if shock else np.empty(0)
     pulse = pulse[(pulse > 0) & (pulse < t_end)]
     ends = [0.0, *pulse[:1], *pulse[-1:], t_end]
-    parts = (
+    grids = (
         np.linspace(a, b, _A_PART + int(_A_TURN * linear.frequency * (b - a) / (2 * pi))) for a, b in pairwise(ends)
     )
-    t = np.unique(np.concatenate([pulse, *parts]))
+    t = np.unique(np.concatenate([pulse, *grids]))
     states = _linear_states(scene, t)
-    with np.errstate(all="ignore"):  # of a motion that is not small the corrections may have no end
+    with np.errstate(all="ignore"):  # corrections of a large motion may diverge
         first = linear.answer(t, _defect(scene, linear, shock, t, states))
         second = linear.answer(t, _defect(scene, linear, shock, t, states + first))
-        axes = [MODEL.observe(scene, states + part).axes for part in (second, 0.0, first)]
-        known, unsure = (float(np.linalg.norm(axes[0] - other, axis=-1).max()) for other in axes[1:])
+        axes = [MODEL.observe(scene, states + correction).axes for correction in (second, 0.0, first)]
+        leading, unsure = (float(np.linalg.norm(axes[0] - reference, axis=-1).max()) for reference in axes[1:])
     since = max(0.0, shock.at) if shock else 0.0
-    error = LINEAR_MARGIN.value * (known + unsure * _spread(scene, float(np.ptp(states[:, 2])), t_end - since))
+    error = LINEAR_MARGIN.value * (leading + unsure * _spread(scene, float(np.ptp(states[:, 2])), t_end - since))
     return error if error < _FARTHEST_OFF else UNKNOWN
 
 
 def shock_response_error(scene: Scene, t_end: float) -> float:
-    """Error of `shock_response(scene).through` up to t_end (s): of (x, y) of either axis, in units of R.
+    """Return the error of `shock_response(scene).through` for (x, y) of the axes, in units of R.
 
-    The linear motion keeps the bar's length and the axes' in curved coordinates; its distance from the response in
-    (x, y_1, y_2) is known exactly, and its own error is below `linear_error`. SAFETY times both is taken; second order.
+    The linear motion keeps lengths in curved coordinates. Its distance from the response is known, and its error is below
+    `linear_error`. Their sum is multiplied by a safety factor.
 
-    Raises
-    ------
-    InputError
-        As `shock_response`.
-    DomainError
-        As `linear_error`, or where the error is beyond 0.1.
+    Parameters
+    ----------
+    scene : Scene
+        The pair with its shock.
+    t_end : float
+        The end of the run, s.
+
+    Returns
+    -------
+    float
+        The error, of second order in the motion, at most 0.1.
     """
     response = shock_response(scene)
     t = np.linspace(0.0, t_end, 17 + int(_A_TURN * response.frequency * t_end / (2 * pi)))
-    axes, seen = linear_run(scene, t).axes, response.through(t)
-    off = np.stack([axes[i, :, :2] - seen[:, [0, i + 1]] for i in (0, 1)])
-    error = _SAFETY * (float(np.linalg.norm(off, axis=-1).max()) + linear_error(scene, t_end))
+    axes, predicted = linear_run(scene, t).axes, response.through(t)
+    difference = np.stack([axes[i, :, :2] - predicted[:, [0, i + 1]] for i in (0, 1)])
+    error = _SAFETY * (float(np.linalg.norm(difference, axis=-1).max()) + linear_error(scene, t_end))
     if not error <= _FARTHEST_OFF:
         raise DomainError(
             f"shock_response_error: an error of about {error:.2g} by t = {t_end:g} s, beyond {_FARTHEST_OFF:g}: the response is "
@@ -248,9 +232,9 @@ def shock_response_error(scene: Scene, t_end: float) -> float:
 
 
 def _spread(scene: Scene, angle: float, duration: float) -> float:
-    """(1 + angle/(2k)) exp(growth duration): what turning by `angle` (rad) in `duration` (s) may make of an error.
+    """Return (1 + angle/(2k)) exp(growth duration), the factor on an error by rotation through `angle` (rad) in `duration` (s).
 
-    G U' = −(G nu/k) Delta is the stronger coupling beside uniform turning at nu; the growth is that of opposite spins.
+    G U' = −(G nu/k) Delta is the stronger coupling to uniform rotation at nu. The growth is that of opposite spins.
     """
     assert scene.link is not None
     if angle < _FAR or duration <= 0:
@@ -262,7 +246,7 @@ def _spread(scene: Scene, angle: float, duration: float) -> float:
 
 
 def _defect(scene: Scene, linear: LinearPair, shock: Shock | None, t: Array, states: Array) -> Array:
-    """Exact less linear acceleration along the linear motion, (n, 3)."""
+    """Return the exact minus the linear acceleration along the linear motion, (n, 3)."""
     kind, values = MODEL.kind(replace(scene, shock=shock), True)
     parameters: list[Any] = [*values]
     acceleration = -states[:, 3:] @ linear.turning.T

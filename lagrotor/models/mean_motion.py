@@ -1,8 +1,8 @@
-"""The slow motion measured on exact runs: mean rates after a shock, the force that cancels a drift, times to leave, and by how
-much the laws of `theory` for them are wrong.
+"""The slow motion measured on exact runs: mean rates after a shock, the force that cancels a drift, times to a bound.
 
-Oscillations are averaged out by the weight exp(−1/(u (1 − u))) over the window, u from 0 to 1: of one with n turns within
-it about exp(−sqrt(4 pi n)) is left. A mean rate depends on the window besides, as the rate itself changes.
+`*_error` compare the laws of `theory` with these measurements. Oscillations are averaged out by the weight exp(−1/(u (1 − u)))
+over the window, u from 0 to 1; of an oscillation with n turns about exp(−sqrt(4 pi n)) remains. A mean rate also depends on the
+window, because the rate itself changes.
 """
 
 from dataclasses import replace
@@ -23,19 +23,24 @@ from lagrotor.theory.drift_after_shock import cancelling_force, toppling_after_s
 from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.shock_response import shock_response
 
-_SAMPLES = 32  # a turn of the swing
-_LEAST = 4  # swings of an exact run, below which no mean separates the drift from the swing
-_MOST = 10_000  # swings of an exact run, beyond which it takes too long
-_LONGEST = 3  # times what the averaged motion takes, of an exact run
+_SAMPLES = 32  # per swing
+_LEAST = 4  # the fewest swings whose mean separates drift and swing
+_MOST = 10_000  # the most swings of an exact run
+_LONGEST = 3  # the length of an exact run in times of the averaged motion
 
 
 def mean_over(t: Array, values: Array) -> float:
-    """Return the mean of values (n,) at evenly spaced times t (n,), oscillations averaged out.
+    """Return the mean of values at evenly spaced times, with oscillations averaged out.
 
-    Raises
-    ------
-    DomainError
-        For n < 8.
+    Parameters
+    ----------
+    t, values : Array
+        The times, s, and the values, (n,) with n ≥ 8.
+
+    Returns
+    -------
+    float
+        The weighted mean.
     """
     if len(t) < 8:
         raise DomainError(f"mean_over: {len(t)} values are too few for a mean")
@@ -45,33 +50,55 @@ def mean_over(t: Array, values: Array) -> float:
 
 
 def turning_rate(run: Trajectory) -> float:
-    """Return the mean alpha' (rad/s) of both axes over a run of evenly spaced times, alpha the angle about the joint line."""
+    """Return the mean rotation rate of both axes about the joint line.
+
+    Parameters
+    ----------
+    run : Trajectory
+        A run with evenly spaced times.
+
+    Returns
+    -------
+    float
+        The mean of alpha', rad/s.
+    """
     r, v = run.axes, run.rates
     rate = (r[..., 1] * v[..., 2] - r[..., 2] * v[..., 1]) / (r[..., 1] ** 2 + r[..., 2] ** 2)
     return mean_over(run.t, rate.mean(0))
 
 
 def wandering_rate(run: Trajectory) -> float:
-    """Return the mean x' (1/s) of both axes over a run of evenly spaced times."""
+    """Return the mean drift rate of both axes along the joint line.
+
+    Parameters
+    ----------
+    run : Trajectory
+        A run with evenly spaced times.
+
+    Returns
+    -------
+    float
+        The mean of x', 1/s.
+    """
     return mean_over(run.t, run.rates[..., 0].mean(0))
 
 
 def run_after(scene: Scene, turns: float = 24, tol: float = 1e-11) -> Trajectory:
-    """Return an exact run from the end of a scene's shock, evenly sampled.
+    """Integrate an exact run from the end of a scene's shock, with evenly spaced times.
 
     Parameters
     ----------
     scene : Scene
-        With a shock.
+        The pair, with a shock and a spin.
     turns : float, default 24
-        Swings that it lasts.
+        The number of swings.
     tol : float, default 1e-11
-        As in `simulate`.
+        The largest error of an axis, as in `simulate`.
 
-    Raises
-    ------
-    InputError
-        Without a shock or spin.
+    Returns
+    -------
+    Trajectory
+        The run after the shock.
     """
     response = shock_response(scene)
     if scene.shock is None or response.frequency == 0:
@@ -82,16 +109,19 @@ def run_after(scene: Scene, turns: float = 24, tol: float = 1e-11) -> Trajectory
 
 
 def exact_cancelling_force(scene: Scene, turns: float = 24) -> float:
-    """Return F_y (N) beside the force along x for which the exact mean turning over `turns` swings vanishes.
+    """Return the force along y for which the exact mean rotation vanishes.
 
-    To 1e-7 of itself; it depends on `turns`, as the turning that is left changes with time.
+    Parameters
+    ----------
+    scene : Scene
+        The pair, with a shock that has a force along x.
+    turns : float, default 24
+        The number of swings of the mean, on which the force depends.
 
-    Raises
-    ------
-    InputError
-        As `cancelling_force`.
-    DomainError
-        Where no such force is found.
+    Returns
+    -------
+    float
+        The force F_y, N, with a relative error of 1e-7.
     """
     from scipy.optimize import newton
 
@@ -100,34 +130,34 @@ def exact_cancelling_force(scene: Scene, turns: float = 24) -> float:
     shock, guess = scene.shock, cancelling_force(scene)
 
     def turning(force: float) -> float:
-        moved = replace(shock, force=(shock.force[0], force, 0.0))
-        return turning_rate(run_after(replace(scene, shock=moved), turns, 1e-10))
+        trial = replace(shock, force=(shock.force[0], force, 0.0))
+        return turning_rate(run_after(replace(scene, shock=trial), turns, 1e-10))
 
     try:
         return float(newton(turning, guess, x1=1.03 * guess, tol=1e-7 * abs(guess), maxiter=20))
     except RuntimeError:
         raise DomainError(
-            f"exact_cancelling_force: no force near {guess:.4g} N, that of a weak shock, is found that stops the turning; "
+            f"exact_cancelling_force: no force near {guess:.4g} N, the value for a weak shock, stops the turning; "
             "take a weaker shock or fewer turns"
         ) from None
 
 
 def time_to_wander(scene: Scene, bound: float, longest: float) -> float:
-    """Return the time (s) from the shock's peak until the mean of both x, averaged over six swings, reaches ± `bound`.
+    """Return the time from the peak of the shock until the mean of both x, over six swings, reaches ± `bound`.
 
     Parameters
     ----------
     scene : Scene
-        With a shock.
+        The pair, with a shock.
     bound : float
-        Of x, in units of R.
+        The bound of x, in units of R.
     longest : float
-        S, after which it is given up.
+        The end of the search, s. DomainError says that the bound is not reached by then.
 
-    Raises
-    ------
-    DomainError
-        When it does not within `longest`, or does within the first swings.
+    Returns
+    -------
+    float
+        The time, s.
     """
     run = run_after(scene, 6 + int(np.ceil(longest * shock_response(scene).frequency / (2 * np.pi))), 1e-9)
     t, values, shock = run.t, run.axes[..., 0].mean(0), scene.shock
@@ -144,76 +174,89 @@ def time_to_wander(scene: Scene, bound: float, longest: float) -> float:
 
 
 def toppling_error(scene: Scene, duration: float) -> float:
-    """Return how far (rad/s) `toppling_after_shock` is from the exact mean rate.
+    """Return the error of `toppling_after_shock` against the exact mean rate.
 
-    The mean is from the pulse's end to `duration` s after its peak.
+    Parameters
+    ----------
+    scene : Scene
+        The pair, with a shock.
+    duration : float
+        The end of the mean after the peak of the pulse, s: 4 to 10⁴ swings. The mean begins at the end of the pulse.
 
-    Raises
-    ------
-    InputError
-        As `toppling_after_shock`, or the duration is no finite number.
-    DomainError
-        Below 4 swings after the pulse, or beyond 10⁴.
+    Returns
+    -------
+    float
+        The error, rad/s.
     """
     law = toppling_after_shock(scene)
     return abs(turning_rate(run_after(scene, _turns(scene, duration, "toppling_error"))) - law)
 
 
 def wander_error(scene: Scene, duration: float) -> float:
-    """Return how far (1/s) `wander_after_shock` is from the exact mean rate of x, over the same time as in `toppling_error`.
+    """Return the error of `wander_after_shock` against the exact mean rate of x.
 
-    Raises
-    ------
-    InputError
-        As `toppling_error`.
-    DomainError
-        As `toppling_error`.
+    Parameters
+    ----------
+    scene : Scene
+        The pair, with a shock.
+    duration : float
+        The end of the mean after the peak of the pulse, s.
+
+    Returns
+    -------
+    float
+        The error, 1/s.
     """
     law = wander_after_shock(scene)
     return abs(wandering_rate(run_after(scene, _turns(scene, duration, "wander_error"))) - law)
 
 
 def cancelling_force_error(scene: Scene, duration: float) -> float:
-    """Return how far (N) `cancelling_force` is from the force that leaves no exact mean turning.
+    """Return the error of `cancelling_force` against the force without exact mean rotation.
 
-    The mean is over the same time as in `toppling_error`.
+    Parameters
+    ----------
+    scene : Scene
+        The pair, with a shock.
+    duration : float
+        The end of the mean after the peak of the pulse, s.
 
-    Raises
-    ------
-    InputError
-        As `toppling_error`.
-    DomainError
-        As `toppling_error` and `exact_cancelling_force`.
+    Returns
+    -------
+    float
+        The error, N.
     """
     law, turns = cancelling_force(scene), _turns(scene, duration, "cancelling_force_error")
-    return abs(exact_cancelling_force(scene, turns) - law) if law else 0.0  # nothing along x, nothing to cancel
+    return abs(exact_cancelling_force(scene, turns) - law) if law else 0.0  # without force along x there is no drift
 
 
 def _turns(scene: Scene, duration: float, where: str) -> float:
-    """Return the swings from the pulse's end to `duration` s after its peak."""
+    """Return the number of swings from the end of the pulse to `duration` s after its peak."""
     assert scene.shock is not None
-    after, turn = scene.shock.end - scene.shock.at, 2 * np.pi / natural_rate(scene)
-    turns = (finite_number(duration, f"{where}: duration", "s") - after) / turn
+    delay, turn = scene.shock.end - scene.shock.at, 2 * np.pi / natural_rate(scene)
+    turns = (finite_number(duration, f"{where}: duration", "s") - delay) / turn
     if not _LEAST * (1 - 1e-9) <= turns <= _MOST:
         raise DomainError(
             f"{where}: duration = {duration:g} s is {turns:.3g} swings after the pulse, over which no mean is known: take "
-            f"{_LEAST * turn + after:.3g} to {_MOST * turn + after:.3g} s after its peak"
+            f"{_LEAST * turn + delay:.3g} to {_MOST * turn + delay:.3g} s after its peak"
         )
     return turns
 
 
 def time_to_reach_error(scene: Scene, x: float) -> float:
-    """Return how far (s) `time_to_reach` is from the time at which the exact mean over six swings (`time_to_wander`) gets there.
+    """Return the error of `time_to_reach` against the time of the exact mean over six swings.
 
-    A sample of that run, 1/32 swing, is added. It is inf where the averaged motion does not get there.
+    Parameters
+    ----------
+    scene : Scene
+        The pair, with a shock.
+    x : float
+        The bound, in units of R.
 
-    Raises
-    ------
-    InputError
-        As `time_to_reach`.
-    DomainError
-        As `time_to_reach`, where the exact motion reaches x within the first swings or not within 3 times as
-        long, and where its run is longer than 10⁴ swings.
+    Returns
+    -------
+    float
+        The error plus the sampling step of 1/32 swing, s; inf if the averaged motion does not reach x.
     """
     law, turn = time_to_reach(scene, x), 2 * np.pi / natural_rate(scene)
     if law == np.inf:
@@ -227,16 +270,19 @@ def time_to_reach_error(scene: Scene, x: float) -> float:
 
 
 def guiding_centre_error(scene: Scene, t: ArrayLike) -> Array:
-    """Return how far (rad), in beta, h or alpha, `guiding_centre(scene).path(t)` is from the centre of the exact state, (n,).
+    """Return the distance of `guiding_centre(scene).path(t)` from the centre of the exact state.
 
-    The centre of the exact state, of leading order itself, swings a little.
+    Parameters
+    ----------
+    scene : Scene
+        The pair.
+    t : array_like
+        The times (n,), s.
 
-    Raises
-    ------
-    InputError
-        As `guiding_centre` and its path.
-    DomainError
-        Likewise, where the exact motion has no centre, and where it is longer than 10⁴ swings.
+    Returns
+    -------
+    Array
+        The largest difference of beta, h and alpha, (n,), rad. The exact centre, of leading order, oscillates slightly.
     """
     centre, turn = guiding_centre(scene), 2 * np.pi / abs(natural_rate(scene))
     times = check_times("guiding_centre_error", t)
@@ -247,6 +293,6 @@ def guiding_centre_error(scene: Scene, t: ArrayLike) -> Array:
         )
     path = centre.path(times)
     run = simulate(scene, np.union1d(0.0, times), "minimal", 1e-9)
-    off = path - [guiding_centre(start).place for start in scenes_of(scene, run)][-len(times) :]
-    off[:, 2] = (off[:, 2] + np.pi) % (2 * np.pi) - np.pi
-    return np.asarray(np.abs(off).max(1))
+    difference = path - [guiding_centre(start).place for start in scenes_of(scene, run)][-len(times) :]
+    difference[:, 2] = (difference[:, 2] + np.pi) % (2 * np.pi) - np.pi
+    return np.asarray(np.abs(difference).max(1))

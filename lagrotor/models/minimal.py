@@ -1,4 +1,4 @@
-"""Rung 3: the bar eliminated. Three free coordinates (U, chi, alpha), no constraint, nothing that can drift.
+"""Rung 3: the bar eliminated. Three free coordinates (U, chi, alpha), no constraint, hence no drift off a constraint.
 
 Exact for any bar and any k = ell / R. Singular only where an axis lies along the joint line.
 """
@@ -21,14 +21,13 @@ if TYPE_CHECKING:
     from lagrotor.models.programs.minimal_program import Ratio
     from lagrotor.numerics.codegen import Program
 
-_NEAR = 1e-3  # rad from the joint line, where the coordinates U grow without end
+_NEAR = 1e-3  # rad from the joint line, where U diverges
 Kind = tuple[bool, "Ratio", int]  # massive bar, ell against R, shocked rotor (0: none)
 RATIOS: tuple[Ratio, ...] = ("short", "equal", "long")
 _KINDS: tuple[Kind, ...] = tuple(product((False, True), RATIOS, (0, 1, 2)))
 
 
 def program(massive: bool, ratio: Ratio, body: int) -> Program:
-    """The program of one kind; see `lagrotor.models.programs.minimal_program`."""
     from lagrotor.models.programs import minimal_program
 
     return minimal_program.program(massive, ratio, body)
@@ -43,7 +42,7 @@ def _rhs(massive: bool, ratio: Ratio, body: int, bounded: bool) -> str:
 
 @generated(_KINDS)
 def rhs_on_arrays(massive: bool, ratio: Ratio, body: int) -> str:
-    """The outputs of one kind's program on arrays that broadcast."""
+    """Return the source of one kind's program on arrays that broadcast."""
     from lagrotor.numerics.printers import program_source
 
     return program_source(program(massive, ratio, body), "numpy")
@@ -65,7 +64,7 @@ def _ratio(scene: Scene) -> tuple[float, Ratio]:
 
 
 def _kind(scene: Scene, driven: bool) -> tuple[Kind, tuple[float, ...]]:
-    """The scene's kind and the values of its parameters but for the force."""
+    """Return the scene's kind and its parameter values except the force."""
     inertia_a, inertia_b = scene.inertias
     value, ratio = _ratio(scene)
     massive = inertia_b != 0
@@ -88,7 +87,7 @@ def _start(scene: Scene) -> Array:
     twist = (alpha[1] - alpha[0] + np.pi) % (2 * np.pi) - np.pi
     w, twist_v, w_v = u[0] - u[1], alpha_v[1] - alpha_v[0], u_v[0] - u_v[1]
     if ratio == "short":
-        # Where the bar starts to fold over, Delta turns back while chi and w go on: take the rate from both.
+        # Where the bar begins to fold over, Delta has an extremum, but chi and w continue: take the rate from both.
         rho, c, s = value * cosh(w) - sinh(w), np.cos(twist), sin(twist)
         chi = atan2(s, rho)
         chi_v = (rho / c * twist_v + s / c * w_v) / ((rho**2 + s**2) / c**2)
@@ -101,16 +100,12 @@ def _start(scene: Scene) -> Array:
 
 def _observe(scene: Scene, states: Array) -> Observed:
     value, ratio = _ratio(scene)
-    parts = np.stack(_axes(ratio)(*states.T, value)).reshape(2, 2, 3, -1).transpose(0, 1, 3, 2)
-    return Observed(parts[0], parts[1], constant_momenta(scene, parts.shape[2]))
+    blocks = np.stack(_axes(ratio)(*states.T, value)).reshape(2, 2, 3, -1).transpose(0, 1, 3, 2)
+    return Observed(blocks[0], blocks[1], constant_momenta(scene, blocks.shape[2]))
 
 
 def scenes_from_states(scene: Scene, states: ArrayLike) -> list[Scene]:
-    """`scene` started from each of the model's states (n, 6): U, chi, alpha and their rates (1/s).
-
-    Every state of the model is on the bar, so no start needs to be brought onto it.
-    Raises InputError for states that are not finite or of another shape, SingularError without a bar.
-    """
+    """Return the scene started from each of the states (n, 6): U, chi, alpha and their rates (1/s)."""
     table = np.asarray(states, dtype=float)
     if table.ndim != 2 or table.shape[1] != 6 or not np.isfinite(table).all():
         raise InputError(f"scenes_from_states: states of shape {table.shape} must be finite and of shape (n, 6)")

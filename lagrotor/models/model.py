@@ -1,10 +1,9 @@
-"""What every integrated model offers: its program, how a scene fills the program's parameters, a start, the axes read back;
-one integration of it, in units of the scene's own, and what the pair's motion keeps by any model.
+"""The description of an integrated model, its integration in natural units, and the conservation laws of the pair.
 
-Every integration runs in the scene's own units, so that a solver's absolute tolerance means the same for every scene and the
-answer depends on the units of mass, length and time by rounding alone. Every motion keeps its energy less the shock's work, the
-momentum about the joint line, and the lengths of bar and axes: a run that does not, within what its error estimate allows, is
-not the pair's motion, whatever the solver says.
+Every integration runs in natural units of the scene. The absolute tolerance of a solver then means the same for every scene,
+and the result depends on the units of mass, length and time by rounding alone. Every motion conserves its energy minus the work
+of the shock, the momentum about the joint line, and the lengths of bar and axes. A run that violates this by more than its
+error estimate is refused, whatever the solver reports.
 """
 
 from __future__ import annotations
@@ -21,14 +20,14 @@ from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.numerics.pulse import pulse_windows
 from lagrotor.numerics.segment import OutsideError, Projection, RightHandSide, Stretch, reporting
 from lagrotor.numerics.source_cache import GeneratedFunction
-from lagrotor.pair.scene import Link, Rotor, Scene, Shock
+from lagrotor.pair.scene import Link, Rotor, Scene
 from lagrotor.pair.trajectory import Trajectory, momentum_about_joints, tilting_energy
 
 if TYPE_CHECKING:
     from lagrotor.numerics.codegen import Program
 
 
-# Rates of PACE and axes of 1 share an absolute tolerance: rates are held as many times more accurately, as the energy is.
+# Rates of PACE and axes of 1 share an absolute tolerance, so that rates and energy are PACE times more accurate.
 PACE = 16.0
 
 
@@ -42,30 +41,25 @@ class NaturalUnits:
 
 
 def natural_units(scene: Scene, rate: float = 0.0) -> NaturalUnits:
-    """The scene in its own units, `rate` (rad/s) for the unit of rate if one is given; at rest, without spins or shock, 1/s."""
+    """Return the scene in natural units; `rate` (rad/s) is the unit of rate, by default the scene's own."""
     inertia, R = min(_together_and_apart(scene)), scene.rotor.length
     rate = rate or typical_rate(scene) / PACE or 1.0
     rotor, link, shock = scene.rotor, scene.link, scene.shock
     weight = R * R / inertia
+    force: Any = tuple(f * R / inertia / rate**2 for f in shock.force) if shock else None
     in_units = replace(
         scene,
         spins=(scene.spins[0] / rate, scene.spins[1] / rate),
         rotor=Rotor(rotor.mass * weight, 1.0, rotor.I1 / inertia, rotor.I3 / inertia),
         link=link and Link(link.length / R, link.mass * weight, link.inertia / inertia),
-        shock=shock
-        and Shock(
-            tuple(f * R / inertia / rate**2 for f in shock.force),  # type: ignore[arg-type]
-            shock.at * rate,
-            shock.width * rate,
-            shock.body,
-        ),
+        shock=shock and replace(shock, force=force, at=shock.at * rate, width=shock.width * rate),
         rates=tuple(tuple(x / rate for x in v) for v in scene.rates),  # type: ignore[arg-type]
     )
     return NaturalUnits(in_units, rate, inertia)
 
 
 def _together_and_apart(scene: Scene) -> tuple[float, float]:
-    """Inertias a + b = J + m R²/2 of the axes' sum, a − b = J + 2 K R²/ell² of their difference (kg m²)."""
+    """Return the inertias of the axes' sum, J + m R²/2, and of their difference, J + 2 K R²/ell² (kg m²)."""
     if scene.link is None:
         return scene.rotor.J, scene.rotor.J
     R, link = scene.rotor.length, scene.link
@@ -73,10 +67,10 @@ def _together_and_apart(scene: Scene) -> tuple[float, float]:
 
 
 def typical_rate(scene: Scene) -> float:
-    """A rate (rad/s) that the motion does not exceed by much: (|G_1| + |G_2|)/I + sqrt(2T/I) and the shock's, I the smaller
-    of the inertias, T the energy of the tilting.
+    """Return a rate (rad/s) that the motion hardly exceeds: (|G_1| + |G_2|)/I + sqrt(2T/I), plus that of the shock.
 
-    A pulse adds its impulse over I or, where it is so broad that the rotor turns meanwhile, sqrt(force R / I).
+    I is the smaller inertia and T the energy of tilting. A pulse adds its impulse over I, or sqrt(force R / I) if it is so
+    broad that the rotor turns during it.
     """
     (together, apart), (v1, v2) = _together_and_apart(scene), scene.rates
     inertia = min(together, apart)
@@ -88,8 +82,8 @@ def typical_rate(scene: Scene) -> float:
     return rate + (abs(scene.momenta[0]) + abs(scene.momenta[1])) / inertia
 
 
-_BETWEEN_PROJECTIONS = 3.0  # rad of the scene's typical rate, by the fast extra
-_BUDGET = 1_000_000.0  # evaluations of one integration, where a caller sets none
+_BETWEEN_PROJECTIONS = 3.0  # rad of the typical rate between projections, by the fast extra
+_BUDGET = 1_000_000.0  # evaluations of one integration, by default
 
 
 @dataclass(frozen=True)
@@ -103,10 +97,9 @@ class Observed:
 
 @dataclass(frozen=True, eq=False)
 class ClosedMotion:
-    """A closed form for one scene. error: of an axis up to the end of the run (tips: in units of R). reason: a sentence.
+    """A closed form for one scene. error: the largest error of an axis up to the end of the run (of tips: in units of R).
 
-    motion: times (n,) in s → axes and rates, each (2, n, 3). errors: times → the errors up to them, where it is known how they
-    grow. evaluations: of what was integrated.
+    motion: times (n,) in s → axes and rates, each (2, n, 3). errors: times → the errors up to them, if their growth is known.
     """
 
     error: float
@@ -120,15 +113,14 @@ class ClosedMotion:
 class Model:
     """A model that is integrated.
 
-    kind: (scene, driven) → which of the model's programs holds the scene, and the values of its parameters; driven by the
-    pulse, the last three are the torque R F (N m) and not among the values. derive: (*kind) → the program of the right-hand
-    side, its first `size` arguments the state. rhs: (*kind, bounded) → its function, generated. start: the state (d,) of a
-    scene; raises SingularError where the coordinates cannot hold it. observe: axes from states (n, d).
-    projection: brings states that drifted off the constraints back onto them. outside: whether a state of a pair with its
-    bar lies where the model must not be integrated; time_to_singular: a time of which half is no more than what is left until
-    a state is there. slack: of states (n, d) of such a pair, as `Evolution` has it. singular: the words of the singular
-    position that axes (2, 3) at which a solver stopped are at, or none. angles: which states may grow without end, their
-    rates being states. progress: called with the time of each evaluation of the right-hand side.
+    kind: (scene, driven) → the kind of program and its parameter values; in a driven program the torque R F (N m) and the
+    width follow. derive: (*kind) → the program, its first `size` arguments the state. rhs: (*kind, bounded) → the generated
+    function. start: the state (d,) of a scene; raises SingularError if the coordinates cannot represent it. observe: axes
+    from states (n, d). projection: the projection of states onto the constraints. outside: True for a state of a pair with a
+    bar at which the model must not be integrated; time_to_singular: a time of which half is at most the time to such a state.
+    slack: the uncertainty of the constraints at states (n, d), as in `Evolution`. singular: the words for the singular
+    position of axes (2, 3), or none. angles: the states that may grow without bound, their rates being states. progress:
+    called with the time of each evaluation.
     """
 
     name: str
@@ -147,22 +139,22 @@ class Model:
     progress: Callable[[float], None] | None = None
 
     def parameters(self, scene: Scene, driven: bool) -> tuple[tuple[Any, ...], tuple[float, ...]]:
-        """The scene's kind and the values of its parameters, with the torque and the width of the pulse if `driven`."""
+        """Return the scene's kind and parameter values, with torque and width of the pulse if `driven`."""
         kind, values = self.kind(scene, driven)
         if driven and scene.shock:
             values = (*values, *(scene.rotor.length * f for f in scene.shock.force), scene.shock.width)
         return kind, values
 
     def program(self, scene: Scene, driven: bool) -> tuple[Program, tuple[float, ...]]:
-        """The scene's program, and the values of its parameters as `parameters` has them."""
+        """Return the scene's program and its parameter values."""
         kind, values = self.parameters(scene, driven)
         return self.derive(*kind), values
 
     def rate(self, scene: Scene, driven: bool, bounded: bool = False) -> RightHandSide:
-        """The right-hand side s, y ↦ y' in Python floats, s the time from the pulse's peak, with the pulse if `driven`.
+        """Return the right-hand side s, y ↦ y' in Python floats, with s the time from the peak of the pulse.
 
-        A state outside the range of the coordinates gives NaN, which makes a solver shorten its step; bounded: a state
-        where the program is badly conditioned, too.
+        A state outside the range of the coordinates gives NaN, so that a solver shortens its step. With `bounded`, so does a
+        state at which the program is badly conditioned.
         """
         kind, values = self.parameters(scene, driven)
         rate: RightHandSide = self.rhs(*kind, bounded)(*values)
@@ -175,29 +167,22 @@ class Model:
         return rate if self.progress is None else reporting(rate, self.progress, scene.shock.at if scene.shock else 0.0)
 
 
-def scenes_of(scene: Scene, seen: Observed | Trajectory) -> list[Scene]:
-    """The scene, begun in each of the states (n,) that are seen."""
-    axes, rates = (part.swapaxes(0, 1).tolist() for part in (seen.axes, seen.rates))
+def scenes_of(scene: Scene, observed: Observed | Trajectory) -> list[Scene]:
+    """Return the scene started from each of the observed states (n,)."""
+    axes, rates = (array.swapaxes(0, 1).tolist() for array in (observed.axes, observed.rates))
     return [replace(scene, axes=r, rates=v) for r, v in zip(axes, rates, strict=True)]
 
 
 def constant_momenta(scene: Scene, n: int) -> Array:
-    """The axial momenta of a model in which the spins are cyclic and already reduced, (2, n)."""
+    """Return the axial momenta of a model without spin angles, (2, n)."""
     return np.repeat(np.array(scene.momenta)[:, None], n, axis=1)
 
 
 def problem_of(
-    model: Model,
-    scene: Scene,
-    bounded: bool = False,
-    start: Array | None = None,
-    budget: float = _BUDGET,
+    model: Model, scene: Scene, bounded: bool = False, start: Array | None = None, budget: float = _BUDGET,
     companion: bool = False,
-) -> Problem:
-    """What `integrate` is given of a scene and a model; bounded: the run ends where the model is badly conditioned.
-
-    start: the model's state at t = 0, where it is not that of the scene.
-    """
+) -> Problem:  # fmt: skip
+    """Return the integration problem of a scene from `start`, a state of the model, by default that of the scene."""
     shock = scene.shock
     return Problem(
         free=model.rate(scene, False, bounded),
@@ -213,22 +198,13 @@ def problem_of(
 
 
 def integrate_model(
-    model: Model,
-    scene: Scene,
-    times: Array,
-    local: float,
-    engine: str = "core",
-    bounded: bool = False,
-    companion: bool = False,
-    start: Array | None = None,
-    budget: float = _BUDGET,
-) -> Stretch:
-    """One integration from t = 0 through increasing `times` (n,) in s with a local error: the model's states (n, d).
+    model: Model, scene: Scene, times: Array, local: float, engine: str = "core", bounded: bool = False,
+    companion: bool = False, start: Array | None = None, budget: float = _BUDGET,
+) -> Stretch:  # fmt: skip
+    """Integrate from t = 0 through increasing `times` (n,) in s with a local error, to the states (n, d).
 
-    companion: by steps that a run without it does not take. start: the model's state at t = 0, where it is not the scene's.
-
-    Raises SingularError where the coordinates cannot hold the start, StopError where the run cannot go on, with `bounded`
-    also where the model is badly conditioned, InputError without heyoka.
+    companion: take other steps. Raises SingularError if the coordinates cannot represent the start, StopError if the run
+    cannot continue (with `bounded` also where the model is badly conditioned).
     """
     problem = problem_of(model, scene, bounded, start, budget, companion)
     if engine == "core":
@@ -252,16 +228,16 @@ def integrate_model(
 
 
 def check_range(model: Model, scene: Scene) -> None:
-    """Raises SingularError where the model cannot hold the scene's start, OutsideError where it is badly conditioned there."""
+    """Raise SingularError if the model cannot represent the start, OutsideError if it is badly conditioned there."""
     if not np.isfinite(model.rate(scene, False, bounded=True)(0.0, model.start(scene))).all():
         raise OutsideError(0.0)
 
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
-_MOST_PANELS = 2_000  # beyond, the work of a broad pulse is not followed
+_MOST_PANELS = 2_000  # the most panels; broader pulses are not integrated
 
 
-# Weights that integrate polynomials up to the ninth degree, the two nodes in the middle left out.
+# Weights of ninth degree without the two middle nodes.
 _KEPT, _LOWER = np.r_[0:5, 7:12], np.zeros(12)
 _LOWER[_KEPT] = np.linalg.solve(
     np.vander(_NODES[_KEPT], increasing=True).T, [2 / (n + 1) * (1 - n % 2) for n in range(10)]
@@ -270,10 +246,7 @@ _LOWER[_KEPT] = np.linalg.solve(
 
 @dataclass(frozen=True, eq=False)
 class PulseNodes:
-    """Gauss–Legendre nodes t (n,) and weights (n,) over the part of the pulse up to `end` (s).
-
-    lower (n,): weights of lower order; the difference of the two sums bounds the error of the first.
-    """
+    """Gauss–Legendre nodes t (n,) and weights (n,) up to `end` (s); lower (n,): weights of lower order, for the error."""
 
     t: Array
     weights: Array
@@ -282,7 +255,7 @@ class PulseNodes:
 
 
 def pulse_nodes(scene: Scene, t_end: float) -> PulseNodes | None:
-    """Nodes for the shock's work on a scene in natural units; none without shock, or for a pulse of too many turns."""
+    """Return nodes for the work of the shock in natural units; None without shock, or for a pulse of too many turns."""
     if scene.shock is None:
         return None
     begin, end = max(0.0, scene.shock.begin), min(t_end, scene.shock.end)
@@ -295,54 +268,43 @@ def pulse_nodes(scene: Scene, t_end: float) -> PulseNodes | None:
     return PulseNodes(t, (half * _WEIGHTS).ravel(), (half * _LOWER).ravel(), end)
 
 
-def conservation_defect(scene: Scene, t: Array, seen: Observed, nodes: PulseNodes | None) -> Array:
-    """The errors of axes and rates, signed, that would explain how far a run is from conserving what it must.
-
-    Parameters
-    ----------
-    scene : Scene
-        In natural units.
-    t : Array
-        The run's times (n,).
-    seen : Observed
-        Its states at them.
-    nodes : PulseNodes or None
-        Times of a shock, among t. Without them its work is not known, and what comes after it is held to the first state
-        after it.
-    """
-    (a, b), (v1, v2) = scene.inertias, seen.rates
+def conservation_defect(scene: Scene, t: Array, observed: Observed, nodes: PulseNodes | None) -> Array:
+    """Return the errors of axes and rates, signed, that explain the violation of the conservation laws in natural units."""
+    (a, b), (v1, v2) = scene.inertias, observed.rates
     size = float(np.sqrt(((a * v1 + b * v2) ** 2 + (a * v2 + b * v1) ** 2).sum(-1)).max())
-    lengths = [np.linalg.norm(seen.axes, axis=-1) - 1]
+    lengths = [np.linalg.norm(observed.axes, axis=-1) - 1]
     if scene.link:
         k = scene.link.length / scene.rotor.length
-        bar = seen.axes[1] - seen.axes[0] + np.array([k, 0.0, 0.0])
+        bar = observed.axes[1] - observed.axes[0] + np.array([k, 0.0, 0.0])
         lengths.append((np.linalg.norm(bar, axis=-1) - k) * min(1.0, k))
-    defects = [part.ravel() for part in lengths]
-    before, after = np.ones(len(t), bool), np.zeros(len(t), bool)
+    defects = [residual.ravel() for residual in lengths]
+    prior, posterior = np.ones(len(t), bool), np.zeros(len(t), bool)
     work, turn = (0.0, 0.0), (0.0, 0.0)
     if scene.shock:
-        before, after = t <= max(scene.shock.begin, t[0]), t >= min(scene.shock.end, nodes.end if nodes else inf)
+        prior = t <= max(scene.shock.begin, t[0])
+        posterior = t >= min(scene.shock.end, nodes.end if nodes else inf)
     if nodes:
-        work, turn = _received(scene, t, seen, nodes)
-    conserved = tilting_energy(scene, seen.rates), momentum_about_joints(scene, seen.axes, seen.rates, seen.momenta)
-    # How much an error of 1 in the axes, and of PACE in the rates, may change each.
-    scales = PACE * size, size + 2 * PACE * a + float(np.abs(seen.momenta).max())
-    for values, (received, unsure), scale in zip(conserved, (work, turn), scales, strict=True):
+        work, turn = _received(scene, t, observed, nodes)
+    energy = tilting_energy(scene, observed.rates)
+    momentum = momentum_about_joints(scene, observed.axes, observed.rates, observed.momenta)
+    # The largest changes by an error of 1 in the axes and of PACE in the rates.
+    scales = PACE * size, size + 2 * PACE * a + float(np.abs(observed.momenta).max())
+    for values, (received, uncertainty), scale in zip((energy, momentum), (work, turn), scales, strict=True):
         if scale > 0:
-            later = values[after] - (values[0] + received if nodes else values[after][:1])
-            later = np.sign(later) * np.maximum(np.abs(later) - unsure, 0.0)
-            defects += [(values[before] - values[0]) / scale, later / scale]
+            later = values[posterior] - (values[0] + received if nodes else values[posterior][:1])
+            later = np.sign(later) * np.maximum(np.abs(later) - uncertainty, 0.0)
+            defects += [(values[prior] - values[0]) / scale, later / scale]
     return np.concatenate(defects)
 
 
 def _received(
-    scene: Scene, t: Array, seen: Observed, nodes: PulseNodes
+    scene: Scene, t: Array, observed: Observed, nodes: PulseNodes
 ) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Work and angular impulse of the pulse, each with a bound on the error of its quadrature."""
+    """Return work and angular impulse of the pulse, each with a bound on the error of its quadrature."""
     assert scene.shock is not None
     at = np.searchsorted(t, nodes.t)
     i = scene.shock.body - 1
-    r, v = seen.axes[i, at], seen.rates[i, at]
+    r, v = observed.axes[i, at], observed.rates[i, at]
     pulse = np.exp(-(((nodes.t - scene.shock.at) / scene.shock.width) ** 2))
     torque = scene.rotor.length * np.array(scene.shock.force)
     power, turning = pulse * (v @ torque), pulse * np.cross(r, torque)[:, 0]

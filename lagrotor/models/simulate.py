@@ -1,4 +1,4 @@
-"""`simulate`: a scene, times and a model in; a trajectory with its error estimate out."""
+"""`simulate`: integrate a scene by a chosen model, and return its trajectory with an error estimate."""
 
 import warnings
 from collections.abc import Callable
@@ -43,10 +43,10 @@ from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Array, Trajectory
 from lagrotor.result_display import scientific
 
-LADDER = (minimal.MODEL, spheres.MODEL)  # of `auto`: where one stops, the next runs the scene
+LADDER = (minimal.MODEL, spheres.MODEL)  # the models that `auto` tries in turn
 MODELS: dict[str, Model] = {model.name: model for model in (*LADDER, euler.MODEL)}
 _BY_NAME = EvaluationBudget(20_000, 250 * 2 * pi)
-# Where a looser run may take its place: five times as many serve none better.
+# For a run that another model can replace: five times as many evaluations improve none.
 _REPLACEABLE = EvaluationBudget(1_000, 500 * 2 * pi)
 LONG_RUN = Calibrated(
     300.0,
@@ -64,13 +64,13 @@ SHORT = Calibrated(
 MOST_SLACK = Calibrated(
     1000.0,
     "slack of nearly dependent constraints, in units of rounding, times which rounding may exceed tol before another goes first",
-    "95 of the recorded wide scenes beside the joint line: of 11 that unit vectors do not keep within tol, 9 begin by minimal",
+    "95 of the recorded wide scenes near the joint line: of 11 that unit vectors do not keep within tol, 9 begin by minimal",
     "test_wide_scenes.py::test_beside_a_dead_point_the_model_that_keeps_the_tolerance_is_taken",
 )
-_RESOLVED = 10 * np.finfo(float).eps  # of a start: all that it may be off without a reason of its own
+_RESOLVED = 10 * np.finfo(float).eps  # the rounding of a start
 
 
-# (scene, the run's last time, tol, whether to give the best there is, by name, or what `choose` took)
+# (scene, last time, tol, best): by name the best that can be had, for `choose` the cheapest
 DIRECT: dict[str, Callable[[Scene, float, float, bool], ClosedMotion]] = {
     "closed_form": closed_form,
     "linear": linear_motion,
@@ -80,8 +80,7 @@ DIRECT: dict[str, Callable[[Scene, float, float, bool], ClosedMotion]] = {
 
 @dataclass(frozen=True)
 class Choice:
-    """model: its name. estimate: largest error of an axis over the run (tips: in units of R). reason: a sentence. motion: of a
-    model without integration."""
+    """The first model of `auto`, its reason, the estimated error of an axis, and the motion if it is not integrated."""
 
     model: str
     estimate: float
@@ -90,11 +89,11 @@ class Choice:
 
 
 def choose(scene: Scene, t_end: float, tol: float, engine: str = "core") -> Choice:
-    """The cheapest model whose axes stay within `tol` (tips: in units of R) of the exact ones from 0 to t_end (s).
+    """Choose the cheapest model whose axes stay within `tol` (tips: in units of R) of the exact ones up to t_end (s).
 
-    The errors of the closed forms and of the linear model are estimated analytically; no integration is needed. A short run
-    of a pair with its bar takes engine = "fast" less time than that estimate, and is integrated at once. An integrated
-    model is held to `tol` while it runs: see `lagrotor.numerics.error_estimate`.
+    The errors of the closed forms and of the linear model are estimated without integration. For a short run with a bar the
+    fast engine costs less than this estimate and integrates at once. An integrated model is checked while it runs: see
+    `lagrotor.numerics.error_estimate`.
     """
     turns, missed = typical_rate(scene) * t_end / (2 * pi), "a run too short to estimate the cheaper ones' errors"
     names = ["closed_form", "linear"] if engine == "core" or scene.link is None or turns > SHORT.value else []
@@ -117,44 +116,44 @@ def choose(scene: Scene, t_end: float, tol: float, engine: str = "core") -> Choi
 
 
 def simulate(
-    scene: Scene,
-    t: ArrayLike,
-    model: str = "auto",
-    tol: float = 1e-9,
-    engine: str = "core",
+    scene: Scene, t: ArrayLike, model: str = "auto", tol: float = 1e-9, engine: str = "core",
     progress: Callable[[float], None] | None = None,
-) -> Trajectory:
-    """Run `scene` from its start, which holds at t[0], through the times `t` (n,), in s.
+) -> Trajectory:  # fmt: skip
+    """Integrate a scene from its initial state, which holds at t[0].
 
-    The trajectory carries `errors`, the estimated largest error of an axis up to each time, `horizon`, the time from which
-    they exceed `tol`, and `ending`. A run is integrated twice, at two local errors, and held to what the motion conserves; a
-    LagrotorWarning says when `tol` is not kept and what was reached, or that the run ended before its last time: it then
-    holds the times up to there.
+    A run is integrated twice, at two local errors, and compared with the conservation laws.
+
+    A LagrotorWarning says if `tol` is not kept or the run ends early. The trajectory then contains the times that were
+    reached.
 
     Parameters
     ----------
-    model : str, default 'auto'
-        "closed_form", "linear", "averaged", "minimal", "spheres", "euler", or "auto": the cheapest that keeps the axes
-        within `tol` of the exact ones over the run, named with its reason in the trajectory; see `choose`.
-    tol : float, default 1e-09
-        The largest error of an axis (a unit vector; tips: in units of R) over the whole run, 1e-13 to 0.1.
-    engine : str, default 'core'
-        "core", scipy's solvers and our own; "fast", heyoka's (`pip install lagrotor[fast]`), for "minimal", and for
-        "spheres" where there is no bar. Never chosen silently: it compiles for a moment, and its last digits are others.
+    scene : Scene
+        The pair, its initial state, and its shock.
+    t : array_like
+        The increasing times (n,), s.
+    model : str, default "auto"
+        "closed_form", "linear", "averaged", "minimal", "spheres", "euler", or "auto" for the cheapest model that keeps `tol`.
+    tol : float, default 1e-9
+        The largest error of an axis (of tips: in units of R) over the whole run, from 1e-13 to 0.1.
+    engine : str, default "core"
+        "core", or "fast" for heyoka (`pip install lagrotor[fast]`), for "minimal", and for "spheres" without a bar.
     progress : callable or None, optional
-        Called with the time in s of each evaluation by the core; a solver's last step may go past the end, and each of
-        the runs that are compared begins anew.
+        A function of the time (s), called at each evaluation. Each compared run begins anew.
+
+    Returns
+    -------
+    Trajectory
+        The motion, with its error, the model, and the reason for this model.
 
     Raises
     ------
     InputError
-        A bad argument.
-    SingularError
-        A model's coordinates cannot hold the start.
-    DomainError
-        A closed form or the normal modes do not hold the scene.
+        If an argument is invalid.
+    SingularError, DomainError
+        If the chosen model cannot represent the scene.
     IntegrationError
-        Nothing of the run could be computed, or it did not conserve what it must.
+        If no part of the run can be computed, or it violates a conservation law.
 
     Examples
     --------
@@ -168,55 +167,55 @@ def simulate(
     times, tolerance = check_times("simulate", t), check_tolerance(tol)
     check_engine(engine)
     check_progress(progress)
-    at_zero = scene.since(float(times[0]))  # all that follows counts time from the start
-    if model in tuple(DIRECT):  # a value without a hash is refused below
+    at_zero = scene.since(float(times[0]))  # from now on time counts from the start
+    if model in tuple(DIRECT):  # an unhashable value is refused below
         motion = DIRECT[model](at_zero, float(times[-1] - times[0]), tolerance, True)
         error = "not known" if np.isnan(motion.error) else scientific(motion.error, 1)
         missed = not motion.error <= tolerance
-        more = ", more than tol" if motion.error > tolerance else ""
-        why = f"by name; {motion.reason}; estimated error {error}{more}"
+        suffix = ", more than tol" if motion.error > tolerance else ""
+        why = f"by name; {motion.reason}; estimated error {error}{suffix}"
         trajectory = _direct(scene, model, why, times, motion, tolerance)
         if missed:
             until = f"; tol is kept up to t = {trajectory.horizon:.6g} s" if motion.errors else ""
-            said = f"simulate: {model} does not keep tol = {tolerance:g}: the estimated error is {error}{until}"
-            warnings.warn(said, LagrotorWarning, stacklevel=2)
+            message = f"simulate: {model} does not keep tol = {tolerance:g}: the estimated error is {error}{until}"
+            warnings.warn(message, LagrotorWarning, stacklevel=2)
         return trajectory
     if model == "auto":
         choice = choose(at_zero, float(times[-1] - times[0]), tolerance, engine)
         if choice.motion:
             return _direct(scene, choice.model, choice.reason, times, choice.motion, tolerance)
     elif model not in tuple(MODELS):
-        known = "auto", *DIRECT, *MODELS
-        raise InputError(f"simulate: model = {model!r} is not one of {', '.join(known)}{near(model, known)}")
+        names = "auto", *DIRECT, *MODELS
+        raise InputError(f"simulate: model = {model!r} is not one of {', '.join(names)}{near(model, names)}")
     elif engine == "fast" and not _fast_runs(MODELS[model], scene):
         raise InputError(
             f"simulate: engine='fast' does not run model={model!r} with this scene: a Taylor step may pass where its "
             "constraints fail; take minimal, or engine='core'"
         )
-    # Time is counted from the pulse: one far off that is not felt is left out, it would only cost digits.
+    # Time counts from the pulse. A distant pulse without effect is dropped, as it would cost digits.
     duration = float(times[-1] - times[0])
-    door = _Door(
+    scaled = _ScaledScene(
         natural_units(replace(at_zero, shock=at_zero.shock_until(duration))), times, tolerance, engine, progress
     )
     if model == "auto":
-        name, why, run = door.by_ladder(choice)
+        name, why, run = scaled.by_ladder(choice)
     else:
-        name, why, run = model, "by name", door.run(MODELS[model], _BY_NAME)
+        name, why, run = model, "by name", scaled.run(MODELS[model], _BY_NAME)
     run.warn_unless_kept(name, tolerance)
-    return trajectory_of(scene, door.units, name, why, times, run)
+    return trajectory_of(scene, scaled.units, name, why, times, run)
 
 
 def trajectory_of(
     scene: Scene, units: NaturalUnits, model: str, why: str, times: Array, run: EstimatedRun
 ) -> Trajectory:
-    """What a run of the model in natural units shows of the scene, at those of the times (n,) that it reached."""
-    seen, n = MODELS[model].observe(units.scene, run.states), len(run.t)
-    momenta = seen.momenta - constant_momenta(units.scene, n)
-    # By the clock of the natural units the last time is off by rounding.
+    """Return the trajectory of a run in natural units, at those of the times (n,) that it reached."""
+    observed, n = MODELS[model].observe(units.scene, run.states), len(run.t)
+    momenta = observed.momenta - constant_momenta(units.scene, n)
+    # In natural units the last time has a rounding error.
     ending = replace(run.ending, at=float(times[-1])) if run.ending.kind == "end" else run.ending
     return Trajectory(
-        **run.run_fields | {"t": times[:n], "ending": ending}, scene=scene, model=model, why=why, axes=seen.axes,
-        rates=seen.rates * units.rate, momenta=constant_momenta(scene, n) + momenta * units.inertia * units.rate,
+        **run.run_fields | {"t": times[:n], "ending": ending}, scene=scene, model=model, why=why, axes=observed.axes,
+        rates=observed.rates * units.rate, momenta=constant_momenta(scene, n) + momenta * units.inertia * units.rate,
     )  # fmt: skip
 
 
@@ -232,8 +231,8 @@ def _direct(scene: Scene, model: str, why: str, times: Array, closed: ClosedMoti
 
 
 @dataclass(frozen=True, eq=False)
-class _Door:
-    """A scene in natural units and how it is to be run: what the contract of runs needs of a model of it."""
+class _ScaledScene:
+    """A scene in natural units with its times, tolerance and engine."""
 
     units: NaturalUnits
     times: Array
@@ -242,22 +241,14 @@ class _Door:
     progress: Callable[[float], None] | None
 
     def run(self, model: Model, patience: EvaluationBudget, bounded: bool = False) -> EstimatedRun:
-        """The model's run; bounded: it ends where the model is badly conditioned, and another is at hand.
-
-        Raises StopError, in s, where nothing is reached.
-        """
+        """Return the run by a model. Raises StopError, in s, if nothing is reached."""
         rate, begin = self.units.rate, float(self.times[0])
         t = (self.times - begin) * rate
-        told = self.progress
+        report = self.progress
         evolution = evolution_of(
-            model,
-            self.units.scene,
-            float(t[-1]),
-            patience,
-            self.engine,
-            bounded=bounded,
-            progress=told and (lambda s: told(begin + s / rate)),
-        )
+            model, self.units.scene, float(t[-1]), patience, self.engine, bounded=bounded,
+            progress=report and (lambda s: report(begin + s / rate)),
+        )  # fmt: skip
         try:
             return estimate_run(evolution, t, self.tol).by_clock(begin, 1 / rate)
         except StopError as stop:
@@ -268,70 +259,60 @@ class _Door:
             raise
 
     def by_ladder(self, choice: Choice) -> tuple[str, str, EstimatedRun]:
-        """The model that `auto` takes, why, and its run: the first of the ladder that reaches the end, from the chosen one on;
-        else the one that comes farthest."""
-        begun = [model.name for model in LADDER].index(choice.model)
-        # Where none reaches the end, those before the last go on where they are badly conditioned.
-        tries = [(model, model is not LADDER[-1]) for model in LADDER[begun:]]
+        """Return the first model of the ladder that reaches the end, or else the latest time, the reason, and its run."""
+        first_model = [model.name for model in LADDER].index(choice.model)
+        # If none reaches the end, the first models continue where they are badly conditioned.
+        tries = [(model, model is not LADDER[-1]) for model in LADDER[first_model:]]
         unbounded = [(model, False) for model in LADDER[:-1] if self.units.scene.link]
-        # Whether the constraints are so nearly dependent at the start that rounding may exceed `tol`.
+        # Nearly dependent constraints at the start amplify rounding, perhaps above `tol`.
         slack, start = False, np.concatenate([*self.units.scene.axes, *self.units.scene.rates])
-        if unbounded and (off := MODELS[choice.model].slack):
-            slack = bool(MOST_SLACK.value * np.finfo(float).eps * off(start[None])[0] > self.tol)
+        if unbounded and (uncertainty := MODELS[choice.model].slack):
+            slack = bool(MOST_SLACK.value * np.finfo(float).eps * uncertainty(start[None])[0] > self.tol)
         tries = [*unbounded, *tries] if slack else [*tries, *unbounded]
         why = (
-            f"beside a dead point rounding of the constraints of {choice.model} may exceed tol"
+            f"near a dead point the rounding of the constraints of {choice.model} may exceed tol"
             if slack
             else choice.reason
         )
-        spent, early = 1, list[tuple[str, str, EstimatedRun]]()  # `choose` looked at the start
+        evaluations, early = 1, list[tuple[str, str, EstimatedRun]]()  # `choose` evaluated the start
         refused: dict[str, IntegrationError | SingularError] = {}
         for model, bounded in tries:
             try:
                 run = self.run(model, _REPLACEABLE, bounded)
                 stopped: object = run.ending
-                spent += run.evaluations
-                early.append((model.name, why, replace(run, evaluations=spent)))
+                evaluations += run.evaluations
+                early.append((model.name, why, replace(run, evaluations=evaluations)))
                 if not run.ending.early:
                     return early[-1]
             except (IntegrationError, SingularError) as refusal:
                 stopped = refused[model.name] = refusal
-                spent += refusal.evaluations if isinstance(refusal, IntegrationError) else 0
+                evaluations += refusal.evaluations if isinstance(refusal, IntegrationError) else 0
             why = f"regular everywhere; {model.name}: {stopped}" if bounded else f"{why}; {model.name}: {stopped}"
         if not early:
             last = refused[LADDER[-1].name]
             if isinstance(last, IntegrationError):
-                last.evaluations = spent
+                last.evaluations = evaluations
             raise last
-        name, why, run = max(early, key=lambda each: (len(each[2].t), -float(each[2].errors[-1])))
-        return name, why, replace(run, evaluations=spent)
+        name, why, run = max(early, key=lambda row: (len(row[2].t), -float(row[2].errors[-1])))
+        return name, why, replace(run, evaluations=evaluations)
 
 
 def evolution_of(
-    model: Model,
-    scene: Scene,
-    t_end: float,
-    patience: EvaluationBudget,
-    engine: str = "core",
-    *,
-    bounded: bool = False,
+    model: Model, scene: Scene, t_end: float, patience: EvaluationBudget, engine: str = "core", *, bounded: bool = False,
     progress: Callable[[float], None] | None = None,
-) -> Evolution:
-    """What the contract of runs needs of a model of a scene in natural units, from 0 to t_end of its time.
-
-    bounded: it ends where the model is badly conditioned, and another is at hand.
-    """
+) -> Evolution:  # fmt: skip
+    """Return the evolution of a model in natural units up to t_end; `bounded` as in `integrate_model`."""
     engine = engine if _fast_runs(model, scene) else "core"
     nodes = pulse_nodes(scene, t_end)
     start = model.start(scene)
 
     def integrate(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
         begin = float(times[0])
-        here, after = scene.since(begin), times - begin
-        here = replace(here, shock=here.shock_until(float(after[-1])))
-        shown = model if progress is None else replace(model, progress=lambda s: progress(begin + s))
+        segment, elapsed = scene.since(begin), times - begin
+        segment = replace(segment, shock=segment.shock_until(float(elapsed[-1])))
+        reporting_model = model if progress is None else replace(model, progress=lambda s: progress(begin + s))
         try:
-            return integrate_model(shown, here, after, local, engine, bounded, companion, start, budget)
+            return integrate_model(reporting_model, segment, elapsed, local, engine, bounded, companion, start, budget)
         except StopError as stop:
             stop.at += begin
             raise
@@ -341,12 +322,12 @@ def evolution_of(
         whole = nodes if nodes and nodes.t[-1] <= times[-1] else None
         return conservation_defect(felt, times, model.observe(scene, states), whole)
 
-    def distance(one: Array, other: Array) -> Array:
-        apart = model.observe(scene, one).axes - model.observe(scene, other).axes
+    def distance(first: Array, second: Array) -> Array:
+        apart = model.observe(scene, first).axes - model.observe(scene, second).axes
         return np.asarray(np.linalg.norm(apart, axis=-1).max(axis=0))
 
-    def difference(one: Array, other: Array) -> float:
-        apart = model.observe(scene, one).rates - model.observe(scene, other).rates
+    def difference(first: Array, second: Array) -> float:
+        apart = model.observe(scene, first).rates - model.observe(scene, second).rates
         return float(np.abs(apart).max(initial=0.0)) / PACE
 
     return Evolution(
@@ -356,7 +337,7 @@ def evolution_of(
         turn=2 * pi / PACE,
         budget=patience,
         project=model.projection(scene) if model.projection else None,
-        start_error=start_unsure(model, scene, start),
+        start_error=start_error(model, scene, start),
         constraint_uncertainty=model.slack if scene.link else None,
         conservation_error=defect,
         difference=difference,
@@ -366,18 +347,20 @@ def evolution_of(
     )
 
 
-def start_unsure(model: Model, scene: Scene, start: Array) -> float:
-    """How far, in units of rounding, the model's start (d,) is off the scene's: beside the joint line the bar hardly says where
-    an axis on it is, and coordinates made for the bar may take another than the nearest."""
-    unsure, many = 1.0, 1e4  # a step of rounding itself may move nothing
-    seen = model.observe(scene, np.array([start, perturbed_state(start, many)]))
-    for given, part, unit in ((scene.axes, seen.axes, 1.0), (scene.rates, seen.rates, PACE)):
-        off = float(np.abs(part[:, 0] - given).max()) / unit
-        moved = float(np.abs(part[:, 1] - part[:, 0]).max()) / unit / many
-        unsure = max(unsure, off / moved) if off > _RESOLVED and moved > 0 else unsure
+def start_error(model: Model, scene: Scene, start: Array) -> float:
+    """Return the error of the model's start (d,), in units of rounding.
+
+    Near the joint line the bar hardly determines an axis, and the coordinates may represent another start than the given one.
+    """
+    unsure, epsilons = 1.0, 1e4  # one rounding step may change nothing
+    observed = model.observe(scene, np.array([start, perturbed_state(start, epsilons)]))
+    for target, computed, unit in ((scene.axes, observed.axes, 1.0), (scene.rates, observed.rates, PACE)):
+        error = float(np.abs(computed[:, 0] - target).max()) / unit
+        response = float(np.abs(computed[:, 1] - computed[:, 0]).max()) / unit / epsilons
+        unsure = max(unsure, error / response) if error > _RESOLVED and response > 0 else unsure
     return unsure
 
 
 def _fast_runs(model: Model, scene: Scene) -> bool:
-    """Return whether Taylor steps cannot pass a position at which the model's constraints fail."""
+    """Return True if Taylor steps cannot pass a position at which the model's constraints fail."""
     return model.outside is None or scene.link is None

@@ -1,7 +1,7 @@
 """Rung 4: two unit vectors with multipliers. Twelve states, exact for any bar or none, no singular coordinate.
 
-Only the constraints themselves can fail: at r_1 = r_2 = ± e_x, where bar and axes are in line, they are dependent, and a
-run that comes within CLEARANCE of it stops.
+Only the constraints can fail: at r_1 = r_2 = ± e_x bar and axes are in line and the constraints dependent. A run that comes
+within CLEARANCE of this position stops.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from lagrotor.pair.scene import Scene
 if TYPE_CHECKING:
     from lagrotor.numerics.codegen import Program
 
-CLEARANCE = 1e-5  # rad; nearer, the multipliers carry fewer than six digits
+CLEARANCE = 1e-5  # rad; below it the multipliers have fewer than six digits
 _TOWARDS = 0.4  # cos 1.16
-_NEAR = 1e-3  # rad from there, where a solver that stops has come to it
+_NEAR = 1e-3  # rad from the dead point, where a stop counts as reaching it
 # Massive bar, bar, shocked rotor (0: none).
 _Kind = tuple[bool, bool, int]
 _KINDS: tuple[_Kind, ...] = tuple(
@@ -31,7 +31,6 @@ _KINDS: tuple[_Kind, ...] = tuple(
 
 
 def program(massive: bool, bar: bool, body: int) -> Program:
-    """The program of one kind; see `lagrotor.models.programs.spheres_program`."""
     from lagrotor.models.programs import spheres_program
 
     return spheres_program.program(massive, bar, body)
@@ -53,7 +52,7 @@ def _projected(massive: bool, bar: bool) -> str:
 
 
 def _kind(scene: Scene, driven: bool) -> tuple[_Kind, tuple[float, ...]]:
-    """The scene's kind and the values of its parameters but for the force."""
+    """Return the scene's kind and its parameter values except the force."""
     inertia_a, inertia_b = scene.inertias
     bar, massive = scene.link is not None, inertia_b != 0
     body = scene.shock.body if driven and scene.shock else 0
@@ -62,34 +61,31 @@ def _kind(scene: Scene, driven: bool) -> tuple[_Kind, tuple[float, ...]]:
 
 
 def _at_dead_point(y: Array) -> bool:
-    """Whether a state (12,) is within CLEARANCE of r_1 = r_2 = ± e_x.
-
-    There bar and axes are in line and the three constraints' gradients are dependent, for any bar.
-    """
+    """Return True if a state (12,) is within CLEARANCE of r_1 = r_2 = ± e_x, where the constraints are dependent."""
     return bool(y[0] * y[3] > 0.9 and _across(y) < CLEARANCE)
 
 
 def _time_to_dead_point(y: Array) -> float:
-    """A time of which half is no more than what a state (12,) needs to r_1 = r_2 = ± e_x; inf where it does not head there.
+    """Return a time of which half is at most the time of a state (12,) to r_1 = r_2 = ± e_x; inf if it moves away.
 
-    The axes' components across the joint line move on a cone whose apex is that position: on both sides of it a straight
-    motion through it and one around it feel no force, and a step over it would pass undetected. An axis at the angle θ from the
-    line, turning at θ', has tan θ/θ' for the time θ/θ' that is left: half of it is no more than that up to θ = 1.16.
+    The components of the axes transverse to the joint line move on a cone with its apex at this position. A straight motion
+    through it and one around it feel no force, and a step over it would pass undetected. An axis at the angle θ from the line
+    with the rate θ' has tan θ/θ' instead of the remaining time θ/θ'. Half of it is a lower bound up to θ = 1.16.
     """
     if not (min(y[0], y[3]) > _TOWARDS or max(y[0], y[3]) < -_TOWARDS):
         return inf
-    across, speed = y[[1, 2, 4, 5]], y[[7, 8, 10, 11]]
-    return _across(y) / float(np.linalg.norm(speed)) if across @ speed < 0 else inf
+    transverse, speed = y[[1, 2, 4, 5]], y[[7, 8, 10, 11]]
+    return _across(y) / float(np.linalg.norm(speed)) if transverse @ speed < 0 else inf
 
 
 def slack(states: Array) -> Array:
-    """How far off (n,), in units of rounding, the constraints leave states (n, 12).
+    """Return the uncertainty (n,) of states (n, 12) by the constraints, in units of rounding.
 
-    The third constraint's gradient is off the plane of the two others by the axes' components across the joint line: bringing
-    a state back divides the rounding of the constraints by them.
+    The gradient of the third constraint leaves the plane of the two others by the transverse components of the axes. A
+    projection divides the rounding of the constraints by them.
     """
-    across = np.linalg.norm(states[:, [1, 2, 4, 5]], axis=1)
-    return np.where(states[:, 0] * states[:, 3] > 0.9, 1 / np.clip(across, np.finfo(float).tiny, 1.0), 1.0)
+    transverse = np.linalg.norm(states[:, [1, 2, 4, 5]], axis=1)
+    return np.where(states[:, 0] * states[:, 3] > 0.9, 1 / np.clip(transverse, np.finfo(float).tiny, 1.0), 1.0)
 
 
 def _across(y: Array) -> float:
@@ -116,8 +112,8 @@ def _start(scene: Scene) -> Array:
 
 
 def _observe(scene: Scene, states: Array) -> Observed:
-    parts = states.reshape(-1, 2, 2, 3).transpose(1, 2, 0, 3)
-    return Observed(parts[0], parts[1], constant_momenta(scene, len(states)))
+    blocks = states.reshape(-1, 2, 2, 3).transpose(1, 2, 0, 3)
+    return Observed(blocks[0], blocks[1], constant_momenta(scene, len(states)))
 
 
 def _singular(axes: Array) -> str:
@@ -126,16 +122,6 @@ def _singular(axes: Array) -> str:
 
 
 MODEL = Model(
-    "spheres",
-    12,
-    _kind,
-    program,
-    _rhs,
-    _start,
-    _observe,
-    _singular,
-    _projection,
-    _at_dead_point,
-    _time_to_dead_point,
-    slack,
-)
+    "spheres", 12, _kind, program, _rhs, _start, _observe, _singular, _projection,
+    outside=_at_dead_point, time_to_singular=_time_to_dead_point, slack=slack,
+)  # fmt: skip

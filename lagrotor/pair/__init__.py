@@ -3,8 +3,7 @@
 - `notation` has every symbol with its meaning and unit, `lagrangians` the kinetic energies, the constraint and A and
   B in symbols.
 - A `Scene` holds rotors, bar, spins, shock and initial state in SI units. `read_scene` reads one from TOML.
-- `consistent_scene` and `paired_scene` (`initial_conditions`) bring a start onto the bar or onto the paired
-  precession.
+- `consistent_scene` (`initial_conditions`) projects a start onto the bar's constraint.
 - A `Trajectory` is the result of a simulation: axes over time, tips, energy, momentum, error and ending, the same for
   every model.
 
@@ -26,9 +25,7 @@ if TYPE_CHECKING:
     from lagrotor.pair.examples import STIFFNESS as STIFFNESS
     from lagrotor.pair.lagrangians import INERTIAS as INERTIAS
     from lagrotor.pair.lagrangians import J_OF as J_OF
-    from lagrotor.pair.lagrangians import JOINT_LINE as JOINT_LINE
     from lagrotor.pair.lagrangians import ansatz_integrals as ansatz_integrals
-    from lagrotor.pair.lagrangians import ansatz_lagrangian as ansatz_lagrangian
     from lagrotor.pair.lagrangians import axes_pair as axes_pair
     from lagrotor.pair.lagrangians import axis as axis
     from lagrotor.pair.lagrangians import bar_curve as bar_curve
@@ -42,9 +39,6 @@ if TYPE_CHECKING:
     from lagrotor.pair.lagrangians import pair_lagrangian as pair_lagrangian
     from lagrotor.pair.lagrangians import pair_with_bar as pair_with_bar
     from lagrotor.pair.lagrangians import rotor_lagrangian as rotor_lagrangian
-    from lagrotor.pair.scene_document import scene_of as scene_of
-    from lagrotor.pair.scene_document import scene_toml as scene_toml
-    from lagrotor.pair.trajectory import UNITS as UNITS
     from lagrotor.pair.trajectory import ansatz_A as ansatz_A
 
 __getattr__, __dir__, __all__ = face(__name__)

@@ -7,7 +7,7 @@ from lagrotor.pair.scene import Link, Scene, Shock
 
 @dataclass(frozen=True)
 class Ready:
-    """A scene, its duration in s, and a sentence that says what is to be seen."""
+    """A scene, its duration in s, and a sentence about its motion."""
 
     scene: Scene
     duration: float

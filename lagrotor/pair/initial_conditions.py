@@ -1,4 +1,4 @@
-"""Starts that satisfy their constraints: bringing a state onto the bar, and onto the paired precession."""
+"""Initial states on the constraints of the bar."""
 
 from dataclasses import replace
 from typing import Any
@@ -15,14 +15,14 @@ Array = NDArray[np.floating[Any]]
 
 @generated(((),))
 def _constraint_equations() -> str:
-    """(r_1, r_2, a, b, k) → the three constraints, their rows (3, 6) and the mass matrix (6, 6), 57 numbers."""
+    """Return code for (r_1, r_2, a, b, k) → the three constraints, their rows (3, 6) and the mass matrix (6, 6)."""
     from lagrotor.numerics.codegen import Program
     from lagrotor.numerics.printers import program_source
     from lagrotor.pair.lagrangians import axes_pair
     from lagrotor.pair.notation import AXES, a, b, k
 
     system = axes_pair()
-    return program_source(Program((*AXES.q, a, b, k), (), (*system.constraints, *system.rows, *system.mass)))
+    return program_source(Program((*AXES.q, a, b, k), (), (*system.constraints, *system.rows, *system.mass_matrix)))
 
 
 def consistent_scene(
@@ -33,33 +33,38 @@ def consistent_scene(
     link: Link | None = None,
     shock: Shock | None = None,
 ) -> Scene:
-    """The scene whose start is nearest, in the mass metric, to what is given and satisfies the bar.
+    """Return the scene on the bar's constraint whose start is nearest to an approximate one in the mass metric.
 
     Parameters
     ----------
-    spins : tuple[float, float]
-        Rad/s.
+    spins : tuple of float
+        The axial angular velocities in rad/s.
     axes : array_like
-        (2, 3).
+        Approximate axes, shape (2, 3).
     rates : array_like, default ((0, 0, 0), (0, 0, 0))
-        (2, 3), 1/s.
-    rotor : Rotor or None, optional
-        As in `Scene`.
-    link : Link or None, optional
-        As in `Scene`.
-    shock : Shock or None, optional
-        As in `Scene`.
+        Approximate rates in 1/s, shape (2, 3).
+    rotor, link, shock : optional
+        The fields of `Scene`.
+
+    Returns
+    -------
+    Scene
+        The scene.
 
     Raises
     ------
     ConstraintError
-        When the axes cannot be brought onto the bar.
-    InputError
-        For what Scene refuses.
+        If Newton's method does not reach the constraint.
+
+    Examples
+    --------
+    >>> scene = consistent_scene((10, -10), ((0.1, 0.0, 1.0), (0.1, 0.0, 1.0)))
+    >>> round(scene.axes[0][0], 6) == round(scene.axes[1][0], 6)
+    True
     """
     scene = Scene(spins, rotor or Rotor(), link or Link(), shock)
     try:
-        q, v = (np.asarray(part, dtype=float).reshape(6) for part in (axes, rates))
+        q, v = (np.asarray(vectors, dtype=float).reshape(6) for vectors in (axes, rates))
     except (TypeError, ValueError):
         raise InputError(f"consistent_scene: axes {axes!r} and rates {rates!r} must be two vectors each") from None
     if not (np.isfinite(q).all() and np.isfinite(v).all()):
@@ -83,4 +88,4 @@ def consistent_scene(
 
 
 def _pair(flat: Array) -> Any:
-    return tuple(tuple(float(x) for x in part) for part in flat.reshape(2, 3))
+    return tuple(tuple(float(x) for x in vector) for vector in flat.reshape(2, 3))

@@ -1,6 +1,6 @@
 """The paper's system: one rotor, the pair, the bar, the ansatz with its A and B, and the pair on two unit spheres.
 
-Everything here is an expression in the glossary's symbols. The kinetic energy of the coupled pair is
+All expressions use the symbols of the glossary. The kinetic energy of the coupled pair is
 
     T = a/2 (|r_1'|² + |r_2'|²) + b r_1' . r_2' + (G_1² + G_2²) / (2 I_3),
     a = J + m R²/4 + K R²/ell²,   b = m R²/4 − K R²/ell²,   J = I_1 + M R²/4,
@@ -39,7 +39,7 @@ from lagrotor.pair.notation import (
 
 JOINT_LINE = sp.Matrix([1, 0, 0])
 J_OF = I1 + M * R**2 / 4
-# What the bar adds: half its mass at each tip, and its turning.
+# The bar adds half its mass at each tip, and its own rotation.
 INERTIAS: dict[sp.Symbol, sp.Expr] = {
     a: J + m * R**2 / 4 + K * R**2 / ell**2,
     b: m * R**2 / 4 - K * R**2 / ell**2,
@@ -48,12 +48,34 @@ INERTIAS: dict[sp.Symbol, sp.Expr] = {
 
 
 def axis(theta: sp.Expr, phi: sp.Expr) -> sp.Matrix:
-    """Unit vector of an axis of inclination theta and azimuth phi, from the ground joint to the tip."""
+    """Return the unit vector of an axis from the ground joint to the tip.
+
+    Parameters
+    ----------
+    theta, phi : Expr
+        Inclination and azimuth in rad.
+
+    Returns
+    -------
+    Matrix
+        The vector, shape (3, 1).
+    """
     return sp.Matrix([sp.sin(theta) * sp.cos(phi), sp.sin(theta) * sp.sin(phi), sp.cos(theta)])
 
 
 def rotor_lagrangian(inertia: sp.Expr = J) -> sp.Expr:
-    """L = J/2 (theta'² + phi'² sin² theta) + I_3/2 (psi' + phi' cos theta)²: a grounded rotor without gravity (5.01)."""
+    """Return L = J/2 (theta'² + phi'² sin² theta) + I_3/2 (psi' + phi' cos theta)² of a rotor without gravity (5.01).
+
+    Parameters
+    ----------
+    inertia : Expr, default J
+        The transverse inertia J.
+
+    Returns
+    -------
+    Expr
+        L in `ROTOR`.
+    """
     return _rotor_energy(inertia, ROTOR.q[0], *ROTOR.v)
 
 
@@ -63,13 +85,30 @@ def _rotor_energy(inertia: sp.Expr, theta: sp.Expr, theta_v: sp.Expr, phi_v: sp.
 
 
 def pair_lagrangian(inertia: sp.Expr = J) -> sp.Expr:
-    """Two uncoupled rotors in two sets of Euler angles: the kinetic energies of both (5.08)."""
+    """Return the Lagrangian of two uncoupled rotors in Euler angles (5.08).
+
+    Parameters
+    ----------
+    inertia : Expr, default J
+        The transverse inertia J.
+
+    Returns
+    -------
+    Expr
+        L in `PAIR`.
+    """
     q, v = PAIR.q, PAIR.v
     return _rotor_energy(inertia, q[0], *v[:3]) + _rotor_energy(inertia, q[3], *v[3:])
 
 
 def pair_with_bar() -> System:
-    """The exact pair in Euler angles: (6 coordinates, 1 constraint), the bar's energy included."""
+    """Return the exact pair in Euler angles, with the bar's energy.
+
+    Returns
+    -------
+    System
+        Six coordinates `PAIR` and one constraint.
+    """
     q = PAIR.q
     r1, r2 = axis(q[0], q[1]), axis(q[3], q[4])
     v1, v2 = (r.applyfunc(lambda e: total_derivative(e, PAIR)) for r in (r1, r2))
@@ -78,12 +117,23 @@ def pair_with_bar() -> System:
 
 
 def link_constraint(r1: sp.Matrix, r2: sp.Matrix) -> sp.Expr:
-    """g = k (x_2 − x_1) + 1 − r_1 . r_2 for unit vectors: (|ell e_x + R (r_2 − r_1)|² − ell²) / (2 R²), k = ell / R."""
+    """Return the bar's constraint g = k (x_2 − x_1) + 1 − r_1 . r_2 = (|ell e_x + R (r_2 − r_1)|² − ell²) / (2 R²).
+
+    Parameters
+    ----------
+    r1, r2 : Matrix
+        Unit vectors of the axes, shape (3, 1).
+
+    Returns
+    -------
+    Expr
+        g, with k = ell / R.
+    """
     return k * (r2[0] - r1[0]) + 1 - r1.dot(r2)
 
 
 def ansatz_lagrangian(inertia: sp.Expr = J) -> sp.Expr:
-    """The pair's Lagrangian with phi_1' = −phi_2' = phi' and psi_1' = −psi_2' = psi' put in (5.11)."""
+    """Return the pair's Lagrangian for phi_1' = −phi_2' = phi' and psi_1' = −psi_2' = psi' (5.11)."""
     theta_1, theta_2 = ANSATZ.q[:2]
     theta_1_v, theta_2_v, phi_v, psi_v = ANSATZ.v
     first = _rotor_energy(inertia, theta_1, theta_1_v, phi_v, psi_v)
@@ -91,16 +141,33 @@ def ansatz_lagrangian(inertia: sp.Expr = J) -> sp.Expr:
 
 
 def ansatz_integrals() -> tuple[sp.Expr, sp.Expr]:
-    """(A, B) = (dL/dphi', dL/dpsi') of the ansatz Lagrangian (5.12, 5.13): exact for it, not for the pair with its bar."""
+    """Return A = dL/dphi' and B = dL/dpsi' of the ansatz Lagrangian (5.12, 5.13).
+
+    They are integrals of the ansatz, not of the pair with its bar.
+
+    Returns
+    -------
+    tuple of Expr
+        A and B in `ANSATZ`, in kg m²/s.
+    """
     p = momenta(ansatz_lagrangian(), ANSATZ)
     return p[2], p[3]
 
 
 def axes_pair(bar: bool = True) -> System:
-    """The pair as two points on unit spheres, in their six components.
+    """Return the pair as two points on unit spheres, in coordinates without a singularity.
 
-    After Routh reduction of the spins each axis feels the force G_i r_i × r_i'. Constraints: two unit lengths, and the bar's
-    if there is one. No coordinate is singular.
+    After Routh reduction of the spins the force G_i r_i × r_i' acts on each axis.
+
+    Parameters
+    ----------
+    bar : bool, default True
+        True for the constraint of the bar beside the two unit lengths.
+
+    Returns
+    -------
+    System
+        Six coordinates `AXES`.
     """
     q, v = sp.Matrix(AXES.q), sp.Matrix(AXES.v)
     r1, r2, v1, v2 = q[:3, :], q[3:, :], v[:3, :], v[3:, :]
@@ -112,32 +179,48 @@ def axes_pair(bar: bool = True) -> System:
 
 
 def mercator_axis(u: sp.Expr, alpha: sp.Expr) -> sp.Matrix:
-    """r = (tanh u, −sin(alpha) sech u, cos(alpha) sech u): Mercator coordinates about the joint line."""
+    """Return r = (tanh u, −sin(alpha) sech u, cos(alpha) sech u) of Mercator coordinates about the joint line.
+
+    Parameters
+    ----------
+    u, alpha : Expr
+        Latitude and angle.
+
+    Returns
+    -------
+    Matrix
+        The unit vector, shape (3, 1).
+    """
     return sp.Matrix([sp.tanh(u), -sp.sin(alpha) / sp.cosh(u), sp.cos(alpha) / sp.cosh(u)])
 
 
 def mercator_lagrangian() -> sp.Expr:
-    """The spin-reduced pair in (u_1, alpha_1, u_2, alpha_2), the bar's constraint not yet used.
+    """Return the Lagrangian of the spin-reduced pair in Mercator coordinates, without the bar's constraint.
 
-    The sphere's metric is sech² u (du² + dalpha²); the gyroscopic force derives from G tanh(u) alpha',
-    which is regular everywhere but on the joint line.
+    The sphere's metric is sech² u (du² + dalpha²). The gyroscopic force derives from G tanh(u) alpha', which is regular
+    except on the joint line.
+
+    Returns
+    -------
+    Expr
+        L in `MERCATOR`.
     """
     u1, al1, u2, al2 = MERCATOR.q
     u1_v, al1_v, u2_v, al2_v = MERCATOR.v
     s1, s2, t1, t2 = 1 / sp.cosh(u1), 1 / sp.cosh(u2), sp.tanh(u1), sp.tanh(u2)
     c, s = sp.cos(al2 - al1), sp.sin(al2 - al1)
     single = a / 2 * (s1**2 * (u1_v**2 + al1_v**2) + s2**2 * (u2_v**2 + al2_v**2))
-    along = (s1 * s2 + t1 * t2 * c) * u1_v * u2_v + c * al1_v * al2_v
-    across = t1 * s * u1_v * al2_v - t2 * s * u2_v * al1_v
-    return single + b * s1 * s2 * (along + across) + G_1 * t1 * al1_v + G_2 * t2 * al2_v
+    parallel = (s1 * s2 + t1 * t2 * c) * u1_v * u2_v + c * al1_v * al2_v
+    transverse = t1 * s * u1_v * al2_v - t2 * s * u2_v * al1_v
+    return single + b * s1 * s2 * (parallel + transverse) + G_1 * t1 * al1_v + G_2 * t2 * al2_v
 
 
 @dataclass(frozen=True)
 class BarCurve:
     """The bar's constraint solved by one parameter chi: twist Delta = alpha_2 − alpha_1, latitude w = u_1 − u_2.
 
-    In Mercator coordinates the constraint reads  cosh w − k sinh w = cos Delta  (k = ell / R), free of the mean
-    latitude, so that the pair keeps three free coordinates (U, chi, alpha). `rho` = k cosh w − sinh w.
+    In Mercator coordinates the constraint is cosh w − k sinh w = cos Delta (k = ell / R), independent of the mean latitude.
+    The pair keeps the coordinates (U, chi, alpha). `rho` = k cosh w − sinh w.
     """
 
     twist: sp.Expr
@@ -146,12 +229,22 @@ class BarCurve:
 
 
 def bar_curve(ratio: Literal["short", "equal", "long"]) -> BarCurve:
-    """The curve through the rest state chi = 0, for ell < R ("short"), ell = R and ell > R ("long").
+    """Return the curve of the bar's constraint through the upright state chi = 0.
 
     long:   Delta = chi,                rho = sqrt(cos² chi + k² − 1)   for every chi
-    equal:  Delta = chi,                rho = cos chi                   for |chi| < pi/2, where w grows without bound
+    equal:  Delta = chi,                rho = cos chi                   for |chi| < pi/2, where w is unbounded
     short:  sin Delta = k sin chi,      rho = k cos chi                 a closed curve: the bar can fold over
     and  e^w = (k + 1) / (cos Delta + rho),  which for ell = R is 1 / cos chi.
+
+    Parameters
+    ----------
+    ratio : str
+        "short" for ell < R, "equal" for ell = R, "long" for ell > R.
+
+    Returns
+    -------
+    BarCurve
+        Twist, rho and latitude in chi.
     """
     chi = MINIMAL.q[1]
     if ratio == "equal":
@@ -164,34 +257,56 @@ def bar_curve(ratio: Literal["short", "equal", "long"]) -> BarCurve:
 
 
 def minimal_embedding(twist: sp.Expr, latitude: sp.Expr) -> dict[sp.Symbol, sp.Expr]:
-    """Mercator coordinates of the two axes: u = U ± w/2, alpha_i = alpha ∓ Delta/2."""
+    """Return the Mercator coordinates of the axes: u = U ± w/2, alpha_i = alpha ∓ Delta/2.
+
+    Parameters
+    ----------
+    twist, latitude : Expr
+        Delta and w.
+
+    Returns
+    -------
+    dict of Expr
+        The coordinates `MERCATOR` in U, alpha, Delta and w.
+    """
     u1, al1, u2, al2 = MERCATOR.q
     U, _, alpha = MINIMAL.q
     return {u1: U + latitude / 2, al1: alpha - twist / 2, u2: U - latitude / 2, al2: alpha + twist / 2}
 
 
 def leaning_frame() -> tuple[sp.Matrix, sp.Matrix]:
-    """(n, q) in (beta, h, alpha): r_1 = n cos h − q sin h and r_2 = n cos h + q sin h, unit vectors at right angles.
+    """Return orthonormal n and q with r_1 = n cos h − q sin h and r_2 = n cos h + q sin h.
 
-    n, the mean axis, leans by beta along the joint line and is turned by alpha about it. The bar is no more than
-    q_x = −sin(h)/k, so that q = f cos chi + e sin chi with sin chi = −sin(h)/(k cos beta), f and e across the joint line
-    and along the lean.
+    The mean axis n leans by beta along the joint line and is turned by alpha about it. The bar requires q_x = −sin(h)/k, so
+    q = f cos chi + e sin chi with sin chi = −sin(h)/(k cos beta), f across the joint line and e along the lean.
+
+    Returns
+    -------
+    tuple of Matrix
+        n and q in `LEANING`, each of shape (3, 1).
     """
     beta, h, alpha = LEANING.q
     c, s = sp.cos(alpha), sp.sin(alpha)
     mean = sp.Matrix([sp.sin(beta), -sp.cos(beta) * s, sp.cos(beta) * c])
-    along = sp.Matrix([sp.cos(beta), sp.sin(beta) * s, -sp.sin(beta) * c])
-    across = sp.Matrix([0, -c, -s])
+    lean = sp.Matrix([sp.cos(beta), sp.sin(beta) * s, -sp.sin(beta) * c])
+    normal = sp.Matrix([0, -c, -s])
     tilt = -sp.sin(h) / (k * sp.cos(beta))
-    return mean, across * sp.sqrt(1 - tilt**2) + along * tilt
+    return mean, normal * sp.sqrt(1 - tilt**2) + lean * tilt
 
 
 def leaning_lagrangian() -> sp.Expr:
-    """The spin-reduced pair in (beta, h, alpha), exact for every k; alpha is cyclic. With c = cos chi, s = sin chi,
+    """Return the Lagrangian of the spin-reduced pair with its bar in (beta, h, alpha), exact for every k.
+
+    alpha is cyclic. With c = cos chi and s = sin chi,
 
     T = (a + b) (h'² sin² h + |n'|² cos² h) + (a − b) (h'² cos² h + |q'|² sin² h),  |n'|² = beta'² + alpha'² cos² beta,
     |q'|² = (chi' + alpha' sin beta)² + (alpha' c cos beta + beta' s)²,
     and the spins add (G_1 + G_2) cos h (chi' + alpha' sin beta) + (G_1 − G_2) sin h (beta' c + alpha' sin(h)/k).
+
+    Returns
+    -------
+    Expr
+        L in `LEANING`.
     """
     (beta, h, _), (beta_v, h_v, alpha_v) = LEANING.q, LEANING.v
     s = -sp.sin(h) / (k * sp.cos(beta))
@@ -206,7 +321,18 @@ def leaning_lagrangian() -> sp.Expr:
 
 
 def joint_line_momentum(c: Coordinates = AXES) -> sp.Expr:
-    """P = sum_i (dT/dr_i') . (e_x × r_i) + G_i x_i: the Noether integral of turning the pair about the joint line."""
+    """Return the Noether integral P = sum_i (dT/dr_i') . (e_x × r_i) + G_i x_i of rotation about the joint line.
+
+    Parameters
+    ----------
+    c : Coordinates, default AXES
+        Coordinates of the axes.
+
+    Returns
+    -------
+    Expr
+        P in kg m²/s.
+    """
     q, v = sp.Matrix(c.q), sp.Matrix(c.v)
     r1, r2, v1, v2 = q[:3, :], q[3:, :], v[:3, :], v[3:, :]
     p1, p2 = a * v1 + b * v2, a * v2 + b * v1

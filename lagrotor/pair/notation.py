@@ -77,7 +77,7 @@ _ANGLES = {
 
 
 def _row(q: sp.Symbol) -> tuple[str, str]:
-    """Meaning and unit of a coordinate."""
+    """Return the meaning and the unit of a coordinate."""
     stem, _, index = q.name.partition("_")
     return _ANGLES[stem] + (f" of rotor {index}" if index else ""), "1" if stem in "xyzuU" else "rad"
 

@@ -1,4 +1,4 @@
-"""Numbers and vectors that are given, checked: what makes no sense is refused with its value, the reason and the way out."""
+"""Numbers and vectors of users are checked, and refused with the value, the reason and the remedy."""
 
 from collections.abc import Iterable
 from math import isfinite, nan
@@ -11,44 +11,45 @@ SMALLEST, _LARGEST = 1e-60, 1e60  # magnitudes whose fifth powers are still doub
 
 
 def finite_number(value: object, where: str, unit: str) -> float:
-    """A finite number, no larger than LARGEST."""
+    """Return a finite number of a size at most _LARGEST."""
     try:
-        given = nan if isinstance(value, str | bytes) else float(value)  # type: ignore[arg-type]
+        number = nan if isinstance(value, str | bytes) else float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError, OverflowError):
         raise InputError(f"{where} = {value!r} is not a number: give it in {unit}") from None
-    if isinstance(value, bool) or not isfinite(given):
+    if isinstance(value, bool) or not isfinite(number):
         raise InputError(f"{where} = {value!r} is not a finite number: give it in {unit}")
-    if abs(given) > _LARGEST:
-        raise InputError(f"{where} = {given:g} {unit} is beyond {_LARGEST:g}, where squares overflow; change the units")
-    return given
+    if abs(number) > _LARGEST:
+        raise InputError(
+            f"{where} = {number:g} {unit} is beyond {_LARGEST:g}, where squares overflow; change the units"
+        )
+    return number
 
 
 def not_vanishing(value: object, where: str, unit: str) -> float:
-    """Zero, or a number no smaller than SMALLEST."""
-    given = finite_number(value, where, unit)
-    if 0 < abs(given) < SMALLEST:
-        raise InputError(f"{where} = {given:g} {unit} is below {SMALLEST:g}, where squares vanish; change the units")
-    return given
+    """Return zero or a number of a size at least SMALLEST."""
+    number = finite_number(value, where, unit)
+    if 0 < abs(number) < SMALLEST:
+        raise InputError(f"{where} = {number:g} {unit} is below {SMALLEST:g}, where squares vanish; change the units")
+    return number
 
 
 def positive(value: object, where: str, unit: str) -> float:
-    """A number above zero, no smaller than SMALLEST."""
-    given = finite_number(value, where, unit)
-    if given <= 0:
-        raise InputError(f"{where} = {given:g} {unit} must be greater than zero")
-    return not_vanishing(given, where, unit)
+    """Return a positive number, at least SMALLEST."""
+    number = finite_number(value, where, unit)
+    if number <= 0:
+        raise InputError(f"{where} = {number:g} {unit} must be greater than zero")
+    return not_vanishing(number, where, unit)
 
 
 def not_negative(value: object, where: str, unit: str) -> float:
-    """Zero, or a number above it."""
-    given = finite_number(value, where, unit)
-    if given < 0:
-        raise InputError(f"{where} = {given:g} {unit} must not be negative: give 0 or more")
-    return given
+    number = finite_number(value, where, unit)
+    if number < 0:
+        raise InputError(f"{where} = {number:g} {unit} must not be negative: give 0 or more")
+    return number
 
 
 def numbers(value: object, count: int, where: str, unit: str) -> tuple[float, ...]:
-    """`count` numbers in a row."""
+    """Return `count` finite numbers."""
     items = list(value) if isinstance(value, Iterable) and not isinstance(value, str) else None
     if items is None or len(items) != count:
         raise InputError(f"{where} = {value!r} must be {count} numbers in {unit}")
@@ -56,13 +57,12 @@ def numbers(value: object, count: int, where: str, unit: str) -> tuple[float, ..
 
 
 def finite_vector(value: object, where: str, unit: str) -> Vector:
-    """Three numbers in a row."""
     x, y, z = numbers(value, 3, where, unit)
     return x, y, z
 
 
 def two_vectors(value: object, where: str, unit: str) -> tuple[Vector, Vector]:
-    """A vector for each rotor."""
+    """Return a vector for each rotor."""
     items = list(value) if isinstance(value, Iterable) and not isinstance(value, str) else []
     if len(items) != 2:
         raise InputError(f"{where} = {value!r} must be two vectors, one a rotor")

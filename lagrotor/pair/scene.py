@@ -1,4 +1,4 @@
-"""The scene: rotors, bar, shock and initial state, in SI units. What makes no sense is refused here."""
+"""The scene: rotors, bar, shock and initial state, checked, in SI units."""
 
 from __future__ import annotations
 
@@ -19,17 +19,32 @@ from lagrotor.pair.quantities import (
     two_vectors,
 )
 
-_CLOSE = 1e-9  # how far a given state may lie off its constraints
+_CLOSE = 1e-9  # the largest residual of the constraints at the start
 
 
 def _dot(p: Vector, q: Vector) -> float:
-    """Scalar product of two vectors."""
     return fsum(x * y for x, y in zip(p, q, strict=True))
 
 
 @dataclass(frozen=True)
 class Rotor:
-    """A symmetric rotor standing on a ground joint: mass (kg), axis length (m), inertias about its centre (kg m²)."""
+    """A symmetric rotor on a ground joint.
+
+    Attributes
+    ----------
+    mass : float, default 1.0
+        The mass M in kg.
+    length : float, default 1.0
+        The length R of the axis in m.
+    I1 : float, default 1.0
+    I3 : float, default 1.0
+        The transverse and the axial inertia about the centre, in kg m².
+
+    Examples
+    --------
+    >>> Rotor(mass=4, length=1, I1=2).J
+    3.0
+    """
 
     mass: float = 1.0
     length: float = 1.0
@@ -47,13 +62,23 @@ class Rotor:
 
     @property
     def J(self) -> float:
-        """Transverse inertia about the ground joint, I1 + M R²/4 (kg m²)."""
+        """The transverse inertia about the ground joint, I1 + M R²/4, in kg m²."""
         return self.I1 + self.mass * self.length**2 / 4
 
 
 @dataclass(frozen=True)
 class Link:
-    """The bar between the tips: length (m), mass (kg), transverse inertia about its centre (kg m²)."""
+    """The bar between the tips.
+
+    Attributes
+    ----------
+    length : float, default 1.0
+        The length in m.
+    mass : float, default 0.0
+        The mass in kg.
+    inertia : float, default 0.0
+        The transverse inertia about the centre, in kg m².
+    """
 
     length: float = 1.0
     mass: float = 0.0
@@ -72,7 +97,23 @@ class Link:
 
 @dataclass(frozen=True)
 class Shock:
-    """A Gaussian pulse on the tip of one rotor: force exp(−((t − at)/width)²), force in N, times in s."""
+    """A Gaussian pulse force exp(−((t − at)/width)²) on the tip of one rotor.
+
+    Attributes
+    ----------
+    force : tuple of float
+        The peak (x, y, z) in N.
+    at : float
+    width : float
+        The time of the peak and the width, in s.
+    body : int, default 1
+        The rotor, 1 (left) or 2 (right).
+
+    Examples
+    --------
+    >>> Shock((50, 0, 0), at=2, width=0.02).impulse[0]
+    1.772453850905516
+    """
 
     force: Vector
     at: float
@@ -89,22 +130,33 @@ class Shock:
 
     @property
     def impulse(self) -> Vector:
-        """Force integrated over time, force width sqrt(pi) (N s)."""
+        """The integral of the force over time, force width √π, in N s."""
         scale = self.width * sqrt(pi)
         return (self.force[0] * scale, self.force[1] * scale, self.force[2] * scale)
 
     @property
     def begin(self) -> float:
-        """Time (s) before which the pulse is below the last bit of its peak."""
+        """The time in s before which the pulse is below the last bit of its peak."""
         return self.at - PULSE_REACH * self.width
 
     @property
     def end(self) -> float:
-        """Time (s) after which the pulse is below the last bit of its peak."""
+        """The time in s after which the pulse is below the last bit of its peak."""
         return self.at + PULSE_REACH * self.width
 
     def since(self, begin: float) -> Shock:
-        """The shock with time counted from `begin` (s)."""
+        """Return the shock with time counted from a moment.
+
+        Parameters
+        ----------
+        begin : float
+            The moment in s.
+
+        Returns
+        -------
+        Shock
+            The shifted shock.
+        """
         return replace(self, at=self.at - begin)
 
 
@@ -114,21 +166,29 @@ _REST: tuple[Vector, Vector] = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 @dataclass(frozen=True)
 class Scene:
-    """Two equal rotors of given axial angular velocities (rad/s), the bar between their tips, a shock, a start.
+    """Two equal rotors, the bar between their tips, a shock and an initial state.
 
-    `axes` are the unit vectors r_i and `rates` their r_i' (1/s) at the start of a run; they must satisfy
-    |r_i| = 1, |ell e_x + R (r_2 − r_1)| = ell, and the rates be tangent to both.
-    `link=None` leaves the two rotors uncoupled.
-
-    Raises
-    ------
-    InputError
-        Axes, rates or sizes that do not fit together; the message names the way out.
+    Attributes
+    ----------
+    spins : tuple of float
+        The axial angular velocities in rad/s.
+    rotor : Rotor
+        Both rotors.
+    link : Link or None
+        The bar; None for uncoupled rotors.
+    shock : Shock or None
+        The shock, if there is one.
+    axes : tuple of vectors
+    rates : tuple of vectors
+        The unit vectors r_i and r_i' (1/s) at the start, with |ell e_x + R (r_2 − r_1)| = ell and rates tangent to it.
 
     Examples
     --------
-    >>> Scene(spins=(10, -10)).momenta
-    (10.0, -10.0)
+    >>> scene = Scene(spins=(10, -10), link=Link(mass=1.0, inertia=0.5))
+    >>> scene.momenta, scene.inertias, scene.sigma, scene.k
+    ((10.0, -10.0), (2.0, -0.25), 0.7777777777777778, 1.0)
+    >>> scene.summary()["bar"]
+    '1 m, 1 kg, 0.5 kg m²'
     """
 
     spins: tuple[float, float]
@@ -160,7 +220,7 @@ class Scene:
             self._refuse_bar(self.link)
 
     def _refuse_bar(self, link: Link) -> None:
-        """The bar's length and its rate of change at the start."""
+        """Raise InputError if the start does not satisfy the bar's constraint or its derivative."""
         (r1, r2), (v1, v2), R, ell = self.axes, self.rates, self.rotor.length, link.length
         d = (ell + R * (r2[0] - r1[0]), R * (r2[1] - r1[1]), R * (r2[2] - r1[2]))
         w = (v2[0] - v1[0], v2[1] - v1[1], v2[2] - v1[2])
@@ -175,12 +235,12 @@ class Scene:
                 f"Scene: the rates stretch the bar at {stretch:.3g} m/s; make them tangent to its constraint, "
                 "or use lagrotor.consistent_scene"
             )
-        # n_i: tangent part of the bar's pull on axis i. With both zero nothing the bar does can be felt.
+        # n_i: tangent component of the bar's pull on axis i. If both vanish, the bar has no effect on the axes.
         pulls = []
-        for r, other, sign in ((r1, r2, 1.0), (r2, r1, -1.0)):
-            n = (ell / R * sign + other[0], other[1], other[2])
-            along = _dot(n, r)
-            pulls.append(hypot(n[0] - along * r[0], n[1] - along * r[1], n[2] - along * r[2]))
+        for r, partner, sign in ((r1, r2, 1.0), (r2, r1, -1.0)):
+            n = (ell / R * sign + partner[0], partner[1], partner[2])
+            component = _dot(n, r)
+            pulls.append(hypot(n[0] - component * r[0], n[1] - component * r[1], n[2] - component * r[2]))
         if max(pulls) < 1e-6 * min(1.0, ell / R):
             raise InputError(
                 f"Scene: axes = {self.axes} both lie along the joint line, where the bar's constraint is singular; "
@@ -188,21 +248,53 @@ class Scene:
             )
 
     def shock_until(self, t_end: float) -> Shock | None:
-        """The shock, if its pulse acts at any time between 0 and t_end (s)."""
+        """Return the shock if its pulse acts between 0 and t_end.
+
+        Parameters
+        ----------
+        t_end : float
+            The last time in s.
+
+        Returns
+        -------
+        Shock or None
+            The shock; None if it does not act.
+
+        Examples
+        --------
+        >>> Scene((10, -10), shock=Shock((50, 0, 0), at=2, width=0.02)).shock_until(1) is None
+        True
+        """
         return self.shock if self.shock and self.shock.begin < t_end and self.shock.end > 0 else None
 
     def since(self, begin: float) -> Scene:
-        """The scene with time counted from `begin` (s)."""
+        """Return the scene with time counted from a moment.
+
+        Parameters
+        ----------
+        begin : float
+            The moment in s.
+
+        Returns
+        -------
+        Scene
+            The scene with the shifted shock.
+
+        Examples
+        --------
+        >>> Scene((10, -10), shock=Shock((50, 0, 0), at=2, width=0.02)).since(1.5).shock.at
+        0.5
+        """
         return replace(self, shock=self.shock.since(begin)) if self.shock and begin else self
 
     @property
     def momenta(self) -> tuple[float, float]:
-        """Axial angular momenta G_i = I3 omega_i (kg m²/s)."""
+        """The axial angular momenta G_i = I3 omega_i, in kg m²/s."""
         return self.rotor.I3 * self.spins[0], self.rotor.I3 * self.spins[1]
 
     @property
     def inertias(self) -> tuple[float, float]:
-        """(a, b) of T = a/2 (|r_1'|² + |r_2'|²) + b r_1' . r_2', the bar included (kg m²)."""
+        """The inertias (a, b) of T = a/2 (|r_1'|² + |r_2'|²) + b r_1' . r_2' with the bar, in kg m²."""
         J, R = self.rotor.J, self.rotor.length
         if self.link is None:
             return J, 0.0
@@ -211,25 +303,25 @@ class Scene:
 
     @property
     def sigma(self) -> float:
-        """(a + b)/(a − b): 1 without a bar, for a massless bar and for a dumbbell."""
-        own, shared = self.inertias
-        return (own + shared) / (own - shared)
+        """The ratio (a + b)/(a − b): 1 without a bar, for a massless bar and for a dumbbell."""
+        self_inertia, shared = self.inertias
+        return (self_inertia + shared) / (self_inertia - shared)
 
     @property
     def k(self) -> float:
-        """ell/R, the bar's length in lengths of an axis.
-
-        Raises
-        ------
-        InputError
-            Without a bar.
-        """
+        """The ratio ell/R of the lengths of bar and axis; InputError without a bar."""
         if self.link is None:
             raise InputError("Scene: k = ell/R needs a bar; give the scene a link")
         return self.link.length / self.rotor.length
 
     def summary(self) -> dict[str, str]:
-        """Spins, rotors, bar and shock, name → words."""
+        """Return spins, rotors, bar and shock in words.
+
+        Returns
+        -------
+        dict of str
+            Words by name.
+        """
         rotor, bar, shock = self.rotor, self.link, self.shock
         return {
             "spins [rad/s]": f"{self.spins[0]:g}, {self.spins[1]:g}",

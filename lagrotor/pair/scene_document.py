@@ -1,4 +1,4 @@
-"""A scene as TOML: the fields of `Scene`, read and written; what is not one of them is refused."""
+"""A scene as TOML: the fields of `Scene`, read and written. Unknown names are refused."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import MISSING, asdict, fields
@@ -14,20 +14,29 @@ _PARTS: dict[str, type] = {"rotor": Rotor, "link": Link, "shock": Shock}
 
 
 def read_scene(path: str | Path) -> Scene:
-    """The scene that a TOML file describes: spins, and [rotor], [link], [shock], axes, rates as far as they are not usual.
+    """Read a scene from a TOML file.
 
-    `link = "none"` is a pair without a bar.
+    Parameters
+    ----------
+    path : str or Path
+        A file with spins, and [rotor], [link], [shock], axes and rates if they are not the defaults. `link = "none"` is a pair
+        without a bar.
+
+    Returns
+    -------
+    Scene
+        The scene.
 
     Raises
     ------
     InputError
-        With the reason where there is none.
+        If the file describes no scene.
     """
     return read_document(path, scene_of)
 
 
 def read_document(path: str | Path, make: Callable[[dict[str, Any]], Kind]) -> Kind:
-    """What `make` gives of the table that a TOML file holds. Raises InputError, with the file's name, where it does."""
+    """Return make(table) for the table of a TOML file, with the name of the file in every InputError."""
     table = read_toml(path)
     try:
         return make(table)
@@ -35,38 +44,32 @@ def read_document(path: str | Path, make: Callable[[dict[str, Any]], Kind]) -> K
         raise InputError(f"{path}: {error}") from None
 
 
-def scene_of(given: Mapping[str, Any]) -> Scene:
-    """The scene of a table with the fields' names.
-
-    Raises
-    ------
-    InputError
-        For names that are none, or values that make no sense.
-    """
-    check_fields(given, Scene, "a scene")
-    if "spins" not in given:
+def scene_of(table: Mapping[str, Any]) -> Scene:
+    """Return the scene of a table by the names of the fields."""
+    check_fields(table, Scene, "a scene")
+    if "spins" not in table:
         raise InputError("spins is missing: give the axial angular velocities in rad/s, spins = [10, -10]")
-    parts = {
-        name: None if (name, given[name]) == ("link", "none") else part_of(name, kind, given[name])
+    objects = {
+        name: None if (name, table[name]) == ("link", "none") else part_of(name, kind, table[name])
         for name, kind in _PARTS.items()
-        if name in given
+        if name in table
     }
-    return Scene(**dict(given) | parts)
+    return Scene(**dict(table) | objects)
 
 
-def check_fields(given: Mapping[str, Any], kind: type, what: str) -> None:
-    """Raises InputError for a name in a table that is no field of `kind`."""
+def check_fields(table: Mapping[str, Any], kind: type, what: str) -> None:
+    """Raise InputError for a name in a table that is no field of `kind`."""
     names = [field.name for field in fields(kind)]
-    if unknown := [name for name in given if name not in names]:
-        known = ", ".join(names)
-        raise InputError(f"{unknown[0]!r} is no field of {what}: they are {known}{near(unknown[0], names)}")
+    if unknown := [name for name in table if name not in names]:
+        listed = ", ".join(names)
+        raise InputError(f"{unknown[0]!r} is no field of {what}: they are {listed}{near(unknown[0], names)}")
 
 
 def part_of(name: str, kind: type, table: Any) -> Any:
-    """A part of a kind from its table. Raises InputError where it is none."""
-    known = [field.name for field in fields(kind)]
-    if not isinstance(table, dict) or any(key not in known for key in table):
-        raise InputError(f"{name} = {table!r} must be a table of {', '.join(known)}")
+    """Return an object of a kind from a table of its fields."""
+    names = [field.name for field in fields(kind)]
+    if not isinstance(table, dict) or any(key not in names for key in table):
+        raise InputError(f"{name} = {table!r} must be a table of {', '.join(names)}")
     needed = [field.name for field in fields(kind) if field.default is MISSING and field.default_factory is MISSING]
     if lacking := [key for key in needed if key not in table]:
         raise InputError(f"{name} = {table!r} lacks {', '.join(lacking)}")
@@ -74,22 +77,41 @@ def part_of(name: str, kind: type, table: Any) -> Any:
 
 
 def scene_toml(scene: Scene) -> str:
-    """The scene as TOML that `read_scene` reads back to the same."""
+    """Return TOML from which `read_scene` makes the same scene."""
     lines = [f"{name} = {toml_value(getattr(scene, name))}" for name in ("spins", "axes", "rates")]
     lines += [] if scene.link else ['link = "none"']
     for name in _PARTS:
-        if part := getattr(scene, name):
-            lines += ["", f"[{name}]", *(f"{key} = {toml_value(value)}" for key, value in asdict(part).items())]
+        if item := getattr(scene, name):
+            lines += ["", f"[{name}]", *(f"{key} = {toml_value(value)}" for key, value in asdict(item).items())]
     return "\n".join([*lines, ""])
 
 
 def write_scene(scene: Scene, path: str | Path) -> Path:
-    """Write the scene as TOML, whole or not at all.
+    """Write a scene to a TOML file atomically.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    path : str or Path
+        The file.
+
+    Returns
+    -------
+    Path
+        The file.
 
     Raises
     ------
     InputError
-        Where that cannot be.
+        If the file cannot be written.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     read_scene(write_scene(Scene((10, -10)), f"{folder}/scene.toml")) == Scene((10, -10))
+    True
     """
     if not isinstance(scene, Scene):
         raise InputError(f"write_scene: scene = {scene!r} must be a Scene")
@@ -97,5 +119,5 @@ def write_scene(scene: Scene, path: str | Path) -> Path:
 
 
 def toml_value(value: Any) -> str:
-    """A number, a text or a tuple of them as TOML."""
+    """Return a number, a text or a tuple of them as TOML."""
     return f"[{', '.join(map(toml_value, value))}]" if isinstance(value, tuple) else repr(value)

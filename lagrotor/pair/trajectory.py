@@ -1,4 +1,4 @@
-"""What a run of the pair leaves: the axes over time and everything read off them, the same for every model."""
+"""The trajectory of the pair: the axes over time and the quantities computed from them, the same for every model."""
 
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from lagrotor.drawing.view import View
 
 
-# How far the length of a stored axis may be off one: what the loosest tolerances leave.
+# The largest error of the length of a stored axis, by the loosest tolerances.
 UNIT_ERROR = 1e-3
 
 UNITS = {
@@ -36,14 +36,14 @@ _AXES = {3: ("rotor", "t", "component"), 2: ("rotor", "t"), 1: ("t",)}
 
 
 def tilting_energy(scene: Scene, rates: Array) -> Array:
-    """a/2 (|r_1'|² + |r_2'|²) + b r_1'·r_2' of rates (2, n, 3), (n,), in J."""
+    """Return a/2 (|r_1'|² + |r_2'|²) + b r_1'·r_2' for rates (2, n, 3), shape (n,), in J."""
     a, b = scene.inertias
     v1, v2 = rates
     return np.asarray(a / 2 * ((v1**2).sum(-1) + (v2**2).sum(-1)) + b * (v1 * v2).sum(-1))
 
 
 def momentum_about_joints(scene: Scene, axes: Array, rates: Array, momenta: Array) -> Array:
-    """Angular momentum about the line through the ground joints, (n,), in kg m²/s."""
+    """Return the angular momentum about the line through the ground joints, shape (n,), in kg m²/s."""
     a, b = scene.inertias
     (r1, r2), (v1, v2) = axes, rates
     turning = np.cross(r1, a * v1 + b * v2) + np.cross(r2, a * v2 + b * v1)
@@ -52,10 +52,35 @@ def momentum_about_joints(scene: Scene, axes: Array, rates: Array, momenta: Arra
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Trajectory(Run):
-    """A run of a scene by a model: why it was chosen is a sentence.
+    """The result of `simulate`: the motion of a scene by a model.
 
-    axes, rates (2, n, 3): unit vectors r_i and r_i' (1/s); momenta (2, n): G_i, axial (kg m²/s). errors: of an axis (tips: in
-    units of R).
+    Attributes
+    ----------
+    scene : Scene
+        The scene.
+    model : str
+    why : str
+        The model and the reason why it was chosen.
+    axes : ndarray
+    rates : ndarray
+        The unit vectors r_i and their derivatives (1/s), shape (2, n, 3).
+    momenta : ndarray
+        The axial angular momenta G_i in kg m²/s, shape (2, n).
+    t : ndarray
+    errors : ndarray
+    horizon : float
+    evaluations : int
+    ending : Ending
+        As of `Run`; errors are those of an axis, and of a tip in units of R.
+
+    Examples
+    --------
+    >>> from lagrotor import Scene, simulate
+    >>> run = simulate(Scene((10, -10)), [0, 1, 2])
+    >>> run.model, run.tips.shape
+    ('closed_form', (2, 3, 3))
+    >>> run.energy, run.link_length, sorted(run.invariants)
+    (array([100., 100., 100.]), array([1., 1., 1.]), ['G_1', 'G_2', 'P'])
     """
 
     scene: Scene
@@ -67,47 +92,53 @@ class Trajectory(Run):
 
     @property
     def joints(self) -> Array:
-        """Ground joints, (2, 3), in m."""
+        """The ground joints, shape (2, 3), in m."""
         half = (self.scene.link.length if self.scene.link else self.scene.rotor.length) / 2
         return np.array([[-half, 0.0, 0.0], [half, 0.0, 0.0]])
 
     @property
     def tips(self) -> Array:
-        """Tips of the rotors, (2, n, 3), in m."""
+        """The tips of the rotors, shape (2, n, 3), in m."""
         return self.joints[:, None, :] + self.scene.rotor.length * self.axes
 
     @property
     def link_length(self) -> Array:
-        """Distance of the tips, (n,), in m: the bar's length, constant on the exact pair."""
+        """The distance of the tips, shape (n,), in m; with a bar its length."""
         return np.linalg.norm(self.tips[1] - self.tips[0], axis=-1)
 
     @property
     def energy(self) -> Array:
-        """Kinetic energy a/2 (|r_1'|² + |r_2'|²) + b r_1'.r_2' + (G_1² + G_2²)/(2 I_3), (n,), in J."""
+        """The kinetic energy a/2 (|r_1'|² + |r_2'|²) + b r_1'.r_2' + (G_1² + G_2²)/(2 I_3), shape (n,), in J."""
         return tilting_energy(self.scene, self.rates) + (self.momenta**2).sum(0) / (2 * self.scene.rotor.I3)
 
     @property
     def joint_line_momentum(self) -> Array:
-        """Angular momentum about the line through the ground joints, (n,), in kg m²/s: conserved but for the shock."""
+        """The angular momentum about the line through the joints, shape (n,), in kg m²/s; only the shock changes it."""
         return momentum_about_joints(self.scene, self.axes, self.rates, self.momenta)
 
     @property
     def invariants(self) -> dict[str, Array]:
-        """What the motion conserves, name → (n,): the two axial momenta and the momentum about the joint line."""
+        """The conserved quantities by name, each of shape (n,): G_1, G_2 and P, the momentum about the joint line."""
         return {"G_1": self.momenta[0], "G_2": self.momenta[1], "P": self.joint_line_momentum}
 
     @property
     def inclinations(self) -> Array:
-        """Inclinations theta_i, (2, n), in rad."""
+        """The inclinations theta_i, shape (2, n), in rad."""
         return np.arctan2(np.hypot(self.axes[..., 0], self.axes[..., 1]), self.axes[..., 2])
 
     @property
     def azimuths(self) -> Array:
-        """Azimuths phi_i of the axes, unwrapped, (2, n), in rad."""
+        """The azimuths phi_i of the axes, unwrapped, shape (2, n), in rad."""
         return np.unwrap(np.arctan2(self.axes[..., 1], self.axes[..., 0]), axis=-1)
 
     def plot(self) -> "Figure":
-        """A figure that a notebook shows: tips over time and from above, energy over time; `.savefig(path)` writes it."""
+        """Draw the tips over time and from above, and the energy over time.
+
+        Returns
+        -------
+        Figure
+            A figure that a notebook shows; `.savefig(path)` writes it.
+        """
         from lagrotor.drawing.run_figure import run_figure
 
         title = f"spins {self.scene.spins[0]:g} and {self.scene.spins[1]:g} rad/s, model {self.model}".replace("-", "−")
@@ -123,7 +154,12 @@ class Trajectory(Run):
         fps : float, default 25.0
             Pictures per second.
         step : callable, default lambda name: None
-            Called with each second of the film as it begins.
+            Called at the start of each second of the film.
+
+        Returns
+        -------
+        Path
+            The file.
         """
         from lagrotor.drawing.film import animate_lines, check_film, frame_times
 
@@ -133,7 +169,13 @@ class Trajectory(Run):
         return animate_lines(path, times, lines, fps, inks, traced, step)
 
     def view(self) -> "View":
-        """The motion as a page that a notebook shows, turned by hand and played, without a network; `.save("run.html")`."""
+        """Draw the motion as a page that a notebook shows, to be turned and played without a network.
+
+        Returns
+        -------
+        View
+            The page; `.save("run.html")` writes it.
+        """
         from lagrotor.drawing.view import view_lines, view_times
 
         times = view_times(self.t[0], self.t[-1])
@@ -142,7 +184,18 @@ class Trajectory(Run):
         return view_lines(times, lines, inks, spins, traced)
 
     def motion(self, times: Array) -> "FilmedMotion":
-        """What a film draws at `times` (m,) in s: axes by Hermite cubics, the bodies turned along samples and frames."""
+        """Interpolate the motion for a film by Hermite cubics of the axes.
+
+        Parameters
+        ----------
+        times : ndarray
+            The times of the pictures in s, shape (m,).
+
+        Returns
+        -------
+        FilmedMotion
+            Rotations, tips and centres at these times.
+        """
         from lagrotor.drawing.film import FilmedMotion
         from lagrotor.numerics.rotations import between_samples, body_rotations
 
@@ -156,7 +209,13 @@ class Trajectory(Run):
         return FilmedMotion(times, rotations, tips, centres, self.joints, length, joined)
 
     def summary(self) -> dict[str, str]:
-        """What the run is and how well it kept what it should keep, name → words."""
+        """Return the scene, the model and the errors of the invariants in words.
+
+        Returns
+        -------
+        dict of str
+            Words by name.
+        """
         first, last = float(self.energy[0]), float(self.energy[-1])
         return (
             self.scene.summary()
@@ -171,50 +230,73 @@ class Trajectory(Run):
         )
 
     def quantities(self) -> dict[str, Quantity]:
-        """axes, rates, tips, energy, link_length, momenta, and P, the momentum about the joint line."""
-        held = {name: getattr(self, name) for name in UNITS if name != "P"} | {"P": self.joint_line_momentum}
-        return {name: Quantity(values, _AXES[values.ndim], UNITS[name]) for name, values in held.items()}
+        """Return axes, rates, tips, energy, link_length, momenta and the momentum P about the joint line.
+
+        Returns
+        -------
+        dict of Quantity
+            Values, names of the axes of the array, and unit by name.
+        """
+        arrays = {name: getattr(self, name) for name in UNITS if name != "P"} | {"P": self.joint_line_momentum}
+        return {name: Quantity(values, _AXES[values.ndim], UNITS[name]) for name, values in arrays.items()}
 
     def _about(self) -> dict[str, Any]:
-        """The scene, the model and why it was chosen."""
+        """Return the scene, the model and the reason why it was chosen."""
         return {"scene": asdict(self.scene), "model": self.model, "why": self.why}
 
     @staticmethod
     def load(path: str | Path) -> "Trajectory":
-        """The run that `save` wrote as `.npz`.
+        """Read a run that `save` wrote.
+
+        Parameters
+        ----------
+        path : str or Path
+            An `.npz`.
+
+        Returns
+        -------
+        Trajectory
+            The run.
 
         Raises
         ------
         InputError
-            Where that is not what the file is: not whole, or not a motion (times that decrease, axes that are
-            no unit vectors, numbers that are not finite).
+            If the file is damaged or no motion: decreasing times, axes that are no unit vectors, numbers that are not finite.
+
+        Examples
+        --------
+        >>> from tempfile import TemporaryDirectory
+        >>> from lagrotor import Scene, simulate
+        >>> with TemporaryDirectory() as folder:
+        ...     Trajectory.load(simulate(Scene((10, -10)), [0, 1]).save(f"{folder}/run.npz")).scene.spins
+        (10.0, -10.0)
         """
-        about, held, known = read_run(path)
+        about, arrays, run_fields = read_run(path)
         try:
-            given = about["scene"]
-            parts = {"rotor": Rotor, "link": Link, "shock": Shock}
-            given |= {name: kind(**given[name]) for name, kind in parts.items() if given[name] is not None}
-            axes, rates, momenta = (held[name] for name in ("axes", "rates", "momenta"))
-            scene, model, why = Scene(**given), about["model"], about["why"]
+            fields = about["scene"]
+            kinds = {"rotor": Rotor, "link": Link, "shock": Shock}
+            fields |= {name: kind(**fields[name]) for name, kind in kinds.items() if fields[name] is not None}
+            axes, rates, momenta = (arrays[name] for name in ("axes", "rates", "momenta"))
+            scene, model, why = Scene(**fields), about["model"], about["why"]
         except (KeyError, TypeError, AttributeError, ValueError) as refusal:
             raise InputError(
                 f"load: {path} is no run saved as .npz ({refusal}): give a file that `save` wrote"
             ) from None
-        wrong = _wrong(known["t"], axes, rates, momenta)
+        wrong = _wrong(run_fields["t"], axes, rates, momenta)
         if not (isinstance(model, str) and isinstance(why, str)):
             wrong = "its model is none"
         if wrong:
             raise InputError(f"load: {path} is no run: {wrong}: give a file that `save` wrote")
-        return Trajectory(scene=scene, model=model, why=why, axes=axes, rates=rates, momenta=momenta, **known)
+        return Trajectory(scene=scene, model=model, why=why, axes=axes, rates=rates, momenta=momenta, **run_fields)
 
 
 def _wrong(t: Array, axes: Array, rates: Array, momenta: Array) -> str | None:
-    """What keeps these from being a motion, in words; None where nothing does."""
+    """Return the reason in words why these arrays are no motion; None if they are one."""
     n = len(t) if t.ndim == 1 else 0
-    wanted = ((t, (n,)), (axes, (2, n, 3)), (rates, (2, n, 3)), (momenta, (2, n)))
-    if not n or any(part.shape != shape for part, shape in wanted):
+    shapes = ((t, (n,)), (axes, (2, n, 3)), (rates, (2, n, 3)), (momenta, (2, n)))
+    if not n or any(array.shape != shape for array, shape in shapes):
         return f"t {t.shape}, axes {axes.shape}, rates {rates.shape}, momenta {momenta.shape} do not fit together"
-    if not all(np.isfinite(part).all() for part, _ in wanted):
+    if not all(np.isfinite(array).all() for array, _ in shapes):
         return "some of its numbers are not finite"
     if np.abs(np.linalg.norm(axes, axis=-1) - 1).max() > UNIT_ERROR:
         return "its axes are no unit vectors"
@@ -222,7 +304,18 @@ def _wrong(t: Array, axes: Array, rates: Array, momenta: Array) -> str | None:
 
 
 def ansatz_A(run: Trajectory) -> Array:
-    """A = p_phi1 − p_phi2 along a run, (n,), in kg m²/s: the paper's integral (5.12), the bar's inertia included."""
+    """Return the paper's integral (5.12), A = p_phi1 − p_phi2, along a run, with the bar's inertia.
+
+    Parameters
+    ----------
+    run : Trajectory
+        The run.
+
+    Returns
+    -------
+    ndarray
+        A in kg m²/s, shape (n,).
+    """
     a, b = run.scene.inertias
     (r1, r2), (v1, v2) = run.axes, run.rates
     about_z = np.cross(r1, a * v1 + b * v2)[:, 2] - np.cross(r2, a * v2 + b * v1)[:, 2]

@@ -1,6 +1,6 @@
-"""Numbers as balls: a midpoint and a radius that holds what is meant. Arb's arithmetic rounds outward (Johansson 2017).
+"""Numbers as balls, a midpoint and a radius. Arb's arithmetic rounds outward (Johansson 2017).
 
-A decimal means what it says: 0.1 is 1/10, not the nearest binary number. An interval is a pair (lowest, highest).
+A decimal denotes the rational number that it prints: 0.1 is 1/10. An interval is a pair (lowest, highest).
 """
 
 from collections.abc import Iterator, Sequence
@@ -29,17 +29,17 @@ __all__ = ["arb", "arb_mat", "arb_poly", "arb_series", "ctx", "fmpq"]
 
 @contextmanager
 def precision(bits: int, terms: int = 10) -> Iterator[None]:
-    """Arb's precision and the length of its series within a block."""
-    before = ctx.prec, ctx.cap
+    """Set Arb's precision and the length of its series within a block."""
+    outer = ctx.prec, ctx.cap
     ctx.prec, ctx.cap = bits, terms
     try:
         yield
     finally:
-        ctx.prec, ctx.cap = before
+        ctx.prec, ctx.cap = outer
 
 
 def rational(value: Any, where: str) -> Fraction:
-    """The rational number that is meant: a float by the decimal that it prints."""
+    """Return the rational number that a value denotes: for a float, the decimal that it prints."""
     if isinstance(value, bool):
         raise InputError(f"{where} = {value!r} must be a number")
     if isinstance(value, Integral | Rational):
@@ -57,41 +57,40 @@ def rational(value: Any, where: str) -> Fraction:
 
 
 def upper(x: Ball) -> Ball:
-    """A number that is at least as large as the ball's absolute value."""
+    """Return an upper bound of the absolute value."""
     return arb(x.abs_upper())
 
 
 def exact(x: Ball) -> Ball:
-    """The midpoint, which is exact."""
+    """Return the midpoint, which is exact."""
     return x.mid()
 
 
 def radius(x: Ball) -> Ball:
-    """The least number known to be at least as large as the ball's radius."""
+    """Return an upper bound of the radius."""
     return arb(x.rad().upper())
 
 
 def around(middle: Ball, wide: Ball) -> Ball:
-    """The ball of a radius about a midpoint; both may be balls."""
+    """Return the ball about a midpoint with the given radius; both may be balls."""
     return middle + arb(0, wide.abs_upper())
 
 
 def max_of(values: Sequence[Ball]) -> Ball:
-    """Return the largest upper end of balls that are not negative."""
-    most = ZERO
+    """Return the largest upper end of nonnegative balls."""
+    largest = ZERO
     for value in values:
-        most = most.max(upper(value))
-    return most
+        largest = largest.max(upper(value))
+    return largest
 
 
 def as_text(x: Ball) -> str:
-    """An exact number as mantissa p exponent, to be read again without rounding: 3p-1 is 3/2."""
+    """Return an exact number as mantissa (base 16), p, exponent of two: 3p-1 is 3/2."""
     mantissa, exponent = x.man_exp()
     return f"{int(mantissa):x}p{int(exponent)}"
 
 
 def of_text(text: str) -> Ball:
-    """The number of `as_text`."""
     mantissa, _, exponent = text.partition("p")
     bits = max(64, 4 * len(mantissa) + 8)
     with ctx.workprec(bits):
@@ -99,30 +98,25 @@ def of_text(text: str) -> Ball:
 
 
 def ball_data(x: Ball) -> list[str]:
-    """Return [midpoint, radius] as text."""
     return [as_text(exact(x)), as_text(x.rad())]
 
 
 def balls_data(values: Sequence[Ball]) -> list[list[str]]:
-    """Return balls as text."""
     return [ball_data(x) for x in values]
 
 
 def exact_data(values: Sequence[Ball]) -> list[str]:
-    """Return exact numbers as text."""
     return [as_text(x) for x in values]
 
 
 def matrix_data(matrix: Matrix) -> list[list[str]]:
-    """Return the rows of a matrix of exact numbers as text."""
     return [exact_data(row) for row in matrix.tolist()]
 
 
-def printed(x: Ball, digits: int = 30) -> str:
-    """The ball as people write it, [8.1234567 +/- 3e-8], or its ends where no digit is known; it holds the ball."""
+def format_ball(x: Ball, digits: int = 30) -> str:
+    """Return a ball as text, [8.1234567 +/- 3e-8], or its ends if no digit is certain. The text contains the ball."""
     if x.rel_accuracy_bits() > 3 or abs(x) < 1e-6:
         return str(x.str(digits))
-    low, high = (
-        arb(end).str(3, radius=False) for end in (x.lower() - abs(x.lower()) * 0.01, x.upper() + abs(x.upper()) * 0.01)
-    )
+    ends = x.lower() - abs(x.lower()) * 0.01, x.upper() + abs(x.upper()) * 0.01
+    low, high = (arb(end).str(3, radius=False) for end in ends)
     return f"[{low}, {high}]"

@@ -1,6 +1,6 @@
-"""A generated program as a tape: elementary operations in order, each of the results before it, with exact constants.
+"""A generated program as a tape of elementary operations with exact constants.
 
-It is plain data, so that a certificate can hold it: (name, operand, …) with operands the places of earlier results.
+An operation is (name, operand, …); its operands are places of earlier results. A tape is plain data for a certificate.
 """
 
 from collections.abc import Sequence
@@ -14,31 +14,26 @@ from lagrotor.numerics.codegen import Program, reduce_common
 from lagrotor.proofs.balls import rational
 
 Operation = tuple[Any, ...]
-# name → how many operands; of "argument" and "number" the operand is an index and a text.
-OPERATIONS = {"add": 2, "subtract": 2, "multiply": 2, "divide": 2} | dict.fromkeys(
-    ("sqrt", "exp", "log", "sin", "cos", "asin", "atan"), 1
-)
+# Name → number of operands. The operand of "argument" is an index, that of "number" a text.
+_FUNCTIONS = ("sqrt", "exp", "log", "sin", "cos", "asin", "atan")
+OPERATIONS = {"add": 2, "subtract": 2, "multiply": 2, "divide": 2} | dict.fromkeys(_FUNCTIONS, 1)
 
 
 @dataclass(frozen=True)
 class Tape:
-    """operations: what is computed, in order; outputs: places of the results; arguments: their names, in order."""
+    """The names of the arguments, the operations in order, and the places of the outputs."""
 
     arguments: tuple[str, ...]
     operations: tuple[Operation, ...]
     outputs: tuple[int, ...]
 
     def data(self) -> dict[str, Any]:
-        """Return plain data, as a certificate holds it."""
-        return {
-            "arguments": list(self.arguments),
-            "operations": [list(operation) for operation in self.operations],
-            "outputs": list(self.outputs),
-        }
+        operations = [list(operation) for operation in self.operations]
+        return {"arguments": list(self.arguments), "operations": operations, "outputs": list(self.outputs)}
 
 
 class Recorder:
-    """Operations as they are recorded, each once."""
+    """The operations of expressions, each recorded once."""
 
     def __init__(self, arguments: Sequence[str]) -> None:
         self.arguments = tuple(arguments)
@@ -47,7 +42,6 @@ class Recorder:
         self._known: dict[sp.Basic, int] = {}
 
     def keep(self, *operation: Any) -> int:
-        """The place of an operation's result."""
         if operation[0] in ("add", "multiply"):
             operation = (operation[0], *sorted(operation[1:]))
         place = self._places.get(operation)
@@ -57,17 +51,15 @@ class Recorder:
         return place
 
     def number(self, value: Any) -> int:
-        """A rational number, or pi."""
         if value is sp.pi:
             return self.keep("number", "pi")
         return self.keep("number", str(rational(value, "a number in the equations")))
 
     def name(self, symbol: sp.Symbol, place: int) -> None:
-        """What a symbol stands for."""
+        """Set the place that a symbol denotes."""
         self._known[symbol] = place
 
     def record(self, e: sp.Expr) -> int:
-        """The place of an expression's value."""
         place = self._known.get(e)
         if place is None:
             place = self._known[e] = self._new(e)
@@ -87,7 +79,7 @@ class Recorder:
         rule = _RULES.get(type(e))
         if rule is None:
             raise InputError(
-                f"proved: {type(e).__name__} in the equations has no rigorous series here; rational functions, roots, exp, log, "
+                f"proofs: {type(e).__name__} in the equations has no rigorous series here; rational functions, roots, exp, log, "
                 "sin, cos, tan, asin, acos, atan, sinh, cosh and tanh have"
             )
         return rule(self, self.record(e.args[0]))
@@ -139,7 +131,6 @@ class Recorder:
 
 
 def _hyperbolic(r: Recorder, x: int) -> tuple[int, int]:
-    """exp(x) and exp(−x)."""
     e = r.keep("exp", x)
     return e, r.keep("divide", r.number(1), e)
 
@@ -172,7 +163,6 @@ _RULES: dict[Any, Any] = {
 
 
 def tape_of(program: Program) -> Tape:
-    """The program's operations."""
     recorder = Recorder([str(s) for s in program.arguments])
     for i, s in enumerate(program.arguments):
         recorder.name(s, recorder.keep("argument", i))
@@ -183,16 +173,15 @@ def tape_of(program: Program) -> Tape:
     return _needed(tuple(recorder.arguments), recorder.operations, places)
 
 
-def joined(first: Tape, others: Sequence[int]) -> Tape:
-    """The tape with some of its outputs alone."""
+def select_outputs(first: Tape, others: Sequence[int]) -> Tape:
     return _needed(first.arguments, first.operations, [first.outputs[i] for i in others])
 
 
-def paced(tape: Tape, states: int) -> Tape:
-    """The motion in s = t / pace, the pace an argument after the states: every output times the pace."""
-    operations = [
-        ("argument", on[0] + (on[0] >= states)) if name == "argument" else (name, *on) for name, *on in tape.operations
-    ]
+def with_pace(tape: Tape, states: int) -> Tape:
+    """Return the motion in s = t / pace: every output times the pace, a new argument after the states."""
+    operations: list[Operation] = []
+    for name, *on in tape.operations:
+        operations.append(("argument", on[0] + (on[0] >= states)) if name == "argument" else (name, *on))
     operations.append(("argument", states))
     pace = len(operations) - 1
     outputs = []
@@ -204,15 +193,15 @@ def paced(tape: Tape, states: int) -> Tape:
 
 
 def _needed(arguments: tuple[str, ...], operations: Sequence[Operation], outputs: Sequence[int]) -> Tape:
-    """Only the operations that an output needs."""
+    """Return the tape without operations that no output needs."""
     needed = set(outputs)
     for place in reversed(range(len(operations))):
         name, *operands = operations[place]
         if place in needed and name in OPERATIONS:
             needed.update(operands)
     order = {place: i for i, place in enumerate(sorted(needed))}
-    kept = []
+    rows = []
     for place in order:
         name, *operands = operations[place]
-        kept.append((name, *((order[p] for p in operands) if name in OPERATIONS else operands)))
-    return Tape(arguments, tuple(kept), tuple(order[p] for p in outputs))
+        rows.append((name, *((order[p] for p in operands) if name in OPERATIONS else operands)))
+    return Tape(arguments, tuple(rows), tuple(order[p] for p in outputs))

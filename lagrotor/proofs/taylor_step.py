@@ -1,11 +1,11 @@
-"""One step of an autonomous motion x' = f(x), enclosed: the Taylor polynomial, a bound of its rest, and the derivative.
+"""One step of an autonomous motion x' = f(x): the Taylor polynomial, its remainder bound, and the derivative of the step.
 
-On a step of length h, in s = t/h, the motion is P + e with P its first n Taylor terms and e from s^n on. Picard's map
-e ↦ h ∫ f(P + e) ds − P takes the ball |e_i| ≤ ε_i into itself as soon as the evaluation with these tails gives
+On a step of length h, with s = t/h, the motion is P + e: P has the first n Taylor terms, e has powers from n on. The Picard
+map e ↦ h ∫ f(P + e) ds − P takes the ball |e_i| ≤ ε_i into itself if
 
-    h (|f_{n−1}| / n + tail(f) / (n + 1)) ≤ ε,
+    h (|f_{n−1}| / n + remainder(f) / (n + 1)) ≤ ε,
 
-and its fixed point is the motion. The derivative by the start, D' = h J D, is linear: its rest is bounded at once.
+and the motion is its fixed point. The derivative D by the initial state solves the linear equation D' = h J D.
 """
 
 from collections.abc import Sequence
@@ -24,22 +24,24 @@ from lagrotor.proofs.balls import (
     balls_data,
     ctx,
     max_of,
+    precision,
     upper,
 )
 from lagrotor.proofs.matrices import identity, matrix_norm
 from lagrotor.proofs.tape import Tape
-from lagrotor.proofs.truncated_series import Evaluation, Tailed, TailError, series_values
+from lagrotor.proofs.truncated_series import Evaluation, RemainderError, TaylorModel, series_values
 
-SLACK = 4  # on each bound of a rest, so that another program's bound of it is below, too
-SINGULAR = "a denominator, or a root's or logarithm's argument, in the equations is not shown to be other than zero"
-_TRIES = 4  # of a bound of the rest, each from the one before
+SLACK = 4  # factor on each remainder bound, so that the checker's bound is smaller
+SINGULAR = "a denominator, or a root's or logarithm's argument, in the equations is not proved to be nonzero"
+_TRIES = 4  # iterations of the Picard map for a remainder bound
 
 
 @dataclass(frozen=True)
 class Motion:
-    """x' = f(x; parameters): the tape's outputs are the rates of its first arguments.
+    """x' = f(x; parameters): the outputs of the tape are the rates of its first arguments.
 
-    The states after `moving` stand still: parameters that vary within an interval, by which derivatives are taken.
+    The arguments after the `moving` states are constant parameters that vary within intervals; derivatives by them are
+    taken, too.
     """
 
     tape: Tape
@@ -47,94 +49,88 @@ class Motion:
 
     @property
     def moving(self) -> int:
-        """How many states move."""
         return len(self.tape.outputs)
 
     @property
     def size(self) -> int:
-        """States that move, and parameters that vary."""
+        """The number of states and of parameters that vary."""
         return len(self.tape.arguments) - len(self.parameters)
 
     def data(self) -> dict[str, Any]:
-        """Return the tape and its parameters as plain data."""
         return self.tape.data() | {"parameters": balls_data(self.parameters)}
 
 
 def taylor(motion: Motion, start: Balls, n: int) -> list[Balls]:
-    """The first n Taylor coefficients of every moving state in t."""
+    """Return the first n Taylor coefficients in t of every state."""
     rows = [[x] for x in start[: motion.moving]]
     still = [*start[motion.moving :], *motion.parameters]
-    before = ctx.cap
-    try:
-        for k in range(n - 1):
-            ctx.cap = k + 1
+    for k in range(n - 1):
+        with precision(ctx.prec, k + 1):
             try:
                 rates = series_values(motion.tape, [*(arb_series(row, k + 1) for row in rows), *still])
             except (ZeroDivisionError, ValueError):
-                raise TailError(SINGULAR) from None
+                raise RemainderError(SINGULAR) from None
             for row, rate in zip(rows, rates, strict=True):
                 value = rate[k] if isinstance(rate, arb_series) else rate if k == 0 else ZERO
                 row.append(value / (k + 1))
-    finally:
-        ctx.cap = before
     return rows
 
 
-def scaled(rows: Sequence[Balls], h: Ball, n: int) -> list[Balls]:
-    """The first n coefficients in s = t/h."""
+def scale_terms(rows: Sequence[Balls], h: Ball, n: int) -> list[Balls]:
+    """Return the first n coefficients in s = t/h."""
     powers = [arb(1)]
     for _ in range(n - 1):
         powers.append(powers[-1] * h)
     return [[c * p for c, p in zip(row, powers, strict=False)] for row in rows]
 
 
-def with_rest(motion: Motion, rows: Sequence[Balls], start: Balls, h: Ball, n: int) -> tuple[Balls, Evaluation]:
-    """Bounds ε of the rests of n scaled terms, and the evaluation of the tape that proves them."""
+def bound_remainder(motion: Motion, rows: Sequence[Balls], start: Balls, h: Ball, n: int) -> tuple[Balls, Evaluation]:
+    """Return remainder bounds ε for n scaled terms, and the evaluation of the tape that proves the Picard inclusion."""
     still = [*start[motion.moving :], *motion.parameters]
     guess = [upper(row[-1]) + upper(row[-2]) for row in rows]
     least = max_of(guess) * arb(2) ** -20 + arb(2) ** (-2 * ctx.prec)
     for _ in range(_TRIES):
         guess = [g + least for g in guess]
-        moving = [Tailed(arb_poly(row), g, n) for row, g in zip(rows, guess, strict=True)]
-        evaluation = Evaluation(motion.tape, [*moving, *(Tailed(arb_poly([c]), ZERO, n) for c in still)])
-        rest = [upper(h * (abs(f.poly[n - 1]) / n + f.tail / (n + 1))) for f in evaluation.outputs]
-        if all(r <= g for r, g in zip(rest, guess, strict=True)):
-            return rest, evaluation
-        guess = [2 * r for r in rest]
+        moving = [TaylorModel(arb_poly(row), g, n) for row, g in zip(rows, guess, strict=True)]
+        evaluation = Evaluation(motion.tape, [*moving, *(TaylorModel(arb_poly([c]), ZERO, n) for c in still)])
+        bounds = [upper(h * (abs(f.poly[n - 1]) / n + f.remainder / (n + 1))) for f in evaluation.outputs]
+        if all(r <= g for r, g in zip(bounds, guess, strict=True)):
+            return bounds, evaluation
+        guess = [2 * r for r in bounds]
         if not max_of(guess) < 1:
             break
-    raise TailError("the rest of the Taylor series is not bounded over the step")
+    raise RemainderError("the remainder of the Taylor series is not bounded over the step")
 
 
-def derivative_of_step(motion: Motion, evaluation: Evaluation, h: Ball, n: int) -> tuple[Matrix, list[Matrix]]:
-    """The derivative of the step by states and varying parameters, (size, size), and those of the n Taylor terms in s."""
+def step_derivative(motion: Motion, evaluation: Evaluation, h: Ball, n: int) -> tuple[Matrix, list[Matrix]]:
+    """Enclose the derivative D of the step by states and varying parameters, (size, size), and its n Taylor terms in s."""
     size = motion.size
     entries: list[Balls] = [[ZERO] * (size * size) for _ in range(n)]
-    rest = ZERO
+    bound = ZERO
     for i in range(motion.moving):
         row = ZERO
         for j, entry in enumerate(evaluation.gradient(i)[:size]):
             if entry is not None:
-                row += entry.tail
+                row += entry.remainder
                 for k, c in enumerate(entry.poly.coeffs()):
                     entries[k][i * size + j] = c * h
-        rest = rest.max(upper(row * h))
+        bound = bound.max(upper(row * h))
     slopes = [arb_mat(size, size, entry) for entry in entries]
-    found = [identity(size)]
+    terms = [identity(size)]
     for k in range(n - 1):
-        total = slopes[0] * found[k]
+        total = slopes[0] * terms[k]
         for i in range(1, k + 1):
-            total = total + slopes[i] * found[k - i]
-        found.append(total * (arb(1) / (k + 1)))
-    outer, inner = ([matrix_norm(m) for m in matrices] for matrices in (slopes, found))
+            total = total + slopes[i] * terms[k - i]
+        terms.append(total * (arb(1) / (k + 1)))
+    outer, inner = ([matrix_norm(m) for m in matrices] for matrices in (slopes, terms))
     over = sum((a * b for i, a in enumerate(outer) for j, b in enumerate(inner) if i + j >= n - 1), ZERO)
-    whole, size_found = sum(outer, ZERO) + rest, sum(inner, ZERO)
-    left = 1 - whole / (n + 1)
-    if not left > 0:
-        raise TailError("the variational equations' series does not converge over the step")
-    error = SLACK * upper((over / n + rest * size_found / (n + 1)) / left)
-    total = found[0]
-    for matrix in found[1:]:
+    whole, size_found = sum(outer, ZERO) + bound, sum(inner, ZERO)
+    margin = 1 - whole / (n + 1)
+    if not margin > 0:
+        raise RemainderError("the variational equations' series does not converge over the step")
+    error = SLACK * upper((over / n + bound * size_found / (n + 1)) / margin)
+    total = terms[0]
+    for matrix in terms[1:]:
         total = total + matrix
     wide = [arb(0, error) if i < motion.moving else ZERO for i in range(size) for _ in range(size)]
-    return total + arb_mat(size, size, wide), found
+    return total + arb_mat(size, size, wide), terms

@@ -1,9 +1,9 @@
-"""Power series on 0 ≤ s ≤ 1 as a polynomial of n terms and a bound of all that is left out.
+"""Taylor models on 0 ≤ s ≤ 1: a polynomial of n terms and a remainder bound.
 
-A function is held as sum_{k<n} c_k s^k + e, where e has only powers from n on and the sum of its coefficients' absolute
-values, its norm, is at most `tail`. In this norm |f g| ≤ |f| |g|, so each operation carries the bound along exactly: what
-a product has beyond n is summed as it is, a quotient and a root are the fixed point of a contraction, and exp, sin and
-cos solve their differential equations, where integrating s^(n−1) divides by n.
+A function is sum_{k<n} c_k s^k + e, where e has powers from n on. Its norm is the sum of the absolute values of its
+coefficients; the norm of e is at most `remainder`. Since |f g| ≤ |f| |g|, each operation propagates the bound. The high
+terms of a product are summed. A quotient and a root are fixed points of contractions. exp, sin and cos solve their
+differential equations, where the integral of s^(n−1) brings the factor 1/n.
 """
 
 from collections.abc import Sequence
@@ -14,128 +14,122 @@ from lagrotor.proofs.balls import ZERO, Ball, arb, arb_poly, arb_series, ctx, ma
 from lagrotor.proofs.tape import Tape
 
 
-class TailError(NotProved):
-    """A bound that does not close: the step is too long for the series."""
+class RemainderError(NotProved):
+    """A remainder bound that does not close, because the step is too long for the series."""
 
 
-class Tailed:
-    """poly: arb_poly of at most n terms; tail: bound of the norm of the rest; norm: bound of the whole norm."""
+class TaylorModel:
+    """A polynomial `poly` of at most n terms, and `remainder`, a bound of the norm of all further terms."""
 
-    __slots__ = ("_norm", "n", "poly", "tail")
+    __slots__ = ("_norm", "n", "poly", "remainder")
 
-    def __init__(self, poly: Any, tail: Ball, n: int) -> None:
-        self.poly, self.tail, self.n, self._norm = poly, tail, n, None
+    def __init__(self, poly: Any, remainder: Ball, n: int) -> None:
+        self.poly, self.remainder, self.n, self._norm = poly, remainder, n, None
 
     @property
     def norm(self) -> Ball:
-        """Bound of the sum of all coefficients' absolute values."""
+        """A bound of the norm of the whole function."""
         if self._norm is None:
-            self._norm = _norm(self.poly) + self.tail
+            self._norm = _norm(self.poly) + self.remainder
         return self._norm
 
-    def constant(self, value: Ball) -> "Tailed":
-        """A number as a series."""
-        return Tailed(arb_poly([value]), ZERO, self.n)
-
     def series(self) -> Any:
-        """The polynomial as Arb's truncated series, whose functions are exact to n terms, but never to more than `ctx.cap`."""
+        """Return the polynomial as Arb's truncated series, whose functions have at most `ctx.cap` terms."""
         if ctx.cap < self.n:
-            raise TailError(f"series of {self.n} terms need precision(…, {self.n}), not {ctx.cap}")
+            raise RemainderError(f"series of {self.n} terms need precision(…, {self.n}), not {ctx.cap}")
         return arb_series(self.poly.coeffs(), self.n)
 
-    def __add__(self, other: "Tailed") -> "Tailed":
-        return Tailed(self.poly + other.poly, self.tail + other.tail, self.n)
+    def __add__(self, b: "TaylorModel") -> "TaylorModel":
+        return TaylorModel(self.poly + b.poly, self.remainder + b.remainder, self.n)
 
-    def __sub__(self, other: "Tailed") -> "Tailed":
-        return Tailed(self.poly - other.poly, self.tail + other.tail, self.n)
+    def __sub__(self, b: "TaylorModel") -> "TaylorModel":
+        return TaylorModel(self.poly - b.poly, self.remainder + b.remainder, self.n)
 
-    def __neg__(self) -> "Tailed":
-        return Tailed(-self.poly, self.tail, self.n)
+    def __neg__(self) -> "TaylorModel":
+        return TaylorModel(-self.poly, self.remainder, self.n)
 
-    def __mul__(self, other: "Tailed") -> "Tailed":
-        whole = self.poly * other.poly
-        tail = beyond(whole, self.n)
-        if not self.tail.is_zero():
-            tail += self.tail * other.norm
-        if not other.tail.is_zero():
-            tail += other.tail * _norm(self.poly)
-        return Tailed(whole.truncate(self.n), tail, self.n)
+    def __mul__(self, b: "TaylorModel") -> "TaylorModel":
+        whole = self.poly * b.poly
+        remainder = beyond(whole, self.n)
+        if not self.remainder.is_zero():
+            remainder += self.remainder * b.norm
+        if not b.remainder.is_zero():
+            remainder += b.remainder * _norm(self.poly)
+        return TaylorModel(whole.truncate(self.n), remainder, self.n)
 
-    def __truediv__(self, other: "Tailed") -> "Tailed":
-        return self * other.inverse()
+    def __truediv__(self, b: "TaylorModel") -> "TaylorModel":
+        return self * b.inverse()
 
-    def inverse(self) -> "Tailed":
-        """1/a: with q the truncated inverse and r = 1 − a q, whose powers begin at n, it is q/(1 − r)."""
+    def inverse(self) -> "TaylorModel":
+        """Return q/(1 − r), with q the truncated inverse of a and r = 1 − a q, whose powers begin at n."""
         _constant(self, "a denominator")
         q = _poly(self.series().inv())
         size = _norm(q)
-        r = beyond(self.poly * q, self.n) + size * self.tail
-        return Tailed(q, size * r / _left(1 - r), self.n)
+        r = beyond(self.poly * q, self.n) + size * self.remainder
+        return TaylorModel(q, size * r / _margin(1 - r), self.n)
 
-    def sqrt(self) -> "Tailed":
-        """q + s with s = (a − q² − s²)/(2 q): a contraction of |s| ≤ σ where σ = k (d + σ²)/2 and k σ < 1, k = |1/q|."""
+    def sqrt(self) -> "TaylorModel":
+        """Return q + s, s = (a − q² − s²)/(2 q): a contraction of |s| ≤ σ, σ = k (d + σ²)/2 and k σ < 1, k = |1/q|."""
         if not _constant(self, "a root's argument") > 0:
-            raise TailError("a root's argument is not shown to be positive")
+            raise RemainderError("a root's argument is not proved to be positive")
         q = _poly(self.series().sqrt())
-        k = Tailed(q, ZERO, self.n).inverse().norm
-        d = beyond(q * q, self.n) + self.tail
-        return Tailed(q, k * d / (1 + _left(1 - k * k * d).sqrt()), self.n)
+        k = TaylorModel(q, ZERO, self.n).inverse().norm
+        d = beyond(q * q, self.n) + self.remainder
+        return TaylorModel(q, k * d / (1 + _margin(1 - k * k * d).sqrt()), self.n)
 
-    def exp(self) -> "Tailed":
-        """q + s with s' = a' s + (a' q − q'), then the tail's factor exp(e); never more than the whole, exp(a_0 + |a − a_0|)."""
+    def exp(self) -> "TaylorModel":
+        """Return q + s, s' = a' s + (a' q − q'), times exp(e); the norm is at most exp(a_0 + |a − a_0|)."""
         q = _poly(self.series().exp())
         slope = self.poly.derivative()
-        tail = (self.poly[0] + _norm(self.poly - arb_poly([self.poly[0]])) + self.tail).exp()
-        left = 1 - _norm(slope) / (self.n + 1)
-        if left > 0:
-            s = beyond(slope * q, self.n - 1) / self.n / left
-            tail = tail.min(s + (_norm(q) + s) * self.tail.expm1())
-        return Tailed(q, upper(tail), self.n)
+        remainder = (self.poly[0] + _norm(self.poly - arb_poly([self.poly[0]])) + self.remainder).exp()
+        margin = 1 - _norm(slope) / (self.n + 1)
+        if margin > 0:
+            s = beyond(slope * q, self.n - 1) / self.n / margin
+            remainder = remainder.min(s + (_norm(q) + s) * self.remainder.expm1())
+        return TaylorModel(q, upper(remainder), self.n)
 
-    def sin_cos(self) -> tuple["Tailed", "Tailed"]:
-        """Both solve (S, C)' = a' (C, −S); then sin(a + e) = S cos e + C sin e."""
+    def sin_cos(self) -> tuple["TaylorModel", "TaylorModel"]:
+        """Return sine and cosine: (S, C)' = a' (C, −S), then sin(a + e) = S cos e + C sin e."""
         n, slope = self.n, self.poly.derivative()
         pair = [_poly(q) for q in self.series().sin_cos()]
         sizes = [_norm(q) for q in pair]
         s = max_of([beyond(slope * q, n - 1) for q in pair]) / n
-        s /= _left(1 - _norm(slope) / (n + 1))
-        rise, turn = self.tail.cosh() - 1, self.tail.sinh()
+        s /= _margin(1 - _norm(slope) / (n + 1))
+        rise, turn = self.remainder.cosh() - 1, self.remainder.sinh()
         sine, cosine = sizes[0] + s, sizes[1] + s
-        return (
-            Tailed(pair[0], s + sine * rise + cosine * turn, n),
-            Tailed(pair[1], s + cosine * rise + sine * turn, n),
-        )
+        sine_model = TaylorModel(pair[0], s + sine * rise + cosine * turn, n)
+        return sine_model, TaylorModel(pair[1], s + cosine * rise + sine * turn, n)
 
-    def by_slope(self, name: str, slope: "Tailed") -> "Tailed":
-        """g(a) from its derivative g'(a): g(a + e) = g(a_0) + ∫ a' g'(a) ds + e ∫ g'(a + θ e) dθ."""
+    def by_slope(self, name: str, slope: "TaylorModel") -> "TaylorModel":
+        """Return g(a + e) = g(a_0) + ∫ a' g'(a) ds + e ∫ g'(a + θ e) dθ."""
         q = _poly(getattr(self.series(), name)())
         rate = self.poly.derivative()
-        left = beyond(rate * slope.poly, self.n - 1) + _norm(rate) * slope.tail
-        return Tailed(q, left / self.n + self.tail * slope.norm, self.n)
+        high = beyond(rate * slope.poly, self.n - 1) + _norm(rate) * slope.remainder
+        return TaylorModel(q, high / self.n + self.remainder * slope.norm, self.n)
 
 
 def _norm(poly: Any) -> Ball:
-    """The sum of the coefficients' absolute values, an upper bound."""
+    """Return an upper bound of the sum of the coefficients' absolute values."""
     return upper(sum(map(abs, poly.coeffs()), ZERO))
 
 
 def beyond(poly: Any, n: int) -> Ball:
-    """The norm of the terms from s^n on."""
+    """Return the norm of the terms from s^n on."""
     return _norm(poly.right_shift(n)) if poly.length() > n else ZERO
 
 
-def _constant(a: Tailed, what: str) -> Ball:
-    """The value at s = 0, which must not be zero."""
+def _constant(a: TaylorModel, what: str) -> Ball:
+    """Return the value at s = 0. Raises RemainderError if it can be zero."""
     value = a.poly[0]
     if not (value > 0 or value < 0):
-        raise TailError(f"{what} is not shown to be other than zero")
+        raise RemainderError(f"{what} is not proved to be nonzero")
     return value
 
 
-def _left(x: Ball) -> Ball:
-    """What must be positive for a contraction."""
+def _margin(x: Ball) -> Ball:
+    """Return x, a contraction's margin. Raises RemainderError if it is not positive."""
     if not x > 0:
-        raise TailError("the series does not converge over the step")
+        raise RemainderError("the series does not converge over the step")
     return x
 
 
@@ -144,7 +138,6 @@ def _poly(series: Any) -> Any:
 
 
 def _number(text: str) -> Ball:
-    """The constant of a tape: a rational number or pi."""
     if text == "pi":
         return arb.pi()
     above, _, below = text.partition("/")
@@ -152,35 +145,35 @@ def _number(text: str) -> Ball:
 
 
 def series_values(tape: Tape, arguments: Sequence[Any]) -> list[Any]:
-    """The tape's outputs as truncated series, of arguments as truncated series (or numbers)."""
-    found: list[Any] = []
+    """Return the outputs of a tape for arguments that are truncated series or numbers."""
+    results: list[Any] = []
     for name, *on in tape.operations:
         if name == "argument":
-            found.append(arguments[on[0]])
+            results.append(arguments[on[0]])
         elif name == "number":
-            found.append(_number(on[0]))
+            results.append(_number(on[0]))
         elif name == "add":
-            found.append(found[on[0]] + found[on[1]])
+            results.append(results[on[0]] + results[on[1]])
         elif name == "subtract":
-            found.append(found[on[0]] - found[on[1]])
+            results.append(results[on[0]] - results[on[1]])
         elif name == "multiply":
-            found.append(found[on[0]] * found[on[1]])
+            results.append(results[on[0]] * results[on[1]])
         elif name == "divide":
-            found.append(found[on[0]] / found[on[1]])
+            results.append(results[on[0]] / results[on[1]])
         else:
-            found.append(getattr(found[on[0]], name)())
-    return [found[place] for place in tape.outputs]
+            results.append(getattr(results[on[0]], name)())
+    return [results[place] for place in tape.outputs]
 
 
 class Evaluation:
-    """The tape over series with their tails: its values, and derivatives of the outputs backwards."""
+    """The values of a tape for Taylor models, and reverse-mode derivatives of its outputs."""
 
-    def __init__(self, tape: Tape, arguments: Sequence[Tailed]) -> None:
+    def __init__(self, tape: Tape, arguments: Sequence[TaylorModel]) -> None:
         self.tape, self._arguments = tape, arguments
-        self.values: list[Tailed] = []
-        self._slopes: dict[int, Tailed] = {}  # of an operation of one operand, by that operand
-        self._twins: dict[int, tuple[Tailed, Tailed]] = {}
-        self._inverses: dict[int, Tailed] = {}
+        self.values: list[TaylorModel] = []
+        self._slopes: dict[int, TaylorModel] = {}  # derivatives of unary operations
+        self._twins: dict[int, tuple[TaylorModel, TaylorModel]] = {}
+        self._inverses: dict[int, TaylorModel] = {}
         for place, (name, *on) in enumerate(tape.operations):
             if name == "argument":
                 self.values.append(arguments[on[0]])
@@ -190,15 +183,13 @@ class Evaluation:
                 self.values.append(self._value(place, name, on))
 
     @property
-    def outputs(self) -> list[Tailed]:
-        """The tape's outputs."""
+    def outputs(self) -> list[TaylorModel]:
         return [self.values[place] for place in self.tape.outputs]
 
-    def fixed(self, value: Ball) -> Tailed:
-        """A number as a series."""
-        return self._arguments[0].constant(value)
+    def fixed(self, value: Ball) -> TaylorModel:
+        return TaylorModel(arb_poly([value]), ZERO, self._arguments[0].n)
 
-    def _value(self, place: int, name: str, on: list[int]) -> Tailed:
+    def _value(self, place: int, name: str, on: list[int]) -> TaylorModel:
         a = self.values[on[0]]
         if name == "add":
             return a + self.values[on[1]]
@@ -211,14 +202,13 @@ class Evaluation:
             return a * self._slopes[place]
         return self._function(place, name, on[0], a)
 
-    def _inverse(self, operand: int) -> Tailed:
-        """1/a, once for each operand."""
+    def _inverse(self, operand: int) -> TaylorModel:
         if operand not in self._inverses:
             self._inverses[operand] = self.values[operand].inverse()
         return self._inverses[operand]
 
-    def _function(self, place: int, name: str, operand: int, a: Tailed) -> Tailed:
-        one = self.fixed(arb(1))
+    def _function(self, place: int, name: str, operand: int, a: TaylorModel) -> TaylorModel:
+        unit = self.fixed(arb(1))
         if name in ("sin", "cos"):
             if operand not in self._twins:
                 self._twins[operand] = a.sin_cos()
@@ -226,42 +216,42 @@ class Evaluation:
             self._slopes[place] = cosine if name == "sin" else -sine
             return sine if name == "sin" else cosine
         if name == "exp":
-            found = self._slopes[place] = a.exp()
-            return found
+            value = self._slopes[place] = a.exp()
+            return value
         if name == "sqrt":
-            found = a.sqrt()
-            self._slopes[place] = (found + found).inverse()
-            return found
+            value = a.sqrt()
+            self._slopes[place] = (value + value).inverse()
+            return value
         if name == "log":
             if not _constant(a, "a logarithm's argument") > 0:
-                raise TailError("a logarithm's argument is not shown to be positive")
+                raise RemainderError("a logarithm's argument is not proved to be positive")
             slope = self._inverse(operand)
         elif name == "asin":
-            slope = (one - a * a).sqrt().inverse()
+            slope = (unit - a * a).sqrt().inverse()
         else:
-            slope = (one + a * a).inverse()
+            slope = (unit + a * a).inverse()
         self._slopes[place] = slope
         return a.by_slope(name, slope)
 
-    def gradient(self, output: int) -> list[Tailed | None]:
-        """The derivatives of one output by the arguments, None where it does not depend on one; backwards through the tape."""
+    def gradient(self, output: int) -> list[TaylorModel | None]:
+        """Return the derivatives of one output by the arguments; None where it does not depend on one."""
         place = self.tape.outputs[output]
-        left: dict[int, Tailed] = {place: self.fixed(arb(1))}
-        found: list[Tailed | None] = [None] * len(self.tape.arguments)
+        adjoints: dict[int, TaylorModel] = {place: self.fixed(arb(1))}
+        derivatives: list[TaylorModel | None] = [None] * len(self.tape.arguments)
         for k in range(place, -1, -1):
-            if k not in left:
+            if k not in adjoints:
                 continue
-            g = left.pop(k)
+            g = adjoints.pop(k)
             name, *on = self.tape.operations[k]
             if name == "argument":
-                found[on[0]] = g
+                derivatives[on[0]] = g
             elif name != "number":
-                for operand, part in self._parts(k, name, on, g):
+                for operand, term in self._parts(k, name, on, g):
                     if self.tape.operations[operand][0] != "number":
-                        left[operand] = left[operand] + part if operand in left else part
-        return found
+                        adjoints[operand] = adjoints[operand] + term if operand in adjoints else term
+        return derivatives
 
-    def _parts(self, k: int, name: str, on: list[int], g: Tailed) -> list[tuple[int, Tailed]]:
+    def _parts(self, k: int, name: str, on: list[int], g: TaylorModel) -> list[tuple[int, TaylorModel]]:
         if name == "add":
             return [(on[0], g), (on[1], g)]
         if name == "subtract":

@@ -1,14 +1,10 @@
-"""Any number of rotors and bars: standing under load, response, waves, the exact motion.
+"""Any number of rotors and bars: stability under load, response, waves, and the exact motion.
 
-The types in the order in which data passes through them:
-
-- `Structure` (an `Assembly` with methods) has the joints, bars, spins and loads; `read_structure` reads one from TOML. `Pattern`
-  repeats a cell of rotors without end, and its `piece` is a `Structure`.
-- `Coefficients` has its numbers in arrays. All equations of motion are made from them.
+- `Structure` contains joints, bars, spins and loads; `read_structure` reads one from TOML. `Pattern` repeats a cell of rotors,
+  and its `piece` is a `Structure`.
+- `Coefficients` has the coefficients of all equations of motion in arrays.
 - `SmallMotion` is the linear system about upright. `Modes`, `Standing`, `response` and the bands of a pattern follow from it.
-  Where the fastest rate is more than 10⁶ times the slowest, `modes` and `stands` refuse it.
-- `local_hamiltonian` expands the exact Lagrangian about upright. `Resonance`, `PrecessionLaw` and `hold_time` follow from its
-  normal form.
+- `local_hamiltonian` expands the exact Lagrangian about upright. `Resonance`, `PrecessionLaw` and `hold_time` follow from it.
 - `ExactMotion` is the right-hand side of large motion; `Structure.simulate` integrates it to a `StructureRun`.
 
 A new load is a field of `Assembly`, a number in `Coefficients`, and a term in `exact.exact_motion.forces`, in
@@ -28,7 +24,6 @@ if TYPE_CHECKING:
     from lagrotor.structures.gallery import GALLERY as GALLERY
     from lagrotor.structures.gallery import example as example
     from lagrotor.structures.pictures import draw_plan as draw_plan
-    from lagrotor.structures.resonances import Resonance as Resonance
     from lagrotor.structures.resonances import resonant_factors as resonant_factors
     from lagrotor.structures.response import mass_worst_case as mass_worst_case
     from lagrotor.structures.response import spins_white_noise as spins_white_noise
@@ -39,14 +34,6 @@ if TYPE_CHECKING:
     from lagrotor.structures.structure import read_structure as read_structure
     from lagrotor.structures.structure import write_structure as write_structure
     from lagrotor.structures.upright_hamiltonian import local_hamiltonian as local_hamiltonian
-    from lagrotor.structures.waves.chern import chern_numbers as chern_numbers
-    from lagrotor.structures.waves.chern import edge_waves as edge_waves
-    from lagrotor.structures.waves.dispersion import dispersion as dispersion
-    from lagrotor.structures.waves.dispersion import long_wave_speeds as long_wave_speeds
-    from lagrotor.structures.waves.nonlinear_waves import NonlinearWave as NonlinearWave
-    from lagrotor.structures.waves.nonlinear_waves import ThreeWaves as ThreeWaves
-    from lagrotor.structures.waves.nonlinear_waves import nonlinear_wave as nonlinear_wave
-    from lagrotor.structures.waves.nonlinear_waves import three_waves as three_waves
     from lagrotor.structures.waves.nonlinear_waves import wave_amplitude as wave_amplitude
     from lagrotor.structures.waves.patterns import honeycomb as honeycomb
     from lagrotor.structures.waves.patterns import polygon_ring as polygon_ring

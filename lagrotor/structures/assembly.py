@@ -1,4 +1,4 @@
-"""What a structure is made of: joints, bars, rotors, loads, braces. What makes no sense is refused here."""
+"""The parts of a structure (joints, bars, rotors, loads, braces) and their checks."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -16,9 +16,26 @@ Bar = tuple[int, int, float]
 
 @dataclass(frozen=True)
 class Brace:
-    """A spring (N/m) and damper (N s/m) from a tip to another tip, or to a point (x, y, z) of the ground, in m.
+    """A spring and damper from a tip to another tip or to a point of the ground.
 
-    It is unstrained when all axes are upright. Its forces are stiffness × extension and damping × its rate.
+    It is unstrained when all axes are upright.
+
+    Attributes
+    ----------
+    tip : int
+        The rotor whose tip is the first end, from 0.
+    to : int or tuple
+        The rotor of the second end, or a point (x, y, z) of the ground, m.
+    stiffness : float
+        The force per extension, N/m.
+    damping : float
+        The force per rate of extension, N s/m.
+
+    Examples
+    --------
+    >>> from lagrotor import Brace, Structure
+    >>> Structure([(0, 0)], braces=[Brace(0, (1, 0, 1), stiffness=100.0)]).modes().rates.round(3).tolist()
+    [0.0, 8.944]
     """
 
     tip: int
@@ -29,13 +46,7 @@ class Brace:
 
 @dataclass(frozen=True)
 class Assembly:
-    """N rotors on ground joints, B bars between their tips, and what acts on them. SI units.
-
-    joints: (x, y) of each ground joint, m. bars: (i, j) or (i, j, length), rotors counted from 0; a bar without a length is
-    as long as its tips are apart when all axes are upright. spins: rad/s, signed. rotor, link: one for all or a list; of a
-    link only mass and inertia are read. gravity: m/s², along −z. load: kg on each tip. friction: N m s/rad on each axis'
-    tilting rate; spin_friction: N m s/rad on each spin. hinge: N m/rad towards upright. One number means one for all.
-    """
+    """The fields of a structure, checked. `Structure` documents them."""
 
     joints: tuple[tuple[float, float], ...]
     bars: tuple[Bar, ...] = ()
@@ -50,8 +61,8 @@ class Assembly:
     spin_friction: tuple[float, ...] = (0.0,)
 
     def __post_init__(self) -> None:
-        put = object.__setattr__
-        put(
+        assign = object.__setattr__
+        assign(
             self,
             "joints",
             tuple(numbers(joint, 2, f"Structure: joints[{i}]", "m") for i, joint in enumerate(_row(self.joints))),
@@ -59,32 +70,32 @@ class Assembly:
         n = len(self.joints)
         if not n:
             raise InputError("Structure: joints is empty: give at least one ground joint (x, y) in m")
-        put(self, "rotor", _each(self.rotor, n, "rotor", Rotor))
-        put(self, "gravity", finite_number(self.gravity, "Structure: gravity", "m/s²"))
-        put(self, "spins", _amounts(self.spins, n, "spins", "rad/s", signed=True))
+        assign(self, "rotor", _each(self.rotor, n, "rotor", Rotor))
+        assign(self, "gravity", finite_number(self.gravity, "Structure: gravity", "m/s²"))
+        assign(self, "spins", _amounts(self.spins, n, "spins", "rad/s", signed=True))
         for name, unit in (
             ("load", "kg"),
             ("friction", "N m s/rad"),
             ("spin_friction", "N m s/rad"),
             ("hinge", "N m/rad"),
         ):
-            put(self, name, _amounts(getattr(self, name), n, name, unit))
+            assign(self, name, _amounts(getattr(self, name), n, name, unit))
         bars = tuple(self._bar(k, bar) for k, bar in enumerate(_row(self.bars)))
-        seen: dict[frozenset[int], int] = {}
+        first_bar: dict[frozenset[int], int] = {}
         for k, (i, j, _) in enumerate(bars):
-            first = seen.setdefault(frozenset((i, j)), k)
+            first = first_bar.setdefault(frozenset((i, j)), k)
             if first != k:
                 raise InputError(
                     f"Structure: bars[{k}] = ({i}, {j}) is bars[{first}] again: dependent constraints; leave one out"
                 )
-        put(self, "bars", bars)
-        put(self, "link", _each(self.link, len(bars), "link", Link))
-        put(self, "braces", tuple(self._brace(k, brace) for k, brace in enumerate(_row(self.braces))))
+        assign(self, "bars", bars)
+        assign(self, "link", _each(self.link, len(bars), "link", Link))
+        assign(self, "braces", tuple(self._brace(k, brace) for k, brace in enumerate(_row(self.braces))))
 
-    def _bar(self, k: int, given: Any) -> Bar:
-        items = _row(given)
+    def _bar(self, k: int, bar: Any) -> Bar:
+        items = _row(bar)
         if len(items) not in (2, 3):
-            raise InputError(f"Structure: bars[{k}] = {given!r} must be (i, j) or (i, j, length)")
+            raise InputError(f"Structure: bars[{k}] = {bar!r} must be (i, j) or (i, j, length)")
         i, j = (self._tip(item, f"bars[{k}]") for item in items[:2])
         if i == j:
             raise InputError(f"Structure: bars[{k}] = ({i}, {j}) is a bar to itself: join two different tips")
@@ -103,12 +114,12 @@ class Assembly:
             )
         return i, j, length
 
-    def _brace(self, k: int, given: Any) -> Brace:
+    def _brace(self, k: int, entry: Any) -> Brace:
         where = f"braces[{k}]"
         try:
-            brace = given if isinstance(given, Brace) else Brace(*_row(given))
+            brace = entry if isinstance(entry, Brace) else Brace(*_row(entry))
         except TypeError:
-            raise InputError(f"Structure: {where} = {given!r} must be (tip, to, stiffness, damping)") from None
+            raise InputError(f"Structure: {where} = {entry!r} must be (tip, to, stiffness, damping)") from None
         tip = self._tip(brace.tip, where)
         ground = isinstance(brace.to, Iterable)
         to = finite_vector(brace.to, f"Structure: {where} to", "m") if ground else self._tip(brace.to, where)
@@ -131,14 +142,25 @@ class Assembly:
         return number
 
     def upright_tip(self, i: int) -> _Point:
-        """Return the place of the tip of rotor i, whose axis is upright, in m. Raises InputError for no such rotor."""
+        """Return the tip of a rotor with its axis upright.
+
+        Parameters
+        ----------
+        i : int
+            The rotor, from 0.
+
+        Returns
+        -------
+        tuple
+            The position (x, y, z), m.
+        """
         if i not in range(len(self.joints)):
             raise InputError(f"upright_tip: i = {i!r} must be a rotor's number, from 0 to {len(self.joints) - 1}")
         return (*self.joints[i], self.rotor[i].length)
 
     @property
     def natural(self) -> bool:
-        """Whether every bar is as long as its tips are apart when all axes are upright."""
+        """True if each bar is as long as the distance of its tips with all axes upright."""
         return all(
             abs(hypot(*(p - q for p, q in zip(self.upright_tip(i), self.upright_tip(j), strict=True))) - length)
             <= 1e-12 * length
@@ -153,7 +175,7 @@ def _row(value: Any) -> list[Any]:
 
 
 def _amounts(value: Any, n: int, where: str, unit: str, signed: bool = False) -> tuple[float, ...]:
-    """One number for all, or n of them; refused below zero unless `signed`."""
+    """Return one number for all or n of them as n numbers. Numbers below zero need `signed`."""
     check = finite_number if signed else not_negative
     items = _row(value) if isinstance(value, Iterable) and not isinstance(value, str) else [value]
     if len(items) not in (1, n):

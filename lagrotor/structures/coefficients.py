@@ -1,4 +1,4 @@
-"""The numbers of a structure's equations of motion: masses, moments, bars and braces as arrays.
+"""The coefficients of the equations of motion of a structure: masses, moments, bars and braces as arrays.
 
 With r_i the unit vector of axis i and X_i = p_i + R_i r_i its tip, the kinetic energy is
 
@@ -25,11 +25,11 @@ Complex = NDArray[np.complex128]
 
 @dataclass(frozen=True, eq=False)
 class Coefficients:
-    """The numbers of a structure, in arrays.
+    """The coefficients of a structure in arrays.
 
-    Per rotor (N,): lengths R, inertia A_ii, first moments S (kg m), momenta G = I3 ω, their decay (1/s), friction, hinge.
-    Per bar (B,): ends i, j, length ell, coupling A_ij. feet: ground joints (N, 3). braces: tip, other tip (−1: the ground),
-    ground point (3,), natural length, stiffness, damping, each with one row a brace.
+    Per rotor (N,): lengths R, inertia A_ii, first moments S (kg m), momenta G = I3 ω, their decay (1/s), friction, hinge. Per
+    bar (B,): ends i, j, length ell, coupling A_ij. feet: the ground joints (N, 3). Per brace: tip, other tip (−1 for the
+    ground), ground point (3,), natural length, stiffness, damping.
     """
 
     R: Array
@@ -54,7 +54,7 @@ class Coefficients:
 
     @property
     def inertia(self) -> Array:
-        """A, (N, N)."""
+        """The matrix A, (N, N), kg m²."""
         A = np.diag(self.A)
         np.add.at(A, (self.i, self.j), self.coupling)
         np.add.at(A, (self.j, self.i), self.coupling)
@@ -62,12 +62,12 @@ class Coefficients:
 
     @property
     def upright(self) -> Array:
-        """All axes upright, (N, 3)."""
+        """The upright axes, (N, 3)."""
         return np.tile([0.0, 0.0, 1.0], (len(self.R), 1))
 
     @cached_property
     def pull(self) -> float:
-        """The largest of the rates (rad/s) at which a single axis falls or swings without spin; zero where nothing pulls."""
+        """The largest rate (rad/s) at which one axis topples or swings without spin."""
         pull = np.abs(self.gravity) * np.abs(self.S) + self.hinge
         stiff = np.zeros(len(self.R))
         np.add.at(stiff, self.brace_tip, self.stiffness * self.R[self.brace_tip] ** 2)
@@ -77,20 +77,19 @@ class Coefficients:
 
     @cached_property
     def rate(self) -> float:
-        """The largest of the rates (rad/s) at which a single axis precesses, falls or swings; never zero."""
+        """The largest rate (rad/s) at which one axis precesses, topples or swings; never zero."""
         return float(max((np.abs(self.G) / self.A).max(), self.pull, 1e-6))
 
 
 @lru_cache(maxsize=64)
 def coefficients(s: Assembly) -> Coefficients:
-    """The arrays of a structure."""
     return coefficients_in(s, np.array, np.array([bar[2] for bar in s.bars], dtype=float), np.sqrt)
 
 
 def coefficients_in(
     s: Assembly, numbers: Callable[[Any], Any], ell: Array, root: Callable[[Array], Array]
 ) -> Coefficients:
-    """The same in numbers of any kind, but for hinges. numbers: floats → an array; ell: the bars' lengths."""
+    """Return the coefficients in numbers of any kind, made by `numbers` from floats; hinges stay floats."""
     M, R, I1, I3 = (numbers([getattr(rotor, name) for rotor in s.rotor]) for name in ("mass", "length", "I1", "I3"))
     load = numbers(s.load)
     A, S = I1 + M * R**2 / 4 + load * R**2, M * R / 2 + load * R
@@ -104,24 +103,11 @@ def coefficients_in(
         numbers(np.array([s.upright_tip(x) if isinstance(x, int) else x for x in ends], dtype=float).reshape(-1, 3))
         for ends in ([b.to for b in s.braces], [b.tip for b in s.braces])
     )
+    brace_tip = np.array([b.tip for b in s.braces], dtype=np.intp)
+    springs, dampers = (numbers([float(getattr(b, name)) for b in s.braces]) for name in ("stiffness", "damping"))
     return Coefficients(
-        R=R,
-        A=A,
-        S=S,
-        G=I3 * numbers(s.spins),
-        decay=numbers(s.spin_friction) / I3,
-        friction=numbers(s.friction),
-        hinge=np.array(s.hinge),
-        gravity=numbers([s.gravity]).tolist()[0],
-        feet=numbers([(*joint, 0.0) for joint in s.joints]),
-        i=i,
-        j=j,
-        ell=ell,
-        coupling=R[i] * R[j] * (m / 4 - K / ell**2),
-        brace_tip=np.array([b.tip for b in s.braces], dtype=np.intp),
-        brace_to=to,
-        brace_point=point,
-        brace_length=root(((tip - point) ** 2).sum(1)),
-        stiffness=numbers([float(b.stiffness) for b in s.braces]),
-        damping=numbers([float(b.damping) for b in s.braces]),
-    )
+        R, A, S, G=I3 * numbers(s.spins), decay=numbers(s.spin_friction) / I3, friction=numbers(s.friction),
+        hinge=np.array(s.hinge), gravity=numbers([s.gravity]).tolist()[0], feet=numbers([(*p, 0.0) for p in s.joints]),
+        i=i, j=j, ell=ell, coupling=R[i] * R[j] * (m / 4 - K / ell**2), brace_tip=brace_tip, brace_to=to,
+        brace_point=point, brace_length=root(((tip - point) ** 2).sum(1)), stiffness=springs, damping=dampers,
+    )  # fmt: skip

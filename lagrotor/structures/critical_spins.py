@@ -1,20 +1,18 @@
-"""The least factor on all its spins from which on a structure stands upright to first order, and the signs for which it is least.
+"""The least factor on all spins above which a structure is linearly stable upright, and the signs of spins that minimise it.
 
-What weight tips over, spin alone may hold. Without friction, K the stiffness and B the gyroscopic matrix on the n degrees of
-freedom:
+Without friction, with K the stiffness and B the gyroscopic matrix on the n degrees of freedom:
 
-- an odd number of degrees of freedom that fall (det K < 0) falls at any spin (Kelvin; Thomson & Tait, Natural Philosophy, § 345);
-- where all of K is negative it stands from some spin on if and only if det B ≠ 0, and that is the factor
+- If an odd number of degrees of freedom is unstable (det K < 0), no spin stabilises the structure (Kelvin; Thomson & Tait,
+  Natural Philosophy, § 345).
+- If K is negative definite, the structure is stable above some spin if and only if det B ≠ 0. The factor is
 
-      max_k min_ω λ_k(ω),   λ_k the positive roots of det(ω M + |K|/ω − λ i B) = 0,
+      max_k min_ω λ_k(ω),   λ_k the positive roots of det(ω M + |K|/ω − λ i B) = 0.
 
-  as above every branch's minimum each branch gives two real rates ω, n in all, and no more exist;
-- with M = a 1 and K = −κ 1 (massless bars, equal loads) that is 2 sqrt(a κ)/β, i β the least root of B.
+  Above the minimum of each branch the branch gives two real rates ω, n in all, and there are no more.
+- For M = a 1 and K = −κ 1 (massless bars, equal loads) the factor is 2 sqrt(a κ)/β, with i β the least root of B.
 
-Friction on every axis undoes it: what fell still falls, however slowly (Kelvin, Tait & Chetaev: Merkin, § 6.5). So does friction
-on some, where spins and stiffness let it act on what falls.
-
-All of this is the linear motion.
+Friction on every axis makes the structure unstable again, however slowly (Kelvin, Tait & Chetaev: Merkin, § 6.5). Friction on
+some axes does so if spins and stiffness couple it to the unstable motion.
 """
 
 from dataclasses import dataclass
@@ -29,27 +27,19 @@ from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
 from lagrotor.structures.small_motion import SmallMotion, check_upright, small_motion
 
-_MOST = 12  # rotors whose patterns of signs are tried
-_SAME = 1e-9  # relative: spins as near as that are one
-_GRID = np.geomspace(1e-3, 1e4, 281)  # of the natural factor: where thresholds are looked for when K is of both signs
+_MOST = 12  # rotors
+_SAME = 1e-9  # relative difference of spins that count as equal
+_GRID = np.geomspace(1e-3, 1e4, 281)  # of the natural factor: the scan if K is indefinite
 
 
 def critical_spin(s: Assembly) -> float:
-    """The factor on all spins from which on the linear motion stays bounded, at every larger one too: to first order.
-
-    At single factors beyond, resonances may let a push fall: `spin_intervals` gives those at which none does.
-
-    0 where every factor will do, inf where none does, as with friction on a motion that falls without spins, or with a motion
-    that nothing holds and no spin acts on. Friction reaches a motion through couplings of stiffness and spins of more than
-    1e-10 of the largest: weaker ones cannot be distinguished from rounding, and are taken for none.
-    Raises InputError where upright breaks a bar's length.
-    """
+    """Return the critical factor: see `Structure.critical_spin`. Couplings to friction below 1e-10 count as zero."""
     check_upright(s, "critical_spin")
     return spin_threshold(small_motion(s))
 
 
 def spin_threshold(linear: SmallMotion) -> float:
-    """`critical_spin` of a linear system."""
+    """Return the critical factor of a linear system."""
     K = np.linalg.eigvalsh(stiffness_in_masses(linear))
     falling, factor = int((K < -1e-12).sum()), 0.0
     if falling:
@@ -62,22 +52,22 @@ def spin_threshold(linear: SmallMotion) -> float:
 
 
 def stiffness_in_masses(linear: SmallMotion) -> Array:
-    """K in the metric of M, in units of pull²: whatever the spins, what falls is not taken for neutral."""
+    """Return K in the metric of M and in units of pull², which does not depend on the spins."""
     root = np.linalg.inv(np.linalg.cholesky(linear.mass))
     return np.asarray(root @ linear.stiffness @ root.T / (linear.pull or linear.rate) ** 2)
 
 
 def friction_undoes(linear: SmallMotion) -> bool:
-    """Whether friction lets fall, at any spins, what falls without: K is negative on the motions that it reaches.
+    """Return True if friction makes the motion unstable at any spins.
 
-    They are those that are rubbed themselves, and what K and G make of them: the least such subspace, on which every motion is
-    damped in time, so that the theorem of Kelvin, Tait & Chetaev holds. The rest moves by itself.
+    The theorem of Kelvin, Tait & Chetaev holds on the least subspace that contains the damped motions and is invariant under
+    K and G.
     """
     root, K = np.linalg.inv(np.linalg.cholesky(linear.mass)), stiffness_in_masses(linear)
     forms = [f / (np.abs(f).max() or 1.0) for f in (K, root @ linear.gyroscopic @ root.T)]
-    own = np.sqrt(np.diag(linear.damping))
-    own = np.where(own > 0, own, 1)  # however little of it there is
-    rows = root @ (own[:, None] * _range(linear.damping / np.outer(own, own)))
+    scale = np.sqrt(np.diag(linear.damping))
+    scale = np.where(scale > 0, scale, 1)  # friction counts however small it is
+    rows = root @ (scale[:, None] * _range(linear.damping / np.outer(scale, scale)))
     reached = _range(rows / np.linalg.norm(rows, axis=0))
     while (wider := _range(np.hstack([reached, *(f @ reached for f in forms)]))).shape[1] > reached.shape[1]:
         reached = wider
@@ -85,13 +75,13 @@ def friction_undoes(linear: SmallMotion) -> bool:
 
 
 def _range(columns: Array) -> Array:
-    """An orthonormal basis of what columns span."""
+    """Return an orthonormal basis of the span of the columns."""
     vectors, sizes, _ = np.linalg.svd(columns, full_matrices=False)
     return np.asarray(vectors[:, sizes > 1e-10 * sizes.max(initial=0.0)])
 
 
 def _by_branches(linear: SmallMotion) -> float:
-    """All of K negative: one over the largest, over ω, of the least positive root h of det(i B − h (ω M + |K|/ω)) = 0."""
+    """Return the factor for negative K: 1/max over ω of the least positive root h of det(i B − h (ω M + |K|/ω)) = 0."""
     from scipy.linalg import eigh
     from scipy.optimize import minimize_scalar
 
@@ -102,15 +92,15 @@ def _by_branches(linear: SmallMotion) -> float:
         return inf
 
     squares, shapes = eigh(K, M)
-    turned = shapes.T @ H @ shapes  # as M is one and K diagonal there, so is ω M + K/ω
+    modal = shapes.T @ H @ shapes  # in this basis M = 1, and K and ω M + K/ω are diagonal
 
     def least(log_rates: ArrayLike) -> Array:
         w = np.exp(log_rates)[..., None]
         over = 1 / np.sqrt(w + squares / w)
-        return np.asarray(np.linalg.eigvalsh(over[..., :, None] * turned * over[..., None, :])[..., half])
+        return np.asarray(np.linalg.eigvalsh(over[..., :, None] * modal * over[..., None, :])[..., half])
 
-    own = np.log(squares) / 2
-    grid = np.linspace(own[0] - 0.5, own[-1] + 0.5, 101)
+    log_natural = np.log(squares) / 2
+    grid = np.linspace(log_natural[0] - 0.5, log_natural[-1] + 0.5, 101)
     values = least(grid)
     best = int(np.argmax(values))
     around = (grid[max(best - 1, 0)], grid[min(best + 1, len(grid) - 1)])
@@ -119,7 +109,7 @@ def _by_branches(linear: SmallMotion) -> float:
 
 
 def _by_scan(linear: SmallMotion) -> float:
-    """The largest factor at which growth ends, by scan and bisection; windows narrower than the scan are not seen."""
+    """Return the largest factor at which growth ends, by scan and bisection. The scan misses narrower windows."""
     size = np.abs(linear.gyroscopic).max()
     if size == 0:
         return inf
@@ -140,25 +130,34 @@ def _by_scan(linear: SmallMotion) -> float:
 
 @dataclass(frozen=True)
 class Patterns:
-    """tried: patterns; standing: how many stand at some spin; least: the least spin (rad/s, inf where none); best: the
-    first pattern that needs it.
-    """
+    """The numbers of patterns tried and of stable ones, the least critical spin (rad/s, inf if none), and its pattern."""
 
-    tried: int
+    count: int
     standing: int
     least: float
     best: tuple[int, ...]
 
 
 def sign_patterns(s: Assembly) -> Patterns:
-    """The structure of equal |spin| with each pattern of signs, the first sign +; at most 12 rotors.
+    """Find the pattern of signs of equal spins with the least critical spin.
 
-    A turn of all signs changes nothing (a mirror image).
+    The first sign is +, since a change of all signs is a reflection.
 
-    Raises
-    ------
-    InputError
-        For more rotors, and where upright breaks a bar's length.
+    Parameters
+    ----------
+    s : Assembly
+        The structure, with at most 12 rotors.
+
+    Returns
+    -------
+    Patterns
+        The numbers of patterns and the best pattern.
+
+    Examples
+    --------
+    >>> from lagrotor.structures import example
+    >>> sign_patterns(example("square")).best
+    (1, 1, 1, -1)
     """
     N = len(s.joints)
     if N > _MOST:
@@ -167,8 +166,8 @@ def sign_patterns(s: Assembly) -> Patterns:
     linear = small_motion(s)
     I3 = np.array([rotor.I3 for rotor in s.rotor])
     needed = {}
-    for rest in product((1, -1), repeat=N - 1):
-        signs = (1, *rest)
+    for further_signs in product((1, -1), repeat=N - 1):
+        signs = (1, *further_signs)
         needed[signs] = spin_threshold(linear.with_momenta(I3 * np.array(signs)))
     least = min(needed.values())
     best = next(signs for signs, spin in needed.items() if spin <= least * (1 + _SAME))

@@ -1,4 +1,4 @@
-"""Ten structures to look at: name → the structure, in a line what it shows, and how long its film runs."""
+"""The gallery of structures: each has a name, a caption and the duration of its film."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ _WEIGHT: dict[str, Any] = {"gravity": 9.81, "load": 2.0}
 
 @dataclass(frozen=True)
 class Example:
-    """make: gives the structure; says: what it shows; duration: of its film, s."""
+    """A structure of the gallery: the function that makes it, the caption, and the duration of its film in s."""
 
     make: Callable[[], Structure]
     says: str
@@ -78,12 +78,22 @@ GALLERY = {
 
 @cache
 def example(name: str) -> Structure:
-    """The structure of that name.
+    """Return a structure of the gallery.
 
-    Raises
-    ------
-    InputError
-        Where there is none.
+    Parameters
+    ----------
+    name : str
+        One of the names in `GALLERY`, as "corner".
+
+    Returns
+    -------
+    Structure
+        The structure.
+
+    Examples
+    --------
+    >>> len(example("hexagon").bars)
+    6
     """
     if name not in GALLERY:
         raise InputError(

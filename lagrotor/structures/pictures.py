@@ -16,30 +16,38 @@ from lagrotor.structures.standing import stands
 
 
 def draw_plan(panel: Axes, s: Assembly) -> None:
-    """The joints from above, bars, braces (dashed), each rotor coloured by the sense of its spin."""
+    """Draw the joints from above, with bars, braces (dashed) and spins.
+
+    Parameters
+    ----------
+    panel : Axes
+        The panel to draw on.
+    s : Assembly
+        The structure.
+    """
     for i, j, _ in s.bars:
         panel.plot(*zip(s.joints[i], s.joints[j], strict=True), color=BAR, linewidth=4, zorder=1)
     for brace in s.braces:
         end = s.joints[brace.to] if isinstance(brace.to, int) else brace.to[:2]
         panel.plot(*zip(s.joints[brace.tip], end, strict=True), "--", color=MARK, linewidth=1.5, zorder=1)
-    most = max(map(abs, s.spins)) or 1.0
+    fastest = max(map(abs, s.spins)) or 1.0
     for i, ((x, y), spin) in enumerate(zip(s.joints, s.spins, strict=True)):
         ink = BAR if spin == 0 else ROTORS[spin < 0]
         panel.plot(x, y, "o", color=ink, markersize=9, mfc=ink if spin else "white", zorder=2)
         if len(s.joints) <= 16:
-            label, (along, up) = f"{spin:.4g}".replace("-", "−"), _clear_direction(s, i)
+            label, (dx, dy) = f"{spin:.4g}".replace("-", "−"), _clear_direction(s, i)
             panel.annotate(
-                label, (x, y), (9 * along, 9 * up), textcoords="offset points", color=INK, path_effects=HALO,
-                ha="center" if abs(along) < 0.3 else "left" if along > 0 else "right",
-                va="center" if abs(up) < 0.3 else "bottom" if up > 0 else "top",
+                label, (x, y), (9 * dx, 9 * dy), textcoords="offset points", color=INK, path_effects=HALO,
+                ha="center" if abs(dx) < 0.3 else "left" if dx > 0 else "right",
+                va="center" if abs(dy) < 0.3 else "bottom" if dy > 0 else "top",
             )  # fmt: skip
-        panel.plot(x, y, "o", color=ink, markersize=9 + 6 * abs(spin) / most, fillstyle="none", zorder=2)
+        panel.plot(x, y, "o", color=ink, markersize=9 + 6 * abs(spin) / fastest, fillstyle="none", zorder=2)
     panel.set(xlabel="x [m]", ylabel="y [m]", title="From above, spins in rad/s", aspect="equal", adjustable="datalim")
     panel.margins(0.25)
 
 
 def _clear_direction(s: Assembly, rotor: int) -> Array:
-    """The unit vector (2,) in the middle of the widest angle between the bars and braces at a rotor; up where there are none."""
+    """Return the unit vector in the middle of the widest angle between bars and braces at a rotor."""
     ends = [s.joints[j if i == rotor else i] for i, j, _ in s.bars if rotor in (i, j)]
     ends += [s.joints[b.to] if isinstance(b.to, int) else b.to[:2] for b in s.braces if b.tip == rotor]
     ends += [s.joints[b.tip] for b in s.braces if b.to == rotor]
@@ -50,12 +58,12 @@ def _clear_direction(s: Assembly, rotor: int) -> Array:
     gaps = np.diff(angles, append=angles[0] + 2 * pi)
     middle = angles + gaps / 2
     widest = middle[gaps > gaps.max() - 1e-9]
-    best = widest[np.argmax(np.sin(widest) + 1e-3 * np.cos(widest))]  # of equal ones the highest
+    best = widest[np.argmax(np.sin(widest) + 1e-3 * np.cos(widest))]  # the highest of equal ones
     return np.array([np.cos(best), np.sin(best)])
 
 
 def structure_picture(s: Assembly) -> Figure:
-    """The plan, and the roots s = growth + i rate of small motion about upright, where that is at rest."""
+    """Draw the plan and the roots s = growth + i rate of small motion about upright."""
     with paper_style():
         figure = RunFigure(figsize=(9.0, 4.6))
         plan, roots = figure.subplots(1, 2, width_ratios=(1.2, 1))
@@ -63,17 +71,17 @@ def structure_picture(s: Assembly) -> Figure:
         roots.set(xlabel="growth [1/s]", ylabel="rate [rad/s]", title="Roots of small motion")
         if not s.natural:
             roots.set_axis_off()
-            reason = "None about upright:\nthere a bar is not as long\nas its tips are apart"
+            reason = "None about upright:\na bar does not have\nits upright length"
             roots.text(0.5, 0.5, reason, ha="center", va="center", transform=roots.transAxes)
             return figure
-        roots_there, standing = small_motion(s).roots, stands(s)
+        values, standing = small_motion(s).roots, stands(s)
         for grows, ink in ((False, MODEL_COLOUR), (True, PAPER_COLOUR)):
-            part = roots_there[(roots_there.real > 0) == grows]
-            roots.plot(part.real, part.imag, "o", color=ink, markersize=6)
+            selection = values[(values.real > 0) == grows]
+            roots.plot(selection.real, selection.imag, "o", color=ink, markersize=6)
         roots.margins(0.15)
         roots.axvline(0, color=INK, linewidth=0.8)
         factor = standing.critical_spin
-        least = f"; it does from {factor:.4g} times its spins on" if factor else ""
-        least = "; no multiple of its spins holds it" if factor == inf else least
-        figure.suptitle(("Stands" if standing.stands else "Does not stand") + least)
+        least = f"; critical factor on the spins: {factor:.4g}" if factor else ""
+        least = "; no multiple of these spins stabilises it" if factor == inf else least
+        figure.suptitle(("Stable" if standing.stands else "Unstable") + least)
     return figure

@@ -1,19 +1,18 @@
-"""Resonances at which a structure that its spins hold falls, and from which pushes.
+"""Resonances by which a structure that its spins stabilise is unstable, and the pushes that they need.
 
-What spins hold against weight has modes of both signs of energy, H = sum_j ω_j |z_j|² + …, ω_j < 0 of the negative ones. Where
-k·ω = δ is small for k_j ≥ 0, |k| = d, the terms of degree d of the normal form, 2 Re P with P of degree d in z alone, feed all
-these modes at once, as what they gain and lose adds up to nothing. With N = sum |z_j|² over them and c the largest |P| at N = 1
+A position that spins hold against weight has modes of both signs of energy, H = sum_j ω_j |z_j|² + …, with ω_j < 0 for the
+negative ones. Let k·ω = δ be small for k_j ≥ 0, |k| = d. The terms of degree d of the normal form, 2 Re P with P of degree d in
+z alone, then feed all these modes at once. With N = sum |z_j|² over them and c the largest |P| at N = 1,
 
-    |dN/dt| ≤ 2 d c N^(d/2):   from N₀ = ρ² none falls before  t = 1/(d (d − 2) c ρ^(d−2)),
+    |dN/dt| ≤ 2 d c N^(d/2):   from N₀ = ρ² none topples before  t = 1/(d (d − 2) c ρ^(d−2)),
 
-and along the steepest direction it is that time. Beside the resonance δ N/d + K_d is conserved, K_d all of degree d. With κ its
-largest value at N = 1, no start below ρ passes the barrier of δ N/d − κ N^(d/2) where
+and along the steepest direction it takes this time. Off resonance δ N/d + K_d is conserved, where K_d collects all terms of
+degree d. With κ the largest value of K_d at N = 1, no start below ρ passes the barrier of δ N/d − κ N^(d/2) if
 
     |δ| > ½ d² κ (ρ²/x)^((d−2)/2),     x + (2/d) x^(d/2) = 1 − 2/d:    |δ| > 18 c ρ for d = 3.
 
-All of it is of the terms of degree d; d = 3 are the waves of Cherry, Trans. Camb. Phil. Soc. 23 (1925) 199. For d = 4 the
-actions' own terms may stop the growth: a vector k does fall where 2 |P| > |K_4 − 2 Re P| along |z_j|² ∝ k_j, of modes of equal
-rates in any of their bases.
+The case d = 3 is that of Cherry, Trans. Camb. Phil. Soc. 23 (1925) 199. For d = 4 the terms in the actions may stop the growth:
+a vector k is unstable if 2 |P| > |K_4 − 2 Re P| along |z_j|² ∝ k_j, in any basis of modes of equal rates.
 """
 
 from collections.abc import Iterator, Sequence
@@ -37,41 +36,30 @@ from lagrotor.structures.critical_spins import spin_threshold
 from lagrotor.structures.small_motion import WIDEST, SmallMotion, check_upright, small_motion
 from lagrotor.structures.upright_hamiltonian import local_hamiltonian
 
-MOST_DOF = 8  # for which the terms of fourth order are expanded
-_BARRIER = {3: 0.25, 4: sqrt(2) - 1}  # x of the module: (ρ/ρ_barrier)² of the largest start that stays
-_NEAR = 0.25  # of the largest rate: vectors with a larger detuning are no resonance
-_GROUP = 4.0  # times the least detuning of a group: what is detuned no more is part of it
-_NOTHING = 1e-9  # of the largest coefficient: a smaller one is zero
+MOST_DOF = 8  # limit of the expansion through fourth order
+_BARRIER = {3: 0.25, 4: sqrt(2) - 1}  # x of the module: (ρ/ρ_barrier)² of the largest bounded start
+_NEAR = 0.25  # relative to the largest rate: the largest detuning
+_GROUP = 4.0  # times the least detuning: the largest detuning of a group
+_NEGLIGIBLE = 1e-9  # relative to the largest coefficient: smaller ones are zero
 _FALLEN = 1.0  # the sine of a tilt
 _TRUSTED = 0.1  # the sine of a tilt
-_EQUAL = 1e-6  # of a rate
-_ON_BARS = 1e-6  # of the largest rate: what the bars do not allow
-_STOPPED = "no: its own terms stop it; how far it grows before is not known"
-_CHECKED = 1 / 32  # of the distance from the critical factor: how near an end is found
-_FASTEST = 300.0  # times the critical factor: beyond, no spins are sought
-_TOP = 12.0  # times the critical factor: beyond, fast rates exceed three slow ones
+_EQUAL = 1e-6  # relative difference of equal rates
+_ON_BARS = 1e-6  # relative to the largest rate: the bars do not allow more
+_STOPPED = "no: terms of the same order stop the growth, at an unknown amplitude"
+_CHECKED = 1 / 32  # relative to the distance from the critical factor: the error of an end
+_FASTEST = 300.0  # times the critical factor: the end of the search
+_TOP = 12.0  # times the critical factor: above, fast rates exceed three slow ones
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Resonance(Shown):
-    """A resonance of order 3 or 4 that can feed modes of both signs of energy, or slow ones that nearly resonate with rest.
+    """A resonance of order 3 or 4 that feeds modes of both signs of energy, or slow modes of nearly zero rate.
 
-    Attributes
-    ----------
-    vectors : tuple[tuple[int, ...], ...]
-        The k, whole numbers for each mode, nearest first; rates (rad/s) of the modes, negative of those of negative
-        energy, with all spins multiplied by `at`.
-    detuning : float
-        K·rates of the first, rad/s.
-    per_factor : float
-        Its slope.
-    growth : float
-        C, largest: κ, both in 1/s for N = (reach × push)²; push: the root of the sum of squares of all axes' rates at the
-        start, upright, in rad/s.
-    reach : float
-        Of the steepest push.
-    falls : bool
-        Whether its own terms do not stop it.
+    A push is the root of the sum of squares of the rates of all axes at the start, upright, in rad/s. vectors: the integer
+    vectors k, one number per mode, nearest to resonance first. rates (n,): the rates of the modes at the factor `at` on all
+    spins, negative for negative energy, rad/s. detuning: k·rates of the first vector, rad/s; per_factor: its derivative.
+    growth, largest: the coefficients c and κ of the module, 1/s for N = (reach × push)². reach: sqrt(N) per push in the
+    steepest direction, s. falls: True if the terms of the same order do not stop the growth.
     """
 
     order: int
@@ -87,44 +75,44 @@ class Resonance(Shown):
 
     @property
     def factor(self) -> float:
-        """The factor on all spins at which the detuning is zero, by its slope here."""
+        """The factor on all spins at which the detuning vanishes, by linear extrapolation."""
         return self.at - self.detuning / self.per_factor if self.per_factor else inf
 
     @property
     def resonant(self) -> bool:
-        """Whether the detuning is below half of each rate that takes part; beyond, the barrier alone decides."""
+        """True if the detuning is below half of each rate that takes part; otherwise the barrier alone decides."""
         return 2 * abs(self.detuning) < np.abs(self.rates[np.array(self.vectors[0]) > 0]).min()
 
     def push(self) -> float:
-        """The push below which no start falls by this resonance."""
+        """Return the size (rad/s) below which no push topples the structure by this resonance."""
         d = self.order
         barrier = (2 * abs(self.detuning) / (d * d * self.largest)) ** (1 / (d - 2))
         return float(sqrt(_BARRIER[d]) * barrier / self.reach)
 
     def window(self, push: float) -> tuple[float, float]:
-        """The factors on all spins between which a push of that size may fall, by the slope and the terms here."""
+        """Return the interval of factors on all spins in which a push (rad/s) may topple it, by linear extrapolation."""
         d, x = self.order, _BARRIER[self.order]
         half = d * d * self.largest / 2 * (self.reach * push / sqrt(x)) ** (d - 2) / abs(self.per_factor)
         return float(self.factor - half), float(self.factor + half)
 
     def least_time(self, push: float) -> float:
-        """The time (s) before which no push of that size falls, and after which one does where the detuning is zero."""
+        """Return the time (s) before which no push of a size (rad/s) topples it; at exact resonance some push takes it."""
         d = self.order
         return 1 / (d * (d - 2) * self.growth * (self.reach * push) ** (d - 2))
 
     def words(self) -> str:
-        """The rates and how they add up."""
-        parts = [(m, abs(w), bool(w < 0)) for m, w in zip(self.vectors[0], self.rates, strict=True) if m]
+        """Return the relation of the rates in words."""
+        terms = [(m, abs(w), bool(w < 0)) for m, w in zip(self.vectors[0], self.rates, strict=True) if m]
         sides = [
-            " + ".join(f"{f'{m} × ' if m > 1 else ''}{w:.4g}" for m, w, below in parts if below is side)
+            " + ".join(f"{f'{m} × ' if m > 1 else ''}{w:.4g}" for m, w, below in terms if below is side)
             for side in (False, True)
         ]
         if not all(sides):
-            return f"{sides[0] or sides[1]} is little beside {np.abs(self.rates).max():.4g} rad/s"
+            return f"{sides[0] or sides[1]} is small compared with {np.abs(self.rates).max():.4g} rad/s"
         return f"{sides[0]} = {sides[1]} rad/s but for {abs(self.detuning):.2g}"
 
     def summary(self) -> dict[str, str]:
-        """What adds up, how strongly, and where, name → words."""
+        """Return the relation of the rates, the strength and the factor in words."""
         return {
             "rates": self.words(),
             "order": str(self.order),
@@ -135,29 +123,23 @@ class Resonance(Shown):
 
 
 def signed_rates(linear: SmallMotion, factor: float = 1.0) -> Array:
-    """The rates ω_j of the modes with all spins multiplied, negative where their energy is, ascending; empty where one grows."""
-    here = linear.at_spins(factor)
-    roots, vectors = here.waves
-    if here.growth > 0 or not roots.imag.all():
+    """Return the rates ω_j, ascending, negative for modes of negative energy; empty if a mode grows."""
+    scaled = linear.at_spins(factor)
+    roots, vectors = scaled.waves
+    if scaled.growth > 0 or not roots.imag.all():
         return np.zeros(0)
     turning = roots.imag > 0
-    return np.sort(here.energy_signs(roots[turning], vectors[:, turning]) * roots[turning].imag)
+    return np.sort(scaled.energy_signs(roots[turning], vectors[:, turning]) * roots[turning].imag)
 
 
 def resonances(s: Assembly, factor: float = 1.0, orders: Sequence[int] = (3, 4)) -> tuple[Resonance, ...]:
-    """Return the resonances that the spins, multiplied by a factor, are near, those that the smallest pushes meet first.
-
-    None where the energy is definite. Raises InputError where a mode grows or has the rate zero, friction acts, the degrees of
-    freedom are too many, SingularError where a rate is more than 10⁶ times another.
-    """
+    """Return the resonances near some spins: see `Structure.resonances`."""
     check_upright(s, "resonances")
     finite_array("resonances: factor", factor, ())
     linear = small_motion(s)
     rates = signed_rates(linear, factor)
     if not len(rates):
-        raise InputError(
-            "resonances: a mode grows, or has the rate zero: there are no modes that could be in resonance"
-        )
+        raise InputError("resonances: a mode grows or has the rate zero, so that no resonance is defined")
     if not (rates[0] < 0 < rates[-1]):
         return ()
     if linear.dof > MOST_DOF:
@@ -166,20 +148,20 @@ def resonances(s: Assembly, factor: float = 1.0, orders: Sequence[int] = (3, 4))
     if fastest > WIDEST * slowest:
         raise SingularError(
             f"resonances: the fastest rate, {fastest:.3g} rad/s, is more than 10⁶ times the slowest, {slowest:.1g} rad/s, which "
-            "is lost beside it: take slower spins"
+            "is lost in its rounding: take slower spins"
         )
     slope = _slopes(linear, factor)
-    found = [r for d in orders for r in _of_order(s, rates, slope, factor, d)]
-    return tuple(sorted(found, key=lambda r: r.push() if r.falls else inf))
+    candidates = [r for d in orders for r in _of_order(s, rates, slope, factor, d)]
+    return tuple(sorted(candidates, key=lambda r: r.push() if r.falls else inf))
 
 
 def first_resonance(s: Assembly) -> Resonance | None:
-    """Return the one that the smallest push falls by; None where none is near. Raises InputError as `resonances` does."""
+    """Return the resonance that needs the smallest push; None if there is none."""
     return next((r for r in resonances(s) if r.falls), None)
 
 
 def _of_order(s: Assembly, rates: Array, slopes: Array, factor: float, order: int) -> Iterator[Resonance]:
-    """Groups of vectors of one order whose detunings are near each other."""
+    """Yield the resonances of one order, in groups of vectors with similar detunings."""
     h = local_hamiltonian(s)
     pushed = start_of_push(s)
     vectors = sorted(_vectors(rates, order), key=lambda k: abs(np.dot(k, rates)))
@@ -194,13 +176,13 @@ def _of_order(s: Assembly, rates: Array, slopes: Array, factor: float, order: in
 
 
 def start_of_push(s: Assembly) -> Array:
-    """Return (q, p) of a push of 1 along each degree of freedom, (2n, n), in units of `LocalHamiltonian`: p = m q'."""
+    """Return (q, p) of a unit push along each degree of freedom, (2n, n), in the units of `LocalHamiltonian`."""
     h = local_hamiltonian(s)
     return np.vstack([np.zeros_like(h.mass), h.mass / h.rate])
 
 
 def _vectors(rates: Array, order: int) -> list[tuple[int, ...]]:
-    """k ≥ 0 with |k| = order and a small k·rates, of modes of both signs, or of slow ones alone, which escape by the same law."""
+    """Return the k ≥ 0 with |k| = order and small k·rates. Slow modes alone count, too: they escape by the same law."""
     near, n = _NEAR * np.abs(rates).max(), len(rates)
     combinations = combinations_with_replacement(range(n), order)
     return [tuple(c.count(j) for j in range(n)) for c in combinations if abs(rates[list(c)].sum()) < near]
@@ -209,53 +191,52 @@ def _vectors(rates: Array, order: int) -> list[tuple[int, ...]]:
 def _resonance(
     n: NormalForm, unit: float, pushed: Array, group: list[tuple[int, ...]], rates: Array, slopes: Array, at: float
 ) -> Resonance | None:
-    """What the normal form says of a group of vectors; None where their terms vanish."""
+    """Return the resonance of a group of vectors; None if their terms vanish."""
     size, order, place = len(rates), sum(group[0]), np.argsort(np.real(n.frequencies), kind="stable")
     vectors = [tuple(int(k[i]) for i in np.argsort(place)) for k in group]  # in the order of the normal form's modes
     modes = np.any(vectors, axis=0)
-    part = n.series.part(order)
-    part = part.where(part.exponents[:, np.tile(~modes, 2)].sum(1) == 0)
-    up = part.where(np.array([tuple(e[:size]) in vectors and not e[size:].any() for e in part.exponents], dtype=bool))
+    terms = n.series.part(order)
+    terms = terms.where(terms.exponents[:, np.tile(~modes, 2)].sum(1) == 0)
+    up = terms.where(np.array([tuple(e[:size]) in vectors and not e[size:].any() for e in terms.exponents], dtype=bool))
     scale = np.abs(n.series.coefficients).max()
-    if not len(up.coefficients) or np.abs(up.coefficients).max() < _NOTHING * scale:
+    if not len(up.coefficients) or np.abs(up.coefficients).max() < _NEGLIGIBLE * scale:
         return None
     groups = _of_equal_rates(np.real(n.frequencies))
     different = {tuple(sum(k[j] for j in g) for g in groups): k for k in vectors}.values()
-    falls = order == 3 or any(_outweighs(part, k, groups) for k in different)
+    falls = order == 3 or any(_outweighs(terms, k, groups) for k in different)
     nearest = min(group, key=lambda k: abs(np.dot(k, rates)))
     over = np.linalg.inv(n.vectors)[:size][modes] @ pushed
-    growth, *own = (-unit * _least(f, modes[None], np.ones(1)) for f in (up, *([part, part.times(-1)] * (order == 4))))
+    growth, *bounds = (
+        -unit * _least(f, modes[None], np.ones(1)) for f in (up, *([terms, terms.times(-1)] * (order == 4)))
+    )
     return Resonance(
         order, tuple(sorted(group, key=lambda k: abs(np.dot(k, rates)))), rates, at, float(np.dot(nearest, rates)),
-        float(np.dot(nearest, slopes)), growth, max([2 * growth, *own]), float(np.linalg.norm(over, 2)), falls,
+        float(np.dot(nearest, slopes)), growth, max([2 * growth, *bounds]), float(np.linalg.norm(over, 2)), falls,
     )  # fmt: skip
 
 
-def _outweighs(part: Polynomial, k: tuple[int, ...], groups: list[list[int]]) -> bool:
-    """Whether 2 |P| exceeds the actions' own terms somewhere where |z_j|² adds up to what k_j does, over modes of equal rates.
+def _outweighs(terms: Polynomial, k: tuple[int, ...], groups: list[list[int]]) -> bool:
+    """Return True if 2 |P| exceeds the other terms somewhere at |z_j|² that sum to k_j over modes of equal rates.
 
-    Modes of equal rates have any basis, and all of them count. As the phase of P is free, it exceeds them where own terms and
-    2 Re P together take both signs.
+    Modes of equal rates have any basis. The phase of P is free: the condition holds if the sum of all terms takes both signs.
     """
     n = len(k)
     of = np.array([[j in g for j in range(n)] for g in groups])
     sums = of @ k
-    up, down = part.exponents[:, :n] @ of.T, part.exponents[:, n:] @ of.T
+    up, down = terms.exponents[:, :n] @ of.T, terms.exponents[:, n:] @ of.T
     fed = ((up == sums) & (down == 0)).all(1) | ((down == sums) & (up == 0)).all(1)
-    chosen = part.where((fed | (up == down).all(1)) & ((up + down)[:, sums == 0] == 0).all(1))
+    chosen = terms.where((fed | (up == down).all(1)) & ((up + down)[:, sums == 0] == 0).all(1))
     return all(_least(chosen.times(sign), of[sums > 0], sums[sums > 0]) < 0 for sign in (1, -1))
 
 
 def _least(f: Polynomial, groups: Array, sums: Array) -> float:
-    """Return the least real part of f(z, z̄) where |z_j|² adds up to the sums over groups, rows of a mask: descent from some
-    starts."""
+    """Return the least real part of f(z, z̄) at given sums of |z_j|² over groups (rows of a mask), from several starts."""
     from scipy.optimize import minimize
 
     powers, double, sizes = f.exponents, np.hstack([groups, groups]), np.sqrt(sums)  # double: real and imaginary parts
     n, moving = f.variables // 2, np.flatnonzero(double.any(0))
 
     def value(x: Array) -> tuple[float, Array]:
-        """The real part at x, its groups brought to their sums, and the gradient."""
         norms = np.sqrt(double @ x**2)
         scale = (sizes / norms) @ double
         z = (scale * x)[:n] + 1j * (scale * x)[n:]
@@ -264,8 +245,8 @@ def _least(f: Polynomial, groups: Array, sums: Array) -> float:
         by_z, by_w = (terms @ powers / np.where(point == 0, 1, point)).reshape(2, n)
         slope = by_z + by_w.conj()
         slope = np.concatenate([slope.real, -slope.imag])
-        along = (double @ (x * slope) / norms**2) @ double
-        return float(terms.sum().real), scale * (slope - along * x)
+        radial = (double @ (x * slope) / norms**2) @ double
+        return float(terms.sum().real), scale * (slope - radial * x)
 
     starts = np.zeros((8, 2 * n))
     starts[:, moving] = np.random.default_rng(0).standard_normal((8, len(moving)))
@@ -273,7 +254,7 @@ def _least(f: Polynomial, groups: Array, sums: Array) -> float:
 
 
 def _slopes(linear: SmallMotion, factor: float) -> Array:
-    """d rates / d factor."""
+    """Return the derivatives of the rates by the factor on all spins."""
     step = 1e-5 * factor
     near = [signed_rates(linear, factor + sign * step) for sign in (-1, 1)]
     if not all(map(len, near)):
@@ -283,46 +264,25 @@ def _slopes(linear: SmallMotion, factor: float) -> Array:
 
 @lru_cache(maxsize=16)
 def normal_form_of(s: Assembly, factor: float = 1.0, detuning: float = 0.0, order: int = 4) -> NormalForm:
-    """The normal form of a structure about upright, in units of its `LocalHamiltonian`.
-
-    Parameters
-    ----------
-    s : Assembly
-        The structure.
-    factor : float, default 1.0
-        By which all spins are multiplied.
-    detuning : float, default 0.0
-        Up to which resonances are kept, rad/s.
-    order : int, default 4
-        Through which.
-
-    Raises
-    ------
-    InputError
-        As `local_hamiltonian`.
-    SingularError
-        Where a rate is zero in it that is not.
-    """
+    """Return the normal form about upright in the units of `LocalHamiltonian`, with resonances up to `detuning`."""
     check_upright(s, "normal_form_of")
     form = normal_form_of_series(local_hamiltonian(s, order).at_spins(factor), order, detuning)
     if len(signed_rates(small_motion(s), factor)) and 0 in form.frequencies:
-        raise SingularError("normal form: beside the fastest rates slow ones are taken for zero: take slower spins")
+        raise SingularError("normal form: slow rates are lost in the rounding of the fastest ones: take slower spins")
     return form
 
 
-def fall_time_along(s: Assembly, given: ArrayLike, longest: float, detuning: float) -> float:
-    """Return when a push with the axes' rates (N, 2), rad/s, from upright tilts an axis by the sine 1 by the normal form of
-    fourth order, s; inf where it does not within the `longest` time. detuning: up to which resonances are kept, rad/s.
-    """
+def fall_time_along(s: Assembly, rates: ArrayLike, longest: float, detuning: float) -> float:
+    """Return the time (s) at which rates (N, 2) first tilt an axis by the sine 1, inf after `longest`, by the normal form."""
     from scipy.integrate import solve_ivp
 
     h = local_hamiltonian(s)
     n = normal_form_of(s, 1.0, detuning / h.rate)
     size = len(n.frequencies)
-    push = finite_array("fall_time: push", given)
-    off = push.ravel() - h.basis @ (h.basis.T @ push.ravel())
-    if np.abs(off).max() > _ON_BARS * np.abs(push).max():
-        raise InputError("fall_time: push: the bars do not allow these rates: what each joins must keep its distance")
+    push = finite_array("fall_time: push", rates)
+    residual = push.ravel() - h.basis @ (h.basis.T @ push.ravel())
+    if np.abs(residual).max() > _ON_BARS * np.abs(push).max():
+        raise InputError("fall_time: push: the bars do not allow these rates: each bar must keep its length")
     start = np.linalg.inv(n.vectors) @ (start_of_push(s) @ (h.basis.T @ push.ravel()))
     begin = np.array([f.at(start) for f in _new_coordinates(n, 3)])[:size]
     steps = n.series.exponents[:, :size] - n.series.exponents[:, size:]
@@ -350,7 +310,7 @@ def fall_time_along(s: Assembly, given: ArrayLike, longest: float, detuning: flo
 
 
 def _new_coordinates(n: NormalForm, order: int) -> list[Polynomial]:
-    """The normal form's coordinates as polynomials of those of the quadratic part, through an order."""
+    """Return the coordinates of the normal form as polynomials in those of the quadratic part."""
     new = [variable(j, 2 * len(n.frequencies)) for j in range(2 * len(n.frequencies))]
     for generator in reversed([g for g in n.generators if len(g.coefficients)]):
         new = [lie_transform(f, generator.times(-1), n.weights, order) for f in new]
@@ -359,11 +319,7 @@ def _new_coordinates(n: NormalForm, order: int) -> list[Polynomial]:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class LargestPush(Shown):
-    """value: the largest push from which no start falls; behind: what the number comes from, in words.
-
-    A push is the root of the sum of squares of all axes' rates at the start, upright, in rad/s. inf never occurs: where no
-    resonance is near, the value is that which tilts an axis by 0.1 at most, as far as the expansion is trusted.
-    """
+    """The largest safe push (rad/s), its reason, and the resonance. Without one it tilts an axis by 0.1, the trusted range."""
 
     value: float
     behind: str
@@ -373,70 +329,59 @@ class LargestPush(Shown):
         return self.value
 
     def summary(self) -> dict[str, str]:
-        """The push and what lies behind it, name → words."""
+        """Return the push and the reason."""
         return {"largest push": f"{self.value:.4g} rad/s", "behind": self.behind}
 
 
 def largest_push(s: Assembly) -> LargestPush:
-    """Return how far a structure may be pushed out of upright, whatever the direction, by the terms through fourth order.
-
-    0 where it does not stand to first order. Raises as `resonances` does.
-    """
+    """Return the largest safe push of a structure: see `Structure.largest_push`."""
     check_upright(s, "largest_push")
     if small_motion(s).growth > 0:
-        return LargestPush(0.0, "it falls to first order", None)
+        return LargestPush(0.0, "it is linearly unstable", None)
     first, trusted = first_resonance(s), trusted_push(s)
     if first is None or first.push() > trusted:
-        behind = f"no resonance falls from less; beyond, an axis tilts by more than {_TRUSTED}"
+        behind = f"no resonance needs less; a larger push tilts an axis by more than {_TRUSTED}"
         return LargestPush(trusted, behind, first)
     return LargestPush(first.push(), f"a resonance of order {first.order}: {first.words()}", first)
 
 
 def trusted_push(s: Assembly, factor: float = 1.0) -> float:
-    """Return the push from which no axis tilts by more than `_TRUSTED` in the linear motion; 0 where a mode grows or drifts."""
+    """Return the push from which no axis tilts by more than 0.1 in the linear motion; 0 if a mode grows or drifts."""
     if not len(signed_rates(small_motion(s), factor)):
         return 0.0
-    here, tilts = small_motion(s).at_spins(factor), np.zeros(1)
-    roots, vectors = here.waves
-    n, turning = here.dof, roots.imag > 0
+    scaled, tilts = small_motion(s).at_spins(factor), np.zeros(1)
+    roots, vectors = scaled.waves
+    n, turning = scaled.dof, roots.imag > 0
     w, u = roots[turning].imag, vectors[:, turning]
-    for g in _of_equal_rates(w):  # what of a push q' turns with them, by their energy's form
-        moving, still = (1j * w[g] * u[:, g]).conj().T @ here.mass, u[:, g].conj().T @ here.stiffness @ u[:, g]
+    for g in _of_equal_rates(w):  # the projection of a push q' on the modes, in the metric of their energy
+        moving, still = (1j * w[g] * u[:, g]).conj().T @ scaled.mass, u[:, g].conj().T @ scaled.stiffness @ u[:, g]
         form = moving @ (1j * w[g] * u[:, g]) + still
-        if np.abs(np.linalg.eigvalsh(form)).min() < _NOTHING * np.linalg.norm(still, 2):
-            return 0.0  # at the critical spins two modes are one
-        shares = (here.basis @ u[:, g] @ np.linalg.solve(form, moving)).reshape(-1, 2, n)
+        if np.abs(np.linalg.eigvalsh(form)).min() < _NEGLIGIBLE * np.linalg.norm(still, 2):
+            return 0.0  # at the critical spins two modes coincide
+        shares = (scaled.basis @ u[:, g] @ np.linalg.solve(form, moving)).reshape(-1, 2, n)
         tilts = tilts + 2 * np.linalg.norm(shares, 2, axis=(1, 2))
     return float(_TRUSTED / np.max(tilts))
 
 
 def _of_equal_rates(rates: Array) -> list[list[int]]:
-    """The modes by groups of equal rates, of which only the sum has a meaning: their shapes are any basis of what they span."""
+    """Return the modes in groups of equal rates, whose shapes are an arbitrary basis of a subspace."""
     equal = np.abs(rates[:, None] - rates) < _EQUAL * np.minimum(np.abs(rates[:, None]), np.abs(rates))
     return [list(g) for g in {tuple(np.flatnonzero(row).tolist()) for row in equal}]
 
 
 def checked_push(where: str, push: Any) -> float:
-    """A push as a number. Raises InputError for what is not above zero."""
+    """Return a push as a number. Raises InputError if it is not above zero."""
     if isinstance(push, bool) or not isinstance(push, int | float | np.number) or not 0 < push < inf:
         raise InputError(f"{where}: push = {push!r} must be a number above zero")
     return float(push)
 
 
 def spin_intervals(s: Assembly, push: float) -> tuple[tuple[float, float], ...]:
-    """Return the factors on all spins at which no push of that size falls, by `largest_push` there, as intervals.
-
-    `largest_push` is compared with `push` at 16 factors from the critical one to 12 times it, or more where the push is not
-    trusted there, at each resonant factor, and at both edges of its window. An end is found by bisection to 1/32 of its
-    distance from the critical factor, and the push holds there; the last end is inf where it holds at the largest of these
-    factors. Between them nothing is checked. Empty where no spins are known to hold the push.
-
-    Raises InputError for a structure that needs no spins, and as `resonances` does.
-    """
+    """Return the intervals of spins that are safe from a push: see `Structure.spin_intervals`."""
     check_upright(s, "spin_intervals")
     push, least = checked_push("spin_intervals", push), spin_threshold(small_motion(s))
     if least == 0:
-        raise InputError("spin_intervals: it stands without spins: ask largest_push() at spins of your choice")
+        raise InputError("spin_intervals: the structure is stable without spins: use largest_push() at given spins")
     if least == inf:
         return ()
     top = _TOP * least
@@ -445,7 +390,7 @@ def spin_intervals(s: Assembly, push: float) -> tuple[tuple[float, float], ...]:
     factors = {least + float(x) for x in np.geomspace(1e-3 * least, top - least, 16)}
     for factor, resonance in resonant_factors(s):
         factors |= {factor, *resonance.window(push)}
-    grid = sorted(f for f in factors if least < f < top * (1 + _NOTHING))
+    grid = sorted(f for f in factors if least < f < top * (1 + _NEGLIGIBLE))
 
     def holds(factor: float) -> bool:
         if trusted_push(s, factor) < push:
@@ -461,29 +406,29 @@ def spin_intervals(s: Assembly, push: float) -> tuple[tuple[float, float], ...]:
             outside, inside = (outside, middle) if holds(middle) else (middle, inside)
         return inside
 
-    enough, parts, start = [holds(f) for f in grid], [], grid[0]
+    enough, intervals, start = [holds(f) for f in grid], [], grid[0]
     for k in range(1, len(grid)):
         if enough[k] and not enough[k - 1]:
             start = edge(grid[k - 1], grid[k])
         elif enough[k - 1] and not enough[k]:
-            parts.append((start, edge(grid[k], grid[k - 1])))
-    return (*parts, (start, inf)) if enough[-1] else tuple(parts)
+            intervals.append((start, edge(grid[k], grid[k - 1])))
+    return (*intervals, (start, inf)) if enough[-1] else tuple(intervals)
 
 
 def resonant_factors(s: Assembly, orders: Sequence[int] = (3, 4)) -> tuple[tuple[float, Resonance], ...]:
-    """Return the factors on all spins beyond the critical one at which modes are in resonance, each with what it does.
+    """Return the factors on all spins above the critical one at which modes are resonant and unstable.
 
     Parameters
     ----------
     s : Assembly
         The structure.
     orders : sequence, default (3, 4)
-        Of the resonances.
+        The orders of the resonances.
 
-    Raises
-    ------
-    InputError
-        Where upright breaks a bar's length.
+    Returns
+    -------
+    tuple
+        Pairs (factor, Resonance), ascending.
     """
     from scipy.optimize import brentq
 
@@ -503,9 +448,9 @@ def resonant_factors(s: Assembly, orders: Sequence[int] = (3, 4)) -> tuple[tuple
                 low, high = tracks[k][0], tracks[k + 1][0]
                 root = brentq(lambda f, c=c: signed_rates(linear, f)[list(c)].sum(), low, high, xtol=1e-13 * low)
                 roots.add((round(root, 9), order))
-    found = []
+    matches = []
     for root, order in sorted(roots):
         nearest = next(_of_order(s, signed_rates(linear, root), _slopes(linear, root), root, order), None)
         if nearest and nearest.falls and abs(nearest.detuning) < 1e-6 * np.abs(nearest.rates).max():
-            found.append((root, nearest))
-    return tuple(found)
+            matches.append((root, nearest))
+    return tuple(matches)

@@ -1,21 +1,16 @@
-"""Transfer functions about upright: the tips' complex amplitudes under harmonic force and ground motion.
+"""Transfer functions about upright, and the best absorbers of a sway: brace and damper by spins, or a tuned mass.
 
     X = R Z (−ω² M + i ω C + K)⁻¹ Zᵀ f,   f_i = R_i F_i − S_i a_ground,
 
-for F e^(iωt) on the tips and the ground's acceleration a e^(iωt). Exact for small motion.
-
-How well spins quieten a sway, and a tuned mass: optimal brace and damper in closed form, and who wins.
-
-A sway of mass M and stiffness K = M Ω² is coupled by the spins (g) to a motion of inertia m that a brace k_z and a damper
-c hold:
+for F e^(iωt) on the tips and the acceleration a e^(iωt) of the ground, exact for small motion. The spins (g) couple a sway of
+mass M and stiffness K = M Ω² to a motion of inertia m with a brace k_z = m Ω² f² and a damper c = 2 ζ m Ω:
 
     M x'' + K x + g z' = F,   m z'' + c z' + k_z z − g x' = 0,   γ² = g²/(M m Ω²).
 
-For the pair under equal or opposite spins ± G, with tips of inertia a: M = m = 2a, g = 2G, γ = G/(a Ω), z the mean y or the
-yaw. Brace k_z = m Ω² f², damper c = 2 ζ m Ω. In the worst case both peaks of |X| are equally high, at the least height that
-any brace and damper leave, which Den Hartog's fixed points (Mechanical Vibrations, 1956, § 3.3) only bound from below. Derived
-in derivations/n2_shaken.py; the tuned mass is that of Nishihara & Asami (J. Vib. Acoust. 124, 576, 2002) and Warburton
-(Earthquake Eng. Struct. Dyn. 10, 1982).
+For the pair under equal or opposite spins ± G, with tips of inertia a: M = m = 2a, g = 2G, γ = G/(a Ω), and z is the mean y or
+the yaw. In the worst case both peaks of |X| have the same height, the least that any brace and damper allow; Den Hartog's fixed
+points (Mechanical Vibrations, 1956, § 3.3) are only a lower bound. Derived in derivations/n2_shaken.py. Tuned mass: Nishihara &
+Asami (J. Vib. Acoust. 124, 576, 2002), Warburton (Earthquake Eng. Struct. Dyn. 10, 1982).
 """
 
 from dataclasses import dataclass
@@ -31,17 +26,10 @@ from lagrotor.structures.small_motion import check_upright, small_motion
 
 
 def response(
-    s: Assembly,
-    rates: ArrayLike,
-    force: ArrayLike | None = None,
-    at: int | None = None,
+    s: Assembly, rates: ArrayLike, force: ArrayLike | None = None, at: int | None = None,
     ground: ArrayLike | None = None,
-) -> Complex:
-    """Amplitudes (n, N, 2) of the tips' x and y in m at the rates (n,) in rad/s; relative to the ground.
-
-    force: amplitude (x, y) in N on tip `at`, or (N, 2) on all; ground: amplitude (x, y) of its acceleration, m/s². Complex
-    amplitudes have phases. Raises InputError for what makes no sense, and at the very rate of a resonance without damping.
-    """
+) -> Complex:  # fmt: skip
+    """Return the amplitudes of the tips under harmonic excitation: see `Structure.response`."""
     check_upright(s, "response")
     c, linear = coefficients(s), small_motion(s)
     N, w = len(c.R), np.atleast_1d(finite_array("response: rates", rates))
@@ -76,10 +64,10 @@ def _forces(force: ArrayLike, at: int | None, N: int) -> Complex:
 
 @dataclass(frozen=True, eq=False)
 class Absorber:
-    """f², the brace's tuning; ζ, the damper; value: the peak, the largest |X K/F| over all rates, or the mean square.
+    """The tuning f² of the brace, the damping ratio ζ, and the value: the peak |X K/F| or the mean square.
 
-    The mean square, under white noise, is that of x K/F in units of π S Ω, S the force's two-sided spectral density: without an
-    absorber and with a damping ratio ζ of its own, 1/(2ζ).
+    The mean square of x K/F under white noise is in units of π S Ω, with S the two-sided spectral density of the force.
+    Without absorber, a sway with the damping ratio ζ has 1/(2ζ).
     """
 
     tuning: Array
@@ -88,13 +76,13 @@ class Absorber:
 
 
 def _worst_case(d: Array) -> tuple[Array, Array]:
-    """γ² and 1 − ρ of the best brace and damper, ρ² = 1 − 1/peak²; d = 1 − f²/ρ goes from 0 to 1 as γ from 0 to √2."""
+    """Return γ² and 1 − ρ of the best brace and damper, ρ² = 1 − 1/peak², for d = 1 − f²/ρ in (0, 1)."""
     over = 8 - 8 * d - d**2 + 2 * d**3
     return 2 * d * (2 - d) ** 2 * (4 - 3 * d) / over, d * (8 - 11 * d + 4 * d**2) / over
 
 
 def _d_where(quantity: int, values: Array) -> Array:
-    """d at which a quantity of `_worst_case` has the values; both grow with it."""
+    """Return d at which a quantity of `_worst_case`, which increases with d, has the values."""
     from scipy.optimize import brentq
 
     solve = np.vectorize(
@@ -104,15 +92,25 @@ def _d_where(quantity: int, values: Array) -> Array:
 
 
 def spins_worst_case(gamma: ArrayLike) -> Absorber:
-    """The spins' best brace and damper in the worst case, exactly; value is the peak, and no other pair has a lower one.
+    """Return the brace and damper that minimise the highest peak of a sway coupled by spins.
 
     With N = 8 − 8d − d² + 2d³ and 0 < d < 1 from γ² = 2d (2 − d)² (4 − 3d)/N:  1 − ρ = d (8 − 11d + 4d²)/N, f² = (1 − d) ρ,
-    ζ² = (1 − ρ)(3 − 2d)/2, peak² = 1/(1 − ρ²). For small γ these are f² = 1 − γ²/2, ζ² = 3γ²/8, peak √2/γ.
+    ζ² = (1 − ρ)(3 − 2d)/2, peak² = 1/(1 − ρ²). For small γ: f² = 1 − γ²/2, ζ² = 3γ²/8, peak √2/γ.
 
-    Raises
-    ------
-    DomainError
-        Unless 0 < γ < √2.
+    Parameters
+    ----------
+    gamma : array_like
+        The coupling γ, 0 < γ < √2.
+
+    Returns
+    -------
+    Absorber
+        The optimum, with the peak as its value.
+
+    Examples
+    --------
+    >>> round(float(spins_worst_case(0.5).value), 4)
+    2.8392
     """
     d = _d_where(0, _in_domain("gamma", gamma, 2**0.5) ** 2)
     below = _worst_case(d)[1]
@@ -120,31 +118,40 @@ def spins_worst_case(gamma: ArrayLike) -> Absorber:
 
 
 def spins_white_noise(gamma: ArrayLike) -> Absorber:
-    """The spins' best brace and damper under white noise: f² = 1 − γ²/2, ζ = γ sqrt(4 − γ²)/4.
+    """Return the brace and damper that minimise the mean square of a sway coupled by spins.
 
-    The mean square is sqrt(4/γ² − 1).
+    f² = 1 − γ²/2, ζ = γ sqrt(4 − γ²)/4, mean square sqrt(4/γ² − 1).
 
-    Raises
-    ------
-    DomainError
-        Unless 0 < γ < √2.
+    Parameters
+    ----------
+    gamma : array_like
+        The coupling γ, 0 < γ < √2.
+
+    Returns
+    -------
+    Absorber
+        The optimum under white noise.
     """
     g2 = _in_domain("gamma", gamma, 2**0.5) ** 2
     return Absorber(1 - g2 / 2, np.sqrt(g2 * (4 - g2)) / 4, np.sqrt(4 / g2 - 1))
 
 
 def mass_worst_case(mu: ArrayLike) -> Absorber:
-    """The best tuned mass in the worst case, exactly (Nishihara & Asami), with s = sqrt(4 + 3μ), ζ of the mass' own rate:
+    """Return the tuned mass that minimises the highest peak of a sway.
 
-        f² = 24/((s − 1)² (3s² + 4s + 4)),   ζ² = 9μ (3s + 2)/(16 (s + 2)(s² − 1)),
-        peak = (3s² + 4s + 4)/(3 sqrt(μ (s + 2)(3s + 2))),
+    With s = sqrt(4 + 3μ) and the damping ratio ζ of the absorber itself (Nishihara & Asami), the optimum is
+    f² = 24/((s − 1)² (3s² + 4s + 4)),   ζ² = 9μ (3s + 2)/(16 (s + 2)(s² − 1)),
+    peak = (3s² + 4s + 4)/(3 sqrt(μ (s + 2)(3s + 2))).
 
-    μ the ratio of masses; Den Hartog's fixed points lie at sqrt(1 + 2/μ).
+    Parameters
+    ----------
+    mu : array_like
+        The ratio μ of the masses.
 
-    Raises
-    ------
-    DomainError
-        Unless μ > 0.
+    Returns
+    -------
+    Absorber
+        The optimum, with the peak as its value. Den Hartog's fixed points lie at sqrt(1 + 2/μ).
     """
     m = _in_domain("mu", mu, np.inf)
     s = np.sqrt(4 + 3 * m)
@@ -154,21 +161,42 @@ def mass_worst_case(mu: ArrayLike) -> Absorber:
 
 
 def spins_win_worst_case(mu: ArrayLike) -> Array:
-    """γ from which on the spins' peak is lower than a tuned mass': sqrt(μ) for a small one."""
+    """Return the coupling γ above which spins have a lower peak than a tuned mass.
+
+    Parameters
+    ----------
+    mu : array_like
+        The ratio μ of the masses.
+
+    Returns
+    -------
+    Array
+        The coupling γ, about sqrt(μ) for small μ.
+    """
     inverse = mass_worst_case(mu).value ** -2.0
     return np.asarray(np.sqrt(_worst_case(_d_where(1, inverse / (1 + np.sqrt(1 - inverse))))[0]))
 
 
 def spins_win_white_noise(mu: ArrayLike) -> Array:
-    """γ from which on the spins do better than a tuned mass under white noise: 2 sqrt(μ (1 + μ))/(2 + μ). The best tuned mass has
-    the mean square sqrt((4 + 3μ)/(μ (1 + μ))) (Warburton)."""
+    """Return the coupling γ above which spins have a smaller mean square than a tuned mass.
+
+    Parameters
+    ----------
+    mu : array_like
+        The ratio μ of the masses.
+
+    Returns
+    -------
+    Array
+        The coupling γ = 2 sqrt(μ (1 + μ))/(2 + μ). A tuned mass has sqrt((4 + 3μ)/(μ (1 + μ))) (Warburton).
+    """
     m = _in_domain("mu", mu, np.inf)
     return np.asarray(2 * np.sqrt(m * (1 + m)) / (2 + m))
 
 
-def _in_domain(name: str, given: ArrayLike, below: float) -> Array:
-    """What is given as an array, refused outside its domain."""
-    x = np.asarray(given, dtype=float)
+def _in_domain(name: str, values: ArrayLike, below: float) -> Array:
+    """Return the values as an array. Raises DomainError if one is not between 0 and `below`."""
+    x = np.asarray(values, dtype=float)
     if not ((x > 0) & (x < below)).all():
-        raise DomainError(f"{name} = {given!r} must lie between 0 and {below:g}")
+        raise DomainError(f"{name} = {values!r} must lie between 0 and {below:g}")
     return x

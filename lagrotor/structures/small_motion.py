@@ -1,12 +1,12 @@
-"""Small motion about upright: matrices on the degrees of freedom that the bars leave, modes, and how many topple.
+"""Small motion about upright: the linear system on the degrees of freedom that remain with the bars, and its modes.
 
 With u_i = (x, y) of axis i, M u'' + C u' + K u = 0 under n_b . (R_i u_i − R_j u_j) = 0 for each bar along n_b:
 
     M = A ⊗ 1,   C = friction − G_i [[0, −1], [1, 0]],   K = hinge − g S_i + sum_braces k (n nᵀ).
 
-Upright the bars carry nothing (weight acts along the axes), so they enter as rows alone; u = Z q with Z a basis of what
-they leave. Merkin, Introduction to the Theory of Stability, ch. 6; rigidity matrices: Graver, Servatius & Servatius
-(1993).
+Upright, the bars carry no force (weight acts along the axes), so that they enter only as constraints: u = Z q, with Z a basis
+of the null space of their rows. Merkin, Introduction to the Theory of Stability, ch. 6; rigidity matrices: Graver, Servatius &
+Servatius (1993).
 """
 
 from dataclasses import dataclass, replace
@@ -23,26 +23,26 @@ from lagrotor.structures.coefficients import Array, Coefficients, Complex, coeff
 
 Matrix = NDArray[Any]  # real of a structure, complex of a pattern
 
-# Shares of a root beside which its real or imaginary part is rounding: double roots are known to half of a double's digits.
+# Real or imaginary parts below these fractions of a root are rounding. Double roots are known to half of a double's digits.
 _ZERO = 1e-6
-_DAMPED = 1e-10  # the same of a root with friction, whose real part need not be zero
-_ROUNDED = 1e-13  # of the fastest root: a smaller real part is rounding
-WIDEST = 1e6  # the fastest over the slowest rate, beyond which the slow one has lost too many digits
-_SLOWEST = 1e-9  # of a pattern's rate: a slower wave is zero
-_ALIKE = 1e-6  # of a size: one that differs by less is as large
-_NEUTRAL = 1e-12  # of the masses and the pull squared: a smaller stiffness is rounding of a sum of zero
-_DEPENDENT = 1e-10  # of the bars' largest singular value: one below it is zero
+_DAMPED = 1e-10  # with friction, where the real part need not be zero
+_ROUNDED = 1e-13  # the same relative to the fastest root, for real parts
+WIDEST = 1e6  # the largest ratio of rates at which the slow one keeps enough digits
+_SLOWEST = 1e-9  # relative to the rate of a pattern: slower waves count as zero
+_ALIKE = 1e-6  # relative difference of equal sizes
+_NEUTRAL = 1e-12  # relative to masses × pull²: a smaller stiffness is the rounding of zero
+_DEPENDENT = 1e-10  # relative to the largest singular value: smaller ones are zero
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Modes(Shown):
-    """n modes: rates (n,) in rad/s and growth (n,) in 1/s of u = Re(shape e^((growth + i rate) t)), shapes (n, N, 2).
+    """The n normal modes u = Re(shape e^((growth + i rate) t)): rates (n,) in rad/s, growth (n,) in 1/s, shapes (n, N, 2).
 
-    Of each conjugate pair of roots the one with rate > 0; of the real ones the larger half. topple: how many modes grow.
-    energy_signs (n,): that of ω² ū·M u + ū·K u, −1 of an oscillation with less energy than rest; 0 of what grows or has no rate.
-    left_out (n,): by how much (rad/s) the inertia lowers each rate to first order, where it is left out; else 0. Below zero where
-    it raises it, under weight. Growth below 1e-13 of the fastest root is rounding, and zero here. Of modes_about shapes (n, N, 3)
-    are changes of the axes.
+    One root of each conjugate pair is kept, with rate > 0, and the larger half of the real roots. `topple` modes grow.
+    energy_signs (n,): the sign of ω² ū·M u + ū·K u; −1 if the oscillation has less energy than the equilibrium, 0 if there is
+    none. left_out (n,): the first-order decrease of each rate by the inertia in the limit of fast spins (rad/s); negative
+    under weight. A growth below 1e-13 of the fastest root is set to zero. Shapes from `modes_about` are displacements of the
+    axes, (n, N, 3).
     """
 
     rates: Array
@@ -53,24 +53,23 @@ class Modes(Shown):
     left_out: Array
 
     def summary(self) -> dict[str, str]:
-        """Rate and growth of each mode, the fastest growing first, and how many topple, name → words."""
-        most = range(min(len(self.rates), 12))
+        """Return rate and growth of each mode, and the number of growing modes."""
+        indices = range(min(len(self.rates), 12))
         signs = {1: "", 0: "", -1: ", of negative energy"}
         rows = {
             f"mode {i + 1}": f"{self.rates[i]:.6g} rad/s, growth {self.growth[i]:.3g} 1/s{signs[int(self.energy_signs[i])]}"
-            for i in most
+            for i in indices
         }
-        rest = {"further ones": str(len(self.rates) - 12)} if len(self.rates) > 12 else {}
-        return rows | rest | {"topple": f"{self.topple} of {len(self.rates)}"}
+        remainder = {"further ones": str(len(self.rates) - 12)} if len(self.rates) > 12 else {}
+        return rows | remainder | {"topple": f"{self.topple} of {len(self.rates)}"}
 
 
 @dataclass(frozen=True, eq=False)
 class SmallMotion:
-    """mass, damping, gyroscopic (antisymmetric), stiffness, (n, n), on the degrees of freedom q, u = basis q, basis (2 N, n).
+    """The matrices M, C (damping), the antisymmetric gyroscopic matrix and K, (n, n), in q with u = basis q, basis (2 N, n).
 
-    pull: `Coefficients.pull`, beside whose square the stiffness over the mass is rounded; 0 where it is not known.
-
-    Of waves at many wave numbers each has an axis more, and so have the roots: (n_q, n, n), (n_q, 2 n).
+    pull: `Coefficients.pull`, the scale of rounding of the stiffness; 0 if unknown. For waves at many wave numbers each array
+    has one more leading axis, and so have the roots.
     """
 
     mass: Matrix
@@ -83,39 +82,36 @@ class SmallMotion:
 
     @property
     def dof(self) -> int:
-        """How many degrees of freedom the bars leave."""
+        """The number of degrees of freedom."""
         return int(self.mass.shape[-1])
 
     @property
     def bands(self) -> int:
-        """How many of the roots there are, but for their conjugates: half as many degrees of freedom as dof without inertia."""
+        """The number of roots without their conjugates: dof, or dof // 2 without inertia."""
         return self.dof if self.mass.any() else self.dof // 2
 
     @property
     def without_inertia(self) -> "SmallMotion":
-        """The limit of fast spins, C u' + K u = 0: its roots are those of M s² + C s + K that stay finite for M → 0."""
+        """The limit of fast spins, C u' + K u = 0, whose roots are those that stay finite for M → 0."""
         unit = np.abs(self.stiffness).max(initial=0) / (np.abs(self.gyroscopic).max(initial=0) or 1.0)
         return replace(self, mass=0 * self.mass, rate=float(unit) or self.rate)
 
     def at_spins(self, factor: float) -> "SmallMotion":
-        """The same with all spins multiplied."""
+        """Return the system with all spins multiplied."""
         return replace(self, gyroscopic=factor * self.gyroscopic)
 
     def with_momenta(self, G: Array) -> "SmallMotion":
-        """The same with axial momenta G (N,), kg m²/s."""
+        """Return the system with axial momenta G (N,), kg m²/s."""
         return replace(self, gyroscopic=self.basis.T @ np.kron(np.diag(G), [[0, 1], [-1, 0]]) @ self.basis)
 
     @cached_property
     def roots(self) -> Complex:
-        """All 2n roots s of det(M s² + C s + K), n without inertia, nearly zero ones set to zero."""
+        """The 2n roots s of det(M s² + C s + K), or n without inertia. Nearly zero roots are set to zero."""
         return self.waves[0]
 
     @cached_property
     def waves(self) -> tuple[Complex, Complex]:
-        """The roots and their vectors (n, 2n), (n, n) without inertia.
-
-        Raises SingularError where there is no inertia and a motion on which no spin acts.
-        """
+        """The roots and their vectors. Raises SingularError without inertia if no spin acts on some motion."""
         if not self.mass.any():
             return self._of_first_order
         s, x = np.linalg.eig(self.first_order)
@@ -123,7 +119,7 @@ class SmallMotion:
 
     @property
     def _of_first_order(self) -> tuple[Complex, Complex]:
-        """Roots and vectors of s C + K."""
+        """The roots and vectors of s C + K."""
         C, K = (self.gyroscopic + self.damping) * self.rate, self.stiffness + 0j
         sizes = np.linalg.svd(C, compute_uv=False)
         if self.dof and not (sizes[..., -1] > _DEPENDENT * sizes[..., 0]).all():
@@ -135,13 +131,13 @@ class SmallMotion:
         return self._in_seconds(s), vectors
 
     def energy_signs(self, roots: Complex, vectors: Complex) -> NDArray[np.int64]:
-        """The signs of ω² ū·M u + ū·K u of roots and their vectors, (m,)."""
+        """Return the signs of ω² ū·M u + ū·K u for roots and their vectors, (m,)."""
         kinetic, elastic = _forms(vectors, self.mass, self.stiffness)
         return np.sign(kinetic * roots.imag**2 + elastic).astype(np.int64)
 
     @cached_property
     def _definite(self) -> bool:
-        """Whether the rest is one of least energy and nothing damps: all roots are imaginary."""
+        """True if K is positive definite and there is no damping, so that all roots are imaginary."""
         if self.damping.any() or not self.dof:
             return False
         sizes = np.linalg.eigvalsh(self.stiffness)
@@ -159,13 +155,15 @@ class SmallMotion:
 
     def _in_seconds(self, s: Matrix) -> Complex:
         sizes = np.abs(np.linalg.eigvalsh(self.stiffness)) if self.dof else np.ones(1)
-        neutral = (sizes <= _DEPENDENT * sizes.max(-1, keepdims=True)).any(-1, keepdims=True)  # else no root is zero
+        neutral = (sizes <= _DEPENDENT * sizes.max(-1, keepdims=True)).any(
+            -1, keepdims=True
+        )  # otherwise no root is zero
         if s.ndim == 1 and neutral[0] and not self._definite:
             s, neutral, slowest = s + 0j, np.array([False]), np.argsort(np.abs(s))
             free, unturned, unrubbed = self._neutral
-            creeping, held = slowest[free + unrubbed : free + unturned], slowest[free + unturned :]
+            creeping, restored = slowest[free + unrubbed : free + unturned], slowest[free + unturned :]
             s[slowest[: free + unrubbed]] = 0
-            s[creeping[np.abs(s[creeping]) < _ZERO * (np.abs(s[held[0]]) if len(held) else 1.0)]] = 0
+            s[creeping[np.abs(s[creeping]) < _ZERO * (np.abs(s[restored[0]]) if len(restored) else 1.0)]] = 0
         near = np.maximum(np.abs(s), np.where(neutral, 1.0, _SLOWEST if s.ndim > 1 else 0.0))
         still = np.abs(s.real) < (_DAMPED if self.damping.any() else _ZERO) * near
         still |= np.abs(s.real) < _ROUNDED * np.abs(s).max(initial=0.0)
@@ -175,51 +173,46 @@ class SmallMotion:
 
     @property
     def _neutral(self) -> tuple[int, int, int]:
-        """How many displacements nothing pulls at, K v = 0; how many of them spins do not turn into others of them; on how many
-        of these no friction acts either.
+        """The dimensions of three nested spaces: K v = 0; no spin acts within it; no friction acts either.
 
-        Zero is a root once for each, and once more for each of the last; the second ones' friction makes a root that is slow.
+        Zero is a root once for each dimension of the first space, and once more for each of the third.
         """
         sizes, shapes = np.linalg.eigh(self.stiffness)
         none = max(_DEPENDENT * np.abs(sizes).max(), _NEUTRAL * np.abs(self.mass).max() * self.pull**2)
         free = shapes[:, np.abs(sizes) <= none]
-        turned, rubbed = (
+        rotated, rubbed = (
             _dagger(free) @ form @ free / (np.abs(form).max() or 1.0) for form in (self.gyroscopic, self.damping)
         )
         unturned, unrubbed = (
             int((np.linalg.svd(rows, compute_uv=False) <= _DEPENDENT).sum())
-            for rows in (turned, np.vstack([turned, rubbed]))
+            for rows in (rotated, np.vstack([rotated, rubbed]))
         )
         return free.shape[1], unturned, unrubbed
 
     @property
     def growth(self) -> float:
-        """The largest real part of a root, 1/s; zero where nothing grows."""
+        """The largest real part of a root, 1/s; zero if no motion grows."""
         return float(max(self.roots.real.max(), 0.0))
 
     @property
     def extremes(self) -> tuple[float, float]:
-        """The slowest root that is not zero and the fastest, in rad/s; of the zero ones the stiffness says how many there are."""
+        """The slowest nonzero root and the fastest root, rad/s. The stiffness determines how many roots are zero."""
         if not self.dof:
             return 1.0, 1.0
         sizes = np.sort(np.abs(np.linalg.eigvals(self.first_order)))
         free, unturned, _ = self._neutral
-        left = sizes[free + unturned :]  # friction alone acts on the roots between, which may be as slow as they like
-        return (self.rate * float(left[0]), self.rate * float(left[-1])) if len(left) else (1.0, 1.0)
+        nonzero = sizes[free + unturned :]  # the roots in between, of friction alone, may be arbitrarily slow
+        return (self.rate * float(nonzero[0]), self.rate * float(nonzero[-1])) if len(nonzero) else (1.0, 1.0)
 
     @property
     def drifts(self) -> bool:
-        """Whether some displacement neither returns nor grows but goes on at its speed: K v = 0, and neither friction nor
-        spins act between v and the others that K leaves free, so that zero is a double root of one motion."""
+        """True if some displacement continues at constant speed: zero is a double root of one motion."""
         return bool(self.dof and self._neutral[2])
 
 
 @lru_cache(maxsize=64)
 def small_motion(s: Assembly) -> SmallMotion:
-    """The linear system of a structure about upright.
-
-    Raises InputError where a bar is not as long as its tips are apart when upright.
-    """
+    """Return the linear system about upright. Raises InputError if a bar does not have its upright length."""
     check_upright(s, "small_motion")
     c = coefficients(s)
     rank, vectors = left_by(bar_rows(c))
@@ -227,49 +220,44 @@ def small_motion(s: Assembly) -> SmallMotion:
 
 
 def check_upright(s: Assembly, where: str) -> None:
-    """Raises InputError, of a door, where a bar is not as long as its tips are apart when upright."""
+    """Raise InputError in the name of the caller if a bar does not have its upright length."""
     if not s.natural:
         raise InputError(
-            f"{where}: a bar is not as long as its tips are apart when upright, and small motion is about upright axes: take "
+            f"{where}: a bar does not have its upright length, and this linear motion is about upright axes: take "
             "modes_about(rest_near(tilt)), or simulate it"
         )
 
 
 def check_rates(s: Assembly, where: str) -> SmallMotion:
-    """Return the linear system of a structure whose rates double precision can tell apart.
-
-    Raises InputError, named after the caller, where upright breaks a bar's length and where the fastest rate is more than 10⁶
-    times the slowest.
-    """
+    """Return the linear system. Raises InputError if the fastest rate exceeds 10⁶ times the slowest."""
     check_upright(s, where)
     linear = small_motion(s)
     slowest, fastest = linear.extremes
     if fastest > WIDEST * slowest:
         raise InputError(
             f"{where}: the fastest rate, {fastest:.3g} rad/s, is more than 10⁶ times the slowest, {slowest:.1g} rad/s, which "
-            "double precision loses beside it: take slower spins, stiffer springs, or the limit modes(inertia=False)"
+            "is lost in its rounding: take slower spins, stiffer springs, or the limit modes(inertia=False)"
         )
     return linear
 
 
 def left_by(rows: Matrix) -> tuple[NDArray[np.intp], Matrix]:
-    """Rank (…,) of the bars' rows (…, B, n) by their singular values, and vectors (…, n, n): those from the rank on are a basis
-    of what the bars leave."""
+    """Return the rank (…,) of the rows (…, B, n) of the bars, and vectors (…, n, n), from the rank on their null space."""
     _, sizes, vectors = np.linalg.svd(rows)
     ranks = np.asarray((sizes > _DEPENDENT * sizes.max(-1, initial=0.0, keepdims=True)).sum(-1))
     return ranks, _dagger(vectors)
 
 
-def on_basis(parts: Matrix, basis: Matrix, rate: float) -> SmallMotion:
-    """The system of `matrices`, (…, 4, n, n), on the vectors of a basis (…, n, f); all may be complex."""
+def on_basis(forms: Matrix, basis: Matrix, rate: float) -> SmallMotion:
+    """Return the system of `matrices`, (…, 4, n, n), in a basis (…, n, f); all may be complex."""
     if basis.shape[-1] < basis.shape[-2]:
-        parts = _dagger(basis)[..., None, :, :] @ parts @ basis[..., None, :, :]
-    mass, damping, gyroscopic, stiffness = np.moveaxis(parts, -3, 0)
+        forms = _dagger(basis)[..., None, :, :] @ forms @ basis[..., None, :, :]
+    mass, damping, gyroscopic, stiffness = np.moveaxis(forms, -3, 0)
     return SmallMotion(mass, damping, gyroscopic, stiffness, basis, rate)
 
 
 def _forms(vectors: Complex, *matrices: Matrix) -> list[Array]:
-    """ū·A u of vectors (n, m) and each matrix, (m,)."""
+    """Return ū·A u of vectors (n, m) for each matrix, (m,)."""
     return [(vectors.conj() * (A @ vectors)).sum(0).real for A in matrices]
 
 
@@ -278,29 +266,26 @@ def _dagger(x: Matrix) -> Matrix:
 
 
 def matrices(c: Coefficients) -> Array:
-    """Mass, damping, gyroscopic and stiffness matrix on u, (4, 2 N, 2 N), the bars' constraints left aside.
-
-    Of numbers or of symbols, as the coefficients are.
-    """
-    one = np.eye(2, dtype=int)
-    C, K = (np.kron(np.diag(d), one) for d in (c.friction, c.hinge - c.gravity * c.S))
+    """Return mass, damping, gyroscopic and stiffness matrix on u, (4, 2 N, 2 N), without the constraints."""
+    identity = np.eye(2, dtype=int)
+    C, K = (np.kron(np.diag(d), identity) for d in (c.friction, c.hinge - c.gravity * c.S))
     for k, row in enumerate(_brace_rows(c)):
         C += c.damping[k] * np.outer(row, row)
         K += c.stiffness[k] * np.outer(row, row)
-    return np.array([np.kron(c.inertia, one), C, np.kron(np.diag(c.G), [[0, 1], [-1, 0]]), K])
+    return np.array([np.kron(c.inertia, identity), C, np.kron(np.diag(c.G), [[0, 1], [-1, 0]]), K])
 
 
 def bar_rows(c: Coefficients) -> Array:
-    """The bars' rows on u, (B, 2 N): n . (R_i u_i − R_j u_j), n the horizontal part of the unit vector along the bar."""
+    """Return the rows of the bars on u, (B, 2 N): n . (R_i u_i − R_j u_j), with n the horizontal part of the unit vector."""
     n = (c.feet[c.j] - c.feet[c.i])[:, :2] / c.ell[:, None]
     rows = np.zeros((len(c.i), len(c.R), 2), dtype=c.R.dtype)
-    each = np.arange(len(c.i))
-    rows[each, c.i], rows[each, c.j] = c.R[c.i, None] * n, -c.R[c.j, None] * n
+    index = np.arange(len(c.i))
+    rows[index, c.i], rows[index, c.j] = c.R[c.i, None] * n, -c.R[c.j, None] * n
     return rows.reshape(len(c.i), 2 * len(c.R))
 
 
 def _brace_rows(c: Coefficients) -> Array:
-    """The extension of each brace by u, (braces, 2 N)."""
+    """Return the extension of each brace per u, (braces, 2 N)."""
     tip = c.feet[c.brace_tip] + c.R[c.brace_tip, None] * [0, 0, 1]
     n = ((tip - c.brace_point) / c.brace_length[:, None])[:, :2]
     rows = np.zeros((len(n), len(c.R), 2), dtype=c.R.dtype)
@@ -312,14 +297,7 @@ def _brace_rows(c: Coefficients) -> Array:
 
 
 def modes(s: Assembly, inertia: bool = True) -> Modes:
-    """The normal modes about upright, those that grow first, then by rate.
-
-    inertia: False for the limit of fast spins, in which C u' + K u = 0: slow precessions alone, their rates too large by
-    `left_out` and by what is of fourth order in 1/spin of themselves. Nash et al., PNAS 112, 14495 (2015).
-
-    Raises InputError where a bar is not as long as its tips are apart when upright, where inertia is neither True nor False, and
-    with inertia where the fastest rate is more than 10⁶ times the slowest; SingularError without inertia where no spin acts.
-    """
+    """Compute the normal modes about upright: see `Structure.modes`."""
     check_upright(s, "modes")
     if not isinstance(inertia, bool):
         raise InputError(f"modes: inertia = {inertia!r} must be True or False")
@@ -328,26 +306,28 @@ def modes(s: Assembly, inertia: bool = True) -> Modes:
 
 
 def first_largest(sizes: Array) -> Any:
-    """Along the last axis, the first of those that are the largest but for rounding: which it is hangs on no processor."""
+    """Return the first index of the largest size up to rounding, so that it is the same on every processor."""
     return (sizes > (1 - _ALIKE) * sizes.max(-1, keepdims=True)).argmax(-1)
 
 
 def modes_of(whole: SmallMotion, linear: SmallMotion, components: int = 2) -> Modes:
-    """The normal modes of a linear system, which is the whole one or what it is without inertia; components: of each axis."""
+    """Return the normal modes of a linear system, which is the whole one or its limit without inertia."""
     roots, vectors = linear.waves
     turning = np.flatnonzero(roots.imag > 0)
     real = np.flatnonzero(roots.imag == 0)
     real = real[np.argsort(-roots[real].real, kind="stable")][: linear.bands - len(turning)]
-    kept = np.concatenate([turning, real])
-    kept = kept[np.lexsort((roots[kept].imag, -roots[kept].real))]
-    shapes = (linear.basis @ vectors[:, kept]).T.reshape(len(kept), -1, components)
-    largest = np.abs(shapes).reshape(len(kept), -1)
-    lead = shapes.reshape(len(kept), -1)[np.arange(len(kept)), first_largest(largest)]
+    chosen = np.concatenate([turning, real])
+    chosen = chosen[np.lexsort((roots[chosen].imag, -roots[chosen].real))]
+    shapes = (linear.basis @ vectors[:, chosen]).T.reshape(len(chosen), -1, components)
+    largest = np.abs(shapes).reshape(len(chosen), -1)
+    lead = shapes.reshape(len(chosen), -1)[np.arange(len(chosen)), first_largest(largest)]
     shapes = shapes / lead[:, None, None]
-    signs = np.where((roots[kept].imag > 0) & (roots[kept].real <= 0), linear.energy_signs(roots, vectors)[kept], 0)
-    left_out = np.zeros(len(kept))
+    signs = np.where(
+        (roots[chosen].imag > 0) & (roots[chosen].real <= 0), linear.energy_signs(roots, vectors)[chosen], 0
+    )
+    left_out = np.zeros(len(chosen))
     if linear is not whole:
-        rates, u = roots[kept].imag, vectors[:, kept]
-        heavy, turned = ((u.conj() * (form @ u)).sum(0) for form in (whole.mass, whole.gyroscopic))
-        np.divide(rates**2 * heavy.real, turned.imag, out=left_out, where=rates > 0)
-    return Modes(roots[kept].imag, roots[kept].real, shapes, int((roots[kept].real > 0).sum()), signs, left_out)
+        rates, u = roots[chosen].imag, vectors[:, chosen]
+        heavy, gyroscopic = ((u.conj() * (form @ u)).sum(0) for form in (whole.mass, whole.gyroscopic))
+        np.divide(rates**2 * heavy.real, gyroscopic.imag, out=left_out, where=rates > 0)
+    return Modes(roots[chosen].imag, roots[chosen].real, shapes, int((roots[chosen].real > 0).sum()), signs, left_out)

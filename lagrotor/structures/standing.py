@@ -1,7 +1,7 @@
-"""Whether a structure stands upright, to first order and beyond, why not, and the least factor on its spins to first order.
+"""The stability of the upright position, linearly and beyond, its reason in words, and the critical factor on the spins.
 
-To first order the theorems of `critical_spins` decide. What spins hold against weight has precessions of negative energy, and
-resonances of third and fourth order between them let it fall all the same: see `resonances`.
+The theorems of `critical_spins` decide the linear motion. Spins that work against weight make precessions of negative energy.
+Resonances of third and fourth order between them can make the position unstable: see `resonances`.
 """
 
 from dataclasses import dataclass, replace
@@ -34,9 +34,9 @@ from lagrotor.structures.small_motion import SmallMotion, check_rates, modes, sm
 from lagrotor.structures.stability_time import hold_time
 from lagrotor.structures.upright_hamiltonian import local_hamiltonian
 
-PUSH = 0.01  # of the natural rate: the push that `kind` and `why` speak of
-_FARTHEST = 5  # times the push that is trusted: beyond, an axis tilts by ½ before anything grows
-_LEAST_TIMES = 20  # in which a push falls, if it does
+PUSH = 0.01  # relative to the natural rate: the push of `kind` and `why`
+_FARTHEST = 5  # times the trusted push: from there an axis tilts by ½ before it grows
+_LEAST_TIMES = 20  # the length of the search for a fall
 _BOUNDED = "every small motion stays bounded"
 
 
@@ -45,10 +45,10 @@ Kind = Literal["never", "to first order", "falls at a resonance", "falls over a 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Standing(Shown):
-    """Whether it stands to first order; growth (1/s) of the motion that falls fastest and its shape (N, 2), complex.
+    """The stability of the upright position. The truth value is linear stability, `stands`.
 
-    critical_spin: the factor on all spins from which on it stands to first order, inf where there is none. A truth value: that of
-    `stands`. `kind` says what lies beyond.
+    growth (1/s) and shape (N, 2), complex: those of the fastest growing motion. critical_spin: the factor on all spins above
+    which it is linearly stable, inf if none. `kind` describes the nonlinear motion.
     """
 
     stands: bool
@@ -63,17 +63,14 @@ class Standing(Shown):
 
     @cached_property
     def kind(self) -> Kind:
-        """What it does beyond the linear motion:
+        """The stability beyond the linear motion. A push is PUSH times the natural rate.
 
-        - "never": it does not stand to first order, and any push falls or goes on;
-        - "falls at a resonance": from every push of more than PUSH times its natural rate, in some direction, and from
-          smaller ones as `largest_push` says;
-        - "falls over a barrier": likewise, but no rates resonate: so near the critical spins the barrier that the terms of third
-          and fourth order leave is lower than such a push;
-        - "holds": its energy is least when upright, or no resonance through fourth order falls from such a push;
-        - "to first order": it stands in the linear motion, and no more is known: something neither falls nor is pulled back,
-          friction acts, there are more degrees of freedom than are expanded, rates are so far apart that `resonances` refuses
-          them, or the critical spins are so near that such a push tilts it by more than 0.1.
+        - "never": linearly unstable; any push grows or drifts.
+        - "falls at a resonance": linearly stable, but such pushes in some direction topple it: see `largest_push`.
+        - "falls over a barrier": the same without resonant rates; near the critical spins the barrier of order 3 and 4 is low.
+        - "holds": the energy has a minimum, or no resonance through fourth order topples it from such a push.
+        - "to first order": linearly stable, and no more is known: a motion has no restoring force, friction acts,
+          there are more than 8 degrees of freedom, the rates are too far apart, or the push tilts it by more than 0.1.
         """
         linear = small_motion(self.structure)
         if not self.stands:
@@ -84,21 +81,21 @@ class Standing(Shown):
         if rubs or linear.dof > MOST_DOF or not len(signed_rates(linear)):
             return "to first order"
         try:
-            found = self.resonance
-        except (InputError, SingularError):  # at the critical spins two modes are one, or rates are too far apart
+            resonance = self.resonance
+        except (InputError, SingularError):  # two modes coincide, or rates are too far apart
             return "to first order"
-        if found and found.push() < self._reference:
-            return "falls at a resonance" if found.resonant else "falls over a barrier"
+        if resonance and resonance.push() < self._reference:
+            return "falls at a resonance" if resonance.resonant else "falls over a barrier"
         return "to first order" if self._too_near else "holds"
 
     @cached_property
     def resonance(self) -> Resonance | None:
-        """The resonance that the smallest push falls by; None where none is near. Raises InputError as `resonances` does."""
+        """The resonance that needs the smallest push; None if there is none. Raises InputError as `resonances`."""
         return first_resonance(self.structure)
 
     @cached_property
     def _too_near(self) -> bool:
-        """Whether a push of PUSH is beyond what the expansion is trusted, as beside the critical spins."""
+        """True if the push is beyond the range of the expansion, as near the critical spins."""
         return trusted_push(self.structure) < self._reference
 
     @property
@@ -107,51 +104,52 @@ class Standing(Shown):
 
     @property
     def why(self) -> str:
-        """Why it stands or falls, in words."""
+        """The reason in words."""
         if self.kind == "falls at a resonance" and self.resonance:
             least = self.resonance.push()
             words = (
-                f"{self.first_order}, but it falls at a resonance of order {self.resonance.order}, "
-                f"{self.resonance.words()}: from a push of {least:.2g} rad/s on"
+                f"{self.first_order}, but a resonance of order {self.resonance.order}, "
+                f"{self.resonance.words()}, topples it from pushes above {least:.2g} rad/s"
             )
             if self._reference > _FARTHEST * trusted_push(self.structure):
-                return f"{words}; one of {self._reference:.3g} rad/s tilts it so far that its time is not known"
+                return f"{words}; {self._reference:.3g} rad/s tilts it too far for an estimate of the time"
             return (
-                f"{words}, one of {self._reference:.3g} rad/s in {self.resonance.least_time(self._reference):.3g} s or more by "
-                "the normal form, which may be off by half: measured_fall runs the exact motion"
+                f"{words}; {self._reference:.3g} rad/s takes {self.resonance.least_time(self._reference):.3g} s or more by the "
+                "normal form, with an error of a half: measured_fall runs the exact motion"
             )
         if self.kind == "falls over a barrier" and self.resonance:
             return (
                 f"{self.first_order}, but a push of about {self.resonance.push():.2g} rad/s in some direction passes the barrier "
-                f"that the terms of order {self.resonance.order} leave, and it falls; no rates resonate (the nearest: "
+                f"of the terms of order {self.resonance.order} and topples it; no rates are resonant (the nearest: "
                 f"{self.resonance.words()})"
             )
         if self.kind == "holds" and not self.first_order.startswith(_BOUNDED):
             return (
-                f"{self.first_order}; no resonance through fourth order falls from a push of {self._reference:.3g} rad/s; "
+                f"{self.first_order}; no resonance through fourth order topples it from a push of {self._reference:.3g} rad/s; "
                 "higher orders act later: not before `hold_time`"
             )
         if self.kind == "to first order" and self.__dict__.get("_too_near"):
             return (
-                f"{self.first_order}; so near the critical spins a push of {self._reference:.3g} rad/s tilts it too far for more "
-                "to be known"
+                f"{self.first_order}; so near the critical spins a push of {self._reference:.3g} rad/s tilts it too far for the "
+                "expansion"
             )
         return self.first_order
 
     def fall_time(self, push: float | ArrayLike) -> float:
-        """Return when it falls, s: a least time for a number; for rates an estimate, which may be off by half and more.
+        """Return the time (s) in which a push topples the structure, inf if it does not.
 
-        A number: the least time of pushes of that size by the resonance's own terms, inf where none falls. Rates (N, 2) of the
-        axes, rad/s: that of this push from upright, by the normal form of fourth order, inf where it does not fall in 20 least
-        times. `measured_fall` has the exact motion's.
-
-        Raises InputError as `resonances` does, and for pushes whose tilts are beyond what the expansion is trusted.
+        For a number it is the least time of pushes of this size (rad/s). For rates (N, 2) of the axes it is an estimate for
+        this push by the normal form of fourth order, with an error of a half or more; the search ends after 20 least times.
+        Raises InputError as `resonances`, and if the push exceeds the range of the expansion. `measured_fall` runs the exact
+        motion.
         """
-        along = np.ndim(push) > 0
-        if along and np.shape(push) != (shape := (len(self.structure.joints), 2)):
+        directed = np.ndim(push) > 0
+        if directed and np.shape(push) != (shape := (len(self.structure.joints), 2)):
             raise InputError(f"fall_time: push must be a number or rates {shape}, not of shape {np.shape(push)}")
         size = (
-            float(np.linalg.norm(finite_array("fall_time: push", push))) if along else checked_push("fall_time", push)
+            float(np.linalg.norm(finite_array("fall_time: push", push)))
+            if directed
+            else checked_push("fall_time", push)
         )
         if not self.stands:
             return 0.0
@@ -166,59 +164,54 @@ class Standing(Shown):
         if not resonance:
             return inf
         least = resonance.least_time(size)
-        if not along:
+        if not directed:
             return least
         reach = max(abs(np.dot(k, resonance.rates)) for k in resonance.vectors)
         time = fall_time_along(self.structure, push, _LEAST_TIMES * least, 1.001 * reach)
         if time == inf and size > trusted:
             raise InputError(
-                f"fall_time: this push of {size:.3g} rad/s does not fall in {_LEAST_TIMES * least:.3g} s by the expansion, which "
-                f"is trusted to {trusted:.3g}: simulate it"
+                f"fall_time: this push of {size:.3g} rad/s does not topple it in {_LEAST_TIMES * least:.3g} s by the expansion, "
+                f"which is trusted to {trusted:.3g}: simulate it"
             )
         return time
 
     def hold_time(self, push: float) -> float:
-        """Estimate the time (s) before which no push of that size grows to sqrt(2) times its size in the normal modes: see
-        `structures.stability_time`.
+        """Estimate the time (s) in which no push of a size (rad/s) grows to sqrt(2) of it in the normal modes.
 
-        inf without bars and braces, where each rotor is a free top, and for staying near where the energy is least upright, of
-        more than 8 degrees of freedom for pushes that are small enough; 0 where it does not stand or the push is beyond what the
-        expansion is trusted. push: as `largest_push` has it.
-
-        Raises InputError with friction, and for more than 8 degrees of freedom.
+        It is inf for free tops, without bars and braces, and at a minimum of the energy. It is 0 if the structure is linearly
+        unstable or the push exceeds the range of the expansion. Raises InputError with friction, and for more than 8 degrees
+        of freedom.
         """
         return hold_time(self.structure, push)
 
     def summary(self) -> dict[str, str]:
-        """Return whether it stands and why, and what spins it needs, name → words."""
+        """Return the stability, the reason and the critical factor in words."""
         least = "none" if self.critical_spin == inf else f"{self.critical_spin:.6g}"
         return {
-            "stands to first order": "yes" if self.stands else "no",
+            "linearly stable": "yes" if self.stands else "no",
             "beyond": "never at these spins" if self.kind == "never" and self.critical_spin < inf else self.kind,
             "why": self.why,
-            "least factor on all spins, to first order": least,
+            "critical factor on all spins": least,
         }
 
 
 def stands(s: Assembly) -> Standing:
-    """Return whether the linear motion about upright stays bounded, and what resonances do: see `Standing`.
-
-    Raises InputError where upright breaks a bar's length, and where it falls more slowly than is resolved: an odd number of
-    degrees of freedom that fall without spin do so at any (Kelvin), and so does what friction acts on (Tait and Chetaev, too).
-    Raises InputError, too, where the fastest rate is more than 10⁶ times the slowest. What friction reaches by less than
-    `critical_spin` counts stands here.
-    """
+    """Decide if the upright position is stable: see `Structure.stands`."""
     linear, normal, factor = check_rates(s, "stands"), modes(s), critical_spin(s)
     K = np.linalg.eigvalsh(stiffness_in_masses(linear))
     falling = int((K < -1e-12).sum())
-    growth = 0.0 if len(K) and K[0] > 1e-12 else linear.growth  # energy that is least when upright grows nowhere
+    growth = 0.0 if len(K) and K[0] > 1e-12 else linear.growth  # at a minimum of the energy no motion grows
     if falling and growth == 0 and not linear.drifts:
         rubbed = friction_undoes(linear)
         if rubbed or falling % 2:
-            cause = "friction lets it fall" if rubbed else f"an odd number of its degrees of freedom, {falling}, falls"
+            cause = (
+                "friction makes it unstable"
+                if rubbed
+                else f"an odd number of degrees of freedom, {falling}, is unstable"
+            )
             raise InputError(
-                f"stands: {cause} at any spins (Kelvin, Tait and Chetaev), but beside these so slowly that double precision "
-                "cannot tell how fast: take slower spins" + (", or more friction" if rubbed else "")
+                f"stands: {cause} at any spins (Kelvin, Tait and Chetaev), but at these so slowly that double precision "
+                "does not resolve the growth: take slower spins" + (", or more friction" if rubbed else "")
             )
     falls = growth > 0
     shape = normal.shapes[0] if falls else np.zeros((len(s.joints), 2), dtype=complex)
@@ -230,52 +223,50 @@ def _why(linear: SmallMotion, growth: float, factor: float) -> str:
     n, falling = linear.dof, int((K < -1e-12).sum())
     if growth == 0:
         if linear.drifts:
-            return "nothing falls, but a motion that nothing holds goes on at its speed after a push"
+            return "no motion grows, but one that nothing holds drifts at constant speed after a push"
         if not n:
-            return "the bars leave no degree of freedom"
-        held = (
-            "springs or a hanging weight hold it"
+            return "no degree of freedom remains with the bars"
+        reason = (
+            "springs or a hanging weight restore it"
             if K[0] > 1e-12
-            else "nothing pulls at it, and spins or friction stop a push"
+            else "no force acts on some motion, and spins or friction stop a push"
         )
         if not falling:
-            return f"{_BOUNDED}: {held}"
-        return f"to first order: the spins hold {falling} of {n} degrees of freedom"
-    first = f"{falling} of {n} degrees of freedom fall, the fastest e-fold in {1 / growth:.3g} s; "
+            return f"{_BOUNDED}: {reason}"
+        return f"linearly stable: the spins hold {falling} of {n} degrees of freedom"
+    first = f"{falling} of {n} degrees of freedom are unstable, the fastest grows e-fold in {1 / growth:.3g} s; "
     if falling % 2:
-        return first + "an odd number of them, which no spins hold"
+        return first + "no spins stabilise an odd number"
     if linear.damping.any():
         bare = spin_threshold(replace(linear, damping=np.zeros_like(linear.mass)))
         return first + (
-            f"friction undoes what the spins hold; without it they would from {bare:.4g} times these spins on"
+            f"friction undoes the stability by spins; without it these spins times {bare:.4g} suffice"
             if bare < inf
-            else "and no multiple of these spins holds them"
+            else "no multiple of these spins holds them"
         )
     if factor < inf:
-        return first + f"the spins are too small: from {factor:.6g} times them on it stands"
-    return first + "a motion on which these spins do not act, at any multiple of them"
+        return first + f"the spins are too small: {factor:.6g} times these spins suffice"
+    return first + "these spins do not act on some motion, at any multiple"
 
 
 def measured_fall(s: Assembly, push: ArrayLike, longest: float, tol: float = 1e-9) -> float:
-    """Return the time (s) at which an axis of the exact motion first tilts by the sine 0.95, inf where none does.
+    """Integrate the exact motion until an axis tilts by the sine 0.95.
 
     Parameters
     ----------
     s : Assembly
         The structure.
     push : array_like
-        The axes' rates (N, 2), rad/s, from upright, brought onto the bars.
+        The rates of the axes (N, 2) from upright, projected onto the bars, rad/s.
     longest : float
-        S.
-    tol : float, default 1e-09
-        Of each step, relative.
+        The end of the integration, s.
+    tol : float, default 1e-9
+        The relative local error.
 
-    Raises
-    ------
-    InputError
-        For what is no push.
-    IntegrationError
-        Where the solver fails.
+    Returns
+    -------
+    float
+        The time, s; inf if no axis tilts so far.
     """
     from scipy.integrate import solve_ivp
 

@@ -1,14 +1,14 @@
-"""Steady precessions of a structure, and small motion about them: the periodic orbits that its modes become at finite tilt.
+"""Steady precessions of a structure and small motion about them: the periodic orbits that its modes become at a finite tilt.
 
-Bars keep their directions while the axes turn, so that the motion linearised about a precession has periodic coefficients, and
-Floquet's multipliers take the place of modes. The orbit is found by shooting: of a state y = (r, r'/rate) and a period T
+Bars keep their directions while the axes turn. The motion linearised about a precession therefore has periodic coefficients,
+and Floquet multipliers replace modes. Shooting finds the orbit of a state y = (r, r'/rate) and a period T:
 
     φ_T(y) = y,    u = tilt,    u' = 0,    u the component of an axis that moves most in the mode,
 
-by Gauss and Newton's steps, the family followed from small tilts (Lyapunov's centre theorem; Meyer & Offin, Introduction to
-Hamiltonian Dynamical Systems, ch. 9). The monodromy comes from differences of the exact flow; of its multipliers two are 1, along
-the orbit and across the energy, and are left out before the others are found. One top's orbit is its steady precession, where
-A Ω² cos θ − G Ω + S g = 0.
+by Gauss–Newton steps along the family from small tilts (Lyapunov's centre theorem; Meyer & Offin, Introduction to Hamiltonian
+Dynamical Systems, ch. 9). The monodromy matrix comes from differences of the exact flow. Two of its multipliers are 1, along
+the orbit and transverse to the energy; they are removed before the others are computed. The orbit of one top is its steady
+precession, with A Ω² cos θ − G Ω + S g = 0.
 """
 
 from dataclasses import dataclass
@@ -32,26 +32,29 @@ from lagrotor.structures.exact.exact_motion import ExactMotion, exact_motion
 from lagrotor.structures.small_motion import check_upright, first_largest, modes
 from lagrotor.structures.tilted_equilibria import constraint_tangents
 
-_STEP = 1e-3  # of the monodromy's differences, of fourth order; half of it for Newton's steps, of second
-_CLOSED = 1e-11  # of axes and of rates over the structure's rate: an orbit is closed
-_NULL = 1e-7  # of the largest: a direction in which the conditions say less has a family of orbits, and is left alone
-_AHEAD = 0.1  # of tilt, from one orbit to the next
-_LEAST = 1e-3  # such a step below which the family ends
-_EQUAL = 1e-6  # of a rate: modes as near as that have the same one
-_COARSE = 1e-10  # error of the motion of which Newton's steps take differences
+_STEP = 1e-3  # of the differences of fourth order for the monodromy; half of it, of second order, in Newton's steps
+_CLOSED = 1e-11  # of axes and rates: the mismatch of a closed orbit
+_NULL = 1e-7  # relative to the largest singular value: smaller ones belong to a family of orbits and are not corrected
+_AHEAD = 0.1  # the largest step of the tilt along the family
+_LEAST = 1e-3  # the least step; the family ends if it fails
+_EQUAL = 1e-6  # relative difference of equal rates
+_COARSE = 1e-10  # tolerance of the motions in Newton's steps
 _NEWTON = 8  # steps to an orbit
 _MOST = 100_000  # evaluations of a period
+_ADVICE = {
+    False: "if a mode has a multiple of its rate there may be none; take another mode, or change a spin",
+    True: "its family ends or turns near {:.3g}; take a smaller tilt",
+}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SteadyPrecession(Shown):
-    """A periodic orbit of period T (s): axes and rates (N, 3) of its start, in 1/s, where axis and component of largest motion
-    have the tilt and turn back.
+    """A periodic orbit of period T (s), with axes and rates (N, 3), 1/s, at the moment of largest tilt.
 
-    multipliers (2n,): two ones, then those of the return, NaN where one is smaller than its error; errors (2n,): their estimates,
-    of NaN the bound of its size. growth: log of the largest modulus, a
-    turn; 0 where no multiplier is off the unit circle by more than its error. mismatch: of axes and of rates over the
-    structure's rate, from the start after one period.
+    multipliers (2n,): two ones, then those of the return, NaN if one is smaller than its error; errors (2n,): their
+    estimates, or for NaN the bound of the size. growth: the logarithm of the largest modulus per turn, 0 if no multiplier
+    leaves the unit circle by more than its error. mismatch: the difference of the state after one period, of axes and of
+    rates over the structure's rate.
     """
 
     tilt: float
@@ -64,33 +67,28 @@ class SteadyPrecession(Shown):
     mismatch: float
 
     def summary(self) -> dict[str, str]:
-        """Period, multipliers and growth, name → words."""
-        return (
-            {
-                "tilt": f"{self.tilt:g}",
-                "period [s]": f"{self.period:.10g}",
-                "rate [rad/s]": f"{2 * pi / self.period:.10g}",
-            }
-            | multiplier_rows(self.multipliers[2:], self.errors[2:])
-            | {"growth": f"{self.growth:.6g} a turn" if self.growth else "none beyond the error"}
+        """Return period, multipliers and growth in words."""
+        rows = {"tilt": f"{self.tilt:g}", "period [s]": f"{self.period:.10g}"}
+        rows |= {"rate [rad/s]": f"{2 * pi / self.period:.10g}"} | multiplier_rows(
+            self.multipliers[2:], self.errors[2:]
         )
+        return rows | {"growth": f"{self.growth:.6g} per turn" if self.growth else "none beyond the error"}
 
 
 @dataclass(frozen=True, eq=False)
 class _Shooting:
-    """The flow of a structure's states y (6N,) in its time c.rate t, and the component u of the axes that is held."""
+    """The flow of states y (6N,) in the time c.rate t, and the component u of the axes that is fixed."""
 
     motion: ExactMotion
     rhs: RightHandSide
-    held: int
+    component: int
 
     def end(self, y: Array, duration: float, local: float = TIGHTEST) -> Array:
         problem = Problem(self.rhs, y, _MOST, project=self.motion.project, typical_rate=1.0)
         return integrate(problem, np.array([duration]), local).end
 
     def slopes(self, y: Array, duration: float, weights: dict[float, Array], local: float) -> Array:
-        """Of differences with several weights (k,): slopes (k, 2, 6N, 2n) of states on the constraints and of their ends, by n
-        directions of axes and as many of rates."""
+        """Return weighted differences of states and their ends by 2n directions on the constraints: (k, 2, 6N, 2n)."""
         tangents = np.kron(np.eye(2), constraint_tangents(self.motion, y[: len(y) // 2].reshape(-1, 3)))
         slopes: Any = 0.0
         for step, weight in weights.items():
@@ -100,18 +98,18 @@ class _Shooting:
         return np.asarray(slopes)
 
     def orbit(self, y: Array, duration: float, tilt: float) -> tuple[Array, float, float]:
-        """(start, duration, mismatch) of the orbit near. Raises ConstraintError where none is reached."""
-        held = [self.held, len(y) // 2 + self.held]
+        """Return (start, duration, mismatch) of the nearest orbit. Raises ConstraintError if none is reached."""
+        fixed = [self.component, len(y) // 2 + self.component]
         sides = {k * _STEP / 2: np.array([k / _STEP]) for k in (1, -1)}
         for _ in range(_NEWTON):
             end = self.end(y, duration)
-            off = np.concatenate([end - y, y[held] - [tilt, 0.0]])
-            if np.abs(off).max() < _CLOSED:
+            residual = np.concatenate([end - y, y[fixed] - [tilt, 0.0]])
+            if np.abs(residual).max() < _CLOSED:
                 return y, duration, float(np.abs(end - y).max())
             start, later = self.slopes(y, duration, sides, _COARSE)[0]
             ahead = np.append(np.asarray(self.rhs(0.0, end)), [0.0, 0.0])
-            rows = np.column_stack([np.vstack([later - start, start[held]]), ahead])
-            change = np.linalg.lstsq(rows, -off, rcond=_NULL)[0]
+            rows = np.column_stack([np.vstack([later - start, start[fixed]]), ahead])
+            change = np.linalg.lstsq(rows, -residual, rcond=_NULL)[0]
             if not np.abs(change).max() < 0.5 * duration:
                 break
             y = self.motion.project(self.motion.project(y + start @ change[:-1]))
@@ -120,26 +118,7 @@ class _Shooting:
 
 
 def steady_precession(s: Assembly, mode: int = 0, tilt: float = 0.1) -> SteadyPrecession:
-    """The precession that a mode of `modes()` becomes when the axis that moves most in it tilts by `tilt`, with its multipliers.
-
-    Where one integral more makes a family of orbits of the same tilt, as the turning of a pair about its joint line, it is that
-    nearest to the mode.
-
-    Parameters
-    ----------
-    s : Assembly
-        Without friction, upright at rest.
-    mode : int, default 0
-        Its number in `modes()`, from 0; one with a rate of its own that neither grows nor decays.
-    tilt : float, default 0.1
-        The largest component of an axis' unit vector in the mode, between 0.001 and 1.
-
-    Raises
-    ------
-    InputError
-        For a mode or tilt that there is not, for one of several modes of the same rate, with friction, and where
-        no such orbit is reached.
-    """
+    """Find the periodic orbit of a mode at a finite tilt: see `Structure.steady_precession`."""
     where = "steady_precession"
     rate, shape = precessing_mode(s, mode, where)
     size = finite_number(tilt, f"{where}: tilt", "parts of a unit vector")
@@ -147,7 +126,7 @@ def steady_precession(s: Assembly, mode: int = 0, tilt: float = 0.1) -> SteadyPr
         raise InputError(f"{where}: tilt = {size:g} must lie between 0 and 1, the sine of a right angle")
     if size < _STEP:
         raise InputError(
-            f"{where}: tilt = {size:g} is below {_STEP:g}, the step of the differences: modes() tells as much"
+            f"{where}: tilt = {size:g} is below {_STEP:g}, the step of the differences: use modes() instead"
         )
     motion = exact_motion(s)
     c = motion.c
@@ -156,7 +135,7 @@ def steady_precession(s: Assembly, mode: int = 0, tilt: float = 0.1) -> SteadyPr
     zeros = np.zeros((len(shape), 1))
 
     def scaled(y: Array, ratio: float) -> Array:
-        """The state with all tilts and rates in a ratio, on the constraints."""
+        """Scale all tilts and rates, and project the state onto the constraints."""
         r, v = y.reshape(2, -1, 3) * ratio
         r[:, 2] = np.sqrt(np.maximum(1 - (r[:, :2] ** 2).sum(1), 1e-3))
         r = close_bars(motion, r / np.linalg.norm(r, axis=1)[:, None])
@@ -166,65 +145,60 @@ def steady_precession(s: Assembly, mode: int = 0, tilt: float = 0.1) -> SteadyPr
     at, ahead, duration = 0.0, min(_AHEAD, size), 2 * pi * c.rate / rate
     y = begin
     while at < size:
-        there = min(size, at + ahead)
+        target = min(size, at + ahead)
         try:
-            y, duration, mismatch = shoot.orbit(scaled(y, there / (at or 1.0)), duration, there)
-            at, ahead = there, min(_AHEAD, 2 * ahead)
+            y, duration, mismatch = shoot.orbit(scaled(y, target / (at or 1.0)), duration, target)
+            at, ahead = target, min(_AHEAD, 2 * ahead)
         except (LagrotorError, np.linalg.LinAlgError):
             ahead /= 2
             if ahead < _LEAST:
                 raise InputError(
-                    f"{where}: no periodic orbit of tilt {size:g} is reached from mode {mode}: "
-                    + (
-                        f"its family ends or turns near {at:.3g}; take a smaller tilt"
-                        if at
-                        else "beside modes of a multiple of its rate there need be none; take another mode, or change a spin"
-                    )
+                    f"{where}: no periodic orbit of tilt {size:g} is reached from mode {mode}: {_ADVICE[at > 0].format(at)}"
                 ) from None
     multipliers, errors = _multipliers(shoot, y, duration)
-    outside = np.abs(multipliers) > 1 + errors  # not of NaN, which is small
-    most = float(np.log(np.abs(multipliers[outside]).max())) if outside.any() else 0.0
+    outside = np.abs(multipliers) > 1 + errors  # False for NaN, a multiplier too small to be resolved
+    growth = float(np.log(np.abs(multipliers[outside]).max())) if outside.any() else 0.0
     axes, rates = y.reshape(2, -1, 3)
-    return SteadyPrecession(size, duration / c.rate, axes, c.rate * rates, multipliers, errors, most, mismatch)
+    return SteadyPrecession(size, duration / c.rate, axes, c.rate * rates, multipliers, errors, growth, mismatch)
 
 
 def precessing_mode(s: Assembly, mode: int, where: str) -> tuple[float, NDArray[np.complex128]]:
-    """The rate and shape of a mode that becomes a precession. Raises InputError for another, and for a structure that leans."""
+    """Return rate and shape of a mode that becomes a precession. Raises InputError for any other mode."""
     check_upright(s, where)
     linear, c = modes(s), coefficients(s)
     count = len(linear.rates)
     if isinstance(mode, bool) or not isinstance(mode, int | np.integer) or not 0 <= mode < count:
         raise InputError(f"{where}: mode = {mode!r} is not a number from 0 to {count - 1}, as modes() has them")
     if c.decay.any() or c.friction.any() or c.damping.any():
-        raise InputError(f"{where}: friction or a damper takes energy, and no motion returns: leave it out")
+        raise InputError(f"{where}: friction or a damper dissipates energy, and no motion is periodic: set it to zero")
     rate, growth = float(linear.rates[mode]), linear.growth[mode]
     if growth or rate == 0:
         why = f"{'grows' if growth > 0 else 'decays'}, {abs(growth):.3g} 1/s" if growth else "has no rate"
         raise InputError(f"{where}: mode {mode} {why}: only an oscillation becomes a precession; take another mode")
     if (np.abs(np.delete(linear.rates, mode) - rate) < _EQUAL * rate).any():
         raise InputError(
-            f"{where}: other modes have the rate of mode {mode}, {rate:.6g} rad/s: any sum of them is a mode, and which of the "
-            "sums become precessions is not searched; change a spin"
+            f"{where}: other modes have the rate of mode {mode}, {rate:.6g} rad/s: any sum of them is a mode, and it is not "
+            "known which sums become precessions; change a spin"
         )
     return rate, linear.shapes[mode]
 
 
 def _multipliers(shoot: _Shooting, y: Array, duration: float) -> tuple[NDArray[np.complex128], Array]:
-    """All multipliers and their errors, (2n,): from differences by a step and by twice as long ones."""
-    shares = {1: (8, 0), 2: (-1, 4), 4: (0, -0.5)}  # of differences by a step and by two
+    """Return all multipliers and their errors, (2n,), from differences by one step and by twice this step."""
+    shares = {1: (8, 0), 2: (-1, 4), 4: (0, -0.5)}  # weights of differences by one step and by two
     weights = {k * sign * _STEP: sign * np.array(w) / (12 * _STEP) for k, w in shares.items() for sign in (1, -1)}
     slopes = shoot.slopes(y, duration, weights, TIGHTEST)
-    forms, start = [np.linalg.lstsq(*part)[0] for part in slopes], slopes[0, 0]
-    along = np.linalg.lstsq(start, np.asarray(shoot.rhs(0.0, y)))[0]
-    beside = np.concatenate([y[None] + k * _STEP * start.T for k in (1, -1, 2, -2)])
-    axes, rates = shoot.motion.axes_and_rates(beside)
+    forms, start = [np.linalg.lstsq(*slope)[0] for slope in slopes], slopes[0, 0]
+    flow = np.linalg.lstsq(start, np.asarray(shoot.rhs(0.0, y)))[0]
+    neighbours = np.concatenate([y[None] + k * _STEP * start.T for k in (1, -1, 2, -2)])
+    axes, rates = shoot.motion.axes_and_rates(neighbours)
     energy = np.split(shoot.motion.energy(axes, shoot.motion.c.rate * rates), 4)
     gained = np.tensordot([8, -8, -1, 1], energy, 1)
-    both = np.stack([along / np.linalg.norm(along), gained / np.linalg.norm(gained)])
-    across = np.linalg.svd(both)[2][2:].T
-    inner, other = (across.T @ form @ across for form in forms)
+    both = np.stack([flow / np.linalg.norm(flow), gained / np.linalg.norm(gained)])
+    transverse = np.linalg.svd(both)[2][2:].T
+    inner, coarse = (transverse.T @ form @ transverse for form in forms)
     values, right = np.linalg.eig(inner)
     conditions = np.linalg.norm(np.linalg.pinv(right), axis=1) * np.linalg.norm(right, axis=0)
-    errors = conditions * (np.linalg.norm(inner - other, 2) + TIGHTEST * np.linalg.norm(inner, 2))
+    errors = conditions * (np.linalg.norm(inner - coarse, 2) + TIGHTEST * np.linalg.norm(inner, 2))
     order = np.lexsort((-values.imag, np.abs(np.angle(values)), -np.round(np.abs(values), 6)))
     return resolved_multipliers(np.append([1.0, 1.0], values[order]), np.append([0.0, 0.0], errors[order]))

@@ -1,10 +1,11 @@
-"""Rest away from upright, and small motion about it: weight that hinges hold only when axes lean, bars of any length.
+"""Equilibria with tilted axes and small motion about them, for bars of any length.
 
-On the tangent space of the constraints at rest, r = r₀ + T q with T orthonormal, the exact accelerations a(r, r') give
+On the tangent space of the constraints, r = r₀ + T q with T orthonormal, the exact accelerations a(r, r') give
 
     q'' = Tᵀ ∂a/∂r T q + Tᵀ ∂a/∂r' T q',    K = −M Tᵀ ∂a/∂r T,    C = −M Tᵀ ∂a/∂r' T,    M = Tᵀ A T,
 
-by central differences of fourth order. Rest is found by steps −|K|⁻¹ ∂V/∂q, Newton's where the energy is least, down elsewhere.
+by central differences of fourth order. The equilibrium is found by steps −|K|⁻¹ ∂V/∂q. Near a minimum of the energy they are
+Newton's steps; elsewhere they descend.
 """
 
 from collections.abc import Callable
@@ -20,92 +21,87 @@ from lagrotor.structures.exact.bar_closure import close_bars
 from lagrotor.structures.exact.exact_motion import ExactMotion, exact_motion, off_constraints, pulls
 from lagrotor.structures.small_motion import Modes, SmallMotion, left_by, modes_of
 
-_STEP = 1e-3  # of the differences, whose error is its fourth power times 10⁻² or so
-_SOFT = 1e-9  # of the largest stiffness: one below it, within their error, is none
-_AT_REST = 1e-9  # of the rate squared: accelerations below it are none
+_STEP = 1e-3  # of the differences; their error is about 10⁻² times its fourth power
+_SOFT = 1e-9  # relative to the largest stiffness: below it, within the error of differences, zero
+_AT_REST = 1e-9  # relative to the rate squared: smaller accelerations are zero
 _MOST = 60  # steps
 
 
 def rest_near(s: Assembly, tilt: ArrayLike) -> Array:
-    """The axes (N, 3) of the rest to which lower energy leads from x and y of the axes (N, 2); what is at rest there stays.
-
-    Raises InputError where none is reached, ConstraintError for a tilt that the bars do not allow.
-    """
+    """Find an equilibrium by descending in energy: see `Structure.rest_near`."""
     motion, N = exact_motion(s), len(s.joints)
-    given = finite_array("rest_near: tilt", tilt, (N, 2))
-    if not (np.hypot(*given.T) < 1).all():
-        raise InputError(f"rest_near: tilt = {given.tolist()}: x and y of an axis must have x² + y² < 1")
-    r = close_bars(motion, np.column_stack([given, np.sqrt(1 - np.square(given).sum(1))]))
+    start = finite_array("rest_near: tilt", tilt, (N, 2))
+    if not (np.hypot(*start.T) < 1).all():
+        raise InputError(f"rest_near: tilt = {start.tolist()}: x and y of an axis must have x² + y² < 1")
+    r = close_bars(motion, np.column_stack([start, np.sqrt(1 - np.square(start).sum(1))]))
     for _ in range(_MOST):
         T = constraint_tangents(motion, r)
-        left = T.T @ motion.accelerations(0.0, r, 0 * r).ravel()
-        if np.abs(left).max(initial=0) < 1e-13 * motion.c.rate**2:
+        residual = T.T @ motion.accelerations(0.0, r, 0 * r).ravel()
+        if np.abs(residual).max(initial=0) < 1e-13 * motion.c.rate**2:
             return r
-        M, stiff, along, _ = _linear(motion, r, T)
+        M, stiff, vectors, _ = _linear(motion, r, T)
         soft = stiff == 0
-        step = along @ (np.where(soft, 0, along.T @ M @ left) / np.where(soft, 1, np.abs(stiff)))
-        moved = r + (T @ step).reshape(N, 3) * min(1.0, 0.2 / max(float(np.abs(step).max()), 1e-300))
+        step = vectors @ (np.where(soft, 0, vectors.T @ M @ residual) / np.where(soft, 1, np.abs(stiff)))
+        trial = r + (T @ step).reshape(N, 3) * min(1.0, 0.2 / max(float(np.abs(step).max()), 1e-300))
         try:
-            r = close_bars(motion, moved / np.linalg.norm(moved, axis=1)[:, None])
+            r = close_bars(motion, trial / np.linalg.norm(trial, axis=1)[:, None])
         except ConstraintError:
             break
-    if np.abs(left).max(initial=0) < _AT_REST * motion.c.rate**2:
+    if np.abs(residual).max(initial=0) < _AT_REST * motion.c.rate**2:
         return r
-    raise InputError(f"rest_near: no rest is reached from tilt = {given.tolist()}: start nearer to one")
+    raise InputError(f"rest_near: no equilibrium is reached from tilt = {start.tolist()}: start nearer to one")
 
 
 def modes_about(s: Assembly, axes: ArrayLike) -> Modes:
-    """The normal modes about a rest at the axes (N, 3), as `rest_near` gives it; shapes (n, N, 3) are changes of the axes.
-
-    Raises InputError where the structure is not at rest there, or its bars do not reach.
-    """
+    """Compute the normal modes about a tilted equilibrium: see `Structure.modes_about`."""
     motion, N = exact_motion(s), len(s.joints)
     r = finite_array("modes_about: axes", axes, (N, 3))
-    off = max(
+    residual = max(
         float(np.abs(motion.accelerations(0.0, r, 0 * r)).max()) / motion.c.rate**2,
         float((np.abs(off_constraints(motion.c, r)) / np.append(np.ones(N), motion.c.ell**2)).max()),
     )
-    if not off < 10 * _AT_REST:
+    if not residual < 10 * _AT_REST:
         raise InputError(
-            f"modes_about: the structure is not at rest at these axes, off by {off:.1e}: take those of rest_near"
+            f"modes_about: the structure is not at rest at these axes (residual {residual:.1e}): take those of rest_near"
         )
     T = constraint_tangents(motion, r)
-    M, stiff, along, C = _linear(motion, r, T)
-    rubbed = (C + C.T) / 2 * bool(motion.c.friction.any() or motion.c.damping.any())
-    linear = SmallMotion(M, rubbed, (C - C.T) / 2, along * stiff @ along.T, T, motion.c.rate)
+    M, stiff, vectors, C = _linear(motion, r, T)
+    damping = (C + C.T) / 2 * bool(motion.c.friction.any() or motion.c.damping.any())
+    linear = SmallMotion(M, damping, (C - C.T) / 2, vectors * stiff @ vectors.T, T, motion.c.rate)
     return modes_of(linear, linear, components=3)
 
 
 def _linear(motion: ExactMotion, r: Array, T: Array) -> tuple[Array, Array, Array, Array]:
-    """M, the eigenvalues (soft ones zero) and vectors of K, and C, at rest at r."""
+    """Return M, the eigenvalues (soft ones zero) and eigenvectors of K, and C at an equilibrium."""
     M = np.asarray(T.T @ np.kron(motion.c.inertia, np.eye(3)) @ T)
     K, C = (-M @ slope for slope in _slopes(motion, r, T))
-    stiff, along = np.linalg.eigh((K + K.T) / 2)
-    return M, np.where(np.abs(stiff) < _SOFT * np.abs(stiff).max(initial=0), 0, stiff), along, C
+    stiff, vectors = np.linalg.eigh((K + K.T) / 2)
+    return M, np.where(np.abs(stiff) < _SOFT * np.abs(stiff).max(initial=0), 0, stiff), vectors, C
 
 
 def constraint_tangents(motion: ExactMotion, r: Array) -> Array:
-    """An orthonormal basis (3N, n) of what the constraints allow at the axes r."""
+    """Return an orthonormal basis (3N, n) of the tangent space of the constraints."""
     c, N = motion.c, len(r)
     rows = np.zeros((N + len(c.i), N, 3))
     rows[np.arange(N), np.arange(N)] = r
-    each = N + np.arange(len(c.i))
-    rows[each, c.i], rows[each, c.j] = pulls(c, r)
+    bars = N + np.arange(len(c.i))
+    rows[bars, c.i], rows[bars, c.j] = pulls(c, r)
     rank, vectors = left_by(rows.reshape(len(rows), -1))
     return np.asarray(vectors[:, int(rank) :])
 
 
 def _slopes(motion: ExactMotion, r: Array, T: Array) -> tuple[Array, Array]:
-    """Tᵀ ∂a/∂r T and Tᵀ ∂a/∂r' T at rest, (n, n)."""
+    """Return Tᵀ ∂a/∂r T and Tᵀ ∂a/∂r' T at an equilibrium, (n, n)."""
     rate, still = motion.c.rate, 0 * r
 
     def differences(at: Callable[[Array], tuple[Array, Array]]) -> Array:
         columns = []
-        for along in T.T.reshape(-1, *r.shape):
-            parts = [
-                w * motion.accelerations(0.0, *at(k * _STEP * along)) for w, k in ((8, 1), (-8, -1), (-1, 2), (1, -2))
+        for direction in T.T.reshape(-1, *r.shape):
+            terms = [
+                w * motion.accelerations(0.0, *at(k * _STEP * direction))
+                for w, k in ((8, 1), (-8, -1), (-1, 2), (1, -2))
             ]
-            columns.append(T.T @ np.sum(parts, axis=0).ravel() / (12 * _STEP))
+            columns.append(T.T @ np.sum(terms, axis=0).ravel() / (12 * _STEP))
         return np.reshape(columns, (T.shape[1], -1)).T
 
     return differences(lambda change: (r + change, still)), differences(lambda change: (r, rate * change)) / rate

@@ -1,11 +1,12 @@
-"""The Hamiltonian of a structure about upright as a polynomial, through any order, derived from its exact Lagrangian.
+"""The Hamiltonian of a structure about upright as a polynomial through any order, derived from its exact Lagrangian.
 
-With u = (x, y) of the axes, z = sqrt(1 − x² − y²), q the degrees of freedom that the bars leave and p their momenta,
+With u = (x, y) of the axes, z = sqrt(1 − x² − y²), q the degrees of freedom with the bars, and p their momenta,
 
     L = ½ sum_ij A_ij r_i'·r_j' − sum_i G_i (x_i y_i' − y_i x_i')/(1 + z_i) − V,       H = ½ (p − a)·m⁻¹ (p − a) + V.
 
-The second sum is the spins' part, whose force is G_i r_i × r_i'. A bar along n_b binds s_b = n_b·(R_i u_i − R_j u_j), which its
-constraint |d|² = ℓ² gives as a series in q: u = Z q + rows⁺ s(q), where s ← s + (|d|² − ℓ²)/2ℓ gains an order at each step.
+The second sum belongs to the spins; its force is G_i r_i × r_i'. A bar along n_b binds s_b = n_b·(R_i u_i − R_j u_j), which
+follows from its constraint |d|² = ℓ² as a series in q: u = Z q + rows⁺ s(q). The iteration s ← s + (|d|² − ℓ²)/2ℓ gains one
+order per step.
 """
 
 from collections.abc import Callable, Sequence
@@ -35,59 +36,61 @@ Row = list[Polynomial]
 
 @dataclass(frozen=True, eq=False)
 class LocalHamiltonian:
-    """H/(inertia rate²) = parts[0] + f parts[1] + f² parts[2] with all spins multiplied by f, in q and p/(inertia rate).
+    """The Hamiltonian about upright, H/(inertia rate²) = powers[0] + f powers[1] + f² powers[2] with all spins times f.
 
-    q = basisᵀ u, with the basis (2N, n) of `small_motion`; mass (n, n): of p = mass q'/rate at upright. rate in rad/s. axes: x, y
-    and z of each, in q.
+    The variables are q = basisᵀ u, with the basis (2N, n) of `small_motion`, and p/(inertia rate). mass (n, n): that of p =
+    mass q'/rate upright; rate in rad/s; axes: x, y, z of the axes in q.
     """
 
-    parts: tuple[Polynomial, Polynomial, Polynomial]
+    powers: tuple[Polynomial, Polynomial, Polynomial]
     basis: Array
     mass: Array
     rate: float
     axes: list[Row]
 
     def at_spins(self, factor: float) -> Polynomial:
-        """The Hamiltonian with all spins multiplied."""
-        return total([self.parts[0], *(self.parts[k].times(factor**k) for k in (1, 2) if factor)])
+        """Return the Hamiltonian with all spins multiplied."""
+        return total([self.powers[0], *(self.powers[k].times(factor**k) for k in (1, 2) if factor)])
 
 
 @lru_cache(maxsize=16)
 def local_hamiltonian(s: Assembly, order: int = 4) -> LocalHamiltonian:
-    """The Hamiltonian about upright through an order.
+    """Expand the Hamiltonian about upright.
 
-    Raises
-    ------
-    InputError
-        Where a bar is not as long as its tips are apart when upright, or friction acts.
+    Parameters
+    ----------
+    s : Assembly
+        The structure, without friction.
+    order : int, default 4
+        The order of the polynomial.
+
+    Returns
+    -------
+    LocalHamiltonian
+        The polynomial with its basis and units.
     """
     check_upright(s, "local_hamiltonian")
     linear, c = small_motion(s), coefficients(s)
     if linear.damping.any() or c.decay.any():
-        raise InputError("local_hamiltonian: friction acts: leave it out, the motion without it has a Hamiltonian")
+        raise InputError(
+            "local_hamiltonian: friction acts, and only motion without friction has a Hamiltonian: set it to zero"
+        )
     n = linear.dof
-    back = np.linalg.pinv(bar_rows(c))
-    axes = on_bars(  # polynomials in q through the order; exact through order − 1 in x and y
+    pseudo_inverse = np.linalg.pinv(bar_rows(c))
+    axes = on_bars(  # polynomials in q, exact through order − 1 in x and y
         c,
         [linear_form(row, float) for row in linear.basis],
         lambda u: [axis_of(u[k : k + 2], order) for k in range(0, len(u), 2)],
-        lambda bound: [combined(row, bound) for row in back],
+        lambda bound: [combined(row, bound) for row in pseudo_inverse],
         order,
     )
     inertia = float(np.abs(linear.mass).max())
     rate = float(np.sqrt(np.abs(linear.stiffness).max() / inertia)) or c.rate
     J = [[[f.derivative(b) for f in axis] for b in range(n)] for axis in axes]
     mass = _mass(c, J, order - 2, inertia)
+    spinning = [(i, axis, -c.G[i] / (inertia * rate)) for i, axis in enumerate(axes) if c.G[i]]
     vector = [
-        total(
-            [
-                turned(axis, J[i][b], order - 1).times(-c.G[i] / (inertia * rate))
-                for i, axis in enumerate(axes)
-                if c.G[i]
-            ]
-            or [_none(n)]
-        )
-        for b in range(n)
+        total([turned(axis, J[i][b], order - 1).times(G) for i, axis, G in spinning] or [_none(n)]) for b in range(n)
     ]
     V = potential_of(c, axes, order).times(1 / (inertia * rate**2))
     inverse = inverse_matrix(mass, order - 2)
@@ -96,39 +99,39 @@ def local_hamiltonian(s: Assembly, order: int = 4) -> LocalHamiltonian:
     a = [_lifted(f) for f in vector]
     by_p = [total([rows[i][j].product(momenta[j], order - 1) for j in range(n)]) for i in range(n)]
     by_a = [total([rows[i][j].product(a[j], order - 1) for j in range(n)]) for i in range(n)]
-    parts = (
+    terms = (
         total([*(momenta[i].product(by_p[i], order) for i in range(n)), _lifted(V).times(2.0)]).times(0.5),
         total([a[i].product(by_p[i], order) for i in range(n)]).times(-1.0),
         total([a[i].product(by_a[i], order) for i in range(n)]).times(0.5),
     )
-    return LocalHamiltonian(parts, linear.basis, linear.mass / inertia, rate, axes)
+    return LocalHamiltonian(terms, linear.basis, linear.mass / inertia, rate, axes)
 
 
 def on_bars(
-    c: Coefficients, free: Row, axes_of: Callable[[Row], list[Row]], back: Callable[[Row], Row], order: int
+    c: Coefficients, free: Row, axes_of: Callable[[Row], list[Row]], closing: Callable[[Row], Row], order: int
 ) -> list[Row]:
-    """The axes of u = free + rows⁺ s, s such that all bars keep their lengths through order − 1; back: rows⁺ of s."""
+    """Return the axes of u = free + rows⁺ s, with s such that the bars keep their lengths; closing: s → rows⁺ s."""
     bound, axes = [_none(free[0].variables)] * len(c.i), axes_of(free)
     for _ in range(2, order) if bound else ():
         bound = [f + over_length(c, axes, b, order - 1) for b, f in enumerate(bound)]
-        axes = axes_of([f + g for f, g in zip(free, back(bound), strict=True)])
+        axes = axes_of([f + g for f, g in zip(free, closing(bound), strict=True)])
     return axes
 
 
 def combined(numbers: Array | Sequence[float], row: Row) -> Polynomial:
-    """The sum of polynomials, each times its number."""
+    """Return the linear combination of polynomials."""
     return total(
         [f.times(number) for number, f in zip(numbers, row, strict=True) if number] or [_none(row[0].variables)]
     )
 
 
 def axis_of(xy: Row, order: int) -> Row:
-    """x, y and z = sqrt(1 − x² − y²)."""
+    """Return x, y and z = sqrt(1 − x² − y²)."""
     return [*xy, of_square(xy, [float(binom(0.5, k) * (-1) ** k) for k in range(order // 2 + 1)], order)]
 
 
 def of_square(xy: Row, series: list[float], order: int) -> Polynomial:
-    """sum_k series_k (x² + y²)^k."""
+    """Return sum_k series_k (x² + y²)^k."""
     square = xy[0].product(xy[0], order) + xy[1].product(xy[1], order)
     result = constant(series[-1], square.variables, float)
     for value in reversed(series[:-1]):
@@ -137,33 +140,33 @@ def of_square(xy: Row, series: list[float], order: int) -> Polynomial:
 
 
 def over_length(c: Coefficients, axes: list[Row], b: int, order: int) -> Polynomial:
-    """(|d|² − ℓ²)/2ℓ of a bar."""
+    """Return (|d|² − ℓ²)/2ℓ of a bar."""
     i, j = c.i[b], c.j[b]
     upright = c.feet[j] - c.feet[i]
     d = [
         axes[j][k].times(c.R[j]) - axes[i][k].times(c.R[i]) + constant(upright[k], axes[i][k].variables, float)
         for k in range(3)
     ]
-    square = total([part.product(part, order) for part in d])
+    square = total([component.product(component, order) for component in d])
     return (square - constant(c.ell[b] ** 2, square.variables, float)).times(0.5 / c.ell[b])
 
 
 def turned(axis: Row, slope: Row, order: int) -> Polynomial:
-    """(x ∂y − y ∂x)/(1 + z), with 1/(1 + z) = (1 − z)/(x² + y²) as a series."""
+    """Return (x ∂y − y ∂x)/(1 + z), with 1/(1 + z) = (1 − z)/(x² + y²) as a series."""
     series = [float(-binom(0.5, k + 1) * (-1) ** (k + 1)) for k in range(order // 2 + 1)]
     around = axis[0].product(slope[1], order) - axis[1].product(slope[0], order)
     return around.product(of_square(axis[:2], series, order), order)
 
 
 def _mass(c: Coefficients, J: list[list[Row]], order: int, inertia: float) -> list[Row]:
-    """m_ab = sum_ij A_ij ∂_a r_i·∂_b r_j."""
+    """Return m_ab = sum_ij A_ij ∂_a r_i·∂_b r_j."""
     n = len(J[0])
     pairs = [(i, i, value) for i, value in enumerate(c.A)]
     pairs += [
         (i, j, value)
-        for one, other, value in zip(c.i, c.j, c.coupling, strict=True)
+        for first, second, value in zip(c.i, c.j, c.coupling, strict=True)
         if value
-        for i, j in ((one, other), (other, one))
+        for i, j in ((first, second), (second, first))
     ]
     m = [[_none(n)] * n for _ in range(n)]
     for a in range(n):
@@ -178,7 +181,7 @@ def _mass(c: Coefficients, J: list[list[Row]], order: int, inertia: float) -> li
 
 
 def potential_of(c: Coefficients, axes: list[Row], order: int) -> Polynomial:
-    """Weight, hinges κ θ²/2 with θ = asin sqrt(x² + y²), and braces k (|d| − d₀)²/2."""
+    """Return the energy of weight, hinges κ θ²/2 with θ = asin sqrt(x² + y²), and braces k (|d| − d₀)²/2."""
     squares = [0.0] + [4.0**k / (2 * k**2 * comb(2 * k, k)) for k in range(1, order // 2 + 1)]
     terms = [_none(axes[0][0].variables)]
     for i, axis in enumerate(axes):
@@ -191,9 +194,9 @@ def potential_of(c: Coefficients, axes: list[Row], order: int) -> Polynomial:
         place = c.feet[tip] - (c.feet[to] if to >= 0 else c.brace_point[b])
         d = [axes[tip][k].times(c.R[tip]) + constant(place[k], n, float) for k in range(3)]
         d = [d[k] - axes[to][k].times(c.R[to]) for k in range(3)] if to >= 0 else d
-        longer = (total([part.product(part, order) for part in d]) - constant(c.brace_length[b] ** 2, n, float)).times(
-            1 / c.brace_length[b] ** 2
-        )
+        longer = (
+            total([component.product(component, order) for component in d]) - constant(c.brace_length[b] ** 2, n, float)
+        ).times(1 / c.brace_length[b] ** 2)
         stretch, power = _none(n), longer
         for k in range(1, order + 1):
             stretch, power = (
@@ -210,5 +213,5 @@ def _none(n: int) -> Polynomial:
 
 
 def _lifted(f: Polynomial) -> Polynomial:
-    """A polynomial in q as one in q and p."""
+    """Return a polynomial in q as one in q and p."""
     return Polynomial(np.hstack([f.exponents, np.zeros_like(f.exponents)]), f.coefficients)

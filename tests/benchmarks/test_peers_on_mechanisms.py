@@ -14,10 +14,10 @@ from benchmarks.mechanisms.own_tools import OWN
 from benchmarks.mechanisms.tool import Ready, Tool
 from lagrotor.benchmark import records
 from lagrotor.benchmark.mechanism_tables import (
-    BESIDE_HEAD,
+    COMPARISON_HEAD,
     MECHANISM_HEAD,
     TARGET_HEAD,
-    beside_rows,
+    comparison_rows,
     decision_rows,
     mechanism_rows,
     target_rows,
@@ -108,11 +108,11 @@ def test_the_tables_say_what_is_wanted_and_a_dash_for_what_is_missing() -> None:
     ]
     rows += [arm | {"tool": "lagrotor, Lagrangian", "difference": 1e-15}]
     rows += [dict.fromkeys(arm) | {"mechanism": "arm", "tool": "LagrangesMethod", "reason": "over 60 s"}]
-    assert [row[2:] for row in beside_rows(rows, 60)] == [
+    assert [row[2:] for row in comparison_rows(rows, 60)] == [
         ("400", "6040", "15.1", "20", "100", "5.0", "0 and 2×10⁻¹⁵"),
         ("400", "over 60 s", "over 150", "20", "—", "—", "1×10⁻¹⁵"),
     ]
-    assert all(len(row) == len(BESIDE_HEAD) for row in beside_rows(rows, 60))
+    assert all(len(row) == len(COMPARISON_HEAD) for row in comparison_rows(rows, 60))
     counts = {"rods": [10, 20, 41, 90], "gyroscopes": [10, 20, 41, 90]}
     rods = {f"{n} rods": ready for n, ready in zip(LINKS["rods"], (0.005, 0.01, 0.02, 0.06), strict=True)}
     ours = {"tool": "lagrotor, bodies", "rhs": 1e-6}

@@ -235,7 +235,7 @@ def test_run_is_written(work: Path) -> None:
 def test_run_is_shown(capsys: pytest.CaptureFixture[str]) -> None:
     short = [*SCENE, "--t-end", "0.1", "--samples", "3"]
     assert main(short) == 0
-    assert "closed_form (at rest and left alone" in capsys.readouterr().out
+    assert "closed_form (at rest without shock" in capsys.readouterr().out
     assert main([*short, "--model", "minimal"]) == 0
     out = capsys.readouterr().out
     for part in ("minimal", "evaluations", "energy", "link length", "tip 1", "tip 2"):

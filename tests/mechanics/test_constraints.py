@@ -62,7 +62,7 @@ def consistent_state(system: System, seed: int) -> dict[sp.Symbol, float]:
 
 def numeric_parts(system: System, state: dict[sp.Symbol, float]) -> list[np.ndarray]:
     """M, h, G and γ at one state."""
-    M, h, G, gamma = (numbers(e, state) for e in (system.mass, system.bias, system.rows, system.gamma))
+    M, h, G, gamma = (numbers(e, state) for e in (system.mass_matrix, system.bias, system.rows, system.gamma))
     return [M, h.ravel(), G, gamma.ravel()]
 
 

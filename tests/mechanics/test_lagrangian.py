@@ -1,10 +1,15 @@
 """Equations of motion: known systems, an independent derivation, and properties of random quadratic Lagrangians."""
 
+import copy
+import pickle
+
 import numpy as np
+import pytest
 import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from lagrotor.errors import InputError
 from lagrotor.mechanics import (
     Coordinates,
     accelerations,
@@ -79,3 +84,16 @@ def test_a_total_derivative_added_to_the_lagrangian_moves_nothing(
     L, c = system
     gauge = total_derivative(first * c.q[0] ** 3 + second * c.q[0] * c.q[-1] ** 2, c)
     assert (euler_lagrange(L + gauge, c) - euler_lagrange(L, c)).expand().is_zero_matrix
+
+
+def test_a_symbol_of_a_configuration_is_found_by_its_name() -> None:
+    c = coordinates("theta q")
+    assert c.theta is c.q[0] and c["theta_dot"] is c.theta_dot is c.v[0] and c["theta_ddot"] is c.a[0]
+    assert c.q == (c["theta"], c["q"]) and c.q_dot is c.v[1]  # the attribute q is all of them
+    assert copy.deepcopy(c) == c == pickle.loads(pickle.dumps(c)) and not hasattr(c, "_sympy_")
+    with pytest.raises(InputError, match=r"'thetta' is none of theta, q, .*: theta"):
+        c["thetta"]
+    with pytest.raises(InputError, match=r"0 is none of theta.* by their names"):
+        c[0]  # type: ignore[index]
+    with pytest.raises(AttributeError, match="'phi' is none of theta"):
+        c.phi  # noqa: B018

@@ -72,7 +72,7 @@ def test_energies_momenta_and_hamiltonians_are_emmys() -> None:
     pairs = [(space.energy, space.L + 2 * V(rr))]
     (tilt, _, spin), (vt, vf, vs) = EULER.q, EULER.v
     free = top(A, B, C)
-    pairs.append((free.mass.det(), A * B * C * sin(tilt) ** 2))
+    pairs.append((free.mass_matrix.det(), A * B * C * sin(tilt) ** 2))
     pairs.append(
         (
             sp.diff(free.L, vf),

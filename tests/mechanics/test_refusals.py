@@ -186,16 +186,16 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "with R Rᵀ = 1": lambda: ground.turned([[1, 1, 0], [0, 1, 0], [0, 0, 1]]),
         "neither letters": lambda: ground.turned(7),
         "axes 'w' and angles theta: one angle": lambda: ground.turned("w", q),
-        "turned: angle = 'q' is no expression": lambda: ground.turned("x", "q"),
-        r"moved: \(x, y, z\)\[0\] = 'x' is no": lambda: ground.moved("x"),
-        "from which this one was turned": lambda: ground.velocity(seen=ground.turned("z", 1)),
+        "turned: angle: q is none of the coordinates": lambda: ground.turned("x", "q"),
+        r"moved: .* x is none of the coordinates": lambda: ground.moved("x"),
+        "from which this one was turned": lambda: ground.velocity(frame=ground.turned("z", 1)),
         "must be 4 names": lambda: GROUND.ball("q0 q1 q2", "p q r"),
         "must be 3 names": lambda: GROUND.ball("q0 q1 q2 q3", "p q"),
         "z is none of the coordinates": lambda: GROUND.ball("q0 q1 q2 z", "p q r"),
         "'q0 q1 q2 q2' .* different names": lambda: GROUND.ball("q0 q1 q2 q2", "p q r"),
         "another ball joint": lambda: GROUND.ball("q0 q1 q2 q3", "p q r").ball("q0 q1 q2 q3", "u v w"),
         "p is in two ball joints": lambda: jointed("p q r", "e0 e1 e2 e3", "p v w"),
-        "p is a velocity of a ball joint and a letter of": lambda: System(
+        "p is a velocity of a ball joint and a symbol of": lambda: System(
             Q, GROUND.ball("q0 q1 q2 q3", "p q r").body(p, (1, 2, 2.5)).kinetic
         ),
         "a weld is fixed": lambda: ground.weld((q, 0, 0)),
@@ -203,7 +203,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "pin: axis = .* not zero": lambda: ground.pin(q, (0, 0, 0)),
         "in numbers": lambda: ground.prismatic(q, (m, 0, 0)),
         "two different letters": lambda: ground.universal(q, q, "xx"),
-        "pin: angle = 'a' is no": lambda: ground.pin("a"),
+        "pin: angle: a is none of the coordinates": lambda: ground.pin("a"),
         "coincides: 0, 0, 0 = 0 binds no coordinate": lambda: ground.coincides(ground, (l, 0, 0), (l, 0, 0)),
         "keeps_axis: .* binds no coordinate": lambda: ground.keeps_axis(ground.turned("x", 1), (0, 3, 4)),
         "coincides: 3 must be a Frame": lambda: ground.pin(q).coincides(3),
@@ -241,7 +241,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "inside the cylinder of radius 1": lambda: Pathway.around(P, (0.5, 0, 0), (x, y, 0), 1),
         "spring: stiffness = 'k' is no": lambda: LINE.spring("k"),
         "damper: the length l depends on none of": lambda: Pathway.line(P, (0, 0, 0), (0, 0, l)).damper(1),
-        "push: force = .* 3 expressions": lambda: ground.push((1, 2)),
+        "force: components = .* 3 expressions": lambda: ground.force((1, 2)),
         "against = 'b' must be a Frame": lambda: ground.torque((1, 0, 0), against="b"),
         # Values, starts and times of a run
         "^consistent: ": lambda: circle.consistent(VALUES, (1, 2, 3), (0, 0)),
@@ -296,7 +296,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "gauge = theta_ddot contains theta_ddot": lambda: pendulum.noether((1,), a),
         "conserved: f = 'E' is no": lambda: pendulum.conserved("E"),
         "conserved: f = g must be": lambda: pendulum.conserved(g),
-        "no coordinate is left to move": lambda: point.routh("x y"),
+        "no coordinate remains": lambda: point.routh("x y"),
         "routh: phi not among": lambda: pendulum.routh("phi"),
         "routh: 3 must name": lambda: pendulum.routh(3),
         "each once": lambda: heavy_top().routh("phi phi"),
@@ -347,7 +347,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "the input theta moves": lambda: pendulum.linearise({q: 0}, VALUES, (q,)),
         "inputs theta are no symbols": lambda: pendulum.linearise({q: 0}, inputs=(q,)),
         "inputs = m must be a tuple": lambda: pendulum.linearise({q: 0}, VALUES, m),
-        "must be different letters": lambda: CART.linearise({ct: 0}, {m: 1}, inputs=(F, "F")),
+        "must be different symbols": lambda: CART.linearise({ct: 0}, {m: 1}, inputs=(F, "F")),
         r"outputs\[0\] = 'theta' is no": lambda: pendulum.linearise({q: 0}, VALUES, (), ("theta",)),
         "linearise: k without a value": lambda: pendulum.linearise({q: 0}, VALUES, (), (k,)),
         "x moves there .* forces change": lambda: SPRING.linearise({x: 0, u: 1}, outputs=(x,)),
@@ -356,7 +356,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "the point is off the constraints: ": lambda: rolling_disc()[0].linearise(DISC | {"psi_dot": 1}),
         "theta moves there and enters": lambda: CART.linearise({ct: 0, cw: 1}, inputs=(F,)),
         r"write a symbol for an input F\(t\)": lambda: cart_and_pole(F * t).linearise({ct: 0}, inputs=(F,)),
-        r"of a function F\(t\) write a letter F": lambda: System(A, UNIT + v * sp.Function("F")(t).diff(t)).linearise(
+        r"for a function F\(t\) write a symbol F": lambda: System(A, UNIT + v * sp.Function("F")(t).diff(t)).linearise(
             {q: 0}, inputs=(sp.Function("F")(t),)
         ),
         # Weakly nonlinear motion
@@ -440,7 +440,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "off the constraints by 1; .* v0 = .0, 0, 0.": lambda: run(knife, {}, (0, 0, 0), (0, 1, 0)),
         "off the constraints": lambda: run(ball_top(), BODY, (1, 0.2, 0, 0), (0, 0, 1)),
         "the point is off the constraints; the nearest": lambda: circle.linearise({x: 1, y: 1}, VALUES),
-        r"\|g\| = .* left after 20 steps": lambda: project_position(
+        r"\|g\| = .* after 20 steps": lambda: project_position(
             lambda q: np.array([q @ q + 1]), lambda q: 2 * q[None, :], np.array([0.3, 0.4])
         ),
     },

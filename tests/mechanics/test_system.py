@@ -1,11 +1,13 @@
 """Systems with time, forces, friction and velocity constraints: textbook equations, laws of energy, refusals."""
 
 import numpy as np
+import pytest
 import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lagrotor.algebra import decide_equal
+from lagrotor.errors import InputError
 from lagrotor.mechanics import System, constrained_accelerations, coordinates, t, total_derivative
 from tests.systems import J, Omega, R, g, hoop, k, l, m, sleigh
 
@@ -169,3 +171,61 @@ def test_the_law_of_energy_holds_for_any_driven_quadratic_system(terms: list[int
     left = total_derivative(system.energy, C).subs(moved).subs(state)
     assert left == system.power.subs(state)
     assert not np.isnan(float(left))
+
+
+def test_the_equations_by_the_names_of_sympy() -> None:
+    """M a = forcing, and M a = forcing + Gᵀ λ with a constraint, as LagrangesMethod has them."""
+    from sympy.physics.mechanics import LagrangesMethod, dynamicsymbols
+
+    x, y = dynamicsymbols("x y")
+    c = coordinates("x y")
+    clock = dynamicsymbols._t
+    L = m * (x.diff() ** 2 + x**2 * y.diff() ** 2) / 2 - m * g * x
+    peer = LagrangesMethod(L, (x, y))
+    peer.form_lagranges_equations()
+    system = System.from_sympy(L, (x, y))
+    plain = {x.diff(clock): c.x_dot, y.diff(clock): c.y_dot, x: c.x, y: c.y}
+
+    def difference(mine: sp.Matrix, theirs: sp.Matrix) -> sp.Matrix:
+        return (mine - theirs.subs(plain)).applyfunc(sp.simplify)
+
+    assert not any(difference(system.mass_matrix, peer.mass_matrix)) and not any(
+        difference(system.forcing, peer.forcing)
+    )
+    assert not any(difference(system.accelerations, peer.rhs()[2:, :]))
+    assert system.momenta == sp.Matrix([m * c.x_dot, m * c.x**2 * c.y_dot])
+    bound = System(SPACE, PARTICLE, constraints=(sum(q**2 for q in SPACE.q) - l**2,), dissipation=k * SPACE.x_dot**2)
+    a, lam = constrained_accelerations(bound)
+    left = bound.mass_matrix * a - bound.forcing - bound.rows.T * lam
+    assert a == bound.accelerations and not any(left.applyfunc(sp.simplify))
+
+
+def test_old_names_of_the_equations_warn() -> None:
+    system = System(ANGLE, theta_v**2 / 2, forces=(theta,))
+    with pytest.warns(DeprecationWarning, match="Equations.mass is now mass_matrix") as warned:
+        assert system.mass == system.mass_matrix  # type: ignore[attr-defined]
+    with pytest.warns(DeprecationWarning, match="Equations.push is now generalised_forces"):
+        assert system.push == system.generalised_forces  # type: ignore[attr-defined]
+    assert warned[0].filename == __file__
+    with pytest.raises(AttributeError, match="'System' object has no attribute 'pull'"):
+        system.pull  # type: ignore[attr-defined] # noqa: B018
+
+
+def test_a_start_by_names() -> None:
+    c = coordinates("x y")
+    system = System(c, (c.x_dot**2 + c.y_dot**2) / 2 - c.x**2, velocities={sp.Symbol("u"): c.x_dot, c.y_dot: c.y_dot})
+    u = system.speeds[0]
+    by_name = system.simulate({}, {"y": 2, c.x: 1}, {"y_dot": 3, u: 4}, [0, 1])
+    assert (by_name.q == system.simulate({}, (1, 2), (4, 3), [0, 1]).q).all()
+    placed, moving = system.consistent({}, {"x": 1, "y": 2}, {"u": 4, "y_dot": 3})
+    assert (*placed, *moving) == (1, 2, 4, 3)
+    refusals = {
+        "simulate: q0 names z, which is none of x, y": lambda: system.simulate({}, {"z": 1}, (0, 0), [0, 1]),
+        "q0 lacks y: give each of x, y a number": lambda: system.simulate({}, {"x": 1}, (0, 0), [0, 1]),
+        r"v0 names x_dot, which is none of u, y_dot: y_dot\?": lambda: system.consistent({}, (0, 0), {"x_dot": 1}),
+        "two numbers": lambda: system.consistent({}, {"x": 1, c.x: 1, "y": 0}, (0, 0)),
+        "q0 = .* must be 2 finite numbers": lambda: system.consistent({}, {"x": np.nan, "y": 0}, (0, 0)),
+    }
+    for words, call in refusals.items():
+        with pytest.raises(InputError, match=words):
+            call()

@@ -8,7 +8,8 @@ import pytest
 
 from lagrotor import Link, Rotor, Scene, paired_scene, simulate
 from lagrotor.errors import DomainError
-from lagrotor.models import closed_form, exact_orbit, minimal
+from lagrotor.models import exact_orbit, minimal
+from lagrotor.models.closed_form_model import closed_form
 from lagrotor.theory import parallel_scene, series_orbit
 from tests.models.one_integration import observed
 

@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 from lagrotor import Link, Rotor, Scene, Shock, simulate
-from lagrotor.benchmark.limits.step_size import found_step_limit, step_grows
+from lagrotor.benchmark.limits.step_size import step_grows, step_limit_by_bisection
 from lagrotor.errors import LagrotorWarning
 from lagrotor.models import (
     RigidBody,
@@ -176,7 +176,7 @@ def test_step_limit_is_where_the_step_fails(S, D, link, spin):
     system = paper_system(Scene(spins=(spin, -spin), link=link), S, D)
     limit = step_limit(system)
     assert limit.whole <= limit.joints.min() * (1 + 1e-12)
-    assert found_step_limit(system) == pytest.approx(limit.whole, rel=0.01)
+    assert step_limit_by_bisection(system) == pytest.approx(limit.whole, rel=0.01)
     assert step_grows(system, 1.05 * limit.whole)
     assert not step_grows(system, 0.95 * limit.whole)
 

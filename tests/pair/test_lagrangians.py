@@ -15,9 +15,7 @@ from lagrotor.mechanics.constraints import project_position, project_velocity, s
 from lagrotor.pair import (
     INERTIAS,
     J_OF,
-    JOINT_LINE,
     ansatz_integrals,
-    ansatz_lagrangian,
     axes_pair,
     axis,
     bar_curve,
@@ -29,6 +27,7 @@ from lagrotor.pair import (
     pair_lagrangian,
     pair_with_bar,
 )
+from lagrotor.pair.lagrangians import JOINT_LINE, ansatz_lagrangian
 from lagrotor.pair.notation import (
     ANSATZ,
     AXES,
@@ -108,7 +107,7 @@ def state_of_angles(seed: int) -> dict[sp.Symbol, float]:
 
 def accelerated(system: System, state: dict[sp.Symbol, float]) -> np.ndarray:
     """Constrained accelerations at one state."""
-    parts = (system.mass, system.bias, system.rows, system.gamma, system.push)
+    parts = (system.mass_matrix, system.bias, system.rows, system.gamma, system.generalised_forces)
     M_at, h, G, gamma, Q_at = (evaluate(e, state) for e in parts)
     return solve_constrained(M_at, h.ravel(), G, gamma.ravel(), Q_at.ravel())[0]
 

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from lagrotor import Link, Rotor, Scene, Shock, read_scene, write_scene
 from lagrotor.errors import InputError
-from lagrotor.pair import scene_of, scene_toml
+from lagrotor.pair.scene_document import scene_of, scene_toml
 
 SIZES = st.floats(0.01, 100)
 SPINS = st.integers(-5000, 5000).map(lambda n: n / 97)

@@ -16,7 +16,7 @@ from lagrotor import Link, Rotor, Scene, Shock, Trajectory, simulate
 from lagrotor.errors import InputError
 from lagrotor.files import read_arrays, write_arrays, write_beside, write_text
 from lagrotor.numerics.run import Ending
-from lagrotor.pair import UNITS
+from lagrotor.pair.trajectory import UNITS
 
 TIMES = np.linspace(0, 2, 21)
 ROTOR = Rotor(mass=1.3, length=0.9, I1=0.7, I3=1.1)

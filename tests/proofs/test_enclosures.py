@@ -24,7 +24,7 @@ from lagrotor.proofs import NotProved, enclose, lohner_frames, taylor_step
 from lagrotor.proofs.balls import ZERO, as_text, of_text, precision
 from lagrotor.proofs.fields import ball
 from lagrotor.proofs.tape import tape_of
-from lagrotor.proofs.truncated_series import Tailed
+from lagrotor.proofs.truncated_series import TaylorModel
 
 x, y, u, v = sp.symbols("x y u v")
 OSCILLATOR = Program((x, v), (), (v, -x))
@@ -185,25 +185,25 @@ def test_what_a_series_leaves_out_is_bounded(name: str) -> None:
         for _ in range(8):
             terms = [2 + rng.random(), *(rng.uniform(-1, 1) * 0.5**k for k in range(1, n))]
             beyond = [rng.uniform(-1, 1) * 1e-5 / 40 for _ in range(40)]
-            a = Tailed(arb_poly([arb(c) for c in terms]), arb(1e-5), n)
+            a = TaylorModel(arb_poly([arb(c) for c in terms]), arb(1e-5), n)
             series = taylor_step.arb_series([arb(c) for c in terms + beyond], 80)
             if name in ("sin", "cos"):
                 found = a.sin_cos()[name == "cos"]
             elif name == "log":
                 found = a.by_slope("log", a.inverse())
             elif name == "atan":
-                one = Tailed(arb_poly([arb(1)]), ZERO, n)
+                one = TaylorModel(arb_poly([arb(1)]), ZERO, n)
                 found = a.by_slope("atan", (one + a * a).inverse())
             else:
                 found = getattr(a, name)()
             whole = list(series.inv() if name == "inverse" else getattr(series, name)())
             left = sum((abs(c) for c in whole[n:]), arb(0))
-            assert left < found.tail < 1e4 * left
+            assert left < found.remainder < 1e4 * left
             assert all(found.poly[k].overlaps(whole[k]) for k in range(n))
 
 
 def without_rest(*arguments: Any) -> Any:
-    rests, evaluation = taylor_step.with_rest(*arguments)
+    rests, evaluation = taylor_step.bound_remainder(*arguments)
     return [ZERO for _ in rests], evaluation
 
 
@@ -218,10 +218,10 @@ def rounded_to_nothing(motion: Any, start: Any, n: int) -> Any:
         return [[c.mid() for c in row] for row in rows]
 
 
-CARRIED, TAYLOR = lohner_frames.carried, taylor_step.taylor
+CARRIED, TAYLOR = lohner_frames.next_node, taylor_step.taylor
 SPOILED = {
-    "the rest of the series": ("with_rest", without_rest),
-    "the error in the frame": ("carried", without_error),
+    "the rest of the series": ("bound_remainder", without_rest),
+    "the error in the frame": ("next_node", without_error),
     "rounding": ("taylor", rounded_to_nothing),
 }
 
@@ -247,7 +247,7 @@ def test_errors_name_the_value_and_the_way_out() -> None:
         enclose(program, {}, [(2, 1), 0], t=1)
     with pytest.raises(InputError, match="tol = 2"):
         enclose(program, {}, [1, 0], t=1, tol=2)
-    with pytest.raises(InputError, match="k without a value"):
+    with pytest.raises(InputError, match="k has no value"):
         enclose(Program((x, v, k := sp.Symbol("k")), (), (v, -k * x)), {}, [1, 0], t=1)
     with pytest.raises(InputError, match="Abs in the equations has no rigorous series"):
         enclose(Program((x, v), (), (v, -sp.Abs(x))), {}, [1, 0], t=1)
@@ -278,4 +278,4 @@ def test_a_step_that_fails_leaves_the_length_of_series_as_it_was() -> None:
             taylor_step.taylor(motion, [arb(0, 1), arb(1)], 9)
         assert ctx.cap == 12
         with pytest.raises(NotProved, match="series of 20 terms"):
-            Tailed(arb_poly([1, 1]), ZERO, 20).inverse()
+            TaylorModel(arb_poly([1, 1]), ZERO, 20).inverse()

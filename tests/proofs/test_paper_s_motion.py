@@ -54,6 +54,6 @@ def test_the_corner_falls_at_its_resonance_and_equal_spins_do_not() -> None:
         turns = sp.Rational(str(round(1.0607 * one.critical_spin(), 6)))
         return replace(one, spins=[turns * spin for spin in spins])
 
-    fall = crossing(at_the_factor([1, 0, 1]), v0=push, event=tilt, before="6.3")
+    fall = crossing(at_the_factor([1, 0, 1]), v0=push, event=tilt, t_end="6.3")
     assert fall.first and "first passes zero" in check(fall.certificate)
-    assert no_crossing(at_the_factor([1, 1, 1]), v0=push, event=tilt, until="6.3").theorem
+    assert no_crossing(at_the_factor([1, 1, 1]), v0=push, event=tilt, t_end="6.3").theorem

@@ -12,12 +12,14 @@ import sympy as sp
 pytest.importorskip("flint", reason="the extra `proof` is not installed")
 
 from lagrotor import Link, Scene, Shock, Structure
+from lagrotor.errors import InputError
 from lagrotor.mechanics import System, coordinates, t
 from lagrotor.numerics.codegen import Program
 from lagrotor.pair.notation import AXES
 from lagrotor.proofs import NotProved, check, crossing, enclose, equilibrium, precession
 from lagrotor.proofs.checker.expression_tapes import Words
 from lagrotor.proofs.checker.reversals import points_of
+from lagrotor.proofs.fields import field_of
 from tests.proofs.gallery import PLANE, RATE, THETA, C, U, V, X, Y, plain, spoiled
 
 M, G, ELL, K = sp.symbols("m g ell k", positive=True)
@@ -34,9 +36,7 @@ THEOREMS: dict[str, Any] = {
     "constraint, time and forces": lambda: enclose(DRIVEN, {}, [0, 1], [1, 0], "0.1"),
     "rolling and friction": lambda: enclose(SLEIGH, {}, [1, 0], [1, 1], "0.1"),
     "rates in words": lambda: enclose(Program((x, v, K), (), (v, -K * sp.sin(x))), {K: 2}, [1], [0], "0.1"),
-    "a scene that is pushed": lambda: crossing(
-        SHOCKED, event=AXES.q[0] - sp.Rational(1, 1000), before="0.1", tol=1e-12
-    ),
+    "a scene that is pushed": lambda: crossing(SHOCKED, event=AXES.q[0] - sp.Rational(1, 1000), t_end="0.1", tol=1e-12),
     "a structure": lambda: enclose(CORNER, None, [(0.1, 0)] * 3, [(0, 0)] * 3, "0.02", 1e-12),
     "an equilibrium": lambda: equilibrium(System(C, PENDULUM.L), VALUES, [0.1]),
 }
@@ -144,10 +144,10 @@ CIRCLE = "x**2/2 + y**2/2 - 1/2"
 @pytest.mark.parametrize(
     ("key", "value", "refusal"),
     [
-        ("L", f"sin(pi)*({ENERGY} - x*t)", "give accelerations"),  # zero, though no identity of letters
-        ("L", f"(sin(2) - 2*sin(1)*cos(1))*({ENERGY} - x*t)", "give accelerations"),
-        ("constraints", [f"(4*atan(1) - pi)*({CIRCLE})"], "give accelerations"),
-        ("constraints", ["x**2/2 + y**2/2 - c/2"], "letters without a value"),
+        ("L", f"sin(pi)*({ENERGY} - x*t)", "determine the accelerations"),  # zero, though no identity of letters
+        ("L", f"(sin(2) - 2*sin(1)*cos(1))*({ENERGY} - x*t)", "determine the accelerations"),
+        ("constraints", [f"(4*atan(1) - pi)*({CIRCLE})"], "determine the accelerations"),
+        ("constraints", ["x**2/2 + y**2/2 - c/2"], "symbols without a value"),
         ("letters", ["c,x:y"], "no name"),
         ("letters", ["c\u200b"], "no name"),
         ("L", f"{ENERGY} - x*t + 0*log(-1 - x**2)", "positive"),
@@ -232,7 +232,7 @@ def test_what_a_root_says_beside_the_program_is_not_taken_of_the_program() -> No
     other["motion"]["outputs"] = [1, 5]
     assert "v′ = -sqrt(x**2)" in check(other | {"about": {"rates": ["v", "-sqrt(x**2)"]}})
     for rate in ("-x", "-x + 0*sqrt(x)", "0*log(x) - x"):
-        with pytest.raises(NotProved, match="the rates are others"):
+        with pytest.raises(NotProved, match="the rates are not those of the text"):
             check(other | {"about": {"rates": ["v", rate]}})
 
 
@@ -283,3 +283,10 @@ def test_a_system_that_cannot_be_read_again_is_named_by_its_program() -> None:
     found = enclose(Program((x, v), stages, (v, -stages[0][0])), {}, [1], [0], "0.1", 1e-12)
     assert "the motion whose program has the SHA-256 digest" in check(plain(found))
     assert np.isfinite(float(found.states[0]))
+
+
+def test_a_start_may_be_given_by_names() -> None:
+    by_name = field_of(SLEIGH, {}, {str(Y): 1, X: 2}, {V: 6, str(U): 3})
+    assert by_name.start == field_of(SLEIGH, {}, (2, 1), (3, 6)).start
+    with pytest.raises(InputError, match="q0 lacks"):
+        field_of(SLEIGH, {}, {X: 1}, (0, 0))

@@ -72,7 +72,7 @@ def test_the_shortest_orbit_of_lorenz() -> None:
     """Viswanath 2003: the orbit AB, its period to many digits."""
     x, y, z = sp.symbols("x y z")
     lorenz = Program((x, y, z), (), (10 * (y - x), x * (28 - z) - y, x * y - sp.Rational(8, 3) * z))
-    orbit = periodic_orbit(lorenz, {}, [-13.7636, -19.5788, 27], [], 1.5587, held=["z"])
+    orbit = periodic_orbit(lorenz, {}, [-13.7636, -19.5788, 27], [], 1.5587, fixed=["z"])
     assert near(orbit.period, "1.55865221071617472756787", "1e-17")
     assert near(orbit.start[0], "-13.763610682134", "1e-12") and near(orbit.start[1], "-19.578751942452", "1e-12")
     assert orbit.kind == "hyperbolic" and "hyperbolic" in verified(orbit)
@@ -80,14 +80,14 @@ def test_the_shortest_orbit_of_lorenz() -> None:
 
 def test_henon_and_heiles() -> None:
     """The straight orbit along y: y'' = −y + y², whose period is an elliptic integral; stable at small energies."""
-    orbit = periodic_orbit(HENON_HEILES, {}, [0, 0.3], [0, 0], 6.5, reversals=[(-1, 1, 1, -1)], held=["y"])
+    orbit = periodic_orbit(HENON_HEILES, {}, [0, 0.3], [0, 0], 6.5, reversals=[(-1, 1, 1, -1)], fixed=["y"])
     with mp.workdps(40):
         y = mp.mpf("0.3")
         a, b, c = sorted(mp.polyroots([mp.mpf(2) / 3, -1, 0, y**2 - 2 * y**3 / 3]))
         period = 2 * mp.sqrt(6) / mp.sqrt(c - a) * mp.ellipk((b - a) / (c - a))
     assert near(orbit.period, mp.nstr(period, 35), "1e-18")
     assert orbit.kind == "elliptic" and "elliptic" in verified(orbit)
-    assert crossing(HENON_HEILES, {}, [0, 0.3], [0, 0], event=Y, before=3).first
+    assert crossing(HENON_HEILES, {}, [0, 0.3], [0, 0], event=Y, t_end=3).first
 
 
 @pytest.mark.slow
@@ -158,35 +158,35 @@ def test_a_precession_is_of_opposite_spins_and_one_amplitude(spins: tuple[int, i
 
 def test_another_amplitude_is_refused() -> None:
     orbit = precession(Scene((10, -10)), 0.2004)
-    with pytest.raises(NotProved, match="the amplitude"):
+    with pytest.raises(NotProved, match="the claimed amplitude"):
         check(orbit.certificate | {"claim": orbit.certificate["claim"] | {"r0": ["1/5", "1/5"]}})
 
 
 def test_a_crossing_is_proved_with_its_time() -> None:
-    event = crossing(PENDULUM, {}, [1], [0], event=THETA, before=3)
+    event = crossing(PENDULUM, {}, [1], [0], event=THETA, t_end=3)
     with mp.workdps(40):
         assert near(event.time, mp.nstr(mp.ellipk(mp.sin(mp.mpf(1) / 2) ** 2), 35), "1e-3")
     assert event.first and "first passes zero" in verified(event)
-    quiet = no_crossing(PENDULUM, {}, [1], [0], event=THETA + sp.Rational("1.001"), until=6)
+    quiet = no_crossing(PENDULUM, {}, [1], [0], event=THETA + sp.Rational("1.001"), t_end=6)
     assert "does not pass zero" in verified(quiet)
 
 
 def test_false_theorems_are_never_proved() -> None:
     """A crossing that just misses, a non-crossing that just fails, an orbit that is none, a wrong period and kind."""
-    with pytest.raises(NotProved, match="keeps its sign, or is not shown to change it"):
-        crossing(PENDULUM, {}, [1], [0], event=THETA + 1 + sp.Rational("1e-13"), before=6)
-    with pytest.raises(NotProved, match=r"not shown to stay off zero beyond t = 3\.34"):
-        no_crossing(PENDULUM, {}, [1], [0], event=THETA + 1 - sp.Rational("1e-13"), until=6)
+    with pytest.raises(NotProved, match="keeps its sign, or is not proved to change it"):
+        crossing(PENDULUM, {}, [1], [0], event=THETA + 1 + sp.Rational("1e-13"), t_end=6)
+    with pytest.raises(NotProved, match=r"not proved to be nonzero beyond t = 3\.34"):
+        no_crossing(PENDULUM, {}, [1], [0], event=THETA + 1 - sp.Rational("1e-13"), t_end=6)
     with pytest.raises(NotProved):
         periodic_orbit(System(C, RATE**2 / 2 + THETA), {}, [1], [0], 6, reversals=[(1, -1)])
-    with pytest.raises(InputError, match="not shown to be a motion"):
+    with pytest.raises(InputError, match="not proved to be a motion"):
         periodic_orbit(System(C, RATE**2 / 2 + THETA**3, dissipation=RATE**2), {}, [1], [0], 6, reversals=[(1, -1)])
     with pytest.raises(InputError, match="signs"):
         periodic_orbit(PENDULUM, {}, [1], [0], 6, reversals=[(-1, -1)])
     with pytest.raises(InputError, match="the system has fewer integrals"):
-        periodic_orbit(HENON_HEILES, {}, [0, 0.3], [0, 0], 6.5, reversals=[(-1, 1, 1, -1)], held=["y"], integrals=2)
+        periodic_orbit(HENON_HEILES, {}, [0, 0.3], [0, 0], 6.5, reversals=[(-1, 1, 1, -1)], fixed=["y"], integrals=2)
     with pytest.raises(InputError, match="'theta' must be an expression"):
-        crossing(PENDULUM, {}, [1], [0], event="theta", before=1)
+        crossing(PENDULUM, {}, [1], [0], event="theta", t_end=1)
 
 
 def test_means_over_time() -> None:
@@ -199,7 +199,11 @@ def test_means_over_time() -> None:
         closed = [mp.sin(1), mp.mpf(1) / 2 + (mp.sin(4) - mp.sin(1)) / 6, (mp.cos(3) ** 2 - mp.cos(1) ** 2) / 4]
         assert all(near(ball, mp.nstr(value, 20), "1e-9") for ball, value in zip(found.values, closed, strict=True))
     assert "The mean of x**2 from t = 0.5 to 2 s is in [0.2336210" in verified(found) == found.theorem
-    rows = (("mean", "1p0", "a mean is another"), ("until", "5p0", "before a span"), ("since", "1p0", "no length"))
+    rows = (
+        ("mean", "1p0", "a claimed mean does not contain the enclosed one"),
+        ("until", "5p0", "before a span"),
+        ("since", "1p0", "no length"),
+    )
     for name, number, says in rows:
         with pytest.raises(NotProved, match=says):
             check(spoiled(found.certificate, f"claim/means/0/{name}", [number, "0p0"]))
@@ -209,7 +213,7 @@ def test_means_over_time() -> None:
 
 
 SWING = means(PENDULUM, {}, [1], [0], [(sp.Eq(sp.Symbol("E"), RATE**2 / 2 - sp.cos(THETA)), 0, 2), (THETA, 1, 2)])
-MISS = crossing(Scene((10, -10), rates=((0.1, 0, 0),) * 2), event=AXES.q[0] - sp.Rational(1, 500), before="0.03")
+MISS = crossing(Scene((10, -10), rates=((0.1, 0, 0),) * 2), event=AXES.q[0] - sp.Rational(1, 500), t_end="0.03")
 
 
 def test_a_name_is_defined_once_and_what_is_written_is_what_is_computed() -> None:
@@ -246,9 +250,9 @@ FALSE_WORDS: dict[str, list[tuple[str, Any]]] = {
         ("1/of", "(" * 5000 + "theta" + ")" * 5000),
     ],
     "more than 20000 characters": [("1/of", "theta" + " + 0" * 10_000)],
-    "no name of its own": [("0/of", text) for text in ("E, and it topples", "theta", "sin")],
+    "is taken or invalid": [("0/of", text) for text in ("E, and it topples", "theta", "sin")],
     "E has two meanings": [("1", lambda row: row | {"of": "E", "means": "theta"})],
-    "a mean is another": [
+    "a claimed mean does not contain the enclosed one": [
         *(("1/of", text) for text in ("9**9**9**9**9", "theta + 1/10**7", "theta + 1000 + 10**80*(1/3 - 1/3)")),
         ("1/of", "theta + 1000 + 10**80*(1/theta - 1/theta)"),
         ("0/means", "theta_dot**2/2 + cos(theta)"),
@@ -299,13 +303,13 @@ WRITTEN = (
 @pytest.mark.parametrize("expression", WRITTEN, ids=str)
 def test_what_is_written_is_what_is_evaluated(expression: sp.Expr) -> None:
     """The search's operations of an expression against those of its words, at a point."""
-    from lagrotor.proofs.checker.bounded_series import Dual, Rest, evaluated
+    from lagrotor.proofs.checker.bounded_series import Dual, Series, evaluate
     from lagrotor.proofs.checker.expression_tapes import tape_of_words
     from lagrotor.proofs.fields import system_field, values_at
 
     made, at = system_field(PENDULUM, {}, [1], [0]), [arb("0.3"), arb("-0.7")]
     tape = tape_of_words([{"of": str(expression)}], ["theta", "theta_dot"], None)
-    (found,) = evaluated(tape, [Dual(Rest([x], arb(0), 1)) for x in at])
+    (found,) = evaluate(tape, [Dual(Series([x], arb(0), 1)) for x in at])
     off = found.value.terms[0] - values_at(made.function([expression]), at)[0]
     assert off.contains(0) and float(off.rad()) < 1e-12
 
@@ -316,7 +320,7 @@ def test_a_pulse_that_begins_within_a_step_leaves_the_set_narrow(monkeypatch: py
     (x,), (v,) = c.q, c.v
     pushed = System(c, (v**2 - x**2) / 2, forces=(sp.exp(-(((t - 1) * 10) ** 2)),))
     assert float(enclose(pushed, {}, [0], [0], 2, 1e-14).states[0].rad()) < 1e-11
-    monkeypatch.setattr(lohner_frames, "_REST", 1e300)
+    monkeypatch.setattr(lohner_frames, "_LARGEST_REMAINDER", 1e300)
     assert float(enclose(pushed, {}, [0], [0], 2, 1e-14).states[0].rad()) > 1e-9
 
 
@@ -325,13 +329,13 @@ def test_a_precession_that_is_hyperbolic_is_not_parabolic() -> None:
     certificate = precession(Scene((10, -10)), "0.02", 1e-14).certificate
     assert certificate["claim"]["kind"] == "undecided"
     false = certificate | {"ones": 6, "claim": certificate["claim"] | {"kind": "parabolic"}}
-    with pytest.raises(NotProved, match="energy and momentum leave one pair"):
+    with pytest.raises(NotProved, match="four multipliers equal to 1"):
         check(false)
 
 
 def test_a_check_that_skips_a_node_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     """The twin of the spoiled nodes: without the test of one node each of them would be verified."""
-    carried, whole = certified_sets.Carried._step, certified_sets.demand
+    carried, whole = certified_sets.VerifiedSteps._step, certified_sets.demand
     orbit = plain(periodic_orbit(PENDULUM, {}, [1], [0], 6.7, reversals=[(1, -1)]))
     other = spoiled(orbit, "steps/1/node/m/0", lambda x: moved([x, "0p0"], "1e-17")[0])
 
@@ -339,7 +343,7 @@ def test_a_check_that_skips_a_node_is_found(monkeypatch: pytest.MonkeyPatch) -> 
         monkeypatch.setattr(certified_sets, "demand", (lambda *_: None) if k in (1, 2) else whole)
         return carried(self, node, data, k)
 
-    monkeypatch.setattr(certified_sets.Carried, "_step", skipping)
+    monkeypatch.setattr(certified_sets.VerifiedSteps, "_step", skipping)
     assert "parabolic" in check(other)
 
 
@@ -350,9 +354,9 @@ def test_mutated_arithmetic_of_the_search_is_found_by_the_check(monkeypatch: pyt
     from lagrotor.proofs.balls import ZERO
 
     def without_rest(*arguments: Any) -> Any:
-        rests, evaluation = taylor_step.with_rest(*arguments)
+        rests, evaluation = taylor_step.bound_remainder(*arguments)
         return [ZERO for _ in rests], evaluation
 
-    monkeypatch.setattr(lohner_frames, "with_rest", without_rest)
-    with pytest.raises(NotProved, match="node 1 does not hold the motion of the middle"):
+    monkeypatch.setattr(lohner_frames, "bound_remainder", without_rest)
+    with pytest.raises(NotProved, match="node 1 does not contain the motion of the middle"):
         verified(enclose(PENDULUM, {}, [1], [0], 2))

@@ -60,7 +60,7 @@ def test_a_file_that_is_no_structure_is_refused(text, reason, tmp_path) -> None:
 def test_the_command_says_whether_it_stands(capsys, tmp_path) -> None:
     path = tmp_path / "c.toml"
     assert main(["structure", "corner", "--out", str(path)]) == 0
-    assert "yes: to first order: the spins hold" in capsys.readouterr().out
+    assert "yes: linearly stable: the spins hold" in capsys.readouterr().out
     assert main(["structure", str(path), "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert (
@@ -83,7 +83,7 @@ def test_where_a_bar_keeps_it_from_being_upright_the_command_says_what_can_be_do
     assert main(["structure", str(path), "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["stands"] is None
     panels = [[text.get_text() for text in s.plot().axes[1].texts] for s in (read_structure(path), example("corner"))]
-    assert "not as long" in panels[0][0] and not panels[1]
+    assert "does not have" in panels[0][0] and not panels[1]
 
 
 def test_the_command_draws(tmp_path, capsys) -> None:

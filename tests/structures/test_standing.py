@@ -150,7 +150,7 @@ def test_small_growth_keeps_its_digits_or_is_refused() -> None:
     assert slow.real == pytest.approx(1e-3 * w / G**2, rel=1e-3)
     lost = replace(top, friction=1e-10)
     assert lost.modes().growth.max() == 0 and lost.critical_spin() == inf
-    with pytest.raises(InputError, match="so slowly that double precision cannot tell"):
+    with pytest.raises(InputError, match="so slowly that double precision does not resolve"):
         lost.stands()
 
 
@@ -216,9 +216,9 @@ def test_what_nothing_holds_does_not_stand_at_any_multiple_of_its_spins(more) ->
     """A rotor without spin whose hinge only carries its weight; a little spin, and it stands."""
     s = Structure([(0, 0), (1, 0)], **more)
     assert not s.stands() and "nothing holds" in s.stands().why and s.critical_spin() == inf
-    assert s.plot().get_suptitle() == "Does not stand; no multiple of its spins holds it"
+    assert s.plot().get_suptitle() == "Unstable; no multiple of these spins stabilises it"
     held = replace(s, spins=[30.0, 1.0])
-    assert held.stands() and held.critical_spin() < 1 and held.plot().get_suptitle().startswith("Stands")
+    assert held.stands() and held.critical_spin() < 1 and held.plot().get_suptitle().startswith("Stable")
 
 
 @pytest.mark.parametrize("times", [3, 30.0])

@@ -4,16 +4,9 @@ import numpy as np
 import pytest
 
 from lagrotor import Link, Pattern, Rotor
-from lagrotor.structures import (
-    dispersion,
-    honeycomb,
-    long_wave_speeds,
-    polygon_ring,
-    square,
-    straight_row,
-    zigzag,
-)
+from lagrotor.structures import honeycomb, polygon_ring, square, straight_row, zigzag
 from lagrotor.structures.waves import dispersion as dispersion_module
+from lagrotor.structures.waves.dispersion import dispersion, long_wave_speeds
 
 J = Rotor().J
 Q = np.linspace(-3.1, 3.1, 24)

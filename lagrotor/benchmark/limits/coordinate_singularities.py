@@ -1,4 +1,4 @@
-"""Where coordinates and formulas lose digits: Euler angles at the pole, the joint line, the printed projection."""
+"""Digits lost to coordinates and formulas: Euler angles at the pole, the joint line, the printed projection."""
 
 from functools import cache
 from math import cos, sin, sqrt
@@ -20,14 +20,14 @@ from lagrotor.pair.scene import Link, Scene
 
 _EPS = float(np.finfo(float).eps)
 _TINIEST = float(np.finfo(float).smallest_subnormal)
-# Both axes lean by this, and sweep past the pole in 1 s.
+# Initial inclination (rad) of both axes, and the time (s) in which they pass the pole.
 _LEAN, _PASS = 0.5, 1.0
 
 
 def passing(miss: float) -> Scene:
-    """No spins, both axes parallel on one great circle that misses the pole by `miss` rad after 0.5 s.
+    """Return a pair without spins whose parallel axes move on a great circle past the pole, at `miss` rad after 0.5 s.
 
-    Nothing acts on them, as the bar only travels along: they turn uniformly by 1 rad/s, so the motion is known exactly.
+    No force acts, since the bar only translates: both axes turn uniformly by 1 rad/s, and the motion is known exactly.
     """
     start, slope = (r[0] for r in _great_circle(miss, np.array([0.0])))
     axis, rate = tuple(map(float, start)), tuple(map(float, slope))
@@ -35,7 +35,7 @@ def passing(miss: float) -> Scene:
 
 
 def _great_circle(miss: float, t: Array) -> tuple[Array, Array]:
-    """r, r' (n, 3) on the circle through (0, sin miss, cos miss) at t = 0.5 s, towards +x."""
+    """Return r, r' (n, 3) on the circle through (0, sin miss, cos miss) at t = 0.5 s, towards +x."""
     nearest, ahead = np.array([0.0, sin(miss), cos(miss)]), np.array([1.0, 0.0, 0.0])
     phase = (t - _LEAN)[:, None]
     return np.cos(phase) * nearest + np.sin(phase) * ahead, np.cos(phase) * ahead - np.sin(phase) * nearest
@@ -43,26 +43,28 @@ def _great_circle(miss: float, t: Array) -> tuple[Array, Array]:
 
 @cache
 def past_the_pole(miss: float, tol: float, model: Model = euler.MODEL) -> tuple[float, int]:
-    """Error of the axes (rad) after passing the pole by `miss` rad, and nfev, by DOP853 with a local error of tol."""
+    """Return the error of the axes in rad after the pole, which they pass at `miss` rad, and nfev, by DOP853 with local error
+    tol.
+    """
     scene = passing(miss)
-    states, spent = run_by("DOP853", model.rate(scene, False), model.start(scene), np.array([0.0, _PASS]), tol)
-    seen = model.observe(scene, states).axes
-    error = float(np.abs(seen[:, -1] - _great_circle(miss, np.array([_PASS]))[0]).max())
-    check_work(f"a pass at {miss:g} rad by {model.name}", spent, seen, error, _PASS)
-    return error, spent
+    states, nfev = run_by("DOP853", model.rate(scene, False), model.start(scene), np.array([0.0, _PASS]), tol)
+    axes = model.observe(scene, states).axes
+    error = float(np.abs(axes[:, -1] - _great_circle(miss, np.array([_PASS]))[0]).max())
+    check_work(f"a pass at {miss:g} rad by {model.name}", nfev, axes, error, _PASS)
+    return error, nfev
 
 
 def euler_limits(quick: bool) -> list[Limit]:
-    """Evaluations and lost digits of the Euler angles on paths that miss theta = 0."""
-    tol, wanted = 1e-12, 1e-10
+    """Return cost and accuracy of the Euler angles on paths near theta = 0."""
+    tol, target = 1e-12, 1e-10
     far, near, nearest = 1e-2, 1e-3, 1e-5
-    spent = {miss: past_the_pole(miss, tol)[1] for miss in (far, near, nearest)}
-    cost = spent[near] + (spent[near] - spent[far]) * np.log(near / nearest) / np.log(far / near)
+    nfev = {miss: past_the_pole(miss, tol)[1] for miss in (far, near, nearest)}
+    cost = nfev[near] + (nfev[near] - nfev[far]) * np.log(near / nearest) / np.log(far / near)
 
     def lost(miss: float) -> bool:
-        return any(past_the_pole(miss * share, tol)[0] > wanted for share in (1.0, 1.1, 1.2))
+        return any(past_the_pole(miss * share, tol)[0] > target for share in (1.0, 1.1, 1.2))
 
-    found = threshold(lost, _EPS / wanted / 30, 30 * _EPS / wanted, 0.3 if quick else 0.03)
+    miss_limit = threshold(lost, _EPS / target / 30, 30 * _EPS / target, 0.3 if quick else 0.03)
     tool = "euler refuses a start within 1e-3 rad; auto never takes it"
     regular = past_the_pole(nearest, tol, minimal.MODEL)[1]
     return [
@@ -71,22 +73,22 @@ def euler_limits(quick: bool) -> list[Limit]:
             f"evaluations over 1 rad that misses the pole by {nearest:g} rad (minimal: {regular})",
             "N + c log(1/miss), N and c from 1e-2 and 1e-3",
             float(cost),
-            float(spent[nearest]),
+            float(nfev[nearest]),
             tool,
         ),
         Limit(
             "Euler angles near theta = 0: digits",
-            f"least miss (rad) with an error under {wanted:g}, the local error being {tol:g}",
+            f"least miss (rad) with an error under {target:g}, the local error being {tol:g}",
             "error = eps/(4 miss): psi' and phi', each 1/miss there and rounded, make up the spin",
-            _EPS / (4 * wanted),
-            found,
+            _EPS / (4 * target),
+            miss_limit,
             tool,
         ),
     ]
 
 
 def joint_line_limits(quick: bool) -> list[Limit]:
-    """A bar that folds over, and bar and axes in line."""
+    """Return the limits of a bar that folds over, and of bar and axes in line."""
     tol = 1e-10
     return [
         Limit(
@@ -109,8 +111,8 @@ def joint_line_limits(quick: bool) -> list[Limit]:
 
 
 def passes(miss: float) -> bool:
-    """Return whether spheres takes a pair without spin, its axes parallel, past r_1 = r_2 = e_x at `miss` rad from it."""
-    swing = Scene((0.0, 0.0), rates=((cos(miss), sin(miss), 0.0),) * 2)  # 1 rad/s, there after a quarter turn
+    """Return True if spheres integrates a pair without spins past r_1 = r_2 = e_x at a distance of `miss` rad."""
+    swing = Scene((0.0, 0.0), rates=((cos(miss), sin(miss), 0.0),) * 2)  # 1 rad/s: a quarter turn to e_x
     times, turn = np.array([0.0, 2.0]), np.array([cos(miss) * sin(2), sin(miss) * sin(2), cos(2)])
     try:
         run = integrate_model(spheres.MODEL, swing, times, 1e-8)
@@ -122,16 +124,16 @@ def passes(miss: float) -> bool:
 
 
 def fold_difference(tol: float) -> float:
-    """Largest difference of the axes between minimal and spheres while a bar of 0.6 R folds over."""
+    """Return the largest difference of the axes between minimal and spheres while a bar of 0.6 R folds over."""
     scene = scenes_from_states(Scene((3.0, -3.0), link=Link(0.6)), [[0.0, 0.3, 0.0, 0.2, 3.0, 0.1]])[0]
-    one, other = (simulate(scene, np.linspace(0, 1, 51), model, tol) for model in ("minimal", "spheres"))
-    difference = float(np.abs(one.axes - other.axes).max())
-    check_work("a bar that folds over", min(one.evaluations, other.evaluations), one.axes, difference, 1e-2)
+    first, second = (simulate(scene, np.linspace(0, 1, 51), model, tol) for model in ("minimal", "spheres"))
+    difference = float(np.abs(first.axes - second.axes).max())
+    check_work("a bar that folds over", min(first.evaluations, second.evaluations), first.axes, difference, 1e-2)
     return difference
 
 
 def projection_limits(quick: bool) -> list[Limit]:
-    """The printed projection Omegaᵀ Omega / |Omega|² (3.16) when the square underflows."""
+    """Return the limit of the printed projection Omegaᵀ Omega / |Omega|² (3.16), whose square underflows."""
     return [
         Limit(
             "the printed projection at tiny angular velocity",

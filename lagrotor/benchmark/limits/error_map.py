@@ -1,4 +1,4 @@
-"""The error of the paired orbit's closed forms over amplitude and spin ratio: one ensemble, run exactly, beside each."""
+"""The error of the closed forms of the paired orbit over amplitude and spin ratio, against one exact ensemble."""
 
 from dataclasses import dataclass, replace
 from math import pi
@@ -14,16 +14,16 @@ from lagrotor.pair.scene import Scene
 from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.paired_precession.series import paired_series, shape_of
 
-USEFUL = 0.1  # of the amplitude: an error beyond it is no longer a correction
+USEFUL = 0.1  # largest error relative to the amplitude for which a series is a correction
 _TIMES = 12
 
 
 @dataclass(frozen=True, eq=False)
 class Usefulness:
-    """Amplitudes r0 (n,), departures 1 + omega_2/omega_1 (m,) from opposite spins, orders, errors (orders, m, n) in R.
+    """Amplitudes r0 (n,), departures 1 + omega_2/omega_1 (m,) from opposite spins, orders, and errors (orders, m, n) in R.
 
-    error: largest distance over the first turn between the axes of the series, which holds for opposite spins, and of
-    the exact pair started alike.
+    error: the largest distance over the first turn between the axes of the series for opposite spins and of the exact pair
+    from the same start.
     """
 
     amplitudes: Array
@@ -35,9 +35,9 @@ class Usefulness:
 def usefulness(
     amplitudes: Array, departures: Array, orders: tuple[int, ...] = (1, 3, 5), spin: float = 10.0, tol: float = 1e-10
 ) -> Usefulness:
-    """Run every scene of the grid over one turn and hold each series to it, in time, with the series' own frequency.
+    """Compare each series, with its own frequency, to the exact run of every scene of the grid over one turn.
 
-    Raises InputError for amplitudes or departures that are not rows of numbers.
+    Raises InputError if amplitudes or departures are not rows of numbers.
     """
     if np.ndim(amplitudes) != 1 or np.ndim(departures) != 1 or not len(amplitudes) or not len(departures):
         raise InputError("usefulness: amplitudes and departures must be rows of numbers")
@@ -53,6 +53,6 @@ def usefulness(
         series = paired_series(order, *shape_of(base))
         for j, r0 in enumerate(amplitudes):
             phases = natural_rate(base) * series.relative_frequency(float(r0)) * times
-            off = exact[:, j] - series.axes(float(r0), phases)
-            errors[i, :, j] = np.linalg.norm(off, axis=-1).max((1, 2))
+            difference = exact[:, j] - series.axes(float(r0), phases)
+            errors[i, :, j] = np.linalg.norm(difference, axis=-1).max((1, 2))
     return Usefulness(np.asarray(amplitudes, float), np.asarray(departures, float), orders, errors)

@@ -1,4 +1,4 @@
-"""What grows with time: constraints that hold only as accelerations, energy and phase over thousands of turns."""
+"""Errors that grow with time: index-reduced constraints, energy and phase over thousands of turns."""
 
 from dataclasses import dataclass
 from math import pi
@@ -17,51 +17,52 @@ from lagrotor.numerics.curves import measured_order
 from lagrotor.pair.scene import Link, Scene
 from lagrotor.pair.trajectory import Trajectory
 
-# A displaced start in large motion; a bar of which the paired precession is elliptic, so that errors only grow slowly.
+# A displaced start in large motion; a pair whose paired precession is elliptic, so that errors grow slowly.
 DRIFTING = Scene((10.0, -10.0), rates=((1.5, 1.0, 0.0), (1.5, -0.5, 0.0)))
 STEADY = Scene((10.0, -10.0), link=Link(1.0, 0.3, 0.02))
 
 
 def constraint_drift(scene: Scene, step: float, count: int, every: int, projected: bool = False) -> Array:
-    """Distance of the `spheres` state from its constraints after every `every` of `count` classical Runge–Kutta steps.
+    """Return the constraint residual of `spheres` after every `every` of `count` classical Runge–Kutta steps, shape (count //
+    every,).
 
-    The largest of | |r_i| − 1 | and the bar's |length − ell|, in units of R, (count // every,).
+    It is the largest of | |r_i| − 1 | and the bar's |length − ell|, in units of R.
     """
     rate, y = spheres.MODEL.rate(scene, False), spheres.MODEL.start(scene)
     assert scene.link is not None and spheres.MODEL.projection is not None
-    project, off = spheres.MODEL.projection(scene), []
+    project, residuals = spheres.MODEL.projection(scene), []
     k = scene.k
     for number in range(1, count + 1):
-        one = np.array(rate(0.0, y))
-        two = np.array(rate(0.0, y + step / 2 * one))
-        three = np.array(rate(0.0, y + step / 2 * two))
-        four = np.array(rate(0.0, y + step * three))
-        y = y + step / 6 * (one + 2 * two + 2 * three + four)
+        k1 = np.array(rate(0.0, y))
+        k2 = np.array(rate(0.0, y + step / 2 * k1))
+        k3 = np.array(rate(0.0, y + step / 2 * k2))
+        k4 = np.array(rate(0.0, y + step * k3))
+        y = y + step / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
         if projected:
             y = np.array(project(y))
         if number % every == 0:
             r1, r2 = y[:3], y[3:6]
             bar = np.linalg.norm(np.array([k, 0, 0]) + r2 - r1) - k
-            off.append(max(abs(np.linalg.norm(r1) - 1), abs(np.linalg.norm(r2) - 1), abs(bar)))
+            residuals.append(max(abs(np.linalg.norm(r1) - 1), abs(np.linalg.norm(r2) - 1), abs(bar)))
     check_work("the drift of the constraints", 4 * count, np.array([[y, spheres.MODEL.start(scene)]]))
-    return np.array(off)
+    return np.array(residuals)
 
 
 def drift_limits(quick: bool) -> list[Limit]:
-    """Drift of the `spheres` equations, which hold the constraints' second derivatives at zero, in time and step."""
+    """Return the drift of `spheres`, which sets the second derivatives of the constraints to zero, in time and step."""
     step, end, allowed = 0.005, 16.0, 1e-6
     steps = np.array([4, 2, 1]) * step
     ends = np.array([constraint_drift(DRIFTING, h, round(end / h), round(end / h))[0] for h in steps])
-    along = constraint_drift(DRIFTING, step, round(end / step), round(end / step) // 16)
+    drift = constraint_drift(DRIFTING, step, round(end / step), round(end / step) // 16)
     times = end * np.arange(1, 17) / 16
     leading = ends[0] / (end**2 * steps[0] ** 4)
     law = "g'' = 0, so an error h^5 a step in g' gives g ~ t² h⁴"
     regime = "drift of index-reduced equations"
     tool = "spheres is projected; minimal has no constraint"
-    kept = constraint_drift(DRIFTING, step, 200, 1, projected=True).max()
-    crossing = np.interp(np.log(allowed), np.log(along), np.log(times))
+    residual = constraint_drift(DRIFTING, step, 200, 1, projected=True).max()
+    crossing = np.interp(np.log(allowed), np.log(drift), np.log(times))
     return [
-        Limit(regime, "power of time, fourth-order steps", law, 2.0, measured_order(times, along), tool),
+        Limit(regime, "power of time, fourth-order steps", law, 2.0, measured_order(times, drift), tool),
         Limit(regime, "power of the step", law, 4.0, measured_order(steps, ends), tool),
         Limit(
             regime,
@@ -76,7 +77,7 @@ def drift_limits(quick: bool) -> list[Limit]:
             "most that is left after each projection (R)",
             "rounding: eps",
             float(np.finfo(float).eps),
-            float(kept),
+            float(residual),
             "projects by one Newton step",
         ),
     ]
@@ -84,7 +85,7 @@ def drift_limits(quick: bool) -> list[Limit]:
 
 @dataclass(frozen=True)
 class LongRun:
-    """Drift after `turns`: of the energy (relative), of the momentum P (against G), of the phase (rad, while small, signed)."""
+    """Drift after `turns` of the energy (relative), the momentum P (relative to G) and the phase (rad, signed, while small)."""
 
     turns: Array
     energy: Array
@@ -94,47 +95,43 @@ class LongRun:
 
 
 def long_run(turns: int, solver: str, tol: float) -> LongRun:
-    """The paired precession of STEADY at r0 = 0.2 by "simulate" or one of SOLVERS, read at a hundred whole turns.
+    """Return the paired precession of STEADY at r0 = 0.2 by "simulate" or one of SOLVERS, at a hundred whole turns.
 
-    The orbit is periodic and elliptic: every turn ends where it began, and what is off is the method's.
+    The orbit is periodic and elliptic: every turn ends at its start, and each difference is an error of the method.
     """
     orbit = exact_orbit(STEADY, 0.2)
     times = 2 * pi / abs(orbit.frequency) * np.linspace(0, turns, 101)
     if solver == "simulate":
         run = simulate(orbit.scene, times, "minimal", tol)
     else:
-        states, spent = run_by(solver, MODEL.rate(orbit.scene, False), MODEL.start(orbit.scene), times, tol)
-        seen = MODEL.observe(orbit.scene, states)
+        states, nfev = run_by(solver, MODEL.rate(orbit.scene, False), MODEL.start(orbit.scene), times, tol)
+        motion = MODEL.observe(orbit.scene, states)
         run = Trajectory(
-            scene=orbit.scene, model="minimal", why=solver, t=times, axes=seen.axes, rates=seen.rates, momenta=seen.momenta,
-            errors=np.full(len(times), np.nan), evaluations=spent,
+            scene=orbit.scene, model="minimal", why=solver, t=times, axes=motion.axes, rates=motion.rates, momenta=motion.momenta,
+            errors=np.full(len(times), np.nan), evaluations=nfev,
         )  # fmt: skip
     spinning = (run.momenta[:, 0] ** 2).sum() / (2 * run.scene.rotor.I3)
     check_work(f"{turns} turns by {solver}", run.evaluations, run.rates, least=10 * turns)
     momentum = run.joint_line_momentum
-    off, ahead = run.axes - run.axes[:, :1], run.rates[:, :1]
-    phase = abs(orbit.frequency) * (off * ahead).sum((0, 2)) / (ahead**2).sum()
-    return LongRun(
-        np.linspace(0, turns, 101),
-        np.abs(run.energy / run.energy[0] - 1) * run.energy[0] / (run.energy[0] - spinning),
-        np.abs(momentum - momentum[0]) / abs(run.momenta[0, 0]),
-        phase,
-        run.evaluations,
-    )
+    shift, ahead = run.axes - run.axes[:, :1], run.rates[:, :1]
+    phase = abs(orbit.frequency) * (shift * ahead).sum((0, 2)) / (ahead**2).sum()
+    energy = np.abs(run.energy / run.energy[0] - 1) * run.energy[0] / (run.energy[0] - spinning)
+    drift = np.abs(momentum - momentum[0]) / abs(run.momenta[0, 0])
+    return LongRun(np.linspace(0, turns, 101), energy, drift, phase, run.evaluations)
 
 
 _PHASE_LAW = "v t + c t², fitted to the first tenth: steps are off in phase, and energy lost changes the frequency"
 
 
 def _phase_from_a_tenth(run: LongRun) -> float:
-    """|v t + c t²| at the end, by the v and c that fit the first tenth best."""
+    """Return |v t + c t²| at the end, v and c fitted to the first tenth."""
     share = run.turns / run.turns[-1]
     fitted = np.linalg.lstsq(np.stack([share, share**2], axis=1)[:11], run.phase[:11], rcond=None)[0]
     return float(abs(fitted.sum()))
 
 
 def long_limits(quick: bool) -> list[Limit]:
-    """Energy, momentum and phase after 10,000 turns (200 when quick) against the extrapolation of the first tenth."""
+    """Return the drift after 10,000 turns (200 if quick) against the extrapolation of the first tenth."""
     turns = 200 if quick else 10_000
     runs = [("simulate", 1e-9), ("DOP853", 1e-8)]
     runs += [] if quick else [("Adams (VODE)", 1e-8), ("Dormand–Prince 5", 1e-7)]

@@ -1,4 +1,4 @@
-"""Range of validity of the closed forms, and of any prediction: amplitude, spins not quite opposite, no spin, time."""
+"""Range of validity of the closed forms, and of any prediction: amplitude, nearly opposite spins, small spins, time."""
 
 from dataclasses import replace
 from functools import lru_cache
@@ -35,7 +35,7 @@ def _series(scene: Scene, order: int) -> PairedSeries:
 
 
 def series_error(scene: Scene, order: int, r0: float) -> float:
-    """Largest distance between the axes of the series and of the exact orbit at equal phases, over a turn."""
+    """Return the largest distance over a turn between the axes of the series and of the exact orbit at equal phases."""
     orbit = _orbit(scene, r0)
     times = _PHASES / abs(orbit.frequency)
     exact = _axes(orbit.scene, times, 1e-11)
@@ -48,28 +48,28 @@ def _orbit(scene: Scene, r0: float) -> ExactOrbit:
 
 
 def next_term(scene: Scene, order: int) -> float:
-    """Largest size over a turn of the coefficient of r0**(order + 1) in the axes."""
+    """Return the largest coefficient of r0**(order + 1) in the axes over a turn."""
     phases, small = np.linspace(0, 2 * pi, 181), 0.5
-    more, less = (_series(scene, n).axes(small, phases) for n in (order + 1, order))
-    return float(np.linalg.norm(more - less, axis=-1).max()) / small ** (order + 1)
+    high, low = (_series(scene, n).axes(small, phases) for n in (order + 1, order))
+    return float(np.linalg.norm(high - low, axis=-1).max()) / small ** (order + 1)
 
 
 def amplitude_limits(quick: bool) -> list[Limit]:
-    """The amplitude at which the series of an order is off by a given distance."""
+    """Return the amplitudes at which the series of some orders reach a given error."""
     from scipy.optimize import brentq
 
     rows = []
-    for order, wanted in ((1, 1e-2), (3, 1e-3), (5, 1e-4)) if quick else ((1, 1e-2), (3, 1e-3), (5, 1e-4), (9, 1e-6)):
-        predicted = (wanted / next_term(PAIR, order)) ** (1 / (order + 1))
+    for order, target in ((1, 1e-2), (3, 1e-3), (5, 1e-4)) if quick else ((1, 1e-2), (3, 1e-3), (5, 1e-4), (9, 1e-6)):
+        predicted = (target / next_term(PAIR, order)) ** (1 / (order + 1))
 
-        def beyond(x: float, order: int = order, wanted: float = wanted) -> float:
-            return log(series_error(PAIR, order, exp(x)) / wanted)
+        def beyond(x: float, order: int = order, target: float = target) -> float:
+            return log(series_error(PAIR, order, exp(x)) / target)
 
         near, far = log(predicted / 1.5), log(min(1.5 * predicted, 0.8))
         rows.append(
             Limit(
                 "amplitude of the closed form",
-                f"r0 at which order {order} is off by {wanted:g} R at equal phase",
+                f"r0 at which order {order} is off by {target:g} R at equal phase",
                 f"(error / c)^(1/{order + 1}), c the next coefficient",
                 predicted,
                 exp(brentq(beyond, near, far, xtol=0.02 if quick else 1e-4)),
@@ -79,8 +79,8 @@ def amplitude_limits(quick: bool) -> list[Limit]:
     return rows
 
 
-def off_opposite(share: float, r0: float = 0.1) -> float:
-    """Distance from the periodic orbit after a turn when spin 2 is −(1 − share) times spin 1."""
+def opposite_spin_error(share: float, r0: float = 0.1) -> float:
+    """Return the distance from the periodic orbit after a turn, spin 2 being −(1 − share) times spin 1."""
     first, *_ = PAIR.spins
     apart = _within_a_turn((first, -first * (1 - share)), r0) - _within_a_turn(PAIR.spins, r0)
     return float(np.linalg.norm(apart, axis=-1).max())
@@ -88,14 +88,14 @@ def off_opposite(share: float, r0: float = 0.1) -> float:
 
 @lru_cache(maxsize=8)
 def _within_a_turn(spins: tuple[float, float], r0: float) -> Array:
-    """The axes (2, 24, 3) within a turn of the periodic orbit of r0, started on it with these spins."""
+    """Return the axes (2, 24, 3) over a turn from the start of the periodic orbit of r0, with these spins."""
     orbit = _orbit(PAIR, r0)
     times = _PHASES[1:] / abs(orbit.frequency)
     return _axes(replace(orbit.scene, spins=spins), times, 1e-12)
 
 
-def off_equal(share: float, r0: float) -> float:
-    """How far apart the axes of a parallel pair twist within a turn when spin 2 is (1 − share) times spin 1."""
+def equal_spin_error(share: float, r0: float) -> float:
+    """Return the twist of a parallel pair within a turn, spin 2 being (1 − share) times spin 1."""
     start = parallel_scene(Scene((10.0, 10.0)), r0)
     times = 2 * pi / natural_rate(start) * np.arange(1, 65) / 64
     axes = _axes(replace(start, spins=(10.0, 10.0 * (1 - share))), times, 1e-12)
@@ -103,9 +103,9 @@ def off_equal(share: float, r0: float) -> float:
 
 
 def spin_limits(quick: bool) -> list[Limit]:
-    """Spins that are not quite opposite, and spins too slow to hold the pair up."""
-    wanted, tiny, r0 = 1e-2, 1e-5, 0.1
-    found = threshold(lambda share: off_opposite(share, r0) > wanted, 1e-4, 0.9, 0.05 if quick else 0.01)
+    """Return the limits for spins that are nearly opposite, nearly equal, or small."""
+    target, tiny, r0 = 1e-2, 1e-5, 0.1
+    measured = threshold(lambda share: opposite_spin_error(share, r0) > target, 1e-4, 0.9, 0.05 if quick else 0.01)
     push, bar = 1.0, Scene((1.0, 1.0))
     heavy = sum(bar.inertias)
 
@@ -119,18 +119,18 @@ def spin_limits(quick: bool) -> list[Limit]:
     return [
         Limit(
             "spins nearly opposite",
-            f"(G_1 + G_2)/G_1 that puts the pair {wanted:g} R off the closed orbit of r0 = {r0:g} in a turn",
+            f"(G_1 + G_2)/G_1 that puts the pair {target:g} R off the closed orbit of r0 = {r0:g} in a turn",
             f"error ~ (G_1 + G_2), its slope from {tiny:g}",
-            wanted * tiny / off_opposite(tiny, r0),
-            found,
+            target * tiny / opposite_spin_error(tiny, r0),
+            measured,
             "refuses spins that are not exactly opposite",
         ),
         Limit(
             "spins nearly equal",
-            f"(G_1 − G_2)/G_1 that twists parallel axes {wanted:g} R apart in a turn, inclined by {r0:g}",
+            f"(G_1 − G_2)/G_1 that twists parallel axes {target:g} R apart in a turn, inclined by {r0:g}",
             f"error ~ (G_1 − G_2), its slope from {tiny:g}",
-            wanted * tiny / off_equal(tiny, r0),
-            threshold(lambda share: off_equal(share, r0) > wanted, 1e-4, 0.9, 0.05 if quick else 0.01),
+            target * tiny / equal_spin_error(tiny, r0),
+            threshold(lambda share: equal_spin_error(share, r0) > target, 1e-4, 0.9, 0.05 if quick else 0.01),
             "closed_form refuses spins that are not exactly equal or opposite",
         ),
         Limit(
@@ -145,7 +145,7 @@ def spin_limits(quick: bool) -> list[Limit]:
 
 
 def horizon_limits(quick: bool) -> list[Limit]:
-    """When two solutions 1e-9 apart have nothing left in common but the energy."""
+    """Return the time at which two solutions, initially 1e-9 apart, share only their integrals."""
     apart, lost, rows = 1e-9, 1e-2, []
     for r0 in (0.6,) if quick else (0.6, 0.5):
         orbit = _orbit(PAIR, r0)
@@ -165,8 +165,8 @@ def horizon_limits(quick: bool) -> list[Limit]:
 
 
 def _parting(scene: Scene, times: Array, apart: float, lost: float) -> float:
-    """Time (s) at which the axes of `scene` and of its neighbour differ by `lost`."""
+    """Return the time in s at which the axes of `scene` and of a perturbed start differ by `lost`."""
     start = MODEL.start(scene)
-    one, other = (_axes(scene, times, apart / 10, start=state) for state in (start, start + apart))
-    away = np.linalg.norm(one - other, axis=-1).max(0) > lost
+    first, second = (_axes(scene, times, apart / 10, start=state) for state in (start, start + apart))
+    away = np.linalg.norm(first - second, axis=-1).max(0) > lost
     return float(times[np.argmax(away)]) if away.any() else float("inf")

@@ -1,4 +1,4 @@
-"""Where methods fail: each threshold predicted by a formula, and measured."""
+"""Limits of methods: each threshold is predicted by a formula, and measured."""
 
 import warnings
 from collections.abc import Callable
@@ -20,7 +20,7 @@ from lagrotor.pair.scene import Link, Scene
 
 
 def step_grows(system: RigidBodySystem, dt: float) -> bool:
-    """Return whether a disturbance of 1e-9 m in the bodies' places has opened a joint beyond 1e-5 m after 1,000 steps of dt."""
+    """Return True if a perturbation of 1e-9 m of the bodies opens a joint by more than 1e-5 m within 1,000 steps of dt."""
     moving = deepcopy(system)
     moving.X[:-1] += 1e-9 * np.random.default_rng(1).normal(size=moving.X[:-1].shape)
     with warnings.catch_warnings():
@@ -31,8 +31,8 @@ def step_grows(system: RigidBodySystem, dt: float) -> bool:
     return run.ending.early or bool(run.stretches.max() > 1e-5)
 
 
-def found_step_limit(system: RigidBodySystem, halvings: int = 7) -> float:
-    """The longest stable step (s) by bisection between 0.8 and 1.2 of the predicted one; to 0.4 / 2**halvings of it."""
+def step_limit_by_bisection(system: RigidBodySystem, halvings: int = 7) -> float:
+    """Return the longest stable step in s by bisection within 20 % of the predicted one, to 0.4 / 2**halvings of it."""
     predicted = step_limit(system).whole
     low, high = 0.8 * predicted, 1.2 * predicted
     for _ in range(halvings):
@@ -42,17 +42,17 @@ def found_step_limit(system: RigidBodySystem, halvings: int = 7) -> float:
 
 
 def _bar_on_rotor(bar: Link) -> RigidBodySystem:
-    """A rotor's tip joined to an end of the bar, and nothing else: the tip joint as if the others were cut."""
-    zero, one, x, z = np.zeros(3), np.eye(3), np.array([0.5, 0.0, 0.0]), np.array([0.0, 0.0, 0.5])
-    rotor = RigidBody(z, np.array([-z, z]), one, one, 1.0, zero, zero)
-    link = RigidBody(2 * z + x, np.array([-x, x]), bar.inertia * one, one, bar.mass, zero, zero)
+    """Return a rotor whose tip joint holds the bar, without the other joints."""
+    zero, identity, x, z = np.zeros(3), np.eye(3), np.array([0.5, 0.0, 0.0]), np.array([0.0, 0.0, 0.5])
+    rotor = RigidBody(z, np.array([-z, z]), identity, identity, 1.0, zero, zero)
+    link = RigidBody(2 * z + x, np.array([-x, x]), bar.inertia * identity, identity, bar.mass, zero, zero)
     system = RigidBodySystem([rotor, link], STIFFNESS, DAMPING)
     system.link(1, 2, 2, 1)
     return system
 
 
 def step_limits(quick: bool) -> list[Limit]:
-    """The longest stable step of the paper's method: each kind of joint by itself, and all together."""
+    """Return the longest stable step of the paper's method, for each kind of joint alone and for all together."""
     systems = {
         "a ground joint alone": paper_system(Scene((0.0, 0.0), link=None), STIFFNESS, DAMPING),
         "a tip joint alone, bar of 1 kg": _bar_on_rotor(HEAVY_LINK),
@@ -62,17 +62,12 @@ def step_limits(quick: bool) -> list[Limit]:
     }
     law = "4/(w D + sqrt((w D)² + 4 w S)), w the largest mobility"
     tool = "run_steps stops where the state blows up, and names the limit"
-    return [
-        Limit(
-            "explicit steps on stiff links",
-            f"longest stable step (s): {name}",
-            law,
-            step_limit(system).whole,
-            found_step_limit(system, 4 if quick else 7),
-            tool,
-        )
-        for name, system in systems.items()
-    ]
+    rows = []
+    for name, system in systems.items():
+        what, predicted = f"longest stable step (s): {name}", step_limit(system).whole
+        measured = step_limit_by_bisection(system, 4 if quick else 7)
+        rows.append(Limit("explicit steps on stiff links", what, law, predicted, measured, tool))
+    return rows
 
 
 LIMITS: dict[str, Callable[[bool], list[Limit]]] = {
@@ -89,12 +84,9 @@ LIMITS: dict[str, Callable[[bool], list[Limit]]] = {
 
 
 def limits(quick: bool = False, step: Callable[[str], None] = lambda name: None) -> list[Limit]:
-    """Every limit: in a minute or two, or in seconds, with shorter runs and coarser thresholds, when `quick`.
-
-    step: called with the name of each regime before it is measured.
-    """
+    """Return every limit, with shorter runs and coarser thresholds if `quick`; `step` is called with the name of each regime."""
     rows = []
-    for name, tried in LIMITS.items():
+    for name, measure in LIMITS.items():
         step(name)
-        rows += tried(quick)
+        rows += measure(quick)
     return rows

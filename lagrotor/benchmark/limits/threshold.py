@@ -1,4 +1,4 @@
-"""A limit of a method: by a formula, and as measured."""
+"""A limit of a method, predicted and measured."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -7,7 +7,7 @@ from math import exp, log
 
 @dataclass(frozen=True)
 class Limit:
-    """One row: the regime, the quantity (with its unit), the formula, its value, the measured value, what lagrotor does there."""
+    """One row: regime, quantity with its unit, formula, predicted and measured value, and lagrotor's way out."""
 
     regime: str
     what: str
@@ -18,20 +18,19 @@ class Limit:
 
     @property
     def ratio(self) -> float:
-        """Measured over predicted."""
         return self.measured / self.predicted
 
 
 def threshold(fails: Callable[[float], bool], low: float, high: float, share: float = 0.01) -> float:
-    """The positive x between low and high at which `fails` changes, to a relative `share`, by halving in log x.
+    """Return the positive x between low and high at which `fails` changes, to a relative `share`, by bisection in log x.
 
-    Raises ValueError when it does not change between them.
+    Raises ValueError if it does not change between them.
     """
     below = fails(low)
     if fails(high) == below:
         raise ValueError(f"threshold: no change between {low:g} and {high:g}")
-    left, right = log(low), log(high)
-    while right - left > share:
-        middle = (left + right) / 2
-        left, right = (middle, right) if fails(exp(middle)) == below else (left, middle)
-    return exp((left + right) / 2)
+    lower, upper = log(low), log(high)
+    while upper - lower > share:
+        middle = (lower + upper) / 2
+        lower, upper = (middle, upper) if fails(exp(middle)) == below else (lower, middle)
+    return exp((lower + upper) / 2)

@@ -1,19 +1,18 @@
-"""The articulated-body recursion as stages of a program: operations linear in the bodies, nothing multiplied out.
+"""The articulated-body recursion as stages of a program: operations linear in the number of bodies, nothing multiplied out.
 
-From the ground outward, each joint of a tree has at one state its axes, turn, velocity, acceleration without q'', and energy.
-A link that is symmetric about the axis of its turn and carries nothing is seen in axes that do not turn with it: its angle is in
-no equation, as in a steady spin.
+The first pass goes outward from the ground. Each link gets, in its own axes, the angular velocity ω and the accelerations
+(α, a) at q'' = 0, and from them the torque and force (N, F) about its joint that its bodies need. A uniform field g is an
+acceleration −g of the ground. A link that is symmetric about the axis of its turn and carries nothing is described in axes
+that do not turn with it, so that its angle enters no equation.
 
-Each link has in its own axes the angular velocity ω and the accelerations (α, a) that it would have with all q'' = 0,
-and from them the torque and force (N, F) about its joint that its bodies then need; a uniform field g is an acceleration −g
-of the ground. What is missing to these accelerations is linear in q''. Inward, each link has the inertia of all that it carries,
+The second pass goes inward. Each link gets the inertia I of all that it carries,
 
     [N]   [J   H] [α]
     [F] = [Hᵀ  M] [a],
 
-and each coordinate of its joint, of column s, takes its part away, I − U Uᵀ/D with U = I s, D = s·U; what is left is turned
-and shifted to the parent. Outward again, q''. With several columns of joint forces τ the same factors give M⁻¹ τ column by
-column, for the constraints.
+and each coordinate of its joint, of column s, reduces it to I − U Uᵀ/D with U = I s, D = s·U. The result is turned and
+shifted to the parent. The third pass goes outward and gives q''. With several columns of joint forces τ the same factors give
+M⁻¹ τ for each, which the constraints need.
 
 Featherstone, Rigid Body Dynamics Algorithms (2008), ch. 7; Luh, Walker & Paul (1980) for the accelerations.
 """
@@ -33,7 +32,7 @@ _NONE, _STILL = zeros(3, 1), zeros(3, 3)
 
 @dataclass(frozen=True)
 class Turn:
-    """A rotation by an angle, of cosine c and sine s, about an axis; none where s is zero."""
+    """A rotation about an axis by an angle of cosine c and sine s; the identity if s is zero."""
 
     axis: int | None = None
     angle: sp.Expr = sp.S.Zero
@@ -42,30 +41,28 @@ class Turn:
 
     @classmethod
     def by(cls, axis: int, angle: sp.Expr, keep: Stages) -> "Turn":
-        """By an angle."""
         return cls(axis, angle, keep(sp.cos(angle)), keep(sp.sin(angle)))
 
     def back(self) -> "Turn":
-        """The inverse."""
+        """Return the inverse rotation."""
         return replace(self, s=-self.s)
 
     def of(self, e: Small, keep: Stages) -> Small:
-        """R e, for the columns of e, (3, m)."""
+        """Rotate the columns of e (3, m)."""
         if self.axis is None or self.s == 0:
             return e
         i, j = (self.axis + 1) % 3, (self.axis + 2) % 3
         rows = [*e.rows]
-        turned = Small([[self.c, -self.s], [self.s, self.c]]) * Small([rows[i], rows[j]])
-        rows[i], rows[j] = keep.each(turned).rows
+        mixed = Small([[self.c, -self.s], [self.s, self.c]]) * Small([rows[i], rows[j]])
+        rows[i], rows[j] = keep.each(mixed).rows
         return Small(rows)
 
 
 @dataclass(frozen=True)
 class Joint:
-    """A link at one state.
+    """A link at one state, with the shift, rotation and turn from the parent's axes.
 
-    shift, rotation, turn: from the parent's axes. spin: ω. lift: (α, a) with all q'' = 0. bend: K = [α]× + [ω]×², so that the
-    point r has the acceleration a + K r.
+    `spin` is ω, `lift` is (α, a) at q'' = 0. With `bend` K = [α]× + [ω]×² the point r has the acceleration a + K r.
     """
 
     link: TreeLink
@@ -79,33 +76,33 @@ class Joint:
     bend: Small = _STILL
 
     def inward(self, e: Small, keep: Stages) -> Small:
-        """A vector's components in the parent → in the link."""
+        """Return the components of vectors in the link from those in the parent."""
         if self.rotation is not None:
             e = keep.each(self.rotation.T * e)
         return self.turn.back().of(e, keep)
 
     def outward(self, e: Small, keep: Stages) -> Small:
-        """A vector's components in the link → in the parent."""
+        """Return the components of vectors in the parent from those in the link."""
         e = self.turn.of(e, keep)
         return e if self.rotation is None else keep.each(self.rotation * e)
 
     def both(self, change: Callable[[Small, Stages], Small], e: Small, keep: Stages) -> Small:
-        """The change of axes, inward or outward, of the angular and of the linear rows of e, (6, m)."""
-        return blocks([[change(part, keep)] for part in halves(e)])
+        """Apply `inward` or `outward` to the angular and to the linear rows of e (6, m)."""
+        return blocks([[change(half, keep)] for half in halves(e)])
 
     @property
     def lever(self) -> Small:
-        """[[1, [d]×], [0, 1]] of the shift d: it takes (N, F) from the link's origin to that of the parent."""
-        one = Small.of(_EYE)
-        return blocks([[one, wedge(self.shift)], [zeros(3, 3), one]])
+        """The matrix [[1, [d]×], [0, 1]], which moves (N, F) from the link's origin to the parent's."""
+        unit = Small.of(_EYE)
+        return blocks([[unit, wedge(self.shift)], [zeros(3, 3), unit]])
 
 
 def joints(tree: Tree, keep: Stages) -> list[Joint]:
-    """From the ground outward, link by link: ω, and (α, a)."""
+    """Compute ω and (α, a) of each link, from the ground outward."""
     chain, carrying = list[Joint](), {link.parent for link in tree.links}
     for number, link in enumerate(tree.links):
         axis = link.axis if number in carrying or not link.is_round else None
-        before = chain[link.parent] if link.parent >= 0 else None
+        parent = chain[link.parent] if link.parent >= 0 else None
         joint = Joint(
             link,
             keep.each(Small.of(link.shift)),
@@ -114,18 +111,15 @@ def joints(tree: Tree, keep: Stages) -> list[Joint]:
             tuple(map(keep.each, link.columns)),
             keep.each(link.rate),
         )
-        chain.append(_with_motion(joint, before, -Small.of(tree.field), keep))
+        chain.append(_with_motion(joint, parent, -Small.of(tree.field), keep))
     return chain
 
 
-def _with_motion(joint: Joint, before: Joint | None, ground: Small, keep: Stages) -> Joint:
-    """The joint with its ω and (α, a): those of the parent, turned and shifted, and its own.
-
-    α = α' + ω' × u + u',  a = a' + K' d + 2 ω × d' + d'', in turn.
-    """
-    w, (b, a) = (before.spin, before.lift) if before else (_NONE, (_NONE, ground))
+def _with_motion(joint: Joint, parent: Joint | None, ground: Small, keep: Stages) -> Joint:
+    """Return the joint with ω and (α, a): α = α' + ω' × u + u',  a = a' + K' d + 2 ω × d' + d''."""
+    w, (b, a) = (parent.spin, parent.lift) if parent else (_NONE, (_NONE, ground))
     (u, d), (u_swing, d_swing) = halves(joint.rate), halves(joint.link.swing)
-    a = keep.each(a + before.bend * joint.shift) if before else a
+    a = keep.each(a + parent.bend * joint.shift) if parent else a
     w, b, a = (joint.inward(e, keep) for e in (w, b, a))
     b = keep.each(b + w.cross(u) + keep.each(u_swing))
     a = keep.each(a + w.cross(d) * 2 + keep.each(d_swing))
@@ -134,18 +128,18 @@ def _with_motion(joint: Joint, before: Joint | None, ground: Small, keep: Stages
 
 
 def tree_energy(tree: Tree, chain: Sequence[Joint], speeds: Sequence[sp.Symbol], keep: Stages) -> sp.Expr:
-    """v·∂L/∂v − L, in stages, with the velocities (ω, v) of the links.
+    """Compute the Jacobi integral v·∂L/∂v − L in stages, from the velocities (ω, v) of the links.
 
-    Where time moves a joint, T = T₂ + T₁ + T₀ in powers of the velocities, and the Jacobi integral is T₂ − T₀ + V. With the
-    velocities V = (ω, v) and V* that time alone gives, T₂ − T₀ is ½ V·I V − V·I V*. Goldstein §2.7.
+    If time moves a joint, T = T₂ + T₁ + T₀ in powers of the velocities, and the integral is T₂ − T₀ + V. With the velocities
+    V = (ω, v), and V* at v = 0, T₂ − T₀ is ½ V·I V − V·I V*. Goldstein §2.7.
     """
     still = dict.fromkeys(speeds, 0)
-    total, motions, fields, depths = -tree.rest.subs(still), list[Small](), list[Small](), list[sp.Expr]()
+    total, motions, fields, depths = -tree.remainder.subs(still), list[Small](), list[Small](), list[sp.Expr]()
     for joint in chain:
         parent = joint.link.parent
-        before = motions[parent] if parent >= 0 else zeros(6, 2)
+        carried = motions[parent] if parent >= 0 else zeros(6, 2)
         rate = blocks([[joint.link.rate, joint.link.rate.each(lambda e: e.subs(still))]])
-        V = keep.each(joint.both(joint.inward, keep.each(joint.lever.T * before), keep) + rate)
+        V = keep.each(joint.both(joint.inward, keep.each(joint.lever.T * carried), keep) + rate)
         motions.append(V)
         products = V.T * keep.each(_rigid(joint, keep) * V)
         total += keep(products[0, 0] / 2 - products[0, 1])
@@ -162,7 +156,7 @@ Column = list[sp.Expr]
 
 @dataclass(frozen=True)
 class Factor:
-    """What a coordinate leaves: its number and column s, E = U/D, (6, 1), and x = (τ − s·(N, F))/D for each column of torques."""
+    """The elimination of one coordinate of column s: E = U/D (6, 1), and x = (τ − s·(N, F))/D for each column of torques."""
 
     number: int
     s: Small
@@ -173,9 +167,9 @@ class Factor:
 def tree_accelerations(
     chain: Sequence[Joint], speeds: Sequence[sp.Symbol], torques: Sequence[Column], keep: Stages
 ) -> list[Column]:
-    """M⁻¹ (τ − h) for the first column of joint forces, velocities and field included, and M⁻¹ τ for the others.
+    """Compute M⁻¹ (τ − h) for the first column of joint forces, and M⁻¹ τ for the others.
 
-    Raises SingularError where a coordinate moves no mass.
+    SingularError is raised if a coordinate moves no mass.
     """
     inertias = [_rigid(joint, keep) for joint in chain]
     forces = [[_bias_force(joint, keep), *[zeros(6, 1)] * (len(torques) - 1)] for joint in chain]
@@ -194,14 +188,14 @@ def tree_accelerations(
             inverse, axes = keep(1 / D), [k for k in range(6) if s[k] != 0]
             E = keep.each(U * inverse)
             x = [keep(keep(tau[number] - s.dot(f)) * inverse) for tau, f in zip(torques, forces[i], strict=True)]
-            if len(axes) == 1:  # s·E = 1: no division is left
+            if len(axes) == 1:  # s·E = 1: no division remains
                 E.rows[axes[0]][0] = 1 / s[axes[0]]
             factors[-1].append(Factor(number, s, E, x))
             if parent < 0 and s is joint.columns[-1]:
                 break
             I = I - U * E.T
             forces[i] = [keep.each(f + U * e) for f, e in zip(forces[i], x, strict=True)]
-            if len(axes) == 1:  # along s no inertia is left, and the force is τ
+            if len(axes) == 1:  # along s the inertia vanishes, and the force is τ
                 for k in range(6):
                     I.rows[axes[0]][k] = I.rows[k][axes[0]] = sp.S.Zero
                 for f, tau in zip(forces[i], torques, strict=True):
@@ -218,7 +212,7 @@ def tree_accelerations(
 
 
 def _outcome(chain: Sequence[Joint], factors: Sequence[Sequence[Factor]], j: int, keep: Stages) -> Column:
-    """Outward again: the accelerations of column j, in the order of the coordinates."""
+    """Return the accelerations of column j in the order of the coordinates, by the third pass."""
     solved: dict[int, sp.Expr] = {}
     places: list[Small] = []
     for joint, eliminated in zip(chain, factors, strict=True):
@@ -232,7 +226,7 @@ def _outcome(chain: Sequence[Joint], factors: Sequence[Sequence[Factor]], j: int
 
 
 def _rigid(joint: Joint, keep: Stages) -> Small:
-    """The inertia of the bodies on a link about its joint, (6, 6)."""
+    """Return the inertia (6, 6) of the bodies on a link about its joint."""
     J, H, m = zeros(3, 3), zeros(3, 3), sp.S.Zero
     for mass in joint.link.masses:
         c = wedge(mass.centre)
@@ -241,7 +235,7 @@ def _rigid(joint: Joint, keep: Stages) -> Small:
 
 
 def _bias_force(joint: Joint, keep: Stages) -> Small:
-    """(N, F) about the joint, Σ m (a + K c) and its moment, with I α + ω × I ω, for the motion without q''."""
+    """Return (N, F) about the joint at q'' = 0: F = Σ m (a + K c), N its moment plus I α + ω × I ω."""
     b, a = joint.lift
     N, F = _NONE, _NONE
     for mass in joint.link.masses:

@@ -1,8 +1,8 @@
-"""What acts between points of bodies, by virtual work.
+"""Springs, dampers, actuators and loads on bodies as generalised forces, by virtual work.
 
-A force F along a path of length ℓ(q, t) does the work F δℓ, so that it is Q = F ∂ℓ/∂q: positive pushes the ends apart. A force
-at a point r is Q = (∂r/∂q)ᵀ F, a torque between frames (∂(ω − ω')/∂v)ᵀ T. Round a cylinder the shortest path is straight where
-its surface is unrolled: two tangents and an arc across the axis, and along it the same rise for each length.
+A force F along a path of length ℓ(q, t) does the work F δℓ, so Q = F ∂ℓ/∂q, and a positive F pushes the ends apart. A force
+F at a point r gives Q = (∂r/∂q)ᵀ F, a torque T between frames Q = (∂(ω − ω')/∂v)ᵀ T. The shortest path round a cylinder is
+straight on the unrolled surface: two tangents and an arc across the axis, which rises in proportion to the length.
 
 Moore, Learn Multibody Dynamics, chs. 12, 13; Rayleigh, The Theory of Sound, §81 (friction).
 """
@@ -17,14 +17,22 @@ from lagrotor.errors import InputError
 from lagrotor.mechanics.bodies.moving_frames import MovingFrame, Vector, in_ground
 from lagrotor.mechanics.expressions import expression, shortest, vector_of
 from lagrotor.mechanics.lagrangian import Coordinates, gradient, jacobian, t, total_derivative
+from lagrotor.renamed import accept_old_keywords
 
 
 @dataclass(frozen=True)
 class Pathway:
-    """A path between two points: its possible lengths (weight, ℓ), of which one has the weight 1 at each time, the others 0.
+    """A path between two points, along which springs, dampers and actuators act.
 
-    Pathway.line(c, P, Q) is straight, Pathway.around(c, P, Q, radius) goes round a cylinder where that is in the way; points are
-    (x, y, z) in the ground's axes, as frame.place((0, 0, l)) gives them.
+    Pathway.line(c, P, Q) is straight, Pathway.around(c, P, Q, radius) goes round a cylinder where that is in the way. Points
+    are (x, y, z) in the ground's axes, as frame.place((0, 0, l)) gives them, in m.
+
+    Attributes
+    ----------
+    c : Coordinates
+        The coordinates of the system.
+    lengths : tuple of (weight, length)
+        The possible lengths; one has the weight 1 at each time, the others 0.
     """
 
     c: Coordinates
@@ -36,21 +44,26 @@ class Pathway:
 
     @classmethod
     def line(cls, c: Coordinates, P: Vector, Q: Vector) -> "Pathway":
-        """The straight line between two points.
+        """Return the straight line between two points.
 
         Parameters
         ----------
         c : Coordinates
             The coordinates.
-        P : Vector
-            Where it begins.
-        Q : Vector
-            Where it ends.
+        P, Q : sequence
+            The ends (x, y, z).
 
-        Raises
-        ------
-        InputError
-            For what is no point.
+        Returns
+        -------
+        Pathway
+            The path.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> c = coordinates("x y")
+        >>> Pathway.line(c, (0, 0, 0), (c.x, c.y, 0)).spring(8)
+        4*x**2 + 4*y**2
         """
         return cls(c, ((sp.S.One, _distance(*_points(P, Q))),))
 
@@ -65,38 +78,37 @@ class Pathway:
         axis: Vector = (0, 0, 1),
         side: int = 1,
     ) -> "Pathway":
-        """The shortest path that does not enter a cylinder; straight where the straight line passes on that side.
+        """Return the shortest path that does not enter a cylinder.
 
         Parameters
         ----------
         c : Coordinates
             The coordinates.
-        P : Vector
-            Where it begins.
-        Q : Vector
-            Where it ends.
-        radius
-            Of the cylinder.
-        centre : Vector, default (0, 0, 0)
-            A point of its axis.
-        axis : Vector, default (0, 0, 1)
-            The axis' direction.
+        P, Q : sequence
+            The ends (x, y, z).
+        radius : Expr
+            The radius of the cylinder, declared positive.
+        centre : sequence, default (0, 0, 0)
+            A point of the axis.
+        axis : sequence, default (0, 0, 1)
+            The direction of the axis.
         side : int, default 1
-            1 where the path turns about the axis in its positive sense from P to Q, −1 in the other, by up to 3/2 π.
+            1 if the path turns about the axis in the positive sense from P to Q, −1 for the negative, by up to 3/2 π. It is
+            straight where the straight line passes on that side.
 
-        Raises
-        ------
-        InputError
-            For an axis that is none, another side, or an end that stays inside.
+        Returns
+        -------
+        Pathway
+            The path.
         """
         p, q = _points(P, Q)
         o, a = (
-            sp.Matrix(vector_of(f"around: {name}", given, 3)) for name, given in (("centre", centre), ("axis", axis))
+            sp.Matrix(vector_of(f"around: {name}", vector, 3)) for name, vector in (("centre", centre), ("axis", axis))
         )
         R, size = expression("around: radius", radius), a.dot(a)
         if size == 0 or not R.is_positive or side not in (1, -1):
             raise InputError(
-                f"around: radius = {radius}, axis = {axis}, side = {side}: give a positive radius (a letter that is declared "
+                f"around: radius = {radius}, axis = {axis}, side = {side}: give a positive radius (a symbol declared "
                 "positive), a direction, ±1"
             )
         a = a / sp.sqrt(size)
@@ -110,7 +122,7 @@ class Pathway:
                 raise InputError(
                     f"around: an end is {sp.sqrt(square)} from the axis, inside the cylinder of radius {R}"
                 )
-            if decide_zero(square - R**2).answer != "zero":  # else the end is on the surface
+            if decide_zero(square - R**2).answer != "zero":  # otherwise the end is on the surface
                 turn -= sp.acos(R / sp.sqrt(square))
                 tangents += sp.sqrt(square - R**2)
         wrapped = sp.sqrt((tangents + R * turn) ** 2 + rise**2) if rise != 0 else tangents + R * turn
@@ -120,34 +132,83 @@ class Pathway:
 
     @property
     def length(self) -> sp.Expr:
-        """ℓ(q, t)."""
+        """The length ℓ(q, t), in m."""
         return sp.Add(*(weight * length for weight, length in self.lengths))
 
     @property
     def rate(self) -> sp.Expr:
-        """dℓ/dt."""
+        """The rate dℓ/dt, in m/s."""
         return sp.Add(*(weight * total_derivative(length, self.c) for weight, length in self.lengths))
 
-    def spring(self, stiffness: Any, rest: Any = 0) -> sp.Expr:
-        """The potential ½ k (ℓ − ℓ₀)², to be taken from the kinetic energy."""
+    @accept_old_keywords
+    def spring(self, stiffness: Any, rest_length: Any = 0) -> sp.Expr:
+        """Return the potential energy ½ k (ℓ − ℓ₀)² of a spring.
+
+        Parameters
+        ----------
+        stiffness : Expr
+            The stiffness k, in N/m.
+        rest_length : Expr, default 0
+            The length ℓ₀ without force, in m.
+
+        Returns
+        -------
+        Expr
+            The energy in J, to be subtracted from the kinetic energy.
+        """
         self._check_moves("spring")
-        k, free = expression("spring: stiffness", stiffness), expression("spring: rest", rest)
+        k, free = expression("spring: stiffness", stiffness), expression("spring: rest_length", rest_length)
         return sp.Add(*(weight * k * (length - free) ** 2 / 2 for weight, length in self.lengths))
 
     def damper(self, constant: Any) -> sp.Expr:
-        """Rayleigh's function ½ d ℓ'², for `dissipation`."""
+        """Return Rayleigh's function ½ d ℓ'² of a damper.
+
+        Parameters
+        ----------
+        constant : Expr
+            The damping constant d, in N s/m.
+
+        Returns
+        -------
+        Expr
+            The function for `dissipation`, in W.
+        """
         self._check_moves("damper")
         d = expression("damper: constant", constant)
         return sp.Add(*(weight * d * total_derivative(length, self.c) ** 2 / 2 for weight, length in self.lengths))
 
     def dry_friction(self, force: Any) -> sp.Expr:
-        """F |ℓ'|, for `dissipation`: Coulomb's friction of the size F, which may hold the length."""
+        """Return Rayleigh's function F |ℓ'| of Coulomb's friction, under which the path may stick.
+
+        Parameters
+        ----------
+        force : Expr
+            The largest force F, in N.
+
+        Returns
+        -------
+        Expr
+            The function for `dissipation`, in W.
+        """
         self._check_moves("dry_friction")
-        factors = [f for f in sp.Mul.make_args(self.rate) if not isinstance(f, sp.sign)]  # of a length along one axis
+        factors = [
+            f for f in sp.Mul.make_args(self.rate) if not isinstance(f, sp.sign)
+        ]  # of a length along a coordinate axis
         return expression("dry_friction: force", force) * sp.Abs(sp.Mul(*factors))
 
     def actuator(self, force: Any) -> sp.Matrix:
-        """Q = F ∂ℓ/∂q, (n, 1), for `forces`: a positive F pushes the ends apart, a rope pulls with a negative one."""
+        """Return the generalised forces Q = F ∂ℓ/∂q of a force along the path.
+
+        Parameters
+        ----------
+        force : Expr
+            The force F in N: positive pushes the ends apart, a rope pulls with a negative one.
+
+        Returns
+        -------
+        Matrix
+            Q for `forces`, shape (n, 1).
+        """
         self._check_moves("actuator")
         F = expression("actuator: force", force)
         zero = sp.zeros(len(self.c.q), 1)
@@ -158,26 +219,34 @@ class Pathway:
             raise InputError(f"{what}: the length {self.length} depends on none of {self.c.q}: it gives no force")
 
 
-def push(frame: MovingFrame, force: Vector, at: Vector = (0, 0, 0)) -> sp.Matrix:
-    """The generalised forces (n, 1) of a force, in the ground's axes, at a point of the frame."""
-    F = sp.Matrix(vector_of("push: force", force, 3))
-    place = frame.place(vector_of("push: at", at, 3))
+def force(frame: MovingFrame, components: Vector, at: Vector, axes: MovingFrame | None) -> sp.Matrix:
+    """Return the generalised forces of a force: `Frame.force`."""
+    F = _rotation("force", frame, axes) * sp.Matrix(vector_of("force: components", components, 3))
+    place = frame.place(vector_of("force: at", at, 3))
     return (jacobian(place, frame.c.q).T * F).applyfunc(shortest)
 
 
-def torque(frame: MovingFrame, moment: Vector, against: MovingFrame | None = None) -> sp.Matrix:
-    """The generalised forces (n, 1) of a torque on the frame, in the frame's own axes; its reaction acts on `against`, or on the
-    ground."""
+def torque(frame: MovingFrame, moment: Vector, against: MovingFrame | None, axes: MovingFrame | None) -> sp.Matrix:
+    """Return the generalised forces of a torque: `Frame.torque`."""
     T, w = sp.Matrix(vector_of("torque: moment", moment, 3)), frame.angular_velocity
     if against is not None:
         if not isinstance(against, MovingFrame):
             raise InputError(f"torque: against = {against!r} must be a Frame")
         w = w - in_ground(frame)[0].T * in_ground(against)[1]
+    if axes is not None:
+        T = in_ground(frame)[0].T * _rotation("torque", frame, axes) * T
     return (jacobian(w, frame.c.v).T * T).applyfunc(shortest)
 
 
-def _points(*given: Vector) -> list[sp.Matrix]:
-    return [sp.Matrix(vector_of("Pathway: a point", list(p) if isinstance(p, sp.MatrixBase) else p, 3)) for p in given]
+def _rotation(where: str, frame: MovingFrame, axes: MovingFrame | None) -> sp.Matrix:
+    """Return the rotation into the ground's axes from those of a frame, or of another one."""
+    if axes is not None and (not isinstance(axes, MovingFrame) or axes.c != frame.c):
+        raise InputError(f"{where}: axes = {axes!r} must be a Frame with the same coordinates; Frame(c) is the ground")
+    return in_ground(frame if axes is None else axes)[0]
+
+
+def _points(*points: Vector) -> list[sp.Matrix]:
+    return [sp.Matrix(vector_of("Pathway: a point", list(p) if isinstance(p, sp.MatrixBase) else p, 3)) for p in points]
 
 
 def _distance(p: sp.Matrix, q: sp.Matrix) -> sp.Expr:

@@ -1,11 +1,11 @@
 """Frames that turn and move with the coordinates, the velocities of their points, and joints by name.
 
-A frame is reached from its parent by one step: a turn about one of its axes, a shift along them, or a rotation of one's
-own. With the rotation R (components in the frame → in the parent), the shift d and a dot for d/dt, in the frame's axes,
+A frame is reached from its parent by one step: a turn about one of its axes, a shift along them, or any
+rotation. With the rotation R (components in the frame → in the parent), the shift d and a dot for d/dt, in the frame's axes,
 
     ω = Rᵀ ω_parent + u,        v = Rᵀ (v_parent + ω_parent × d + d'),
 
-u the turn's own rate about its axis (the axial vector of Rᵀ R'). Featherstone, Rigid Body Dynamics Algorithms, ch. 2.
+u the rate of the turn about its axis (the axial vector of Rᵀ R'). Featherstone, Rigid Body Dynamics Algorithms, ch. 2.
 
 Joints are such steps by name: pin, prismatic, screw, cylindrical, universal, planar, weld; ball and free, which have no pole;
 `coincides` and `keeps_axis` close loops. A ball joint turns by a unit quaternion q = (q0, q1, q2, q3), scalar first. Its
@@ -19,7 +19,7 @@ velocities are those of its angular velocity ω relative to the frame before it,
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, TypeVar
+from typing import Any, Self, TypeVar
 
 import sympy as sp
 
@@ -28,6 +28,7 @@ from lagrotor.algebra.subexpressions import with_shared_parts
 from lagrotor.errors import InputError
 from lagrotor.mechanics.expressions import expression, vector_of
 from lagrotor.mechanics.lagrangian import Coordinates, total_derivative
+from lagrotor.renamed import accept_old_keywords
 
 Vector = Sequence[Any]
 AXES = "xyz"
@@ -36,11 +37,7 @@ Kind = TypeVar("Kind", bound="MovingFrame")
 
 @dataclass(frozen=True, eq=False)
 class MovingFrame:
-    """The ground, or a frame reached from its parent.
-
-    axis, amount: the step from the parent: a turn by the angle `amount` about axis 0, 1, 2; a shift by the vector
-    `amount` (axis None); or a rotation matrix. quaternion, omega: of a ball joint, see `moving_frames`.
-    """
+    """The ground, or a frame reached from its parent by one step; `Frame` describes the fields."""
 
     c: Coordinates
     parent: "MovingFrame | None" = None
@@ -56,7 +53,7 @@ class MovingFrame:
 
     @property
     def to_the_ground(self) -> "list[MovingFrame]":
-        """This frame, its parent, and so on."""
+        """The frames from this one to the ground."""
         return [self] if self.parent is None else [self, *self.parent.to_the_ground]
 
     def __repr__(self) -> str:
@@ -68,52 +65,87 @@ class MovingFrame:
             return f"Frame(turned about {AXES[self.axis]} by {self.amount})"
         return f"Frame({'turned' if self.amount.cols == 3 else 'moved'} by {self.amount.tolist()})"
 
-    def turned(self: Kind, axes: Any, angles: Any = None) -> Kind:
-        """Turned about its own axes one after another, "zxz" by three angles; or by a rotation matrix of one's own.
+    def turned(self, axes: Any, angles: Any = None) -> Self:
+        """Return a frame turned about the axes one after another.
 
-        Raises InputError when letters and angles do not fit, or R Rᵀ = 1 is not decided.
+        Parameters
+        ----------
+        axes : str or Matrix
+            Names of axes, "zxz", each in the frame turned before; or a rotation matrix (3, 3).
+        angles : Expr, str or sequence
+            An angle in rad for each axis: expressions, or names of coordinates, "phi theta psi".
+
+        Returns
+        -------
+        Frame
+            The turned frame.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import Frame, coordinates
+        >>> Frame(coordinates("phi theta psi")).turned("zxz", "phi theta psi").angular_velocity[2]
+        phi_dot*cos(theta) + psi_dot
         """
         if not isinstance(axes, str):
             return type(self)(self.c, self, None, _rotation(axes))
-        given = list(angles) if isinstance(angles, Sequence | sp.MatrixBase) else [angles]
-        if not axes or set(axes) - set(AXES) or len(given) != len(axes) or None in given:
+        split = angles.replace(",", " ").split() if isinstance(angles, str) else angles
+        amounts = list(split) if isinstance(split, Sequence | sp.MatrixBase) else [split]
+        if not axes or set(axes) - set(AXES) or len(amounts) != len(axes) or None in amounts:
             raise InputError(f"turned: axes {axes!r} and angles {angles!r}: one angle for each letter of x, y, z")
         frame = self
-        for letter, angle in zip(axes, given, strict=True):
-            frame = type(self)(self.c, frame, AXES.index(letter), expression("turned: angle", angle))
+        for letter, angle in zip(axes, amounts, strict=True):
+            frame = type(self)(self.c, frame, AXES.index(letter), _amount("turned: angle", self, angle))
         return frame
 
-    def moved(self: Kind, x: Any = 0, y: Any = 0, z: Any = 0) -> Kind:
-        """Shifted along its own axes; lengths may be coordinates."""
-        return type(self)(self.c, self, None, sp.Matrix(vector_of("moved: (x, y, z)", (x, y, z), 3)))
+    def moved(self, x: Any = 0, y: Any = 0, z: Any = 0) -> Self:
+        """Return a frame shifted along the axes of this one.
+
+        Parameters
+        ----------
+        x, y, z : Expr or str, default 0
+            Lengths in m, or names of coordinates.
+
+        Returns
+        -------
+        Frame
+            The shifted frame.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import Frame, coordinates
+        >>> Frame(coordinates("s")).moved(z="s").place().T
+        Matrix([[0, 0, s]])
+        """
+        shift = [_amount("moved: (x, y, z)", self, length) for length in (x, y, z)]
+        return type(self)(self.c, self, None, sp.Matrix(shift))
 
     @cached_property
     def rotation(self) -> sp.Matrix:
-        """R: components in this frame → components in the parent."""
+        """The rotation R (3, 3) from components in this frame to components in the parent."""
         if self.axis is not None:
             return turn_matrix(self.axis, self.amount)
         return self.amount if self.parent is not None and self.amount.cols == 3 else sp.eye(3)
 
     @property
     def shift(self) -> sp.Matrix:
-        """d: the origin, from the parent's, in the parent's axes."""
+        """The shift d (3, 1) from the parent's origin to this one, in the parent's axes."""
         shifted = self.parent is not None and self.axis is None and self.amount.cols == 1
         return self.amount if shifted else sp.zeros(3, 1)
 
     @property
-    def own_rate(self) -> sp.Matrix:
-        """u: the turn's own angular velocity, in this frame's axes."""
+    def turn_rate(self) -> sp.Matrix:
+        """The angular velocity u (3, 1) relative to the parent, in the axes of this frame, 1/s."""
         if self.axis is not None:
             return sp.eye(3)[:, self.axis] * total_derivative(self.amount, self.c)
         if self.omega:
-            return sp.Matrix(list(self.own_velocities.values()))
+            return sp.Matrix(list(self.ball_velocities.values()))
         R = self.rotation
         spin = R.T * R.applyfunc(lambda e: total_derivative(e, self.c))
         return sp.Matrix([spin[2, 1], spin[0, 2], spin[1, 0]])
 
     @property
-    def own_velocities(self) -> dict[sp.Symbol, sp.Expr]:
-        """ω of a ball joint by its names: 2 E(q) q'."""
+    def ball_velocities(self) -> dict[sp.Symbol, sp.Expr]:
+        """The angular velocities of a ball joint by symbol, ω = 2 E(q) q'."""
         if not self.omega:
             return {}
         rates = [self.c.v[self.c.q.index(q)] for q in self.quaternion]
@@ -122,69 +154,106 @@ class MovingFrame:
 
     @property
     def unit_length(self) -> sp.Expr:
-        """|q|² − 1 of a ball joint, which stays zero."""
+        """The constraint |q|² − 1 of a ball joint."""
         return sp.Add(*(q**2 for q in self.quaternion), -1)
 
     @cached_property
     def angular_velocity(self) -> sp.Matrix:
-        """ω, in the frame's own axes, (3, 1)."""
+        """The angular velocity ω (3, 1), in the axes of this frame, 1/s."""
         if self.parent is None:
             return sp.zeros(3, 1)
-        return (self.rotation.T * self.parent.angular_velocity + self.own_rate).applyfunc(with_shared_parts)
+        return (self.rotation.T * self.parent.angular_velocity + self.turn_rate).applyfunc(with_shared_parts)
 
     @cached_property
     def origin_velocity(self) -> sp.Matrix:
-        """v of the origin, in the frame's own axes, (3, 1)."""
+        """The velocity v (3, 1) of the origin, in the axes of this frame, m/s."""
         if self.parent is None:
             return sp.zeros(3, 1)
         d = self.shift
         carried = self.parent.angular_velocity.cross(d) + d.applyfunc(lambda e: total_derivative(e, self.c))
         return (self.rotation.T * (self.parent.origin_velocity + carried)).applyfunc(with_shared_parts)
 
-    def place(self, point: Vector = (0, 0, 0), seen: "MovingFrame | None" = None) -> sp.Matrix:
-        """Where a point of the frame is, in the axes of the ground, or of a frame `seen` that it descends from."""
+    @accept_old_keywords
+    def place(self, point: Vector = (0, 0, 0), frame: "MovingFrame | None" = None) -> sp.Matrix:
+        """Return the position of a point of this frame.
+
+        Parameters
+        ----------
+        point : sequence, default (0, 0, 0)
+            Components (x, y, z) in this frame, in m.
+        frame : Frame or None, optional
+            A frame before this one, by default the ground: the result is relative to its origin, in its axes.
+
+        Returns
+        -------
+        Matrix
+            The position, shape (3, 1), in m.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import Frame, coordinates
+        >>> Frame(coordinates("theta")).pin("theta").place((1, 0, 0)).T
+        Matrix([[cos(theta), sin(theta), 0]])
+        """
         position = sp.Matrix(list(point))
-        frame: MovingFrame = self
-        while frame is not seen and frame.parent is not None:
-            position = (frame.rotation * position + frame.shift).applyfunc(with_shared_parts)
-            frame = frame.parent
+        step: MovingFrame = self
+        while step is not frame and step.parent is not None:
+            position = (step.rotation * position + step.shift).applyfunc(with_shared_parts)
+            step = step.parent
         return position
 
-    def velocity(self, point: Vector = (0, 0, 0), seen: "MovingFrame | None" = None) -> sp.Matrix:
-        """The velocity of the point that moves with this frame and is now at `point`; both in the axes of `seen`.
+    @accept_old_keywords
+    def velocity(self, point: Vector = (0, 0, 0), frame: "MovingFrame | None" = None) -> sp.Matrix:
+        """Return the velocity relative to the ground of a point that moves with this frame.
 
-        seen: this frame, or one that it descends from, as the frame of a wheel's axle for the point of contact.
+        Parameters
+        ----------
+        point : sequence, default (0, 0, 0)
+            The present components (x, y, z) of the point in `frame`, in m.
+        frame : Frame or None, optional
+            The frame whose axes are used: this one, or one before it, as that of a wheel's axle for the point of contact.
+
+        Returns
+        -------
+        Matrix
+            The velocity in the axes of `frame`, shape (3, 1), in m/s.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import Frame, coordinates
+        >>> Frame(coordinates("theta")).pin("theta").velocity((1, 0, 0)).T
+        Matrix([[0, theta_dot, 0]])
         """
-        at, other = sp.Matrix(list(point)), seen or self
-        _, spin, origin, drift = self.relative(other)
-        return other.origin_velocity + other.angular_velocity.cross(at) + drift + spin.cross(at - origin)
+        at, axes = sp.Matrix(list(point)), frame or self
+        _, spin, origin, drift = self._relative(axes)
+        return axes.origin_velocity + axes.angular_velocity.cross(at) + drift + spin.cross(at - origin)
 
-    def relative(self, seen: "MovingFrame") -> tuple[sp.Matrix, sp.Matrix, sp.Matrix, sp.Matrix]:
-        """Rotation, ω, origin and its velocity relative to the frame `seen`, in the axes of that frame."""
+    def _relative(self, frame: "MovingFrame") -> tuple[sp.Matrix, sp.Matrix, sp.Matrix, sp.Matrix]:
+        """Return the rotation, ω, the origin and its velocity relative to a frame, in the axes of that frame."""
         steps = self.to_the_ground
-        if seen not in steps:
-            raise InputError("velocity: `seen` must be a frame from which this one was turned or moved")
+        if frame not in steps:
+            raise InputError("velocity: `frame` must be a frame from which this one was turned or moved")
         R, spin, origin, drift = sp.eye(3), sp.zeros(3, 1), sp.zeros(3, 1), sp.zeros(3, 1)
-        for step in reversed(steps[: steps.index(seen)]):
+        for step in reversed(steps[: steps.index(frame)]):
             drift += spin.cross(R * step.shift) + R * step.shift.applyfunc(lambda e: total_derivative(e, self.c))
             origin += R * step.shift
-            before, R = R, R * step.rotation
-            spin += (R if step.axis is None else before) * step.own_rate  # a turn keeps its axis
+            parent_axes, R = R, R * step.rotation
+            spin += (R if step.axis is None else parent_axes) * step.turn_rate  # a turn keeps its axis
         return R, spin, origin, drift
 
 
 def in_ground(frame: MovingFrame) -> tuple[sp.Matrix, sp.Matrix]:
-    """Rotation and ω of a frame in the axes of the ground."""
-    return frame.relative(frame.to_the_ground[-1])[:2]
+    """Return the rotation and ω of a frame in the axes of the ground."""
+    return frame._relative(frame.to_the_ground[-1])[:2]
 
 
 def quaternion_rows(a: Any, b: Any, c: Any, d: Any) -> tuple[tuple[Any, ...], ...]:
-    """E (3, 4) of a unit quaternion, with ω = 2 E q' and q' = ½ Eᵀ ω."""
+    """Return E (3, 4) of a unit quaternion, with ω = 2 E q' and q' = ½ Eᵀ ω."""
     return (-b, a, d, -c), (-c, -d, a, b), (-d, c, -b, a)
 
 
 def turn_matrix(axis: int, angle: sp.Expr) -> sp.Matrix:
-    """The rotation by an angle about axis 0, 1 or 2: components in the turned frame → in the one before."""
+    """Return the rotation by an angle about axis 0, 1 or 2, from components in the turned frame."""
     c, s = sp.cos(angle), sp.sin(angle)
     i, j = (axis + 1) % 3, (axis + 2) % 3
     R = sp.eye(3)
@@ -192,86 +261,86 @@ def turn_matrix(axis: int, angle: sp.Expr) -> sp.Matrix:
     return R
 
 
-def _rotation(given: Any) -> sp.Matrix:
+def _amount(where: str, frame: MovingFrame, amount: Any) -> sp.Expr:
+    """Return an expression, or the coordinate that a text names."""
+    return _coordinate(where, frame, amount) if isinstance(amount, str) else expression(where, amount)
+
+
+def _rotation(matrix: Any) -> sp.Matrix:
     try:
-        R = sp.Matrix(given)
+        R = sp.Matrix(matrix)
     except (TypeError, ValueError):
-        raise InputError(f"turned: {given!r} is neither letters of x, y, z nor a rotation matrix (3, 3)") from None
+        raise InputError(f"turned: {matrix!r} is neither letters of x, y, z nor a rotation matrix (3, 3)") from None
     if R.shape != (3, 3) or decide_equal(R * R.T, sp.eye(3)).answer == "nonzero":
-        raise InputError("turned: a rotation of one's own must be a matrix (3, 3) with R Rᵀ = 1; this one is not")
+        raise InputError("turned: a rotation must be a matrix (3, 3) with R Rᵀ = 1; this one is not")
     if decide_zero(R.det(method="berkowitz") - 1).answer == "nonzero":
         raise InputError("turned: this matrix has R Rᵀ = 1 and det R = −1: it reflects; change the sign of one axis")
     return R
 
 
-def weld(frame: Kind, at: Vector = (0, 0, 0), axes: str = "", angles: Any = ()) -> Kind:
-    """A frame fixed to this one: shifted to `at`, then turned by fixed angles about its axes.
-
-    Raises InputError where a coordinate moves it.
-    """
+def weld(frame: Kind, at: Vector, axes: str, angles: Any) -> Kind:
+    """Fix a frame to another: `Frame.weld`."""
     place = vector_of("weld: at", at, 3)
-    given = [
-        expression("weld: angle", e) for e in (angles if isinstance(angles, Sequence | sp.MatrixBase) else [angles])
-    ]
-    moving = set().union(*(e.free_symbols for e in (*place, *given))) & {*frame.c.q, *frame.c.v}
+    turns = angles if isinstance(angles, Sequence | sp.MatrixBase) and not isinstance(angles, str) else [angles]
+    amounts = [expression("weld: angle", e) for e in turns]
+    moving = set().union(*(e.free_symbols for e in (*place, *amounts))) & {*frame.c.q, *frame.c.v}
     if moving:
         raise InputError(
             f"weld: {', '.join(sorted(map(str, moving)))} moves it: a weld is fixed; take a joint that moves"
         )
     shifted = frame.moved(*place)
-    return shifted.turned(axes, given) if axes or given else shifted
+    return shifted.turned(axes, amounts) if axes or amounts else shifted
 
 
-def pin(frame: Kind, angle: Any, axis: Any = "z") -> Kind:
-    """Turned by an angle about one of its axes, "x", "y" or "z", or about a direction (x, y, z) in them."""
-    return _about("pin", frame, axis, lambda it: it.turned("z", expression("pin: angle", angle)))
+def pin(frame: Kind, angle: Any, axis: Any) -> Kind:
+    """Turn a frame about an axis: `Frame.pin`."""
+    turn = _amount("pin: angle", frame, angle)
+    return _about("pin", frame, axis, lambda it: it.turned("z", turn))
 
 
-def prismatic(frame: Kind, length: Any, axis: Any = "z") -> Kind:
-    """Shifted by a length along one of its axes, or along a direction (x, y, z) in them."""
-    along = _direction("prismatic", axis)
-    return frame.moved(*(along * expression("prismatic: length", length)))
+def prismatic(frame: Kind, length: Any, axis: Any) -> Kind:
+    """Shift a frame along an axis: `Frame.prismatic`."""
+    return frame.moved(*(_direction("prismatic", axis) * _amount("prismatic: length", frame, length)))
 
 
-def cylindrical(frame: Kind, length: Any, angle: Any, axis: Any = "z") -> Kind:
-    """Shifted along an axis, and turned about it."""
+def cylindrical(frame: Kind, length: Any, angle: Any, axis: Any) -> Kind:
+    """Shift a frame along an axis and turn it about it: `Frame.cylindrical`."""
     return _about("cylindrical", frame, axis, lambda it: it.moved(0, 0, length).turned("z", angle))
 
 
-def screw(frame: Kind, angle: Any, pitch: Any, axis: Any = "z") -> Kind:
-    """Turned by an angle about an axis, along which it moves by `pitch` with each turn of 2 π."""
-    turned = expression("screw: angle", angle)
-    way = expression("screw: pitch", pitch) * turned / (2 * sp.pi)
-    return _about("screw", frame, axis, lambda it: it.moved(0, 0, way).turned("z", turned))
+def screw(frame: Kind, angle: Any, pitch: Any, axis: Any) -> Kind:
+    """Turn a frame about an axis along which it advances: `Frame.screw`."""
+    turn = _amount("screw: angle", frame, angle)
+    advance = expression("screw: pitch", pitch) * turn / (2 * sp.pi)
+    return _about("screw", frame, axis, lambda it: it.moved(0, 0, advance).turned("z", turn))
 
 
-def universal(frame: Kind, first: Any, second: Any, axes: str = "xy") -> Kind:
-    """Turned about one of its axes and then about another, a Cardan or Hooke joint."""
+def universal(frame: Kind, first: Any, second: Any, axes: str) -> Kind:
+    """Turn a frame about two of its axes: `Frame.universal`."""
     if not isinstance(axes, str) or len(axes) != 2 or len({*axes}) != 2 or {*axes} - {*AXES}:
         raise InputError(f"universal: axes {axes!r} must be two different letters of x, y, z")
     return frame.turned(axes, [first, second])
 
 
-def planar(frame: Kind, x: Any, y: Any, angle: Any, normal: Any = "z") -> Kind:
-    """Shifted by x and y in the plane across an axis, and turned about it."""
+def planar(frame: Kind, x: Any, y: Any, angle: Any, normal: Any) -> Kind:
+    """Shift a frame in a plane and turn it about the normal: `Frame.planar`."""
     return _about("planar", frame, normal, lambda it: it.moved(x, y, 0).turned("z", angle))
 
 
 def ball_joint(frame: Kind, quaternion: Any, omega: Any) -> Kind:
-    """Turned by a unit quaternion: four of the coordinates by name, scalar first; omega: names of the angular velocities about
-    the axes of the turned frame, which are velocities of the system in place of those of the four.
-
-    Raises InputError for what is no such name.
-    """
+    """Turn a frame by a unit quaternion: `Frame.ball`."""
     q = tuple(_coordinate("ball", frame, name) for name in _names("ball: quaternion", quaternion, 4))
-    names = _names("ball: omega", omega, 3)
-    if len({*q}) < 4 or len({*names}) < 3 or {*names} & {str(s) for s in (*frame.c.q, *frame.c.v, *frame.c.a)}:
+    w = [s if isinstance(s, sp.Symbol) else sp.Symbol(s, real=True) for s in _names("ball: omega", omega, 3)]
+    names = {*map(str, w)}
+    if len({*q}) < 4 or len(names) < 3 or names & {str(s) for s in (*frame.c.q, *frame.c.v, *frame.c.a)}:
         raise InputError(
             f"ball: quaternion {quaternion!r} and omega {omega!r}: seven different names, of which those of omega are no "
             "coordinates'"
         )
-    if taken := [str(s) for step in frame.to_the_ground for s in {*step.quaternion} & {*q}]:
-        raise InputError(f"ball: {taken[0]} turns another ball joint on the way: give each four coordinates of its own")
+    if shared := [str(s) for step in frame.to_the_ground for s in {*step.quaternion} & {*q}]:
+        raise InputError(
+            f"ball: {shared[0]} turns another ball joint on the way: give each four coordinates of its own"
+        )
     a, b, c, d = q
     R = sp.Matrix(
         [
@@ -281,68 +350,62 @@ def ball_joint(frame: Kind, quaternion: Any, omega: Any) -> Kind:
         ]
     )
     step = type(frame)(frame.c, frame, None, R)
-    return replace(step, quaternion=q, omega=tuple(sp.Symbol(name, real=True) for name in names))
+    return replace(step, quaternion=q, omega=tuple(w))
 
 
 def free(frame: Kind, place: Any, quaternion: Any, omega: Any) -> Kind:
-    """Shifted by three coordinates along its axes, and turned as `ball`: six degrees of freedom."""
+    """Shift a frame by three coordinates and turn it by a quaternion: `Frame.free`."""
     x, y, z = (_coordinate("free", frame, name) for name in _names("free: place", place, 3))
     return ball_joint(frame.moved(x, y, z), quaternion, omega)
 
 
-def coincides(
-    frame: MovingFrame, other: MovingFrame, at: Vector = (0, 0, 0), point: Vector = (0, 0, 0)
-) -> tuple[sp.Expr, ...]:
-    """Constraints that hold the point `at` of the frame on the point `point` of another: a ball joint that closes a loop.
-
-    Components that vanish identically are left out. Raises InputError where nothing is bound.
-    """
-    _check_frame("coincides", other)
-    apart = frame.place(vector_of("coincides: at", at, 3)) - other.place(vector_of("coincides: point", point, 3))
-    return _bound("coincides", list(apart), frame)
+def coincides(first: MovingFrame, second: MovingFrame, at: Vector, point: Vector) -> tuple[sp.Expr, ...]:
+    """Return the constraints that hold two points together: `Frame.coincides`."""
+    _check_frame("coincides", second)
+    apart = first.place(vector_of("coincides: at", at, 3)) - second.place(vector_of("coincides: point", point, 3))
+    return _constraints("coincides", list(apart), first)
 
 
-def keeps_axis(frame: MovingFrame, other: MovingFrame, axis: Any = "z", of_other: Any = None) -> tuple[sp.Expr, ...]:
-    """Constraints that hold an axis of the frame along one of another: with `coincides`, a pin that closes a loop.
-
-    The axis has no component along two directions across that of the other; it may be opposite to it.
-    """
-    _check_frame("keeps_axis", other)
-    mine = _direction("keeps_axis", axis)
-    theirs = _direction("keeps_axis", axis if of_other is None else of_other)
-    e = frame.place(list(mine)) - frame.place()
-    seen = [other.place(list(v)) - other.place() for v in _axes_to(theirs)[:2]]
-    return _bound("keeps_axis", [e.dot(v) for v in seen], frame)
+def keeps_axis(first: MovingFrame, second: MovingFrame, axis: Any, second_axis: Any) -> tuple[sp.Expr, ...]:
+    """Return the constraints that hold two axes parallel: `Frame.keeps_axis`."""
+    _check_frame("keeps_axis", second)
+    theirs = _direction("keeps_axis", axis if second_axis is None else second_axis)
+    e = first.place(list(_direction("keeps_axis", axis))) - first.place()
+    transverse = [second.place(list(v)) - second.place() for v in _axes_to(theirs)[:2]]
+    return _constraints("keeps_axis", [e.dot(v) for v in transverse], first)
 
 
-def _check_frame(where: str, other: Any) -> None:
-    if not isinstance(other, MovingFrame):
-        raise InputError(f"{where}: {other!r} must be a Frame, in which the other part of the loop is fixed")
+def _check_frame(where: str, frame: Any) -> None:
+    if not isinstance(frame, MovingFrame):
+        raise InputError(f"{where}: {frame!r} must be a Frame, in which the other part of the loop is fixed")
 
 
-def _bound(where: str, given: Sequence[sp.Expr], frame: MovingFrame) -> tuple[sp.Expr, ...]:
-    kept = tuple(e for e in map(sp.expand, given) if e != 0)
-    if not any(e.free_symbols & {*frame.c.q} for e in kept):
-        raise InputError(f"{where}: {', '.join(map(str, given))} = 0 binds no coordinate: give frames that move apart")
-    return kept
+def _constraints(where: str, components: Sequence[sp.Expr], frame: MovingFrame) -> tuple[sp.Expr, ...]:
+    """Return the components that do not vanish identically."""
+    constraints = tuple(e for e in map(sp.expand, components) if e != 0)
+    if not any(e.free_symbols & {*frame.c.q} for e in constraints):
+        raise InputError(
+            f"{where}: {', '.join(map(str, components))} = 0 binds no coordinate: give frames that move apart"
+        )
+    return constraints
 
 
 def _about(where: str, frame: Kind, axis: Any, step: Any) -> Kind:
-    """A step about z, taken about another axis: turned there before and back after it."""
+    """Take a step about z about another axis instead."""
     if isinstance(axis, str) and axis in ("x", "y", "z"):
         k = AXES.index(axis)
         R = sp.Matrix(3, 3, lambda i, j: int((i - j - k - 1) % 3 == 0))  # z → axis k, x and y → those after it
     else:
         R = sp.Matrix.hstack(*_axes_to(_direction(where, axis)))
     if sp.eye(3) == R:
-        moved: Kind = step(frame)
-        return moved
-    done: Kind = step(frame.turned(R)).turned(R.T)
-    return done
+        direct: Kind = step(frame)
+        return direct
+    returned: Kind = step(frame.turned(R)).turned(R.T)
+    return returned
 
 
 def _axes_to(e: sp.Matrix) -> tuple[sp.Matrix, sp.Matrix, sp.Matrix]:
-    """Three directions of length one across each other, the last e."""
+    """Return three orthonormal directions, the last of them e."""
     k = min(range(3), key=lambda i: (abs(float(e[i])) if e[i].is_number else 0.5, i))
     first = sp.eye(3)[:, k] - e * e[k]
     first = first / sp.sqrt(first.dot(first))
@@ -361,15 +424,20 @@ def _direction(where: str, axis: Any) -> sp.Matrix:
     return e / length
 
 
-def _names(where: str, given: Any, number: int) -> list[str]:
-    names = given.replace(",", " ").split() if isinstance(given, str) else given
-    if not isinstance(names, Sequence) or len(names) != number:
-        raise InputError(f"{where} = {given!r} must be {number} names: {' '.join(f'a{i}' for i in range(number))}")
-    return [str(name) for name in names]
+def _names(where: str, names: Any, number: int) -> list[str | sp.Symbol]:
+    """Return names, of a text or a sequence, or symbols."""
+    listed = names.replace(",", " ").split() if isinstance(names, str) else names
+    if (
+        not isinstance(listed, Sequence)
+        or len(listed) != number
+        or not all(isinstance(s, str | sp.Symbol) for s in listed)
+    ):
+        raise InputError(f"{where} = {names!r} must be {number} names: {' '.join(f'a{i}' for i in range(number))}")
+    return list(listed)
 
 
-def _coordinate(where: str, frame: MovingFrame, name: str) -> sp.Symbol:
-    known = {str(q): q for q in frame.c.q}
-    if name not in known:
-        raise InputError(f"{where}: {name} is none of the coordinates {', '.join(known)}: name some of these")
-    return known[name]
+def _coordinate(where: str, frame: MovingFrame, name: str | sp.Symbol) -> sp.Symbol:
+    coordinates = {str(q): q for q in frame.c.q}
+    if str(name) not in coordinates:
+        raise InputError(f"{where}: {name} is none of the coordinates {', '.join(coordinates)}: name some of these")
+    return coordinates[str(name)]

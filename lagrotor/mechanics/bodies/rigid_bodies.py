@@ -1,31 +1,31 @@
-"""Rigid bodies, and the energies that keep the bodies they are made of.
+"""Rigid bodies, and energies that remember the bodies of which they are made.
 
     T = ½ m |v|² + ½ ω·I ω,        V = −m g·r      (g a uniform field, r the place of the centre).
 
-A sum of such energies and of plain expressions is a Lagrangian that any sympy function takes as an expression; System
-keeps the bodies, whose tree gives faster code and the picture.
+A sum of such energies and of expressions is a Lagrangian, and a sympy expression in every function of sympy. From the
+bodies System makes a tree, which gives faster code and the picture.
 """
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
+from warnings import warn
 
 import sympy as sp
 from mpmath import mp
 
 from lagrotor.algebra import decide_equal
 from lagrotor.errors import InputError
-from lagrotor.mechanics.bodies import moving_frames
+from lagrotor.mechanics.bodies import force_elements, moving_frames
 from lagrotor.mechanics.bodies.contacts import Contact, contact
-from lagrotor.mechanics.bodies.force_elements import push, torque
 from lagrotor.mechanics.bodies.moving_frames import MovingFrame, Vector
 from lagrotor.mechanics.expressions import expression, vector_of
 from lagrotor.mechanics.lagrangian import t
 
 Outline = list[list[Any]]  # points (x, y, z) of lines, in the body's frame
 _ARCS = 32  # chords of a drawn rim
-_ROUNDING = 1e-9  # of an inertia
+_ROUNDING = 1e-9  # relative, of an inertia
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,29 +42,31 @@ class Body:
 
     @property
     def velocity(self) -> sp.Matrix:
-        """v of the centre of mass, in the frame's axes, (3, 1)."""
+        """The velocity (3, 1) of the centre of mass, in the frame's axes, m/s."""
         return self.frame.velocity(self.centre)
 
     @property
     def kinetic(self) -> "Energy":
-        """½ m |v|² + ½ ω·I ω."""
+        """The kinetic energy ½ m |v|² + ½ ω·I ω, in J."""
         return Energy(((self, None, sp.S.One),))
 
     def potential(self, field: Vector) -> "Energy":
-        """−m g·r in a uniform field g (3,), in the ground's axes: (0, 0, −g) for gravity with z up."""
+        """Return −m g·r in a uniform field g, in the ground's axes: (0, 0, −g) for gravity with z up."""
         return Energy(((self, vector_of("potential: field", field, 3), sp.S.One),))
 
     def rolls_on(self, surface: Any, radius: Any, axis: Vector | None = None, centre: Vector | None = None) -> Contact:
-        """The contact, without slip, of a ball of that radius, or of a thin disc about an axis, with a Plane, a Sphere or a
-        Cylinder: see `contacts`. centre: of the ball or the disc, in the frame's axes; the centre of mass unless given."""
+        """Return the contact of a ball, or of a thin disc about an axis, with a Plane, a Sphere or a Cylinder.
+
+        `axis` and `centre`, by default the centre of mass, are in the frame's axes.
+        """
         return contact(self.frame, surface, radius, axis, list(self.centre) if centre is None else centre)
 
     @property
     def outline(self) -> Outline:
-        """Lines to draw: from the frame's origin to the centre, and a rim with the body's axial radius of gyration.
+        """The lines of a picture: from the frame's origin to the centre, and a rim with the axial radius of gyration.
 
-        Where there is neither, lines along its axes. A body that turns in a plane, with inertia about one axis alone, is a
-        uniform rod on the line through both points, where these are apart.
+        Without either they are lines along the axes. A body with inertia about one axis alone is a uniform rod on the line
+        through origin and centre.
         """
         lines: Outline = [[[0, 0, 0], list(self.centre)]] if any(self.centre) else []
         I = [self.inertia[i, i] for i in range(3)]
@@ -82,16 +84,13 @@ class Body:
             lines.append([list(self.centre), *rim])
         if not lines and any(I):
             for k in range(3):
-                reach = sp.sqrt(sp.Abs(sum(I) / 2 - I[k]) / self.mass)  # the body's mean square along its axis k
+                reach = sp.sqrt(sp.Abs(sum(I) / 2 - I[k]) / self.mass)  # root mean square of the body along axis k
                 lines.append([[sign * reach * int(i == k) for i in range(3)] for sign in (-1, 1)])
         return lines or [[[0, 0, 0], [0, 0, 0]]]
 
 
-def make_body(frame: MovingFrame, mass: Any, inertia: Any = (0, 0, 0), centre: Vector = (0, 0, 0)) -> Body:
-    """A rigid body fixed to the frame: mass, inertia (3,) or (3, 3) about its centre of mass, in the frame's axes.
-
-    Raises InputError for a shape that is neither, or an inertia that is not symmetric.
-    """
+def make_body(frame: MovingFrame, mass: Any, inertia: Any, centre: Vector) -> Body:
+    """Fix a rigid body to a frame: `Frame.body`."""
     try:
         I = sp.diag(*inertia) if sp.Matrix(inertia).shape in ((3, 1), (1, 3)) else sp.Matrix(inertia)
         place = sp.Matrix(list(centre))
@@ -101,12 +100,12 @@ def make_body(frame: MovingFrame, mass: Any, inertia: Any = (0, 0, 0), centre: V
         raise InputError(
             f"body: inertia = {inertia!r} must be (I1, I2, I3) or a symmetric (3, 3), the centre (x, y, z)"
         )
-    I = sp.Matrix(3, 3, lambda i, j: I[min(i, j), max(i, j)])  # symmetric as written, too
+    I = sp.Matrix(3, 3, lambda i, j: I[min(i, j), max(i, j)])  # symmetric also as expressions
     m = expression("body: mass", mass)
     if used := (m.free_symbols | I.free_symbols | place.free_symbols) & {*frame.c.q, *frame.c.v, t}:
         raise InputError(
             f"body: {', '.join(sorted(map(str, used)))} in a rigid body: its mass, inertia and centre are fixed; move its "
-            "frame, and give what mass that is lost or gained does to the forces"
+            "frame, and describe a changing mass by forces"
         )
     body = Body(frame, m, I, place)
     check_body("body", body)
@@ -116,8 +115,8 @@ def make_body(frame: MovingFrame, mass: Any, inertia: Any = (0, 0, 0), centre: V
 def check_body(where: str, body: Body, values: Mapping[sp.Symbol, Any] | None = None) -> None:
     """Raise InputError where no body has that mass and inertia: m ≥ 0, and ½ tr I − I = ∫ r rᵀ dm ≥ 0.
 
-    For principal inertias that is I1 ≤ I2 + I3 in turn. Inertia about one axis alone is that of motion in a plane. What has
-    no number is passed over.
+    For principal inertias that is I1 ≤ I2 + I3 in turn. Inertia about one axis alone belongs to motion in a plane. Symbols
+    without a number are not checked.
     """
     mass, I = (e.subs(values or {}) for e in (body.mass, body.inertia))
     if mass.is_negative:
@@ -128,44 +127,399 @@ def check_body(where: str, body: Body, values: Mapping[sp.Symbol, Any] | None = 
         return
     spread = mp.eigsy(mp.matrix((sp.eye(3) * I.trace() / 2 - I).tolist()), eigvals_only=True)
     if min(spread) < -_ROUNDING * max(map(abs, spread)):
-        shown = [[float(e) for e in row] for row in I.tolist()]
+        entries = [[float(e) for e in row] for row in I.tolist()]
         raise InputError(
-            f"{where}: no body has the inertia {shown}: of its principal inertias none is larger than the two others "
+            f"{where}: no body has the inertia {entries}: of its principal inertias none is larger than the two others "
             "together; correct it"
         )
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Frame(MovingFrame):
-    """Frame(c) is the ground; `turned` and `moved` lead to others; `body` fixes a rigid body to one; `push` and `torque` give the
-    generalised forces of a force at one of its points, and of a torque on it. Joints by name lead to others, too, and close
-    loops: see `moving_frames`.
+    """A frame of a mechanism; Frame(c) is the ground.
 
-    c = coordinates("phi theta psi")
-    top = Frame(c).turned("zxz", c.q).body(mass=m, inertia=(I1, I1, I3), centre=(0, 0, l))
-    System(c, top.kinetic - top.potential((0, 0, -g)))
+    `turned`, `moved` and the joints lead to other frames. Vectors, points and axes that a method takes are in the axes of
+    the frame that it belongs to. Angles and lengths are expressions, or names of coordinates; an axis is "x", "y" or "z", or
+    a direction (x, y, z).
+
+    Attributes
+    ----------
+    c : Coordinates
+        The coordinates of the system.
+    parent : Frame or None
+        The frame before the step; None for the ground.
+    axis : int or None
+    amount : Expr or Matrix
+        A turn about axis 0, 1 or 2 by an angle; or a shift (3, 1) or a rotation (3, 3) with axis None.
+    quaternion : tuple of Symbol
+    omega : tuple of Symbol
+        The coordinates, scalar first, and the angular velocities of a ball joint.
+
+    Examples
+    --------
+    >>> from sympy import symbols
+    >>> from lagrotor.mechanics import System, coordinates
+    >>> m, g, l, I1, I3 = symbols("m g l I1 I3", positive=True)
+    >>> c = coordinates("phi theta psi")
+    >>> top = Frame(c).turned("zxz", c.q).body(mass=m, inertia=(I1, I1, I3), centre=(0, 0, l))
+    >>> System(c, top.kinetic - top.potential((0, 0, -g))).cyclic
+    (phi, psi)
     """
 
-    body = make_body
-    push = push
-    torque = torque
-    weld, pin, prismatic, screw = moving_frames.weld, moving_frames.pin, moving_frames.prismatic, moving_frames.screw
-    cylindrical, universal, planar = moving_frames.cylindrical, moving_frames.universal, moving_frames.planar
-    ball, free = moving_frames.ball_joint, moving_frames.free
-    coincides, keeps_axis = moving_frames.coincides, moving_frames.keeps_axis
+    def body(self, mass: Any, inertia: Any = (0, 0, 0), centre: Vector = (0, 0, 0)) -> Body:
+        """Fix a rigid body to this frame.
+
+        Parameters
+        ----------
+        mass : Expr
+            The mass in kg.
+        inertia : sequence or Matrix, default (0, 0, 0)
+            The principal inertias (I1, I2, I3) or the inertia (3, 3) about the centre of mass, in kg m².
+        centre : sequence, default (0, 0, 0)
+            The centre of mass (x, y, z), in m.
+
+        Returns
+        -------
+        Body
+            The body with its energies.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> Frame(coordinates("theta")).pin("theta").body(mass=2, centre=(3, 0, 0)).kinetic.expression
+        9*theta_dot**2
+        """
+        return make_body(self, mass, inertia, centre)
+
+    def force(self, components: Vector, at: Vector = (0, 0, 0), axes: MovingFrame | None = None) -> sp.Matrix:
+        """Return the generalised forces of a force that acts at a point of this frame.
+
+        Parameters
+        ----------
+        components : sequence
+            The force (x, y, z), in N.
+        at : sequence, default (0, 0, 0)
+            The point in this frame, in m.
+        axes : Frame or None, optional
+            The frame in whose axes the force is given; by default this one, Frame(c) for the ground.
+
+        Returns
+        -------
+        Matrix
+            Q for `forces`, shape (n, 1).
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> rod = Frame(coordinates("theta")).pin("theta")
+        >>> rod.force((0, 5, 0), at=(2, 0, 0)), rod.force((0, 5, 0), at=(2, 0, 0), axes=Frame(rod.c))
+        (Matrix([[10]]), Matrix([[10*cos(theta)]]))
+        """
+        return force_elements.force(self, components, at, axes)
+
+    def push(self, force: Vector, at: Vector = (0, 0, 0)) -> sp.Matrix:
+        """Return the generalised forces of a force in the ground's axes: the old form of `force` with axes=Frame(c).
+
+        Parameters
+        ----------
+        force, at : sequence
+            The force in the ground's axes and the point in this frame.
+
+        Returns
+        -------
+        Matrix
+            Q, shape (n, 1).
+        """
+        warn("Frame.push(F, at) is now Frame.force(F, at, axes=Frame(c))", DeprecationWarning, stacklevel=2)
+        return force_elements.force(self, force, at, self.to_the_ground[-1])
+
+    def torque(self, moment: Vector, against: MovingFrame | None = None, axes: MovingFrame | None = None) -> sp.Matrix:
+        """Return the generalised forces of a torque on this frame.
+
+        Parameters
+        ----------
+        moment : sequence
+            The torque (x, y, z), in N m.
+        against : Frame or None, optional
+            The frame on which the reaction acts; by default the ground.
+        axes : Frame or None, optional
+            The frame in whose axes the torque is given; by default this one, Frame(c) for the ground.
+
+        Returns
+        -------
+        Matrix
+            Q for `forces`, shape (n, 1).
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> arm = Frame(coordinates("phi theta")).pin("phi")
+        >>> arm.pin("theta").torque((0, 0, 3), against=arm).T
+        Matrix([[0, 3]])
+        """
+        return force_elements.torque(self, moment, against, axes)
+
+    def weld(self, at: Vector = (0, 0, 0), axes: str = "", angles: Any = ()) -> Self:
+        """Return a frame fixed to this one.
+
+        Parameters
+        ----------
+        at : sequence, default (0, 0, 0)
+            The origin, in m.
+        axes, angles : str and sequence
+            Axes of turns, one after another, and fixed angles in rad.
+
+        Returns
+        -------
+        Frame
+            The fixed frame.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> Frame(coordinates("theta")).pin("theta").weld((0, 2, 0)).place().T
+        Matrix([[-2*sin(theta), 2*cos(theta), 0]])
+        """
+        return moving_frames.weld(self, at, axes, angles)
+
+    def pin(self, angle: Any, axis: Any = "z") -> Self:
+        """Return a frame turned by an angle about an axis.
+
+        Parameters
+        ----------
+        angle, axis : Expr or str
+            The angle in rad and the axis.
+
+        Returns
+        -------
+        Frame
+            The turned frame.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> Frame(coordinates("theta")).pin("theta", "x").angular_velocity.T
+        Matrix([[theta_dot, 0, 0]])
+        """
+        return moving_frames.pin(self, angle, axis)
+
+    def prismatic(self, length: Any, axis: Any = "z") -> Self:
+        """Return a frame shifted along an axis.
+
+        Parameters
+        ----------
+        length, axis : Expr or str
+            The length in m and the axis.
+
+        Returns
+        -------
+        Frame
+            The shifted frame.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> Frame(coordinates("s")).prismatic("s", (3, 4, 0)).place().T
+        Matrix([[3*s/5, 4*s/5, 0]])
+        """
+        return moving_frames.prismatic(self, length, axis)
+
+    def screw(self, angle: Any, pitch: Any, axis: Any = "z") -> Self:
+        """Return a frame that advances along an axis as it turns about it.
+
+        Parameters
+        ----------
+        angle, pitch, axis : Expr or str
+            The angle in rad, the advance in m for each turn of 2 π, and the axis.
+
+        Returns
+        -------
+        Frame
+            The turned and shifted frame.
+
+        Examples
+        --------
+        >>> from sympy import pi
+        >>> from lagrotor.mechanics import coordinates
+        >>> Frame(coordinates("theta")).screw("theta", 2 * pi).place().T
+        Matrix([[0, 0, theta]])
+        """
+        return moving_frames.screw(self, angle, pitch, axis)
+
+    def cylindrical(self, length: Any, angle: Any, axis: Any = "z") -> Self:
+        """Return a frame shifted along an axis and turned about it.
+
+        Parameters
+        ----------
+        length, angle, axis : Expr or str
+            The length in m, the angle in rad and the axis.
+
+        Returns
+        -------
+        Frame
+            The shifted and turned frame.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> Frame(coordinates("s theta")).cylindrical("s", "theta").place((1, 0, 0)).T
+        Matrix([[cos(theta), sin(theta), s]])
+        """
+        return moving_frames.cylindrical(self, length, angle, axis)
+
+    def universal(self, first: Any, second: Any, axes: str = "xy") -> Self:
+        """Return a frame turned about one axis and then about another, by a Cardan or Hooke joint.
+
+        Parameters
+        ----------
+        first, second, axes : Expr or str
+            The angles in rad and two different axes.
+
+        Returns
+        -------
+        Frame
+            The turned frame.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> Frame(coordinates("alpha beta")).universal("alpha", "beta").angular_velocity.T
+        Matrix([[alpha_dot*cos(beta), beta_dot, alpha_dot*sin(beta)]])
+        """
+        return moving_frames.universal(self, first, second, axes)
+
+    def planar(self, x: Any, y: Any, angle: Any, normal: Any = "z") -> Self:
+        """Return a frame shifted in a plane and turned about its normal.
+
+        Parameters
+        ----------
+        x, y, angle, normal : Expr or str
+            The shifts in m, the angle in rad and the axis normal to the plane.
+
+        Returns
+        -------
+        Frame
+            The shifted and turned frame.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> Frame(coordinates("x y theta")).planar("x", "y", "theta").place((1, 0, 0)).T
+        Matrix([[x + cos(theta), y + sin(theta), 0]])
+        """
+        return moving_frames.planar(self, x, y, angle, normal)
+
+    def ball(self, quaternion: Any, omega: Any) -> Self:
+        """Return a frame turned by a unit quaternion, which has no pole.
+
+        Parameters
+        ----------
+        quaternion : str or sequence
+            Four coordinates or their names, scalar first.
+        omega : str or sequence
+            Three new symbols or their names: the angular velocities about the axes of the turned frame, which are
+            velocities of the system in place of those of the four.
+
+        Returns
+        -------
+        Frame
+            The turned frame.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import System, coordinates
+        >>> c = coordinates("a b c d")
+        >>> gyro = Frame(c).ball("a b c d", "u v w").body(mass=1, inertia=(2, 2, 3))
+        >>> System(c, gyro.kinetic).speeds
+        (u, v, w)
+        """
+        return moving_frames.ball_joint(self, quaternion, omega)
+
+    def free(self, place: Any, quaternion: Any, omega: Any) -> Self:
+        """Return a frame shifted along the axes and turned as by `ball`: six degrees of freedom.
+
+        Parameters
+        ----------
+        place : str or sequence
+            Three coordinates or their names.
+        quaternion, omega : str or sequence
+            As of `ball`.
+
+        Returns
+        -------
+        Frame
+            The shifted and turned frame.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> Frame(coordinates("x y z a b c d")).free("x y z", "a b c d", "u v w").place().T
+        Matrix([[x, y, z]])
+        """
+        return moving_frames.free(self, place, quaternion, omega)
+
+    def coincides(self, other: MovingFrame, at: Vector = (0, 0, 0), point: Vector = (0, 0, 0)) -> tuple[sp.Expr, ...]:
+        """Return the constraints that hold a point of this frame on a point of another: a ball joint that closes a loop.
+
+        Parameters
+        ----------
+        other : Frame
+            The other frame.
+        at, point : sequence, default (0, 0, 0)
+            The points in this frame and in the other, in m.
+
+        Returns
+        -------
+        tuple of Expr
+            Expressions that stay zero, without those that vanish identically.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> ground = Frame(coordinates("theta s"))
+        >>> ground.pin("theta").coincides(ground.prismatic("s", "x"), at=(2, 0, 0))
+        (-s + 2*cos(theta), 2*sin(theta))
+        """
+        return moving_frames.coincides(self, other, at, point)
+
+    def keeps_axis(self, other: MovingFrame, axis: Any = "z", other_axis: Any = None) -> tuple[sp.Expr, ...]:
+        """Return the constraints that hold an axis of this frame parallel to one of another.
+
+        With `coincides` they are a pin that closes a loop. The axes may be opposite to each other.
+
+        Parameters
+        ----------
+        other : Frame
+            The other frame.
+        axis, other_axis : str or sequence
+            The axes of this frame and of the other, by default "z" and the same.
+
+        Returns
+        -------
+        tuple of Expr
+            Expressions that stay zero, without those that vanish identically.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> ground = Frame(coordinates("alpha"))
+        >>> ground.pin("alpha", "x").keeps_axis(ground)
+        (-sin(alpha),)
+        """
+        return moving_frames.keeps_axis(self, other, axis, other_axis)
 
 
 @dataclass(frozen=True)
 class Energy:
-    """Σ factor × (kinetic energy, or potential in a field) of bodies, plus an expression; see `Body`."""
+    """A sum of factors times kinetic or potential energies of bodies, plus an expression."""
 
     terms: tuple[tuple[Body, tuple[sp.Expr, ...] | None, sp.Expr], ...]
-    rest: sp.Expr = sp.S.Zero
+    remainder: sp.Expr = sp.S.Zero
 
-    _op_priority = 100.0  # sympy hands + and − over
+    _op_priority = 100.0  # sympy leaves + and − to this class
 
     def __repr__(self) -> str:
-        return f"Energy(bodies={len(self.bodies)}, rest={self.rest})"
+        return f"Energy(bodies={len(self.bodies)}, remainder={self.remainder})"
 
     @property
     def bodies(self) -> tuple[Body, ...]:
@@ -175,12 +529,12 @@ class Energy:
     @cached_property
     def expression(self) -> sp.Expr:
         """The energy in q, v and t."""
-        return sp.Add(self.rest, *(factor * _value(body, field) for body, field, factor in self.terms))
+        return sp.Add(self.remainder, *(factor * _value(body, field) for body, field, factor in self.terms))
 
     @cached_property
     def free_symbols(self) -> set[sp.Basic]:
-        """The symbols in it, velocities left aside."""
-        symbols = set(self.rest.free_symbols)
+        """The symbols of the energy without the velocities."""
+        symbols = set(self.remainder.free_symbols)
         for body, field, factor in self.terms:
             symbols |= (
                 body.mass.free_symbols | body.inertia.free_symbols | body.centre.free_symbols | factor.free_symbols
@@ -195,18 +549,18 @@ class Energy:
     def _sympy_(self) -> sp.Expr:
         return self.expression
 
-    def xreplace(self, put: Mapping[sp.Basic, sp.Basic]) -> "Energy":
-        """The energy with letters put in beside the bodies."""
-        return replace(self, rest=self.rest.xreplace(put))
+    def xreplace(self, replacements: Mapping[sp.Basic, sp.Basic]) -> "Energy":
+        """Return the energy with symbols replaced in its expression, not in the bodies."""
+        return replace(self, remainder=self.remainder.xreplace(replacements))
 
     def __add__(self, other: Any) -> "Energy":
         if isinstance(other, Energy):
-            return Energy(self.terms + other.terms, self.rest + other.rest)
-        return Energy(self.terms, self.rest + expression("Energy: a summand", other))
+            return Energy(self.terms + other.terms, self.remainder + other.remainder)
+        return Energy(self.terms, self.remainder + expression("Energy: a summand", other))
 
     def __mul__(self, factor: Any) -> "Energy":
         number = expression("Energy: a factor", factor)
-        return Energy(tuple((body, field, number * f) for body, field, f in self.terms), number * self.rest)
+        return Energy(tuple((body, field, number * f) for body, field, f in self.terms), number * self.remainder)
 
     def __neg__(self) -> "Energy":
         return self * -1

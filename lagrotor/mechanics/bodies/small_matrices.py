@@ -1,6 +1,6 @@
-"""Matrices of six rows at most, for the many small products of a recursion: zeros cost nothing. Stages keep their entries.
+"""Matrices of at most six rows, in whose products zeros cost nothing. Stages store their entries.
 
-sympy's own matrices do the same, and take most of the recursion's time for it.
+Matrices of sympy would take most of the recursion's time.
 """
 
 from collections.abc import Callable, Sequence
@@ -25,12 +25,10 @@ class Small:
 
     @classmethod
     def of(cls, matrix: sp.Matrix) -> "Small":
-        """A sympy matrix."""
         return cls(matrix.tolist())
 
     @classmethod
     def column(cls, *entries: Any) -> "Small":
-        """A column."""
         return cls([[e] for e in entries])
 
     def __getitem__(self, key: Any) -> Any:
@@ -38,11 +36,10 @@ class Small:
 
     @property
     def T(self) -> "Small":
-        """The transpose."""
         return Small(list(zip(*self.rows, strict=True)))
 
     def each(self, function: Callable[[Any], Any]) -> "Small":
-        """A function of every entry."""
+        """Apply a function to every entry."""
         return Small([[function(e) for e in row] for row in self.rows])
 
     def __add__(self, other: "Small") -> "Small":
@@ -66,37 +63,33 @@ class Small:
         return Small([[_dot(row, column) for column in columns] for row in self.rows])
 
     def dot(self, other: "Small") -> Scalar:
-        """The product of two columns."""
         return _dot([row[0] for row in self.rows], [row[0] for row in other.rows])
 
     def cross(self, other: "Small") -> "Small":
-        """The vector product of two columns of three."""
-        (a, b, c), (x, y, z) = ([row[0] for row in each.rows] for each in (self, other))
+        (a, b, c), (x, y, z) = ([row[0] for row in vector.rows] for vector in (self, other))
         return Small.column(_dot((b, -c), (z, y)), _dot((c, -a), (x, z)), _dot((a, -b), (y, x)))
 
 
 def zeros(rows: int, columns: int) -> Small:
-    """Zeros."""
     return Small([[_0] * columns for _ in range(rows)])
 
 
-def blocks(parts: Sequence[Sequence[Small]]) -> Small:
-    """The matrix made of blocks."""
-    return Small([[e for part in row for e in part.rows[i]] for row in parts for i in range(len(row[0].rows))])
+def blocks(grid: Sequence[Sequence[Small]]) -> Small:
+    return Small([[e for block in row for e in block.rows[i]] for row in grid for i in range(len(row[0].rows))])
 
 
 def halves(e: Small) -> tuple[Small, Small]:
-    """The angular and the linear rows of a matrix of six."""
+    """Return the angular and the linear rows of a matrix of six."""
     return Small(e.rows[:3]), Small(e.rows[3:])
 
 
 def unit(axis: int, length: Scalar) -> Small:
-    """A column of three along an axis."""
+    """Return a column of three along an axis."""
     return Small.column(*(length if i == axis else _0 for i in range(3)))
 
 
 def wedge(v: Small) -> Small:
-    """[v]×, (3, 3)."""
+    """Return [v]×, the matrix (3, 3) of the cross product."""
     return Small([[_0, -v[2], v[1]], [v[2], _0, -v[0]], [-v[1], v[0], _0]])
 
 
@@ -107,7 +100,7 @@ def _dot(a: Sequence[Scalar], b: Sequence[Scalar]) -> Scalar:
 
 @dataclass
 class Stages:
-    """Stages made one after another; an expression that was made before is the stage it was made in."""
+    """Named stages of a program in order; an expression that occurs again is the same stage."""
 
     made: list[Stage] = field(default_factory=list)
     names: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
@@ -123,11 +116,10 @@ class Stages:
         return self.names[e]
 
     def each(self, matrix: Small) -> Small:
-        """Every entry."""
         return matrix.each(self)
 
     def symmetric(self, matrix: Small) -> Small:
-        """Every entry of a symmetric matrix, once."""
+        """Store the entries of a symmetric matrix, each once."""
         n = len(matrix.rows)
         upper = {(i, j): self(matrix[i, j]) for i in range(n) for j in range(i, n)}
         return Small([[upper[min(i, j), max(i, j)] for j in range(n)] for i in range(n)])

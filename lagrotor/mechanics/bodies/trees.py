@@ -1,12 +1,12 @@
-"""A mechanism as a tree of links, each moved from its parent by a joint of any number of coordinates of its own, and by time.
+"""A mechanism as a tree of links, each moved from its parent by a joint with coordinates of its own, and by time.
 
-A joint is a turn about one axis, a shift, or a rotation matrix. A screw, whose turn and shift have one coordinate, is no such
-joint: the mass matrix serves a system with one. The joint's velocity relative to the parent, in the link's axes, is linear in
-the rates of its own coordinates,
+A joint is a turn about one axis, a shift, or a rotation matrix. A screw, whose turn and shift share a coordinate, is no such
+joint: a system with one uses the mass matrix. The joint's velocity relative to the parent, in the link's axes, is linear in
+the rates of its coordinates,
 
     (u, d') = Σ_j s_j(q, t) v_j + s_t(q, t).
 
-Fixed turns and shifts between two joints are taken together, and bodies are brought to the joint's frame that carries them.
+Fixed turns and shifts between two joints are combined, and bodies are expressed in the frame of the joint that carries them.
 """
 
 from dataclasses import dataclass, replace
@@ -35,11 +35,10 @@ class Mass:
 
 @dataclass(frozen=True)
 class TreeLink:
-    """A joint and what it carries.
+    """A joint and the bodies that it carries; parent −1 is the ground.
 
-    parent: its number, −1 for the ground. shift: the link's origin from the parent's, in the parent's axes. rotation, then a
-    turn by `angle` about `axis`, if any: components in the link → in the parent. coordinates: the numbers of its own
-    velocities. columns (6, 1): s_j of each; rate (6, 1): the relative velocity. swing (6, 1): its derivative at a = 0.
+    The link's axes come from the parent's by `shift`, then `rotation`, then a turn by `angle` about `axis`. `coordinates` are
+    the numbers of its velocities, `columns` their s_j, `rate` the relative velocity and `swing` its derivative at a = 0.
     """
 
     parent: int
@@ -55,7 +54,7 @@ class TreeLink:
 
     @property
     def is_round(self) -> bool:
-        """Whether the link turns about an axis about which its bodies are symmetric."""
+        """True if the link turns about an axis of symmetry of its bodies."""
         if self.axis is None:
             return False
         k, i, j = self.axis, (self.axis + 1) % 3, (self.axis + 2) % 3
@@ -69,19 +68,19 @@ class TreeLink:
 
 @dataclass(frozen=True)
 class Tree:
-    """Links, parents first; the field (3, 1) that all bodies are in; the rest of the Lagrangian, at most linear in v."""
+    """The links, parents first, the field (3, 1) on all bodies, and the other terms of the Lagrangian, at most linear in v."""
 
     links: tuple[TreeLink, ...]
     field: sp.Matrix
-    rest: sp.Expr
+    remainder: sp.Expr
 
 
 def tree_of(system: Equations) -> Tree | None:
-    """The tree, if the Lagrangian is one: T of bodies less their potentials in one field, plus a function linear in v."""
+    """Return the tree if the Lagrangian is T of bodies less potentials in one field, plus terms linear in v; else None."""
     L = system.lagrangian
     if not isinstance(L, Energy):
         return None
-    if L.rest.free_symbols & {*system.c.v} and mass_matrix(L.rest, system.c).is_zero_matrix is not True:
+    if L.remainder.free_symbols & {*system.c.v} and mass_matrix(L.remainder, system.c).is_zero_matrix is not True:
         return None
     kinetic = [body for body, field, factor in L.terms if field is None and factor == 1]
     fallen = [(body, field) for body, field, factor in L.terms if field is not None and factor == -1]
@@ -93,20 +92,20 @@ def tree_of(system: Equations) -> Tree | None:
     if links is None:
         return None
     field = sp.Matrix(next(iter(fields))) if fields else sp.zeros(3, 1)
-    return None if field.free_symbols & {*system.c.q, *system.c.v} else Tree(links, field, L.rest)
+    return None if field.free_symbols & {*system.c.q, *system.c.v} else Tree(links, field, L.remainder)
 
 
 def rest_forces(tree: Tree, c: Coordinates) -> sp.Matrix:
-    """The generalised forces of the rest of the Lagrangian, (n, 1), which give no accelerations a part."""
-    return -bias(tree.rest, c)
+    """Return the generalised forces (n, 1) of the other terms of the Lagrangian, which add nothing to the mass matrix."""
+    return -bias(tree.remainder, c)
 
 
 class _NoTreeError(Exception):
-    """A step by coordinates that another joint has, or by velocities; a velocity of one's own that is no joint's."""
+    """A step that shares coordinates with another joint or contains velocities, or a quasi-velocity of no joint."""
 
 
 def _links(system: Equations, bodies: list[Body]) -> tuple[TreeLink, ...] | None:
-    """The links on the way to the bodies; None where they do not make a tree of joints."""
+    """Return the links that carry the bodies; None if they are no tree of joints."""
     walk = _Walk(system)
     try:
         for body in bodies:
@@ -123,7 +122,7 @@ def _links(system: Equations, bodies: list[Body]) -> tuple[TreeLink, ...] | None
 
 
 class _Walk:
-    """The links found so far, and of each frame the link that carries it with the fixed shift and rotation from there."""
+    """The links so far, and for each frame the link that carries it with the fixed shift and rotation from this link."""
 
     def __init__(self, system: Equations) -> None:
         c = self.c = system.c
@@ -144,7 +143,7 @@ class _Walk:
         return self.known[frame]
 
     def step(self, frame: MovingFrame, parent: int, d: sp.Matrix, R: sp.Matrix) -> Place:
-        """One step of frames on from a place: a new link where the step moves."""
+        """Take the step of a frame from a place; a step that moves makes a new link."""
         is_shift = frame.axis is None and frame.amount.cols == 1
         moving = frame.amount.free_symbols & self.moving
         if not moving:
@@ -155,7 +154,7 @@ class _Walk:
             raise _NoTreeError
         self.used |= moving - {t}
         self.turned += speeds
-        own = tuple(self.number[u] for u in speeds)
+        numbers = tuple(self.number[u] for u in speeds)
         if frame.omega:
             columns = [blocks([[unit(k, sp.S.One)], [_NONE]]) for k in range(3)]
             rate, swing = blocks([[Small.column(*speeds)], [_NONE]]), zeros(6, 1)
@@ -168,19 +167,21 @@ class _Walk:
             d = d + R * frame.amount
         elif frame.axis is None:
             R = R * frame.amount
-        self.links.append(TreeLink(parent, d, R, frame.axis, angle, own, tuple(columns[: len(own)]), rate, swing))
+        self.links.append(
+            TreeLink(parent, d, R, frame.axis, angle, numbers, tuple(columns[: len(numbers)]), rate, swing)
+        )
         self.masses.append([])
         return len(self.links) - 1, sp.zeros(3, 1), sp.eye(3)
 
 
 def _slope(frame: MovingFrame, s: sp.Symbol) -> Small:
-    """The derivative of a step by one coordinate, or the time, in the axes that it leads to, (6, 1)."""
+    """Return the derivative (6, 1) of a step by a coordinate or time, in the axes after it."""
     if frame.axis is not None:
         return blocks([[unit(frame.axis, derivative(frame.amount, s))], [_NONE]])
-    moved = _derivative(Small.of(frame.amount), s)
+    slope = _derivative(Small.of(frame.amount), s)
     if frame.amount.cols == 1:
-        return blocks([[_NONE], [moved]])
-    spin = Small.of(frame.amount).T * moved
+        return blocks([[_NONE], [slope]])
+    spin = Small.of(frame.amount).T * slope
     return blocks([[Small.column(spin[2, 1], spin[0, 2], spin[1, 0])], [_NONE]])
 
 

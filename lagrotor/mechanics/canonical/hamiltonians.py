@@ -1,4 +1,4 @@
-"""The Hamiltonian of a system: momenta, Poisson brackets, what is conserved, canonical transformations.
+"""The Hamiltonian of a system: momenta, Poisson brackets, first integrals, canonical transformations.
 
     q' = ∂H/∂p,   p' = −∂H/∂q,       {f, g} = ∂f/∂q·∂g/∂p − ∂f/∂p·∂g/∂q.
 
@@ -8,7 +8,7 @@ Canonical transformations (q, p) → (Q, P) come from a generating function of t
 
     p = ∂F/∂q,     Q = ∂F/∂P,     K = H + ∂F/∂t,
 
-whatever F is, where det ∂²F/∂q∂P ≠ 0. Where K does not have Q, P are first integrals: the equation of Hamilton and Jacobi.
+for every F with det ∂²F/∂q∂P ≠ 0. If K does not contain Q, the P are first integrals: the Hamilton–Jacobi equation.
 Goldstein, Classical Mechanics, § 9.1, ch. 10; Arnold, § 48.
 """
 
@@ -32,10 +32,29 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Hamiltonian:
-    """H(q, p, t) with the bracket of its variables. v: q' of the Lagrangian.
+    """A Hamiltonian H(q, p, t) with the Poisson bracket of its variables.
 
-    Every method raises InputError for a function with a velocity, or with another symbol of the name of q, p or t: it would
-    count as a constant.
+    Every method raises InputError for a function with a velocity, or with another symbol that has the name of q, p or t: it
+    would count as a constant.
+
+    Attributes
+    ----------
+    H : Expr
+        The Hamiltonian.
+    q : tuple of Symbol
+    p : tuple of Symbol
+        The coordinates and momenta.
+    v : tuple of Symbol
+        The velocities of the Lagrangian.
+
+    Examples
+    --------
+    >>> from lagrotor.mechanics import System, coordinates
+    >>> c = coordinates("x")
+    >>> h = System(c, c.x_dot**2 / 2 - c.x**2 / 2).hamiltonian()
+    >>> (x,), (p,) = h.q, h.p
+    >>> h.bracket(x, p), h.rate(x), h.conserved(p**2 + x**2).answer, h.canonical((p,), (-x,)).answer
+    (1, p_x, 'zero', 'zero')
     """
 
     H: sp.Expr
@@ -44,13 +63,24 @@ class Hamiltonian:
     v: tuple[sp.Symbol, ...] = ()
 
     def bracket(self, f: sp.Expr, g: sp.Expr) -> sp.Expr:
-        """{f, g}."""
+        """Return the Poisson bracket {f, g}.
+
+        Parameters
+        ----------
+        f, g : Expr
+            Functions of q, p and t.
+
+        Returns
+        -------
+        Expr
+            The bracket.
+        """
         f, g = self._function("bracket", f), self._function("bracket", g)
         fq, fp, gq, gp = (gradient(e, s) for e in (f, g) for s in (self.q, self.p))
         return shortest(fq.dot(gp) - fp.dot(gq))
 
-    def _function(self, where: str, given: sp.Expr) -> sp.Expr:
-        e, names = expression(where, given), {str(s): s for s in (*self.q, *self.p, t)}
+    def _function(self, where: str, f: sp.Expr) -> sp.Expr:
+        e, names = expression(where, f), {str(s): s for s in (*self.q, *self.p, t)}
         for s in sorted(e.free_symbols, key=str):
             if s in self.v:
                 raise InputError(f"{where}: {e} contains the velocity {s}: write it by the momenta {self.p}")
@@ -61,36 +91,77 @@ class Hamiltonian:
         return e
 
     def rate(self, f: sp.Expr) -> sp.Expr:
-        """df/dt = {f, H} + ∂f/∂t along a motion."""
+        """Return df/dt = {f, H} + ∂f/∂t along a motion.
+
+        Parameters
+        ----------
+        f : Expr
+            A function of q, p and t.
+
+        Returns
+        -------
+        Expr
+            df/dt in q, p and t.
+        """
         return shortest(self.bracket(f, self.H) + derivative(f, t))
 
     def conserved(self, f: sp.Expr) -> Decision:
-        """Return whether f(q, p, t) is a first integral, decided."""
+        """Decide if f is a first integral.
+
+        Parameters
+        ----------
+        f : Expr
+            A function of q, p and t.
+
+        Returns
+        -------
+        Decision
+            "zero" if df/dt vanishes.
+        """
         return decide_zero(self.bracket(f, self.H) + derivative(f, t))
 
     def canonical(self, Q: Sequence[sp.Expr], P: Sequence[sp.Expr]) -> Decision:
-        """Return whether (q, p) → (Q, P) keeps the brackets, {Q_i, P_j} = δ_ij and all others zero: decided. Arnold § 45."""
+        """Decide if (q, p) → (Q, P) preserves the brackets: {Q_i, P_j} = δ_ij, all others zero. Arnold § 45.
+
+        Parameters
+        ----------
+        Q, P : sequence
+            n functions of q, p and t each.
+
+        Returns
+        -------
+        Decision
+            "zero" if the transformation is canonical.
+        """
         n = len(self.q)
         new = sp.Matrix([*vector_of("canonical: Q", Q, n), *vector_of("canonical: P", P, n)])
         brackets = sp.Matrix(2 * n, 2 * n, lambda a, b: self.bracket(new[a], new[b]))
         return decide_equal(brackets, sp.Matrix(sp.BlockMatrix([[sp.zeros(n), sp.eye(n)], [-sp.eye(n), sp.zeros(n)]])))
 
     def generated(self, F: sp.Expr, P: Sequence[sp.Symbol]) -> "GeneratedTransformation":
-        """The canonical transformation of the generating function F(q, P, t): see the head of the module.
+        """Return the canonical transformation of a generating function F(q, P, t).
 
-        P: the new momenta, symbols of their own.
+        Parameters
+        ----------
+        F : Expr
+            The function, without old momenta.
+        P : sequence
+            New symbols of the new momenta.
+
+        Returns
+        -------
+        GeneratedTransformation
+            The transformation and the new Hamiltonian.
 
         Raises
         ------
-        InputError
-            For a P that is no symbol or is already one of H, and an F with old momenta.
         SingularError
-            Where det ∂²F/∂q∂P vanishes identically: it generates nothing.
+            If det ∂²F/∂q∂P vanishes identically.
         """
         F, q, p = self._function("generated: F", F), self.q, self.p
         new = vector_of("generated: P", P, len(q))
-        taken = {*q, *p, t} | self.H.free_symbols
-        if len({*new}) < len(new) or not all(isinstance(s, sp.Symbol) and s not in taken for s in new):
+        used = {*q, *p, t} | self.H.free_symbols
+        if len({*new}) < len(new) or not all(isinstance(s, sp.Symbol) and s not in used for s in new):
             raise InputError(f"generated: P = {new} must be {len(q)} symbols that H does not have: name new ones")
         if old := F.free_symbols & {*p}:
             raise InputError(
@@ -110,34 +181,37 @@ class Hamiltonian:
         detuning: float = 0.0,
         period: float | None = None,
     ) -> "NormalForm":
-        """Birkhoff's normal form through an order about the equilibrium `at`: see `normal_forms.NormalForm`.
+        """Compute Birkhoff's normal form about an equilibrium, or about a periodic orbit.
 
-        With a period about the periodic orbit that begins near `at`, of the same energy, or driven: a `ReturnMapForm`.
-
-        A steady motion is an equilibrium of what `System.routh` leaves of its angles. With letters for their momenta the
-        derivatives of the actions' coefficients by them are the mean rates of the angles.
+        A steady motion is an equilibrium of the system that `System.routh` returns. With symbols for its momenta the
+        derivatives of the normal form by them are the mean rates of the cyclic angles.
 
         Parameters
         ----------
+        order : int
+            The highest degree in the coordinates and momenta.
         at : mapping
-            {coordinate or momentum: value}; where no momentum is named they are those of rest, of an orbit those of the
-            velocities in it; t: of a drive.
-        values : Mapping[Any, Any] or None, optional
-            Of the parameters; without them the coefficients are exact where the frequencies are rational, or rational in
-            the parameters.
+            {coordinate or momentum: value}. Momenta that are not named are those of rest; of an orbit, those of the
+            velocities. With t it is a point of a driven orbit.
+        values : mapping or None, optional
+            {symbol: number}; without them the coefficients are exact if the frequencies are rational, or rational in the
+            parameters.
         detuning : float, default 0.0
-            What is combined of the frequencies, in rad/s, up to which a resonance is kept.
+            The largest combination of the frequencies, in rad/s, that counts as a resonance.
         period : float or None, optional
-            Of the orbit, s; near enough is enough, but that of a drive.
+            The period of the orbit in s: exact for a drive, approximate for the orbit through the energy of `at`.
+
+        Returns
+        -------
+        NormalForm or ReturnMapForm
+            The form about an equilibrium; with a period, that of the return map.
 
         Raises
         ------
-        InputError
-            Where `at` is none of these, a coordinate is not named or a letter needs a value.
         DomainError
-            Where H is not analytic there, or depends on time without a period.
+            If H is not analytic there, or depends on time without a period.
         SingularError
-            Where a multiplier of an orbit is 1 or −1.
+            If a multiplier of the orbit is 1 or −1.
         """
         from lagrotor.mechanics.canonical.normal_forms import normal_form_at
 
@@ -163,17 +237,17 @@ class Hamiltonian:
     def _with_values(
         self, at: Mapping[Any, Any], named: Sequence[sp.Symbol], values: Mapping[Any, Any]
     ) -> tuple[sp.Expr, dict[sp.Symbol, sp.Expr]]:
-        """H and a point with values of the parameters."""
+        """Return H and a point with numbers for the parameters."""
         where = "normal_form"
         point = {s: expression(f"{where}: {s}", e) for s, e in by_symbol(f"{where}: at", at, named).items()}
         letters = self.H.free_symbols.union(*(e.free_symbols for e in point.values()))
-        known = {s: expression(f"{where}: {s}", e) for s, e in by_symbol(f"{where}: values", values, letters).items()}
-        return self.H.xreplace(known), {s: e.xreplace(known) for s, e in point.items()}
+        numbers = {s: expression(f"{where}: {s}", e) for s, e in by_symbol(f"{where}: values", values, letters).items()}
+        return self.H.xreplace(numbers), {s: e.xreplace(numbers) for s, e in point.items()}
 
     def _about_orbit(
         self, order: int, at: Mapping[Any, Any], values: Mapping[Any, Any], detuning: float, period: float
     ) -> "ReturnMapForm":
-        """The start in numbers, without the angles that H does not have: their momenta are parameters."""
+        """Compute the form of the return map; the momenta of angles that H does not contain are parameters."""
         from lagrotor.mechanics.canonical.normal_forms import check_form_order
         from lagrotor.mechanics.canonical.return_maps import return_map_form
 
@@ -200,18 +274,14 @@ class Hamiltonian:
         elif both := [str(s) for s in point if s in self.v]:
             raise InputError(f"normal_form: at names momenta and velocities ({', '.join(both)}): give one kind")
         start = {s: float(place.get(s, 0)) for s in (*x, t)}
-        kept = [H.has(q) for q in self.q]
-        H = H.xreplace({p: sp.Float(start[p], 17) for p, own in zip(self.p, kept, strict=True) if not own})
-        x = tuple(s for s, own in zip(x, kept * 2, strict=True) if own)
+        present = [H.has(q) for q in self.q]
+        H = H.xreplace({p: sp.Float(start[p], 17) for p, enters in zip(self.p, present, strict=True) if not enters})
+        x = tuple(s for s, enters in zip(x, present * 2, strict=True) if enters)
         return return_map_form(H, x, start, duration, int(order), float(detuning))
 
 
 def hamiltonian(system: Equations, momenta: Sequence[sp.Symbol] | None = None) -> Hamiltonian:
-    """H = p·v − L with the momenta p = ∂L/∂v, named p_q unless given.
-
-    Raises DomainError for what no Hamiltonian has: forces, friction, constraints, or an L that is not quadratic in the
-    velocities; SingularError where det M vanishes.
-    """
+    """Return H = p·v − L: `System.hamiltonian`."""
     if system.forces or system.dissipation != 0 or system.rolling or system.constraints:
         raise DomainError(
             "hamiltonian: forces, friction and constraints have no Hamiltonian here: write what has a potential into L, and use "
@@ -226,9 +296,18 @@ def hamiltonian(system: Equations, momenta: Sequence[sp.Symbol] | None = None) -
 
 @dataclass(frozen=True)
 class GeneratedTransformation:
-    """new: P, old: p, symbols; p_of and Q_of: old momenta and new coordinates of (q, P, t), and the new Hamiltonian K.
+    """A canonical transformation by a generating function. P(q, p, t) is a solution of p = p_of for P, as by sympy's solve.
 
-    Q and P of (q, p, t) are solutions of p = p_of for P, as of sympy's solve.
+    Attributes
+    ----------
+    new : tuple of Symbol
+    old : tuple of Symbol
+        The momenta P and p.
+    p_of : tuple of Expr
+    Q_of : tuple of Expr
+        The old momenta and the new coordinates in (q, P, t).
+    K : Expr
+        The new Hamiltonian in (q, P, t).
     """
 
     new: tuple[sp.Symbol, ...]

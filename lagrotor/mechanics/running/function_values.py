@@ -87,6 +87,10 @@ def put_functions(where: str, system: Kind, values: Any, others: Sequence[sp.Exp
     functions = {str(f.func): f.func for f in applied}
     if not isinstance(values, Mapping):
         raise InputError(f"{where}: values = {values!r} must be {{symbol: number, …}}, a dictionary")
+    by_function = dict(_by_function(where, key, value) for key, value in values.items())
+    if len(by_function) < len(values):
+        raise InputError(f"{where}: a function has two values, as U and as U(x): give one")
+    values = by_function
     if not (functions or any(isinstance(key, UndefinedFunction) for key in values)):
         return system, values
     named = {
@@ -122,6 +126,16 @@ def put_functions(where: str, system: Kind, values: Any, others: Sequence[sp.Exp
     return (_with_expressions(system, lambdas) if lambdas else system), numbers
 
 
+def _by_function(where: str, key: Any, value: Any) -> tuple[Any, Any]:
+    """Return U and Lambda(x, value) of a value that is named U(x); any other pair as it is."""
+    if not isinstance(key, AppliedUndef):
+        return key, value
+    if not all(a.is_Symbol for a in key.args) or len({*key.args}) < len(key.args):
+        raise InputError(f"{where}: values name {key}, no function of different symbols: name {key.func} alone")
+    expressed = isinstance(value, sp.Expr | int | float) and not isinstance(value, bool | sp.Lambda)
+    return key.func, sp.Lambda(key.args, value) if expressed else value
+
+
 def _with_expressions(system: Kind, lambdas: Mapping[str, sp.Lambda]) -> Kind:
     """Substitute expressions for functions in the system."""
 
@@ -131,10 +145,10 @@ def _with_expressions(system: Kind, lambdas: Mapping[str, sp.Lambda]) -> Kind:
     lagrangian: Any = system.lagrangian
     if not system.bodies:
         lagrangian = put(lagrangian)
-    elif unknown_functions(system.L - sp.sympify(lagrangian.rest, strict=True)):  # in the position of a frame
+    elif unknown_functions(system.L - sp.sympify(lagrangian.remainder, strict=True)):  # in the position of a frame
         lagrangian = put(system.L)
     else:
-        lagrangian = replace(lagrangian, rest=put(lagrangian.rest))
+        lagrangian = replace(lagrangian, remainder=put(lagrangian.remainder))
     return replace(
         system,
         lagrangian=lagrangian,

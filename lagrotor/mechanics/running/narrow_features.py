@@ -47,7 +47,7 @@ class NarrowPart(NamedTuple):
 @lru_cache(maxsize=64)
 def _parts(system: Equations, section: sp.Expr | None) -> tuple[NarrowPart, ...]:
     """Return the terms of a section, or of the energy and forces, that may be narrow, one for each argument."""
-    energy = getattr(system.lagrangian, "rest", system.lagrangian)
+    energy = getattr(system.lagrangian, "remainder", system.lagrangian)
     states = {*system.c.q, *system.c.v, *system.speeds}
     narrow: dict[sp.Expr, NarrowPart] = {}
 

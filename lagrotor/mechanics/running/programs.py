@@ -206,7 +206,7 @@ def mass_program(system: Equations) -> Generated:
 def start_program(system: Equations) -> Generated:
     """Generate (q, u, t) → M, g, ∂g/∂q, and rows for u' and residuals of the constraints that multipliers keep. M is the mass
     matrix of the velocities v, and the unit matrix for quasi-velocities."""
-    h, M = len(system.constraints), system.mass if system.kinematics is None else sp.eye(len(system.speeds))
+    h, M = len(system.constraints), system.mass_matrix if system.kinematics is None else sp.eye(len(system.speeds))
     residual = [system.residual[i] for i in system.left]
     return function_program(system, *M, *system.constraints, *system.rows[:h, :], *rows_left(system)[0], *residual)
 
@@ -288,8 +288,8 @@ def constrained_motion(system: Equations, every: bool = True) -> tuple[list[Stag
     multipliers = dict(zip(kinematics.left, lam, strict=True))
     if kinematics.used and every:
         reactions = system.rows.extract(list(kinematics.left), list(range(len(a)))).T * sp.Matrix(len(lam), 1, lam)
-        push = system.push.xreplace({system.multipliers[i]: e for i, e in multipliers.items()})
-        missing = kinematics.inverse.T * (system.mass * a + system.bias - push - reactions)
+        push = system.generalised_forces.xreplace({system.multipliers[i]: e for i, e in multipliers.items()})
+        missing = kinematics.inverse.T * (system.mass_matrix * a + system.bias - push - reactions)
         multipliers |= dict(zip(kinematics.used, missing[len(rates) :, :], strict=True))
     return stages, list(a), [multipliers[i] for i in sorted(multipliers)]
 
@@ -297,7 +297,7 @@ def constrained_motion(system: Equations, every: bool = True) -> tuple[list[Stag
 def motion_of_speeds(system: Equations) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
     """Return stages, u' and the independent multipliers, by the recursion of a tree of bodies or from the mass matrix."""
     G, gamma = rows_left(system)
-    friction = bool(system.push.free_symbols & {*system.multipliers})
+    friction = bool(system.generalised_forces.free_symbols & {*system.multipliers})
     if (by_tree := tree_motion(system)) is not None:
         return under_constraints(*by_tree, G, gamma, friction)
     (first, _, push), (added, weight, M) = equations_of_speeds(system), inertia(system)
@@ -318,14 +318,14 @@ def equations_of_speeds(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.M
     if _is_long(system):
         return swept_equations(system)
     kinematics, first = system.kinematics, velocity_stages(system)
-    M, push = system.mass, system.push - system.bias
+    M, push = system.mass_matrix, system.generalised_forces - system.bias
     if kinematics is None:
         return first, M, push
     if kinematics.stages:
         return first, kinematics.B.T * M * kinematics.B, kinematics.B.T * (push - M * kinematics.alpha)
     M, h = boltzmann_hamel(system.L, system.c, kinematics, system.speeds)
     velocities = dict(zip(system.c.v, kinematics.velocity, strict=True))
-    return first, M, kinematics.B.T * system.push.xreplace(velocities) - h
+    return first, M, kinematics.B.T * system.generalised_forces.xreplace(velocities) - h
 
 
 def tree_motion(system: Equations) -> tuple[list[Stage], sp.Matrix] | None:
@@ -335,7 +335,7 @@ def tree_motion(system: Equations) -> tuple[list[Stage], sp.Matrix] | None:
     if tree is None:
         return None
     keep, (G, _), kinematics = Stages(), rows_left(system), system.kinematics
-    push = system.push + rest_forces(tree, system.c)
+    push = system.generalised_forces + rest_forces(tree, system.c)
     push, by_reaction = push_left(system, push if kinematics is None else kinematics.B.T * push)
     columns = [list(push), *((G.T + by_reaction).col(i).flat() for i in range(G.rows))]
     try:

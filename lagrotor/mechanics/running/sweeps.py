@@ -51,7 +51,7 @@ def swept_equations(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matri
             column[i] = e
         for i in range(j, m):
             M[i, j] = M[j, i] = keep(B[:, i].dot(column))
-    return [*first, *keep.made[place:]], M, B.T * (forces + system.push)
+    return [*first, *keep.made[place:]], M, B.T * (forces + system.generalised_forces)
 
 
 def swept_energy(system: Equations) -> tuple[list[Stage], sp.Expr]:

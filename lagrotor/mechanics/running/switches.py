@@ -142,7 +142,7 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
     """Return the system with a symbol σ for each sign that jumps where the state passes a surface, and these surfaces. sign(w)
     → σ, |w| → σ w, Heaviside(w) → (1 + σ)/2, Max(a, b) → (a + b + σ (a − b))/2, Min(a, b) with −σ."""
     moving = {*system.c.q, *system.c.v, *system.reactions, t}
-    L = getattr(system.lagrangian, "rest", system.lagrangian)  # for bodies, the terms added to their energy
+    L = getattr(system.lagrangian, "remainder", system.lagrangian)  # for bodies, the terms added to their energy
     places = [*system.forces, system.dissipation, L]
     substitutions: dict[sp.Expr, sp.Expr] = {}
     signs: dict[sp.Expr, sp.Expr] = {}
@@ -153,8 +153,8 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
             opposite = sp.expand(-w)
             s = -signs[opposite] if opposite in signs else signs.setdefault(w, sp.Symbol(f"sign({w})", real=True))
             substitutions[atom] = _smooth(atom, w, s)
-    for root in system.push.atoms(sp.Pow):
-        if root.exp == sp.Rational(-1, 2) and _jumps_at_zero(system.push, root.base, system.c.v):
+    for root in system.generalised_forces.atoms(sp.Pow):
+        if root.exp == sp.Rational(-1, 2) and _jumps_at_zero(system.generalised_forces, root.base, system.c.v):
             raise InputError(
                 f"simulate: {root} is not defined where {root.base} = 0, and dry friction in several directions at once, "
                 f"which sticks there, is not supported: add the square of a small speed under the root, {root.base} + v_0**2; "
@@ -252,7 +252,7 @@ def _friction(system: Equations, w: sp.Expr, s: sp.Symbol) -> sp.Expr | None:
         return None
     i = next(i for i, e in enumerate(slope) if e != 0)
     on_surface = {c.v[i]: c.v[i] - w / slope[i]}
-    above, below = (system.push.subs(s, side).subs(on_surface) for side in (1, -1))
+    above, below = (system.generalised_forces.subs(s, side).subs(on_surface) for side in (1, -1))
     jump = (above - below) / 2
     F = sp.cancel(-jump[i] / slope[i]) if jump[i] != 0 else sp.S.Zero
     return F if all(decide_zero(e).answer == "zero" for e in jump + F * slope) else None

@@ -1,12 +1,12 @@
 """Stability of the paired precession: the Floquet multipliers of the exact periodic orbit.
 
-Of the six multipliers four are 1: the energy with the shift of time, the momentum with the turning about the joint
-line. The other two, mu and 1/mu, belong to the slow motion of the mean x and the mean twist; their sum is the trace of
-the monodromy less four. The orbit is elliptic where |mu + 1/mu| < 2, hyperbolic where mu is real.
+Of the six multipliers four are 1: the energy with the shift of time, the momentum with the rotation about the joint line. The
+other two, mu and 1/mu, belong to the slow motion of the mean x and the mean twist; their sum is the trace of the monodromy
+matrix minus four. The orbit is elliptic if |mu + 1/mu| < 2, hyperbolic if mu is real.
 
-A quarter of a turn gives all of it. At Phi = 0 the motion is its own image with time reversed under A = diag(1, −1, −1,
-−1, 1, 1), at Phi = pi/2 under B = diag(−1, 1, −1, 1, −1, 1), in (U, chi, alpha, rates). With Q the quarter's derivative by
-the start, that of half a turn, brought back by A B, is A Q⁻¹ B Q, and the monodromy is its square.
+A quarter of a turn suffices. At Phi = 0 the motion is its own image with time reversed under A = diag(1, −1, −1, −1, 1, 1), at
+Phi = pi/2 under B = diag(−1, 1, −1, 1, −1, 1), in (U, chi, alpha, rates). With Q the derivative of the quarter by the start,
+that of half a turn, mapped back by A B, is A Q⁻¹ B Q, and the monodromy matrix is its square.
 """
 
 from dataclasses import dataclass, replace
@@ -25,20 +25,20 @@ from lagrotor.pair.scene import Scene
 from lagrotor.result_display import Shown
 from lagrotor.theory.averaged_motion import slow_frequency
 
-# Bound of the trace's error, relative to the size of the monodromy; held by tests/theory/test_paired_stability.py.
+# Bound of the error of the trace relative to the monodromy matrix, checked in tests/theory/test_paired_stability.py.
 _INTEGRATED = 1e-13
-# What reversed time does to the state, about the start and about the end of a quarter of a turn.
+# Time reversal of the state about the start and about the end of a quarter turn.
 _A, _B = np.array([[1.0, -1, -1, -1, 1, 1], [-1.0, 1, -1, 1, -1, 1]])[..., None]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Floquet(Shown):
-    """multipliers (6,), complex: four ones, mu, 1/mu, NaN where one is smaller than its error; errors (6,): bounds of their
-    errors, zero of the ones. pair_sum: mu + 1/mu. monodromy (6, 6) in (U, chi, alpha, rates).
+    """The multipliers of an orbit.
 
-    growth: log |mu| per turn (0 on an elliptic orbit); turning: angle of mu per turn (rad) on an elliptic orbit.
-    frequency: of the orbit (rad/s). error: bound of the error of pair_sum, within which the kind is "unresolved";
-    exponent_error: of growth and turning (rad a turn).
+    multipliers (6,), complex: four ones, mu, 1/mu, NaN if smaller than the error; errors (6,): bounds of their errors.
+    pair_sum: mu + 1/mu. monodromy (6, 6) in (U, chi, alpha, rates). growth: log |mu| per turn, 0 on an elliptic orbit;
+    turning: the angle of mu per turn (rad) on an elliptic orbit. frequency: that of the orbit (rad/s). error: a bound for
+    pair_sum, within which the kind is "unresolved".
     """
 
     multipliers: NDArray[np.complex128]
@@ -52,7 +52,7 @@ class Floquet(Shown):
     errors: Array
 
     def summary(self) -> dict[str, str]:
-        """Kind, multipliers and exponents, name → words."""
+        """Return kind, multipliers and exponents in words."""
         pair = multiplier_rows(self.multipliers[4:], self.errors[4:]).values()
         per_turn = f"growth {self.growth:.6g}" if self.kind == "hyperbolic" else f"angle {self.turning:.6g} rad"
         return {
@@ -65,75 +65,83 @@ class Floquet(Shown):
 
     @property
     def slow_frequency(self) -> complex:
-        """Of the motion beside the orbit (rad/s), imaginary where it grows; real up to half the orbit's, known to
-        exponent_error · |frequency| / 2 pi."""
+        """The frequency of motion near the orbit (rad/s), imaginary if it grows. The error is in `exponent_error`."""
         angle = self.turning or pi * (self.pair_sum < -2)
         return abs(self.frequency) / (2 * pi) * complex(angle, self.growth)
 
     @property
     def exponent_error(self) -> float:
-        """Bound of the error of growth and turning, rad a turn: d log mu = d(mu + 1/mu) / |mu − 1/mu|, or the root of twice the
-        sum's where the kind is unresolved and both are given as zero."""
+        """A bound of the error of growth and turning, rad per turn, from that of mu + 1/mu."""
         apart = sqrt(abs(self.pair_sum**2 - 4))
         root = sqrt(2 * self.error)
         return root if self.kind == "unresolved" or apart <= root else min(2 * self.error / apart, root)
 
 
 def floquet(scene: Scene, r0: float, momentum: float = 0.0) -> Floquet:
-    """Floquet multipliers of the paired precession of amplitude r0, through the variational equations, with their error.
+    """Compute the Floquet multipliers of the paired precession, by the variational equations, with their errors.
 
     Parameters
     ----------
     scene : Scene
-        With opposite spins and a bar.
+        The pair, with opposite spins and a bar.
+    r0 : float
+        The sine of the inclination when the axes are parallel.
     momentum : float, default 0.0
-        About the joint line beyond the orbit's own (kg m²/s), a push: the orbit then closes up to a turn about that
-        line.
+        Additional momentum about the joint line, kg m²/s. The orbit then closes up to a rotation.
+
+    Returns
+    -------
+    Floquet
+        The multipliers, the kind of stability, and the slow frequency.
 
     Raises
     ------
     InputError
         Unless the spins are opposite and there is a bar.
     DomainError
-        When no orbit is found.
+        If no orbit is found.
+
+    Examples
+    --------
+    >>> from lagrotor import Scene
+    >>> orbit = floquet(Scene(spins=(10, -10)), r0=0.204)
+    >>> orbit.kind, round(orbit.growth, 6)
+    ('hyperbolic', 0.005559)
     """
     orbit = exact_orbit(scene, r0)
     return floquet_of(_pushed(orbit, momentum) if momentum else orbit)
 
 
 def slow_frequency_error(scene: Scene, r0: float, momentum: float = 0.0) -> float:
-    """How far (rad/s, in the complex plane) `slow_frequency` is from the exact orbit's, whose error is added.
+    """Return the error of `slow_frequency` against that of the exact orbit, in the complex plane.
 
     Parameters
     ----------
     scene : Scene
-        As in `slow_frequency`.
+        The pair, with opposite spins and a bar.
     r0 : float
-        Sine of the inclination at the moments when the axes are parallel, with the push.
+        The sine of the inclination when the axes are parallel.
     momentum : float, default 0.0
-        About the joint line beyond that of the exact paired precession of this r0 (kg m²/s).
+        Additional momentum about the joint line, kg m²/s.
 
-    Raises
-    ------
-    InputError
-        As `slow_frequency`.
-    DomainError
-        Likewise, and where no orbit is found.
+    Returns
+    -------
+    float
+        The error, with that of the exact orbit added, rad/s.
     """
     law, orbit = slow_frequency(scene, r0, momentum), floquet(scene, r0, momentum)
     return abs(law - orbit.slow_frequency) + orbit.exponent_error * abs(orbit.frequency) / (2 * pi)
 
 
 def _pushed(orbit: ExactOrbit, momentum: float) -> ExactOrbit:
-    """The orbit of the same amplitude with more momentum about the joint line: chi' at the start and the quarter's time,
-    by Newton's method, for U = chi' = 0 at its end. At the start P = 2 (a + b) (1 − x²) alpha'."""
+    """Return the orbit of the same amplitude with more momentum P = 2 (a + b) (1 − x²) alpha' at the start."""
     scene, start = orbit.scene, MODEL.start(orbit.scene)
     inertia = 2 * sum(scene.inertias) * (1 - scene.axes[0][0] ** 2)
     start = start + np.array([0, 0, 0, 0, 0, momentum / inertia])
     turn = 2 * pi / abs(orbit.frequency)
     try:
         start, time = close_arc(flow(scene), start, [4], turn / 4, [0, 4], np.zeros(2), turn / 2)
-    except FAILURES:  # an arc of Newton's method ends where bar and axes come into line
+    except FAILURES:  # an arc of Newton's method reached a singular position
         time = 0.0
     if time:
         (begun,) = scenes_from_states(scene, [start])
@@ -142,7 +150,7 @@ def _pushed(orbit: ExactOrbit, momentum: float) -> ExactOrbit:
 
 
 def floquet_of(orbit: ExactOrbit) -> Floquet:
-    """The multipliers of an orbit already found."""
+    """Return the multipliers of an orbit."""
     quarter = flow(orbit.scene)(MODEL.start(orbit.scene), pi / 2 / abs(orbit.frequency)).slope
     half = _A * np.linalg.solve(quarter, _B * quarter)
     slope = half @ half
@@ -157,16 +165,13 @@ def floquet_of(orbit: ExactOrbit) -> Floquet:
         kind, turning = "elliptic", acos(total / 2)
     mu = (total + np.sqrt(complex(total * total - 4))) / 2
     multipliers = np.array([1, 1, 1, 1, mu, 1 / mu], dtype=complex)
-    known = Floquet(multipliers, total, kind, growth, turning, orbit.frequency, error, slope, np.zeros(6))
-    bounds = np.append(np.zeros(4), np.abs(multipliers[4:]) * known.exponent_error)
+    result = Floquet(multipliers, total, kind, growth, turning, orbit.frequency, error, slope, np.zeros(6))
+    bounds = np.append(np.zeros(4), np.abs(multipliers[4:]) * result.exponent_error)
     values, errors = resolved_multipliers(multipliers, bounds)
-    return replace(known, multipliers=values, errors=errors)
+    return replace(result, multipliers=values, errors=errors)
 
 
 def _error(monodromy: Array, total: float) -> float:
-    """From integration, and from how far the sum of the multipliers' products by pairs is off 4 (mu + 1/mu) + 7.
-
-    The second part is what rounding leaves of a monodromy whose parts are far larger than its trace shows.
-    """
+    """Return the error of integration plus rounding, by the sum of products of pairs minus 4 (mu + 1/mu) + 7."""
     pairs = (np.trace(monodromy) ** 2 - np.trace(monodromy @ monodromy)) / 2
     return float(_INTEGRATED * max(1.0, float(np.linalg.norm(monodromy))) + abs(pairs - 4 * total - 7))

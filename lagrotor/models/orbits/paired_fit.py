@@ -1,4 +1,4 @@
-"""The paired precession through a start: amplitude, phase and azimuth fitted, its series through the order that `tol` needs."""
+"""The paired precession through a start: amplitude, phase and azimuth by a fit, and its series to the order for `tol`."""
 
 from __future__ import annotations
 
@@ -24,18 +24,21 @@ if TYPE_CHECKING:
 
 _Waves = NDArray[np.complex128]
 _ORDERS = (3, 5, 7, 9, 11, 13, 15)
-_FURTHER = (17, 19, 21)  # a second to derive: only for this model by name
-_LARGEST = 0.5  # amplitude beyond which the series is of no use
-_DERIVED = (9, 15, 21)  # orders derived; a lower one is the beginning of the next
+_FURTHER = (17, 19, 21)  # they take a second to derive, and only this model by name uses them
+_LARGEST = 0.5  # the largest amplitude of the series
+_DERIVED = (9, 15, 21)  # the derived orders; lower orders truncate them
 ROUND = 4e-16  # relative, of an angle
-_SMALL = 0.1  # of an error, known to first order
-# What exchanging the rotors, half a period later, does to an axis.
+_SMALL = 0.1  # the largest error that is known to first order
+# The effect on an axis of exchanging the rotors half a period later.
 _MIRRORS = np.array([[1.0, 1.0, 1.0], [-1.0, 1.0, 1.0]])
 
 
 class _Series(NamedTuple):
-    """The orbit's series to one order: of r_1, waves[n, h, i] of r0**n exp(i h Phi) (real part meant), of Omega/Omega_0,
-    frequency[n], and how large the terms of each power of r0 are."""
+    """The series of the orbit to one order.
+
+    waves[n, h, i]: the real part of r_1 at r0**n exp(i h Phi); frequency[n]: Omega/Omega_0; wave_sizes, frequency_sizes: the
+    size of the terms of each power of r0.
+    """
 
     waves: _Waves
     frequency: Array
@@ -45,13 +48,13 @@ class _Series(NamedTuple):
 
 @lru_cache(maxsize=64)
 def _series(order: int, shape: sp.Rational, ratio: sp.Rational) -> _Series:
-    """The series through r0**order."""
+    """Return the series through r0**order."""
     from lagrotor.theory.paired_precession.series import paired_series
 
     series = paired_series(next(n for n in _DERIVED if n >= order), shape, ratio)
     waves, frequency = np.zeros((order + 1, order + 1, 3), dtype=complex), np.zeros(order + 1)
-    for i, (part, width) in enumerate(((series.x, 1.0), (series.Y, sqrt(shape)), (series.z, 1.0))):
-        for (n, h), value in _through(part, order):
+    for i, (component, width) in enumerate(((series.x, 1.0), (series.Y, sqrt(shape)), (series.z, 1.0))):
+        for (n, h), value in _through(component, order):
             waves[n, abs(h), i] += width * float(value) * (1 if h >= 0 else -1j)
     for (n, _), value in _through(series.frequency, order):
         frequency[n] = float(value)
@@ -63,16 +66,13 @@ def _through(series: FourierSeries, order: int) -> Iterator[tuple[tuple[int, int
 
 
 def _summed(powers: Array, waves: _Waves) -> _Waves:
-    """sum_n powers_n waves_n for powers (…, order + 1): the waves (…, order + 1, 3) at one amplitude."""
+    """Return sum_n powers_n waves_n for powers (…, order + 1): the waves (…, order + 1, 3) at one amplitude."""
     summed: _Waves = powers @ waves.reshape(len(waves), -1)
     return summed.reshape(*powers.shape, 3)
 
 
 def _axes_at(waves: _Waves, phase: float) -> Array:
-    """Re sum_h waves_h exp(i h Phi) for rotor 1 and its mirror image half a period later: (…, 2, 3).
-
-    waves (…, order + 1, 3).
-    """
+    """Return Re sum_h waves_h exp(i h Phi) for rotor 1 and for its mirror image half a period later: (…, 2, 3)."""
     turn = np.exp(1j * phase * np.arange(waves.shape[-2]))
     both = np.stack([turn, turn])
     both[1, 1::2] *= -1
@@ -80,70 +80,66 @@ def _axes_at(waves: _Waves, phase: float) -> Array:
 
 
 def _turned(vectors: Any, angle: float) -> Any:
-    """Vectors (…, 3) turned about the joint line by `angle`."""
+    """Return the vectors (…, 3) rotated about the joint line by `angle`."""
     c, s = np.cos(angle), np.sin(angle)
     return vectors @ np.array([[1, 0, 0], [0, c, s], [0, -s, c]])
 
 
 def _fit(axes: Array, velocity: Array, unknowns: Array, series: _Series) -> tuple[Array, float]:
-    """(r0, phase, azimuth) of the orbit nearest to the start, by two Gauss–Newton steps, and its distance.
-
-    axes and velocity, r'/Omega_0 with the sign of rotor 1's spin: (2, 3) each, twelve equations for three unknowns.
-    """
+    """Return (r0, phase, azimuth) of the nearest orbit by two Gauss–Newton steps, and its distance; velocity is r'/Omega_0."""
     n = np.arange(len(series.frequency))
-    along = np.array([n**0, 1j * n, -(n**2), n**0, 1j * n])[..., None]  # the waves' derivatives by Phi
-    wanted = np.stack([axes, velocity])
+    derivatives = np.array([n**0, 1j * n, -(n**2), n**0, 1j * n])[..., None]  # the waves' derivatives by Phi
+    target = np.stack([axes, velocity])
     reached, by = np.empty((2, 2, 3)), np.empty((2, 2, 3, 3))
     for last in (False, False, True):
         r0, phase, azimuth = unknowns
         powers = np.stack([r0**n, n * r0 ** np.maximum(n - 1, 0)])
         rate, rate_by_r0 = powers @ series.frequency
-        parts = _axes_at(_summed(powers, series.waves)[[0, 0, 0, 1, 1]] * along, phase)
-        reached[0], slope, bend, grown, sloped = _turned(parts, azimuth)
+        curves = _axes_at(_summed(powers, series.waves)[[0, 0, 0, 1, 1]] * derivatives, phase)
+        reached[0], slope, bend, grown, sloped = _turned(curves, azimuth)
         reached[1] = rate * slope
-        left = (wanted - reached).ravel()
+        residual = (target - reached).ravel()
         if last:
             break
         by[0, ..., 0], by[1, ..., 0] = grown, rate * sloped + rate_by_r0 * slope
         by[0, ..., 1], by[1, ..., 1] = slope, rate * bend
         by[..., 0, 2], by[..., 1, 2], by[..., 2, 2] = 0.0, -reached[..., 2], reached[..., 1]
-        unknowns = unknowns + np.linalg.lstsq(by.reshape(12, 3), left, rcond=None)[0]
-    return unknowns, float(np.linalg.norm(left))
+        unknowns = unknowns + np.linalg.lstsq(by.reshape(12, 3), residual, rcond=None)[0]
+    return unknowns, float(np.linalg.norm(residual))
 
 
 def paired_answer(scene: Scene, axes: Array, rates: Array, t_end: float, tol: float, best: bool) -> ClosedMotion:
-    """Opposite spins near their paired precession: amplitude, phase and azimuth from the start, order from `tol`.
+    """Return the motion of opposite spins near their paired precession.
 
-    The error is the start's distance from the orbit, which a drift may multiply by the phase gone through, and the
-    series' last terms, which are larger than those left out; both grow exponentially where the orbit is hyperbolic. Each
-    order costs more to derive than the one before; where the terms fall too slowly for `tol` no further one is, unless
-    `best` says so.
+    The error is the distance of the start from the orbit, which grows with the phase, plus the last terms of the series,
+    which exceed the omitted ones. Both grow exponentially on a hyperbolic orbit. Each order costs more than the one before.
+    If the terms decrease too slowly for `tol`, no further order is derived unless `best`.
     """
     width, natural = sqrt(scene.sigma), natural_rate(scene)
     signed = natural if scene.spins[0] > 0 else -natural
-    turned, velocity = natural * t_end, rates / signed
+    angle, velocity = natural * t_end, rates / signed
     guess = _guess(axes, velocity, width)
 
     from lagrotor.theory.paired_precession.stability import growth_bound
 
     shape, ratio = _shape(scene.rotor, scene.link)
-    error, before = inf, inf
+    error, previous = inf, inf
     orders = (*_ORDERS, *_FURTHER) if best else _ORDERS
     r0 = float(guess[0])
-    growth = exp(min(growth_bound(r0, float(shape), float(ratio)) * turned, 700.0))
+    growth = exp(min(growth_bound(r0, float(shape), float(ratio)) * angle, 700.0))
     for order in orders:
         series = _series(order, shape, ratio)
         last = range(order - 1, order + 1)
         tail = sum(r0**n * series.wave_sizes[n] for n in last)
         slip = sum(r0**n * series.frequency_sizes[n] for n in last) * r0 * max(1.0, width)
-        before, error = error, tail * growth + slip * turned
-        fall = (error / before) ** ((orders[-1] - order) / 2) if order > 5 else 0.0
+        previous, error = error, tail * growth + slip * angle
+        fall = (error / previous) ** ((orders[-1] - order) / 2) if order > 5 else 0.0
         if error <= tol / 4 or (error * fall > tol and not best):
             break
     unknowns, mismatch = _fit(axes, velocity, guess, series)
     powers = unknowns[0] ** np.arange(order + 1)
-    error += (mismatch + ROUND) * (turned + growth)
-    error = error if error < _SMALL else UNKNOWN  # beyond it only the bound holds
+    error += (mismatch + ROUND) * (angle + growth)
+    error = error if error < _SMALL else UNKNOWN  # above it the estimate is invalid
     frequency = signed * float(powers @ series.frequency)
     r0, phase, azimuth = (float(u) for u in unknowns)
     waves, odd = _summed(powers, series.waves), np.arange(order + 1)[:, None] % 2
@@ -161,16 +157,16 @@ def _shape(rotor: Rotor, link: Link | None) -> tuple[sp.Rational, sp.Rational]:
 
 
 def _guess(axes: Array, velocity: Array, width: float) -> Array:
-    """(r0, phase, azimuth) by the linear orbit x_i = r0 cos Phi, y_1 = −y_2 = width r0 sin Phi. Raises DomainError."""
+    """Return (r0, phase, azimuth) by the linear orbit x_i = r0 cos Phi, y_1 = −y_2 = width r0 sin Phi. Raises DomainError."""
     azimuth = float(np.arctan2(-axes[:, 1], axes[:, 2]).mean())
     first, second = np.stack([_turned(axes, -azimuth), _turned(velocity, -azimuth)], axis=1)
     (x, x_v), (y, y_v) = (first + second)[:, 0] / 2, (first - second)[:, 1] / (2 * width)
     r0, phase = float(np.hypot(x, y)), float(np.arctan2(y, x))
-    off = np.hypot(x_v + r0 * np.sin(phase), y_v - r0 * np.cos(phase))
-    if not off <= 2 * (1 + width**2) * r0**2 or r0 > _LARGEST:
+    residual = np.hypot(x_v + r0 * np.sin(phase), y_v - r0 * np.cos(phase))
+    if not residual <= 2 * (1 + width**2) * r0**2 or r0 > _LARGEST:
         raise DomainError(
-            f"closed_form: the start is not on a paired precession: {off:.2g} of the natural rate off the one of amplitude "
-            f"{r0:.2g}; use paired_scene, or model='linear' or 'minimal'"
+            f"closed_form: the start is not on a paired precession: it is {residual:.2g} of the natural rate from that of "
+            f"amplitude {r0:.2g}; use paired_scene, or model='linear' or 'minimal'"
         )
     return np.array([r0, phase, azimuth])
 
@@ -178,18 +174,18 @@ def _guess(axes: Array, velocity: Array, width: float) -> Array:
 def fourier_motion(
     waves: NDArray[np.complex128], frequency: float, phase: float = 0.0
 ) -> Callable[[Array], tuple[Array, Array]]:
-    """t ↦ axes and rates, Re sum_h waves_h exp(i h (phase + frequency t)) and its derivative, from both axes' waves (2, h, 3)."""
+    """Return t ↦ axes and rates: Re sum_h waves_h exp(i h (phase + frequency t)), of both axes (2, h, 3)."""
     count = waves.shape[1]
     slopes = 1j * frequency * np.arange(count)[:, None] * waves
     table = np.concatenate([waves, slopes]).transpose(1, 0, 2).reshape(count, 12)
-    table = np.concatenate([table.real, -table.imag])  # over cos and sin: a real product takes half of a complex one
+    table = np.concatenate([table.real, -table.imag])  # in cos and sin: a real product costs half of a complex one
 
     def motion(t: Array) -> tuple[Array, Array]:
         turn = np.exp(1j * (phase + frequency * t))
         powers = np.ones((count, len(t)), dtype=complex)
         for n in range(count - 1):
             np.multiply(powers[n], turn, out=powers[n + 1])
-        seen = (np.concatenate([powers.real, powers.imag]).T @ table).reshape(-1, 2, 2, 3).transpose(1, 2, 0, 3)
-        return seen[0], seen[1]
+        values = (np.concatenate([powers.real, powers.imag]).T @ table).reshape(-1, 2, 2, 3).transpose(1, 2, 0, 3)
+        return values[0], values[1]
 
     return motion

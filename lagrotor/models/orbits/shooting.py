@@ -1,12 +1,14 @@
-"""Periodic orbits of the exact model found by shooting, and their family: Newton's method takes the exact Jacobian of the flow.
+"""Periodic orbits of the exact model by shooting, and their family. Newton's method takes the exact Jacobian of the flow.
 
-Of the paired precession of opposite spins the axes are parallel at Phi = 0 in the x-z plane and turn through it (chi = alpha = 0,
-U' = 0, x = r_0); a quarter period later the symmetries put U = alpha = 0, chi' = 0. Unknown are u = artanh r_0, chi'(0),
-alpha'(0) (in units of Omega_0) and the quarter period's phase Omega_0 t. The family is followed from small amplitudes to its end
-by steps along the curve of orbits, not along r0, so that a turn of the family is passed and not mistaken for its end.
+On the paired precession of opposite spins, at Phi = 0 the axes are parallel in the x-z plane and turn through it (chi = alpha =
+0, U' = 0, x = r_0). A quarter period later the symmetries require U = alpha = 0, chi' = 0. The unknowns are u = artanh r_0,
+chi'(0), alpha'(0) (in units of Omega_0) and the phase Omega_0 t of the quarter period. The family is followed from small
+amplitudes to its end by steps along the curve of orbits, not along r0, so that a fold of the family is passed and not mistaken
+for its end.
 
-About upright, with spins that are not opposite, x swings between ±r_0, and the orbit closes up to a turn: at Phi = 0 and half a
-turn later the axes are parallel and U is stationary at ±artanh r_0. Unknown are chi'(0), alpha'(0) and the time of half a turn.
+About upright, with spins that are not opposite, x oscillates between ±r_0, and the orbit closes up to a rotation: at Phi = 0
+and half a turn later the axes are parallel and U is stationary at ±artanh r_0. The unknowns are chi'(0), alpha'(0) and the time
+of half a turn.
 """
 
 from dataclasses import dataclass, replace
@@ -25,24 +27,24 @@ from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.paired_precession.series import shape_of
 from lagrotor.theory.paired_precession.series_orbit import amplitude_of
 
-# Bound of the error of a quarter period integrated at the tightest tolerance, relative to the flow's derivative; calibrated
-# by tests/models/test_orbit_errors.py, against orbits in numbers of 64 bits.
+# Bound of the error of a quarter period at the tightest tolerance, relative to the derivative of the flow; calibrated
+# against orbits in numbers of 64 bits in tests/models/test_orbit_errors.py.
 _INTEGRATED = 3e-14
-_LAST_MISS = 1e-8  # before a step of Newton's method, which squares it
-# Tolerance of the flow until the conditions are missed by less than _NEAR: a quarter of the cost.
+_LAST_MISS = 1e-8  # before the last step of Newton's method, which squares it
+# Tolerance of the flow until the residual is below _NEAR, at a quarter of the cost.
 _COARSE, _NEAR = 1e-9, 1e-5
-_SAME_SLOPE = 1e-6  # distance within which the Jacobian is taken for the same
+_SAME_SLOPE = 1e-6  # the largest distance at which the Jacobian is reused
 _START, _LARGEST = 0.05, 0.99  # amplitudes of a family
 _STEP, _MOST = 0.1, 200  # the first step along the curve; orbits
-_NO_STEP = 1e-5  # steps along the family shorter than this mean that it turns or ends
+_NO_STEP = 1e-5  # the least step along the family before it turns or ends
 FAILURES = (DomainError, IntegrationError, np.linalg.LinAlgError, ValueError)
 
 
 @dataclass(frozen=True)
 class ExactOrbit:
-    """A scene that starts on the orbit at Phi = 0, and the orbit's angular frequency (rad/s), negative as rotor 1's spin.
+    """A scene that starts on the orbit at Phi = 0, and the frequency (rad/s), with the sign of rotor 1's spin.
 
-    error: bound of the axes' error at equal phase over a turn; frequency_error: of the frequency, rad/s.
+    error: a bound of the error of the axes at equal phase over a turn; frequency_error: a bound for the frequency, rad/s.
     """
 
     scene: Scene
@@ -52,23 +54,23 @@ class ExactOrbit:
 
 
 class QuarterPeriod:
-    """The three conditions for the four unknowns z, and their Jacobian: a curve of orbits, the family of the scene."""
+    """The three conditions for the four unknowns z and their Jacobian, which define the curve of orbits."""
 
     def __init__(self, scene: Scene) -> None:
-        """Raises InputError unless the spins are opposite and there is a bar."""
+        """Raise InputError unless the spins are opposite and there is a bar."""
         shape_of(scene)
         self.scene = replace(scene, shock=None, axes=((0.0, 0.0, 1.0),) * 2, rates=((0.0, 0.0, 0.0),) * 2)
-        own, shared = scene.inertias
-        self.natural = scene.momenta[0] / sqrt(own**2 - shared**2)
+        inertia, shared = scene.inertias
+        self.natural = scene.momenta[0] / sqrt(inertia**2 - shared**2)
         self._flow = flow(self.scene)
         self._last = np.full(4, np.nan), np.empty((3, 4))
 
     def state(self, z: Array) -> Array:
-        """(U, chi, alpha and their rates) at Phi = 0."""
+        """Return (U, chi, alpha and their rates) at Phi = 0."""
         return np.array([z[0], 0.0, 0.0, 0.0, z[1] * self.natural, z[2] * self.natural])
 
     def __call__(self, z: Array, tol: float = TIGHTEST) -> tuple[Array, Array]:
-        """The conditions (3,) and their Jacobian (3, 4), from a flow integrated at `tol`."""
+        """Return the conditions (3,) and their Jacobian (3, 4), from a flow integrated at `tol`."""
         scale = self.natural
         now = self._flow(self.state(z), z[3] / abs(scale), tol)
         rows, weights = [0, 2, 4], np.array([1.0, 1.0, 1 / scale])
@@ -79,16 +81,16 @@ class QuarterPeriod:
         return weights * now.end[rows], self._last[1]
 
     def _slope(self, z: Array) -> Array:
-        """The Jacobian at z: the last one where that is no farther than Newton's last step."""
+        """Return the Jacobian at z: the last one, if it is no farther than Newton's last step."""
         near = bool(np.abs(z - self._last[0]).max() < _SAME_SLOPE)
         return self._last[1] if near else self(z)[1]
 
     def linear(self, u: float) -> Array:
-        """The orbit of small amplitude: chi' = 2 u sqrt(sigma) Omega_0, by 1/k more for a short bar (Delta = k chi)."""
+        """Return the orbit of small amplitude: chi' = 2 u sqrt(sigma) Omega_0, times 1/k for a short bar (Delta = k chi)."""
         return np.array([u, 2 * u * sqrt(self.scene.sigma) / min(self.scene.k, 1.0), 0.0, pi / 2])
 
     def correct(self, z: Array, row: Array, value: float) -> Array:
-        """Newton's method to the curve, on the plane row . z = value. Raises DomainError when it does not converge."""
+        """Return the point of the curve on the plane row . z = value, by Newton's method. Raises DomainError."""
         tol = _COARSE
         for _ in range(9):
             miss, slope = self(z, tol)
@@ -97,20 +99,17 @@ class QuarterPeriod:
             if np.abs(error).max() < _LAST_MISS and tol == TIGHTEST:
                 return z
             tol = TIGHTEST if np.abs(error).max() < _NEAR else tol
-            if not np.isfinite(z).all() or np.abs(z).max() > 60 or z[3] <= 0:  # a quarter of a turn takes time
+            if not np.isfinite(z).all() or np.abs(z).max() > 60 or z[3] <= 0:  # a quarter period is positive
                 break
         raise DomainError("the periodic orbit: Newton's method does not converge")
 
-    def tangent(self, z: Array, along: Array) -> Array:
-        """Unit tangent of the curve at z, on the side of `along`."""
+    def tangent(self, z: Array, side: Array) -> Array:
+        """Return the unit tangent of the curve at z, on the given side."""
         null = np.linalg.svd(self._slope(z))[2][-1]
-        return null if null @ along >= 0 else -null
+        return null if null @ side >= 0 else -null
 
     def follow(self, z: Array | None, r0: float) -> Array:
-        """From z, or from rest, along the family to the amplitude r0 > 0.
-
-        Raises DomainError where the family turns or ends before.
-        """
+        """Follow the family from z, or from rest, to r0 > 0. Raises DomainError if it turns or ends before."""
         goal, row, step = atanh(r0), np.array([1.0, 0.0, 0.0, 0.0]), 0.4
         if z is None:
             u = min(goal, 0.5)
@@ -138,24 +137,42 @@ class QuarterPeriod:
         return z
 
     def orbit(self, z: Array) -> ExactOrbit:
-        """The orbit of the unknowns z, as a scene that starts on it."""
+        """Return the orbit of the unknowns z, as a scene that starts on it."""
         frequency = pi / 2 * self.natural / float(z[3])
-        # An error of the quarter period's end, brought back to the unknowns at fixed amplitude, and on to the axes.
+        # The error at the end of the quarter period, propagated to the unknowns at fixed amplitude and to the axes.
         slope = self._slope(z)
-        off = _INTEGRATED * float(np.linalg.norm(slope)) * float(np.linalg.norm(np.linalg.inv(slope[:, 1:]), 2))
+        error = _INTEGRATED * float(np.linalg.norm(slope)) * float(np.linalg.norm(np.linalg.inv(slope[:, 1:]), 2))
         (start,) = scenes_from_states(self.scene, [self.state(z)])
-        return ExactOrbit(start, frequency, off * float(np.linalg.norm(slope)), off * abs(frequency / float(z[3])))
+        return ExactOrbit(start, frequency, error * float(np.linalg.norm(slope)), error * abs(frequency / float(z[3])))
 
 
 def exact_orbit(scene: Scene, r0: float) -> ExactOrbit:
-    """The orbit of amplitude r0 = sin(theta) when the axes are parallel, for the scene's rotor, bar and spins.
+    """Find the exact periodic orbit of an amplitude for opposite spins.
+
+    Parameters
+    ----------
+    scene : Scene
+        The pair; its rotor, bar and spins are used.
+    r0 : float
+        The sine of the inclination when the axes are parallel, 0 < |r0| < 1.
+
+    Returns
+    -------
+    ExactOrbit
+        A scene that starts on the orbit, its frequency, and the errors of both.
 
     Raises
     ------
     InputError
         Unless the spins are opposite.
     DomainError
-        Unless 0 < |r0| < 1 and when no orbit of that amplitude is found.
+        If r0 is out of range, or no such orbit is found.
+
+    Examples
+    --------
+    >>> from lagrotor import Scene
+    >>> round(exact_orbit(Scene(spins=(10, -10)), 0.204).frequency, 8)
+    7.91814127
     """
     if amplitude_of(r0, "exact_orbit") == 0:
         raise DomainError("exact_orbit: r0 = 0 is the pair at rest, with no orbit; take an amplitude above 0")
@@ -167,9 +184,22 @@ def exact_orbit(scene: Scene, r0: float) -> ExactOrbit:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class OrbitFamily(Shown):
-    """Orbits along the family: amplitudes r0 (n,), frequencies (rad/s) (n,), unknowns (n, 4), and why it stopped.
+    """Orbits along the family of paired precessions.
 
-    `turns`: amplitudes at which the family turns back in r0 (largest r0 of the two branches that meet there).
+    Attributes
+    ----------
+    curve : QuarterPeriod
+        The equations of the family.
+    amplitudes : Array
+        The amplitudes r0, (n,).
+    frequencies : Array
+        The frequencies, (n,), rad/s.
+    unknowns : Array
+        The unknowns of the shooting, (n, 4).
+    turns : tuple
+        The amplitudes at which the family turns back in r0.
+    reason : str
+        The reason for its end.
     """
 
     curve: QuarterPeriod
@@ -180,7 +210,13 @@ class OrbitFamily(Shown):
     reason: str
 
     def summary(self) -> dict[str, str]:
-        """How many orbits, from where to where, name → words."""
+        """Return the number and range of the orbits in words.
+
+        Returns
+        -------
+        dict
+            The rows of the table.
+        """
         return {
             "orbits": str(len(self.amplitudes)),
             "amplitudes": f"{self.amplitudes.min():.6g} to {self.amplitudes.max():.6g}",
@@ -190,36 +226,51 @@ class OrbitFamily(Shown):
         }
 
     def orbit(self, index: int) -> ExactOrbit:
-        """The orbit number `index`, as a scene that starts on it, with its error."""
+        """Return one orbit of the family.
+
+        Parameters
+        ----------
+        index : int
+            The number of the orbit.
+
+        Returns
+        -------
+        ExactOrbit
+            A scene that starts on the orbit, with its errors.
+        """
         return self.curve.orbit(self.unknowns[index])
 
     @property
     def frequency_errors(self) -> Array:
-        """Bounds of the frequencies' errors (rad/s), (n,)."""
+        """Bounds of the errors of the frequencies (rad/s), (n,)."""
         return np.array([self.orbit(i).frequency_error for i in range(len(self.amplitudes))])
 
 
 def trace_family(scene: Scene) -> OrbitFamily:
-    """Follow the family from r0 = 0.05 until it ends, r0 reaches 0.99, or 200 orbits are found.
+    """Follow the family from r0 = 0.05 until it ends, r0 reaches 0.99, or there are 200 orbits.
 
-    Steps along the curve grow from 0.1 to five times that, and are halved where Newton's method fails.
-    The family is said to end where steps below 1e-5 fail: the period or the speed grows without bound, or the orbit
-    reaches a singular position.
+    Steps along the curve grow from 0.1 to 0.5, and are halved if Newton's method fails. The family ends where steps below
+    1e-5 fail: period or speed diverge, or the orbit reaches a singular position.
 
-    Raises
-    ------
-    InputError
-        Unless the spins are opposite.
+    Parameters
+    ----------
+    scene : Scene
+        The pair, with opposite spins and a bar.
+
+    Returns
+    -------
+    OrbitFamily
+        The orbits.
     """
     curve = QuarterPeriod(scene)
     z = curve.correct(curve.linear(atanh(_START)), np.array([1.0, 0, 0, 0]), atanh(_START))
-    along = curve.tangent(z, np.array([1.0, 0, 0, 0]))
+    tangent = curve.tangent(z, np.array([1.0, 0, 0, 0]))
     points, turns, reason, length = [z], [], f"{_MOST} orbits found", _STEP
     while len(points) < _MOST:
         try:
-            ahead = curve.correct(z + length * along, along, float(along @ z + length))
-            turned = curve.tangent(ahead, along)
-            if turned @ along < 0.9:
+            ahead = curve.correct(z + length * tangent, tangent, float(tangent @ z + length))
+            next_tangent = curve.tangent(ahead, tangent)
+            if next_tangent @ tangent < 0.9:
                 raise DomainError("orbit_family: the step turned too far")
         except FAILURES:
             length /= 2
@@ -227,9 +278,9 @@ def trace_family(scene: Scene) -> OrbitFamily:
                 reason = "no orbit beyond: steps along the curve fail"
                 break
             continue
-        if turned[0] * along[0] < 0:
+        if next_tangent[0] * tangent[0] < 0:
             turns.append(float(np.tanh(max(z[0], ahead[0]))))
-        z, along, length = ahead, turned, min(5 * _STEP, 1.3 * length)
+        z, tangent, length = ahead, next_tangent, min(5 * _STEP, 1.3 * length)
         points.append(z)
         if abs(np.tanh(z[0])) > _LARGEST:
             reason = f"r0 reached {_LARGEST:g}"
@@ -238,22 +289,39 @@ def trace_family(scene: Scene) -> OrbitFamily:
 
 
 def orbit_family(scene: Scene, amplitudes: NDArray[np.float64] | list[float]) -> OrbitFamily:
-    """The orbits at the given increasing amplitudes r0 (n,), each found from the one before.
+    """Find the orbits at increasing amplitudes, each from the one before.
+
+    Parameters
+    ----------
+    scene : Scene
+        The pair, with opposite spins and a bar.
+    amplitudes : array_like
+        The amplitudes r0 (n,), increasing in (0, 1).
+
+    Returns
+    -------
+    OrbitFamily
+        The orbits, with their frequencies.
 
     Raises
     ------
     InputError
         Unless the spins are opposite.
     DomainError
-        When an amplitude is outside (0, 1), not above the one before, or past the first turn or the end of the
-        family.
+        If an amplitude is out of range or order, or past the first fold or the end of the family.
+
+    Examples
+    --------
+    >>> from lagrotor import Scene
+    >>> orbit_family(Scene(spins=(10, -10)), [0.1, 0.2]).frequencies.round(6).tolist()
+    [7.980085, 7.921273]
     """
     curve = QuarterPeriod(scene)
-    wanted = np.asarray(amplitudes, float)
-    if wanted.ndim != 1 or not len(wanted) or wanted[0] <= 0 or wanted[-1] >= 1 or (np.diff(wanted) <= 0).any():
+    targets = np.asarray(amplitudes, float)
+    if targets.ndim != 1 or not len(targets) or targets[0] <= 0 or targets[-1] >= 1 or (np.diff(targets) <= 0).any():
         raise DomainError("orbit_family: amplitudes must increase within (0, 1)")
     points: list[Array] = []
-    for r0 in wanted:
+    for r0 in targets:
         points.append(curve.follow(points[-1] if points else None, float(r0)))
     return _family(curve, np.array(points), (), "all amplitudes found")
 
@@ -264,8 +332,7 @@ def _family(curve: QuarterPeriod, points: Array, turns: tuple[float, ...], reaso
 
 @dataclass(frozen=True)
 class UprightOrbit:
-    """A scene that starts on the orbit at Phi = 0, its frequency (rad/s), and the mean rate alpha' of turning about the joint
-    line (rad/s)."""
+    """A scene that starts on an orbit about upright at Phi = 0, its frequency, and its mean alpha' (rad/s)."""
 
     scene: Scene
     frequency: float
@@ -273,14 +340,19 @@ class UprightOrbit:
 
 
 def upright_orbit(scene: Scene, r0: float) -> UprightOrbit:
-    """The orbit of amplitude r0 = sin(inclination) where the axes are parallel, of the scene's rotor, bar and spins.
+    """Find the periodic orbit about upright of an amplitude, for spins that are not opposite.
 
-    Raises
-    ------
-    InputError
-        Without a bar, without spin, and for opposite spins, whose orbit is `exact_orbit`.
-    DomainError
-        Unless 0 < |r0| < 1, and where Newton's method, begun at the linear motion, finds none.
+    Parameters
+    ----------
+    scene : Scene
+        The pair; its rotor, bar and spins are used.
+    r0 : float
+        The sine of the inclination when the axes are parallel, 0 < |r0| < 1.
+
+    Returns
+    -------
+    UprightOrbit
+        A scene that starts on the orbit, its frequency, and its rotation rate.
     """
     amplitude, (first, second) = amplitude_of(r0, "upright_orbit"), scene.momenta
     if scene.link is None or first + second == 0:
@@ -297,7 +369,7 @@ def upright_orbit(scene: Scene, r0: float) -> UprightOrbit:
         through, guess, [4, 5], pi / natural, [0, 1, 3], np.array([-guess[0], 0, 0]), 20 * pi / natural
     )
     if time:
-        turned = float(through(start, time).end[2])
+        angle = float(through(start, time).end[2])
         (begun,) = scenes_from_states(replace(scene, shock=None), [start])
-        return UprightOrbit(begun, pi / time, turned / time)
+        return UprightOrbit(begun, pi / time, angle / time)
     raise DomainError(f"upright_orbit: no orbit of amplitude {r0:g} is found; take a smaller one")

@@ -1,4 +1,4 @@
-"""The variational equations of the minimal model: its Jacobian, generated from the same program, along a motion."""
+"""The variational equations of the minimal model: its Jacobian along a motion, generated from the same program."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _LAST_STEP = 1e-8  # of Newton's method, relative: the next is its square
 
 @generated((massive, ratio) for massive in (False, True) for ratio in RATIOS)
 def _tangents(massive: bool, ratio: Ratio) -> str:
-    """parameters → the accelerations (3,) and their derivatives by the state (3, 6), of the time and the state."""
+    """Return the source of parameters → accelerations (3,) and their derivatives by the state (3, 6), of time and state."""
     from lagrotor.numerics.codegen import tangent_program
     from lagrotor.numerics.printers import rhs_source
 
@@ -33,7 +33,7 @@ def _tangents(massive: bool, ratio: Ratio) -> str:
 
 @dataclass(frozen=True)
 class Flow:
-    """The minimal model's flow from a state: `end` (6,), `slope` (6, 6) its derivative by the start, `rate` (6,) there."""
+    """The flow of the minimal model from a state: `end` (6,), `slope` (6, 6), its derivative, and `rate` (6,)."""
 
     end: Array
     slope: Array
@@ -41,18 +41,15 @@ class Flow:
 
 
 def flow(scene: Scene) -> Callable[..., Flow]:
-    """(state (U, chi, alpha, rates), time in s, tol = the tightest) → Flow, for the scene's rotor, bar and spins, without shock.
-
-    Raises SingularError without a bar; IntegrationError when the motion reaches a singular position.
-    """
+    """Return (state (U, chi, alpha, rates), time in s, tol) → Flow of a scene. Raises SingularError without a bar."""
     (massive, ratio, _), parameters = MODEL.kind(scene, False)
     accelerations = _tangents(massive, ratio)(*parameters)
     plain = MODEL.rate(scene, False)
 
     def rate(s: float, y: Array) -> Any:
         numbers = np.array(accelerations(s, y[:6]))
-        turned = numbers[3:].reshape(3, 6).dot(y[6:].reshape(6, 6)).ravel()
-        return np.concatenate((y[3:6], numbers[:3], y[24:], turned))
+        products = numbers[3:].reshape(3, 6).dot(y[6:].reshape(6, 6)).ravel()
+        return np.concatenate((y[3:6], numbers[:3], y[24:], products))
 
     def through(state: Array, time: float, tol: float = TIGHTEST) -> Flow:
         start = np.concatenate([state, np.eye(6).ravel()])
@@ -63,16 +60,10 @@ def flow(scene: Scene) -> Callable[..., Flow]:
 
 
 def close_arc(
-    through: Callable[..., Flow],
-    start: Array,
-    free: list[int],
-    time: float,
-    rows: list[int],
-    end: Array,
+    through: Callable[..., Flow], start: Array, free: list[int], time: float, rows: list[int], end: Array,
     longest: float,
-) -> tuple[Array, float]:
-    """The start and the time at which these rows of the motion's end are as wanted, by Newton's method in the components `free`
-    of the start and the time; a time of 0 where it finds none below the longest."""
+) -> tuple[Array, float]:  # fmt: skip
+    """Return start and time at which rows of the end have given values, by Newton's method; time 0 if there are none."""
     for _ in range(12):
         now = through(start, time)
         slope = np.column_stack([now.slope[np.ix_(rows, free)], now.rate[rows]])

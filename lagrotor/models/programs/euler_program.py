@@ -1,19 +1,19 @@
-"""The programs of the model `euler`, derived: right-hand side, projection, axes of two sets of Euler angles and a multiplier."""
+"""The programs of the model `euler`, derived: right-hand side, projection, axes."""
 
 import sympy as sp
 
-from lagrotor.mechanics import bias, mass_matrix, total_derivative
+from lagrotor.mechanics.lagrangian import bias, mass_matrix, total_derivative
 from lagrotor.numerics.codegen import Program, solve_symmetric
 from lagrotor.pair.lagrangians import axis, pair_with_bar
 from lagrotor.pair.notation import I3, PAIR, a, b, k
 
 _FORCE = sp.symbols("F_x F_y F_z", real=True)
-# The spins first: their pivot is I_3, and what is left of the azimuth's is then a sin² theta.
+# The spins come first: their pivot is I_3, and the pivot of the azimuth is then a sin² theta.
 ORDER = [2, 5, 0, 3, 1, 4]
 
 
 def program(massive: bool, body: int) -> Program:
-    """(theta_1, phi_1, psi_1, theta_2, phi_2, psi_2, rates; a, b, k, I_3[, F]) → rates of the twelve."""
+    """Derive (theta_1, phi_1, psi_1, theta_2, phi_2, psi_2, rates; a, b, k, I_3[, F]) → rates of the twelve."""
     system = pair_with_bar()
     lagrangian = system.L if massive else system.L.subs(b, 0)
     mass, G = mass_matrix(lagrangian, PAIR), system.rows
@@ -25,36 +25,36 @@ def program(massive: bool, body: int) -> Program:
             force[i + j] += sp.Matrix(_FORCE).dot(tip.diff(PAIR.q[i + j]))
     mass, force, G = mass.extract(ORDER, ORDER), force.extract(ORDER, [0]), G.extract([0], ORDER)
     stages, free = solve_symmetric(mass, force.row_join(G.T), "m")
-    # I_3 cos² theta cancels from the azimuth's pivot here: in floating point it would leave more than a sin² theta is.
+    # I_3 cos² theta cancels from the pivot of the azimuth symbolically; in floating point its rounding could exceed a sin² theta.
     ratios = {name: e for name, e in stages if e in (sp.cos(PAIR.q[0]), sp.cos(PAIR.q[3]))}
     stages = [(name, sp.expand(e.subs(ratios)) if e.has(*ratios) else e) for name, e in stages]
     lam = sp.Symbol("lam", real=True)
     row, acceleration, pull = G.row(0), free[:, 0], free[:, 1]
     gamma = system.gamma[0]
     stages.append((lam, -(row.dot(acceleration) + gamma) / row.dot(pull)))
-    moved = acceleration + lam * pull
-    accelerations = [moved[ORDER.index(i)] for i in range(6)]
+    total = acceleration + lam * pull
+    accelerations = [total[ORDER.index(i)] for i in range(6)]
     parameters = (a, *((b,) if massive else ()), k, I3, *(_FORCE if body else ()))
     return Program((*PAIR.q, *PAIR.v, *parameters), tuple(stages), (*PAIR.v, *accelerations))
 
 
 def projection(massive: bool) -> Program:
-    """One Newton step onto the bar's constraint and its rate, along M⁻¹ Gᵀ."""
+    """Derive one Newton step onto the bar's constraint and its rate, along M⁻¹ Gᵀ."""
     system = pair_with_bar()
     lagrangian = system.L if massive else system.L.subs(b, 0)
     mass, G = mass_matrix(lagrangian, PAIR), system.rows
     stages, pull = solve_symmetric(mass.extract(ORDER, ORDER), G.T.extract(ORDER, [0]), "p")
-    along = [pull[ORDER.index(i)] for i in range(6)]
-    strength = sum(x * y for x, y in zip(G, along, strict=True))
-    off, moving = system.constraints[0] / strength, system.residual[0] / strength
-    corrected = [*(q - off * x for q, x in zip(PAIR.q, along, strict=True))]
-    corrected += [v - moving * x for v, x in zip(PAIR.v, along, strict=True)]
+    gradient = [pull[ORDER.index(i)] for i in range(6)]
+    strength = sum(x * y for x, y in zip(G, gradient, strict=True))
+    residual, moving = system.constraints[0] / strength, system.residual[0] / strength
+    corrected = [*(q - residual * x for q, x in zip(PAIR.q, gradient, strict=True))]
+    corrected += [v - moving * x for v, x in zip(PAIR.v, gradient, strict=True)]
     parameters = (a, *((b,) if massive else ()), k, I3)
     return Program((*PAIR.q, *PAIR.v, *parameters), tuple(stages), tuple(corrected))
 
 
 def observation() -> Program:
-    """(angles, rates) → r_1, r_2, r_1', r_2', twelve numbers."""
+    """Derive (angles, rates) → r_1, r_2, r_1', r_2', twelve numbers."""
     q = PAIR.q
     r = [*axis(q[0], q[1]), *axis(q[3], q[4])]
     v = [total_derivative(e, PAIR) for e in r]

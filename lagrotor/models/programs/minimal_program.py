@@ -1,4 +1,4 @@
-"""The right-hand side of the model `minimal` as a slim program: the bar eliminated, one multiplier, nothing else solved.
+"""The right-hand side of the model `minimal` as a short program: the bar eliminated, one multiplier, no linear system.
 
 Mercator coordinates of an axis, r = (tanh u, −sin alpha sech u, cos alpha sech u), and its tangent frame
 e = (sech u, sin alpha tanh u, −cos alpha tanh u), f = (0, −cos alpha, −sin alpha):
@@ -6,8 +6,8 @@ e = (sech u, sin alpha tanh u, −cos alpha tanh u), f = (0, −cos alpha, −si
     r' = sech u (u' e + alpha' f),   r × r' = sech u (alpha' e − u' f),
     u'' = tanh u (u'² − alpha'²) + r''.e / sech u,   alpha'' = 2 tanh u u' alpha' + r''.f / sech u.
 
-The bar is a curve w(chi), Delta(chi) of u_1 − u_2 and alpha_2 − alpha_1; its force pulls along ± (Delta', w') / sech u_i.
-The tests hold each program to the Lagrangian's mass matrix, solved by machine.
+The bar is a curve w(chi), Delta(chi) of u_1 − u_2 and alpha_2 − alpha_1; its force acts along ± (Delta', w') / sech u_i.
+The tests compare each program with the mass matrix of the Lagrangian, solved automatically.
 """
 
 from functools import lru_cache
@@ -20,7 +20,7 @@ from lagrotor.pair.notation import G_1, G_2, MINIMAL, a, b, k
 
 Ratio = Literal["short", "equal", "long"]
 _Pair = tuple[sp.Expr, sp.Expr]
-_FARTHEST_ALONG = sp.Rational(49, 50)  # |x| of an axis: beyond, Mercator coordinates magnify errors more than fivefold
+_FARTHEST_ALONG = sp.Rational(49, 50)  # the largest |x| of an axis; there Mercator coordinates magnify errors fivefold
 FORCE = sp.symbols("F_x F_y F_z", real=True)
 (_U, _CHI, _ALPHA), (_U_V, _CHI_V, _ALPHA_V) = MINIMAL.q, MINIMAL.v
 # Delta, its cosine and sine, rho of the bar's curve, exp(−w), exp(2 U).
@@ -39,7 +39,7 @@ class _Curve(NamedTuple):
 
 
 class _Rotor(NamedTuple):
-    """exp(2 u), tanh u, u', alpha', G/a, and the force over a in the tangent frame (0 where there is none)."""
+    """exp(2 u), tanh u, u', alpha', G/a, and the force over a in the tangent frame (0 without force)."""
 
     e: sp.Symbol
     t: sp.Symbol
@@ -50,8 +50,6 @@ class _Rotor(NamedTuple):
 
 
 class _Stages(list[Stage]):
-    """Stages in the order in which they are kept."""
-
     def keep(self, name: str, expression: sp.Expr) -> sp.Symbol:
         symbol = sp.Symbol(name, real=True)
         self.append((symbol, expression))
@@ -60,25 +58,19 @@ class _Stages(list[Stage]):
 
 @lru_cache(maxsize=32)
 def program(massive: bool, ratio: Ratio, body: int) -> Program:
-    """(U, chi, alpha, rates; a[, b][, k], G_1, G_2[, F]) → rates of the six; `body` 0: no force."""
+    """Derive (U, chi, alpha, rates; a[, b][, k], G_1, G_2[, F]) → rates of the six; without force for `body` 0."""
     stages = _Stages()
     curve = _curve(stages, ratio)
     rotors = _rotors(stages, curve, ratio, body)
     accelerations = _massive(stages, rotors, curve) if massive else _massless(stages, rotors, curve)
-    parameters = (
-        a,
-        *((b,) if massive else ()),
-        *(() if ratio == "equal" else (k,)),
-        G_1,
-        G_2,
-        *(FORCE if body else ()),
-    )
+    lengths = () if ratio == "equal" else (k,)
+    parameters = (a, *((b,) if massive else ()), *lengths, G_1, G_2, *(FORCE if body else ()))
     away = tuple(_FARTHEST_ALONG**2 - r.t**2 for r in rotors)
     return Program((*MINIMAL.q, *MINIMAL.v, *parameters), tuple(stages), (*MINIMAL.v, *accelerations), positive=away)
 
 
 def observation(ratio: Ratio) -> Program:
-    """(U, chi, alpha, rates; k) → r_1, r_2, r_1', r_2', twelve numbers."""
+    """Derive (U, chi, alpha, rates; k) → r_1, r_2, r_1', r_2', twelve numbers."""
     stages = _Stages()
     rotors = _rotors(stages, _curve(stages, ratio), ratio, 0)
     axes, rates = [], []
@@ -86,18 +78,18 @@ def observation(ratio: Ratio) -> Program:
         turn = _ALPHA - sign * _D / 2
         sech = stages.keep(f"s_{i}", 2 * sp.sqrt(r.e) / (r.e + 1))
         c, s = stages.keep(f"c_{i}", sp.cos(turn)), stages.keep(f"n_{i}", sp.sin(turn))
-        along, round_ = stages.keep(f"x_{i}", sech * r.t * r.u_v), stages.keep(f"y_{i}", sech * r.alpha_v)
+        e_rate, round_ = stages.keep(f"x_{i}", sech * r.t * r.u_v), stages.keep(f"y_{i}", sech * r.alpha_v)
         axes += [r.t, -sech * s, sech * c]
-        rates += [sech**2 * r.u_v, along * s - round_ * c, -along * c - round_ * s]
+        rates += [sech**2 * r.u_v, e_rate * s - round_ * c, -e_rate * c - round_ * s]
     return Program((*MINIMAL.q, *MINIMAL.v, k), tuple(stages), (*axes, *rates))
 
 
 def _curve(stages: _Stages, ratio: Ratio) -> _Curve:
-    """The bar's curve (`rotors.lagrangians.bar_curve`): rho w' = sin(Delta) Delta', rho' = −cos(Delta) w'."""
-    one = sp.Integer(1)
+    """Return the curve of the bar (`pair.lagrangians.bar_curve`): rho w' = sin(Delta) Delta', rho' = −cos(Delta) w'."""
+    unity = sp.Integer(1)
     if ratio == "short":
         # sin Delta = k sin chi: rho / cos Delta = Delta', so w' = tan Delta.
-        # 1 − S² would lose its digits at the fold of a bar almost as long as the axes.
+        # 1 − S² would lose digits at the fold of a bar almost as long as the axes.
         stages += [(_S, k * sp.sin(_CHI)), (_RHO, k * sp.cos(_CHI)), (_C, sp.sqrt(_RHO**2 + (1 - k) * (1 + k)))]
         stages += [(_D, sp.asin(_S))]
         stages += [(_D1, _RHO / _C), (_W1, _S / _C), (_DROP, (_C + _RHO) / (k + 1))]
@@ -105,15 +97,15 @@ def _curve(stages: _Stages, ratio: Ratio) -> _Curve:
     stages += [(_D, _CHI), (_S, sp.sin(_CHI)), (_C, sp.cos(_CHI))]
     if ratio == "equal":
         stages += [(_W1, _S / _C), (_DROP, _C)]
-        return _Curve(one, 0 * one, _W1, _C**-2, _C**-2)
+        return _Curve(unity, 0 * unity, _W1, _C**-2, _C**-2)
     stages += [(_RHO, sp.sqrt(_C**2 + (k - 1) * (k + 1))), (_W1, _S / _RHO), (_DROP, (_C + _RHO) / (k + 1))]
     square = stages.keep("N", 1 + _W1**2)
-    return _Curve(one, 0 * one, _W1, _C * square / _RHO, square)
+    return _Curve(unity, 0 * unity, _W1, _C * square / _RHO, square)
 
 
 def _rotors(stages: _Stages, curve: _Curve, ratio: Ratio, body: int) -> list[_Rotor]:
-    """Both rotors from U, chi, alpha: u = U ± w/2, alpha_i = alpha ∓ Delta/2."""
-    # The logarithm is a guard, too: for ell = R there is no state where chi is beyond a right angle.
+    """Return both rotors from U, chi, alpha: u = U ± w/2, alpha_i = alpha ∓ Delta/2."""
+    # For ell = R the logarithm also excludes chi above a right angle, where there is no state.
     e_1 = sp.exp(2 * _U - stages.keep("falling", sp.log(_C))) if ratio == "equal" else sp.exp(2 * _U) / _DROP
     e_1 = stages.keep("e_1", e_1)
     rotors = []
@@ -132,37 +124,38 @@ def _rotors(stages: _Stages, curve: _Curve, ratio: Ratio, body: int) -> list[_Ro
 
 
 def _massless(stages: _Stages, rotors: list[_Rotor], curve: _Curve) -> tuple[sp.Expr, ...]:
-    """Each rotor alone has, with g = G/a,
+    """Return the accelerations for a massless bar.
 
-        u'' = tanh u (u'² − alpha'²) + g alpha',   alpha'' = u' (2 alpha' tanh u − g),
-
-    and inertia a sech² u in both. The bar's force is across its curve, so chi'' is as without it; in the means it leaves
-    half the difference of 1/sech² u_i, where sech² u_1 : sech² u_2 = (1 + exp 2 u_2)² : (1 + exp 2 u_1)² exp(−2 w).
+    Each rotor alone has, with g = G/a, u'' = tanh u (u'² − alpha'²) + g alpha', alpha'' = u' (2 alpha' tanh u − g), and
+    inertia a sech² u in both. The force of the bar is normal to its curve, so that chi'' does not change. The means gain half
+    the difference of 1/sech² u_i, where sech² u_1 : sech² u_2 = (1 + exp 2 u_2)² : (1 + exp 2 u_1)² exp(−2 w).
     """
-    (D1, D2, W1, W2, square), own = curve, []
+    (D1, D2, W1, W2, square), free = curve, []
     for i, (e, t, u_v, al_v, g, force) in enumerate(rotors, start=1):
-        along, round_ = t * (u_v - al_v) * (u_v + al_v) + g * al_v, u_v * (2 * t * al_v - g)
+        u_sum, round_ = t * (u_v - al_v) * (u_v + al_v) + g * al_v, u_v * (2 * t * al_v - g)
         if force != (0, 0):
             sech = 2 * sp.sqrt(e) / (e + 1)
-            along, round_ = along + force[0] / sech, round_ + force[1] / sech
-        own.append((stages.keep(f"f_{i}", along), stages.keep(f"h_{i}", round_)))
-    (f_1, h_1), (f_2, h_2) = own
+            u_sum, round_ = u_sum + force[0] / sech, round_ + force[1] / sech
+        free.append((stages.keep(f"f_{i}", u_sum), stages.keep(f"h_{i}", round_)))
+    (f_1, h_1), (f_2, h_2) = free
     twist = stages.keep("twist", h_2 - h_1)
     # Across the curve, D1 (u_1'' − u_2'') − W1 (alpha_2'' − alpha_1'') = (D1 W2 − W1 D2) chi'².
     pull = stages.keep("pull", (D1 * W2 - W1 * D2) * _CHI_V**2 / square + (W1 * twist - D1 * (f_1 - f_2)) / square)
     wide = [stages.keep("wide_1", (rotors[0].e + 1) * _DROP), stages.keep("wide_2", rotors[1].e + 1)]
     share = stages.keep("share", pull * (wide[0] ** 2 - wide[1] ** 2) / (wide[0] ** 2 + wide[1] ** 2))
-    along, round_ = stages.keep("along", f_1 + f_2 + share * D1), stages.keep("round", h_1 + h_2 + share * W1)
+    u_sum, round_ = stages.keep("along", f_1 + f_2 + share * D1), stages.keep("round", h_1 + h_2 + share * W1)
     if D1 == 1:
-        return along / 2, twist - W1 * pull, round_ / 2
+        return u_sum / 2, twist - W1 * pull, round_ / 2
     twisted = (D1 * (twist - D2 * _CHI_V**2) + W1 * (f_1 - f_2 - W2 * _CHI_V**2)) / square
-    return along / 2, twisted, round_ / 2
+    return u_sum / 2, twisted, round_ / 2
 
 
 def _massive(stages: _Stages, rotors: list[_Rotor], curve: _Curve) -> tuple[sp.Expr, ...]:
-    """In units of a, with m_i = sech² u_i and p = b/a sech u_1 sech u_2 [e(1), f(1)]ᵀ [e(2), f(2)], the Mercator mass matrix
-    is [[m_1, p], [pᵀ, m_2]]; it is brought to (U, chi, alpha) by the columns (1, 0, 1, 0), (w', −Delta', −w', Delta')/2 and
-    (0, 1, 0, 1).
+    """Return the accelerations for a massive bar.
+
+    In units of a, with m_i = sech² u_i and p = b/a sech u_1 sech u_2 [e(1), f(1)]ᵀ [e(2), f(2)], the Mercator mass matrix is
+    [[m_1, p], [pᵀ, m_2]]. The columns (1, 0, 1, 0), (w', −Delta', −w', Delta')/2 and (0, 1, 0, 1) transform it to (U, chi,
+    alpha).
     """
     (D1, D2, W1, W2, square), keep, beta = curve, stages.keep, stages.keep("beta", b / a)
     t_1, t_2 = (r.t for r in rotors)
@@ -170,18 +163,18 @@ def _massive(stages: _Stages, rotors: list[_Rotor], curve: _Curve) -> tuple[sp.E
     m_1, m_2, both = keep("m_1", s_1**2), keep("m_2", s_2**2), keep("both", beta * s_1 * s_2)
     shared = [[s_1 * s_2 + _C * t_1 * t_2, t_1 * _S], [-t_2 * _S, _C]]
     p = sp.Matrix(2, 2, lambda i, j: keep(f"p_{i}{j}", both * shared[i][j]))
-    # Where the other axis points in the frame of each: its rate's square pulls there.
+    # The direction of the other axis in each frame, along which its centripetal term acts.
     toward_2 = sp.Matrix([s_1 * (s_1 * t_2 - _C * t_1 * s_2), s_1 * s_2 * _S])
     toward_1 = sp.Matrix([s_2 * (s_2 * t_1 - _C * t_2 * s_1), -s_1 * s_2 * _S])
     bend = sp.Matrix([W2, -D2]) * _CHI_V**2 / 2
-    turned, spun, pulled = [], [], []
+    bent, spun, pulled = [], [], []
     for i, (r, m, sign) in enumerate(zip(rotors, (m_1, m_2), (1, -1), strict=True)):
         turning = sp.Matrix([r.t * (r.u_v - r.alpha_v) * (r.u_v + r.alpha_v), 2 * r.t * r.u_v * r.alpha_v])
-        turned.append((turning - sign * bend).applyfunc(lambda e, i=i: keep(f"d_{i}{len(stages)}", e)))
-        spun.append(m * (sp.Matrix([r.g * r.alpha_v, -r.g * r.u_v]) + turned[i]) + (s_1, s_2)[i] * sp.Matrix(r.force))
+        bent.append((turning - sign * bend).applyfunc(lambda e, i=i: keep(f"d_{i}{len(stages)}", e)))
+        spun.append(m * (sp.Matrix([r.g * r.alpha_v, -r.g * r.u_v]) + bent[i]) + (s_1, s_2)[i] * sp.Matrix(r.force))
         pulled.append(keep(f"v_{i}", beta * m * (r.u_v**2 + r.alpha_v**2)))
-    force_1 = (spun[0] + p * turned[1] + pulled[1] * toward_2).applyfunc(lambda e: keep(f"R_{len(stages)}", e))
-    force_2 = (spun[1] + p.T * turned[0] + pulled[0] * toward_1).applyfunc(lambda e: keep(f"R_{len(stages)}", e))
+    force_1 = (spun[0] + p * bent[1] + pulled[1] * toward_2).applyfunc(lambda e: keep(f"R_{len(stages)}", e))
+    force_2 = (spun[1] + p.T * bent[0] + pulled[0] * toward_1).applyfunc(lambda e: keep(f"R_{len(stages)}", e))
     whole, gap = keep("sum", m_1 + m_2), keep("gap", m_1 - m_2)
     even, skew = keep("even", p[0, 1] + p[1, 0]), keep("skew", p[0, 1] - p[1, 0])
     by_u, by_alpha = (W1 * gap + D1 * skew) / 2, (W1 * skew - D1 * gap) / 2
@@ -191,6 +184,6 @@ def _massive(stages: _Stages, rotors: list[_Rotor], curve: _Curve) -> tuple[sp.E
     )
     apart = (force_1 - force_2) / 2
     right = sp.Matrix([*(force_1 + force_2), W1 * apart[0] - D1 * apart[1]])
-    more, (along, round_, twisted) = solve_symmetric(mass, right, "m")
-    stages += more
-    return along, twisted, round_
+    solver_stages, (u_rate, round_, twisted) = solve_symmetric(mass, right, "m")
+    stages += solver_stages
+    return u_rate, twisted, round_

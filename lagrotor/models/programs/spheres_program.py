@@ -20,10 +20,7 @@ _FORCE = sp.symbols("F_x F_y F_z", real=True)
 
 
 def program(massive: bool, bar: bool, body: int) -> Program:
-    """(r_1, r_2, r_1', r_2'; a, b, k, G_1, G_2[, F]) → rates of the twelve; `body` 0: no force.
-
-    With a massive bar, what the system generates; without mass or bar, fewer operations by hand.
-    """
+    """Derive (r_1, r_2, r_1', r_2'; a, b, k, G_1, G_2[, F]) → rates of the twelve; without force for `body` 0."""
     parameters = (a, *((b,) if massive else ()), *((k,) if bar else ()), G_1, G_2, *(_FORCE if body else ()))
     if not massive:
         stages, accelerations = _slim(bar, body)
@@ -31,56 +28,54 @@ def program(massive: bool, bar: bool, body: int) -> Program:
     system = axes_pair(bar)
     if body:
         push = sp.Matrix([*(_FORCE if body == 1 else (0, 0, 0)), *(_FORCE if body == 2 else (0, 0, 0))])
-        system = replace(system, forces=tuple(system.push + push))
-    made = motion_program(system).program
-    return Program((*AXES.q, *AXES.v, *parameters), made.stages, made.outputs)
+        system = replace(system, forces=tuple(system.generalised_forces + push))
+    motion = motion_program(system).program
+    return Program((*AXES.q, *AXES.v, *parameters), motion.stages, motion.outputs)
 
 
 def _slim(bar: bool, body: int) -> tuple[list[Stage], list[sp.Expr]]:
-    """Stages and accelerations. Each axis alone is a r'' = Q − (a |r'|² + r . Q) r / r², and a massless bar pulls it by lam
-    times the part of
+    """Return stages and accelerations for a massless bar or none.
 
-        n_1 = r_2 + k e_x,  n_2 = r_1 − k e_x
-
-    across it: one multiplier, no matrix. Off the constraints, too, |r_i|² and the bar's length keep their second
-    derivatives zero: what is left out by r_i . (r_i × r_i') = 0 alone. Leaving out more saves 28 operations, and
+    Each axis alone is a r'' = Q − (a |r'|² + r . Q) r / r². A massless bar pulls it by lam times the component of n_1 = r_2 +
+    k e_x, n_2 = r_1 − k e_x normal to it: one multiplier, no matrix. Off the constraints, too, the second derivatives of
+    |r_i|² and of the bar's length vanish; only r_i . (r_i × r_i') = 0 is omitted. Omitting more saves 28 operations, but
     drifts exponentially where the axes are pressed.
     """
-    r, v = ([sp.Matrix(part[:3]), sp.Matrix(part[3:])] for part in (AXES.q, AXES.v))
+    r, v = ([sp.Matrix(half[:3]), sp.Matrix(half[3:])] for half in (AXES.q, AXES.v))
     pull = [r[1] + sp.Matrix([k, 0, 0]), r[0] - sp.Matrix([k, 0, 0])]
     stages: list[Stage] = []
-    parts, closing, mobility = [], 2 * v[0].dot(v[1]), sp.Integer(0)
+    rotors, closing, mobility = [], 2 * v[0].dot(v[1]), sp.Integer(0)
     for i, G in enumerate((G_1, G_2)):
-        own = sp.Matrix(sp.symbols(f"f{i}_0:3", real=True))
-        square, along, inward = sp.symbols(f"s_{i} n_{i} h_{i}", real=True)
+        forces = sp.Matrix(sp.symbols(f"f{i}_0:3", real=True))
+        square, normal, inward = sp.symbols(f"s_{i} n_{i} h_{i}", real=True)
         force = sp.Matrix(_FORCE) if body == i + 1 else sp.zeros(3, 1)
-        stages += list(zip(own, (G * r[i].cross(v[i]) + force) / a, strict=True))
+        stages += list(zip(forces, (G * r[i].cross(v[i]) + force) / a, strict=True))
         stages.append((square, r[i].dot(r[i]) if bar else sp.S.One))
-        stages.append((along, (r[0].dot(r[1]) + (-1) ** i * k * r[i][0]) / square))
+        stages.append((normal, (r[0].dot(r[1]) + (-1) ** i * k * r[i][0]) / square))
         stages.append((inward, (v[i].dot(v[i]) + r[i].dot(force) / a) / square))
-        parts.append((own, along, inward))
-        closing += own.dot(pull[i]) - inward * along * square
-        mobility += pull[i].dot(pull[i]) - along**2 * square
+        rotors.append((forces, normal, inward))
+        closing += forces.dot(pull[i]) - inward * normal * square
+        mobility += pull[i].dot(pull[i]) - normal**2 * square
     if not bar:
         stages = [(name, e) for name, e in stages if k not in e.free_symbols]
-        return stages, [e for i, (own, _, inward) in enumerate(parts) for e in own - inward * r[i]]
+        return stages, [e for i, (forces, _, inward) in enumerate(rotors) for e in forces - inward * r[i]]
     lam = sp.Symbol("lam", real=True)
     stages.append((lam, -closing / mobility))
     accelerations = []
-    for i, (own, along, inward) in enumerate(parts):
+    for i, (forces, normal, inward) in enumerate(rotors):
         radial = sp.Symbol(f"q_{i}", real=True)
-        stages.append((radial, inward + lam * along))
-        accelerations += list(own + lam * pull[i] - radial * r[i])
+        stages.append((radial, inward + lam * normal))
+        accelerations += list(forces + lam * pull[i] - radial * r[i])
     return stages, accelerations
 
 
 def projection(massive: bool, bar: bool) -> Program:
-    """One Newton step onto the constraints and their rates, along M⁻¹ Gᵀ: q − M⁻¹ Gᵀ S⁻¹ g, v − M⁻¹ Gᵀ S⁻¹ G v."""
+    """Derive one Newton step onto the constraints and their rates: q − M⁻¹ Gᵀ S⁻¹ g, v − M⁻¹ Gᵀ S⁻¹ G v."""
     system = axes_pair(bar)
     mass = mass_matrix(system.L if massive else system.L.subs(b, 0), AXES)
     G, pull = system.rows, linear_solve(mass, system.rows.T, "the axes' mass matrix")
-    off = sp.Matrix(system.constraints).row_join(system.residual)
-    stages, x = solve_symmetric(G * pull, off, "p")
+    residuals = sp.Matrix(system.constraints).row_join(system.residual)
+    stages, x = solve_symmetric(G * pull, residuals, "p")
     corrected = sp.Matrix([*AXES.q, *AXES.v]) - (pull * x[:, 0]).col_join(pull * x[:, 1])
     parameters = (a, *((b,) if massive else ()), *((k,) if bar else ()))
     return Program((*AXES.q, *AXES.v, *parameters), tuple(stages), tuple(corrected))

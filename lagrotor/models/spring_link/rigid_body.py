@@ -1,4 +1,4 @@
-"""A rigid body, how it turns in a finite time, and how its inertia turns with it; each beside what the paper prints.
+"""A rigid body, its rotation in a finite time, and the rotation of its inertia, each with the printed version of the paper.
 
 R (3, 3) takes body components to world components, v = R v_body, and grows by R ← dR R. All functions take stacks.
 """
@@ -13,73 +13,93 @@ from lagrotor.numerics.arrays import finite_array
 from lagrotor.numerics.rotations import skew_matrix, turn_about
 
 _LEAST = np.finfo(float).smallest_normal
-_CLOSE = 1e-9  # how far a given rotation may be from orthogonal, an inertia from symmetric
+_CLOSE = 1e-9  # tolerance for an orthogonal rotation and a symmetric inertia
 
 
 def finite_rotation(Omega: Array, dt: float) -> Array:
-    """dR = 1 + sin(θ) [n]× + (1 − cos θ)(n nᵀ − 1), θ = |Omega| dt, n = Omega/|Omega|: (n, 3) → (n, 3, 3). From 3.15.
+    """Return the rotation matrices of a constant angular velocity.
 
-    Defined for every Omega: |Omega| is taken by `hypot`, which neither under- nor overflows, and nothing is divided by
-    its square. The least normal number added to it changes only an |Omega| near that number: n is then shorter than a unit,
-    but sin θ is as small, and so is the error. At Omega = 0 the axis is left at zero, and dR = 1.
+    dR = 1 + sin(θ) [n]× + (1 − cos θ)(n nᵀ − 1), θ = |Omega| dt, n = Omega/|Omega|. `hypot` avoids under- and overflow of
+    |Omega|. The least normal number added to it changes only an |Omega| of that size, for which sin θ is as small; at Omega =
+    0 dR = 1.
+
+    Parameters
+    ----------
+    Omega : Array
+        The angular velocities, (n, 3), rad/s.
+    dt : float
+        The time, s.
+
+    Returns
+    -------
+    Array
+        The rotations dR, (n, 3, 3).
     """
     size = np.hypot(np.hypot(Omega[:, 0], Omega[:, 1]), Omega[:, 2])
     return turn_about(Omega / (size + _LEAST)[:, None], size * dt)
 
 
 def printed_rotation(Omega: Array, dt: float) -> Array:
-    """dR = P + cos(θ)(1 − P) + sin(θ) [n]× with P = Omegaᵀ Omega / |Omega|², (n, 3) → (n, 3, 3). From 3.15 and 3.16.
+    """Return dR = P + cos(θ)(1 − P) + sin(θ) [n]× with P = Omegaᵀ Omega / |Omega|², (n, 3) → (n, 3, 3), from 3.15 and 3.16.
 
-    As the paper's program had it before its repair (section 4.2): where |Omega| is not zero, but |Omega|² underflows to
-    zero, P = 0/0 is NaN. (3.16 as printed leaves out the division: it projects only if |Omega| = 1.)
+    It is that of the paper's program before its repair (section 4.2): P is NaN if |Omega|² underflows to zero. (3.16 as
+    printed lacks the division, and projects only if |Omega| = 1.)
     """
     size = np.hypot(np.hypot(Omega[:, 0], Omega[:, 1]), Omega[:, 2])
     with np.errstate(divide="ignore", invalid="ignore"):
         P = Omega[:, :, None] * Omega[:, None, :] / (Omega**2).sum(1)[:, None, None]
         n = Omega / size[:, None]
         angle = (size * dt)[:, None, None]
-        turned = P + np.cos(angle) * (np.eye(3) - P) + np.sin(angle) * skew_matrix(n)
-    return np.where(size[:, None, None] == 0, np.eye(3), turned)
+        rotation = P + np.cos(angle) * (np.eye(3) - P) + np.sin(angle) * skew_matrix(n)
+    return np.where(size[:, None, None] == 0, np.eye(3), rotation)
 
 
 def inertia_transform(R: Array, tensor: Array) -> Array:
-    """World components R I₀ Rᵀ of a tensor given in the body frame, (n, 3, 3) each; for I₀⁻¹ too."""
+    """Return the world components R I₀ Rᵀ of a tensor in the body frame, (n, 3, 3) each; also for I₀⁻¹."""
     return R @ tensor @ R.swapaxes(-1, -2)
 
 
 def printed_inertia_transform(R: Array, tensor: Array) -> Array:
-    """Rᵀ I₀ R, (n, 3, 3) each, as printed in 3.12, 3.17 and 3.18.
+    """Return Rᵀ I₀ R, (n, 3, 3) each, as printed in 3.12, 3.17 and 3.18.
 
-    Wrong for R ← dR R (3.15), whose R takes body to world: it would be right for the inverse rotation. An isotropic
-    body, all that the paper runs, does not distinguish the two.
+    It is wrong for R ← dR R (3.15), whose R takes body to world, and right for the inverse. Isotropic bodies, which the paper
+    runs, do not distinguish them.
     """
     return R.swapaxes(-1, -2) @ tensor @ R
 
 
 def rotation_between(u: Array, v: Array) -> Array:
-    """The shortest rotation (3, 3) that takes the basis vector `u` (3,) to the unit vector `v` (3,)."""
-    axis, along = np.cross(u, v), float(u @ v)
-    across = float(np.linalg.norm(axis))
-    if across == 0.0:
-        axis, across, angle = np.roll(u, 1), 1.0, 0.0 if along > 0 else np.pi
+    """Return the shortest rotation (3, 3) from the basis vector `u` (3,) to the unit vector `v` (3,)."""
+    axis, cosine = np.cross(u, v), float(u @ v)
+    sine = float(np.linalg.norm(axis))
+    if sine == 0.0:
+        axis, sine, angle = np.roll(u, 1), 1.0, 0.0 if cosine > 0 else np.pi
     else:
-        angle = float(np.arctan2(across, along))
-    turned: Array = finite_rotation(axis[None] / across, angle)[0]
-    return turned
+        angle = float(np.arctan2(sine, cosine))
+    rotation: Array = finite_rotation(axis[None] / sine, angle)[0]
+    return rotation
 
 
 @dataclass(frozen=True, eq=False)
 class RigidBody:
-    """How a body starts: (X_cm, vertices, I₀, R, M, Omega, U) of section 3.2, in the order of the paper's constructor.
+    """The initial state of a body, in the order of the paper's constructor (section 3.2).
 
-    centre X_cm (3,) in m; vertices (n, 3), the points that bear links, from the centre in the body frame, in m; inertia
-    I₀ (3, 3) about the centre in the body frame, in kg m²; rotation R (3, 3); mass in kg; angular velocity Omega (3,)
-    in rad/s and velocity U (3,) of the centre in m/s, both in world components.
-
-    Raises
-    ------
-    InputError
-        For a mass not above zero, an inertia not symmetric and positive, an R that is no rotation.
+    Attributes
+    ----------
+    centre : Array
+        The centre of mass X_cm, (3,), m.
+    vertices : Array
+        The points that bear links, from the centre in the body frame, (n, 3), m.
+    inertia : Array
+        The inertia I₀ about the centre in the body frame, (3, 3), kg m².
+    rotation : Array
+        The rotation R from body to world, (3, 3).
+    mass : float
+        The mass, kg.
+    angular_velocity : Array
+        The angular velocity Omega in world components, (3,), rad/s.
+    velocity : Array
+        The velocity U of the centre in world components, (3,), m/s.
     """
 
     centre: Array
@@ -105,5 +125,5 @@ class RigidBody:
 
     @property
     def momentum(self) -> Array:
-        """Angular momentum about the centre, L = R I₀ Rᵀ Omega (3,), in kg m²/s (3.10)."""
+        """The angular momentum about the centre, L = R I₀ Rᵀ Omega (3,), kg m²/s (3.10)."""
         return self.rotation @ self.inertia @ self.rotation.T @ self.angular_velocity

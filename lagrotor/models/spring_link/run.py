@@ -1,6 +1,6 @@
-"""Running spring-linked bodies: the paper's fixed step, and a stiff solver beside it.
+"""Runs of bodies on springs: the paper's fixed step, and a stiff solver.
 
-The step of a few bodies, or the rates of their state, is in single numbers: arrays cost more for so few operations.
+The step, or the rates of the state, of a few bodies is scalar code, because calls of arrays cost more.
 """
 
 import warnings
@@ -32,22 +32,21 @@ from lagrotor.numerics.source_cache import function_of
 from lagrotor.pair.scene import Shock
 
 _OfState = Callable[[Sequence[float], float], list[float]]  # of a state and the strength of a shock
-_MOST = 12  # bodies beyond which arrays cost less
-_STRAIGHT = link_force, finite_rotation, inertia_transform  # laws that branch on no value
-_TIGHTEST = 2.3e-14  # local error of LSODA, which takes no smaller one
-LOST = 1e100  # a state of this norm has blown up; its energies are still finite
+_MOST = 12  # the most bodies for scalar code
+_STRAIGHT = link_force, finite_rotation, inertia_transform  # laws without branches
+_TIGHTEST = 2.3e-14  # the least local error of LSODA
+LOST = 1e100  # the norm of a diverged state, whose energies are still finite
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class SpringRun(Run):
-    """A run of n_b bodies, the first two the rotors, and n_l links.
+    """A run of n_b bodies, the first two the rotors, and n_l links, at n times.
 
-    axes, rates, tips, feet (2, n, 3): unit vectors from vertex 1 to 2 of each rotor, their rates (1/s), vertices 2 and 1 (m);
-    spins (2, n) about the axes in rad/s; centres (n_b, n, 3) in m, rotations (n_b, n, 3, 3); stretches |X_1 − X_2| (n_l, n) in m;
-    momentum (n, 3) in kg m/s and angular_momentum (n, 3) in kg m²/s about the origin, of all bodies together;
-    energies in J: translation M U²/2 and rotation Omega·L/2 (n_b, n), spring S |X_1 − X_2|²/2 (n_l, n);
-    evaluations: how often the forces were computed. errors: of the bodies' places, in units of the largest body, and of R;
-    NaN of the paper's own step, whose error is not estimated.
+    axes, rates, tips, feet (2, n, 3): the unit vectors from vertex 1 to 2 of each rotor, their rates (1/s), vertices 2 and 1
+    (m). spins (2, n): about the axes, rad/s. centres (n_b, n, 3), m; rotations (n_b, n, 3, 3); stretches |X_1 − X_2| (n_l,
+    n), m. momentum (n, 3), kg m/s, and angular_momentum (n, 3) about the origin, kg m²/s: those of all bodies. Energies in J:
+    translation M U²/2 and rotation Omega·L/2 (n_b, n), spring S |X_1 − X_2|²/2 (n_l, n). evaluations: those of the forces.
+    errors: of positions in units of the largest body, and of R; NaN for the paper's step.
     """
 
     axes: Array
@@ -66,27 +65,27 @@ class SpringRun(Run):
 
     @property
     def paper_energy(self) -> Array:
-        """What the paper records (4.02), the kinetic energy alone, (n,) in J: the springs' share is missing."""
+        """The kinetic energy, which the paper records (4.02), without that of the springs, (n,), J."""
         return self.translation.sum(0) + self.rotation.sum(0)
 
     @property
     def energy(self) -> Array:
-        """Kinetic energy and that of the springs, (n,) in J: conserved without damping, shock and external force."""
+        """Kinetic energy plus that of the springs, (n,), J: conserved without damping, shock and external force."""
         return self.paper_energy + self.spring.sum(0)
 
     def quantities(self) -> dict[str, Quantity]:
-        """What the run holds, and its energy."""
-        held = {name: Quantity(getattr(self, name), axes, unit) for name, (axes, unit) in _QUANTITIES.items()}
-        return held | {"energy": Quantity(self.energy, ("t",), "J")}
+        """Return the arrays of the run and its energy."""
+        stored = {name: Quantity(getattr(self, name), axes, unit) for name, (axes, unit) in _QUANTITIES.items()}
+        return stored | {"energy": Quantity(self.energy, ("t",), "J")}
 
     def plot(self) -> Any:
-        """A figure that a notebook shows: tips over time and from above, energy over time; `.savefig(path)` writes it."""
+        """Draw the tips over time and from above, and the energy."""
         from lagrotor.drawing.run_figure import run_figure
 
         return run_figure(self.t, self.tips, self.energy, "rigid bodies on springs")
 
     def animate(self, path: str | Path, fps: float = 25.0) -> Path:
-        """Write the motion to `path`, a `.gif`: splines through what was read."""
+        """Write a film of the motion to `path`, a `.gif`, with splines between the samples."""
         from scipy.interpolate import CubicSpline
         from scipy.spatial.transform import Rotation, Slerp
 
@@ -94,79 +93,70 @@ class SpringRun(Run):
 
         check_film(Path(path), float(self.t[-1] - self.t[0]), fps)
         times = frame_times(self.t[0], self.t[-1], fps)
-        turned = np.array([Slerp(self.t, Rotation.from_matrix(R))(times).as_matrix() for R in self.rotations[:2]])
-        tips, centres = (CubicSpline(self.t, part, axis=1)(times) for part in (self.tips, self.centres[:2]))
+        rotations = np.array([Slerp(self.t, Rotation.from_matrix(R))(times).as_matrix() for R in self.rotations[:2]])
+        tips, centres = (CubicSpline(self.t, curve, axis=1)(times) for curve in (self.tips, self.centres[:2]))
         length = float(np.linalg.norm(self.tips[0, 0] - self.feet[0, 0]))
-        moving = FilmedMotion(times, turned, tips, centres, self.feet[:, 0], length, len(self.centres) > 2)
+        moving = FilmedMotion(times, rotations, tips, centres, self.feet[:, 0], length, len(self.centres) > 2)
         lines, inks, traced = moving.lines()
         return animate_lines(path, times, lines, fps, inks, traced)
 
     @staticmethod
     def load(path: str | Path) -> "SpringRun":
-        """The run that `save` wrote as `.npz`.
-
-        Raises
-        ------
-        InputError
-            Where that is not what the file is.
-        """
-        _, held, known = read_run(path)
-        n = len(known["t"])
+        """Read a run from an .npz file that `save` wrote. Raises InputError if it contains no such run."""
+        _, arrays, run_fields = read_run(path)
+        n = len(run_fields["t"])
         sizes: dict[str, int] = {"t": n, "rotor": 2, "component": 3, "row": 3}
         try:
-            parts: dict[str, Any] = {name: held[name] for name in _QUANTITIES}
-            for name, part in parts.items():
-                for axis, size in zip(_QUANTITIES[name][0], part.shape, strict=True):
+            quantities: dict[str, Any] = {name: arrays[name] for name in _QUANTITIES}
+            for name, array in quantities.items():
+                for axis, size in zip(_QUANTITIES[name][0], array.shape, strict=True):
                     if sizes.setdefault(axis, size) != size:
-                        raise ValueError(f"{name} has shape {part.shape}")
-                if not np.isfinite(part).all():
+                        raise ValueError(f"{name} has shape {array.shape}")
+                if not np.isfinite(array).all():
                     raise ValueError(f"{name} holds a number that is not finite")
         except (KeyError, ValueError) as refusal:
             raise InputError(
                 f"load: {path} is no run of bodies on springs ({refusal}): give a file that `save` wrote"
             ) from None
-        return SpringRun(**parts, **known)
+        return SpringRun(**quantities, **run_fields)
 
 
 _OF_ROTORS, _OF_BODIES, _OF_LINKS = ("rotor", "t", "component"), ("body", "t"), ("link", "t")
 _QUANTITIES: dict[str, tuple[tuple[str, ...], str]] = {
-    "axes": (_OF_ROTORS, "1"),
-    "rates": (_OF_ROTORS, "1/s"),
-    "tips": (_OF_ROTORS, "m"),
-    "feet": (_OF_ROTORS, "m"),
-    "spins": (("rotor", "t"), "rad/s"),
-    "centres": ((*_OF_BODIES, "component"), "m"),
-    "rotations": ((*_OF_BODIES, "component", "row"), "1"),
-    "stretches": (_OF_LINKS, "m"),
-    "momentum": (("t", "component"), "kg m/s"),
-    "angular_momentum": (("t", "component"), "kg m²/s"),
-    "translation": (_OF_BODIES, "J"),
-    "rotation": (_OF_BODIES, "J"),
-    "spring": (_OF_LINKS, "J"),
-}
+    "axes": (_OF_ROTORS, "1"), "rates": (_OF_ROTORS, "1/s"), "tips": (_OF_ROTORS, "m"), "feet": (_OF_ROTORS, "m"),
+    "spins": (("rotor", "t"), "rad/s"), "centres": ((*_OF_BODIES, "component"), "m"),
+    "rotations": ((*_OF_BODIES, "component", "row"), "1"), "stretches": (_OF_LINKS, "m"),
+    "momentum": (("t", "component"), "kg m/s"), "angular_momentum": (("t", "component"), "kg m²/s"),
+    "translation": (_OF_BODIES, "J"), "rotation": (_OF_BODIES, "J"), "spring": (_OF_LINKS, "J"),
+}  # fmt: skip
 
 
 def run_steps(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, dt: float) -> SpringRun:
-    """Move a copy of a system by the paper's step, the shock of step k with its strength at k dt, as in the paper's loop.
+    """Move a copy of a system by the paper's fixed step, with the shock of step k at the time k dt.
 
-    A step above `step_limit` is run all the same, for as long as it lasts: until the state is not a number, or beyond LOST. What
-    was reached is handed back with its ending, and a LagrotorWarning. The error of a fixed step is not estimated.
+    A step above `step_limit` is run as well, until the state is not a number or exceeds LOST. A LagrotorWarning and the
+    ending then say so. The error is not estimated.
 
     Parameters
     ----------
     system : RigidBodySystem
         The bodies and links.
     shock : Shock or None
-        On a vertex.
+        A shock on a vertex.
     t : array_like
-        The times (n,) that are read, whole multiples of dt, s.
+        The times (n,), integer multiples of dt, s.
     dt : float
         The step, s.
+
+    Returns
+    -------
+    SpringRun
+        The run at the times that were reached.
 
     Raises
     ------
     InputError
-        For dt not above zero, times between the steps, or a step longer than the shock is wide (it could miss it).
+        If dt is not positive or exceeds the width of the shock, or a time lies between the steps.
     """
     times = check_times("run_steps", t)
     if not (isinstance(dt, int | float) and isfinite(dt) and dt > 0):
@@ -187,7 +177,7 @@ def run_steps(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, dt: fl
                     state = step(state, _strength(shock, k * dt - at))
                     k += 1
             except OUT_OF_RANGE:
-                state = [nan]  # which arrays would hold here
+                state = [nan]  # as arrays would give
             if not hypot(*state) < LOST:
                 reason = f"the state is not a number, or beyond {LOST:g}, with dt = {dt:g} s"
                 if system.joints:
@@ -201,40 +191,37 @@ def run_steps(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, dt: fl
                 break
             states.append(state)
     n = len(states)
-    known = {"errors": np.full(n, nan), "horizon": nan, "evaluations": int(k - counts[0]), "ending": ending}
-    return _run_of(system, np.array(states), known | {"t": times[:n]})
+    run_fields = {"errors": np.full(n, nan), "horizon": nan, "evaluations": int(k - counts[0]), "ending": ending}
+    return _run_of(system, np.array(states), run_fields | {"t": times[:n]})
 
 
 def run_solver(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, tol: float = 1e-8) -> SpringRun:
-    """Move a copy of a system by LSODA, which changes to a stiff method where damping requires it: the same forces without the
-    error of a fixed step.
+    """Move a copy of a system by LSODA, with the same forces and a tolerance instead of a fixed step.
 
-    State X, U, R, L of every body, with R' = [Omega]× R. The run is cut at the shock's edges, ± 6.5 widths, within which no step
-    is longer than the width.
+    LSODA changes to a stiff method where damping requires it. The state is X, U, R, L of every body, with R' = [Omega]× R.
+    The run is divided at ± 6.5 widths of the shock, within which no step exceeds the width.
 
     Parameters
     ----------
     system : RigidBodySystem
         The bodies and links.
     shock : Shock or None
-        On a vertex.
+        A shock on a vertex.
     t : array_like
         The times (n,), s.
-    tol : float, default 1e-08
-        The largest error of the whole run, estimated as of every run: of the places in units of the largest body, and of
-        R; a LagrotorWarning says where it is not kept.
+    tol : float, default 1e-8
+        The largest error of the run: of places in units of the largest body, and of R. A LagrotorWarning says if it is not
+        kept.
 
-    Raises
-    ------
-    InputError
-        For bad times or tolerance.
-    IntegrationError
-        When nothing can be reached.
+    Returns
+    -------
+    SpringRun
+        The run at the times that were reached.
     """
     times, tolerance = check_times("run_solver", t), check_tolerance(tol, "run_solver")
     rate, n_b = rate_function(system, shock), len(system.vertices)
     size = max(float(np.linalg.norm(arms, axis=1).max()) for arms in system.vertices) or 1.0
-    # Far from zero a clock has few digits for steps.
+    # A time far from zero has few digits for steps.
     at = shock.at if shock else float(times[0])
     stiff = np.linalg.eigvalsh(system.joint_mobility())[-1] * system.stiffness if system.joints else 0.0
     turn = (
@@ -243,12 +230,13 @@ def run_solver(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, tol: 
         / max(sqrt(stiff), float(np.linalg.norm(system.Omega, axis=1).max()), 1 / max(times[-1] - times[0], 1e-300))
     )
 
-    def distance(one: Array, other: Array) -> Array:
-        places, turned = (np.split(part, [3 * n_b, 9 * n_b], axis=1)[::2] for part in (one, other))
+    def distance(first: Array, second: Array) -> Array:
+        places, rotations = (np.split(states, [3 * n_b, 9 * n_b], axis=1)[::2] for states in (first, second))
         apart = [
-            (a - b).reshape(len(one), n_b, -1) / unit for a, b, unit in zip(places, turned, (size, 1.0), strict=True)
+            (a - b).reshape(len(first), n_b, -1) / unit
+            for a, b, unit in zip(places, rotations, (size, 1.0), strict=True)
         ]
-        return np.maximum(*(np.linalg.norm(part, axis=-1).max(axis=1) for part in apart))
+        return np.maximum(*(np.linalg.norm(states, axis=-1).max(axis=1) for states in apart))
 
     def under(shock: Shock | None) -> RightHandSide:
         def rhs(s: float, y: Array) -> list[float]:
@@ -272,7 +260,7 @@ def run_solver(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, tol: 
 
 
 def step_function(system: RigidBodySystem, shock: Shock | None, dt: float) -> _OfState:
-    """`system.state` → the state dt later, by `compute_forces`, `push` and `step` of the system."""
+    """Return `system.state` → the state dt later, by `compute_forces`, `push` and `step` of the system."""
 
     def after(moving: RigidBodySystem) -> Array:
         moving.step(dt)
@@ -282,7 +270,7 @@ def step_function(system: RigidBodySystem, shock: Shock | None, dt: float) -> _O
 
 
 def rate_function(system: RigidBodySystem, shock: Shock | None) -> _OfState:
-    """The state y (18 n,) of X, U, L, R of n bodies → y', by `compute_forces` and `push` of the system."""
+    """Return y (18 n,) of X, U, L, R of n bodies → y', by `compute_forces` and `push` of the system."""
 
     def rates(moving: RigidBodySystem) -> Array:
         turning = skew_matrix(moving.Omega) @ moving.R
@@ -295,10 +283,9 @@ def rate_function(system: RigidBodySystem, shock: Shock | None) -> _OfState:
 def _recorded(
     system: RigidBodySystem, shock: Shock | None, read: Callable[[RigidBodySystem], Array], size: int
 ) -> _OfState:
-    """What `read` finds when the forces on a state, of `size` numbers a body, are computed.
+    """Return the function that computes the forces on a state, of `size` numbers per body, and then reads a result.
 
-    With few bodies and laws that branch on no value this is gone through once, with numbers that record, and what they have
-    recorded is compiled.
+    For few bodies and laws without branches it is evaluated once with recording numbers, and the record is compiled.
     """
     moving, n = copy(system), len(system.vertices)
 
@@ -321,13 +308,13 @@ def _recorded(
 
 
 def _strength(shock: Shock | None, s: float) -> float:
-    """exp(−(s/width)²) at s after the peak (4.04), 0 without a shock."""
+    """Return exp(−(s/width)²) at s after the peak (4.04), 0 without a shock."""
     ratio = s / shock.width if shock else inf
     return exp(-ratio * ratio)
 
 
-def _run_of(system: RigidBodySystem, states: Array, known: dict[str, Any]) -> SpringRun:
-    """A run from states (n, 18 n_b or more) of X, U, L and R; Omega follows from L and R (3.17)."""
+def _run_of(system: RigidBodySystem, states: Array, run_fields: dict[str, Any]) -> SpringRun:
+    """Return a run from states (n, 18 n_b or more) of X, U, L and R; Omega follows from L and R (3.17)."""
     if len(system.vertices) < 2 or min(len(vertices) for vertices in system.vertices[:2]) < TIP:
         raise InputError("SpringRun: bodies 1 and 2 must be rotors with two vertices; step other systems by hand")
     n, n_b = len(states), len(system.vertices)
@@ -342,23 +329,14 @@ def _run_of(system: RigidBodySystem, states: Array, known: dict[str, Any]) -> Sp
         tips.append(X[:, i] + R[:, i] @ top)
         feet.append(X[:, i] + R[:, i] @ bottom)
         spins.append((Omega[:, i] * axes[i]).sum(-1))
-    held = (np.broadcast_to(part[-1:], (n, *part[-1:].shape)) for part in (system.X, system.R))
-    places = (np.concatenate((part, ground), axis=1) for part, ground in zip((X, R), held, strict=True))
+    fixed = (np.broadcast_to(array[-1:], (n, *array[-1:].shape)) for array in (system.X, system.R))
+    places = (np.concatenate((array, ground), axis=1) for array, ground in zip((X, R), fixed, strict=True))
     stretches = np.linalg.norm(system.gaps(*places), axis=-1).T
     momenta = U / system.inverse_mass[:-1]
     return SpringRun(
-        axes=np.array(axes),
-        rates=np.array(rates),
-        tips=np.array(tips),
-        feet=np.array(feet),
-        spins=np.array(spins),
-        centres=X.swapaxes(0, 1),
-        rotations=R.swapaxes(0, 1),
-        stretches=stretches,
-        momentum=momenta.sum(1),
-        angular_momentum=(np.cross(X, momenta) + L).sum(1),
-        translation=((U**2).sum(-1) / (2 * system.inverse_mass[:-1, 0])).T,
-        rotation=(Omega * L).sum(-1).T / 2,
-        spring=system.stiffness * stretches**2 / 2,
-        **known,
-    )
+        axes=np.array(axes), rates=np.array(rates), tips=np.array(tips), feet=np.array(feet), spins=np.array(spins),
+        centres=X.swapaxes(0, 1), rotations=R.swapaxes(0, 1), stretches=stretches, momentum=momenta.sum(1),
+        angular_momentum=(np.cross(X, momenta) + L).sum(1), rotation=(Omega * L).sum(-1).T / 2,
+        translation=((U**2).sum(-1) / (2 * system.inverse_mass[:-1, 0])).T, spring=system.stiffness * stretches**2 / 2,
+        **run_fields,
+    )  # fmt: skip

@@ -1,8 +1,7 @@
-"""Many scenes at once: the minimal model on arrays, every trajectory with its own step, each held to the contract of runs as it
-is alone, in chunks that a processor's cache has room for.
+"""Many scenes at once: the minimal model on arrays, in chunks, each trajectory with its own step and error estimate.
 
-A chunk is one call of `run_chunk`, which needs nothing but its arguments: any executor of `concurrent.futures` can run
-it, on this machine or on others.
+A chunk is one call of `run_chunk`, which needs only its arguments: any executor of `concurrent.futures` can run it, here or on
+other machines.
 """
 
 import warnings
@@ -30,25 +29,37 @@ from lagrotor.pair.scene import Scene
 from lagrotor.pair.trajectory import Trajectory
 from lagrotor.result_display import Shown, scientific
 
-CHUNK = 2048  # trajectories: an array of them is 16 KiB, and those that one evaluation needs stay in the cache
+CHUNK = 2048  # trajectories: an array of them is 16 KiB, and the arrays of one evaluation stay in the cache
 MODELS = ("minimal", "spheres", "none")
-# Three times what motions take at a tolerance of 1e-13 that stay clear of singular positions.
+# Three times the evaluations of motions far from singular positions at a tolerance of 1e-13.
 _PATIENCE = EvaluationBudget(5_000, 250 * 2 * pi)
-_MOST_ROWS = 4_000_000  # states of all that are run side by side, at the times at which they are watched: 200 MB
+_MOST_ROWS = 4_000_000  # the most states of one batch, 200 MB
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Ensemble(Shown):
-    """n trajectories at m times t (m,) in s: axes, rates (n, 2, m, 3), errors (n, m), evaluations (n,).
-
-    models (n,): index into MODELS. "spheres" ran, one by one, those without a bar and those that met a singular position
-    of the minimal coordinates; "none" is one of which nothing was reached. endings (n,): how each ended; after its end its axes,
-    rates and errors are NaN.
+    """The trajectories of n scenes at m times.
 
     Attributes
     ----------
+    scenes : tuple of Scene
+        The scenes.
+    t : Array
+        The times, (m,), s.
+    axes : Array
+        The unit vectors of the axes, (n, 2, m, 3); NaN after the end of a run.
+    rates : Array
+        The rates of the axes, (n, 2, m, 3), 1/s; NaN after the end of a run.
     errors : Array
-        The estimated largest error of an axis up to each time, as a `Trajectory` has it.
+        The estimated largest error of an axis up to each time, (n, m); NaN after the end of a run.
+    tol : float
+        The tolerance.
+    evaluations : Array
+        The evaluations of each run, (n,).
+    models : Array
+        Indices into MODELS, (n,). "spheres" ran scenes without a bar or near a singular position; "none" reached nothing.
+    endings : tuple of Ending
+        The reason for which each run ended.
     """
 
     scenes: tuple[Scene, ...]
@@ -62,7 +73,13 @@ class Ensemble(Shown):
     endings: tuple[Ending, ...]
 
     def summary(self) -> dict[str, str]:
-        """How many runs, by which models, name → words."""
+        """Return the number of runs, their models and errors in words.
+
+        Returns
+        -------
+        dict
+            The rows of the table.
+        """
         by_model = {name: int((self.models == i).sum()) for i, name in enumerate(MODELS)}
         return {
             "runs": str(len(self.scenes)),
@@ -75,21 +92,26 @@ class Ensemble(Shown):
 
     @property
     def error(self) -> Array:
-        """The estimated largest error of an axis over each run, (n,); NaN for one that ended early."""
+        """The estimated largest error of an axis over each run, (n,); NaN for a run that ended early."""
         return self.errors[:, -1]
 
     @property
     def failed(self) -> NDArray[np.int64]:
-        """Indices of the trajectories that ended early."""
+        """The indices of the runs that ended early."""
         return np.flatnonzero([ending.early for ending in self.endings])
 
     def trajectory(self, i: int) -> Trajectory:
-        """Number i up to its end, with all that can be read off it.
+        """Return one run up to its end.
 
-        Raises
-        ------
-        InputError
-            Where nothing of it was reached.
+        Parameters
+        ----------
+        i : int
+            The number of the scene.
+
+        Returns
+        -------
+        Trajectory
+            The run.
         """
         n = int(np.isfinite(self.errors[i]).sum())
         if not n:
@@ -103,37 +125,42 @@ class Ensemble(Shown):
 
 
 def sweep(
-    scenes: Sequence[Scene],
-    t: ArrayLike,
-    tol: float = 1e-6,
-    *,
-    chunk: int = CHUNK,
-    executor: Executor | None = None,
-    engine: str = "core",
-    progress: Callable[[int, int], None] | None = None,
-) -> Ensemble:
-    """Run every scene from its start, which holds at t[0], and read it at the times `t` (m,) in s.
+    scenes: Sequence[Scene], t: ArrayLike, tol: float = 1e-6, *, chunk: int = CHUNK, executor: Executor | None = None,
+    engine: str = "core", progress: Callable[[int, int], None] | None = None,
+) -> Ensemble:  # fmt: skip
+    """Integrate every scene from its initial state, which holds at t[0].
+
+    A LagrotorWarning says how many runs do not keep `tol`. `failed` of the result names the runs that ended early.
 
     Parameters
     ----------
-    scenes : sequence
-        As many as there are runs.
-    tol : float, default 1e-06
-        The largest error of an axis over each whole run, as of `simulate` and by the same estimate. A LagrotorWarning says
-        how many runs do not keep it. Look at `failed` of the result: rows that ended early are NaN from there on.
-    engine : str, default 'core'
-        "core", or "fast" with heyoka (`pip install lagrotor[fast]`), which takes no shock.
+    scenes : sequence of Scene
+        The scenes.
+    t : array_like
+        The increasing times (m,), s.
+    tol : float, default 1e-6
+        The largest error of an axis over each run, estimated as in `simulate`.
     chunk : int, default CHUNK
-        Trajectories at a time.
+        The number of trajectories in a chunk.
     executor : Executor or None, optional
-        A `concurrent.futures.Executor`, of dask `client.get_executor()`; None: chunks run here, one after another.
+        An executor of `concurrent.futures`, for dask `client.get_executor()`. By default chunks run here in turn.
+    engine : str, default "core"
+        "core", or "fast" for heyoka (`pip install lagrotor[fast]`), without shocks.
     progress : callable or None, optional
-        Called with the number of trajectories done and of all, after each chunk.
+        A function of the number of finished runs and of all runs, called after each chunk.
 
-    Raises
-    ------
-    InputError
-        For bad arguments, or no scene.
+    Returns
+    -------
+    Ensemble
+        The trajectories with their errors.
+
+    Examples
+    --------
+    >>> from lagrotor import Scene, paired_scene
+    >>> starts = [paired_scene(Scene(spins=(10, -10)), r0) for r0 in (0.1, 0.2)]
+    >>> ensemble = sweep(starts, [0.0, 1.0, 2.0])
+    >>> ensemble.axes.shape, (ensemble.error < 1e-6).all().item(), ensemble.trajectory(1).model
+    ((2, 2, 3, 3), True, 'minimal')
     """
     times, tolerance, members = check_times("sweep", t), check_tolerance(tol, "sweep"), _checked(scenes, chunk, engine)
     if not (progress is None or callable(progress)):
@@ -141,30 +168,30 @@ def sweep(
     if not (executor is None or isinstance(executor, Executor)):
         way = "an executor of concurrent.futures; a dask client has one: client.get_executor()"
         raise InputError(f"sweep: executor = {executor!r} must be {way}")
-    order = sorted(range(len(members)), key=lambda i: kind_of(members[i]) or (False, "", 0))  # alike beside alike
-    parts = [order[i : i + chunk] for i in range(0, len(order), chunk)]
-    whole, endings, done = _not_run(members, times, tolerance), dict[int, Ending](), 0
-    work = {number: ([members[i] for i in part], times, tolerance, engine) for number, part in enumerate(parts)}
+    order = sorted(range(len(members)), key=lambda i: kind_of(members[i]) or (False, "", 0))  # equal kinds adjacent
+    chunks = [order[i : i + chunk] for i in range(0, len(order), chunk)]
+    whole, endings, finished = _not_run(members, times, tolerance), dict[int, Ending](), 0
+    work = {number: ([members[i] for i in indices], times, tolerance, engine) for number, indices in enumerate(chunks)}
     for number, result in _run(work, executor):
         for name in ("axes", "rates", "errors", "evaluations", "models"):
-            getattr(whole, name)[parts[number]] = getattr(result, name)
-        endings.update(zip(parts[number], result.endings, strict=True))
-        done += len(parts[number])
+            getattr(whole, name)[chunks[number]] = getattr(result, name)
+        endings.update(zip(chunks[number], result.endings, strict=True))
+        finished += len(chunks[number])
         if progress is not None:
-            progress(done, len(members))
+            progress(finished, len(members))
     whole = replace(whole, endings=tuple(ending for _, ending in sorted(endings.items())))
     if missed := int((~(whole.error <= tolerance)).sum()):
-        said = f"sweep: {missed} of {len(members)} runs do not keep tol = {tolerance:g}: see `error` of the result"
-        warnings.warn(said, LagrotorWarning, stacklevel=2)
+        message = f"sweep: {missed} of {len(members)} runs do not keep tol = {tolerance:g}: see `error` of the result"
+        warnings.warn(message, LagrotorWarning, stacklevel=2)
     return whole
 
 
 def _not_run(scenes: Sequence[Scene], times: Array, tol: float) -> Ensemble:
-    """The ensemble of which nothing is reached."""
+    """Return an ensemble in which nothing is reached."""
     n, m = len(scenes), len(times)
     axes, rates = np.full((2, n, 2, m, 3), np.nan)
-    none, spent = np.full(n, MODELS.index("none")), np.zeros(n, np.int64)
-    return Ensemble(tuple(scenes), times, axes, rates, np.full((n, m), np.nan), tol, spent, none, (Ending(),) * n)
+    none, evaluations = np.full(n, MODELS.index("none")), np.zeros(n, np.int64)
+    return Ensemble(tuple(scenes), times, axes, rates, np.full((n, m), np.nan), tol, evaluations, none, (Ending(),) * n)
 
 
 def _checked(scenes: Sequence[Scene], chunk: int, engine: str) -> tuple[Scene, ...]:
@@ -180,7 +207,7 @@ def _checked(scenes: Sequence[Scene], chunk: int, engine: str) -> tuple[Scene, .
 
 
 def _run(work: Mapping[int, tuple[Any, ...]], executor: Executor | None) -> Iterator[tuple[int, Ensemble]]:
-    """Chunks with their numbers, as they are finished; here, one after another, without an executor."""
+    """Yield the chunks with their numbers as they are finished; without an executor in turn."""
     if executor is None:
         for number, arguments in work.items():
             yield number, run_chunk(*arguments)
@@ -196,7 +223,7 @@ def _run(work: Mapping[int, tuple[Any, ...]], executor: Executor | None) -> Iter
 
 @dataclass(frozen=True, eq=False)
 class _Member:
-    """A scene that the minimal model can hold, in its own units."""
+    """A scene of the minimal model, in natural units."""
 
     number: int
     scene: Scene
@@ -205,10 +232,7 @@ class _Member:
 
 
 def run_chunk(scenes: Sequence[Scene], times: Array, tol: float, engine: str) -> Ensemble:
-    """The work of one process: a few thousand scenes at once by `minimal`, those that it cannot hold by `spheres`.
-
-    Every run is within `tol` by its estimate, or has the best there is.
-    """
+    """Run some thousand scenes at once by `minimal`, and by `spheres` those that it cannot represent."""
     chunk, begin = _not_run(scenes, times, tol), float(times[0])
     scenes, times, endings = [scene.since(begin) for scene in scenes], times - begin, list(chunk.endings)
     groups: dict[Kind, list[_Member]] = {}
@@ -227,7 +251,7 @@ def run_chunk(scenes: Sequence[Scene], times: Array, tol: float, engine: str) ->
         runs |= _by_minimal(kind, members, times, tol, engine, chunk.evaluations)
     for i, scene in enumerate(scenes):
         try:
-            with warnings.catch_warnings():  # what is not kept is said once for all
+            with warnings.catch_warnings():  # one warning for all follows
                 warnings.simplefilter("ignore", LagrotorWarning)
                 run = runs.get(i) or simulate(scene, times, "spheres", tol)
         except (IntegrationError, SingularError) as refusal:
@@ -242,7 +266,7 @@ def run_chunk(scenes: Sequence[Scene], times: Array, tol: float, engine: str) ->
 
 
 def kind_of(scene: Scene) -> Kind | None:
-    """Which program runs the scene; None where the minimal model has no coordinates for it."""
+    """Return the kind of program of the scene; None if the minimal model has no coordinates for it."""
     if scene.link is None or max(abs(r[0]) for r in scene.axes) > 1 - 1e-12:
         return None
     return MODEL.kind(scene, True)[0]
@@ -251,13 +275,13 @@ def kind_of(scene: Scene) -> Kind | None:
 def _by_minimal(
     kind: Kind, members: list[_Member], times: Array, tol: float, engine: str, evaluations: NDArray[np.int64]
 ) -> dict[int, Trajectory]:
-    """The runs of scenes of one kind that reach their end, by number; `evaluations` (n,) is given what the others took."""
+    """Return the finished runs of scenes of one kind, by number, and record the `evaluations` (n,) of the others."""
     runs = dict[int, Trajectory]()
     rows = len(times) + max(65 + len(member.evolution.watch) for member in members)
     together = max(1, _MOST_ROWS // rows)
     for first in range(0, len(members), together):
-        part = members[first : first + together]
-        scenes = [member.units.scene for member in part]
+        batch = members[first : first + together]
+        scenes = [member.units.scene for member in batch]
         columns = np.array([MODEL.kind(scene, True)[1] for scene in scenes]).T
         swarm = _swarm(kind, scenes, columns)
 
@@ -266,10 +290,8 @@ def _by_minimal(
         ) -> Mapping[int, Stretch | StopError]:
             return march_lanes(program(*kind), columns, legs) if engine == "fast" else march_swarm(swarm, legs)
 
-        estimates = estimate_runs(
-            [one.evolution for one in part], [times * one.units.rate for one in part], tol, integrate
-        )
-        for member, run in zip(part, estimates, strict=True):
+        estimates = estimate_runs([m.evolution for m in batch], [times * m.units.rate for m in batch], tol, integrate)
+        for member, run in zip(batch, estimates, strict=True):
             if isinstance(run, IntegrationError) or run.ending.early:
                 evaluations[member.number] += run.evaluations
             else:
@@ -279,7 +301,7 @@ def _by_minimal(
 
 
 def _swarm(kind: Kind, scenes: list[Scene], columns: Array) -> Swarm:
-    """The scenes of one kind, in natural units, as arrays."""
+    """Return the scenes of one kind, in natural units, as arrays."""
     body, function = kind[2], rhs_on_arrays(*kind)
     at, width, force = np.zeros(len(scenes)), np.zeros(len(scenes)), np.zeros((3, len(scenes)))
     if body:
@@ -288,13 +310,13 @@ def _swarm(kind: Kind, scenes: list[Scene], columns: Array) -> Swarm:
         force = np.array([s.force for s in shocks]).T
 
     def rates(who: Index) -> Rates:
-        # What all share goes in as a number: numbers among themselves cost nothing beside arrays.
-        given = [float(c[0]) if (c == c[0]).all() else c[who] for c in columns]
+        # Parameters that all share are scalars, whose products are cheap.
+        parameters = [float(c[0]) if (c == c[0]).all() else c[who] for c in columns]
         push, broad = force[:, who], width[who]
 
         def into(s: Array, y: Array, out: Array) -> None:
             pulse = push * np.exp(-((s / broad) ** 2)) if body else ()
-            for row, values in zip(out, function(*y, *given, *pulse), strict=True):
+            for row, values in zip(out, function(*y, *parameters, *pulse), strict=True):
                 row[:] = values
 
         return into

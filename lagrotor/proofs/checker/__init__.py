@@ -1,1 +1,1 @@
-"""The second program: it verifies certificates and shares no arithmetic with the search; only `check` is taken from it."""
+"""The checker verifies certificates with its own arithmetic; other packages import only `check` from it."""

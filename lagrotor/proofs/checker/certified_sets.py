@@ -1,4 +1,4 @@
-"""The sets of a certificate, each verified to hold the image of the one before, by this program's own Taylor terms."""
+"""The sets of a certificate: each is verified to contain the image of the previous one, by the checker's own Taylor terms."""
 
 import re
 from collections.abc import Callable, Sequence
@@ -7,62 +7,57 @@ from typing import Any
 from flint import arb, arb_mat, ctx, fmpz
 
 from lagrotor.errors import NotProved
-from lagrotor.proofs.checker.bounded_series import Dual, Rest, below_one, evaluated, total
+from lagrotor.proofs.checker.bounded_series import Dual, Series, below_one, evaluate, total
 from lagrotor.proofs.checker.tapes import ZERO, demand, is_place, motion_terms, read_tape
 
 Ball = Any
 _EXACT = re.compile(r"-?[0-9a-f]+p-?\d+", re.ASCII)
-MOST_BITS = 100_000  # of a number
-MOST_TERMS = 10_000  # of a series
-_WIDE = 2.0**-24  # of a box, from which on its terms are taken twice
+MOST_BITS = 100_000  # in a number
+MOST_TERMS = 10_000  # in a series
+_WIDE = 2.0**-24  # half-width of a box above which its Taylor terms are computed twice
 
 
 def number(text: str) -> Ball:
-    """An exact number, mantissa in base 16 and power of two."""
+    """Return an exact number from mantissa (base 16) and power of two."""
     demand(_EXACT.fullmatch(text) is not None, f"{text[:60]!r} is not an exact number")
     mantissa, _, power = text.partition("p")
     demand(abs(int(power)) <= MOST_BITS and len(mantissa) <= MOST_BITS, "a number has too many digits")
-    before, ctx.prec = ctx.prec, max(ctx.prec, 4 * len(mantissa) + 8)
-    found = arb(fmpz(int(mantissa, 16))) * arb(2) ** int(power)
-    ctx.prec = before
-    return found
+    outer, ctx.prec = ctx.prec, max(ctx.prec, 4 * len(mantissa) + 8)
+    value = arb(fmpz(int(mantissa, 16))) * arb(2) ** int(power)
+    ctx.prec = outer
+    return value
 
 
 def read_ball(data: Any) -> Ball:
-    """[midpoint, radius]."""
     middle, wide = (number(text) for text in data)
     demand(wide >= 0, "a radius is negative")
     return middle + arb(0, wide.upper())
 
 
 def balls(data: Any) -> list[Ball]:
-    """A list of balls."""
     return [read_ball(x) for x in data]
 
 
 def matrix(data: Any, entry: Callable[[Any], Ball] = number) -> Any:
-    """A matrix."""
     return arb_mat([[entry(x) for x in row] for row in data])
 
 
 def column(values: Sequence[Ball]) -> Any:
-    """A column."""
     return arb_mat(len(values), 1, list(values))
 
 
 def unit(size: int) -> Any:
-    """The unit matrix."""
     return arb_mat(size, size, [int(i == j) for i in range(size) for j in range(size)])
 
 
 def middle_inverse(D: Any) -> Any:
-    """Return an exact matrix near the inverse of the middle."""
+    """Return an exact matrix near the inverse of the midpoint."""
     X = arb_mat(D.nrows(), D.ncols(), [x.mid() for x in D.entries()]).inv()
     return arb_mat(D.nrows(), D.ncols(), [x.mid() for x in X.entries()])
 
 
 def krawczyk(miss: Any, slope: Any, A: Any, w: Sequence[Ball]) -> list[Ball]:
-    """Return (1 − A D) w − A F, which must lie within the box w: then F has one zero there."""
+    """Return (1 − A D) w − A F. It must lie in the interior of the box w: then F has exactly one zero there."""
     K = ((unit(len(w)) - A * slope) * column(w) - A * miss).entries()
     for x, box in zip(K, w, strict=True):
         demand(box.contains_interior(x), "Krawczyk's test does not close")
@@ -70,7 +65,7 @@ def krawczyk(miss: Any, slope: Any, A: Any, w: Sequence[Ball]) -> list[Ball]:
 
 
 class Flow:
-    """x' = f(x) of a certificate: what moves, what stands still."""
+    """The motion x' = f(x) of a certificate: its tape, parameters and number of states."""
 
     def __init__(self, data: Any) -> None:
         self.tape = read_tape(data)
@@ -79,130 +74,113 @@ class Flow:
         self.size = len(data["arguments"]) - len(self.parameters)
         demand(0 < self.moving <= self.size, "the motion has no states")
 
-    def arguments(self, rows: list[Rest], still: Sequence[Ball], by: list[list[Rest]] | None, n: int) -> list[Dual]:
-        """Series of all arguments; with derivatives by the start where `by` has those of what moves."""
-        flat = [Rest([c], ZERO, n) for c in (*still, *self.parameters)]
+    def arguments(self, rows: list[Series], still: Sequence[Ball], by: list[list[Series]] | None, n: int) -> list[Dual]:
+        """Return the series of all arguments, with derivatives if `by` has those of the states."""
+        flat = [Series([c], ZERO, n) for c in (*still, *self.parameters)]
         if by is None:
             return [Dual(x) for x in (*rows, *flat)]
-        unit_rows = [
-            [Rest([arb(int(i == j))], ZERO, n) for j in range(self.size)] for i in range(self.moving, self.size)
-        ]
-        found = [Dual(x, row) for x, row in zip(rows, by, strict=True)]
-        found += [Dual(x, row) for x, row in zip(flat, unit_rows, strict=False)]
-        return found + [Dual(x) for x in flat[len(still) :]]
+        places = range(self.size)
+        unit_rows = [[Series([arb(int(i == j))], ZERO, n) for j in places] for i in places[self.moving :]]
+        duals = [Dual(x, row) for x, row in zip(rows, by, strict=True)]
+        duals += [Dual(x, row) for x, row in zip(flat, unit_rows, strict=False)]
+        return duals + [Dual(x) for x in flat[len(still) :]]
 
-    def step(self, start: list[Ball], h: Ball, n: int, known: list[list[Ball]] | None = None) -> list[Rest]:
-        """Series of what moves over one step, all starts within the balls. known: terms that are known already."""
+    def step(self, start: list[Ball], h: Ball, n: int, coefficients: list[list[Ball]] | None = None) -> list[Series]:
+        """Return the series of the states over one step from the balls; `coefficients` replace the computed terms."""
         still = start[self.moving :]
-        terms = known or motion_terms(self.tape, start[: self.moving], [*still, *self.parameters], h, n)
-        rests = [ZERO] * len(terms)
+        terms = coefficients or motion_terms(self.tape, start[: self.moving], [*still, *self.parameters], h, n)
+        bounds = [ZERO] * len(terms)
         for _ in range(9):
-            rates = self._rates([Rest(row, rest, n) for row, rest in zip(terms, rests, strict=True)], still, n)
-            new = [left_out(rate, h, n) for rate in rates]
-            if within(new, rests):
-                return [Rest(row, rest, n) for row, rest in zip(terms, new, strict=True)]
+            rows = [Series(row, bound, n) for row, bound in zip(terms, bounds, strict=True)]
+            rates = evaluate(self.tape, self.arguments(rows, still, None, n))
+            new = [remainder_bound(rate.value, h, n) for rate in rates]
+            if within(new, bounds):
+                return [Series(row, bound, n) for row, bound in zip(terms, new, strict=True)]
             least = max(new, key=lambda x: float(x.upper())) / 2**16
-            rests = [arb((2 * x + least).upper()) for x in new]
-        raise NotProved("check: the rest of the Taylor series is not bounded over a step")
+            bounds = [arb((2 * x + least).upper()) for x in new]
+        raise NotProved("check: the remainder of the Taylor series is not bounded over a step")
 
-    def _rates(self, rows: list[Rest], still: Sequence[Ball], n: int) -> list[Rest]:
-        return [rate.value for rate in evaluated(self.tape, self.arguments(rows, still, None, n))]
-
-    def slopes(self, rows: list[Rest], still: Sequence[Ball], h: Ball, n: int) -> tuple[list[Any], Ball]:
-        """The terms of D, D' = h J D and D(0) = 1, and a bound of the rest of each entry."""
+    def slopes(self, rows: list[Series], still: Sequence[Ball], h: Ball, n: int) -> tuple[list[Any], Ball]:
+        """Return the terms of D, D' = h J D and D(0) = 1, and a remainder bound of each entry."""
         size, n_rows = self.size, self.moving
-        by = [[Rest([arb(int(i == j))], ZERO, n) for j in range(size)] for i in range(n_rows)]
-        zero = [Rest([], ZERO, n)] * size
-        found = [rate.by or zero for rate in evaluated(self.tape, self.arguments(rows, still, by, n))]
-        found += [zero] * (size - n_rows)
-        J = [arb_mat([[h * term(x, k) for x in row] for row in found]) for k in range(n)]
-        rest = widest([total([h * x.rest for x in row]) for row in found])
+        by = [[Series([arb(int(i == j))], ZERO, n) for j in range(size)] for i in range(n_rows)]
+        zero = [Series([], ZERO, n)] * size
+        gradients = [rate.by or zero for rate in evaluate(self.tape, self.arguments(rows, still, by, n))]
+        gradients += [zero] * (size - n_rows)
+        J = [arb_mat([[h * term(x, k) for x in row] for row in gradients]) for k in range(n)]
+        bound = widest([total([h * x.remainder for x in row]) for row in gradients])
         D = [unit(size)]
         for k in range(1, n):
             D.append(sum((J[i] * D[k - 1 - i] for i in range(1, k)), J[0] * D[k - 1]) * (arb(1) / k))
         a, b = ([widest([total(row) for row in X.tolist()]) for X in matrices] for matrices in (J, D))
         over = sum((x * y for i, x in enumerate(a) for j, y in enumerate(b) if i + j >= n - 1), ZERO)
-        error = (over / n + rest * sum(b, ZERO) / (n + 1)) / below_one((sum(a, ZERO) + rest) / (n + 1))
+        error = (over / n + bound * sum(b, ZERO) / (n + 1)) / below_one((sum(a, ZERO) + bound) / (n + 1))
         demand(error.is_finite(), "the derivative's series does not converge over a step")
         return D, arb(error.upper())
 
-    def derivative(self, box: list[Ball], m: list[Ball], image: list[Rest], h: Ball, n: int) -> Any:
-        """That of the step over a box about m. Over a wide box the terms are taken again by the mean-value theorem."""
+    def derivative(self, box: list[Ball], m: list[Ball], image: list[Series], h: Ball, n: int) -> Any:
+        """Enclose the derivative of the step over a box about m. Over a wide box, the mean-value theorem gives narrower terms."""
         still = box[self.moving :]
         rows = self.step(box, h, n)
         D, error = self.slopes(rows, still, h, n)
-        off = [x - y for x, y in zip(box, m, strict=True)]
-        if any(abs(x).upper() > _WIDE for x in off):
-            shifts = [(X * column(off)).entries() for X in D]
-            known = [
-                [narrower(term(row, k), term(exactly, k) + shifts[k][i]) for k in range(n)]
-                for i, (row, exactly) in enumerate(zip(rows, image, strict=True))
-            ]
-            D, error = self.slopes(self.step(box, h, n, known), still, h, n)
+        shift = [x - y for x, y in zip(box, m, strict=True)]
+        if any(abs(x).upper() > _WIDE for x in shift):
+            shifts = [(X * column(shift)).entries() for X in D]
+            coefficients = []
+            for i, (row, exactly) in enumerate(zip(rows, image, strict=True)):
+                coefficients.append([narrower(term(row, k), term(exactly, k) + shifts[k][i]) for k in range(n)])
+            D, error = self.slopes(self.step(box, h, n, coefficients), still, h, n)
         wide = [arb(0, error) if i < self.moving else ZERO for i in range(self.size) for _ in range(self.size)]
         return sum(D[1:], D[0]) + arb_mat(self.size, self.size, wide)
 
 
 def narrower(x: Ball, y: Ball) -> Ball:
-    """The narrower of two balls that hold the same number."""
     return min(x, y, key=lambda ball: float(ball.rad()))
 
 
 def widest(values: Sequence[Ball]) -> Ball:
-    """The largest of some bounds."""
     return arb(max(values, key=lambda x: float(x.upper())).upper())
 
 
-def term(a: Rest, k: int) -> Ball:
-    """The coefficient of s^k."""
+def term(a: Series, k: int) -> Ball:
     return a.terms[k] if k < len(a.terms) else ZERO
 
 
-def left_out(rate: Rest, h: Ball, n: int) -> Ball:
-    """h ∫ of what the rate has from s^(n−1) on."""
-    return arb((abs(h) * (abs(term(rate, n - 1)) / n + rate.rest / (n + 1))).upper())
+def remainder_bound(rate: Series, h: Ball, n: int) -> Ball:
+    """Return a bound of h ∫ of the rate's terms from s^(n−1) on."""
+    return arb((abs(h) * (abs(term(rate, n - 1)) / n + rate.remainder / (n + 1))).upper())
 
 
 def within(new: Sequence[Ball], old: Sequence[Ball]) -> bool:
-    """Whether each is at most as large."""
+    """Return True if each new bound is at most as large as the old one."""
     return all(x <= y for x, y in zip(new, old, strict=True))
 
 
-def end_of(a: Rest) -> Ball:
-    """The value at s = 1."""
-    return sum(a.terms, ZERO) + arb(0, a.rest.upper())
+def end_of(a: Series) -> Ball:
+    """Return the value at s = 1."""
+    return sum(a.terms, ZERO) + arb(0, a.remainder.upper())
 
 
 def read_node(data: Any) -> tuple[Any, ...]:
-    """m, Q, s, C, S."""
-    return (
-        [number(x) for x in data["m"]],
-        matrix(data["Q"]),
-        column(balls(data["s"])),
-        matrix(data["C"]),
-        matrix(data["S"], read_ball),
-    )
+    m, s = [number(x) for x in data["m"]], column(balls(data["s"]))
+    return m, matrix(data["Q"]), s, matrix(data["C"]), matrix(data["S"], read_ball)
 
 
-class Carried:
-    """The sets of a certificate, each verified to hold the image of the one before."""
+class VerifiedSteps:
+    """The sets of a certificate, each verified to contain the image of the previous one."""
 
     def __init__(self, certificate: Any) -> None:
         self.flow = Flow(certificate["motion"])
         start, size = certificate["start"], self.flow.size
         self.middle, self.w = balls(start["middle"]), balls(start["spread"])
-        demand(len(self.middle) == len(self.w) == size and len(certificate["steps"]) > 0, "the start has other states")
-        demand(all(x.contains(0) for x in self.w), "the start's box does not hold its middle")
+        fits = len(self.middle) == len(self.w) == size and len(certificate["steps"]) > 0
+        demand(fits, "the start does not fit the motion")
+        demand(all(x.contains(0) for x in self.w), "the start's box does not contain its middle")
         m = [x.mid() for x in self.middle]
-        node = (
-            m,
-            unit(size),
-            column([x - y for x, y in zip(self.middle, m, strict=True)]),
-            unit(size),
-            arb_mat(size, size),
-        )
+        s = column([x - y for x, y in zip(self.middle, m, strict=True)])
+        node = (m, unit(size), s, unit(size), arb_mat(size, size))
         self.time = ZERO
-        self.boxes: list[tuple[list[Ball], Ball, int]] = []  # of each step: its start over all w, its length, its terms
+        self.boxes: list[tuple[list[Ball], Ball, int]] = []  # box, length and terms of each step
         for k, step in enumerate(certificate["steps"]):
             node = self._step(node, step, k)
         m, Q, s, C, S = node
@@ -213,29 +191,28 @@ class Carried:
     def _step(self, node: Any, data: Any, k: int) -> Any:
         m, Q, s, C, S = node
         h, n, few = read_ball(data["h"]), data["terms"], data["slope_terms"]
-        demand(
-            h > 0 and all(is_place(x, MOST_TERMS) and x > 2 for x in (n, few)), f"step {k} has no length or no terms"
-        )
+        fits = h > 0 and all(is_place(x, MOST_TERMS) and x > 2 for x in (n, few))
+        demand(fits, f"step {k} has no length or no terms")
         moving = self.flow.moving
         image = self.flow.step(m, h, n)
         box = box_of(node, self.w)
         D = self.flow.derivative(box, m, image, h, few)
-        after = read_node(data["node"])
-        m1, Q1, s1, C1, S1 = after
-        back = Q1.inv()
-        turned = back * (D * Q)
+        end = read_node(data["node"])
+        m1, Q1, s1, C1, S1 = end
+        inverse = Q1.inv()
+        rotation = inverse * (D * Q)
         y = [*map(end_of, image), *m[moving:]]
-        point = turned * s + back * (column(y) - column(m1))
-        slope = turned * S + back * (D * C - C1)
-        demand(all(x.contains(0) for x in s1.entries()), f"node {k + 1} does not hold its middle")
-        demand(s1.contains(point), f"node {k + 1} does not hold the motion of the middle")
-        demand(S1.contains(slope), f"node {k + 1} does not hold the derivative")
+        point = rotation * s + inverse * (column(y) - column(m1))
+        slope = rotation * S + inverse * (D * C - C1)
+        demand(all(x.contains(0) for x in s1.entries()), f"node {k + 1} does not contain its middle")
+        demand(s1.contains(point), f"node {k + 1} does not contain the motion of the middle")
+        demand(S1.contains(slope), f"node {k + 1} does not contain the derivative")
         self.boxes.append((box, h, n))
         self.time += h
-        return after
+        return end
 
 
 def box_of(node: Any, w: Sequence[Ball]) -> list[Ball]:
-    """m + Q s + (C + Q S) w."""
+    """Return m + Q s + (C + Q S) w."""
     m, Q, s, C, S = node
     return (column(m) + Q * s + (C + Q * S) * column(w)).entries()

@@ -1,4 +1,4 @@
-"""Expressions as they are written, as a tape: the second program evaluates a theorem's words, nothing that stands for them."""
+"""The text of expressions as tapes: the checker evaluates the words of a theorem, and no other representation of them."""
 
 import ast
 import re
@@ -12,30 +12,29 @@ from lagrotor.proofs.checker.tapes import Tape, demand, read_tape, results_of
 from lagrotor.proofs.tape import OPERATIONS
 
 _LONGEST = 20_000  # characters
-_LARGEST = 10_000  # whole exponent
-_INNER = "ⴰ"  # a letter that stands in no expression
+_LARGEST = 10_000  # integer exponent
+_INNER = "ⴰ"  # a character that occurs in no expression
 _EXACTLY: dict[Any, Any] = {ast.Add: add, ast.Sub: sub, ast.Mult: mul, ast.Div: truediv}
 _JOINED = {ast.Add: "add", ast.Sub: "subtract", ast.Mult: "multiply", ast.Div: "divide"}
 
 
 def tape_of_words(named: Sequence[Any], arguments: Sequence[str], observed: Any) -> Tape:
-    """Of what is called {of} or, by a name of its own, {of, means}, in the names of the arguments and of what is observed."""
+    """Return expressions as a tape. A row is {of}, the text, or {of, means}, a name and its text."""
     words = Words(arguments, observed)
     meanings: dict[str, str] = {}
-    for each in named:
-        if "means" in each:
-            name = each["of"]
-            own = name.isidentifier() and name not in words.names and name not in _FUNCTIONS
-            demand(own, f"the name of an expression is no name of its own: {name[:60]!r}")
+    for row in named:
+        if "means" in row:
+            name = row["of"]
+            free = name.isidentifier() and name not in words.names and name not in _FUNCTIONS
+            demand(free, f"the name of an expression is taken or invalid: {name[:60]!r}")
             words.constants.pop(name, None)
-            demand(meanings.setdefault(name, each["means"]) == each["means"], f"{name} has two meanings")
-    places = [words.place(each.get("means", each["of"])) for each in named]
+            demand(meanings.setdefault(name, row["means"]) == row["means"], f"{name} has two meanings")
+    places = [words.place(row.get("means", row["of"])) for row in named]
     return words.tape(places)
 
 
 class Words:
-    """Operations as expressions need them, each once. names: the places of arguments and of what is observed; constants: what
-    E and pi are, unless they name an expression."""
+    """The operations of expressions, each once; names: places of arguments and observables; constants: E and pi."""
 
     def __init__(self, arguments: Sequence[str], observed: Any) -> None:
         self.arguments = [*arguments]
@@ -46,36 +45,35 @@ class Words:
         if observed:
             tape, names = read_tape(observed), observed["names"]
             fits = tape["arguments"] == list(arguments) and len({*names} - {*arguments}) == len(tape["outputs"])
-            demand(fits, "what is observed has other names")
+            demand(fits, "the observables have other names")
             self.names |= dict(zip(names, self.include(tape), strict=True))
-        own = not any(re.search(r"^\d|[\s+*/().-]", name) or name in {"pi", *_FUNCTIONS} for name in self.names)
-        demand(own, "a name of a state or of what is observed is an expression itself")
+        plain = not any(re.search(r"^\d|[\s+*/().-]", name) or name in {"pi", *_FUNCTIONS} for name in self.names)
+        demand(plain, "the name of a state or observable is an expression")
 
     def include(self, tape: Tape) -> list[int]:
-        """The places of a tape's outputs, its arguments what is known by their names."""
-        found = results_of(
-            tape, lambda i: self.names[tape["arguments"][i]], lambda x: self.keep("number", x), self.keep
-        )
-        return [found[place] for place in tape["outputs"]]
+        """Return the places of a tape's outputs; its arguments are matched by name."""
+        names = tape["arguments"]
+        places = results_of(tape, lambda i: self.names[names[i]], lambda x: self.keep("number", x), self.keep)
+        return [places[place] for place in tape["outputs"]]
 
     def keep(self, *operation: Any) -> int:
-        """The place of an operation's result."""
         place = self._places.setdefault(operation, len(self.operations))
         if place == len(self.operations):
             self.operations.append(list(operation))
         return place
 
     def place(self, text: str) -> int:
-        """Of an expression's value. Raises NotProved for what cannot be read; nothing runs."""
+        """Return the place of an expression's value; the text is parsed, never run. Raises NotProved if it cannot be read."""
         demand(len(text) <= _LONGEST, f"an expression has more than {_LONGEST} characters")
         order = sorted(self.names, key=len, reverse=True)
-        known = "|".join(map(re.escape, order)) or r"(?!)"
-        put = re.sub(rf"(?<![\w\\}}])(?:{known})(?![\w{{}}'(])", lambda hit: f"{_INNER}{order.index(hit[0])}", text)
+        pattern = "|".join(map(re.escape, order)) or r"(?!)"
+        word = rf"(?<![\w\\}}])(?:{pattern})(?![\w{{}}'(])"
+        marked = re.sub(word, lambda hit: f"{_INNER}{order.index(hit[0])}", text)
         places = {f"{_INNER}{i}": self.names[name] for i, name in enumerate(order)}
         try:
-            if _INNER in text or not re.fullmatch(r"[\w +\-*/().]*", put):
-                raise ValueError(put)
-            return self._place(ast.parse(put.strip(), mode="eval").body, places)
+            if _INNER in text or not re.fullmatch(r"[\w +\-*/().]*", marked):
+                raise ValueError(marked)
+            return self._place(ast.parse(marked.strip(), mode="eval").body, places)
         except (SyntaxError, ValueError, RecursionError, MemoryError, ZeroDivisionError):
             raise NotProved(f"check: the expression {text[:60]!r} cannot be read") from None
 
@@ -116,13 +114,12 @@ class Words:
         return self.keep("multiply", square, base) if power % 2 else square
 
     def over(self, above: int, below: int) -> int:
-        """A quotient."""
         return self.keep("divide", above, below)
 
-    def slope(self, place: int, along: Mapping[int, int]) -> int:
-        """The derivative of a result along a direction: argument → component, zero for all others."""
+    def slope(self, place: int, direction: Mapping[int, int]) -> int:
+        """Return the derivative of a result along a direction, argument → component; other components are zero."""
         zero, needed = self.keep("number", "0"), self.below([place])
-        slopes = {at: along.get(at, zero) for at in needed}
+        slopes = {at: direction.get(at, zero) for at in needed}
         for at in sorted(needed):
             name, *on = self.operations[at]
             if name in OPERATIONS and any(slopes[x] != zero for x in on):
@@ -130,14 +127,14 @@ class Words:
         return slopes[place]
 
     def tape(self, places: Sequence[int]) -> Tape:
-        """Results as a tape of what is known by name; what they do not need is zero."""
+        """Return results as a tape of the named arguments; operations that they do not need become zero."""
         needed, operations = self.below(places), [*self.operations]
         for place in {*range(len(operations))} - needed:
             operations[place] = ["number", "0"]
         return {"arguments": self.arguments, "operations": operations, "outputs": [*places]}
 
     def below(self, places: Sequence[int]) -> set[int]:
-        """The results on which some rest, and they themselves."""
+        """Return the given places and all places that they depend on."""
         needed = {*places}
         for at in range(max(places, default=-1), -1, -1):
             name, *on = self.operations[at]
@@ -152,25 +149,26 @@ class Words:
             return self.keep("add", self.keep(name, by[0], on[1]), self.keep(name, on[0], by[1]))
         if name == "divide":
             return self.over(self.keep("subtract", by[0], self.keep("multiply", at, by[1])), on[1])
-        (a,), one = on, self.keep("number", "1")
-        if name == "sqrt":  # √a a'/(2 a): no identity of roots is needed to compare it
+        (a,), unit = on, self.keep("number", "1")
+        if name == "sqrt":  # √a a'/(2 a), comparable without an identity of roots
             return self.over(self.keep("multiply", at, by[0]), self.keep("add", a, a))
         if name in ("log", "asin", "atan"):
             square = self.keep("multiply", a, a)
-            beside = self.keep("add" if name == "atan" else "subtract", one, square)
-            return self.over(by[0], a if name == "log" else beside if name == "atan" else self.keep("sqrt", beside))
+            complement = self.keep("add" if name == "atan" else "subtract", unit, square)
+            root = self.keep("sqrt", complement) if name == "asin" else complement
+            return self.over(by[0], a if name == "log" else root)
         if name == "cos":
             return self.keep("subtract", self.keep("number", "0"), self.keep("multiply", self.keep("sin", a), by[0]))
         return self.keep("multiply", at if name == "exp" else self.keep("cos", a), by[0])
 
-    def risen(self, name: str, x: int) -> int:
-        """exp(x) + exp(−x), or the difference."""
+    def exponential_sum(self, name: str, x: int) -> int:
+        """Return exp(x) + exp(−x) for "add", the difference for "subtract"."""
         rise = self.keep("exp", x)
         return self.keep(name, rise, self.over(self.keep("number", "1"), rise))
 
 
 def _rational(node: ast.expr) -> Fraction | None:
-    """A number that is written with + − * / alone."""
+    """Return a number written with + − * / alone; None for any other expression."""
     match node:
         case ast.Constant(value=int(value)) if not isinstance(value, bool):
             return Fraction(value)
@@ -184,10 +182,8 @@ def _rational(node: ast.expr) -> Fraction | None:
     return None
 
 
-_CONSTANTS: dict[str, Any] = {
-    "pi": lambda w: w.keep("number", "pi"),
-    "E": lambda w: w.keep("exp", w.keep("number", "1")),
-}
+_ONE = ("number", "1")
+_CONSTANTS: dict[str, Any] = {"pi": lambda w: w.keep("number", "pi"), "E": lambda w: w.keep("exp", w.keep(*_ONE))}
 _FUNCTIONS: dict[str, Any] = {
     **{name: lambda w, x, name=name: w.keep(name, x) for name, count in OPERATIONS.items() if count == 1},
     "tan": lambda w, x: w.over(w.keep("sin", x), w.keep("cos", x)),
@@ -195,7 +191,7 @@ _FUNCTIONS: dict[str, Any] = {
     "sec": lambda w, x: w.over(w.keep("number", "1"), w.keep("cos", x)),
     "csc": lambda w, x: w.over(w.keep("number", "1"), w.keep("sin", x)),
     "acos": lambda w, x: w.keep("subtract", w.over(w.keep("number", "pi"), w.keep("number", "2")), w.keep("asin", x)),
-    "sinh": lambda w, x: w.over(w.risen("subtract", x), w.keep("number", "2")),
-    "cosh": lambda w, x: w.over(w.risen("add", x), w.keep("number", "2")),
-    "tanh": lambda w, x: w.over(w.risen("subtract", x), w.risen("add", x)),
+    "sinh": lambda w, x: w.over(w.exponential_sum("subtract", x), w.keep("number", "2")),
+    "cosh": lambda w, x: w.over(w.exponential_sum("add", x), w.keep("number", "2")),
+    "tanh": lambda w, x: w.over(w.exponential_sum("subtract", x), w.exponential_sum("add", x)),
 }

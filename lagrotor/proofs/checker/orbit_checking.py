@@ -1,4 +1,4 @@
-"""Periodic orbits: Krawczyk's test, reversals, period and multipliers of a certificate."""
+"""The check of a periodic orbit: Krawczyk test, reversals, period and Floquet multipliers of a certificate."""
 
 from typing import Any
 
@@ -6,7 +6,7 @@ from flint import arb, arb_mat, arb_poly
 
 from lagrotor.proofs.checker.bounded_series import total
 from lagrotor.proofs.checker.certified_sets import (
-    Carried,
+    VerifiedSteps,
     balls,
     column,
     krawczyk,
@@ -16,69 +16,65 @@ from lagrotor.proofs.checker.certified_sets import (
     unit,
 )
 from lagrotor.proofs.checker.reversals import check_reversal
-from lagrotor.proofs.checker.tapes import ZERO, demand, demand_paced, is_place, rational_of
+from lagrotor.proofs.checker.tapes import ZERO, demand, demand_pace, is_place, rational_of
 
 Ball = Any
-_FREE = [4, 5, 6]  # of the pair: the rates of chi and alpha and the pace
+_FREE = [4, 5, 6]  # places of chi', alpha' and the pace of the pair
 
 
 def check_orbit(certificate: Any) -> None:
-    """Krawczyk's test at the end of the steps; the reversals; the period; the multipliers."""
-    carried = Carried(certificate)
+    """Verify the Krawczyk test at the end of the steps, the reversals, the period and the multipliers."""
+    carried = VerifiedSteps(certificate)
     free, conditions = certificate["free"], certificate["conditions"]
     first, last = certificate["reversals"]
-    demand(bool(first) == bool(last), "there is one reversal, at one end alone")
+    demand(bool(first) == bool(last), "only one end has a reversal")
     size, moving = carried.flow.size, carried.flow.moving
     fits = size == moving + 1 and len(free) == len(conditions) == len({*free}) and moving in free
     demand(fits and all(is_place(i, size) for i in (*free, *conditions)), "the conditions do not fit the unknowns")
-    demand_paced(carried.flow.tape)
+    demand_pace(carried.flow.tape)
     still = all(x.is_zero() for i, x in enumerate(carried.w) if i not in free)
-    demand(still, "the test is held at the middle of what is not sought")
+    demand(still, "a fixed state is an interval")
     demand(carried.time.contains(1) and carried.time.rad() < arb(2) ** -40, "the steps are not one unit of s")
     check_conditions(carried, first, last, free, conditions)
     A, D = matrix(certificate["A"]), carried.derivative
-    back = 0 if first else 1
-
-    miss = column([carried.point[i] - back * carried.middle[i] for i in conditions])
-    slope = arb_mat([[D[i, j] - back * int(i == j) for j in free] for i in conditions])
+    returns = 0 if first else 1
+    miss = column([carried.point[i] - returns * carried.middle[i] for i in conditions])
+    slope = arb_mat([[D[i, j] - returns * int(i == j) for j in free] for i in conditions])
     start = list(carried.middle)
     for i, x in zip(free, krawczyk(miss, slope, A, [carried.w[i] for i in free]), strict=True):
         start[i] += x
     turns = 1 if not first else 2 if first == last else 4
     claim = certificate["claim"]
     states = balls(claim["start"])
-    demand(
-        len(states) == moving and all(y.contains(x) for x, y in zip(start, states, strict=False)),
-        "the start is another",
-    )
-    demand(start[moving] > 0 and read_ball(claim["period"]).contains(turns * start[moving]), "the period is another")
+    fits = len(states) == moving and all(y.contains(x) for x, y in zip(start, states, strict=False))
+    demand(fits, "the claimed start does not contain the orbit's")
+    period = turns * start[moving]
+    fits = period > 0 and read_ball(claim["period"]).contains(period)
+    demand(fits, "the claimed period does not contain the orbit's")
     check_kind(certificate, carried, first, last)
     if "r0" in claim:
         check_amplitude(certificate, claim["r0"])
 
 
 def check_amplitude(certificate: Any, claimed: Any) -> None:
-    """The one orbit has the amplitude that is claimed, at the middle of its turn through the plane of the joint line.
-
-    It is of a scene's motion, with the pair's reversals.
-    """
-    own = certificate["reversals"] == [[1, -1, -1, -1, 1, 1], [-1, 1, -1, 1, -1, 1]]
-    demand("scene" in (certificate["about"] or {}) and own, "it is no precession of the pair")
-    demand(certificate["ones"] == 4, "energy and momentum leave one pair of multipliers")
-    demand(certificate["free"] == _FREE, "the amplitude is not held")
+    """Verify that the start of the one orbit has the claimed amplitude, for a scene and with the pair's reversals."""
+    of_pair = certificate["reversals"] == [[1, -1, -1, -1, 1, 1], [-1, 1, -1, 1, -1, 1]]
+    demand("scene" in (certificate["about"] or {}) and of_pair, "the orbit is no precession of the pair")
+    demand(certificate["ones"] == 4, "a precession has four multipliers equal to 1")
+    demand(certificate["free"] == _FREE, "the amplitude is not fixed")
     U = read_ball(certificate["start"]["middle"][0])
-    demand(claimed == [claimed[0]] * 2 and U.contains(rational_of(claimed[0]).atanh()), "the amplitude is another")
+    fits = claimed == [claimed[0]] * 2 and U.contains(rational_of(claimed[0]).atanh())
+    demand(fits, "the claimed amplitude is not that of the start")
 
 
-def check_conditions(carried: Carried, first: Any, last: Any, free: Any, conditions: Any) -> None:
-    """The start lies in the fixed set of the first reversal; the conditions put the end into that of the last."""
+def check_conditions(carried: VerifiedSteps, first: Any, last: Any, free: Any, conditions: Any) -> None:
+    """Verify that start and conditions are those of the fixed sets of the two reversals."""
     moving = carried.flow.moving
     if not first:
-        demand(sorted(conditions) == list(range(moving)), "the orbit is not followed to its start")
+        demand(sorted(conditions) == list(range(moving)), "the conditions do not close the orbit")
         return
-    demand(
-        sorted(conditions) == [i for i, s in enumerate(last) if s < 0], "the conditions are not those of the reversal"
-    )
+    ends = [i for i, s in enumerate(last) if s < 0]
+    demand(sorted(conditions) == ends, "the conditions are not those of the reversal")
     for i, s in enumerate(first):
         fixed = carried.middle[i].is_zero() and carried.w[i].is_zero()
         demand(s > 0 or (fixed and i not in free), "the start is not in the fixed set of the reversal")
@@ -86,10 +82,10 @@ def check_conditions(carried: Carried, first: Any, last: Any, free: Any, conditi
         check_reversal(carried.flow.tape, signs)
 
 
-def check_kind(certificate: Any, carried: Carried, first: Any, last: Any) -> None:
-    """The trace of the monodromy less the ones, against ±2."""
+def check_kind(certificate: Any, carried: VerifiedSteps, first: Any, last: Any) -> None:
+    """Verify the stability: the trace of the monodromy matrix minus the ones against ±2, or all multipliers."""
     claim, moving = certificate["claim"], carried.flow.moving
-    demand(is_place(certificate["ones"], moving + 1), "the number of multipliers that are 1 is none")
+    demand(is_place(certificate["ones"], moving + 1), "the number of multipliers equal to 1 is invalid")
     demand(claim["kind"] in ("undecided", "elliptic", "hyperbolic", "attracting", "parabolic"), "the kind is unknown")
     if claim["kind"] == "undecided":
         return
@@ -98,45 +94,40 @@ def check_kind(certificate: Any, carried: Carried, first: Any, last: Any) -> Non
     ones = certificate["ones"]
     if not first:
         values = D.eig()
-        along = [z for z in values if z.contains(1)]
+        unity = [z for z in values if z.contains(1)]
         others = [abs(z) for z in values if not z.contains(1)]
         fine = all(x < 1 for x in others) if claim["kind"] == "attracting" else all(x < 1 or x > 1 for x in others)
-        demand(
-            len(along) == 1 and fine and claim["kind"] in ("attracting", "hyperbolic"),
-            "the multipliers are not shown to be apart from the unit circle",
-        )
+        fine = fine and len(unity) == 1 and claim["kind"] in ("attracting", "hyperbolic")
+        demand(fine, "the multipliers are not proved to be off the unit circle")
         return
     pair = pair_sum(D, first, last, ones)
     if claim["kind"] == "parabolic":
-        demand(moving == ones, "a pair of multipliers is left that need not be one")
+        demand(moving == ones, "a pair of multipliers can differ from 1")
         return
-    demand(moving - ones == 2, "more than one pair of multipliers is left")
-    demand(read_ball(claim["pair_sum"]).contains(pair), "the multipliers' sum is another")
-    demand(claim["kind"] == kind_of(pair), f"the orbit is not shown to be {claim['kind']}")
+    demand(moving - ones == 2, "more than one pair of multipliers can differ from 1")
+    demand(read_ball(claim["pair_sum"]).contains(pair), "the claimed sum of the multipliers does not contain theirs")
+    demand(claim["kind"] == kind_of(pair), f"the orbit is not proved to be {claim['kind']}")
 
 
 def kind_of(pair: Ball) -> str:
-    """By μ + 1/μ."""
     return "elliptic" if abs(pair) < 2 else "hyperbolic" if abs(pair) > 2 else "undecided"
 
 
 def pair_sum(D: Any, first: Any, last: Any, ones: int) -> Ball:
-    """μ + 1/μ of the multipliers that are left beside the ones, from the derivative between two reversals."""
+    """Return μ + 1/μ of the multipliers that are not 1, from the derivative between two reversals."""
     moving = D.nrows()
     X = middle_inverse(D)
     R = unit(moving) - D * X
     size = max((total(row) for row in R.tolist()), key=lambda x: float(x.upper()))
-    demand(size < 1, "the derivative cannot be inverted")
-    rest = (size**2 / (1 - size)).upper()
-    back = X * (unit(moving) + R + arb_mat(moving, moving, [arb(0, rest)] * moving**2))
-    reflect = [
-        arb_mat(moving, moving, [s[i] if i == j else 0 for i in range(moving) for j in range(moving)])
-        for s in (first, last)
-    ]
-    part = reflect[0] * back * reflect[1] * D
-    M = part if first == last else part * part
+    demand(size < 1, "the derivative is not proved to be invertible")
+    bound = (size**2 / (1 - size)).upper()
+    inverse = X * (unit(moving) + R + arb_mat(moving, moving, [arb(0, bound)] * moving**2))
+    places = range(moving)
+    reflect = [arb_mat([[s[i] if i == j else 0 for j in places] for i in places]) for s in (first, last)]
+    half = reflect[0] * inverse * reflect[1] * D
+    M = half if first == last else half * half
     pair = sum((M[i, i] for i in range(moving)), ZERO) - ones
-    left = arb_poly([1, -pair, 1]) if moving > ones else arb_poly([1])
-    off = M.charpoly() - arb_poly([-1, 1]) ** ones * left
-    demand(all(x.contains(0) for x in off.coeffs()), "the multipliers are not as many ones and a pair")
+    factor = arb_poly([1, -pair, 1]) if moving > ones else arb_poly([1])
+    difference = M.charpoly() - arb_poly([-1, 1]) ** ones * factor
+    demand(all(x.contains(0) for x in difference.coeffs()), "the multipliers are not the stated ones and a pair")
     return pair

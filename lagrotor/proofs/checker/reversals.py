@@ -1,12 +1,12 @@
-"""Whether a motion is its own image in time reversed under signs of its states: f(S x) = −S f(x), decided on its tape.
+"""Reversals: f(S x) = −S f(x) for signs S of the states, decided on the tape of f.
 
-It is an identity of rational functions of letters: the arguments, π, and functions of them, where sin, asin and atan are odd,
-sin² + cos² = 1, e^(a+b) = e^a e^b, √a and e^(n log a) are powers of a. It is held modulo a prime of 512 bits at one point, both
-from a digest of the tape, at which what has a root is a square, and for both signs of each root, up to four; roots of more are
-letters, of which less is known. A false one holds there with a chance of at most its degree over the prime (Schwartz and
-Zippel), here below 2⁻²⁵⁰, however small the difference is as a number; one that needs more of the functions is refused. The laws
-of roots and logarithms hold where their arguments are positive: at S x nothing has to be positive that was not so at x, where the
-motion was followed.
+The identity is one of rational functions of variables: the arguments, π, and functions of them. sin, asin and atan are
+odd, sin² + cos² = 1, e^(a+b) = e^a e^b, and √a and e^(n log a) are powers of a. It is evaluated modulo a 512-bit prime at
+one point, both from a digest of the tape. The point makes every radicand a square, and both signs of up to four roots are
+tested; the roots of a tape with more are variables, of which less is known. A false identity holds there with a
+probability of at most its degree over the prime (Schwartz and Zippel), here below 2⁻²⁵⁰. A true one that needs more
+identities is rejected. The laws of roots and logarithms hold for positive arguments: at S x no argument may need to be
+positive that was not so at x, on the motion.
 """
 
 from collections.abc import Iterator, Mapping
@@ -24,12 +24,12 @@ from lagrotor.proofs.checker.tapes import Tape, demand, results_of
 Terms = Mapping[int, Fraction]
 _DEGREE = 2**256
 _PARTS = 5040
-_ODD = 315  # roots that every residue has once
+_ODD = 315  # every residue has one root of each order that divides it
 _MOST_ROOTS, _MOST_TRIES, _OF_ONE_PRIME = 4, 256, 64
 
 
 class Residue(NamedTuple):
-    """A result modulo the prime, a bound of its degree, and the sum that it is: letter → coefficient, of what exp is taken."""
+    """A result modulo the prime, a bound of its degree, and its linear form, variable → coefficient, for exponentials."""
 
     value: int
     degree: int
@@ -37,41 +37,41 @@ class Residue(NamedTuple):
 
 
 def check_reversal(tape: Tape, signs: Any) -> None:
-    """f(S x) = −S f(x) for the signs ±1 of the states x."""
+    """Verify f(S x) = −S f(x) for the signs ±1 of the states x."""
     fits = len(signs) == len(tape["outputs"]) and all(type(s) is int and abs(s) == 1 for s in signs)
-    demand(fits, "a reversal is a sign 1 or −1 of each state")
+    demand(fits, "a reversal needs a sign 1 or −1 for each state")
     for residues in points_of(tape):
         rates = residues.outputs([1] * len(signs))
         followed = len(residues.domain)
         stays, images = False, list[Residue]()
-        with suppress(NoSquareError):  # then something has a root that had none
+        with suppress(NoSquareError):  # a new radicand is no square
             images = residues.outputs(signs)
             stays = len(residues.domain) == followed
-        demand(stays, "time reversed the motion may leave where its roots and logarithms are defined")
+        demand(stays, "the reversed motion may leave the domain of its roots and logarithms")
         for s, a, b in zip(signs, rates, images, strict=True):
-            demand((s * a.value + b.value) % residues.p == 0, "time reversed is no motion")
+            demand((s * a.value + b.value) % residues.p == 0, "the reversed motion is no motion")
 
 
 class NoSquareError(Exception):
-    """What has a root is no square at a point."""
+    """A radicand is no square at a point."""
 
 
 def points_of(tape: Tape) -> Iterator["Residues"]:
-    """One prime and point at which all roots are residues, with each sign of each; or at which they are letters."""
-    letters = Residues(tape, None)
-    letters.outputs([])
-    for attempt in range(_MOST_TRIES if letters.roots <= _MOST_ROOTS else 0):
+    """Yield one prime and point at which all roots are residues, with each sign of each root; or with roots as variables."""
+    variables = Residues(tape, None)
+    variables.outputs([])
+    for attempt in range(_MOST_TRIES if variables.roots <= _MOST_ROOTS else 0):
         with suppress(NoSquareError):
-            for signs in range(2**letters.roots):
+            for signs in range(2**variables.roots):
                 Residues(tape, attempt, signs).outputs([])
-            yield from (Residues(tape, attempt, signs) for signs in range(2**letters.roots))
+            yield from (Residues(tape, attempt, signs) for signs in range(2**variables.roots))
             return
     yield Residues(tape, None)
 
 
 @lru_cache(maxsize=64)
 def _prime(seed: str) -> int:
-    """The next one after a number of 512 bits with which −1 is no square, and odd roots are unique."""
+    """Return the next prime after a 512-bit number for which −1 is no square and odd roots are unique."""
     p = int(nextprime(int(sha512(seed.encode()).hexdigest(), 16)))
     while not (p % 4 == 3 and gcd(p - 1, _ODD) == 1):
         p = int(nextprime(p))
@@ -79,43 +79,42 @@ def _prime(seed: str) -> int:
 
 
 class Residues:
-    """The results of a tape, modulo a prime; attempt: which of its points, none where roots are letters; signs: a bit a root."""
+    """The results of a tape modulo a prime; attempt: the number of the point, or None; signs: one bit for each root."""
 
     def __init__(self, tape: Tape, attempt: int | None, signs: int = 0) -> None:
         self.tape, self._digest = tape, sha512(f"{tape} {attempt}".encode()).hexdigest()
         self.p = _prime(f"{tape} {(attempt or 0) // _OF_ONE_PRIME}")
         self._signs = None if attempt is None else signs
-        self._roots: dict[int, int] = {}  # of what has one, by its logarithm's letter
-        self._logarithms: dict[int, Terms] = {}  # of what is positive: exponentials, and what has a logarithm or a root
-        self._halves: dict[
-            int, tuple[Terms, Residue, int]
-        ] = {}  # of products: one factor's logarithm, the other, its power
-        self._arguments: dict[int, Residue] = {}  # of logarithms, by their letter
-        self.domain: set[tuple[str, int]] = set()  # what has to be positive, or from −1 to 1, for what is taken of it
+        self._roots: dict[int, int] = {}  # of radicands, by the variable of the logarithm
+        self._logarithms: dict[int, Terms] = {}  # of exponentials and of arguments of logarithms and roots
+        # Of a product: the logarithm of one factor, the other factor, its power.
+        self._halves: dict[int, tuple[Terms, Residue, int]] = {}
+        self._arguments: dict[int, Residue] = {}  # of logarithms, by variable
+        self.domain: set[tuple[str, int]] = set()  # arguments that must be positive, or in [−1, 1]
 
     def outputs(self, signs: list[int]) -> list[Residue]:
-        """With signs of the first arguments."""
+        """Return the outputs, with signs for the first arguments."""
 
         def argument(place: int) -> Residue:
-            return self._letter(self._point("argument", place) * (signs[place] if place < len(signs) else 1))
+            return self._variable(self._point("argument", place) * (signs[place] if place < len(signs) else 1))
 
         def number(x: str) -> Residue:
-            return self._letter(self._point(x)) if x == "pi" else self._number(Fraction(x))
+            return self._variable(self._point(x)) if x == "pi" else self._number(Fraction(x))
 
-        found = results_of(self.tape, argument, number, self._result)
-        demand(max(x.degree for x in found) < _DEGREE, "the motion's degree is too large to decide what reverses it")
-        return [found[place] for place in self.tape["outputs"]]
+        results = results_of(self.tape, argument, number, self._result)
+        demand(max(x.degree for x in results) < _DEGREE, "the degree of the motion is too large to decide a reversal")
+        return [results[place] for place in self.tape["outputs"]]
 
     def _point(self, *of: Any) -> int:
         return int(sha512(f"{self._digest} {of}".encode()).hexdigest(), 16) % self.p
 
-    def _letter(self, value: int, degree: int = 1) -> Residue:
+    def _variable(self, value: int, degree: int = 1) -> Residue:
         value %= self.p
         least = min(value, self.p - value)
         return Residue(value, degree, {least: Fraction(1 if least == value else -1)})
 
     def _number(self, x: Fraction) -> Residue:
-        size = x.numerator.bit_length() + x.denominator.bit_length()  # a multiple of the prime is as rare as a root
+        size = x.numerator.bit_length() + x.denominator.bit_length()  # as a degree: a random prime divides it as rarely
         return Residue(x.numerator * pow(x.denominator, -1, self.p) % self.p, size, {1: x} if x else {})
 
     def _result(self, name: str, *on: Residue) -> Residue:
@@ -129,87 +128,86 @@ class Residues:
         if name == "exp":
             return self._exponential(a.terms)
         if name == "sqrt":
-            return self._exponential({letter: x / 2 for letter, x in self._logarithm(a).items()})
+            return self._exponential({variable: x / 2 for variable, x in self._logarithm(a).items()})
         if name == "log":
             if a.value not in self._logarithms:
                 self.domain.add(("positive", a.value))
-            (letter,) = self._letter(self._point("log", a.value)).terms
-            self._arguments[letter], self._logarithms[a.value] = a, {letter: Fraction(1)}
-            return self._letter(letter)
+            (variable,) = self._variable(self._point("log", a.value)).terms
+            self._arguments[variable], self._logarithms[a.value] = a, {variable: Fraction(1)}
+            return self._variable(variable)
         least = min(a.value, self.p - a.value)
         sign, point = 1 if least == a.value else -1, self._point("sin" if name == "cos" else name, least)
         if name not in ("sin", "cos"):
-            return self._letter(sign * point)
+            return self._variable(sign * point)
         below = pow(1 + point**2, -1, self.p)  # by the tangent of half the angle
-        return self._letter((2 * sign * point if name == "sin" else 1 - point**2) * below, 2)
+        return self._variable((2 * sign * point if name == "sin" else 1 - point**2) * below, 2)
 
     def _logarithm(self, a: Residue) -> Terms:
-        """Of what is positive because its root is taken, and so is the one factor that is not known to be."""
+        """Return the logarithm of a radicand, which is positive; then so is its one factor that is not known to be."""
         if a.value not in self._logarithms:
-            known, factor, power = self._halves.get(a.value, ({}, a, 1))
+            logarithm, factor, power = self._halves.get(a.value, ({}, a, 1))
             if factor.value not in self._logarithms:
                 self._result("log", factor)
-            self._logarithms[a.value] = _added(known, self._logarithms[factor.value], power)
+            self._logarithms[a.value] = _combine(logarithm, self._logarithms[factor.value], power)
         return self._logarithms[a.value]
 
     def _sum(self, a: Residue, b: Residue, sign: int) -> Residue:
-        return Residue((a.value + sign * b.value) % self.p, a.degree + b.degree, _added(a.terms, b.terms, sign))
+        return Residue((a.value + sign * b.value) % self.p, a.degree + b.degree, _combine(a.terms, b.terms, sign))
 
     def _product(self, a: Residue, b: Residue, power: int) -> Residue:
-        """a b^power."""
         value, degree = a.value * pow(b.value, power, self.p) % self.p, a.degree + abs(power) * b.degree
         first, second = (self._logarithms.get(x.value) for x in (a, b))
         if first is not None and second is not None:
-            self._logarithms[value] = _added(first, second, power)
+            self._logarithms[value] = _combine(first, second, power)
         elif first is not None:
             self._halves[value] = first, b, power
         elif second is not None:
-            self._halves[value] = _added({}, second, power), a, 1
+            self._halves[value] = _combine({}, second, power), a, 1
         if not {*b.terms} - {1}:
             factor = b.terms.get(1, Fraction(0)) ** power
-            return Residue(value, degree, {letter: factor * x for letter, x in a.terms.items() if factor})
+            return Residue(value, degree, {variable: factor * x for variable, x in a.terms.items() if factor})
         if power == 1 and not {*a.terms} - {1}:
             return self._product(b, a, 1)
-        return self._letter(value, degree)
+        return self._variable(value, degree)
 
     def _exponential(self, terms: Terms) -> Residue:
-        """The exponential of a sum: e^(x a) a whole power of e^(a/5040), e^(x log a) one of a, as far as x has such parts."""
-        found = self._number(Fraction(1))
-        for letter, x in terms.items():
-            of_log = letter in self._arguments
-            base = self._arguments[letter] if of_log else self._letter(self._point("exp", letter))
+        """Return e^Σ: e^(x a) is a whole power of e^(a/5040), e^(x log a) a power of a, as far as x allows."""
+        product = self._number(Fraction(1))
+        for variable, x in terms.items():
+            of_log = variable in self._arguments
+            base = self._arguments[variable] if of_log else self._variable(self._point("exp", variable))
             y = x if of_log else x * _PARTS
-            found = self._product(found, base, floor(y))
+            product = self._product(product, base, floor(y))
             if y != floor(y):
-                root = self._root(letter, base, y - floor(y)) if of_log else None
-                found = self._product(found, root or self._letter(self._point("exp", letter, str(y - floor(y)))), 1)
-        self._logarithms[found.value] = terms
-        return found
+                root = self._root(variable, base, y - floor(y)) if of_log else None
+                factor = root or self._variable(self._point("exp", variable, str(y - floor(y))))
+                product = self._product(product, factor, 1)
+        self._logarithms[product.value] = terms
+        return product
 
     @property
     def roots(self) -> int:
-        """How many have two signs."""
         return len(self._roots)
 
-    def _root(self, letter: int, a: Residue, power: Fraction) -> Residue | None:
-        """a^power, as far as residues have it: √a with the sign that its bit says, and odd roots."""
+    def _root(self, variable: int, a: Residue, power: Fraction) -> Residue | None:
+        """Return a^power if residues have it: √a with the sign of its bit, and odd roots; else None."""
         odd = power.denominator if power.denominator % 2 else power.denominator // 2
         if odd != power.denominator and self._signs is None:
-            self._roots[letter] = 0
+            self._roots[variable] = 0
         if self._signs is None or _ODD % odd:
             return None
         value = a.value
         if odd != power.denominator:
-            if letter not in self._roots:
+            if variable not in self._roots:
                 place, root = len(self._roots), pow(value, (self.p + 1) // 4, self.p)
-                self._roots[letter] = self.p - root if self._signs >> place & 1 else root
-            value = self._roots[letter]
+                self._roots[variable] = self.p - root if self._signs >> place & 1 else root
+            value = self._roots[variable]
             if value * value % self.p != a.value:
                 raise NoSquareError
         whole = power.numerator * pow(odd, -1, self.p - 1) % (self.p - 1)
-        return self._letter(pow(value, whole, self.p), a.degree + 1)
+        return self._variable(pow(value, whole, self.p), a.degree + 1)
 
 
-def _added(a: Terms, b: Terms, times: int) -> Terms:
-    total = {letter: a.get(letter, Fraction(0)) + times * b.get(letter, Fraction(0)) for letter in {**a, **b}}
-    return {letter: x for letter, x in total.items() if x}
+def _combine(a: Terms, b: Terms, times: int) -> Terms:
+    total = {variable: a.get(variable, Fraction(0)) + times * b.get(variable, Fraction(0)) for variable in {**a, **b}}
+    return {variable: x for variable, x in total.items() if x}

@@ -1,7 +1,8 @@
-"""What a theorem is about: the program's rates are those of the scene, the structure, the Lagrangian or the words that it names.
+"""The check of a theorem's subject: the rates of the program are those of the named scene, structure, Lagrangian or text.
 
-Decided as `reversals` decides, modulo a prime. The program of a scene or structure is generated again from its numbers; of a
-Lagrangian the equations of Lagrange, with d'Alembert's principle where there are constraints, are formed from its words.
+The identities are decided modulo a prime, as in `reversals`. The checker generates the program of a scene or structure
+again from its numbers. For a Lagrangian it forms Lagrange's equations, with d'Alembert's principle for constraints, from
+the text.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -11,7 +12,7 @@ from typing import Any
 from flint import arb, arb_mat, fmpz_mod_ctx, fmpz_mod_mat
 
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
-from lagrotor.proofs.checker.bounded_series import Dual, Rest, evaluated
+from lagrotor.proofs.checker.bounded_series import Dual, Series, evaluate
 from lagrotor.proofs.checker.certified_sets import balls, number, read_ball, term
 from lagrotor.proofs.checker.expression_tapes import Words
 from lagrotor.proofs.checker.reversals import points_of
@@ -23,24 +24,24 @@ Ball = Any
 
 
 def check_subject(certificate: Any) -> None:
-    """The program is that of what is named; of no name its digest stands for it."""
+    """Verify that the program belongs to the named subject; without a name its digest identifies it."""
     arguments, rates = certificate["motion"]["arguments"], certificate["motion"]["outputs"]
     if "t" in arguments:
         place, starts = arguments.index("t"), certificate.get("start", {}).get("middle", [])
-        own = place < len(rates) and certificate["motion"]["operations"][rates[place]] == ["number", "1"]
-        demand(own and place < len(starts) and read_ball(starts[place]).is_zero(), "t is not the time from 0 on")
+        is_clock = place < len(rates) and certificate["motion"]["operations"][rates[place]] == ["number", "1"]
+        demand(is_clock and place < len(starts) and read_ball(starts[place]).is_zero(), "t is not the time from 0 on")
         demand(read_ball(certificate["start"]["spread"][place]).is_zero(), "t is not the time from 0 on")
     about = certificate["about"]
     if about is None:
-        demand(certificate.get("observed") is None, "what is observed has no meaning")
+        demand(certificate.get("observed") is None, "the observables are undefined")
         return
-    demand(type(about) is dict and len(about) == 1, "a theorem is about one thing")
+    demand(type(about) is dict and len(about) == 1, "a theorem has one subject")
     (kind,) = about
     _RULES[kind](certificate, about[kind])
 
 
 def _rates(words: Words, certificate: Any) -> list[int]:
-    """The places of the states' rates in the certificate's program."""
+    """Return the places of the states' rates in the certificate's program."""
     outputs = words.include(read_tape(certificate["motion"]))
     if certificate["kind"] == "periodic orbit":  # in units of a pace
         return [words.over(place, len(outputs)) for place in outputs]
@@ -48,33 +49,35 @@ def _rates(words: Words, certificate: Any) -> list[int]:
 
 
 def residues(words: Words, places: Sequence[int]) -> Iterator[tuple[list[int], int]]:
-    """Of results modulo a prime, and the prime, for each sign of roots.
+    """Yield the residues of results and the prime, for each choice of the signs of roots.
 
-    What is known to be positive comes from earlier results: the program's, along whose motion it was so, not from what is named.
+    Positive quantities come from earlier results, of the program along whose motion they were positive, not of the named
+    subject.
     """
     for point in points_of(words.tape(places)):
         yield [x.value for x in point.outputs([])], point.p
 
 
 def demand_equal(words: Words, first: Sequence[int], second: Sequence[int], what: str) -> None:
-    """Results, each the same function of the arguments as another."""
+    """Verify that results are the same functions of the arguments, pair by pair."""
     demand(len(first) == len(second), what)
     for values, _ in residues(words, [*first, *second]):
         demand(values[: len(first)] == values[len(first) :], what)
 
 
-def _check_start(certificate: Any, words: Words, held: Sequence[int]) -> None:
-    """Along one motion what stays zero may be so at the start; of an orbit or a rest none is shown."""
+def _check_start(certificate: Any, words: Words, constraints: Sequence[int]) -> None:
+    """Verify that the start can satisfy the constraints. An orbit or equilibrium may have none."""
     if certificate["kind"] in ("periodic orbit", "equilibrium"):
-        demand(len(held) == 0, "a rest or an orbit is not shown to keep constraints")
+        demand(len(constraints) == 0, "an equilibrium or orbit may have no constraints")
         return
     spread = balls(certificate["start"]["spread"])
-    found = _values(words, held, [x + y for x, y in zip(_middle(certificate), spread, strict=True)], certificate)
-    demand(all(x.contains(0) for x in found), "the start is off the constraints")
+    middle = _middle(certificate)
+    residuals = _values(words, constraints, [x + y for x, y in zip(middle, spread, strict=True)], certificate)
+    demand(all(x.contains(0) for x in residuals), "the start violates the constraints")
 
 
 def _middle(certificate: Any) -> list[Ball]:
-    """Of the start or of the rest."""
+    """Return the middle of the initial set or of the equilibrium."""
     if certificate["kind"] == "equilibrium":
         at = [number(x) for x in certificate["middle"]]
         return [*at, *[ZERO] * len(at)]
@@ -82,28 +85,29 @@ def _middle(certificate: Any) -> list[Ball]:
 
 
 def _values(words: Words, places: Sequence[int], at: Sequence[Ball], certificate: Any) -> list[Ball]:
-    """Results at a start, whose letters are 1. Raises NotProved where one is not defined."""
-    known = [*at, *balls(certificate["motion"]["parameters"])]
-    each = [*known, *[arb(1)] * (len(words.arguments) - len(known))]
-    found = [x.value.at_start() for x in evaluated(words.tape(places), [Dual(Rest([x], ZERO, 1)) for x in each])]
-    demand(all(x.is_finite() for x in found), "what is named is not defined at the start")
-    return found
+    """Return results at a start; further symbols have the value 1. Raises NotProved if a result is undefined."""
+    numbers = [*at, *balls(certificate["motion"]["parameters"])]
+    arguments = [*numbers, *[arb(1)] * (len(words.arguments) - len(numbers))]
+    duals = [Dual(Series([x], ZERO, 1)) for x in arguments]
+    values = [x.value.at_start() for x in evaluate(words.tape(places), duals)]
+    demand(all(x.is_finite() for x in values), "the subject is undefined at the start")
+    return values
 
 
-def _check_generated(certificate: Any, made: Field) -> None:
-    """The program that is generated for a scene or structure, and what is observed of it."""
+def _check_generated(certificate: Any, field: Field) -> None:
+    """Verify the program and the observables that are generated for a scene or structure."""
     arguments, observed = certificate["motion"]["arguments"], certificate.get("observed")
     words = Words(arguments, None)
-    rates, what = _rates(words, certificate), "the program is not that of what the theorem names"
-    demand(arguments[: len(rates)] == [str(s) for s in made.states], what)
-    demand_equal(words, rates, words.include(read_tape(vars(made.motion.tape))), what)
-    held = words.include(read_tape(vars(made.function(made.held))))
-    _check_start(certificate, words, held)
+    rates, what = _rates(words, certificate), "the program is not that of the subject"
+    demand(arguments[: len(rates)] == [str(s) for s in field.states], what)
+    demand_equal(words, rates, words.include(read_tape(vars(field.motion.tape))), what)
+    constraints = words.include(read_tape(vars(field.function(field.constraints))))
+    _check_start(certificate, words, constraints)
     if observed is not None:
-        seen = [*(made.seen or ())]
-        demand(observed["names"] == [str(s) for s in seen], "what is observed has other names")
-        first, other = (words.include(read_tape(tape)) for tape in (observed, vars(made.function(seen))))
-        demand_equal(words, first, other, "what is observed is something else")
+        observables = [*(field.observables or ())]
+        demand(observed["names"] == [str(s) for s in observables], "the observables have other names")
+        first, second = (words.include(read_tape(tape)) for tape in (observed, vars(field.function(observables))))
+        demand_equal(words, first, second, "the observables are not those of the subject")
 
 
 def _check_scene(certificate: Any, data: Any) -> None:
@@ -112,65 +116,60 @@ def _check_scene(certificate: Any, data: Any) -> None:
 
 
 def _check_structure(certificate: Any, data: Any) -> None:
-    demand(
-        3 * len(data["joints"]) <= len(certificate["motion"]["outputs"]),
-        "the structure has more rotors than the program",
-    )
-    parts = {"rotor": Rotor, "link": Link, "braces": Brace}
-    program, held = structure_program(
-        Assembly(**data | {name: [kind(**x) for x in data[name]] for name, kind in parts.items()})
-    )
-    _check_generated(certificate, Field(program, {}, (), held=held))
+    fits = 3 * len(data["joints"]) <= len(certificate["motion"]["outputs"])
+    demand(fits, "the structure has more rotors than the program")
+    kinds = {"rotor": Rotor, "link": Link, "braces": Brace}
+    rows = {name: [kind(**x) for x in data[name]] for name, kind in kinds.items()}
+    program, constraints = structure_program(Assembly(**data | rows))
+    _check_generated(certificate, Field(program, {}, (), constraints=constraints))
 
 
 def _check_rates(certificate: Any, data: Any) -> None:
-    """Rates in words."""
     words = Words(certificate["motion"]["arguments"], None)
-    demand(certificate.get("observed") is None, "what is observed has no meaning")
+    demand(certificate.get("observed") is None, "the observables are undefined")
     rates = _rates(words, certificate)
     named = [words.place(text) for text in data]
-    demand_equal(words, rates, named, "the rates are others")
+    demand_equal(words, rates, named, "the rates are not those of the text")
     _values(words, named, _middle(certificate), certificate)
 
 
 class LagrangianOfWords:
-    """The certificate's program beside the words of a Lagrangian, of forces, friction and constraints."""
+    """The certificate's program, and the text of a Lagrangian, of forces, dissipation and constraints."""
 
     def __init__(self, certificate: Any, data: Any) -> None:
-        arguments, letters = certificate["motion"]["arguments"], data["letters"]
-        demand(len({*arguments, *letters}) == len(arguments) + len(letters), "a letter has two meanings")
-        demand(all(map(is_name, letters)), "a letter has no name")
-        demand(certificate.get("observed") is None, "what is observed has no meaning")
-        self.words = words = Words([*arguments, *letters], None)
+        arguments, symbols = certificate["motion"]["arguments"], data["letters"]
+        demand(len({*arguments, *symbols}) == len(arguments) + len(symbols), "a symbol has two meanings")
+        demand(all(map(is_name, symbols)), "a symbol has no name")
+        demand(certificate.get("observed") is None, "the observables are undefined")
+        self.words = words = Words([*arguments, *symbols], None)
         self.rates = _rates(words, certificate)
         self.n, self.timed = divmod(len(self.rates), 2)
-        zero, one = (words.keep("number", x) for x in "01")
+        zero, unit = (words.keep("number", x) for x in "01")
         self.q, self.v = [*range(self.n)], [*range(self.n, 2 * self.n)]
-        clock = {words.names["t"]: one} if "t" in words.names else {}
+        clock = {words.names["t"]: unit} if "t" in words.names else {}
         self.moving = clock | dict(enumerate(self.rates))
         self.swept = clock | dict(zip(self.q, self.v, strict=True))
         self.L, self.D = words.place(data["L"]), words.place(data["dissipation"])
         self.forces = [words.place(text) for text in data["forces"]] or [zero] * self.n
-        held = [words.place(g) for g in data["constraints"]]
-        residual = [words.slope(g, self.swept) for g in held]
+        constraints = [words.place(g) for g in data["constraints"]]
+        residual = [words.slope(g, self.swept) for g in constraints]
         self.residual = residual + [words.place(f) for f in data["rolling"]]
-        self.others = [arb(1)] * len(letters)  # whatever they are, the rates are the same
+        self.others = [arb(1)] * len(symbols)  # the rates do not depend on these symbols
         self.autonomous = not clock and not self.residual and data["forces"] == []
         named = [*(f"{q}_dot" for q in arguments[: self.n]), *["t"] * self.timed]
         fits = arguments[self.n : len(self.rates)] == named and len(self.forces) == self.n
         demand(fits, "the states are not coordinates, their velocities and the time")
-        own = words.below([*held, *self.residual]).isdisjoint(range(len(arguments), len(words.arguments)))
-        demand(own, "a constraint has letters without a value")
-        _check_start(certificate, words, [*held, *self.residual])
+        free = words.below([*constraints, *self.residual]).isdisjoint(range(len(arguments), len(words.arguments)))
+        demand(free, "a constraint has symbols without a value")
+        _check_start(certificate, words, [*constraints, *self.residual])
         self.certificate = certificate
 
-    def by(self, place: int, letters: Sequence[int]) -> list[int]:
-        """Derivatives of a result."""
-        one = self.words.keep("number", "1")
-        return [self.words.slope(place, {letter: one}) for letter in letters]
+    def by(self, place: int, symbols: Sequence[int]) -> list[int]:
+        unit = self.words.keep("number", "1")
+        return [self.words.slope(place, {symbol: unit}) for symbol in symbols]
 
     def missing(self) -> list[int]:
-        """d/dt ∂L/∂v − ∂L/∂q − Q + ∂D/∂v."""
+        """Return d/dt ∂L/∂v − ∂L/∂q − Q + ∂D/∂v."""
         words, rows = self.words, []
         by_q, by_v, friction = self.by(self.L, self.q), self.by(self.L, self.v), self.by(self.D, self.v)
         for p, slope, Q, d in zip(by_v, by_q, self.forces, friction, strict=True):
@@ -179,45 +178,42 @@ class LagrangianOfWords:
         return rows
 
     def energy(self) -> int:
-        """v·∂L/∂v − L."""
+        """Return v·∂L/∂v − L."""
         words, total = self.words, self.words.keep("subtract", self.words.keep("number", "0"), self.L)
         for v, p in zip(self.v, self.by(self.L, self.v), strict=True):
             total = words.keep("add", total, words.keep("multiply", v, p))
         return total
 
     def check(self) -> None:
-        """The rates satisfy the equations of motion, and keep the constraints."""
+        """Verify that the rates satisfy the equations of motion and keep the constraints."""
         words = self.words
-        one, zero = words.keep("number", "1"), words.keep("number", "0")
+        unit, zero = words.keep("number", "1"), words.keep("number", "0")
         rows = [self.by(f, self.v) for f in self.residual]
         still = [words.slope(f, self.moving) for f in self.residual]
-        clock = [one] * self.timed
-        found, wanted = (
-            [*self.rates[: self.n], *self.rates[2 * self.n :], *still],
-            [*self.v, *clock, *[zero] * len(still)],
-        )
-        demand_equal(words, found, wanted, "the rates are not those of velocities under the constraints")
+        clock = [unit] * self.timed
+        results = [*self.rates[: self.n], *self.rates[2 * self.n :], *still]
+        targets = [*self.v, *clock, *[zero] * len(still)]
+        demand_equal(words, results, targets, "the rates are not those of velocities under the constraints")
         n, k = self.n, len(rows)
         for values, p in residues(words, [*chain(*rows), *self.missing()]):
-            own = fmpz_mod_mat(k + 1, n, values, fmpz_mod_ctx(p)).rank() == k
-            demand(own, "the rates do not satisfy Lagrange's equations")
+            solvable = fmpz_mod_mat(k + 1, n, values, fmpz_mod_ctx(p)).rank() == k
+            demand(solvable, "the rates do not satisfy Lagrange's equations")
         slopes = [self.by(p, self.v) for p in self.by(self.L, self.v)]
         whole = [M + [row[i] for row in rows] for i, M in enumerate(slopes)]
         whole += [row + [zero] * k for row in rows]
         places = [*chain(*whole), self.L, self.D, *self.forces]
-        found = _values(words, places, _middle(self.certificate), self.certificate)
-        regular = (
-            arb_mat(n + k, n + k, found[: (n + k) ** 2]).det() != 0
-        )  # as a ball: letters modulo a prime may be dependent
-        demand(regular, "the Lagrangian is not shown to give accelerations")
+        results = _values(words, places, _middle(self.certificate), self.certificate)
+        # As a ball, since symbols can be dependent modulo a prime.
+        regular = arb_mat(n + k, n + k, results[: (n + k) ** 2]).det() != 0
+        demand(regular, "the Lagrangian is not proved to determine the accelerations")
 
 
 def second_derivatives(tape: Any, at: list[Ball], n: int) -> list[list[Ball]]:
-    """Of a tape's output by its first n arguments, from its series along each of them and each two."""
+    """Return the second derivatives of an output by its first n arguments, from its series along each one and each pair."""
 
-    def along(*moved: int) -> Ball:
-        rows = [Dual(Rest([x, arb(int(i in moved))], ZERO, 3)) for i, x in enumerate(at)]
-        return term(evaluated(tape, rows)[0].value, 2)
+    def along(*directions: int) -> Ball:
+        rows = [Dual(Series([x, arb(int(i in directions))], ZERO, 3)) for i, x in enumerate(at)]
+        return term(evaluate(tape, rows)[0].value, 2)
 
     alone = [along(i) for i in range(n)]
     return [[2 * alone[i] if i == j else along(i, j) - alone[i] - alone[j] for j in range(n)] for i in range(n)]

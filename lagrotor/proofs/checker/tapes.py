@@ -1,7 +1,6 @@
-"""A certificate's tapes, read, and Taylor terms by recurrences: the k-th term of an operation from those before it.
+"""The tapes of a certificate, and Taylor terms by recurrences: the k-th term of an operation from the earlier ones.
 
-Each operation is known and on earlier results. An operation that no output needs is followed along the motion as all others are;
-of what is named it says nothing.
+Operations that no output needs are evaluated along the motion like all others; they say nothing of the subject.
 """
 
 import re
@@ -18,28 +17,28 @@ Term = Any
 ZERO = arb(0)
 Tape = dict[str, Any]
 Value = TypeVar("Value")
-_NAME = re.compile(r"[^\s=,;:<>\[\]!?\"#]+")  # in which nothing else can be said
+_NAME = re.compile(r"[^\s=,;:<>\[\]!?\"#]+")  # one word
 _NUMBER = re.compile(r"pi|-?\d+(/\d+)?", re.ASCII)
 
 
 def demand(holds: bool, what: str) -> None:
-    """Raises NotProved where something does not hold."""
+    """Raise NotProved with a message unless a condition holds."""
     if not holds:
         raise NotProved(f"check: {what}")
 
 
 def is_place(x: Any, end: int) -> bool:
-    """Whether x is a whole number from 0 to end − 1."""
+    """Return True if x is a whole number from 0 to end − 1."""
     return type(x) is int and 0 <= x < end
 
 
 def is_name(x: Any) -> bool:
-    """Whether x names one thing and says nothing else; all of it is seen."""
+    """Return True if x is one printable word without punctuation that a sentence uses."""
     return type(x) is str and x.isprintable() and _NAME.fullmatch(x) is not None
 
 
 def read_tape(data: Any) -> Tape:
-    """The arguments, operations and outputs of a tape. Raises NotProved where one of them is none."""
+    """Return the arguments, operations and outputs of a tape. Raises NotProved if one of them is malformed."""
     arguments, operations, outputs = (list(data[name]) for name in ("arguments", "operations", "outputs"))
     demand(all(map(is_name, arguments)), "an argument has no name")
     demand(len({*arguments}) == len(arguments), "two arguments have one name")
@@ -50,38 +49,37 @@ def read_tape(data: Any) -> Tape:
             fine = len(on) == 1 and type(on[0]) is str and _NUMBER.fullmatch(on[0]) is not None
         else:
             fine = OPERATIONS.get(name) == len(on) and all(is_place(x, place) for x in on)
-        demand(fine, f"operation {place} of a tape is none: {str([name, *on])[:60]}")
-    demand(all(is_place(x, len(operations)) for x in outputs), "an output of a tape is no operation's")
+        demand(fine, f"operation {place} of a tape is malformed: {str([name, *on])[:60]}")
+    demand(all(is_place(x, len(operations)) for x in outputs), "an output of a tape is not the result of an operation")
     return {"arguments": arguments, "operations": operations, "outputs": outputs}
 
 
 def results_of(
     tape: Tape, argument: Callable[[int], Value], number: Callable[[str], Value], operation: Callable[..., Value]
 ) -> list[Value]:
-    """What each operation of a tape gives in an arithmetic: of an argument's place, of a number, of a name and operands."""
-    found: list[Value] = []
+    """Return the results of a tape in an arithmetic: functions of an argument's place, a number, and an operation."""
+    results: list[Value] = []
     for name, *on in tape["operations"]:
         if name == "argument":
-            found.append(argument(on[0]))
+            results.append(argument(on[0]))
         elif name == "number":
-            found.append(number(on[0]))
+            results.append(number(on[0]))
         else:
-            found.append(operation(name, *(found[place] for place in on)))
-    return found
+            results.append(operation(name, *(results[place] for place in on)))
+    return results
 
 
-def demand_paced(tape: Tape) -> None:
-    """Each rate is an operation's result times the pace, the argument after the states, which enters nowhere else."""
+def demand_pace(tape: Tape) -> None:
+    """Verify that each rate is an operation's result times the pace, an argument after the states that occurs nowhere else."""
     rates, operations = {*tape["outputs"]}, tape["operations"]
     pace = {place for place, operation in enumerate(operations) if operation == ["argument", len(tape["outputs"])]}
     for place, (name, *on) in enumerate(operations):
         by_pace = sum(x in pace for x in on) if name in OPERATIONS else 0
         fine = name == "multiply" and by_pace == 1 if place in rates else not by_pace
-        demand(fine and not (name in OPERATIONS and rates & {*on}), "the motion is not one in units of its pace")
+        demand(fine and not (name in OPERATIONS and rates & {*on}), "the rates are not multiples of the pace")
 
 
 def rational_of(text: str) -> Term:
-    """A number of a tape."""
     if text == "pi":
         return arb.pi()
     above, _, below = text.partition("/")
@@ -89,67 +87,69 @@ def rational_of(text: str) -> Term:
 
 
 def slopes_of(a: list[Term]) -> list[Term]:
-    """The derivative's terms."""
     return [k * x for k, x in enumerate(a)][1:]
 
 
 def taylor_term(name: str, a: list[Term], b: list[Term], q: list[Term], twin: list[Term], k: int) -> Term:
-    """The k-th term of an operation on a (and b), from its terms q before it. twin: terms of the cosine beside a sine or the
-    sine beside a cosine, of √(1 − a²) beside an arcsine, of 1 + a² beside an arctangent, which are continued, too."""
+    """Return the k-th term of an operation on a (and b) from its earlier terms q.
+
+    twin: the terms of cosine for sine and of sine for cosine, of √(1 − a²) for asin, of 1 + a² for atan; a term is
+    appended.
+    """
     if name == "add":
         return a[k] + b[k]
     if name == "subtract":
         return a[k] - b[k]
     if name == "multiply":
-        return folded(a, b, 0, k)
+        return convolution(a, b, 0, k)
     if name == "divide":
-        return (a[k] - folded(q, b, 0, k - 1, k)) / b[0]
+        return (a[k] - convolution(q, b, 0, k - 1, k)) / b[0]
     if name == "sqrt":
-        return (a[k] - folded(q, q, 1, k - 1, k)) / (2 * q[0]) if k else a[0].sqrt()
+        return (a[k] - convolution(q, q, 1, k - 1, k)) / (2 * q[0]) if k else a[0].sqrt()
     rising = slopes_of(a[: k + 1])  # j a_j, from j = 1 on
     if name == "exp":
-        return folded(rising, q, 0, k - 1) / k if k else a[0].exp()
+        return convolution(rising, q, 0, k - 1) / k if k else a[0].exp()
     if name == "log":
-        return (a[k] - folded(slopes_of(q), a, 0, k - 2, k - 1) / k) / a[0] if k else a[0].log()
+        return (a[k] - convolution(slopes_of(q), a, 0, k - 2, k - 1) / k) / a[0] if k else a[0].log()
     if name in ("sin", "cos"):
         sign = 1 if name == "sin" else -1
         if k:
-            new = sign * folded(rising, twin, 0, k - 1) / k
-            twin.append(-sign * folded(rising, q, 0, k - 1) / k)
+            new = sign * convolution(rising, twin, 0, k - 1) / k
+            twin.append(-sign * convolution(rising, q, 0, k - 1) / k)
             return new
         twin.append(a[0].cos() if name == "sin" else a[0].sin())
         return getattr(a[0], name)()
     if name not in ("asin", "atan"):
         raise InputError(f"check: the operation {name!r} is unknown")
-    square = int(k == 0) + (1 if name == "atan" else -1) * folded(a, a, 0, k)
+    square = int(k == 0) + (1 if name == "atan" else -1) * convolution(a, a, 0, k)
     if name == "atan":
         twin.append(square)
     else:
-        twin.append((square - folded(twin, twin, 1, k - 1, k)) / (2 * twin[0]) if k else square.sqrt())
-    return (a[k] - folded(slopes_of(q), twin, 0, k - 2, k - 1) / k) / twin[0] if k else getattr(a[0], name)()
+        twin.append((square - convolution(twin, twin, 1, k - 1, k)) / (2 * twin[0]) if k else square.sqrt())
+    return (a[k] - convolution(slopes_of(q), twin, 0, k - 2, k - 1) / k) / twin[0] if k else getattr(a[0], name)()
 
 
-def folded(a: list[Term], b: list[Term], first: int, last: int, k: int | None = None) -> Term:
-    """Σ a_j b_(k−j) for j from first to last; k is `last` unless it is another."""
+def convolution(a: list[Term], b: list[Term], first: int, last: int, k: int | None = None) -> Term:
+    """Return Σ a_j b_(k−j) for j from first to last; k is `last` by default."""
     k = last if k is None else k
     return sum(map(mul, a[first : last + 1], b[k - last : k - first + 1][::-1]), ZERO) if last >= first else ZERO
 
 
 def terms_of(name: str, a: list[Term], n: int) -> tuple[list[Term], list[Term]]:
-    """n terms of a function of a series, and those of its twin."""
-    found, twin, full = list[Term](), list[Term](), a + [ZERO] * (n - len(a))
-    one = [arb(1)] + [ZERO] * (n - 1)
+    """Return n terms of a function of a series, and those of its twin."""
+    terms, twin, full = list[Term](), list[Term](), a + [ZERO] * (n - len(a))
+    unit = [arb(1)] + [ZERO] * (n - 1)
     for k in range(n):
-        first, second = (one, full) if name == "divide" else (full, full)
-        found.append(taylor_term(name, first, second, found, twin, k))
-    return found, twin
+        first, second = (unit, full) if name == "divide" else (full, full)
+        terms.append(taylor_term(name, first, second, terms, twin, k))
+    return terms, twin
 
 
 def motion_terms(tape: Any, start: Sequence[Term], still: Sequence[Term], h: Term, n: int) -> list[list[Term]]:
-    """n terms in s = t/h of what moves by the tape's rates; `still`: the arguments that do not."""
+    """Return n terms in s = t/h of the states; `still` are the arguments that are constant."""
     rows = [[x] for x in start]
     operations = tape["operations"]
-    found: list[list[Term]] = [[] for _ in operations]
+    terms: list[list[Term]] = [[] for _ in operations]
     twins: list[list[Term]] = [[] for _ in operations]
     for k in range(n - 1):
         for place, (name, *on) in enumerate(operations):
@@ -158,8 +158,8 @@ def motion_terms(tape: Any, start: Sequence[Term], still: Sequence[Term], h: Ter
             elif name == "number":
                 new = ZERO if k else rational_of(on[0])
             else:
-                new = taylor_term(name, found[on[0]], found[on[-1]], found[place], twins[place], k)
-            found[place].append(new)
+                new = taylor_term(name, terms[on[0]], terms[on[-1]], terms[place], twins[place], k)
+            terms[place].append(new)
         for row, place in zip(rows, tape["outputs"], strict=True):
-            row.append(found[place][k] * (h / (k + 1)))
+            row.append(terms[place][k] * (h / (k + 1)))
     return rows

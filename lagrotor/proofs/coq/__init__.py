@@ -1,1 +1,1 @@
-"""Verdicts as files of Coq: what was decided, and a proof that Coq's kernel checks without lagrotor and sympy."""
+"""Verdicts as Coq files: the statement and a proof that Coq's kernel checks without lagrotor and sympy."""

@@ -1,12 +1,13 @@
-"""One certificate: the file of Coq that states what was decided of an equation's lines, and proves it.
+"""The Coq certificate of one equation: the file that states and proves the verdict of each line.
 
-Each line is a theorem over the reals. Its letters are variables; what they were declared as, the premises and the conditions
-under which both sides have a value are hypotheses; it ends in printed = derived, or, of a refuted line, in a point at which
-all hypotheses hold and the two differ by an enclosure without zero. A line that holds has a second theorem, that its
-hypotheses hold at some point: contradictory ones would prove anything.
+Each line is a theorem over the reals. Its symbols are variables. Declared signs, premises, and the conditions under which
+both sides have a value are hypotheses. The conclusion is printed = derived; for a refuted line it is a point at which all
+hypotheses hold and the enclosure of the difference excludes zero. A line that holds has a second theorem, that its
+hypotheses hold at some point, since contradictory ones imply anything.
 
-The printed side is the catalogue's, the other what was derived, both without any premise put in; premises and the values of a
-scene are equations beside them. A letter that a premise scales, such as F in F = epsilon*F, is another one on the right.
+The printed side is that of the catalogue, the derived side that of the script, both without substitution of premises.
+Premises and the values of a scene are equations among the hypotheses. A symbol that a premise scales, such as F in F =
+epsilon*F, is a new symbol on the right.
 """
 
 from collections.abc import Iterable, Iterator
@@ -20,18 +21,11 @@ from lagrotor.errors import NotExactError
 from lagrotor.paper.catalogue import Equation
 from lagrotor.paper.premises import Premise
 from lagrotor.paper.verdicts import Answer, LineVerdict, Verdict
-from lagrotor.proofs.coq.cofactors import LetterEquation, elimination
-from lagrotor.proofs.coq.coq_terms import (
-    Comparison,
-    Terms,
-    comment,
-    comparison,
-    conditions_of_value,
-    declared_signs,
-)
+from lagrotor.proofs.coq.cofactors import SymbolEquation, elimination
+from lagrotor.proofs.coq.coq_terms import Comparison, Terms, comment, comparison, conditions_of_value, declared_signs
 from lagrotor.proofs.coq.equality_steps import Sides, in_one
 from lagrotor.proofs.coq.points import points_of, rational_bounds, value_at_point
-from lagrotor.proofs.coq.remainders import SeriesRest, remainder, value_at_zero
+from lagrotor.proofs.coq.remainders import SeriesRemainder, remainder, value_at_zero
 
 PREAMBLE = """From Coq Require Import Reals Lra.
 From Interval Require Import Tactic.
@@ -94,18 +88,19 @@ Ltac at_the_point := repeat apply conj; first [lra | field; lra | interval | app
 """
 
 
-# What the values that the text gives for a line are called among its premises.
+# The name of the text's values among the premises of a line.
 SCENE = "the text's values"
+Theorems = tuple[tuple[str, ...], str]  # names and text
 
 
 @dataclass(frozen=True)
 class Proposition:
-    """One line of an equation, or of its correction, as it was line.
+    """One line of an equation, or of its correction.
 
-    name: that of its theorem, line_1 or correction_1. equations: the premises' and the scene's, (left, right) with the words
-    for each; they are what the line holds under, or, of a refuted one, all that were offered. region: their inequalities.
-    stands_for: a letter for each derivative and integral, of which nothing is used but that it is the same wherever it stands.
-    small, order: of a series.
+    name: line_1 or correction_1, as its theorem; equations: the premises and scene values, (words, left, right), that the
+    line rests on, or all that were offered for a refuted one; region: their inequalities; stands_for: the symbol of each
+    derivative and integral, an unknown; tolerance: the largest relative error of a number read off a run; small, order: of
+    a series.
     """
 
     name: str
@@ -116,20 +111,20 @@ class Proposition:
     equations: tuple[tuple[str, sp.Expr, sp.Expr], ...] = ()
     region: tuple[sp.Basic, ...] = ()
     stands_for: tuple[tuple[sp.Symbol, sp.Expr], ...] = ()
-    within: sp.Rational | None = None
+    tolerance: sp.Rational | None = None
     small: sp.Symbol | None = None
     order: int | None = None
 
     @property
     def pairs(self) -> tuple[tuple[sp.Expr, sp.Expr], ...]:
-        """(printed, derived), entry by entry."""
+        """The pairs (printed, derived), entry by entry."""
         if isinstance(self.printed, sp.MatrixBase) and isinstance(self.derived, sp.MatrixBase):
             return tuple(zip(self.printed, self.derived, strict=True))
         return ((self.printed, self.derived),)
 
 
 def propositions(verdict: Verdict) -> Iterator[Proposition]:
-    """Every printed line of an equation, then every line of its correction."""
+    """Yield every printed line of an equation, then every line of its correction."""
     for kind, lines in (("line", verdict.lines), ("correction", verdict.correction_lines)):
         for number, line in enumerate(lines, 1):
             yield _proposition(f"{kind}_{number}", line, verdict.statement.premises)
@@ -143,45 +138,45 @@ def _proposition(name: str, line: LineVerdict, offered: tuple[Premise, ...]) -> 
         (premise.says, old, new)
         for premise in premises
         for old, new in _unscaled(premise)
-        if premise.small is None or old not in set_otherwise  # a letter that is zero need not be small
+        if premise.small is None or old not in set_otherwise  # a symbol that is zero need not be small
     ]
-    where = [each for premise in premises for each in premise.where]
-    rows += [(str(each), each.lhs, each.rhs) for each in where if isinstance(each, sp.Eq)]
+    where = [condition for premise in premises for condition in premise.where]
+    rows += [(str(condition), condition.lhs, condition.rhs) for condition in where if isinstance(condition, sp.Eq)]
     rows += [(SCENE, old, new) for old, new in relation.scene.items()]
     rows = [(says, sp.sympify(old, strict=True), sp.sympify(new, strict=True)) for says, old, new in rows]
-    held = [relation.printed, relation.derived, *where, *(side for _, *sides in rows for side in sides)]
-    letters = _letters_for_operators(held)
+    expressions = [relation.printed, relation.derived, *where, *(side for _, *sides in rows for side in sides)]
+    symbols = _symbols_for_operators(expressions)
     return Proposition(
         name,
         relation.quantity,
         line.verdict,
-        relation.printed.xreplace(letters),
-        relation.derived.xreplace(letters),
-        tuple((says, old.xreplace(letters), new.xreplace(letters)) for says, old, new in rows),
-        tuple(each.xreplace(letters) for each in where if not isinstance(each, sp.Eq)),
-        tuple((letter, node) for node, letter in letters.items()),
+        relation.printed.xreplace(symbols),
+        relation.derived.xreplace(symbols),
+        tuple((says, old.xreplace(symbols), new.xreplace(symbols)) for says, old, new in rows),
+        tuple(condition.xreplace(symbols) for condition in where if not isinstance(condition, sp.Eq)),
+        tuple((symbol, node) for node, symbol in symbols.items()),
         relation.within,
         line.small,
         line.order,
     )
 
 
-def _letters_for_operators(held: list[Any]) -> dict[sp.Expr, sp.Symbol]:
-    """Derivative or integral -> a letter that no side holds; those that hold others first."""
-    nodes = {node for side in held for node in side.atoms(sp.Derivative, sp.Integral)}
-    names = {symbol.name for side in held for symbol in side.free_symbols}
-    found: dict[sp.Expr, sp.Symbol] = {}
-    for node in sorted(nodes, key=lambda each: (-len(str(each)), str(each))):
-        kind, count = node.func.__name__.lower(), len(found) + 1
+def _symbols_for_operators(sides: list[Any]) -> dict[sp.Expr, sp.Symbol]:
+    """Return derivative or integral → new symbol. Nested operators come after those that contain them."""
+    nodes = {node for side in sides for node in side.atoms(sp.Derivative, sp.Integral)}
+    names = {symbol.name for side in sides for symbol in side.free_symbols}
+    symbols: dict[sp.Expr, sp.Symbol] = {}
+    for node in sorted(nodes, key=lambda x: (-len(str(x)), str(x))):
+        kind, count = node.func.__name__.lower(), len(symbols) + 1
         while f"{kind}_{count}" in names:
             count += 1
         names.add(f"{kind}_{count}")
-        found[node] = sp.Symbol(f"{kind}_{count}", real=True)
-    return found
+        symbols[node] = sp.Symbol(f"{kind}_{count}", real=True)
+    return symbols
 
 
 def _unscaled(premise: Premise) -> Iterator[tuple[sp.Basic, Any]]:
-    """The rows of a premise; a letter that it replaces is another one where it stands on the right."""
+    """Yield the rows of a premise; a symbol that it replaces is a new symbol on the right."""
     scaled = {old: sp.Symbol(f"{old}_scaled", **old.assumptions0) for old in premise.put if old.is_Symbol}
     for old, new in premise.put.items():
         yield old, sp.sympify(new, strict=True).xreplace(scaled)
@@ -189,7 +184,7 @@ def _unscaled(premise: Premise) -> Iterator[tuple[sp.Basic, Any]]:
 
 @dataclass(frozen=True)
 class CertifiedLine:
-    """One line of a certificate. theorems: the names that Coq is to accept; why_not: why there is none."""
+    """One line of a certificate: the names of its theorems, or in `why_not` the reason why there are none."""
 
     name: str
     quantity: str
@@ -200,7 +195,7 @@ class CertifiedLine:
 
 
 def certificate(verdict: Verdict, entry: Equation) -> tuple[str, tuple[CertifiedLine, ...]]:
-    """The file of one equation, and its lines; the text is empty where no line has a certificate."""
+    """Return the file of one equation and its lines; the text is empty if no line has a certificate."""
     lines = tuple(map(certified_line, propositions(verdict)))
     if not any(line.theorems for line in lines):
         return "", lines
@@ -211,7 +206,6 @@ def certificate(verdict: Verdict, entry: Equation) -> tuple[str, tuple[Certified
 
 
 def certified_line(proposition: Proposition) -> CertifiedLine:
-    """One line with its theorems, or with why it has none."""
     about = proposition.name, proposition.quantity, proposition.verdict
     try:
         theorems, text = _theorems(proposition)
@@ -220,25 +214,25 @@ def certified_line(proposition: Proposition) -> CertifiedLine:
     return CertifiedLine(*about, theorems, text)
 
 
-def _theorems(p: Proposition) -> tuple[tuple[str, ...], str]:
-    """The names of the theorems of one line, and their text. Raises NotExactError where there is none."""
+def _theorems(p: Proposition) -> Theorems:
+    """Return the names of the theorems of one line, and their text. Raises NotExactError if there are none."""
     if p.verdict not in ("holds", "holds-if", "holds-to-order", "refuted"):
         raise NotExactError(f"{p.verdict} is no exact verdict")
     if isinstance(p.printed, sp.MatrixBase) != isinstance(p.derived, sp.MatrixBase):
-        return _of_another_kind(p)
+        return _kind_theorem(p)
     if p.verdict == "holds-to-order":
-        return _held_to_order(p)
+        return _order_theorem(p)
     if p.small is not None:
-        return _refuted_at_order(p, p.order or 0)
-    return _refuted(p) if p.verdict == "refuted" else _held(p)
+        return _refuted_order_theorem(p, p.order or 0)
+    return _counterexamples(p) if p.verdict == "refuted" else _equality_theorem(p)
 
 
 @dataclass(frozen=True)
 class _Hypotheses:
-    """What a theorem assumes, beside its letters."""
+    """The symbols and hypotheses of a theorem."""
 
     terms: Terms
-    letters: tuple[sp.Symbol, ...]
+    symbols: tuple[sp.Symbol, ...]
     functions: tuple[tuple[Any, int], ...]
     stands_for: tuple[tuple[sp.Symbol, sp.Expr], ...]
     signs: tuple[Comparison, ...]
@@ -247,73 +241,71 @@ class _Hypotheses:
 
     @property
     def named(self) -> Iterator[tuple[str, str, str]]:
-        """(name, proposition, words)."""
+        """The hypotheses: (name, proposition, words)."""
         for n, (sign, e) in enumerate(self.signs, 1):
             yield f"sign_{n}", comparison(self.terms, sign, e), ""
-        for n, (says, left, right) in enumerate(self.equations, 1):
-            yield f"premise_{n}", f"{self.terms.write(left)} = {self.terms.write(right)}", says
+        for n, (says, lhs, rhs) in enumerate(self.equations, 1):
+            yield f"premise_{n}", f"{self.terms.write(lhs)} = {self.terms.write(rhs)}", says
         for n, (sign, e) in enumerate(self.defined, 1):
             yield f"defined_{n}", comparison(self.terms, sign, e), ""
 
     @property
-    def pairs(self) -> list[LetterEquation]:
-        """The premises' equations."""
-        return [(left, right) for _, left, right in self.equations]
+    def pairs(self) -> list[SymbolEquation]:
+        return [(lhs, rhs) for _, lhs, rhs in self.equations]
 
     def binders(self) -> str:
-        """The letters and hypotheses as binders of a theorem."""
-        said: set[str] = set()
-        rows = [f"({' '.join(self.terms.names[x] for x in self.letters)} : R)"] if self.letters else []
+        """Return the symbols and hypotheses as binders of a theorem."""
+        comments: set[str] = set()
+        rows = [f"({' '.join(self.terms.names[x] for x in self.symbols)} : R)"] if self.symbols else []
         for function, arity in self.functions:
             rows.append(f"  ({self.terms.names[function]} : {'R -> ' * arity}R)")
-        rows += [f"  {comment(f'{letter} stands for {node}')}" for letter, node in self.stands_for]
+        rows += [f"  {comment(f'{symbol} stands for {node}')}" for symbol, node in self.stands_for]
         for name, text, words in self.named:
-            rows.append(f"  ({name} : {text})" + (f" {comment(words)}" if words not in {"", *said} else ""))
-            said.add(words)
+            rows.append(f"  ({name} : {text})" + (f" {comment(words)}" if words not in {"", *comments} else ""))
+            comments.add(words)
         return "\n".join(rows)
 
 
-def _hypotheses(p: Proposition, more: Iterable[sp.Expr] = ()) -> _Hypotheses:
-    sides = [*(e for pair in p.pairs for e in pair), *more]
+def _hypotheses(p: Proposition, extra: Iterable[sp.Expr] = ()) -> _Hypotheses:
+    sides = [*(e for pair in p.pairs for e in pair), *extra]
     region = tuple(map(_as_comparison, p.region))
-    held = [*sides, *(e for _, left, right in p.equations for e in (left, right)), *(e for _, e in region)]
-    for e in held:
+    expressions = [*sides, *(e for _, lhs, rhs in p.equations for e in (lhs, rhs)), *(e for _, e in region)]
+    for e in expressions:
         for node in sp.preorder_traversal(e):
             if node.is_Float or node in (sp.I, sp.oo, -sp.oo, sp.zoo, sp.nan):
                 raise NotExactError(f"{node} is no real number that is exact")
-    terms = Terms(held)
-    letters = tuple(sorted(set().union(*(e.free_symbols for e in held)), key=str))
-    functions = sorted({(node.func, len(node.args)) for e in held for node in e.atoms(AppliedUndef)}, key=str)
+    terms = Terms(expressions)
+    symbols = tuple(sorted(set().union(*(e.free_symbols for e in expressions)), key=str))
+    functions = sorted({(node.func, len(node.args)) for e in expressions for node in e.atoms(AppliedUndef)}, key=str)
     if len({function for function, _ in functions}) < len(functions):
         raise NotExactError("a function is called with different numbers of arguments")
-    signs = tuple(declared_signs(letters))
-    return _Hypotheses(
-        terms, letters, tuple(functions), p.stands_for, signs, p.equations, (*conditions_of_value(held), *region)
-    )
+    signs = tuple(declared_signs(symbols))
+    conditions = (*conditions_of_value(expressions), *region)
+    return _Hypotheses(terms, symbols, tuple(functions), p.stands_for, signs, p.equations, conditions)
 
 
 def _as_comparison(condition: sp.Basic) -> Comparison:
-    """An inequality of a premise as a comparison with zero. Raises NotExactError for another condition."""
+    """Return an inequality of a premise as a comparison with zero. Raises NotExactError for another condition."""
     signs = {sp.Ne: "<>", sp.Ge: "<=", sp.Gt: "<", sp.Le: "<=", sp.Lt: "<"}
     if condition.func not in signs:
         raise NotExactError(f"the condition {condition} is no inequality")
-    left, right = condition.args
-    return signs[condition.func], right - left if condition.func in (sp.Le, sp.Lt) else left - right
+    lhs, rhs = condition.args
+    return signs[condition.func], rhs - lhs if condition.func in (sp.Le, sp.Lt) else lhs - rhs
 
 
-def _held(p: Proposition) -> tuple[tuple[str, ...], str]:
-    """The theorem that both sides are equal, and, where it has hypotheses, that they hold somewhere."""
-    h, sides = _prepared(p)
+def _equality_theorem(p: Proposition) -> Theorems:
+    """Return the theorem that both sides are equal, and with hypotheses the theorem that they hold somewhere."""
+    h, sides = _prepare(p)
     pairs = list(p.pairs)
-    if p.within is not None:
-        return _read_off(p, h, sides)
+    if p.tolerance is not None:
+        return _ratio_theorem(p, h, sides)
     tactics = [sides.equality(*pair) for pair in pairs]
-    claims = [f"{h.terms.write(left)} = {h.terms.write(right)}" for left, right in pairs]
+    claims = [f"{h.terms.write(lhs)} = {h.terms.write(rhs)}" for lhs, rhs in pairs]
     return _theorem(p.name, f"{p.name}: {p.quantity}: {p.verdict}", h, sides, claims, tactics)
 
 
-def _of_another_kind(p: Proposition) -> tuple[tuple[str, ...], str]:
-    """The theorem that a number is no vector: quantities are numbers or vectors, and the sides are one of each."""
+def _kind_theorem(p: Proposition) -> Theorems:
+    """Return the theorem that a number is no vector, for a line with one of each."""
     sides = [list(side) if isinstance(side, sp.MatrixBase) else [side] for side in (p.printed, p.derived)]
     none = replace(p, printed=sp.S.Zero, derived=sp.S.Zero, equations=(), region=())
     h = _hypotheses(none, [e for side in sides for e in side])
@@ -325,25 +317,25 @@ def _of_another_kind(p: Proposition) -> tuple[tuple[str, ...], str]:
     return (name,), f"{comment(head)}\nTheorem {name} {h.binders()} :\n  {claim}.\nProof.\n  discriminate.\nQed."
 
 
-def _prepared(p: Proposition, more: Iterable[sp.Expr] = ()) -> tuple["_Hypotheses", Sides]:
-    """What a theorem about a line assumes, where further expressions have a value too, and both sides in generators."""
-    expressions = [*(e for pair in p.pairs for e in pair), *more]
-    h = _hypotheses(p, more)
+def _prepare(p: Proposition, extra: Iterable[sp.Expr] = ()) -> tuple["_Hypotheses", Sides]:
+    """Return the hypotheses under which a line and `extra` expressions have values, and both sides in generators."""
+    expressions = [*(e for pair in p.pairs for e in pair), *extra]
+    h = _hypotheses(p, extra)
     return h, Sides(h.terms, expressions, h.pairs, h.defined, p.small)
 
 
-def _read_off(p: Proposition, h: "_Hypotheses", sides: Sides) -> tuple[tuple[str, ...], str]:
-    """The theorem that a number read off a run is a constant times the derived one, and that this is near one.
+def _ratio_theorem(p: Proposition, h: "_Hypotheses", sides: Sides) -> Theorems:
+    """Return the theorem that a number read off a run is a constant times the derived one, and that this constant is near one.
 
-    Where the constant holds roots, neither side is negative, and their squares are a rational number times each other.
+    If the constant contains roots, both sides are nonnegative, and their squares have a rational ratio.
     """
     ratio = sp.cancel(sides.value(p.printed) / sides.value(p.derived))
-    write, within = h.terms.write, f"<= {h.terms.write(p.within)}"
+    write, bound = h.terms.write, f"<= {h.terms.write(p.tolerance)}"
     if ratio.is_Rational:
         tactic = sides.equality(p.printed, ratio * p.derived)
         near = "apply Rabs_le; lra."
     else:
-        draft = _prepared(p)[1]
+        draft = _prepare(p)[1]
         over, under = draft.in_generators(p.printed**2 / p.derived**2)
         square = sp.cancel((over / under).xreplace(draft.meaning()))
         if not (square.is_Rational and square > 0):
@@ -351,175 +343,171 @@ def _read_off(p: Proposition, h: "_Hypotheses", sides: Sides) -> tuple[tuple[str
         ratio = sp.sqrt(square)
         squares = (sp.Pow(side, 2, evaluate=False) for side in (p.printed, ratio * p.derived))  # as Coq has them
         same = in_one(sides.equality(*squares))
-        above = in_one(f"{sides.put_in}first [assumption | lra | positive].")
+        above = in_one(f"{sides.substitution}first [assumption | lra | positive].")
         tactic = f"apply same_by_squares; [ {above} | {above} | {same} ]."
         near = "interval."
-    claims = [f"{write(p.printed)} = {write(ratio * p.derived)}", f"Rabs ({write(ratio)} - 1) {within}"]
+    claims = [f"{write(p.printed)} = {write(ratio * p.derived)}", f"Rabs ({write(ratio)} - 1) {bound}"]
     return _theorem(p.name, f"{p.name}: {p.quantity}: {p.verdict}", h, sides, claims, [tactic, near])
 
 
-def _theorem(
-    name: str, head: str, h: "_Hypotheses", sides: Sides, claims: list[str], tactics: list[str]
-) -> tuple[tuple[str, ...], str]:
-    """The theorem that the claims follow from the hypotheses, and, where there are any, that these hold somewhere."""
-    proof = [*sides.steps, *(f"split. {{ {each} }}" for each in tactics[:-1]), tactics[-1]]
+def _theorem(name: str, head: str, h: "_Hypotheses", sides: Sides, claims: list[str], tactics: list[str]) -> Theorems:
+    """Return the theorem that the hypotheses imply the claims, and the theorem that the hypotheses hold somewhere."""
+    proof = [*sides.steps, *(f"split. {{ {tactic} }}" for tactic in tactics[:-1]), tactics[-1]]
     claim, steps = " /\\\n  ".join(claims), "\n  ".join(proof)
     theorem = f"{comment(head)}\nTheorem {name} {h.binders()} :\n  {claim}.\nProof.\n  {steps}\nQed."
     if not (h.signs or h.equations or h.defined):
         return (name,), theorem
-    return (name, f"{name}_has_a_case"), theorem + "\n" + _satisfied(name, h, sides)
+    return (name, f"{name}_has_a_case"), theorem + "\n" + _example_theorem(name, h, sides)
 
 
 def _differences(p: Proposition, sides: Sides, small: sp.Symbol) -> list[tuple[sp.Expr, sp.Expr]]:
-    """Pairs whose difference is to vanish through the order: the sides; of a number read off a run their ratio and its start."""
-    if p.within is None:
+    """Return the pairs whose difference vanishes through the order; for a number read off a run, the ratio and its limit."""
+    if p.tolerance is None:
         return list(p.pairs)
     inverse = sp.Pow(p.derived, -1, evaluate=False)
-    ratio = sp.Mul(p.printed, inverse, evaluate=False)  # as it is printed, nothing cancelled
+    ratio = sp.Mul(p.printed, inverse, evaluate=False)  # as printed, without cancellation
     return [(ratio, value_at_zero(sides, ratio, small))]
 
 
 def _to_order(
     p: Proposition, small: sp.Symbol, order: int, pairs: Iterable[tuple[sp.Expr, sp.Expr]]
-) -> tuple["_Hypotheses", Sides, list[str], list[str], list[SeriesRest]]:
-    """Claims that pairs differ by a power of the small quantity times what is finite there, and how they are proved."""
-    draft = _prepared(p, [e for pair in pairs for e in pair])[1]
-    rests = [remainder(draft, left - right, small, order) for left, right in pairs]
-    h, sides = _prepared(p, [e for pair in pairs for e in pair] + [each.rest for each in rests])
+) -> tuple["_Hypotheses", Sides, list[str], list[str], list[SeriesRemainder]]:
+    """Return claims that pairs differ by a power of the small quantity times a finite factor, and their proofs."""
+    draft = _prepare(p, [e for pair in pairs for e in pair])[1]
+    remainders = [remainder(draft, lhs - rhs, small, order) for lhs, rhs in pairs]
+    h, sides = _prepare(p, [e for pair in pairs for e in pair] + [row.factor for row in remainders])
     write = h.terms.write
-    claims = [
-        f"{write(a)} - ({write(b)}) = {write(r.power)} * ({write(r.rest)})"
-        for (a, b), r in zip(pairs, rests, strict=True)
-    ]
-    tactics = [sides.equality(a - b, r.power * r.rest) for (a, b), r in zip(pairs, rests, strict=True)]
-    for name, bound in _sines_over(small, rests):
+    rows = [*zip(pairs, remainders, strict=True)]
+    claims = [f"{write(a)} - ({write(b)}) = {write(r.power)} * ({write(r.factor)})" for (a, b), r in rows]
+    tactics = [sides.equality(a - b, r.power * r.factor) for (a, b), r in rows]
+    for name, bound in _sines_over(small, remainders):
         claims.append(f"Rabs ({write(name)}) <= Rabs ({write(bound)})")
         tactics.append("apply sine_is_small.")
-    return h, sides, claims, tactics, rests
+    return h, sides, claims, tactics, remainders
 
 
-def _sines_over(small: sp.Symbol, rests: list[SeriesRest]) -> Iterator[tuple[sp.Expr, sp.Expr]]:
-    """Sines that stand over the small letter: each is at most its angle, so that the quotient stays finite."""
-    for sine in sorted(set().union(*(r.rest.atoms(sp.sin) for r in rests if r.at_zero is None)), key=str):
+def _sines_over(small: sp.Symbol, remainders: list[SeriesRemainder]) -> Iterator[tuple[sp.Expr, sp.Expr]]:
+    """Yield the sines that are divided by the small symbol: |sin x| ≤ |x| keeps the quotient finite."""
+    for sine in sorted(set().union(*(r.factor.atoms(sp.sin) for r in remainders if r.at_zero is None)), key=str):
         if small in sine.free_symbols:
             yield sine, sine.args[0]
 
 
-def _held_to_order(p: Proposition) -> tuple[tuple[str, ...], str]:
-    """The theorem that the two sides differ by a power of the small quantity times what stays finite."""
-    small, draft = p.small, _prepared(p)[1]
+def _order_theorem(p: Proposition) -> Theorems:
+    """Return the theorem that both sides differ by a power of the small quantity times a finite factor."""
+    small, draft = p.small, _prepare(p)[1]
     assert small is not None
     pairs = _differences(p, draft, small)
     h, sides, claims, tactics, _ = _to_order(p, small, (p.order or 0) + 1, pairs)
-    if p.within is not None:
-        claims.append(f"Rabs ({h.terms.write(pairs[0][1])} - 1) <= {h.terms.write(p.within)}")
+    if p.tolerance is not None:
+        claims.append(f"Rabs ({h.terms.write(pairs[0][1])} - 1) <= {h.terms.write(p.tolerance)}")
         tactics.append("interval.")
     head = f"{p.name}: {p.quantity}: {p.verdict}: through order {p.order} in {small}"
     return _theorem(p.name, head, h, sides, claims, tactics)
 
 
-def _refuted_at_order(p: Proposition, order: int) -> tuple[tuple[str, ...], str]:
-    """The two sides differ by small**n times what is finite at zero; and at some point it is not zero there."""
+def _refuted_order_theorem(p: Proposition, order: int) -> Theorems:
+    """Return the theorems that the sides differ by small**n times a finite factor, and that it is nonzero at some point."""
     small = p.small
     assert small is not None
-    p = replace(p, equations=_consistent(p.equations)[0])
-    pair = _differences(p, _prepared(p)[1], small)[0]
-    h, sides, claims, tactics, (rest,) = _to_order(p, small, order + 1, [pair])
-    if rest.at_zero is None:
+    p = replace(p, equations=_consistent_choices(p.equations)[0])
+    pair = _differences(p, _prepare(p)[1], small)[0]
+    h, sides, claims, tactics, (remainder,) = _to_order(p, small, order + 1, [pair])
+    if remainder.at_zero is None:
         raise NotExactError(f"the coefficient of order {order + 1} is a limit")
     write, name, where = h.terms.write, f"{p.name}_differs", f"{p.name}_refuted"
     head = f"{p.name}: {p.quantity}: refuted at order {order + 1} in {small}: how the sides differ, and a point where they do"
     _, text = _theorem(name, head, h, sides, claims, tactics)
-    for point in points_of(h.letters, sides.eliminated, [*h.signs, *h.defined], 24, zeros=[*sides.unsolved.values()]):
-        value = value_at_point(rest.at_zero, point)
+    for point in points_of(h.symbols, sides.eliminated, [*h.signs, *h.defined], 24, zeros=[*sides.unsolved.values()]):
+        value = value_at_point(remainder.at_zero, point)
         if value is not None and abs(value) > 1e-3:
             low, high = rational_bounds(value)
             rows = [proposition for _, proposition, _ in h.named]
-            claim = " /\\ ".join([*rows, f"\n  {write(low)} <= {write(rest.at_zero)} <= {write(high)}"])
-            return (name, where), text + "\n" + _at(where, h, point, claim)
+            claim = " /\\ ".join([*rows, f"\n  {write(low)} <= {write(remainder.at_zero)} <= {write(high)}"])
+            return (name, where), text + "\n" + _point_theorem(where, h, point, claim)
     raise NotExactError(f"no point was seen at which the coefficient of order {order + 1} is not zero")
 
 
-def _satisfied(name: str, h: _Hypotheses, sides: Sides) -> str:
-    """The theorem that the hypotheses of a line hold together at some point."""
+def _example_theorem(name: str, h: _Hypotheses, sides: Sides) -> str:
+    """Return the theorem that the hypotheses of a line hold together at some point."""
     _check_enclosed([e for _, e in (*h.signs, *h.defined)] + [e for pair in h.pairs for e in pair])
-    near = [{sides.small: value} for value in (sp.S.Zero, sp.Rational(1, 100))] if sides.small else []  # of a series
+    near = [{sides.small: value} for value in (sp.S.Zero, sp.Rational(1, 100))] if sides.small else []  # for a series
     for fixed in (*near, {}):
         for point in points_of(
-            h.letters, sides.eliminated, [*h.signs, *h.defined], fixed=fixed, zeros=[*sides.unsolved.values()]
+            h.symbols, sides.eliminated, [*h.signs, *h.defined], fixed=fixed, zeros=[*sides.unsolved.values()]
         ):
             claim = " /\\ ".join(text for _, text, _ in h.named)
-            return _at(f"{name}_has_a_case", h, point, claim)
+            return _point_theorem(f"{name}_has_a_case", h, point, claim)
     raise NotExactError("no point was seen at which its hypotheses hold")
 
 
 def _check_enclosed(expressions: Iterable[sp.Expr]) -> None:
-    """Raise NotExactError where an expression has no enclosure at a rational point in Coq."""
+    """Raise NotExactError if an expression has no enclosure at a rational point in Coq."""
     for e in expressions:
-        if found := next(iter(e.atoms(AppliedUndef, sp.asin, sp.acos)), None):
-            raise NotExactError(f"{found} has no enclosure at a point in Coq")
-        if letter := next((x for x in e.free_symbols if x.is_integer), None):
-            raise NotExactError(f"{letter} is a whole number, and points are rational")
+        if function := next(iter(e.atoms(AppliedUndef, sp.asin, sp.acos)), None):
+            raise NotExactError(f"{function} has no enclosure at a point in Coq")
+        if symbol := next((x for x in e.free_symbols if x.is_integer), None):
+            raise NotExactError(f"{symbol} is a whole number, and points are rational")
 
 
-def _at(name: str, h: _Hypotheses, point: dict[sp.Symbol, sp.Expr], claim: str) -> str:
-    letters = [h.terms.names[x] for x in h.letters]
-    values = ", ".join(f"({h.terms.write(point[x])})" for x in h.letters)
-    bound = f"exists {' '.join(letters)} : R,\n  " if letters else ""
-    exists = f"exists {values}. " if letters else ""
+def _point_theorem(name: str, h: _Hypotheses, point: dict[sp.Symbol, sp.Expr], claim: str) -> str:
+    symbols = [h.terms.names[x] for x in h.symbols]
+    values = ", ".join(f"({h.terms.write(point[x])})" for x in h.symbols)
+    bound = f"exists {' '.join(symbols)} : R,\n  " if symbols else ""
+    exists = f"exists {values}. " if symbols else ""
     return f"Theorem {name} : {bound}{claim}.\nProof. {exists}at_the_point. Qed."
 
 
-def _refuted(p: Proposition) -> tuple[tuple[str, ...], str]:
-    """A point for each choice of premises that do not contradict each other, with as many of them as there can be."""
-    choices = _consistent(p.equations)
+def _counterexamples(p: Proposition) -> Theorems:
+    """Return a counterexample for each largest consistent choice of premises."""
+    choices = _consistent_choices(p.equations)
     names = [f"{p.name}_refuted" + (f"_{n}" if len(choices) > 1 else "") for n in range(1, len(choices) + 1)]
     head = comment(f"{p.name}: {p.quantity}: refuted: a point where the premises hold and the sides are apart")
-    texts = [_apart(name, replace(p, equations=choice)) for name, choice in zip(names, choices, strict=True)]
+    texts = [_counterexample(name, replace(p, equations=choice)) for name, choice in zip(names, choices, strict=True)]
     return tuple(names), "\n".join([head, *texts])
 
 
 _Rows = tuple[tuple[str, sp.Expr, sp.Expr], ...]
 
 
-def _consistent(rows: _Rows) -> list[_Rows]:
-    """The largest choices of premises, all rows of each, that can be solved together; the text's values are in each.
+def _consistent_choices(rows: _Rows) -> list[_Rows]:
+    """Return the largest consistent choices of premises, as rows; each contains the text's values.
 
-    Raises NotExactError for a premise that contradicts itself or is not solved.
+    Raises NotExactError for a premise that contradicts itself or cannot be solved.
     """
     premises = list(dict.fromkeys(says for says, _, _ in rows))
     for says in premises:
-        elimination([(left, right) for name, left, right in rows if name == says])
-    found: dict[frozenset[str], _Rows] = {}
+        elimination([(lhs, rhs) for name, lhs, rhs in rows if name == says])
+    choices: dict[frozenset[str], _Rows] = {}
     for first in premises or [""]:
         chosen: set[str] = set()
         for says in (first, *premises):
-            tried = tuple(row for row in rows if row[0] in chosen | {says, SCENE})
-            if _solved(tried):
+            candidate = tuple(row for row in rows if row[0] in chosen | {says, SCENE})
+            if _can_solve(candidate):
                 chosen.add(says)
-        found[frozenset(chosen)] = tuple(row for row in rows if row[0] in chosen)
-    return list(found.values())
+        choices[frozenset(chosen)] = tuple(row for row in rows if row[0] in chosen)
+    return list(choices.values())
 
 
-def _solved(rows: _Rows) -> bool:
+def _can_solve(rows: _Rows) -> bool:
     try:
-        elimination([(left, right) for _, left, right in rows])
+        elimination([(lhs, rhs) for _, lhs, rhs in rows])
     except NotExactError:
         return False
     return True
 
 
-def _apart(name: str, p: Proposition) -> str:
-    """The theorem that there is a point at which the hypotheses hold and the two sides differ."""
+def _counterexample(name: str, p: Proposition) -> str:
+    """Return the theorem that the hypotheses hold and the sides differ at some point."""
     _check_enclosed([e for pair in (*p.pairs, *(row[1:] for row in p.equations)) for e in pair])
     if p.stands_for:
         raise NotExactError("a point says nothing of a derivative or an integral")
     h = _hypotheses(p)
     hold, (values, unsolved) = [*h.signs, *h.defined], elimination(h.pairs)
-    pairs = [(left, right, left - right if p.within is None else left / right - 1) for left, right in p.pairs]
-    least = p.within or sp.S.Zero
+    pairs = [(lhs, rhs, lhs - rhs if p.tolerance is None else lhs / rhs - 1) for lhs, rhs in p.pairs]
+    least = p.tolerance or sp.S.Zero
     best: tuple[Any, dict[sp.Symbol, sp.Expr], tuple[sp.Expr, ...]] | None = None
-    for point in points_of(h.letters, values, hold, 24, zeros=[*unsolved.values()]):
+    for point in points_of(h.symbols, values, hold, 24, zeros=[*unsolved.values()]):
         for pair in pairs:
             value = value_at_point(pair[2], point)
             if value is not None and abs(value) > (best[0] if best else least):
@@ -528,14 +516,14 @@ def _apart(name: str, p: Proposition) -> str:
             break
     if best is None:
         raise NotExactError("no point was seen at which its hypotheses hold and the sides differ")
-    _, point, (left, right, difference) = best
+    _, point, (lhs, rhs, difference) = best
     low, high = rational_bounds(value_at_point(difference, point))
     write = h.terms.write
-    text = f"{write(left)} - ({write(right)})" if p.within is None else f"({write(left)}) / ({write(right)}) - 1"
+    text = f"{write(lhs)} - ({write(rhs)})" if p.tolerance is None else f"({write(lhs)}) / ({write(rhs)}) - 1"
     rows = [proposition for _, proposition, _ in h.named]
-    return _at(name, h, point, " /\\ ".join([*rows, f"\n  {write(low)} <= {text} <= {write(high)}"]))
+    return _point_theorem(name, h, point, " /\\ ".join([*rows, f"\n  {write(low)} <= {text} <= {write(high)}"]))
 
 
 def file_name(identifier: str) -> str:
-    """The name of an equation's file, a module's name for Coq: equation_5_15.v."""
+    """Return the file name of an equation, a module name for Coq: equation_5_15.v."""
     return "equation_" + "".join(c if c.isascii() and c.isalnum() else "_" for c in identifier) + ".v"

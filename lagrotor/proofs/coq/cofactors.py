@@ -1,6 +1,7 @@
-"""Polynomials under equations: a letter put in, a quotient as one fraction, a sum of cofactors times what vanishes.
+"""Polynomials under equations: elimination of symbols, one fraction of a quotient, cofactors of a sum of vanishing
+polynomials.
 
-The cofactors q_i of p = sum q_i zero_i + rest are found by Buchberger's algorithm, whose members carry their own.
+Buchberger's algorithm finds the cofactors q_i of p = sum q_i zero_i + rest; each member of its basis carries its own.
 """
 
 from collections.abc import Sequence
@@ -12,67 +13,67 @@ from sympy.polys.rings import PolyElement, PolyRing
 
 from lagrotor.errors import NotExactError
 
-LetterEquation = tuple[sp.Expr, sp.Expr]
-# The most terms of a numerator.
+SymbolEquation = tuple[sp.Expr, sp.Expr]
+# The largest number of terms in a numerator.
 _MOST_TERMS = 4000
 
 
-def elimination(equations: Sequence[LetterEquation]) -> tuple[dict[sp.Symbol, sp.Expr], dict[int, sp.Expr]]:
-    """letter -> its value in the letters that are left, of equations in which it stands alone on one side; and of the others
-    place, from 1 -> difference of the sides.
+def elimination(equations: Sequence[SymbolEquation]) -> tuple[dict[sp.Symbol, sp.Expr], dict[int, sp.Expr]]:
+    """Return symbol → value for equations with a symbol alone on one side, and place (from 1) → difference for the others.
 
-    Raises NotExactError for an equation that contradicts those before it.
+    Raises NotExactError for an equation that contradicts the earlier ones.
     """
-    found: dict[sp.Symbol, sp.Expr] = {}
+    values: dict[sp.Symbol, sp.Expr] = {}
     others: dict[int, sp.Expr] = {}
-    for place, (one, other) in enumerate(equations, 1):
-        left, right = one.xreplace(found), other.xreplace(found)
-        for letter, value in ((left, right), (right, left)):
-            if sp.expand(left - right) != 0 and letter.is_Symbol and letter not in value.free_symbols:
-                found = {old: new.xreplace({letter: value}) for old, new in found.items()} | {letter: value}
+    for place, (lhs, rhs) in enumerate(equations, 1):
+        a, b = lhs.xreplace(values), rhs.xreplace(values)
+        for symbol, value in ((a, b), (b, a)):
+            if sp.expand(a - b) != 0 and symbol.is_Symbol and symbol not in value.free_symbols:
+                values = {old: new.xreplace({symbol: value}) for old, new in values.items()} | {symbol: value}
                 break
         else:
-            others[place] = left - right
-    left_over = {place: e for place, each in others.items() if sp.expand(e := each.xreplace(found)) != 0}
+            others[place] = a - b
+    left_over = {place: e for place, difference in others.items() if sp.expand(e := difference.xreplace(values)) != 0}
     for place, e in left_over.items():
         if not e.free_symbols:
-            one, other = equations[place - 1]
-            raise NotExactError(f"the premise {one} = {other} contradicts those before it")
-    return found, left_over
+            lhs, rhs = equations[place - 1]
+            raise NotExactError(f"the premise {lhs} = {rhs} contradicts those before it")
+    return values, left_over
 
 
-# Members of a basis beyond which no cofactors are sought.
+# The largest basis.
 _MOST_MEMBERS = 40
 
 
 def cofactors_of(target: PolyElement, zeros: Sequence[PolyElement]) -> tuple[list[PolyElement], PolyElement]:
-    """q_i and the rest of target = sum q_i zero_i + rest, by Buchberger's algorithm, whose members carry their own q_i.
+    """Return q_i and rest of target = sum q_i zero_i + rest. Becker & Weispfenning, Groebner Bases, 5.6.
 
-    Becker & Weispfenning, Groebner Bases, 5.6. Raises NotExactError where the basis is too large.
+    Raises NotExactError if the basis is too large.
     """
     ring = target.ring.clone(order=sp.grevlex)
     basis: list[tuple[PolyElement, list[PolyElement]]] = []
 
-    def remainder(p: PolyElement, row: list[PolyElement]) -> tuple[PolyElement, list[PolyElement]]:
-        """What is left of p, and p - rest in the zeros added to the row."""
-        rest = ring.zero
+    def reduce_by_basis(p: PolyElement, row: list[PolyElement]) -> tuple[PolyElement, list[PolyElement]]:
+        """Return the rest of p, and the row plus the cofactors of p − remainder."""
+        remainder = ring.zero
         while p:
-            for member, own in basis:
+            for member, combination in basis:
                 over = ring.monomial_div(p.LM, member.LM)
                 if over is not None:
                     factor = ring.term_new(over, p.LC / member.LC)
-                    p, row = _bounded(p - factor * member), [a + factor * b for a, b in zip(row, own, strict=True)]
+                    p = _bounded(p - factor * member)
+                    row = [a + factor * b for a, b in zip(row, combination, strict=True)]
                     break
             else:
-                rest, p = rest + p.leading_term(), p - p.leading_term()
-        return rest, row
+                remainder, p = remainder + p.leading_term(), p - p.leading_term()
+        return remainder, row
 
     def add_member(p: PolyElement, row: list[PolyElement]) -> None:
-        """Add what the basis leaves of p, which is the sum of the row."""
-        rest, used = remainder(p, [ring.zero] * len(zeros))
-        if rest:
+        """Add the rest of p modulo the basis; `row` has the cofactors of p."""
+        remainder, used = reduce_by_basis(p, [ring.zero] * len(zeros))
+        if remainder:
             pairs.extend((i, len(basis)) for i in range(len(basis)))
-            basis.append((rest, [a - b for a, b in zip(row, used, strict=True)]))
+            basis.append((remainder, [a - b for a, b in zip(row, used, strict=True)]))
         if len(basis) > _MOST_MEMBERS:
             raise NotExactError("the premises have too large a basis")
 
@@ -87,8 +88,8 @@ def cofactors_of(target: PolyElement, zeros: Sequence[PolyElement]) -> tuple[lis
             continue
         by_p, by_q = (ring.term_new(ring.monomial_div(common, g.LM), 1 / g.LC) for g in (p, q))
         add_member(by_p * p - by_q * q, [by_p * a - by_q * b for a, b in zip(of_p, of_q, strict=True)])
-    rest, row = remainder(target.set_ring(ring), [ring.zero] * len(zeros))
-    return [q.set_ring(target.ring) for q in row], rest.set_ring(target.ring)
+    remainder, row = reduce_by_basis(target.set_ring(ring), [ring.zero] * len(zeros))
+    return [q.set_ring(target.ring) for q in row], remainder.set_ring(target.ring)
 
 
 @dataclass(frozen=True)
@@ -100,45 +101,44 @@ class Fraction:
     ring: PolyRing
 
 
-def one_fraction(value: sp.Expr, letters: Sequence[sp.Symbol]) -> Fraction:
-    """The value, whose denominators are monomials, as one fraction. Raises NotExactError where it is too large."""
-    ring = PolyRing(list(letters) or [sp.Dummy()], sp.QQ, sp.lex)
-    found = _quotient(value, ring, {letter: ring.gens[i] for i, letter in enumerate(letters)})
-    numerator, powers = found
-    under = sp.Mul(*(letter**n for letter, n in zip(letters, powers, strict=False) if n))
+def one_fraction(value: sp.Expr, symbols: Sequence[sp.Symbol]) -> Fraction:
+    """Return a value whose denominators are monomials as one fraction. Raises NotExactError if it is too large."""
+    ring = PolyRing(list(symbols) or [sp.Dummy()], sp.QQ, sp.lex)
+    quotient = _quotient(value, ring, {symbol: ring.gens[i] for i, symbol in enumerate(symbols)})
+    numerator, powers = quotient
+    under = sp.Mul(*(symbol**n for symbol, n in zip(symbols, powers, strict=False) if n))
     return Fraction(numerator, under, ring)
 
 
-_Parts = tuple[PolyElement, tuple[int, ...]]
+_Quotient = tuple[PolyElement, tuple[int, ...]]
 
 
-def _quotient(node: sp.Expr, ring: PolyRing, letters: dict[sp.Symbol, PolyElement]) -> _Parts:
-    """Polynomial and the exponents of the monomial below it."""
+def _quotient(node: sp.Expr, ring: PolyRing, symbols: dict[sp.Symbol, PolyElement]) -> _Quotient:
+    """Return the numerator and the exponents of the denominator, a monomial."""
     none = (0,) * ring.ngens
     if node.is_Rational:
         return ring(sp.QQ(node.p, node.q)), none
     if node.is_Symbol:
-        return letters[node], none
-    parts = [_quotient(part, ring, letters) for part in (node.args if not node.is_Pow else node.args[:1])]
+        return symbols[node], none
+    fractions = [_quotient(argument, ring, symbols) for argument in (node.args if not node.is_Pow else node.args[:1])]
     if node.is_Add:
-        common = tuple(map(max, *(powers for _, powers in parts)))
-        raised = (
-            p * ring({tuple(a - b for a, b in zip(common, powers, strict=True)): sp.QQ(1)}) for p, powers in parts
-        )
+        common = tuple(map(max, *(powers for _, powers in fractions)))
+        shifts = [tuple(a - b for a, b in zip(common, powers, strict=True)) for _, powers in fractions]
+        raised = (p * ring({shift: sp.QQ(1)}) for (p, _), shift in zip(fractions, shifts, strict=True))
         return _bounded(reduce(lambda a, b: a + b, raised)), common
     if node.is_Mul:
-        return reduce(_times, parts)
-    [(over, under)], n = parts, int(node.exp)
+        return reduce(_times, fractions)
+    [(over, under)], n = fractions, int(node.exp)
     if n > 0:
         return reduce(_times, [(over, under)] * n)
     if len(over) != 1:
         raise NotExactError(f"{node} is divided by a sum")
     [(powers, coefficient)] = over.terms()
-    turned: _Parts = ring({tuple(under): 1 / coefficient}), powers
-    return reduce(_times, [turned] * -n)
+    reciprocal: _Quotient = ring({tuple(under): 1 / coefficient}), powers
+    return reduce(_times, [reciprocal] * -n)
 
 
-def _times(a: _Parts, b: _Parts) -> _Parts:
+def _times(a: _Quotient, b: _Quotient) -> _Quotient:
     over, under = _bounded(a[0] * b[0]), tuple(x + y for x, y in zip(a[1], b[1], strict=True))
     if not over or not any(under):
         return over, under if over else (0,) * len(under)

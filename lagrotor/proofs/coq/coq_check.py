@@ -1,7 +1,7 @@
-"""A folder of certificates, a file of Coq for each equation and `certificates.json`, which lists every line and its theorems; its
-check by Coq's kernel: `coqc` compiles the files, several at once.
+"""A folder of certificates, and its check by Coq's kernel.
 
-In each are the lemmas that all begin with, and theorems.
+The folder has a Coq file for each equation, a preamble of lemmas and theorems, and `certificates.json`, which lists every
+line with its theorems. `coqc` compiles several files at once.
 """
 
 import json
@@ -27,7 +27,7 @@ CERTIFICATE_LIST = "certificates.json"
 
 @dataclass(frozen=True)
 class CertifiedEquation:
-    """One equation of a folder: its verdict, its file ("" where it has none), its lines."""
+    """One equation of a folder: its verdict, its file ("" without one), its lines."""
 
     id: str
     verdict: str
@@ -36,9 +36,9 @@ class CertifiedEquation:
 
 
 def certify(verdicts: Iterable[Verdict], paper: Catalogue, folder: Path) -> list[CertifiedEquation]:
-    """Write a file for each equation that has a certificate, and the list; what an earlier run wrote there goes.
+    """Write a file for each equation with a certificate, and the list; remove the files of an earlier run.
 
-    Raises InputError where the folder cannot be written to, or holds something else.
+    Raises InputError if the folder cannot be written to, or contains other files.
     """
     old = read_certificates(folder) if (folder / CERTIFICATE_LIST).is_file() else []
     if not old and folder.is_dir() and any(folder.iterdir()):
@@ -70,35 +70,34 @@ def _listed(line: CertifiedLine) -> dict[str, Any]:
 
 
 def read_certificates(folder: Path) -> list[CertifiedEquation]:
-    """What a folder of certificates lists. Raises InputError where it is none."""
+    """Return the list of a folder of certificates. Raises InputError if it has none."""
     if not (folder / CERTIFICATE_LIST).is_file():
         raise InputError(f"{folder} has no {CERTIFICATE_LIST}: write one with lagrotor audit --certify {folder}")
     try:
-        rows = [_row(each) for each in json.loads(read_text(folder / CERTIFICATE_LIST))]
+        rows = [_row(data) for data in json.loads(read_text(folder / CERTIFICATE_LIST))]
     except (ValueError, TypeError, KeyError, AttributeError):
-        raise InputError(
-            f"{folder / CERTIFICATE_LIST} cannot be read: write it again with lagrotor audit --certify"
-        ) from None
+        file = folder / CERTIFICATE_LIST
+        raise InputError(f"{file} cannot be read: write it again with lagrotor audit --certify") from None
     for row in rows:
         if row.file and (row.file != file_name(row.id) or not (folder / row.file).is_file()):
             raise InputError(f"{folder / CERTIFICATE_LIST} lists {row.file!r}, which is not there: write it again")
     return rows
 
 
-def _row(each: dict[str, Any]) -> CertifiedEquation:
-    lines = (CertifiedLine(**{**line, "theorems": tuple(map(str, line["theorems"]))}) for line in each["lines"])
-    return CertifiedEquation(str(each["id"]), str(each["verdict"]), str(each["file"]), tuple(lines))
+def _row(data: dict[str, Any]) -> CertifiedEquation:
+    lines = (CertifiedLine(**{**line, "theorems": tuple(map(str, line["theorems"]))}) for line in data["lines"])
+    return CertifiedEquation(str(data["id"]), str(data["verdict"]), str(data["file"]), tuple(lines))
 
 
-# The seconds after which a file counts as rejected.
+# Time limit for a file, s.
 _LONGEST = 300
-# Files are compiled together, in so many parts for each core.
+# Batches of files for each core.
 _BATCHES = 4
-# Words that a sentence begins with after the preamble: nothing is assumed, no notation is changed, and no name is taken but
-# those of lines, since a lemma `sin` would be another sine in all that follows.
+# The first words of sentences after the preamble. They exclude axioms, notations and lemmas: a lemma `sin` would replace the
+# sine in all later statements.
 _SENTENCES = frozenset(["Theorem", "Proof", "Qed"])
 _NAME = re.compile(r"(line|correction)_\d+(_\w+)?")
-# The end of a sentence; the next may begin with the marks of its place in a proof.
+# The end of a sentence; the next one can begin with bullets.
 _END = re.compile(r"(?:(?<!\.)|\.\.)\.(?:\s|\Z)|[{}]")
 _MARKS = " \t\r\n+-*"
 _TO_INSTALL = "install Debian's packages coq and libcoq-interval (apt-get install coq libcoq-interval)"
@@ -106,7 +105,7 @@ _TO_INSTALL = "install Debian's packages coq and libcoq-interval (apt-get instal
 
 @dataclass(frozen=True)
 class Checked:
-    """What Coq said of one line. status: accepted, rejected, or skipped; why: what it rejected, or why there is nothing."""
+    """The result of one line: accepted, rejected, or skipped; why: the reason of the last two."""
 
     id: str
     line: CertifiedLine
@@ -115,18 +114,18 @@ class Checked:
 
 
 def missing_coq() -> str:
-    """Why nothing can be checked here; empty where Coq and its Interval are installed."""
+    """Return the reason why nothing can be checked; empty if Coq and its Interval library are installed."""
     if shutil.which("coqc") is None:
         return f"coqc is not on the PATH: {_TO_INSTALL}"
     with tempfile.TemporaryDirectory() as folder:
-        failed = _compiled(Path(folder), "needed.v", PREAMBLE)
+        failed = _compile(Path(folder), "needed.v", PREAMBLE)
     return f"coqc has no Interval library ({failed}): {_TO_INSTALL}" if failed else ""
 
 
 def check_certificates(folder: Path, begins: Callable[[str], None] = lambda name: None) -> list[Checked]:
-    """Check every certificate of a folder, as many at once as there are cores; `begins` is called with each id.
+    """Check every certificate of a folder, in parallel; `begins` is called with each id.
 
-    Raises InputError for a folder without certificates, LagrotorError where there is no Coq.
+    Raises InputError for a folder without certificates, LagrotorError without Coq.
     """
     rows = read_certificates(folder)
     if why := missing_coq():
@@ -145,8 +144,8 @@ def check_certificates(folder: Path, begins: Callable[[str], None] = lambda name
         return {i: list(_lines(rows[i], failed)) for i, failed in zip(batch, failures, strict=True)}
 
     with ThreadPoolExecutor(cores) as pool:
-        found = {i: lines for part in pool.map(checked, batches) for i, lines in part.items()}
-    return [each for i in range(len(rows)) for each in found[i]]
+        results = {i: lines for failures_by_row in pool.map(checked, batches) for i, lines in failures_by_row.items()}
+    return [result for i in range(len(rows)) for result in results[i]]
 
 
 def _lines(row: CertifiedEquation, failed: Mapping[str, str]) -> Iterator[Checked]:
@@ -160,10 +159,10 @@ def _lines(row: CertifiedEquation, failed: Mapping[str, str]) -> Iterator[Checke
 
 
 def _failures_of(files: Sequence[tuple[CertifiedEquation, str]]) -> list[dict[str, str]]:
-    """Of each file its theorems that are rejected, with the reason; "" for the whole file.
+    """Return for each file its rejected theorems with the reasons; the key "" is the whole file.
 
-    Coq takes longer to load its libraries than to check most files: these are compiled together, each as a module, and one by
-    one where one of them is rejected.
+    Coq takes longer to load its libraries than to check most files. All files are compiled together, each as a module, and
+    one by one only if that fails.
     """
     wrong = [_malformed(row, text) for row, text in files]
     sound = [(row, text) for (row, text), reason in zip(files, wrong, strict=True) if text and not reason]
@@ -172,17 +171,15 @@ def _failures_of(files: Sequence[tuple[CertifiedEquation, str]]) -> list[dict[st
         name = row.file.removesuffix(".v")
         together += f"\nModule {name}.\n{text.partition(PREAMBLE)[2]}\nEnd {name}.\n"
     with tempfile.TemporaryDirectory() as folder:
-        accepted = len(sound) > 1 and not _compiled(Path(folder), "together.v", together)
-    return [
-        {"": reason} if reason else {} if accepted or not text else _failures(row, text)
-        for (row, text), reason in zip(files, wrong, strict=True)
-    ]
+        accepted = len(sound) > 1 and not _compile(Path(folder), "together.v", together)
+    rows = zip(files, wrong, strict=True)
+    return [{"": why} if why else {} if accepted or not text else _failures(row, text) for (row, text), why in rows]
 
 
 def _malformed(row: CertifiedEquation, text: str) -> str:
-    """What is wrong with a file as a text; empty where nothing is, or there is no file."""
-    if text and (other := foreign_word(text)):
-        return f"the file holds {other}, which is no part of a certificate"
+    """Return what is wrong with the text of a file; empty if nothing is."""
+    if text and (word := foreign_word(text)):
+        return f"the file holds {word}, which is no part of a certificate"
     for name in (name for line in row.lines for name in line.theorems):
         if len(re.findall(rf"^Theorem {re.escape(name)}\b", text, re.MULTILINE)) != 1:
             return f"the file does not hold one theorem {name}"
@@ -190,13 +187,13 @@ def _malformed(row: CertifiedEquation, text: str) -> str:
 
 
 def _failures(row: CertifiedEquation, text: str) -> dict[str, str]:
-    """Theorem -> why Coq rejects it; "" for the whole file. A theorem that is rejected is left out of the next attempt."""
+    """Return theorem → reason of its rejection, "" for the whole file. The next attempt omits a rejected theorem."""
     failed: dict[str, str] = {}
     with tempfile.TemporaryDirectory() as folder:
-        while error := _compiled(Path(folder), row.file, text):
+        while error := _compile(Path(folder), row.file, text):
             place = re.match(r"line (\d+)", error)
-            before = "\n".join(text.split("\n")[: int(place[1])]) if place else ""
-            begun = re.findall(r"^Theorem (\w+)", before, re.MULTILINE)
+            head = "\n".join(text.split("\n")[: int(place[1])]) if place else ""
+            begun = re.findall(r"^Theorem (\w+)", head, re.MULTILINE)
             if not begun or begun[-1] in failed:
                 return {"": error}
             failed[begun[-1]] = error
@@ -204,8 +201,8 @@ def _failures(row: CertifiedEquation, text: str) -> dict[str, str]:
     return failed
 
 
-def _compiled(folder: Path, name: str, text: str) -> str:
-    """What coqc objects to, as line n: the message; empty where it accepts."""
+def _compile(folder: Path, name: str, text: str) -> str:
+    """Return the objection of coqc as "line n: message"; empty if it accepts."""
     (folder / name).write_text(text, encoding="utf-8")
     try:
         run = subprocess.run(["coqc", "-q", name], cwd=folder, capture_output=True, text=True, timeout=_LONGEST)
@@ -213,29 +210,30 @@ def _compiled(folder: Path, name: str, text: str) -> str:
         return f"it takes more than {_LONGEST} s"
     if run.returncode == 0:
         return ""
-    said = " ".join((run.stderr or run.stdout).split())
-    return re.sub(r'^File "[^"]*", (line \d+), characters [\d-]+: (?:Error: )?', r"\1: ", said)[:300] or "coqc failed"
+    message = " ".join((run.stderr or run.stdout).split())
+    place = r'^File "[^"]*", (line \d+), characters [\d-]+: (?:Error: )?'
+    return re.sub(place, r"\1: ", message)[:300] or "coqc failed"
 
 
 def foreign_word(text: str) -> str:
-    """What in a file is neither the preamble, nor a theorem about a line, nor a comment; empty where all is."""
-    before, preamble, plain = _without_comments(text).partition(PREAMBLE)
-    if not preamble or before.strip():
+    """Return the first content of a file that is no preamble, theorem about a line, or comment; empty if there is none."""
+    head, preamble, plain = _without_comments(text).partition(PREAMBLE)
+    if not preamble or head.strip():
         return "another beginning than the preamble of certificates"
-    if '"' in text:  # also in a comment, where Coq reads one
+    if '"' in text:  # Coq reads strings in comments, too
         return "a string"
     starts = (re.match(r"\w+|.", sentence.lstrip(_MARKS)) for sentence in _END.split(plain))
-    other = [start[0] for start in starts if start and start[0] not in _SENTENCES and not start[0][0].islower()]
+    words = [start[0] for start in starts if start and start[0] not in _SENTENCES and not start[0][0].islower()]
     names = re.findall(r"\bTheorem\s+([^\s:({]+)", plain)
-    other += [f"a theorem {name}" for name in names if not _NAME.fullmatch(name)]
-    return next(iter(other), "")
+    words += [f"a theorem {name}" for name in names if not _NAME.fullmatch(name)]
+    return next(iter(words), "")
 
 
 def _without_comments(text: str) -> str:
-    """The text with a space for each comment, which may hold others."""
-    kept, depth = [], 0
-    for part in re.split(r"(\(\*|\*\))", text):
-        depth += {"(*": 1, "*)": -1}.get(part, 0)
+    """Return the text with a space for each comment, also for nested ones."""
+    tokens, depth = [], 0
+    for token in re.split(r"(\(\*|\*\))", text):
+        depth += {"(*": 1, "*)": -1}.get(token, 0)
         if depth == 0:
-            kept.append(" " if part == "*)" else part)
-    return "".join(kept)
+            tokens.append(" " if token == "*)" else token)
+    return "".join(tokens)

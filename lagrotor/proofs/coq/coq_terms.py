@@ -1,8 +1,8 @@
-"""Expressions of sympy as terms of Coq's real numbers, and where these terms mean what the expression means.
+"""Expressions of sympy as terms of Coq's real numbers, and the conditions under which both have the same meaning.
 
-Coq's functions are total: x/0, the root of -1 and the logarithm of -1 are numbers there, of which nothing useful is known. A
-term therefore stands beside its `conditions`: a denominator is not zero, a radicand not negative, the argument of a logarithm
-positive. Every letter has a name of its own, and none hides a word that the terms use. What has no term is refused.
+Coq's functions are total: x/0, √−1 and the logarithm of −1 are real numbers about which nothing useful is provable. Each
+term therefore comes with `conditions_of_value`: denominators are not zero, radicands not negative, arguments of logarithms
+positive. Every symbol has a unique name that no term uses. An expression without a term raises NotExactError.
 """
 
 import re
@@ -20,8 +20,8 @@ _FUNCTIONS: dict[Any, str] = {
     **{sp.sin: "sin", sp.cos: "cos", sp.tan: "tan", sp.sinh: "sinh", sp.cosh: "cosh", sp.tanh: "tanh"},
     **{sp.exp: "exp", sp.log: "ln", sp.atan: "atan", sp.asin: "asin", sp.acos: "acos", sp.Abs: "Rabs"},
 }
-# What a file of certificates says itself: no letter is called so. Coq's own words, and those of the standard library.
-_TAKEN = frozenset(
+# Reserved names: Coq's words, those of the standard library, and the lemmas of the preamble.
+_RESERVED = frozenset(
     """as at cofix do else end exists exists2 fix for forall fun if IF in let match mod return then where with using by
     Prop SProp Set Type R I O S Q Z N nat True False not or and PI sqrt Rpower pow IZR Rinv Rmult Rplus Rminus Rdiv Ropp
     sine_and_cosine root_squared size_squared a_letter_for by_cofactors more_than_zero exp_pos sqrt_lem_1
@@ -29,51 +29,50 @@ _TAKEN = frozenset(
     """.split()  # noqa: SIM905
 ) | set(_FUNCTIONS.values())
 _WORD = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
-# Coq's names of what the proofs bring in themselves: no letter is called so either.
-OWN = re.compile(r"(?:known|apart|root|sum|atom|whole|factor|radical|zero|over|sign|premise|defined)_\d+")
+# Names that the proofs introduce; they are reserved, too.
+PROOF_NAMES = re.compile(r"(?:known|apart|root|sum|atom|whole|factor|radical|zero|over|sign|premise|defined)_\d+")
 Comparison = tuple[str, sp.Expr]  # ("<>" or "<=" or "<" zero, of an expression): 0 <> e, 0 <= e, 0 < e
 
 
 class Terms:
-    """The names of the letters and functions of some expressions, and how these are written.
+    """The names of the symbols and functions of some expressions, and their text.
 
-    Raises NotExactError where two letters have one name, or an expression holds what has no term over the reals.
+    Raises NotExactError if two symbols have one name, or an expression has no term over the reals.
     """
 
     def __init__(self, expressions: Iterable[Any]) -> None:
         self.names: dict[Any, str] = {}
         self.stands_for: dict[sp.Expr, sp.Symbol] = {}
-        held = [sp.sympify(e, strict=True) for e in expressions]
-        nodes = {node for e in held for node in sp.preorder_traversal(e)}
-        letters = {node for node in nodes if node.is_Symbol} | {n.func for n in nodes if isinstance(n, AppliedUndef)}
-        seen: dict[str, Any] = {}
-        for letter in sorted(letters, key=lambda each: (_plain(each), str(each))):
-            if _plain(letter) in seen:
-                raise NotExactError(f"two letters are called {_plain(letter)}")
-            if letter.is_Symbol and letter.is_extended_real is False:
-                raise NotExactError(f"{_plain(letter)} is no real number")
-            seen[_plain(letter)] = letter
-            self.add(letter)
+        sides = [sp.sympify(e, strict=True) for e in expressions]
+        nodes = {node for e in sides for node in sp.preorder_traversal(e)}
+        symbols = {node for node in nodes if node.is_Symbol} | {n.func for n in nodes if isinstance(n, AppliedUndef)}
+        by_name: dict[str, Any] = {}
+        for symbol in sorted(symbols, key=lambda x: (_plain(x), str(x))):
+            if _plain(symbol) in by_name:
+                raise NotExactError(f"two symbols are called {_plain(symbol)}")
+            if symbol.is_Symbol and symbol.is_extended_real is False:
+                raise NotExactError(f"{_plain(symbol)} is no real number")
+            by_name[_plain(symbol)] = symbol
+            self.add(symbol)
 
-    def add(self, letter: Any) -> str:
-        """Name a letter, as it is called where that can be."""
-        called = _plain(letter)
+    def add(self, symbol: Any) -> str:
+        """Name a symbol, by its own name if Coq allows it."""
+        called = _plain(symbol)
         name = called if _WORD.fullmatch(called) else "x_" + re.sub(r"\W", "_", called, flags=re.ASCII)
-        while name in _TAKEN or OWN.fullmatch(name) or name in self.names.values():
+        while name in _RESERVED or PROOF_NAMES.fullmatch(name) or name in self.names.values():
             name += "_"
-        self.names[letter] = name
+        self.names[symbol] = name
         return name
 
     def write(self, node: Any) -> str:
-        """The term, in Coq's scope of real numbers."""
         return self._within(node, 0)
 
     def alone(self, node: Any) -> str:
-        """The term as the argument of a function: in brackets where it is more than a word."""
+        """Return the term as the argument of a function: in brackets unless it is one word."""
         return self._within(node, 4)
 
     def _within(self, node: Any, strength: int) -> str:
-        """The term in brackets where it binds less than its place needs: 1 in a sum, 2 in a product, 3 a factor, 4 alone."""
+        """Return the term, in brackets if it binds less than its place: 1 in a sum, 2 in a product, 3 a factor, 4 alone."""
         text, binds = self._term(node)
         return text if binds >= strength else f"({text})"
 
@@ -95,20 +94,20 @@ class Terms:
         if node.is_Pow:
             return self._power(node)
         if isinstance(node, AppliedUndef):
-            return " ".join([self.names[node.func], *(self._within(each, 4) for each in node.args)]), 3
+            return " ".join([self.names[node.func], *(self._within(argument, 4) for argument in node.args)]), 3
         if node.func in _FUNCTIONS:
             return f"{_FUNCTIONS[node.func]} {self._within(node.args[0], 4)}", 3
         if node.func in QUOTIENTS:
-            over, under = (1 if part is None else part(*node.args, evaluate=False) for part in QUOTIENTS[node.func])
+            over, under = (1 if f is None else f(*node.args, evaluate=False) for f in QUOTIENTS[node.func])
             return f"{self._within(sp.sympify(over, strict=True), 2)} / {self._within(under, 3)}", 2
         raise NotExactError(f"{getattr(node, 'func', node)} has no term over the reals")
 
     def _sum(self, node: sp.Expr) -> str:
         text = ""
-        for part in node.as_ordered_terms():
-            negative = part.could_extract_minus_sign() and (part.is_Rational or part.is_Mul)
-            written = self._within(-part if negative else part, 2)
-            text += f" {'-' if negative else '+'} {written}" if text else f"- {written}" if negative else written
+        for term in node.as_ordered_terms():
+            negative = term.could_extract_minus_sign() and (term.is_Rational or term.is_Mul)
+            summand = self._within(-term if negative else term, 2)
+            text += f" {'-' if negative else '+'} {summand}" if text else f"- {summand}" if negative else summand
         return text
 
     def _product(self, node: sp.Expr) -> str:
@@ -123,8 +122,8 @@ class Terms:
         number = abs(number)
         upper = [self._within(sp.Integer(number.p), 3)] if number.p != 1 or not over else []
         lower = [self._within(sp.Integer(number.q), 3)] if number.q != 1 else []
-        text = " * ".join([*upper, *(self._within(each, 3) for each in over)])
-        lower += [self._within(each, 3) for each in under]
+        text = " * ".join([*upper, *(self._within(x, 3) for x in over)])
+        lower += [self._within(x, 3) for x in under]
         if lower:
             text += f" / ({' * '.join(lower)})" if len(lower) > 1 else f" / {lower[0]}"
         return sign + text
@@ -143,20 +142,20 @@ class Terms:
         return f"Rpower {self._within(base, 4)} {self._within(exponent, 4)}", 3
 
 
-def _plain(letter: Any) -> str:
-    return str(letter.name if hasattr(letter, "name") else letter.__name__)
+def _plain(symbol: Any) -> str:
+    return str(symbol.name if hasattr(symbol, "name") else symbol.__name__)
 
 
 def conditions_of_value(expressions: Iterable[Any]) -> list[Comparison]:
-    """Where every part of the expressions has a value, in their order: those that are not true of numbers at once.
+    """Return the conditions under which the expressions have values, without those that hold trivially.
 
     ("<>", e): e is not zero; ("<=", e): 0 <= e; ("<", e): 0 < e.
     """
-    found: dict[Comparison, None] = {}
+    conditions: dict[Comparison, None] = {}
     for expression in expressions:
         for node in sp.postorder_traversal(expression):
-            found |= dict.fromkeys(_conditions_of(node))
-    return [(sign, e) for sign, e in found if not _plainly(sign, e)]
+            conditions |= dict.fromkeys(_conditions_of(node))
+    return [(sign, e) for sign, e in conditions if not _plainly(sign, e)]
 
 
 def _conditions_of(node: Any) -> list[Comparison]:
@@ -182,32 +181,31 @@ def _conditions_of(node: Any) -> list[Comparison]:
 
 
 def _plainly(sign: str, e: sp.Expr) -> bool:
-    """Whether a condition holds of a number, or of a letter by what it was declared as, which is a hypothesis."""
+    """Return True if a condition holds for a number, or for a symbol by its declared sign, which is a hypothesis."""
     if e.is_Symbol:
         return bool(e.is_positive or (sign == "<>" and e.is_nonzero) or (sign == "<=" and e.is_nonnegative))
     plain = e.is_Rational or e is sp.pi
     return bool(plain and {"<>": e != 0, "<=": e >= 0, "<": e > 0}[sign])
 
 
-def declared_signs(letters: Iterable[sp.Symbol]) -> list[Comparison]:
-    """What the letters were declared as: positive ones are greater than zero."""
-    found: list[Comparison] = []
-    for letter in sorted(letters, key=str):
+def declared_signs(symbols: Iterable[sp.Symbol]) -> list[Comparison]:
+    """Return the declared signs of the symbols as comparisons."""
+    signs: list[Comparison] = []
+    for symbol in sorted(symbols, key=str):
         declared = (
-            (letter.is_positive, "<", letter), (letter.is_negative, "<", -letter), (letter.is_nonnegative, "<=", letter),
-            (letter.is_nonpositive, "<=", -letter), (letter.is_nonzero, "<>", letter),
+            (symbol.is_positive, "<", symbol), (symbol.is_negative, "<", -symbol), (symbol.is_nonnegative, "<=", symbol),
+            (symbol.is_nonpositive, "<=", -symbol), (symbol.is_nonzero, "<>", symbol),
         )  # fmt: skip
-        found += [(sign, e) for holds, sign, e in declared if holds][:1]  # the first says the most
-    return found
+        signs += [(sign, e) for holds, sign, e in declared if holds][:1]  # the first is the strongest
+    return signs
 
 
 def comparison(terms: Terms, sign: str, e: sp.Expr) -> str:
-    """A condition as a proposition."""
     return f"{terms.write(e)} <> 0" if sign == "<>" else f"0 {sign} {terms.write(e)}"
 
 
 def comment(text: str) -> str:
-    """Text as a comment of Coq, whatever is in it: nothing of it ends the comment or begins a string."""
+    """Return text as a comment of Coq; no part of it ends the comment or begins a string."""
     plain = re.sub(r"\s+", " ", text).replace('"', "'")
     while "(*" in plain or "*)" in plain:
         plain = plain.replace("(*", "( *").replace("*)", "* )")

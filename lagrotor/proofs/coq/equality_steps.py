@@ -1,11 +1,12 @@
-"""Why two sides are equal, as steps that Coq checks: each side in generators, the numerator as a sum of cofactor times relation.
+"""The proof that two sides are equal, as steps that Coq checks: each side in generators, their numerator as cofactors times
+relations.
 
-A generator is a letter, the cosine and the sine of a base angle, an exponential, a root, or a function of which nothing is
-used. Every function in the statement is written in them by the addition theorems (`atom_n`), every denominator is factored
-(`whole_n`), each factor a letter of its own (`factor_n`, `sum_n`). The two sides times a monomial then differ by a polynomial
-that is the sum of q_i times relation_i: sin^2 + cos^2 - 1, root^2 - radicand, factor - polynomial. The q_i are found by
-division, since the leading terms of the relations have no letter in common; Coq checks them by `ring`. A premise in which a
-letter stands alone is put in; the numerators of the others, a^2 + b^2 = 1, are relations too (`ideal_n`), with `cofactors`.
+A generator is a symbol, the cosine and the sine of a base angle, an exponential, a root, or an uninterpreted function. The
+addition theorems write every function in them (`atom_n`); every denominator is factored (`whole_n`), and each factor gets a
+symbol (`factor_n`, `sum_n`). The two sides times a monomial then differ by a polynomial, the sum of q_i times relation_i:
+sin^2 + cos^2 - 1, root^2 - radicand, factor - polynomial. Division finds the q_i, since the leading terms of the relations
+have no symbol in common; Coq checks them by `ring`. A premise with a symbol alone on one side is substituted; the
+numerators of other premises, a^2 + b^2 = 1, are relations too (`ideal_n`), with `cofactors`.
 """
 
 import re
@@ -20,19 +21,19 @@ from sympy.polys.rings import PolyElement, PolyRing
 
 from lagrotor.algebra.power_series import QUOTIENTS
 from lagrotor.errors import NotExactError
-from lagrotor.proofs.coq.cofactors import Fraction, LetterEquation, cofactors_of, elimination, one_fraction
+from lagrotor.proofs.coq.cofactors import Fraction, SymbolEquation, cofactors_of, elimination, one_fraction
 from lagrotor.proofs.coq.coq_terms import Comparison, Terms
 
 _CIRCULAR, _EXPONENTIAL = (sp.sin, sp.cos), (sp.exp, sp.sinh, sp.cosh)
 _OPAQUE = (sp.log, sp.atan, sp.asin, sp.acos)
 _NOT_NEGATIVE = "first [assumption | lra | positive]"
-# The largest multiple of a base angle, the most terms of a denominator that is factored.
+# The largest multiple of a base angle; the largest number of terms of a denominator that is factored.
 _LARGEST_MULTIPLE, _MOST_FACTORED = 12, 60
 
 
 @dataclass(frozen=True)
 class _Relation:
-    """What vanishes: its name in the proof, and the polynomial in generators, as it stands there."""
+    """A vanishing polynomial in generators: its name in the proof, and its text."""
 
     name: str
     zero: sp.Expr
@@ -40,17 +41,17 @@ class _Relation:
 
 
 class Sides:
-    """The sides of a statement in generators, under equations between letters; `steps` are the lines of the proof so far.
+    """The sides of a statement in generators, under equations between symbols; `steps` are the lines of the proof so far.
 
-    equations: the premises, named premise_1, …; conditions: named defined_1, …; small: the letter whose powers are looked at.
-    Raises NotExactError outside the class.
+    equations: the premises premise_1, …; conditions: defined_1, …; small: the symbol of a series. Raises NotExactError for
+    expressions outside the class.
     """
 
     def __init__(
         self,
         terms: Terms,
         expressions: Sequence[sp.Expr],
-        equations: Sequence[LetterEquation],
+        equations: Sequence[SymbolEquation],
         conditions: Sequence[Comparison],
         small: sp.Symbol | None = None,
     ) -> None:
@@ -59,32 +60,32 @@ class Sides:
         self.eliminated, self.unsolved = elimination(equations)
         self.relations: list[_Relation] = []
         self.ideal: list[_Relation] = []
-        self._known: dict[sp.Expr, sp.Expr] = {}
+        self._values: dict[sp.Expr, sp.Expr] = {}
         self._generators: dict[Any, sp.Symbol] = {}
         self._rewritten: dict[str, list[tuple[int, str, bool]]] = {"whole": [], "atom": []}
-        self._apart: set[sp.Symbol] = set()
+        self._nonzero: set[sp.Symbol] = set()
         self._factors: dict[sp.Expr, sp.Symbol] = {}
         self._count: dict[str, int] = {}
-        held = [*expressions, *(e for _, e in conditions), *self.eliminated.values(), *self.unsolved.values()]
-        self._quotients = sorted({f.func.__name__ for e in held for f in e.atoms(sp.tan, sp.tanh)})
-        self._step_of = _steps_of_angles(held, self.eliminated)
+        sides = [*expressions, *(e for _, e in conditions), *self.eliminated.values(), *self.unsolved.values()]
+        self._quotients = sorted({f.func.__name__ for e in sides for f in e.atoms(sp.tan, sp.tanh)})
+        self._step_of = _steps_of_angles(sides, self.eliminated)
         for place, (sign, e) in enumerate(conditions, 1):
             if sign == "<>":
                 self._denominator(e, f"defined_{place}")
         for place in self.unsolved:
             self._premise(place, *equations[place - 1])
 
-    def _premise(self, place: int, left: sp.Expr, right: sp.Expr) -> None:
-        """The numerator of an equation between letters as a relation."""
-        difference = self._fraction(self.value(left - right))
+    def _premise(self, place: int, lhs: sp.Expr, rhs: sp.Expr) -> None:
+        """Add the numerator of an equation between symbols as a relation."""
+        difference = self._fraction(self.value(lhs - rhs))
         zero, under = difference.numerator.as_expr(), difference.under
         name, text = self._name("ideal"), self.terms.write(zero)
-        shown = f"apply (by_premise _ _ ({self.terms.write(under)}) _ premise_{place}). {self._settled()}same."
-        self._show(name, f"{text} = 0", shown)
+        write, settled = self.terms.write, self._into_generators()
+        tactics = f"apply (by_premise _ _ ({write(under)}) _ premise_{place}). {settled}same."
+        self._assert(name, f"{text} = 0", tactics)
         self.ideal.append(_Relation(name, zero, text))
 
-    def _show(self, name: str, proposition: str, tactics: str) -> None:
-        """Assert a proposition under a name, and prove it."""
+    def _assert(self, name: str, proposition: str, tactics: str) -> None:
         self.steps.append(f"assert ({name} : {proposition}). {{ {tactics} }}")
 
     def _name(self, kind: str) -> str:
@@ -92,32 +93,31 @@ class Sides:
         return f"{kind}_{self._count[kind]}"
 
     @property
-    def put_in(self) -> str:
-        """The tactic that puts the premises into the goal."""
-        return "".join(f"try subst {self.terms.names[letter]}. " for letter in self.eliminated)
+    def substitution(self) -> str:
+        """The tactic that substitutes the premises in the goal."""
+        return "".join(f"try subst {self.terms.names[symbol]}. " for symbol in self.eliminated)
 
-    def _settled(self) -> str:
-        """The tactics that bring a goal into generators: the largest denominators and functions first.
+    def _into_generators(self) -> str:
+        """Return the tactics that write a goal in generators, the largest denominators and functions first.
 
-        What a premise brings in is rewritten after it; the value of a letter is not, since the premise puts it in.
+        Terms of a substituted premise are rewritten after it; the value of a symbol is not, since the premise substitutes
+        it.
         """
-        rows = sorted(
-            ((kind == "whole", *row) for kind, found in self._rewritten.items() for row in found), reverse=True
-        )
-        letters = [name for _, _, name, letter in rows if letter]
-        before, after = ([name for _, _, name, letter in rows if not (letter and late)] for late in (False, True))
-        first, second = (
-            f"rewrite {', '.join(f'?{name}' for name in names)}. " if names else "" for names in (before, after)
-        )
-        cleared = f"clear {' '.join(letters)}. " if letters else ""
+        steps = [(kind == "whole", *row) for kind, rows in self._rewritten.items() for row in rows]
+        rows = sorted(steps, reverse=True)
+        symbols = [name for _, _, name, symbol in rows if symbol]
+        early, all_names = ([name for _, _, name, symbol in rows if not (symbol and late)] for late in (False, True))
+        lists = (", ".join(f"?{name}" for name in names) for names in (early, all_names))
+        first, second = (f"rewrite {names}. " if names else "" for names in lists)
+        cleared = f"clear {' '.join(symbols)}. " if symbols else ""
         unfolded = "".join(f"try unfold {name}. " for name in self._quotients)
-        return first + (unfolded + cleared + self.put_in + second if self.eliminated or unfolded else "")
+        return first + (unfolded + cleared + self.substitution + second if self.eliminated or unfolded else "")
 
     def value(self, node: sp.Expr) -> sp.Expr:
-        """The expression in generators; its denominators are monomials."""
-        if node not in self._known:
-            self._known[node] = self._value(node)
-        return self._known[node]
+        """Return the expression in generators; its denominators are monomials."""
+        if node not in self._values:
+            self._values[node] = self._value(node)
+        return self._values[node]
 
     def _value(self, node: sp.Expr) -> sp.Expr:
         if node.is_Symbol:
@@ -126,7 +126,7 @@ class Sides:
             return node
         if node is sp.pi:
             return self._generator(sp.pi, "PI")
-        if node.is_Mul and any(part.is_Symbol and self.value(part) == 0 for part in node.args):
+        if node.is_Mul and any(factor.is_Symbol and self.value(factor) == 0 for factor in node.args):
             return sp.S.Zero
         if node.is_Add or node.is_Mul:
             return node.func(*map(self.value, node.args))
@@ -148,21 +148,21 @@ class Sides:
         raise NotExactError(f"nothing is known here of the power {node}")
 
     def _generator(self, key: Any, text: str) -> sp.Symbol:
-        """The generator that a function of Coq is, written as that function."""
+        """Return the generator of a function, written as that function in Coq."""
         if key not in self._generators:
             generator = sp.Dummy(text)
             self._generators[key] = generator
-            self.terms.names[generator] = f"({text})" if " " in text else text  # alone where it is raised to a power
+            self.terms.names[generator] = f"({text})" if " " in text else text  # in brackets for powers
         return self._generators[key]
 
     def _relate(self, kind: str, zero: sp.Expr, tactics: str) -> None:
         name = self._name(kind)
         text = self.terms.write(zero)
-        self._show(name, f"{text} = 0", tactics)
+        self._assert(name, f"{text} = 0", tactics)
         self.relations.append(_Relation(name, zero, text))
 
     def _atom(self, node: sp.Expr) -> sp.Expr:
-        """The value of a function, with the step that shows it where it is not a generator as it stands."""
+        """Return the value of a function, with the step that proves it unless it is a generator itself."""
         if node.func in _CIRCULAR:
             value, tactics = self._circular(node)
         elif node.func in _EXPONENTIAL:
@@ -172,18 +172,18 @@ class Sides:
         elif node.func is sp.Abs:
             value, tactics = self._absolute(node)
         elif isinstance(node, AppliedUndef) or node.func in _OPAQUE:
-            value, tactics = self._opaque(node)
+            value, tactics = self._uninterpreted(node)
         else:
             raise NotExactError(f"nothing is known here of {node.func}")
-        text, written = self.terms.write(node), self.terms.write(value)
-        if text not in (written, written[1:-1]):
+        text, image = self.terms.write(node), self.terms.write(value)
+        if text not in (image, image[1:-1]):
             name = self._name("atom")
-            self._show(name, f"{text} = {written}", tactics)
+            self._assert(name, f"{text} = {image}", tactics)
             self._rewritten["atom"].append((len(text), name, False))
         return value
 
     def _angle(self, node: sp.Expr) -> tuple[list[tuple[sp.Expr, int]], int]:
-        """The argument as whole multiples of base angles, and of a quarter turn."""
+        """Return the argument as whole multiples of base angles, and of a quarter turn."""
         rates = _rates(node.args[0].xreplace(self.eliminated))
         quarters = rates.pop(sp.pi, sp.S.Zero) * 2
         if not quarters.is_Integer:
@@ -195,14 +195,14 @@ class Sides:
         return multiples, int(quarters)
 
     def _split(self, node: sp.Expr, multiples: Iterable[tuple[sp.Expr, int]], quarters: int, tactic: str) -> str:
-        """The tactics for a function of a sum of base angles, once its argument is written as one."""
-        parts = [(self.terms.write(base), n) for base, n in multiples] + [("PI / 2", quarters)]
-        copies = [f"({text})" if n > 0 else f"(- ({text}))" for text, n in parts for _ in range(abs(n))]
+        """Return the tactics for a function of a sum of base angles, after its argument is written as such a sum."""
+        angles = [(self.terms.write(base), n) for base, n in multiples] + [("PI / 2", quarters)]
+        copies = [f"({text})" if n > 0 else f"(- ({text}))" for text, n in angles for _ in range(abs(n))]
         function = self.terms.write(node).split(" ")[0]
         return f"transitivity ({function} ({' + '.join(copies) or '0'})); [ f_equal; {self._inner()}same | {tactic}; same ]."
 
     def _inner(self) -> str:
-        return self.put_in.replace(". ", "; ")
+        return self.substitution.replace(". ", "; ")
 
     def _circular(self, node: sp.Expr) -> tuple[sp.Expr, str]:
         multiples, quarters = self._angle(node)
@@ -216,7 +216,7 @@ class Sides:
         return total[node.func is sp.sin], self._split(node, multiples, quarters, "circular")
 
     def _pair(self, base: sp.Expr) -> tuple[sp.Symbol, sp.Symbol]:
-        """Cosine and sine of a base angle, generators whose squares add up to one."""
+        """Return cosine and sine of a base angle, generators with cos² + sin² = 1."""
         text, new = self.terms.alone(base), ("cos", base) not in self._generators
         pair = tuple(self._generator((name, base), f"{name} {text}") for name in ("cos", "sin"))
         if new:
@@ -232,8 +232,8 @@ class Sides:
             new, text = ("exp", base) not in self._generators, f"exp {self.terms.alone(base)}"
             generator = self._generator(("exp", base), text)
             if new:
-                self._show(self._name("apart"), f"{text} <> 0", "apply more_than_zero, exp_pos.")
-                self._apart.add(generator)
+                self._assert(self._name("apart"), f"{text} <> 0", "apply more_than_zero, exp_pos.")
+                self._nonzero.add(generator)
             value *= generator**n
         if node.func is not sp.exp:
             value = (value + (1 if node.func is sp.cosh else -1) / value) / 2
@@ -248,36 +248,36 @@ class Sides:
         rate, root = sp.sqrt(base).as_coeff_Mul() if base.is_Rational and base > 0 else (sp.S.One, base)
         if rate != 1 or root is sp.S.One:  # the root of p²/q² or of p² n/q²
             exact = rate * (sp.S.One if root is sp.S.One else self._atom(root))
-            same = in_one(self._settled() + self._equal(exact * exact, self.value(node.base)))
+            same = in_one(self._into_generators() + self._equal(exact * exact, self.value(node.base)))
             return exact, f"apply sqrt_lem_1; [ {_NOT_NEGATIVE} | {_NOT_NEGATIVE} | {same} ]."
         if key not in self._generators:
             self._add_root(node, base)
         over, under = base.as_numer_denom()
-        tactics = in_one(self._equal_settled(base, node.base))
+        tactics = in_one(self._prove_value(base, node.base))
         if under.is_number:
             return self._generators[key], f"f_equal; {tactics}."
-        letter = self._generators[key]
-        shown = f"transitivity (sqrt ({write(base)})); [ f_equal; {tactics} | subst {write(letter)}; same ]."
-        return letter / under, shown
+        symbol = self._generators[key]
+        proof = f"transitivity (sqrt ({write(base)})); [ f_equal; {tactics} | subst {write(symbol)}; same ]."
+        return symbol / under, proof
 
     def _add_root(self, node: sp.Expr, base: sp.Expr) -> None:
-        """The root of a radicand as a generator; of a quotient, the root times the denominator, under a letter."""
+        """Add the root of a radicand as a generator; for a quotient, a symbol for the root times the denominator."""
         write, under = self.terms.write, base.as_numer_denom()[1]
-        same = in_one(self._equal_settled(base, node.base, turned=True))
-        shown = f"replace ({write(base)}) with ({write(node.base)}) by ({same}); {_NOT_NEGATIVE}"
-        tactics = f"assert (zero_1 : 0 <= {write(base)}) by ({shown}). generalize (root_squared _ zero_1). "
+        same = in_one(self._prove_value(base, node.base, reverse=True))
+        proof = f"replace ({write(base)}) with ({write(node.base)}) by ({same}); {_NOT_NEGATIVE}"
+        tactics = f"assert (zero_1 : 0 <= {write(base)}) by ({proof}). generalize (root_squared _ zero_1). "
         if under.is_number:
             generator = self._generator(("root", base), f"sqrt {self.terms.alone(base)}")
             self._relate("root", generator**2 - base, tactics + "lra.")
             return
         name = self._name("radical")
-        letter = self._generators["root", base] = sp.Dummy(name)
-        self.terms.names[letter] = name
+        symbol = self._generators["root", base] = sp.Dummy(name)
+        self.terms.names[symbol] = name
         root = f"sqrt ({write(base)})"
         self.steps.append(f"destruct (a_letter_for ({root} * ({write(under)}))) as [{name} {self._name('sum')}].")
         square = f"replace (({root} * ({write(under)})) ^ 2) with ({root} ^ 2 * ({write(under)}) ^ 2) by ring"
-        put = f"intro zero_2. subst {name}. {square}. replace ({root} ^ 2) with ({write(base)}) by lra. same."
-        self._relate("root", letter**2 - sp.expand(base * under**2), tactics + put)
+        conclusion = f"intro zero_2. subst {name}. {square}. replace ({root} ^ 2) with ({write(base)}) by lra. same."
+        self._relate("root", symbol**2 - sp.expand(base * under**2), tactics + conclusion)
 
     def _absolute(self, node: sp.Expr) -> tuple[sp.Expr, str]:
         inner = sp.expand(self.value(node.args[0]))
@@ -286,212 +286,210 @@ class Sides:
         if new:
             text = self.terms.write(inner)
             self._relate("known", generator**2 - inner**2, f"generalize (size_squared ({text})). lra.")
-        return generator, f"f_equal; {in_one(self._equal_settled(inner, node.args[0]))}."
+        return generator, f"f_equal; {in_one(self._prove_value(inner, node.args[0]))}."
 
-    def _opaque(self, node: sp.Expr) -> tuple[sp.Expr, str]:
-        """A function of which nothing is used but that it is one: the same of the same arguments."""
-        inner = [sp.expand(self.value(each)) for each in node.args]
+    def _uninterpreted(self, node: sp.Expr) -> tuple[sp.Expr, str]:
+        """Return a function of which only congruence is used: equal arguments give equal values."""
+        inner = [sp.expand(self.value(argument)) for argument in node.args]
         alike = node.func(*inner)
-        proofs = " | ".join(
-            self._equal_settled(new, old).rstrip(". ") for new, old in zip(inner, node.args, strict=True)
-        )
+        proofs = " | ".join(self._prove_value(new, old).rstrip(". ") for new, old in zip(inner, node.args, strict=True))
         return self._generator(("opaque", alike), self.terms.write(alike)), f"f_equal; first [ {in_one(proofs)} ]."
 
-    def _equal_settled(self, value: sp.Expr, node: sp.Expr, turned: bool = False) -> str:
-        """Tactics for node = value (value = node if turned), value in generators."""
-        return ("symmetry. " if turned else "") + self._settled() + self._equal(self.value(node), value)
+    def _prove_value(self, value: sp.Expr, node: sp.Expr, reverse: bool = False) -> str:
+        """Return tactics for node = value (value = node if `reverse`), value in generators."""
+        return ("symmetry. " if reverse else "") + self._into_generators() + self._equal(self.value(node), value)
 
     def _denominator(self, base: sp.Expr, condition: str = "") -> sp.Expr:
-        """The value of what is divided by, as a product of powers of letters, none of them zero: by its condition."""
+        """Return the value of a denominator as a product of powers of symbols, which its condition proves to be nonzero."""
         key = sp.Tuple(sp.Symbol("denominator"), base)
-        if key in self._known:
-            return self._known[key]
+        if key in self._values:
+            return self._values[key]
         fraction = self._fraction(self.value(base))
         reduced = self._reduced(fraction.numerator)[1]
         if not reduced:
             raise NotExactError(f"{base} is zero under the premises")
-        number, parts = self._parts(fraction.ring, reduced)
-        value = number * sp.Mul(*(part**n for part, n in parts)) / fraction.under
-        text, written = self.terms.write(base), self.terms.write(value)
+        number, factors = self._factor_powers(fraction.ring, reduced)
+        value = number * sp.Mul(*(factor**n for factor, n in factors)) / fraction.under
+        text, image = self.terms.write(base), self.terms.write(value)
         positive = bool(base.is_positive) or not condition
-        names = {part for part, _ in parts} - self._apart
+        names = {factor for factor, _ in factors} - self._nonzero
         if positive:
-            self._show_apart(names)
+            self._show_nonzero(names)
         whole = ""
-        if text not in (written, written[1:-1]):
+        if text not in (image, image[1:-1]):
             whole = self._name("whole")
-            tactics = self._settled() + self._equal(self.value(base), value)
-            self._show(whole, f"{text} = {written}", tactics)
+            tactics = self._into_generators() + self._equal(self.value(base), value)
+            self._assert(whole, f"{text} = {image}", tactics)
             if not base.is_Symbol or not value.is_Symbol:
                 self._rewritten["whole"].append((len(text), whole, base.is_Symbol))
         if not positive:
-            for part in sorted(names, key=self.terms.write):
-                shown = f"intro zero_1. apply {condition}. " + (
-                    f"rewrite {whole}, zero_1. unfold Rdiv. ring." if whole else "exact zero_1."
-                )
-                self._show(self._name("apart"), f"{self.terms.write(part)} <> 0", shown)
-        self._apart |= names
-        self._known[key] = value
+            for factor in sorted(names, key=self.terms.write):
+                closing = f"rewrite {whole}, zero_1. unfold Rdiv. ring." if whole else "exact zero_1."
+                proof = f"intro zero_1. apply {condition}. {closing}"
+                self._assert(self._name("apart"), f"{self.terms.write(factor)} <> 0", proof)
+        self._nonzero |= names
+        self._values[key] = value
         return value
 
-    def _show_apart(self, parts: Iterable[sp.Symbol]) -> None:
-        polynomial_of = {letter: polynomial for polynomial, letter in self._factors.items()}
-        for part in sorted(parts, key=self.terms.write):
-            text = self.terms.write(part)
-            inner = (
-                f"replace {text} with ({self.terms.write(polynomial_of[part])}) by congruence. "
-                if part in polynomial_of
-                else ""
-            )
-            self._show(self._name("apart"), f"{text} <> 0", f"apply more_than_zero. {inner}{self.put_in}positive.")
+    def _show_nonzero(self, factors: Iterable[sp.Symbol]) -> None:
+        polynomial_of = {symbol: polynomial for polynomial, symbol in self._factors.items()}
+        for factor in sorted(factors, key=self.terms.write):
+            text = self.terms.write(factor)
+            inner = ""
+            if factor in polynomial_of:
+                inner = f"replace {text} with ({self.terms.write(polynomial_of[factor])}) by congruence. "
+            tactics = f"apply more_than_zero. {inner}{self.substitution}positive."
+            self._assert(self._name("apart"), f"{text} <> 0", tactics)
 
-    def _parts(self, ring: PolyRing, polynomial: PolyElement) -> tuple[sp.Expr, list[tuple[sp.Symbol, int]]]:
-        """A number and powers of letters and of new letters for irreducible factors."""
+    def _factor_powers(self, ring: PolyRing, polynomial: PolyElement) -> tuple[sp.Expr, list[tuple[sp.Symbol, int]]]:
+        """Return a number, and powers of symbols for the irreducible factors."""
         factored = len(polynomial) <= _MOST_FACTORED
         number, factors = polynomial.factor_list() if factored else (sp.QQ(1), [(polynomial, 1)])
-        parts = []
+        powers = []
         for factor, times in factors:
             expression = factor.as_expr()
             if not expression.is_Symbol:
                 lead = factor.LC
                 number, expression = number * lead**times, (factor.monic()).as_expr()
                 expression = self._factor(expression)
-            parts.append((expression, times))
-        return sp.Rational(int(number.numerator), int(number.denominator)), parts
+            powers.append((expression, times))
+        return sp.Rational(int(number.numerator), int(number.denominator)), powers
 
     def _factor(self, polynomial: sp.Expr) -> sp.Symbol:
-        """The letter that stands for a factor of a denominator."""
+        """Return the symbol of a factor of a denominator."""
         if polynomial not in self._factors:
             name = self._name("factor")
-            letter = self._factors[polynomial] = sp.Dummy(name)
-            self.terms.names[letter] = name
-            shown, written = self._name("sum"), self.terms.write(polynomial)
-            self.steps.append(f"destruct (a_letter_for ({written})) as [{name} {shown}].")
-            self.relations.append(_Relation(shown, letter - polynomial, ""))
+            symbol = self._factors[polynomial] = sp.Dummy(name)
+            self.terms.names[symbol] = name
+            equation, text = self._name("sum"), self.terms.write(polynomial)
+            self.steps.append(f"destruct (a_letter_for ({text})) as [{name} {equation}].")
+            self.relations.append(_Relation(equation, symbol - polynomial, ""))
         return self._factors[polynomial]
 
     def _fraction(self, value: sp.Expr) -> Fraction:
         return one_fraction(value, self._order(value))
 
     def _order(self, *values: sp.Expr) -> list[sp.Symbol]:
-        """The generators, so that each relation leads with the square, or the letter, that it is solved for: the last first,
-        since a root or a factor holds generators that were there before it."""
-        known = (*self.relations, *self.ideal)
-        letters = set().union(*(v.free_symbols for v in values), *(r.zero.free_symbols for r in known))
+        """Return the generators in an order in which each relation leads with the square or symbol that it is solved for.
+
+        The last relations come first, since a root or factor contains earlier generators.
+        """
+        relations = (*self.relations, *self.ideal)
+        symbols = set().union(*(v.free_symbols for v in values), *(r.zero.free_symbols for r in relations))
         near = {cosine for cosine, _ in self.small_pairs(self.small).values()} if self.small else set()
         leading = [_leading(relation.zero, near) for relation in reversed(self.relations)]
-        rest = sorted(letters - set(leading), key=lambda letter: (letter.name, str(letter)))
-        return [*dict.fromkeys(leading), *rest]
+        others = sorted(symbols - set(leading), key=lambda symbol: (symbol.name, str(symbol)))
+        return [*dict.fromkeys(leading), *others]
 
     def _reduced(self, numerator: PolyElement) -> tuple[list[PolyElement], PolyElement]:
-        """Cofactors of the relations, and the rest that they do not account for."""
+        """Return the cofactors of the relations, and the remainder."""
         ring = numerator.ring
         if not self.relations or not numerator:
             return [], numerator
         return numerator.div([ring.from_expr(sp.expand(r.zero)) for r in self.relations])
 
-    def _equal(self, left: sp.Expr, right: sp.Expr) -> str:
-        """The tactics that close a goal between two values in generators. Raises NotExactError where they differ."""
-        difference = self._fraction(left - right)
+    def _equal(self, lhs: sp.Expr, rhs: sp.Expr) -> str:
+        """Return the tactics that close a goal between two values in generators. Raises NotExactError if they differ."""
+        difference = self._fraction(lhs - rhs)
         if not difference.numerator:
             return "same."
-        quotients, rest = self._reduced(difference.numerator)
+        quotients, remainder = self._reduced(difference.numerator)
         relations = self.relations
-        if rest and self.ideal:
+        if remainder and self.ideal:
             relations = [*relations, *self.ideal]
             zeros = [difference.ring.from_expr(sp.expand(r.zero)) for r in relations]
-            quotients, rest = cofactors_of(difference.numerator, zeros)
-        if rest:
+            quotients, remainder = cofactors_of(difference.numerator, zeros)
+        if remainder:
             raise NotExactError("the two sides differ by more than the relations that are used here account for")
         used = [(q, r) for q, r in zip(quotients, relations, strict=True) if q and r.text]
         write = self.terms.write
         total = " + ".join(f"({write(q.as_expr())}) * ({r.text})" for q, r in used) or "0"
         names = "".join(f"rewrite {r.name}; " for _, r in used)
-        factors = "".join(f"subst {self.terms.names[letter]}; " for letter in reversed(self._factors.values()))
+        factors = "".join(f"subst {self.terms.names[symbol]}; " for symbol in reversed(self._factors.values()))
         closed = f"first [{factors}same | field_simplify_eq; [ {factors}same | apart .. ]]"
         return f"apply (by_cofactors _ _ ({total}) ({write(difference.under)})); [ apart | {closed} | {names}ring ]."
 
-    def equality(self, left: sp.Expr, right: sp.Expr) -> str:
-        """The tactics that prove left = right of the statement."""
-        values = self.value(left), self.value(right)  # these steps come first
-        return self._settled() + self._equal(*values)
+    def equality(self, lhs: sp.Expr, rhs: sp.Expr) -> str:
+        """Return the tactics that prove lhs = rhs of the statement."""
+        values = self.value(lhs), self.value(rhs)  # these steps come first
+        return self._into_generators() + self._equal(*values)
 
     def in_generators(self, expression: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-        """The expression as a polynomial that no relation shortens, over a monomial; both in generators."""
-        found = self._fraction(self.value(expression))
-        return self._reduced(found.numerator)[1].as_expr(), found.under
+        """Return the expression as a reduced polynomial over a monomial, both in generators."""
+        fraction = self._fraction(self.value(expression))
+        return self._reduced(fraction.numerator)[1].as_expr(), fraction.under
 
     def meaning(self) -> dict[sp.Symbol, sp.Expr]:
-        """Generator -> the function that it is; factor of a denominator -> the sum that it stands for."""
-        made = {"cos": sp.cos, "sin": sp.sin, "exp": sp.exp, "abs": sp.Abs}
-        found: dict[sp.Symbol, sp.Expr] = {}
-        for key, letter in self._generators.items():
+        """Return generator → function, and factor of a denominator → its polynomial."""
+        functions = {"cos": sp.cos, "sin": sp.sin, "exp": sp.exp, "abs": sp.Abs}
+        meanings: dict[sp.Symbol, sp.Expr] = {}
+        for key, symbol in self._generators.items():
             if key is sp.pi:
-                found[letter] = sp.pi
+                meanings[symbol] = sp.pi
             elif key[0] == "root":
-                found[letter] = (sp.sqrt(key[1]) * _under(key[1])).xreplace(found)
+                meanings[symbol] = (sp.sqrt(key[1]) * _under(key[1])).xreplace(meanings)
             else:
-                found[letter] = made[key[0]](key[1].xreplace(found)) if key[0] in made else key[1].xreplace(found)
-        return found | {letter: polynomial.xreplace(found) for polynomial, letter in self._factors.items()}
+                inner = key[1].xreplace(meanings)
+                meanings[symbol] = functions[key[0]](inner) if key[0] in functions else inner
+        return meanings | {symbol: polynomial.xreplace(meanings) for polynomial, symbol in self._factors.items()}
 
     def small_pairs(self, small: sp.Symbol) -> dict[sp.Expr, tuple[sp.Symbol, sp.Symbol]]:
-        """Base angle that vanishes with the small letter -> its cosine and sine."""
+        """Return base angle that vanishes with the small symbol → its cosine and sine."""
         keys = (key for key in self._generators if isinstance(key, tuple) and key[0] == "cos")
         vanishing = (base for _, base in keys if base.as_powers_dict().get(small, sp.S.Zero).is_positive)
         return {base: (self._generators["cos", base], self._generators["sin", base]) for base in vanishing}
 
     def roots(self) -> list[tuple[sp.Symbol, sp.Expr]]:
-        """Each root, or a root times its denominator, and the square of it."""
+        """Return each root, or root times denominator, and its square."""
         keys = (key for key in self._generators if isinstance(key, tuple) and key[0] == "root")
         return [(self._generators[key], sp.expand(key[1] * _under(key[1]) ** 2)) for key in keys]
 
 
 def _under(radicand: sp.Expr) -> sp.Expr:
-    """The denominator by which a root is multiplied to be a generator: one that is no number."""
+    """Return the denominator by which a root is multiplied to be a generator; 1 if it is a number."""
     under = radicand.as_numer_denom()[1]
     return sp.S.One if under.is_number else under
 
 
 def _leading(zero: sp.Expr, near: set[sp.Symbol]) -> sp.Symbol:
-    """The generator that a relation is solved for: of a sine and a cosine the sine, the cosine where the sine is small."""
-    return next(
-        letter
-        for letter in sorted(zero.free_symbols, key=lambda each: (_rank(each) - (each in near) * 1.5, each.name))
-        if sp.Poly(zero, letter).degree() == (1 if letter.name.startswith("factor_") else 2)
-    )
+    """Return the generator that a relation is solved for: the sine of a pair, or the cosine if the sine is small."""
+    for symbol in sorted(zero.free_symbols, key=lambda x: (_rank(x) - (x in near) * 1.5, x.name)):
+        if sp.Poly(zero, symbol).degree() == (1 if symbol.name.startswith("factor_") else 2):
+            return symbol
+    raise NotExactError(f"{zero} has no leading generator")
 
 
-def _rank(letter: sp.Symbol) -> int:
+def _rank(symbol: sp.Symbol) -> int:
     starts = ("factor_", "radical_", "sqrt", "Rabs", "sin ")
-    return next((i for i, start in enumerate(starts) if letter.name.startswith(start)), len(starts))
+    return next((i for i, start in enumerate(starts) if symbol.name.startswith(start)), len(starts))
 
 
 def _rates(argument: sp.Expr) -> dict[sp.Expr, sp.Rational]:
-    """Monomial -> its rational factor in an angle."""
-    found: dict[sp.Expr, Any] = {}
-    for part in sp.Add.make_args(sp.expand(argument)):
-        rate, monomial = part.as_coeff_Mul()
+    """Return monomial → its rational factor in an angle."""
+    rates: dict[sp.Expr, Any] = {}
+    for term in sp.Add.make_args(sp.expand(argument)):
+        rate, monomial = term.as_coeff_Mul()
         if not rate.is_Rational:
             raise NotExactError(f"the argument {argument} is not exact")
-        found[monomial] = found.get(monomial, sp.S.Zero) + rate
-    return {monomial: rate for monomial, rate in found.items() if rate}
+        rates[monomial] = rates.get(monomial, sp.S.Zero) + rate
+    return {monomial: rate for monomial, rate in rates.items() if rate}
 
 
 def _steps_of_angles(
-    expressions: Iterable[sp.Expr], put_in: dict[sp.Symbol, sp.Expr]
+    expressions: Iterable[sp.Expr], substitution: dict[sp.Symbol, sp.Expr]
 ) -> dict[tuple[bool, sp.Expr], int]:
-    """(circular or not, monomial) -> the common denominator of its factors."""
-    found: dict[tuple[bool, sp.Expr], int] = {}
+    """Return (circular or not, monomial) → the common denominator of its factors."""
+    denominators: dict[tuple[bool, sp.Expr], int] = {}
     for expression in expressions:
         for node in sp.preorder_traversal(expression):
             if node.func in (*_CIRCULAR, *_EXPONENTIAL, *QUOTIENTS):
                 circular = node.func not in (*_EXPONENTIAL, sp.tanh, sp.coth, sp.sech, sp.csch)
-                for monomial, rate in _rates(node.args[0].xreplace(put_in)).items():
+                for monomial, rate in _rates(node.args[0].xreplace(substitution)).items():
                     key = circular, monomial
-                    found[key] = lcm(found.get(key, 1), int(rate.q))
-    return found
+                    denominators[key] = lcm(denominators.get(key, 1), int(rate.q))
+    return denominators
 
 
 def in_one(tactics: str) -> str:
-    """Tactics in a row as one."""
+    """Return a sequence of tactics as one tactic."""
     return re.sub(r"(?<!\.)\. ", "; ", tactics.rstrip(". "))

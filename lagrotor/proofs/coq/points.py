@@ -1,4 +1,4 @@
-"""Points with rational values at which hypotheses hold, and the enclosure of a value there."""
+"""Rational points at which hypotheses hold, and enclosures of values there."""
 
 import random
 from collections.abc import Iterator, Mapping, Sequence
@@ -20,59 +20,58 @@ _TRIES, _DIGITS, _CLEAR = 200, 30, 1e-6
 
 
 def points_of(
-    letters: Sequence[sp.Symbol],
+    symbols: Sequence[sp.Symbol],
     eliminated: Mapping[sp.Symbol, sp.Expr],
     hold: Sequence[Comparison],
-    most: int = 1,
+    limit: int = 1,
     fixed: Mapping[sp.Symbol, sp.Expr] = MappingProxyType({}),
     zeros: Sequence[sp.Expr] = (),
 ) -> Iterator[dict[sp.Symbol, sp.Expr]]:
-    """Points at which the equations that eliminated letters, and the conditions, hold; the same ones at each call.
+    """Yield up to `limit` points that satisfy the eliminated equations and the conditions, the same ones in each call.
 
-    fixed: values of letters that are not eliminated. zeros: what is to vanish besides, a polynomial in one of its letters.
+    fixed: values of symbols; zeros: further expressions to vanish, each a polynomial in one of its symbols.
     """
-    drawn, found = random.Random(1), 0
+    drawn, count = random.Random(1), 0
     for _ in range(_TRIES):
-        free = {x: drawn.choice(_VALUES) * drawn.choice((1, -1)) for x in letters if x not in eliminated}
+        free = {x: drawn.choice(_VALUES) * drawn.choice((1, -1)) for x in symbols if x not in eliminated}
         free |= {x: value for x, value in fixed.items() if x in free}
         free = {x: abs(v) if x.is_nonnegative else -abs(v) if x.is_nonpositive else v for x, v in free.items()}
         if zeros and not _solve(free, zeros, drawn):
             continue
-        point = free | {
-            x: sp.sympify(value, strict=True).xreplace(free) for x, value in eliminated.items() if x in letters
-        }
+        values = {x: sp.sympify(value, strict=True) for x, value in eliminated.items() if x in symbols}
+        point = free | {x: value.xreplace(free) for x, value in values.items()}
         if all(_holds(sign, value_at_point(e, point)) for sign, e in hold):
             yield point
-            found += 1
-            if found == most:
+            count += 1
+            if count == limit:
                 return
 
 
 def _solve(free: dict[sp.Symbol, sp.Expr], zeros: Sequence[sp.Expr], drawn: random.Random) -> bool:
-    """Change letters so that each equation holds at rational numbers; whether all then do."""
+    """Change symbols so that each equation holds at rational numbers; return True if all then do."""
     solved: list[tuple[sp.Symbol, sp.Expr]] = []
     for zero in zeros:
-        for letter, value in solved:
-            zero = zero.xreplace({letter: value})
+        for symbol, value in solved:
+            zero = zero.xreplace({symbol: value})
         over = sp.numer(sp.together(zero))
         linear = [x for x in over.free_symbols if over.is_polynomial(x) and sp.degree(over, x) == 1]
-        letters = sorted(linear or over.free_symbols, key=str)
-        if not letters:
+        symbols = sorted(linear or over.free_symbols, key=str)
+        if not symbols:
             return False
-        letter = drawn.choice(letters)
+        symbol = drawn.choice(symbols)
         if linear:
-            slope, rest = sp.Poly(over, letter).all_coeffs()
-            solved.append((letter, -rest / slope))
+            slope, constant = sp.Poly(over, symbol).all_coeffs()
+            solved.append((symbol, -constant / slope))
             continue
-        others = {x: free[x] for x in letters if x != letter}
-        if others:  # 3/5 and 4/5 are sides of a right triangle
+        others = {x: free[x] for x in symbols if x != symbol}
+        if others:  # cosines 3/5 and 5/13 have rational sines
             others[drawn.choice(list(others))] = drawn.choice((sp.Rational(3, 5), sp.Rational(5, 13), sp.S.One))
         over = sp.numer(sp.together(over.xreplace(others)))
-        if not over.is_polynomial(letter) or not (roots := sp.Poly(over, letter).ground_roots()):
+        if not over.is_polynomial(symbol) or not (roots := sp.Poly(over, symbol).ground_roots()):
             return False
-        solved += [(letter, drawn.choice(sorted(roots))), *others.items()]
-    for letter, value in reversed(solved):
-        free[letter] = value.xreplace(free)
+        solved += [(symbol, drawn.choice(sorted(roots))), *others.items()]
+    for symbol, value in reversed(solved):
+        free[symbol] = value.xreplace(free)
     return all(zero.xreplace(free) == 0 for zero in zeros)
 
 
@@ -83,7 +82,7 @@ def _holds(sign: str, value: Any) -> bool:
 
 
 def value_at_point(expression: sp.Expr, point: Mapping[sp.Symbol, sp.Expr]) -> Any:
-    """The real value at the point; None where there is none."""
+    """Return the real value at a point; None if there is none."""
     try:
         value = enclosed_at(sp.sympify(expression, strict=True), dict(point), _DIGITS)
     except NotExactError:
@@ -93,7 +92,7 @@ def value_at_point(expression: sp.Expr, point: Mapping[sp.Symbol, sp.Expr]) -> A
 
 
 def rational_bounds(value: Any) -> tuple[sp.Rational, sp.Rational]:
-    """Rationals of few digits below and above a value, with zero outside."""
+    """Return rationals with few digits below and above a value, both of its sign."""
     step = sp.Integer(10) ** (floor(log10(abs(float(value)))) - 2)
     low = step * (int(mp.floor(value / (mp.mpf(step.p) / step.q))) - 1)
     return low, low + 3 * step

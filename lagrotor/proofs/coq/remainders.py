@@ -1,9 +1,10 @@
-"""How far two sides agree in a small quantity: their difference as a power of it times an expression that stays finite at zero.
+"""The order to which two sides agree in a small quantity: their difference as a power of it times a factor that is finite at
+zero.
 
-Near zero cos b = 1 - u sin(b)^2 with u = 1/(1 + cos b), and of a root y of R, which is y_0 at zero, y = y_0 + (R - y_0^2) w with
-w = 1/(y + y_0). Put in as often as terms of too low an order hold u or w, where u = 1/2 + u^2 sin(b)^2/2 and
-w = 1/(2 y_0) - (R - y_0^2) w^2/(2 y_0), these identities leave a polynomial; its terms of low order must vanish. What is left is
-written with cosines and roots again, so that Coq checks an identity in which nothing was left out.
+Near zero cos b = 1 - u sin(b)^2 with u = 1/(1 + cos b). A root y of R with the value y_0 at zero is y = y_0 + (R - y_0^2) w
+with w = 1/(y + y_0). Terms of too low an order that contain u or w are expanded by u = 1/2 + u^2 sin(b)^2/2 and w = 1/(2
+y_0) - (R - y_0^2) w^2/(2 y_0). These identities give a polynomial; its terms of low order must vanish. The others are
+written in cosines and roots again, so that Coq checks an exact identity.
 """
 
 from dataclasses import dataclass
@@ -17,28 +18,28 @@ _MOST_TERMS = 4000
 
 
 @dataclass(frozen=True)
-class SeriesRest:
-    """difference = power * rest. at_zero: the rest where the small quantity is zero; None where it is a limit."""
+class SeriesRemainder:
+    """difference = power * factor; at_zero: the factor where the small quantity is zero, None if it is a limit."""
 
     power: sp.Expr
-    rest: sp.Expr
+    factor: sp.Expr
     at_zero: sp.Expr | None = None
 
 
 def value_at_zero(sides: Sides, expression: sp.Expr, small: sp.Symbol) -> sp.Expr:
-    """The value of an expression where the small quantity is zero, in functions of the other letters."""
+    """Return an expression where the small quantity is zero, in functions of the other symbols."""
     over, under = sides.in_generators(expression)
     return sp.cancel((over / under).xreplace(sides.meaning()).xreplace({small: sp.S.Zero}))
 
 
-def remainder(sides: Sides, difference: sp.Expr, small: sp.Symbol, order: int) -> SeriesRest:
-    """difference = small**order * rest, or the sine of small in its place.
+def remainder(sides: Sides, difference: sp.Expr, small: sp.Symbol, order: int) -> SeriesRemainder:
+    """Return difference = small**order * factor, or with the sine of small in its place.
 
-    Raises NotExactError where terms of lower order do not vanish, or a function has no such form.
+    Raises NotExactError if terms of lower order do not vanish, or a function has no such form.
     """
     over, under = sides.in_generators(difference)
     near = _Near(sides, small)
-    meaning, used = near.meaning, near.small_letters(over)
+    meaning, used = near.meaning, near.small_symbols(over)
     for function in (meaning.get(x, x) for x in over.free_symbols - {*near.put, *near.weights}):
         if small in function.free_symbols:
             raise NotExactError(f"{function} is a series in {small}")
@@ -46,19 +47,23 @@ def remainder(sides: Sides, difference: sp.Expr, small: sp.Symbol, order: int) -
         raise NotExactError(f"the difference is not finite where {small} is zero")
     polynomial = near.expanded(over, order)
     if len(used) <= 1 and all(near.weights[x] == 1 for x in used):
-        letter = next(iter(used), small)
-        power = meaning.get(letter, letter)
-        rest = (sp.expand(polynomial / letter**order) / under).xreplace(meaning)
-        return SeriesRest(power**order, rest, rest.xreplace({small: sp.S.Zero}))
+        symbol = next(iter(used), small)
+        power = meaning.get(symbol, symbol)
+        factor = (sp.expand(polynomial / symbol**order) / under).xreplace(meaning)
+        return SeriesRemainder(power**order, factor, factor.xreplace({small: sp.S.Zero}))
     over_small = {x: sp.Dummy() for x in used if x is not small}
     scaled = polynomial.xreplace({x: y * small ** near.weights[x] for x, y in over_small.items()})
-    back = {y: meaning[x] / small ** near.weights[x] for x, y in over_small.items()}
-    return SeriesRest(small**order, (sp.expand(scaled / small**order) / under).xreplace(meaning).xreplace(back))
+    meanings = {y: meaning[x] / small ** near.weights[x] for x, y in over_small.items()}
+    factor = (sp.expand(scaled / small**order) / under).xreplace(meaning).xreplace(meanings)
+    return SeriesRemainder(small**order, factor)
 
 
 class _Near:
-    """The generators near zero. weights: those that are small, with their order; put: a cosine or root -> what it is in
-    small ones and letters of rules; rules: such a letter -> itself to the next order; meaning: all of them as functions."""
+    """The generators near zero.
+
+    weights: small symbol → its order; put: cosine or root → its value in small symbols and rule symbols; rules: rule symbol
+    → its expansion to the next order; meaning: symbol → function.
+    """
 
     def __init__(self, sides: Sides, small: sp.Symbol) -> None:
         self.small, self.meaning = small, sides.meaning()
@@ -67,52 +72,49 @@ class _Near:
         self.rules: dict[sp.Symbol, sp.Expr] = {}
         at_zero: dict[sp.Symbol, sp.Expr] = {small: sp.S.Zero}
         for base, (cosine, sine) in sides.small_pairs(small).items():
-            letter = sp.Dummy("u")
+            symbol = sp.Dummy("u")
             self.weights[sine] = int(base.as_powers_dict()[small])
-            self.put[cosine] = 1 - sine**2 * letter
-            self.rules[letter] = sp.S.Half + sine**2 * letter**2 / 2
-            self.meaning[letter] = 1 / (1 + self.meaning[cosine])
+            self.put[cosine] = 1 - sine**2 * symbol
+            self.rules[symbol] = sp.S.Half + sine**2 * symbol**2 / 2
+            self.meaning[symbol] = 1 / (1 + self.meaning[cosine])
             at_zero |= {sine: sp.S.Zero, cosine: sp.S.One}
         earlier: list[tuple[sp.Symbol, sp.Expr]] = []
         for generator, square in sorted(sides.roots(), key=lambda row: str(row[0])):
             if small in self.meaning[generator].free_symbols:
-                self._add_root(
-                    generator,
-                    sp.expand(square.xreplace(self.put)),
-                    sp.sqrt(sp.expand(square.xreplace(at_zero))),
-                    earlier,
-                )
+                value = sp.sqrt(sp.expand(square.xreplace(at_zero)))
+                self._add_root(generator, sp.expand(square.xreplace(self.put)), value, earlier)
 
     def _add_root(
         self, root: sp.Symbol, square: sp.Expr, at_zero: sp.Expr, earlier: list[tuple[sp.Symbol, sp.Expr]]
     ) -> None:
-        """A root beside the earlier one, or the number, from whose square its own differs by the highest order."""
+        """Expand a root about an earlier root, or a number, whose square differs from its own by the highest order."""
         if not at_zero.is_Rational or at_zero == 0:
             raise NotExactError(f"{self.meaning[root]} has no rational value where {self.small} is zero")
-        letter, known = sp.Dummy("w"), [(at_zero, at_zero**2), *earlier]
-        beside, gap = max(((y, sp.expand(square - other)) for y, other in known), key=lambda row: self.least(row[1]))
-        self.put[root] = beside + gap * letter
-        self.meaning[letter] = 1 / (self.meaning[root] + self.meaning.get(beside, beside))
-        if beside is at_zero:
-            self.rules[letter] = 1 / (2 * at_zero) - gap * letter**2 / (2 * at_zero)
+        symbol, bases = sp.Dummy("w"), [(at_zero, at_zero**2), *earlier]
+        gaps = [(y, sp.expand(square - base_square)) for y, base_square in bases]
+        base, gap = max(gaps, key=lambda row: self.least(row[1]))
+        self.put[root] = base + gap * symbol
+        self.meaning[symbol] = 1 / (self.meaning[root] + self.meaning.get(base, base))
+        if base is at_zero:
+            self.rules[symbol] = 1 / (2 * at_zero) - gap * symbol**2 / (2 * at_zero)
         earlier.append((root, square))
 
-    def small_letters(self, expression: sp.Expr) -> set[sp.Symbol]:
-        """The small letters that an expression holds once its cosines and roots are put in."""
-        found = expression.free_symbols
-        inner = (self.small_letters(self.put[letter]) for letter in found if letter in self.put)
-        return set(found & set(self.weights)).union(*inner)
+    def small_symbols(self, expression: sp.Expr) -> set[sp.Symbol]:
+        """Return the small symbols of an expression after substitution of its cosines and roots."""
+        symbols = expression.free_symbols
+        inner = (self.small_symbols(self.put[symbol]) for symbol in symbols if symbol in self.put)
+        return set(symbols & set(self.weights)).union(*inner)
 
     def least(self, expression: sp.Expr) -> int:
-        """The lowest order of a polynomial in the small letters; of zero more than any."""
+        """Return the lowest order of a polynomial in the small symbols; a large number for zero."""
         return min(map(self._order_of, sp.Add.make_args(expression))) if expression != 0 else 10**6
 
     def _order_of(self, term: sp.Expr) -> int:
         powers = term.as_powers_dict()
-        return sum(int(powers.get(letter, 0)) * weight for letter, weight in self.weights.items())
+        return sum(int(powers.get(symbol, 0)) * weight for symbol, weight in self.weights.items())
 
     def expanded(self, over: sp.Expr, order: int) -> sp.Expr:
-        """The polynomial with every cosine and root put in, and no term below the order."""
+        """Return the polynomial with every cosine and root substituted, and without terms below the order."""
         while over.free_symbols & set(self.put):
             over = _bounded(sp.expand(over.xreplace(self.put)))
         high = sp.S.Zero
@@ -125,9 +127,9 @@ class _Near:
         return sp.expand(high)
 
     def _next(self, term: sp.Expr) -> sp.Expr:
-        """A term of too low an order, one letter of a rule put in."""
-        letter = next((each for each in self.rules if each in term.free_symbols), None)
-        return term if letter is None else term / letter * self.rules[letter]
+        """Return a term of too low an order with one rule symbol expanded."""
+        symbol = next((x for x in self.rules if x in term.free_symbols), None)
+        return term if symbol is None else term / symbol * self.rules[symbol]
 
 
 def _bounded(expression: sp.Expr) -> sp.Expr:

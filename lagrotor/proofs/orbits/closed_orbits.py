@@ -1,13 +1,13 @@
-"""Periodic orbits proved: Newton's method finds them, Krawczyk's test proves that they exist and are alone nearby.
+"""Proved periodic orbits: Newton's method approximates an orbit, and the Krawczyk test proves existence and local uniqueness.
 
-Where time reversed under a reflection of the states, x ↦ A x with signs ±1, is a motion again, an orbit that starts in the
-fixed set of A and reaches that of B is its own image there: it closes after 2 m times that time, m the order of A B.
-Without a reversal the whole orbit is followed.
+A reversal is a reflection of the states x ↦ A x, with signs ±1, that maps time-reversed motions to motions. An orbit from
+the fixed set of A to that of a second reversal B takes a part 1/(2 m) of the period, m the order of A B. Without a reversal
+the integration covers the whole orbit.
 
-Floquet multipliers come from the enclosed monodromy matrix. Of a conservative system they come in pairs μ, 1/μ: one pair of ones
-for the energy with the shift of time, one more for every further integral. Where one pair is left, its sum is the trace less the
-ones: inside (−2, 2) the pair lies on the unit circle, outside it is real. Of any other orbit all multipliers but the one along
-the motion are enclosed one by one.
+Floquet multipliers come from the enclosed monodromy matrix. Those of a conservative system come in pairs μ, 1/μ: a pair of
+ones for the energy, and one more for every further integral. If one other pair remains, its sum is the trace minus the
+ones: inside (−2, 2) the pair lies on the unit circle, outside it is real. For any other orbit, all multipliers are enclosed
+individually; the multiplier along the motion is 1.
 """
 
 from collections.abc import Sequence
@@ -28,32 +28,34 @@ from lagrotor.proofs.balls import (
     ball_data,
     balls_data,
     exact,
+    format_ball,
     matrix_data,
     precision,
-    printed,
     upper,
 )
 from lagrotor.proofs.fields import Field, Values, field_of
-from lagrotor.proofs.lohner_frames import Accuracy, CarriedStep, Start, flow_data, steps_of
+from lagrotor.proofs.lohner_frames import Accuracy, LohnerStep, Start, flow_data, steps_of
 from lagrotor.proofs.matrices import diagonal, inside, inverse, krawczyk, middle_inverse, times
-from lagrotor.proofs.orbits.enclosure import accuracy_of, loosened, time_ball
+from lagrotor.proofs.orbits.enclosure import accuracy_of, add_margin, time_ball
 from lagrotor.proofs.statements import Certificate, Proved
-from lagrotor.proofs.tape import paced
+from lagrotor.proofs.tape import with_pace
 from lagrotor.proofs.taylor_step import Motion
+from lagrotor.renamed import accept_old_keywords
 
 Signs = tuple[int, ...]
 Kind = Literal["elliptic", "hyperbolic", "attracting", "parabolic", "undecided"]
 TOL = 1e-20
-_COARSE = 1e-12  # of the first Newton steps
+_COARSE = 1e-12  # tolerance of the first Newton steps
 _NEWTON = 12
 
 
 @dataclass(frozen=True)
 class OrbitProblem:
-    """Which starts are sought: the states and the pace free, the states at the end of one unit of s that must vanish.
+    """The boundary-value problem of a periodic orbit.
 
-    first, last: the reversals at the start and at the end, none where the orbit is followed through; then the conditions are
-    that the states return.
+    motion: scaled so that the arc to the end condition takes one unit of s; free: places of the unknown states and of the
+    pace; conditions: places of the states that vanish at the end, or return if there is no reversal; first, last: the
+    reversals at start and end, () without.
     """
 
     motion: Motion
@@ -64,73 +66,91 @@ class OrbitProblem:
 
     @property
     def turns(self) -> int:
-        """Times of one unit of s in a period."""
+        """The number of arcs in a period."""
         return 1 if not self.first else 2 if self.first == self.last else 4
 
     def value(self, middle: Balls, end: Balls) -> Balls:
-        """What must vanish."""
+        """Return the residual of the conditions."""
         return [end[i] - (0 if self.first else middle[i]) for i in self.conditions]
 
     def slope(self, derivative: Matrix, by: Sequence[int]) -> Matrix:
-        """Its derivative by some of the states and the pace."""
+        """Return the derivative of the conditions by some of the states and the pace."""
         rows = [[derivative[i, j] - int(i == j and not self.first) for j in by] for i in self.conditions]
         return arb_mat(rows)
 
 
-def trace(matrix: Matrix) -> Ball:
-    """The sum of the diagonal."""
-    return sum((matrix[i, i] for i in range(matrix.nrows())), arb(0))
-
-
 def monodromy(quarter: Matrix, first: tuple[int, ...], last: tuple[int, ...]) -> Matrix:
-    """(A D⁻¹ B D)^m from the derivative D between the reversals A at the start and B at the end, m the order of A B."""
+    """Return (A D⁻¹ B D)^m from the derivative D between the reversals A at the start and B at the end; m is the order of A B."""
     A, B = diagonal(first), diagonal(last)
-    part = A * inverse(quarter) * B * quarter
-    return part if first == last else part * part
+    half = A * inverse(quarter) * B * quarter
+    return half if first == last else half * half
 
 
-def of_pairs(matrix: Matrix, ones: int) -> tuple[Kind, Ball | None]:
-    """Return the kind of a conservative orbit with a number of multipliers that are 1, and μ + 1/μ of the one other pair.
+def conservative_kind(matrix: Matrix, ones: int) -> tuple[Kind, Ball | None]:
+    """Return the kind of a conservative orbit with `ones` multipliers equal to 1, and μ + 1/μ of the one other pair.
 
-    It is parabolic without another pair, undecided with more pairs.
+    Examples
+    --------
+    >>> conservative_kind(arb_mat([[2, 0], [0, arb("0.5")]]), 0)
+    ('hyperbolic', 2.50000000000000)
     """
-    left = matrix.nrows() - ones
-    total = trace(matrix) - ones
-    if left not in (0, 2):
+    pairs = matrix.nrows() - ones
+    total = sum((matrix[i, i] for i in range(matrix.nrows())), arb(0)) - ones
+    if pairs not in (0, 2):
         return "undecided", None
-    if not fits(matrix, total, ones):
-        raise InputError(
-            f"periodic_orbit: the multipliers are not {ones} ones and a pair: the system has fewer integrals"
-        )
-    if not left:
+    if not fits_pairs(matrix, total, ones):
+        what = f"the multipliers are not {ones} ones and a pair: the system has fewer integrals"
+        raise InputError(f"periodic_orbit: {what}")
+    if not pairs:
         return "parabolic", None
     return "elliptic" if abs(total) < 2 else "hyperbolic" if abs(total) > 2 else "undecided", total
 
 
-def fits(matrix: Matrix, total: Ball, ones: int) -> bool:
-    """Whether the characteristic polynomial may be (z − 1)^ones (z² − total z + 1), without the pair where none is left."""
+def fits_pairs(matrix: Matrix, total: Ball, ones: int) -> bool:
+    """Return True if the characteristic polynomial can be (z − 1)^ones (z² − total z + 1), or (z − 1)^ones without another
+    pair.
+
+    Examples
+    --------
+    >>> fits_pairs(arb_mat([[1, 3], [0, 1]]), arb(0), 2)
+    True
+    """
     pair = arb_poly([1, -total, 1]) if matrix.nrows() > ones else arb_poly([1])
     return all(x.contains(0) for x in (matrix.charpoly() - arb_poly([-1, 1]) ** ones * pair).coeffs())
 
 
-def of_any(matrix: Matrix) -> Kind:
-    """Return attracting where all multipliers but the one along the motion are inside the unit circle, hyperbolic off it."""
+def general_kind(matrix: Matrix) -> Kind:
+    """Return 'attracting' if all multipliers but the one along the motion lie inside the unit circle, 'hyperbolic' if off it."""
     try:
-        found: list[Any] = matrix.eig()
-    except ValueError:  # not apart
+        multipliers: list[Any] = matrix.eig()
+    except ValueError:  # not proved to be distinct
         return "undecided"
-    others: Balls = [abs(z) for z in found if not z.contains(1)]
-    if len(others) != len(found) - 1 or not all(s < 1 or s > 1 for s in others):
+    others: Balls = [abs(z) for z in multipliers if not z.contains(1)]
+    if len(others) != len(multipliers) - 1 or not all(s < 1 or s > 1 for s in others):
         return "undecided"
     return "attracting" if all(s < 1 for s in others) else "hyperbolic"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class PeriodicOrbit(Proved):
-    """A periodic orbit that exists, the only one of its kind near its start.
+    """A periodic orbit that exists and is unique near its initial state.
 
-    period (s) and frequency 2π/period (rad/s), balls; start: the states at t = 0; kind: by its multipliers. pair_sum: μ + 1/μ
-    of the pair of multipliers that is not 1, where there is one. certificate: what `check` verifies.
+    Attributes
+    ----------
+    field : Field
+        The equations of motion with the values of their parameters.
+    period : Ball
+        The period in s.
+    frequency : Ball
+        The angular frequency 2π/period in rad/s.
+    start : tuple[Ball, ...]
+        The states at t = 0.
+    kind : str
+        Stability by the Floquet multipliers: 'elliptic', 'hyperbolic', 'attracting', 'parabolic', or 'undecided' without a proof.
+    pair_sum : Ball or None
+        The sum μ + 1/μ of the pair of multipliers that is not 1; None without such a pair.
+    proof : OrbitProof
+        The data of the Krawczyk test.
     """
 
     field: Field
@@ -143,66 +163,74 @@ class PeriodicOrbit(Proved):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of the states."""
+        """The names of the states."""
         return tuple(map(str, self.field.states))
 
     @cached_property
     def certificate(self) -> Certificate:
-        """Plain data that `check` verifies."""
+        """The plain data that `check` verifies."""
         return self.proof.certificate(self)
 
     def summary(self) -> dict[str, str]:
-        """Period, frequency, start and kind, name → words."""
-        sums = {"μ + 1/μ": printed(self.pair_sum, 20)} if self.pair_sum is not None else {}
+        """Return period, frequency, stability and initial state.
+
+        Returns
+        -------
+        dict[str, str]
+            Name → text.
+        """
+        sums = {"μ + 1/μ": format_ball(self.pair_sum, 20)} if self.pair_sum is not None else {}
         return (
-            {"period [s]": printed(self.period), "frequency [rad/s]": printed(self.frequency), "kind": self.kind}
+            {
+                "period [s]": format_ball(self.period),
+                "frequency [rad/s]": format_ball(self.frequency),
+                "kind": self.kind,
+            }
             | sums
-            | {f"{name} at t = 0": printed(x, 25) for name, x in zip(self.names, self.start, strict=True)}
+            | {f"{name} at t = 0": format_ball(x, 25) for name, x in zip(self.names, self.start, strict=True)}
         )
 
 
 @dataclass(frozen=True, eq=False)
 class OrbitProof:
-    """The last run of a proof: the problem, the start with its box, A, the steps, and K about the middle."""
+    """A Krawczyk test that closed: initial box, preconditioner A, steps, and the image K of the box."""
 
     problem: OrbitProblem
     start: Start
     A: Matrix
-    steps: tuple[CarriedStep, ...]
-    found: Balls
+    steps: tuple[LohnerStep, ...]
+    image: Balls
     ones: int
     bits: int
 
     @property
     def derivative(self) -> Matrix:
-        """Of the end by the start's coordinates w."""
         return self.steps[-1].end.derivative
 
     def states(self) -> Balls:
-        """The orbit's start and pace, enclosed."""
+        """Return the enclosed initial state and pace of the orbit."""
         w = [x if x.is_zero() else arb(0) for x in self.start.spread]
-        for i, x in zip(self.problem.free, self.found, strict=True):
+        for i, x in zip(self.problem.free, self.image, strict=True):
             w[i] = x
         return [a + b for a, b in zip(self.start.middle, w, strict=True)]
 
     def stability(self) -> tuple[Kind, Ball | None]:
-        """Return the kind of the orbit, and μ + 1/μ of the one pair of multipliers that is not 1."""
+        """Return the kind of the orbit, and μ + 1/μ of the pair of multipliers that is not 1."""
         d = self.problem.motion.moving
         D = self.derivative
-        part = arb_mat([[D[i, j] for j in range(d)] for i in range(d)])
+        block = arb_mat([[D[i, j] for j in range(d)] for i in range(d)])
         if not self.problem.first:
-            return of_any(part), None
+            return general_kind(block), None
         try:
-            return of_pairs(monodromy(part, self.problem.first, self.problem.last), self.ones)
+            return conservative_kind(monodromy(block, self.problem.first, self.problem.last), self.ones)
         except NotProved:
             return "undecided", None
 
     def certificate(self, orbit: PeriodicOrbit) -> Certificate:
-        """Plain data."""
         problem = self.problem
         with precision(self.bits):
-            flow = flow_data(orbit.field.about, problem.motion, self.start, self.steps, self.bits)
-            sums = {} if orbit.pair_sum is None else {"pair_sum": ball_data(loosened(orbit.pair_sum))}
+            flow = flow_data(orbit.field.subject, problem.motion, self.start, self.steps, self.bits)
+            sums = {} if orbit.pair_sum is None else {"pair_sum": ball_data(add_margin(orbit.pair_sum))}
             return flow | {
                 "kind": "periodic orbit",
                 "free": list(problem.free),
@@ -211,8 +239,8 @@ class OrbitProof:
                 "A": matrix_data(self.A),
                 "ones": self.ones,
                 "claim": {
-                    "period": ball_data(loosened(orbit.period)),
-                    "start": balls_data([loosened(x) for x in orbit.start]),
+                    "period": ball_data(add_margin(orbit.period)),
+                    "start": balls_data([add_margin(x) for x in orbit.start]),
                     "kind": orbit.kind,
                 }
                 | sums,
@@ -220,47 +248,40 @@ class OrbitProof:
 
 
 def prove_orbit(problem: OrbitProblem, middle: Balls, accuracy: Accuracy, ones: int, where: str) -> OrbitProof:
-    """From a start and pace near those of an orbit; at the precision in force. Raises NotProved with how far it came."""
-    middle, A, miss = refined(problem, list(middle), accuracy, where)
+    """Prove an orbit near an initial state and pace, at the current precision. Raises NotProved, with how far the proof came."""
+    middle, A, miss = refine_start(problem, list(middle), accuracy, where)
     sizes = [upper(x) for x in times(A, miss)]
     for grow in (2**10, 2**16, 2**24):
         spread = [arb(0)] * len(middle)
         for i, x in zip(problem.free, sizes, strict=True):
-            spread[i] = arb(
-                0, (grow * (x + abs(middle[i]) * arb(2) ** (20 - accuracy.bits) + arb(2) ** -accuracy.bits)).upper()
-            )
+            unit = arb(2) ** -accuracy.bits
+            spread[i] = arb(0, (grow * (x + abs(middle[i]) * 2**20 * unit + unit)).upper())
         start = Start(middle, spread)
         steps = tuple(steps_of(problem.motion, start, arb(1), accuracy))
-        proof = closing(problem, start, A, steps, ones, accuracy.bits)
+        proof = krawczyk_proof(problem, start, A, steps, ones, accuracy.bits)
         if proof is not None:
             if not proof.states()[-1] > 0:
                 raise NotProved(f"{where}: Newton's method leads to a period of zero: start nearer to the orbit")
             return proof
-    raise NotProved(
-        f"{where}: Newton's method comes within {float(max(sizes)):.1g} of an orbit, but Krawczyk's test does not close there"
-    )
+    place = f"{where}: Newton's method comes within {float(max(sizes)):.1g} of an orbit"
+    raise NotProved(f"{place}, but Krawczyk's test does not close there")
 
 
-def closing(
-    problem: OrbitProblem,
-    start: Start,
-    A: Matrix,
-    steps: tuple[CarriedStep, ...],
-    ones: int,
-    bits: int,
+def krawczyk_proof(
+    problem: OrbitProblem, start: Start, A: Matrix, steps: tuple[LohnerStep, ...], ones: int, bits: int
 ) -> OrbitProof | None:
-    """The proof, where K lies within the box."""
+    """Return the proof if the Krawczyk test closes, else None."""
     last = steps[-1].end
     w = [start.spread[i] for i in problem.free]
-    found = krawczyk(problem.value(start.middle, last.middle), problem.slope(last.derivative, problem.free), A, w)
-    return OrbitProof(problem, start, A, steps, found, ones, bits) if inside(found, w) else None
+    image = krawczyk(problem.value(start.middle, last.middle), problem.slope(last.derivative, problem.free), A, w)
+    return OrbitProof(problem, start, A, steps, image, ones, bits) if inside(image, w) else None
 
 
-def refined(problem: OrbitProblem, middle: Balls, accuracy: Accuracy, where: str) -> tuple[Balls, Matrix, Balls]:
-    """Newton's method on midpoints: the start and pace, A near the inverse of the conditions' derivative, and what they miss."""
+def refine_start(problem: OrbitProblem, middle: Balls, accuracy: Accuracy, where: str) -> tuple[Balls, Matrix, Balls]:
+    """Return the start and pace by Newton's method on midpoints, A near the inverse of the derivative, and the residual."""
     coarse = Accuracy(max(_COARSE, accuracy.tol))
     last = coarse if coarse.tol > accuracy.tol else accuracy
-    before = float("inf")
+    last_size = float("inf")
     for _ in range(_NEWTON):
         still = Start(middle, [arb(0)] * len(middle))
         *_, step = steps_of(problem.motion, still, arb(1), last)
@@ -268,18 +289,19 @@ def refined(problem: OrbitProblem, middle: Balls, accuracy: Accuracy, where: str
         A = middle_inverse(problem.slope(step.end.derivative, problem.free))
         move = times(A, miss)
         size = max(float(upper(x)) for x in move)
-        if last is accuracy and (size < 1e3 * accuracy.tol or size > 0.1 * before):
+        if last is accuracy and (size < 1e3 * accuracy.tol or size > 0.1 * last_size):
             return middle, A, miss
         if not size < 1e3:
             break
         for i, x in zip(problem.free, move, strict=True):
             middle[i] = exact(middle[i] - x)
-        if last is not accuracy and (size < 1e-4 or size > 0.1 * before):
+        if last is not accuracy and (size < 1e-4 or size > 0.1 * last_size):
             last, size = accuracy, float("inf")
-        before = size
-    raise NotProved(f"{where}: Newton's method finds no orbit near the start that is given")
+        last_size = size
+    raise NotProved(f"{where}: Newton's method finds no orbit near the given start")
 
 
+@accept_old_keywords
 def periodic_orbit(
     system: Any,
     values: Values | None = None,
@@ -288,108 +310,130 @@ def periodic_orbit(
     period: Any = None,
     reversals: Sequence[Sequence[int]] = (),
     integrals: int = 1,
-    held: Sequence[Any] = (),
+    fixed: Sequence[Any] = (),
     tol: float = TOL,
 ) -> PeriodicOrbit:
-    """The periodic orbit near the start q0, v0 and the period (s), proved to exist.
+    """Prove that a periodic orbit exists near an initial state and period.
 
     Parameters
     ----------
-    values : Values or None, optional
-        As in `enclose`.
-    tol : float, default TOL
-        As in `enclose`.
+    system : System or Program
+        The motion, without constraints and without explicit time.
+    values : Mapping, optional
+        Parameter → number.
+    q0 : sequence, optional
+        Coordinates near the orbit.
+    v0 : sequence, optional
+        Velocities near the orbit.
+    period : number
+        The approximate period in s.
     reversals : sequence, default ()
-        One or two rows of signs ±1, one for each state (q, v): time reversed under the first is a motion, and the
-        start lies in its fixed set; likewise the second, if any, at a quarter period instead of the first at half of it.
-    held : sequence, default ()
-        States that keep their value, by symbol or name; where orbits come in families, as many as the family has parameters
-        are held, the first that can be, unless given.
+        One or two rows of signs ±1, one for each state (q, v), under which the reversed motion is a motion. The start lies in
+        the fixed set of the first row. The orbit reaches the fixed set of the second after a quarter of a period; with one row,
+        it reaches the same fixed set after half a period.
     integrals : int, default 1
-        How many the system has, its energy among them, each with a pair of multipliers that are 1.
+        The number of integrals with the energy. Each makes two multipliers equal to 1.
+    fixed : sequence, default ()
+        States that keep their value, by symbol or name. Each parameter of a family of orbits fixes one state; without names,
+        the first ones that the reversal leaves free.
+    tol : float, default 1e-20
+        Local error of a step, relative to the size of the state.
+
+    Returns
+    -------
+    PeriodicOrbit
+        The enclosed period and initial state, and the stability.
 
     Raises
     ------
     InputError
-        For what makes no sense.
+        If an argument does not fit the system.
     NotProved
-        Where no orbit can be proved, with how far it came.
+        If no orbit can be proved. The message says how far the proof came.
+
+    Examples
+    --------
+    >>> import sympy as sp
+    >>> from lagrotor.mechanics import System, coordinates
+    >>> c = coordinates("theta")
+    >>> pendulum = System(c, c.v[0] ** 2 / 2 + sp.cos(c.q[0]))
+    >>> periodic_orbit(pendulum, q0=[1], v0=[0], period=6.7, reversals=[(1, -1)], tol=1e-10).period
+    [6.699975664 +/- 8.59e-10]
     """
     accuracy, where = accuracy_of(tol, "periodic_orbit"), "periodic_orbit"
     with precision(accuracy.bits, accuracy.terms):
         length = time_ball(period, where)
-        made = field_of(system, values, q0, v0)
-        n = len(made.states)
-        if made.varying or made.stages or "t" in map(str, made.states):
-            raise InputError("periodic_orbit: values are numbers, and the time is not in the equations")
-        if made.held:
-            raise InputError("periodic_orbit: an orbit is not shown to keep constraints: take free coordinates")
-        first, last = reversals_of(system, made, reversals)
-        problem = _problem_of(made, first, last, indices(made, held))
-        start = [*made.start, length / problem.turns]
+        field = field_of(system, values, q0, v0)
+        n = len(field.states)
+        if field.varying or field.stages or "t" in map(str, field.states):
+            raise InputError("periodic_orbit: the values must be numbers; the equations have no explicit time")
+        if field.constraints:
+            raise InputError("periodic_orbit: an orbit is not proved to satisfy constraints: take free coordinates")
+        first, last = reversals_of(system, field, reversals)
+        problem = _problem_of(field, first, last, indices(field, fixed))
+        start = [*field.start, length / problem.turns]
         for i, x in enumerate(start):
             if first and i < n and first[i] < 0:
                 start[i] = arb(0)
             elif i in problem.free:
                 start[i] = exact(x)
-        return orbit_of(prove_orbit(problem, start, accuracy, 2 * integrals, where), made)
+        return orbit_of(prove_orbit(problem, start, accuracy, 2 * integrals, where), field)
 
 
-def orbit_of(proof: OrbitProof, made: Field) -> PeriodicOrbit:
-    """What a proof says."""
+def orbit_of(proof: OrbitProof, field: Field) -> PeriodicOrbit:
     states = proof.states()
     period = states[-1] * proof.problem.turns
-    start = tuple(states[: len(made.states)])
-    return PeriodicOrbit(made, period, 2 * arb.pi() / period, start, *proof.stability(), proof)
+    start = tuple(states[: len(field.states)])
+    return PeriodicOrbit(field, period, 2 * arb.pi() / period, start, *proof.stability(), proof)
 
 
-def indices(made: Field, held: Sequence[Any]) -> tuple[int, ...]:
-    """Places of states by symbol or name."""
-    names = [str(s) for s in made.states]
-    if missing := [str(s) for s in held if str(s) not in names]:
-        raise InputError(f"periodic_orbit: held = {', '.join(missing)}: the states are {', '.join(names)}")
-    return tuple(names.index(str(s)) for s in held)
+def indices(field: Field, fixed: Sequence[Any]) -> tuple[int, ...]:
+    """Return the places of states given by symbol or name."""
+    names = [str(s) for s in field.states]
+    if missing := [str(s) for s in fixed if str(s) not in names]:
+        raise InputError(f"periodic_orbit: fixed = {', '.join(missing)}: the states are {', '.join(names)}")
+    return tuple(names.index(str(s)) for s in fixed)
 
 
-def _problem_of(made: Field, first: Signs, last: Signs, held: tuple[int, ...]) -> OrbitProblem:
-    """The free states and the conditions; as many states are held as there are more unknowns than conditions."""
-    n = len(made.states)
+def _problem_of(field: Field, first: Signs, last: Signs, fixed: tuple[int, ...]) -> OrbitProblem:
+    """Return the boundary-value problem. It fixes as many states as there are more unknowns than conditions."""
+    n = len(field.states)
     free = [i for i in range(n) if not first or first[i] > 0]
     conditions = [i for i in range(n) if last[i] < 0] if first else list(range(n))
     spare = len(free) + 1 - len(conditions)
-    if spare < 0 or len(held) > spare or any(i not in free for i in held):
+    if spare < 0 or len(fixed) > spare or any(i not in free for i in fixed):
         raise InputError(
-            f"periodic_orbit: {len(free)} free states and the period for {len(conditions)} conditions: hold "
+            f"periodic_orbit: {len(free)} free states and the period for {len(conditions)} conditions: fix "
             f"{max(spare, 0)} states that the reversal leaves free"
         )
-    chosen = [*held, *(i for i in free if i not in held)][:spare]
-    motion = Motion(paced(made.motion.tape, n), made.motion.parameters)
+    chosen = [*fixed, *(i for i in free if i not in fixed)][:spare]
+    motion = Motion(with_pace(field.motion.tape, n), field.motion.parameters)
     return OrbitProblem(motion, (*(i for i in free if i not in chosen), n), tuple(conditions), first, last)
 
 
-def reversals_of(system: Any, made: Field, given: Sequence[Sequence[int]]) -> tuple[Signs, Signs]:
-    """One or two rows of signs, each proved to reverse the motion."""
-    if not given:
+def reversals_of(system: Any, field: Field, reversals: Sequence[Sequence[int]]) -> tuple[Signs, Signs]:
+    """Return one or two rows of signs, each proved to be a reversal."""
+    if not reversals:
         return (), ()
-    rows = [tuple(row) for row in given]
-    n = len(made.states)
+    rows = [tuple(row) for row in reversals]
+    n = len(field.states)
     if len(rows) > 2 or any(len(row) != n or {*row} - {1, -1} for row in rows):
         raise InputError(f"periodic_orbit: reversals must be one or two rows of {n} signs 1 or −1")
     for row in rows:
         if not (isinstance(system, Equations) and reverses(system, row)):
             raise InputError(
-                f"periodic_orbit: time reversed under the signs {row} is not shown to be a motion of the system: the Lagrangian "
+                f"periodic_orbit: time reversed under the signs {row} is not proved to be a motion of the system: the Lagrangian "
                 "must be the same at q → S q, v → −S v"
             )
     return rows[0], rows[-1]
 
 
 def reverses(system: Equations, signs: Signs) -> bool:
-    """Whether (q, v) ↦ signs (q, v) with time reversed takes motions to motions: S of the q, −S of the v, L unchanged."""
+    """Return True if (q, v) ↦ (S q, −S v) leaves L unchanged, so that the reversed motion is a motion; `signs` is (S, −S)."""
     n = len(system.c.q)
     S = signs[:n]
     if tuple(-s for s in S) != signs[n:] or system.dissipation != 0 or system.rolling or system.forces:
         return False
-    put = {x: s * x for x, s in zip((*system.c.q, *system.c.v), signs, strict=True)}
-    same = decide_zero(system.L.xreplace(put) - system.L).answer == "zero"
-    return same and all(decide_zero(g.xreplace(put) - g).answer == "zero" for g in system.constraints)
+    reflection = {x: s * x for x, s in zip((*system.c.q, *system.c.v), signs, strict=True)}
+    same = decide_zero(system.L.xreplace(reflection) - system.L).answer == "zero"
+    return same and all(decide_zero(g.xreplace(reflection) - g).answer == "zero" for g in system.constraints)

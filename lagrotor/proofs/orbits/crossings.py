@@ -1,4 +1,4 @@
-"""Expressions of the state along a motion: that one passes zero before a time, or does not up to a time; their means."""
+"""Zero crossings and means of expressions of the states along an enclosed motion."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -7,46 +7,43 @@ from typing import Any
 import sympy as sp
 
 from lagrotor.errors import InputError, NotProved
-from lagrotor.proofs.balls import Ball, Balls, arb, arb_poly, ball_data, exact, precision, printed, radius
+from lagrotor.proofs.balls import Ball, Balls, arb, arb_poly, ball_data, exact, format_ball, precision, radius
 from lagrotor.proofs.fields import Field, Values, ball, field_of, in_rationals
-from lagrotor.proofs.lohner_frames import Accuracy, CarriedStep, Start, flow_data, steps_of
-from lagrotor.proofs.orbits.enclosure import TOL, accuracy_of, loosened, time_ball
+from lagrotor.proofs.lohner_frames import Accuracy, LohnerStep, Start, flow_data, steps_of
+from lagrotor.proofs.orbits.enclosure import TOL, accuracy_of, add_margin, time_ball
 from lagrotor.proofs.statements import Certificate, Proved
 from lagrotor.proofs.tape import Tape
-from lagrotor.proofs.taylor_step import Motion, scaled, taylor, with_rest
-from lagrotor.proofs.truncated_series import Evaluation, Tailed
+from lagrotor.proofs.taylor_step import Motion, bound_remainder, scale_terms, taylor
+from lagrotor.proofs.truncated_series import Evaluation, TaylorModel
+from lagrotor.renamed import accept_old_keywords
 
-Asked = tuple[Field, Tape, Start]
+Problem = tuple[Field, Tape, Start]
+Spans = Sequence[tuple[sp.Basic, Any, Any]]
 _DEPTH = 12  # halvings of a step
 
 
 @dataclass(frozen=True)
-class Watch:
-    """An expression along one step: its series in s over all starts, 0 ≤ s ≤ 1."""
+class ExpressionOnStep:
+    """The Taylor model of an expression on one step, in s from 0 to 1, for all initial states."""
 
-    series: Tailed
+    series: TaylorModel
 
     def over(self, low: Ball, high: Ball) -> Ball:
-        """A ball of the values between two places of the step, by its middle and slope."""
+        """Enclose the values between two places of the step by the mean-value form."""
         s = low.union(high)
         at = exact(s)
         poly = self.series.poly
         slope = poly.derivative()
-        return poly(at) + slope(s) * (s - at) + arb(0, self.series.tail.abs_upper())
-
-    def sign(self, low: Ball, high: Ball) -> int:
-        """Its sign between two places, 0 where it is not shown to have one."""
-        value = self.over(low, high)
-        return 1 if value > 0 else -1 if value < 0 else 0
+        return poly(at) + slope(s) * (s - at) + arb(0, self.series.remainder.abs_upper())
 
     def integral(self, low: Ball, high: Ball) -> Ball:
-        """Over s between two places."""
         whole = self.series.poly.integral()
-        return whole(high) - whole(low) + (high - low) * arb(0, self.series.tail.abs_upper())
+        return whole(high) - whole(low) + (high - low) * arb(0, self.series.remainder.abs_upper())
 
     def signs(self, low: Ball, high: Ball, depth: int = _DEPTH) -> Iterator[tuple[Ball, Ball, int]]:
-        """The step cut until each piece has a sign, or is too short to go on, in order."""
-        sign = self.sign(low, high)
+        """Bisect the step until each piece has a sign or the depth is used up, and yield the pieces in order."""
+        value = self.over(low, high)
+        sign = 1 if value > 0 else -1 if value < 0 else 0
         if sign or not depth:
             yield low, high, sign
         else:
@@ -55,26 +52,32 @@ class Watch:
             yield from self.signs(middle, high, depth - 1)
 
 
-def watch(motion: Motion, tape: Tape, step: CarriedStep, w: Balls) -> list[Watch]:
-    """The tape's outputs along a step, over all starts."""
+def expressions_on_step(motion: Motion, tape: Tape, step: LohnerStep, w: Balls) -> list[ExpressionOnStep]:
+    """Return the outputs of a tape along one step, for all initial states."""
     box, n = step.node.box(w), step.n
-    rows = scaled(taylor(motion, box, n), step.h, n)
-    rests, _ = with_rest(motion, rows, box, step.h, n)
-    moving = [Tailed(arb_poly(row), rest, n) for row, rest in zip(rows, rests, strict=True)]
-    still = [Tailed(arb_poly([c]), arb(0), n) for c in (*box[motion.moving :], *motion.parameters)]
-    return [Watch(series) for series in Evaluation(tape, [*moving, *still]).outputs]
+    rows = scale_terms(taylor(motion, box, n), step.h, n)
+    bounds, _ = bound_remainder(motion, rows, box, step.h, n)
+    moving = [TaylorModel(arb_poly(row), bound, n) for row, bound in zip(rows, bounds, strict=True)]
+    still = [TaylorModel(arb_poly([c]), arb(0), n) for c in (*box[motion.moving :], *motion.parameters)]
+    return [ExpressionOnStep(series) for series in Evaluation(tape, [*moving, *still]).outputs]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Crossing(Proved):
-    """A proved crossing, in a time that `time` holds, or a proved non-crossing up to `time`.
+    """A proved zero crossing of an expression, or a proved absence of zeros.
 
     Attributes
     ----------
+    expression : sympy.Basic
+        The expression of the states, or Eq(name, expression).
+    crosses : bool
+        True for a proved crossing, False for a proved absence of zeros from t = 0 to `time`.
+    time : Ball
+        The time of the crossing in s; without a crossing, the end of the interval.
     first : bool
-        Whether it is proved to be the first crossing, too.
+        True if the crossing is proved to be the first one.
     certificate : Certificate
-        What `check` verifies.
+        The plain data that `check` verifies.
     """
 
     expression: sp.Basic
@@ -84,19 +87,29 @@ class Crossing(Proved):
     certificate: Certificate
 
     def summary(self) -> dict[str, str]:
-        """What is proved, name → words."""
-        return {
-            "expression": words(self.expression)["of"],
-            "theorem": self.theorem,
-            "steps": str(len(self.certificate["steps"])),
-        }
+        """Return the expression, the theorem and the number of steps.
+
+        Returns
+        -------
+        dict[str, str]
+            Name → text.
+        """
+        steps = str(len(self.certificate["steps"]))
+        return {"expression": words(self.expression)["of"], "theorem": self.theorem, "steps": steps}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Means(Proved):
-    """Means of expressions over spans of time, enclosed. spans: (expression, from, to); values: a ball for each.
+    """The enclosed time means of expressions.
 
-    certificate: what `check` verifies.
+    Attributes
+    ----------
+    spans : tuple[tuple[sympy.Basic, Ball, Ball], ...]
+        The rows (expression, t₁, t₂), times in s.
+    values : tuple[Ball, ...]
+        The mean of each row.
+    certificate : Certificate
+        The plain data that `check` verifies.
     """
 
     spans: tuple[tuple[sp.Basic, Ball, Ball], ...]
@@ -104,201 +117,249 @@ class Means(Proved):
     certificate: Certificate
 
     def summary(self) -> dict[str, str]:
-        """What is proved, name → words."""
-        return {f"mean of {words(e)['of']}": printed(x) for (e, *_), x in zip(self.spans, self.values, strict=True)}
+        """Return the mean of each expression.
+
+        Returns
+        -------
+        dict[str, str]
+            "mean of …" → ball as text.
+        """
+        return {f"mean of {words(e)['of']}": format_ball(x) for (e, *_), x in zip(self.spans, self.values, strict=True)}
 
 
-def prepared(system: Any, values: Any, q0: Any, v0: Any, expressions: Sequence[Any]) -> Asked:
-    """The field, the expressions as a tape of its arguments, the start."""
+def prepare(system: Any, values: Any, q0: Any, v0: Any, expressions: Sequence[Any]) -> Problem:
+    """Return the field, the expressions as a tape of the field's arguments, and the initial set."""
     plain = [e.rhs if isinstance(e, sp.Eq) and e.lhs.is_Symbol else e for e in expressions]
     for e in plain:
         if not isinstance(e, sp.Expr):
-            raise InputError(f"proved: {e!r} must be an expression of the states, a sympy expression")
-    made = field_of(system, values, q0, v0)
+            raise InputError(f"proofs: {e!r} must be an expression of the states, a sympy expression")
+    field = field_of(system, values, q0, v0)
     named = [e for e in expressions if isinstance(e, sp.Eq)]
-    letters, constants = ({str(s) for e in plain for s in e.atoms(kind)} for kind in (sp.Symbol, sp.NumberSymbol))
-    taken = letters | constants | {str(s) for s in (*made.arguments, *(made.seen or ()))}
+    symbols, constants = ({str(s) for e in plain for s in e.atoms(kind)} for kind in (sp.Symbol, sp.NumberSymbol))
+    names = symbols | constants | {str(s) for s in (*field.arguments, *(field.observables or ()))}
     for name, e in ((str(e.lhs), e) for e in named):
-        if not name.isidentifier() or name in taken or hasattr(sp.functions, name):
-            raise InputError(
-                f"proved: {e}: {name} must be a name of its own, of no state, parameter, constant or function"
-            )
-        if any(str(other.lhs) == name and other.rhs != e.rhs for other in named):
-            raise InputError(f"proved: {name} has two meanings: give each expression a name of its own")
-    if both := letters & constants:
-        raise InputError(
-            f"proved: {', '.join(sorted(both))} is a state or parameter and a constant: take another letter"
-        )
-    return made, made.function(plain), Start(*made.parts)
+        if not name.isidentifier() or name in names or hasattr(sp.functions, name):
+            what = "must be a name of its own, of no state, parameter, constant or function"
+            raise InputError(f"proofs: {e}: {name} {what}")
+        if any(str(equation.lhs) == name and equation.rhs != e.rhs for equation in named):
+            raise InputError(f"proofs: {name} has two meanings: give each expression a name of its own")
+    if both := symbols & constants:
+        name = ", ".join(sorted(both))
+        raise InputError(f"proofs: {name} is a state or parameter and a constant: take another symbol")
+    return field, field.function(plain), Start(*field.start_set)
 
 
 def words(expression: sp.Basic) -> dict[str, str]:
-    """What an expression is called, and what that means where it is named; decimals are the rational numbers that they mean."""
-    written = in_rationals(expression)
-    if isinstance(written, sp.Eq):
-        return {"of": str(written.lhs), "means": str(written.rhs)}
-    return {"of": str(written)}
+    """Return the text "of" an expression; for Eq(name, expression) the name, and the text that it "means".
+
+    Examples
+    --------
+    >>> words(0.5 * sp.Symbol("x"))
+    {'of': 'x/2'}
+    """
+    exact = in_rationals(expression)
+    if isinstance(exact, sp.Eq):
+        return {"of": str(exact.lhs), "means": str(exact.rhs)}
+    return {"of": str(exact)}
 
 
-def observed_data(made: Field) -> dict[str, Any] | None:
-    """Of a certificate: the operations of what is observed, with its names."""
-    seen = made.seen or {}
-    return made.function([*seen]).data() | {"names": [str(s) for s in seen]} if seen else None
+def observed_data(field: Field) -> dict[str, Any] | None:
+    """Return the tape and the names of the observables, as a certificate holds them; None for a motion without any."""
+    observables = field.observables or {}
+    return field.function([*observables]).data() | {"names": [str(s) for s in observables]} if observables else None
 
 
+@accept_old_keywords
 def crossing(
     system: Any,
     values: Values | None = None,
     q0: Any = None,
     v0: Any = None,
     event: Any = None,
-    before: Any = None,
+    t_end: Any = None,
     tol: float = TOL,
 ) -> Crossing:
-    """A proof that an expression of the states passes zero, with when.
+    """Prove that an expression of the states passes through zero, and enclose the time.
 
     Parameters
     ----------
-    system
-        As in `enclose`.
-    values : Values or None, optional
-        As in `enclose`.
-    q0 : optional
-        As in `enclose`.
-    v0 : optional
-        As in `enclose`.
-    event : optional
-        The expression; of a Scene it may have x_1 … z_2 of the axes and their rates, of a Structure x_0, y_0, z_0, ….
-        A long one may have a name, Eq(E, expression).
-    before : optional
-        S.
-    tol : float, default TOL
-        As in `enclose`.
+    system : System, Scene, Structure or Program
+        The motion. A Scene has its own initial state; the states of a Program are its first arguments.
+    values : Mapping, optional
+        Parameter → number, or pair (lowest, highest) for an interval.
+    q0 : sequence, optional
+        Initial coordinates, each a number or a pair; for a Structure the tilt.
+    v0 : sequence, optional
+        Initial velocities, each a number or a pair.
+    event : sympy.Expr or sympy.Eq
+        The expression, or Eq(name, expression). That of a Scene may contain x_1 … z_2 of the axes and their rates, that of a
+        Structure x_0, y_0, z_0, ….
+    t_end : number
+        The time in s before which the crossing is sought.
+    tol : float, default 1e-17
+        Local error of a step, relative to the size of the state.
+
+    Returns
+    -------
+    Crossing
+        The enclosed time, and whether the crossing is the first one.
 
     Raises
     ------
     InputError
-        For what makes no sense.
+        If an argument does not fit the system.
     NotProved
-        Where the sign is not shown to change, with how far the proof came.
+        If the sign is not proved to change. The message says how far the proof came.
+
+    Examples
+    --------
+    >>> import sympy as sp
+    >>> from lagrotor.mechanics import System, coordinates
+    >>> c = coordinates("theta")
+    >>> pendulum = System(c, c.v[0] ** 2 / 2 + sp.cos(c.q[0]))
+    >>> crossing(pendulum, q0=[1], v0=[0], event=c.q[0], t_end=2, tol=1e-10).time
+    [1.6750 +/- 6.80e-5]
     """
     accuracy, where = accuracy_of(tol, "crossing"), "crossing"
     with precision(accuracy.bits, accuracy.terms):
-        end, asked = time_ball(before, where), prepared(system, values, q0, v0, [event])
-        known, since, pending, clear, steps = 0, arb(0), False, True, list[CarriedStep]()
-        for step, low, high, sign in _signs(asked, end, accuracy, steps):
+        end, problem = time_ball(t_end, where), prepare(system, values, q0, v0, [event])
+        last_sign, since, pending, clear, steps = 0, arb(0), False, True, list[LohnerStep]()
+        for step, low, high, sign in _signs(problem, end, accuracy, steps):
             if not sign:
                 pending = True
                 continue
-            if known and sign != known:
+            if last_sign and sign != last_sign:
                 time = since.union(step.node.t + step.h * low)
-                claim = {"time": ball_data(loosened(time)), "first": clear}
-                certificate = _certificate(asked, steps, accuracy.bits, "crossing", words(event), claim)
+                claim = {"time": ball_data(add_margin(time)), "first": clear}
+                certificate = _certificate(problem, steps, accuracy.bits, "crossing", words(event), claim)
                 return Crossing(event, True, time, clear, certificate)
             clear = clear and not pending
-            known, since, pending = sign, step.node.t + step.h * high, False
-        raise NotProved(
-            f"{where}: {words(event)['of']} keeps its sign, or is not shown to change it, up to t = {printed(end, 10)}"
-        )
+            last_sign, since, pending = sign, step.node.t + step.h * high, False
+        name, end_text = words(event)["of"], format_ball(end, 10)
+        raise NotProved(f"{where}: {name} keeps its sign, or is not proved to change it, up to t = {end_text}")
 
 
+@accept_old_keywords
 def no_crossing(
     system: Any,
     values: Values | None = None,
     q0: Any = None,
     v0: Any = None,
     event: Any = None,
-    until: Any = None,
+    t_end: Any = None,
     tol: float = TOL,
 ) -> Crossing:
-    """A proof that an expression of the states does not pass zero from t = 0 on.
+    """Prove that an expression of the states has no zero from t = 0 to `t_end`.
 
     Parameters
     ----------
-    system
-        As in `enclose`.
-    values : Values or None, optional
-        As in `enclose`.
-    q0 : optional
-        As in `enclose`.
-    v0 : optional
-        As in `enclose`.
-    event : optional
-        As in `crossing`.
-    until : optional
-        S.
-    tol : float, default TOL
-        As in `enclose`.
+    system : System, Scene, Structure or Program
+        The motion. A Scene has its own initial state; the states of a Program are its first arguments.
+    values : Mapping, optional
+        Parameter → number, or pair (lowest, highest) for an interval.
+    q0 : sequence, optional
+        Initial coordinates, each a number or a pair; for a Structure the tilt.
+    v0 : sequence, optional
+        Initial velocities, each a number or a pair.
+    event : sympy.Expr or sympy.Eq
+        The expression, or Eq(name, expression), as `crossing` takes it.
+    t_end : number
+        End of the interval in s.
+    tol : float, default 1e-17
+        Local error of a step, relative to the size of the state.
 
-    Raises
-    ------
-    NotProved
-        With the time up to which it is proved.
-    """
-    accuracy, where = accuracy_of(tol, "no_crossing"), "no_crossing"
-    with precision(accuracy.bits, accuracy.terms):
-        end, asked = time_ball(until, where), prepared(system, values, q0, v0, [event])
-        steps = list[CarriedStep]()
-        for step, low, _, sign in _signs(asked, end, accuracy, steps):
-            if not sign:
-                at = float((step.node.t + step.h * low).mid())
-                raise NotProved(f"{where}: {words(event)['of']} is not shown to stay off zero beyond t = {at:.10g}")
-        claim = {"time": ball_data(end), "first": False}
-        certificate = _certificate(asked, steps, accuracy.bits, "no crossing", words(event), claim)
-        return Crossing(event, False, end, False, certificate)
-
-
-def _signs(
-    asked: Asked, end: Ball, accuracy: Accuracy, steps: list[CarriedStep]
-) -> Iterator[tuple[CarriedStep, Ball, Ball, int]]:
-    """Yield each step up to a time in pieces, with the sign of an expression over them; the steps are added to `steps`."""
-    made, tape, start = asked
-    for step in steps_of(made.motion, start, end, accuracy):
-        steps.append(step)
-        for piece in watch(made.motion, tape, step, start.spread)[0].signs(arb(0), arb(1)):
-            yield step, *piece
-
-
-def _certificate(
-    asked: Asked, steps: Sequence[CarriedStep], bits: int, kind: str, event: Any, claim: dict[str, Any]
-) -> Certificate:
-    """Of a claim about an event, or about means, which name their own expressions."""
-    made, _, start = asked
-    flow = flow_data(made.about, made.motion, start, steps, bits) | ({"event": event} if event else {})
-    return flow | {"observed": observed_data(made), "kind": kind, "claim": claim}
-
-
-def means(
-    system: Any,
-    values: Values | None = None,
-    q0: Any = None,
-    v0: Any = None,
-    spans: Sequence[tuple[sp.Basic, Any, Any]] = (),
-    tol: float = TOL,
-) -> Means:
-    """Means of expressions of the states over spans of time, (1/(t₂ − t₁)) ∫ e dt from t₁ to t₂, enclosed.
-
-    Parameters
-    ----------
-    system
-        As in `enclose`.
-    values : Values or None, optional
-        As in `enclose`.
-    q0 : optional
-        As in `enclose`.
-    v0 : optional
-        As in `enclose`.
-    spans : sequence, default ()
-        (expression, t₁, t₂) for each mean, t in s, expressions as in `crossing`.
-    tol : float, default TOL
-        As in `enclose`.
+    Returns
+    -------
+    Crossing
+        The result with `crosses` False.
 
     Raises
     ------
     InputError
-        For what makes no sense.
+        If an argument does not fit the system.
     NotProved
-        Where the enclosure ends before the last t₂.
+        If a zero is not excluded. The message says up to which time it is.
+
+    Examples
+    --------
+    >>> import sympy as sp
+    >>> from lagrotor.mechanics import System, coordinates
+    >>> c = coordinates("theta")
+    >>> pendulum = System(c, c.v[0] ** 2 / 2 + sp.cos(c.q[0]))
+    >>> no_crossing(pendulum, q0=[1], v0=[0], event=c.q[0] - 2, t_end=2, tol=1e-10).theorem
+    'theta - 2 does not pass zero from t = 0 to 2 s. This is of the system with L = ...'
+    """
+    accuracy, where = accuracy_of(tol, "no_crossing"), "no_crossing"
+    with precision(accuracy.bits, accuracy.terms):
+        end, problem = time_ball(t_end, where), prepare(system, values, q0, v0, [event])
+        steps = list[LohnerStep]()
+        for step, low, _, sign in _signs(problem, end, accuracy, steps):
+            if not sign:
+                at = float((step.node.t + step.h * low).mid())
+                raise NotProved(f"{where}: {words(event)['of']} is not proved to be nonzero beyond t = {at:.10g}")
+        claim = {"time": ball_data(end), "first": False}
+        certificate = _certificate(problem, steps, accuracy.bits, "no crossing", words(event), claim)
+        return Crossing(event, False, end, False, certificate)
+
+
+def _signs(
+    problem: Problem, end: Ball, accuracy: Accuracy, steps: list[LohnerStep]
+) -> Iterator[tuple[LohnerStep, Ball, Ball, int]]:
+    """Yield each step up to a time in pieces, with the sign of an expression on each; append the steps to `steps`."""
+    field, tape, start = problem
+    for step in steps_of(field.motion, start, end, accuracy):
+        steps.append(step)
+        for piece in expressions_on_step(field.motion, tape, step, start.spread)[0].signs(arb(0), arb(1)):
+            yield step, *piece
+
+
+def _certificate(
+    problem: Problem, steps: Sequence[LohnerStep], bits: int, kind: str, event: Any, claim: dict[str, Any]
+) -> Certificate:
+    """Return the certificate of a claim about an event, or about means, whose rows name their expressions."""
+    field, _, start = problem
+    flow = flow_data(field.subject, field.motion, start, steps, bits) | ({"event": event} if event else {})
+    return flow | {"observed": observed_data(field), "kind": kind, "claim": claim}
+
+
+def means(
+    system: Any, values: Values | None = None, q0: Any = None, v0: Any = None, spans: Spans = (), tol: float = TOL
+) -> Means:
+    """Enclose time means (1/(t₂ − t₁)) ∫ e dt of expressions e of the states from t₁ to t₂.
+
+    Parameters
+    ----------
+    system : System, Scene, Structure or Program
+        The motion. A Scene has its own initial state; the states of a Program are its first arguments.
+    values : Mapping, optional
+        Parameter → number, or pair (lowest, highest) for an interval.
+    q0 : sequence, optional
+        Initial coordinates, each a number or a pair; for a Structure the tilt.
+    v0 : sequence, optional
+        Initial velocities, each a number or a pair.
+    spans : sequence of (expression, t₁, t₂), default ()
+        The expressions, as `crossing` takes them, and their intervals of time in s.
+    tol : float, default 1e-17
+        Local error of a step, relative to the size of the state.
+
+    Returns
+    -------
+    Means
+        A ball for each row of `spans`.
+
+    Raises
+    ------
+    InputError
+        If an argument does not fit the system.
+    NotProved
+        If the enclosure ends before the last t₂.
+
+    Examples
+    --------
+    >>> from lagrotor.mechanics import System, coordinates
+    >>> c = coordinates("x")
+    >>> means(System(c, (c.v[0] ** 2 - c.q[0] ** 2) / 2), q0=[1], v0=[0], spans=[(c.q[0] ** 2, 0, 3)], tol=1e-10).values[0]
+    [0.4767154 +/- 3.62e-8]
     """
     accuracy, where = accuracy_of(tol, "means"), "means"
     if not isinstance(spans, Sequence) or any(not isinstance(span, tuple | list) or len(span) != 3 for span in spans):
@@ -307,20 +368,20 @@ def means(
         ends = [(ball(since, f"{where}: t"), time_ball(until, where)) for _, since, until in spans]
         if not ends or not all(0 <= since < until for since, until in ends):
             raise InputError(f"{where}: spans = {spans!r} must be (expression, t₁, t₂) with 0 ≤ t₁ < t₂, one at least")
-        made, tape, start = prepared(system, values, q0, v0, [e for e, *_ in spans])
+        field, tape, start = prepare(system, values, q0, v0, [e for e, *_ in spans])
         last = ends[0][1]
         for _, until in ends:
             last = last.max(until)
-        steps = tuple(steps_of(made.motion, start, last, accuracy))
+        steps = tuple(steps_of(field.motion, start, last, accuracy))
         totals = [arb(0)] * len(ends)
         for step in steps:
-            along = watch(made.motion, tape, step, start.spread)
+            integrands = expressions_on_step(field.motion, tape, step, start.spread)
             for i, span in enumerate(ends):
                 low, high = (((x - step.node.t) / step.h).max(0).min(1) for x in span)
                 if low < high:
-                    totals[i] += step.h * along[i].integral(low, high)
+                    totals[i] += step.h * integrands[i].integral(low, high)
         values_of = [total / (until - since) for total, (since, until) in zip(totals, ends, strict=True)]
-        claim = [  # sixteen times as wide: another program's bounds are others
+        claim = [  # 16 times the radius, since the checker's bounds differ
             words(e)
             | {
                 "since": ball_data(since),
@@ -329,6 +390,6 @@ def means(
             }
             for (e, *_), (since, until), x in zip(spans, ends, values_of, strict=True)
         ]
-        certificate = _certificate((made, tape, start), steps, accuracy.bits, "means", None, {"means": claim})
+        certificate = _certificate((field, tape, start), steps, accuracy.bits, "means", None, {"means": claim})
         whole = [(e, *span) for (e, *_), span in zip(spans, ends, strict=True)]
         return Means(tuple(whole), tuple(values_of), certificate)

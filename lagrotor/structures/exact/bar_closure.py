@@ -1,4 +1,4 @@
-"""Whether the bars can close, what degrees of freedom they leave, and where on them a run starts."""
+"""The closure of the bars, the degrees of freedom that remain, and the initial state of a run."""
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -9,17 +9,17 @@ from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
 from lagrotor.structures.exact.exact_motion import ExactMotion, exact_motion, off_constraints, pulls, stretches
 
-_DENSE = 400  # unknowns up to which ranks are found by singular values
-_DEPENDENT = 1e-9  # of the largest: a smaller singular value (beyond _DENSE: pivot) is zero
+_DENSE = 400  # the most unknowns for ranks by singular values
+_DEPENDENT = 1e-9  # relative to the largest singular value or pivot: smaller ones are zero
 
 
 def check_closure(s: Assembly) -> None:
-    """Raises InputError where no degree of freedom is left, the bars cannot close, or the constraints are dependent."""
+    """Raise InputError if no degree of freedom remains, the bars cannot close, or the constraints are dependent."""
     N, B = len(s.joints), len(s.bars)
     if B >= 2 * N:
         raise InputError(
-            f"Structure: {B} bars leave no degree of freedom: {N} axes have {2 * N}, and each bar takes one; leave out "
-            f"{B - 2 * N + 1} at least"
+            f"Structure: {B} bars leave no degree of freedom: {N} axes have {2 * N}, and each bar takes one; remove at least "
+            f"{B - 2 * N + 1}"
         )
     motion = exact_motion(s)
     r = motion.c.upright
@@ -28,20 +28,17 @@ def check_closure(s: Assembly) -> None:
             r = close_bars(motion, r)
         except ConstraintError as error:
             raise InputError(f"Structure: the bars cannot close: {error}; check their lengths") from None
-    loose = _dependent_bar(motion, r)
-    if loose is not None:
-        i, j, _ = s.bars[loose]
+    redundant = _dependent_bar(motion, r)
+    if redundant is not None:
+        i, j, _ = s.bars[redundant]
         raise InputError(
-            f"Structure: dependent constraints: bars[{loose}] = ({i}, {j}) holds nothing that other bars do not hold "
-            f"{'when all axes are upright' if s.natural else 'where the bars close'}; leave it out"
+            f"Structure: dependent constraints: bars[{redundant}] = ({i}, {j}) is redundant "
+            f"{'when all axes are upright' if s.natural else 'where the bars close'}; remove it"
         )
 
 
 def close_bars(motion: ExactMotion, r: Array) -> Array:
-    """The axes (N, 3) on the constraints that Newton steps in the metric of the masses reach from r.
-
-    Raises ConstraintError where they do not.
-    """
+    """Return the axes (N, 3) on the constraints by Newton steps from r. Raises ConstraintError if none is reached."""
     y, area = np.concatenate([r.ravel(), np.zeros(r.size)]), float((motion.c.ell**2).max(initial=0.0))
     unit = np.append(np.ones(len(r)), np.full(len(motion.c.ell), area))
     with np.errstate(all="ignore"):
@@ -56,13 +53,13 @@ def close_bars(motion: ExactMotion, r: Array) -> Array:
                 break
     if not far < 1e-11:
         raise ConstraintError(
-            f"no position of the axes satisfies them (nearest found: {far:.2g} off, bars in units of ell² = {area:.3g} m²)"
+            f"no position of the axes satisfies them (least residual: {far:.2g}, of bars in units of ell² = {area:.3g} m²)"
         )
     return y[: r.size].reshape(r.shape)
 
 
 def _dependent_bar(motion: ExactMotion, r: Array) -> int | None:
-    """The first bar whose gradient depends on those before it, at the axes r; None where all are independent."""
+    """Return the first bar whose gradient depends on those of earlier bars; None if all are independent."""
     c = motion.c
     N, B = len(c.R), len(c.i)
     if not B:
@@ -72,9 +69,11 @@ def _dependent_bar(motion: ExactMotion, r: Array) -> int | None:
 
     ends = np.concatenate([c.i, c.j])
     pull, axes = np.concatenate(pulls(c, r)) / np.tile(c.ell, 2)[:, None], r[ends]
-    across = pull - (pull * axes).sum(1, keepdims=True) * axes
+    transverse = pull - (pull * axes).sum(1, keepdims=True) * axes
     columns = 3 * ends[:, None] + [0, 1, 2]
-    sparse = csr_matrix((across.ravel(), (np.repeat(np.tile(np.arange(B), 2), 3), columns.ravel())), shape=(B, 3 * N))
+    sparse = csr_matrix(
+        (transverse.ravel(), (np.repeat(np.tile(np.arange(B), 2), 3), columns.ravel())), shape=(B, 3 * N)
+    )
     if 2 * N <= _DENSE:
         G = sparse.toarray()
         sizes = np.linalg.svd(G, compute_uv=False)
@@ -91,7 +90,7 @@ def _dependent_bar(motion: ExactMotion, r: Array) -> int | None:
 
 
 def start_state(motion: ExactMotion, tilt: ArrayLike | None, rates: ArrayLike | None) -> Array:
-    """The state (r, r'/rate) on the constraints, of tilt and rates as `simulate_structure` takes them."""
+    """Return the state (r, r'/rate) on the constraints for the tilt and rates of `Structure.simulate`."""
     N = len(motion.c.R)
     x = _vectors("tilt", tilt, N)
     if x.shape[1] == 2:
@@ -103,10 +102,10 @@ def start_state(motion: ExactMotion, tilt: ArrayLike | None, rates: ArrayLike | 
         r = x / np.linalg.norm(x, axis=1, keepdims=True)
     r = close_bars(motion, r)
     with np.errstate(all="ignore"):
-        pointless = ~np.isfinite(stretches(motion.c, r)[0]).all(1)
-    if pointless.any():
+        degenerate = ~np.isfinite(stretches(motion.c, r)[0]).all(1)
+    if degenerate.any():
         raise SingularError(
-            f"simulate: braces[{int(np.argmax(pointless))}] begins with both ends at one place, where it pulls in no direction: "
+            f"simulate: braces[{int(np.argmax(degenerate))}] starts with both ends at one place, where it has no direction: "
             "start elsewhere"
         )
     v = _vectors("rates", rates, N)
@@ -122,10 +121,10 @@ def start_state(motion: ExactMotion, tilt: ArrayLike | None, rates: ArrayLike | 
     return start
 
 
-def _vectors(name: str, given: ArrayLike | None, N: int) -> Array:
-    if given is None:
+def _vectors(name: str, values: ArrayLike | None, N: int) -> Array:
+    if values is None:
         return np.zeros((N, 2))
-    vectors = finite_array(f"simulate: {name}", given)
+    vectors = finite_array(f"simulate: {name}", values)
     if vectors.shape not in ((N, 2), (N, 3)):
         raise InputError(f"simulate: {name} must be numbers ({N}, 2) or ({N}, 3), not of shape {vectors.shape}")
     if vectors.size == 3 * N and name == "tilt" and not (np.linalg.norm(vectors, axis=1) > 0).all():

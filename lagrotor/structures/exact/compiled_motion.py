@@ -1,13 +1,11 @@
-"""The equations of `exact_motion` in single numbers of any kind, and compiled by heyoka: the fast extra.
+"""The equations of `exact_motion` in scalars of any kind, as generated code and compiled by heyoka (the fast extra).
 
-Of few rotors the single numbers are the right-hand side, too: so few operations cost less than calling arrays does. With the fast
-extra few rotors are integrated by heyoka's Taylor series. The series of many outgrow a processor's caches: there the right-hand
-side alone is compiled, for the integrators of the core, once a process for a structure whatever its spins.
+For few rotors scalar code is the right-hand side, because it costs less than calls of arrays. With the fast extra few rotors
+are integrated by heyoka's Taylor series; for many, heyoka compiles the right-hand side, once per process for any spins.
 
-The linear system is solved in levels. Of the unknowns with the fewest neighbours, as many as are not neighbours of each other
-go at once: in a chain every other one, and then every other one of what is left (cyclic reduction: Golub & Van Loan, § 4.5.4),
-so that the operations grow as N and the longest row of operations that wait for each other as log N. A constraint waits for the
-unknowns it holds: before, its pivot is zero; after, it is not, as the masses are positive and the constraints independent.
+The linear system is solved in levels. Independent unknowns with the fewest neighbours are eliminated together: in a chain every
+other one, then every other one of the remainder (cyclic reduction: Golub & Van Loan, § 4.5.4). The operations are ∝ N, and the
+longest chain of dependent operations is ∝ log N. A constraint is eliminated after its masses, which make its pivot nonzero.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -25,114 +23,93 @@ from lagrotor.numerics.operation_recorder import Recorded
 from lagrotor.numerics.printers import rhs_text
 from lagrotor.numerics.segment import RightHandSide, Stretch, states_on_constraints
 from lagrotor.numerics.source_cache import function_of
-from lagrotor.numerics.taylor import (
-    compiled_solver,
-    dummy_size,
-    heyoka_module,
-    heyoka_sum,
-    taylor_march,
-    taylor_order,
-)
+from lagrotor.numerics.taylor import compiled_solver, dummy_size, heyoka_module, heyoka_sum, taylor_march, taylor_order
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, Coefficients, coefficients
-from lagrotor.structures.exact.exact_motion import (
-    Drive,
-    ExactMotion,
-    LineWatch,
-    forces,
-    pulls,
-    right_side,
-)
+from lagrotor.structures.exact.exact_motion import Drive, ExactMotion, LineWatch, forces, pulls, right_side
 
 Terms = list[Any]
-# Axes and bars beyond which arrays cost less: with massless bars, where each axis is eliminated by itself, and with heavy ones.
+# The most axes and bars for scalar code: with massless bars, which decouple the axes, and with heavy ones.
 _MOST, HEAVY = 40, 15
 _RING = 11  # half bandwidth of a ring
-_SERIES, _SERIES_SLIM = 32, 128  # rotors up to which series are faster; slim: in chains and rings of massless bars
-_WIDE, _NARROW = 100, 512  # rotors of a net, of chains, rings and trees, that compile in about half a minute
+_SERIES, _SERIES_SLIM = 32, 128  # the most rotors for series; slim: chains and rings of massless bars
+_WIDE, _NARROW = 100, 512  # the most rotors of nets, and of chains, rings and trees, that compile in half a minute
 _BETWEEN = 10.0  # radians at the structure's rate between two projections onto the constraints
 
 
 def eliminate_in_levels(
-    diagonal: Sequence[Any],
-    off: Mapping[tuple[int, int], Any],
-    right: Sequence[Any],
-    masses: int,
+    diagonal: Sequence[Any], couplings: Mapping[tuple[int, int], Any], right: Sequence[Any], masses: int,
     add: Callable[[Terms], Any] = sum,
-) -> list[Any]:
+) -> list[Any]:  # fmt: skip
     """Solve a symmetric system by elimination in levels, and return its unknowns.
 
-    off: {(i, j): entry}, each pair once; masses: how many unknowns come first that have a diagonal of their own; those after
-    them are constraints, whose diagonal is zero. add: sums some terms.
+    couplings: {(i, j): entry}, each pair once; masses: the number of leading unknowns with a diagonal. The later unknowns are
+    constraints with a zero diagonal. add: the sum of a list.
     """
     n = len(diagonal)
     pivots, b = [[entry] for entry in diagonal], [[entry] for entry in right]
     rows: list[dict[int, Terms]] = [{} for _ in range(n)]
-    for (i, j), entry in off.items():
+    for (i, j), entry in couplings.items():
         rows[i][j] = rows[j][i] = [entry]
     holds = [{j for j in row if j < masses} if i >= masses else set[int]() for i, row in enumerate(rows)]
-    left, done = set(range(n)), list[tuple[int, Any, Any, dict[int, Any]]]()
-    while left:
-        for i in _level(left, rows, holds):
-            inverse, own = 1.0 / add(pivots[i]), add(b[i])
+    remaining, eliminated = set(range(n)), list[tuple[int, Any, Any, dict[int, Any]]]()
+    while remaining:
+        for i in _level(remaining, rows, holds):
+            inverse, load = 1.0 / add(pivots[i]), add(b[i])
             row = {j: add(terms) for j, terms in rows[i].items()}
             shares = {j: entry * inverse for j, entry in row.items()}
             for j, entry in row.items():
                 pivots[j].append(-(shares[j] * entry))
-                b[j].append(-(shares[j] * own))
+                b[j].append(-(shares[j] * load))
                 del rows[j][i]
-            for one, other in combinations(row, 2):
-                between = -(shares[one] * row[other])
-                if other in rows[one]:
-                    rows[one][other].append(between)
+            for first, second in combinations(row, 2):
+                between = -(shares[first] * row[second])
+                if second in rows[first]:
+                    rows[first][second].append(between)
                 else:
-                    rows[one][other] = rows[other][one] = [between]
-            done.append((i, inverse, own, shares))
-            left.discard(i)
+                    rows[first][second] = rows[second][first] = [between]
+            eliminated.append((i, inverse, load, shares))
+            remaining.discard(i)
     x: list[Any] = [None] * n
-    for i, inverse, own, shares in reversed(done):
-        x[i] = add([own * inverse, *(-(share * x[j]) for j, share in shares.items())])
+    for i, inverse, load, shares in reversed(eliminated):
+        x[i] = add([load * inverse, *(-(share * x[j]) for j, share in shares.items())])
     return x
 
 
-def _level(left: set[int], rows: list[dict[int, Terms]], holds: list[set[int]]) -> list[int]:
-    """Unknowns that can go at once: few neighbours, none of them among each other, no constraint before what it holds.
-
-    At most two more than twice the least number of neighbours: a heavy chain, too, is halved by a few levels.
-    """
-    ready = [i for i in left if not holds[i] & left]
-    most = 2 * min(len(rows[i]) for i in ready) + 2
-    chosen, beside = list[int](), set[int]()
-    for i in sorted((i for i in ready if len(rows[i]) <= most), key=lambda i: (len(rows[i]), i)):
-        if i not in beside:
+def _level(remaining: set[int], rows: list[dict[int, Terms]], holds: list[set[int]]) -> list[int]:
+    """Return independent unknowns with few neighbours (a limit that halves heavy chains), no constraint before its masses."""
+    ready = [i for i in remaining if not holds[i] & remaining]
+    limit = 2 * min(len(rows[i]) for i in ready) + 2
+    chosen, neighbours = list[int](), set[int]()
+    for i in sorted((i for i in ready if len(rows[i]) <= limit), key=lambda i: (len(rows[i]), i)):
+        if i not in neighbours:
             chosen.append(i)
-            beside.update(rows[i])
+            neighbours.update(rows[i])
     return chosen
 
 
 def structure_accelerations(
-    c: Coefficients, r: Any, v: Any, G: Any, by: Any, add: Callable[[Terms], Any] = sum, more: Any = 0.0
+    c: Coefficients, r: Any, v: Any, G: Any, by: Any, add: Callable[[Terms], Any] = sum, external: Any = 0.0
 ) -> list[Any]:
     """Return r'' (3 N) of axes r and rates v, (N, 3), with axial momenta G (N).
 
-    by: a module with sqrt for their kind of number; add: sums a list of them; more: what else acts on the axes, N m.
-    What a structure has not (hinges, friction, heavy bars) costs nothing.
+    by: a module with sqrt for these numbers; add: the sum of a list of them; external: further torques on the axes, N m.
     """
-    N, (r, v, G) = len(c.R), (np.array(each, dtype=object) for each in (r, v, G))
-    right = right_side(c, forces(c, r, v, G, np.frompyfunc(by.sqrt, 1, 1)) + more, v).tolist()
+    N, (r, v, G) = len(c.R), (np.array(values, dtype=object) for values in (r, v, G))
+    right = right_side(c, forces(c, r, v, G, np.frompyfunc(by.sqrt, 1, 1)) + external, v).tolist()
     diagonal = [*np.repeat(c.A, 3).tolist(), *[0.0] * (N + len(c.i))]
-    off: dict[tuple[int, int], Any] = {(3 * i + k, 3 * N + i): r[i, k] for i in range(N) for k in range(3)}
+    couplings: dict[tuple[int, int], Any] = {(3 * i + k, 3 * N + i): r[i, k] for i in range(N) for k in range(3)}
     first, second = pulls(c, r)
     for b, (i, j, coupling) in enumerate(zip(c.i.tolist(), c.j.tolist(), c.coupling.tolist(), strict=True)):
         for k in range(3):
-            off[3 * i + k, 4 * N + b], off[3 * j + k, 4 * N + b] = first[b, k], second[b, k]
+            couplings[3 * i + k, 4 * N + b], couplings[3 * j + k, 4 * N + b] = first[b, k], second[b, k]
             if coupling:
-                off[3 * i + k, 3 * j + k] = coupling
-    return eliminate_in_levels(diagonal, off, right, 3 * N, add)[: 3 * N]
+                couplings[3 * i + k, 3 * j + k] = coupling
+    return eliminate_in_levels(diagonal, couplings, right, 3 * N, add)[: 3 * N]
 
 
 def right_hand_side(motion: ExactMotion) -> RightHandSide:
-    """The right-hand side (s, y) → y' of an exact motion, that of `motion.rhs`: for few rotors in single numbers."""
+    """Return the right-hand side (s, y) → y' of an exact motion, in scalars for few rotors."""
     c = motion.c
     if len(c.R) + len(c.i) > (HEAVY if c.coupling.any() else _MOST):
         return motion.rhs
@@ -146,14 +123,14 @@ def right_hand_side(motion: ExactMotion) -> RightHandSide:
 
 
 def _source(c: Coefficients, forced: bool, shaken: bool) -> str:
-    """Source of (force, ground) → rhs(s, y); forced, shaken: whether there is a force on the tips, a motion of the ground."""
+    """Return the source of (force, ground) → rhs(s, y), with forces on the tips or motion of the ground if they act."""
     N, rate, tape = len(c.R), c.rate, list[Recorded]()
     states, pushes, shakes = ([f"{x}{k}" for k in range(n)] for x, n in (("y", 6 * N), ("p", 3 * N), ("g", 3)))
     y, p, g = (np.array([Recorded(tape, name) for name in names]) for names in (states, pushes, shakes))
     r, v = y.reshape(2, N, 3)
     G = [Recorded(tape, f"({G}*exp({-k / rate}*s))") if k else G for G, k in zip(c.G, c.decay, strict=True)]
-    more = c.R[:, None] * p.reshape(N, 3) * forced - c.S[:, None] * g * shaken
-    accelerations = structure_accelerations(c, r, rate * v, G, operation_recorder, more=more)
+    external = c.R[:, None] * p.reshape(N, 3) * forced - c.S[:, None] * g * shaken
+    accelerations = structure_accelerations(c, r, rate * v, G, operation_recorder, external=external)
     lines, rates = operation_recorder.lines((x / rate**2 for x in accelerations), tape)
     body = [f"{', '.join(states)} = y.tolist()"]
     body += [f"{', '.join(pushes)} = force(s/{rate})"] if forced else []
@@ -163,7 +140,7 @@ def _source(c: Coefficients, forced: bool, shaken: bool) -> str:
 
 
 def runs_by_series(motion: ExactMotion) -> bool:
-    """Whether its Taylor series run a structure fastest."""
+    """Return True if a Taylor series integrates the structure fastest."""
     few = _SERIES if motion.saddle.band > _RING or motion.c.coupling.any() else _SERIES_SLIM
     return len(motion.c.R) <= few
 
@@ -171,10 +148,7 @@ def runs_by_series(motion: ExactMotion) -> bool:
 def integrate_series(
     s: Assembly, motion: ExactMotion, start: Array, times: Array, local: float, companion: bool
 ) -> Stretch:
-    """States (n, 6 N) as of `motion.rhs` at its times, the start at the first of them; steps times order for evaluations.
-
-    companion: by another order. Raises InputError without heyoka, and StopError where it stops.
-    """
+    """Integrate the states (n, 6 N) of `motion.rhs` by Taylor series from the start at the first time."""
     order, watch = taylor_order(local, companion), LineWatch(motion)
     solver = _solver(_without_spins(s), order, get_ident())
     solver.pars[:] = _parameters(motion)
@@ -194,7 +168,7 @@ def integrate_series(
 
 
 def compiled_right_hand_side(s: Assembly, motion: ExactMotion) -> RightHandSide:
-    """(s, y) → y', as `motion.rhs` gives it. Raises InputError without heyoka, and for what takes minutes to compile."""
+    """Return heyoka's (s, y) → y'. Raises InputError without heyoka, and for more rotors than compile in half a minute."""
     N = len(motion.c.R)
     if (_WIDE if motion.saddle.band > _RING else _NARROW) < N:
         raise InputError(
@@ -216,19 +190,19 @@ def _without_spins(s: Assembly) -> Assembly:
 
 @lru_cache(maxsize=16)
 def _solver(bare: Assembly, order: int, thread: int) -> Any:
-    """The integrator of the state (r, r'/rate); parameters: the axial momenta G (N), the rate."""
+    """Return the integrator of the state (r, r'/rate), with the axial momenta G (N) and the rate as parameters."""
     return compiled_solver(_equations(bare), order)
 
 
 @lru_cache(maxsize=16)
 def _compiled(bare: Assembly) -> Any:
-    """heyoka's function of the state; parameters: the axial momenta G (N), the rate."""
+    """Return heyoka's function of the state, with the axial momenta G (N) and the rate as parameters."""
     names, rates = zip(*_equations(bare), strict=True)
     return heyoka_module().cfunc(rates, names, compact_mode=True, fast_math=True)
 
 
 def _equations(bare: Assembly) -> list[tuple[Any, Any]]:
-    """(variable, its rate) of the state, in heyoka's expressions."""
+    """Return (variable, its rate) for the state, in heyoka's expressions."""
     heyoka = heyoka_module()
     c, par = coefficients(bare), heyoka.par
     N = len(c.R)

@@ -1,4 +1,4 @@
-"""What is said of the motion about upright compared with the exact one: growth, boundedness."""
+"""The linear motion about upright compared with the exact one: growth and boundedness."""
 
 from dataclasses import replace
 
@@ -12,37 +12,49 @@ from lagrotor.structures.small_motion import SmallMotion, check_upright, modes, 
 
 
 def measured_growth(s: Assembly, folds: float = 3.0) -> float:
-    """Growth rate (1/s) of the exact motion that starts as the fastest growing mode, over `folds` growth times.
+    """Measure the growth rate of an exact motion that starts as the fastest growing mode.
 
-    The amplitude is the projection on that mode's left vector, so that no other mode contributes.
+    The amplitude is the projection on the left eigenvector of this mode, to which no other mode contributes.
 
-    Raises
-    ------
-    InputError
-        Where nothing grows, and where upright breaks a bar's length.
+    Parameters
+    ----------
+    s : Assembly
+        The structure.
+    folds : float, default 3.0
+        The duration in growth times.
+
+    Returns
+    -------
+    float
+        The growth rate, 1/s.
     """
     check_upright(s, "measured_growth")
     linear, normal = small_motion(s), modes(s)
     root = normal.growth[0] + 1j * normal.rates[0]
     if not root.real > 0:
         raise InputError("measured_growth: nothing grows about upright")
-    shape = 1e-5 * normal.shapes[0]  # tol below is 10⁻⁵ of this tilt
+    shape = 1e-5 * normal.shapes[0]  # the tolerance is 10⁻⁵ of this tilt
     run = simulate_structure(s, [0.0, folds / root.real], shape.real, (root * shape).real, tol=1e-10)
-    roots, left = np.linalg.eig(replace(linear, rate=1.0).first_order.T)
-    w = left[:, np.argmin(np.abs(roots - root))]
+    roots, left_vectors = np.linalg.eig(replace(linear, rate=1.0).first_order.T)
+    w = left_vectors[:, np.argmin(np.abs(roots - root))]
     first, last = (abs(w @ state) for state in _coordinates(linear, run.axes, run.rates).T)
     return float(np.log(last / first) * root.real / folds)
 
 
 def bounded_motion(s: Assembly, turns: float = 20.0) -> tuple[float, float]:
-    """(largest tilt, distance from the linear motion), both over the start's, in an exact run.
+    """Compare an exact run from a random state of size 10⁻⁶ with the linear motion.
 
-    The run lasts `turns` periods of the slowest mode, from a random start of size 10⁻⁶.
+    Parameters
+    ----------
+    s : Assembly
+        The structure.
+    turns : float, default 20.0
+        The duration in periods of the slowest mode.
 
-    Raises
-    ------
-    InputError
-        Where upright breaks a bar's length.
+    Returns
+    -------
+    tuple
+        The largest tilt and the largest distance from the linear motion, both relative to the start.
     """
     from scipy.linalg import expm
 
@@ -62,6 +74,8 @@ def bounded_motion(s: Assembly, turns: float = 20.0) -> tuple[float, float]:
 
 
 def _coordinates(linear: SmallMotion, axes: Array, rates: Array) -> Array:
-    """(q, q') of a run, (2n, times)."""
-    parts = [part[..., :2].swapaxes(0, 1).reshape(part.shape[1], -1) @ linear.basis for part in (axes, rates)]
-    return np.hstack(parts).T
+    """Return (q, q') of a run, (2n, times)."""
+    columns = [
+        vectors[..., :2].swapaxes(0, 1).reshape(vectors.shape[1], -1) @ linear.basis for vectors in (axes, rates)
+    ]
+    return np.hstack(columns).T

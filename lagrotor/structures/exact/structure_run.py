@@ -1,4 +1,4 @@
-"""A structure's run: exact motion from a tilt and its rates, with its error estimate; what it holds, its pictures, its file."""
+"""The run of a structure: its exact motion with an error estimate, its pictures, and its file."""
 
 from dataclasses import asdict, dataclass
 from math import pi
@@ -30,8 +30,36 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class StructureRun(Run):
-    """Axes r_i and rates r_i' (N, n, 3), 1/s; momenta G_i = I3 omega_i (N, n), axial, kg m²/s, which the spins' own friction
-    takes. errors: of an axis, a unit vector."""
+    """The motion of a structure of N rotors and B bars at n times.
+
+    Attributes
+    ----------
+    t : Array
+        The times that were reached, (n,), s.
+    errors : Array
+        The estimated largest error of an axis up to each time, (n,).
+    horizon : float
+        The time from which the error exceeds the tolerance, s.
+    evaluations : int
+        The evaluations of the right-hand side in all integrations.
+    ending : Ending
+        The reason for which the run ended.
+    structure : Assembly
+        The structure.
+    axes : Array
+        The unit vectors of the axes, (N, n, 3).
+    rates : Array
+        The rates of the axes, (N, n, 3), 1/s.
+    momenta : Array
+        The axial momenta I3 ω, which spin friction decreases, (N, n), kg m²/s.
+
+    Examples
+    --------
+    >>> from lagrotor.structures import example
+    >>> run = example("corner").simulate([0.0, 0.5, 1.0], tilt=[[0.01, 0.0]] * 3)
+    >>> run.tips.shape, run.link_length.shape, run.energy.shape
+    ((3, 3, 3), (2, 3), (3,))
+    """
 
     structure: Assembly
     axes: Array
@@ -39,7 +67,13 @@ class StructureRun(Run):
     momenta: Array
 
     def summary(self) -> dict[str, str]:
-        """The structure, the times, and how well the run is known, name → words."""
+        """Return the structure, the times and the error in words.
+
+        Returns
+        -------
+        dict
+            The rows of the table.
+        """
         s, energy = self.structure, self.energy
         return (
             {"structure": f"{len(s.joints)} rotors, {len(s.bars)} bars"}
@@ -49,29 +83,35 @@ class StructureRun(Run):
 
     @property
     def tips(self) -> Array:
-        """Positions of the tips, (N, n, 3), m."""
+        """The positions of the tips, (N, n, 3), m."""
         c = coefficients(self.structure)
         return np.asarray(c.feet[:, None] + c.R[:, None, None] * self.axes)
 
     @property
     def tilt_energy(self) -> Array:
-        """Kinetic energy of the tilting axes and bars, and potential energy, (n,), J."""
+        """The kinetic energy of tilting axes and bars plus the potential energy, (n,), J."""
         return exact_motion(self.structure).energy(self.axes.swapaxes(0, 1), self.rates.swapaxes(0, 1))
 
     @property
     def energy(self) -> Array:
-        """The whole energy, that of the spins included, (n,), J. Constant without friction and drive."""
+        """The total energy with that of the spins, (n,), J. It is conserved without friction and drive."""
         I3 = np.array([rotor.I3 for rotor in self.structure.rotor])
         return np.asarray(self.tilt_energy + (self.momenta**2 / (2 * I3[:, None])).sum(0))
 
     @property
     def link_length(self) -> Array:
-        """Lengths of the bars, (B, n), m."""
+        """The lengths of the bars, (B, n), m."""
         c = coefficients(self.structure)
         return np.asarray(np.linalg.norm(self.tips[c.j] - self.tips[c.i], axis=-1))
 
     def quantities(self) -> dict[str, Quantity]:
-        """axes, rates, tips, energy, link_length, momenta."""
+        """Return the arrays that `save` and the tables contain.
+
+        Returns
+        -------
+        dict
+            axes, rates, tips, energy, link_length and momenta, each a `Quantity`.
+        """
         rotors = "rotor", "t", "component"
         return {
             "axes": Quantity(self.axes, rotors, "1"),
@@ -83,36 +123,50 @@ class StructureRun(Run):
         }
 
     def _about(self) -> dict[str, Any]:
-        """The structure."""
+        """Return the structure as `save` writes it."""
         return {"structure": asdict(self.structure)}
 
     @staticmethod
     def load(path: str | Path) -> "StructureRun":
-        """The run that `save` wrote as `.npz`; its structure is an `Assembly`.
+        """Read a run from a file that `save` wrote.
 
-        Raises
-        ------
-        InputError
-            Where that is not what the file is: not whole, or not a motion of that structure.
+        Parameters
+        ----------
+        path : str or Path
+            The file, .npz.
+
+        Returns
+        -------
+        StructureRun
+            The run. Its structure is an `Assembly`.
         """
-        about, held, known = read_run(path)
+        about, arrays, run_fields = read_run(path)
         try:
             kinds: dict[str, Any] = {"rotor": Rotor, "link": Link, "braces": Brace}
-            given = about["structure"]
-            given |= {name: [kind(**each) for each in given[name]] for name, kind in kinds.items()}
-            s, (axes, rates, momenta) = Assembly(**given), (held[name] for name in ("axes", "rates", "momenta"))
+            structure_fields = about["structure"]
+            structure_fields |= {name: [kind(**row) for row in structure_fields[name]] for name, kind in kinds.items()}
+            s, (axes, rates, momenta) = (
+                Assembly(**structure_fields),
+                (arrays[name] for name in ("axes", "rates", "momenta")),
+            )
         except (KeyError, TypeError, AttributeError, ValueError) as refusal:
             raise InputError(
                 f"load: {path} is no run of a structure ({refusal}): give a file that `save` wrote"
             ) from None
-        shape = (len(s.joints), len(known["t"]), 3)
-        wanted = (axes, shape), (rates, shape), (momenta, shape[:2])
-        if any(part.shape != size or not np.isfinite(part).all() for part, size in wanted):
+        shape = (len(s.joints), len(run_fields["t"]), 3)
+        expected = (axes, shape), (rates, shape), (momenta, shape[:2])
+        if any(array.shape != size or not np.isfinite(array).all() for array, size in expected):
             raise InputError(f"load: {path} is no run: its axes and rates are not finite numbers {shape}")
-        return StructureRun(structure=s, axes=axes, rates=rates, momenta=momenta, **known)
+        return StructureRun(structure=s, axes=axes, rates=rates, momenta=momenta, **run_fields)
 
     def plot(self) -> "Figure":
-        """Tips over time and from above, and the energy: a figure that a notebook shows."""
+        """Draw the tips over time and from above, and the energy.
+
+        Returns
+        -------
+        Figure
+            A figure that a notebook shows.
+        """
         from lagrotor.drawing.run_figure import run_figure
         from lagrotor.drawing.style import OKABE_ITO
 
@@ -121,13 +175,19 @@ class StructureRun(Run):
         return run_figure(self.t, self.tips, self.energy, inks=[OKABE_ITO[ink] for ink in inks], bars=bars)
 
     def animate(self, path: str | Path, fps: float = 25.0) -> Path:
-        """Write the motion as a film, `.gif`, at its own speed, axes between the samples by Hermite cubics; bars
-        grey, braces green, rotors coloured by the sense of their spins.
+        """Write a film of the motion, with bars grey, braces green, and rotors in the colour of their spin.
 
-        Raises
-        ------
-        InputError
-            For a name, a folder or a frame rate that will not do, before anything is drawn.
+        Parameters
+        ----------
+        path : str or Path
+            The file, .gif.
+        fps : float, default 25.0
+            Frames per second. The film has the speed of the motion.
+
+        Returns
+        -------
+        Path
+            The file that was written.
         """
         from lagrotor.drawing.film import animate_lines, check_film, frame_times
 
@@ -137,7 +197,13 @@ class StructureRun(Run):
         return animate_lines(path, times, lines, fps, inks)
 
     def view(self) -> "View":
-        """The motion as a page that a notebook shows, turned by hand and played, without a network; colours as of `animate`."""
+        """Return the motion as an interactive page for a notebook, in the colours of `animate`.
+
+        Returns
+        -------
+        View
+            The page, which needs no network.
+        """
         from lagrotor.drawing.view import view_lines, view_times
 
         times = view_times(float(self.t[0]), float(self.t[-1]))
@@ -146,7 +212,7 @@ class StructureRun(Run):
         return view_lines(times, lines, inks, f"{len(rotors)} rotors, {len(self.structure.bars)} bars", rotors)
 
     def _lines(self, times: Array) -> tuple[list[Array], list[str]]:
-        """Bars, braces, rotors at the times, each (m, 2, 3) in m, and their colours."""
+        """Return bars, braces and rotors at the times, each (m, 2, 3) in m, and their colours."""
         from lagrotor.drawing.wheel import BAR, MARK, ROTORS
         from lagrotor.numerics.rotations import between_samples
 
@@ -165,39 +231,20 @@ _PATIENCE = EvaluationBudget(50_000, 2_000 * 2 * pi)
 
 
 def simulate_structure(
-    s: Assembly,
-    t: ArrayLike,
-    tilt: ArrayLike | None = None,
-    rates: ArrayLike | None = None,
-    drive: Drive | None = None,
-    ground: Drive | None = None,
-    tol: float = 1e-9,
-    engine: Engine = "core",
-) -> StructureRun:
-    """The exact motion from its start, which holds at t[0], read at the increasing times t (n,), s.
-
-    tilt: x and y of the axes' unit vectors (N, 2), or the vectors (N, 3), upright unless given; rates: theirs, 1/s.
-    Both are brought to the nearest state on the bars in the metric of the masses, which `run.axes[:, 0]` and
-    `run.rates[:, 0]` show.
-    drive: t → forces (N, 3) on the tips in N; ground: t → acceleration (3,) of the ground in m/s²; both smooth.
-    tol: the largest error of an axis over the whole run, 1e-13 to 0.1; `run.errors` are its estimate, from two runs at two
-    local errors, held to the energy where it is conserved. A LagrotorWarning says when it exceeds tol, or that the run ended
-    before its last time; it then holds the times up to there. engine: "core", or "fast" with heyoka (`pip install
-    lagrotor[fast]`), which takes some seconds to compile a structure, once for all spins.
-
-    Raises InputError for what makes no sense, ConstraintError for a tilt that the bars do not allow, SingularError
-    where bars and axes are in line, IntegrationError where nothing of the motion can be computed.
-    """
+    s: Assembly, t: ArrayLike, tilt: ArrayLike | None = None, rates: ArrayLike | None = None,
+    drive: Drive | None = None, ground: Drive | None = None, tol: float = 1e-9, engine: Engine = "core",
+) -> StructureRun:  # fmt: skip
+    """Integrate the exact motion of a structure: see `Structure.simulate`."""
     times, tol = check_times("simulate", t), check_tolerance(tol)
     check_engine(engine)
     shape, begin = (len(s.joints), 3), float(times[0])
     drives = [
-        None if given is None else _TriedDrive(given, name, size, times)
-        for given, name, size in ((drive, "drive", shape), (ground, "ground", shape[1:]))
+        None if function is None else _CheckedDrive(function, name, size, times)
+        for function, name, size in ((drive, "drive", shape), (ground, "ground", shape[1:]))
     ]
     if engine == "fast" and any(drives):
         raise InputError("simulate: engine='fast' takes no drive and no motion of the ground: use engine='core'")
-    motion = exact_motion(s, *(each and each.since(begin) for each in drives))
+    motion = exact_motion(s, *(checked and checked.since(begin) for checked in drives))
     c = motion.c
     conserved = not (any(drives) or c.decay.any() or c.friction.any() or c.damping.any())
     evolution = Evolution(
@@ -213,13 +260,13 @@ def simulate_structure(
     )
     try:
         run = estimate_run(evolution, c.rate * (times - begin), tol).by_clock(begin, 1 / c.rate)
-    except StopError as stop:  # at a time without unit
-        for each in filter(None, drives):
-            each.refuse()
+    except StopError as stop:  # its time has no unit
+        for checked in filter(None, drives):
+            checked.refuse()
         at = begin + stop.at / c.rate
         raise StopError(at, stop.reason, evaluations=stop.evaluations, cause=stop.cause) from None
-    for each in filter(None, drives) if run.ending.early else ():
-        each.refuse()
+    for checked in filter(None, drives) if run.ending.early else ():
+        checked.refuse()
     run.warn_unless_kept("the structure's run", tol)
     axes, velocities = motion.axes_and_rates(run.states).swapaxes(1, 2).copy()
     return StructureRun(
@@ -229,7 +276,7 @@ def simulate_structure(
 
 
 def _integration(s: Assembly, motion: ExactMotion, engine: Engine) -> Integrate:
-    """The integration of a stretch by what runs the structure fastest, in the time c.rate t since the start."""
+    """Return the integration of a segment by the fastest method for the structure, in the time c.rate t."""
     if engine == "fast" and compiled_motion.runs_by_series(motion):
         return lambda start, times, local, companion, _: compiled_motion.integrate_series(
             s, motion, start, times, local, companion
@@ -239,33 +286,33 @@ def _integration(s: Assembly, motion: ExactMotion, engine: Engine) -> Integrate:
     def by_steps(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
         watch, begin = LineWatch(motion), float(times[0])
         problem = Problem(watch.observe(rhs), start, budget, project=motion.project, typical_rate=1.0, begin=begin)
-        part = integrate(problem, times, local)
-        watch.keep(float(times[-1]), part.end)
+        stretch = integrate(problem, times, local)
+        watch.keep(float(times[-1]), stretch.end)
         try:
             watch.check()
         except StopError as stop:
-            before = part.states[times < stop.at]
-            stop.reached = Stretch(before, before[-1], part.evaluations)
+            states = stretch.states[times < stop.at]
+            stop.reached = Stretch(states, states[-1], stretch.evaluations)
             raise
-        return part
+        return stretch
 
     return by_steps
 
 
 @dataclass
-class _TriedDrive:
-    """A drive, tried at the times of a run, that gives NaN where what was given fails or gives no finite array of its shape."""
+class _CheckedDrive:
+    """A drive, checked at the times of a run. It gives NaN if the function fails or returns no finite array of its shape."""
 
-    given: Drive
+    function: Drive
     name: str
     shape: tuple[int, ...]
     times: Array
-    why: str = ""
+    failure: str = ""
 
     def __post_init__(self) -> None:
-        if not callable(self.given):
+        if not callable(self.function):
             raise InputError(
-                f"simulate: {self.name} = {self.given!r} must be a function t → array of shape {self.shape}"
+                f"simulate: {self.name} = {self.function!r} must be a function t → array of shape {self.shape}"
             )
         for t in self.times.tolist():
             self(t)
@@ -274,18 +321,18 @@ class _TriedDrive:
     def __call__(self, t: float) -> Array:
         where = f"simulate: {self.name} at t = {t:g}"
         try:
-            return finite_array(where, self.given(t), self.shape)
+            return finite_array(where, self.function(t), self.shape)
         except InputError as error:
-            self.why = str(error)
+            self.failure = str(error)
         except Exception as error:
-            self.why = f"{where} fails with {error!r}"
+            self.failure = f"{where} fails with {error!r}"
         return np.full(self.shape, np.nan)
 
     def since(self, begin: float) -> Drive:
-        """The drive as a function of the time since `begin`."""
+        """Return the drive as a function of the time since `begin`."""
         return lambda t: self(begin + t)
 
     def refuse(self) -> None:
-        """Raises InputError where it has failed."""
-        if self.why:
-            raise InputError(self.why) from None
+        """Raise InputError if the function has failed."""
+        if self.failure:
+            raise InputError(self.failure) from None

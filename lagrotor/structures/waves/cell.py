@@ -1,4 +1,4 @@
-"""A periodic pattern of rotors: one cell, the steps that repeat it, bars and braces within and to other cells."""
+"""A periodic pattern of rotors: one cell, the steps that repeat it, and its bars and braces."""
 
 from cmath import exp
 from collections.abc import Iterator, Sequence
@@ -20,16 +20,7 @@ Site = tuple[int, Shift]  # joint of the cell, and which cell
 
 @dataclass(frozen=True)
 class Cell:
-    """A cell of N rotors repeated along one or two steps (x, y), m; with a turn (rad), each cell is the one before it
-    moved by the step and turned about its own origin: a ring, closed after 2π/turn cells.
-
-    bars: (i, j, shift) from joint i to joint j of the cell that is `shift` steps away, a whole number, or one a step; (i, j)
-    within the cell. braces: (i, j, shift, stiffness, damping), in N/m and N s/m, damping 0 unless given. spins, rotor, load,
-    friction, hinge: one for all, or one a joint; link: one for all, or one a bar; units as of `Structure`. inertia: False for the
-    limit of fast spins, in which tilting has none and only slow precessions are left.
-
-    Raises InputError for a joint, a shift or a step that makes no sense.
-    """
+    """The fields of a pattern, checked, and its finite pieces. `Pattern` documents them."""
 
     joints: tuple[tuple[float, float], ...]
     steps: tuple[tuple[float, float], ...]
@@ -46,30 +37,28 @@ class Cell:
     inertia: bool = True
 
     def __post_init__(self) -> None:
-        put = object.__setattr__
+        assign = object.__setattr__
         if not isinstance(self.inertia, bool):
             raise InputError(f"Pattern: inertia = {self.inertia!r} must be True or False")
         for name in ("joints", "steps"):
-            put(self, name, tuple((float(x), float(y)) for x, y in getattr(self, name)))
+            assign(self, name, tuple((float(x), float(y)) for x, y in getattr(self, name)))
         if len(self.steps) not in (1, 2) or not self.joints:
             raise InputError(
                 f"Pattern: {len(self.joints)} joints and {len(self.steps)} steps: give a joint and one or two steps at least"
             )
         if self.turn and len(self.steps) == 2:
-            raise InputError(
-                f"Pattern: turn = {self.turn:g} rad with two steps: only a row of cells turns; leave one out"
-            )
+            raise InputError(f"Pattern: turn = {self.turn:g} rad with two steps: only a row of cells turns; remove one")
         if len(self.steps) == 2 and abs((complex(*self.steps[0]).conjugate() * complex(*self.steps[1])).imag) < 1e-12:
             raise InputError(f"Pattern: steps = {self.steps} lie along one line: they span no plane")
-        put(self, "bars", tuple(self._ends("bars", k, bar, bar[2:]) for k, bar in enumerate(self.bars)))
-        put(self, "braces", tuple(self._sprung(k, brace) for k, brace in enumerate(self.braces)))
+        assign(self, "bars", tuple(self._ends("bars", k, bar, bar[2:]) for k, bar in enumerate(self.bars)))
+        assign(self, "braces", tuple(self._brace(k, brace) for k, brace in enumerate(self.braces)))
         for name in ("spins", "rotor", "load", "friction", "hinge"):
-            put(self, name, _each(getattr(self, name), len(self.joints), name))
-        put(self, "link", _each(self.link, len(self.bars), "link"))
+            assign(self, name, _each(getattr(self, name), len(self.joints), name))
+        assign(self, "link", _each(self.link, len(self.bars), "link"))
 
-    def _ends(self, what: str, k: int, given: Any, shift: Any) -> tuple[int, int, Shift]:
-        i, j = given[:2]
-        where = f"Pattern: {what}[{k}] = {given!r}"
+    def _ends(self, what: str, k: int, entry: Any, shift: Any) -> tuple[int, int, Shift]:
+        i, j = entry[:2]
+        where = f"Pattern: {what}[{k}] = {entry!r}"
         if not all(isinstance(end, int) and 0 <= end < len(self.joints) for end in (i, j)):
             raise InputError(f"{where}: joints are numbered 0 to {len(self.joints) - 1}")
         steps = shift[0] if shift else (0,) * len(self.steps)
@@ -80,45 +69,84 @@ class Cell:
             raise InputError(f"{where} joins a tip to itself: give two different tips")
         return i, j, cells
 
-    def _sprung(self, k: int, given: Any) -> tuple[int, int, Shift, float, float]:
-        if len(given) not in (4, 5):
-            raise InputError(f"Pattern: braces[{k}] = {given!r} must be (i, j, shift, stiffness, damping)")
+    def _brace(self, k: int, entry: Any) -> tuple[int, int, Shift, float, float]:
+        if len(entry) not in (4, 5):
+            raise InputError(f"Pattern: braces[{k}] = {entry!r} must be (i, j, shift, stiffness, damping)")
         return (
-            *self._ends("braces", k, given, given[2:3]),
-            float(given[3]),
-            float(given[4]) if len(given) > 4 else 0.0,
+            *self._ends("braces", k, entry, entry[2:3]),
+            float(entry[3]),
+            float(entry[4]) if len(entry) > 4 else 0.0,
         )
 
     @property
     def neighbours(self) -> tuple[Site, ...]:
-        """The joints of other cells to which bars and braces lead, each once."""
+        """The joints of other cells at the ends of bars and braces, each once."""
         return tuple(dict.fromkeys((j, shift) for _, j, shift, *_ in (*self.bars, *self.braces) if any(shift)))
 
     def place(self, site: Site) -> tuple[float, float]:
-        """Where a joint of any cell is, m."""
+        """Return the position of a joint of any cell.
+
+        Parameters
+        ----------
+        site : tuple
+            The joint, and the shift of its cell.
+
+        Returns
+        -------
+        tuple
+            The position (x, y), m.
+        """
         shift = site[1]
         z = complex(*self.joints[site[0]])
-        if self.turn:  # the steps so far, each turned once more than the one before it
-            turned = exp(1j * self.turn * shift[0])
-            z = z * turned + complex(*self.steps[0]) * (turned - 1) / (exp(1j * self.turn) - 1)
+        if self.turn:  # each step is turned relative to the previous one
+            rotation = exp(1j * self.turn * shift[0])
+            z = z * rotation + complex(*self.steps[0]) * (rotation - 1) / (exp(1j * self.turn) - 1)
         else:
             z += sum(n * complex(*step) for n, step in zip(shift, self.steps, strict=True))
         return z.real, z.imag
 
     def cells(self, *counts: int) -> list[Shift]:
-        """The cells of a piece, so many along each step, the last step fastest. Raises InputError as `piece` does."""
+        """Return the cells of a piece.
+
+        Parameters
+        ----------
+        *counts : int
+            The number of cells along each step.
+
+        Returns
+        -------
+        list
+            The shifts of the cells; the last step varies fastest.
+        """
         if len(counts) != len(self.steps) or not all(isinstance(n, int | np.integer) and n > 0 for n in counts):
             raise InputError(f"Pattern: piece{counts}: give {len(self.steps)} number(s) of cells, 1 or more")
         return list(product(*map(range, counts)))
 
     def piece(self, *counts: int) -> Structure:
-        """The finite structure of so many cells along each step, its border free; a ring where turn × count is a full turn.
+        """Return a finite piece of the pattern with free borders.
 
-        Joint i of cell n is rotor N n + i, the last step fastest. Raises InputError as `Structure` does.
+        It is a closed ring if turn × count is a full turn. Joint i of cell n is rotor N n + i.
+
+        Parameters
+        ----------
+        *counts : int
+            The number of cells along each step.
+
+        Returns
+        -------
+        Structure
+            The piece.
+
+        Examples
+        --------
+        >>> from lagrotor.structures import polygon_ring
+        >>> ring = polygon_ring(6, spins=20.0).piece(6)
+        >>> len(ring.joints), len(ring.bars)
+        (6, 6)
         """
         if not self.inertia:
             raise InputError(
-                "Pattern: piece: a structure has inertia: leave inertia=False out, and ask for modes(inertia=False)"
+                "Pattern: piece: a structure has inertia: remove inertia=False, and use modes(inertia=False) of the piece"
             )
         ring = bool(self.turn) and abs(abs(self.turn) * counts[0] - 2 * pi) < 1e-9
         cells = self.cells(*counts)
@@ -127,9 +155,9 @@ class Cell:
         def within(joined: Sequence[Any]) -> Iterator[tuple[int, int, int]]:
             for cell in cells:
                 for k, (i, j, shift, *_) in enumerate(joined):
-                    other = tuple((a + b) % counts[0] if ring else a + b for a, b in zip(cell, shift, strict=True))
-                    if (j, other) in number:
-                        yield k, number[i, cell], number[j, other]
+                    far_cell = tuple((a + b) % counts[0] if ring else a + b for a, b in zip(cell, shift, strict=True))
+                    if (j, far_cell) in number:
+                        yield k, number[i, cell], number[j, far_cell]
 
         bars = list(within(self.bars))
         return Structure(
@@ -142,7 +170,18 @@ class Cell:
         )
 
     def strip(self, width: int) -> Self:
-        """Of a pattern with two steps: `width` cells along the second, its borders free, repeated along the first."""
+        """Return a strip of a pattern with two steps, which repeats along the first one.
+
+        Parameters
+        ----------
+        width : int
+            The number of cells along the second step, whose borders are free.
+
+        Returns
+        -------
+        Pattern
+            The strip.
+        """
         if len(self.steps) != 2 or width < 1:
             raise InputError(
                 f"Pattern: strip({width}) of {len(self.steps)} step(s): it needs two, and a width of 1 or more"
@@ -150,20 +189,18 @@ class Cell:
         N = len(self.joints)
 
         def within(joined: Sequence[Any]) -> list[tuple[int, tuple[Any, ...]]]:
-            rows = [(n, k, one) for n in range(width) for k, one in enumerate(joined) if 0 <= n + one[2][1] < width]
-            return [(k, (N * n + i, N * (n + s[1]) + j, (s[0],), *rest)) for n, k, (i, j, s, *rest) in rows]
+            rows = [
+                (n, k, entry) for n in range(width) for k, entry in enumerate(joined) if 0 <= n + entry[2][1] < width
+            ]
+            return [(k, (N * n + i, N * (n + s[1]) + j, (s[0],), *constants)) for n, k, (i, j, s, *constants) in rows]
 
         bars = within(self.bars)
         return type(self)(
-            joints=tuple(self.place((i, (0, n))) for n in range(width) for i in range(N)),
-            steps=self.steps[:1],
-            bars=tuple(bar for _, bar in bars),
-            link=tuple(self.link[k] for k, _ in bars) or Link(),
-            braces=tuple(brace for _, brace in within(self.braces)),
-            gravity=self.gravity,
-            inertia=self.inertia,
+            joints=tuple(self.place((i, (0, n))) for n in range(width) for i in range(N)), steps=self.steps[:1],
+            bars=tuple(bar for _, bar in bars), link=tuple(self.link[k] for k, _ in bars) or Link(),
+            braces=tuple(brace for _, brace in within(self.braces)), gravity=self.gravity, inertia=self.inertia,
             **{name: getattr(self, name) * width for name in ("spins", "rotor", "load", "friction", "hinge")},
-        )
+        )  # fmt: skip
 
 
 def _each(value: Any, count: int, name: str) -> tuple[Any, ...]:

@@ -1,10 +1,8 @@
-"""Bands of a pattern: rates against wave number, growth, gaps, zero bands, long-wave speed.
+"""The bands of a pattern: rates against wave number, growth, gaps, zero bands, and speeds of long waves.
 
-Small motion of a pattern at one wave number: the cell's matrices with the phases of its neighbours.
-
-A joint j in the cell n steps away moves as exp(i q . n) times joint j of the cell, turned by n turns. Mass, damping,
-gyroscopic and stiffness matrices are sums of exp(i q . n) X_n over cells n steps apart, the bars' rows are A(q), a sum alike,
-and the motion is on the null space of A(q). Brillouin, Wave Propagation in Periodic Structures (1946).
+A joint j in the cell n steps away moves as exp(i q . n) times joint j of the cell, rotated by n turns. Mass, damping,
+gyroscopic and stiffness matrices are sums of exp(i q . n) X_n over cells n steps apart. The rows A(q) of the bars are such a
+sum, too, and the motion is on the null space of A(q). Brillouin, Wave Propagation in Periodic Structures (1946).
 """
 
 from collections.abc import Iterator
@@ -24,18 +22,21 @@ from lagrotor.structures.coefficients import Array, Coefficients, Complex, coeff
 from lagrotor.structures.small_motion import Matrix, SmallMotion, bar_rows, left_by, matrices, on_basis
 from lagrotor.structures.waves.cell import Cell, Shift, Site
 
-_SAME = 1e-9  # of the largest rate: a difference below it is none
-_TOGETHER = 64  # wave numbers whose matrices are held at once
-_SMALL = 1e-3  # rad a cell: the largest wave number of long waves
-_ZERO = 1e-12  # of a bar's largest entry: what is left where phases cancel
+_SAME = 1e-9  # relative to the largest rate: smaller differences are zero
+_TOGETHER = 64  # wave numbers per batch
+_SMALL = 1e-3  # the largest wave number of long waves, rad per cell
+_ZERO = 1e-12  # relative to the largest entry: the rounding where phases cancel
 
 
 @dataclass(frozen=True, eq=False)
 class Bloch:
-    """parts (k, 4, 2 N, 2 N): mass, damping, gyroscopic, stiffness between cells that are apart (k, d) steps from each other;
-    rows (m, B, 2 N): those of the cell's bars on the cells that are away (m, d) steps."""
+    """The matrices of a pattern's small motion at any wave number.
 
-    parts: Array
+    blocks (k, 4, 2 N, 2 N): mass, damping, gyroscopic, stiffness between cells `apart` (k, d) steps; rows (m, B, 2 N): the
+    rows of the cell's bars on the cells `away` (m, d) steps.
+    """
+
+    blocks: Array
     apart: Array
     rows: Array
     away: Array
@@ -43,57 +44,44 @@ class Bloch:
     inertia: bool = True
 
     def at(self, q: Array) -> tuple[Matrix, Matrix]:
-        """The four matrices (…, 4, 2 N, 2 N) and the rows (…, B, 2 N) at q (…, d), zero where phases cancel."""
+        """Return the four matrices (…, 4, 2 N, 2 N) and the rows (…, B, 2 N) at q (…, d), zero where phases cancel."""
         rows = _wave_sum(q, self.away, self.rows)
         small = np.abs(rows) < _ZERO * np.abs(self.rows).max(initial=1.0)
-        return _wave_sum(q, self.apart, self.parts), np.where(small, 0, rows)
+        return _wave_sum(q, self.apart, self.blocks), np.where(small, 0, rows)
 
     def motions(self, q: Array) -> Iterator[tuple[NDArray[np.intp], SmallMotion]]:
-        """Of the wave numbers q (n_q, d) those at which the bars leave equally many degrees of freedom, by their places in q,
-        and the linear systems there."""
-        parts, rows = self.at(q)
+        """Yield the wave numbers of equally many degrees of freedom, by their places in q (n_q, d), with their systems."""
+        forms, rows = self.at(q)
         ranks, vectors = left_by(rows)
         for rank in np.unique(ranks):
             (places,) = np.nonzero(ranks == rank)
-            motion = on_basis(parts[places], vectors[places, :, rank:], self.rate)
+            motion = on_basis(forms[places], vectors[places, :, rank:], self.rate)
             yield places, motion if self.inertia else motion.without_inertia
 
 
-def _wave_sum(q: Array, steps: Array, parts: Array) -> Matrix:
-    """The sum of exp(i q . n) X_n."""
-    return np.asarray(np.tensordot(np.exp(1j * q @ steps.T), parts, 1))
+def _wave_sum(q: Array, steps: Array, blocks: Array) -> Matrix:
+    """Return the sum of exp(i q . n) X_n."""
+    return np.asarray(np.tensordot(np.exp(1j * q @ steps.T), blocks, 1))
 
 
 def bloch(p: Cell) -> Bloch:
-    """The matrices of a pattern's small motion at any wave number.
-
-    Raises
-    ------
-    InputError
-        For what `Structure` refuses in a cell and its neighbours.
-    """
+    """Return the matrices of a pattern's small motion at any wave number."""
     away, (c, rate) = p.neighbours, cell_coefficients(p)
     places = dict.fromkeys([(0,) * len(p.steps), *(shift for _, shift in away)])
     of = {place: _copies(p, away, place) for place in places}
     whole, rows = matrices(c), bar_rows(c)
-    parts = dict[tuple[int, ...], Array]()
-    for (one, left), (other, right) in product(of.items(), repeat=2):
-        apart = tuple(b - a for a, b in zip(one, other, strict=True))
-        parts[apart] = parts.get(apart, 0) + left.T @ whole @ right
-    between = np.array([*parts.values()])
+    blocks = dict[tuple[int, ...], Array]()
+    for (start, left_copies), (end, right_copies) in product(of.items(), repeat=2):
+        shift = tuple(b - a for a, b in zip(start, end, strict=True))
+        blocks[shift] = blocks.get(shift, 0) + left_copies.T @ whole @ right_copies
+    between = np.array([*blocks.values()])
     between[:, 0] *= p.inertia
-    return Bloch(
-        between,
-        np.array([*parts], dtype=float),
-        np.array([rows @ copies for copies in of.values()]),
-        np.array([*of], dtype=float),
-        rate,
-        p.inertia,
-    )
+    apart, away_rows = np.array([*blocks], dtype=float), np.array([rows @ copies for copies in of.values()])
+    return Bloch(between, apart, away_rows, np.array([*of], dtype=float), rate, p.inertia)
 
 
 def cell_coefficients(p: Cell) -> tuple[Coefficients, float]:
-    """The numbers of one cell, the joints of other cells to which its bars and braces lead after its own; the rate of all."""
+    """Return the coefficients of one cell followed by the joints of its neighbours, and the rate of all."""
     N, away = len(p.joints), p.neighbours
     whose = np.array([*range(N), *(j for j, _ in away)])
     number = {(j, shift): N + k for k, (j, shift) in enumerate(away)}
@@ -102,25 +90,21 @@ def cell_coefficients(p: Cell) -> tuple[Coefficients, float]:
         return number.get((j, shift), j)
 
     bars: Any = tuple((i, end(j, shift)) for i, j, shift in p.bars)
-    own = {name: (*getattr(p, name), *[0.0] * len(away)) for name in ("spins", "load", "friction", "hinge")}
+    loads = {name: (*getattr(p, name), *[0.0] * len(away)) for name in ("spins", "load", "friction", "hinge")}
     cell = Assembly(
-        joints=(*p.joints, *(p.place(site) for site in away)),
-        bars=bars,
-        rotor=tuple(p.rotor[j] for j in whose),
-        link=p.link,
-        gravity=p.gravity,
-        braces=tuple(Brace(i, end(j, shift), k, d) for i, j, shift, k, d in p.braces),
-        **own,
-    )
+        joints=(*p.joints, *(p.place(site) for site in away)), bars=bars, rotor=tuple(p.rotor[j] for j in whose),
+        link=p.link, gravity=p.gravity, braces=tuple(Brace(i, end(j, shift), k, d) for i, j, shift, k, d in p.braces),
+        **loads,
+    )  # fmt: skip
     c, copied = coefficients(cell), np.arange(len(whose)) >= N
-    # A neighbour has its own rotor's inertia and weight in its own cell: here only the bars' share is left.
+    # The rotors of neighbours belong to their cells: only the bars contribute here.
     A = c.A - copied * [rotor.J for rotor in cell.rotor]
     S = c.S - copied * [rotor.mass * rotor.length / 2 for rotor in cell.rotor]
     return replace(c, A=A, S=S), c.rate
 
 
 def _copies(p: Cell, away: tuple[Site, ...], place: Shift) -> Array:
-    """The joints of the cell at one place as turned copies of the pattern's, (2 n, 2 N), the others zero."""
+    """Return the joints of the cell at one place as rotated copies of the pattern's, (2 n, 2 N), the others zero."""
     N = len(p.joints)
     copies = np.zeros((N + len(away), 2, N, 2))
     c, s = cos(place[0] * p.turn), sin(place[0] * p.turn)
@@ -132,12 +116,12 @@ def _copies(p: Cell, away: tuple[Site, ...], place: Shift) -> Array:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Dispersion(Shown):
-    """Waves u = Re(shape exp(i (q . n − rate t) + growth t)) of cell n, at q (n_q, d) in rad a cell.
+    """The waves u = Re(shape exp(i (q . n − rate t) + growth t)) of cell n, at q (n_q, d) in rad per cell.
 
-    rates (n_q, n_bands) in rad/s and growth (n_q, n_bands) in 1/s: half of the 2 f roots at q, those of the larger rates, in
-    rising order; the others are the waves of −q, conjugate. shapes (n_q, n_bands, N, 2). dof (n_q,): the f that the
-    bars leave at q, without inertia half of them; n_bands is their most, and where there are fewer the row ends in nan.
-    zero_bands: where the bars leave the fewest degrees of freedom, those on which neither spins nor springs nor weight act.
+    rates (n_q, n_bands) in rad/s, ascending, and growth in 1/s: the half of the roots at q with the larger rates; the others
+    are the conjugate waves of −q. shapes (n_q, n_bands, N, 2). dof (n_q,): the number of bands at q; rows with fewer bands
+    than n_bands end in nan. zero_bands: the number of degrees of freedom without spins, springs and weight, at the q with the
+    fewest degrees of freedom.
     """
 
     pattern: Cell
@@ -149,7 +133,7 @@ class Dispersion(Shown):
     zero_bands: int
 
     def summary(self) -> dict[str, str]:
-        """Bands, gaps and whether a wave grows, name → words."""
+        """Return bands, gaps and growth in words."""
         gaps = ", ".join(f"{low:.4g} to {high:.4g}" for low, high in self.gaps) or "none"
         return {
             "wave numbers": str(len(self.q)),
@@ -160,7 +144,7 @@ class Dispersion(Shown):
 
     @property
     def gaps(self) -> tuple[tuple[float, float], ...]:
-        """Intervals (low, high) of rates, rad/s, between zero and the highest rate, that no band enters at the q given."""
+        """The intervals (low, high) between zero and the highest rate without a band at these q, rad/s."""
         if not self.rates.size:
             return ()
         low, high = np.nanmin(self.rates, axis=0), np.nanmax(self.rates, axis=0)
@@ -173,45 +157,37 @@ class Dispersion(Shown):
 
     @property
     def falls(self) -> bool:
-        """Whether some wave grows."""
+        """True if some wave grows."""
         return bool((self.growth > 0).any())
 
 
 def dispersion(p: Cell, q: ArrayLike) -> Dispersion:
-    """The bands of a pattern at the wave numbers q, (n_q,) for one step, (n_q, d) for d steps, in rad a cell.
-
-    The bars hold as constraints, so that only what they leave at q moves; a bar that stretches is a stiff brace.
-
-    Raises
-    ------
-    InputError
-        For a q of another shape.
-    """
+    """Compute the bands at the wave numbers q: see `Pattern.dispersion`."""
     d = len(p.steps)
     points = finite_array("dispersion: q", q)
     points = points[:, None] if points.ndim == 1 and d == 1 else points
     if points.ndim != 2 or points.shape[1] != d or not len(points):
-        raise InputError(f"dispersion: q must be numbers (n_q, {d}) in rad a cell, not of shape {points.shape}")
-    b, most = bloch(p), 2 * len(p.joints)
-    rates, growth = np.full((2, len(points), most), np.nan)
-    shapes = np.full((len(points), most, most), np.nan, dtype=complex)
+        raise InputError(f"dispersion: q must be numbers (n_q, {d}) in rad per cell, not of shape {points.shape}")
+    b, size = bloch(p), 2 * len(p.joints)
+    rates, growth = np.full((2, len(points), size), np.nan)
+    shapes = np.full((len(points), size, size), np.nan, dtype=complex)
     dof, still = np.zeros(len(points), dtype=int), dict[int, int]()
     for first in range(0, len(points), _TOGETHER):
         for places, motion in b.motions(points[first : first + _TOGETHER]):
-            here, f = first + places, motion.bands
-            dof[here], still[f] = f, min(still.get(f, f), _still(motion))
+            indices, f = first + places, motion.bands
+            dof[indices], still[f] = f, min(still.get(f, f), _still(motion))
             if f:
                 s, vectors = motion.waves
                 u = (motion.basis @ vectors).swapaxes(-1, -2)
                 u = u / np.linalg.norm(u, axis=-1, keepdims=True)
-                rates[here, :f], growth[here, :f], shapes[here, :f] = _faster(s, u)
+                rates[indices, :f], growth[indices, :f], shapes[indices, :f] = _faster(s, u)
     n = int(dof.max())
-    kept = shapes[:, :n].reshape(len(points), n, len(p.joints), 2)
-    return Dispersion(p, points, rates[:, :n], growth[:, :n], kept, dof, still[min(still)])
+    bands = shapes[:, :n].reshape(len(points), n, len(p.joints), 2)
+    return Dispersion(p, points, rates[:, :n], growth[:, :n], bands, dof, still[min(still)])
 
 
 def _still(motion: SmallMotion) -> int:
-    """How many degrees of freedom nothing acts on, the fewest of the wave numbers."""
+    """Return the number of degrees of freedom without forces, the least of the wave numbers."""
     acting = np.concatenate(
         [motion.stiffness / motion.rate**2, (motion.gyroscopic + motion.damping) / motion.rate], axis=-2
     )
@@ -222,19 +198,17 @@ def _still(motion: SmallMotion) -> int:
 
 
 def _faster(s: Complex, shapes: Complex) -> tuple[Array, Array, Complex]:
-    """Rates, growth (n_q, f), shapes (n_q, f, 2 N) of the half with the larger rates, in rising order."""
-    kept = np.lexsort((s.real, -s.imag), axis=-1)[:, s.shape[-1] // 2 :]
-    s = np.take_along_axis(s, kept, -1)
-    return 0.0 - s.imag, s.real, np.take_along_axis(shapes, kept[..., None], -2)
+    """Return rates, growth (n_q, f) and shapes (n_q, f, 2 N) of the half with the larger rates, ascending."""
+    half = np.lexsort((s.real, -s.imag), axis=-1)[:, s.shape[-1] // 2 :]
+    s = np.take_along_axis(s, half, -1)
+    return 0.0 - s.imag, s.real, np.take_along_axis(shapes, half[..., None], -2)
 
 
 def long_wave_speeds(p: Cell, direction: ArrayLike = (1.0,)) -> Array:
-    """Speeds dω/d|k| (m/s) at q → 0 along a direction (d,) of the bands of p that begin there at rate zero in proportion to q;
-    k . step = q. Fourth order in q, of which 10⁻³ rad a cell is the largest.
-    """
-    along = np.asarray(direction, dtype=float)
-    along = along / np.abs(along).max()
-    k = np.linalg.norm(np.linalg.lstsq(np.array(p.steps), along, rcond=None)[0])
-    half, whole = dispersion(p, np.array([[_SMALL / 2], [_SMALL]]) * along).rates
+    """Return the speeds of long waves: see `Pattern.long_wave_speeds`."""
+    unit = np.asarray(direction, dtype=float)
+    unit = unit / np.abs(unit).max()
+    k = np.linalg.norm(np.linalg.lstsq(np.array(p.steps), unit, rcond=None)[0])
+    half, whole = dispersion(p, np.array([[_SMALL / 2], [_SMALL]]) * unit).rates
     linear = (half > 0) & (np.abs(whole / np.where(half > 0, 2 * half, 1) - 1) < 1e-3)
     return np.asarray((8 * half - whole)[linear] / (3 * _SMALL * k))

@@ -1,15 +1,15 @@
-"""Waves of a pattern beyond the linear ones: how their rate shifts with amplitude, and where three of them meet.
+"""Nonlinear waves of a pattern: the shift of their rate with amplitude, and the resonances of three waves.
 
 Whitham's averaged Lagrangian: with u = sum_j Re(a_j s_j exp(i θ_j)) + …, θ_j = q_j . n − ω_j t, the mean of L over cells and
 phases is
 
     ⟨L⟩ = sum_j g_j(ω_j) |z_j|² + terms of third and fourth order,    z_j = a_j/2,    g = s†(ω² M + i ω C − K) s.
 
-A cell n steps away has each product of exponentials times exp(i q . n), a time derivative times −i ω, so that the exact
-Lagrangian, bars put in as in `upright_hamiltonian`, is a polynomial in z_j. One wave: what it forces at (0, 0) and (2 q, 2 ω), b,
-makes ⟨L⟩ = c |z|⁴ + f(b) + b·B b/2 stationary, and ∂⟨L⟩/∂|z|² = 0 gives ω = ω₀ − 2 (c − f·B⁻¹f/2) |z|²/g'. Three waves with
-q₁ + q₂ = q₃, ω₁ + ω₂ = ω₃ and ⟨L⟩₃ = 2 Re(v z₁ z₂ z̄₃): g₃' z₃' = i v z₁ z₂, g₁' z₁' = i v̄ z₃ z̄₂.
-Whitham, Linear and Nonlinear Waves (1974), chs. 14, 15; Craik, Wave Interactions and Fluid Flows (1985), ch. 5.
+A cell n steps away multiplies each product of exponentials by exp(i q . n), and a time derivative by −i ω. The exact
+Lagrangian, with bars as in `upright_hamiltonian`, is therefore a polynomial in z_j. One wave: the forced amplitudes b at (0, 0)
+and (2 q, 2 ω) make ⟨L⟩ = c |z|⁴ + f(b) + b·B b/2 stationary, and ∂⟨L⟩/∂|z|² = 0 gives ω = ω₀ − 2 (c − f·B⁻¹f/2) |z|²/g'. Three
+waves with q₁ + q₂ = q₃, ω₁ + ω₂ = ω₃ and ⟨L⟩₃ = 2 Re(v z₁ z₂ z̄₃): g₃' z₃' = i v z₁ z₂, g₁' z₁' = i v̄ z₃ z̄₂. Whitham, Linear
+and Nonlinear Waves (1974), chs. 14, 15; Craik, Wave Interactions and Fluid Flows (1985), ch. 5.
 """
 
 from collections.abc import Sequence
@@ -31,24 +31,24 @@ from lagrotor.structures.upright_hamiltonian import Row, axis_of, combined, on_b
 from lagrotor.structures.waves.cell import Cell
 from lagrotor.structures.waves.dispersion import Bloch, bloch, cell_coefficients, dispersion
 
-_ZERO = 1e-9  # of the largest: what is smaller is none
-_POINTS = 181  # wave numbers between which triads are sought
-_SAME = 1e-7  # of the highest rate: a detuning below it is none
+_ZERO = 1e-9  # relative to the largest: smaller values are zero
+_POINTS = 181  # wave numbers of the search for triads
+_SAME = 1e-7  # relative to the highest rate: smaller detunings are zero
 
 
 @dataclass(frozen=True, eq=False)
 class _Phases:
-    """What each variable of the polynomials carries: exp(i (q . n − rate t)) with q (m, d) and rate (m,)."""
+    """The factor exp(i (q . n − rate t)) of each variable of the polynomials, with q (m, d) and rate (m,)."""
 
     q: Array
     rate: Array
 
     def apart(self, f: Polynomial, shift: tuple[int, ...]) -> Polynomial:
-        """The same of the cell `shift` steps away."""
+        """Return the polynomial of the cell `shift` steps away."""
         return f.times(np.exp(1j * (f.exponents @ self.q @ np.array(shift))))
 
     def slope(self, f: Polynomial) -> Polynomial:
-        """Its time derivative."""
+        """Return the time derivative."""
         rates = f.exponents @ self.rate
         return f.where(rates != 0).times(-1j * rates[rates != 0])
 
@@ -72,11 +72,13 @@ def _wave(p: Cell, b: Bloch, q: ArrayLike, band: int) -> _Wave:
     rates = np.concatenate([-d.rates[1, n - 1 :: -1], d.rates[0, :n]])
     rate, growth = float(rates[n + band]), float(d.growth[below, -1 - band if below else band])
     if not rate > 0 or growth:
-        other = f"it is band {-1 - band} of −q" if rate < 0 else "take another"
-        raise InputError(f"nonlinear waves: {where} has the rate {rate:g} rad/s and grows by {growth:g} 1/s: {other}")
-    beside = (np.abs(rates - rate) < _SAME * np.abs(rates).max()).sum()
-    if beside > 1:
-        raise InputError(f"nonlinear waves: {where}: {beside} waves have its rate, {rate:g} rad/s: which is not said")
+        hint = f"it is band {-1 - band} of −q" if rate < 0 else "take another"
+        raise InputError(f"nonlinear waves: {where} has the rate {rate:g} rad/s and grows by {growth:g} 1/s: {hint}")
+    degenerate = (np.abs(rates - rate) < _SAME * np.abs(rates).max()).sum()
+    if degenerate > 1:
+        raise InputError(
+            f"nonlinear waves: {where}: {degenerate} waves have this rate, {rate:g} rad/s, and are not distinguished"
+        )
     s = d.shapes[1, -1 - band].conj() if below else d.shapes[0, band]
     largest = max(np.linalg.svd(np.array([x.real, x.imag]), compute_uv=False)[0] for x in s)
     shape = (s / largest).ravel()
@@ -86,19 +88,18 @@ def _wave(p: Cell, b: Bloch, q: ArrayLike, band: int) -> _Wave:
 
 def _bloch_without_friction(p: Cell) -> Bloch:
     if not p.inertia:
-        raise InputError("nonlinear waves: inertia=False is of first order alone: keep the inertia")
+        raise InputError("nonlinear waves: inertia=False is a linear limit: keep the inertia")
     if any(p.friction) or any(brace[4] for brace in p.braces):
-        raise InputError("nonlinear waves: friction or damping: the waves die; leave it out")
+        raise InputError("nonlinear waves: with friction or damping the waves decay; set them to zero")
     return bloch(p)
 
 
 def _averaged(p: Cell, b: Bloch, u: Row, phases: _Phases, order: int) -> tuple[Polynomial, list[Row]]:
-    """The Lagrangian (J a cell) of the field u (2N polynomials) through an order, those of its terms whose phases add up to none
-    in n, and x, y, z of the axes of the cell and its neighbours."""
+    """Return the averaged Lagrangian (J per cell) of the field u (2N polynomials), and x, y, z of all axes."""
     c, _ = cell_coefficients(p)
 
-    def axes_of(own: Row) -> list[Row]:
-        axes = [axis_of(own[k : k + 2], order) for k in range(0, len(own), 2)]
+    def axes_of(tips: Row) -> list[Row]:
+        axes = [axis_of(tips[k : k + 2], order) for k in range(0, len(tips), 2)]
         for j, shift in p.neighbours:
             x, y, z = (phases.apart(f, shift) for f in axes[j])
             turn = p.turn * shift[0]
@@ -107,19 +108,19 @@ def _averaged(p: Cell, b: Bloch, u: Row, phases: _Phases, order: int) -> tuple[P
         return axes
 
     def back(bound: Row) -> Row:
-        moved = list[list[Polynomial]]()
+        rows = list[list[Polynomial]]()
         for k, f in enumerate(bound):
             by = np.linalg.pinv(b.at(f.exponents @ phases.q)[1], rcond=1e-10)[:, :, k]
-            moved.append([f.times(column) for column in by.T])
-        return [total([row[k] for row in moved]) for k in range(len(u))]
+            rows.append([f.times(column) for column in by.T])
+        return [total([row[k] for row in rows]) for k in range(len(u))]
 
     axes = on_bars(c, u, axes_of, back, order)
     for k in range(len(c.i)):
-        left = over_length(c, axes, k, order - 1).coefficients
-        if np.abs(left).max(initial=0) > _ZERO * c.ell[k]:
+        residual = over_length(c, axes, k, order - 1).coefficients
+        if np.abs(residual).max(initial=0) > _ZERO * c.ell[k]:
             raise InputError(
-                "nonlinear waves: the bars hold the wave to first order only: what it shortens them by is not made up for, as "
-                "in a straight row of bars; put springs (braces) for bars, or close the row to a ring"
+                "nonlinear waves: the bars keep their lengths to first order only, as in a straight row of bars; replace the "
+                "bars by springs (braces), or close the row to a ring"
             )
     L = _kinetic(c, axes, phases, order) - potential_of(c, axes, order)
     e = np.exp(1j * (L.exponents @ phases.q))
@@ -127,7 +128,7 @@ def _averaged(p: Cell, b: Bloch, u: Row, phases: _Phases, order: int) -> tuple[P
 
 
 def _kinetic(c: Coefficients, axes: list[Row], phases: _Phases, order: int) -> Polynomial:
-    """½ sum_ij A_ij r_i'·r_j' − sum_i G_i (x_i y_i' − y_i x_i')/(1 + z_i)."""
+    """Return ½ sum_ij A_ij r_i'·r_j' − sum_i G_i (x_i y_i' − y_i x_i')/(1 + z_i)."""
     rates = [[phases.slope(f) for f in axis] for axis in axes]
     pairs = [(i, i, A / 2) for i, A in enumerate(c.A)] + list(zip(c.i, c.j, c.coupling, strict=True))
     terms = [
@@ -142,12 +143,12 @@ def _kinetic(c: Coefficients, axes: list[Row], phases: _Phases, order: int) -> P
 
 @dataclass(frozen=True, eq=False, repr=False)
 class NonlinearWave(Shown):
-    """A wave u = Re(a shape e^{iθ}) + a² (mean + Re(harmonic e^{2iθ})) + O(a³) of cell n, θ = q . n − (rate + shift a²) t.
+    """A wave u = Re(a shape e^{iθ}) + a² (mean + Re(harmonic e^{2iθ})) + O(a³), θ = q . n − (rate + shift a²) t.
 
-    a: the largest tilt (its sine) of an axis in the first part. rate in rad/s, shift in rad/s; what is left out of the rate is of
-    fourth order in a. shape, mean, harmonic (N, 2). detuning: how far the nearest wave of 2 q is from 2 × rate, rad/s, inf where
-    there is none. energy_sign: −1 of a wave with less energy than rest. tips: x and y of each axis, polynomials in z, z̄ and b
-    with the multiples of θ that these carry; forced: b/z².
+    a: the largest tilt (its sine) of an axis in the first term. rate, shift in rad/s; the rate has an error O(a⁴). shape,
+    mean, harmonic (N, 2). detuning: the distance of 2 × rate from the nearest wave of 2 q, rad/s, inf if there is none.
+    energy_sign: −1 if the wave has less energy than the equilibrium. tips: x and y of each axis, polynomials in z, z̄ and b
+    with `multiples` of θ; forced: b/z².
     """
 
     pattern: Cell
@@ -165,35 +166,20 @@ class NonlinearWave(Shown):
 
     @property
     def trusted(self) -> float:
-        """The largest amplitude at which mean and harmonic are at most a fifth of the first part, or ⅕.
-
-        There the rest may be as large as the shift where this is small by cancellation.
-        """
+        """The largest amplitude at which mean and harmonic are at most a fifth of the first term, or ⅕."""
         return float(0.2 / max(1.0, np.abs(self.mean).max(), np.abs(self.harmonic).max()))
 
     def rate_at(self, amplitude: float) -> float:
-        """rate + shift a², rad/s.
-
-        Raises
-        ------
-        InputError
-            For an amplitude that is not from 0 to `trusted`.
-        """
+        """Return rate + shift a², rad/s. Raises InputError for an amplitude beyond `trusted`."""
         if not 0 <= finite_number(amplitude, "NonlinearWave: amplitude", "1") <= self.trusted:
             raise InputError(
-                f"NonlinearWave: amplitude = {amplitude!r} must be from 0 to {self.trusted:.3g}: beyond, the mean and the second "
-                "harmonic are no longer small; simulate it"
+                f"NonlinearWave: amplitude = {amplitude!r} must be from 0 to {self.trusted:.3g}: above, the mean and the second "
+                "harmonic are not small; simulate it"
             )
         return self.rate + self.shift * amplitude**2
 
     def state(self, *counts: int, amplitude: float) -> tuple[Array, Array]:
-        """Tilts and rates (n, 2) at t = 0 of the rotors of `pattern.piece(*counts)` in this wave, through second order.
-
-        Raises
-        ------
-        InputError
-            As `rate_at`.
-        """
+        """Return tilts and rates (n, 2) at t = 0 of the rotors of `pattern.piece(*counts)`, through second order."""
         omega = self.rate_at(amplitude)
         point = np.array([1, 1, *self.forced * amplitude / 2]) * amplitude / 2
         cells = np.array(self.pattern.cells(*counts))
@@ -207,7 +193,7 @@ class NonlinearWave(Shown):
         return tuple(np.stack([u.real, u.imag], -1).reshape(-1, 2) for u in around)  # type: ignore[return-value]
 
     def summary(self) -> dict[str, str]:
-        """Rate, shift and the second harmonic, name → words."""
+        """Return rate, shift and second harmonic in words."""
         return {
             "rate": f"{self.rate:.8g} rad/s",
             "shift": f"{self.shift:.6g} a² rad/s, a the largest tilt, up to {self.trusted:.3g}",
@@ -217,23 +203,7 @@ class NonlinearWave(Shown):
 
 
 def nonlinear_wave(p: Cell, q: ArrayLike, band: int) -> NonlinearWave:
-    """A wave through second order, its rate through third.
-
-    Parameters
-    ----------
-    p : Cell
-        The pattern.
-    q : array_like
-        (d,), rad a cell.
-    band : int
-        As `dispersion` numbers them at q; −1 − k is the wave k of −q where its rate there is below zero.
-
-    Raises
-    ------
-    InputError
-        With friction, for a wave without a rate or one that grows, where bars do not allow it beyond first order, and
-        where what it forces, its mean or second harmonic, is in resonance.
-    """
+    """Expand a wave in its amplitude: see `Pattern.nonlinear_wave`."""
     b = _bloch_without_friction(p)
     wave = _wave(p, b, q, band)
     still, twice = (next(b.motions(m * wave.q[None]))[1] for m in (0, 2))
@@ -242,17 +212,17 @@ def nonlinear_wave(p: Cell, q: ArrayLike, band: int) -> NonlinearWave:
     phases = _Phases(np.outer(multiples, wave.q), multiples * wave.rate)
     L, axes = _averaged(p, b, [linear_form(row) for row in np.hstack(bases)], phases, 4)
     L = L.where(L.exponents @ multiples == 0)
-    own, forcing, curvature = _by_what_is_forced(L)
+    quartic, forcing, curvature = _forced_terms(L)
     forced = -np.linalg.pinv(curvature, rcond=_ZERO) @ forcing
     if np.abs(curvature @ forced + forcing).max(initial=0) > 1e-6 * np.abs(forcing).max(initial=0):
         raise InputError(
             f"nonlinear_wave: at q = {wave.q.tolist()} the mean or the second harmonic that the wave forces is itself a "
-            "wave, and grows with time: move q"
+            "wave, and grows with time: change q"
         )
-    shift = -(own + forcing @ forced / 2).real / (2 * wave.slope)
+    shift = -(quartic + forcing @ forced / 2).real / (2 * wave.slope)
     tips = tuple(f for axis in axes[: len(p.joints)] for f in axis[:2])
     point: Complex = np.array([0.5, 0.5, *forced / 4], dtype=complex)
-    mean, harmonic = (_part(tips, multiples, point, m) for m in (0, 2))
+    mean, harmonic = (_terms_of_phase(tips, multiples, point, m) for m in (0, 2))
     nearest = np.abs(-twice.roots.imag - 2 * wave.rate).min(initial=np.inf)
     return NonlinearWave(
         p, wave.q, wave.rate, float(shift), wave.shape.reshape(-1, 2), mean.real, 2 * harmonic, float(nearest),
@@ -261,40 +231,40 @@ def nonlinear_wave(p: Cell, q: ArrayLike, band: int) -> NonlinearWave:
 
 
 def wave_amplitude(p: Cell, run: StructureRun, counts: Sequence[int], q: ArrayLike, band: int) -> Complex:
-    """a e^{−iωt}, (n,), of a linear wave in the run of `pattern.piece(*counts)`: u = Re(a shape e^{i(q . n − ωt)}) + other waves.
+    """Measure the amplitude of a linear wave in a run of a piece, by the symplectic product.
 
-    By the symplectic product of the wave with the run.
+    The motion is u = Re(a shape e^{i(q . n − ωt)}) + other waves.
 
     Parameters
     ----------
-    p : Cell
+    p : Pattern
         The pattern.
     run : StructureRun
-        Of the piece.
+        A run of `p.piece(*counts)`.
     counts : sequence
-        Of its cells.
+        The number of cells along each step.
     q : array_like
-        (d,), rad a cell.
+        The wave number (d,), rad per cell.
     band : int
-        As in `nonlinear_wave`.
+        The band, as in `Pattern.nonlinear_wave`.
 
-    Raises
-    ------
-    InputError
-        As `nonlinear_wave`, and for a run of another piece.
+    Returns
+    -------
+    Complex
+        The amplitude a e^{−iωt} at each time, (n,).
     """
     b = _bloch_without_friction(p)
     wave, cells = _wave(p, b, q, band), np.array(p.cells(*counts))
     if len(run.axes) != len(cells) * len(p.joints):
         raise InputError(f"wave_amplitude: the run has {len(run.axes)} rotors, piece{tuple(counts)} another number")
-    back = np.exp(-1j * (p.turn * cells[:, 0]))[:, None, None]
+    rotation = np.exp(-1j * (p.turn * cells[:, 0]))[:, None, None]
     U, V = (
         np.tensordot(np.exp(-1j * cells @ wave.q), np.stack([x.real, x.imag], -1), 1)
         .swapaxes(0, 1)
         .reshape(len(run.t), -1)
         / len(cells)
         for f in (run.axes, run.rates)
-        for x in [(f[..., 0] + 1j * f[..., 1]).reshape(len(cells), len(p.joints), -1) * back]
+        for x in [(f[..., 0] + 1j * f[..., 1]).reshape(len(cells), len(p.joints), -1) * rotation]
     )
     (M, _, C, _), _ = b.at(wave.q)
     momentum = M @ (-1j * wave.rate * wave.shape) + C @ wave.shape / 2
@@ -302,37 +272,37 @@ def wave_amplitude(p: Cell, run: StructureRun, counts: Sequence[int], q: ArrayLi
     return np.asarray(2j * product_of / wave.slope)
 
 
-def _part(tips: tuple[Polynomial, ...], multiples: Array, point: Complex, m: int) -> Complex:
-    """The terms of second order with the phase m θ, (N, 2)."""
+def _terms_of_phase(tips: tuple[Polynomial, ...], multiples: Array, point: Complex, m: int) -> Complex:
+    """Return the terms of second order with the phase m θ, (N, 2)."""
     order = np.where(np.arange(len(multiples)) < 2, 1, 2)
-    parts = [f.where((f.exponents @ order == 2) & (f.exponents @ multiples == m)).at(point) for f in tips]
-    return np.reshape(parts, (-1, 2))
+    values = [f.where((f.exponents @ order == 2) & (f.exponents @ multiples == m)).at(point) for f in tips]
+    return np.reshape(values, (-1, 2))
 
 
-def _by_what_is_forced(L: Polynomial) -> tuple[complex, Complex, Complex]:
-    """The coefficients of z² z̄², of b times two of z and z̄, (m,), and of b b: its second derivatives, (m, m)."""
-    m, own = L.variables - 2, 0j
+def _forced_terms(L: Polynomial) -> tuple[complex, Complex, Complex]:
+    """Return the coefficient of z² z̄², those of b times two of z and z̄, (m,), and the second derivatives by b, (m, m)."""
+    m, quartic = L.variables - 2, 0j
     forcing, curvature = np.zeros(m, dtype=complex), np.zeros((m, m), dtype=complex)
     for e, c in L.terms.items():
         where = [k for k, power in enumerate(e[2:]) for _ in range(power)]
         if sum(e[:2]) == 4:
-            own += c
+            quartic += c
         elif sum(e[:2]) == 2 and len(where) == 1:
             forcing[where[0]] += c
         elif not sum(e[:2]) and len(where) == 2:
             i, j = where
             curvature[i, j] += c
             curvature[j, i] += c
-    return own, forcing, curvature
+    return quartic, forcing, curvature
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ThreeWaves(Shown):
-    """Waves with q₁ + q₂ = q₃ (up to full turns) and rates ω₁ + ω₂ = ω₃, all above zero, of bands (3,).
+    """Waves of bands (3,) with q₁ + q₂ = q₃ up to full turns and rates ω₁ + ω₂ = ω₃, all positive.
 
-    q (3, 1) in rad a cell; rates (3,) in rad/s; energy_signs (3,); shapes (3, N, 2), of the largest tilt 1. strengths (3,): of
-    amplitudes a_j e^{−iω_j t}, largest tilts, a₁' = i strengths₁ a₃ ā₂, a₂' = i strengths₂ a₃ ā₁, a₃' = i strengths₃ a₁ a₂, 1/s.
-    Zero where they exchange nothing.
+    q (3, 1) in rad per cell; rates (3,) in rad/s; shapes (3, N, 2) with the largest tilt 1. strengths (3,), 1/s: for
+    amplitudes a_j e^{−iω_j t} (largest tilts) a₁' = i strengths₁ a₃ ā₂, a₂' = i strengths₂ a₃ ā₁, a₃' = i strengths₃ a₁ a₂;
+    zero without exchange.
     """
 
     q: Array
@@ -343,7 +313,7 @@ class ThreeWaves(Shown):
     shapes: Complex
 
     def growth(self, wave: int, amplitude: float) -> float:
-        """How fast (1/s) the wave 0, 1 or 2 of that amplitude feeds the two others while they are small; 0 where it does not."""
+        """Return the growth (1/s) of two small waves by the wave 0, 1 or 2 of this amplitude; 0 if there is none."""
         others = [self.strengths[k] for k in range(3) if k != wave]
         # a₁' = i c₁ a₃ ā₂ and a₂' = i c₂ a₃ ā₁ give a₁'' = c₁ c̄₂ |a₃|² a₁; ā₂' = −i c̄₂ ā₃ a₁, a₃' = i c₃ a₁ a₂: a₃'' = −c₃ c̄₂ …
         fed = (others[0] * others[1].conjugate()).real if wave == 2 else -(others[0] * others[1]).real
@@ -351,68 +321,57 @@ class ThreeWaves(Shown):
 
     @property
     def explosive(self) -> bool:
-        """Whether all three grow together without end, by the terms of third order: energies of both signs."""
-        one, two, three = self.energy_signs
-        return one == two != three and bool(np.abs(self.strengths).min())
+        """True if all three grow without bound, by the terms of third order: their energies have both signs."""
+        first, second, third = self.energy_signs
+        return first == second != third and bool(np.abs(self.strengths).min())
 
     def summary(self) -> dict[str, str]:
-        """What adds up, and what it does, name → words."""
-        one, two, three = (f"{w:.6g}" for w in self.rates)
+        """Return the triad and its growth in words."""
+        first, second, third = (f"{w:.6g}" for w in self.rates)
         sums = " + ".join(f"{q:.5g}" for q in self.q[:2, 0])
         feeds = [f"wave {k + 1}: {self.growth(k, 1.0):.4g} a 1/s" for k in range(3) if self.growth(k, 1.0)]
         return {
             "wave numbers": f"{sums} = {self.q[2, 0]:.5g} rad a cell",
-            "rates": f"{one} + {two} = {three} rad/s",
+            "rates": f"{first} + {second} = {third} rad/s",
             "feeds the two others": ", ".join(feeds) or "none",
             "all grow without end": "yes" if self.explosive else "no",
         }
 
 
 def three_waves(p: Cell, q: float) -> tuple[ThreeWaves, ...]:
-    """All triads in which a wave of q, rad a cell, and another one add up to a third, of a pattern with one step.
-
-    bands as in `nonlinear_wave`, below zero where waves of −q have rates below zero; waves that grow are left out.
-    Found between 181 wave numbers by the sign of ω₁ + ω₂ − ω₃ and then to rounding: where it touches zero without a change of
-    sign, none is found.
-
-    Raises
-    ------
-    InputError
-        For a pattern with two steps, where such triads are curves, with friction, and where two waves of a triad have
-        one q and rate.
-    """
+    """Find the triads with a wave of q: see `Pattern.three_waves`."""
     from scipy.optimize import brentq
 
     if len(p.steps) != 1:
-        raise InputError("three_waves: a pattern with two steps: triads are curves there; take a strip")
+        raise InputError("three_waves: a pattern with two steps has curves of triads; take a strip")
     b, others = _bloch_without_friction(p), np.linspace(0, 2 * np.pi, _POINTS) + 1e-4
     q = float(finite_array("three_waves: q", q, ()))
 
     def waves(at: Array) -> dict[int, Complex]:
-        """Of each band rate + i growth."""
+        """Return rate + i growth of each band."""
         d = dispersion(p, np.concatenate([at, -at]))
-        own, opposite = np.split(d.rates + 1j * d.growth, 2)
-        return dict(enumerate(own.T)) | {-1 - k: -f.conj() for k, f in enumerate(opposite.T)}
+        forward, opposite = np.split(d.rates + 1j * d.growth, 2)
+        return dict(enumerate(forward.T)) | {-1 - k: -f.conj() for k, f in enumerate(opposite.T)}
 
     first, second, third = waves(np.array([q])), waves(others), waves(others + q)
-    found, highest = [], max(float(np.nanmax(np.abs(f))) for f in second.values())
+    triads, highest = [], max(float(np.nanmax(np.abs(f))) for f in second.values())
     for (i, (rate,)), j, k in product(first.items(), second, third):
 
         def three(x: float, rate: complex = rate, j: int = j, k: int = k) -> Complex:
             return np.array([rate, waves(np.array([x]))[j][0], waves(np.array([x + q]))[k][0]])
 
-        off = (rate + second[j] - third[k]).real
-        sound = _is_sound(rate) & _is_sound(second[j]) & _is_sound(third[k])
-        for n in np.flatnonzero((off[:-1] * off[1:] < 0) & sound[:-1] & sound[1:]):
+        detuning = (rate + second[j] - third[k]).real
+        steady = _is_steady(rate) & _is_steady(second[j]) & _is_steady(third[k])
+        for n in np.flatnonzero((detuning[:-1] * detuning[1:] < 0) & steady[:-1] & steady[1:]):
             x = float(brentq(lambda x: float((three(x) @ [1, 1, -1]).real), others[n], others[n + 1], xtol=1e-13))
             at = three(x)
-            if abs((at @ [1, 1, -1]).real) < _SAME * highest and _is_sound(at).all():
-                found.append(_triad(p, b, np.array([[q], [x], [q + x]]), (i, j, k)))
-    return tuple(found)
+            if abs((at @ [1, 1, -1]).real) < _SAME * highest and _is_steady(at).all():
+                triads.append(_triad(p, b, np.array([[q], [x], [q + x]]), (i, j, k)))
+    return tuple(triads)
 
 
-def _is_sound(wave: Any) -> Any:
-    """Whether its rate is above zero and it does not grow."""
+def _is_steady(wave: Any) -> Any:
+    """Return True where the rate is positive and the wave does not grow."""
     return (wave.real > 0) & (wave.imag == 0)
 
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
+from lagrotor.errors import InputError
 from lagrotor.mechanics import Frame, Pathway, System, coordinates, t
 
 C = coordinates("x y z")
@@ -33,7 +34,7 @@ def test_what_acts_along_a_line_is_what_sympy_has() -> None:
     line = Pathway.line(C, (0, 0, 0), C.q)
     mine = (
         -System(C, -line.spring(k, l)).bias,
-        System(C, m * C.v[0] ** 2, dissipation=line.damper(d)).push,
+        System(C, m * C.v[0] ** 2, dissipation=line.damper(d)).generalised_forces,
         line.actuator(F),
     )
     random = np.random.default_rng(1)
@@ -117,9 +118,45 @@ def test_forces_and_torques_are_those_of_virtual_work() -> None:
     second = first.moved(l, 0, 0).turned("z", c.q[1])
     assert list(second.torque((0, 0, T), against=first)) == [0, T]
     assert list(second.torque((0, 0, T))) == [T, T]
-    pushed = second.push((0, F, 0), at=(l, 0, 0))
+    pushed = second.force((0, F, 0), at=(l, 0, 0), axes=Frame(c))
     a, b = c.q
     assert sp.simplify(pushed[0] - F * l * (sp.cos(a) + sp.cos(a + b))) == 0
     assert sp.simplify(pushed[1] - F * l * sp.cos(a + b)) == 0
     moving = Frame(c).moved(sp.sin(t), 0, 0).turned("z", c.q[0])
-    assert list(moving.push((F, 0, 0))) == [0, 0]
+    assert list(moving.force((F, 0, 0), axes=Frame(c))) == [0, 0]
+
+
+def test_forces_and_torques_are_in_the_axes_of_the_frame_or_of_another() -> None:
+    c = coordinates("a b")
+    a, b = c.q
+    ground = Frame(c)
+    first = ground.pin(a)
+    second = first.moved(l, 0, 0).turned("zx", (b, a))
+    for axes in (None, second, first, second.turned("x", b)):
+        frame, vector = axes or second, (1, 2, 3)
+        in_ground = list(frame.place(vector) - frame.place())
+        for found, expected in (
+            (second.force(vector, (l, 0, 0), axes=axes), second.force(in_ground, (l, 0, 0), axes=ground)),
+            (second.torque(vector, first, axes=axes), second.torque(in_ground, first, axes=ground)),
+        ):
+            assert not any((found - expected).applyfunc(sp.simplify))
+    # By hand: a force along the ground's x at the joint turns the first link by −F l sin a, one along its own x by none.
+    joint = first.moved(l, 0, 0)
+    assert list(joint.force((F, 0, 0))) == [0, 0]
+    assert list(joint.force((F, 0, 0), axes=ground)) == [-F * l * sp.sin(a), 0]
+    assert sp.simplify(second.torque((T, 0, 0), first, axes=ground.pin(a + b))[0] - T) == 0
+    with pytest.raises(InputError, match="force: axes = 'x' must be a Frame with the same coordinates"):
+        first.force((1, 0, 0), axes="x")  # type: ignore[arg-type]
+    with pytest.raises(InputError, match=r"torque: axes = Frame.ground. must be a Frame with the same"):
+        first.torque((1, 0, 0), axes=Frame(coordinates("z")))
+
+
+def test_the_old_push_keeps_the_axes_of_the_ground() -> None:
+    rod = Frame(coordinates("a")).pin("a")
+    with pytest.warns(DeprecationWarning, match="Frame.force.F, at, axes=Frame"):
+        assert rod.push((0, F, 0), (l, 0, 0)) == rod.force((0, F, 0), (l, 0, 0), axes=Frame(rod.c))
+    line = Pathway.line(C, (0, 0, 0), C.q)
+    with pytest.warns(DeprecationWarning, match="Pathway.spring: rest is now rest_length"):
+        assert line.spring(k, rest=l) == line.spring(k, l)  # type: ignore[call-arg]
+    with pytest.warns(DeprecationWarning, match="seen is now frame"):
+        assert rod.place((1, 0, 0), seen=rod) == sp.Matrix([1, 0, 0])  # type: ignore[call-arg]

@@ -56,7 +56,7 @@ def branched(ball: bool) -> tuple[System, list[sp.Expr], Frame]:
 def relative(frame: Frame) -> sp.Matrix:
     """The angular velocity of three turns together, in the axes that they lead to."""
     one, two, three = frame.parent.parent, frame.parent, frame
-    return three.rotation.T * (two.rotation.T * one.own_rate + two.own_rate) + three.own_rate
+    return three.rotation.T * (two.rotation.T * one.turn_rate + two.turn_rate) + three.turn_rate
 
 
 def test_a_tree_with_ball_joints_moves_as_in_eulers_angles() -> None:
@@ -79,7 +79,7 @@ def test_a_tree_with_ball_joints_moves_as_in_eulers_angles() -> None:
             at(quaternions, y, *seen(last)), at(angles, euler, *seen(other)), rtol=1e-9, atol=1e-9
         )
         for frame, wanted in zip(turned, w, strict=True):
-            np.testing.assert_allclose(at(quaternions, y, *frame.own_rate), wanted, atol=1e-12)
+            np.testing.assert_allclose(at(quaternions, y, *frame.turn_rate), wanted, atol=1e-12)
 
 
 def test_a_top_started_at_its_pole_runs_as_quickly_as_any_other() -> None:
@@ -175,7 +175,7 @@ def test_axes_kept_along_each_other_close_a_pin() -> None:
     np.testing.assert_allclose(rate, angle.v[:, 0], atol=1e-6)
     np.testing.assert_allclose(run.u - np.outer(rate, axis) / 5, 0, atol=1e-9)
     tilted = Frame(c).turned("x", -TILT)  # whose z axis is (0, 3, 4)/5
-    held = door.keeps_axis(tilted, axis, of_other="z")
+    held = door.keeps_axis(tilted, axis, other_axis="z")
     wanted = [sp.expand(x) for x in door.keeps_axis(Frame(c), axis)]
     seen = np.array(at(system, np.r_[turn, 0, 0, 0], *held))
     assert len(held) == len(wanted) == 2 and np.abs(seen).max() < 1e-15
@@ -221,3 +221,31 @@ def test_a_tree_moves_alike_in_velocities_that_are_no_joints() -> None:
     y = np.array([*q, VALUES[l] * 0.7 * (2 + np.cos(0.4)) + 0.3, 0.3, -0.2, 0.5])
     wanted = (*c.v, *c.a, natural.multipliers[0], natural.energy)
     np.testing.assert_allclose(at(own, y, *wanted), at(natural, twin, *wanted), rtol=1e-9, atol=1e-9)
+
+
+def test_joints_take_names_and_symbols() -> None:
+    c = coordinates("alpha beta x y k l m n")
+    ground, u = Frame(c), sp.symbols("u v w", real=True)
+    pairs = (
+        (ground.pin("alpha", "x"), ground.pin(c.alpha, "x")),
+        (ground.prismatic("x"), ground.prismatic(c.x)),
+        (ground.screw("alpha", 2), ground.screw(c.alpha, 2)),
+        (ground.cylindrical("x", "alpha"), ground.cylindrical(c.x, c.alpha)),
+        (ground.universal("alpha", "beta"), ground.universal(c.alpha, c.beta)),
+        (ground.planar("x", "y", "alpha"), ground.planar(c.x, c.y, c.alpha)),
+        (ground.turned("zx", "alpha beta"), ground.turned("zx", (c.alpha, c.beta))),
+        (ground.turned("z", "alpha"), ground.turned("z", c.alpha)),
+        (ground.moved("x", 0, "y"), ground.moved(c.x, 0, c.y)),
+        (ground.ball("k l m n", "u v w"), ground.ball(c.q[4:], u)),
+        (ground.free("x y alpha", "k l m n", "u v w"), ground.free((c.x, c.y, c.alpha), c.q[4:], list(u))),
+    )
+    for by_name, by_symbol in pairs:
+        assert by_name.place((1, 2, 3)) == by_symbol.place((1, 2, 3)) and by_name.omega == by_symbol.omega
+        assert by_name.velocity((1, 2, 3)) == by_symbol.velocity((1, 2, 3))
+    for words, call in (
+        ("pin: angle: z is none of the coordinates alpha, beta", lambda: ground.pin("z")),
+        ("moved: .* 2 is none of", lambda: ground.moved("2")),
+        ("ball: omega = .* must be 3 names", lambda: ground.ball("k l m n", (1, 2, 3))),
+    ):
+        with pytest.raises(InputError, match=words):
+            call()

@@ -155,3 +155,18 @@ def test_a_function_that_is_only_in_a_velocity_of_ones_own_has_a_value() -> None
     np.testing.assert_allclose(run.q, other.q, atol=1e-8)
     with pytest.raises(InputError, match="f without a value"):
         moved.simulate({}, (0.1,), (0.2,), (0, 1))
+
+
+def test_a_value_may_be_named_with_the_arguments_of_its_function() -> None:
+    values = {m: 1, U(x): x**2}
+    run = WELL.simulate(values, (1,), (0,), T)
+    np.testing.assert_array_equal(run.q, WELL.simulate({m: 1, U: x**2}, (1,), (0,), T).q)
+    z = sp.Symbol("z")
+    np.testing.assert_array_equal(WELL.simulate({m: 1, U(z): z**2}, (1,), (0,), T).q, run.q)
+    assert float(WELL.equilibria(values={m: 1, U(x): x**2}, box={x: (-1, 1)})[0].at[x]) == 0
+    for key, words in ((U(2 * x), r"values name U\(2\*x\), no function of different symbols: name U alone"),):
+        with pytest.raises(InputError, match=words):
+            WELL.simulate({m: 1, key: x}, (1,), (0,), T)
+    for key, words in ((U, "two values, as U and as"), ("U", "U with two values")):
+        with pytest.raises(InputError, match=words):
+            WELL.simulate({**values, key: x}, (1,), (0,), T)

@@ -86,7 +86,10 @@ def test_a_long_lagrangian_of_any_form_has_the_equations_of_its_derivatives(L: C
     y = np.random.default_rng(2).uniform(-0.5, 0.5, 6)
     assert equations_of_speeds(system)[0], "it is swept"
     swept = np.array(system.rhs({})(0.0, y))
-    M, h = (m.subs(dict(zip((*c.q, *c.v), map(sp.Float, y), strict=True))).evalf() for m in (system.mass, system.bias))
+    M, h = (
+        m.subs(dict(zip((*c.q, *c.v), map(sp.Float, y), strict=True))).evalf()
+        for m in (system.mass_matrix, system.bias)
+    )
     np.testing.assert_allclose(swept[3:], np.array((M.inv() * -h).tolist(), float).ravel(), rtol=1e-9)
 
 

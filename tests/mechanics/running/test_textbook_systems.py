@@ -103,7 +103,7 @@ def test_a_ball_on_a_turntable_goes_in_circles_at_two_sevenths_of_its_rate() -> 
     c = coordinates("x y phi theta psi")
     centre = Frame(c).moved(c.q[0], c.q[1], r)
     turned = centre.turned("zxz", c.q[2:])
-    contact = turned.velocity((0, 0, -r), seen=centre)
+    contact = turned.velocity((0, 0, -r), frame=centre)
     rolling = (contact[0] + w * c.q[1], contact[1] - w * c.q[0])
     ball = System(c, turned.body(m, (I, I, I)).kinetic, rolling=rolling)
     values = VALUES | {I: 2 / 5 * m_ * r_**2}

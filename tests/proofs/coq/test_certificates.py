@@ -20,7 +20,7 @@ from lagrotor.proofs.coq.certificate import (
     PREAMBLE,
     CertifiedLine,
     Proposition,
-    _letters_for_operators,
+    _symbols_for_operators,
     certificate,
     certified_line,
     file_name,
@@ -308,7 +308,7 @@ def test_a_proof_that_is_given_up_is_refused_wherever_that_stands(script: str) -
 @pytest.mark.slow
 @pytest.mark.parametrize("script", GIVEN_UP)
 def test_coq_itself_takes_a_proof_that_is_given_up(script: str, tmp_path: Path) -> None:
-    assert coq_check._compiled(tmp_path, "twin.v", given_up(script)[0]) == ""
+    assert coq_check._compile(tmp_path, "twin.v", given_up(script)[0]) == ""
 
 
 @coq
@@ -378,7 +378,7 @@ def test_no_letter_hides_a_word_of_the_terms_and_no_two_have_one_name() -> None:
     names = Terms(letters).names.values()
     assert len(set(names)) == len(letters) and not set(names) & set(FOREIGN)
     assert all(re.fullmatch(r"[A-Za-z]\w*", name, re.ASCII) for name in names)
-    with pytest.raises(NotExactError, match="two letters are called g"):
+    with pytest.raises(NotExactError, match="two symbols are called g"):
         Terms([sp.Symbol("g") + sp.Symbol("g", positive=True)])
 
 
@@ -442,7 +442,7 @@ def test_an_unknown_function_is_one_of_which_nothing_is_used() -> None:
 def test_a_derivative_is_a_letter_that_the_line_does_not_have() -> None:
     f = sp.Function("f")
     rate, taken = sp.diff(f(x), x), sp.Symbol("derivative_1")
-    letters = _letters_for_operators([rate + taken, sp.Integral(f(x), (x, 0, y))])
+    letters = _symbols_for_operators([rate + taken, sp.Integral(f(x), (x, 0, y))])
     assert set(letters) == {rate, sp.Integral(f(x), (x, 0, y))} and len({*letters.values(), taken}) == 3
 
 

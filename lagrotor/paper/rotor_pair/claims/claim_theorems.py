@@ -31,14 +31,14 @@ def _crossing(scene: Scene, event: sp.Expr, before: str, says: str = "") -> Theo
     """That an expression of the axes passes zero before a time."""
     from lagrotor.proofs import crossing
 
-    return Theorem.of(crossing(scene, event=event, before=before, tol=_TOL), says)
+    return Theorem.of(crossing(scene, event=event, t_end=before, tol=_TOL), says)
 
 
 def _no_crossing(scene: Scene, event: sp.Expr, until: str, says: str = "") -> Theorem:
     """That it does not up to a time."""
     from lagrotor.proofs import no_crossing
 
-    return Theorem.of(no_crossing(scene, event=event, until=until, tol=_TOL), says)
+    return Theorem.of(no_crossing(scene, event=event, t_end=until, tol=_TOL), says)
 
 
 def _means(system: Any, spans: Spans, says: str = "", start: Any = (None, None)) -> tuple[tuple[Any, ...], Theorem]:
