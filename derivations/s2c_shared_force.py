@@ -164,7 +164,7 @@ verdict(
     cross(r, f),
     premises=premises,
     correction=right_9,
-    wrong="The sign error of the line before (5) is carried on.",
+    wrong="Same sign error as in the equation before (5).",
     uses=["2.08"],
     evidence=[
         "The sign error of 2.08 propagates: the faster rotor takes the larger share of the force, not the smaller."
@@ -178,7 +178,7 @@ verdict(
     spinning_1,
     premises=premises,
     correction=form("rho/(1 + rho)*cross(r, F)", rho=rho),
-    wrong="The sign error of the line before (5) is carried on.",
+    wrong="Same sign error as in the equation before (5).",
     uses=["2.09", "2.04"],
     written=form("rho/(1 + rho)*cross(r, F)", rho=rho),
 )
@@ -195,7 +195,7 @@ verdict(
     rate_1,
     premises=premises,
     correction=right_11,
-    wrong="The sign error of the line before (5) makes the factor 2/(1 + rho); it is 2 rho/(1 + rho), rho = omega_1/omega_2.",
+    wrong="The same sign error gives the factor 2/(1 + rho); the correct one is 2 rho/(1 + rho), rho = omega_1/omega_2.",
     uses=["2.10"],
     evidence=["(7) follows from the premises: a second sign error between (6) and (7) cancels that of 2.08."],
     written=right_11,

@@ -168,7 +168,7 @@ verdict(
     "3.17",
     Omega_of_L,
     correction=without_inversion,
-    wrong="R and its transpose have changed places, as in the rotated tensor of section 3.1.",
+    wrong="R and its transpose are interchanged, as in the rotated tensor of section 3.1.",
     uses=["3.12"],
     evidence=["It follows from 3.12 as printed, which is wrong; with equal inertias the two agree."],
     written=without_inversion,
@@ -195,7 +195,7 @@ verdict(
     "3.18",
     {"O": Omega_of_L.T, r"X_r(t + \Delta t)'": (dR * X_r).T},
     correction={"O": row},
-    wrong="R and its transpose have changed places, as in the rotated tensor of section 3.1.",
+    wrong="R and its transpose are interchanged, as in the rotated tensor of section 3.1.",
     uses=["3.17"],
     evidence=[
         "The transposition itself is right, with I the stored inverse of the symmetric I_0, and so is X_r*dR'; what is "

@@ -235,7 +235,8 @@ verdict(
         r"\dot\phi\text{ (opposite spins)}": opposite_written,
         r"\Omega/\Omega_0\text{ (opposite spins, through }r_0^3)": through_third_written,
     },
-    wrong=f"The constant belongs to one bar and to equal spins; opposite spins do not go as 1/cos θ. {average}",
+    wrong="The constant holds for one bar and equal spins only; for opposite spins the rate is not proportional to 1/cos θ. "
+    f"{average}",
     uses=["5.25", "5.26"],
     evidence=[
         f"Equal spins: on the exact pair at θ = {tilt} the axes stay within {apart:.0e} of each other and turn at "
@@ -291,7 +292,7 @@ verdict(
         r"\dot\phi\text{ (equal spins)}": form("I_3*omega/(a + b)", **inertias),
         r"\dot\phi\text{ (opposite spins)}": form("I_3*omega/sqrt(a**2 - b**2)", **inertias),
     },
-    wrong="The constant belongs to one bar and to equal spins.",
+    wrong="The constant holds for one bar and equal spins only.",
     uses=["5.25", "5.27"],
     evidence=[
         f"The constant for equal and for opposite spins: {in_words}.",

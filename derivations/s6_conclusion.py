@@ -202,9 +202,9 @@ verdict(
         r"\dot\phi\text{ (equal spins)}": cone_written,
         r"\dot\phi\text{ (opposite spins)}": opposite_written,
     },
-    wrong="The constant belongs to one bar and to equal spins; opposite spins do not go as 1/cos θ. θ is the average "
-    "inclination, as printed. It is q r₀, with r₀ the sine of the inclination when the axes are parallel, and q the mean of "
-    "√(cos² Φ + σ sin² Φ) over a turn.",
+    wrong="The constant holds for one bar and equal spins only; for opposite spins the rate is not proportional to 1/cos θ. "
+    "θ is the average inclination, as printed. It is q r₀, with r₀ the sine of the inclination when the axes are parallel, and q "
+    "the mean of √(cos² Φ + σ sin² Φ) over a turn.",
     uses=["5.27", "5.28"],
     evidence=["The line is 5.27's, now said of both kinds of pair; what is said there of each holds here."],
 )

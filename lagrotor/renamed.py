@@ -23,6 +23,7 @@ NAMES = {
     "lagrotor.pair.ansatz_lagrangian": "lagrotor.pair.lagrangians.ansatz_lagrangian",
     "lagrotor.pair.scene_of": "lagrotor.pair.scene_document.scene_of",
     "lagrotor.pair.scene_toml": "lagrotor.pair.scene_document.scene_toml",
+    "lagrotor.algebra.check_names": "lagrotor.algebra.name_clashes.check_names",
     "lagrotor.mechanics.FourierSeries": "lagrotor.mechanics.fourier.FourierSeries",
     "lagrotor.mechanics.characteristic_exponents": "lagrotor.mechanics.weakly_nonlinear.characteristic_exponents",
     "lagrotor.mechanics.lindstedt_poincare": "lagrotor.mechanics.weakly_nonlinear.periodic_series",
@@ -46,6 +47,7 @@ NAMES = {
 
 # Class → {old attribute: new attribute}. The class takes `old_attribute` as its `__getattr__`.
 ATTRIBUTES = {
+    "Decision": {"at": "points", "seen": "residual"},
     "Equations": {"mass": "mass_matrix", "push": "generalised_forces"},
 }
 
@@ -61,6 +63,8 @@ KEYWORDS: dict[str, dict[str, str]] = {
     "no_crossing": {"until": "t_end"},
     "periodic_orbit": {"held": "fixed"},
     "periodic_series": {"rest": "equilibrium", "begins_at": "mode_power"},
+    "decide_equal": {"left": "lhs", "right": "rhs", "within": "assumptions"},
+    "decide_zero": {"within": "assumptions"},
 }
 
 P = ParamSpec("P")

@@ -1,22 +1,18 @@
-"""Exact algebra: the decision of identities, the signs and domains of expressions, derivatives and truncated power
-series.
+"""Exact algebra: decision of identities, signs and domains of expressions, derivatives and truncated power series.
 
-A question passes through the modules in this order:
+The modules in the order in which `identity.decide_zero` uses them:
 
-- `identity.decide_zero` is asked whether an expression vanishes. `scalar` checks the expression, and `numbering`
-  gives its symbols an order that no name changes.
-- `reading` brings it to a quotient of polynomials in its `generators`: symbols, square roots, cosines, sines,
-  exponentials. The zero polynomial is the proof. `roots`, `reduction` and `algebraic_numbers` treat radicals and
-  relations.
-- For other functions `translation` replaces each unknown function by a symbol with the relations that are known of
-  it. `analytic_proofs`, `sums` and `integrals` use induction, derivatives and antiderivatives.
-- `refutation` looks for a point at which `enclosures` exclude zero. A `Decision` is "zero", "nonzero" with the point,
-  or undecided.
-- `signs` and `feasibility` decide inequalities, and `branches` names the fewest under which an identity holds.
-- `power_series` expands about a point and finds the first order at which two expressions differ.
+- `scalar` checks the expression, and `numbering` numbers its symbols, so that no decision depends on their names.
+- `reading` writes it as a quotient of polynomials in its `generators`: symbols, square roots, cosines, sines, exponentials.
+  The zero polynomial proves zero. `roots`, `reduction` and `algebraic_numbers` treat radicals and their relations.
+- `translation` replaces other functions by symbols with relations. `analytic_proofs`, `sums` and `integrals` use induction,
+  derivatives and antiderivatives.
+- `refutation` searches for a counterexample, a point where `enclosures` exclude zero.
+- `signs` and `feasibility` decide inequalities; `branches` finds the fewest inequalities under which an identity holds.
+- `power_series` expands an expression and finds the first order at which two expressions differ.
 
-A new function needs its rules in `translation`, its enclosure in `special_enclosures` and its sign in `signs`. No
-module decides by `simplify` or by sympy's automatic evaluation.
+A new function needs rules in `translation`, an enclosure in `special_enclosures` and its sign in `signs`. No module decides by
+`simplify` or by sympy's automatic evaluation.
 """
 
 from typing import TYPE_CHECKING
@@ -31,7 +27,6 @@ if TYPE_CHECKING:
     from lagrotor.algebra.identity import decide_equal as decide_equal
     from lagrotor.algebra.identity import decide_zero as decide_zero
     from lagrotor.algebra.identity import normal_form as normal_form
-    from lagrotor.algebra.name_clashes import check_names as check_names
     from lagrotor.algebra.power_series import LeadingTerm as LeadingTerm
     from lagrotor.algebra.power_series import agreement_order as agreement_order
     from lagrotor.algebra.power_series import leading_term as leading_term

@@ -1,8 +1,8 @@
-"""Numbers made of radicals and roots of unity: whether one is zero.
+"""Zero test for algebraic numbers made of radicals and roots of unity.
 
-A number α = U/L of algebraic integers of a field of degree D, all of whose conjugates are below u and l, is zero or at least
-1/(u**(D−1) l), since the norm of U is a whole number.  u, l and D follow from how α is written (Burnikel, Funke, Mehlhorn,
-Schirra & Schmitt, Algorithmica 55, 14, 2009), and an enclosure of α that is small enough decides.
+Let α = U/L with algebraic integers U and L of a field of degree D, whose conjugates have absolute values at most u and l. The
+norm of U is an integer, so α is zero or |α| ≥ 1/(u**(D−1) l). u, l and D follow from the form of α (Burnikel, Funke, Mehlhorn,
+Schirra & Schmitt, Algorithmica 55, 14, 2009), and a sufficiently narrow enclosure of α decides.
 """
 
 from __future__ import annotations
@@ -16,11 +16,10 @@ from lagrotor.algebra.enclosures import enclosed_at, excludes_zero
 from lagrotor.errors import NotExactError
 
 _MOST_BITS = 30_000
-_LARGEST = 10**40  # integers beyond are left alone
 
 
 def is_zero(number: sp.Expr) -> bool | None:
-    """Whether a number made of radicals and of sines and cosines of rational multiples of π is zero; None of another."""
+    """Return True if a number made of radicals, sines and cosines of rational multiples of π is zero; None if undecided."""
     try:
         bound = _Bound()
         over, _ = bound.of(number)
@@ -31,10 +30,7 @@ def is_zero(number: sp.Expr) -> bool | None:
             value = enclosed_at(number, {}, precision)
             if excludes_zero(value):
                 return False
-            if (
-                max(iv.log(abs(part).b, 2).b if abs(part).b > 0 else -iv.inf for part in (value.real, value.imag))
-                < -bits
-            ):
+            if max(iv.log(abs(x).b, 2).b if abs(x).b > 0 else -iv.inf for x in (value.real, value.imag)) < -bits:
                 return True
     except (NotExactError, ArithmeticError, ValueError, TypeError):
         return None
@@ -42,7 +38,7 @@ def is_zero(number: sp.Expr) -> bool | None:
 
 
 class _Bound:
-    """Logarithms to base 2 of u and l of every part, and the degree of the field."""
+    """Base-2 logarithms of u and l of every subexpression, and the degree of the field."""
 
     def __init__(self) -> None:
         self.roots: dict[sp.Expr, int] = {}
@@ -62,12 +58,12 @@ class _Bound:
             self._turn(4)
             return 0.0, 0.0
         if e.is_Add:
-            parts = [self.of(part) for part in e.args]
-            under = sum(low for _, low in parts)
-            return max(up + under - low for up, low in parts) + float(sp.log(len(parts), 2)), under
+            terms = [self.of(argument) for argument in e.args]
+            under = sum(low for _, low in terms)
+            return max(up + under - low for up, low in terms) + float(sp.log(len(terms), 2)), under
         if e.is_Mul:
-            parts = [self.of(part) for part in e.args]
-            return sum(up for up, _ in parts), sum(low for _, low in parts)
+            terms = [self.of(argument) for argument in e.args]
+            return sum(up for up, _ in terms), sum(low for _, low in terms)
         if isinstance(e, sp.sin | sp.cos | sp.exp):
             turn = e.args[0] / (sp.I * sp.pi if isinstance(e, sp.exp) else sp.pi)
             if turn.is_Rational:

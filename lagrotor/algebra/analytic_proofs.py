@@ -1,4 +1,4 @@
-"""That an expression of analysis is zero in a region: evaluated, translated into the class, by induction, by derivatives."""
+"""Proofs that an expression is zero in a region: by evaluation, translation, induction on n, squares, or derivatives."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from lagrotor.algebra.constancy import is_constant_zero, is_small_angle
 from lagrotor.algebra.enclosures import jet_of
 from lagrotor.algebra.integrals import value_of_integral
 from lagrotor.algebra.signs import Region, is_positive
-from lagrotor.algebra.sums import holds_by_induction, value_of_sum, written_out
-from lagrotor.algebra.translation import proved_zero
+from lagrotor.algebra.sums import expand_sum, holds_by_induction, value_of_sum
+from lagrotor.algebra.translation import prove_zero
 from lagrotor.errors import NotExactError
 
 _MOST_CASES = 16
@@ -23,22 +23,22 @@ _MOST_ROUNDS = 6
 
 @dataclass(frozen=True)
 class Proof:
-    """How it was proved, what must not vanish, or `None` for how; the inequalities that might have helped."""
+    """A proof of zero: the method (None: no proof), divisors that must not vanish, and inequalities that might complete it."""
 
     how: str | None
     divisors: tuple[sp.Expr, ...] = ()
-    wanted: tuple[sp.Basic, ...] = ()
+    missing: tuple[sp.Basic, ...] = ()
 
 
 def evaluated(e: sp.Expr, where: Region = Region()) -> sp.Expr:  # noqa: B008
-    """Derivatives taken, sums written out, integrals put in closed form where one is certain."""
+    """Evaluate derivatives, finite sums, and the integrals whose closed form is proved."""
     for _ in range(_MOST_ROUNDS):
-        before = e
+        previous = e
         e = e.replace(lambda n: isinstance(n, sp.Derivative) and jet_of(n) is None, _differentiated)
         e = e.replace(lambda n: isinstance(n, sp.Subs) and jet_of(n) is None, lambda n: n.doit(deep=False))
         e = e.replace(lambda n: isinstance(n, sp.Sum), lambda n: _summed(n, where))
         e = e.replace(lambda n: isinstance(n, sp.Integral), lambda n: _integral(n, where))
-        if e == before:
+        if e == previous:
             break
     return e
 
@@ -54,7 +54,7 @@ def _differentiated(e: sp.Derivative) -> sp.Expr:
 
 
 def _summed(e: sp.Sum, where: Region) -> sp.Expr:
-    value = written_out(e)
+    value = expand_sum(e)
     value = value_of_sum(e, where, _vanishes) if value is None else value
     return e if value is None else value
 
@@ -64,27 +64,27 @@ def _integral(e: sp.Integral, where: Region) -> sp.Expr:
     limits = e.limits
     if len(limits) == 1 and expanded.has(sp.core.function.AppliedUndef):
         if expanded.is_Add:
-            return sp.Add(*(sp.Integral(part, *limits) for part in expanded.args))
-        constant, rest = expanded.as_independent(limits[0][0], as_Add=False)
+            return sp.Add(*(sp.Integral(term, *limits) for term in expanded.args))
+        constant, dependent = expanded.as_independent(limits[0][0], as_Add=False)
         if constant != 1:
-            return constant * sp.Integral(rest, *limits)
+            return constant * sp.Integral(dependent, *limits)
     value = value_of_integral(e, where, _vanishes)
     return e if value is None else value
 
 
 def proof_of_zero(expression: sp.Expr, where: Region) -> Proof:
-    """The proof, by translation, by induction on the upper limit of a sum, or by derivatives."""
+    """Prove zero by translation, by induction on the upper limit of a sum, by squares, or by derivatives."""
     divisors: tuple[sp.Expr, ...] = ()
-    wanted: tuple[sp.Basic, ...] = ()
+    missing: tuple[sp.Basic, ...] = ()
     try:
         for case, inside in _cases(expression, where):
-            found, more = proved_zero(case, inside)
-            wanted += more
-            if found is None:
+            case_divisors, case_missing = prove_zero(case, inside)
+            missing += case_missing
+            if case_divisors is None:
                 break
-            divisors += found
+            divisors += case_divisors
         else:
-            return Proof("The reduced numerator is the zero polynomial.", tuple(dict.fromkeys(divisors)), wanted)
+            return Proof("The reduced numerator is the zero polynomial.", tuple(dict.fromkeys(divisors)), missing)
         reason = None
     except NotExactError as refusal:
         reason = refusal
@@ -96,13 +96,13 @@ def proof_of_zero(expression: sp.Expr, where: Region) -> Proof:
         return Proof("Its sine vanishes, and it lies between −π and π.")
     if is_constant_zero(expression, where, _vanishes):
         return Proof("Its derivatives vanish, and it is zero at a point of a connected region.")
-    if reason is not None and not wanted:
+    if reason is not None and not missing:
         raise reason
-    return Proof(None, (), wanted)
+    return Proof(None, (), missing)
 
 
 def _is_difference_of_squares(expression: sp.Expr, where: Region) -> bool:
-    """Return whether it is a − b, both positive, with a² = b²."""
+    """Return True for a − b with both positive and a² = b²."""
     terms = sp.Add.make_args(expression)
     sides = [sp.Add(*(sign * term for term in terms if is_positive(sign * term, where))) for sign in (1, -1)]
     if not expression.has(sp.Pow) or 0 in sides or sides[0] - sides[1] != expression:
@@ -112,30 +112,30 @@ def _is_difference_of_squares(expression: sp.Expr, where: Region) -> bool:
 
 def _vanishes(expression: sp.Expr, where: Region) -> bool:
     try:
-        return all(proved_zero(case, inside)[0] is not None for case, inside in _cases(evaluated(expression), where))
+        return all(prove_zero(case, inside)[0] is not None for case, inside in _cases(evaluated(expression), where))
     except NotExactError:
         return False
 
 
 def _cases(expression: sp.Expr, where: Region) -> Iterator[tuple[sp.Expr, Region]]:
-    """The expression for each residue of the whole numbers that stand in signs and in angles beside π."""
+    """Yield the expression for each residue class of the integers in its signs (−1)**n and angles n π r."""
     periods: dict[sp.Symbol, int] = {}
     for node in sp.preorder_traversal(expression):
-        for letter, period in _periods(node):
-            periods[letter] = lcm(periods.get(letter, 1), period)
+        for symbol, period in _periods(node):
+            periods[symbol] = lcm(periods.get(symbol, 1), period)
     if prod(periods.values()) > _MOST_CASES:
         raise NotExactError(f"There are more than {_MOST_CASES} cases of whole numbers.")
     for residues in product(*(range(period) for period in periods.values())):
-        put = {}
-        for (letter, period), residue in zip(periods.items(), residues, strict=True):
-            part = sp.Dummy(letter.name, integer=True, **({"nonnegative": True} if letter.is_nonnegative else {}))
-            start = period if letter.is_positive and residue == 0 else residue
-            put[letter] = period * part + start
-        yield (expression.subs(put) if put else expression), where.put(put)
+        replacements = {}
+        for (symbol, period), residue in zip(periods.items(), residues, strict=True):
+            quotient = sp.Dummy(symbol.name, integer=True, **({"nonnegative": True} if symbol.is_nonnegative else {}))
+            start = period if symbol.is_positive and residue == 0 else residue
+            replacements[symbol] = period * quotient + start
+        yield (expression.subs(replacements) if replacements else expression), where.put(replacements)
 
 
 def _periods(node: sp.Expr) -> Iterator[tuple[sp.Symbol, int]]:
-    """Whole-number letters of a power of a root of unity, or of an angle n π r, with the period in them."""
+    """Yield the integer symbols in a power of a root of unity or in an angle n π r, with their period."""
     if (node.is_Pow and node.base in (sp.S.NegativeOne, sp.I)) or (node.is_Pow and node.base.is_negative):
         turn = sp.expand(node.exp * (sp.Rational(1, 2) if node.base is sp.I else 1)) / 2
     elif isinstance(node, sp.sin | sp.cos | sp.tan | sp.cot | sp.sec | sp.csc):
@@ -145,6 +145,6 @@ def _periods(node: sp.Expr) -> Iterator[tuple[sp.Symbol, int]]:
     else:
         return
     for term in sp.Add.make_args(turn):
-        rate, letter = term.as_coeff_Mul()
-        if letter.is_Symbol and letter.is_integer and rate.is_Rational:
-            yield letter, int(rate.q)
+        rate, symbol = term.as_coeff_Mul()
+        if symbol.is_Symbol and symbol.is_integer and rate.is_Rational:
+            yield symbol, int(rate.q)

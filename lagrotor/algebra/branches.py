@@ -1,4 +1,4 @@
-"""Where an expression that is not zero throughout is zero: the fewest inequalities, of those that its proof wants."""
+"""The branch on which an expression vanishes: the fewest of the inequalities that a proof of zero needs."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from itertools import product
 import sympy as sp
 
 from lagrotor.algebra.analytic_proofs import Proof, proof_of_zero
-from lagrotor.algebra.refutation import sample
+from lagrotor.algebra.refutation import find_witness
 from lagrotor.algebra.signs import Region, conditions, is_nonnegative, is_positive, is_real
 from lagrotor.errors import NotExactError
 
@@ -16,45 +16,45 @@ _MOST_CONDITIONS, _MOST_SIGNS = 8, 3
 
 
 def branch_of_zero(
-    expression: sp.Expr, where: Region, wanted: tuple[sp.Basic, ...]
+    expression: sp.Expr, where: Region, missing: tuple[sp.Basic, ...]
 ) -> tuple[tuple[sp.Basic, ...], Proof]:
-    """Inequalities under which it is proved zero, none of which can be left out, with the proof; none where none is known."""
+    """Return inequalities, none superfluous, under which zero is proved, with the proof; none if none are known."""
     natural = conditions(expression)
     if sp.false in natural:
         return (), Proof(None)
-    tried: set[tuple[sp.Basic, ...]] = set()
-    for _ in range(2):  # under some conditions, a proof may want others
-        more = wanted
-        for chosen in _candidates(simplest(natural, where), simplest(wanted, where)):
-            if not chosen or chosen in tried or len(chosen) > _MOST_CONDITIONS:
+    attempts: set[tuple[sp.Basic, ...]] = set()
+    for _ in range(2):  # a proof under some conditions may need further ones
+        extended = missing
+        for chosen in _candidates(simplify_conditions(natural, where), simplify_conditions(missing, where)):
+            if not chosen or chosen in attempts or len(chosen) > _MOST_CONDITIONS:
                 continue
-            tried.add(chosen)
+            attempts.add(chosen)
             proof = _proof(expression, where, chosen)
             if proof.how is not None:
                 return _fewest(expression, where, chosen, proof)
-            more = (*more, *proof.wanted)
-        if more == wanted:
+            extended = (*extended, *proof.missing)
+        if extended == missing:
             break
-        wanted = tuple(dict.fromkeys(more))
+        missing = tuple(dict.fromkeys(extended))
     return (), Proof(None)
 
 
-def _candidates(natural: tuple[sp.Basic, ...], wanted: tuple[sp.Basic, ...]) -> Iterator[tuple[sp.Basic, ...]]:
-    """The conditions of a real value; with each that is wanted, then with more and more, of either sign; open regions last."""
+def _candidates(natural: tuple[sp.Basic, ...], missing: tuple[sp.Basic, ...]) -> Iterator[tuple[sp.Basic, ...]]:
+    """Yield sets of conditions: those of a real value, then with missing inequalities of either sign; open regions last."""
     if sp.false in natural:  # it has no real value
         return
-    wanted = tuple(one for one in wanted if one not in (sp.true, sp.false))
+    missing = tuple(relation for relation in missing if relation not in (sp.true, sp.false))
     yield natural
-    several = (wanted[:number] for number in range(2, min(len(wanted), _MOST_SIGNS) + 1))
-    for some in (*((one,) for one in wanted), *several):
+    several = (missing[:number] for number in range(2, min(len(missing), _MOST_SIGNS) + 1))
+    for some in (*((relation,) for relation in missing), *several):
         for signs in product((True, False), repeat=len(some)):
-            turned = (one if same else _opposite(one) for one, same in zip(some, signs, strict=True))
-            chosen = tuple(one for one in (*natural, *turned) if one != sp.true)
+            oriented = (relation if same else _opposite(relation) for relation, same in zip(some, signs, strict=True))
+            chosen = tuple(relation for relation in (*natural, *oriented) if relation != sp.true)
             if sp.false in chosen:
                 continue
             yield chosen
-            strict = tuple(sided(one.gts - one.lts, True) for one in chosen)
-            if sp.false not in strict:  # u ≥ 0 where u is 0 throughout
+            strict = tuple(sided(relation.gts - relation.lts, True) for relation in chosen)
+            if sp.false not in strict:  # u ≥ 0 for u = 0 has no strict form
                 yield strict
 
 
@@ -66,22 +66,22 @@ def _fewest(
     expression: sp.Expr, where: Region, chosen: tuple[sp.Basic, ...], proof: Proof
 ) -> tuple[tuple[sp.Basic, ...], Proof]:
     for condition in chosen:
-        fewer = tuple(other for other in chosen if other != condition)
-        if fewer and (found := _proof(expression, where, fewer)).how is not None:
-            chosen, proof = fewer, found
+        fewer = tuple(relation for relation in chosen if relation != condition)
+        if fewer and (weaker := _proof(expression, where, fewer)).how is not None:
+            chosen, proof = fewer, weaker
         elif isinstance(condition, sp.Ge | sp.Le) and is_real(condition.gts - condition.lts, where.with_(*fewer)):
-            # Proved for u ≥ 0 and for u ≤ 0, it needs neither.
-            found = _proof(expression, where, (*fewer, _opposite(condition)))
-            if found.how is not None:
-                divisors = tuple(dict.fromkeys((*proof.divisors, *found.divisors)))
-                chosen, proof = fewer, Proof(found.how, divisors)
+            # A proof for u ≥ 0 and one for u ≤ 0 make both conditions superfluous.
+            weaker = _proof(expression, where, (*fewer, _opposite(condition)))
+            if weaker.how is not None:
+                divisors = tuple(dict.fromkeys((*proof.divisors, *weaker.divisors)))
+                chosen, proof = fewer, Proof(weaker.how, divisors)
     return chosen, proof
 
 
 def _proof(expression: sp.Expr, where: Region, chosen: tuple[sp.Basic, ...]) -> Proof:
-    """The proof in the smaller region, where a point of it was seen and none of them refutes."""
+    """Return a proof in the smaller region if the region has a known point and no counterexample."""
     inside = where.with_(*chosen)
-    witness, enclosed = sample(expression, inside)
+    witness, enclosed = find_witness(expression, inside)
     if witness is not None or not enclosed:
         return Proof(None)
     try:
@@ -90,29 +90,29 @@ def _proof(expression: sp.Expr, where: Region, chosen: tuple[sp.Basic, ...]) -> 
         return Proof(None)
 
 
-def simplest(relations: tuple[sp.Basic, ...], where: Region) -> tuple[sp.Basic, ...]:
-    """Inequalities that are not known already, in their simplest form."""
-    found: dict[sp.Basic, None] = {}
+def simplify_conditions(relations: tuple[sp.Basic, ...], where: Region) -> tuple[sp.Basic, ...]:
+    """Return the inequalities that do not already hold in the region, in their simplest form."""
+    inequalities: dict[sp.Basic, None] = {}
     for relation in relations:
         if relation is sp.true or relation is sp.false:
             continue
         e, strict = relation.gts - relation.lts, isinstance(relation, sp.Gt | sp.Lt)
         if not e.free_symbols or (is_positive(e, where) if strict else is_nonnegative(e, where)):
             continue
-        for part in _simplest(e, where):
-            found[sided(part, strict)] = None
-    return tuple(relation for relation in found if relation not in (sp.true, sp.false))
+        for factor in _reduced_factors(e, where):
+            inequalities[sided(factor, strict)] = None
+    return tuple(relation for relation in inequalities if relation not in (sp.true, sp.false))
 
 
 def sided(e: sp.Expr, strict: bool) -> sp.Basic:
-    """e > 0 or e ≥ 0, with the sign outside: x ≤ 0 for −x ≥ 0."""
+    """Return e > 0 or e ≥ 0 with a positive leading sign: x ≤ 0 for −x ≥ 0."""
     if e.could_extract_minus_sign():
         return sp.Lt(-e, 0) if strict else sp.Le(-e, 0)
     return sp.Gt(e, 0) if strict else sp.Ge(e, 0)
 
 
-def _simplest(e: sp.Expr, where: Region) -> list[sp.Expr]:
-    """The factors of an e >= 0 that are not known to be positive, each taken to be so."""
+def _reduced_factors(e: sp.Expr, where: Region) -> list[sp.Expr]:
+    """Return the product of the factors of e that are not known to be positive."""
     content, factors = sp.factor(e).as_coeff_mul()
     factors = [_exponent(f) for f in factors if not is_positive(f, where)]
     odd = [f for f in factors if not (f.is_Pow and f.exp.is_Integer and f.exp % 2 == 0)]
@@ -121,5 +121,5 @@ def _simplest(e: sp.Expr, where: Region) -> list[sp.Expr]:
 
 
 def _exponent(f: sp.Expr) -> sp.Expr:
-    """u for exp(u) − 1, which has its sign."""
+    """Return u for exp(u) − 1, which has the sign of u."""
     return (f + 1).args[0] if isinstance(f + 1, sp.exp) else f

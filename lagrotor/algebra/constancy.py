@@ -1,4 +1,4 @@
-"""What is continuous on a connected region, with derivatives that vanish, is constant there: zero if it is at one point."""
+"""Constancy on a connected region: a continuous function with zero derivatives is zero if it is zero at one point."""
 
 from __future__ import annotations
 
@@ -14,32 +14,32 @@ from lagrotor.algebra.signs import ANY, NONNEGATIVE, Region, is_nonnegative, is_
 from lagrotor.errors import NotExactError
 
 _ENTIRE = (sp.sin, sp.cos, sp.sinh, sp.cosh, sp.exp, sp.erf)
-_REAL = (sp.atan, sp.tanh, sp.asinh, sp.sech, sp.Abs)  # continuous where their argument is real
+_REAL = (sp.atan, sp.tanh, sp.asinh, sp.sech, sp.Abs)  # continuous for real arguments
 _PLACES = (sp.S.Zero, sp.S.Half, sp.S.One, sp.Integer(2), -sp.S.Half, sp.Integer(-2))
-_MOST_LETTERS = 3
+_MOST_SYMBOLS = 3
 
 
-def is_continuous(e: sp.Expr, where: Region, letters: frozenset[sp.Symbol]) -> bool:
-    """Whether e is certainly continuous in these letters throughout the region."""
-    if not e.free_symbols & letters or e.is_Symbol:
+def is_continuous(e: sp.Expr, where: Region, symbols: frozenset[sp.Symbol]) -> bool:
+    """Return True if e is certainly continuous in these symbols throughout the region."""
+    if not e.free_symbols & symbols or e.is_Symbol:
         return True
-    if not all(is_continuous(part, where, letters) for part in e.args):
+    if not all(is_continuous(argument, where, symbols) for argument in e.args):
         return False
     if e.is_Add or e.is_Mul or isinstance(e, _ENTIRE):
         return True
     u = e.args[0]
-    found = signs(u, where)
+    argument_signs = signs(u, where)
     if e.is_Pow:
         if e.exp.is_Integer:
-            return bool(e.exp > 0) or (found is not None and 0 not in found)
+            return bool(e.exp > 0) or (argument_signs is not None and 0 not in argument_signs)
         if (e.exp.is_Rational and e.exp > 0) or is_positive(e.exp, where):
-            return found is not None and found <= NONNEGATIVE
+            return argument_signs is not None and argument_signs <= NONNEGATIVE
         return is_positive(u, where)
     return _is_function_continuous(e, u, where)
 
 
 def _is_function_continuous(e: sp.Expr, u: sp.Expr, where: Region) -> bool:
-    """Of a function with singular points or a branch cut, at a continuous argument u."""
+    """Return True for a function with singular points or a branch cut if it is continuous at a continuous argument u."""
     if isinstance(e, sp.log):
         return is_positive(u, where) or is_positive(sp.re(u), where)
     if isinstance(e, _REAL):
@@ -58,24 +58,20 @@ def _is_function_continuous(e: sp.Expr, u: sp.Expr, where: Region) -> bool:
 
 
 def is_connected(where: Region) -> bool:
-    """Whether the region is certainly connected: convex, or star-shaped about the origin."""
+    """Return True if the region is certainly connected: convex, or star-shaped about the origin."""
     s = sp.Dummy(positive=True)
     for e, _ in where.above:
-        letters = sorted(e.free_symbols, key=sp.default_sort_key)
+        symbols = sorted(e.free_symbols, key=sp.default_sort_key)
         try:
-            polynomial = sp.Poly(e, *letters)
+            polynomial = sp.Poly(e, *symbols)
         except sp.PolynomialError:
             return False
         if polynomial.total_degree() <= 1:
             continue
-        scaled = sp.Poly(e.xreplace({letter: s * letter for letter in letters}), s)
+        scaled = sp.Poly(e.xreplace({symbol: s * symbol for symbol in symbols}), s)
         degrees = [n for (n,) in scaled.monoms() if n]
-        # with one degree only, e runs monotonically from its value at the origin
-        if (
-            len(degrees) != 1
-            or not scaled.eval(0).is_positive
-            or not all(_holds_origin(each) for each, _ in where.above)
-        ):
+        # a homogeneous e plus a constant is monotonic on every ray from the origin
+        if len(degrees) != 1 or not scaled.eval(0).is_positive or not all(_holds_origin(e) for e, _ in where.above):
             return False
     return True
 
@@ -85,29 +81,29 @@ def _holds_origin(e: sp.Expr) -> bool:
 
 
 def is_constant_zero(expression: sp.Expr, where: Region, vanishes: Callable[[sp.Expr, Region], bool]) -> bool:
-    """Whether it is zero by continuity, by its derivatives and by its value at one point of the region."""
-    letters = sorted(expression.free_symbols, key=sp.default_sort_key)
-    if len(letters) > _MOST_LETTERS or any(letter.is_integer or not is_real(letter, where) for letter in letters):
+    """Return True if continuity, zero derivatives and a zero value at one point prove zero in the region."""
+    symbols = sorted(expression.free_symbols, key=sp.default_sort_key)
+    if len(symbols) > _MOST_SYMBOLS or any(symbol.is_integer or not is_real(symbol, where) for symbol in symbols):
         return False
-    if not is_connected(where) or not is_continuous(expression, where, frozenset(letters)):
+    if not is_connected(where) or not is_continuous(expression, where, frozenset(symbols)):
         return False
-    if not all(vanishes(derivative(expression, letter), where) for letter in letters):
+    if not all(vanishes(derivative(expression, symbol), where) for symbol in symbols):
         return False
-    return any(_is_zero(expression.subs(point), vanishes) for point in _places(letters, where))
+    return any(_is_zero(expression.subs(point), vanishes) for point in _places(symbols, where))
 
 
-def _places(letters: list[sp.Symbol], where: Region) -> list[dict[sp.Symbol, sp.Expr]]:
-    found = []
+def _places(symbols: list[sp.Symbol], where: Region) -> list[dict[sp.Symbol, sp.Expr]]:
+    candidates = []
     for place in _PLACES:
-        point = dict.fromkeys(letters, place)
-        if any((letter.is_positive and place <= 0) or (letter.is_negative and place >= 0) for letter in letters):
+        point = dict.fromkeys(symbols, place)
+        if any((symbol.is_positive and place <= 0) or (symbol.is_negative and place >= 0) for symbol in symbols):
             continue
         try:
             if all(enclosed_at(e, point).real.a > 0 for e, _ in where.above):
-                found.append(point)
+                candidates.append(point)
         except NotExactError:
             continue
-    return found[:3]
+    return candidates[:3]
 
 
 def _is_zero(value: sp.Expr, vanishes: Callable[[sp.Expr, Region], bool]) -> bool:
@@ -117,7 +113,7 @@ def _is_zero(value: sp.Expr, vanishes: Callable[[sp.Expr, Region], bool]) -> boo
 
 
 def is_small_angle(expression: sp.Expr, vanishes: Callable[[sp.Expr, Region], bool]) -> bool:
-    """Return whether a number made of arcs is zero: a whole multiple of it is small and has the sine 0."""
+    """Return True if a sum of arcs is zero: a multiple of it has the sine 0 and an absolute value below 3."""
     if expression.free_symbols or not expression.has(sp.asin, sp.acos, sp.atan):
         return False
     rates = [term.as_coeff_Mul()[0] for term in sp.Add.make_args(sp.expand(expression))]

@@ -1,4 +1,4 @@
-"""A root of some equations, enclosed: Krawczyk's test proves that a small box holds exactly one.
+"""Enclosures of the roots of equations. Krawczyk's test proves that a small box X contains exactly one root:
 
     K(X) = x − Y F(x) + (1 − Y F'(X)) (X − x),    Y ≈ F'(x)⁻¹,    K(X) inside X ⇒ one root in X.
 
@@ -15,56 +15,53 @@ from lagrotor.algebra.enclosures import Bounds, Point, enclosure, enclosures
 
 _DIGITS, _STEPS, _FAR, _NARROW = 60, 40, 1e9, sp.Rational(1, 10**25)
 _MOST_BOXES, _MOST_UNDECIDED, _LEAST = 4_000, 16, sp.Rational(1, 10**6)
-_CUT = sp.Rational(49, 100)  # beside the middle, where roots often are
-_REACH = 32  # widths of a narrow part, from which on the direction of a force at a kink is enclosed
+_CUT = sp.Rational(49, 100)  # off the middle, where roots are frequent
+_REACH = 32  # widths of a narrow box by which it is enlarged in the search for a kink
 _PIECEWISE = (sp.Abs, sp.sign, sp.Heaviside, sp.Max, sp.Min)
 Box = dict[sp.Symbol, Bounds]
 
 
 def enclosed_root(equations: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol], point: Point) -> Box | None:
-    """A narrow box of the unknowns that holds a root of the equations, the other letters at their values in `point`.
-
-    The search begins at the unknowns' values in `point`. None where no root is found, or none is proved.
-    """
+    """Return a narrow box with a root, found from `point`, which also fixes the other symbols; None without proof."""
     others = {s: value for s, value in point.items() if s not in unknowns}
     functions = [e.xreplace(others) for e in equations]
     slopes = [[derivative(f, s) for s in unknowns] for f in functions]
     at = _near(functions, slopes, unknowns, point)
     if at is None:
         return None
-    here = dict(zip(unknowns, at, strict=True))
-    box = {s: (x - _NARROW, x + _NARROW) for s, x in here.items()}
-    values = [v for f in functions if (v := enclosure(f, here)) is not None]
+    centre = dict(zip(unknowns, at, strict=True))
+    box = {s: (x - _NARROW, x + _NARROW) for s, x in centre.items()}
+    values = [v for f in functions if (v := enclosure(f, centre)) is not None]
     spread = [[v for slope in row if (v := enclosure(slope, box)) is not None] for row in slopes]
     if len(values) < len(functions) or any(len(row) < len(unknowns) for row in spread):
         return None
     middle = sp.Matrix([[(low + high) / 2 for low, high in row] for row in spread])
     if middle.det() == 0:
         return None
-    K = _image(values, spread, middle.inv(), here, box)
+    K = _image(values, spread, middle.inv(), centre, box)
     return box if all(box[s][0] < K[s][0] <= K[s][1] < box[s][1] for s in unknowns) else None
 
 
 def _image(values: Sequence[Bounds], spread: Sequence[Sequence[Bounds]], Y: sp.Matrix, x: Point, X: Box) -> Box:
-    """K(X), of F(x), F'(X), Y and x."""
+    """Return K(X) from F(x), F'(X), Y and x."""
     K: Box = {}
     for i, s in enumerate(X):
-        moved = _sum(_times((Y[i, j], Y[i, j]), v) for j, v in enumerate(values))
-        parts = [(x[s] - moved[1], x[s] - moved[0])]
-        for k, other in enumerate(X):
+        correction = _sum(_times((Y[i, j], Y[i, j]), v) for j, v in enumerate(values))
+        summands = [(x[s] - correction[1], x[s] - correction[0])]
+        for k, t in enumerate(X):
             product = _sum(_times((Y[i, j], Y[i, j]), row[k]) for j, row in enumerate(spread))
-            off = (int(i == k) - product[1], int(i == k) - product[0])
-            parts.append(_times(off, (X[other][0] - x[other], X[other][1] - x[other])))
-        K[s] = _sum(parts)
+            defect = (int(i == k) - product[1], int(i == k) - product[0])
+            summands.append(_times(defect, (X[t][0] - x[t], X[t][1] - x[t])))
+        K[s] = _sum(summands)
     return K
 
 
 def _near(
     functions: Sequence[sp.Expr], slopes: Sequence[Sequence[sp.Expr]], unknowns: Sequence[sp.Symbol], point: Point
 ) -> list[sp.Rational] | None:
-    """Rational values of the unknowns near a root, by Newton's method from those of the point."""
+    """Return rational values of the unknowns near a root, by Newton's method from the point."""
     f, jacobian = (
-        sp.lambdify([list(unknowns)], each, "mpmath") for each in (list(functions), [list(r) for r in slopes])
+        sp.lambdify([list(unknowns)], outputs, "mpmath") for outputs in (list(functions), [list(r) for r in slopes])
     )
     with mp.workdps(_DIGITS):
         x = mp.matrix([mp.mpf(point[s].p) / point[s].q for s in unknowns])
@@ -86,21 +83,20 @@ def _times(a: Bounds, b: Bounds) -> Bounds:
     return min(ends), max(ends)
 
 
-def _sum(parts: Iterable[Bounds]) -> Bounds:
+def _sum(intervals: Iterable[Bounds]) -> Bounds:
     low, high = sp.S.Zero, sp.S.Zero
-    for a, b in parts:
+    for a, b in intervals:
         low, high = low + a, high + b
     return low, high
 
 
 def roots_in_box(equations: Sequence[sp.Expr], box: Box) -> tuple[list[Box], list[Box]]:
-    """Narrow boxes, each of which holds exactly one root of the equations in the symbols of `box`, and small boxes that are left
-    undecided: outside all of these there is no root.
+    """Return narrow boxes with exactly one root each, and small undecided boxes; there is no root outside all of these.
 
-    A box is left out where an equation excludes zero or Krawczyk's K(X) does not meet it, holds one root where K(X) is inside;
-    otherwise what it has in common with K(X) is cut in two, until 16 are undecided, or 4,000 tried. A root on the rim of the
-    box is among them. Where a denominator may vanish the numerators are taken in the equations' place; where it does there is
-    no root. A root where a piece of a function begins is left undecided.
+    A box without a root has an equation that excludes zero or a Krawczyk image that does not meet it. A box that contains its
+    Krawczyk image has one root. Any other box is intersected with the image and bisected, until 16 boxes are undecided or 4,000
+    were examined. A root on the boundary of `box` is included. Where a denominator may vanish the numerators replace the
+    equations. A box in which a function may switch its piece is undecided.
     """
     unknowns = list(box)
     equations = [e.rewrite(_PIECEWISE, sp.Piecewise) for e in equations]
@@ -113,30 +109,30 @@ def roots_in_box(equations: Sequence[sp.Expr], box: Box) -> tuple[list[Box], lis
     whole = _Equations(equations, unknowns)
     above = _Equations([numerator for numerator, _ in fractions], unknowns) if below else whole
     roots: list[Box] = []
-    open_boxes, undecided, tried = [box], list[Box](), 0
+    open_boxes, undecided, visits = [box], list[Box](), 0
     while open_boxes:
         X = open_boxes.pop()
-        tried += 1
+        visits += 1
         wide = {s: (low - (high - low) / 8, high + (high - low) / 8) for s, (low, high) in X.items()}
-        here = above if any(_may_vanish(d, wide) for d in below) else whole
-        if any(v is not None and not v[0] <= 0 <= v[1] for v in enclosures(here.equations, X)):
+        system = above if any(_may_vanish(d, wide) for d in below) else whole
+        if any(v is not None and not v[0] <= 0 <= v[1] for v in enclosures(system.equations, X)):
             continue
-        K = _krawczyk(here, wide)
+        K = _krawczyk(system, wide)
         if K is not None and not all(_meet(K[s], X[s]) for s in unknowns):
             continue
         if K is not None and all(wide[s][0] < K[s][0] and K[s][1] < wide[s][1] for s in unknowns):
-            root = enclosed_root(here.equations, unknowns, {s: sum(side) / 2 for s, side in K.items()})
+            root = enclosed_root(system.equations, unknowns, {s: sum(side) / 2 for s, side in K.items()})
             if root is not None and all(wide[s][0] <= root[s][0] and root[s][1] <= wide[s][1] for s in unknowns):
-                known = any(all(_meet(root[s], other[s]) for s in unknowns) for other in roots)
+                is_duplicate = any(all(_meet(root[s], earlier[s]) for s in unknowns) for earlier in roots)
                 inside = all(_meet(root[s], box[s]) for s in unknowns)
-                if inside and not known and not any(_may_vanish(d, root) for d in below):
+                if inside and not is_duplicate and not any(_may_vanish(d, root) for d in below):
                     roots.append(root)
                 continue
         if K is not None:
             X = {s: _common(X[s], K[s]) for s in unknowns}
         widest = max(unknowns, key=lambda s: (X[s][1] - X[s][0]) / (box[s][1] - box[s][0]))
         low, high = X[widest]
-        if tried > _MOST_BOXES or len(undecided) == _MOST_UNDECIDED:
+        if visits > _MOST_BOXES or len(undecided) == _MOST_UNDECIDED:
             return roots, [*undecided, X, *open_boxes]
         if high - low < _LEAST * (box[widest][1] - box[widest][0]):
             undecided.append(X)
@@ -146,23 +142,21 @@ def roots_in_box(equations: Sequence[sp.Expr], box: Box) -> tuple[list[Box], lis
     return roots, undecided
 
 
-def kinks_in(equations: Sequence[sp.Expr], part: Box, box: Box) -> list[sp.Expr]:
-    """Return the expressions that may vanish in a narrow part of a box, or near to it, and leave the equations
-    without a derivative or a value there: denominators, radicands, arguments at which a function changes its form."""
-    if any(high - low > _LEAST * (box[s][1] - box[s][0]) for s, (low, high) in part.items() if s in box):
+def kinks_in(equations: Sequence[sp.Expr], narrow: Box, box: Box) -> list[sp.Expr]:
+    """Return denominators, radicands and switch conditions that may vanish in or near a narrow box."""
+    if any(high - low > _LEAST * (box[s][1] - box[s][0]) for s, (low, high) in narrow.items() if s in box):
         return []
-    near = {s: (low - _REACH * (high - low), high + _REACH * (high - low)) for s, (low, high) in part.items()}
+    near = {s: (low - _REACH * (high - low), high + _REACH * (high - low)) for s, (low, high) in narrow.items()}
     pieces = [e.rewrite(_PIECEWISE, sp.Piecewise) for e in equations]
     powers = set().union(*(e.atoms(sp.Pow) for e in pieces))
     relations = set().union(*(e.atoms(sp.core.relational.Relational) for e in pieces))
-    parts = {p.base for p in powers if not (p.exp.is_Integer and p.exp.is_positive)} | {
-        r.lhs - r.rhs for r in relations
-    }
-    return sorted((e for e in parts if e.free_symbols & {*part} and _may_vanish(e, near)), key=sp.default_sort_key)
+    switches = {p.base for p in powers if not (p.exp.is_Integer and p.exp.is_positive)}
+    switches |= {r.lhs - r.rhs for r in relations}
+    return sorted((e for e in switches if e.free_symbols & {*narrow} and _may_vanish(e, near)), key=sp.default_sort_key)
 
 
 class _Equations:
-    """Equations, their derivatives by the unknowns row by row, and what vanishes where another piece of a function begins."""
+    """Equations, their derivatives by the unknowns row by row, and the expressions that vanish where a function switches."""
 
     def __init__(self, equations: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol]) -> None:
         self.equations, self.unknowns = equations, unknowns
@@ -177,10 +171,10 @@ def _may_vanish(e: sp.Expr, X: Box) -> bool:
 
 
 def _krawczyk(system: _Equations, X: Box) -> Box | None:
-    """K(X); None where something has no enclosure there, another piece may begin, or the middle of F'(X) is singular."""
+    """Return K(X); None if an enclosure is unknown, a function may switch its piece, or the middle of F'(X) is singular."""
     equations, unknowns = system.equations, system.unknowns
     if any(_may_vanish(e, X) for e in system.switches):
-        return None  # the slopes of the pieces say nothing across a jump
+        return None  # the derivatives of the pieces do not bound a jump
     middle = {s: _short((low + high) / 2) for s, (low, high) in X.items()}
     values, n = enclosures(equations, middle), len(unknowns)
     flat = enclosures(system.slopes, X)
@@ -199,7 +193,7 @@ def _meet(a: Bounds, b: Bounds) -> bool:
 
 
 def _common(a: Bounds, b: Bounds) -> Bounds:
-    """Bounds, with few digits, of what is in a and in b, which meet."""
+    """Return the intersection of two intervals that meet, with few digits."""
     low = max(a[0], _below(b[0])) if a[0] < b[0] else a[0]
     return low, min(a[1], -_below(-b[1])) if b[1] < a[1] else a[1]
 
@@ -210,5 +204,5 @@ def _below(x: sp.Rational) -> sp.Rational:
 
 
 def _short(x: sp.Rational) -> sp.Rational:
-    """A rational near x with few digits, where any one near it does."""
+    """Return a rational near x with few digits."""
     return sp.Rational(float(x))

@@ -1,8 +1,8 @@
-"""Values at a rational point enclosed in intervals: what they exclude is proved, at that point.
+"""Interval enclosures of values at a rational point: an inequality between enclosures is proved at that point.
 
-Outward rounding at every operation (mpmath.iv); a complex value is enclosed in a rectangle.  A point may also hold values of
-unknown functions and their derivatives, which are free at different arguments.  Moore, Kearfott & Cloud, Introduction to
-Interval Analysis, chs. 2, 7.
+Every operation rounds outwards (mpmath.iv); a complex value is enclosed in a rectangle.  A point may also hold values of
+undefined functions and of their derivatives, which are independent at different arguments.  Moore, Kearfott & Cloud,
+Introduction to Interval Analysis, chs. 2, 7.
 """
 
 from __future__ import annotations
@@ -26,51 +26,45 @@ from lagrotor.errors import NotExactError
 Point: TypeAlias = dict[sp.Expr, sp.Expr]
 
 DIGITS = 120
-_MOST_TERMS, _PIECES = 3000, 32  # of a sum, of an integral
-_LARGEST = 1e6  # arguments of functions: beyond, their values have too many digits
+_MOST_TERMS, _PIECES = 3000, 32  # terms of a sum, pieces of an integral
+_LARGEST = 1e6  # argument of a function: larger ones need too many digits
 _CONSTANTS = {sp.pi: lambda: iv.pi, sp.E: lambda: iv.e, sp.EulerGamma: lambda: iv.euler, sp.I: lambda: iv.mpc(0, 1)}
 
 
 @contextmanager
-def digits(number: int) -> Any:
-    before, iv.dps = iv.dps, number
+def working_digits(number: int) -> Any:
+    previous, iv.dps = iv.dps, number
     try:
         yield
     finally:
-        iv.dps = before
+        iv.dps = previous
 
 
 def enclosed_at(expression: sp.Expr, point: Point, precision: int = DIGITS) -> Any:
-    """An interval, or a rectangle of the complex plane, that holds the value at the point.
-
-    Raises NotExactError where none is known.
-    """
-    with digits(precision):
+    """Return an interval or complex rectangle that contains the value; raise NotExactError if none is known."""
+    with working_digits(precision):
         return PointEnclosure(point).value(expression)
 
 
 def excludes_zero(value: Any) -> bool:
-    """Return whether 0 lies outside an enclosure."""
-    return any(0 not in part and part.delta < iv.inf for part in (value.real, value.imag))
+    """Return True if 0 lies outside an enclosure."""
+    return any(0 not in side and side.delta < iv.inf for side in (value.real, value.imag))
 
 
-def are_apart(left: sp.Expr, right: sp.Expr, point: Mapping[sp.Expr, Any]) -> bool:
-    """Return whether the enclosures of two real sides have no number in common at a point, in which nothing is put in."""
-    with digits(DIGITS):
+def are_apart(lhs: sp.Expr, rhs: sp.Expr, point: Mapping[sp.Expr, Any]) -> bool:
+    """Return True if the enclosures of two real sides at a point are disjoint."""
+    with working_digits(DIGITS):
         inside = PointEnclosure(point)
         try:
-            gap = inside.value(left) - inside.value(right)
+            gap = inside.value(lhs) - inside.value(rhs)
         except (NotExactError, RecursionError):
             return False
         return inside.real and excludes_zero(gap)
 
 
 def solved_at(A: sp.Matrix, b: sp.Matrix, point: Point) -> list[Any]:
-    """Intervals that hold x of A x = b at the point, by elimination.
-
-    Raises NotExactError where something has no enclosure, or A is not shown to be regular.
-    """
-    with digits(DIGITS):
+    """Return intervals that contain x of A x = b at the point; raise NotExactError if A is not proved to be regular."""
+    with working_digits(DIGITS):
         try:
             enclosure = PointEnclosure(point)
             rows = [[_real(enclosure.of(e)) for e in row] for row in A.row_join(b).tolist()]
@@ -79,16 +73,13 @@ def solved_at(A: sp.Matrix, b: sp.Matrix, point: Point) -> list[Any]:
             raise NotExactError(f"Not enclosed at {point}: {error}.") from None
 
 
-def apart(left: Sequence[Any], right: Sequence[Any]) -> int | None:
-    """The first place where two intervals have no number in common."""
-    return next((i for i, (x, y) in enumerate(zip(left, right, strict=True)) if x.b < y.a or y.b < x.a), None)
+def apart(first: Sequence[Any], second: Sequence[Any]) -> int | None:
+    """Return the first index at which two intervals are disjoint; None if every pair meets."""
+    return next((i for i, (x, y) in enumerate(zip(first, second, strict=True)) if x.b < y.a or y.b < x.a), None)
 
 
 class PointEnclosure:
-    """Enclosures of the parts of an expression at one point, `jets`: the free values that unknown functions took there.
-
-    A value of the point may also be two rationals between which it lies.
-    """
+    """Enclosures of subexpressions at a point of rationals or pairs (lower, upper); `jets`: values of undefined functions."""
 
     def __init__(self, point: Mapping[sp.Expr, Any]) -> None:
         self.point = {s: value for s, value in point.items() if not isinstance(value, tuple)}
@@ -99,11 +90,11 @@ class PointEnclosure:
 
     @property
     def real(self) -> bool:
-        """Whether everything that was enclosed is real, but for i itself."""
+        """True if every enclosed value except i itself is real."""
         return not any(_is_complex(value) for e, value in self.known.items() if e is not sp.I)
 
     def value(self, e: sp.Expr) -> Any:
-        """The enclosure; raise NotExactError where none is known."""
+        """Return the enclosure of e; raise NotExactError if none is known."""
         try:
             return self.of(e)
         except (ArithmeticError, ValueError, libmp.ComplexResult, TypeError, AttributeError) as error:
@@ -112,7 +103,7 @@ class PointEnclosure:
     def of(self, e: sp.Expr) -> Any:
         if e not in self.known:
             value = self._sought(e)
-            if not all(part.a > -iv.inf and part.b < iv.inf for part in (value.real, value.imag)):
+            if not all(side.a > -iv.inf and side.b < iv.inf for side in (value.real, value.imag)):
                 raise NotExactError(f"{e} is not enclosed: it is not bounded.")
             self.known[e] = value
         return self.known[e]
@@ -137,14 +128,14 @@ class PointEnclosure:
             exponent = self._order(e.exp)
             return _power(e, self.of(e.base), exponent if exponent.is_Rational else self.of(e.exp))
         if e.func in SPECIAL:
-            orders = [self._order(part) for part in e.args]
-            return SPECIAL[e.func](orders, [self.of(part) for part in e.args])
+            orders = [self._order(argument) for argument in e.args]
+            return SPECIAL[e.func](orders, [self.of(argument) for argument in e.args])
         if e.func not in _FUNCTIONS or len(e.args) != 1:
             raise NotExactError(f"{e.func} is not enclosed.")
         return _FUNCTIONS[e.func](self.of(e.args[0]))
 
     def _piecewise(self, e: sp.Piecewise) -> Any:
-        """From the least to the largest value of the pieces that may hold."""
+        """Return an interval that contains the values of all pieces that may apply."""
         ends = []
         for piece, condition in e.args:
             holds = self._holds(condition)
@@ -156,33 +147,33 @@ class PointEnclosure:
         raise NotExactError(f"{e} is not enclosed: no piece is shown to hold.")
 
     def _holds(self, condition: sp.Basic) -> bool | None:
-        """Return whether an equation or an inequality holds; None where that is open."""
+        """Return True or False for an equation or inequality; None if undecided."""
         if condition in (sp.true, sp.false):
             return bool(condition)
         if isinstance(condition, sp.And | sp.Or):
             whole = isinstance(condition, sp.And)
-            answers = [self._holds(part) for part in condition.args]
+            answers = [self._holds(clause) for clause in condition.args]
             return None if None in answers and (not whole) not in answers else (all if whole else any)(answers)
         if not isinstance(condition, sp.core.relational.Relational):
             return None
-        more = _real(self.of(condition.lhs - condition.rhs))
+        difference = _real(self.of(condition.lhs - condition.rhs))
         if isinstance(condition, sp.Eq | sp.Ne):
-            same = True if more.a == more.b == 0 else None if 0 in more else False
+            same = True if difference.a == difference.b == 0 else None if 0 in difference else False
             return same if same is None or isinstance(condition, sp.Eq) else not same
         if isinstance(condition, sp.Lt | sp.Le):
-            more = -more
+            difference = -difference
         strict = isinstance(condition, sp.Gt | sp.Lt)
-        if more.a > 0 or (more.a == 0 and not strict):
+        if difference.a > 0 or (difference.a == 0 and not strict):
             return True
-        return False if more.b < 0 or (more.b == 0 and strict) else None
+        return False if difference.b < 0 or (difference.b == 0 and strict) else None
 
     def _order(self, e: sp.Expr) -> sp.Expr:
-        """An exponent or an order, put in where it is a sum of products of letters."""
+        """Return an exponent or order with the values of the point if it is a polynomial in symbols."""
         plain = all(n.is_Add or n.is_Mul or n.is_Atom for n in sp.preorder_traversal(e))
         return e.xreplace(dict(self.point)) if plain else e
 
     def _integral(self, e: sp.Expr) -> Any:
-        """Return the enclosure of a definite integral; of an unknown f(u) du alone the antiderivative is as free as f is."""
+        """Enclose a definite integral; for an undefined f(u) the antiderivative is as free as f."""
         body, (u, *ends), *others = e.args
         if not others and len(ends) == 2 and not body.has(AppliedUndef, sp.Integral):
             return self._quadrature(body, u, *map(self.of, ends))
@@ -194,7 +185,7 @@ class PointEnclosure:
         return _leaf(values[-1]) - (_leaf(values[0]) if len(values) == 2 else 0)
 
     def _quadrature(self, body: sp.Expr, u: sp.Symbol, low: Any, high: Any) -> Any:
-        """Return the sum of the ranges of the body over equal pieces, each times the length of a piece."""
+        """Return the sum over equal pieces of the integrand's range times the piece's length."""
         step, total = _real(high - low) / _PIECES, iv.mpf(0)
         for k in range(_PIECES):
             piece = PointEnclosure(self.point)
@@ -204,7 +195,7 @@ class PointEnclosure:
         return total
 
     def _repeated(self, e: sp.Expr) -> Any:
-        """A sum or a product between whole numbers."""
+        """Enclose a sum or product between integers."""
         body, (index, low, high), *others = e.args
         start, end = (sp.sympify(side, strict=True).xreplace(dict(self.point)) for side in (low, high))
         if others or not (start.is_Integer and end.is_Integer) or end - start > _MOST_TERMS:
@@ -218,10 +209,10 @@ class PointEnclosure:
         return total
 
     def _jet(self, kind: Any, arguments: tuple[sp.Expr, ...]) -> sp.Rational:
-        """A free value: the same at arguments that may be equal, chosen anew at others."""
+        """Return the free value: equal at arguments that may be equal, new at other arguments."""
         at = tuple(map(self.of, arguments))
-        for other, places, value in self.free:
-            if other == kind and not any(excludes_zero(x - y) for x, y in zip(at, places, strict=True)):
+        for earlier, places, value in self.free:
+            if earlier == kind and not any(excludes_zero(x - y) for x, y in zip(at, places, strict=True)):
                 return value
         k = len(self.free)
         value = sp.Rational(2 * k + 3, 3 * k + 4) + k % 3
@@ -230,13 +221,13 @@ class PointEnclosure:
 
 
 def jet_of(e: sp.Expr) -> tuple[Any, tuple[sp.Expr, ...]] | None:
-    """A derivative of an unknown function as (function, how often by each argument), and the arguments; None elsewhere."""
+    """Return ((function, derivative orders), arguments) of a derivative of an undefined function; None otherwise."""
     if isinstance(e, sp.Subs):
         inner = jet_of(e.expr)
         if inner is None or not set(e.variables) <= set(inner[1]):
             return None
-        put = dict(zip(e.variables, e.point, strict=True))
-        return inner[0], tuple(a.xreplace(put) for a in inner[1])
+        replacements = dict(zip(e.variables, e.point, strict=True))
+        return inner[0], tuple(a.xreplace(replacements) for a in inner[1])
     if isinstance(e, sp.Derivative):
         inner = e.expr
         if not isinstance(inner, AppliedUndef) or len(set(inner.args)) < len(inner.args):
@@ -291,7 +282,7 @@ def _exp(x: Any) -> Any:
 
 
 def _log(x: Any) -> Any:
-    """Principal; on the cut, the negative real axis, its imaginary part is π."""
+    """Return the principal logarithm; its imaginary part on the cut, the negative real axis, is π."""
     if not _is_complex(x):
         if x.a > 0:
             return iv.log(x)
@@ -321,7 +312,7 @@ def _atan(x: Any) -> Any:
 
 
 def _asin(x: Any) -> Any:
-    """On the cuts x > 1 and x < −1 with sympy's branch."""
+    """Return asin; on the cuts x > 1 and x < −1 it has sympy's branch."""
     if not _is_complex(x):
         if x.a > 1 or x.b < -1:
             return iv.pi / 2 - _acos(x)
@@ -337,7 +328,7 @@ def _asin(x: Any) -> Any:
 
 
 def _acos(x: Any) -> Any:
-    """Real in [-1, 1]; i acosh(x) for x > 1, and π − i acosh(−x) for x < −1."""
+    """Return acos: real in [−1, 1], i acosh(x) for x > 1, π − i acosh(−x) for x < −1."""
     if _is_complex(x) or (x.a >= -1 and x.b <= 1):
         return iv.pi / 2 - _asin(x)
     return iv.mpc(0, _acosh(x)) if x.a > 1 else iv.pi - iv.mpc(0, _acosh(-x)) if x.b < -1 else _unknown("acos")
@@ -368,41 +359,25 @@ def _tanh(x: Any) -> Any:
 
 
 _FUNCTIONS: dict[Any, Any] = {
-    sp.sin: _sin,
-    sp.cos: _cos,
-    sp.tan: lambda x: _sin(x) / _cos(x),
-    sp.cot: lambda x: _cos(x) / _sin(x),
-    sp.sec: lambda x: 1 / _cos(x),
-    sp.csc: lambda x: 1 / _sin(x),
-    sp.exp: _exp,
-    sp.log: _log,
-    sp.sinh: lambda x: (_exp(x) - _exp(-x)) / 2,
-    sp.cosh: lambda x: (_exp(x) + _exp(-x)) / 2,
-    sp.tanh: _tanh,
-    sp.coth: lambda x: 1 / _tanh(x),
-    sp.sech: lambda x: 2 / (_exp(x) + _exp(-x)),
-    sp.csch: lambda x: 2 / (_exp(x) - _exp(-x)),
-    sp.asin: _asin,
-    sp.acos: _acos,
-    sp.atan: _atan,
-    sp.acot: lambda x: _atan(1 / x),
-    sp.asec: lambda x: iv.pi / 2 - _asin(1 / x),
-    sp.acsc: lambda x: _asin(1 / x),
-    sp.asinh: lambda x: _unknown("asinh") if _is_complex(x) else _log(x + iv.sqrt(x * x + 1)),
-    sp.acosh: _acosh,
+    sp.sin: _sin, sp.cos: _cos, sp.tan: lambda x: _sin(x) / _cos(x), sp.cot: lambda x: _cos(x) / _sin(x),
+    sp.sec: lambda x: 1 / _cos(x), sp.csc: lambda x: 1 / _sin(x), sp.exp: _exp, sp.log: _log,
+    sp.sinh: lambda x: (_exp(x) - _exp(-x)) / 2, sp.cosh: lambda x: (_exp(x) + _exp(-x)) / 2, sp.tanh: _tanh,
+    sp.coth: lambda x: 1 / _tanh(x), sp.sech: lambda x: 2 / (_exp(x) + _exp(-x)),
+    sp.csch: lambda x: 2 / (_exp(x) - _exp(-x)), sp.asin: _asin, sp.acos: _acos, sp.atan: _atan,
+    sp.acot: lambda x: _atan(1 / x), sp.asec: lambda x: iv.pi / 2 - _asin(1 / x), sp.acsc: lambda x: _asin(1 / x),
+    sp.asinh: lambda x: _unknown("asinh") if _is_complex(x) else _log(x + iv.sqrt(x * x + 1)), sp.acosh: _acosh,
     sp.atanh: lambda x: (
         (_log(1 + x) - _log(1 - x)) / 2 if not _is_complex(x) and x.a > -1 and x.b < 1 else _unknown("atanh")
     ),
     sp.Abs: lambda x: iv.sqrt(x.real * x.real + x.imag * x.imag) if _is_complex(x) else abs(x),
     sp.sign: lambda x: iv.mpf(1) if _real(x).a > 0 else iv.mpf(-1) if x.b < 0 else _unknown("sign"),
-    sp.re: lambda x: x.real,
-    sp.im: lambda x: x.imag,
+    sp.re: lambda x: x.real, sp.im: lambda x: x.imag,
     sp.conjugate: lambda x: iv.mpc(x.real, -x.imag) if _is_complex(x) else x,
-}
+}  # fmt: skip
 
 
 def _eliminated(rows: list[list[Any]]) -> list[Any]:
-    """x from the rows of [A | b]."""
+    """Return x from the rows of [A | b]."""
     n = len(rows)
     for j in range(n):
         pivot = max(range(j, n), key=lambda i: abs(rows[i][j].mid))
@@ -412,33 +387,30 @@ def _eliminated(rows: list[list[Any]]) -> list[Any]:
         for i in range(j + 1, n):
             factor = rows[i][j] / rows[j][j]
             rows[i] = [x - factor * y for x, y in zip(rows[i], rows[j], strict=True)]
-    found: list[Any] = []
+    unknowns: list[Any] = []
     for row in reversed(rows):
-        done = row[n - len(found) : n]
-        rest = sum((a * x for a, x in zip(done, reversed(found), strict=True)), iv.mpf(0))
-        found.append((row[n] - rest) / row[n - len(found) - 1])
-    return found[::-1]
+        coefficients = row[n - len(unknowns) : n]
+        sum_ = sum((a * x for a, x in zip(coefficients, reversed(unknowns), strict=True)), iv.mpf(0))
+        unknowns.append((row[n] - sum_) / row[n - len(unknowns) - 1])
+    return unknowns[::-1]
 
 
-Bounds: TypeAlias = tuple[sp.Rational, sp.Rational]  # a value lies between the two
+Bounds: TypeAlias = tuple[sp.Rational, sp.Rational]  # lower, upper
 
 
 def enclosure(e: sp.Expr, point: Mapping[sp.Symbol, Any]) -> Bounds | None:
-    """Rationals between which e lies where its symbols have these values: rationals, or pairs of them between which they lie.
-
-    None where no real enclosure is known there.
-    """
+    """Return rational bounds of e at a point of rationals or pairs (lower, upper); None if no real enclosure is known."""
     return enclosures([e], point)[0]
 
 
 def enclosures(expressions: Iterable[sp.Expr], point: Mapping[sp.Symbol, Any]) -> list[Bounds | None]:
-    """The enclosure of each; what they have in common is enclosed once."""
-    with digits(DIGITS):
-        known = PointEnclosure(point)
+    """Return the enclosure of each expression; common subexpressions are enclosed once."""
+    with working_digits(DIGITS):
+        at_point = PointEnclosure(point)
 
         def bounds(e: sp.Expr) -> Bounds | None:
             try:
-                value = known.value(e)
+                value = at_point.value(e)
                 return None if _is_complex(value) else (_rational(value.real.a), _rational(value.real.b))
             except NotExactError:
                 return None
@@ -447,42 +419,39 @@ def enclosures(expressions: Iterable[sp.Expr], point: Mapping[sp.Symbol, Any]) -
 
 
 def _evalf(e: sp.Expr, precision: int, options: Any) -> tuple[Any, ...]:
-    """Return (re, im, bits of re, bits of im) of a function of numbers, as an entry of sympy's `evalf_table` does.
-
-    Where no enclosure is known sympy evaluates without one.
-    """
-    parts = None
+    """Return (re, im, bits of re, bits of im), as in sympy's `evalf_table`; without an enclosure sympy evaluates."""
+    sides = None
     for number in (precision, 2 * precision + 60, 4 * precision + 600):
-        with digits(number), suppress(NotExactError, RecursionError):
+        with working_digits(number), suppress(NotExactError, RecursionError):
             value = PointEnclosure({}).value(e)
-            parts = [_significant(part, precision) for part in (value.real, value.imag)]
-            if all(middle is None or bits >= precision for middle, bits in parts):
+            sides = [_significant(side, precision) for side in (value.real, value.imag)]
+            if all(middle is None or bits >= precision for middle, bits in sides):
                 break
-    if parts is None:
-        return _WITHOUT[type(e)](e, precision, options)  # KeyError has evalf look elsewhere
-    (re, re_bits), (im, im_bits) = parts
+    if sides is None:
+        return _WITHOUT[type(e)](e, precision, options)  # after a KeyError evalf uses its next method
+    (re, re_bits), (im, im_bits) = sides
     return re, im, re_bits, im_bits
 
 
-def _significant(part: Any, precision: int) -> tuple[Any, Any]:
-    """Return a real interval as a number with its certain bits; without a number where it is 0."""
-    if part.a == part.b == 0:
+def _significant(interval: Any, precision: int) -> tuple[Any, Any]:
+    """Return the middle of a real interval and its certain bits; (None, None) for 0."""
+    if interval.a == interval.b == 0:
         return None, None
-    middle, width = part.mid._mpi_[0], part.delta._mpi_[1]
-    if 0 in part:
+    middle, width = interval.mid._mpi_[0], interval.delta._mpi_[1]
+    if 0 in interval:
         return width, 0
     bits = precision if width == libmp.fzero else min(fastlog(middle) - fastlog(width), precision)
     return libmp.mpf_pos(middle, precision, "n"), bits
 
 
 def _rational(end: Any) -> sp.Rational:
-    """An end of an interval, which is a rational with a power of two below."""
+    """Return an interval's end, a dyadic rational."""
     sign, mantissa, exponent, _ = end._mpi_[0]
     return (-1) ** sign * sp.Integer(int(mantissa)) * sp.Integer(2) ** int(exponent)
 
 
-# sympy finds the sign of a number, and so whether its sine is 0, by evalf. Its evalf rounds the argument of a function to a few
-# bits first: acosh(1 + 1e-8) is then 0. With these entries such a sign is certain; signs from before are not kept.
+# sympy determines signs of numbers, and zeros of their sines, by evalf, which first rounds the argument of a function to a few
+# bits: acosh(1 + 1e-8) becomes 0. These entries make such signs certain; signs computed earlier are discarded.
 _WITHOUT = dict(evalf_table)
 evalf_table.update(dict.fromkeys((_FUNCTIONS.keys() | SPECIAL.keys()) - evalf_table.keys() | {sp.log, sp.tan}, _evalf))
 clear_cache()

@@ -1,4 +1,4 @@
-"""Points that the assumptions on letters allow, and how large an expression is there."""
+"""Random points that satisfy the assumptions of symbols, and the absolute value of an expression there."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ _POINTS = 8
 def points(
     symbols: Iterable[sp.Symbol], number: int = _POINTS, scale: sp.Rational = sp.S.One, seed: int = 1
 ) -> Iterator[Point]:
-    """Random rational points, the same at each call, of the sign and the kind that each symbol was declared with.
+    """Yield random rational points, the same at each call, that satisfy the assumptions of each symbol.
 
-    A symbol of which nothing is declared takes real values of both signs. scale: what values that need not be whole are
-    multiplied by. Values are drawn in the order of the symbols where that is known, else in that of their names.
+    A symbol without assumptions takes real values of both signs. `scale` multiplies values that need not be integers. Values are
+    drawn in the order of a given sequence of symbols, otherwise in the order of their names.
     """
     generator = random.Random(seed)
     ordered = list(symbols) if isinstance(symbols, Sequence) else sorted(symbols, key=sp.default_sort_key)
@@ -44,12 +44,9 @@ def _drawn(symbol: sp.Symbol, generator: random.Random, scale: sp.Rational) -> s
 
 
 def largest_value(expression: sp.Expr, at: Iterable[Point] | None = None) -> tuple[Point | None, float | None]:
-    """Return the point, of those given or of some random ones, where |expression| is largest, and that value.
-
-    Points where the expression is real come first. Both are None without a value.
-    """
+    """Return the point with the largest |expression| and this value, real points first; (None, None) without a value."""
     places = list(points(expression.free_symbols) if at is None else at)
-    sizes = [(i, size) for i, point in enumerate(places) if (size := size_at(expression, point)) is not None]
+    sizes = [(i, size) for i, point in enumerate(places) if (size := magnitude_at(expression, point)) is not None]
     ranked = [(_is_real_at(expression, places[i]), size, i) for i, size in sizes]
     _, size, place = max(ranked, default=(False, None, None))
     return None if place is None else places[place], size
@@ -63,8 +60,8 @@ def _is_real_at(expression: sp.Expr, point: Point) -> bool:
     return bool(imaginary.a == imaginary.b == 0)
 
 
-def size_at(expression: sp.Expr, point: Point) -> float | None:
-    """|expression| at the point, None where it is not enclosed."""
+def magnitude_at(expression: sp.Expr, point: Point) -> float | None:
+    """Return |expression| at the point; None if it is not enclosed."""
     try:
         value = enclosed_at(expression, point)
         size = float((abs(value.real.mid) ** 2 + abs(value.imag.mid) ** 2).b) ** 0.5
@@ -74,7 +71,7 @@ def size_at(expression: sp.Expr, point: Point) -> float | None:
 
 
 def sign_at(expression: sp.Expr, point: Point) -> int | None:
-    """The sign of an expression that is +1 or -1 wherever it is defined; None where it is not."""
+    """Return the sign of an expression that is +1 or −1 wherever it is defined; None if undefined."""
     try:
         value = enclosed_at(expression, point)
     except (NotExactError, RecursionError):

@@ -1,7 +1,7 @@
-"""Whether equations and inequalities exclude each other: linear ones in kernels, each within the bounds that `signs` knows.
+"""Infeasibility of equations and inequalities, decided for linear forms in kernels with the bounds that `signs` knows.
 
-A kernel is a letter, a product or a function; every condition is a linear form in kernels. Fourier and Motzkin's elimination of
-the kernels ends in a false inequality between numbers where no values satisfy all conditions; else nothing is said.
+A kernel is a symbol, a product or a function. Fourier–Motzkin elimination of the kernels ends in a false inequality between
+numbers if the conditions exclude each other; otherwise nothing is decided.
 """
 
 from __future__ import annotations
@@ -11,56 +11,53 @@ from typing import NamedTuple
 
 import sympy as sp
 
-from lagrotor.algebra.scalar import parts
+from lagrotor.algebra.scalar import node_count
 from lagrotor.algebra.signs import ANY, NONNEGATIVE, POSITIVE, Region, bounds, conditions, is_real, signs
 
 _MOST_ROWS, _MOST_PARTS = 200, 400
-_SMALL = sp.Rational(1, 10**6)  # what a small quantity is below
+_SMALL = sp.Rational(1, 10**6)  # upper bound of a small quantity
 
 
 class _Row(NamedTuple):
-    """Σ rate · kernel + number, above zero if `strict`, else not below it."""
+    """The condition Σ rate · kernel + number > 0 if `strict`, else ≥ 0."""
 
     rates: dict[sp.Expr, sp.Rational]
     number: sp.Expr
     strict: bool
 
-    def plus(self, other: _Row, kernel: sp.Expr) -> _Row:
-        """The sum of two rows in which a kernel has opposite signs, each over its rate's size."""
-        a, b = (1 / abs(row.rates[kernel]) for row in (self, other))
+    def plus(self, second: _Row, kernel: sp.Expr) -> _Row:
+        """Return the sum of two rows that eliminates a kernel with opposite signs."""
+        a, b = (1 / abs(row.rates[kernel]) for row in (self, second))
         rates = {
-            k: a * self.rates.get(k, sp.S.Zero) + b * other.rates.get(k, sp.S.Zero)
-            for k in {**self.rates, **other.rates}
+            k: a * self.rates.get(k, sp.S.Zero) + b * second.rates.get(k, sp.S.Zero)
+            for k in {**self.rates, **second.rates}
         }
-        number = sp.expand(a * self.number + b * other.number)
-        return _Row({k: rate for k, rate in rates.items() if rate}, number, self.strict or other.strict)
+        number = sp.expand(a * self.number + b * second.number)
+        return _Row({k: rate for k, rate in rates.items() if rate}, number, self.strict or second.strict)
 
 
 def is_infeasible(equations: Sequence[sp.Expr], where: Region, small: Sequence[sp.Symbol] = ()) -> bool:
-    """Return whether it is proved that at no point of the region every equation is zero.
-
-    small: letters that are as near to 0 as one likes.
-    """
-    if sum(parts(e) for e in (*equations, *(e for e, _ in where.above))) > _MOST_PARTS:
+    """Return True if it is proved that no point of the region solves all e = 0; symbols in `small` are arbitrarily small."""
+    if sum(node_count(e) for e in (*equations, *(e for e, _ in where.above))) > _MOST_PARTS:
         return False
     if any(map(_has_no_root, equations)) or any(0 not in (signs(e, where) or ANY) for e in equations):
         return True
     facts = [(sign * e, False) for e in equations if is_real(e, where) for sign in (1, -1)]
-    known = Region((*facts, *where.above))
-    if any(not (signs(e, known) or ANY) & (POSITIVE if strict else NONNEGATIVE) for e, strict in where.above):
+    stronger = Region((*facts, *where.above))
+    if any(not (signs(e, stronger) or ANY) & (POSITIVE if strict else NONNEGATIVE) for e, strict in where.above):
         return True
     sides = [*((sign * e, False) for e in equations for sign in (1, -1)), *where.above]
     rows = [_Row(*_linear(form), strict) for e, strict in sides for form in _forms(e)]
     kernels = sorted({kernel for row in rows for kernel in row.rates}, key=sp.default_sort_key)
-    # A real sum with one part that is not known to be real: so is that part.
-    unknown = {kernel for kernel in kernels if not is_real(kernel, known)}
+    # In a real sum, one term of unknown kind is real; two are not known to be.
+    unknown = {kernel for kernel in kernels if not is_real(kernel, stronger)}
     rows = [row for row in rows if len(unknown & row.rates.keys()) < 2]
-    rows += [row for kernel in kernels for row in _bounding(kernel, known, small)]
+    rows += [row for kernel in kernels for row in _bounding(kernel, stronger, small)]
     return _excludes(rows, kernels)
 
 
 def has_principal_values(e: sp.Basic, equations: Sequence[sp.Expr], where: Region) -> bool:
-    """Whether principal values are meant: e has i or a complex letter, or is real at no inner point; odd roots may be real."""
+    """Return True if principal values count: e has i or a complex symbol, or is real at no inner point and has no odd root."""
     if e.has(sp.I) or not all(s.is_real for s in e.free_symbols):
         return True
     natural = conditions(e)
@@ -70,7 +67,7 @@ def has_principal_values(e: sp.Basic, equations: Sequence[sp.Expr], where: Regio
 
 
 def _has_no_root(e: sp.Expr) -> bool:
-    """Return whether a polynomial with rational coefficients in one real letter has none."""
+    """Return True if a rational polynomial in one real symbol has no real root."""
     if len(e.free_symbols) != 1 or not next(iter(e.free_symbols)).is_real or not e.is_polynomial():
         return False
     polynomial = sp.Poly(e, *e.free_symbols)
@@ -78,24 +75,24 @@ def _has_no_root(e: sp.Expr) -> bool:
 
 
 def _forms(e: sp.Expr) -> list[sp.Expr]:
-    """An expression, its terms, and itself with its squares completed."""
+    """Return an expression, its expansion, and its form with completed squares."""
     if e.has(sp.I):
         return []
     return list(dict.fromkeys((e, sp.expand(e), _completed(sp.expand(e)))))
 
 
 def _completed(e: sp.Expr) -> sp.Expr:
-    """a x² + b x + c as a (x + b/2a)² + c − b²/4a, letter by letter."""
-    for letter in sorted(e.free_symbols, key=sp.default_sort_key):
-        if e.is_polynomial(letter) and sp.degree(e, letter) == 2:
-            c, b, a = (e.coeff(letter, k) for k in range(3))
+    """Return a x² + b x + c as a (x + b/2a)² + c − b²/4a, symbol by symbol."""
+    for symbol in sorted(e.free_symbols, key=sp.default_sort_key):
+        if e.is_polynomial(symbol) and sp.degree(e, symbol) == 2:
+            c, b, a = (e.coeff(symbol, k) for k in range(3))
             if a.is_Rational:
-                return a * (letter + b / (2 * a)) ** 2 + _completed(sp.expand(c - b**2 / (4 * a)))
+                return a * (symbol + b / (2 * a)) ** 2 + _completed(sp.expand(c - b**2 / (4 * a)))
     return e
 
 
 def _linear(e: sp.Expr) -> tuple[dict[sp.Expr, sp.Rational], sp.Expr]:
-    """The rational rates of the kernels, and the number beside them."""
+    """Return the rational coefficients of the kernels, and the constant term."""
     rates, number = dict[sp.Expr, sp.Rational](), sp.S.Zero
     for term in sp.Add.make_args(e):
         rate, kernel = term.as_coeff_Mul(rational=True)
@@ -106,9 +103,9 @@ def _linear(e: sp.Expr) -> tuple[dict[sp.Expr, sp.Rational], sp.Expr]:
     return {kernel: rate for kernel, rate in rates.items() if rate}, number
 
 
-def _bounding(kernel: sp.Expr, known: Region, small: Sequence[sp.Symbol]) -> Iterator[_Row]:
-    """What is known of a kernel alone."""
-    for side, bound in zip((1, -1), bounds(kernel, known), strict=True):
+def _bounding(kernel: sp.Expr, where: Region, small: Sequence[sp.Symbol]) -> Iterator[_Row]:
+    """Yield the bounds of a kernel by itself."""
+    for side, bound in zip((1, -1), bounds(kernel, where), strict=True):
         if bound is not None:
             yield _Row({kernel: sp.Integer(side)}, -side * bound[0], bound[1])
         if kernel in small:
@@ -118,7 +115,7 @@ def _bounding(kernel: sp.Expr, known: Region, small: Sequence[sp.Symbol]) -> Ite
 
 
 def _excludes(rows: list[_Row], kernels: Sequence[sp.Expr]) -> bool:
-    """Return whether rows have no solution in real kernels that are taken to be independent."""
+    """Return True if the rows have no solution in kernels that are treated as independent real numbers."""
     for kernel in kernels:
         above, below = ([row for row in rows if side * row.rates.get(kernel, 0) > 0] for side in (1, -1))
         rows = [row for row in rows if kernel not in row.rates]

@@ -1,8 +1,8 @@
-"""The generators of an expression: symbols, square roots, and a cosine and sine or an exponential for each base angle.
+"""Generators of an expression: symbols, square roots, and for each base angle a cosine and sine or an exponential.
 
-Every angle is a whole multiple of a base angle u = monomial/n, n the least common multiple of the denominators it
-appears with.  The multiples of u are polynomials in its cosine and sine; where some multiple is large, powers of
-w = exp(i*u), or exp(u) for the hyperbolic functions, are shorter and take their place.
+Every angle is a multiple of a base angle u = monomial/n, where n is the least common multiple of the denominators.  The
+multiples of u are polynomials in its cosine and sine; for large multiples, powers of w = exp(i*u), or exp(u) for hyperbolic
+functions, are shorter and replace them.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ CIRCULAR: dict[Any, tuple[int | None, int | None]] = {
 HYPERBOLIC: dict[Any, tuple[int | None, int | None]] = {
     sp.cosh: (0, None), sp.sinh: (1, None), sp.tanh: (1, 0), sp.coth: (0, 1), sp.sech: (None, 0), sp.csch: (None, 1),
 }  # fmt: skip
-# The largest multiple of a base angle that is written in its cosine and sine.
+# The largest multiple of a base angle that is expanded in its cosine and sine.
 LARGEST_MULTIPLE = 12
 # Bounds on the terms and the powers in the argument of a function.
 _MOST_TERMS, _MOST_POWER = 200, 1000
@@ -37,7 +37,7 @@ Monomial = frozenset[tuple[sp.Expr, int]]
 
 @dataclass
 class Multiples:
-    """Of one monomial: the lcm of the denominators, the largest factor, and whether only exponentials have it."""
+    """The multiples of one monomial: lcm of the denominators, largest factor, True if only exponentials contain it."""
 
     step: int = 1
     largest: sp.Rational = sp.S.Zero
@@ -46,10 +46,7 @@ class Multiples:
 
 @dataclass
 class Survey:
-    """What an expression is made of: symbols and pi, radicands, and the angles with their multiples.
-
-    largest: the largest multiple of a base angle that is written in its cosine and sine.
-    """
+    """The symbols and pi, radicands and angles of an expression; `largest` bounds multiples written in cosine and sine."""
 
     largest: float
     atoms: dict[sp.Expr, None] = field(default_factory=dict)
@@ -57,49 +54,49 @@ class Survey:
     angles: dict[Angle, Multiples] = field(default_factory=dict)
 
     def compact(self, angle: Angle) -> bool:
-        """Whether powers of one exponential express the multiples of this angle."""
+        """Return True if powers of one exponential represent the multiples of this angle."""
         multiples = self.angles[angle]
         return multiples.exponential or multiples.largest * multiples.step > self.largest
 
 
 def survey(*expressions: sp.Expr, largest: float = LARGEST_MULTIPLE) -> Survey:
-    """Collect what the expressions are made of; raise NotExactError outside the class."""
-    found, seen, left = Survey(largest), set[sp.Expr](), list(expressions)
+    """Collect the generators of the expressions; raise NotExactError outside the class."""
+    content, visited, stack = Survey(largest), set[sp.Expr](), list(expressions)
     try:
-        while left:
-            node = left.pop()
-            if node not in seen:
-                seen.add(node)
-                left += _enter(node, found)
+        while stack:
+            node = stack.pop()
+            if node not in visited:
+                visited.add(node)
+                stack += _enter(node, content)
     except NotExactError:
         if floats := set().union(*(expression.atoms(sp.Float) for expression in expressions)):
             raise NotExactError(f"The floating-point number {min(floats)} is not exact.") from None
         raise
-    if any(not hyperbolic and found.compact((hyperbolic, m)) for hyperbolic, m in found.angles):
-        found.radicands[sp.S.NegativeOne] = None
-    return found
+    if any(not hyperbolic and content.compact((hyperbolic, m)) for hyperbolic, m in content.angles):
+        content.radicands[sp.S.NegativeOne] = None
+    return content
 
 
-def _enter(node: sp.Expr, found: Survey) -> tuple[sp.Expr, ...]:
-    """Enter one node into what is found; return the parts that are still to be looked at."""
+def _enter(node: sp.Expr, content: Survey) -> tuple[sp.Expr, ...]:
+    """Enter a node into the survey; return its subexpressions that remain to be visited."""
     if node.is_Symbol or node is sp.pi:
         _check_symbol(node)
-        found.atoms[node] = None
+        content.atoms[node] = None
     elif node is sp.I:
-        found.radicands[sp.S.NegativeOne] = None
+        content.radicands[sp.S.NegativeOne] = None
     elif (base := radicand(node)) is not None:
-        if not all(part.is_Symbol or part is sp.pi or _is_rational_step(part) for part in sp.preorder_traversal(base)):
+        if not all(step.is_Symbol or step is sp.pi or _is_rational_step(step) for step in sp.preorder_traversal(base)):
             raise NotExactError(f"{node} is outside the class: only roots of rational functions of symbols are in it.")
-        found.radicands[base] = None
+        content.radicands[base] = None
         return (base,)
     elif node.func in CIRCULAR or node.func in HYPERBOLIC or node.func is sp.exp:
         turn, rates = angle_of(node)
         for monomial, rate in rates.items():
-            multiples = found.angles.setdefault((node.func not in CIRCULAR, monomial), Multiples())
+            multiples = content.angles.setdefault((node.func not in CIRCULAR, monomial), Multiples())
             multiples.step = int(sp.ilcm(multiples.step, rate.q))
             multiples.largest = max(multiples.largest, abs(rate))
             multiples.exponential &= node.func is sp.exp
-        constants = tuple(part(turn * sp.pi) for part in FAMILY[False])
+        constants = tuple(function(turn * sp.pi) for function in FAMILY[False])
         for value in constants:
             if value.has(sp.cos, sp.sin):
                 raise NotExactError(f"{value} is not made of square roots of integers.")
@@ -121,7 +118,7 @@ def _is_rational_step(node: sp.Expr) -> bool:
 
 
 def radicand(node: sp.Expr) -> sp.Expr | None:
-    """B where the node is a power B**(k/2) of its root, or |x| = sqrt(x**2) of a real x; None elsewhere."""
+    """Return B for a power B**(k/2) of a square root or for |x| = sqrt(x**2) of a real x; None otherwise."""
     if node.is_Pow and node.exp.is_Rational and node.exp.q == 2:
         return node.base
     if isinstance(node, sp.Abs) and node.args[0].is_real:
@@ -130,12 +127,12 @@ def radicand(node: sp.Expr) -> sp.Expr | None:
 
 
 def angle_of(function: sp.Expr) -> tuple[sp.Rational, dict[sp.Expr, sp.Rational]]:
-    """Split the argument into turn*pi + sum of rate*monomial; raise NotExactError if it is nothing of the kind."""
+    """Return (turn, rates) of an argument turn*pi + sum of rate*monomial; raise NotExactError for another argument."""
     turn, rates = sp.S.Zero, {}
     for powers, rate in _terms(function.args[0], function).items():
         if powers == {(sp.pi, 1)} and function.func in CIRCULAR:
             turn = rate
-        # Whole-number symbols are left out: sin(pi*n/2) obeys relations that sine and cosine in general do not.
+        # Integer symbols are excluded: sin(pi*n/2) obeys further relations.
         elif all(base is sp.pi or not base.is_integer for base, _ in powers) and powers - {
             (sp.pi, n) for _, n in powers
         }:
@@ -150,16 +147,16 @@ def _bad_argument(function: sp.Expr) -> NotExactError:
 
 
 def _terms(node: sp.Expr, function: sp.Expr) -> dict[Monomial, sp.Rational]:
-    """Expand a polynomial in symbols, their reciprocals and pi: monomial -> coefficient."""
+    """Expand a polynomial in symbols, their reciprocals and pi into monomial -> coefficient."""
     if node.is_Rational:
         return {frozenset(): node} if node else {}
     if node.is_Symbol or node is sp.pi:
         _check_symbol(node)
         return {frozenset({(node, 1)}): sp.S.One}
     if node.is_Add:
-        return _collected((powers, rate) for part in node.args for powers, rate in _terms(part, function).items())
+        return _collected(term for argument in node.args for term in _terms(argument, function).items())
     if node.is_Mul:
-        return reduce(partial(_product, function), (_terms(part, function) for part in node.args))
+        return reduce(partial(_product, function), (_terms(argument, function) for argument in node.args))
     if node.is_Pow and node.exp.is_Integer and abs(node.exp) <= _MOST_POWER:
         base = _terms(node.base, function)
         if node.exp < 0:

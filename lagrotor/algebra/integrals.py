@@ -1,7 +1,6 @@
-"""Integrals in closed form: an antiderivative that is differentiated again, continuous between the limits.
+"""Closed forms of definite integrals: a candidate antiderivative F is checked by F' = f and by continuity between the limits.
 
-Where the antiderivative comes from does not matter: F' = f is decided, and F must be continuous from one limit to the other
-(the fundamental theorem; without continuity ∫ dt/t² from −1 to 1 would be −2).
+By the fundamental theorem this is a proof; without continuity ∫ dt/t² from −1 to 1 would be −2.
 """
 
 from __future__ import annotations
@@ -22,7 +21,7 @@ _MOST_OPERATIONS = 60
 
 
 def value_of_integral(e: sp.Integral, where: Region, vanishes: Callable[[sp.Expr, Region], bool]) -> sp.Expr | None:
-    """∫ f dx between its limits, None where nothing certain is known."""
+    """Return the proved value of ∫ f dx between its limits, or None."""
     body, *limits = e.args
     if len(limits) > 1:
         inner = value_of_integral(sp.Integral(body, limits[0]), where, vanishes)
@@ -51,17 +50,17 @@ def value_of_integral(e: sp.Integral, where: Region, vanishes: Callable[[sp.Expr
 
 
 def _antiderivative(body: sp.Expr, t: sp.Symbol) -> sp.Expr:
-    """What may be one; with an integral left in it where none was found."""
-    power, rest = sp.S.Zero, body
+    """Return a candidate antiderivative; it contains an integral if none is found."""
+    power, cofactor = sp.S.Zero, body
     for factor in sp.Mul.make_args(sp.factor_terms(body)):
         base, exponent = factor.as_base_exp()
         if base == t and exponent.is_Integer:
-            power, rest = exponent, rest / factor
-    if power > 1 and isinstance(wave := rest.as_independent(t, as_Add=False)[1], sp.exp):
+            power, cofactor = exponent, cofactor / factor
+    if power > 1 and isinstance(wave := cofactor.as_independent(t, as_Add=False)[1], sp.exp):
         square = sp.Poly(wave.args[0], t) if wave.args[0].is_polynomial(t) else sp.Poly(0, t)
         if square.monoms() == [(2,)]:  # ∫ tⁿ exp(a t²) dt = (tⁿ⁻¹ exp(a t²) − (n − 1) ∫ tⁿ⁻² exp(a t²) dt)/2a
-            shorter = _antiderivative(t ** (power - 2) * rest, t)
-            return (t ** (power - 1) * rest - (power - 1) * shorter) / (2 * square.LC())
+            shorter = _antiderivative(t ** (power - 2) * cofactor, t)
+            return (t ** (power - 1) * cofactor - (power - 1) * shorter) / (2 * square.LC())
     if body.free_symbols == {t} and body.is_rational_function(t):
         return ratint(body, t, real=True).replace(lambda n: isinstance(n, sp.RootSum), lambda n: sp.Integral(body, t))
     try:
@@ -71,13 +70,13 @@ def _antiderivative(body: sp.Expr, t: sp.Symbol) -> sp.Expr:
     return F.replace(lambda n: isinstance(n, sp.Piecewise), lambda n: n.args[-1][0])
 
 
-def _between(t: sp.Symbol, low: sp.Expr, high: sp.Expr, where: Region, least: Any, most: Any) -> list[sp.Basic]:
-    """What is known of t between the limits: least(t, low), most(t, high)."""
+def _between(t: sp.Symbol, low: sp.Expr, high: sp.Expr, where: Region, lower: Any, upper: Any) -> list[sp.Basic]:
+    """Return the inequalities that t obeys between the limits: lower(t, low), upper(t, high)."""
     if low.is_infinite or high.is_infinite or is_nonnegative(high - low, where):
-        known = [least(t, low)] if low.is_finite is not False else []
+        relations = [lower(t, low)] if low.is_finite is not False else []
         if low.free_symbols and is_positive(low, where):
-            known.append(sp.Gt(t, 0))
-        return known + ([most(t, high)] if high.is_finite is not False else [])
+            relations.append(sp.Gt(t, 0))
+        return relations + ([upper(t, high)] if high.is_finite is not False else [])
     if all(is_positive(end, where) for end in (low, high)):
         return [sp.Gt(t, 0)]
     if all(is_nonnegative(end, where) for end in (low, high)):
@@ -86,38 +85,38 @@ def _between(t: sp.Symbol, low: sp.Expr, high: sp.Expr, where: Region, least: An
 
 
 def _at(F: sp.Expr, t: sp.Symbol, end: sp.Expr, where: Region) -> sp.Expr | None:
-    """F at a limit of what `where` knows of t, where it is continuous there; else its limit, where each term's is certain."""
+    """Return F at a limit if F is continuous there, else the limit of F if the limit of each term is certain, else None."""
     if end.is_finite is not False and is_continuous(F, where, frozenset({t})):
         value = F.subs(t, end)
         return None if value.has(sp.nan, sp.zoo, sp.oo, -sp.oo) else value
     if F.is_Add:
-        values = [_at(part, t, end, where) for part in F.args]
+        values = [_at(term, t, end, where) for term in F.args]
         return None if None in values else sp.Add(*values)
     side = 1 if end is sp.oo else -1
-    constant, rest = F.as_independent(t, as_Add=False)
-    if rest == 1:
+    constant, dependent = F.as_independent(t, as_Add=False)
+    if dependent == 1:
         return constant
     if end.is_finite is not False:
         return None
-    if rest.is_rational_function(t) and not rest.is_polynomial(t):
-        over, under = (sp.Poly(part, t) for part in sp.fraction(sp.together(rest)))
+    if dependent.is_rational_function(t) and not dependent.is_polynomial(t):
+        over, under = (sp.Poly(term, t) for term in sp.fraction(sp.together(dependent)))
         if under.LC().is_number and over.degree() < under.degree():
             return sp.S.Zero
-    if rest.is_Add and (expanded := sp.expand(F)).is_Add:
+    if dependent.is_Add and (expanded := sp.expand(F)).is_Add:
         return _at(expanded, t, end, where)
-    if isinstance(rest, sp.atan | sp.erf | sp.tanh):
-        slope = sp.expand(rest.args[0]).coeff(t)
+    if isinstance(dependent, sp.atan | sp.erf | sp.tanh):
+        slope = sp.expand(dependent.args[0]).coeff(t)
         sign = signs(slope, where) or ANY
-        if not slope.has(t) and len(sign) == 1 and sp.expand(rest.args[0] - slope * t).is_finite is not False:
+        if not slope.has(t) and len(sign) == 1 and sp.expand(dependent.args[0] - slope * t).is_finite is not False:
             [direction] = sign
-            return constant * side * direction * (sp.pi / 2 if isinstance(rest, sp.atan) else 1)
-    return sp.S.Zero if _falls(rest, t, side, where) else None
+            return constant * side * direction * (sp.pi / 2 if isinstance(dependent, sp.atan) else 1)
+    return sp.S.Zero if _falls(dependent, t, side, where) else None
 
 
-def _falls(rest: sp.Expr, t: sp.Symbol, side: int, where: Region) -> bool:
-    """Whether a product of powers, bounded waves and an exponential tends to 0."""
+def _falls(product: sp.Expr, t: sp.Symbol, side: int, where: Region) -> bool:
+    """Return True if a product of powers, bounded waves and an exponential tends to 0."""
     power, decays = sp.S.Zero, False
-    for factor in sp.Mul.make_args(rest):
+    for factor in sp.Mul.make_args(product):
         if isinstance(factor, sp.sin | sp.cos):
             continue
         base, exponent = factor.as_base_exp()

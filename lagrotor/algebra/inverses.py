@@ -1,6 +1,6 @@
-"""What a letter is where one function of it is known: x² = v with x ≥ 0 is x = √v with v ≥ 0, cos x = v on [0, π] is x = acos v.
+"""Inversion of functions: x² = v with x ≥ 0 is x = √v with v ≥ 0; cos x = v on [0, π] is x = acos v.
 
-Each step is an equivalence for real letters where its conditions hold.
+Each step is an equivalence for real symbols under its conditions.
 """
 
 from __future__ import annotations
@@ -14,21 +14,17 @@ from lagrotor.algebra.signs import Region, is_nonnegative, is_real, signs
 
 Conditioned: TypeAlias = "tuple[sp.Expr, tuple[sp.Basic, ...]]"
 
-# Functions that are the inverse of another: that one, and between which numbers their own values lie.
+# Inverse function -> (its inverse, lower and upper bound of its values).
 INVERSES: dict[Any, tuple[Any, Any, Any]] = {
-    sp.acos: (sp.cos, sp.S.Zero, sp.pi),
-    sp.asin: (sp.sin, -sp.pi / 2, sp.pi / 2),
-    sp.atan: (sp.tan, -sp.pi / 2, sp.pi / 2),
-    sp.log: (sp.exp, None, None),
-    sp.asinh: (sp.sinh, None, None),
-    sp.acosh: (sp.cosh, sp.S.Zero, None),
-    sp.atanh: (sp.tanh, None, None),
-}
+    sp.acos: (sp.cos, sp.S.Zero, sp.pi), sp.asin: (sp.sin, -sp.pi / 2, sp.pi / 2),
+    sp.atan: (sp.tan, -sp.pi / 2, sp.pi / 2), sp.log: (sp.exp, None, None), sp.asinh: (sp.sinh, None, None),
+    sp.acosh: (sp.cosh, sp.S.Zero, None), sp.atanh: (sp.tanh, None, None),
+}  # fmt: skip
 _TURNS = (0, -1, 1, -2, 2)
 
 
 def argument(function: Any, value: sp.Expr) -> Conditioned:
-    """u where function(u) = value, of a function among INVERSES: acos u = v is u = cos v with 0 ≤ v ≤ π."""
+    """Return u from function(u) = value for a function in INVERSES: acos u = v is u = cos v with 0 ≤ v ≤ π."""
     inner, low, high = INVERSES[function]
     return inner(value), (
         *(_at_least(value, low) if low is not None else ()),
@@ -36,22 +32,22 @@ def argument(function: Any, value: sp.Expr) -> Conditioned:
     )
 
 
-def solved_for(kernel: sp.Expr, letter: sp.Symbol, value: sp.Expr, where: Region) -> Conditioned | None:
-    """The letter where kernel = value, a power or a function of it; None where the region leaves more than one."""
-    if not is_real(letter, where) or not is_real(value, where):
+def solved_for(kernel: sp.Expr, symbol: sp.Symbol, value: sp.Expr, where: Region) -> Conditioned | None:
+    """Return the symbol from kernel = value, with the conditions; None if the region admits several solutions."""
+    if not is_real(symbol, where) or not is_real(value, where):
         return None
-    if kernel.is_Pow and kernel.base == letter and kernel.exp.is_Rational:
-        return _root(kernel.exp, letter, value, where)
-    if kernel.func in INVERSES and kernel.args == (letter,):
+    if kernel.is_Pow and kernel.base == symbol and kernel.exp.is_Rational:
+        return _root(kernel.exp, symbol, value, where)
+    if kernel.func in INVERSES and kernel.args == (symbol,):
         return argument(kernel.func, value)
     if isinstance(kernel, sp.exp):
         return sp.log(value), (sp.Gt(value, 0, evaluate=False),)
     if isinstance(kernel, sp.sinh):
         return sp.asinh(value), ()
     if isinstance(kernel, sp.cosh):
-        side = _side(letter, where)
+        side = _side(symbol, where)
         return (side * sp.acosh(value), _at_least(value, sp.S.One)) if side else None
-    return next(_arcs(kernel, letter, value, where), None)
+    return next(_arcs(kernel, symbol, value, where), None)
 
 
 def _at_least(e: sp.Expr, low: sp.Expr) -> tuple[sp.Basic, ...]:
@@ -59,12 +55,12 @@ def _at_least(e: sp.Expr, low: sp.Expr) -> tuple[sp.Basic, ...]:
 
 
 def _side(e: sp.Expr, where: Region) -> int:
-    """1 where e ≥ 0, −1 where e ≤ 0, 0 where that is not known."""
+    """Return 1 if e ≥ 0, −1 if e ≤ 0, 0 if its sign is unknown."""
     return 1 if is_nonnegative(e, where) else -1 if is_nonnegative(-e, where) else 0
 
 
-def _root(n: sp.Rational, letter: sp.Symbol, value: sp.Expr, where: Region) -> Conditioned | None:
-    side = _side(letter, where)
+def _root(n: sp.Rational, symbol: sp.Symbol, value: sp.Expr, where: Region) -> Conditioned | None:
+    side = _side(symbol, where)
     if n == sp.S.Half or (side == 1 and (n > 0 or 0 not in (signs(value, where) or {0}))):
         return value ** (1 / n), _at_least(value, sp.S.Zero)
     if not n.is_Integer or n < 0:
@@ -75,16 +71,16 @@ def _root(n: sp.Rational, letter: sp.Symbol, value: sp.Expr, where: Region) -> C
     return (side * (side * value) ** (1 / n), _at_least(side * value, sp.S.Zero)) if side else None
 
 
-def _arcs(kernel: sp.Expr, letter: sp.Symbol, value: sp.Expr, where: Region) -> Iterator[Conditioned]:
-    """Of sin, cos and tan, where the letter lies in one monotone piece."""
-    within = (*_at_least(value, sp.S.NegativeOne), *_at_least(sp.S.One, value))
+def _arcs(kernel: sp.Expr, symbol: sp.Symbol, value: sp.Expr, where: Region) -> Iterator[Conditioned]:
+    """Yield the solutions of sin, cos or tan of the symbol for the monotone piece that contains the symbol."""
+    conditions = (*_at_least(value, sp.S.NegativeOne), *_at_least(sp.S.One, value))
     for k in _TURNS:
         start = k * sp.pi - (0 if isinstance(kernel, sp.cos) else sp.pi / 2)
-        if not (is_nonnegative(letter - start, where) and is_nonnegative(start + sp.pi - letter, where)):
+        if not (is_nonnegative(symbol - start, where) and is_nonnegative(start + sp.pi - symbol, where)):
             continue
         if isinstance(kernel, sp.sin):
-            yield k * sp.pi + (-1) ** k * sp.asin(value), within
+            yield k * sp.pi + (-1) ** k * sp.asin(value), conditions
         elif isinstance(kernel, sp.cos):
-            yield (k + k % 2) * sp.pi + (-1) ** k * sp.acos(value), within
+            yield (k + k % 2) * sp.pi + (-1) ** k * sp.acos(value), conditions
         elif isinstance(kernel, sp.tan):
             yield k * sp.pi + sp.atan(value), ()

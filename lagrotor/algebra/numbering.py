@@ -1,8 +1,8 @@
-"""The letters of expressions numbered in an order that the expressions give, so that no decision depends on their names.
+"""Canonical numbering of the symbols of expressions, so that no decision depends on their names.
 
-Each letter has a color: the assumptions on it, then the places where it stands. A place is known by the parts above it and by
-the colors of the letters in these. Colors are refined until no more letters differ; of letters that are alike, the first by
-name gets a color of its own. B. D. McKay, Congressus Numerantium 30 (1981) 45.
+Each symbol has a color: a digest of its assumptions, then of its positions. A position is given by the subexpressions above it
+and the colors of their symbols. Colors are refined until no more symbols differ; then the first of several symbols with one
+color gets a new color. B. D. McKay, Congressus Numerantium 30 (1981) 45.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from typing import Any
 import sympy as sp
 from sympy.core.relational import Relational
 
-from lagrotor.algebra.scalar import divided
+from lagrotor.algebra.scalar import split_content
 from lagrotor.algebra.subexpressions import subexpressions
 
 _NAME = re.compile(r"letter_(\d{4})_")
@@ -25,76 +25,74 @@ _SORTED = cmp_to_key(sp.Basic.compare)
 
 
 class Numbering:
-    """Letters by their number: `there` gives them names of the number alone, `back` their true names again."""
+    """The symbols of expressions with names that contain only their canonical number, and the way back."""
 
     def __init__(self, *expressions: sp.Basic) -> None:
-        self.letters = letters_in_order(expressions)
-        self.new = {
-            letter: sp.Symbol(f"letter_{i:04}_", **letter.assumptions0) for i, letter in enumerate(self.letters)
-        }
-        self.old = {new: letter for letter, new in self.new.items()}
+        self.symbols = canonical_order(expressions)
+        self.new = {s: sp.Symbol(f"letter_{i:04}_", **s.assumptions0) for i, s in enumerate(self.symbols)}
+        self.old = {new: symbol for symbol, new in self.new.items()}
 
-    def there(self, e: Any) -> Any:
-        """Return an expression in the numbered letters."""
-        return renamed(e, self.new)
+    def to_numbered(self, e: Any) -> Any:
+        """Return an expression in the numbered symbols."""
+        return replace_symbols(e, self.new)
 
-    def back(self, e: Any) -> Any:
-        """Return an expression in the letters of the input."""
-        return renamed(e, self.old)
+    def to_input(self, e: Any) -> Any:
+        """Return an expression in the symbols of the input."""
+        return replace_symbols(e, self.old)
 
     def text(self, says: str) -> str:
-        """Return a text about numbered letters as one about those of the input."""
-        return _NAME.sub(lambda match: str(self.letters[int(match[1])]), says)
+        """Return a text with the names of the input in place of the numbered names."""
+        return _NAME.sub(lambda match: str(self.symbols[int(match[1])]), says)
 
 
-def renamed(e: sp.Basic, letters: Mapping[sp.Basic, sp.Basic]) -> Any:
-    """Return an expression with letters in place of others, and nothing evaluated."""
-    parts: dict[sp.Basic, sp.Basic] = {}
-    for part in subexpressions(e):
-        if part in letters or not part.args:
-            parts[part] = letters.get(part, part)
+def replace_symbols(e: sp.Basic, symbols: Mapping[sp.Basic, sp.Basic]) -> Any:
+    """Return an expression with symbols replaced and nothing evaluated."""
+    images: dict[sp.Basic, sp.Basic] = {}
+    for node in subexpressions(e):
+        if node in symbols or not node.args:
+            images[node] = symbols.get(node, node)
             continue
-        args = [parts[a] for a in part.args]
-        if all(a is b for a, b in zip(args, part.args, strict=True)):
-            parts[part] = part
-        elif isinstance(part, sp.Add | sp.Mul) and part.is_commutative:
+        args = [images[a] for a in node.args]
+        if all(a is b for a, b in zip(args, node.args, strict=True)):
+            images[node] = node
+        elif isinstance(node, sp.Add | sp.Mul) and node.is_commutative:
             args.sort(key=lambda a: (not a.is_Number, _SORTED(a)))
-            parts[part] = part.func._from_args(args)
-        elif isinstance(part, sp.Pow | sp.Function | Relational) and not isinstance(part, sp.Piecewise):
-            parts[part] = part.func(*args, evaluate=False)
+            images[node] = node.func._from_args(args)
+        elif isinstance(node, sp.Pow | sp.Function | Relational) and not isinstance(node, sp.Piecewise):
+            images[node] = node.func(*args, evaluate=False)
         else:
-            parts[part] = part.func(*args)
-    return parts[e]
+            images[node] = node.func(*args)
+    return images[e]
 
 
-def letters_in_order(expressions: Sequence[sp.Basic]) -> list[sp.Symbol]:
-    """Return all letters, bound ones as well, in an order that no name changes, and no order of expressions but the first."""
+def canonical_order(expressions: Sequence[sp.Basic]) -> list[sp.Symbol]:
+    """Return all symbols, also bound ones, in an order independent of names and of the order of all but the first expression."""
     nodes = subexpressions(*expressions)
-    letters = sorted((e for e in nodes if isinstance(e, sp.Symbol)), key=sp.default_sort_key)
-    colors = {letter: _digest(sorted(letter.assumptions0.items())) for letter in letters}
+    symbols = sorted((e for e in nodes if isinstance(e, sp.Symbol)), key=sp.default_sort_key)
+    colors = {symbol: _digest(sorted(symbol.assumptions0.items())) for symbol in symbols}
     while True:
         colors = _refined(colors, nodes, expressions)
         counts = Counter(colors.values())
-        alike = [letter for letter in letters if counts[colors[letter]] > 1]
+        alike = [symbol for symbol in symbols if counts[colors[symbol]] > 1]
         if not alike:
-            return sorted(letters, key=colors.__getitem__)
+            return sorted(symbols, key=colors.__getitem__)
         first = min(alike, key=colors.__getitem__)
         colors[first] = _digest("first", colors[first])
 
 
 def without_number(e: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-    """Return a number that is not zero and the expression divided by it: the same expression for all multiples of one."""
-    number, form = divided(e)
+    """Return (number, expression / number), where all nonzero multiples of an expression give the same second value."""
+    number, form = split_content(e)
     if form.is_Add:
-        here, there = (_shapes(subexpressions(side), {})[side] for side in (form, -form))
-        return (-number, -form) if there < here else (number, form)
+        shape, opposite = (_shapes(subexpressions(side), {})[side] for side in (form, -form))
+        return (-number, -form) if opposite < shape else (number, form)
     return number, form
 
 
 def _refined(
     colors: dict[sp.Symbol, int], nodes: Sequence[sp.Basic], expressions: Sequence[sp.Basic]
 ) -> dict[sp.Symbol, int]:
-    """Return the colors refined by the places of the letters, until their number grows no more."""
+    """Return the colors refined by positions until their number no longer grows."""
     while len(set(colors.values())) < len(colors):
         inside = _shapes(nodes, colors)
         places: dict[sp.Basic, list[int]] = {e: [] for e in nodes}
@@ -104,7 +102,7 @@ def _refined(
             above = _digest(sorted(places[e]), inside[e]) if e.args else 0
             for i, a in enumerate(e.args):
                 places[a].append(above if _commutes(e) else _digest(above, i))
-        finer = {letter: _digest(color, sorted(places[letter])) for letter, color in colors.items()}
+        finer = {symbol: _digest(color, sorted(places[symbol])) for symbol, color in colors.items()}
         if len(set(finer.values())) == len(set(colors.values())):
             return finer
         colors = finer
@@ -112,7 +110,7 @@ def _refined(
 
 
 def _shapes(nodes: Iterable[sp.Basic], colors: Mapping[sp.Basic, int]) -> dict[sp.Basic, int]:
-    """Return a number for each part that is the same for parts that differ in the names of letters alone."""
+    """Return a digest of each subexpression, equal for subexpressions that differ only in names of symbols."""
     inside = dict[sp.Basic, int]()
     for e in nodes:
         args = [inside[a] for a in e.args]

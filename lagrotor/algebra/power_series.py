@@ -1,21 +1,20 @@
-"""Truncated series in a small quantity about a regular or a singular point, and the first term in which two expressions differ.
+"""Truncated power series in a small quantity, and the first order at which two expressions differ.
 
-With e the small quantity, a series is carried as the finitely many terms (Laurent for q = 1, Puiseux otherwise)
+With e the small quantity, a series (Laurent for q = 1, Puiseux otherwise) is stored as the finitely many terms
 
-    e**(start/q) * (a_0 + a_1*e**(1/q) + ... + a_(n-1)*e**((n-1)/q)) + what is smaller than e**((start + n - 1)/q).
+    e**(start/q) * (a_0 + a_1*e**(1/q) + ... + a_(n-1)*e**((n-1)/q)) + o(e**((start + n - 1)/q)).
 
-A function is expanded about the value u0 of its argument, f(u0 + v) = sum of f^(m)(u0) * v**m / m!, of which v, which vanishes
-with e, leaves finitely many terms.  Of u = e**s * w, w not zero at e = 0,
+A function is expanded about the value u0 of its argument: f(u0 + v) = sum of f^(m)(u0) * v**m / m!, where v vanishes with e.
+For u = e**s * w with w nonzero at e = 0,
 
     u**a = e**(s*a) * w**a,    log u = s*log(e) + log w,
 
-where log(e) is a letter of its own in the coefficients: no series in powers of e equals it.  tan, cot, sec, csc and their
-hyperbolic kin are quotients where they have a pole.  A function whose argument is unbounded at e = 0 has no such series, but for
-roots and logarithms.
+with a separate symbol for log(e).  tan, cot, sec, csc and their hyperbolic counterparts are quotients where they have a pole.
+Except for roots and logarithms, a function whose argument is unbounded at e = 0 has no such series.
 
-For a logarithm, a root or an inverse function with a branch cut, u0 (of roots and logarithms w) must lie off the cut or the
-argument stay on the real line; e and the symbols of which nothing is declared are taken to be real.  Where e may be negative,
-the formulas above are used for 0 < s <= 1 and w > 0 only: sqrt(e**2) is no series in e unless e is declared positive.
+At a logarithm, root or inverse function, u0 (for roots and logarithms w) must lie off the branch cut, or the argument must stay
+on the real line; e and symbols without assumptions are taken to be real.  If e may be negative, the formulas above require
+0 < s <= 1 and w > 0: sqrt(e**2) has a series in e only if e is declared positive.
 """
 
 from __future__ import annotations
@@ -28,22 +27,21 @@ from typing import NamedTuple
 import sympy as sp
 
 from lagrotor.algebra.differentiation import derivative
-from lagrotor.algebra.evidence import points, size_at
+from lagrotor.algebra.evidence import magnitude_at, points
 from lagrotor.algebra.identity import decide_zero
 from lagrotor.algebra.scalar import scalar
 from lagrotor.errors import InputError, NotExactError
 
-# Analytic wherever they are finite, and real for real arguments, so that expansion by derivatives is right.
+# Analytic wherever they are finite, real for real arguments: Taylor expansion is valid.
 _ANALYTIC = (
     sp.sin, sp.cos, sp.tan, sp.cot, sp.sec, sp.csc,
     sp.sinh, sp.cosh, sp.tanh, sp.coth, sp.sech, sp.csch, sp.exp,
 )  # fmt: skip
-# Cut along the imaginary axis, from i and -i outwards; along the real one, from 1 and -1 outwards; the logarithm and the
-# powers along the negative real axis.
+# Branch cuts: the imaginary axis beyond ±i; the real axis beyond ±1. Logarithms and powers: the negative real axis.
 _CUT, _CUT_BEYOND_ONE = (sp.atan, sp.asinh), (sp.asin, sp.acos, sp.atanh)
-# How many orders may be lost to division by powers of the small quantity, at a time and at most; the largest q.
+# Orders added when division by powers of the small quantity loses terms, per attempt and at most; the largest q.
 _MARGIN, _MOST_LOST, _MOST_ROOTS = 8, 24, 24
-_ARGUMENT = sp.Dummy("z")  # of the functions that are expanded: one, so that sympy remembers their derivatives
+_ARGUMENT = sp.Dummy("z")  # one argument for all functions, so that sympy's cache keeps their derivatives
 _LOG = sp.Dummy("log", real=True)  # the logarithm of the small quantity
 _KNOWN = (sp.Add, sp.Mul, sp.Pow, *_ANALYTIC, *_CUT, *_CUT_BEYOND_ONE, sp.log, sp.acosh)
 # Numerator and denominator of the functions with poles.
@@ -51,15 +49,29 @@ QUOTIENTS = {
     sp.tan: (sp.sin, sp.cos), sp.cot: (sp.cos, sp.sin), sp.sec: (None, sp.cos), sp.csc: (None, sp.sin),
     sp.tanh: (sp.sinh, sp.cosh), sp.coth: (sp.cosh, sp.sinh), sp.sech: (None, sp.cosh), sp.csch: (None, sp.sinh),
 }  # fmt: skip
-# Well above the error of a value computed to more than thirty digits.
+# Well above the rounding error of a value with more than 30 digits.
 _CLEARLY_NONZERO = 1e-15
 
 
 @dataclass(frozen=True)
 class LeadingTerm:
-    """The first non-vanishing term coefficient * small**order; order is None if there is none below small**(through + 1).
+    """The first nonvanishing term coefficient * small**order of a series.
 
-    The order is an int or, about a branch point, a sympy Rational; about a logarithmic point the coefficient holds log(small).
+    Attributes
+    ----------
+    order : int, Rational or None
+        The order; a Rational about a branch point, None if every term below small**(through + 1) vanishes.
+    coefficient : Expr
+        The coefficient; about a logarithmic point it contains log(small).
+    through : int
+        The highest order that was examined.
+
+    Examples
+    --------
+    >>> from sympy import sqrt, symbols
+    >>> x = symbols("x", positive=True)
+    >>> leading_term(sqrt(x) + x, x).order, leading_term(x - x, x).vanishes_through
+    (1/2, 8)
     """
 
     order: int | sp.Rational | None
@@ -68,28 +80,40 @@ class LeadingTerm:
 
     @property
     def vanishes_through(self) -> int:
-        """The last whole n for which what was looked at is smaller than small**n."""
+        """The largest integer n for which the series is o(small**n), as far as it was examined."""
         return self.through if self.order is None else ceil(self.order) - 1
 
 
 def truncated_series(expression: sp.Expr, small: sp.Symbol, order: int) -> sp.Expr:
-    """Return the series of an expression, with its principal part.
+    """Return the series of an expression through an order, with its principal part.
 
     Parameters
     ----------
     expression : Expr
-        A scalar.
+        A scalar expression.
     small : Symbol
-        The symbol about whose 0 it is expanded.
+        The symbol in which it is expanded, about 0.
     order : int
-        Through small**order.
+        The highest power of `small`.
+
+    Returns
+    -------
+    Expr
+        The sum of the terms, without O().
 
     Raises
     ------
     NotExactError
-        If the expression is not known to have one there.
+        If the expression is not known to have a series at small = 0.
     InputError
-        For what is not a scalar expression, a symbol and a whole number.
+        If the arguments are not a scalar expression, a symbol and an integer.
+
+    Examples
+    --------
+    >>> from sympy import cos, sin, symbols
+    >>> x = symbols("x")
+    >>> truncated_series(cos(x)/sin(x), x, 3)
+    -x**3/45 - x/3 + 1/x
     """
     terms = [
         sp.expand_mul(coefficient.xreplace({_LOG: sp.log(small)})) * small**power
@@ -100,22 +124,33 @@ def truncated_series(expression: sp.Expr, small: sp.Symbol, order: int) -> sp.Ex
 
 
 def leading_term(expression: sp.Expr, small: sp.Symbol, through: int = 8) -> LeadingTerm:
-    """Return the first term of a series that does not vanish.
+    """Return the first nonvanishing term of a series.
 
     Parameters
     ----------
     expression : Expr
-        A scalar.
+        A scalar expression.
     small : Symbol
-        The symbol about whose 0 it is expanded.
+        The symbol in which it is expanded, about 0.
     through : int, default 8
-        The order below which is looked, terms small**(through + 1) * log(small)**k included; where there is none
-        the expression is O(small**(through + 1)).
+        The highest order examined, including terms small**(through + 1) * log(small)**k.
+
+    Returns
+    -------
+    LeadingTerm
+        The term; its order is None if the expression is O(small**(through + 1)).
 
     Raises
     ------
     NotExactError
-        If a coefficient met on the way is undecided, or the expression has no series at small = 0.
+        If a coefficient is undecided, or the expression has no series at small = 0.
+
+    Examples
+    --------
+    >>> from sympy import sin, symbols
+    >>> x = symbols("x")
+    >>> leading_term(x - sin(x), x)
+    LeadingTerm(order=3, coefficient=1/6, through=8)
     """
     for power, coefficient in _terms(scalar(expression, "leading_term"), small, through):
         decision = decide_zero(coefficient)
@@ -128,33 +163,45 @@ def leading_term(expression: sp.Expr, small: sp.Symbol, through: int = 8) -> Lea
 
 
 def agreement_order(printed: sp.Expr, derived: sp.Expr, small: sp.Symbol, through: int = 8) -> LeadingTerm:
-    """Return the leading term of printed - derived, which agree through order `vanishes_through`.
+    """Return the leading term of printed - derived; both agree through order `vanishes_through`.
 
-    The order is absolute, also where the sides have a pole: 1/sin(e) and 1/e agree through order 0 and part by e/6.
+    The order is absolute even if the sides have a pole: 1/sin(e) and 1/e agree through order 0 and differ by e/6.
 
     Parameters
     ----------
     printed : Expr
-        One side.
+        The first expression.
     derived : Expr
-        The other.
+        The second expression.
     small : Symbol
-        The symbol about whose 0 both are expanded.
+        The symbol in which both are expanded, about 0.
     through : int, default 8
-        The order through which is looked.
+        The highest order examined.
+
+    Returns
+    -------
+    LeadingTerm
+        The leading term of the difference.
 
     Raises
     ------
     NotExactError
-        As `leading_term` does.
+        If a coefficient is undecided, or the difference has no series at small = 0.
+
+    Examples
+    --------
+    >>> from sympy import cos, symbols
+    >>> x = symbols("x")
+    >>> agreement_order(cos(x), 1 - x**2/2, x).vanishes_through
+    3
     """
     return leading_term(scalar(printed, "agreement_order") - scalar(derived, "agreement_order"), small, through)
 
 
 class _Series(NamedTuple):
-    """Terms of small**(start/q), small**((start + 1)/q), ...; what follows the last one is unknown.
+    """Terms of small**(start/q), small**((start + 1)/q), ...; the terms after the last one are unknown.
 
-    real: whether all but the constant, also what is unknown, is certainly real for the real values that small may have.
+    real: True if all terms except the constant, also the unknown ones, are real for real values of small.
     """
 
     start: int
@@ -170,19 +217,19 @@ class _Series(NamedTuple):
         return self.terms[power - self.start] if self.start <= power else sp.S.Zero
 
     def led_by(self, first: sp.Expr) -> _Series:
-        """The series with another first term."""
+        """Return the series with another first term."""
         return self._replace(terms=(first, *self.terms[1:]))
 
 
 def _terms(expression: sp.Expr, small: sp.Symbol, order: int) -> list[tuple[int | sp.Rational, sp.Expr]]:
-    """Powers and coefficients below small**(order + 1), and the logarithms that small**(order + 1) is multiplied by."""
+    """Return the pairs (power, coefficient) below small**(order + 1), and the logarithmic terms at small**(order + 1)."""
     if not getattr(small, "is_Symbol", False) or isinstance(order, bool) or not isinstance(order, int):
         raise InputError(f"series: small = {small!r} must be a symbol and the order {order!r} a whole number")
     logarithms = [log.args[0] for log in expression.atoms(sp.log)]
     logarithms += [power.base for power in expression.atoms(sp.Pow) if power.exp.has(small)]
     beyond = order + 1 + any(argument.has(small) for argument in logarithms)
-    length, most = max(beyond, 1), max(beyond, 1) + _MOST_LOST
-    while length <= most:
+    length, longest = max(beyond, 1), max(beyond, 1) + _MOST_LOST
+    while length <= longest:
         try:
             series = _expanded(expression, small, length)
         except _TooShortError:
@@ -197,30 +244,30 @@ def _terms(expression: sp.Expr, small: sp.Symbol, order: int) -> list[tuple[int 
 
 
 class _TooShortError(Exception):
-    """Every term that was kept vanishes, so that the leading one is not known."""
+    """All known terms vanish, so the leading one is unknown."""
 
 
 def _expanded(node: sp.Expr, small: sp.Symbol, length: int) -> _Series:
-    """Expand the node to `length` orders, or to fewer where terms cancel in a denominator."""
+    """Expand the node to `length` orders, or to fewer if terms cancel in a denominator."""
     if not node.has(small):
         return _Series(0, _padded([node], length), real=_is_real(node))
     if node == small:
         return _Series(1, _padded([sp.S.One], length))
     if not isinstance(node, _KNOWN):
         raise NotExactError(f"{node} is not known to be analytic in {small}")
-    parts = [_expanded(part, small, length) for part in node.args]
+    arguments = [_expanded(argument, small, length) for argument in node.args]
     if node.is_Mul:
-        return reduce(_times, parts)
+        return reduce(_times, arguments)
     if node.is_Add:
-        real = all(part.real for part, term in zip(parts, node.args, strict=True) if term.has(small))
-        return reduce(_plus, parts)._replace(real=real)
+        real = all(argument.real for argument, term in zip(arguments, node.args, strict=True) if term.has(small))
+        return reduce(_plus, arguments)._replace(real=real)
     if node.is_Pow:
-        return _of_power(node, parts[0], parts[1], small)
-    return _of_function(node, parts[0], small, length)
+        return _of_power(node, arguments[0], arguments[1], small)
+    return _of_function(node, arguments[0], small, length)
 
 
 def _of_power(node: sp.Expr, base: _Series, exponent: _Series, small: sp.Symbol) -> _Series:
-    """base**exponent, where both vary exp(exponent * log(base))."""
+    """Return base**exponent; if both depend on small, it is exp(exponent * log(base))."""
     z = _ARGUMENT
     if not node.exp.has(small):
         whole = node.exp.is_Integer and node.exp > 0
@@ -248,7 +295,7 @@ def _of_function(node: sp.Expr, argument: _Series, small: sp.Symbol, length: int
 
 
 def _from_branch_point(node: sp.Expr, u0: sp.Expr) -> sp.Expr:
-    """acos u = 2 asin sqrt((1 - u)/2), acosh u = 2 asinh sqrt((u - 1)/2), asin u = pi/2 - acos u, acos(-u) = pi - acos u."""
+    """Return acos u = 2 asin √((1 − u)/2), acosh u = 2 asinh √((u − 1)/2), and asin and acos(−u) by these."""
     u = node.args[0]
     if isinstance(node, sp.acosh):
         return 2 * sp.asinh(sp.sqrt((u - 1) / 2))
@@ -259,7 +306,7 @@ def _from_branch_point(node: sp.Expr, u0: sp.Expr) -> sp.Expr:
 
 
 def _of_constant_power(node: sp.Expr, base: _Series, small: sp.Symbol) -> _Series:
-    """base**a = small**(s*a) * w**a."""
+    """Return base**a = small**(s*a) * w**a."""
     if base.start and not node.exp.is_Rational:
         raise NotExactError(f"{node} is singular at {small} = 0, and its exponent is no rational number")
     if not node.exp.is_Integer:
@@ -272,7 +319,7 @@ def _of_constant_power(node: sp.Expr, base: _Series, small: sp.Symbol) -> _Serie
 
 
 def _is_positive(base: _Series, small: sp.Symbol) -> bool:
-    """Whether a real series is certainly positive next to zero."""
+    """Return True if a real series is certainly positive for small values."""
     return bool(base.terms[0].is_positive and (small.is_extended_nonnegative or not base.start))
 
 
@@ -282,7 +329,7 @@ def _inverse(series: _Series) -> _Series:
 
 
 def _logarithm(node: sp.Expr, base: _Series, small: sp.Symbol) -> _Series:
-    """log(base) = s*log(small) + log w."""
+    """Return log(base) = s*log(small) + log w."""
     _check_cut(node, base, small)
     series = _composed(sp.log(_ARGUMENT), _ARGUMENT, base._replace(start=0))
     series = series._replace(real=series.real and _is_positive(base, small))
@@ -290,12 +337,10 @@ def _logarithm(node: sp.Expr, base: _Series, small: sp.Symbol) -> _Series:
 
 
 def _composed(function: sp.Expr, z: sp.Symbol, inner: _Series) -> _Series:
-    """Return sum of f^(m)(u0) * v**m / m!, u0 + v the inner series."""
+    """Return the sum of f^(m)(u0) * v**m / m! for the inner series u0 + v."""
     length, u0 = len(inner.terms), inner.terms[0]
     if u0.has(_LOG):
-        raise NotExactError(
-            f"{function} of an argument that starts with a logarithm of the small quantity has no series"
-        )
+        raise NotExactError(f"{function} of an argument whose leading term is a logarithm has no series")
     v = inner.led_by(sp.S.Zero)
     power = inner._replace(terms=_padded([sp.S.One], length))
     total = inner._replace(terms=(sp.S.Zero,) * length)
@@ -312,49 +357,46 @@ def _composed(function: sp.Expr, z: sp.Symbol, inner: _Series) -> _Series:
 
 
 def _check_cut(node: sp.Expr, inner: _Series, small: sp.Symbol) -> None:
-    """Raise NotExactError unless the argument starts off the branch cut of the function or stays on the cut's line."""
+    """Raise NotExactError unless the argument starts off the branch cut or stays on the real line."""
     u0, *tail = inner.terms
     one_sided = bool(small.is_extended_nonnegative)
     on_line = False
     if isinstance(node, _CUT):
-        off = _is_real(u0) or u0.is_imaginary is False or (1 + u0**2).is_positive
+        off_cut = _is_real(u0) or u0.is_imaginary is False or (1 + u0**2).is_positive
     elif isinstance(node, _CUT_BEYOND_ONE):
-        off = u0.is_extended_real is False or (u0.is_extended_real and (1 - u0**2).is_positive)
+        off_cut = u0.is_extended_real is False or (u0.is_extended_real and (1 - u0**2).is_positive)
     else:
-        off = u0.is_positive or u0.is_extended_real is False
+        off_cut = u0.is_positive or u0.is_extended_real is False
         on_line = inner.real and all(map(_is_real, tail))
     if inner.start and not one_sided:
-        within = inner.start < inner.q or (inner.start == inner.q and on_line)
-        if not (u0.is_positive and inner.start > 0 and within):
+        first_order = inner.start < inner.q or (inner.start == inner.q and on_line)
+        if not (u0.is_positive and inner.start > 0 and first_order):
             raise NotExactError(
                 f"{node} is singular at {small} = 0, and its branch depends on the sign of {small}: declare it positive"
             )
-    if not (off or on_line):
-        raise NotExactError(
-            f"{node} may lie on a branch cut: its argument starts at {u0} and does not stay on one line"
-        )
+    if not (off_cut or on_line):
+        raise NotExactError(f"{node} may lie on a branch cut: its argument starts at {u0} and leaves the real line")
 
 
 def _is_real(node: sp.Expr) -> bool:
-    """Whether the expression is real wherever it is finite; symbols of which nothing is declared are."""
+    """Return True if the expression is real wherever it is finite; symbols without assumptions count as real."""
     if node.is_Symbol:
         return node.is_extended_real is not False and node.is_imaginary is not True
     if node.is_extended_real:
         return True
     if node.is_Pow and not node.exp.is_Integer:
         return bool(node.base.is_nonnegative) and _is_real(node.exp)
-    return (node.is_Add or node.is_Mul or node.is_Pow or isinstance(node, (*_ANALYTIC, *_CUT))) and all(
-        map(_is_real, node.args)
-    )
+    is_known = node.is_Add or node.is_Mul or node.is_Pow or isinstance(node, (*_ANALYTIC, *_CUT))
+    return is_known and all(map(_is_real, node.args))
 
 
 def _refined(series: _Series, q: int) -> _Series:
-    """The same series in powers of small**(1/q), q a multiple of its own."""
+    """Return the same series in powers of small**(1/q); q is a multiple of the series' q."""
     if q > _MOST_ROOTS:
         raise NotExactError(f"powers with the common denominator {q} are not expanded: the largest is {_MOST_ROOTS}")
-    each = q // series.q
-    terms = tuple(part for term in series.terms for part in _padded([term], each))
-    return series._replace(start=series.start * each, terms=terms, q=q)
+    factor = q // series.q
+    terms = tuple(coefficient for term in series.terms for coefficient in _padded([term], factor))
+    return series._replace(start=series.start * factor, terms=terms, q=q)
 
 
 def _plus(a: _Series, b: _Series) -> _Series:
@@ -373,12 +415,12 @@ def _times(a: _Series, b: _Series) -> _Series:
 
 
 def _product(a: sp.Expr, b: sp.Expr) -> sp.Expr:
-    """a b; of what is multiplied by zero sympy looks whether it is finite, which takes long."""
+    """Return a b; sympy's product with zero is slow, since it examines whether the other factor is finite."""
     return sp.S.Zero if a is sp.S.Zero or b is sp.S.Zero else a * b
 
 
 def _power(base: _Series, times: int) -> _Series:
-    """base**times, times > 0, by repeated squares."""
+    """Return base**times by repeated squaring, times > 0."""
     half = _power(base, times // 2) if times > 1 else base
     squared = _times(half, half) if times > 1 else base
     return _times(squared, base) if times % 2 and times > 1 else squared
@@ -389,7 +431,7 @@ def _padded(terms: list[sp.Expr], length: int) -> tuple[sp.Expr, ...]:
 
 
 def _stripped(series: _Series) -> _Series:
-    """Drop the leading terms that vanish."""
+    """Drop leading terms that vanish."""
     for place, term in enumerate(series.terms):
         if not _vanishes(term):
             return series._replace(start=series.start + place, terms=series.terms[place:])
@@ -397,7 +439,7 @@ def _stripped(series: _Series) -> _Series:
 
 
 def _regular(node: sp.Expr, series: _Series, small: sp.Symbol) -> _Series:
-    """Return the argument of the node from small**0 on; raise NotExactError if it has a term of negative power."""
+    """Return the argument of the node from small**0 on; raise NotExactError if it has a negative power."""
     for power in range(series.start, min(series.end, 0)):
         if not _vanishes(series.at(power)):
             negative = sp.Rational(power, series.q)
@@ -413,7 +455,7 @@ def _regular(node: sp.Expr, series: _Series, small: sp.Symbol) -> _Series:
 def _vanishes(coefficient: sp.Expr) -> bool:
     decision = decide_zero(coefficient)
     if decision.answer == "undecided":
-        sizes = [size_at(coefficient, point) for point in points(coefficient.free_symbols)]
+        sizes = [magnitude_at(coefficient, point) for point in points(coefficient.free_symbols)]
         clear = min((size for size in sizes if size is not None), default=0) > _CLEARLY_NONZERO
     if decision.partly or (decision.answer == "undecided" and not clear):
         raise NotExactError(f"cannot tell whether {coefficient} vanishes: {decision.reason}")

@@ -1,8 +1,7 @@
-"""Quotients of polynomials in generators of which some have a known square, with a bound on the work.
+"""Quotients of polynomials in generators, some of which have a known square, with a bound on the work.
 
-The ring is Q[g_1, ..., g_n] with rules g**2 = square, each square free of the generators that have rules themselves.
-A product costs as many units of work as it has pairs of terms, times the length of their coefficients and monomials; a
-product that would exceed the bound is not begun.
+The ring is Q[g_1, ..., g_n] with rules g**2 = square, where no square contains a generator with a rule.  The work of a product
+is its number of pairs of terms times the length of their coefficients and monomials; a product beyond the bound is refused.
 """
 
 from __future__ import annotations
@@ -21,18 +20,18 @@ MOST_WORK = 300_000
 # Bits of a coefficient that one unit of work multiplies.
 _BITS = 256
 # Generators that one unit of work multiplies.
-_LETTERS = 16
+_SYMBOLS = 16
 
 
 class Quotient(NamedTuple):
-    """numerator / product of factor**exponent; the factors are kept apart so that common ones are seen."""
+    """numerator / product of factor**exponent; the factors are stored separately to recognize common ones."""
 
     numerator: PolyElement
     factors: dict[PolyElement, int]
 
 
 class Ring:
-    """The polynomials in `names`, expressions that serve as generators, and every factor that was divided by."""
+    """The polynomials in the generators `names`, and every factor by which something was divided."""
 
     def __init__(self, names: Iterable[sp.Expr]) -> None:
         self.names = tuple(names) or (sp.Dummy(),)
@@ -54,7 +53,7 @@ class Ring:
         return polynomial.as_expr(*self.names)
 
     def spend(self, work: int) -> None:
-        """Raise NotExactError if the work to come exceeds what is left."""
+        """Add to the work; raise NotExactError beyond the bound."""
         self.work += work
         if self.work > MOST_WORK:
             raise TooLargeError(f"Deciding it takes more than {MOST_WORK:,} products of terms.")
@@ -62,7 +61,7 @@ class Ring:
     def product(self, a: PolyElement, b: PolyElement) -> PolyElement:
         if a is self.one or b is self.one:
             return a if b is self.one else b
-        self.spend(len(a) * len(b) * _length(a) * _length(b) * (1 + len(self.names) // _LETTERS))
+        self.spend(len(a) * len(b) * _length(a) * _length(b) * (1 + len(self.names) // _SYMBOLS))
         return self.reduced(a * b)
 
     def products(self, polynomials: Iterable[PolyElement]) -> PolyElement:
@@ -87,16 +86,16 @@ class Ring:
         """Replace g**(2*k + r) by square**k * g**r, r = 0 or 1, for every generator g with a known square."""
         degrees = tuple(map(max, zip(*polynomial.itermonoms(), strict=True))) if self.squares else ()
         for index, square in self.squares.items():
-            # A square holds no generator with a rule: the degrees in the others that have one do not change.
+            # A square contains no generator with a rule, so it does not change the degrees in such generators.
             if not degrees or degrees[index] < 2:
                 continue
-            parts: dict[int, dict[tuple[int, ...], Any]] = {}
+            blocks: dict[int, dict[tuple[int, ...], Any]] = {}
             for monomial, coefficient in polynomial.iterterms():
-                times, rest = divmod(monomial[index], 2)
-                parts.setdefault(times, {})[(*monomial[:index], rest, *monomial[index + 1 :])] = coefficient
+                times, parity = divmod(monomial[index], 2)
+                blocks.setdefault(times, {})[(*monomial[:index], parity, *monomial[index + 1 :])] = coefficient
             polynomial = self.polynomials.zero
-            for times, part in parts.items():
-                polynomial += self.product(self.power(square, times), self.polynomials.from_dict(part))
+            for times, block in blocks.items():
+                polynomial += self.product(self.power(square, times), self.polynomials.from_dict(block))
         return polynomial
 
     def times(self, a: Quotient, b: Quotient) -> Quotient:
@@ -104,7 +103,7 @@ class Ring:
         return Quotient(self.product(a.numerator, b.numerator), factors)
 
     def sum(self, terms: Iterable[Quotient]) -> Quotient:
-        """Bring the terms over the least common multiple of their factors, like denominators first."""
+        """Add the terms over the least common multiple of their factors, equal denominators first."""
         alike: dict[frozenset[tuple[PolyElement, int]], PolyElement] = {}
         common: dict[PolyElement, int] = {}
         for numerator, factors in terms:
@@ -113,29 +112,27 @@ class Ring:
             common |= {factor: max(times, common.get(factor, 0)) for factor, times in factors.items()}
         total = self.polynomials.zero
         for key, numerator in alike.items():
-            own = dict(key)
-            missing = {factor: times - own.get(factor, 0) for factor, times in common.items()}
+            exponents = dict(key)
+            missing = {factor: times - exponents.get(factor, 0) for factor, times in common.items()}
             total += self.product(numerator, self.expanded(missing))
         return Quotient(total, common)
 
     def raised(self, base: Quotient, times: int) -> Quotient:
-        """base**times, times of either sign."""
+        """Return base**times for a positive or negative exponent."""
         if times < 0:
             base = self.times(Quotient(self.expanded(base.factors), {}), self.inverse(base.numerator))
         factors = {factor: abs(times) * power for factor, power in base.factors.items()}
         return Quotient(self.power(base.numerator, abs(times)), factors)
 
     def inverse(self, polynomial: PolyElement, name: sp.Expr | None = None) -> Quotient:
-        """Return 1/polynomial, noting its factors, or `name` for it; raise NotExactError if it is zero in the ring."""
+        """Return 1/polynomial and record its factors, or `name` for it; raise NotExactError if it is zero in the ring."""
         if not polynomial:
             raise NotExactError("A denominator vanishes identically.")
         powers = tuple(min(exponents) for exponents in zip(*polynomial.itermonoms(), strict=True))
         factors = {g: n for g, n in zip(self.polynomials.gens, powers, strict=True) if n}
-        rest = {
-            tuple(m - p for m, p in zip(monomial, powers, strict=True)): c for monomial, c in polynomial.iterterms()
-        }
-        if len(rest) > 1:
-            factors[self.polynomials.from_dict(rest).monic()] = 1
+        cofactor = {tuple(m - p for m, p in zip(e, powers, strict=True)): c for e, c in polynomial.iterterms()}
+        if len(cofactor) > 1:
+            factors[self.polynomials.from_dict(cofactor).monic()] = 1
         if name is None:
             for factor in factors:
                 self.divisors.setdefault(factor, None)
@@ -146,12 +143,12 @@ class Ring:
 
 @cache
 def _polynomials(generators: int) -> PolyRing:
-    """The polynomials in so many fixed letters: the names of the generators themselves may coincide."""
+    """Return the polynomial ring in fixed symbols: the names of the generators themselves may coincide."""
     return PolyRing(sp.symbols(f"g:{generators}"), sp.QQ)
 
 
 def _length(polynomial: PolyElement) -> int:
-    """The longest coefficient, in units of _BITS."""
+    """Return the length of the longest coefficient in units of _BITS."""
     return 1 + max(map(_bits, polynomial.itercoeffs()), default=0) // _BITS
 
 

@@ -1,4 +1,4 @@
-"""An expression as a quotient of polynomials in its generators."""
+"""Conversion of an expression to a quotient of polynomials in its generators."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from lagrotor.algebra.roots import Dependent, Root, split_roots
 
 
 class Pair(NamedTuple):
-    """Cosine and sine, over one product of factors."""
+    """Cosine and sine over a common product of factors."""
 
     cosine: PolyElement
     sine: PolyElement
@@ -28,7 +28,7 @@ class Pair(NamedTuple):
 
 
 class Roots(NamedTuple):
-    """Independent roots, dependent ones with their sign (None: it may differ from region to region), and their ring."""
+    """Independent roots, dependent roots with their sign (None: it may differ from region to region), and their ring."""
 
     ring: Ring
     independent: list[Root]
@@ -39,24 +39,24 @@ class Roots(NamedTuple):
         return [root for root, sign in self.dependent if sign is None]
 
     def sign_ratio(self, root: Dependent) -> sp.Expr:
-        """The root over what it is with the sign +1."""
-        return sp.sqrt(root.base) / (self._factor(root) * sp.Mul(*(sp.sqrt(other.base) for other in root.of)))
+        """Return the root divided by its expression with the sign +1."""
+        return sp.sqrt(root.base) / (self._factor(root) * sp.Mul(*(sp.sqrt(factor.base) for factor in root.of)))
 
     def signs_at(self, point: Point) -> tuple[int | None, ...]:
         return tuple(sign_at(self.sign_ratio(root), point) for root in self.unsigned)
 
     def _factor(self, root: Dependent) -> sp.Expr:
-        """What the product of the square roots `of` is multiplied by."""
-        over = [root.numerator, *(other.denominator for other in root.of)]
+        """Return the factor that multiplies the product of the square roots `of`."""
+        over = [root.numerator, *(factor.denominator for factor in root.of)]
         return sp.Mul(*map(self.ring.expression, over)) / self.ring.expression(root.denominator)
 
     def known_sign(self, root: Dependent) -> int | None:
-        """The sign where the symbols' assumptions settle it: sqrt(a)*sqrt(b) = sqrt(a*b) for a >= 0 or b >= 0."""
+        """Return the sign if the symbols' assumptions decide it: sqrt(a)*sqrt(b) = sqrt(a*b) for a >= 0 or b >= 0."""
         if not root.numerator:
             return 1
-        if not any(base.free_symbols for base in (root.base, *(other.base for other in root.of))):
+        if not any(base.free_symbols for base in (root.base, *(member.base for member in root.of))):
             return sign_at(self.sign_ratio(root), {})
-        if sum(not other.base.is_nonnegative for other in root.of) > 1:
+        if sum(not member.base.is_nonnegative for member in root.of) > 1:
             return None
         factor = self._factor(root)
         return 1 if factor.is_nonnegative else -1 if factor.is_nonpositive else None
@@ -68,16 +68,14 @@ def find_roots(survey: Survey) -> Roots:
         return Roots(Ring(()), [], [])
     plain = Reader(survey, Ring(sorted(survey.atoms, key=sp.default_sort_key)), {})
     ordered = sorted(survey.radicands, key=lambda base: (bool(base.free_symbols), base.sort_key()))
-    given = [(base, plain.quotient(base)) for base in ordered]
-    independent, dependent = split_roots(
-        plain.ring, [(base, over, plain.ring.expanded(factors)) for base, (over, factors) in given]
-    )
+    quotients = [(base, *plain.quotient(base)) for base in ordered]
+    independent, dependent = split_roots(plain.ring, [(b, over, plain.ring.expanded(f)) for b, over, f in quotients])
     unsigned = Roots(plain.ring, independent, [(root, None) for root in dependent])
     return Roots(plain.ring, independent, [(root, unsigned.known_sign(root)) for root in dependent])
 
 
 def reader(survey: Survey, roots: Roots, signs: Sequence[int] = ()) -> Reader:
-    """The reader of a survey's expressions, `signs` those of the roots whose sign is not known."""
+    """Return the reader of a survey's expressions for a choice of the unknown signs of roots."""
     names = set(survey.atoms)
     named = {root: roots.ring.expression(root.denominator) * sp.sqrt(root.base) for root in roots.independent}
     names |= set(named.values())
@@ -91,8 +89,8 @@ def reader(survey: Survey, roots: Roots, signs: Sequence[int] = ()) -> Reader:
             ring.set_square(s, square if angle[0] else -square)
 
     def lifted(polynomial: PolyElement) -> PolyElement:
-        given = [ring.generators[name] for name in roots.ring.names if name in ring.generators]
-        terms = (ring.products([ring.one * c, *map(ring.power, given, m)]) for m, c in polynomial.terms())
+        generators = [ring.generators[name] for name in roots.ring.names if name in ring.generators]
+        terms = (ring.products([ring.one * c, *map(ring.power, generators, m)]) for m, c in polynomial.terms())
         return sum(terms, ring.polynomials.zero)
 
     for root, name in named.items():
@@ -100,32 +98,32 @@ def reader(survey: Survey, roots: Roots, signs: Sequence[int] = ()) -> Reader:
     values: dict[sp.Expr, Quotient] = {}
     for root, name in named.items():
         values[root.base] = ring.times(Quotient(ring.generators[name], {}), ring.inverse(lifted(root.denominator)))
-    left = iter(signs)
-    for one, sign in roots.dependent:
-        over = ring.products([lifted(one.numerator), *(ring.generators[named[other]] for other in one.of)])
-        over *= next(left) if sign is None else sign
-        values[one.base] = ring.times(Quotient(over, {}), ring.inverse(lifted(one.denominator)))
+    remaining_signs = iter(signs)
+    for image, sign in roots.dependent:
+        over = ring.products([lifted(image.numerator), *(ring.generators[named[member]] for member in image.of)])
+        over *= next(remaining_signs) if sign is None else sign
+        values[image.base] = ring.times(Quotient(over, {}), ring.inverse(lifted(image.denominator)))
     return Reader(survey, ring, values)
 
 
 def _names(survey: Survey, angle: Angle) -> tuple[sp.Expr, ...]:
-    """The generators of a base angle: an exponential, or cosine and sine."""
+    """Return the generators of a base angle: an exponential, or cosine and sine."""
     hyperbolic, monomial = angle
     base = monomial / survey.angles[angle].step
     if survey.compact(angle):
         return (sp.exp(base if hyperbolic else sp.I * base, evaluate=False),)
-    return tuple(part(base, evaluate=False) for part in FAMILY[hyperbolic])
+    return tuple(function(base, evaluate=False) for function in FAMILY[hyperbolic])
 
 
 class Reader:
-    """Reads expressions of one survey in one ring; `roots` holds the square root of each radicand."""
+    """Reads the expressions of a survey into a ring; `roots` holds the square root of each radicand."""
 
     def __init__(self, survey: Survey, ring: Ring, roots: dict[sp.Expr, Quotient]) -> None:
         self.survey, self.ring, self.roots = survey, ring, roots
         self.known: dict[sp.Expr, Quotient] = {}
 
     def quotient(self, node: sp.Expr) -> Quotient:
-        """The node as a quotient in the ring; raise NotExactError where a denominator vanishes identically."""
+        """Return the node as a quotient in the ring; raise NotExactError if a denominator vanishes identically."""
         if node not in self.known:
             self.known[node] = self._build(node)
         return self.known[node]
@@ -147,9 +145,8 @@ class Reader:
         if node.is_Pow:
             return ring.raised(self.quotient(node.base), int(node.exp))
         if node.func is sp.exp:
-            return reduce(
-                ring.times, (self._exponential(*part) for part in angle_of(node)[1].items()), ring.number(sp.S.One)
-            )
+            terms = (self._exponential(*term) for term in angle_of(node)[1].items())
+            return reduce(ring.times, terms, ring.number(sp.S.One))
         return self._function(node)
 
     def _function(self, node: sp.Expr) -> Quotient:
@@ -162,23 +159,23 @@ class Reader:
         return ring.times(Quotient(numerator, {}), ring.inverse(pair.part(under), name))
 
     def _pair(self, node: sp.Expr) -> Pair:
-        """Cosine and sine of the function's argument, by the addition theorems."""
+        """Return cosine and sine of the function's argument by the addition theorems."""
         hyperbolic, (turn, rates) = node.func in HYPERBOLIC, angle_of(node)
-        cosine, sine = (self.quotient(part(turn * sp.pi)).numerator for part in FAMILY[False])
+        cosine, sine = (self.quotient(function(turn * sp.pi)).numerator for function in FAMILY[False])
         total = Pair(cosine, sine, {})
         for monomial, rate in rates.items():
             total = self._plus(hyperbolic, total, self._multiple((hyperbolic, monomial), rate))
         return total
 
     def _plus(self, hyperbolic: bool, a: Pair, b: Pair) -> Pair:
-        """C = C1*C2 -+ S1*S2, S = S1*C2 + C1*S2."""
+        """Return C = C1*C2 -+ S1*S2 and S = S1*C2 + C1*S2."""
         product, sign = self.ring.product, 1 if hyperbolic else -1
         cosine = product(a.cosine, b.cosine) + sign * product(a.sine, b.sine)
         sine = product(a.sine, b.cosine) + product(a.cosine, b.sine)
         return Pair(cosine, sine, {f: a.factors.get(f, 0) + b.factors.get(f, 0) for f in a.factors | b.factors})
 
     def _multiple(self, angle: Angle, rate: sp.Rational) -> Pair:
-        """Cosine and sine of rate*monomial, for a pair of generators by doubling."""
+        """Return cosine and sine of rate*monomial, for a pair of generators by repeated doubling."""
         ring, times = self.ring, abs(int(rate * self.survey.angles[angle].step))
         names, sign = _names(self.survey, angle), 1 if rate > 0 else -1
         if self.survey.compact(angle):
@@ -197,7 +194,7 @@ class Reader:
         return total
 
     def _exponential(self, monomial: sp.Expr, rate: sp.Rational) -> Quotient:
-        """exp(rate*monomial): a power of the generator, or cosh + sinh."""
+        """Return exp(rate*monomial): a power of the generator, or cosh + sinh."""
         angle = True, monomial
         if not self.survey.compact(angle):
             pair = self._multiple(angle, rate)

@@ -1,8 +1,8 @@
-"""Whether an expression in the class vanishes by virtue of relations between its letters.
+"""Zero test of an expression modulo relations between its symbols.
 
-Some letters ρ stand for roots, ρ**q = B; others for algebraic numbers that are known to any precision.  A numerator is
-reduced to degree below q in each ρ; it vanishes if each of its coefficients, which are algebraic numbers, does.  Zero is proved
-by this whatever other relations the letters obey; that it is not found says nothing.
+Some symbols ρ represent roots, ρ**q = B; others represent algebraic numbers.  A numerator is reduced to degree below q in each
+ρ and vanishes if each of its coefficients, algebraic numbers, vanishes.  This proves zero for any further relations between the
+symbols; a nonzero result decides nothing.
 """
 
 from __future__ import annotations
@@ -19,20 +19,17 @@ from lagrotor.algebra.quotients import Ring
 from lagrotor.algebra.reading import Reader, find_roots, reader
 from lagrotor.errors import NotExactError
 
-# letter -> (q, B): letter**q = B, where B holds only letters with earlier relations.
+# symbol -> (q, B): symbol**q = B, where B holds only symbols with earlier relations.
 Relations: TypeAlias = Mapping[sp.Symbol, tuple[int, sp.Expr]]
 
 
 def vanishes(expression: sp.Expr, relations: Relations, numbers: Mapping[sp.Symbol, sp.Expr]) -> tuple[Ring, bool]:
-    """Whether the relations make it zero, and the ring that holds what was divided by.
-
-    Raises NotExactError outside the class, beyond the bound on the work, and where a divisor vanishes.
-    """
-    found = survey(expression, *relations, *(value for _, value in relations.values()))
-    roots = find_roots(found)
+    """Return the ring with all divisors, and True if the relations imply zero; raise NotExactError outside the class."""
+    content = survey(expression, *relations, *(value for _, value in relations.values()))
+    roots = find_roots(content)
     if roots.unsigned:
         raise NotExactError("The sign of a root may differ from region to region.")
-    reading = reader(found, roots)
+    reading = reader(content, roots)
     numerator = reading.quotient(expression).numerator
     divisors = list(reading.ring.divisors)
     if any(_is_null(divisor, reading, relations, numbers) for divisor in divisors):
@@ -44,8 +41,8 @@ def _is_null(
     polynomial: PolyElement, reading: Reader, relations: Relations, numbers: Mapping[sp.Symbol, sp.Expr]
 ) -> bool:
     ring = reading.ring
-    for letter, (q, value) in reversed(list(relations.items())):
-        polynomial = _reduced(polynomial, ring.names.index(letter), q, reading, value)
+    for symbol, (q, value) in reversed(list(relations.items())):
+        polynomial = _reduced(polynomial, ring.names.index(symbol), q, reading, value)
     if not polynomial or not numbers:
         return not polynomial
     constant = [not (name.free_symbols - set(numbers)) and name is not sp.pi for name in ring.names]
@@ -61,22 +58,22 @@ def _is_null(
             ),
         )
         coefficients[key] = coefficients.get(key, sp.S.Zero) + term
-    return all(is_zero(each) for each in coefficients.values())
+    return all(is_zero(coefficient) for coefficient in coefficients.values())
 
 
 def _reduced(polynomial: PolyElement, place: int, q: int, reading: Reader, value: sp.Expr) -> PolyElement:
-    """A multiple of the polynomial, of degree below q in the letter at `place`."""
+    """Return a multiple of the polynomial of degree below q in the symbol at index `place`."""
     degree = max((monomial[place] for monomial in polynomial.itermonoms()), default=0)
     if degree < q:
         return polynomial
     ring, (over, factors) = reading.ring, reading.quotient(value)
     under = ring.expanded(factors)
-    parts: dict[int, dict[tuple[int, ...], object]] = {}
+    blocks: dict[int, dict[tuple[int, ...], object]] = {}
     for monomial, c in polynomial.iterterms():
-        times, rest = divmod(monomial[place], q)
-        parts.setdefault(times, {})[(*monomial[:place], rest, *monomial[place + 1 :])] = c
+        times, remainder = divmod(monomial[place], q)
+        blocks.setdefault(times, {})[(*monomial[:place], remainder, *monomial[place + 1 :])] = c
     total = ring.polynomials.zero
-    for times, part in parts.items():
+    for times, block in blocks.items():
         scale = ring.product(ring.power(over, times), ring.power(under, degree // q - times))
-        total += ring.product(scale, ring.polynomials.from_dict(part))
+        total += ring.product(scale, ring.polynomials.from_dict(block))
     return total

@@ -1,4 +1,4 @@
-"""A point at which an expression is certainly not zero: its enclosure there excludes zero."""
+"""Search for a counterexample: a point where the enclosure of an expression excludes zero."""
 
 from __future__ import annotations
 
@@ -7,50 +7,49 @@ from typing import NamedTuple
 
 import sympy as sp
 
-from lagrotor.algebra.enclosures import DIGITS, Point, PointEnclosure, digits, enclosed_at, excludes_zero
+from lagrotor.algebra.enclosures import DIGITS, Point, PointEnclosure, enclosed_at, excludes_zero, working_digits
 from lagrotor.algebra.evidence import points
-from lagrotor.algebra.scalar import parts
+from lagrotor.algebra.scalar import node_count
 from lagrotor.algebra.signs import Region
 from lagrotor.errors import NotExactError
 
-# How many points of each size of the letters are looked at.
-_LARGE = 2000  # parts of an expression that is looked at four times only
-_SIZES = ((sp.S.One, 6), (sp.Rational(1, 8), 3), (sp.Integer(5), 4))
+_LARGE = 2000  # nodes beyond which an expression is evaluated at four points only
+_SIZES = ((sp.S.One, 6), (sp.Rational(1, 8), 3), (sp.Integer(5), 4))  # (scale of the symbols, number of points)
 
 
 class _Witness(NamedTuple):
-    """A point where an enclosure of the expression excludes zero; `real`: where all it is made of is real."""
+    """A point where the enclosure excludes zero; `real`: True if all subexpressions are real there."""
 
     point: Point
     real: bool
 
 
 class Sample(NamedTuple):
-    """The first witness, and at how many points the expression was enclosed."""
+    """The first witness, and the number of points at which the expression was enclosed."""
 
     witness: _Witness | None
     enclosed: int
 
 
-def sample(expression: sp.Expr, where: Region) -> Sample:
-    """Look for a witness, one where everything is real first."""
-    found: _Witness | None = None
-    enclosed, size = 0, parts(expression)
-    letters = expression.free_symbols | set().union(*(e.free_symbols for e, _ in where.above))
-    for point in _points(letters, where):
+def find_witness(expression: sp.Expr, where: Region) -> Sample:
+    """Search for a witness, preferably one where all subexpressions are real."""
+    complex_witness: _Witness | None = None
+    enclosed, size = 0, node_count(expression)
+    symbols = expression.free_symbols | set().union(*(e.free_symbols for e, _ in where.above))
+    for point in _points(symbols, where):
         if enclosed > 3 and size > _LARGE:
             break
         witness, defined = _at(expression, point)
         enclosed += defined
         if witness is not None and witness.real:
             return Sample(witness, enclosed)
-        found = found or witness
-    return Sample(found, enclosed)
+        complex_witness = complex_witness or witness
+    return Sample(complex_witness, enclosed)
 
 
-def _points(letters: set[sp.Symbol], where: Region) -> Iterator[Point]:
+def _points(symbols: set[sp.Symbol], where: Region) -> Iterator[Point]:
     for seed, (scale, number) in enumerate(_SIZES, 1):
-        for point in points(letters, number if not where.above else 4 * number, scale, seed):
+        for point in points(symbols, number if not where.above else 4 * number, scale, seed):
             if all(_certainly_above(e, point) for e, _ in where.above):
                 yield point
 
@@ -63,7 +62,7 @@ def _certainly_above(e: sp.Expr, point: Point) -> bool:
 
 
 def _at(expression: sp.Expr, point: Point) -> tuple[_Witness | None, bool]:
-    with digits(DIGITS):
+    with working_digits(DIGITS):
         enclosure = PointEnclosure(point)
         try:
             value = enclosure.value(expression)

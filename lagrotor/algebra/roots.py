@@ -1,13 +1,13 @@
-"""Square roots as generators: which of them are independent, and what the others are in terms of these.
+"""Square roots as generators: a maximal independent set, and the other roots in terms of it.
 
-For B = N/D, a quotient of polynomials with rational coefficients, h = D*sqrt(B) has the square A = N*D.  Adjoining the
-roots h of A_1, ..., A_k to the rational functions gives a field of degree 2**k if and only if no product of some of the
-A is a square (Kummer theory; see S. Lang, Algebra, VI.8).  To find such products every A is written as a product of
-powers of pairwise coprime integers and polynomials none of which is a square; these come from greatest common divisors,
-no integer is factored.  Then a product is a square if and only if all its exponents are even.
+For B = N/D, a quotient of polynomials with rational coefficients, h = D*sqrt(B) has the square A = N*D.  Adjoining the roots h
+of A_1, ..., A_k to the rational functions gives a field of degree 2**k if and only if no product of some of the A is a square
+(Kummer theory; S. Lang, Algebra, VI.8).  Every A is written as a product of powers of pairwise coprime integers and polynomials,
+none of them a square, by greatest common divisors without factoring integers.  A product is then a square if and only if all
+its exponents are even.
 
-Where A*prod(A_k) = p**2, the root is sqrt(B) = sign*p*prod(h_k)/(D*prod(A_k)) with a sign, +1 or -1, that may differ
-from region to region: sqrt(x**2) is x or -x.
+If A*prod(A_k) = p**2, the root is sqrt(B) = sign*p*prod(h_k)/(D*prod(A_k)) with a sign +1 or -1 that may differ from region to
+region: sqrt(x**2) is x or -x.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ _MOST_TERMS, _MOST_DEGREE = 60, 16
 
 
 class Root(NamedTuple):
-    """sqrt(base) = root/denominator, root**2 = square, all in the ring of the symbols."""
+    """A root sqrt(base) = root/denominator, root**2 = square, in the ring of the symbols."""
 
     base: sp.Expr
     denominator: PolyElement
@@ -35,7 +35,7 @@ class Root(NamedTuple):
 
 
 class Dependent(NamedTuple):
-    """sqrt(base) = sign * numerator/denominator * product of the roots `of`."""
+    """A root sqrt(base) = sign * numerator/denominator * product of the roots `of`."""
 
     base: sp.Expr
     numerator: PolyElement
@@ -46,7 +46,7 @@ class Dependent(NamedTuple):
 def split_roots(
     ring: Ring, bases: Iterable[tuple[sp.Expr, PolyElement, PolyElement]]
 ) -> tuple[list[Root], list[Dependent]]:
-    """Divide the roots of base = numerator/denominator into independent ones and those that follow from them."""
+    """Divide the roots of base = numerator/denominator into independent and dependent ones."""
     roots = [Root(base, under, ring.product(over, under)) for base, over, under in bases]
     for root in roots:
         if len(root.square) > _MOST_TERMS or max(map(sum, root.square.monoms()), default=0) > _MOST_DEGREE:
@@ -54,7 +54,7 @@ def split_roots(
     numbers, polynomials = _coprime_parts([root.square for root in roots])
     independent: list[Root] = []
     dependent: list[Dependent] = []
-    rows: list[tuple[int, int]] = []  # parities of a product of independent squares, and of which
+    rows: list[tuple[int, int]] = []  # (parities of a product of independent squares, its members), as bits
     for root in roots:
         if not root.square:
             dependent.append(Dependent(root.base, ring.polynomials.zero, ring.one, ()))
@@ -69,17 +69,17 @@ def split_roots(
             rows.sort(reverse=True)
             independent.append(root)
         else:
-            of = tuple(other for place, other in enumerate(independent) if members >> place & 1)
+            of = tuple(basis_root for place, basis_root in enumerate(independent) if members >> place & 1)
             dependent.append(_expressed(ring, root, of, numbers, polynomials))
     return independent, dependent
 
 
 def _coprime_parts(squares: Iterable[PolyElement]) -> tuple[list[int], list[PolyElement]]:
-    """Pairwise coprime integers and polynomials, no square among them, of whose powers all of these are products."""
+    """Return pairwise coprime integers and polynomials, none a square, whose powers generate all these squares."""
     numbers, polynomials = [], []
     for square in filter(None, squares):
         numbers.append(abs(_content(square)))
-        polynomials += [part.monic() for part, _ in square.sqf_list()[1]]
+        polynomials += [factor.monic() for factor, _ in square.sqf_list()[1]]
     return (
         _refined([_rootless(n) for n in numbers], gcd, lambda a, b: a // b, lambda n: n == 1, _rootless),
         _refined(polynomials, lambda a, b: a.gcd(b).monic(), lambda a, b: a.exquo(b), lambda p: p.is_ground),
@@ -94,36 +94,36 @@ def _refined(
     rootless: Callable[[Any], Any] = lambda value: value,
 ) -> list[Any]:
     """Split values by common divisors until they are pairwise coprime."""
-    found: list[Any] = []
+    coprime: list[Any] = []
     while values:
         value = rootless(values.pop())
-        if is_unit(value) or value in found:
+        if is_unit(value) or value in coprime:
             continue
-        for place, other in enumerate(found):
-            shared = common(value, other)
+        for place, member in enumerate(coprime):
+            shared = common(value, member)
             if not is_unit(shared):
-                del found[place]
-                values += [shared, divided(value, shared), divided(other, shared)]
+                del coprime[place]
+                values += [shared, divided(value, shared), divided(member, shared)]
                 break
         else:
-            found.append(value)
-    return found
+            coprime.append(value)
+    return coprime
 
 
 def _rootless(number: int) -> int:
-    """The number, or its root while it is a square."""
+    """Return the number with square roots extracted while it is a square."""
     while number > 1 and isqrt(number) ** 2 == number:
         number = isqrt(number)
     return number
 
 
 def _content(square: PolyElement) -> int:
-    """An integer that is the leading coefficient but for the square of a rational."""
+    """Return an integer that equals the leading coefficient up to a rational square."""
     return int(square.LC.numerator) * int(square.LC.denominator)
 
 
 def _exponents(square: PolyElement, numbers: list[int], polynomials: list[PolyElement]) -> list[int]:
-    """0 or 1 for the sign, then how often each number and each polynomial divides."""
+    """Return 0 or 1 for the sign, then the multiplicity of each number and each polynomial."""
     content, exponents = _content(square), [int(square.LC < 0)]
     for number in numbers:
         exponents.append(0)
@@ -139,12 +139,12 @@ def _exponents(square: PolyElement, numbers: list[int], polynomials: list[PolyEl
 def _expressed(
     ring: Ring, root: Root, of: tuple[Root, ...], numbers: list[int], polynomials: list[PolyElement]
 ) -> Dependent:
-    """The root in terms of those whose squares, multiplied by its own, give the square of p."""
-    squares = [root.square, *(other.square for other in of)]
+    """Return the root in terms of the roots whose squares, times its square, give the square of p."""
+    squares = [root.square, *(basis_root.square for basis_root in of)]
     halves = [sum(n) // 2 for n in zip(*(_exponents(s, numbers, polynomials) for s in squares), strict=True)]
     content = prod((sp.Rational(int(s.LC.numerator), int(s.LC.denominator)) for s in squares), start=sp.S.One)
     p = ring.number(sp.Rational(isqrt(content.p), isqrt(content.q))).numerator
     for polynomial, times in zip(polynomials, halves[1 + len(numbers) :], strict=True):
         p = ring.product(p, ring.power(polynomial, times))
-    numerator, denominator = p.cancel(ring.products(other.square for other in of))
+    numerator, denominator = p.cancel(ring.products(basis_root.square for basis_root in of))
     return Dependent(root.base, numerator, ring.product(denominator, root.denominator), of)

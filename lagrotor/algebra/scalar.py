@@ -1,4 +1,4 @@
-"""Checks of what is handed to this room: scalar expressions, with the symbols that are zero by assumption replaced."""
+"""Checks of arguments: scalar expressions of bounded size, with symbols that are zero by assumption replaced."""
 
 from typing import Any
 
@@ -8,44 +8,44 @@ from lagrotor.algebra.enclosures import enclosure
 from lagrotor.algebra.name_clashes import check_names
 from lagrotor.errors import InputError, NotExactError
 
-# Deeper expressions exhaust the stack, larger ones the memory; equal parts count as often as they occur.
+# Deeper expressions exhaust the stack, larger ones the memory; repeated nodes count each time.
 _MOST_DEPTH, _MOST_NODES = 150, 1_000_000
 
 
-def sympified(given: Any, name: str) -> Any:
-    """A sympy object; raise InputError, on behalf of the function `name`, where there is none. No text is parsed."""
+def sympified(value: Any, name: str) -> Any:
+    """Return a sympy object, or raise InputError in the name of the function `name`. No text is parsed."""
     try:
-        return sp.sympify(given, strict=True)
+        return sp.sympify(value, strict=True)
     except sp.SympifyError:
-        raise InputError(f"{name}: {given!r} is not an expression: give a sympy expression or a number") from None
+        raise InputError(f"{name}: {value!r} is not an expression: give a sympy expression or a number") from None
 
 
-def scalar(given: Any, name: str) -> sp.Expr:
-    """A scalar expression; raise InputError where there is none, NotExactError where it is too large or too deep."""
-    expression = sympified(given, name)
+def scalar(value: Any, name: str) -> sp.Expr:
+    """Return a scalar expression, or raise InputError; raise NotExactError if it is too large or too deep."""
+    expression = sympified(value, name)
     if not isinstance(expression, sp.Expr) or isinstance(expression, sp.MatrixExpr):
-        raise InputError(f"{name}: {given!r} is not a scalar expression: give a sympy expression or a number")
-    zeros = {part: sp.S.Zero for part in _sizes(expression) if part.is_Symbol and part.is_zero}
+        raise InputError(f"{name}: {value!r} is not a scalar expression: give a sympy expression or a number")
+    zeros = {symbol: sp.S.Zero for symbol in _sizes(expression) if symbol.is_Symbol and symbol.is_zero}
     check_names(name, expression)
     return expression.xreplace(zeros) if zeros else expression
 
 
 def _sizes(expression: sp.Basic) -> dict[sp.Basic, tuple[int, int]]:
-    """Every different part of an expression that is neither too large nor too deep, with its nodes and its depth."""
+    """Return the nodes and the depth of each distinct subexpression; raise NotExactError beyond the bounds."""
     sizes: dict[sp.Basic, tuple[int, int]] = {}
-    left = [(expression, False)]
-    while left:
-        node, ready = left.pop()
+    stack = [(expression, False)]
+    while stack:
+        node, ready = stack.pop()
         if node in sizes:
             continue
         if not node.args:
             sizes[node] = 1, 1
         elif ready:
-            below, depths = zip(*(sizes[part] for part in node.args), strict=True)
+            below, depths = zip(*(sizes[argument] for argument in node.args), strict=True)
             sizes[node] = 1 + sum(below), 1 + max(depths)
         else:
-            left.append((node, True))
-            left += [(part, False) for part in node.args if part not in sizes]
+            stack.append((node, True))
+            stack += [(argument, False) for argument in node.args if argument not in sizes]
     nodes, depth = sizes[expression]
     if depth > _MOST_DEPTH:
         raise NotExactError(f"The expression is nested more than {_MOST_DEPTH} deep.")
@@ -54,21 +54,21 @@ def _sizes(expression: sp.Basic) -> dict[sp.Basic, tuple[int, int]]:
     return sizes
 
 
-def parts(expression: sp.Expr) -> int:
-    """How many nodes the tree of an expression has, equal ones counted as often as they occur."""
+def node_count(expression: sp.Expr) -> int:
+    """Return the number of nodes in the tree of an expression, with repetitions."""
     return _sizes(expression)[expression][0]
 
 
 def degree(expression: sp.Expr) -> int:
-    """A bound on its degree in its letters and functions, as a quotient, and on those of their arguments."""
+    """Return a bound on the degree of a quotient in its symbols and functions, and of the functions' arguments."""
     degrees: dict[sp.Basic, int] = {}
     largest = 0
     for node in sp.postorder_traversal(expression):
-        each = [degrees[part] for part in node.args]
+        below = [degrees[argument] for argument in node.args]
         if node.is_Add:
-            degrees[node] = max(each)
+            degrees[node] = max(below)
         elif node.is_Mul:
-            degrees[node] = sum(each)
+            degrees[node] = sum(below)
         elif node.is_Pow and node.exp.is_Rational:
             degrees[node] = degrees[node.base] * int(sp.ceiling(abs(node.exp)))
         else:
@@ -77,8 +77,8 @@ def degree(expression: sp.Expr) -> int:
     return largest
 
 
-def divided(e: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-    """Return a number that is certainly not zero and the expression divided by it, such that no number is in all terms."""
+def split_content(e: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+    """Return (number, e / number) with a nonzero number, such that the terms have no common numerical factor."""
     common: dict[sp.Expr, sp.Rational] | None = None
     terms = sp.Add.make_args(e)
     for term in terms:
@@ -92,13 +92,13 @@ def divided(e: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
         if not common:
             break
     number = sp.Mul(*(base**power for base, power in (common or {}).items() if _is_apart(base)))
-    rest = e if number == 1 else sp.Add(*(term / number for term in terms))
-    content, rest = rest.primitive() if rest.is_Add else rest.as_coeff_Mul(rational=True)
-    return (number * content, rest) if content else (sp.S.One, e)
+    quotient = e if number == 1 else sp.Add(*(term / number for term in terms))
+    content, quotient = quotient.primitive() if quotient.is_Add else quotient.as_coeff_Mul(rational=True)
+    return (number * content, quotient) if content else (sp.S.One, e)
 
 
 def _is_apart(number: sp.Expr) -> bool:
-    """Return whether a number is certainly real and not zero."""
-    huge = number.is_Pow and number.exp.is_Integer  # written, not evaluated
+    """Return True if a number is certainly real and nonzero."""
+    huge = number.is_Pow and number.exp.is_Integer  # not evaluated
     between = None if huge else enclosure(number, {})
     return between is not None and (between[0] > 0 or between[1] < 0)

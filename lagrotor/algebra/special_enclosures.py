@@ -1,4 +1,4 @@
-"""Enclosures of Γ, of Bessel functions J at rational orders by power series, of the elliptic integrals K and E by means.
+"""Enclosures of Γ, of Bessel functions J of rational order by power series, and of elliptic integrals K and E by means.
 
 Abramowitz & Stegun, Handbook of Mathematical Functions, chs. 6, 9, 17.
 """
@@ -12,7 +12,7 @@ from mpmath.ctx_iv import ivmpc
 
 from lagrotor.errors import NotExactError
 
-_LARGEST = 60  # arguments beyond which the series are not summed
+_LARGEST = 60  # largest argument of a series
 
 
 def _ball(radius: Any) -> Any:
@@ -25,7 +25,7 @@ def _check(x: Any) -> None:
 
 
 def _series(first: Any, ratio: Any, above: Any) -> Any:
-    """Sum of the terms first, first*ratio(0), …, whose ratios fall; above(k) is at least |ratio| from k on."""
+    """Return first + first*ratio(0) + …, for decreasing ratios; above(k) bounds |ratio| from index k on."""
     total, term, k = first, first, 0
     least = iv.mpf(2) ** (-iv.prec - 20)
     while True:
@@ -33,9 +33,9 @@ def _series(first: Any, ratio: Any, above: Any) -> Any:
         total, k = total + term, k + 1
         q = above(k)
         if q.b < 0.5 and abs(term).b < least.b:
-            return total + _ball(abs(term) * q / (1 - q))  # geometric
+            return total + _ball(abs(term) * q / (1 - q))  # bound by a geometric series
         if k > 20 * iv.prec:
-            raise NotExactError("A series does not settle.")
+            raise NotExactError("A series does not converge.")
 
 
 def _gamma(orders: Sequence[sp.Expr], values: Sequence[Any]) -> Any:
@@ -55,7 +55,7 @@ def _binomial(orders: Sequence[sp.Expr], values: Sequence[Any]) -> Any:
 
 
 def _bessel(orders: Sequence[sp.Expr], values: Sequence[Any]) -> Any:
-    """J: (x/2)ᵛ Σ (−x²/4)ᵏ/(k! Γ(v + k + 1)), x > 0 or v whole."""
+    """Return J: (x/2)ᵛ Σ (−x²/4)ᵏ/(k! Γ(v + k + 1)), for x > 0 or integer v."""
     v, x = orders[0], values[1]
     if not v.is_Rational:
         raise NotExactError("A Bessel function is enclosed at rational orders only.")
@@ -69,7 +69,7 @@ def _bessel(orders: Sequence[sp.Expr], values: Sequence[Any]) -> Any:
     elif half.a > 0:
         first = iv.exp(order * iv.log(half)) / iv.gamma(order + 1)
     else:
-        raise NotExactError("A Bessel function of broken order is enclosed at positive arguments only.")
+        raise NotExactError("A Bessel function of non-integer order is enclosed at positive arguments only.")
     start = abs(int(v)) + 2
     return flip * _series(
         first,
@@ -79,7 +79,7 @@ def _bessel(orders: Sequence[sp.Expr], values: Sequence[Any]) -> Any:
 
 
 def _elliptic(orders: Sequence[sp.Expr], values: Sequence[Any], second: bool = False) -> Any:
-    """K(m) = π/(2 M(1, √(1−m))), M the arithmetic-geometric mean; E/K = 1 − Σ 2ⁿ⁻¹ cₙ²; m < 1."""
+    """Return K(m) = π/(2 M(1, √(1−m))) with the arithmetic-geometric mean M, or E = K (1 − Σ 2ⁿ⁻¹ cₙ²), for m < 1."""
     if len(values) != 1 or isinstance(values[0], ivmpc) or not values[0].b < 1:
         raise NotExactError("Elliptic integrals are enclosed at m < 1 only.")
     [m] = values

@@ -1,4 +1,4 @@
-"""Recurrences that bring factorials, binomial coefficients and Bessel functions J to a least set.
+"""Recurrences that reduce factorials, binomial coefficients and Bessel functions J to a minimal set.
 
 Abramowitz & Stegun, Handbook of Mathematical Functions, 6.1.15, 9.1.27, 10.1.11.
 """
@@ -15,16 +15,16 @@ _MOST_STEPS = 30
 
 
 def _constant(u: sp.Expr) -> tuple[sp.Rational, sp.Expr]:
-    """The rational term of u, and the rest."""
-    constant, rest = sp.expand(u).as_coeff_Add()
-    return (constant, rest) if constant.is_Rational else (sp.S.Zero, constant + rest)
+    """Return the rational term of u, and the remainder."""
+    constant, remainder = sp.expand(u).as_coeff_Add()
+    return (constant, remainder) if constant.is_Rational else (sp.S.Zero, constant + remainder)
 
 
 def _gamma(u: sp.Expr) -> sp.Expr | None:
-    """Γ of an argument with a constant in [0, 1)."""
+    """Return Γ in terms of Γ at an argument with a constant in [0, 1)."""
     u = sp.expand(u)
-    constant, rest = _constant(u)
-    if not rest and not (value := sp.gamma(constant)).has(sp.gamma):
+    constant, remainder = _constant(u)
+    if not remainder and not (value := sp.gamma(constant)).has(sp.gamma):
         return value
     shift = floor(constant)
     if shift and abs(shift) <= _MOST_STEPS:
@@ -44,14 +44,14 @@ def _binomial(n: sp.Expr, k: sp.Expr) -> sp.Expr | None:
 
 
 def _bessel(order: sp.Expr, x: sp.Expr) -> sp.Expr | None:
-    """Order ν to ν − 1 and ν − 2, down to a constant in [0, 2): J_ν = (2(ν − 1)/x) J_{ν−1} − J_{ν−2}."""
-    constant, rest = _constant(order)
-    if not rest and abs(constant) == sp.S.Half:
+    """Reduce the order to a constant in [0, 2): J_ν = (2(ν − 1)/x) J_{ν−1} − J_{ν−2}."""
+    constant, remainder = _constant(order)
+    if not remainder and abs(constant) == sp.S.Half:
         return sp.sqrt(2 / sp.pi) / sp.sqrt(x) * (sp.cos(x) if constant < 0 else sp.sin(x))
     down = sp.expand(order)
-    if 2 <= constant <= _MOST_STEPS or (not rest and constant == sp.Rational(3, 2)):
+    if 2 <= constant <= _MOST_STEPS or (not remainder and constant == sp.Rational(3, 2)):
         return 2 * (down - 1) / x * sp.besselj(down - 1, x) - sp.besselj(down - 2, x)
-    if -_MOST_STEPS <= constant < 0:  # half orders end at ±1/2
+    if -_MOST_STEPS <= constant < 0:  # half-integer orders end at ±1/2
         return 2 * (down + 1) / x * sp.besselj(down + 1, x) - sp.besselj(down + 2, x)
     return None
 

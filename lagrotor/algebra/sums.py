@@ -1,4 +1,4 @@
-"""Sums with symbolic limits, by induction on the upper one; a series without end is not decided."""
+"""Sums with symbolic limits: expansion, and proof by induction on the upper limit; infinite series are not decided."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from sympy.concrete.gosper import gosper_sum
 
 from lagrotor.algebra.signs import Region
 
-_MOST_TERMS = 40  # that are written out
+_MOST_TERMS = 40  # of an expanded sum
 
 
-def written_out(e: sp.Sum) -> sp.Expr | None:
-    """Between whole numbers, and in the least form: Σ to n + 2 as Σ to n and two terms, constant factors outside."""
+def expand_sum(e: sp.Sum) -> sp.Expr | None:
+    """Expand a sum between integers, or write Σ to n + 2 as Σ to n and two terms, with constant factors outside."""
     body, (i, low, high), *others = e.args
     if others:
         return None
@@ -23,10 +23,10 @@ def written_out(e: sp.Sum) -> sp.Expr | None:
         return sp.Add(*(body.subs(i, k) for k in range(int(low), int(high) + 1)))
     expanded = sp.expand_mul(body)
     if expanded.is_Add and body.has(sp.core.function.AppliedUndef):
-        return sp.Add(*(sp.Sum(part, (i, low, high)) for part in expanded.args))
-    constant, rest = expanded.as_independent(i, as_Add=False)
+        return sp.Add(*(sp.Sum(term, (i, low, high)) for term in expanded.args))
+    constant, dependent = expanded.as_independent(i, as_Add=False)
     if constant != 1:
-        return constant * sp.Sum(rest, (i, low, high))
+        return constant * sp.Sum(dependent, (i, low, high))
     if high is sp.oo:
         return None
     shift, base = high.as_coeff_Add()
@@ -38,7 +38,7 @@ def written_out(e: sp.Sum) -> sp.Expr | None:
 
 
 def value_of_sum(e: sp.Sum, where: Region, vanishes: Callable[[sp.Expr, Region], bool]) -> sp.Expr | None:
-    """Gosper's closed form, proved by induction on the upper limit."""
+    """Return Gosper's closed form, proved by induction on the upper limit; None if there is none."""
     body, (i, low, high), *others = e.args
     if others or not (high.is_Symbol and high.is_integer and low.is_Integer) or body.has(high):
         return None
@@ -52,7 +52,7 @@ def value_of_sum(e: sp.Sum, where: Region, vanishes: Callable[[sp.Expr, Region],
 
 
 def holds_by_induction(expression: sp.Expr, where: Region, vanishes: Callable[[sp.Expr, Region], bool]) -> bool:
-    """Whether an expression, linear in one sum to a natural n, is zero for all n: at the first, and with n at n + 1."""
+    """Return True if an expression linear in one sum to n is zero for the first n, and for n + 1 if for n."""
     sums = expression.atoms(sp.Sum)
     if len(sums) != 1:
         return False
@@ -65,11 +65,11 @@ def holds_by_induction(expression: sp.Expr, where: Region, vanishes: Callable[[s
     S = sp.Dummy("S")
     linear = sp.expand(expression.xreplace({total: S}))
     c = linear.coeff(S)
-    rest = linear - c * S
-    if rest.has(S) or c.has(S, n) or c == 0:
+    remainder = linear - c * S
+    if remainder.has(S) or c.has(S, n) or c == 0:
         return False
     start = 1 if n.is_positive else 0
     first = sp.Add(*(body.subs(i, k) for k in range(int(low), start + 1)))
-    at_start = (c * first + rest).subs(n, start)
-    after = c * body.subs(i, n + 1) - rest + rest.subs(n, n + 1)
-    return vanishes(at_start, where) and vanishes(after, where)
+    at_start = (c * first + remainder).subs(n, start)
+    step = c * body.subs(i, n + 1) - remainder + remainder.subs(n, n + 1)
+    return vanishes(at_start, where) and vanishes(step, where)

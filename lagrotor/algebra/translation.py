@@ -1,13 +1,12 @@
-"""An expression of analysis in letters: what no rule is known for becomes a letter, what is known of letters a relation.
+"""Translation of an expression into the class of `identity`: other functions become symbols, their identities relations.
 
-Each step is an identity that holds in the region where it is applied, for principal values:
+Each step is an identity for principal values in the region where it is applied:
 
     log(Π pᵢ**kᵢ) = Σ kᵢ log|pᵢ| of positive products,      a**b = exp(b log a),      exp(r log p) = p**r,
     cos θ = (1 − τ²)/(1 + τ²), sin θ = 2τ/(1 + τ²) with τ = tan(θ/2),      exp(u + iv) = exp(u) (cos v + i sin v),
 
-and the relations of inverse functions, of Γ and of Bessel functions with their neighbours.  Equal
-letters have equal arguments.  Where a rule needs a sign that is not known, that sign is noted in `wanted`, and the rule is not
-applied.
+and the recurrences of inverse functions, Γ and Bessel functions.  Equal arguments have one symbol.  A rule that needs an
+unknown sign is not applied; the sign is noted in `missing`.
 """
 
 from __future__ import annotations
@@ -22,32 +21,25 @@ from sympy.core.function import AppliedUndef
 
 from lagrotor.algebra.enclosures import jet_of
 from lagrotor.algebra.reduction import vanishes
-from lagrotor.algebra.scalar import degree, parts
+from lagrotor.algebra.scalar import degree, node_count
 from lagrotor.algebra.signs import NONNEGATIVE, POSITIVE, Region, is_nonnegative, is_positive, is_real, signs
 from lagrotor.algebra.special_functions import RULES
 from lagrotor.errors import NotExactError, TooLargeError
 
-# Of a polynomial whose factors are sought; parts of an expression that is brought over one denominator for it.
+# Bounds of a polynomial that is factored; nodes of an expression that is brought over one denominator for this.
 _MOST_TERMS, _MOST_DEGREE, _MOST_PARTS = 40, 12, 300
 _MOST_MULTIPLE = 24
-_MOST_SAME = 12  # letters of one head that a new one is compared with
+_MOST_SAME = 12  # latest symbols of one function with which arguments are compared
 _INDEX, _VARIABLE = sp.Dummy("i", integer=True), sp.Dummy("x", real=True)
 _HYPERBOLIC: dict[Any, Callable[[Any], Any]] = {
-    sp.sinh: lambda w: (w - 1 / w) / 2,
-    sp.cosh: lambda w: (w + 1 / w) / 2,
-    sp.tanh: lambda w: (w**2 - 1) / (w**2 + 1),
-    sp.coth: lambda w: (w**2 + 1) / (w**2 - 1),
-    sp.sech: lambda w: 2 * w / (w**2 + 1),
-    sp.csch: lambda w: 2 * w / (w**2 - 1),
-}
+    sp.sinh: lambda w: (w - 1 / w) / 2, sp.cosh: lambda w: (w + 1 / w) / 2,
+    sp.tanh: lambda w: (w**2 - 1) / (w**2 + 1), sp.coth: lambda w: (w**2 + 1) / (w**2 - 1),
+    sp.sech: lambda w: 2 * w / (w**2 + 1), sp.csch: lambda w: 2 * w / (w**2 - 1),
+}  # fmt: skip
 _CIRCULAR: dict[Any, Callable[[Any, Any], Any]] = {
-    sp.sin: lambda c, s: s,
-    sp.cos: lambda c, s: c,
-    sp.tan: lambda c, s: s / c,
-    sp.cot: lambda c, s: c / s,
-    sp.sec: lambda c, s: 1 / c,
-    sp.csc: lambda c, s: 1 / s,
-}
+    sp.sin: lambda c, s: s, sp.cos: lambda c, s: c, sp.tan: lambda c, s: s / c, sp.cot: lambda c, s: c / s,
+    sp.sec: lambda c, s: 1 / c, sp.csc: lambda c, s: 1 / s,
+}  # fmt: skip
 _BY_OTHERS: dict[Any, Callable[[sp.Expr], sp.Expr]] = {
     sp.acot: lambda u: sp.atan(1 / u),
     sp.asec: lambda u: sp.pi / 2 - sp.asin(1 / u),
@@ -57,24 +49,21 @@ _BY_OTHERS: dict[Any, Callable[[sp.Expr], sp.Expr]] = {
 }
 
 
-def proved_zero(expression: sp.Expr, where: Region) -> tuple[tuple[sp.Expr, ...] | None, tuple[sp.Basic, ...]]:
-    """The divisors that must not vanish where the expression is proved zero, else None; and the signs that were wanted.
-
-    Raises NotExactError outside the class and beyond the bound on the work.
-    """
+def prove_zero(expression: sp.Expr, where: Region) -> tuple[tuple[sp.Expr, ...] | None, tuple[sp.Basic, ...]]:
+    """Return the divisors of a proof that the expression is zero, else None; and the signs that a rule missed."""
     first = Translation(where)
     first.of(expression)
     second = Translation(where, first.steps, first.degrees)
     translated = second.of(expression)
     ring, zero = vanishes(translated, second.relations, second.numbers)
-    divided = (second.back(ring.expression(d) if n is None else n) for d, n in ring.divisors.items())
+    divided = (second.restore(ring.expression(d) if n is None else n) for d, n in ring.divisors.items())
     divisors = tuple(dict.fromkeys((*divided, *second.signed)))
-    wanted = tuple(dict.fromkeys((*first.wanted, *second.wanted)))
-    return (divisors if zero else None), wanted
+    missing = tuple(dict.fromkeys((*first.missing, *second.missing)))
+    return (divisors if zero else None), missing
 
 
 class Translation:
-    """Translates expressions of one region; the second pass knows the fractions of angles and the roots of the first."""
+    """The translation of expressions in one region; a second pass starts from the angles' steps and roots of the first."""
 
     def __init__(
         self, where: Region, steps: Mapping[Any, int] | None = None, degrees: Mapping[sp.Expr, int] | None = None
@@ -82,17 +71,15 @@ class Translation:
         self.where = where
         self.steps: dict[Any, int] = dict(steps or {})
         self.degrees: dict[sp.Expr, int] = dict(degrees or {})
-        self.letters: dict[Any, list[tuple[tuple[sp.Expr, ...], sp.Symbol]]] = {}
+        self.symbols: dict[Any, list[tuple[tuple[sp.Expr, ...], sp.Symbol]]] = {}
         self.meaning: dict[sp.Symbol, sp.Expr] = {}
         self.relations: dict[sp.Symbol, tuple[int, sp.Expr]] = {}
         self.numbers: dict[sp.Symbol, sp.Expr] = {}
-        self.arcs: dict[sp.Symbol, tuple[sp.Expr, sp.Expr]] = {}  # letters for arcs: their cosine and sine
-        self.logarithms: dict[sp.Symbol, tuple[sp.Expr, bool]] = {}  # of log|p|: p, True; of log b: b, False
-        self.exponentials: dict[sp.Symbol, sp.Expr] = {}  # letters exp(u): u
-        self.wanted: list[sp.Basic] = []
-        self.signed: dict[
-            sp.Expr, None
-        ] = {}  # factors of u in sign(u) = u/|u|, which is 0 and not ±1 where one vanishes
+        self.arcs: dict[sp.Symbol, tuple[sp.Expr, sp.Expr]] = {}  # symbol of an arc -> cosine, sine
+        self.logarithms: dict[sp.Symbol, tuple[sp.Expr, bool]] = {}  # log|p| -> (p, True); log b -> (b, False)
+        self.exponentials: dict[sp.Symbol, sp.Expr] = {}  # exp(u) -> u
+        self.missing: list[sp.Basic] = []
+        self.signed: dict[sp.Expr, None] = {}  # factors of u in sign(u) = u/|u|, which must not vanish
         self.known: dict[sp.Expr, sp.Expr] = {}
 
     def of(self, e: sp.Expr) -> sp.Expr:
@@ -100,25 +87,24 @@ class Translation:
             self.known[e] = self._sought(e)
         return self.known[e]
 
-    def back(self, translated: sp.Expr) -> sp.Expr:
-        """What a translation stands for."""
-        while held := translated.free_symbols & self.meaning.keys():
-            translated = translated.xreplace({letter: self.meaning[letter] for letter in held})
+    def restore(self, translated: sp.Expr) -> sp.Expr:
+        """Return the original expression of a translation."""
+        while generated := translated.free_symbols & self.meaning.keys():
+            translated = translated.xreplace({symbol: self.meaning[symbol] for symbol in generated})
         return translated
 
-    def letter(self, head: Any, arguments: tuple[sp.Expr, ...], meaning: sp.Expr) -> sp.Symbol:
-        """The letter for a function of translated arguments: one letter for equal arguments."""
-        group = self.letters.setdefault(head, [])
-        for others, letter in group[-_MOST_SAME:]:
+    def symbol(self, head: Any, arguments: tuple[sp.Expr, ...], meaning: sp.Expr) -> sp.Symbol:
+        """Return the symbol for a function of translated arguments; equal arguments have the same symbol."""
+        group = self.symbols.setdefault(head, [])
+        for others, symbol in group[-_MOST_SAME:]:
             if all(self._same(a, b) for a, b in zip(arguments, others, strict=True)):
-                return letter
+                return symbol
         sign = signs(meaning, self.where)
-        letter = sp.Dummy(
-            str(head), **({"positive": True} if sign == POSITIVE else {} if sign is None else {"real": True})
-        )
-        group.append((arguments, letter))
-        self.meaning[letter] = meaning
-        return letter
+        kind = {"positive": True} if sign == POSITIVE else {} if sign is None else {"real": True}
+        symbol = sp.Dummy(str(head), **kind)
+        group.append((arguments, symbol))
+        self.meaning[symbol] = meaning
+        return symbol
 
     def _same(self, a: sp.Expr, b: sp.Expr) -> bool:
         if a == b:
@@ -130,14 +116,14 @@ class Translation:
         except NotExactError:
             return False
 
-    def want(self, strict: bool, *sides: sp.Expr) -> None:
-        """Note that these would have to be positive, or not negative."""
+    def note_missing(self, strict: bool, *sides: sp.Expr) -> None:
+        """Note that the rule needs these sides to be positive (strict) or nonnegative."""
         for side in sides:
             if not side.has(sp.I) and side.is_real is not False:
                 relation = sp.Gt(side, 0) if strict else sp.Ge(side, 0)
-                self.wanted += [relation] if isinstance(relation, sp.core.relational.Relational) else []
+                self.missing += [relation] if isinstance(relation, sp.core.relational.Relational) else []
 
-    # What a node is ------------------------------------------------------------------------------------------------
+    # Nodes ------------------------------------------------------------------------------------------------
 
     def _sought(self, e: sp.Expr) -> sp.Expr:
         if e.is_Rational or e in (sp.pi, sp.I):
@@ -146,7 +132,7 @@ class Translation:
             raise NotExactError(f"{e} is not exact or not finite.")
         if e.is_Symbol:
             if e.is_commutative and e.is_finite is not False:
-                return self.letter("whole", (e,), e) if e.is_integer else e
+                return self.symbol("whole", (e,), e) if e.is_integer else e
             raise NotExactError(f"{e} must commute and be finite.")
         if e is sp.E:
             return self.exponential(sp.S.One)
@@ -165,15 +151,15 @@ class Translation:
         return self._function(e)
 
     def _unbarred(self, e: sp.Mul) -> tuple[sp.Expr, ...]:
-        """Its factors, |a| |b| as ± a b where the sign of a b is known."""
-        bars = [part for part in e.args if isinstance(part, sp.Abs)]
-        product = sp.Mul(*(part.args[0] for part in bars))
-        found = signs(product, self.where) if len(bars) > 1 else None
+        """Return the factors of a product, with |a| |b| as ± a b if the sign of a b is known."""
+        bars = [factor for factor in e.args if isinstance(factor, sp.Abs)]
+        product = sp.Mul(*(factor.args[0] for factor in bars))
+        product_signs = signs(product, self.where) if len(bars) > 1 else None
         for side, half in ((1, NONNEGATIVE), (-1, {-1, 0})):
-            if found is not None and found <= half:
-                return (*(part for part in e.args if part not in bars), side * product)
-        if found is not None:
-            self.want(False, product)
+            if product_signs is not None and product_signs <= half:
+                return (*(factor for factor in e.args if factor not in bars), side * product)
+        if product_signs is not None:
+            self.note_missing(False, product)
         return e.args
 
     def _function(self, e: sp.Expr) -> sp.Expr:
@@ -187,19 +173,19 @@ class Translation:
         if e.func in _BY_OTHERS:
             return self.of(_BY_OTHERS[e.func](e.args[0]))
         if isinstance(e, sp.Abs | sp.sign | sp.re | sp.im | sp.conjugate):
-            return self._part(e)
+            return self._complex_part(e)
         if e.func in RULES and (rule := RULES[e.func](*e.args)) is not None and rule != e:
             return self.of(rule)
         if isinstance(e, sp.Integral | sp.Sum):
             return self._accumulated(e)
         if (jet := jet_of(e)) is not None:
-            return self.letter(jet[0], tuple(map(self.of, jet[1])), e)
+            return self.symbol(jet[0], tuple(map(self.of, jet[1])), e)
         if isinstance(e, sp.Function | sp.NumberSymbol) and not isinstance(e, AppliedUndef):
-            return self.letter(e.func, tuple(map(self.of, e.args)), e)
+            return self.symbol(e.func, tuple(map(self.of, e.args)), e)
         raise NotExactError(f"{e} is outside the class.")
 
     def _accumulated(self, e: sp.Expr) -> sp.Expr:
-        """Of unknown functions: an integral as a difference of antiderivatives, a sum by its body and its limits."""
+        """Translate an integral to a difference of antiderivatives, a sum by its body and limits."""
         body, (x, *ends), *others = e.args
         if others or not body.has(AppliedUndef):
             raise NotExactError(f"{e} is outside the class.")
@@ -207,9 +193,9 @@ class Translation:
         inside = self.of(body.xreplace({x: index}))
         if isinstance(e, sp.Sum):
             low, high = map(self.of, ends)
-            return self.letter("sum", (inside, low, high), e)
+            return self.symbol("sum", (inside, low, high), e)
         values = [
-            self.letter("antiderivative", (inside, self.of(end)), sp.Integral(body, (x, end))) for end in (ends or [x])
+            self.symbol("antiderivative", (inside, self.of(end)), sp.Integral(body, (x, end))) for end in (ends or [x])
         ]
         return values[1] - values[0] if len(values) == 2 else values[0]
 
@@ -225,8 +211,8 @@ class Translation:
             if e.is_number and (e.is_algebraic or base.is_algebraic):
                 return self._number(sp.Pow(base, sp.Rational(1, exponent.q), evaluate=False)) ** exponent.p
             return self.root(self.of(base), exponent, base)
-        found = signs(base, self.where)
-        if found is not None and found <= NONNEGATIVE:  # 0**b is left out of the domain
+        base_signs = signs(base, self.where)
+        if base_signs is not None and base_signs <= NONNEGATIVE:  # without 0**b, which is not in the domain
             return self.exponential(sp.expand(self.of(exponent) * self.log_size(self.of(base))))
         if exponent.is_integer:
             if base in (sp.S.NegativeOne, sp.I):
@@ -234,39 +220,39 @@ class Translation:
             if (angle := _angle_of_unit(base)) is not None:
                 return self.exponential(sp.expand(sp.I * self.of(exponent * angle)))
             return self._whole_power(self.of(base), self.of(exponent))
-        self.want(True, base)
+        self.note_missing(True, base)
         return self.exponential(sp.expand(self.of(exponent) * self._complex_log(base)))
 
     def _turned(self, e: sp.Expr) -> sp.Expr:
-        """(−1)**n and i**n: whole turns in n are left out."""
+        """Translate (−1)**n or i**n without the even or fourfold terms of n."""
         period = 2 if e.base is sp.S.NegativeOne else 4
-        kept = [term for term in sp.Add.make_args(sp.expand(e.exp)) if not (term / period).is_integer]
-        power = e.base ** sp.Add(*kept)
+        terms = [term for term in sp.Add.make_args(sp.expand(e.exp)) if not (term / period).is_integer]
+        power = e.base ** sp.Add(*terms)
         if not power.free_symbols:
             return self.of(power)
-        sign = self.letter(("unit", e.base), (self.of(sp.Add(*kept)),), power)
+        sign = self.symbol(("unit", e.base), (self.of(sp.Add(*terms)),), power)
         self.relations.setdefault(sign, (period, sp.S.One))
         return sign
 
     def _whole_power(self, base: sp.Expr, n: sp.Expr) -> sp.Expr:
-        """Π pᵢ**(kᵢ n), of factors of any sign."""
+        """Return Π pᵢ**(kᵢ n) of factors of any sign."""
         content, factors = self.factors(base)
         result = self.exponential(sp.expand(n * self.log_size(abs(content))))
         if content < 0:
-            result *= self._turned(sp.Pow(sp.S.NegativeOne, self.back(n), evaluate=False))
+            result *= self._turned(sp.Pow(sp.S.NegativeOne, self.restore(n), evaluate=False))
         for p, k in factors:
-            log = self.log_size(p) if is_positive(self.back(p), self.where) else self._log_letter(p)
+            log = self.log_size(p) if is_positive(self.restore(p), self.where) else self._log_symbol(p)
             result *= self.exponential(sp.expand(k * n * log))
         return result
 
     def root(self, base: sp.Expr, r: sp.Rational, meaning: sp.Expr | None = None) -> sp.Expr:
-        """Return base**r of a translated base, without the factors that are not negative: of |q|**k and of known signs."""
-        original = self.back(base) if meaning is None else meaning
-        found = signs(original, self.where)
-        if found is None or not found <= NONNEGATIVE:
-            if found is not None:
-                self.want(False, original)
-            whole = r.is_Integer or parts(base) > _MOST_PARTS
+        """Return base**r of a translated base, with the factors of known sign extracted."""
+        original = self.restore(base) if meaning is None else meaning
+        base_signs = signs(original, self.where)
+        if base_signs is None or not base_signs <= NONNEGATIVE:
+            if base_signs is not None:
+                self.note_missing(False, original)
+            whole = r.is_Integer or node_count(base) > _MOST_PARTS
             return self._principal(base, r, original) if whole else self._without_squares(base, r, original)
         content, factors = self.factors(base)
         if not self._are_real(factors):
@@ -277,88 +263,85 @@ class Translation:
         return result
 
     def _without_squares(self, base: sp.Expr, r: sp.Rational, meaning: sp.Expr) -> sp.Expr:
-        """Return base**r of a base of any sign: (a b)**r = a**r b**r for a > 0, and b keeps the first powers only."""
+        """Return base**r of a base of any sign by (a b)**r = a**r b**r for a > 0; b keeps first powers only."""
         content, factors = self.factors(base)
-        result, rest = self._number_power(abs(content), r), sp.sign(content)
+        result, remainder = self._number_power(abs(content), r), sp.sign(content)
         for p, k in factors:
-            found = signs(self.back(p), self.where)
-            if found is None:
-                rest *= p**k
+            factor_signs = signs(self.restore(p), self.where)
+            if factor_signs is None:
+                remainder *= p**k
                 continue
-            odd = 0 if found <= NONNEGATIVE else k % 2
+            odd = 0 if factor_signs <= NONNEGATIVE else k % 2
             if k != odd:
                 result *= self._size_power(p, (k - odd) * r)
-            rest *= p**odd
+            remainder *= p**odd
         if result == 1:
             return self._principal(base, r, meaning)
-        return result * self._principal(sp.expand(rest), r, self.back(rest))
+        return result * self._principal(sp.expand(remainder), r, self.restore(remainder))
 
     def _size_power(self, p: sp.Expr, r: sp.Rational) -> sp.Expr:
-        """|p|**r of a real p."""
+        """Return |p|**r of a real p."""
         if p in self.exponentials:
             return self.exponential(self.exponentials[p] * r)
-        original = self.back(p)
-        found = signs(original, self.where)
-        if found is not None and found <= NONNEGATIVE:
+        original = self.restore(p)
+        base_signs = signs(original, self.where)
+        if base_signs is not None and base_signs <= NONNEGATIVE:
             return self._principal(p, r, original)
-        if found is not None and found <= {-1, 0}:
+        if base_signs is not None and base_signs <= {-1, 0}:
             return self._principal(-p, r, -original)
-        if found is not None and r.is_Integer and r % 2 == 0:
+        if base_signs is not None and r.is_Integer and r % 2 == 0:
             return p**r
-        self.want(False, original)
-        size = self.letter("size", (p,), sp.Abs(original))
+        self.note_missing(False, original)
+        size = self.symbol("size", (p,), sp.Abs(original))
         self.relations.setdefault(size, (2, p**2))
         return self._principal(size, r, sp.Abs(original))
 
     def _principal(self, base: sp.Expr, r: sp.Rational, meaning: sp.Expr) -> sp.Expr:
-        """base**r = (base**(1/q))**p, the root a letter."""
+        """Return base**r = (base**(1/q))**p with a symbol for the root."""
         if r.is_Integer:
             return base**r
         if base.is_Rational:
             return self._number_power(base, r)
-        key = self.back(base)  # the letters of two passes differ
+        key = self.restore(base)  # the symbols of two passes differ
         self.degrees[key] = lcm(self.degrees.get(key, 1), int(r.q))
         q = self.degrees[key]
-        letter = self.letter(f"root{q}", (base,), sp.Pow(meaning, sp.Rational(1, q)))
-        self.relations.setdefault(letter, (q, base))
-        return letter ** int(r * q)
+        symbol = self.symbol(f"root{q}", (base,), sp.Pow(meaning, sp.Rational(1, q)))
+        self.relations.setdefault(symbol, (q, base))
+        return symbol ** int(r * q)
 
     def _number_power(self, value: sp.Rational, r: sp.Rational) -> sp.Expr:
-        e = sp.Pow(value, r)
-        return (
-            e if e.is_Rational else sp.Mul(*(self._number(f) if not f.is_Rational else f for f in sp.Mul.make_args(e)))
-        )
+        return sp.Mul(*(f if f.is_Rational else self._number(f) for f in sp.Mul.make_args(sp.Pow(value, r))))
 
     def _number(self, e: sp.Expr) -> sp.Expr:
-        """A letter for an algebraic number."""
+        """Return a symbol for an algebraic number."""
         if e.is_Rational or e is sp.I:
             return e
-        letter = self.letter("number", (e,), e)
-        self.numbers[letter] = e
-        return letter
+        symbol = self.symbol("number", (e,), e)
+        self.numbers[symbol] = e
+        return symbol
 
     def exponential(self, u: sp.Expr) -> sp.Expr:
-        """exp(u) of a translated u, term by term."""
+        """Return exp(u) of a translated u, term by term."""
         result = sp.S.One
-        for rate, rest in self.terms(u):
-            if rest.has(sp.I):
-                c, s = self._pair(rate, sp.expand(rest / sp.I))
+        for rate, monomial in self.terms(u):
+            if monomial.has(sp.I):
+                c, s = self._pair(rate, sp.expand(monomial / sp.I))
                 result *= c + sp.I * s
-            elif rest in self.logarithms:
-                p, size = self.logarithms[rest]
-                result *= self._size_power(p, rate) if size else self._principal(p, rate, self.back(p))
+            elif monomial in self.logarithms:
+                p, size = self.logarithms[monomial]
+                result *= self._size_power(p, rate) if size else self._principal(p, rate, self.restore(p))
             else:
-                key = "exp", self.back(rest)
+                key = "exp", self.restore(monomial)
                 self.steps[key] = lcm(self.steps.get(key, 1), int(rate.q))
                 step = self.steps[key]
-                # Evaluated, sympy takes n log p for log(p**n), which has no end for n = 10**8.
-                w = self.letter(key, (), sp.exp(self.back(rest) / step, evaluate=not key[1].has(sp.log)))
-                self.exponentials[w] = rest / step
+                # Unevaluated: sympy would expand p**n from exp(n log p), which does not end for n = 10**8.
+                w = self.symbol(key, (), sp.exp(self.restore(monomial) / step, evaluate=not key[1].has(sp.log)))
+                self.exponentials[w] = monomial / step
                 result *= w ** int(rate * step)
         return result
 
     def terms(self, u: sp.Expr) -> list[tuple[sp.Rational, sp.Expr]]:
-        """u as Σ rate · product of letters; what is divided by is a letter, too."""
+        """Return u as Σ rate · product of symbols, with a symbol for a divisor."""
         over, under = sp.fraction(sp.together(u))
         over = sp.expand(over)
         under = sp.expand(under)
@@ -366,57 +349,58 @@ class Translation:
             content, under = under.primitive()
             if under.could_extract_minus_sign():
                 content, under = -content, -under
-            over, under = over / content, self.letter("divisor", (under,), self.back(under))
-        found = []
+            over, under = over / content, self.symbol("divisor", (under,), self.restore(under))
+        terms = []
         for term in sp.Add.make_args(sp.expand(over / under)):
-            rate, rest = term.as_coeff_Mul()
+            rate, monomial = term.as_coeff_Mul()
             if not rate.is_Rational:
                 raise NotExactError(f"{u} is no argument of a function in the class.")
             if rate:
-                found.append((rate, rest))
-        return found
+                terms.append((rate, monomial))
+        return terms
 
     # Angles ------------------------------------------------------------------------------------------------------------
 
     def circle(self, u: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-        """Cosine and sine of a translated u, term by term."""
+        """Return cosine and sine of a translated u, term by term."""
         total, terms = (sp.S.One, sp.S.Zero), self.terms(u)
-        if any(rest in self.arcs and rate.q % 2 == 0 for rate, rest in terms) and (half := self._half(u)) is not None:
+        if any(term in self.arcs and rate.q % 2 == 0 for rate, term in terms) and (half := self._half(u)) is not None:
             return half
-        for rate, rest in terms:
-            if rest.has(sp.I):
-                w = self.exponential(sp.expand(rate * rest / sp.I))
+        for rate, monomial in terms:
+            if monomial.has(sp.I):
+                w = self.exponential(sp.expand(rate * monomial / sp.I))
                 pair = (w + 1 / w) / 2, sp.I * (w - 1 / w) / 2
             else:
-                pair = self._pair(rate, rest)
+                pair = self._pair(rate, monomial)
             total = _sum(total, pair)
         return total
 
     def _half(self, u: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
-        """Return √((1 + cos 2u)/2) and sin 2u/(2 cos u) where cos u is known not to be negative; None elsewhere."""
-        if not is_nonnegative(sp.cos(self.back(u)), self.where):
+        """Return √((1 + cos 2u)/2) and sin 2u/(2 cos u) if cos u is known to be nonnegative, else None."""
+        if not is_nonnegative(sp.cos(self.restore(u)), self.where):
             return None
         cosine, sine = self.circle(sp.expand(2 * u))
-        half = self.root(sp.expand((1 + cosine) / 2), sp.S.Half, sp.cos(self.back(u)) ** 2)
+        half = self.root(sp.expand((1 + cosine) / 2), sp.S.Half, sp.cos(self.restore(u)) ** 2)
         return half, sine / (2 * half)
 
-    def _pair(self, rate: sp.Rational, rest: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-        if rest is sp.pi:
+    def _pair(self, rate: sp.Rational, monomial: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+        if monomial is sp.pi:
             return self._number_of_turn(sp.cos(rate * sp.pi)), self._number_of_turn(sp.sin(rate * sp.pi))
-        if not rest.has(sp.I) and (rate * rest / (2 * sp.pi)).is_integer is None and self._turns(rate * rest):
+        angle = rate * monomial
+        if not monomial.has(sp.I) and (angle / (2 * sp.pi)).is_integer is None and self._turns(angle):
             return sp.S.One, sp.S.Zero
-        if rest in self.arcs and rate.is_Integer:
-            return _multiple(self.arcs[rest], int(rate))
-        key = "angle", self.back(rest)
+        if monomial in self.arcs and rate.is_Integer:
+            return _multiple(self.arcs[monomial], int(rate))
+        key = "angle", self.restore(monomial)
         self.steps[key] = lcm(self.steps.get(key, 1), int(rate.q))
         step = self.steps[key]
-        tau = self.letter(key, (), sp.tan(self.back(rest) / (2 * step)))
+        tau = self.symbol(key, (), sp.tan(self.restore(monomial) / (2 * step)))
         square = 1 + tau**2
         return _multiple(((1 - tau**2) / square, 2 * tau / square), int(rate * step))
 
     def _turns(self, angle: sp.Expr) -> bool:
-        """Return whether an angle is a whole number of turns for all whole numbers it holds."""
-        return bool((self.back(angle) / (2 * sp.pi)).is_integer)
+        """Return True if an angle is an integer multiple of 2π for all values of its integer symbols."""
+        return bool((self.restore(angle) / (2 * sp.pi)).is_integer)
 
     def _number_of_turn(self, value: sp.Expr) -> sp.Expr:
         if value.is_Rational:
@@ -427,14 +411,14 @@ class Translation:
 
     def _log(self, e: sp.Expr) -> sp.Expr:
         u = e.args[0]
-        found = signs(u, self.where)
-        if found is None:
+        argument_signs = signs(u, self.where)
+        if argument_signs is None:
             return self._complex_log(u)
-        if found <= NONNEGATIVE:
+        if argument_signs <= NONNEGATIVE:
             return self.log_size(self.of(u))
-        if found <= {-1, 0}:
+        if argument_signs <= {-1, 0}:
             return self.log_size(self.of(u)) + sp.I * sp.pi
-        self.want(True, u, *(self.back(p) for p, _ in self.factors(self.of(u))[1]))
+        self.note_missing(True, u, *(self.restore(p) for p, _ in self.factors(self.of(u))[1]))
         return self._complex_log(u)
 
     def _complex_log(self, u: sp.Expr) -> sp.Expr:
@@ -443,29 +427,29 @@ class Translation:
             if is_real(angle, self.where):
                 if is_positive(angle + sp.pi, self.where) and is_nonnegative(sp.pi - angle, self.where):
                     return self.of(u.args[0])
-                self.want(True, angle + sp.pi)
-                self.want(False, sp.pi - angle)
+                self.note_missing(True, angle + sp.pi)
+                self.note_missing(False, sp.pi - angle)
         ratio = sp.expand(u / sp.I)
-        if (found := signs(ratio, self.where)) in (POSITIVE, frozenset({-1})):
-            side = 1 if found == POSITIVE else -1
+        if (ratio_signs := signs(ratio, self.where)) in (POSITIVE, frozenset({-1})):
+            side = 1 if ratio_signs == POSITIVE else -1
             return self.log_size(self.of(side * ratio)) + side * sp.I * sp.pi / 2
-        return self._log_letter(self.of(u))
+        return self._log_symbol(self.of(u))
 
-    def _log_letter(self, b: sp.Expr) -> sp.Expr:
-        letter = self.letter("log", (b,), sp.log(self.back(b)))
-        self.logarithms.setdefault(letter, (b, False))
-        return letter
+    def _log_symbol(self, b: sp.Expr) -> sp.Expr:
+        symbol = self.symbol("log", (b,), sp.log(self.restore(b)))
+        self.logarithms.setdefault(symbol, (b, False))
+        return symbol
 
     def log_size(self, u: sp.Expr) -> sp.Expr:
-        """log|u| of a real translated u, as a sum over its factors."""
+        """Return log|u| of a real translated u as a sum over its factors."""
         content, factors = self.factors(u)
         if not self._are_real(factors):
-            return self._size_letter(u)
+            return self._size_symbol(u)
         total = sp.S.Zero
         content = sp.Abs(content)
         for side, sign in ((content.p, 1), (content.q, -1)):
             for prime, k in sp.factorint(side, limit=10**5).items():
-                total += sign * k * self._size_letter(sp.Integer(prime))
+                total += sign * k * self._size_symbol(sp.Integer(prime))
         for p, k in factors:
             total += k * self._log_of_factor(p)
         return total
@@ -475,42 +459,38 @@ class Translation:
             return self.exponentials[p]
         if p in self.relations:
             q, value = self.relations[p]
-            return (self._size_letter(value) if value.is_Symbol else self.log_size(value)) / q
-        if (
-            p in self.numbers
-            and (number := self.numbers[p]).is_Pow
-            and number.exp.is_Rational
-            and number.base.is_positive
-        ):
+            return (self._size_symbol(value) if value.is_Symbol else self.log_size(value)) / q
+        number = self.numbers.get(p, p)
+        if number is not p and number.is_Pow and number.exp.is_Rational and number.base.is_positive:
             return self.log_size(self.of(number.base)) * number.exp
-        return self._size_letter(p)
+        return self._size_symbol(p)
 
-    def _size_letter(self, p: sp.Expr) -> sp.Expr:
-        letter = self.letter("logsize", (p,), sp.log(sp.Abs(self.back(p))))
-        self.logarithms.setdefault(letter, (p, True))
-        return letter
+    def _size_symbol(self, p: sp.Expr) -> sp.Expr:
+        symbol = self.symbol("logsize", (p,), sp.log(sp.Abs(self.restore(p))))
+        self.logarithms.setdefault(symbol, (p, True))
+        return symbol
 
     def _are_real(self, factors: list[tuple[sp.Expr, int]]) -> bool:
-        """Return whether each factor is known to be real: a product may be without that."""
-        return all(is_real(self.back(p), self.where) for p, _ in factors)
+        """Return True if each factor is known to be real; a product may be real without that."""
+        return all(is_real(self.restore(p), self.where) for p, _ in factors)
 
     def factors(self, u: sp.Expr) -> tuple[sp.Rational, list[tuple[sp.Expr, int]]]:
-        """u = content · Π p**k, coprime p with positive leading coefficients."""
-        if parts(u) > _MOST_PARTS:
+        """Return u = content · Π p**k with coprime p of positive leading coefficient."""
+        if node_count(u) > _MOST_PARTS:
             raise TooLargeError(f"An argument of a root or a logarithm has more than {_MOST_PARTS} parts.")
         over, under = sp.fraction(sp.together(u))
-        content, found = sp.S.One, dict[sp.Expr, int]()
+        content, exponents = sp.S.One, dict[sp.Expr, int]()
         for side, sign in ((over, 1), (under, -1)):
-            part = self._polynomial(side)
-            c, factors = part if part is not None else (sp.S.One, [(side, 1)])
+            factorization = self._polynomial(side)
+            c, factors = factorization if factorization is not None else (sp.S.One, [(side, 1)])
             content *= c**sign
             for p, k in factors:
-                found[p] = found.get(p, 0) + sign * k
-        return content, [(p, k) for p, k in found.items() if k]
+                exponents[p] = exponents.get(p, 0) + sign * k
+        return content, [(p, k) for p, k in exponents.items() if k]
 
     def _polynomial(self, side: sp.Expr) -> tuple[sp.Rational, list[tuple[sp.Expr, int]]] | None:
-        put = {value: letter**q for letter, (q, value) in self.relations.items() if value.is_Symbol}
-        side = side.xreplace(put)
+        replacements = {value: symbol**q for symbol, (q, value) in self.relations.items() if value.is_Symbol}
+        side = side.xreplace(replacements)
         if side.has(sp.I) or degree(side) > _MOST_DEGREE:
             return None
         side = self._without_powers(sp.expand(side))
@@ -527,13 +507,13 @@ class Translation:
         return content, [(sp.expand(p), int(k)) for p, k in factors]
 
     def _without_powers(self, side: sp.Expr) -> sp.Expr:
-        """Letters with a relation reduced in a polynomial, where the value is a polynomial."""
-        for letter, (q, value) in reversed(self.relations.items()):
-            if side.has(letter) and value.is_polynomial() and not value.is_Symbol:
-                side = sp.rem(side, letter**q - value, letter)
+        """Reduce powers of symbols by their polynomial relations."""
+        for symbol, (q, value) in reversed(self.relations.items()):
+            if side.has(symbol) and value.is_polynomial() and not value.is_Symbol:
+                side = sp.rem(side, symbol**q - value, symbol)
         return side
 
-    # Arcs and parts ----------------------------------------------------------------------------------------------------
+    # Arcs and complex parts ----------------------------------------------------------------------------------------------------
 
     def _arc(self, e: sp.Expr) -> sp.Expr:
         u = e.args[0]
@@ -546,29 +526,29 @@ class Translation:
             v = u.args[0]
             if is_nonnegative(v - low, self.where) and is_nonnegative(high - v, self.where):
                 return self.of(v)
-            self.want(False, v - low, high - v)
+            self.note_missing(False, v - low, high - v)
         if isinstance(e, sp.acos):
             return sp.pi / 2 - self.of(sp.asin(u))
         t = self.of(u)
         if t.could_extract_minus_sign():
-            return -self.of(e.func(-u)) if e.func(-u).func is e.func else self._arc_letter(e, t)
-        return self._arc_letter(e, t)
+            return -self.of(e.func(-u)) if e.func(-u).func is e.func else self._arc_symbol(e, t)
+        return self._arc_symbol(e, t)
 
-    def _arc_letter(self, e: sp.Expr, t: sp.Expr) -> sp.Symbol:
+    def _arc_symbol(self, e: sp.Expr, t: sp.Expr) -> sp.Symbol:
         u = e.args[0]
-        letter = self.letter(e.func, (t,), e)
-        if letter not in self.arcs:
+        symbol = self.symbol(e.func, (t,), e)
+        if symbol not in self.arcs:
             side = 1 if isinstance(e, sp.atan) else -1
             square = 1 + side * u**2
             if u.is_number and u.is_algebraic:  # its square root may be simpler
                 root = self.of(sp.sqrt(sp.expand(square)))
             else:
                 root = self.root(1 + side * t**2, sp.S.Half, square)
-            self.arcs[letter] = (1 / root, t / root) if isinstance(e, sp.atan) else (root, t)
-        return letter
+            self.arcs[symbol] = (1 / root, t / root) if isinstance(e, sp.atan) else (root, t)
+        return symbol
 
-    def _part(self, e: sp.Expr) -> sp.Expr:
-        """|u|, sign u, and the parts of a complex u whose letters are real."""
+    def _complex_part(self, e: sp.Expr) -> sp.Expr:
+        """Translate |u|, sign u, re u, im u or the conjugate of u."""
         u = e.args[0]
         t = self.of(u)
         if is_real(u, self.where):
@@ -583,27 +563,28 @@ class Translation:
                 size = t
             else:
                 size = self.root(t**2, sp.S.Half, u**2)
-                self.want(False, u)
+                self.note_missing(False, u)
             return size if isinstance(e, sp.Abs) else t / size
-        if not all(is_real(self.back(s), self.where) for s in t.free_symbols):
-            return self.letter(e.func, (t,), e)
+        if not all(is_real(self.restore(s), self.where) for s in t.free_symbols):
+            return self.symbol(e.func, (t,), e)
         over, under = sp.fraction(sp.together(t))
         if under.has(sp.I):
             conjugate = under.xreplace({sp.I: -sp.I})
             over, under = sp.expand(over * conjugate), sp.expand(under * conjugate)
         over = sp.expand(over)
         i = sp.Dummy()
-        along, across = (
-            sp.Add(*(c for (n,), c in sp.Poly(over.xreplace({sp.I: i}), i).terms() if n % 2 == part)) for part in (0, 1)
+        real, imaginary = (
+            sp.Add(*(c for (n,), c in sp.Poly(over.xreplace({sp.I: i}), i).terms() if n % 2 == parity))
+            for parity in (0, 1)
         )
-        along, across = along / under, across / under
+        real, imaginary = real / under, imaginary / under
         if isinstance(e, sp.re):
-            return along
+            return real
         if isinstance(e, sp.im):
-            return across
+            return imaginary
         if isinstance(e, sp.conjugate):
-            return along - sp.I * across
-        square = sp.together(along**2 + across**2)
+            return real - sp.I * imaginary
+        square = sp.together(real**2 + imaginary**2)
         content, factors = self.factors(square)
         size = self._number_power(abs(content), sp.S.Half)
         for p, k in factors:
@@ -612,7 +593,7 @@ class Translation:
 
 
 def _angle_of_unit(base: sp.Expr) -> sp.Expr | None:
-    """u where base = cos u ± i sin u."""
+    """Return u for base = cos u ± i sin u; None otherwise."""
     for cosine in base.atoms(sp.cos):
         u = cosine.args[0]
         for side in (1, -1):
@@ -622,7 +603,7 @@ def _angle_of_unit(base: sp.Expr) -> sp.Expr | None:
 
 
 def _square_root(base: sp.Expr) -> sp.Expr | None:
-    """Return v of a product of even powers v², with letters."""
+    """Return v for a product v² of even powers of symbols; None otherwise."""
     number, factors = base.as_coeff_mul()
     powers = [factor.as_base_exp() for factor in factors]
     if not base.free_symbols or not number.is_positive or not all(k.is_Integer and k.is_even for _, k in powers):
@@ -631,12 +612,12 @@ def _square_root(base: sp.Expr) -> sp.Expr | None:
 
 
 def _sum(a: tuple[sp.Expr, sp.Expr], b: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
-    """Cosine and sine of a sum."""
+    """Return cosine and sine of a sum of two angles."""
     return a[0] * b[0] - a[1] * b[1], a[1] * b[0] + a[0] * b[1]
 
 
 def _multiple(pair: tuple[sp.Expr, sp.Expr], n: int) -> tuple[sp.Expr, sp.Expr]:
-    """Cosine and sine of n times an angle."""
+    """Return cosine and sine of n times an angle."""
     if abs(n) > _MOST_MULTIPLE:
         raise NotExactError(f"A multiple {n} of an angle is too large.")
     total = reduce(lambda a, _: _sum(a, pair), range(abs(n)), (sp.S.One, sp.S.Zero))

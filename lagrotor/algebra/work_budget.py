@@ -1,4 +1,4 @@
-"""A bound on the work of a decision, counted in calls of functions as the interpreter makes them."""
+"""A bound on the work of a decision, counted in function calls of the interpreter."""
 
 import math
 import sys
@@ -13,63 +13,60 @@ from sympy.core.cache import clear_cache
 from lagrotor.errors import WorkError
 
 _Result = TypeVar("_Result")
-_KEPT: list[Any] = []
+_CACHES: list[Any] = []
 
 
-class _Spent(BaseException):
-    """No error: what catches every error on the way must not go on."""
+class _Exhausted(BaseException):
+    """The end of the budget; a BaseException, so that handlers of every error on the way do not catch it."""
 
 
-def kept(most: int) -> Callable[[Callable[..., Any]], Any]:
-    """lru_cache that `at_most` begins without, so that what is too large depends on nothing decided before."""
+def bounded_cache(maxsize: int) -> Callable[[Callable[..., Any]], Any]:
+    """Return an lru_cache that `at_most` clears first, so that the count does not depend on earlier decisions."""
 
     def with_cache(function: Callable[..., Any]) -> Any:
-        _KEPT.append(lru_cache(maxsize=most)(function))
-        return _KEPT[-1]
+        _CACHES.append(lru_cache(maxsize=maxsize)(function))
+        return _CACHES[-1]
 
     return with_cache
 
 
 class Calls:
-    """What several pieces of work may call together."""
+    """A number of calls shared by several pieces of work."""
 
-    def __init__(self, left: float) -> None:
-        self.left, self.begun = left, False
+    def __init__(self, limit: float) -> None:
+        self.remaining, self.begun = limit, False
 
 
 def at_most(calls: "int | Calls", work: Callable[..., _Result], *arguments: Any) -> _Result:
-    """work(*arguments); raise WorkError as soon as it has called more functions, here, in sympy or built in.
+    """Return work(*arguments); raise WorkError once it has made more calls of functions, in sympy or built in, than allowed.
 
-    calls: of this work, or what is left of them for this one and the next.
-
-    The count is one of the program, not of the machine: with the same Python and sympy it is the same everywhere, but for
-    parts in a thousand (the order of sets). One call may still be long on numbers of many digits or polynomials of large
-    degree, which are to be refused before. Counting takes as long again as what is counted. Under a profiler, which counts
-    calls itself, there is no bound.
+    The count is the same on all machines with the same Python and sympy, within 0.1 % (the order of sets). A single call with
+    numbers of many digits or polynomials of high degree may still be long. Counting doubles the time. Under a profiler, which
+    counts calls itself, there is no bound.
     """
     if sys.getprofile() is not None:
         return work(*arguments)
     shared = calls if isinstance(calls, Calls) else Calls(calls)
     if not shared.begun:
         clear_cache()
-        for each in _KEPT:
-            each.cache_clear()
-    left, shared.begun = shared.left, True
+        for cache in _CACHES:
+            cache.cache_clear()
+    remaining, shared.begun = shared.remaining, True
     tracer = sys.gettrace()
 
     def count(frame: FrameType, event: str, argument: Any) -> None:
-        nonlocal left
-        left -= 1
-        if left < 0 and not frame.f_code.co_flags & CO_GENERATOR:  # where one is closed an error is lost
-            sys.settrace(count)  # mpmath has `except:`, which holds this one; the next call ends it
-            raise _Spent
+        nonlocal remaining
+        remaining -= 1
+        if remaining < 0 and not frame.f_code.co_flags & CO_GENERATOR:  # closing a generator loses an error
+            sys.settrace(count)  # a bare `except:` in mpmath catches this error; the next call raises it again
+            raise _Exhausted
 
     sys.setprofile(count)
     try:
         return work(*arguments)
     finally:
-        spent, shared.left, left = left < 0, left, math.inf
+        is_exhausted, shared.remaining, remaining = remaining < 0, remaining, math.inf
         sys.setprofile(None)
-        if spent:
+        if is_exhausted:
             sys.settrace(tracer)
             raise WorkError("it is too large") from None

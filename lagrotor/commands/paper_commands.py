@@ -301,10 +301,10 @@ def reproduce_command(options: argparse.Namespace) -> int:
     print(f"{_plural(sum(result.equations.values()), 'equation')}: {count_list(result.equations) or 'none'}")
     if result.claims:
         print(f"{_plural(sum(result.claims.values()), 'claim')} tested: {count_list(result.claims)}")
-    if result.taken == ["report"]:
+    if result.reused == ["report"]:
         print("all taken from the last run (same inputs); to write it again, delete the folder")
-    elif result.taken:
-        kinds = Counter(name.split()[0] for name in result.taken)
+    elif result.reused:
+        kinds = Counter(name.split()[0] for name in result.reused)
         reused = ", ".join(_plural(count, kind) for kind, count in kinds.items())
         print(f"{reused} taken from earlier runs (same inputs)")
     print(f"{_plural(result.figures, 'figure')}; {result.seconds:.1f} s; report: {page}")

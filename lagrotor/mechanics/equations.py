@@ -19,8 +19,9 @@ from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
-from lagrotor.algebra import check_names, decide_zero, derivative
+from lagrotor.algebra import decide_zero, derivative
 from lagrotor.algebra.evidence import points
+from lagrotor.algebra.name_clashes import check_names
 from lagrotor.algebra.subexpressions import free_letters
 from lagrotor.errors import InputError
 from lagrotor.mechanics import lagrangian as free

@@ -331,7 +331,7 @@ def _refutation(system: Equations, other: Equations) -> Decision | None:
             value, two = (float(x[i].mid) for x in (first, right))
             apart_by = sp.Rational(float((first[i] - right[i]).mid))
             reason = f"At the witness {system.c.a[i]} is {value:.6g}, and {two:.6g} of the other."
-            return Decision("nonzero", (), reason, seen=apart_by, at=(point,))
+            return Decision("nonzero", (), reason, residual=apart_by, points=(point,))
     return None
 
 

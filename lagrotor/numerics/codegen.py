@@ -12,7 +12,8 @@ from operator import attrgetter
 import sympy as sp
 from sympy.simplify.cse_main import tree_cse
 
-from lagrotor.algebra import check_names, derivative
+from lagrotor.algebra import derivative
+from lagrotor.algebra.name_clashes import check_names
 from lagrotor.errors import SingularError
 
 Stage = tuple[sp.Symbol, sp.Expr]

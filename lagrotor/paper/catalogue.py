@@ -13,7 +13,7 @@ from string import Formatter
 from types import ModuleType
 from typing import Any, TypeVar
 
-from lagrotor.algebra import check_names
+from lagrotor.algebra.name_clashes import check_names
 from lagrotor.errors import InputError
 from lagrotor.files import path_of
 from lagrotor.mechanics.glossary import Entry, Glossary

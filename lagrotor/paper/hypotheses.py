@@ -33,7 +33,7 @@ from lagrotor.algebra.evidence import points
 from lagrotor.algebra.feasibility import has_principal_values, is_infeasible
 from lagrotor.algebra.generators import survey
 from lagrotor.algebra.inverses import INVERSES, argument, solved_for
-from lagrotor.algebra.numbering import Numbering, letters_in_order, without_number
+from lagrotor.algebra.numbering import Numbering, canonical_order, without_number
 from lagrotor.algebra.reading import find_roots, reader
 from lagrotor.algebra.signs import Region, conditions, region, signs
 from lagrotor.errors import InputError, NotExactError
@@ -66,7 +66,7 @@ class Hypotheses:
     def signed(self) -> "Hypotheses":
         """The same set with its inequalities as assumptions of letters, as far as they are linear in one that is free."""
         put, left, meaning = dict(self.put), self.left, dict[sp.Symbol, sp.Expr]()
-        order = letters_in_order((sp.S.Zero, *self.region, *left))
+        order = canonical_order((sp.S.Zero, *self.region, *left))
         for relation in sorted(self.region, key=lambda r: not (r.lhs.is_Symbol and r.rhs == 0)):
             step = _as_assumption(relation.xreplace(put), self.small, order)
             if step is not None:
@@ -181,10 +181,10 @@ def _solved_or_not(
 ) -> Hypotheses:
     put: dict[sp.Symbol, sp.Expr] = {}
     letters = Numbering(sp.S.Zero, *equations, *region)
-    wishes = wishes._replace(order=tuple(letters.letters))
+    wishes = wishes._replace(order=tuple(letters.symbols))
 
     def numbered(e: sp.Basic) -> Any:
-        return sp.default_sort_key(letters.there(e))
+        return sp.default_sort_key(letters.to_numbered(e))
 
     conditions = sorted(region, key=numbered)
     strict = sp.Ne | sp.StrictGreaterThan | sp.StrictLessThan
@@ -557,7 +557,7 @@ def _says_more(e: sp.Expr, signed: Hypotheses) -> bool:
 def _points(compared: Sequence[sp.Expr], signed: Hypotheses) -> Iterator[Values]:
     """Points of the letters that are left which satisfy all that the hypotheses say."""
     conditions = *signed.left, *signed.region
-    order = letters_in_order((without_number(compared[0])[1], *compared[1:], *conditions))
+    order = canonical_order((without_number(compared[0])[1], *compared[1:], *conditions))
     letters = [s for s in order if any(s in x.free_symbols for x in (*compared, *conditions))]
     scales = (1, 2) if signed.region else (1,)
     for at in chain(*(islice(points(letters, _POINTS, sp.Integer(scale)), _POINTS) for scale in scales)):

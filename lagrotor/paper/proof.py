@@ -12,7 +12,8 @@ from typing import Any
 
 import sympy as sp
 
-from lagrotor.algebra import agreement_order, check_names, decide_equal
+from lagrotor.algebra import agreement_order, decide_equal
+from lagrotor.algebra.name_clashes import check_names
 from lagrotor.errors import InputError, ProofError
 from lagrotor.mechanics.glossary import latex, light
 from lagrotor.paper.grammar import Letters, parsed, read

@@ -8,8 +8,7 @@ from typing import Any, Literal, TypeAlias
 import sympy as sp
 from sympy.core.relational import Relational
 
-from lagrotor.algebra import check_names
-from lagrotor.algebra.name_clashes import symbols_in
+from lagrotor.algebra.name_clashes import check_names, symbols_in
 from lagrotor.errors import InputError
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.hypotheses import hypotheses

@@ -1,13 +1,13 @@
-"""The report of a paper: every equation, claim and figure with its result. The package computes nothing by itself.
+"""The report of a paper: every equation, claim and figure with its result. The package only arranges results of other packages.
 
-The data pass through these modules in this order:
+The modules in the order in which `lagrotor reproduce` uses them:
 
-- `job.steps`: a `JobStep` is one derivation, claim or figure; `job.dependencies` gives the digest of all that it is made from.
-- `job.processes` runs the steps on all cores; `job.cache` keeps numbers and figures for later runs.
-- `content.Report` holds all results of one run. `facts` gives its sentences, `errata` its refuted equations.
-- `page` writes the report as HTML, `text_forms` as Markdown and as LaTeX, with `formulas` and `latex` for the formulas.
-- `job.folder` puts the new report in the place of the last one, only when it is whole; `job.reproduce` calls all these.
+- `job.steps`: a `JobStep` is one derivation, claim or figure; `job.dependencies` gives the digest of all its inputs.
+- `job.processes` runs the steps on all cores; `job.cache` stores numbers and figures for later runs.
+- `content.Report` holds all results of one run. `facts` writes its sentences, `errata` its refuted equations.
+- `page` writes the report as HTML, `text_forms` as Markdown and LaTeX, with `formulas` and `latex` for the formulas.
+- `job.folder` replaces the last report once the new one is complete; `job.reproduce` calls all these modules.
 
-To add a section, name it in `content.contents` and write it twice: in `page.sections` for HTML and in `text_forms` for the
-other forms. A paper's own sections of tables and figures need no code; they are the `[[part]]` entries of its `paper.toml`.
+To add a section, name it in `content.contents` and write it in `page.sections` for HTML and in `text_forms` for the other forms.
+A paper's own sections of tables and figures need no code; they are the `[[part]]` entries of its `paper.toml`.
 """

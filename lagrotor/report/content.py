@@ -1,4 +1,4 @@
-"""The contents of a report and their order, before they are put into HTML or Markdown."""
+"""The contents of a report and their order, independent of the output format."""
 
 import re
 from collections import Counter
@@ -19,40 +19,40 @@ from lagrotor.paper.verdicts import Relation, Verdict
 from lagrotor.pictures.figures import Picture
 
 SUBTITLE = "Every equation as printed and as derived, with its verdict"
-# File of the report's folder → what it is.
+# File of the report's folder → its content.
 BESIDE = {
-    "index.html": "this report as pages",
-    "whole.html": "as one page that needs nothing else",
-    "report.md": "as Markdown",
-    "report.tex": "as LaTeX",
-    "errata.md": "the errata alone",
+    "index.html": "this report, as pages",
+    "whole.html": "this report, as one self-contained page",
+    "report.md": "this report, as Markdown",
+    "report.tex": "this report, as LaTeX",
+    "errata.md": "the errata only",
     "verdicts.json": "the verdicts as data",
     "claims.json": "the claims as data",
-    "measured.json": "the numbers read off the figures",
+    "measured.json": "the numbers read from the figures",
 }
 
 MEANINGS = {
-    "holds": "the printed and the derived expression are the same, decided exactly",
-    "holds-if": "they are the same under the condition that is named",
-    "holds-to-order": "they agree up to and including the order that is named",
-    "refuted": "they differ; the correction, where there is one, is judged by the same rules",
-    "proved": "a number that is printed, to which all that a theorem encloses rounds",
-    "measured": "a number read off a run, to which what was derived rounds: it is within half a unit of the last digit",
-    "definition": "the line only gives a name",
-    "undecided": "outside what can be decided exactly; numbers are given as evidence",
-    NOT_YET: "no derivation states it yet",
+    "holds": "the printed expression equals the derived one; this is decided exactly",
+    "holds-if": "they are equal under the stated condition",
+    "holds-to-order": "they agree up to and including the stated order",
+    "refuted": "they differ; the same procedure decides whether the correction holds",
+    "proved": "a printed number; every value in the interval that a theorem proves rounds to it",
+    "measured": "a number that the paper read from a simulation; the derived value rounds to it",
+    "definition": "the line only introduces a name",
+    "undecided": "not decidable by the exact procedure; numerical evidence is given",
+    NOT_YET: "no derivation treats it yet",
 }
 CLAIM_MEANINGS = {
-    "proved": "each part of it follows from a theorem",
-    "confirmed": "its runs agree; they are estimates",
-    "confirmed-if": "it holds under the condition that is named",
-    "refuted": "its run disagrees",
+    "proved": "every part of the claim follows from a theorem",
+    "confirmed": "simulations agree with it; their errors are estimated, not proved",
+    "confirmed-if": "it holds under the stated condition",
+    "refuted": "a simulation or a theorem contradicts it",
 }
 
 
 @dataclass(frozen=True)
-class ShownPart:
-    """A part of the report besides equations and claims: tables, then (title, sentence) of what was found, then figures."""
+class ResultSection:
+    """A section of the report besides equations and claims: tables, findings (title, text), and figures."""
 
     name: str
     heading: str
@@ -63,11 +63,11 @@ class ShownPart:
 
 @dataclass(frozen=True)
 class Report:
-    """All that one run found of a paper. `changes`: verdicts that differ from the recorded ones, a sentence each.
+    """All results of one run on a paper.
 
-    claims: the paper's claims after their tests; parts: what is shown besides; derivations: (stem, title, HTML); model: HTML;
-    versions: (what, version) the run was made with; inputs: (what, SHA-256) of what it was made from.
-    certificates: equation's id → its file of Coq, beside the page.
+    `claims` are the tested claims; `changes` has a sentence for each verdict that differs from the recorded one.
+    `derivations` holds (stem, title, HTML), `model` the HTML of the interactive model, `versions` (software, version), `inputs`
+    (input, SHA-256). `certificates` maps an equation's id to its Coq file in the report's folder.
     """
 
     paper: Paper
@@ -75,7 +75,7 @@ class Report:
     pictures: tuple[Picture, ...]
     changes: tuple[str, ...]
     claims: tuple[Result, ...] = ()
-    parts: tuple[ShownPart, ...] = ()
+    result_sections: tuple[ResultSection, ...] = ()
     derivations: tuple[tuple[str, str, str], ...] = ()
     model: str = ""
     versions: tuple[tuple[str, str], ...] = ()
@@ -84,29 +84,29 @@ class Report:
 
     @property
     def title(self) -> str:
-        """The title of the report, which names the paper."""
+        """The title of the report, which contains the paper's."""
         return f'A re-examination of "{self.paper.title}"'
 
     @property
     def how_to_read(self) -> str:
-        """The sentences that say how equations, claims and figures were examined, and how they are numbered."""
-        claims, figures = list(self.paper.claims)[:1], self.paper.figures
-        does = "Each equation of the paper is read as printed, derived anew, and held against what was derived by an exact "
-        does += "decision procedure" + ("; each claim made in words is tested by a run" if claims else "")
-        does += "; each figure is drawn again. " if figures else ". "
-        does += "Every number here was computed by the run that wrote this page, but for seconds, which are on record with their "
-        ids = [f"An equation goes by its number, such as {i}" for i in list(self.paper.equations)[:1]]
-        return f"{does}machine. {', '.join([*ids, *(f'a claim as {i}' for i in claims)])}."
+        """The sentences that say how equations, claims and figures were examined and how they are numbered."""
+        equations, claims = list(self.paper.equations)[:1], list(self.paper.claims)[:1]
+        text = "Each equation of the paper is read as printed and derived anew; an exact decision procedure compares the two. "
+        text += "Each claim made in words is tested by a simulation or a theorem. " if claims else ""
+        text += "Each figure is drawn again. " if self.paper.figures else ""
+        text += "All numbers were computed by the run that wrote this page, except computing times, which are on record with the "
+        ids = [*(f"Equations are cited by number, such as {i}" for i in equations), *(f"claims as {i}" for i in claims)]
+        return f"{text}machine. {', and '.join(ids)}."
 
     @property
     def waiting(self) -> list[Equation]:
-        """Equations of the paper that no derivation states yet."""
+        """The equations of the paper that no derivation treats yet."""
         judged = {verdict.id for verdict in self.verdicts}
         return [entry for entry in self.paper.equations.values() if entry.id not in judged]
 
     @property
     def sections(self) -> dict[str, list[Verdict]]:
-        """Verdicts by section of the paper."""
+        """The verdicts by section of the paper."""
         verdicts_of: dict[str, list[Verdict]] = {}
         for verdict in self.verdicts:
             verdicts_of.setdefault(self.paper.equation(verdict.id).section, []).append(verdict)
@@ -114,44 +114,44 @@ class Report:
 
     @property
     def counts(self) -> dict[str, int]:
-        """The number of equations with each verdict, in the order of `MEANINGS`, without zeros."""
+        """The number of equations with each verdict that occurs, in the order of `MEANINGS`."""
         counted: Counter[str] = Counter(verdict.verdict for verdict in self.verdicts)
         counted[NOT_YET] = len(self.waiting)
         return {answer: counted[answer] for answer in MEANINGS if counted[answer]}
 
     @property
     def outcomes(self) -> dict[str, int]:
-        """The number of claims with each outcome, in the order of `CLAIM_MEANINGS`, without zeros."""
+        """The number of claims with each outcome that occurs, in the order of `CLAIM_MEANINGS`."""
         counted: Counter[str] = Counter(result.finding.outcome for result in self.claims)
         return {answer: counted[answer] for answer in CLAIM_MEANINGS if counted[answer]}
 
-    def part(self, name: str) -> ShownPart:
-        """The part of this name."""
-        return next(part for part in self.parts if part.name == name)
+    def result_section(self, name: str) -> ResultSection:
+        """Return the section of this name."""
+        return next(section for section in self.result_sections if section.name == name)
 
     def users(self, identifier: str) -> tuple[str, ...]:
-        """Ids of the equations that use this one."""
+        """Return the ids of the equations that use this equation."""
         return tuple(v.id for v in self.verdicts if identifier in v.statement.depends_on)
 
     def claims_about(self, identifier: str) -> tuple[str, ...]:
-        """Ids of the claims, among those tested, that are about this equation."""
+        """Return the ids of the tested claims about this equation."""
         return tuple(r.test.id for r in self.claims if identifier in self.paper.claims[r.test.id].equations)
 
     def figures_of(self, identifier: str) -> tuple[str, ...]:
-        """The figures, among those drawn, that show this equation, such as "figure 19"."""
-        shown = {str(number) for number, entry in self.paper.figures.items() if identifier in entry.equations}
-        return tuple(f"figure {picture.key}" for picture in self.pictures if picture.key in shown)
+        """Return the drawn figures that show this equation, such as "figure 19"."""
+        numbers = {str(number) for number, entry in self.paper.figures.items() if identifier in entry.equations}
+        return tuple(f"figure {picture.key}" for picture in self.pictures if picture.key in numbers)
 
 
 def anchor(identifier: str) -> str:
-    """Return the place on the page of an equation ("5.07"), a claim ("C08") or a figure ("figure 19")."""
+    """Return the HTML anchor of an equation ("5.07"), a claim ("C08") or a figure ("figure 19")."""
     if identifier.startswith("figure "):
         return identifier.replace(" ", "-")
     return f"claim-{identifier}" if is_claim(identifier) else f"eq-{identifier}"
 
 
 def contents(report: Report) -> list[tuple[str, str]]:
-    """The sections of a report that have something in them, in their order: (anchor, heading)."""
+    """Return (anchor, heading) of the nonempty sections of a report in their order."""
     paper = [(f"section-{name}", f"{name} {report.paper.about.sections[name]}", True) for name in report.sections]
     listed = [
         ("model", "The pair in motion", bool(report.model)),
@@ -162,50 +162,50 @@ def contents(report: Report) -> list[tuple[str, str]]:
         *paper,
         ("claims", "Claims", bool(report.claims)),
         ("derivations", "Derivations", bool(report.derivations)),
-        *((part.name, part.heading, True) for part in report.parts),
+        *((section.name, section.heading, True) for section in report.result_sections),
         ("waiting", "Not yet judged", bool(report.waiting)),
         ("cite", "How to cite", True),
         ("made", "How this was made", True),
     ]
-    return [(name, heading) for name, heading, there in listed if there]
+    return [(name, heading) for name, heading, is_filled in listed if is_filled]
 
 
 def notation(report: Report) -> list[tuple[sp.Symbol, str, str]]:
-    """The letters of the report: (symbol, meaning, unit), those first that `paper.toml` names; dots mean rates."""
+    """Return (symbol, meaning, unit) of each symbol, those of `letters` in `paper.toml` first, without time derivatives."""
     first = report.paper.about.letters
-    shown = [entry for symbol, entry in report.paper.glossary.items() if not symbol.name.endswith("dot")]
-    shown.sort(key=lambda entry: first.index(entry.symbol.name) if entry.symbol.name in first else len(first))
-    return [(entry.symbol, entry.meaning, entry.unit) for entry in shown]
+    entries = [entry for symbol, entry in report.paper.glossary.items() if not symbol.name.endswith("dot")]
+    entries.sort(key=lambda entry: first.index(entry.symbol.name) if entry.symbol.name in first else len(first))
+    return [(entry.symbol, entry.meaning, entry.unit) for entry in entries]
 
 
 def word(answer: str) -> str:
-    """A verdict as people read it."""
+    """Return a verdict in words."""
     return answer.replace("-", " ")
 
 
 def count_list(counts: dict[str, int]) -> str:
-    """Counts as people read them: 9 confirmed, 3 refuted."""
+    """Return counts in words: 9 confirmed, 3 refuted."""
     return ", ".join(f"{count} {word(answer)}" for answer, count in counts.items())
 
 
 def derived_lines(relations: Iterable[Relation]) -> tuple[str, ...]:
-    """quantity = what was derived, in LaTeX, each once, as a physicist writes it."""
+    """Return the distinct derived lines quantity = expression in LaTeX."""
     lines = (f"{r.quantity} = {r.written or latex(r.derived)}" for r in relations)
     return tuple(dict.fromkeys(line.removeprefix(" = ") for line in lines))
 
 
 def derived_heading(relations: Iterable[Relation]) -> str:
-    """The heading of the derived lines: whether the premises are put in."""
+    """Return the heading of the derived lines, which tells if the premises are substituted."""
     return "As derived, under the premises" if any(r.granted for r in relations) else "As derived"
 
 
 def as_read(entry: Equation) -> tuple[str, ...]:
-    """The printed lines as sympy reads them from the catalogue, quantity = member = member …."""
+    """Return the printed lines as sympy reads them, quantity = member = member …."""
     return tuple(" = ".join([from_latex(row["quantity"]), *row.get("members", ())]) for row in entry.line)
 
 
 def citation() -> tuple[list[str], str]:
-    """(sentences: how to cite, the references), (a BibTeX entry)."""
+    """Return the sentences on how to cite, with the references, and a BibTeX entry."""
     head, _, listed = scripts.beside("CITATION.cff").read_text(encoding="utf-8").partition("references:")
     field = dict(re.findall(r"^(\w+): *(.+)$", head, re.MULTILINE))
     title, authors = field["title"].strip('"'), " and ".join(_names(head))
@@ -220,7 +220,7 @@ def citation() -> tuple[list[str], str]:
 
 
 def _names(block: str) -> list[str]:
-    """The authors of a block, given name first."""
+    """Return the authors of a block, first name before family name."""
     whole = re.findall(r"^ +- name: *(.+)$", block, re.MULTILINE)
-    parts = re.findall(r"family-names: *(.+)\n +given-names: *(.+)", block)
-    return [*whole, *(f"{given} {family}" for family, given in parts)]
+    persons = re.findall(r"family-names: *(.+)\n +given-names: *(.+)", block)
+    return [*whole, *(f"{first_name} {family}" for family, first_name in persons)]

@@ -1,4 +1,4 @@
-"""The errata sheet: for each refuted equation what is printed, what is right, what was wrong, and how far it reaches."""
+"""The errata sheet: each refuted equation as printed and corrected, the error, and its effect on the paper's results."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -11,12 +11,20 @@ from lagrotor.paper.premises import Premise
 from lagrotor.paper.verdicts import AGREES, Relation, Verdict
 from lagrotor.report.latex import END, head, latex_prose, tidy
 
+# Verdict of a correction → its words in the sheet.
+_CORRECTED = {
+    "holds": "holds exactly",
+    "holds-if": "holds under the premises",
+    "holds-to-order": "holds to the order shown",
+}
+
 
 @dataclass(frozen=True)
 class Erratum:
-    """One row: `cited` is its place in the paper; printed and corrected in LaTeX; `wrong` in a line; ids that use it.
+    """One refuted equation; `cited` is its place in the paper, `printed` and `corrected` are LaTeX, `wrong` describes the error.
 
-    conditions: what is said if which premises hold.
+    `used_by` holds ids of equations that use it, `survives` is True if no result depends on the error, and `conditions` holds the
+    premises with a label that tells where they apply.
     """
 
     id: str
@@ -36,11 +44,11 @@ class Erratum:
         """The effect of the error on the paper's results, in words."""
         if self.survives:
             return "no result of the paper depends on this error"
-        return "a result of the paper that depends on it, or is it, is refuted too"
+        return "this error changes a result of the paper"
 
 
 def errata(verdicts: Iterable[Verdict], paper: Paper) -> Iterator[Erratum]:
-    """The refuted equations of an audit, in its order."""
+    """Yield the refuted equations of an audit in its order."""
     listed = list(verdicts)
     for verdict in listed:
         if verdict.verdict == "refuted":
@@ -53,7 +61,7 @@ def errata(verdicts: Iterable[Verdict], paper: Paper) -> Iterator[Erratum]:
                 corrected=correction_lines(verdict),
                 conditions=tuple(_conditions(verdict)),
                 wrong=statement.wrong,
-                verdict_of_correction=(verdict.correction_verdict or "as derived").replace("-", " "),
+                verdict_of_correction=_CORRECTED.get(verdict.correction_verdict or "", "as derived"),
                 used_by=tuple(v.id for v in listed if entry.id in v.statement.depends_on),
                 survives=not verdict.reaches_result,
                 letters=frozenset(s.name for r in statement.correction for s in r.printed.free_symbols),
@@ -61,28 +69,28 @@ def errata(verdicts: Iterable[Verdict], paper: Paper) -> Iterator[Erratum]:
 
 
 def _conditions(verdict: Verdict) -> Iterator[tuple[str, tuple[Premise, ...]]]:
-    """Yield the premises of the error and of its correction, together where the first include the second."""
-    stated, needed = verdict.refuted_under, verdict.premises
-    rows = [("Error if", stated), ("Correction if", needed)]
-    if needed and all(premise in stated for premise in needed):
-        rows = [("Error and correction if", stated)]
+    """Yield the premises of the error and of its correction, as one row if the first include the second."""
+    premises, required = verdict.refuted_under, verdict.premises
+    rows = [("Premises of the error", premises), ("Premises of the correction", required)]
+    if required and all(premise in premises for premise in required):
+        rows = [("Premises of error and correction", premises)]
     yield from (row for row in rows if row[1])
 
 
 def premise_formulas(premises: Iterable[Premise]) -> tuple[str, ...]:
-    """Return the equations of premises in LaTeX, a line for each that has any."""
+    """Return the equations of each premise in LaTeX, a line for each premise that has any."""
     return tuple(r",\quad ".join(premise.tex) for premise in premises if premise.tex)
 
 
 def correction_lines(verdict: Verdict) -> tuple[str, ...]:
-    """Return the correct lines in LaTeX: those of the correction that hold, and the derived line where there is no correction."""
+    """Return the correct lines in LaTeX: corrections that hold, and derived lines that have no correction."""
     right = (line.relation for line in verdict.correction_lines if line.verdict in AGREES)
     lines = [_line(relation, relation.printed) for relation in right]
     return tuple(dict.fromkeys([*lines, *(_line(relation, relation.derived) for relation in uncorrected(verdict))]))
 
 
 def _line(relation: Relation, side: Any) -> str:
-    """quantity = expression, up to a power of what is small where it is a series."""
+    """Return quantity = expression, with the O() of a series."""
     quantity = f"{relation.quantity} = " if relation.quantity else ""
     if relation.written:
         return f"{quantity}{relation.written}"
@@ -91,18 +99,18 @@ def _line(relation: Relation, side: Any) -> str:
 
 
 def latex_document(verdicts: Iterable[Verdict], paper: Paper) -> str:
-    """The sheet as a LaTeX document in ASCII that compiles with amsmath, graphicx and hyperref: a summary, then an item each."""
+    """Return the sheet as an ASCII LaTeX document that needs amsmath, graphicx and hyperref."""
     listed = list(verdicts)
     errors = list(errata(listed, paper))
     title = rf"\section*{{Errata to \emph{{{latex_prose(paper.title)}}}}}"
     summary = " ".join(latex_prose(text) for text in _summary(listed, errors, paper))
-    premises = [premise for e in errors for _, given in e.conditions for premise in given]
+    premises = [premise for e in errors for _, assumptions in e.conditions for premise in assumptions]
     assumed = [premise for i, premise in enumerate(premises) if premise not in premises[:i]]
     if assumed:
         named = [p.sentence if "=" in p.says else p.with_formula for p in assumed]
         summary += " Premises: " + "; ".join(f"({n}) {latex_prose(text)}" for n, text in enumerate(named, 1)) + "."
     items = "\n".join(latex_item(e, assumed) for e in errors) or rf"\item {latex_prose('None.')}"
-    # Small print, and no more space between the items than a line of it.
+    # Small type, without extra space between the items.
     sheet = [r"{\footnotesize\setlength{\parskip}{0pt}\raggedright", summary, r"\begin{enumerate}\itemsep 2pt", items]
     return "\n".join([head(f"Errata to {paper.title}", paper.about.preamble) + title, *sheet, r"\end{enumerate}}", END])
 
@@ -111,27 +119,27 @@ def _summary(verdicts: list[Verdict], errors: list[Erratum], paper: Paper) -> It
     """Yield the sentences above the items of the sheet."""
     differ = "1 differs" if len(errors) == 1 else f"{len(errors)} differ"
     yield (
-        f"Of the {len(verdicts)} equations that were read as printed and derived anew, {differ} from what follows from "
-        "their premises. Each is listed by its own number or its section, as printed and as it should read; every "
-        "correction was decided by the same exact procedure as the print."
+        f"{len(verdicts)} equations were read as printed and derived anew; {differ} from the derivation. Each is listed by its "
+        "number or section, as printed and as it should read. The same exact procedure decided the printed and the corrected "
+        "equations."
     )
-    shown = {letter for e in errors for letter in e.letters}
+    used = {letter for e in errors for letter in e.letters}
     meanings = {entry.symbol.name: entry.meaning for entry in paper.glossary.values()}
     letters = "; ".join(
-        f"{name} is {meanings[name]}" for name in paper.about.letters if name in shown and name in meanings
+        f"{name} is {meanings[name]}" for name in paper.about.letters if name in used and name in meanings
     )
     if letters:
-        yield f"Letters of the corrections: {letters}."
+        yield f"Symbols in the corrections: {letters}."
     if reaching := sum(not e.survives for e in errors):
-        yield f"{reaching} of them change a result; no result depends on the other {len(errors) - reaching}."
+        yield f"{reaching} of them change a result of the paper; no result depends on the other {len(errors) - reaching}."
 
 
 def latex_item(e: Erratum, listed: list[Premise]) -> str:
-    """One item: where it is, what is printed, what it should read, what was wrong; premises by their place in a list."""
+    """Return the item of one error; it cites premises by their number in the list."""
     reach = "" if e.survives else " This changes a result."
     right = r";\quad ".join(line.strip() for line in e.corrected)
     granted = "".join(
-        f" {label} {', '.join(f'({listed.index(p) + 1})' for p in given)}." for label, given in e.conditions
+        f" {label}: {', '.join(f'({listed.index(p) + 1})' for p in conditions)}." for label, conditions in e.conditions
     )
     return (
         rf"\item \textbf{{{latex_prose(e.cited.capitalize())}}}, {latex_prose(e.title)}. {latex_prose(e.wrong)}{reach}{granted}\\"

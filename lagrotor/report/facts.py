@@ -1,6 +1,4 @@
-"""The sentences of a report: the facts of each equation, claim and figure; the balance of the verdicts; the results that
-`paper.toml` puts first, with their numbers.
-"""
+"""Sentences of a report: facts of equations, claims and figures, the count of verdicts, and the headlines of `paper.toml`."""
 
 import re
 from collections.abc import Iterator, Mapping
@@ -24,7 +22,7 @@ from lagrotor.report.errata import correction_lines, premise_formulas
 
 @dataclass(frozen=True)
 class Fact:
-    """One labelled line: sentences, ids of what it leads to, formulas; a lone symbol ends the text; formulas in LaTeX."""
+    """A labelled line of sentences, linked ids, formulas (a single symbol ends the sentence) and formulas in LaTeX."""
 
     label: str
     texts: tuple[str, ...] = ()
@@ -34,30 +32,30 @@ class Fact:
 
 
 def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:
-    """Return the facts of a verdict that stand below its two formulas."""
+    """Yield the facts of a verdict that stand below its two formulas."""
     statement = verdict.statement
     is_refuted = verdict.verdict == "refuted"
     if verdict.refuted_under:
-        yield _condition("Error as stated if", verdict.refuted_under)
+        yield _condition("Premises of the error", verdict.refuted_under)
     if verdict.premises:
-        yield _condition("Correction holds if" if is_refuted else "Condition", verdict.premises)
+        yield _condition("Premises of the correction" if is_refuted else "Condition", verdict.premises)
     if verdict.order is not None and verdict.small is not None:
         yield Fact("Order", (f"agrees through order {verdict.order} in",), formulas=(verdict.small,))
     if verdict.domain:
         yield Fact("Domain", formulas=verdict.domain)
-    if said := dimension_texts(verdict):
-        yield Fact("Dimensions", tuple(f"{text}." for text in said))
+    if sentences := dimension_texts(verdict):
+        yield Fact("Dimensions", tuple(f"{text}." for text in sentences))
     evidence = verdict.evidence
     if any(line.verdict in ("refuted", "undecided") for line in verdict.lines):
         points = tuple(filter(None, map(point_tex, verdict.lines)))
-        said = tuple(dict.fromkeys(f"{line_text(line)}." for line in verdict.lines))
-        yield Fact("Lines", said, sources=points)
-        evidence = tuple(each for each in evidence if not any(each in line for line in said))
+        sentences = tuple(dict.fromkeys(f"{line_text(line)}." for line in verdict.lines))
+        yield Fact("Lines", sentences, sources=points)
+        evidence = tuple(item for item in evidence if not any(item in line for line in sentences))
     if statement.correction:
-        answer = f"judged by the same rules: {word(verdict.correction_verdict or 'undecided')}"
+        answer = f"decided by the same procedure: {word(verdict.correction_verdict or 'undecided')}"
         yield Fact("Correction", (answer,), sources=correction_lines(verdict))
     if verdict.reaches_result is not None:
-        yield Fact("Reaches the result", (_REACHES[verdict.reaches_result],))
+        yield Fact("Effect on results", (_EFFECTS[verdict.reaches_result],))
     for theorem in verdict.theorems:
         yield Fact("Proved", (theorem.text,))
     if evidence:
@@ -77,16 +75,13 @@ def _condition(label: str, premises: tuple[Premise, ...]) -> Fact:
     return Fact(label, ("; ".join(p.sentence for p in premises),), sources=premise_formulas(premises))
 
 
-_REACHES = {
-    True: "yes: a result of the paper that depends on it is refuted too",
-    False: "no: no result of the paper depends on this error",
-}
+_EFFECTS = {True: "this error changes a result of the paper", False: "no result of the paper depends on this error"}
 
 
 def linked_facts(result: Result, report: Report) -> Iterator[Fact]:
-    """The theorems that decide parts of a claim; the equations and figures it is about, as far as they are in the report."""
-    for part, theorem in result.finding.theorems:
-        yield Fact("Proved", (f"{part.says}: {part.outcome}.", theorem.text))
+    """Yield the theorems that decide parts of a claim, and the equations and figures that it concerns."""
+    for claim_part, theorem in result.finding.theorems:
+        yield Fact("Proved", (f"{claim_part.says}: {claim_part.outcome}.", theorem.text))
     entry, judged = report.paper.claims[result.test.id], {verdict.id for verdict in report.verdicts}
     drawn = {picture.key for picture in report.pictures}
     if ids := tuple(i for i in entry.equations if i in judged):
@@ -96,7 +91,7 @@ def linked_facts(result: Result, report: Report) -> Iterator[Fact]:
 
 
 def figure_facts(picture: Picture, report: Report) -> Iterator[Fact]:
-    """The equations and claims that a figure of the paper belongs to, as far as they are in the report."""
+    """Yield the equations and claims to which a figure of the paper belongs."""
     entry = report.paper.figures.get(int(picture.key)) if picture.key.isdigit() else None
     judged = {verdict.id for verdict in report.verdicts}
     if entry and (ids := tuple(i for i in entry.equations if i in judged)):
@@ -106,17 +101,17 @@ def figure_facts(picture: Picture, report: Report) -> Iterator[Fact]:
 
 
 def note(verdict: Verdict) -> str:
-    """Return the note beside a verdict in a table: the reason of a refutation, or the order and the condition in short."""
+    """Return the note of a verdict in a table: the reason of a refutation, or the order and the conditions."""
     if verdict.verdict == "refuted":
         points = (point_text(line) for line in verdict.lines if line.verdict == "refuted")
         return verdict.statement.wrong or next(filter(None, points), "")
     if verdict.verdict == "undecided" and verdict.evidence:
         return verdict.evidence[0].partition(";")[0]
-    parts = list(dict.fromkeys(premise.says for premise in verdict.premises))
+    clauses = list(dict.fromkeys(premise.says for premise in verdict.premises))
     if verdict.order is not None and verdict.small is not None:
-        parts.insert(0, f"agrees through order {verdict.order} in {verdict.small}")
+        clauses.insert(0, f"agrees through order {verdict.order} in {verdict.small}")
     broken = any(premise.broken for premise in verdict.premises)
-    return "; ".join(parts) + (". The paper's own scene does not meet this." if broken else "")
+    return "; ".join(clauses) + (". The paper's own scene does not satisfy this." if broken else "")
 
 
 _FIELD = re.compile(r"([^\[\]]+)(?:\[(.+)\])?")
@@ -124,7 +119,7 @@ _FIELD = re.compile(r"([^\[\]]+)(?:\[(.+)\])?")
 
 @dataclass(frozen=True)
 class Headline:
-    """One result: what it says in a line, the sentence with its numbers, a formula in LaTeX, where it is shown, its figure."""
+    """A main result: title, sentence with its numbers, linked ids, a formula in LaTeX, and a figure."""
 
     title: str
     text: str
@@ -134,51 +129,48 @@ class Headline:
 
 
 def opening(report: Report) -> list[tuple[str, str]]:
-    """The lines that the report opens with: (label, sentence)."""
+    """Return (label, sentence) of the opening lines of the report."""
     numbers = _Numbers(report)
     return [(line.label, numbers.format(line.text)) for line in report.paper.about.opening]
 
 
 def balance(report: Report) -> str:
-    """Return the sentences that count the equations that hold, those refuted and those corrected."""
+    """Return the sentences that count equations that hold, refuted ones and corrected ones."""
     if not report.verdicts:
-        return f"No equation is judged yet, of {len(report.waiting)}."
+        return f"None of {len(report.waiting)} equations is judged yet."
     counts = report.counts
-    ways = {
-        "holds": "exactly",
-        "holds-if": "under a condition that is named",
-        "holds-to-order": "to the order that is named",
-    }
+    ways = {"holds": "exactly", "holds-if": "under a stated condition", "holds-to-order": "to a stated order"}
     hold = {answer: counts[answer] for answer in ways if answer in counts}
-    fallen = [verdict for verdict in report.verdicts if verdict.verdict == "refuted"]
-    corrected = sum(v.correction_verdict in ways for v in fallen)
-    reaching = sum(bool(v.reaches_result) for v in fallen)
+    refuted = [verdict for verdict in report.verdicts if verdict.verdict == "refuted"]
+    corrected = sum(v.correction_verdict in ways for v in refuted)
+    reaching = sum(bool(v.reaches_result) for v in refuted)
     undecided, waiting = counts.get("undecided", 0), len(report.waiting)
-    other = len(report.verdicts) - sum(hold.values()) - len(fallen) - undecided
-    text = f"Of {len(report.verdicts)} equations {sum(hold.values())} hold"
+    remainder = len(report.verdicts) - sum(hold.values()) - len(refuted) - undecided
+    text = f"{sum(hold.values())} of {len(report.verdicts)} equations hold"
     text += f": {', '.join(f'{n} {ways[answer]}' for answer, n in hold.items())}. " if hold else ". "
-    if fallen:
-        text += f"{len(fallen)} {'is' if len(fallen) == 1 else 'are'} refuted"
-        if corrected == len(fallen):
-            text += ", each with a correction that itself holds"
+    if refuted:
+        text += f"{len(refuted)} {'is' if len(refuted) == 1 else 'are'} refuted"
+        if corrected == len(refuted):
+            text += ", each with a correction that holds"
         elif corrected:
-            text += f"; for {corrected} of these a correction is given that itself holds"
-        text += f"; results of the paper depend on {reaching or 'none'} of them."
+            text += f"; a correction that holds is given for {corrected} of these"
+        text += f"; results of the paper are affected by {reaching or 'none'} of these errors."
     else:
         text += "None is refuted."
     text += f" {undecided} {'is' if undecided == 1 else 'are'} undecided." if undecided else ""
-    text += f" The other {other} give a name or a measured number." if other else ""
+    kind = "is a definition or a measured number" if remainder == 1 else "are definitions or measured numbers"
+    text += f" {remainder} {kind}." if remainder else ""
     return text + (f" {waiting} more {'is' if waiting == 1 else 'are'} not yet judged." if waiting else "")
 
 
 def headlines(report: Report) -> list[Headline]:
-    """The results that the paper puts first, those whose equations, claims and figures are in the report."""
+    """Return the headlines of `paper.toml` whose equations, claims and figures are in the report."""
     numbers = _Numbers(report)
-    return [numbers.headline(each) for each in report.paper.about.headline if numbers.has(each)]
+    return [numbers.headline(entry) for entry in report.paper.about.headline if numbers.has(entry)]
 
 
 class _Numbers(Formatter):
-    """Fills in what is in braces: {C02[rate]:.3f}, {figure 3[period (s)]:.2f}, {2.1}, {2.1[correction]}."""
+    """The formatter of {C02[rate]:.3f}, {figure 3[period (s)]:.2f}, {2.1} and {2.1[correction]} in `paper.toml`."""
 
     def __init__(self, report: Report) -> None:
         self.verdicts = {verdict.id: verdict for verdict in report.verdicts}
@@ -192,20 +184,19 @@ class _Numbers(Formatter):
         }
         self.measured |= {f"figure {picture.key}": picture.measured for picture in report.pictures}
 
-    def has(self, given: catalogue.HeadlineEntry) -> bool:
-        """Return whether the report has every number and formula of the headline."""
-        fields = (match for _, name, _, _ in self.parse(given.text) if (match := _FIELD.fullmatch(name or "")))
-        needed = {match[1] for match in fields} | ({given.formula} if given.formula else set())
+    def has(self, entry: catalogue.HeadlineEntry) -> bool:
+        """Return True if the report has every number and formula of the headline."""
+        fields = (match for _, name, _, _ in self.parse(entry.text) if (match := _FIELD.fullmatch(name or "")))
+        needed = {match[1] for match in fields} | ({entry.formula} if entry.formula else set())
         return needed <= self.verdicts.keys() | self.measured.keys()
 
-    def headline(self, given: catalogue.HeadlineEntry) -> Headline:
-        """The headline with its numbers."""
-        known = self.verdicts.keys() | self.measured.keys()
-        ids = tuple(identifier for identifier in given.ids if identifier in known)
-        return Headline(given.title, self.format(given.text), ids, self._formula(given), given.figure)
+    def headline(self, entry: catalogue.HeadlineEntry) -> Headline:
+        identifiers = self.verdicts.keys() | self.measured.keys()
+        ids = tuple(identifier for identifier in entry.ids if identifier in identifiers)
+        return Headline(entry.title, self.format(entry.text), ids, self._formula(entry), entry.figure)
 
     def get_field(self, field_name: str, args: Any, kwargs: Any) -> tuple[Any, str]:
-        """The value of what is in braces. Raises InputError for a number that a test does not measure."""
+        """Return the value of a field; raise InputError for a number that no test measures."""
         if field_name in self.counts:
             return self.counts[field_name], field_name
         match = _FIELD.fullmatch(field_name)
@@ -221,14 +212,14 @@ class _Numbers(Formatter):
             raise InputError(f"paper.toml: headline: {identifier} does not measure {name!r}: {', '.join(measured)}")
         return measured[name], identifier
 
-    def _formula(self, given: catalogue.HeadlineEntry) -> str:
-        """The corrected, or else the derived form of an equation, of the named quantity or the first."""
-        if not given.formula:
+    def _formula(self, entry: catalogue.HeadlineEntry) -> str:
+        """Return the corrected, otherwise the derived, form of the named quantity or of the first one."""
+        if not entry.formula:
             return ""
-        statement = self.verdicts[given.formula].statement
+        statement = self.verdicts[entry.formula].statement
         corrected = [(r.quantity, r.written or latex(r.printed)) for r in statement.correction]
         derived = [(r.quantity, r.written or latex(r.derived)) for r in statement.relations]
         for quantity, line in corrected or derived:
-            if given.quantity in ("", quantity):
+            if entry.quantity in ("", quantity):
                 return f"{quantity} = {line}"
-        raise InputError(f"paper.toml: headline: {given.formula} has no quantity {given.quantity!r}")
+        raise InputError(f"paper.toml: headline: {entry.formula} has no quantity {entry.quantity!r}")

@@ -1,4 +1,4 @@
-"""The parts that the LaTeX files of the report share: the head, text and formulas in ASCII, tables, long formulas in lines."""
+"""Elements of the report's LaTeX files: head, text and formulas in ASCII, tables, line breaks of long formulas."""
 
 import re
 import unicodedata
@@ -25,10 +25,10 @@ _HEAD = r"""\documentclass[11pt]{article}
 \allowdisplaybreaks
 \newcommand{\one}{\mathrm{1\mkern-4.5mu l}}
 \newsavebox{\formula}
-% A formula on its own line; where it is wider than that, the second form, which TeX breaks at signs and relations.
+% A displayed formula; if it is too wide, the second form, which TeX breaks at signs and relations.
 \newcommand{\fit}[2]{\par\nobreak\savebox{\formula}{$\displaystyle #1$}%
   \ifdim\wd\formula>\linewidth #2\else\noindent\usebox{\formula}\par\fi}
-% Within it a fraction or a root wider than the line is written with a slash or a power.
+% In it a fraction or a root that is too wide is written with a slash or a power.
 \newcommand{\slashed}[2]{\setbox0\hbox{$\displaystyle\built{#1}{#2}$}%
   \ifdim\wd0>.85\linewidth\bigl(#1\bigr)\big/\bigl(#2\bigr)\else\built{#1}{#2}\fi}
 \newcommand{\rooted}[2][]{\setbox0\hbox{$\displaystyle\radix[#1]{#2}$}%
@@ -45,39 +45,39 @@ _LETTERS = {
     "−": "$-$", "–": "--", "⁻": "$^-$", "·": r"$\cdot$", "±": r"$\pm$", "∓": r"$\mp$", "×": r"$\times$", "ℓ": r"$\ell$",
     "≤": r"$\leq$", "≥": r"$\geq$", "≈": r"$\approx$", "≠": r"$\neq$", "→": r"$\to$", "…": r"\ldots{}", "°": r"$^\circ$",
     "∫": r"$\int$", "∂": r"$\partial$", "∇": r"$\nabla$", "∞": r"$\infty$", "⟨": r"$\langle$", "⟩": r"$\rangle$",
-    "†": r"$\dagger$", "′": "$'$", "ᵀ": "$^T$", "√": r"$\surd$",
+    "†": r"$\dagger$", "′": "$'$", "″": "$''$", "ᵀ": "$^T$", "√": r"$\surd$",
     "§": r"$\mathsection$", "ß": r"\ss{}", "ø": r"\o{}", "Ø": r"\O{}", "ł": r"\l{}", "Ł": r"\L{}", "æ": r"\ae{}", "œ": r"\oe{}",
     "<": "$<$", ">": "$>$", "|": "$|$", "\\": r"\textbackslash{}", "^": r"\^{}",
     "~": r"\~{}", '"': "''",
 } | {mark: f"$^{digit}$" for digit, mark in enumerate("⁰¹²³⁴⁵⁶⁷⁸⁹")}  # fmt: skip
-_ACCENTS = {mark: name for name, mark in ACCENTS.items() if name not in ".kb"}  # those that the font of the head has
-_DOTS = {"\u0307": r"\dot", "\u0308": r"\ddot"}
+_ACCENTS = {mark: name for name, mark in ACCENTS.items() if name not in ".kb"}  # accents of the font in the head
+_MARKS = {"\u0307": r"\dot", "\u0308": r"\ddot", "\u0302": r"\hat"}
 _LOW = dict(zip("₀₁₂₃₄₅₆₇₈₉", "0123456789", strict=True))
-# A letter with its dot and its index: mathematics, unless it is a Latin letter alone.
-_LETTER = re.compile(rf"(\w)([{''.join(_DOTS)}]?)([{''.join(_LOW)}]*)")
-# sin{\left(\theta_1 \right)}: an argument that is one letter needs no brackets.
+# A letter with mark and index is mathematics, unless it is a bare Latin letter.
+_LETTER = re.compile(rf"(\w)([{''.join(_MARKS)}]?)([{''.join(_LOW)}]*)")
+# sin{\left(\theta_1 \right)}: a one-letter argument needs no brackets.
 _LONE = re.compile(r"\{\\left\((\\?[A-Za-z]+(?:_\{?\w+\}?)?) \\right\)\}")
 _LONG_WORD = 18  # characters of a word beyond which TeX may break it
-# Characters of a formula beyond which nobody reads it on paper.
+# Characters of the longest formula that is displayed.
 _LONGEST = 2_500
 
 
 def head(title: str, preamble: str = "") -> str:
-    """Return the head of a document, with the packages that the paper's formulas need, and its title in ASCII."""
+    """Return the head of a document, with the packages of the paper's formulas and an ASCII title."""
     about = rf"\hypersetup{{pdftitle={{{latex_prose(title)}}},pdfauthor={{The lagrotor developers}}}}"
     return f"{_HEAD}{preamble and preamble.strip() + chr(10)}{about}\n\\begin{{document}}\n"
 
 
 def latex_prose(text: str) -> str:
-    """Plain text for LaTeX, its formulas as people read them: special characters escaped, long words breakable."""
+    """Return plain text for LaTeX: readable formulas, escaped special characters, breakable long words."""
     return " ".join(_word(word) for word in readable(text).split(" "))
 
 
 def _word(word: str) -> str:
     if len(word) <= _LONG_WORD:
         return _LETTER.sub(_letter, "".join(map(_character, word)))
-    parts = re.findall(rf"(?:[^*/+=(),._-][\u0307\u0308₀-₉]*){{1,{_LONG_WORD // 2}}}|[*/+=(),._-]+", word)
-    return r"\allowbreak{}".join(map(_word, parts))
+    pieces = re.findall(rf"(?:[^*/+=(),._-][\u0307\u0308₀-₉]*){{1,{_LONG_WORD // 2}}}|[*/+=(),._-]+", word)
+    return r"\allowbreak{}".join(map(_word, pieces))
 
 
 def _character(character: str) -> str:
@@ -85,7 +85,7 @@ def _character(character: str) -> str:
         return f"\\{character}"
     if character in _LETTERS:
         return _LETTERS[character]
-    if character.isascii() or character in GREEK or character in _DOTS or character in _LOW:
+    if character.isascii() or character in GREEK or character in _MARKS or character in _LOW:
         return character
     letter, *marks = list(unicodedata.normalize("NFKD", character))
     if letter.isascii() and letter.isalpha() and len(marks) == 1 and marks[0] in _ACCENTS:
@@ -95,33 +95,33 @@ def _character(character: str) -> str:
 
 def _letter(match: re.Match[str]) -> str:
     stem, dot, index = match.groups()
-    if stem in _LOW:  # of no letter, as the limit of an integral
+    if stem in _LOW:  # an index without a letter, such as the limit of an integral
         stem, index = "", stem + index
     if stem.isascii() and not dot and not index:
         return stem
     drawn = GREEK.get(stem, stem)
-    drawn = f"{_DOTS[dot]}{{{drawn}}}" if dot else drawn
+    drawn = f"{_MARKS[dot]}{{{drawn}}}" if dot else drawn
     return f"${drawn}_{{{''.join(_LOW[digit] for digit in index)}}}$" if index else f"${drawn}$"
 
 
 def displayed_formula(source: str) -> str:
-    """A printed formula on its own line, broken where it is too wide."""
+    """Return a formula on its own line, broken if it is too wide."""
     clean = tidy(source)
     return rf"\fit{{{clean}}}{{\broken{{{_loose(clean)}}}}}"
 
 
 def tidy(source: str) -> str:
-    """A formula in ASCII, without its sentence's last comma or full stop."""
+    """Return a formula in ASCII without the comma or full stop at its end."""
     clean = re.sub(r"[.,;]\s*$", "", source.strip()).replace(r"\mathbb{1}", r"\one ")
     clean = "".join(c if c.isascii() else GREEK.get(c) or _LETTERS.get(c, "?").strip("$") for c in clean)
     return _LONE.sub(r" \1 ", clean)
 
 
 def displayed_expression(expression: sp.Basic) -> str:
-    """An expression on its own line; a matrix that is too wide as a list of its elements; the longest are only named."""
+    """Return an expression on its own line; a too wide matrix as its elements, the longest ones only by their length."""
     source = latex(expression)
     if len(source) > _LONGEST:
-        return f"An expression of {len(source)} characters: it is given in full in verdicts.json."
+        return f"An expression of {len(source)} characters: see verdicts.json."
     if not isinstance(expression, sp.MatrixBase):
         return displayed_formula(source)
     rows, columns = expression.shape
@@ -133,40 +133,40 @@ def displayed_expression(expression: sp.Basic) -> str:
 
 
 def latex_inline(expression: sp.Basic) -> str:
-    """An expression without dollar signs; a matrix has room for its fractions."""
+    """Return an expression without dollar signs; a matrix with fractions gets more space between its rows."""
     source = _LONE.sub(r" \1 ", latex(expression))
     tall = r"\begin{matrix}" in source and r"\frac" in source
     return source.replace(r"\frac", r"\dfrac").replace(r"\\", r"\\\noalign{\vskip 6pt}") if tall else source
 
 
 def _loose(source: str) -> str:
-    """A formula that TeX may break anywhere outside braces: brackets of fixed size, and a break after every space."""
-    parts: list[str] = []
+    """Return a formula that TeX may break anywhere outside braces: brackets of fixed size, and a break after each space."""
+    pieces: list[str] = []
     opened: list[int] = []
     for piece in (token.text for token in tokenize(source)):
         if piece == r"\left":
-            opened.append(len(parts))
-            parts.append("")
+            opened.append(len(pieces))
+            pieces.append("")
         elif piece == r"\right" and opened:
             start = opened.pop()
-            big = r"\Big" if r"\frac" in "".join(parts[start:]) else ""
-            parts[start] = f"{big}l" if big else ""
-            parts.append(f"{big}r" if big else "")
+            big = r"\Big" if r"\frac" in "".join(pieces[start:]) else ""
+            pieces[start] = f"{big}l" if big else ""
+            pieces.append(f"{big}r" if big else "")
         else:
-            parts.append(piece)
-    return "".join(parts).replace(r"\quad", r"\quad\allowbreak ")
+            pieces.append(piece)
+    return "".join(pieces).replace(r"\quad", r"\quad\allowbreak ")
 
 
 def _length(cell: str) -> int:
-    """About how many characters a cell shows."""
+    """Return the approximate number of visible characters of a cell."""
     return len(re.sub(r"\\hyperlink\{.*?\}|\\\w+|[{}$\\]", "", cell))
 
 
 def latex_table(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
-    """A table over as many pages as it needs, of cells that are LaTeX already, its columns as wide as they need."""
+    """Return a table of LaTeX cells that may span pages, with column widths proportional to their content."""
     lines = list(rows)
-    most = 130 // len(head)
-    need = [6 + min(most, max(map(_length, column))) for column in zip(head, *lines, strict=True)]
+    widest = 130 // len(head)
+    need = [6 + min(widest, max(map(_length, column))) for column in zip(head, *lines, strict=True)]
     columns = "".join(
         rf">{{\raggedright\arraybackslash}}p{{\dimexpr {width / sum(need):.4f}\linewidth-2\tabcolsep\relax}}"
         for width in need

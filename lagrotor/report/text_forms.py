@@ -1,7 +1,6 @@
-"""The report from top to bottom as blocks, and these as Markdown and as LaTeX.
+"""The report as a sequence of blocks, written as Markdown and as LaTeX.
 
-Markdown has LaTeX between dollar signs, as code hosts draw it. The LaTeX file is a supplement to a paper: ASCII, compiled by
-pdflatex, its pictures in `figures/`.
+Markdown has LaTeX between dollar signs. The LaTeX file is ASCII, compiles with pdflatex and reads its pictures from `figures/`.
 """
 
 import re
@@ -24,7 +23,7 @@ from lagrotor.report.content import (
     MEANINGS,
     SUBTITLE,
     Report,
-    ShownPart,
+    ResultSection,
     anchor,
     citation,
     contents,
@@ -48,14 +47,14 @@ from lagrotor.report.latex import (
 
 @dataclass(frozen=True)
 class Bold:
-    """A label, or a title without a place of its own."""
+    """A label, or a title without an anchor."""
 
     text: str
 
 
 @dataclass(frozen=True)
 class Links:
-    """To equations, claims or figures."""
+    """Links to equations, claims or figures."""
 
     ids: tuple[str, ...]
 
@@ -68,15 +67,13 @@ class File:
     name: str
 
 
-Span: TypeAlias = (
-    "str | sp.Basic | Bold | Links | File | tuple[Span, ...]"  # of a line or a cell; a tuple: one below the other
-)
-Line: TypeAlias = list[Span]  # with a blank between each two
+Span: TypeAlias = "str | sp.Basic | Bold | Links | File | tuple[Span, ...]"  # in a line or cell; a tuple is stacked
+Line: TypeAlias = list[Span]  # joined by spaces
 
 
 @dataclass(frozen=True)
 class Heading:
-    """The heading of a section, or of an entry, which has a name besides its title."""
+    """The heading of a section, or of an entry with a name and a title."""
 
     place: str
     title: str
@@ -85,14 +82,14 @@ class Heading:
 
 @dataclass(frozen=True)
 class Display:
-    """A formula on its own line, from its LaTeX or as an expression."""
+    """A formula on its own line, given as LaTeX or as an expression."""
 
     formula: str | sp.Basic
 
 
 @dataclass(frozen=True)
 class Rows:
-    """A table."""
+    """A table with a head and rows."""
 
     head: tuple[str, ...]
     rows: Sequence[tuple[Span, ...]]
@@ -100,7 +97,7 @@ class Rows:
 
 @dataclass(frozen=True)
 class Verbatim:
-    """Text as it is, or what a paper says."""
+    """Preformatted text, or a quotation of the paper."""
 
     text: str
     quoted: bool = False
@@ -117,7 +114,7 @@ def opening_blocks(report: Report) -> Iterator[Block]:
 
 
 def section_blocks(report: Report) -> Iterator[Block]:
-    """Every section under its heading."""
+    """Yield every section under its heading."""
     for name, heading in contents(report):
         yield Heading(name, heading)
         if name in _PARTS:
@@ -126,42 +123,39 @@ def section_blocks(report: Report) -> Iterator[Block]:
             for verdict in report.sections[name.removeprefix("section-")]:
                 yield from _equation(verdict, report)
         else:
-            yield from _shown(report.part(name), report)
+            yield from _result_section(report.result_section(name), report)
 
 
 def _summary(report: Report) -> Iterator[Block]:
     if report.changes:
-        yield [Bold("Changed against the record."), "; ".join(report.changes)]
+        yield [Bold("Verdicts that differ from the record."), "; ".join(report.changes)]
     yield [balance(report)]
-    if fallen := [v.id for v in report.verdicts if v.verdict == "refuted"]:
-        yield ["Refuted:", Links(tuple(fallen))]
+    if refuted := [v.id for v in report.verdicts if v.verdict == "refuted"]:
+        yield ["Refuted:", Links(tuple(refuted))]
     for number, headline in enumerate(headlines(report), 1):
         yield [Bold(f"{number}. {headline.title}."), headline.text]
         if headline.formula:
             yield Display(headline.formula)
         if headline.ids:
             yield ["Shown in", Links(headline.ids)]
-    for what, counts, meanings in (
-        ("Equations", report.counts, MEANINGS),
-        ("Claims", report.outcomes, CLAIM_MEANINGS),
-    ):
+    for what, counts, meanings in (("Equations", report.counts, MEANINGS), ("Claims", report.outcomes, CLAIM_MEANINGS)):
         rows = [(word(answer), str(count), meanings[answer]) for answer, count in counts.items()]
-        yield Rows((what, "How many", "What it means"), rows)
+        yield Rows((what, "Number", "Meaning"), rows)
 
 
 def _verdicts(report: Report) -> Iterator[Block]:
     rows = [(Links((v.id,)), report.paper.equation(v.id).title, word(v.verdict), note(v)) for v in report.verdicts]
-    yield Rows(("Equation", "Title", "Verdict", "Why, or under what condition"), rows)
+    yield Rows(("Equation", "Title", "Verdict", "Reason or condition"), rows)
 
 
 def errata_blocks(report: Report) -> Iterator[Block]:
-    """The errata sheet; nothing where nothing is refuted."""
+    """Yield the errata sheet; empty if no equation is refuted."""
     for e in errata(report.verdicts, report.paper):
         yield Heading(f"erratum-{e.id}", e.title, f"Erratum {e.id}:")
         yield [e.wrong]
         yield [Bold("Printed.")]
         yield Display(e.printed)
-        yield [Bold(f"Correct ({e.verdict_of_correction}).")]
+        yield [Bold(f"Corrected ({e.verdict_of_correction}).")]
         yield from map(Display, e.corrected)
         for label, premises in e.conditions:
             yield [Bold(f"{label}:"), "; ".join(p.sentence for p in premises)]
@@ -203,14 +197,14 @@ def _numbers(title: str, measured: Mapping[str, float]) -> Rows:
     return Rows((title, "Value"), [(name.replace("_", " "), f"{value:.6g}") for name, value in measured.items()])
 
 
-def _shown(part: ShownPart, report: Report) -> Iterator[Block]:
-    for table in part.tables:
+def _result_section(section: ResultSection, report: Report) -> Iterator[Block]:
+    for table in section.tables:
         yield [Bold(f"{table.title}.")]
         yield Rows(table.head, [tuple(_cell(cell, report) for cell in row) for row in table.rows])
         yield [table.note]
-    for title, text in part.remarks:
+    for title, text in section.remarks:
         yield [Bold(f"{title}."), text]
-    for picture in part.pictures:
+    for picture in section.pictures:
         key = f"figure {picture.key}"
         yield Heading(anchor(key), picture.title, f"{key.capitalize()}:")
         yield picture
@@ -239,15 +233,15 @@ def _cite(_: Report) -> Iterator[Block]:
 
 
 def _made(report: Report) -> Iterator[Block]:
-    yield ["The same inputs give the same file, byte for byte; how long each part took is in times.json."]
-    yield Rows(("In the same folder", "What it is"), [(File(file, file), what) for file, what in BESIDE.items()])
-    yield Rows(("What", "Version"), list(report.versions))
+    yield ["The same inputs give the same file, byte for byte. The computing times are in times.json."]
+    yield Rows(("File in the same folder", "Content"), [(File(file, file), what) for file, what in BESIDE.items()])
+    yield Rows(("Software", "Version"), list(report.versions))
     yield Rows(("Input", "SHA-256"), list(report.inputs))
 
 
 _PARTS: dict[str, Callable[[Report], Iterator[Block]]] = {
     "model": lambda _: iter(
-        [["Sliders and both tips in motion, in a browser:", File("index.html#model", "index.html")]]
+        [["The interactive model of the pair, for a browser:", File("index.html#model", "index.html")]]
     ),
     "summary": _summary,
     "verdicts": _verdicts,
@@ -262,23 +256,23 @@ _PARTS: dict[str, Callable[[Report], Iterator[Block]]] = {
 
 
 def markdown(report: Report) -> str:
-    """The whole report; figures are linked as `figures/<stem>.svg`."""
+    """Return the whole report; figures are linked as `figures/<stem>.svg`."""
     listed = "\n".join(f"- [{heading}](#{name})" for name, heading in contents(report))
     blocks = [f"# {report.title}", f"{SUBTITLE}.", *map(_block, opening_blocks(report)), listed]
     return "\n\n".join(filter(None, [*blocks, *map(_block, section_blocks(report))])) + "\n"
 
 
 def errata_sheet(report: Report) -> str:
-    """The errata alone, which lead to the report beside them."""
-    blocks = map(partial(_block, beside="report.md"), errata_blocks(report))
+    """Return the errata sheet as Markdown with links to the report."""
+    blocks = map(partial(_block, target="report.md"), errata_blocks(report))
     return "\n\n".join(["# Errata", *blocks]) + "\n"
 
 
-def _block(block: Block, beside: str = "") -> str:
-    """beside: the file of what it leads to."""
+def _block(block: Block, target: str = "") -> str:
+    """Return a block as Markdown; links lead into the file `target`."""
     match block:
         case list():
-            return " ".join(filter(None, (_span(part, beside) for part in block)))
+            return " ".join(filter(None, (_span(span, target) for span in block)))
         case Heading(place, title, name):
             return f'<a id="{place}"></a>\n\n' + (f"### {name} {_prose(title)}" if name else f"## {title}")
         case Display(formula):
@@ -292,29 +286,29 @@ def _block(block: Block, beside: str = "") -> str:
             return f"![{_prose(picture.alt)}](figures/{picture.svg.name})"
 
 
-def _span(part: Span, beside: str = "") -> str:
-    match part:
+def _span(span: Span, target: str = "") -> str:
+    match span:
         case str():
-            return _prose(part)
+            return _prose(span)
         case Bold(text):
             return f"**{_prose(text)}**"
         case Links(ids):
-            return ", ".join(f"[{identifier}]({beside}#{anchor(identifier)})" for identifier in ids)
+            return ", ".join(f"[{identifier}]({target}#{anchor(identifier)})" for identifier in ids)
         case File(address, name):
             return f"[{name}]({address})"
         case tuple():
-            return "<br>".join(map(_span, part))
+            return "<br>".join(map(_span, span))
         case formula:  # a bar would end the cell
             return f"${latex(formula)}$".replace(r"\left|", r"\left\lvert ").replace(r"\right|", r"\right\rvert ")
 
 
 def _prose(text: str) -> str:
-    """Text on one line in which nothing is read as Markdown, HTML or a table's edge."""
+    """Return text on one line with all Markdown, HTML and table characters escaped."""
     return re.sub(r"([\\`*_\[\]<>|#$~])", r"\\\1", " ".join(readable(text).split()))
 
 
 def supplement(report: Report) -> str:
-    """The whole report, its sections in the order of the page."""
+    """Return the whole report as LaTeX."""
     blocks = [
         head(report.title, report.paper.about.preamble),
         rf"\title{{{latex_prose(report.title)}\\ \large {latex_prose(SUBTITLE)}}}",
@@ -347,22 +341,22 @@ def _latex_block(block: Block) -> str:
             return rf"\drawn{{figures/{picture.png.name}}}"
 
 
-def _latex_span(part: Span) -> str:
-    match part:
+def _latex_span(span: Span) -> str:
+    match span:
         case str():
-            return latex_prose(part)
+            return latex_prose(span)
         case Bold(text):
             return rf"\textbf{{{latex_prose(text)}}}"
         case Links(ids):
-            return ", ".join(rf"\hyperlink{{{anchor(each)}}}{{{latex_prose(each)}}}" for each in ids)
+            return ", ".join(rf"\hyperlink{{{anchor(identifier)}}}{{{latex_prose(identifier)}}}" for identifier in ids)
         case File(_, name):
             return latex_prose(name)
         case tuple():
-            return r"\par ".join(map(_latex_cell, part))
+            return r"\par ".join(map(_latex_cell, span))
         case formula:
             return f"${latex_inline(formula)}$"
 
 
-def _latex_cell(part: Span) -> str:
-    """A formula that is more than a letter may be wider than its column."""
-    return displayed_expression(part) if isinstance(part, sp.Basic) and not part.is_Symbol else _latex_span(part)
+def _latex_cell(span: Span) -> str:
+    """Return a cell; a formula longer than one symbol may be wider than its column."""
+    return displayed_expression(span) if isinstance(span, sp.Basic) and not span.is_Symbol else _latex_span(span)

@@ -3,7 +3,7 @@
 import pytest
 import sympy as sp
 
-from lagrotor.algebra import check_names
+from lagrotor.algebra.name_clashes import check_names
 from lagrotor.errors import InputError
 from lagrotor.mechanics import Frame, System, coordinates
 from lagrotor.numerics.codegen import Program

@@ -130,6 +130,6 @@ def test_letters_are_numbered_by_their_places() -> None:
         sides = row[0], row[1]
         other, _ = renamed(sides, random.Random(2))
         one, two = Numbering(sides[0] - sides[1]), Numbering(other[0] - other[1])
-        assert one.there(sides[0] - sides[1]) == two.there(other[0] - other[1])
-        assert one.back(one.there(sides[0])) == sides[0]
-    assert Numbering(x - y).letters != Numbering(y - x).letters
+        assert one.to_numbered(sides[0] - sides[1]) == two.to_numbered(other[0] - other[1])
+        assert one.to_input(one.to_numbered(sides[0])) == sides[0]
+    assert Numbering(x - y).symbols != Numbering(y - x).symbols

@@ -40,18 +40,18 @@ def test_what_holds_on_a_branch_holds_there_and_is_refuted_elsewhere(
     decision = decide_equal(left, right)
     if left - right != 0:
         assert decision.answer == "nonzero" and decision.partly and decision.branch
-        assert decide_equal(left, right, within=decision.branch).answer == "zero"
+        assert decide_equal(left, right, assumptions=decision.branch).answer == "zero"
         assert not all(bool(relation.subs(decision.witness)) for relation in decision.branch)
     assert decide_equal(left, miss).answer == "nonzero"
     if not isinstance(branch, sp.And) and isinstance(branch.gts, sp.Symbol):
-        assert decide_equal(left, right, within=[branch]).answer == "zero"
+        assert decide_equal(left, right, assumptions=[branch]).answer == "zero"
 
 
 def test_the_witness_of_a_refutation_keeps_both_sides_apart() -> None:
     for _, left, _, miss in QUICK:
         decision = decide_equal(left, miss)
-        if decision.seen is not None and decision.at:
-            assert excludes_zero(enclosed_at(decision.seen, decision.at[0], 60))
+        if decision.residual is not None and decision.points:
+            assert excludes_zero(enclosed_at(decision.residual, decision.points[0], 60))
 
 
 def test_an_unknown_function_takes_values_at_the_witness() -> None:
@@ -63,7 +63,7 @@ def test_an_unknown_function_takes_values_at_the_witness() -> None:
 @pytest.mark.parametrize("within", [["x > 0"], [sp.Eq(sp.Symbol("x"), 1)], [sp.false]])
 def test_a_region_is_made_of_inequalities(within: list[object]) -> None:
     with pytest.raises(InputError, match="inequality"):
-        decide_zero(sp.Symbol("x"), within=within)
+        decide_zero(sp.Symbol("x"), assumptions=within)
 
 
 def test_two_letters_of_one_name_are_refused_at_the_door() -> None:

@@ -12,7 +12,7 @@ from lagrotor.pair.notation import M, r0
 from lagrotor.paper import FigureLink, Finding, Part, Relation, Result, Statement, Table, chain, claim_tests, decide
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.pictures import Picture
-from lagrotor.report.content import Report, ShownPart
+from lagrotor.report.content import Report, ResultSection
 
 LONG = sp.Add(*sp.symbols("x_1:60"))
 SVG = '<svg viewBox="0 0 40 30" xmlns="http://www.w3.org/2000/svg"><path d="M 0 0 L 40 30"/></svg>'
@@ -38,7 +38,7 @@ def short_report(text: str, folder: Path) -> Report:
     picture = Picture("fig17_stub", "17", text, text, text, svg, png, {text: 1.25})
     derivation = ("s5_2a_single_rotor", text, "<p>inside</p>")
     made = {"versions": (("Python", "3"), ("sympy", "1")), "inputs": (("package", "0a" * 32),)}
-    figures = (ShownPart("figures", "Figures", pictures=(picture,)),)
+    figures = (ResultSection("figures", "Figures", pictures=(picture,)),)
     return Report(PAPER, tuple(judged), (picture,), (text,), (), figures, (derivation,), MODEL, **made)
 
 
@@ -53,12 +53,12 @@ def long_report(report: Report, text: str) -> Report:
     test = claim_tests.ClaimTest("C16", (10, -10), {}, text, lambda spins: {}, lambda measured: finding)
     result = Result(test, {"what_is_read": 1.5}, finding, 0.25)
     drawn = (*report.pictures, *pictures)
-    return replace(report, pictures=drawn, claims=(result,), parts=tuple(_parts(table, drawn, text)))
+    return replace(report, pictures=drawn, claims=(result,), result_sections=tuple(_parts(table, drawn, text)))
 
 
-def _parts(table: Table, drawn: Iterable[Picture], text: str) -> Iterator[ShownPart]:
+def _parts(table: Table, drawn: Iterable[Picture], text: str) -> Iterator[ResultSection]:
     """The parts of the paper's report, each with a table and a remark where it has any, and its figures."""
     for part in PAPER.about.part:
         pictures = tuple(picture for picture in drawn if picture.key.rstrip("0123456789") in part.figures)
         remarks = ((text, text),) if part.remarks else ()
-        yield ShownPart(part.name, part.heading, (table,) if part.tables else (), remarks, pictures)
+        yield ResultSection(part.name, part.heading, (table,) if part.tables else (), remarks, pictures)

@@ -53,7 +53,7 @@ def test_shell_page_and_data_show_the_premises_of_all_equations(report: Report) 
         for premise in premises:
             assert readable(premise.with_formula) in shell, verdict.id
             assert premise.sentence in fact_texts and prose(premise.sentence) in page, verdict.id
-        assert ("stated if" in shell) == ("Error as stated if" in page) == bool(verdict.refuted_under), verdict.id
+        assert ("stated if" in shell) == ("Premises of the error" in page) == bool(verdict.refuted_under), verdict.id
 
 
 def test_errata_in_three_forms_show_the_premises_of_every_refuted_equation(report: Report) -> None:

@@ -41,8 +41,8 @@ READ_OFF = {
     },
 }
 SAID = (
-    ("below: 0.7142", "0.7143 at its spins", "0.7144 at half", "0.7145 with a bar", "0.9912 with the light"),
-    ("108.1% to 108.2% of its length", "up to 0.047 m", "0.0077 m at second", "0.0013 m at third"),
+    ("it gives 0.7142", "0.7143 at the paper's spins", "0.7144 at half", "0.7145 with a bar", "0.9912 with the light"),
+    ("108.1% to 108.2% of its true length", "up to 0.047 m", "0.0077 m at second", "0.0013 m at third"),
     ("-0.363 rad/s", "-10.61 N", "-10.97 N", "between -0.051 and +0.071 rad", "+0.0006 rad/s", "by 3.33"),
 )
 
@@ -85,17 +85,20 @@ def test_another_number_is_another_sentence(report: Report) -> None:
 
 def test_balance_counts_what_was_judged(report: Report) -> None:
     text = balance(report)
-    assert text.startswith("Of 2 equations 0 hold")
-    assert "1 is refuted, each with a correction that itself holds; results of the paper depend on none" in text
-    assert text.endswith("The other 1 give a name or a measured number. 66 more are not yet judged.")
+    assert text.startswith("0 of 2 equations hold")
+    assert (
+        "1 is refuted, each with a correction that holds; results of the paper are affected by none of these errors"
+        in text
+    )
+    assert text.endswith("1 is a definition or a measured number. 66 more are not yet judged.")
     alone = decide(Statement("5.20", chain(M, R)))
     text = balance(replace(report, verdicts=(*report.verdicts, alone)))
     assert (
-        "2 are refuted; for 1 of these a correction is given that itself holds; results of the paper depend on none"
+        "2 are refuted; a correction that holds is given for 1 of these; results of the paper are affected by none"
         in text
     )
     held = replace(alone, verdict="holds")
     assert "None is refuted." in balance(replace(report, verdicts=(held,)))
-    assert balance(replace(report, verdicts=())) == "No equation is judged yet, of 68."
+    assert balance(replace(report, verdicts=())) == "None of 68 equations is judged yet."
     open_one = replace(alone, verdict="undecided")
-    assert "1 is undecided. The other 1 give a name" in balance(replace(report, verdicts=(*report.verdicts, open_one)))
+    assert "1 is undecided. 1 is a definition" in balance(replace(report, verdicts=(*report.verdicts, open_one)))

@@ -65,8 +65,8 @@ def test_nothing_is_left_out(report: Report) -> None:
     for part in (
         PAPER.claims["C16"].text.split()[0],
         "holds if",
-        "judged by the same rules: holds",
-        "Reaches the result",
+        "decided by the same procedure: holds",
+        "Effect on results",
         "agrees through order 0 in",
         r"\drawn{figures/fig17_stub.png}",
         r"\hyperlink{figure-t6}{figure t6}",

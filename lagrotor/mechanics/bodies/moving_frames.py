@@ -23,7 +23,8 @@ from typing import Any, Self, TypeVar
 
 import sympy as sp
 
-from lagrotor.algebra import check_names, decide_equal, decide_zero
+from lagrotor.algebra import decide_equal, decide_zero
+from lagrotor.algebra.name_clashes import check_names
 from lagrotor.algebra.subexpressions import with_shared_parts
 from lagrotor.errors import InputError
 from lagrotor.mechanics.expressions import expression, vector_of

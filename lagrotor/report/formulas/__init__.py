@@ -1,1 +1,1 @@
-"""Formulas for browsers: LaTeX as MathML (`mathml_latex`), and the mathematical font that the page carries (`font`)."""
+"""Formulas for browsers: LaTeX as MathML (`mathml_latex`), and the embedded mathematical font (`font`)."""

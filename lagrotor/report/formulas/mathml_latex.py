@@ -1,4 +1,4 @@
-"""Formulas for the page: LaTeX as MathML, by latex2mathml, in the elements and attributes that browsers draw (MathML Core)."""
+"""Formulas of the page: LaTeX converted by latex2mathml to the elements and attributes of MathML Core."""
 
 import re
 import unicodedata
@@ -14,23 +14,8 @@ _ACCENTS = dict(zip("→^ˆ˙¨¯‾―~∼˜", "→ˆˆ˙¨¯¯¯˜˜˜", stric
 _RELATIONS = "=≠≡≈∼<>≤≥≪≫→⇒∈"
 _SIGNS = "+-−±∓"
 _OPEN, _CLOSE = "([{⟨", ")]}⟩"
-_NAMES = (
-    "sin",
-    "cos",
-    "tan",
-    "exp",
-    "log",
-    "arcsin",
-    "arctan",
-    "artanh",
-    "arcosh",
-    "arsinh",
-    "tanh",
-    "sech",
-    "cosh",
-    "sinh",
-)
-# The converter reads a style only before braces.
+_NAMES = "sin cos tan exp log arcsin arctan artanh arcosh arsinh tanh sech cosh sinh".split(" ")  # noqa: SIM905
+# The converter recognizes a style only before braces.
 _STYLE = re.compile(r"\\(mathcal|mathrm|mathbf|mathbb)\s+(\w)")
 _SCRIPTS = ("msub", "msup", "msubsup", "munder", "mover", "munderover", "mfrac", "mroot")
 _PRIMES = "′″‴"
@@ -38,7 +23,7 @@ _THIN = "0.167em"
 
 
 def converter() -> str:
-    """The version of latex2mathml; empty where it is not installed."""
+    """Return the version of latex2mathml; empty if it is not installed."""
     try:
         return version("latex2mathml")
     except PackageNotFoundError:
@@ -46,13 +31,10 @@ def converter() -> str:
 
 
 def mathml(source: str, display: bool = True) -> str | None:
-    """A LaTeX formula as `<math>`, on lines of its own or within one; None where latex2mathml is not installed or cannot set it.
-
-    What a wide space parts, and a continuation `\\quad = …`, is set on a line of its own.
-    """
+    """Return LaTeX as `<math>`, displayed lines broken at wide spaces; None if latex2mathml is missing or fails."""
     try:
         return _convert(source, display)
-    except Exception:  # not installed; or of a print that it does not know, for which it has errors of every kind
+    except Exception:  # not installed, or unknown LaTeX, for which it raises errors of many kinds
         return None
 
 
@@ -60,40 +42,40 @@ def mathml(source: str, display: bool = True) -> str | None:
 def _convert(source: str, display: bool) -> str:
     from latex2mathml.converter import Converter
 
-    made = []
+    lines = []
     for line in _lines(source) if display else [source]:
         plain = _STYLE.sub(r"\\\1{\2}", line.replace("{aligned}", "{align*}"))
         tree = Converter(display="block" if display else "inline").convert_to_element(plain)
         for node in tree.iter():
             node.text, node.tail = unescape(node.text or ""), None
             if not node.get("href", "https://").startswith(("https://", "http://")):
-                del node.attrib["href"]  # a link to a page is kept, one that would run is not
+                del node.attrib["href"]  # links to pages remain, links that could run code do not
         _tidy(tree)
         _keep_readable(tree, 0, compact=not display)
         element = Element("math", {"display": "block"} if display else {})
         element.extend(tree)
-        made.append(tostring(element, encoding="unicode"))
-    return "".join(made)
+        lines.append(tostring(element, encoding="unicode"))
+    return "".join(lines)
 
 
 def _lines(source: str) -> Iterator[str]:
-    """The parts of a source between wide spaces outside braces and environments."""
-    depth, part = 0, ""
+    """Yield the lines of a source, separated by wide spaces outside braces and environments."""
+    depth, line = 0, ""
     opening = {r"\begin": 1, r"\end": -1, r"\left": 1, r"\right": -1}
     for token in tokenize(source):
         depth += {"open": 1, "close": -1}.get(token.kind, 0) + opening.get(token.text, 0)
-        parts = token.text == r"\quad" or (token.text == "\\ " and part.endswith(";"))
-        if parts and depth == 0:
-            yield from [part] if part.strip() else []
-            part = ""
+        is_break = token.text == r"\quad" or (token.text == "\\ " and line.endswith(";"))
+        if is_break and depth == 0:
+            yield from [line] if line.strip() else []
+            line = ""
         else:
-            part += token.text
-    yield part
+            line += token.text
+    yield line
 
 
 def _tidy(element: Element) -> None:
-    """Accents, signs, spaces and styles as browsers and TeX agree on, in place."""
-    before: Element | None = None
+    """Adapt accents, signs, spaces and styles in place so that browsers draw them like TeX."""
+    previous: Element | None = None
     for child in list(element):
         _tidy(child)
         text = child.text or ""
@@ -103,7 +85,7 @@ def _tidy(element: Element) -> None:
             child.tag, child.text = "mspace", None
             child.set("width", "0.25em")
         if child.tag in ("mi", "mo", "mn"):
-            _leaf(child, text, before)
+            _leaf(child, text, previous)
         if child.tag in ("mover", "munder") and len(child) == 2 and (child[1].text or "") in _ACCENTS:
             _accent(child)
         if child.tag == "mtable":
@@ -112,20 +94,16 @@ def _tidy(element: Element) -> None:
             _raise_prime(child)
         if element.tag in _SCRIPTS:
             continue
-        if _is_function_name(child) and before is not None and before.tag not in ("mo", "mspace"):
+        if _is_function_name(child) and previous is not None and previous.tag not in ("mo", "mspace"):
             _space(element, child)
-        if (
-            before is not None
-            and _is_function_name(before)
-            and child.tag not in ("mo", "mspace")
-            and not _is_bracket(child)
-        ):
+        follows_name = previous is not None and _is_function_name(previous)
+        if follows_name and child.tag not in ("mo", "mspace") and not _is_bracket(child):
             _space(element, child)
-        before = child
+        previous = child
 
 
 def _keep_readable(element: Element, depth: int, compact: bool) -> None:
-    """Scripts of scripts as large as scripts: browsers know no smallest size of a letter. depth, compact: as in MathML Core."""
+    """Draw scripts of scripts as large as scripts. depth, compact: script level and style of MathML Core."""
     for place, child in enumerate(element):
         fraction = element.tag == "mfrac"
         script = element.tag in _SCRIPTS and not fraction and place > 0 and "accent" not in element.attrib
@@ -137,7 +115,7 @@ def _keep_readable(element: Element, depth: int, compact: bool) -> None:
         _keep_readable(child, min(below, 1), set_small)
 
 
-def _leaf(child: Element, text: str, before: Element | None) -> None:
+def _leaf(child: Element, text: str, previous: Element | None) -> None:
     variant = child.attrib.pop("mathvariant", "")
     if variant and variant != "normal":
         child.text = "".join(
@@ -147,10 +125,9 @@ def _leaf(child: Element, text: str, before: Element | None) -> None:
         child.set("mathvariant", "normal")
     if child.tag == "mo" and text in _SIGNS:
         child.text = "−" if text == "-" else text
-        previous = (before.text or "") if before is not None and before.tag == "mo" else None
-        first = (
-            before is None or before.tag == "mspace" or (previous is not None and previous in _RELATIONS + _OPEN + ",")
-        )
+        operator = (previous.text or "") if previous is not None and previous.tag == "mo" else None
+        is_prefix = operator is not None and operator in _RELATIONS + _OPEN + ","
+        first = previous is None or previous.tag == "mspace" or is_prefix
         child.set("form", "prefix" if first else "infix")
     elif child.tag == "mo" and text in ("/", ".", ",", ";", "*"):
         child.text = "∗" if text == "*" else text
@@ -162,7 +139,7 @@ def _leaf(child: Element, text: str, before: Element | None) -> None:
 
 
 def _raise_prime(child: Element) -> None:
-    """A prime is raised by the font already; over an accent a power is set no higher than over a letter."""
+    """Set a prime without raising it twice, and a power over an accent as high as over a letter."""
     if child.tag == "msup" and (child[1].text or "x") in _PRIMES:
         child.tag, child[1].attrib = "mrow", {"form": "postfix", "lspace": "0", "rspace": "0"}
     elif child[0].tag == "mover":
@@ -176,12 +153,12 @@ def _accent(child: Element) -> None:
     mark = child[1]
     mark.tag, mark.text = "mo", _ACCENTS[mark.text or ""]
     mark.attrib = {"stretchy": "false"}
-    if mark.text == "→":  # the whole arrow is wider than a letter
+    if mark.text == "→":  # the unscaled arrow is wider than a letter
         mark.set("style", "font-size: .65em")
 
 
 def _is_function_name(element: Element) -> bool:
-    """Return whether an element is the name of a function, perhaps with a power."""
+    """Return True for the name of a function, perhaps with a power."""
     core = element[0] if element.tag in ("msup", "msub") and len(element) else element
     return core.tag in ("mi", "mo") and (core.text or "").strip() in _NAMES
 
@@ -197,7 +174,7 @@ def _space(parent: Element, child: Element) -> None:
 
 
 def _styled_letter(character: str, style: str) -> str:
-    """A letter or digit in bold, double-struck …: browsers know no other `mathvariant` than normal."""
+    """Return a bold or double-struck character: MathML Core has no `mathvariant` except normal."""
     name = unicodedata.name(character, "").replace("LATIN ", "").replace("GREEK ", "").replace(" LETTER", "")
     try:
         return unicodedata.lookup(f"MATHEMATICAL {style} {name}")

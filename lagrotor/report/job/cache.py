@@ -1,8 +1,8 @@
-"""Products of earlier runs in the user's cache folder, taken again where nothing that they were made from has changed.
+"""Products of earlier runs in the user's cache folder, reused if their inputs have not changed.
 
-A product that JSON can hold (a claim's numbers, a figure with its two files, the interactive model, the outcome of a whole run)
-is one file, with the digest of all that it was made from. A derivation gives expressions, which JSON cannot hold: it runs
-again unless the whole report is unchanged. A product that is missing, damaged or out of date is made anew.
+A product that JSON can represent (a claim's numbers, a figure with its two files, the interactive model, the outcome of a run)
+is stored in one file with the digest of its inputs. A derivation gives expressions and runs again unless the whole report is
+unchanged. A missing, damaged or outdated product is computed again.
 """
 
 import json
@@ -22,19 +22,19 @@ from lagrotor.report.job.dependencies import digest
 
 
 def cache_folder() -> Path:
-    """Return the folder of lagrotor in the user's cache: that of XDG_CACHE_HOME, or ~/.cache/lagrotor."""
+    """Return the cache folder: lagrotor in XDG_CACHE_HOME, or ~/.cache/lagrotor."""
     base = Path(os.environ.get("XDG_CACHE_HOME", ""))
     return (base if base.is_absolute() else Path.home() / ".cache") / "lagrotor"
 
 
 @dataclass(frozen=True)
 class Cache:
-    """The products of one paper, which is known by the places of its folder and of its scripts."""
+    """The cached products of one paper, identified by the paths of its folder and of its scripts."""
 
     paper: Paper
 
     def take(self, name: str, made_from: str) -> Any:
-        """Return a product as JSON; None unless it was made from the same and is undamaged."""
+        """Return a product as JSON if it is undamaged and has the same inputs, else None."""
         with suppress(OSError, RuntimeError, ValueError, TypeError, KeyError):  # RuntimeError: the user has no home
             entry = json.loads(self._file(name).read_text(encoding="utf-8"))
             if entry["digest"] == digest(made_from, json.dumps(entry["product"])):
@@ -42,7 +42,7 @@ class Cache:
         return None
 
     def keep(self, name: str, made_from: str, product: Any) -> None:
-        """Keep a product for later runs; nothing is kept where JSON cannot hold it or the folder cannot be written to."""
+        """Store a product for later runs, if JSON can represent it and the folder is writable."""
         with suppress(OSError, RuntimeError, InputError, TypeError):
             text = json.dumps(product)
             self._file(name).parent.mkdir(parents=True, exist_ok=True)

@@ -1,6 +1,6 @@
-"""The inputs of a script's product: the script and those it runs, the paper's folder, and the package as a whole.
+"""The inputs of a script's product: the script, the scripts that it runs, the paper's folder, and the package.
 
-The digest of all this, with the versions of the tools, is what a product of the last run must agree with to be taken again.
+A product of an earlier run is reused if the digest of these inputs and of the tools' versions is the same.
 """
 
 import hashlib
@@ -16,19 +16,19 @@ from lagrotor.paper.papers import Paper
 
 _PACKAGE = Path(__file__).resolve().parents[2]
 _TOOLS = ("sympy", "mpmath", "numpy", "scipy", "matplotlib")
-# What lies beside a module and is no source of it: the record is only compared with, drawings are made from the rest.
+# Files that are no inputs: the record is only compared with, and drawings are outputs.
 _NO_SOURCE = {".py", ".pyc", ".gif", ".png", ".svg", ".cff", ".md"}
 _NO_DATA = {"recorded.toml"}
 _WORD = re.compile(r"""["'](\w+)["']""")
 
 
-def digest(*parts: bytes | str) -> str:
-    """SHA-256 of some parts, each with its length, so that no two lists of parts are read as one."""
-    seen = hashlib.sha256()
-    for part in parts:
-        data = part.encode() if isinstance(part, str) else part
-        seen.update(len(data).to_bytes(8, "big") + data)
-    return seen.hexdigest()
+def digest(*items: bytes | str) -> str:
+    """Return the SHA-256 of several items, each with its length, so that different lists have different digests."""
+    hash_ = hashlib.sha256()
+    for item in items:
+        data = item.encode() if isinstance(item, str) else item
+        hash_.update(len(data).to_bytes(8, "big") + data)
+    return hash_.hexdigest()
 
 
 @cache
@@ -43,7 +43,7 @@ def _text(path: Path) -> str:
 
 
 def _texts(path: Path) -> frozenset[str]:
-    """Every string of one word in a script."""
+    """Return all one-word strings of a script."""
     return frozenset(_WORD.findall(_text(path)))
 
 
@@ -54,30 +54,30 @@ def _stems(paper: Paper) -> frozenset[str]:
 
 @cache
 def scripts_named(path: Path, paper: Paper) -> tuple[str, ...]:
-    """Stems of the derivations that a script names: it may run them."""
+    """Return the stems of the derivations that a script names and may therefore run."""
     stems = _texts(path) & _stems(paper)
     return tuple(sorted(stem for stem in stems if paper.scripts.path("derivations", stem) != path))
 
 
 def values_taken(stem: str, paper: Paper) -> frozenset[str]:
-    """Names that other scripts may take from a derivation: the strings in those that name it."""
+    """Return the names that other scripts may import from a derivation: the strings of scripts that name it."""
     others = (path for kind in ("derivations", "figures") for path in (paper.scripts.base / kind).glob("*.py"))
     return frozenset(text for path in others if stem in scripts_named(path, paper) for text in _texts(path))
 
 
 def source_digest(path: Path, paper: Paper) -> str:
-    """Return the digest of all that a script's product is made from: any change of the package makes it anew."""
-    reached, left = {path}, [path]
-    while left:
-        new = {paper.scripts.path("derivations", stem) for stem in scripts_named(left.pop(), paper)} - reached
+    """Return the digest of all inputs of a script's product, including the whole package."""
+    reached, stack = {path}, [path]
+    while stack:
+        new = {paper.scripts.path("derivations", stem) for stem in scripts_named(stack.pop(), paper)} - reached
         reached |= new
-        left += new
+        stack += new
     return digest(_shared(paper), _digest_of(reached, paper))
 
 
 @cache
 def _shared(paper: Paper) -> str:
-    """Return the digest of what every product is made from: package, catalogue, data beside the scripts, versions, machine."""
+    """Return the digest of the inputs of every product: package, catalogue, data files, versions, machine."""
     data = [
         f
         for kind in ("derivations", "figures")
@@ -85,19 +85,19 @@ def _shared(paper: Paper) -> str:
         if f.suffix not in _NO_SOURCE
     ]
     shared = inputs(paper)
-    given = (shared["package"], shared["catalogue of equations, claims, figures"], _digest_of(data, paper))
-    return digest(*given, *map(str, versions().items()), platform.machine(), platform.system())
+    digests = (shared["package"], shared["catalogue of equations, claims, figures"], _digest_of(data, paper))
+    return digest(*digests, *map(str, versions().items()), platform.machine(), platform.system())
 
 
 def _digest_of(files: Iterable[Path], paper: Paper) -> str:
-    """Digest of some files, by their places and their bytes."""
+    """Return the digest of files by their relative paths and contents."""
     rows = sorted((_place(file, paper), digest(file.read_bytes())) for file in files)
-    return digest(*(part for row in rows for part in row))
+    return digest(*(item for row in rows for item in row))
 
 
 @cache
 def _place(file: Path, paper: Paper) -> str:
-    """A file's place, the same in a checkout and in an installed package."""
+    """Return a file's relative path, the same in a checkout and in an installed package."""
     for kind in ("derivations", "figures"):
         if file.parent == paper.scripts.base / kind:
             return f"{kind}/{file.name}"
@@ -111,12 +111,15 @@ def inputs(paper: Paper) -> dict[str, str]:
     """Return the SHA-256 of each kind of input of a whole run, by name."""
     package = {f for f in _PACKAGE.rglob("*") if f.is_file() and "__pycache__" not in f.parts}
     package -= {f for kind in ("derivations", "figures", "papers") for f in (_PACKAGE / kind).rglob("*")}
-    own = {f for f in paper.folder.iterdir() if f.is_file()}
-    package, own = (
+    catalogue = {f for f in paper.folder.iterdir() if f.is_file()}
+    package, catalogue = (
         {f for f in files if f.suffix not in _NO_SOURCE - {".py"} and f.name not in _NO_DATA}
-        for files in (package - own, own)
+        for files in (package - catalogue, catalogue)
     )
-    digests = {"catalogue of equations, claims, figures": _digest_of(own, paper), "package": _digest_of(package, paper)}
+    digests = {
+        "catalogue of equations, claims, figures": _digest_of(catalogue, paper),
+        "package": _digest_of(package, paper),
+    }
     scripts = {kind: (paper.scripts.base / kind).glob("*.*") for kind in ("derivations", "figures")}
-    kept = {kind: [f for f in files if f.suffix not in _NO_SOURCE - {".py"}] for kind, files in scripts.items()}
-    return digests | {kind: _digest_of(files, paper) for kind, files in kept.items()}
+    sources = {kind: [f for f in files if f.suffix not in _NO_SOURCE - {".py"}] for kind, files in scripts.items()}
+    return digests | {kind: _digest_of(files, paper) for kind, files in sources.items()}

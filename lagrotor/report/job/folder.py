@@ -1,4 +1,4 @@
-"""The folder of a report: what it may hold, and how a new one takes the place of the last only when it is whole."""
+"""The folder of a report: its allowed contents, and its replacement by a new report once that is complete."""
 
 import os
 import shutil
@@ -9,18 +9,18 @@ from pathlib import Path
 from lagrotor.errors import InputError
 from lagrotor.report.content import BESIDE
 
-TIMES = "times.json"  # how long each part took: the only file that two runs of the same inputs may not share
-CERTIFICATES = "certificates"  # where the job was given `--certify`
+TIMES = "times.json"  # computing times: the only file that may differ between two runs of the same inputs
+CERTIFICATES = "certificates"  # only with `--certify`
 CONTENTS = {*BESIDE, "pages", "figures", "errata.tex", CERTIFICATES, TIMES}
 _OF_VERSION_0_2 = {"made.json", "products"}
-# What pdflatex leaves beside the files that it is given: goes with the report that it was made from.
+# Files that pdflatex writes; they are deleted with the report.
 _COMPILED = {
     f"{stem}.{kind}" for stem in ("report", "errata") for kind in ("aux", "log", "out", "toc", "pdf", "synctex.gz")
 }
 
 
 def check_target(target: Path) -> Path:
-    """Return the folder with its links followed. Raises InputError unless it can be made, or is empty, or is a report."""
+    """Return the resolved folder; raise InputError unless it can be created, is empty, or is a report."""
     folder = target.resolve()
     if folder.exists() and not folder.is_dir():
         raise InputError(f"{target} is a file: choose a folder")
@@ -28,16 +28,16 @@ def check_target(target: Path) -> Path:
         raise InputError(f"{target}: the folder {folder.parent} is missing: make it first")
     if not os.access(folder.parent, os.W_OK):
         raise InputError(f"{target}: {folder.parent} cannot be written to: choose another folder")
-    held = {entry.name for entry in folder.iterdir()} if folder.is_dir() else set()
-    if other := sorted(held - CONTENTS - _COMPILED - _OF_VERSION_0_2):
-        raise InputError(f"{target} holds {other[0]}, which is no part of a report: choose a new or an empty folder")
-    if held and (missing := sorted({"index.html", "verdicts.json"} - held)):
+    entries = {entry.name for entry in folder.iterdir()} if folder.is_dir() else set()
+    if extra := sorted(entries - CONTENTS - _COMPILED - _OF_VERSION_0_2):
+        raise InputError(f"{target} holds {extra[0]}, which is no part of a report: choose a new or an empty folder")
+    if entries and (missing := sorted({"index.html", "verdicts.json"} - entries)):
         raise InputError(f"{target} is no report: {missing[0]} is missing: choose a new or an empty folder")
     return folder
 
 
 def _alive(process: str) -> bool:
-    """Return whether a process of that number is running."""
+    """Return True if a process with this number is running."""
     try:
         os.kill(int(process), 0)
     except (ValueError, OverflowError, ProcessLookupError):
@@ -49,7 +49,7 @@ def _alive(process: str) -> bool:
 
 @contextmanager
 def _alone(target: Path) -> Iterator[None]:
-    """Lock `target` against other runs. Raises InputError where another run has locked it."""
+    """Lock `target`; raise InputError if another run has locked it."""
     lock = target.with_name(f".{target.name}.lock")
     while True:
         try:
@@ -63,7 +63,7 @@ def _alone(target: Path) -> Iterator[None]:
                         f"{target} is being written by another run (process {owner or 'starting'}): wait until it ends, or "
                         "choose another folder"
                     ) from None
-                lock.unlink()  # of a run that was killed
+                lock.unlink()  # a killed run left it
     try:
         os.write(handle, str(os.getpid()).encode())
         os.close(handle)
@@ -74,10 +74,7 @@ def _alone(target: Path) -> Iterator[None]:
 
 @contextmanager
 def replacement(target: Path) -> Iterator[Path]:
-    """A new folder that takes the place of `target` when the block ends well, and is removed when it does not.
-
-    Raises InputError where another run is writing into `target`.
-    """
+    """Yield a new folder that replaces `target` if the block succeeds; raise InputError if another run writes there."""
     target = check_target(target)
     with _alone(target):
         yield from _rename_over(target)
@@ -85,10 +82,10 @@ def replacement(target: Path) -> Iterator[Path]:
 
 def _rename_over(target: Path) -> Iterator[Path]:
     new, old = target.with_name(f".{target.name}.new-{os.getpid()}"), target.with_name(f".{target.name}.old")
-    for left in target.parent.glob(f".{target.name}.new-*"):
-        if not _alive(left.name.rpartition("-")[2]):
-            shutil.rmtree(left, ignore_errors=True)
-    if old.exists() and not target.exists():  # a run that was killed between the two renames below
+    for stale in target.parent.glob(f".{target.name}.new-*"):
+        if not _alive(stale.name.rpartition("-")[2]):
+            shutil.rmtree(stale, ignore_errors=True)
+    if old.exists() and not target.exists():  # a run was killed between the two renames below
         old.rename(target)
     shutil.rmtree(new, ignore_errors=True)
     try:

@@ -1,4 +1,4 @@
-"""Steps in several processes: results in the order in which they end, nothing left behind when the run is stopped."""
+"""Steps in parallel processes: results in order of completion, and no process remains when the run is stopped."""
 
 import multiprocessing
 import os
@@ -13,15 +13,15 @@ from typing import Any, TypeVar
 from lagrotor.process_settings import begin_process
 
 Task = TypeVar("Task")
-# Loaded once, before the processes part.
+# Imported once, before the processes are forked.
 _LOADED = ["lagrotor.report.job.steps", "matplotlib.figure", "scipy.integrate"]
-# New objects before a search for garbage: more than half of a paper's steps leave, most of them expressions that sympy keeps.
-# A process takes half as much memory again, for searches that would find little.
+# New objects before a garbage collection. Most objects are expressions in sympy's cache, so frequent collections free little;
+# rare ones cost half as much memory again.
 _OBJECTS = 2_000_000
 
 
 def cores() -> int:
-    """Processors that this process may use; one where a debugger is attached."""
+    """Return the number of usable processors; 1 under a debugger."""
     if sys.gettrace() is not None or "pydevd" in sys.modules:
         return 1
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
@@ -32,60 +32,60 @@ def results(
     run: Callable[..., Any],
     jobs: int,
     begins: Callable[[Task], None],
-    given: Callable[[Task], Any] = lambda task: (),
+    inputs: Callable[[Task], Any] = lambda task: (),
 ) -> Iterator[tuple[Task, Any]]:
-    """(task, run(task, *given(task))) as each ends; `begins` is called with a task before it runs. jobs = 1: in this process.
+    """Yield (task, run(task, *inputs(task))) in order of completion; with jobs = 1 in this process.
 
-    given: what a task takes from the results of others; None while they are not there, and the task waits.
+    `begins` is called with a task before it runs. `inputs` returns its inputs from other results, None while they are missing.
     """
-    left, running = list(tasks), dict[Future[Any], Task]()
+    waiting, running = list(tasks), dict[Future[Any], Task]()
     if jobs == 1:
-        while left:
-            task, more = _next(left, given)
+        while waiting:
+            task, arguments = _next(waiting, inputs)
             begins(task)
-            yield task, run(task, *more)
+            yield task, run(task, *arguments)
         return
     with _pool(jobs) as pool:
-        while left or running:
-            while len(running) < jobs and any(given(task) is not None for task in left):
-                task, more = _next(left, given)
+        while waiting or running:
+            while len(running) < jobs and any(inputs(task) is not None for task in waiting):
+                task, arguments = _next(waiting, inputs)
                 begins(task)
                 with _interrupts_wait():
-                    running[pool.submit(run, task, *more)] = task
-            done, _ = wait(running, return_when=FIRST_COMPLETED)
-            for future in done:
+                    running[pool.submit(run, task, *arguments)] = task
+            finished, _ = wait(running, return_when=FIRST_COMPLETED)
+            for future in finished:
                 yield running.pop(future), future.result()
 
 
-def values(names: dict[str, Any], wanted: Collection[str]) -> dict[str, Any]:
-    """The values of the names that are wanted, as far as they can be handed to another process."""
+def values(names: dict[str, Any], exported: Collection[str]) -> dict[str, Any]:
+    """Return the values of the exported names that can be pickled."""
     result = {}
-    for name in names.keys() & set(wanted):
+    for name in names.keys() & set(exported):
         with suppress(pickle.PicklingError, TypeError, AttributeError):
             pickle.dumps(names[name])
             result[name] = names[name]
     return result
 
 
-def _next(left: list[Task], given: Callable[[Task], Any]) -> tuple[Task, Any]:
-    """Take the first task that need not wait, with what it is given."""
-    for i, task in enumerate(left):
-        if (more := given(task)) is not None:
-            return left.pop(i), more
-    raise RuntimeError(f"each of {left} waits for another")
+def _next(waiting: list[Task], inputs: Callable[[Task], Any]) -> tuple[Task, Any]:
+    """Remove the first task whose inputs are complete; return it with its inputs."""
+    for i, task in enumerate(waiting):
+        if (arguments := inputs(task)) is not None:
+            return waiting.pop(i), arguments
+    raise RuntimeError(f"each of {waiting} waits for another")
 
 
 @contextmanager
 def _interrupts_wait() -> Iterator[None]:
-    """An interrupt comes when this is done: a process that is being started is not yet one that the pool can end."""
+    """Delay an interrupt to the end of the block: the pool cannot yet end a process that is starting."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    previous = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
     finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        signal.pthread_sigmask(signal.SIG_SETMASK, previous)
 
 
 def _begin() -> None:
@@ -95,7 +95,7 @@ def _begin() -> None:
 
 @contextmanager
 def _pool(jobs: int) -> Iterator[ProcessPoolExecutor]:
-    """Processes that leave interrupts to their parent, and that end with it."""
+    """Yield processes that ignore interrupts and end with their parent."""
     methods = multiprocessing.get_all_start_methods()
     context = multiprocessing.get_context("forkserver" if "forkserver" in methods else "spawn")
     if hasattr(context, "set_forkserver_preload"):

@@ -1,8 +1,7 @@
-"""The main job: judge every equation, test every claim, draw every figure, write the report, and only then replace the last one.
+"""The job `lagrotor reproduce`: decide every equation, test every claim, draw every figure, and write the report.
 
-The steps do not depend on each other's order: they run in as many processes as there are cores. A claim's numbers and a figure
-are taken from an earlier run where nothing that they are made from has changed. The report is the same bytes whatever the
-number of processes.
+The steps run in parallel. Claims' numbers and figures of an earlier run are reused if their inputs have not changed. The report
+has the same bytes for any number of processes.
 """
 
 import json
@@ -22,7 +21,7 @@ from lagrotor.paper.papers import Paper
 from lagrotor.paper.scripts import beside
 from lagrotor.pictures.figures import Picture
 from lagrotor.proofs.coq.coq_check import certify
-from lagrotor.report.content import Report, ShownPart
+from lagrotor.report.content import Report, ResultSection
 from lagrotor.report.errata import latex_document
 from lagrotor.report.formulas.mathml_latex import converter
 from lagrotor.report.job import dependencies
@@ -39,9 +38,9 @@ StepProgress = Callable[[int], AbstractContextManager[Callable[[str], None]]]
 
 @dataclass(frozen=True)
 class JobOutcome:
-    """The result of a run: the number of equations with each verdict, of claims with each outcome, a sentence for each change.
+    """The outcome of a run: counts of verdicts and outcomes, and a sentence for each change.
 
-    taken: names of the steps whose product is from an earlier run; ["report"] when the whole report is.
+    `reused` names the steps whose product is from an earlier run; it is ["report"] if the whole report is.
     """
 
     equations: dict[str, int]
@@ -49,19 +48,18 @@ class JobOutcome:
     claims: dict[str, int]
     figures: int
     changes: list[str]
-    taken: list[str]
+    reused: list[str]
     seconds: float
 
 
 def reproduce(
     paper: Paper, target: Path, progress: StepProgress, jobs: int | None = None, certificates: bool = False
 ) -> JobOutcome:
-    """Judge, draw and write everything into the folder `target`; products that have not changed come from the cache.
+    """Compute or reuse every product and write the report into the folder `target`; the old report stays until this is complete.
 
-    jobs: how many processes; None: as many as there are cores, one in a debugger. certificates: with the proofs of the exact
-    verdicts as files of Coq. `progress(total)` gives the function that
-    is called with the name of each step as it begins. Raises InputError when `target` cannot be written, is no report, or is
-    being written by another run. Until all is done the old report stays.
+    jobs: number of processes; None: one per core, one in a debugger. certificates: True to write Coq proofs of exact verdicts.
+    `progress(total)` returns the function that is called with the name of each step as it begins. Raise InputError if `target`
+    cannot be written, is not a report, or is being written by another run.
     """
     began, on_record, old = time.perf_counter(), paper.recorded, check_target(target)
     made_from = json.dumps(
@@ -71,10 +69,10 @@ def reproduce(
     cache = Cache(paper)
     last = cache.take("report", whole)
     if last and last["files"].items() <= _digests(old).items():
-        return JobOutcome(**last["outcome"], taken=["report"], seconds=time.perf_counter() - began)
+        return JobOutcome(**last["outcome"], reused=["report"], seconds=time.perf_counter() - began)
     with replacement(target) as new:
         (new / "figures").mkdir()
-        products, seconds, taken = _make(cache, list(steps(paper)), new / "figures", progress, jobs or cores(), old)
+        products, seconds, reused = _make(cache, list(steps(paper)), new / "figures", progress, jobs or cores(), old)
         report = _report(paper, products)
         start = time.perf_counter()
         if certificates:
@@ -90,29 +88,26 @@ def reproduce(
         }
         cache.keep("report", whole, {"outcome": outcome, "files": _digests(new)})
         seconds["report"] = round(time.perf_counter() - start, 3)
-        _write_json(new / TIMES, {"seconds": seconds, "taken from earlier runs": taken})
-    return JobOutcome(**outcome, taken=taken, seconds=time.perf_counter() - began)
+        _write_json(new / TIMES, {"seconds": seconds, "taken from earlier runs": reused})
+    return JobOutcome(**outcome, reused=reused, seconds=time.perf_counter() - began)
 
 
 def _digests(folder: Path) -> dict[str, str]:
-    """Return the digest of each file of a report, by its place; without that of the times."""
+    """Return the digest of each file of a report, except the computing times, by its relative path."""
     files = {path.relative_to(folder).as_posix(): path for path in folder.rglob("*") if path.is_file()}
     return {name: digest(path.read_bytes()) for name, path in files.items() if name != TIMES}
 
 
 def _make(
-    cache: Cache, wanted: list[JobStep], folder: Path, progress: StepProgress, jobs: int, old: Path
+    cache: Cache, all_steps: list[JobStep], folder: Path, progress: StepProgress, jobs: int, old: Path
 ) -> tuple[dict[str, Any], dict[str, float], list[str]]:
-    """Make every step's product, or take it from the cache.
-
-    Returns the products by name in the order of the steps, the time (s) of each that was made, and the names of the others.
-    """
-    products: dict[str, Any] = dict.fromkeys(step.name for step in wanted)
-    for step in wanted:
+    """Return the products by name, the computing time in s of each computed one, and the names of the reused ones."""
+    products: dict[str, Any] = dict.fromkeys(step.name for step in all_steps)
+    for step in all_steps:
         if step.run is not derive and (product := cache.take(step.name, step.made_from)) is not None:
             products[step.name] = picture_from_json(product, folder) if step.run is draw_step else product
-    taken = [name for name, product in products.items() if product is not None]
-    left = sorted((step for step in wanted if products[step.name] is None), key=_longest_first(old))
+    reused = [name for name, product in products.items() if product is not None]
+    pending = sorted((step for step in all_steps if products[step.name] is None), key=_longest_first(old))
     seconds: dict[str, float] = {}
 
     def given(step: JobStep) -> tuple[dict[str, dict[str, Any]]] | None:
@@ -120,28 +115,28 @@ def _make(
         return None if None in needed.values() else ({stem: product.values for stem, product in needed.items()},)
 
     timed = partial(_run_timed, folder=folder)
-    with progress(len(left) + 1) as begins:
+    with progress(len(pending) + 1) as begins:
         for step, (product, took) in results(
-            left, timed, min(jobs, max(len(left), 1)), lambda step: begins(step.name), given
+            pending, timed, min(jobs, max(len(pending), 1)), lambda step: begins(step.name), given
         ):
             products[step.name], seconds[step.name] = product, round(took, 3)
             if step.run is not derive:
                 plain = picture_as_json(product) if isinstance(product, Picture) else product
                 cache.keep(step.name, step.made_from, plain)
         begins("report")
-    return products, {step.name: seconds[step.name] for step in wanted if step.name in seconds}, taken
+    return products, {step.name: seconds[step.name] for step in all_steps if step.name in seconds}, reused
 
 
-def _run_timed(step: JobStep, given: dict[str, dict[str, Any]], folder: Path) -> tuple[Any, float]:
-    """The step's product and how long it took, with the values that it takes from other derivations."""
+def _run_timed(step: JobStep, imported: dict[str, dict[str, Any]], folder: Path) -> tuple[Any, float]:
+    """Return the step's product and its computing time; `imported` holds values of other derivations."""
     began = time.perf_counter()
-    with step.paper.scripts.ran_elsewhere(given):
-        product = step.run(step.paper, step.part, folder)
+    with step.paper.scripts.ran_elsewhere(imported):
+        product = step.run(step.paper, step.key, folder)
     return product, time.perf_counter() - began
 
 
 def _longest_first(old: Path) -> Callable[[JobStep], float]:
-    """The steps in falling order of what they took last; in their own order where nothing is known."""
+    """Return a sort key by decreasing computing time of the last run."""
     try:
         took = json.loads((old / TIMES).read_text(encoding="utf-8"))["seconds"]
     except (OSError, ValueError, KeyError, TypeError):
@@ -150,39 +145,38 @@ def _longest_first(old: Path) -> Callable[[JobStep], float]:
 
 
 def _report(paper: Paper, products: dict[str, Any]) -> Report:
-    """Return everything that the report says."""
     derived = [product for product in products.values() if isinstance(product, Derived)]
-    verdicts = paper.with_reach(verdict for each in derived for verdict in each.verdicts)
+    verdicts = paper.with_reach(verdict for product in derived for verdict in product.verdicts)
     tested = _claim_results(paper, products)
     pictures = [product for product in products.values() if isinstance(product, Picture)]
-    parts = [_part(each, derived, pictures) for each in paper.about.part]
+    result_sections = [_result_section(entry, derived, pictures) for entry in paper.about.part]
     return Report(
         paper=paper,
         verdicts=tuple(verdicts),
         pictures=tuple(pictures),
         changes=tuple(paper.changes([*verdicts, *tested])),
         claims=tuple(tested),
-        parts=tuple(part for part in parts if part.tables or part.remarks or part.pictures),
-        derivations=tuple((each.stem, each.title, each.html) for each in derived),
+        result_sections=tuple(s for s in result_sections if s.tables or s.remarks or s.pictures),
+        derivations=tuple((product.stem, product.title, product.html) for product in derived),
         model=products.get("model", ""),
         versions=tuple(dependencies.versions().items()),
         inputs=tuple(dependencies.inputs(paper).items()),
     )
 
 
-def _part(part: ReportPart, derived: list[Derived], pictures: list[Picture]) -> ShownPart:
-    """Return the tables, remarks and figures of a part of the report."""
-    return ShownPart(
-        part.name,
-        part.heading,
-        tuple(table for each in derived if each.stem.startswith(part.tables) for table in each.tables),
-        tuple(remark for each in derived if each.stem.startswith(part.remarks) for remark in each.remarks),
-        tuple(picture for picture in pictures if picture.key.rstrip("0123456789") in part.figures),
+def _result_section(entry: ReportPart, derived: list[Derived], pictures: list[Picture]) -> ResultSection:
+    """Return the tables, findings and figures of a section of the report."""
+    return ResultSection(
+        entry.name,
+        entry.heading,
+        tuple(table for product in derived if product.stem.startswith(entry.tables) for table in product.tables),
+        tuple(remark for product in derived if product.stem.startswith(entry.remarks) for remark in product.remarks),
+        tuple(picture for picture in pictures if picture.key.rstrip("0123456789") in entry.figures),
     )
 
 
 def _claim_results(paper: Paper, products: dict[str, Any]) -> list[Result]:
-    """Every claim with its measured numbers, decided anew; theorems are those on record, `lagrotor claims` proves them again."""
+    """Return every claim decided by its measured numbers, with theorems on record (`lagrotor claims` proves them again)."""
     results = [Result(test, m := products[f"claim {i}"], test.decide(m), 0.0) for i, test in paper.claim_tests.items()]
     return [paper.with_theorems_on_record(result) for result in results]
 
@@ -204,7 +198,7 @@ def _write(folder: Path, report: Report) -> None:
 
 
 def _timeless(record: dict[str, Any]) -> dict[str, Any]:
-    """A record without its duration, which is another on each run."""
+    """Return a record without its duration, which differs between runs."""
     return {name: value for name, value in record.items() if name != "seconds"}
 
 

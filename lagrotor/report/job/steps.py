@@ -1,6 +1,4 @@
-"""The steps of the main job: each derivation, claim and figure by itself, what it is made from and what it gives; and the whole
-audit, in as many processes as there are cores.
-"""
+"""The steps of the job, one per derivation, claim and figure, and the whole audit in parallel processes."""
 
 import warnings
 from collections.abc import Callable, Iterator
@@ -24,8 +22,7 @@ from lagrotor.report.page.html_elements import derivation_html, title
 
 @dataclass(frozen=True)
 class Derived:
-    """The result of a derivation: verdicts, remarks, tables, its part of the page, and the values that other scripts take
-    from it, by name."""
+    """The result of a derivation: verdicts, findings, tables, HTML, and the values that other scripts import by name."""
 
     stem: str
     title: str
@@ -38,27 +35,27 @@ class Derived:
 
 @dataclass(frozen=True)
 class JobStep:
-    """One step: `run(paper, part, folder)` makes its product, writing its files into the folder of the figures."""
+    """One step: `run(paper, key, folder)` makes its product and writes its files into the folder of the figures."""
 
     name: str
     run: Callable[[Paper, str, Path], Any]
     paper: Paper
-    part: str
+    key: str
     source: Path
 
     @property
     def needs(self) -> tuple[str, ...]:
-        """Stems of the derivations whose values the step takes."""
+        """The stems of the derivations whose values the step imports."""
         return scripts_named(self.source, self.paper)
 
     @property
     def made_from(self) -> str:
-        """Digest of all that the product is made from."""
+        """The digest of all inputs of the product."""
         return source_digest(self.source, self.paper)
 
 
 def derive(paper: Paper, stem: str, folder: Path) -> Derived:
-    """Run a derivation and judge what it states; what its runs warn of is said on its page."""
+    """Run a derivation and decide its equations; warnings of its simulations appear on its page."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", LagrotorWarning)
         verdicts = paper.judged(stem)
@@ -66,28 +63,27 @@ def derive(paper: Paper, stem: str, folder: Path) -> Derived:
     remarks = tuple((remark.title, remark.text) for remark in script.shown(Remark))
     tables = tuple(table for table in script.names.get("tables", ()) if isinstance(table, Table))
     html = derivation_html(script, {v.id: v.verdict for v in verdicts})
-    taken = values(script.names, values_taken(stem, paper))
-    return Derived(stem, title(script, stem), tuple(verdicts), remarks, tables, html, taken)
+    exported = values(script.names, values_taken(stem, paper))
+    return Derived(stem, title(script, stem), tuple(verdicts), remarks, tables, html, exported)
 
 
 def measure(paper: Paper, identifier: str, folder: Path) -> dict[str, float]:
-    """The numbers of one claim's test."""
+    """Return the numbers of one claim's test."""
     return dict(paper.measured(identifier).measured)
 
 
 def draw_step(paper: Paper, key: str, folder: Path) -> figures.Picture:
-    """Draw one figure."""
     return figures.draw_figure(key, folder, paper.scripts)
 
 
 def model(paper: Paper, module: str, folder: Path) -> str:
-    """The interactive model, as a part of the page."""
+    """Return the interactive model as HTML."""
     with paper.importable():
         return str(import_module(module).interactive())
 
 
 def steps(paper: Paper) -> Iterator[JobStep]:
-    """Every step of the main job."""
+    """Yield every step of the job."""
     scripts = paper.scripts
     for stem in scripts.names("derivations"):
         yield JobStep(f"derivation {stem}", derive, paper, stem, scripts.path("derivations", stem))
@@ -101,14 +97,11 @@ def steps(paper: Paper) -> Iterator[JobStep]:
         yield JobStep("model", model, paper, paper.about.model, source)
 
 
-_FEW = 8  # scripts that are judged before other processes would have begun
+_FEW = 8  # fewer scripts run faster in one process
 
 
 def audit_in_processes(paper: Paper, progress: Progress, jobs: int | None = None) -> Audit:
-    """Judge every equation; jobs: how many processes, None: as many as there are cores, one for few scripts.
-
-    `progress` is called with the name of each script before it runs. Raises what `Paper.audit` raises.
-    """
+    """Decide every equation in `jobs` processes (None: one per core); `progress` is called with each script's name."""
     stems = paper.stating_scripts
     jobs = (1 if len(stems) < _FEW else cores()) if jobs is None else jobs
     if jobs == 1:
@@ -127,8 +120,8 @@ def audit_in_processes(paper: Paper, progress: Progress, jobs: int | None = None
     return paper.audit_of(verdict for stem in stems for verdict in judgements[stem][0])
 
 
-def _judge_script(paper: Paper, stem: str, given: dict[str, dict[str, Any]]) -> tuple[list[Verdict], dict[str, Any]]:
-    """The verdicts on what one script states, and the values that others take from it."""
-    with paper.scripts.ran_elsewhere(given):
+def _judge_script(paper: Paper, stem: str, imported: dict[str, dict[str, Any]]) -> tuple[list[Verdict], dict[str, Any]]:
+    """Return the verdicts of one script, and the values that other scripts import from it."""
+    with paper.scripts.ran_elsewhere(imported):
         verdicts = paper.judged(stem)
         return verdicts, values(paper.scripts.executed("derivations", stem).names, values_taken(stem, paper))

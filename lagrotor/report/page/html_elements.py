@@ -1,4 +1,4 @@
-"""The pieces of HTML that the page is put together from: tables, formulas, links, badges; a derivation, cell by cell."""
+"""HTML elements of the page: tables, formulas, links, badges, and a derivation cell by cell."""
 
 import re
 from base64 import b64encode
@@ -25,20 +25,20 @@ if TYPE_CHECKING:
     from lagrotor.drawing.run_figure import RunFigure
 
 
-# Left by `plain_text`: an index that is not a number, a power that is not whole, a name of the program.
+# `plain_text` does not treat a non-numeric index, a non-integer power, or a name of the program.
 _INDEX = re.compile(r"(?<![\w&])([A-Za-zͰ-Ͽ][\u0307\u0308]?)_([A-Za-z0-9]+(?:_[A-Za-z0-9]+)*)")
 _POWER = re.compile(r"\^(−?[\w.]+\w|−?\w|\([^()]*\))")
 _CODE = re.compile(r"(?<![\w&.])([A-Za-z][A-Za-z0-9]+(?:_\w+)+)")
 
 
 def prose(text: str) -> str:
-    """Plain text for HTML, its formulas as people read them; between dollars LaTeX, which is typeset."""
-    plain, *rest = text.split("$")
-    parts = [_plain(plain)]
-    for n, part in enumerate(rest):
-        formula = mathml(part, display=False) if n % 2 == 0 and n + 1 < len(rest) else None
-        parts.append(formula or _plain(part))
-    return "".join(parts)
+    """Return plain text as HTML with readable formulas; LaTeX between dollars is typeset."""
+    plain, *segments = text.split("$")
+    pieces = [_plain(plain)]
+    for n, piece in enumerate(segments):
+        formula = mathml(piece, display=False) if n % 2 == 0 and n + 1 < len(segments) else None
+        pieces.append(formula or _plain(piece))
+    return "".join(pieces)
 
 
 def _plain(text: str) -> str:
@@ -49,29 +49,27 @@ def _plain(text: str) -> str:
 
 
 def html_table(head: tuple[str, ...], lines: Iterable[tuple[str, ...]], kind: str = "plain") -> str:
-    """A table of cells that are HTML already; the first of each line names it."""
+    """Return a table of HTML cells; the first cell of each line is its header."""
     heads = [escape(readable(cell), quote=True) for cell in head[1:]]
     top = "".join(f'<th scope="col">{prose(cell)}</th>' for cell in head)
-    body = "".join(
-        f'<tr><th scope="row">{first}</th>' + "".join(map(_under, heads, rest)) + "</tr>" for first, *rest in lines
-    )
-    return f'<div class="wide"><table class="{kind}"><thead><tr>{top}</tr></thead><tbody>{body}</tbody></table></div>'
+    rows = (f'<tr><th scope="row">{first}</th>{"".join(map(_under, heads, cells))}</tr>' for first, *cells in lines)
+    return f'<div class="wide"><table class="{kind}"><thead><tr>{top}</tr></thead><tbody>{"".join(rows)}</tbody></table></div>'
 
 
 def _under(head: str, cell: str) -> str:
-    """A cell with its column's heading, which a narrow screen shows before it."""
+    """Return a cell with its column's heading, which a narrow screen shows before it."""
     return f'<td data-head="{head}">{cell}</td>' if head else f"<td>{cell}</td>"
 
 
 def number_list(what: str, measured: Iterable[tuple[str, float]]) -> str:
-    """Measured numbers by name, six digits of each."""
+    """Return a table of measured numbers by name, with six digits."""
     return html_table(
         (what, "Value"), ((prose(name.replace("_", " ")), prose(f"{value:.6g}")) for name, value in measured)
     )
 
 
 def side_by_side(table: Table, report: Report) -> str:
-    """A table of the derivations under its title, with its note."""
+    """Return a table of a derivation with its title and note."""
     lines = [tuple(_cell(cell, report) for cell in row) for row in table.rows]
     note = f"<p><small>{prose(table.note)}</small></p>" if table.note else ""
     return f'<div class="table"><h3>{prose(table.title)}</h3>{html_table(table.head, lines)}{note}</div>'
@@ -79,7 +77,7 @@ def side_by_side(table: Table, report: Report) -> str:
 
 def _cell(cell: Cell, report: Report) -> str:
     if isinstance(cell, tuple):
-        return "<br>".join(_cell(part, report) for part in cell)
+        return "<br>".join(_cell(line, report) for line in cell)
     if isinstance(cell, FigureLink):
         drawn = any(picture.key == cell.key for picture in report.pictures)
         return links([f"figure {cell.key}"]) if drawn else f"figure {escape(cell.key)}"
@@ -87,100 +85,95 @@ def _cell(cell: Cell, report: Report) -> str:
 
 
 def fact_list(facts: Iterable[Fact]) -> str:
-    """Facts as a list of labels and what is said of them; nothing for none."""
-    said = "".join(map(_fact, facts))
-    return f"<dl>{said}</dl>" if said else ""
+    """Return facts as a description list; empty for no facts."""
+    items = "".join(map(_fact, facts))
+    return f"<dl>{items}</dl>" if items else ""
 
 
 def _fact(fact: Fact) -> str:
     symbols = "".join(f" {inline(letter)}" for letter in fact.formulas if letter.is_Symbol)
-    parts = [f"<p>{prose(text)}{symbols}</p>" for text in fact.texts]
-    parts += [f"<p>{links(fact.ids)}</p>"] * bool(fact.ids)
-    parts += [typeset(latex(formula)) for formula in fact.formulas if not formula.is_Symbol]
-    parts += map(typeset, fact.sources)
-    return f"<div><dt>{escape(fact.label)}</dt><dd>{''.join(parts)}</dd></div>"
+    paragraphs = [f"<p>{prose(text)}{symbols}</p>" for text in fact.texts]
+    paragraphs += [f"<p>{links(fact.ids)}</p>"] * bool(fact.ids)
+    paragraphs += [typeset(latex(formula)) for formula in fact.formulas if not formula.is_Symbol]
+    paragraphs += map(typeset, fact.sources)
+    return f"<div><dt>{escape(fact.label)}</dt><dd>{''.join(paragraphs)}</dd></div>"
 
 
 def inline(expression: sp.Basic) -> str:
-    """An expression within a line; its LaTeX where the converter is not installed."""
+    """Return an expression in a line of text; its LaTeX if the converter is not installed."""
     source = latex(expression)
     return mathml(source, display=False) or f"<code>{escape(source)}</code>"
 
 
 def typeset(source: str) -> str:
-    """LaTeX as a formula; its source, with a note, where the converter is not installed or cannot set it."""
+    """Return LaTeX as a formula; its source with a note if the converter is not installed or fails."""
     formula = mathml(source)
     if formula is None:
-        why = (
-            "what latex2mathml cannot set is shown as it is"
-            if converter()
-            else "install latex2mathml to have it typeset"
-        )
+        why = "latex2mathml cannot convert this" if converter() else "install latex2mathml to have it typeset"
         return f"{code(source)}<p><small>LaTeX: {why}.</small></p>"
     return f'<div class="wide">{formula}</div>'
 
 
 def code(source: str) -> str:
-    """Source text in lines that break."""
+    """Return source text in breakable lines."""
     return f"<pre><code>{escape(source)}</code></pre>"
 
 
 def fold(summary: str, inside: str, kind: str = "fold") -> str:
-    """Content that the reader opens."""
+    """Return content that the reader can unfold."""
     return f'<details class="{kind}"><summary>{escape(summary)}</summary>{inside}</details>'
 
 
 def badge(answer: str) -> str:
-    """A verdict or an outcome, in its colour."""
+    """Return a verdict or an outcome in its colour."""
     return f'<span class="badge {answer}">{escape(word(answer))}</span>'
 
 
 def link(identifier: str) -> str:
-    """A link to an equation, a claim or a figure."""
+    """Return a link to an equation, a claim or a figure."""
     return f'<a href="#{anchor(identifier)}">{escape(identifier)}</a>'
 
 
 def file_link(name: str) -> str:
-    """A link to a file of the page's folder."""
+    """Return a link to a file of the page's folder."""
     return f'<a href="{name}">{name}</a>'
 
 
 def links(identifiers: Iterable[str]) -> str:
-    """Links one after the other."""
     return " ".join(f'<span class="id">{link(identifier)}</span>' for identifier in identifiers)
 
 
 def heading(identifier: str, name: str, title: str, answer: str = "") -> str:
-    """The heading of an entry: its name, which is the link to the entry itself, its title and its verdict."""
+    """Return the heading of an entry: its name with a permanent link, its title and its verdict."""
     mark = f" {badge(answer)}" if answer else ""
     return f'<h3><a class="permalink" href="#{identifier}">{escape(name)}</a> {prose(title)}{mark}</h3>'
 
 
 def derivation_html(script: Script, answers: Mapping[str, str]) -> str:
-    """One derivation, cell by cell, without its title; `answers` holds the verdicts by equation."""
+    """Return one derivation, cell by cell, without its title; `answers` holds the verdicts by equation."""
     html = ""
     for cell in script.cells:
         html += markdown_html(re.sub(r"\A# .*\n?", "", cell.text) if cell.kind == "prose" else "")
         html += "".join(_value_html(value, answers) for value in cell.shown)
-        html += "".join(f"<p><small>The run warns: {prose(text)}.</small></p>" for text in cell.warned)
+        html += "".join(f"<p><small>Warning of the simulation: {prose(text)}.</small></p>" for text in cell.warned)
     return html
 
 
 def title(script: Script, stem: str) -> str:
-    """The first heading of a derivation; its name where it has none."""
+    """Return the first heading of a derivation, or its stem."""
     text = next((cell.text for cell in script.cells if cell.kind == "prose"), stem)
     return text.splitlines()[0].lstrip("# ")
 
 
 def markdown_html(text: str) -> str:
-    """Markdown with formulas between dollars as HTML; unchanged where markdown-it is not installed."""
+    """Return Markdown with formulas between dollars as HTML; unchanged if markdown-it is not installed."""
     try:
         renderer = _renderer()
     except ModuleNotFoundError:
         return f"<pre>{escape(text)}</pre>"
     text = re.sub(r"\s*(\$\$.+?\$\$)\s*", r"\n\n\1\n\n", text, flags=re.DOTALL)  # a displayed formula is a paragraph
     html: str = renderer.render(text)
-    html = html.replace('<div class="math block">', '<div class="wide">')  # drawn smaller or scrolled, as every formula
+    html = html.replace('<div class="math block">', '<div class="wide">')  # reduced or scrolled like every formula
     for level in (3, 2, 1):  # below a heading of the page
         html = html.replace(f"<h{level}>", f"<h{level + 1}>").replace(f"</h{level}>", f"</h{level + 1}>")
     return html
@@ -207,7 +200,7 @@ def _formula(source: str, options: Mapping[str, Any]) -> str:
 
 def _value_html(value: Any, answers: Mapping[str, str]) -> str:
     if isinstance(value, tuple | list):
-        return "".join(_value_html(part, answers) for part in value)
+        return "".join(_value_html(item, answers) for item in value)
     if isinstance(value, Step):
         how = "exactly" if value.small is None else f"through order {value.order or 0}"
         says = f"<p><small>Decided {how}: {prose(value.says)}.</small></p>" if value.says else ""
@@ -232,7 +225,7 @@ def _value_html(value: Any, answers: Mapping[str, str]) -> str:
 
 
 def _png(figure: "RunFigure") -> str:
-    """The figure as an address that holds it; coarse and in 64 colours, as many are on a page."""
+    """Return the figure as a data address, at low resolution in 64 colours, since a page has many of them."""
     from PIL import Image
 
     from lagrotor.drawing.style import laid_out
@@ -252,18 +245,18 @@ def _derived_cell(cell: Any) -> str:
 
 
 def link_to_derivation(identifier: str, report: Report) -> str:
-    """A link to where an equation is derived on the page; nothing where its derivation is not in the report."""
+    """Return a link to the derivation of an equation; empty if it is not in the report."""
     stem, _ = report.paper.scripts.stating.get(identifier, ("", 0))
-    there = any(stem == shown for shown, _, _ in report.derivations)
-    return f'<p><a href="#derivation-{stem}">The derivation</a> of {link(identifier)}</p>' if there else ""
+    is_listed = any(stem == derived for derived, _, _ in report.derivations)
+    return f'<p><a href="#derivation-{stem}">The derivation</a> of {link(identifier)}</p>' if is_listed else ""
 
 
-# A data address ends at #, and % begins an escape in it; the rest is what an attribute cannot hold. % comes first.
+# In a data address # ends it and % begins an escape; an attribute cannot contain the others. % must come first.
 _ESCAPED = {"%": "%25", "#": "%23", "<": "%3C", ">": "%3E", "&": "%26", '"': "'"}
 
 
 def data_address(picture: Picture) -> str:
-    """The `data:` address of a picture."""
+    """Return a picture as a `data:` address."""
     source = picture.svg.read_text(encoding="utf-8")
     for character, escaped in _ESCAPED.items():
         source = source.replace(character, escaped)
@@ -271,6 +264,6 @@ def data_address(picture: Picture) -> str:
 
 
 def size(picture: Picture) -> tuple[int, int]:
-    """Width and height of a picture in points, rounded, from its SVG."""
+    """Return the width and height of a picture in points, rounded, from its SVG."""
     box = re.search(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', picture.svg.read_text(encoding="utf-8"))
     return (round(float(box[1])), round(float(box[2]))) if box else (1, 1)

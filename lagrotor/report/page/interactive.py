@@ -1,8 +1,8 @@
-"""The interactive model of the report: the pair on sliders, with its formulas generated as JavaScript.
+"""The interactive model of the report: the pair with sliders, its formulas generated as JavaScript.
 
-What the browser computes comes from the expressions that Python compiles: the minimal model's rates and axes, the
-periodic series with the bar left free, the paper's formula. Written by hand are the stepper, the drawing and the
-controls (interactive_*.js), the look (interactive.css) and the markup (interactive.html).
+The browser evaluates the same expressions that Python compiles: the minimal model's rates and axes, the periodic series for any
+bar, and the paper's formula. The stepper, drawing and controls (interactive_*.js), the style (interactive.css) and the markup
+(interactive.html) are written by hand.
 """
 
 from collections.abc import Iterator
@@ -47,16 +47,16 @@ from lagrotor.theory.natural_frequency import linear_pair, natural_frequency
 from lagrotor.theory.paired_precession import horner
 from lagrotor.theory.paired_precession.series import paired_series
 
-PAGE_ORDER = 9  # of the series: the highest whose coefficients, for any bar, are short enough to carry
+PAGE_ORDER = 9  # highest order of the series whose coefficients are short enough for the page
 _BARS: tuple[Ratio, ...] = "short", "equal", "long"
 _Y_1, _Y_2 = AXES.v[1], AXES.v[4]
 
 
 @cache
 def interactive() -> str:
-    """Return the pair as an HTML fragment that needs nothing else: `<section id="model">`, its style and its script."""
-    written = [_part(f"interactive_{name}.js") for name in ("motion", "drawing", "controls")]
-    lines = [javascript_formulas(), canvas_script(), *written, 'show(document.getElementById("model"));']
+    """Return the pair as a self-contained HTML fragment: `<section id="model">`, its style and its script."""
+    scripts = [_part(f"interactive_{name}.js") for name in ("motion", "drawing", "controls")]
+    lines = [javascript_formulas(), canvas_script(), *scripts, 'show(document.getElementById("model"));']
     script = "\n".join(["(() => {", '"use strict";', *lines, "})();"])
     return _part("interactive.html").replace("/* script */", script).replace("/* style */", _part("interactive.css"))
 
@@ -67,7 +67,7 @@ def _part(file: str) -> str:
 
 @cache
 def javascript_formulas() -> str:
-    """Return the generated part of the script: the series' order, and one function a program."""
+    """Return the generated part of the script: the series' order, and one function per program."""
     lines = [f"const ORDER = {PAGE_ORDER};", *(javascript(program, name) for name, program in page_programs().items())]
     return "\n".join(lines)
 
@@ -113,7 +113,7 @@ def _rate(ratio: Ratio) -> Program:
 
 
 def _pair_at(ratio: Ratio) -> sp.Matrix:
-    """r_1 and r_2, one under the other, in the coordinates of the minimal model."""
+    """Return r_1 and r_2, stacked, in the coordinates of the minimal model."""
     curve = bar_curve(ratio)
     embedding = minimal_embedding(curve.twist, curve.latitude)
     first, second = (mercator_axis(*MERCATOR.q[i : i + 2]).subs(embedding) for i in (0, 2))
@@ -123,14 +123,14 @@ def _pair_at(ratio: Ratio) -> sp.Matrix:
 def _start(ratio: Ratio) -> Program:
     U, chi, alpha = MINIMAL.q
     parallel = {U: sp.atanh(amplitude), chi: 0, alpha: 0}
-    across = sp.Matrix([_pair_at(ratio)[i] for i in (1, 4)])
-    slopes = across.jacobian([chi, alpha]).subs(parallel)
+    ordinates = sp.Matrix([_pair_at(ratio)[i] for i in (1, 4)])
+    slopes = ordinates.jacobian([chi, alpha]).subs(parallel)
     rates = slopes.LUsolve(sp.Matrix([_Y_1, _Y_2]))
     return Program((amplitude, _Y_1, _Y_2, k), (), (parallel[U], sp.Integer(0), sp.Integer(0), sp.Integer(0), *rates))
 
 
 def _small_motion() -> Program:
-    """M q'' + C q' = 0 about the mean: M q' = −C q, with q where the axes are parallel, y_1 = y_2 = 0."""
+    """Return the rates of M q'' + C q' = 0 about the mean, M q' = −C q, at parallel axes with y_1 = y_2 = 0."""
     linear = linear_pair()
     parallel = linear.basis[0, :].T * amplitude
     rates = -linear.basis * linear.mass.LUsolve(linear.gyroscopic * parallel)
@@ -138,7 +138,7 @@ def _small_motion() -> Program:
 
 
 def _series() -> Program:
-    """Symbols r_n stand for the powers r_0**n, so that one function serves every order: those beyond it are put to 0."""
+    """Return the series; symbols r_n stand for r_0**n and are 0 beyond the order, so one function serves every order."""
     orbit, cosine = paired_series(PAGE_ORDER), sp.Symbol("c", real=True)
     powers = [sp.Integer(1), *(sp.Symbol(f"r_{n}", real=True) for n in range(1, PAGE_ORDER + 1))]
     stages: list[Stage] = []

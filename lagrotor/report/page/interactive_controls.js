@@ -60,22 +60,22 @@ function show(root) {
     const said = [];
     if (run.impulse) {
       said.push(`After a shock of ${fixed(run.impulse[0], 2)} and ${fixed(run.impulse[1], 2)} N s along x and y on tip 1: the exact `
-        + "motion from the shock on. A slider starts anew.");
+        + "motion after the shock. Moving a slider restarts the run.");
     } else if (setting.spins.every((spin) => spin === 0)) {
-      said.push("Without spin nothing drives the pair: it stays where it is put.");
+      said.push("Without spin the pair stays at rest where it is placed.");
     } else if (!run.paired) {
-      said.push("The paper's formula and the series hold for opposite spins only. Shown is the exact model, started as a "
+      said.push("The paper's formula and the series hold for opposite spins only. The exact model is shown; it starts as a "
         + "small oscillation.");
     } else {
-      if (!run.periodic) said.push("No periodic orbit was found: the exact run starts as the series does.");
+      if (!run.periodic) said.push("No periodic orbit is known: the exact run starts with the initial state of the series.");
       if (run.undecided > 0.01) {
-        const moved = `its last two orders still move a tip by ${fixed(run.undecided, 2)} m`;
+        const moved = `its last two orders change the position of a tip by ${fixed(run.undecided, 2)} m`;
         said.push(run.diverges ? `The series diverges here: ${moved}, more than the two before them.`
           : `The series converges slowly here: ${moved}.`);
       }
-      if (setting.ell !== 1 || setting.mass > 0) said.push("The paper's formula is for a massless bar as long as an axis.");
+      if (setting.ell !== 1 || setting.mass > 0) said.push("The paper's formula assumes a massless bar as long as an axis.");
     }
-    if (!exact) said.push(`The exact run ends at ${fixed(run.exact.end, 2)} s: an axis came to lie along the joint line.`);
+    if (!exact) said.push(`The exact run ends at ${fixed(run.exact.end, 2)} s: an axis reached the joint line.`);
     say("note", said.join(" "));
   }
 

@@ -93,7 +93,7 @@ function setUpSearch(script) {
 function setUpFigures() {
   const dialog = document.createElement("dialog");
   dialog.innerHTML = '<button type="button">Close</button><div class="large"></div>';
-  dialog.setAttribute("aria-label", "The figure, large");
+  dialog.setAttribute("aria-label", "Enlarged figure");
   document.body.append(dialog);
   dialog.addEventListener("click", () => dialog.close());
   for (const image of document.querySelectorAll("figure > img, .results img")) {

@@ -1,7 +1,7 @@
-"""The report as pages: a front page, one page a section of the paper and a derivation; and as one file that needs nothing else.
+"""The report as pages (a front page, one page per section of the paper and per derivation), and as one self-contained file.
 
-Both are made of the same sections. In a section a link names a place, `#eq-5.07`, or a file beside the front page, and an
-image its file; the pages put the page before a place, and the single file puts the figures inside.
+Both consist of the same sections. A link in a section is an anchor, `#eq-5.07`, or a file of the report's folder. In the pages
+the page's address is put before an anchor; in the single file the figures are embedded.
 """
 
 import json
@@ -13,19 +13,19 @@ from pathlib import Path
 from posixpath import dirname, relpath
 
 from lagrotor.paper.plain_text import readable
-from lagrotor.report.content import SUBTITLE, Report, ShownPart
+from lagrotor.report.content import SUBTITLE, Report, ResultSection
 from lagrotor.report.formulas.font import font_face
 from lagrotor.report.page.html_elements import data_address, prose, side_by_side
 from lagrotor.report.page.sections import Section, introduction, picture_entry, sections
 
 _HERE = Path(__file__).parent
-# Hidden until the script shows it: without the script there is nothing that could search.
+# Hidden until the script, which performs the search, shows it.
 _SEARCH = (
     '<form id="search" role="search" hidden><label for="query">Find</label>'
     '<input id="query" type="search" autocomplete="off" placeholder="{}, a word, a number">'
     '<p id="found" role="status"></p><ol id="hits"></ol></form>'
 )
-# Sections that have a page together, besides those of the paper, each of which has its own.
+# Sections that share a page; each section of the paper has its own.
 _FRONT = ("model", "summary", "verdicts")
 _ABOUT = ("notation", "waiting", "cite", "made")
 FOLDER = "pages"
@@ -39,7 +39,7 @@ _UNREAD = re.compile(r"<(script|style)\b.*?</\1>", re.DOTALL)
 
 @dataclass(frozen=True)
 class Page:
-    """One file of the report: its address from the front page, its name in the contents, what stands on it."""
+    """One file of the report: its address relative to the front page, its name in the contents, its sections."""
 
     file: str
     name: str
@@ -48,12 +48,12 @@ class Page:
 
     @property
     def body(self) -> str:
-        """Its sections, one after the other."""
+        """The HTML of all sections."""
         return "\n".join(section.html for section in self.sections)
 
 
 def whole_page(report: Report) -> str:
-    """The whole report as one page: style, script, font, formulas and figures are inside it."""
+    """Return the whole report as one page with style, script, font, formulas and figures inside."""
     everything = sections(report)
     body = "\n".join(section.html for section in everything)
     for picture in report.pictures:
@@ -63,31 +63,33 @@ def whole_page(report: Report) -> str:
 
 
 def pages(report: Report) -> dict[str, str]:
-    """The files of the report as pages, by their address in its folder: HTML, one style, one script, the words to be found."""
-    made = _pages(report)
-    places = {place: page.file for page in made for place in _PLACE.findall(page.body)}
-    words = [row for page in made for row in _words(page.file, page.sections)]
+    """Return the files of the report as pages by address: HTML, the style, the script, and the words of the search."""
+    all_pages = _pages(report)
+    places = {place: page.file for page in all_pages for place in _PLACE.findall(page.body)}
+    words = [row for page in all_pages for row in _words(page.file, page.sections)]
     assets = {"page.css": _style(), "page.js": _script(), "words.js": _data(words)}
     files = {f"{FOLDER}/{name}": text for name, text in assets.items()}
-    return {page.file: _page(page, made, places, report) for page in made} | files
+    return {page.file: _page(page, all_pages, places, report) for page in all_pages} | files
 
 
 def _pages(report: Report) -> list[Page]:
-    """The pages in the order of the contents; figures and derivations stand with what they show and derive."""
-    left = {section.anchor: section for section in sections(report)}
-    figures = left.pop("figures", None)
-    derivations = left.pop("derivations", None)
+    """Return the pages in the order of the contents; figures and derivations belong to the section that they illustrate."""
+    remaining = {section.anchor: section for section in sections(report)}
+    figures = remaining.pop("figures", None)
+    derivations = remaining.pop("derivations", None)
     if figures:
-        left |= _figures(left, figures, report)
+        remaining |= _figures(remaining, figures, report)
     if derivations:
-        left |= _derivation_lists(left, report)
-    front = [left.pop(anchor) for anchor in _FRONT if anchor in left]
-    for part in report.paper.about.part:
-        if part.front and part.name in left:
-            front.append(_in_short(report.part(part.name), report) if part.figures else left.pop(part.name))
-    about = [left.pop(anchor) for anchor in _ABOUT if anchor in left]
+        remaining |= _derivation_lists(remaining, report)
+    front = [remaining.pop(anchor) for anchor in _FRONT if anchor in remaining]
+    for entry in report.paper.about.part:
+        if entry.front and entry.name in remaining:
+            front.append(
+                _in_short(report.result_section(entry.name), report) if entry.figures else remaining.pop(entry.name)
+            )
+    about = [remaining.pop(anchor) for anchor in _ABOUT if anchor in remaining]
     result = [Page("index.html", "In short", tuple(front))]
-    result += [Page(f"{FOLDER}/{anchor}.html", section.heading, (section,)) for anchor, section in left.items()]
+    result += [Page(f"{FOLDER}/{anchor}.html", section.heading, (section,)) for anchor, section in remaining.items()]
     result.append(Page(f"{FOLDER}/about.html", "How this was made", tuple(about)))
     for stem, name, inside in report.derivations:
         alone = Section(f"derivation-{stem}", name, inside)
@@ -95,58 +97,60 @@ def _pages(report: Report) -> list[Page]:
     return result
 
 
-def _in_short(part: ShownPart, report: Report) -> Section:
-    """The tables of a part, with the way to the rest of it."""
-    tables = "".join(side_by_side(table, report) for table in part.tables)
+def _in_short(section: ResultSection, report: Report) -> Section:
+    """Return the tables of a section, with a link to the rest of it."""
+    tables = "".join(side_by_side(table, report) for table in section.tables)
     return Section(
-        f"{part.name}-in-short", part.heading, f'{tables}<p><a href="#{part.name}">More, with figures</a></p>'
+        f"{section.name}-in-short", section.heading, f'{tables}<p><a href="#{section.name}">More, with figures</a></p>'
     )
 
 
-def _figures(left: Mapping[str, Section], figures: Section, report: Report) -> dict[str, Section]:
-    """The sections of the paper with their figures, and those figures that belong to no section with equations."""
+def _figures(remaining: Mapping[str, Section], figures: Section, report: Report) -> dict[str, Section]:
+    """Return the sections of the paper with their figures, and the figures that belong to no such section."""
     of: dict[str, list[str]] = {}
     numbered = {str(number): entry.section for number, entry in report.paper.figures.items()}
-    for picture in report.part("figures").pictures:
+    for picture in report.result_section("figures").pictures:
         section = numbered.get(picture.key, "")
-        while section and f"section-{section}" not in left:
+        while section and f"section-{section}" not in remaining:
             section = section.rpartition(".")[0]
         of.setdefault(f"section-{section}" if section else "figures", []).append(picture_entry(picture, report))
-    filled = {name: left.get(name, replace(figures, inside="")) for name in of}
+    filled = {name: remaining.get(name, replace(figures, inside="")) for name in of}
     return {
         name: replace(filled[name], inside=filled[name].inside + "\n".join(entries)) for name, entries in of.items()
     }
 
 
-def _derivation_lists(left: Mapping[str, Section], report: Report) -> dict[str, Section]:
-    """The sections that have derivations, each with links to its own; those of no section stand by themselves."""
+def _derivation_lists(remaining: Mapping[str, Section], report: Report) -> dict[str, Section]:
+    """Return the sections with links to their derivations; the other derivations have their own section."""
     of: dict[str, list[str]] = {}
     for stem, name, _ in report.derivations:
         owner = _owner(stem, report)
         link = f'<li><a href="#derivation-{stem}">{prose(name)}</a></li>'
-        of.setdefault(owner if owner in left else "derivations", []).append(link)
+        of.setdefault(owner if owner in remaining else "derivations", []).append(link)
     alone = Section("derivations", "Other derivations", "")
     lists = {name: f'<h3>Derivations</h3><ul class="derivations">{"".join(links)}</ul>' for name, links in of.items()}
-    filled = {name: left.get(name, alone) for name in of}
+    filled = {name: remaining.get(name, alone) for name in of}
     return {name: replace(filled[name], inside=filled[name].inside + html) for name, html in lists.items()}
 
 
 def _owner(stem: str, report: Report) -> str:
-    """The section in which what a derivation states, tests or tabulates is shown."""
+    """Return the section that shows the equations, tests or tables of a derivation."""
     about = report.paper.about
     for identifier, (stating, _) in report.paper.scripts.stating.items():
         if stating == stem:
             return f"section-{report.paper.equation(identifier).section}"
     if about.claims_in and stem.startswith(about.claims_in):
         return "claims"
-    beginnings = [(name, part.name) for part in about.part for name in part.tables + part.remarks if name]
+    beginnings = [(name, entry.name) for entry in about.part for name in entry.tables + entry.remarks if name]
     return max(
-        (each for each in beginnings if stem.startswith(each[0])), key=lambda each: len(each[0]), default=("", "")
+        (candidate for candidate in beginnings if stem.startswith(candidate[0])),
+        key=lambda candidate: len(candidate[0]),
+        default=("", ""),
     )[1]
 
 
-def _page(page: Page, made: list[Page], places: Mapping[str, str], report: Report) -> str:
-    """A page with its links and images addressed from where it lies."""
+def _page(page: Page, all_pages: list[Page], places: Mapping[str, str], report: Report) -> str:
+    """Return a page with links and images relative to its own address."""
     folder = dirname(page.file) or "."
 
     def address(match: re.Match[str]) -> str:
@@ -157,23 +161,18 @@ def _page(page: Page, made: list[Page], places: Mapping[str, str], report: Repor
             return match[0]
         return f'{name}="{relpath(file, folder)}{mark}{place}"'
 
-    contents = [("#content" if other is page else other.file, other.name) for other in made if other.listed]
+    contents = [("#content" if entry is page else entry.file, entry.name) for entry in all_pages if entry.listed]
     style = f'<link rel="stylesheet" href="{FOLDER}/page.css">'
     words, up = relpath(f"{FOLDER}/words.js", folder), relpath(".", folder)
     script = f'<script src="{FOLDER}/page.js" data-words="{words}" data-up="{up}/"></script>'
-    text = _document(report, page.body, contents, style, script, "" if page is made[0] else page.name)
+    text = _document(report, page.body, contents, style, script, "" if page is all_pages[0] else page.name)
     return _ADDRESS.sub(address, text)
 
 
 def _document(
-    report: Report,
-    body: str,
-    contents: Iterable[tuple[str, str]],
-    style: str,
-    script: str,
-    name: str = "",
+    report: Report, body: str, contents: Iterable[tuple[str, str]], style: str, script: str, name: str = ""
 ) -> str:
-    """A whole HTML document; under a name it is one of several, and its title leads to the front page."""
+    """Return a whole HTML document; the title of a page with a name links to the front page."""
     listed = "".join(
         f'<li><a href="{address}"{_CURRENT if address == "#content" else ""}>{prose(heading)}</a></li>'
         for address, heading in contents
@@ -202,26 +201,26 @@ def _document(
     )
 
 
-def _words(file: str, shown: Iterable[Section]) -> list[tuple[str, str, str, str]]:
-    """Return the rows of the search: (address, number or name, heading, all words) of each entry, then of the section."""
+def _words(file: str, listed: Iterable[Section]) -> list[tuple[str, str, str, str]]:
+    """Return the search entries (address, number or name, heading, words) of each entry and then of the section."""
     rows = []
-    for section in shown:
-        rest = section.html
-        for whole, _, anchor, inside in _ENTRY.findall(rest):
-            rest = rest.replace(whole, "", 1)
+    for section in listed:
+        text = section.html
+        for whole, _, anchor, inside in _ENTRY.findall(text):
+            text = text.replace(whole, "", 1)
             title = re.search(r"<(h3|summary)>(.*?)</\1>", inside, re.DOTALL)
             rows.append((f"{file}#{anchor}", anchor, _text(title[2] if title else anchor), _text(inside)))
-        rows.append((f"{file}#{section.anchor}", section.anchor, section.heading, _text(rest)))
+        rows.append((f"{file}#{section.anchor}", section.anchor, section.heading, _text(text)))
     return rows
 
 
 def _text(html: str) -> str:
-    """The words of HTML, without what only a machine reads."""
+    """Return the text of HTML without styles and scripts."""
     return " ".join(unescape(_TAG.sub(" ", _UNREAD.sub(" ", html))).split())
 
 
 def _data(rows: list[tuple[str, str, str, str]]) -> str:
-    """The words to be found, as a script that any page can load, also from a disk."""
+    """Return the words of the search as a script that any page can load, also from a disk."""
     return f"const WORDS = {json.dumps(rows, ensure_ascii=False, separators=(',', ':'))};\n".replace("<", "\\u003c")
 
 

@@ -1,6 +1,6 @@
 """The sections of the report as HTML, and their entries: an equation, an erratum, a claim, a figure, a result.
 
-Links lead to places of the report and to files beside its front page.
+Links lead to anchors of the report and to files beside its front page.
 """
 
 from collections.abc import Callable
@@ -17,7 +17,7 @@ from lagrotor.report.content import (
     CLAIM_MEANINGS,
     MEANINGS,
     Report,
-    ShownPart,
+    ResultSection,
     anchor,
     as_read,
     citation,
@@ -47,32 +47,34 @@ from lagrotor.report.page.html_elements import (
     typeset,
 )
 
-# Characters of MathML beyond which the derived form is placed below the printed one, not beside it.
+# Characters of MathML beyond which the derived form is placed below the printed one.
 _WIDEST = 2_000
 
 
 def equation_entry(verdict: Verdict, report: Report) -> str:
-    """Return an equation as printed beside the derived one, its facts, and a fold with its source."""
+    """Return an equation as printed beside the derived one, its facts, and its source."""
     entry, statement = report.paper.equation(verdict.id), verdict.statement
     printed = typeset(entry.latex)
-    derived = "".join(map(typeset, derived_lines(statement.relations))) or "<p>A definition: nothing to derive.</p>"
+    derived = (
+        "".join(map(typeset, derived_lines(statement.relations))) or "<p>A definition; there is nothing to derive.</p>"
+    )
     read = code("\n".join(as_read(entry)))
-    how = f"<p>How it was read: {prose(entry.reading)}.</p>" if entry.reading else ""
+    how = f"<p>Reading of the print: {prose(entry.reading)}.</p>" if entry.reading else ""
     how += reading_of(entry, report)
     source = code(entry.latex) + how + (f"<p>As sympy reads it:</p>{read}" if entry.line else "")
-    number = f" <small>(the paper's {entry.number})</small>" if entry.number else ""
+    number = f" <small>({entry.number} in the paper)</small>" if entry.number else ""
     proof = report.certificates.get(verdict.id)
-    certificate = f"<p>Certificate, for Coq: {file_link(proof)}</p>" if proof else ""
+    certificate = f"<p>Coq certificate: {file_link(proof)}</p>" if proof else ""
     return (
         f'<article id="{anchor(verdict.id)}">{heading(anchor(verdict.id), verdict.id, entry.title, verdict.verdict)}'
         f"{_beside(f'As printed{number}', printed, derived_heading(statement.relations), derived)}"
         f"{fact_list(facts(verdict, report))}"
-        f"{certificate}{link_to_derivation(verdict.id, report)}{fold('LaTeX, and how it was read', source, 'source')}</article>"
+        f"{certificate}{link_to_derivation(verdict.id, report)}{fold('LaTeX source and reading', source, 'source')}</article>"
     )
 
 
 def reading_of(entry: Equation, report: Report) -> str:
-    """Return the reading of an equation of a source, typeset, and whether it is confirmed; nothing for other lines."""
+    """Return the typeset reading of a source's equation and its confirmation; empty for other lines."""
     if not entry.read:
         return ""
     lines = "".join(map(typeset, typeset_lines(report.paper, entry.id)))
@@ -80,27 +82,29 @@ def reading_of(entry: Equation, report: Report) -> str:
 
 
 def erratum_entry(e: Erratum) -> str:
-    """Printed, correct, what was wrong, how far it reaches."""
+    """Return the printed and the corrected equation, the error and its effect."""
     correct = "".join(map(typeset, e.corrected))
     for label, premises in e.conditions:
-        put = "".join(map(typeset, premise_formulas(premises)))
-        correct += f"<p>{label} {prose('; '.join(p.sentence for p in premises))}.</p>{put}"
+        formulas = "".join(map(typeset, premise_formulas(premises)))
+        correct += f"<p>{label}: {prose('; '.join(p.sentence for p in premises))}.</p>{formulas}"
     return (
         f'<article id="erratum-{e.id}">{heading(f"erratum-{e.id}", e.id, e.title)}<p>{prose(e.wrong)}</p>'
-        f"{_beside('Printed', typeset(e.printed), f'Correct ({escape(e.verdict_of_correction)})', correct)}"
+        f"{_beside('Printed', typeset(e.printed), f'Corrected ({escape(e.verdict_of_correction)})', correct)}"
         f"<p><small>{escape(e.reach.capitalize())}. Derived in {link(e.id)}. Used by: {links(e.used_by) or 'none'}"
         "</small></p></article>"
     )
 
 
-def _beside(left: str, printed: str, right: str, derived: str) -> str:
-    """Two formulas under their headings, one below the other where either is wide."""
+def _beside(heading_a: str, printed: str, heading_b: str, derived: str) -> str:
+    """Return two formulas under their headings, stacked if one is wide."""
     layout = "pair" if max(len(printed), len(derived)) < _WIDEST else "stack"
-    return f'<div class="{layout}"><div><h4>{left}</h4>{printed}</div><div><h4>{right}</h4>{derived}</div></div>'
+    return (
+        f'<div class="{layout}"><div><h4>{heading_a}</h4>{printed}</div><div><h4>{heading_b}</h4>{derived}</div></div>'
+    )
 
 
 def claim_entry(result: Result, report: Report) -> str:
-    """The claim in the paper's words, its outcome, what was measured."""
+    """Return the claim in the paper's words, its outcome, and the measured numbers."""
     entry, finding = report.paper.claims[result.test.id], result.finding
     condition = f"<p><b>If:</b> {prose(finding.condition)}</p>" if finding.condition else ""
     place = anchor(entry.id)
@@ -108,14 +112,14 @@ def claim_entry(result: Result, report: Report) -> str:
         f'<article id="{place}">{heading(place, entry.id, f"section {entry.section}", finding.outcome)}'
         f"<blockquote><p>{prose(entry.text)}</p></blockquote><p>{prose(finding.explanation)}</p>{condition}"
         f"{fact_list(linked_facts(result, report))}"
-        f"{fold(f'Measured ({result.test.model})', number_list('What', result.measured.items()))}</article>"
+        f"{fold(f'Measured ({result.test.model})', number_list('Quantity', result.measured.items()))}</article>"
     )
 
 
 def picture_entry(picture: Picture, report: Report) -> str:
-    """The figure with its caption, what it belongs to, and the numbers read off it."""
+    """Return the figure with its caption, its equations and claims, and its numbers."""
     place = anchor(f"figure {picture.key}")
-    measured = fold("Measured", number_list("What", picture.measured.items())) if picture.measured else ""
+    measured = fold("Measured", number_list("Quantity", picture.measured.items())) if picture.measured else ""
     return (
         f'<figure id="{place}">{heading(place, f"Figure {picture.key}", picture.title)}'
         f"{_image(picture)}"
@@ -124,19 +128,19 @@ def picture_entry(picture: Picture, report: Report) -> str:
 
 
 def _image(picture: Picture) -> str:
-    """The drawing alone, loaded when it is come to; a click opens it large (page.js)."""
+    """Return the drawing, loaded when it is scrolled to; a click enlarges it (page.js)."""
     width, height = size(picture)
     source = f'src="figures/{picture.svg.name}" width="{width}" height="{height}"'
     return f'<img {source} loading="lazy" alt="{escape(picture.alt)}">'
 
 
 def headline_entry(headline: Headline, report: Report) -> str:
-    """One of the results that matter, with its figure."""
+    """Return a main result with its figure."""
     formula = typeset(headline.formula) if headline.formula else ""
     drawn = next((p for p in report.pictures if f"figure {p.key}" == headline.figure), None)
     formula += _image(drawn) if drawn else ""
-    shown = f"<p>Shown in {links(headline.ids)}</p>" if headline.ids else ""
-    return f"<li><h3>{prose(headline.title)}</h3><p>{prose(headline.text)}</p>{formula}{shown}</li>"
+    links_to = f"<p>Shown in {links(headline.ids)}</p>" if headline.ids else ""
+    return f"<li><h3>{prose(headline.title)}</h3><p>{prose(headline.text)}</p>{formula}{links_to}</li>"
 
 
 def count_entry(answer: str, count: int, meaning: str) -> str:
@@ -146,7 +150,7 @@ def count_entry(answer: str, count: int, meaning: str) -> str:
 
 @dataclass(frozen=True)
 class Section:
-    """A part of the report under its heading: where it is, its heading, HTML."""
+    """A section of the report: its anchor, heading and HTML."""
 
     anchor: str
     heading: str
@@ -154,7 +158,7 @@ class Section:
 
     @property
     def html(self) -> str:
-        """The section; the live model brings its own."""
+        """The section as HTML; the interactive model has its own heading."""
         if self.anchor == "model":
             return self.inside
         heading = f'<h2 id="{self.anchor}">{escape(self.heading)}</h2>'
@@ -162,7 +166,7 @@ class Section:
 
 
 def sections(report: Report) -> list[Section]:
-    """Every section of the report, in the order of its contents."""
+    """Return every section of the report in the order of its contents."""
     return [Section(anchor, heading, _inside(anchor, report)) for anchor, heading in contents(report)]
 
 
@@ -178,19 +182,21 @@ def _inside(anchor: str, report: Report) -> str:
     if anchor.startswith("section-"):
         verdicts = report.sections[anchor.removeprefix("section-")]
         return "\n".join(equation_entry(verdict, report) for verdict in verdicts)
-    return _PARTS[anchor](report) if anchor in _PARTS else _shown(report.part(anchor), report)
+    return _PARTS[anchor](report) if anchor in _PARTS else _result_section(report.result_section(anchor), report)
 
 
 def _summary(report: Report) -> str:
     equations = "".join(count_entry(answer, count, MEANINGS[answer]) for answer, count in report.counts.items())
-    tried = "".join(count_entry(answer, count, CLAIM_MEANINGS[answer]) for answer, count in report.outcomes.items())
-    fallen = links(v.id for v in report.verdicts if v.verdict == "refuted")
-    balanced = f"<p>{escape(balance(report))}</p>" + (f"<p>Refuted: {fallen}</p>" if fallen else "")
+    outcomes = "".join(count_entry(answer, count, CLAIM_MEANINGS[answer]) for answer, count in report.outcomes.items())
+    refuted = links(v.id for v in report.verdicts if v.verdict == "refuted")
+    balanced = f"<p>{escape(balance(report))}</p>" + (f"<p>Refuted: {refuted}</p>" if refuted else "")
     results = "".join(headline_entry(headline, report) for headline in headlines(report))
     results = f'<ol class="results">{results}</ol>' if results else ""
     changed = "".join(f"<li>{escape(change)}</li>" for change in report.changes)
-    warning = f'<div class="changed"><p>Changed against the record:</p><ul>{changed}</ul></div>' if changed else ""
-    claims = f'<h3>Claims</h3><ul class="summary">{tried}</ul>' if tried else ""
+    warning = (
+        f'<div class="changed"><p>Verdicts that differ from the record:</p><ul>{changed}</ul></div>' if changed else ""
+    )
+    claims = f'<h3>Claims</h3><ul class="summary">{outcomes}</ul>' if outcomes else ""
     how = f"<p>{escape(report.how_to_read)}</p>"
     return f'{warning}{balanced}{results}<h3>Equations</h3><ul class="summary">{equations}</ul>{claims}{how}'
 
@@ -200,32 +206,30 @@ def _verdicts(report: Report) -> str:
         (link(v.id), prose(report.paper.equation(v.id).title), badge(v.verdict), f"<small>{prose(note(v))}</small>")
         for v in report.verdicts
     ]
-    return html_table(("Equation", "Title", "Verdict", "Why, or under what condition"), lines, "verdicts")
+    return html_table(("Equation", "Title", "Verdict", "Reason or condition"), lines, "verdicts")
 
 
 def _notation(report: Report) -> str:
     lines = [(inline(symbol), prose(meaning), escape(unit)) for symbol, meaning, unit in notation(report)]
     head, first = ("Symbol", "Meaning", "Unit"), len(report.paper.about.letters) or len(lines)
-    rest = fold("All other letters", html_table(head, lines[first:])) if lines[first:] else ""
-    return html_table(head, lines[:first]) + rest
+    remainder = fold("All other symbols", html_table(head, lines[first:])) if lines[first:] else ""
+    return html_table(head, lines[:first]) + remainder
 
 
 def _derivations(report: Report) -> str:
-    how = "<p>Each derivation opens. The run that wrote this page decided each of its equations exactly, or through the order "
-    how += "that it shows; letters as in the "
-    how += '<a href="#notation">notation</a>.</p>'
+    how = "<p>Unfold an entry to read the derivation. The run that wrote this page decided each of its equations exactly, or "
+    how += 'through the order shown. The symbols are listed in the <a href="#notation">notation</a>.</p>'
     return how + "\n".join(
         f'<details class="derivation" id="derivation-{stem}"><summary>{prose(name)}</summary>{inside}</details>'
         for stem, name, inside in report.derivations
     )
 
 
-def _shown(part: ShownPart, report: Report) -> str:
-    """Tables, what was found, figures."""
-    parts = [side_by_side(table, report) for table in part.tables]
-    parts += [f"<h3>{prose(title)}</h3><p>{prose(text)}</p>" for title, text in part.remarks]
-    parts += [picture_entry(picture, report) for picture in part.pictures]
-    return "\n".join(parts)
+def _result_section(section: ResultSection, report: Report) -> str:
+    blocks = [side_by_side(table, report) for table in section.tables]
+    blocks += [f"<h3>{prose(title)}</h3><p>{prose(text)}</p>" for title, text in section.remarks]
+    blocks += [picture_entry(picture, report) for picture in section.pictures]
+    return "\n".join(blocks)
 
 
 def _waiting(report: Report) -> str:
@@ -241,14 +245,14 @@ def _cite(report: Report) -> str:
 
 
 def _made(report: Report) -> str:
-    versions = html_table(("What", "Version"), [(escape(name), escape(number)) for name, number in report.versions])
-    beside = html_table(
-        ("In the same folder", "What it is"), [(file_link(file), what) for file, what in BESIDE.items()]
+    versions = html_table(("Software", "Version"), [(escape(name), escape(number)) for name, number in report.versions])
+    files = html_table(
+        ("File in the same folder", "Content"), [(file_link(file), what) for file, what in BESIDE.items()]
     )
     inputs = [(escape(name), f"<code>{escape(digest)}</code>") for name, digest in report.inputs]
     return (
-        "<p>The same inputs give the same page, byte for byte; how long each part took is in times.json.</p>"
-        f"{beside}{versions}{html_table(('Input', 'SHA-256'), inputs)}"
+        "<p>The same inputs give the same page, byte for byte. The computing times are in times.json.</p>"
+        f"{files}{versions}{html_table(('Input', 'SHA-256'), inputs)}"
     )
 
 

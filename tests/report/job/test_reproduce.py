@@ -61,7 +61,7 @@ for line in sys.stdin:
         cache.cache_folder = lambda: Path(target).parent / "cache"
         exec(lines)
         made = reproduce.reproduce(PAPER, Path(target), terminal.progress, 1)
-        print(len(made.taken), *made.taken, flush=True)
+        print(len(made.reused), *made.reused, flush=True)
         status = 0
     except BaseException:
         traceback.print_exc()

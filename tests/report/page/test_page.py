@@ -17,7 +17,7 @@ from lagrotor.paper import (
     Remark,
 )
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
-from lagrotor.report.content import Report, ShownPart, contents
+from lagrotor.report.content import Report, ResultSection, contents
 from lagrotor.report.job.folder import CONTENTS
 from lagrotor.report.page.pages import pages, whole_page
 from lagrotor.report.page.sections import sections
@@ -204,9 +204,9 @@ def test_nothing_is_left_out(write: Callable[[Report], str], report: Report) -> 
         assert identifier in text
     for verdict in report.verdicts:
         assert f'id="eq-{verdict.id}"' in text
-    for part in ("sympy", "Python", "holds if", "refuted", "judged by the same rules: holds", "0a", "version = {"):
+    for part in ("sympy", "Python", "holds if", "refuted", "decided by the same procedure: holds", "0a", "version = {"):
         assert part in text
-    assert "Reaches the result" in text
+    assert "Effect on results" in text
     assert "Used by" in text
     assert "agrees through order 0 in" in text
 
@@ -286,7 +286,7 @@ def test_no_formula_of_the_page_is_typed_in_ascii(audit: Audit, typed_formulas: 
     """Equations with all that is said of them, claims, premises, letters, titles; what comes from runs is in `test_reproduce`."""
     stems = PAPER.stating_scripts
     found = [r for stem in stems for r in PAPER.scripts.executed("derivations", stem).shown(Remark)]
-    remarks = ShownPart("findings", "Findings", remarks=tuple((r.title, r.text) for r in found))
+    remarks = ResultSection("findings", "Findings", remarks=tuple((r.title, r.text) for r in found))
     assert typed_formulas(whole_page(Report(PAPER, tuple(audit), (), (), (), (remarks,)))) == []
 
 
