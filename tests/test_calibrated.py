@@ -21,7 +21,7 @@ def test_a_calibrated_number_names_the_test_that_holds_it(room: str) -> None:
     numbers = {name: entry for name, entry in vars(import_module(room)).items() if isinstance(entry, Calibrated)}
     assert numbers
     for name, entry in numbers.items():
-        file, test = entry.held_by.split("::")
+        file, test = entry.test.split("::")
         assert any(f"def {test}(" in path.read_text() for path in Path(__file__).parent.rglob(file)), name
 
 

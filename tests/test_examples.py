@@ -1,4 +1,4 @@
-"""Examples that are run: those of the docstrings of public names, and those of the pages of the documentation."""
+"""Examples that are run: those of the docstrings, and those of the pages of the documentation."""
 
 import doctest
 import inspect

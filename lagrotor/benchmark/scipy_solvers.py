@@ -59,7 +59,7 @@ def ode_engine(solver: str) -> Solver:
     """Return one of SOLVERS as an engine. It is called for every output time: a one-step method starts anew each time."""
 
     def run(segment: Segment, error: float) -> Stretch:
-        t_eval = np.union1d([segment.left], segment.t_eval)
+        t_eval = np.union1d([segment.begin], segment.t_eval)
         states, nfev = run_by(solver, segment.rhs, segment.start, t_eval, error, segment.longest)
         return Stretch(states[-len(segment.t_eval) :], states[-1], nfev)
 
@@ -82,13 +82,13 @@ def ivp_engine(method: str) -> Solver:
             return segment.rhs(s, y)
 
         solution = solve_ivp(
-            counted, (segment.left, segment.right), segment.start, method=method, t_eval=segment.t_eval,
+            counted, (segment.begin, segment.until), segment.start, method=method, t_eval=segment.t_eval,
             rtol=max(error, 2.3e-14), atol=error, max_step=segment.longest,
         )  # fmt: skip
         if not solution.success:
-            raise StopError(segment.right, solution.message)
+            raise StopError(segment.until, solution.message)
         if not np.isfinite(solution.y).all():
-            raise StopError(segment.right, "a value is not finite")
+            raise StopError(segment.until, "a value is not finite")
         return Stretch(solution.y.T, solution.y[:, -1], nfev)
 
     return run
@@ -107,8 +107,8 @@ def on_minimal(engine: Solver, sees_shock: bool = True) -> Prepare:
         segment = Segment(
             rhs=problem.driven or problem.free,
             start=problem.start,
-            left=-problem.at,
-            right=end - problem.at,
+            begin=-problem.at,
+            until=end - problem.at,
             t_eval=t_eval - problem.at,
             longest=longest,
             budget=100_000 + 1_250 * problem.typical_rate * end,

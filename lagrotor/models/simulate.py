@@ -27,7 +27,14 @@ from lagrotor.models.model import (
     typical_rate,
 )
 from lagrotor.numerics.arrays import check_times
-from lagrotor.numerics.error_estimate import EstimatedRun, Evolution, Patience, estimate_run, first_time, start_beside
+from lagrotor.numerics.error_estimate import (
+    EstimatedRun,
+    EvaluationBudget,
+    Evolution,
+    estimate_run,
+    first_time,
+    perturbed_state,
+)
 from lagrotor.numerics.integrate import check_engine, check_progress, check_tolerance
 from lagrotor.numerics.run import Ending
 from lagrotor.numerics.segment import StopError, Stretch
@@ -38,9 +45,9 @@ from lagrotor.result_display import scientific
 
 LADDER = (minimal.MODEL, spheres.MODEL)  # the models that `auto` tries in turn
 MODELS: dict[str, Model] = {model.name: model for model in (*LADDER, euler.MODEL)}
-_BY_NAME = Patience(20_000, 250 * 2 * pi)
+_BY_NAME = EvaluationBudget(20_000, 250 * 2 * pi)
 # For a run that another model can replace: five times as many evaluations improve none.
-_REPLACEABLE = Patience(1_000, 500 * 2 * pi)
+_REPLACEABLE = EvaluationBudget(1_000, 500 * 2 * pi)
 LONG_RUN = Calibrated(
     300.0,
     "turns beyond which the averaged motion is tried before one is integrated",
@@ -207,7 +214,7 @@ def trajectory_of(
     # In natural units the last time has a rounding error.
     ending = replace(run.ending, at=float(times[-1])) if run.ending.kind == "end" else run.ending
     return Trajectory(
-        **run.known | {"t": times[:n], "ending": ending}, scene=scene, model=model, why=why, axes=observed.axes,
+        **run.run_fields | {"t": times[:n], "ending": ending}, scene=scene, model=model, why=why, axes=observed.axes,
         rates=observed.rates * units.rate, momenta=constant_momenta(scene, n) + momenta * units.inertia * units.rate,
     )  # fmt: skip
 
@@ -233,7 +240,7 @@ class _ScaledScene:
     engine: str
     progress: Callable[[float], None] | None
 
-    def run(self, model: Model, patience: Patience, bounded: bool = False) -> EstimatedRun:
+    def run(self, model: Model, patience: EvaluationBudget, bounded: bool = False) -> EstimatedRun:
         """Return the run by a model. Raises StopError, in s, if nothing is reached."""
         rate, begin = self.units.rate, float(self.times[0])
         t = (self.times - begin) * rate
@@ -291,7 +298,7 @@ class _ScaledScene:
 
 
 def evolution_of(
-    model: Model, scene: Scene, t_end: float, patience: Patience, engine: str = "core", *, bounded: bool = False,
+    model: Model, scene: Scene, t_end: float, patience: EvaluationBudget, engine: str = "core", *, bounded: bool = False,
     progress: Callable[[float], None] | None = None,
 ) -> Evolution:  # fmt: skip
     """Return the evolution of a model in natural units up to t_end; `bounded` as in `integrate_model`."""
@@ -328,15 +335,15 @@ def evolution_of(
         integrate,
         distance,
         turn=2 * pi / PACE,
-        patience=patience,
+        budget=patience,
         project=model.projection(scene) if model.projection else None,
-        unsure=start_error(model, scene, start),
-        slack=model.slack if scene.link else None,
-        defect=defect,
+        start_error=start_error(model, scene, start),
+        constraint_uncertainty=model.slack if scene.link else None,
+        conservation_error=defect,
         difference=difference,
         watch=nodes.t if nodes else np.empty(0),
         singular=lambda y: model.singular(model.observe(scene, y[None]).axes[:, 0]),
-        elsewhere=bounded,
+        has_other_coordinates=bounded,
     )
 
 
@@ -346,7 +353,7 @@ def start_error(model: Model, scene: Scene, start: Array) -> float:
     Near the joint line the bar hardly determines an axis, and the coordinates may represent another start than the given one.
     """
     unsure, epsilons = 1.0, 1e4  # one rounding step may change nothing
-    observed = model.observe(scene, np.array([start, start_beside(start, epsilons)]))
+    observed = model.observe(scene, np.array([start, perturbed_state(start, epsilons)]))
     for target, computed, unit in ((scene.axes, observed.axes, 1.0), (scene.rates, observed.rates, PACE)):
         error = float(np.abs(computed[:, 0] - target).max()) / unit
         response = float(np.abs(computed[:, 1] - computed[:, 0]).max()) / unit / epsilons

@@ -3,16 +3,17 @@
 Data passes through the modules in this order:
 
 - `codegen.Program` is a straight-line program of sympy expressions; `printers` writes it as Python or JavaScript, and
-  `source_cache` keeps written functions as source.
-- `integrate.Problem` is an initial value problem. `integrate.integrate` cuts it at the windows of `pulse`, in which a force acts
+  `source_cache` keeps functions as source.
+- `integrate.Problem` is an initial value problem. `integrate.integrate` cuts it at the windows of `pulse`, in which a force
+acts
   briefly, and solves each `segment.Segment` by one of the `solvers`, or by `taylor` for engine = "fast".
-- `error_estimate.Evolution` is a motion that is to be run. `estimate_run` integrates it at two local errors and returns an
+- `error_estimate.Evolution` is a motion to be run. `estimate_run` integrates it at two local errors and returns an
   `EstimatedRun`: states, errors, horizon and ending.
 - `run.Run` is the base class of every simulated motion: its errors, files and tables.
-- `curves`, `zeros`, `rotations` and `floquet_multipliers` evaluate what was run.
+- `curves`, `zeros`, `rotations` and `floquet_multipliers` evaluate a run.
 
-A new solver is a function of a `Segment` and a local error that returns a `Stretch` or raises `StopError`; the table in
-`solvers` says when each is chosen. A new kind of motion needs an `Evolution`, and a class that inherits from `Run`.
+A new solver is a function of a `Segment` and a local error that returns a `Stretch` or raises `StopError`; a table in `solvers`
+says when each is chosen. A new kind of motion needs an `Evolution`, and a class that inherits from `Run`.
 """
 
 from typing import TYPE_CHECKING
@@ -20,19 +21,13 @@ from typing import TYPE_CHECKING
 from lagrotor.lazy_imports import face
 
 if TYPE_CHECKING:
-    from lagrotor.numerics.codegen import Program as Program
     from lagrotor.numerics.codegen import operations as operations
-    from lagrotor.numerics.curves import best_harmonics as best_harmonics
     from lagrotor.numerics.curves import first_passage as first_passage
-    from lagrotor.numerics.curves import harmonics_at as harmonics_at
-    from lagrotor.numerics.curves import mean_between as mean_between
     from lagrotor.numerics.curves import measured_order as measured_order
     from lagrotor.numerics.curves import peak as peak
     from lagrotor.numerics.curves import spectrum as spectrum
     from lagrotor.numerics.curves import swing as swing
     from lagrotor.numerics.curves import turn_means as turn_means
-    from lagrotor.numerics.printers import compile_program as compile_program
     from lagrotor.numerics.rotations import body_rotations as body_rotations
-    from lagrotor.numerics.rotations import skew_matrix as skew_matrix
 
 __getattr__, __dir__, __all__ = face(__name__)

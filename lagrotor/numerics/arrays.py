@@ -1,4 +1,4 @@
-"""Numbers that are given as arrays, checked: what makes no sense is refused with its value, the reason and the way out."""
+"""Checks of arrays that a user gives; InputError names the value, the reason and the way out."""
 
 from typing import Any
 
@@ -11,18 +11,15 @@ Array = NDArray[np.float64]
 
 
 def finite_array(
-    where: str, given: ArrayLike, shape: tuple[int, ...] | None = None, kind: type = float
+    where: str, values: ArrayLike, shape: tuple[int, ...] | None = None, kind: type = float
 ) -> NDArray[Any]:
-    """A copy of what is given as an array of finite numbers, of a shape if one is said (−1: any length but none).
-
-    Raises InputError where it is none.
-    """
+    """Return a copy as an array of finite numbers, checked against a shape (−1: any length but zero)."""
     try:
-        if kind is not complex and np.iscomplexobj(given):
+        if kind is not complex and np.iscomplexobj(values):
             raise TypeError
-        array: NDArray[Any] = np.array(given, dtype=kind)
+        array: NDArray[Any] = np.array(values, dtype=kind)
     except (TypeError, ValueError):
-        raise InputError(f"{where} = {given!r} must be numbers{f' of shape {shape}' if shape else ''}") from None
+        raise InputError(f"{where} = {values!r} must be numbers{f' of shape {shape}' if shape else ''}") from None
     if shape is not None:
         lengths = zip(array.shape, shape, strict=False)
         if array.ndim != len(shape) or not all(n == m or (m == -1 and n > 0) for n, m in lengths):
@@ -33,11 +30,11 @@ def finite_array(
     return array
 
 
-def real_array(given: ArrayLike) -> Array | None:
-    """Real numbers as they are given; None for texts, dates, complex numbers, truths and what else is none."""
+def real_array(values: ArrayLike) -> Array | None:
+    """Return real numbers as an array; None for texts, dates, complex numbers and truth values."""
     try:
-        plain = np.asarray(given)
-        listed = given if isinstance(given, list | tuple) else plain.flat if plain.dtype.kind == "O" else ()
+        plain = np.asarray(values)
+        listed = values if isinstance(values, list | tuple) else plain.flat if plain.dtype.kind == "O" else ()
         if plain.dtype.kind not in "iufO" or any(isinstance(e, str | bool) for e in listed):
             return None
         return np.asarray(plain, dtype=float)
@@ -45,9 +42,9 @@ def real_array(given: ArrayLike) -> Array | None:
         return None
 
 
-def increasing_array(where: str, given: ArrayLike, what: str = "numbers") -> Array:
-    """Increasing finite numbers (n,), n > 0. Raises InputError for anything else."""
-    numbers, text = real_array(given), repr(given)
+def increasing_array(where: str, values: ArrayLike, what: str = "numbers") -> Array:
+    """Return increasing finite numbers, shape (n,), n > 0, or raise InputError."""
+    numbers, text = real_array(values), repr(values)
     text = text if len(text) < 60 else f"{text[:57]}…"
     if numbers is None:
         raise InputError(f"{where} = {text} must be an array of {what}")
@@ -56,6 +53,6 @@ def increasing_array(where: str, given: ArrayLike, what: str = "numbers") -> Arr
     return numbers
 
 
-def check_times(where: str, given: ArrayLike) -> Array:
-    """Increasing finite times in s (n,). Raises InputError for anything else."""
-    return increasing_array(f"{where}: t", given, "times")
+def check_times(where: str, times: ArrayLike) -> Array:
+    """Return increasing finite times in s, shape (n,), or raise InputError."""
+    return increasing_array(f"{where}: t", times, "times")

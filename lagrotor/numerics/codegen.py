@@ -1,7 +1,7 @@
-"""A straight-line program: how its common parts are found, what it costs, its derivatives; `printers` writes it as code.
+"""Straight-line programs: common subexpressions, number of operations, derivatives; `printers` writes them as code.
 
-A `Program` is a list of named stages and the outputs made of them. Stages keep what a derivation has already shown to be
-one quantity (a matrix element, a pivot) from being multiplied out; common subexpressions are found after that.
+A `Program` is a list of named stages and the outputs made of them. A stage keeps a quantity of the derivation (a matrix
+element, a pivot) from being multiplied out; common subexpressions are sought after that.
 """
 
 from collections.abc import Mapping, Sequence
@@ -21,16 +21,9 @@ Stage = tuple[sp.Symbol, sp.Expr]
 
 @dataclass(frozen=True)
 class Program:
-    """arguments → stages → outputs; a stage may use the arguments and the stages before it.
-
-    Attributes
-    ----------
-    shared : bool, default False
-        The stages were made so that sums and products have few parts in common: only equal subexpressions are then
-        sought, in a time linear in their number.
-    positive : tuple[Expr, ...], default ()
-        Expressions that are positive within the range in which the program is well conditioned.
-    """
+    """A straight-line program, arguments → stages → outputs; a stage may use the arguments and the stages before it. `shared`
+    says that the stages already share their common parts, so that only equal subexpressions are sought, in linear time. The
+    expressions in `positive` are positive where the program is well conditioned."""
 
     arguments: tuple[sp.Symbol, ...]
     stages: tuple[Stage, ...]
@@ -39,20 +32,20 @@ class Program:
     positive: tuple[sp.Expr, ...] = ()
 
     def __post_init__(self) -> None:
-        known = set(self.arguments)
+        defined = set(self.arguments)
         check_names("Program", self.arguments, tuple(name for name, _ in self.stages))
         for name, expression in (*self.stages, *((None, e) for e in (*self.outputs, *self.positive))):
-            if missing := expression.free_symbols - known:
+            if missing := expression.free_symbols - defined:
                 check_names("Program", self.arguments, tuple(missing))
                 raise SingularError(
                     f"Program: {sorted(map(str, missing))} used before it is defined; add it to arguments"
                 )
-            known |= {name} if name else set()
+            defined |= {name} if name else set()
 
 
 @lru_cache(maxsize=16)
 def reduce_common(program: Program) -> tuple[Sequence[Stage], Sequence[sp.Expr]]:
-    """Stages with their common subexpressions taken out, in an order that can be run, and the reduced outputs."""
+    """Return the stages, common subexpressions extracted and in an executable order, and the reduced outputs."""
     stages, outputs = list(program.stages), list(program.outputs)
     if program.shared:
         stages = _ordered(dict(stages), outputs)
@@ -61,15 +54,15 @@ def reduce_common(program: Program) -> tuple[Sequence[Stage], Sequence[sp.Expr]]
         return stages, outputs
     symbols = sp.numbered_symbols("c_", real=True)
     if program.shared:
-        parts, reduced = tree_cse(expressions, symbols, order="none")
+        common, reduced = tree_cse(expressions, symbols, order="none")
     else:
-        parts, reduced = sp.cse(expressions, symbols=symbols)
-    body = dict(parts) | dict(zip(names, reduced[: len(names)], strict=True))
+        common, reduced = sp.cse(expressions, symbols=symbols)
+    body = dict(common) | dict(zip(names, reduced[: len(names)], strict=True))
     return _ordered(body, reduced[len(names) :]), reduced[len(names) :]
 
 
 def _ordered(body: Mapping[sp.Symbol, sp.Expr], outputs: Sequence[sp.Expr]) -> list[Stage]:
-    """Only the stages that an output needs, depth first, so that every definition comes before its use."""
+    """Return the stages that an output needs, each after the stages that it uses (depth first)."""
     order: dict[sp.Symbol, None] = {}
     queue = [(s, False) for e in reversed(outputs) for s in _named(e, body)]
     while queue:
@@ -82,16 +75,16 @@ def _ordered(body: Mapping[sp.Symbol, sp.Expr], outputs: Sequence[sp.Expr]) -> l
 
 
 def _repeats(expressions: Sequence[sp.Expr]) -> bool:
-    """Whether a part of them occurs twice, other than a symbol with a minus sign, which costs nothing in a sum."""
-    left, seen = list(expressions), set[sp.Basic]()
-    while left:
-        e = left.pop()
+    """Return True if a subexpression occurs twice; a symbol with a minus sign costs nothing in a sum and does not count."""
+    stack, visited = list(expressions), set[sp.Basic]()
+    while stack:
+        e = stack.pop()
         if e.is_Atom or (e.is_Mul and len(e.args) == 2 and e.args[0] is sp.S.NegativeOne and e.args[1].is_Atom):
             continue
-        if e in seen:
+        if e in visited:
             return True
-        seen.add(e)
-        left += e.args
+        visited.add(e)
+        stack += e.args
     return False
 
 
@@ -100,26 +93,37 @@ def _named(expression: sp.Expr, body: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Sy
 
 
 def operations(program: Program) -> int:
-    """Arithmetic operations and function calls of one evaluation, after common subexpressions."""
+    """Count the arithmetic operations and function calls of one evaluation, common subexpressions once.
+
+    Parameters
+    ----------
+    program : Program
+        The stages and outputs.
+
+    Returns
+    -------
+    int
+        The number of operations.
+    """
     stages, outputs = reduce_common(program)
     return sum(_count(e) for e in (*(e for _, e in stages), *outputs))
 
 
 def _count(expression: sp.Expr) -> int:
-    """What `sympy.count_ops` counts, which for each product looks for a fraction: only where it may be one."""
-    left, count = [expression], 0
-    while left:
-        e = left.pop()
+    """Count as `sympy.count_ops` does, without its search for a fraction in products that have none."""
+    stack, count = [expression], 0
+    while stack:
+        e = stack.pop()
         factors = e.args[1:] if e.is_Mul and e.args[0] is sp.S.NegativeOne else e.args
         if e.is_Symbol:
             continue
         if e.is_Mul and not any(f.is_Pow or f.is_Number or isinstance(f, sp.exp) for f in factors):
-            count += len(e.args) - 1  # a sign, too, is one
-            left += factors
+            count += len(e.args) - 1  # a sign counts as a factor
+            stack += factors
         elif e.is_Add and not any(f.is_Number for f in e.args):
             signs = [f.is_Mul and f.args[0].is_Number and bool(f.args[0] < 0) for f in e.args]
-            count += len(e.args) - 1 + all(signs) - sum(signs)  # differences cost what sums do
-            left += e.args
+            count += len(e.args) - 1 + all(signs) - sum(signs)  # a difference costs as much as a sum
+            stack += e.args
         else:
             count += int(sp.count_ops(e))
     return count
@@ -128,36 +132,30 @@ def _count(expression: sp.Expr) -> int:
 def tangent_program(
     program: Program, slopes: Mapping[sp.Symbol, Sequence[sp.Expr]], arguments: tuple[sp.Symbol, ...]
 ) -> Program:
-    """The program with its derivatives along k directions: its outputs, then of each output the k derivatives.
-
-    slopes: of arguments that change, their k derivatives, numbers or among the new program's `arguments`. Forward
-    differentiation, stage by stage: exact, and no longer than k + 1 times the program and a little.
-    """
+    """Return the program of the outputs and, for each output, of its derivatives along k directions. `slopes` gives the k
+    derivatives of each argument that changes. Forward differentiation takes at most about k + 1 times the operations."""
     stages, outputs = reduce_common(program)
-    known, count = {s: list(row) for s, row in slopes.items()}, len(next(iter(slopes.values())))
+    derivatives, count = {s: list(row) for s, row in slopes.items()}, len(next(iter(slopes.values())))
     both: list[Stage] = []
 
     def along(e: sp.Expr) -> list[sp.Expr]:
-        partial = {s: derivative(e, s) for s in sorted(e.free_symbols, key=str) if s in known}
-        return [sp.Add(*(d * known[s][j] for s, d in partial.items())) for j in range(count)]
+        partial = {s: derivative(e, s) for s in sorted(e.free_symbols, key=str) if s in derivatives}
+        return [sp.Add(*(d * derivatives[s][j] for s, d in partial.items())) for j in range(count)]
 
     for name, e in stages:
         both.append((name, e))
-        known[name] = along(e)
-        for j, slope in enumerate(known[name]):
+        derivatives[name] = along(e)
+        for j, slope in enumerate(derivatives[name]):
             if not slope.is_Atom:
-                known[name][j] = sp.Symbol(f"d{j}_{name}", real=True)
-                both.append((known[name][j], slope))
+                derivatives[name][j] = sp.Symbol(f"d{j}_{name}", real=True)
+                both.append((derivatives[name][j], slope))
     whole = (*outputs, *(slope for e in outputs for slope in along(e)))
     return Program(arguments, tuple(both), whole)
 
 
 def solve_symmetric(matrix: sp.Matrix, right: sp.Matrix, prefix: str) -> tuple[list[Stage], sp.Matrix]:
-    """Stages that solve the symmetric system `matrix x = right` by L D Lᵀ without pivoting, and the solution.
-
-    (n, n), (n, r) → stages, (n, r). For positive definite matrices, where no pivoting is needed; structural zeros cost
-    nothing. Golub & Van Loan, Matrix Computations, 4.1.
-    """
+    """Return the stages of L D Lᵀ without pivoting for matrix · x = right, and x, shape (n, r). The matrix must be positive
+    definite. Golub & Van Loan, Matrix Computations, 4.1."""
     n, columns = right.shape
     stages: list[Stage] = []
 
@@ -186,6 +184,6 @@ def solve_symmetric(matrix: sp.Matrix, right: sp.Matrix, prefix: str) -> tuple[l
         work[j, j] = pivot
     for col in range(columns):
         for j in reversed(range(n)):
-            rest = sum((lower[i, j] * x[i, col] for i in range(j + 1, n)), sp.Integer(0))
-            x[j, col] = keep(f"x{j}{col}", x[j, col] / work[j, j] - rest)
+            products = sum((lower[i, j] * x[i, col] for i in range(j + 1, n)), sp.Integer(0))
+            x[j, col] = keep(f"x{j}{col}", x[j, col] / work[j, j] - products)
     return stages, x

@@ -1,4 +1,4 @@
-"""Numbers read off curves: orders in an amplitude, swings, spectra and their peaks, means over whole turns, fits of harmonics."""
+"""Numbers that are read off curves: orders of convergence, amplitudes, spectra, means over turns, fits of harmonics."""
 
 from dataclasses import dataclass
 
@@ -9,18 +9,53 @@ from lagrotor.numerics.arrays import Array
 
 
 def measured_order(amplitudes: ArrayLike, errors: ArrayLike) -> float:
-    """The power p of errors ~ amplitudes**p: the slope of a straight line through the logarithms."""
+    """Fit the power p of errors ∝ amplitudes**p by a straight line through the logarithms.
+
+    Parameters
+    ----------
+    amplitudes, errors : ArrayLike
+        Positive numbers, shape (n,) each.
+
+    Returns
+    -------
+    float
+        The power p.
+    """
     slope, _ = np.polyfit(np.log(np.asarray(amplitudes, float)), np.log(np.asarray(errors, float)), 1)
     return float(slope)
 
 
 def swing(values: Array) -> float:
-    """Largest less smallest value."""
+    """Return the largest value minus the smallest.
+
+    Parameters
+    ----------
+    values : Array
+        Samples of a curve.
+
+    Returns
+    -------
+    float
+        The difference, in the unit of the values.
+    """
     return float(np.ptp(values))
 
 
 def spectrum(t: Array, x: Array) -> tuple[Array, Array]:
-    """Rates (rad/s) below 30 and amplitudes (m) of x less its mean: Hann window, padded eightfold."""
+    """Compute the amplitude spectrum of x minus its mean, with a Hann window padded eightfold.
+
+    Parameters
+    ----------
+    t : Array
+        Equally spaced times in s, shape (n,).
+    x : Array
+        Samples, shape (n,).
+
+    Returns
+    -------
+    tuple of Array
+        Rates below 30 rad/s, and the amplitude at each, in the unit of x.
+    """
     window = np.hanning(len(t))
     weight = (x - (x * window).sum() / window.sum()) * window
     amplitude = 2 * np.abs(np.fft.rfft(weight, 8 * len(t))) / window.sum()
@@ -29,42 +64,46 @@ def spectrum(t: Array, x: Array) -> tuple[Array, Array]:
 
 
 def peak(rate: Array, amplitude: Array) -> float:
-    """Rate (rad/s) of the highest peak: the top of the parabola through the logarithms of its three highest points."""
-    n = int(np.argmax(amplitude))
-    before, top, after = np.log(amplitude[n - 1 : n + 2])
-    return float(rate[n] + (before - after) / (before - 2 * top + after) / 2 * (rate[1] - rate[0]))
-
-
-def mean_between(t: Array, x: Array, start: float, end: float) -> Array:
-    """Mean of x: of whole turns, it is their centre.
+    """Find the rate of the highest peak, the top of the parabola through the logarithms of three amplitudes.
 
     Parameters
     ----------
-    t : Array
-        Times (n,).
-    x : Array
-        (n,) or (n, k).
-    start : float
-        From this time.
-    end : float
-        To this.
+    rate, amplitude : Array
+        Rates in rad/s and the amplitude at each, shape (n,).
+
+    Returns
+    -------
+    float
+        The rate in rad/s.
     """
+    n = int(np.argmax(amplitude))
+    first, top, last = np.log(amplitude[n - 1 : n + 2])
+    return float(rate[n] + (first - last) / (first - 2 * top + last) / 2 * (rate[1] - rate[0]))
+
+
+def mean_between(t: Array, x: Array, start: float, end: float) -> Array:
+    """Return the mean of x, shape (n,) or (n, k), from time `start` to time `end`, by linear interpolation."""
     times = np.linspace(start, end, 400, endpoint=False)
     columns = x.reshape(len(t), -1).T
     return np.array([np.interp(times, t, column).mean() for column in columns]).reshape(x.shape[1:])
 
 
 def first_passage(t: Array, x: Array, level: float) -> float:
-    """Return when x first rises to a level, on the cubic spline through its samples; infinity where it does not.
+    """Find the first time at which x rises to a level, on the cubic spline through its samples.
 
     Parameters
     ----------
     t : Array
-        Times (n,).
+        Times in s, shape (n,).
     x : Array
-        Samples (n,) of a smooth curve.
+        Samples of a smooth curve, shape (n,).
     level : float
-        The value to be passed.
+        The level, in the unit of x.
+
+    Returns
+    -------
+    float
+        The time in s; infinity where x stays below the level.
     """
     from scipy.interpolate import CubicSpline
 
@@ -74,7 +113,20 @@ def first_passage(t: Array, x: Array, level: float) -> float:
 
 
 def turn_means(t: Array, tips: Array) -> tuple[Array, Array]:
-    """Times (n + 1,) at which y_1 − y_2 rises through mid-range, and the tips' means over the turns (2, n, 3)."""
+    """Compute the means of the tips over each turn, from one rise of y₁ − y₂ through mid-range to the next.
+
+    Parameters
+    ----------
+    t : Array
+        Times in s, shape (n,).
+    tips : Array
+        Positions of both tips in m, shape (2, n, 3).
+
+    Returns
+    -------
+    tuple of Array
+        The times in s between the turns, shape (m + 1,), and the mean positions in m, shape (2, m, 3).
+    """
     apart = tips[0, :, 1] - tips[1, :, 1]
     apart = apart - (apart.max() + apart.min()) / 2
     up = np.flatnonzero((apart[:-1] < 0) & (apart[1:] >= 0))
@@ -87,72 +139,42 @@ def turn_means(t: Array, tips: Array) -> tuple[Array, Array]:
 
 @dataclass(frozen=True, eq=False)
 class Harmonics:
-    """x(t) ≈ constant + slope (t − t̄) + Re Σ wave_n exp(i n rate (t − t_0)), each (k,) for k columns of x.
-
-    waves (count, k), complex; rest (n, k) what the fit leaves.
-    """
+    """A fit x(t) ≈ constant + slope (t − t̄) + Re Σ waves_n exp(i n rate (t − t_0)), each (k,) for k columns of x. `waves`
+    (count, k) are the complex amplitudes of the harmonics 1, 2, …, `residual` (n, k) the samples minus the fit."""
 
     rate: float
     constant: Array
     slope: Array
     waves: NDArray[np.complex128]
-    rest: Array
+    residual: Array
 
     @property
-    def left(self) -> float:
-        """Sum of the squares that the fit leaves."""
-        return float((self.rest**2).sum())
+    def residual_squares(self) -> float:
+        """The sum of the squares of the residual."""
+        return float((self.residual**2).sum())
 
 
 def harmonics_at(t: Array, x: Array, rate: float, count: int = 2) -> Harmonics:
-    """The fit of harmonics of a given rate.
-
-    Parameters
-    ----------
-    t : Array
-        Times (n,), s.
-    x : Array
-        (n,) or (n, k).
-    rate : float
-        Rad/s.
-    count : int, default 2
-        Of harmonics.
-    """
+    """Fit `count` harmonics of a rate in rad/s to samples x, shape (n,) or (n, k), at times t in s."""
     s, columns = t - t[0], x.reshape(len(t), -1)
     waves = [wave(n * rate * s) for n in range(1, count + 1) for wave in (np.cos, np.sin)]
     table = np.column_stack([np.ones_like(s), s - s.mean(), *waves])
-    parts = np.linalg.lstsq(table, columns, rcond=None)[0]
-    return Harmonics(rate, parts[0], parts[1], parts[2::2] - 1j * parts[3::2], columns - table @ parts)
+    fit = np.linalg.lstsq(table, columns, rcond=None)[0]
+    return Harmonics(rate, fit[0], fit[1], fit[2::2] - 1j * fit[3::2], columns - table @ fit)
 
 
 def best_harmonics(t: Array, x: Array, guess: float, low: float = 0.8, high: float = 1.3) -> Harmonics:
-    """The fit that leaves least.
-
-    Its rate is sought on a grid, five cells to a turn of the phase over the whole run; then within the best cell and its
-    neighbour.
-
-    Parameters
-    ----------
-    t : Array
-        Times (n,), s.
-    x : Array
-        (n,) or (n, k).
-    guess : float
-        Of the rate, rad/s.
-    low : float, default 0.8
-        Times the guess, from which it is sought.
-    high : float, default 1.3
-        Times the guess, to which.
-    """
+    """Fit two harmonics at the rate, from low · guess to high · guess in rad/s, that has the least residual. The rate is
+    sought on a grid, five cells to a turn of the phase over the whole run, then within the best cell and its neighbours."""
     from scipy.optimize import minimize_scalar
 
-    def left(rate: float) -> float:
-        return harmonics_at(t, x, rate).left
+    def misfit(rate: float) -> float:
+        return harmonics_at(t, x, rate).residual_squares
 
-    step = 2 * np.pi / (t[-1] - t[0]) / 5  # a fifth of what takes the phase once round over the run
+    step = 2 * np.pi / (t[-1] - t[0]) / 5
     grid = np.append(np.arange(low * guess, high * guess, step), high * guess)
-    best = float(grid[np.argmin([left(rate) for rate in grid])])
+    best = float(grid[np.argmin([misfit(rate) for rate in grid])])
     minimum = minimize_scalar(
-        left, bounds=(best - step, best + step), method="bounded", options={"xatol": 1e-7 * guess}
+        misfit, bounds=(best - step, best + step), method="bounded", options={"xatol": 1e-7 * guess}
     )
     return harmonics_at(t, x, float(minimum.x))

@@ -1,7 +1,7 @@
-"""Floquet multipliers, each with its error: eigenvalues of products of matrices, and how they are shown.
+"""Floquet multipliers with their errors: eigenvalues of products of matrices, and their printed form.
 
-Rounding of a matrix hides an eigenvalue that is 10⁻¹⁶ times its norm. In a product of factors of which none is so badly
-conditioned it is resolved, by the periodic Schur form (Bojanczyk, Golub & Van Dooren 1992, The periodic Schur decomposition).
+Rounding of a matrix hides eigenvalues below 10⁻¹⁶ of its norm. In a product of well-conditioned factors each eigenvalue is
+resolved by the periodic Schur form (Bojanczyk, Golub & Van Dooren 1992, The periodic Schur decomposition).
 """
 
 from collections.abc import Sequence
@@ -13,34 +13,31 @@ from numpy.typing import NDArray
 from lagrotor.numerics.arrays import Array
 from lagrotor.result_display import scientific
 
-_SWEEPS = 40  # of the orthogonal iteration: they separate eigenvalues of which one is twice as large as the other
-_APART = 1e-12  # of a direction: blocks that are separated
+_SWEEPS = 40  # sweeps of the orthogonal iteration: enough to separate eigenvalues whose ratio is 2
+_APART = 1e-12  # entry of a direction below which two blocks count as separated
 
 
 def product_eigenvalues(factors: Sequence[Array], error: float) -> tuple[NDArray[np.complex128], Array]:
-    """Return the eigenvalues (n,) of a product of matrices (n, n), the first of which acts first, and their errors (n,).
-
-    By orthogonal iteration the factors become upper triangular in blocks, each of eigenvalues of nearly the same size. The
-    eigenvalues of a block are those of the product of its parts, in which no larger one hides them. error: of each factor,
-    relative to its norm, and absolute where the norm is below one.
-    """
+    """Return the eigenvalues (n,) of a product of matrices (n, n), the first factor acting first, and their errors (n,).
+    Orthogonal iteration makes the factors upper triangular in blocks, each of eigenvalues of nearly equal size, so that no
+    larger one hides them. `error` is the error of each factor relative to its norm, absolute where the norm is below one."""
     start, n = np.eye(len(factors[0])), len(factors[0])
     for _ in range(_SWEEPS):
-        basis, parts = start, list[tuple[Array, float]]()
+        basis, triangles = start, list[tuple[Array, float]]()
         for factor in factors:
             basis, upper = np.linalg.qr(factor @ basis)
-            parts.append((upper, max(1.0, float(np.linalg.norm(factor, 2)))))
+            triangles.append((upper, max(1.0, float(np.linalg.norm(factor, 2)))))
         turn, start = start.T @ basis, basis
     values, errors = list[complex](), list[float]()
     edges = [0, *(i for i in range(1, n) if np.abs(turn[i:, :i]).max() < _APART), n]
     for a, b in pairwise(edges):
         block, noise = turn[a:b, a:b], 0.0
-        for upper, size in reversed(parts):
+        for upper, size in reversed(triangles):
             block = block @ upper[a:b, a:b]
             noise += error * size / max(float(np.linalg.norm(upper[a:b, a:b], -2)), size * np.finfo(float).tiny)
         roots, right = np.linalg.eig(block)
         conditions = np.linalg.norm(np.linalg.pinv(right, 0), axis=1) * np.linalg.norm(right, axis=0)
-        several = np.linalg.norm(block, 2) * noise ** (1 / (b - a))  # of eigenvalues that nearly coincide
+        several = np.linalg.norm(block, 2) * noise ** (1 / (b - a))  # bound for eigenvalues that nearly coincide
         values += roots.tolist()
         errors += np.minimum(conditions * noise * np.abs(roots), several).tolist()
     order = np.lexsort((np.imag(values), -np.abs(values)))
@@ -48,13 +45,13 @@ def product_eigenvalues(factors: Sequence[Array], error: float) -> tuple[NDArray
 
 
 def resolved_multipliers(values: NDArray[np.complex128], errors: Array) -> tuple[NDArray[np.complex128], Array]:
-    """Return multipliers (n,), NaN where one is smaller than its error, and the errors (n,), of NaN the bound of its size."""
+    """Return the multipliers, NaN where one is below its error, and the errors; for NaN a bound of the multiplier's size."""
     below = ~(np.abs(values) > errors)
     return np.where(below, complex(np.nan, np.nan), values), np.where(below, np.abs(values) + errors, errors)
 
 
 def multiplier_rows(values: NDArray[np.complex128], errors: Array) -> dict[str, str]:
-    """Return multipliers and their errors in words, of a conjugate pair that in the upper half plane: name → words."""
+    """Return multipliers and their errors in words, by name; a conjugate pair is one row."""
     rows = list[str]()
     for value, error in zip(values.tolist(), errors.tolist(), strict=True):
         if value != value:

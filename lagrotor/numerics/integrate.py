@@ -1,4 +1,4 @@
-"""States of an initial value problem at any times: the solver that is fastest at the tolerance, never over a pulse."""
+"""States of an initial value problem at any times, by the solver that is fastest at the tolerance."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -22,168 +22,155 @@ from lagrotor.numerics.solver_constants import CROSSOVER, DETOUR, LSODA_SAFETY
 from lagrotor.numerics.solvers import adams, dop853, lsoda
 
 TIGHTEST = 1e-13
-_IN_PULSE = 1e-7  # local error of LSODA in a pulse above which it follows the tolerance by its root alone
+_IN_PULSE = 1e-7  # local error of LSODA in a pulse above which it is proportional to the root of the tolerance
 Engine = Literal["core", "fast"]
 
 
 @dataclass(frozen=True)
 class Problem:
-    """y' = free(s, y), or driven(s, y), where it is another, within `windows`; y = start at t = `begin`; s = t − at.
-
-    `project` brings a state (d,), or states (d, n), back onto their constraints; `budget` is how many evaluations the
-    run may take before it is stopped; `typical_rate`, in rad/s, bounds the first step;
-    no step is longer than half of `time_to_singular` of the state where it begins.
-
-    Attributes
-    ----------
-    windows : tuple[Window, ...], default ()
-        Of s, where something acts briefly, one after the other; within no step is longer than each says.
-    """
+    """The initial value problem y' = free(s, y), or driven(s, y) within the windows; y = start at t = `begin`, s = t − at."""
 
     free: RightHandSide
     start: Array
-    budget: float
+    budget: float  # evaluations after which the run stops
     driven: RightHandSide | None = None
     at: float = 0.0
-    windows: tuple[Window, ...] = ()
-    project: Projection | None = None
-    typical_rate: float = 0.0
-    time_to_singular: Callable[[Array], float] | None = None
+    windows: tuple[Window, ...] = ()  # of s, in order, in which something acts briefly and steps are bounded
+    project: Projection | None = None  # brings a state (d,), or states (d, n), back onto their constraints
+    typical_rate: float = 0.0  # in rad/s; it bounds the first step
+    time_to_singular: Callable[[Array], float] | None = None  # of a state, in s; no step is longer than half of it
     begin: float = 0.0
 
 
 def check_tolerance(tol: float, caller: str = "simulate") -> float:
-    """`tol` as a float, refused outside [1e-13, 0.1]."""
+    """Return `tol` as a float, or raise InputError outside [1e-13, 0.1]."""
     if not (isinstance(tol, int | float | np.floating) and TIGHTEST <= tol <= 0.1):
-        raise InputError(f"{caller}: tol = {tol!r} must lie between {TIGHTEST:g}, what doubles can carry, and 0.1")
+        raise InputError(f"{caller}: tol = {tol!r} must lie between {TIGHTEST:g}, the limit of doubles, and 0.1")
     return float(tol)
 
 
 def check_engine(engine: str, caller: str = "simulate") -> None:
-    """Raises InputError where it is neither "core" nor "fast"."""
+    """Raise InputError for an engine other than "core" and "fast"."""
     if engine not in ("core", "fast"):
         raise InputError(f"{caller}: engine = {engine!r} is neither core nor fast")
 
 
 def check_progress(progress: object) -> None:
-    """Raises InputError where it is neither a function nor None."""
+    """Raise InputError for an object that is neither a function nor None."""
     if progress is not None and not callable(progress):
         raise InputError(f"simulate: progress = {progress!r} must be a function of the time (s), or None")
 
 
 def integrate(problem: Problem, times: Array, tol: float, solver: SegmentSolver | None = None) -> Stretch:
-    """Integrate from `begin` through increasing `times` with a local error `tol`; states (n, d) there.
-
-    In the time s = t − at a pulse far shorter than the spacing of doubles near `at` is still resolved. The run is cut at the
-    edges of its windows, in which steps are bounded, so no tolerance can miss what acts there.
-    solver: of a segment, where it is not the fastest of the core.
-
-    Raises StopError, with the time, its cause and what was reached, when the solver cannot go on or `budget` is spent.
-    """
+    """Integrate from `begin` through increasing times (n,) with a local error `tol`, by the given solver or the fastest of the
+    core. In the time s = t − at, a pulse far shorter than the spacing of doubles near `at` is resolved. The run is cut at the
+    edges of its windows, so no tolerance can miss a brief force. StopError holds the states up to the stop."""
     t_eval = times - problem.at
     begin, end = problem.begin - problem.at, float(t_eval[-1])
-    parts, y, spent = [np.repeat(problem.start[None], np.count_nonzero(t_eval == begin), axis=0)], problem.start, 0
-    for left, right, longest in segments(begin, end, problem.windows):
-        if right > left:
+    y, evaluations = problem.start, 0
+    pieces = [np.repeat(y[None], np.count_nonzero(t_eval == begin), axis=0)]
+    for lower, until, longest in segments(begin, end, problem.windows):
+        if until > lower:
             pulsed = longest < np.inf
             segment = Segment(
                 problem.driven if pulsed and problem.driven else problem.free,
                 y,
-                left,
-                right,
-                t_eval[(t_eval > left) & (t_eval <= right)],
+                lower,
+                until,
+                t_eval[(t_eval > lower) & (t_eval <= until)],
                 longest,
-                problem.budget - spent,
+                problem.budget - evaluations,
                 problem.project,
                 problem.typical_rate,
                 problem.time_to_singular,
             )
             try:
-                part = (solver or by_fastest)(segment, pulsed, tol)
+                stretch = (solver or by_fastest)(segment, pulsed, tol)
             except StopError as stop:
-                spent += stop.evaluations
+                evaluations += stop.evaluations
                 reached = stop.reached or Stretch(np.empty((0, len(y))), y, 0)
-                so_far = Stretch(np.concatenate([*parts, reached.states]), reached.end, spent)
-                raise StopError(problem.at + stop.at, stop.reason, so_far, spent, stop.cause) from None
-            parts.append(part.states)
-            y, spent = part.end, spent + part.evaluations
-    return Stretch(np.concatenate(parts), y, spent)
+                so_far = Stretch(np.concatenate([*pieces, reached.states]), reached.end, evaluations)
+                raise StopError(problem.at + stop.at, stop.reason, so_far, evaluations, stop.cause) from None
+            pieces.append(stretch.states)
+            y, evaluations = stretch.end, evaluations + stretch.evaluations
+    return Stretch(np.concatenate(pieces), y, evaluations)
 
 
 class _Progress:
-    """What has been made of a segment, and what is left of it."""
+    """The states of a segment so far, and the segment from there on."""
 
     def __init__(self, segment: Segment) -> None:
-        self.segment, self.spent, self.parts = segment, 0, [np.empty((0, len(segment.start)))]
+        self.segment, self.evaluations, self.pieces = segment, 0, [np.empty((0, len(segment.start)))]
 
-    def rest(self, right: float) -> Segment:
-        """What is left up to `right`. Raises StopError where nothing may be spent on it."""
+    def remaining(self, until: float) -> Segment:
+        """Return the segment up to the time `until`, or raise StopError if its budget is spent."""
         segment = self.segment
-        if self.spent > segment.budget:
-            raise self.stopped(StopError(segment.left, f"{self.spent} evaluations spent", cause="budget"))
-        inside = segment.t_eval <= right
-        return replace(segment, right=right, t_eval=segment.t_eval[inside], budget=segment.budget - self.spent)
+        if self.evaluations > segment.budget:
+            raise self.stopped(StopError(segment.begin, f"{self.evaluations} evaluations spent", cause="budget"))
+        inside = segment.t_eval <= until
+        return replace(segment, until=until, t_eval=segment.t_eval[inside], budget=segment.budget - self.evaluations)
 
-    def add(self, at: float, part: Stretch) -> None:
-        """What was made up to `at`, its evaluations apart."""
-        self.parts.append(part.states)
-        self.segment = replace(self.segment, start=part.end, left=at, t_eval=self.segment.t_eval[len(part.states) :])
+    def add(self, at: float, stretch: Stretch) -> None:
+        """Append the states up to the time `at`, without their evaluations."""
+        self.pieces.append(stretch.states)
+        self.segment = replace(
+            self.segment, start=stretch.end, begin=at, t_eval=self.segment.t_eval[len(stretch.states) :]
+        )
 
-    def whole(self) -> Stretch:
-        return Stretch(np.concatenate(self.parts), self.segment.start, self.spent)
+    def result(self) -> Stretch:
+        return Stretch(np.concatenate(self.pieces), self.segment.start, self.evaluations)
 
     def stopped(self, stop: StopError) -> StopError:
-        """The stop with all that was reached and spent."""
-        self.spent += stop.evaluations
+        """Return the stop with all states and evaluations of the segment."""
+        self.evaluations += stop.evaluations
         if stop.reached:
             self.add(stop.at, stop.reached)
-        at = stop.at if isinstance(stop, OutsideError) else self.segment.left
-        return StopError(at, stop.reason, self.whole(), cause=stop.cause)
+        at = stop.at if isinstance(stop, OutsideError) else self.segment.begin
+        return StopError(at, stop.reason, self.result(), cause=stop.cause)
 
 
 def by_fastest(segment: Segment, pulsed: bool, tol: float) -> Stretch:
-    """A segment by the solver that is fastest at this tolerance; where that stops, DOP853 goes on for a while.
-
-    The other one is tried again once DOP853 has taken as many evaluations as the last trial lost, and if it would take more than
-    those to the end: trials together lose no more than DOP853 takes, but for the last.
-    """
-    # From a velocity that is not finite a solver makes a step that is not, and retries it for ever.
+    """Solve a segment by the fastest solver at this tolerance, or by DOP853 for a while where that solver stops. The fast
+    solver is tried again when DOP853 has taken as many evaluations as the last trial lost. All trials but the last together
+    lose no more evaluations than DOP853 takes."""
+    # From a rate that is not finite a solver makes a step that is not finite, and repeats it for ever.
     by_dop853, progress = pulsed and tol < CROSSOVER.value, _Progress(segment)
-    progress.spent = 1
-    if not np.isfinite(segment.rhs(segment.left, segment.start)).all():
-        raise StopError(segment.left, "the right-hand side is not finite", evaluations=1)
+    progress.evaluations = 1
+    if not np.isfinite(segment.rhs(segment.begin, segment.start)).all():
+        raise StopError(segment.begin, "the right-hand side is not finite", evaluations=1)
     detour = DETOUR.value / segment.typical_rate if segment.typical_rate and not by_dop853 else np.inf
-    taken, came, since, per_time = 0, 0.0, np.inf, np.inf  # by the last trial, and by DOP853 since
-    while (left := progress.segment.left) < segment.right:
-        lost = taken - per_time * came if came else taken
-        if not by_dop853 and since >= lost and per_time * (segment.right - left) > lost:
+    # Evaluations and time of the last trial of the fast solver; evaluations of DOP853 since then, and per second.
+    trial_cost, trial_progress, since, per_time = 0, 0.0, np.inf, np.inf
+    while (now := progress.segment.begin) < segment.until:
+        lost_cost = trial_cost - per_time * trial_progress if trial_progress else trial_cost
+        if not by_dop853 and since >= lost_cost and per_time * (segment.until - now) > lost_cost:
             try:
-                run = _fastest(progress.rest(segment.right), pulsed, tol)
-                progress.spent += run.evaluations
-                progress.add(segment.right, run)
+                run = _fastest(progress.remaining(segment.until), pulsed, tol)
+                progress.evaluations += run.evaluations
+                progress.add(segment.until, run)
                 break
             except StopError as stop:
                 if isinstance(stop, OutsideError):
                     raise progress.stopped(stop) from None
                 progress.stopped(stop)
-                taken, came, since = stop.evaluations, progress.segment.left - left, 0
-        left = progress.segment.left
-        right = min(left + detour, segment.right)
-        part = progress.rest(right)
+                trial_cost, trial_progress, since = stop.evaluations, progress.segment.begin - now, 0
+        now = progress.segment.begin
+        until = min(now + detour, segment.until)
+        detour_segment = progress.remaining(until)
         try:
-            run = dop853(part, tol / 20)
+            run = dop853(detour_segment, tol / 20)
         except StopError as stop:
             raise progress.stopped(stop) from None
-        per_time, since = run.evaluations / (right - left), since + run.evaluations
-        progress.spent += run.evaluations
-        progress.add(right, run)
-    return progress.whole()
+        per_time, since = run.evaluations / (until - now), since + run.evaluations
+        progress.evaluations += run.evaluations
+        progress.add(until, run)
+    return progress.result()
 
 
 def _fastest(segment: Segment, pulsed: bool, tol: float) -> Stretch:
     if tol >= CROSSOVER.value:
         error = tol / LSODA_SAFETY.value
-        # In a pulse no loose one, and never the same for two tolerances: runs that are compared would agree, and be wrong.
+        # In a pulse the error is small and differs between tolerances, or the two compared runs would agree and be wrong.
         return lsoda(segment, min(error, (_IN_PULSE * error) ** 0.5) if pulsed else error)
-    # Where equal steps do not pay, Adams is left soon.
+    # A small budget, so that a motion for which equal steps are too costly soon gets another solver.
     return adams(replace(segment, budget=min(segment.budget, 5_000 + 0.15 * segment.budget)), tol)

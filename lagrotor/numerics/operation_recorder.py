@@ -1,4 +1,4 @@
-"""Numbers that record what is computed with them, so that a function of numbers of any kind becomes a line of source each.
+"""Numbers that record the operations on them, so that a numerical function becomes a line of source for each operation.
 
 Arrays of them (dtype object) go through numpy's sums, products and functions, as long as nothing branches on a value.
 """
@@ -10,91 +10,85 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 Term: TypeAlias = "Recorded | float"
-_LONGEST = 160  # characters of an expression that is not given a name of its own
+_LONGEST = 160  # characters from which an expression gets a name
 
 
 @dataclass(eq=False)
 class Recorded:
-    """A sum "+", difference "-", product "*", quotient "/", negative "neg", the value of the function of that name, or, without
-    parts, a name.
-
-    tape: every number of one record, in the order in which they were computed.
-    """
+    """The result of a recorded operation: "+", "-", "*", "/", "neg" or a function of its operands; without operands, a name.
+    The tape holds all numbers of one record in the order of their computation."""
 
     tape: list[Recorded] = field(repr=False)
     kind: str
-    parts: tuple[Term, ...] = ()
+    operands: tuple[Term, ...] = ()
 
     def __post_init__(self) -> None:
         self.tape.append(self)
 
-    def _with(self, kind: str, *parts: Term) -> Recorded:
-        return Recorded(self.tape, kind, parts)
+    def _with(self, kind: str, *operands: Term) -> Recorded:
+        return Recorded(self.tape, kind, operands)
 
-    def __add__(self, other: Term) -> Recorded:
-        return self if other == 0 else self._with("+", self, other)
+    def __add__(self, term: Term) -> Recorded:
+        return self if term == 0 else self._with("+", self, term)
 
     __radd__ = __add__
 
-    def __sub__(self, other: Term) -> Recorded:
-        return self if other == 0 else self._with("-", self, other)
+    def __sub__(self, term: Term) -> Recorded:
+        return self if term == 0 else self._with("-", self, term)
 
-    def __rsub__(self, other: Term) -> Recorded:
-        return -self if other == 0 else self._with("-", other, self)
+    def __rsub__(self, term: Term) -> Recorded:
+        return -self if term == 0 else self._with("-", term, self)
 
-    def __mul__(self, other: Term) -> Term:
-        if other == 0:
+    def __mul__(self, term: Term) -> Term:
+        if term == 0:
             return 0.0
-        return self if other == 1 else -self if other == -1 else self._with("*", other, self)
+        return self if term == 1 else -self if term == -1 else self._with("*", term, self)
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other: Term) -> Recorded:
-        return self._with("/", self, other)
+    def __truediv__(self, term: Term) -> Recorded:
+        return self._with("/", self, term)
 
-    def __rtruediv__(self, other: Term) -> Recorded:
-        return self._with("/", other, self)
+    def __rtruediv__(self, term: Term) -> Recorded:
+        return self._with("/", term, self)
 
     def __neg__(self) -> Recorded:
         return self._with("neg", self)
 
     def sqrt(self) -> Recorded:
-        """The square root, recorded; as those below, what numpy calls."""
+        """Record a square root; numpy calls this method, `sin`, `cos` and `hypot`."""
         return self._with("sqrt", self)
 
     def sin(self) -> Recorded:
-        """The sine, recorded."""
         return self._with("sin", self)
 
     def cos(self) -> Recorded:
-        """The cosine, recorded."""
         return self._with("cos", self)
 
-    def hypot(self, other: Term) -> Recorded:
-        """The root of the sum of two squares, recorded."""
-        return self._with("hypot", self, other)
+    def hypot(self, term: Term) -> Recorded:
+        return self._with("hypot", self, term)
 
 
 sqrt = Recorded.sqrt
 
 
 def lines(outputs: Iterable[Term], tape: list[Recorded]) -> tuple[list[str], list[str]]:
-    """Assignments to what is used more than once, and the text of each output."""
-    wanted, used = list(outputs), dict[Recorded, int]()
-    for x in wanted:
+    """Return assignments for the numbers that are used more than once, and the text of each output."""
+    terms, used = list(outputs), dict[Recorded, int]()
+    for x in terms:
         _count(x, used)
     for x in reversed(tape):
         if x in used:
-            for part in x.parts:
-                _count(part, used)
+            for operand in x.operands:
+                _count(operand, used)
     texts, statements = dict[Recorded, str](), list[str]()
     for x in tape:
         if x in used:
             texts[x] = _text(x, texts)
-            if x.parts and (used[x] > 1 or len(texts[x]) > _LONGEST):
+            if x.operands and (used[x] > 1 or len(texts[x]) > _LONGEST):
                 statements.append(f"t{len(statements)} = {texts[x]}")
                 texts[x] = f"t{len(statements) - 1}"
-    return statements, [texts[x] if isinstance(x, Recorded) else repr(float(x)) for x in wanted]
+    return statements, [texts[x] if isinstance(x, Recorded) else repr(float(x)) for x in terms]
 
 
 def _count(x: Term, used: dict[Recorded, int]) -> None:
@@ -103,7 +97,7 @@ def _count(x: Term, used: dict[Recorded, int]) -> None:
 
 
 def _text(x: Recorded, texts: dict[Recorded, str]) -> str:
-    parts = [texts[part] if isinstance(part, Recorded) else repr(float(part)) for part in x.parts]
+    operands = [texts[operand] if isinstance(operand, Recorded) else repr(float(operand)) for operand in x.operands]
     if x.kind in "+-*/":
-        return f"({x.kind.join(parts)})"
-    return f"(-{parts[0]})" if x.kind == "neg" else f"{x.kind}({', '.join(parts)})" if parts else x.kind
+        return f"({x.kind.join(operands)})"
+    return f"(-{operands[0]})" if x.kind == "neg" else f"{x.kind}({', '.join(operands)})" if operands else x.kind

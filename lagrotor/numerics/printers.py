@@ -1,7 +1,7 @@
-"""Programs as code: Python functions of numbers or of arrays, the right-hand side that a solver calls, JavaScript.
+"""Printed programs: Python functions of numbers or arrays, the right-hand side for a solver, JavaScript.
 
-A right-hand side takes one state at a time: what depends on the parameters alone is worked out once, and squares are products,
-which takes about three quarters of the time of a function and a wrapper around it.
+A right-hand side takes one state at a time. Stages of parameters alone are evaluated once, and squares are printed as products:
+this takes three quarters of the time of a function with a wrapper.
 """
 
 from collections.abc import Callable, Sequence
@@ -20,11 +20,11 @@ from lagrotor.numerics.arrays import Array
 from lagrotor.numerics.codegen import Program, Stage, reduce_common
 from lagrotor.numerics.source_cache import function_of
 
-_BLOCK = 8192  # values at once: what a processor keeps close
+_BLOCK = 8192  # values at once, which fit into a processor's cache
 
 
 class _Printer(AbstractPythonCodePrinter):  # type: ignore[misc]
-    """Python in which symbols may have other names."""
+    """A Python printer that can rename symbols."""
 
     module: str
 
@@ -33,18 +33,18 @@ class _Printer(AbstractPythonCodePrinter):  # type: ignore[misc]
         self.names: dict[sp.Symbol, str] = {}
 
     def _print_Float(self, expr: sp.Float) -> str:
-        """To its last digit: sympy writes 15, and loses 192943.6528778573 s by 3·10⁻¹⁰ s."""
+        """Print all digits: sympy's 15 would change 192943.6528778573 s by 3·10⁻¹⁰ s."""
         return repr(float(expr))
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
         return self.names.get(expr) or super()._print_Symbol(expr)
 
     def _print_AppliedUndef(self, expr: sp.Expr) -> str:
-        """A function that is an argument of the program."""
+        """Print a call of a function that is an argument of the program."""
         return f"{expr.func}({', '.join(map(self._print, expr.args))})"
 
     def _print_sech(self, expr: sp.sech) -> str:
-        """Without cosh, which overflows from 711 on, where this is zero."""
+        """Print without cosh, which overflows from 711 on, where sech is zero."""
         small = sp.exp(-sp.Abs(expr.args[0]))
         return f"({self._print(2 * small)}/({self._print(1 + small**2)}))"
 
@@ -55,7 +55,7 @@ class _Printer(AbstractPythonCodePrinter):  # type: ignore[misc]
 
 
 class _Scalars(_Printer, PythonCodePrinter):  # type: ignore[misc]
-    """Of numbers: a small power of a symbol is a product, no sum begins with a minus sign that it can do without."""
+    """For floats: a small power of a symbol is a product, and a sum begins with a positive term if it has one."""
 
     module = "math"
 
@@ -69,7 +69,7 @@ class _Scalars(_Printer, PythonCodePrinter):  # type: ignore[misc]
 
 
 class _Arrays(_Printer, SciPyPrinter):  # type: ignore[misc]
-    """Of arrays."""
+    """For arrays."""
 
     module = "numpy"
 
@@ -80,13 +80,13 @@ class _Arrays(_Printer, SciPyPrinter):  # type: ignore[misc]
         return self._of_two("minimum", expr)
 
     def _of_two(self, name: str, expr: sp.Expr) -> str:
-        """A function of two, of all the arguments: sympy 1.13.0 stacks them, which takes no number beside an array."""
+        """Nest a function of two arguments: sympy 1.13.0 stacks the arguments, which fails for a number with an array."""
         name = self._module_format(f"numpy.{name}")
         return reduce(lambda a, b: f"{name}({a}, {b})", map(self._print, expr.args))
 
 
 class _Digits(_Printer, MpmathPrinter):  # type: ignore[misc]
-    """Of mpmath's numbers."""
+    """For numbers of mpmath."""
 
     module = "mpmath"
     _print_Float = MpmathPrinter._print_Float
@@ -96,12 +96,12 @@ _PRINTERS: dict[str, type[_Printer]] = {printer.module: printer for printer in (
 
 
 def _quick(e: sp.Expr, show: _Printer) -> str:
-    """What `show` prints of a sum of products, without the search for the finest order of its terms."""
+    """Print a sum of products without sympy's search for the best order of its terms."""
     if e.is_Symbol:
         return show.names.get(e) or e.name
     if e.is_Add:
-        parts = sorted((_quick(term, show) for term in e.args), key=lambda text: text[0] == "-")
-        return "".join([parts[0], *(part if part[0] == "-" else f"+{part}" for part in parts[1:])])
+        summands = sorted((_quick(term, show) for term in e.args), key=lambda text: text[0] == "-")
+        return "".join([summands[0], *(summand if summand[0] == "-" else f"+{summand}" for summand in summands[1:])])
     if e.is_Mul and e.args[0] == -1:
         return f"-{'*'.join(_factor(f, show) for f in e.args[1:])}"
     if e.is_Mul:
@@ -114,7 +114,7 @@ def _factor(e: sp.Expr, show: _Printer) -> str:
 
 
 def _assignments(stages: Sequence[Stage], outputs: Sequence[sp.Expr], show: _Printer, quick: bool) -> list[str]:
-    """The stages, assigned to as few names as are alive at once: beyond 255 local names Python runs many times slower."""
+    """Print the stages with as few names as are in use at once: beyond 255 local names Python runs many times slower."""
     used_in = [e.free_symbols for _, e in stages]
     last = {s: i for i, symbols in enumerate(used_in) for s in symbols}
     passing = {name for name, _ in stages}.difference(*(e.free_symbols for e in outputs))
@@ -130,7 +130,7 @@ def _assignments(stages: Sequence[Stage], outputs: Sequence[sp.Expr], show: _Pri
 
 
 def program_source(program: Program, module: str = "math") -> str:
-    """Source of (arguments) → list of outputs, as `compile_program` has it."""
+    """Return the source of a function of the arguments that returns the list of outputs."""
     stages, outputs = reduce_common(program)
     show = _PRINTERS[module]()
     lines = _assignments(stages, outputs, show, program.shared)
@@ -141,18 +141,8 @@ def program_source(program: Program, module: str = "math") -> str:
 
 
 def compile_program(program: Program, module: str = "math", doc: str = "") -> Callable[..., Any]:
-    """The program as a function of its arguments, returning a list of outputs.
-
-    Parameters
-    ----------
-    program : Program
-        What is computed.
-    module : str, default 'math'
-        "math" takes Python floats, one state at a time (the fastest where a solver calls one state at a time); "numpy"
-        arrays that broadcast together; "mpmath" numbers of any precision.
-    doc : str, default ''
-        The function's docstring.
-    """
+    """Compile a program to a function of its arguments that returns a list of outputs. The module "math" takes floats
+    (fastest for one state at a time), "numpy" arrays that broadcast, "mpmath" any precision."""
     function = function_of(program_source(program, module))
     function.__doc__ = doc or f"{', '.join(map(str, program.arguments))} -> {len(program.outputs)} numbers"
     return function
@@ -161,48 +151,45 @@ def compile_program(program: Program, module: str = "math", doc: str = "") -> Ca
 def rhs_source(
     program: Program, states: int, driven: bool = False, bounded: bool = False, clock: int | None = None
 ) -> str:
-    """Source of parameters → rhs(s, y), for a program whose first `states` arguments are the state.
-
-    driven: the last three parameters are the components of a force exp(−(s/width)²), and width follows them. bounded: where
-    one of the program's `positive` is not positive, OutsideError is raised. clock: which of the state is the time; where the last
-    parameter, begin, is given, it is begin + s instead.
-    A state outside the range of the coordinates gives NaN, which makes a solver shorten its step; `rhs.bare`, for a solver
-    that cannot, raises one of LOST there instead.
-    """
-    wanted = (*program.outputs, *(program.positive if bounded else ()))
-    stages, reduced = reduce_common(replace(program, outputs=wanted))
+    """Return the source of parameters → rhs(s, y), for a program whose first `states` arguments are the state. driven: the
+    last three parameters are the components of a force exp(−(s/width)²), and width follows them. bounded: OutsideError is
+    raised where one of the program's `positive` is not positive. clock: index of the time in the state; with the last
+    parameter begin, the time is begin + s instead. Outside the coordinates' range rhs gives NaN, which makes a solver shorten
+    its step; `rhs.bare` raises one of LOST instead."""
+    expressions = (*program.outputs, *(program.positive if bounded else ()))
+    stages, reduced = reduce_common(replace(program, outputs=expressions))
     outputs, bounds = reduced[: len(program.outputs)], reduced[len(program.outputs) :]
     show = _Scalars()
     state, parameters = program.arguments[:states], program.arguments[states:]
     force = parameters[-3:] if driven else ()
-    fixed, moving, known = list[str](), list[Stage](), set(parameters) - set(force)
+    fixed, moving, fixed_symbols = list[str](), list[Stage](), set(parameters) - set(force)
     for name, expression in stages:
-        if expression.free_symbols <= known:
-            known.add(name)
+        if expression.free_symbols <= fixed_symbols:
+            fixed_symbols.add(name)
             fixed.append(f"{name} = {show.doprint(expression)}")
         else:
             moving.append((name, expression))
     lines = _assignments(moving, reduced, show, program.shared)
-    within = [f"{show.doprint(e)} > 0" for e in bounds]
+    checks = [f"{show.doprint(e)} > 0" for e in bounds]
     body = [
         f"{', '.join(map(str, state))} = y.tolist()",
         *([f"if begin is not None: {state[clock]} = begin + s"] if clock is not None else []),
         *(["pulse = exp(-(s / width) ** 2)", *(f"{f} = peak_{f} * pulse" for f in force)] if driven else []),
         *lines,
-        *([f"if not ({' and '.join(within)}): raise OutsideError(s)"] if within else []),
+        *([f"if not ({' and '.join(checks)}): raise OutsideError(s)"] if checks else []),
         f"return [{', '.join(map(show.doprint, outputs))}]",
     ]
-    given = [*map(str, parameters[: len(parameters) - len(force)]), *(f"peak_{f}" for f in force)]
-    given += ["begin=None"] if clock is not None else []
-    return rhs_text(body, fixed, [*given, "width"] if driven else given, len(outputs))
+    names = [*map(str, parameters[: len(parameters) - len(force)]), *(f"peak_{f}" for f in force)]
+    names += ["begin=None"] if clock is not None else []
+    return rhs_text(body, fixed, [*names, "width"] if driven else names, len(outputs))
 
 
-def rhs_text(body: list[str], fixed: list[str], given: list[str], outputs: int) -> str:
-    """Source of parameters `given` → rhs(s, y) of the lines `body`; the lines `fixed` are evaluated once."""
+def rhs_text(body: list[str], fixed: list[str], names: list[str], outputs: int) -> str:
+    """Return the source of a function of parameters that returns rhs(s, y); the lines `fixed` are evaluated once."""
     source = [
         "from math import *",
         "from lagrotor.numerics.segment import LOST, OutsideError",
-        f"def make({', '.join(given)}):",
+        f"def make({', '.join(names)}):",
         *(f"    {line}" for line in fixed),
         "    def bare(s, y):",
         *(f"        {line}" for line in body),
@@ -218,20 +205,17 @@ def rhs_text(body: list[str], fixed: list[str], given: list[str], outputs: int) 
 
 
 def in_blocks(function: Callable[..., Any], arguments: Sequence[float | Array], outputs: int, n: int) -> Array:
-    """A numpy program's outputs (outputs, n), where an argument is one number or an array (n,), some thousands at a time.
-
-    A block's intermediate results stay in a processor's cache; those of a million values would go through the memory.
-    """
+    """Evaluate a numpy program, shape (outputs, n), some thousands of values at a time, so that they stay in the cache."""
     table = np.empty((outputs, n))
     for i in range(0, n, _BLOCK):
-        part = function(*(v if isinstance(v, float) else v[i : i + _BLOCK] for v in arguments))
-        for row, values in zip(table, part, strict=True):
+        rows = function(*(v if isinstance(v, float) else v[i : i + _BLOCK] for v in arguments))
+        for row, values in zip(table, rows, strict=True):
             row[i : i + _BLOCK] = values
     return table
 
 
 def javascript(program: Program, name: str) -> str:
-    """The program as a JavaScript function that returns an array."""
+    """Return the program as a JavaScript function that returns an array."""
     stages, outputs = reduce_common(program)
     lines = [f"  const {s} = {sp.jscode(e)};" for s, e in stages]
     values = ", ".join(sp.jscode(e) for e in outputs)

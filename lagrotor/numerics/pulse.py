@@ -1,4 +1,4 @@
-"""Windows of a run, in which something acts briefly by the clock: where a force of t changes fast, and how a run is cut there."""
+"""Windows of a run, in which a force of t changes fast; a run is cut at their edges and its steps are bounded in them."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ if TYPE_CHECKING:
 PULSE_REACH = 6.5
 # Longest step in a window, over that of the run, of its companion: were it 1, both might take the same steps and agree.
 COMPANION_STEP = 0.8
-_LOOKS = 2**14  # intervals of a run, at whose ends forces of t are looked at
+_LOOKS = 2**14  # intervals of a run, at whose ends forces of t are sampled
 _CELL = 8  # intervals of the smallest cell
-_DEGREE = 4  # of the polynomial that a function is in a cell where it is smooth
-_SMOOTH = 1e-6  # of its range over the run, to which it is that there
-_TAIL, _TAILS = 1e-12, 6  # the same beside a cell where it is not, and in how many cells on each side that is looked at
-_OFTEN, _FINER = 0.25, 4  # the part of a run that is no exception, and how much finer than there a window's cells are
-_CUT = 10.0  # steps that a cut costs
+_DEGREE = 4  # of the polynomial that fits a function in a smooth cell
+_SMOOTH = 1e-6  # error of that fit over the range of the function in the run
+_TAIL, _TAILS = 1e-12, 6  # the same bound beside a cell that is not smooth, and the number of cells on each side
+_OFTEN, _FINER = 0.25, 4  # share of the run above which fast changes are usual; ratio of usual cells to a window's
+_CUT = 10.0  # cost of a cut in steps
 
 
 class Window(NamedTuple):
-    """From `begin` to `end` (s) no step is longer than `longest`."""
+    """A time interval from `begin` to `end` (s) in which no step is longer than `longest`."""
 
     begin: float
     end: float
@@ -32,20 +32,19 @@ class Window(NamedTuple):
 
 
 def pulse_windows(width: float, companion: bool = False) -> tuple[Window, ...]:
-    """That of a pulse exp(−(s/width)²): within its reach steps are no longer than its width."""
+    """Return the window of a pulse exp(−(s/width)²), in which steps are no longer than its width."""
     reach = PULSE_REACH * width
     return windows_since(0.0, (Window(-reach, reach, width),), companion)
 
 
 def windows_since(begin: float, windows: Sequence[Window], companion: bool = False) -> tuple[Window, ...]:
-    """The windows by a clock that shows 0 at the time `begin`."""
+    """Return the windows on a clock that shows 0 at the time `begin`; a companion's steps are shorter."""
     share = COMPANION_STEP if companion else 1.0
     return tuple(Window(a - begin, b - begin, share * longest) for a, b, longest in windows)
 
 
 def segments(begin: float, end: float, windows: Sequence[Window]) -> Iterator[Window]:
-    """A run from begin to end, cut at the edges of windows, which follow each other: the longest step of each part is inf outside
-    of them."""
+    """Yield the intervals of a run, cut at the edges of its windows; outside of windows the longest step is inf."""
     now = begin
     for window in windows:
         if window.end <= now or window.begin >= end:
@@ -59,75 +58,74 @@ def segments(begin: float, end: float, windows: Sequence[Window]) -> Iterator[Wi
 
 
 def brief_windows(functions: Callable[[Array], Array], begin: float, end: float) -> tuple[Window, ...]:
-    """Where functions of t, times (n,) → values (k, n), change faster than they mostly do from begin to end.
-
-    A cell is smooth if a polynomial of degree 4 is the function there, to 10⁻⁶ of its range. Cells are doubled as long as those
-    that are not smooth are the exception; each is a window of steps no longer than itself, or, in the smallest, than the function
-    takes to change by all that it does there at its fastest. What changes in a window is taken out before cells are doubled, or
-    each would be found again in all larger ones. NaN, where a function has no value, is the value beside it.
-    """
-    import numpy as np  # here, since a scene needs the reach of a pulse only
+    """Find the windows in which functions of t, times (n,) → values (k, n), change faster than in most of the run. A cell is
+    smooth if a polynomial of degree 4 fits the function to 10⁻⁶ of its range. Cells are doubled as long as most are smooth;
+    each other cell is a window. Its longest step is its length, or in the smallest cells the time of the fastest change.
+    Changes inside a window are removed before cells are doubled, or all larger cells would contain them."""
+    import numpy as np  # imported late: a scene needs only the reach of a pulse
 
     if not begin < end:
         return ()
     times, longest = np.linspace(begin, end, _LOOKS + 1), np.full(_LOOKS, np.inf)
-    for each in functions(times):
-        np.minimum(longest, _longest_steps(each), out=longest)
+    for values in functions(times):
+        np.minimum(longest, _longest_steps(values), out=longest)
     edges = np.flatnonzero(np.concatenate([[True], longest[1:] != longest[:-1], [True]]))
     windows = list[Window]()
     for i, j in pairwise(edges):
         if np.isinf(longest[i]):
             continue
         window = Window(float(times[i]), float(times[j]), float(longest[i]) * (end - begin) / _LOOKS)
-        while windows and (both := _one(windows[-1], window)):
+        while windows and (both := _merged(windows[-1], window)):
             window = both
             windows.pop()
         windows.append(window)
     return tuple(windows)
 
 
-def _one(left: Window, right: Window) -> Window | None:
-    """Two windows as one, where that takes fewer steps than solvers take to begin anew."""
-    both = Window(left.begin, right.end, min(left.longest, right.longest))
-    more = (both.end - both.begin) / both.longest - sum((b - a) / longest for a, b, longest in (left, right))
-    return both if more <= _CUT * (1 + (right.begin > left.end)) else None
+def _merged(first: Window, second: Window) -> Window | None:
+    """Merge two windows where that takes fewer steps than restarting a solver; None otherwise."""
+    merged = Window(first.begin, second.end, min(first.longest, second.longest))
+    extra_steps = (merged.end - merged.begin) / merged.longest - sum(
+        (b - a) / longest for a, b, longest in (first, second)
+    )
+    return merged if extra_steps <= _CUT * (1 + (second.begin > first.end)) else None
 
 
 def _longest_steps(values: Array) -> Array:
-    """Of one function: in intervals, the longest step in each of them (_LOOKS,), inf where it is smooth."""
+    """Return the longest step in each interval for one function, in intervals, shape (_LOOKS,); inf where it is smooth."""
     import numpy as np
 
-    longest, known = np.full(_LOOKS, np.inf), np.flatnonzero(np.isfinite(values))
-    if not len(known):
+    longest, finite = np.full(_LOOKS, np.inf), np.flatnonzero(np.isfinite(values))
+    if not len(finite):
         return longest
-    rest = np.interp(np.arange(_LOOKS + 1), known, values[known])
-    size, noise = np.ptp(rest), 64 * np.finfo(float).eps * np.abs(rest).max()
+    curve = np.interp(np.arange(_LOOKS + 1), finite, values[finite])
+    size, noise = np.ptp(curve), 64 * np.finfo(float).eps * np.abs(curve).max()
     of_level: list[tuple[int, Array]] = []
     n = _CELL
     while n <= _LOOKS // _CELL:
-        cells = np.lib.stride_tricks.sliding_window_view(rest, n + 1)[::n]
+        cells = np.lib.stride_tricks.sliding_window_view(curve, n + 1)[::n]
         basis = np.linalg.qr(np.vander(np.linspace(-1, 1, n + 1), _DEGREE + 1))[0]
-        off = np.abs(cells - (cells @ basis) @ basis.T).max(1)
-        rough, beside = off > max(_SMOOTH * size, noise), off > max(_TAIL * size, noise)
+        deviation = np.abs(cells - (cells @ basis) @ basis.T).max(1)
+        rough, uneven = deviation > max(_SMOOTH * size, noise), deviation > max(_TAIL * size, noise)
         if rough.mean() > _OFTEN:
             break
         longer = rough.copy()
         for _ in range(_TAILS):
-            longer[1:] |= longer[:-1] & beside[1:]
-            longer[:-1] |= longer[1:] & beside[:-1]
+            longer[1:] |= longer[:-1] & uneven[1:]
+            longer[:-1] |= longer[1:] & uneven[:-1]
         rough = longer if longer.mean() <= _OFTEN else rough
-        there = np.repeat(rough, n)
-        changes = np.diff(rest)
+        narrow = np.repeat(rough, n)
+        changes = np.diff(curve)
         steps = np.full(_LOOKS, np.inf)
-        edges = np.flatnonzero(np.diff(np.concatenate([[False], there, [False]])))
+        edges = np.flatnonzero(np.diff(np.concatenate([[False], narrow, [False]])))
         for i, j in zip(edges[::2], edges[1::2], strict=True):
-            fastest = np.ptp(rest[i : j + 1]) / np.abs(changes[i:j]).max() if n == _CELL else n
+            fastest = np.ptp(curve[i : j + 1]) / np.abs(changes[i:j]).max() if n == _CELL else n
             steps[i:j] = min(max(fastest, 1.0), n)
         of_level.append((n, steps))
-        if there.any():
-            smooth = np.flatnonzero(~there)
+        if narrow.any():
+            smooth = np.flatnonzero(~narrow)
             changes = np.interp(np.arange(_LOOKS), smooth, changes[smooth])
-            rest = np.concatenate([rest[:1], rest[0] + np.cumsum(changes)])
+            curve = np.concatenate([curve[:1], curve[0] + np.cumsum(changes)])
         n *= 2
     mostly = n
     for n, steps in of_level:

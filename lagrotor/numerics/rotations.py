@@ -1,4 +1,4 @@
-"""How bodies turn along a run: rotation matrices carried by their axes and axial spins. No angle is singular."""
+"""Rotation matrices of bodies along a run, carried by their axes and axial spins. No angle is singular."""
 
 import numpy as np
 
@@ -13,46 +13,44 @@ _LEVI_CIVITA = np.array(
 
 
 def turn_between(u: Array, v: Array) -> Array:
-    """Shortest rotations P with P u = v, P = (u·v) 1 + [n]× + n nᵀ/(1 + u·v), n = u × v: (…, 3) → (…, 3, 3).
-
-    Raises
-    ------
-    InputError
-        Where v is opposite to u: there is no shortest one.
-    """
+    """Return the shortest rotations P with P u = v, shape (…, 3, 3): P = (u·v) 1 + [n]× + n nᵀ/(1 + u·v), n = u × v. Raises
+    InputError where v is opposite to u, since no rotation is the shortest."""
     n, c = np.cross(u, v), (u * v).sum(-1)[..., None, None]
     if (1 + c < 1e-12).any():
-        raise InputError("turn_between: an axis turns round between two samples; take more samples")
-    turned: Array = c * np.eye(3) + skew_matrix(n) + n[..., :, None] * n[..., None, :] / (1 + c)
-    return turned
+        raise InputError("turn_between: an axis reverses between two samples; take more samples")
+    rotation: Array = c * np.eye(3) + skew_matrix(n) + n[..., :, None] * n[..., None, :] / (1 + c)
+    return rotation
 
 
 def body_rotations(t: Array, axes: Array, rates: Array, spins: Array) -> Array:
-    """Rotation of each body along its run, (k, n, 3, 3), body to world: Q' = [Omega]× Q, Omega = r × r' + omega r.
+    """Compute the rotation of each body, body to world, from Q' = [Omega]× Q, Omega = r × r' + omega r.
 
-    At t[0] the body is turned the shortest way from e_z to r (by way of ±e_x where r hangs down).
-
-    From sample to sample r is carried along the great circle, Q → P(r_0 → r_1) exp([r_0]× (omega h + area)) Q, where
-    `area` is what the path encloses with that circle. For the great circle's own frame it grows at the rate
-    p·(u × u')/(1 + p·u) of the pole p = r_0; at p itself that rate is zero to first order, which gives h/3 of its value
-    at the other end, and the mean with the same from the pole r_1 leaves an error of order h⁵ a step. Hence: r and
-    orthogonality to rounding, the angle about r to O(h⁴).
+    At t[0] the body is turned the shortest way from e_z to r (by way of ±e_x where r hangs down). From sample to sample r is
+    carried along the great circle, Q → P(r_0 → r_1) exp([r_0]× (omega h + area)) Q, with the area between the path and that
+    circle. Its rate is p·(u × u')/(1 + p·u) about the pole p = r_0, to first order zero at p. The area is a third of h times
+    the rate at the other end, averaged over both poles. Its error is O(h⁵) a step: r is exact to rounding, the angle about r
+    to O(h⁴).
 
     Parameters
     ----------
     t : Array
-        Times (n,), s.
+        Times in s, shape (n,).
     axes : Array
-        Unit vectors r, (k, n, 3).
+        Unit vectors r, shape (k, n, 3).
     rates : Array
-        R', (k, n, 3), 1/s.
+        Their derivatives r' in 1/s, shape (k, n, 3).
     spins : Array
-        Omega, constant, (k,), rad/s.
+        Constant axial spins omega in rad/s, shape (k,).
+
+    Returns
+    -------
+    Array
+        Rotation matrices Q, shape (k, n, 3, 3).
 
     Raises
     ------
     InputError
-        Where an axis turns by pi between two samples.
+        If an axis turns by pi between two samples.
     """
     r0, r1, v0, v1 = axes[:, :-1], axes[:, 1:], rates[:, :-1], rates[:, 1:]
     carried, h = turn_between(r0, r1), np.diff(t)
@@ -69,26 +67,10 @@ def body_rotations(t: Array, axes: Array, rates: Array, spins: Array) -> Array:
 
 
 def between_samples(t: Array, axes: Array, rates: Array, times: Array) -> tuple[Array, Array]:
-    """Unit axes and their tangent rates (k, m, 3) between samples: Hermite cubics, O(h⁴).
-
-    Parameters
-    ----------
-    t : Array
-        The samples' times (n,).
-    axes : Array
-        Unit vectors at them, (k, n, 3).
-    rates : Array
-        Their rates, (k, n, 3).
-    times : Array
-        The others, (m,).
-
-    Raises
-    ------
-    InputError
-        For times outside the samples, or fewer than two of these.
-    """
+    """Interpolate unit axes and their tangent rates (k, n, 3) at other times (m,) by Hermite cubics, to O(h⁴). Raises
+    InputError for times outside the samples, or fewer than two samples."""
     if len(t) < 2 or times.min() < t[0] or times.max() > t[-1]:
-        raise InputError("between_samples: the run needs two times at least, and holds no time outside them")
+        raise InputError("between_samples: the run needs at least two times, and all times must lie between them")
     from scipy.interpolate import CubicHermiteSpline
 
     curve = CubicHermiteSpline(t, axes, rates, axis=1)
@@ -100,22 +82,20 @@ def between_samples(t: Array, axes: Array, rates: Array, times: Array) -> tuple[
 
 
 def turn_about(n: Array, angle: Array) -> Array:
-    """Rotations by `angle` (…,) about unit vectors n (…, 3), (…, 3, 3): 1 + 2 cos(angle/2) [q]× + 2 [q]×², q = sin(angle/2) n.
-
-    This is 1 + sin(angle) [n]× + (1 − cos(angle)) [n]×².
-    """
+    """Return rotations by `angle` (…,) about unit vectors n (…, 3), shape (…, 3, 3): 1 + sin(angle) [n]× + (1 − cos(angle))
+    [n]×². With q = sin(angle/2) n this is 1 + 2 cos(angle/2) [q]× + 2 [q]×²."""
     half = angle[..., None] / 2
     crossed = skew_matrix(np.sin(half) * n)
-    turned: Array = _ONE + 2 * (np.cos(half)[..., None] * crossed + crossed @ crossed)
-    return turned
+    rotation: Array = _ONE + 2 * (np.cos(half)[..., None] * crossed + crossed @ crossed)
+    return rotation
 
 
 def skew_matrix(v: Array) -> Array:
-    """[v]× with [v]× w = v × w: (…, 3) → (…, 3, 3)."""
+    """Return [v]×, shape (…, 3, 3), with [v]× w = v × w."""
     return v.dot(_LEVI_CIVITA).reshape(*v.shape, 3)
 
 
 def turning_sum(products: Array) -> Array:
-    """Σ a × b of the sums Σ a bᵀ of products, (…, 3, 3) → (…, 3)."""
+    """Return Σ a × b, shape (…, 3), from the sums Σ a bᵀ, shape (…, 3, 3)."""
     total: Array = products.reshape(*products.shape[:-2], 9).dot(-_LEVI_CIVITA.T)
     return total

@@ -1,4 +1,4 @@
-"""`Run`: what every simulated motion is, whatever moves: times, error estimate, horizon, ending, and how it is kept and shown."""
+"""`Run`, the base class of every simulated motion: times, error estimate, horizon, ending, files and tables."""
 
 from abc import abstractmethod
 from collections.abc import Iterator, Mapping
@@ -18,7 +18,7 @@ from lagrotor.result_display import Shown, scientific
 
 _SAYS = {
     "end": "the last time was reached",
-    "lost": "the last time was reached, but neighbouring motions part: nothing is known of the states",
+    "lost": "the last time was reached, but neighbouring motions separate: the states are unknown",
     "budget": "its evaluations are spent",
     "singular": "a singular position was reached",
     "event": "an event ends it",
@@ -28,26 +28,20 @@ _SAYS = {
 
 @dataclass(frozen=True)
 class Ending:
-    """How a run ended: at its last time (end), there although neighbouring motions had parted from `at` on (lost), or at the
-    time `at` (s) before: with its evaluations spent (budget), at a singular position that was measured, by an event, or
-    because the solver cannot go on (stopped)."""
+    """The ending of a run: its kind (see _SAYS), the time `at` in s if it differs from the last time, and a reason."""
 
     kind: Literal["end", "lost", "budget", "singular", "event", "stopped"] = "end"
     at: float = inf
     reason: str = ""
 
     def __post_init__(self) -> None:
-        if (
-            self.kind not in _SAYS
-            or not isinstance(self.at, float)
-            or self.at != self.at
-            or type(self.reason) is not str
-        ):
-            raise InputError(f"Ending: {self.kind!r} at {self.at!r} for {self.reason!r} is none")
+        valid = isinstance(self.at, float) and self.at == self.at and type(self.reason) is str
+        if self.kind not in _SAYS or not valid:
+            raise InputError(f"Ending: {self.kind!r} at {self.at!r} for {self.reason!r} is no valid ending")
 
     @property
     def early(self) -> bool:
-        """Whether the run ended before its last time."""
+        """True if the run ended before its last time."""
         return self.kind not in ("end", "lost")
 
     def __str__(self) -> str:
@@ -58,7 +52,7 @@ class Ending:
 
 
 class Quantity(NamedTuple):
-    """What is known of a run at each of its times: values, the name of each axis ("t" among them), and the unit."""
+    """A quantity of a run at each of its times: values, the name of each axis ("t" among them), and the unit."""
 
     values: Array
     axes: tuple[str, ...]
@@ -67,11 +61,9 @@ class Quantity(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Run(Shown):
-    """A simulated motion at the times t (n,) that were reached, in s; its start holds at t[0].
-
-    errors (n,): the estimated largest error up to each time, relative to the state's size; NaN where none is known. horizon:
-    the time (s) from which they exceed the tolerance. evaluations: of the right-hand side, by every integration that was made.
-    """
+    """A simulated motion at the times t (n,) in s that were reached; the initial state holds at t[0]. `errors` (n,) are the
+    estimated largest errors up to each time, relative to the size of the state, NaN where not known. `horizon` is the time in
+    s from which they exceed the tolerance. `evaluations` counts those of all integrations."""
 
     t: Array
     errors: Array
@@ -81,28 +73,28 @@ class Run(Shown):
 
     @property
     def error(self) -> float:
-        """The estimated largest error over the run, relative to the state's size."""
+        """The estimated largest error over the run, relative to the size of the state."""
         return float(self.errors[-1]) if len(self.errors) else 0.0
 
     @property
     @abstractmethod
     def energy(self) -> Array:
-        """The whole kinetic and potential energy, that of spins included, (n,), in J."""
+        """The kinetic and potential energy, including the spins', in J, shape (n,)."""
 
     @abstractmethod
     def quantities(self) -> Mapping[str, Quantity]:
-        """What the run holds and what is derived from it, by name: what is written, tabulated and handed on."""
+        """Return the state and the derived quantities by name, as they are saved and tabulated."""
 
     @abstractmethod
     def plot(self) -> Any:
-        """A figure that a notebook shows; `.savefig(path)` writes it."""
+        """Draw a figure that a notebook shows; `.savefig(path)` writes it."""
 
     @abstractmethod
     def animate(self, path: str | Path, fps: float = 25.0) -> Path:
-        """Write the motion to `path`, a `.gif`."""
+        """Write the run as a film, a .gif."""
 
     def summary(self) -> dict[str, str]:
-        """How long the run is, how well it is known, how it ended, name → words."""
+        """Summarise the number of times, the evaluations, the error and the ending in words, by name."""
         n, error = len(self.t), self.error
         return {
             "times": f"{n}, from {self.t[0]:g} to {self.t[-1]:g} s" if n else "none",
@@ -111,17 +103,12 @@ class Run(Shown):
             "ending": str(self.ending),
         }
 
-    def check_times(self, where: str) -> None:
-        """Raises InputError for a run without times."""
-        if not len(self.t):
-            raise InputError(f"{where}: the run has no times, as that of crossings where there are none")
-
-    def about(self) -> dict[str, Any]:
-        """What `save` writes beside the arrays, as JSON."""
+    def _about(self) -> dict[str, Any]:
+        """Return the entries that `save` writes as JSON with the arrays."""
         return {}
 
-    def columns(self) -> Iterator[tuple[str, Array, str]]:
-        """Each component of each quantity: a name, its values (n,), its unit."""
+    def _columns(self) -> Iterator[tuple[str, Array, str]]:
+        """Yield the name, the values (n,) and the unit of each component."""
         for name, quantity in self.quantities().items():
             values = np.moveaxis(quantity.values, quantity.axes.index("t"), -1)
             others = [axis for axis in quantity.axes if axis != "t"]
@@ -130,60 +117,109 @@ class Run(Shown):
                 yield "_".join([name, *map(str, label)]), values[at], quantity.unit
 
     def after(self, begin: float) -> Self:
-        """The part of the run from the time `begin` (s) on. Raises InputError where nothing is left."""
+        """Return the part of the run from a time on.
+
+        Parameters
+        ----------
+        begin : float
+            The time in s.
+
+        Returns
+        -------
+        Self
+            A run at the times t ≥ begin.
+
+        Raises
+        ------
+        InputError
+            If the run ends before `begin`.
+
+        Examples
+        --------
+        >>> from lagrotor import Scene, simulate
+        >>> simulate(Scene(spins=(10, -10)), [0, 1, 2]).after(0.5).t
+        array([1., 2.])
+        """
         if isinstance(begin, bool) or not isinstance(begin, int | float | np.number) or begin != begin:
             raise InputError(f"after: begin = {begin!r} must be a time in s")
-        self.check_times("after")
-        i, held = int(np.searchsorted(self.t, begin)), self.quantities()
+        check_nonempty("after", self.t)
+        i, quantities = int(np.searchsorted(self.t, begin)), self.quantities()
         if i == len(self.t):
             raise InputError(f"after: the run ends at t = {self.t[-1]:g} s, before {begin:g} s")
-        own = ((each.name, held[each.name]) for each in fields(self) if each.name in held)
-        parts: dict[str, Any] = {
-            name: q.values[(slice(None),) * q.axes.index("t") + (slice(i, None),)] for name, q in own
+        sampled = ((item.name, quantities[item.name]) for item in fields(self) if item.name in quantities)
+        slices: dict[str, Any] = {
+            name: q.values[(slice(None),) * q.axes.index("t") + (slice(i, None),)] for name, q in sampled
         }
-        return replace(self, t=self.t[i:], errors=self.errors[i:], **parts)
+        return replace(self, t=self.t[i:], errors=self.errors[i:], **slices)
 
     def to_dataframe(self) -> Any:
-        """The run as a pandas DataFrame, t (s) its index, a column a component.
+        """Return the run as a table with one column for each component.
 
-        Raises InputError where pandas is not installed.
+        Returns
+        -------
+        pandas.DataFrame
+            Indexed by t in s; pandas must be installed.
         """
         pandas = optional_package("pandas")
         return pandas.DataFrame(
-            {name: values for name, values, _ in self.columns()}, index=pandas.Index(self.t, name="t")
+            {name: values for name, values, _ in self._columns()}, index=pandas.Index(self.t, name="t")
         )
 
     def to_xarray(self) -> Any:
-        """The run as an xarray Dataset over t (s) and what else its quantities have, each variable with its unit.
+        """Return the run as a labelled dataset, each variable with its unit.
 
-        Raises InputError where xarray is not installed.
+        Returns
+        -------
+        xarray.Dataset
+            Over t in s and the other axes of the quantities; xarray must be installed.
         """
-        xarray, held = optional_package("xarray"), self.quantities()
+        xarray, quantities = optional_package("xarray"), self.quantities()
         places: dict[str, Any] = {"t": ("t", self.t, {"units": "s"})}
-        for quantity in held.values():
+        for quantity in quantities.values():
             sizes = zip(quantity.axes, quantity.values.shape, strict=True)
             places |= {axis: _labels(axis, size) for axis, size in sizes if axis != "t"}
-        variables = {name: (q.axes, q.values, {"units": q.unit}) for name, q in held.items()}
-        more = {name: value for name, value in self.about().items() if isinstance(value, str)}
-        return xarray.Dataset(variables, coords=places, attrs=more | {"ending": str(self.ending)})
+        variables = {name: (q.axes, q.values, {"units": q.unit}) for name, q in quantities.items()}
+        attributes = {name: value for name, value in self._about().items() if isinstance(value, str)}
+        return xarray.Dataset(variables, coords=places, attrs=attributes | {"ending": str(self.ending)})
 
     def save(self, path: str | Path) -> Path:
-        """Write the run by the name's ending.
+        """Write the run to a file; the ending of its name chooses the format.
 
-        .npz: t, errors, every quantity, and as JSON what is run, horizon, evaluations, ending, version and a digest of it all,
-        which `load` of the same class reads back. .csv: a column a component. .png, .svg, .pdf: `plot`. .gif: `animate`.
-        Raises InputError for another ending.
+        .npz: times, errors, every quantity, and a description as JSON with a digest, which `load` of the same class reads back.
+        .csv: a column for each component. .png, .svg, .pdf: `plot`. .gif: `animate`.
+
+        Parameters
+        ----------
+        path : str or Path
+            The file name.
+
+        Returns
+        -------
+        Path
+            The file.
+
+        Raises
+        ------
+        InputError
+            For another ending of the name.
+
+        Examples
+        --------
+        >>> from tempfile import gettempdir
+        >>> from lagrotor import Scene, simulate
+        >>> simulate(Scene(spins=(10, -10)), [0, 1, 2]).save(gettempdir() + "/run.csv").name
+        'run.csv'
         """
         target = path_of("save: path", path)
         if target.suffix == ".npz":
-            self.check_times("save")
-            known = {"horizon": self.horizon, "evaluations": self.evaluations, "ending": asdict(self.ending)}
+            check_nonempty("save", self.t)
+            outcome = {"horizon": self.horizon, "evaluations": self.evaluations, "ending": asdict(self.ending)}
             arrays = {name: quantity.values for name, quantity in self.quantities().items()}
-            return write_arrays(target, self.about() | known, {"t": self.t, "errors": self.errors} | arrays)
+            return write_arrays(target, self._about() | outcome, {"t": self.t, "errors": self.errors} | arrays)
         if target.suffix == ".csv":
-            held = {"t [s]": self.t} | {f"{name} [{unit}]": values for name, values, unit in self.columns()}
-            rows = (",".join(map(repr, row)) for row in np.column_stack(list(held.values())).tolist())
-            return write_text(target, "\n".join([",".join(held), *rows, ""]))
+            table = {"t [s]": self.t} | {f"{name} [{unit}]": values for name, values, unit in self._columns()}
+            rows = (",".join(map(repr, row)) for row in np.column_stack(list(table.values())).tolist())
+            return write_text(target, "\n".join([",".join(table), *rows, ""]))
         if target.suffix in PICTURES:
             return write_beside(target, lambda file: self.plot().savefig(file, format=target.suffix[1:]))
         if target.suffix in FILMS:
@@ -191,8 +227,14 @@ class Run(Shown):
         raise InputError(f"save: {target.name} must end in .npz, .csv, {', '.join((*PICTURES, *FILMS))}")
 
 
+def check_nonempty(where: str, t: Array) -> None:
+    """Raise InputError for a run without times."""
+    if not len(t):
+        raise InputError(f"{where}: the run has no times, as for a section that is never crossed")
+
+
 class Saved(NamedTuple):
-    """What a file of `Run.save` holds: about, what the class wrote of itself; arrays; fields, those of `Run`."""
+    """The contents of a file of `Run.save`: the entries and arrays of the class, and the fields of `Run`."""
 
     about: dict[str, Any]
     arrays: dict[str, Array]
@@ -200,11 +242,8 @@ class Saved(NamedTuple):
 
 
 def read_run(path: str | Path) -> Saved:
-    """The contents of a run that was saved as .npz, those of `Run` checked.
-
-    Raises InputError where that is not what the file is: not whole, or with times that decrease, or errors, evaluations or an
-    ending that are none.
-    """
+    """Read a run that was saved as .npz, and check the fields of `Run`. Raises InputError for any other file, an incomplete
+    one, decreasing times, or invalid errors, evaluations or ending."""
     about, arrays = read_arrays(path_of("load: path", path))
     try:
         t, errors = arrays.pop("t"), arrays.pop("errors")
@@ -229,12 +268,12 @@ def read_run(path: str | Path) -> Saved:
 
 
 def _labels(axis: str, size: int) -> list[Any]:
-    """Components are x, y, z; what else there is several of is counted from 1."""
+    """Label components x, y, z, and number any other axis from 1."""
     return list("xyz"[:size]) if axis == "component" else list(range(1, size + 1))
 
 
 def optional_package(name: str) -> Any:
-    """An optional package; raises InputError with the way to it."""
+    """Import an optional package, or raise InputError with the command that installs it."""
     try:
         return import_module(name)
     except ModuleNotFoundError:

@@ -1,4 +1,4 @@
-"""A segment of a run without an edge of a pulse inside, as a solver is given it, and the states that it returns."""
+"""A segment of a run without an edge of a pulse inside: the input of a solver, and the states that it returns."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -17,16 +17,14 @@ LOST = ValueError, ZeroDivisionError, OverflowError  # raised by arithmetic outs
 
 @dataclass(frozen=True)
 class Segment:
-    """y' = rhs(s, y) from `start` at `left` to `right`, read at `t_eval` within; no step is longer than `longest`.
-
-    `project` brings a state (d,), or states (d, n), back onto constraints; `budget`: evaluations after which the solver
-    stops; no step is longer than half of `time_to_singular` of the state where it begins.
-    """
+    """The problem y' = rhs(s, y) from the state `start` at the time `begin` to `until`, with states at `t_eval`. No step is
+    longer than `longest`, or than half the time from its first state to a singular position. `project` brings a state (d,), or
+    states (d, n), back onto the constraints. The solver stops after `budget` evaluations."""
 
     rhs: RightHandSide
     start: Array
-    left: float
-    right: float
+    begin: float
+    until: float
     t_eval: Array
     longest: float = np.inf
     budget: float = np.inf
@@ -36,19 +34,18 @@ class Segment:
 
     @property
     def relative_speed(self) -> float:
-        """Largest component of y' over 1 + that of y, at the start (1/s)."""
-        return float(np.abs(self.rhs(self.left, self.start)).max() / (1 + np.abs(self.start).max()))
+        """The largest component of y' over 1 + the largest of y at the start, in 1/s."""
+        return float(np.abs(self.rhs(self.begin, self.start)).max() / (1 + np.abs(self.start).max()))
 
     def clear(self, y: Array) -> float:
-        """The longest step from a state that does not pass a singular position."""
+        """Return the longest step from a state that does not pass a singular position."""
         return self.time_to_singular(y) / 2 if self.time_to_singular else np.inf
 
 
 @dataclass(frozen=True, eq=False)
 class Stretch:
-    """States (n, d) at the first n of the times of a stretch of motion, all of them if its end was reached; the last state;
-    evaluations. jumps: times within at which an event changed the state.
-    """
+    """States (n, d) at the first n times of a motion (all times if it reached its end), the last state, and the evaluations.
+    An event changed the state at the times `jumps`."""
 
     states: Array
     end: Array
@@ -56,11 +53,10 @@ class Stretch:
     jumps: tuple[float, ...] = ()
 
     def cut(self, d: int) -> "Stretch":
-        """The stretch in the first d components."""
         return replace(self, states=self.states[:, :d], end=self.end[:d])
 
 
-SegmentSolver = Callable[[Segment, bool, float], Stretch]  # a segment, whether within a pulse, a local error
+SegmentSolver = Callable[[Segment, bool, float], Stretch]  # a segment, True in a pulse, a local error
 Integrate = Callable[[Array, Array, float, bool, float], Stretch]  # start, times, local error, companion, budget
 Cause = Literal["budget", "singular", "event", "stopped"]
 _WAYS_OUT = {
@@ -72,7 +68,7 @@ _WAYS_OUT = {
 
 
 def reporting(rate: RightHandSide, progress: Callable[[float], None] | None, at: float) -> RightHandSide:
-    """The right-hand side that calls `progress`, if it is one, with each time `at` + s at which it is evaluated."""
+    """Return the right-hand side that calls `progress` with the time `at` + s of each evaluation."""
     if progress is None:
         return rate
 
@@ -86,14 +82,14 @@ def reporting(rate: RightHandSide, progress: Callable[[float], None] | None, at:
 
 
 def in_units(segment: Segment, scale: Array) -> Segment:
-    """The segment for the state z, y = scale z."""
+    """Return the segment for the state z = y / scale."""
     project = segment.project
     onto = None if project is None else lambda z: (project((z.T * scale).T).T / scale).T
     return replace(segment, rhs=_scaled_rhs(segment.rhs, scale), start=segment.start / scale, project=onto)
 
 
 def _scaled_rhs(bare: RightHandSide, scale: Array) -> RightHandSide:
-    """The right-hand side for the state z, y = scale z."""
+    """Return the right-hand side for the state z = y / scale."""
     if (scale == 1).all():
         return bare
 
@@ -106,10 +102,10 @@ def _scaled_rhs(bare: RightHandSide, scale: Array) -> RightHandSide:
 
 
 def by_units(solve: SegmentSolver, scale: Array) -> SegmentSolver:
-    """The solver, given each component of a segment's state over its scale (d,)."""
+    """Return the solver for states in units of `scale` (d,)."""
 
-    def to_units(part: Stretch) -> Stretch:
-        return replace(part, states=part.states * scale, end=part.end * scale)
+    def to_units(stretch: Stretch) -> Stretch:
+        return replace(stretch, states=stretch.states * scale, end=stretch.end * scale)
 
     def scaled(segment: Segment, pulsed: bool, local: float) -> Stretch:
         try:
@@ -122,16 +118,14 @@ def by_units(solve: SegmentSolver, scale: Array) -> SegmentSolver:
 
 
 def states_on_constraints(project: Projection | None, states: Array) -> Array:
-    """States (n, d), brought back onto their constraints."""
+    """Bring states (n, d) back onto their constraints."""
     return project(states.T).T if project and len(states) else states
 
 
 class StopError(IntegrationError):
-    """A solver that stopped at the time `at` (in a solver: the segment's own time), for a reason.
-
-    cause: its evaluations are spent (budget), a singular position was measured, an event ends the run, or it cannot go on and
-    the reason is all that is known. reached: the motion up to there, with its last state; evaluations: those spent.
-    """
+    """A solver stopped at the time `at` (in a solver: the segment's own time). Causes: the evaluations are spent (budget), a
+    singular position was measured, an event ends the run, or the solver cannot continue and gives only its reason (stopped).
+    `reached` is the motion up to the stop, with its last state."""
 
     def __init__(
         self,
@@ -147,7 +141,7 @@ class StopError(IntegrationError):
 
 
 class OutsideError(StopError):
-    """A run that left the range in which its right-hand side is well conditioned."""
+    """The run left the range in which its right-hand side is well conditioned."""
 
     def __init__(self, at: float) -> None:
         super().__init__(at, "the coordinates become singular", cause="singular")

@@ -8,7 +8,7 @@ solver     method                                    chosen by `integrate.by_fas
 `adams`    Adams predictor and corrector of order    below CROSSOVER, where no force acts briefly: it alone reaches
            10 or 12 in equal steps (Hairer, Nørsett  an error of 10⁻¹³
            & Wanner, III.1)
-`dop853`   Runge–Kutta of order 8 (Hairer, Nørsett   where another stops, for a while; below CROSSOVER in a pulse;
+`dop853`   Runge–Kutta of order 8 (Hairer, Nørsett   for a while, where another stops; below CROSSOVER in a pulse;
            & Wanner, II.5), scipy's, step by step    between events
 `taylor`   Taylor series, compiled by heyoka         engine = "fast", in a module of its own
 ========== ========================================= ============================================================
@@ -34,52 +34,49 @@ from lagrotor.numerics.segment import (
     states_on_constraints,
 )
 
-_PATIENCE = 5_000  # evaluations before they are weighed against the share of the segment that is done
-_TURN = 0.5  # of a state with constraints, in a step, where a solver may be far from where the constraints fail
-_FIRST = 1e-6  # of a segment: the first step, where the one that is tried leaves the range of the right-hand side
+_PATIENCE = 5_000  # evaluations before they are compared with the completed share of the segment
+_TURN = 0.5  # largest relative change of a state with constraints in a step, which might pass a singular position
+_FIRST = 1e-6  # first step over the segment, where scipy's own first step leaves the range of the right-hand side
 _LEAST_RELATIVE = 2.3e-14  # scipy's solvers take no smaller relative tolerance
-_BUDGET_OF_A_PART = 5_000  # between two projections; beyond it the solver no longer follows the motion
-_LEAST_CUT = 1e-12  # of a segment: shorter parts between two projections come nowhere
-_DRIFT = 200.0  # local errors that the constraints may gather between projections: the error of the run as a whole
+_PIECE_BUDGET = 5_000  # evaluations between two projections, beyond which the solver no longer follows the motion
+_LEAST_CUT = 1e-12  # least time between two projections over the segment
+_DRIFT = 200.0  # drift of the constraints between projections in local errors: the error of the whole run
 _BLOCK = 100
 _SWEEPS = 25
-_PIECE = 2_000  # steps, after which a longer one than had failed before is tried again
-_IN_VAIN = 3  # times that a step is shortened at one place by what its order says, and leaves too much as before
+_PIECE = 2_000  # steps, after which a step longer than one that failed is tried again
+_IN_VAIN = 3  # times that a step is shortened at one place without a smaller error
 
 
 def dop853_steps(segment: Segment, error: float) -> Iterator[Any]:
-    """scipy's solver after each step at a local error `error`, relative and absolute: its t_old, t, y and dense_output().
-
-    A state is brought back onto constraints before the next step. Raises StopError where it stops.
-    """
+    """Yield scipy's solver after each step at a local error `error`, relative and absolute; the state is then projected."""
     from scipy.integrate import DOP853
 
     project = segment.project
-    with np.errstate(divide="ignore", invalid="ignore"):  # of its first step, where values are not finite
+    with np.errstate(divide="ignore", invalid="ignore"):  # scipy's first step, where values are not finite
         solver = DOP853(
             segment.rhs,
-            segment.left,
+            segment.begin,
             segment.start,
-            segment.right,
+            segment.until,
             rtol=max(error, _LEAST_RELATIVE),
             atol=error,
             max_step=segment.longest,
         )
     if not np.isfinite(solver.f).all():
-        raise StopError(segment.left, "the right-hand side is not finite", evaluations=solver.nfev)
-    if not np.isfinite(solver.h_abs):  # the first step, which scipy would take for ever
-        solver.h_abs = _FIRST * (segment.right - segment.left)
+        raise StopError(segment.begin, "the right-hand side is not finite", evaluations=solver.nfev)
+    if not np.isfinite(solver.h_abs):  # scipy would repeat this first step for ever
+        solver.h_abs = _FIRST * (segment.until - segment.begin)
     while solver.status == "running":
-        if project is not None:  # no step over where the constraints fail
-            turned = _TURN * (1 + np.abs(solver.y).max()) / (np.abs(solver.f).max() + 1e-300)
-            solver.max_step = min(segment.longest, turned, segment.clear(solver.y))
+        if project is not None:  # no step over a singular position of the constraints
+            limit = _TURN * (1 + np.abs(solver.y).max()) / (np.abs(solver.f).max() + 1e-300)
+            solver.max_step = min(segment.longest, limit, segment.clear(solver.y))
         t, y = solver.t, solver.y
         message = solver.step()
         if solver.status == "failed" or not np.isfinite(solver.y).all():
             reached = Stretch(np.empty((0, len(y))), y, solver.nfev)
             raise StopError(t, message or "a value is not finite", reached)
         yield solver
-        share = (solver.t - segment.left) / (segment.right - segment.left)
+        share = (solver.t - segment.begin) / (segment.until - segment.begin)
         if solver.status == "running" and solver.nfev > min(segment.budget, _PATIENCE + share * segment.budget):
             reached = Stretch(np.empty((0, len(y))), solver.y, solver.nfev)
             raise StopError(solver.t, f"{solver.nfev} evaluations spent", reached, cause="budget")
@@ -90,117 +87,116 @@ def dop853_steps(segment: Segment, error: float) -> Iterator[Any]:
 
 
 def dop853(segment: Segment, error: float) -> Stretch:
-    """The segment at a local error `error`, relative and absolute. Raises StopError with what was reached."""
+    """Solve the segment by DOP853 at a local error `error`, relative and absolute."""
     t_eval = segment.t_eval
-    states, done, solver = np.empty((len(t_eval), len(segment.start))), 0, None
+    states, count, solver = np.empty((len(t_eval), len(segment.start))), 0, None
     try:
         for solver in dop853_steps(segment, error):
             reached = int(np.searchsorted(t_eval, solver.t, side="right"))
-            if reached > done:
-                states[done:reached] = solver.dense_output()(t_eval[done:reached]).T
-                done = reached
+            if reached > count:
+                states[count:reached] = solver.dense_output()(t_eval[count:reached]).T
+                count = reached
     except StopError as stop:
         end = stop.reached.end if stop.reached else segment.start
-        part = Stretch(states_on_constraints(segment.project, states[:done]), end, stop.evaluations)
-        raise StopError(stop.at, stop.reason, part, cause=stop.cause) from None
+        stretch = Stretch(states_on_constraints(segment.project, states[:count]), end, stop.evaluations)
+        raise StopError(stop.at, stop.reason, stretch, cause=stop.cause) from None
     assert solver is not None  # a segment has a length
-    return Stretch(states_on_constraints(segment.project, states[:done]), solver.y, solver.nfev)
+    return Stretch(states_on_constraints(segment.project, states[:count]), solver.y, solver.nfev)
 
 
 def lsoda(segment: Segment, error: float) -> Stretch:
-    """The segment at a local error `error`, relative and absolute.
-
-    The first step is given, not found from the first output, so outputs do not change the run. Where there are
-    constraints the run is cut about once a turn and projected: their error grows exponentially where the axes are pressed.
-    Raises StopError with what was reached.
-    """
+    """Solve the segment by LSODA at a local error `error`, relative and absolute. The first step does not depend on the first
+    output time, so outputs do not change the run. With constraints the run is cut about once a turn and projected, since
+    their error grows exponentially where the axes are pressed."""
     if segment.project is None:
         return _lsoda(segment, error)
-    parts, spent, left, y, longest_cut = [np.empty((0, len(segment.start)))], 0, segment.left, segment.start, np.inf
+    now, y, evaluations, longest_cut = segment.begin, segment.start, 0, np.inf
+    blocks = [np.empty((0, len(y)))]
 
     def stopped(reason: str, cause: Cause = "stopped") -> StopError:
-        return StopError(left, reason, _on_constraints(segment, parts, y, spent), cause=cause)
+        return StopError(now, reason, _on_constraints(segment, blocks, y, evaluations), cause=cause)
 
-    while left < segment.right:
-        if spent > segment.budget:
-            raise stopped(f"{spent} evaluations spent", "budget")
-        cut = min(5 / (replace(segment, left=left, start=y).relative_speed + 1e-300), longest_cut, segment.clear(y))
-        if cut < _LEAST_CUT * (segment.right - segment.left):
+    while now < segment.until:
+        if evaluations > segment.budget:
+            raise stopped(f"{evaluations} evaluations spent", "budget")
+        cut = min(5 / (replace(segment, begin=now, start=y).relative_speed + 1e-300), longest_cut, segment.clear(y))
+        if cut < _LEAST_CUT * (segment.until - segment.begin):
             raise stopped("the next step might pass a singular position")
-        right = left + cut if left + 1.5 * cut < segment.right else segment.right
-        # A state with constraints moves no more than a fifth in a step, so that none leaps over where they fail.
+        until = now + cut if now + 1.5 * cut < segment.until else segment.until
+        # A state with constraints changes by at most a fifth in a step, so that no step leaps over a singular position.
         longest = min(segment.longest, cut / 25)
-        part = replace(segment, start=y, left=left, right=right, longest=longest)
+        piece = replace(segment, start=y, begin=now, until=until, longest=longest)
         try:
-            part, run = _up_to_singular(part, min(segment.budget - spent, _BUDGET_OF_A_PART), error)
-            end, spent = segment.project(run.end), spent + run.evaluations + 1
+            piece, run = _up_to_singular(piece, min(segment.budget - evaluations, _PIECE_BUDGET), error)
+            end, evaluations = segment.project(run.end), evaluations + run.evaluations + 1
             drifted = np.abs(end - run.end).max() / (1 + np.abs(end).max())
         except StopError as stop:
-            drifted, spent = np.inf, spent + stop.evaluations
-            if cut < longest_cut / 2 or spent > segment.budget:
+            drifted, evaluations = np.inf, evaluations + stop.evaluations
+            if cut < longest_cut / 2 or evaluations > segment.budget:
                 raise stopped(stop.reason, stop.cause) from None
-        if not drifted <= _DRIFT * error:  # what has grown so far would not be brought back to where it left
+        if not drifted <= _DRIFT * error:  # a projection would not bring so large a drift back to the motion
             longest_cut = cut / 8
-            if longest_cut < 1e-6 * (segment.right - segment.left):
+            if longest_cut < 1e-6 * (segment.until - segment.begin):
                 raise stopped("the constraints drift faster than they can be kept")
             continue
-        parts.append(run.states)
-        y, left, longest_cut = end, part.right, 1.5 * longest_cut
-    run = _on_constraints(segment, parts, y, spent)
+        blocks.append(run.states)
+        y, now, longest_cut = end, piece.until, 1.5 * longest_cut
+    run = _on_constraints(segment, blocks, y, evaluations)
     if not np.isfinite(run.states).all():
-        raise StopError(segment.left, "a state could not be brought back onto its constraints", evaluations=spent)
+        reason = "a state could not be brought back onto its constraints"
+        raise StopError(segment.begin, reason, evaluations=evaluations)
     return run
 
 
-def _on_constraints(segment: Segment, parts: list[Array], y: Array, spent: int) -> Stretch:
-    states = np.concatenate(parts)
+def _on_constraints(segment: Segment, blocks: list[Array], y: Array, evaluations: int) -> Stretch:
+    states = np.concatenate(blocks)
     if segment.project and len(states):
-        states = segment.project(segment.project(states.T)).T  # of a drift one step leaves about the square
-    return Stretch(states, y, spent)
+        states = segment.project(segment.project(states.T)).T  # one step squares the drift
+    return Stretch(states, y, evaluations)
 
 
-def _up_to_singular(part: Segment, budget: float, error: float) -> tuple[Segment, Stretch]:
-    """The part of a run, or what of it comes before its steps might pass a singular position, and its run."""
-    wanted = part.t_eval[(part.t_eval > part.left) & (part.t_eval <= part.right)]
-    if part.time_to_singular is None:
-        return part, _lsoda(replace(part, t_eval=wanted, budget=budget), error)
-    count = 65 + int(2 * (part.right - part.left) / part.longest)  # two times or more in a longest step
-    # The end is one of them: a run that stopped between the last time before it and the end has not come to the end.
-    t_eval = np.union1d(wanted, np.linspace(part.left, part.right, count)[1:])
-    run = _lsoda(replace(part, t_eval=t_eval, budget=budget), error)
+def _up_to_singular(segment: Segment, budget: float, error: float) -> tuple[Segment, Stretch]:
+    """Return the part of a segment before its steps might pass a singular position, and its states."""
+    times = segment.t_eval[(segment.t_eval > segment.begin) & (segment.t_eval <= segment.until)]
+    if segment.time_to_singular is None:
+        return segment, _lsoda(replace(segment, t_eval=times, budget=budget), error)
+    count = 65 + int(2 * (segment.until - segment.begin) / segment.longest)  # two times or more in a longest step
+    # The end is one of the times, so that a stop between the last output and the end is seen.
+    t_eval = np.union1d(times, np.linspace(segment.begin, segment.until, count)[1:])
+    run = _lsoda(replace(segment, t_eval=t_eval, budget=budget), error)
     n = len(run.states)
-    shorter = part if n == len(t_eval) else replace(part, right=float(t_eval[n - 1]))
-    wanted = wanted[wanted <= shorter.right]
-    return shorter, replace(run, states=run.states[np.searchsorted(t_eval, wanted)])
+    shorter = segment if n == len(t_eval) else replace(segment, until=float(t_eval[n - 1]))
+    times = times[times <= shorter.until]
+    return shorter, replace(run, states=run.states[np.searchsorted(t_eval, times)])
 
 
 def _lsoda(segment: Segment, error: float) -> Stretch:
-    """The segment, or what of it comes before a state whose next step might pass a singular position."""
-    left, right, spent, lost, near, stopped = segment.left, segment.right, 0, False, False, False
-    at = done = left  # the time of the last evaluation, and one before it up to which the steps are accepted
-    rest = [0.0] * len(segment.start)
+    """Solve the segment up to a state whose next step might pass a singular position."""
+    begin, right, evaluations, lost, near, stopped = segment.begin, segment.until, 0, False, False, False
+    at = accepted = begin  # times of the last evaluation and of the last accepted step
+    zero_rate = [0.0] * len(segment.start)
 
     def watched(s: float, y: Array) -> list[float]:
-        # LSODA takes NaN for a number and may step over where it came from; DOP853 does not. Once it is to stop, it is given
-        # a state at rest: it soon comes to the end, and what it read off before is kept.
-        nonlocal spent, lost, near, stopped, at, done
+        # LSODA takes NaN for a number and may step over its place; DOP853 does not. To stop LSODA, its rate becomes zero: it
+        # soon comes to the end, and the earlier states remain valid.
+        nonlocal evaluations, lost, near, stopped, at, accepted
         if stopped:
-            return rest
-        at, done = s, at if s > at else done
+            return zero_rate
+        at, accepted = s, at if s > at else accepted
         velocity = segment.rhs(s, y)
-        spent, lost = spent + 1, velocity[0] != velocity[0]
+        evaluations, lost = evaluations + 1, velocity[0] != velocity[0]
         near = segment.clear(y) < segment.longest
-        stopped = lost or near or spent > segment.budget
-        return rest if stopped else velocity
+        stopped = lost or near or evaluations > segment.budget
+        return zero_rate if stopped else velocity
 
-    first = min(np.sqrt(error) / (1 + np.abs(segment.rhs(left, segment.start)).max()), segment.longest, right - left)
+    first = min(np.sqrt(error) / (1 + np.abs(segment.rhs(begin, segment.start)).max()), segment.longest, right - begin)
     bare, unwatched = None if segment.time_to_singular else getattr(segment.rhs, "bare", None), 0
     if bare:
 
         def counted(s: float, y: Array) -> list[float]:
             nonlocal unwatched
             unwatched += 1
-            if unwatched > segment.budget:  # scipy's bound is one of steps between two outputs
+            if unwatched > segment.budget:  # scipy's own bound counts the steps between two outputs
                 raise OverflowError
             velocity: list[float] = bare(s, y)
             return velocity
@@ -211,31 +207,31 @@ def _lsoda(segment: Segment, error: float) -> Stretch:
                 return Stretch(states[1:-1], states[-1], unwatched + 1)
         except LOST:
             pass
-    # What fails unwatched is run again to see where: it takes the same steps.
+    # A failed run is repeated with the same steps to find the time of its failure.
     states, log = _odeint(segment, watched, error, first)
-    spent += 1 + unwatched
+    evaluations += 1 + unwatched
     if stopped or not _successful(states, log):
-        # Of one that fails by itself, what comes after its last step is no number that it made.
-        states = states[1:-1][segment.t_eval <= done]
+        # After the last step of a run that fails by itself, the states are undefined.
+        states = states[1:-1][segment.t_eval <= accepted]
         whole = np.isfinite(states).all(1)
         states = states if whole.all() else states[: int(np.argmin(whole))]
-        reached = Stretch(states, states[-1], spent) if len(states) else None
+        reached = Stretch(states, states[-1], evaluations) if len(states) else None
         if near and reached:
             return reached
         reasons = {
             "the right-hand side is not finite": lost,
             "the next step might pass a singular position": near,
-            f"{spent} evaluations spent": stopped,
+            f"{evaluations} evaluations spent": stopped,
             log["message"]: True,
         }
-        until = float(segment.t_eval[len(states) - 1]) if reached else left
+        until = float(segment.t_eval[len(states) - 1]) if reached else begin
         cause: Cause = "budget" if stopped and not (lost or near) else "stopped"
-        raise StopError(until, next(why for why, so in reasons.items() if so), reached, spent, cause)
-    return Stretch(states[1:-1], states[-1], spent)
+        raise StopError(until, next(why for why, so in reasons.items() if so), reached, evaluations, cause)
+    return Stretch(states[1:-1], states[-1], evaluations)
 
 
 def _odeint(segment: Segment, rhs: RightHandSide, error: float, first: float) -> tuple[Array, dict[str, Any]]:
-    """States at the segment's ends and the times between them, and scipy's log."""
+    """Return the states at the segment's ends and the times between them, and scipy's log."""
     from scipy.integrate import odeint
 
     with warnings.catch_warnings():
@@ -243,7 +239,7 @@ def _odeint(segment: Segment, rhs: RightHandSide, error: float, first: float) ->
         states, log = odeint(
             rhs,
             segment.start,
-            np.concatenate([[segment.left], segment.t_eval, [segment.right]]),
+            np.concatenate([[segment.begin], segment.t_eval, [segment.until]]),
             tfirst=True,
             rtol=error,
             atol=error,
@@ -260,19 +256,16 @@ def _successful(states: Array, log: dict[str, Any]) -> bool:
 
 
 def adams_order(error: float) -> int:
-    """Order of the pair for a local error: the higher, the fewer steps accuracy needs, and the shorter those that are stable."""
+    """Return the order of the pair: a higher order needs fewer steps for accuracy, but shorter ones for stability."""
     return 10 if error >= 1e-10 else 12
 
 
 @lru_cache(maxsize=8)
 def adams_weights(q: int) -> tuple[Array, Array, Array, Array]:
-    """Weights of an Adams pair of q nodes, from the Lagrange polynomials l_j of q equal steps, exact before rounding.
-
-    A: integrals from the last node to the one after it (Adams–Bashforth); B: from the last but one to the last
-    (Adams–Moulton), both (2, q): rounded, and what rounding left. Without that every step of every run has the same
-    error, which no comparison of two runs shows. S (q, q): from the first node to each; P (q, q + 1): the integral of l_j
-    from the middle node q // 2 as a polynomial in steps from there.
-    """
+    """Return the weights A, B, S, P of an Adams pair of q nodes, from the Lagrange polynomials l_j, exact before rounding. A:
+    integrals over the step after the last node (Adams–Bashforth); B: over the step before it (Adams–Moulton). Both are (2, q),
+    the rounded weights and their rounding error, which else all steps of all runs would share. S (q, q): from the first node to
+    each; P (q, q + 1): the integral of l_j from node q // 2 as a polynomial in steps."""
     middle, last = q // 2, q - 1 - q // 2
     nodes = [i - middle for i in range(q)]
     rows = []
@@ -281,7 +274,7 @@ def adams_weights(q: int) -> tuple[Array, Array, Array, Array]:
         for i in nodes:
             if i != j:
                 pairs = zip([Fraction(0), *lagrange], [*lagrange, Fraction(0)], strict=True)
-                lagrange = [(shifted - i * own) / (j - i) for shifted, own in pairs]
+                lagrange = [(shifted - i * coefficient) / (j - i) for shifted, coefficient in pairs]
         rows.append([Fraction(0), *(c / (n + 1) for n, c in enumerate(lagrange))])
 
     def at(row: list[Fraction], x: int) -> Fraction:
@@ -298,8 +291,7 @@ def adams_weights(q: int) -> tuple[Array, Array, Array, Array]:
 
 @dataclass(frozen=True)
 class _Piece:
-    """Equal steps h from t by the pair of order q: states and velocities y' (n + 1, d) at the nodes, evaluations, and the
-    factor by which h is to change."""
+    """Equal steps h from t by the pair of order q: states and rates y' (n + 1, d), evaluations, the factor for the next h."""
 
     q: int
     t: float
@@ -310,7 +302,7 @@ class _Piece:
     change: float
 
     def read(self, times: Array) -> Array:
-        """States (m, d) at times within the piece, by the polynomial of the pair itself."""
+        """Return states (m, d) at times within the piece, by the polynomial of the pair."""
         q = self.q
         P = adams_weights(q)[3]
         steps = (times - self.t) / self.h
@@ -321,19 +313,16 @@ class _Piece:
 
 
 def _piece(segment: Segment, q: int, y: Array, t: float, h: float, steps: int, limit: float) -> _Piece:
-    """Steps of h until `steps` are made, or h is found too long (change < 1) or needlessly short (change > 1).
-
-    Predict, evaluate, correct, evaluate; predictor less corrector, over h, is held under `limit` (Hairer, Nørsett &
-    Wanner, III.1).
-    """
+    """Take steps h until `steps` are made, or h proves too long (change < 1) or needlessly short (change > 1). Predict,
+    evaluate, correct, evaluate; (corrector − predictor)/h is kept under `limit` (Hairer, Nørsett & Wanner, III.1)."""
     rhs = segment.rhs
     A, B, _, _ = adams_weights(q)
-    states, velocities, off = np.empty((3, steps + 1, len(y)))
+    states, velocities, differences = np.empty((3, steps + 1, len(y)))
     evaluations, settled = _first_nodes(segment, q, y, t, h, states[:q], velocities[:q])
     if not settled:
         return _Piece(q, t, h, states[:1], velocities[:1], evaluations, 0.5)
 
-    # What rounding alone leaves of predictor less corrector, over h, in the component that moves fastest for its size.
+    # Rounding error of (corrector − predictor)/h in the component that is fastest for its size.
     fastest = (np.abs(velocities[:q]).max(axis=0) / (1 + np.abs(states[q - 1]))).max()
     noise = 4 * np.finfo(float).eps * (np.abs(A[0]).sum() * fastest + 1 / h)
     limit = max(limit, noise)
@@ -341,22 +330,22 @@ def _piece(segment: Segment, q: int, y: Array, t: float, h: float, steps: int, l
     while n <= steps:
         block = range(n, min(n + (_BLOCK if n > q else 2 * q), steps + 1))
         for n in block:
-            mean, rest = A.dot(velocities[n - q : n])
-            predicted = last + h * (mean + rest)
+            mean, residue = A.dot(velocities[n - q : n])
+            predicted = last + h * (mean + residue)
             velocities[n] = rhs(t + n * h, predicted)
-            mean, rest = B.dot(velocities[n - q + 1 : n + 1])
-            states[n] = last = last + h * (mean + rest)
-            off[n] = last - predicted
+            mean, residue = B.dot(velocities[n - q + 1 : n + 1])
+            states[n] = last = last + h * (mean + residue)
+            differences[n] = last - predicted
             velocities[n] = rhs(t + n * h, last)
         evaluations += 2 * len(block)
-        # Each component against its own size: one that grows without end, an azimuth, would loosen all others.
-        worst = (np.abs(off[block.start : n + 1]).max(axis=0) / (1 + np.abs(last))).max() / h + 1e-300
+        # Each component relative to its own size: an azimuth that grows without end would loosen all others.
+        worst = (np.abs(differences[block.start : n + 1]).max(axis=0) / (1 + np.abs(last))).max() / h + 1e-300
         change = min(max(0.3, (limit / worst / 4) ** (1 / q)), 3.0) if np.isfinite(worst) else 0.3
         near = segment.time_to_singular and any(segment.clear(y) < h for y in states[block.start - q : n + 1])
         if near or not worst <= limit:
             change = min(change, 0.5) if near else change
-            kept = block.start if block.start > q else 1
-            return _Piece(q, t, h, states[:kept], velocities[:kept], evaluations, change)
+            count = block.start if block.start > q else 1
+            return _Piece(q, t, h, states[:count], velocities[:count], evaluations, change)
         if segment.project is not None:
             states[n] = last = segment.project(last)
         n += 1
@@ -368,43 +357,41 @@ def _piece(segment: Segment, q: int, y: Array, t: float, h: float, steps: int, l
 def _first_nodes(
     segment: Segment, q: int, y: Array, t: float, h: float, states: Array, velocities: Array
 ) -> tuple[int, bool]:
-    """The first q nodes together: their integral equation is swept until nothing moves. Evaluations, and whether it does."""
+    """Solve the integral equation of the first q nodes by sweeps; return the evaluations, and True if they converged."""
     S, size = h * adams_weights(q)[2], 1 + np.abs(y).max()
     states[:], velocities[:] = y, segment.rhs(t, y)
     evaluations = 1
     for sweep in range(_SWEEPS):
-        before = states.copy()
+        previous = states.copy()
         states[:] = y + S @ velocities
         for i in range(1, q):
             velocities[i] = segment.rhs(t + i * h, states[i])
         evaluations += q - 1
-        moved = np.abs(states - before).max()
-        if sweep and not moved > 2e-15 * size:
+        change = np.abs(states - previous).max()
+        if sweep and not change > 2e-15 * size:
             break
-    return evaluations, bool(moved < 1e-13 * size)
+    return evaluations, bool(change < 1e-13 * size)
 
 
 def adams(segment: Segment, error: float) -> Stretch:
-    """Adams predictor and corrector in equal steps, changed where the pair's own difference requires it.
-
-    Raises StopError with what was reached, also where far more than its share of `budget` is spent, and where shorter
-    steps leave as much: the right-hand side is not known well enough for the tolerance.
-    """
-    t_eval, right, y, t, longest = segment.t_eval, segment.right, segment.start, segment.left, segment.longest
-    q, limit = adams_order(error), min(100 * error, 1e-3)  # of order 10, steps that leave more are not stable
+    """Solve the segment by Adams predictor and corrector in equal steps, whose length changes with their difference. StopError
+    says that the cost far exceeds the completed share of the budget, or that shorter steps have no smaller error. Then the
+    right-hand side is not accurate enough."""
+    t_eval, right, y, t, longest = segment.t_eval, segment.until, segment.start, segment.begin, segment.longest
+    q, limit = adams_order(error), min(100 * error, 1e-3)  # at order 10, steps with a larger difference are unstable
     h = min(
         (right - t) / q,
         segment.longest,
         min(limit ** (1 / q) / 5, 0.05) / (max(segment.relative_speed, segment.typical_rate) + 1e-300),
     )
-    states, done, evaluations, end, in_vain = np.empty((len(t_eval), len(y))), 0, 1, y, 0
+    states, count, evaluations, end, in_vain = np.empty((len(t_eval), len(y))), 0, 1, y, 0
     while t < right:
         steps = min(max(int(np.ceil((right - t) / h)), q), _PIECE)
-        with np.errstate(all="ignore"):  # a step that is too long overflows, and is shortened
+        with np.errstate(all="ignore"):  # too long a step overflows, and is shortened
             piece = _piece(replace(segment, longest=longest), q, y, t, h, steps, limit)
         evaluations += piece.evaluations
         in_vain = in_vain + 1 if len(piece.states) == 1 and piece.change > 0.5 else 0
-        # A step too long once, for its error or because it is not stable, is not tried again for a while.
+        # A step that was too long, for its error or its stability, is not tried again for a while.
         if piece.change < 1:
             longest = 1.2 * piece.change * h
         elif len(piece.states) > _PIECE:
@@ -412,16 +399,17 @@ def adams(segment: Segment, error: float) -> Stretch:
         if len(piece.states) > 1:
             reached = t + (len(piece.states) - 1) * h
             until = int(np.searchsorted(t_eval, reached, side="right")) if reached < right else len(t_eval)
-            states[done:until] = piece.read(t_eval[done:until])
+            states[count:until] = piece.read(t_eval[count:until])
             end = piece.read(np.array([right]))[0] if reached >= right else end
-            done, t, y = until, reached, piece.states[-1]
+            count, t, y = until, reached, piece.states[-1]
         h = min(h * min(piece.change, 2.0), longest)
-        share = (t - segment.left) / (right - segment.left)
-        spent = evaluations > min(segment.budget, _PATIENCE + share * segment.budget)
-        if t < right and (spent or in_vain == _IN_VAIN or t + h == t):
-            reason = f"{evaluations} evaluations spent" if spent else f"steps of {h:.1e} leave as much as longer ones"
-            reached = Stretch(states_on_constraints(segment.project, states[:done]), y, evaluations)
-            raise StopError(t, reason, reached, cause="budget" if spent else "stopped")
+        share = (t - segment.begin) / (right - segment.begin)
+        exhausted = evaluations > min(segment.budget, _PATIENCE + share * segment.budget)
+        if t < right and (exhausted or in_vain == _IN_VAIN or t + h == t):
+            reason = f"steps of {h:.1e} have no smaller error than longer ones"
+            reason = f"{evaluations} evaluations spent" if exhausted else reason
+            reached = Stretch(states_on_constraints(segment.project, states[:count]), y, evaluations)
+            raise StopError(t, reason, reached, cause="budget" if exhausted else "stopped")
     if not (np.isfinite(end).all() and np.isfinite(states).all()):
         raise StopError(t, "a value is not finite", evaluations=evaluations)
     end = segment.project(end) if segment.project else end

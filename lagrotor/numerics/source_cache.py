@@ -1,8 +1,8 @@
-"""Generated functions that are kept as source, so that a first call reads what it would have to derive.
+"""Generated functions that are stored as source, so that a first call reads it instead of deriving it.
 
-A function that returns the source of another is marked `@generated(arguments)`. For these arguments its text lies in
-`generated.txt` beside its module, one block of plain Python each; for any others it is derived when it is called.
-`python -m tests.numerics.renew_generated` writes these files, and a test derives every block again.
+A function that returns the source of another is marked `@generated(arguments)`. For these arguments its text is stored in
+`generated.txt` beside its module, one block of plain Python each; for any others it is derived when it is called. `python -m
+tests.numerics.renew_generated` writes these files, and a test derives every block again.
 """
 
 from __future__ import annotations
@@ -16,47 +16,45 @@ from pathlib import Path
 from typing import Any
 
 _HEAD = re.compile(r"^# %% (.*)\n", re.MULTILINE)
-_MOST = 64  # functions of one kind kept in a process
+_MOST = 64  # functions of one kind in the memory of a process
 
 
 @dataclass(frozen=True, eq=False)
 class GeneratedFunction:
-    """Called with arguments, the function whose source `derive` returns for them: the last one that the source defines.
-
-    kept: the arguments for which the source is kept.
-    """
+    """A function whose source `derive` returns, as its last definition; the sources for `cases` are stored."""
 
     derive: Callable[..., str]
-    kept: tuple[tuple[Any, ...], ...]
+    cases: tuple[tuple[Any, ...], ...]
     _functions: Callable[..., Any] = field(init=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "_functions", lru_cache(_MOST)(lambda *given: function_of(self.source(*given))))
+        functions = lru_cache(_MOST)(lambda *arguments: function_of(self.source(*arguments)))
+        object.__setattr__(self, "_functions", functions)
 
-    def __call__(self, *given: Any) -> Any:
-        return self._functions(*given)
+    def __call__(self, *arguments: Any) -> Any:
+        return self._functions(*arguments)
 
-    def source(self, *given: Any) -> str:
-        """The source, kept or derived."""
-        return _blocks(self.file).get(self.name(*given)) or self.derive(*given)
+    def source(self, *arguments: Any) -> str:
+        """Return the source, stored or derived."""
+        return _blocks(self.file).get(self.name(*arguments)) or self.derive(*arguments)
 
-    def name(self, *given: Any) -> str:
-        """The heading of a block: module, function and arguments."""
-        return f"{self.derive.__module__}.{self.derive.__name__}({', '.join(map(repr, given))})"
+    def name(self, *arguments: Any) -> str:
+        """Return the heading of a block: module, function and arguments."""
+        return f"{self.derive.__module__}.{self.derive.__name__}({', '.join(map(repr, arguments))})"
 
     @property
     def file(self) -> Path:
-        """Where the sources of its module's folder are kept."""
+        """The file with the sources of the module's folder."""
         return Path(str(sys.modules[self.derive.__module__].__file__)).with_name("generated.txt")
 
 
-def generated(kept: Iterable[tuple[Any, ...]]) -> Callable[[Callable[..., str]], GeneratedFunction]:
-    """Mark a function that returns the source of another; `kept` as in `GeneratedFunction`."""
-    return lambda derive: GeneratedFunction(derive, tuple(kept))
+def generated(cases: Iterable[tuple[Any, ...]]) -> Callable[[Callable[..., str]], GeneratedFunction]:
+    """Mark a function that returns the source of another; the sources for the arguments `cases` are stored."""
+    return lambda derive: GeneratedFunction(derive, tuple(cases))
 
 
 def function_of(source: str) -> Callable[..., Any]:
-    """The last function that a source defines."""
+    """Return the last function that a source defines."""
     names: dict[str, Any] = {}
     exec(source, names)
     function: Callable[..., Any] = list(names.values())[-1]
@@ -65,9 +63,9 @@ def function_of(source: str) -> Callable[..., Any]:
 
 @cache
 def _blocks(file: Path) -> dict[str, str]:
-    """Heading → source of each block of a file; none where there is no file."""
+    """Return heading → source of each block of a file; an empty dictionary where there is no file."""
     try:
-        _, *parts = _HEAD.split(file.read_text(encoding="utf-8"))
+        _, *blocks = _HEAD.split(file.read_text(encoding="utf-8"))
     except FileNotFoundError:
         return {}
-    return dict(zip(parts[::2], (part.rstrip() for part in parts[1::2]), strict=True))
+    return dict(zip(blocks[::2], (block.rstrip() for block in blocks[1::2]), strict=True))

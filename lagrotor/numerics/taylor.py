@@ -1,12 +1,12 @@
-"""The fast extra: heyoka's functions and Taylor integrator, compiled from the same generated programs.
+"""The engine "fast": heyoka's functions and Taylor integrator, compiled from the same generated programs.
 
-A cyclic coordinate and an angle, which may grow without end, are carried so small that they are never the largest state, which
-heyoka measures its error by. What is compiled, one or two seconds a program and order, is kept for the process, by heyoka on
-disk. The read-out at any time is as exact as the run.
+heyoka's error is relative to the largest component of the state. Cyclic coordinates and angles, which may grow without end, are
+scaled so small that they are never the largest. Compiling takes one or two seconds for each program and order; the process
+keeps the result in memory, heyoka on disk. States at any time are as exact as the run.
 
-heyoka takes its order from the tolerance that it is compiled for, and a step that leaves this tolerance times the largest
-component of the state. A constant dummy state, the last one, of a size chosen at each run, decouples the step size from the
-order: three orders serve every tolerance, each in the steps that pay.
+heyoka chooses its order by the tolerance for which it is compiled. Its error of a step is that tolerance times the largest
+component of the state. The last component is a constant whose size is set for each run. It decouples the step size from the
+order, so that three orders serve every tolerance.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -32,11 +32,11 @@ from lagrotor.numerics.segment import (
     states_on_constraints,
 )
 
-_CARRIED = 2.0**-20  # of a coordinate that may grow without end: a millionth, that rounds nothing
-_LAST_STEPS = 10_000  # within which what stopped a run is sought
-_MOST_STEPS = 1_000_000  # between two edges, beyond which a run is stopped
-_LANES = 8  # trajectories in step with each other: what vectors of four doubles do best with
-# (within the pulse or not) → the program and the values of its parameters.
+_CARRIED = 2.0**-20  # factor of a coordinate that may grow without end: a power of two rounds nothing
+_LAST_STEPS = 10_000  # steps in which the reason of a stop is sought
+_MOST_STEPS = 1_000_000  # between two edges, beyond which a run stops
+_LANES = 8  # trajectories at once: the fastest number with vectors of four doubles
+# True in a pulse → the program and the values of its parameters.
 Generated = Callable[[bool], tuple[Program, tuple[float, ...]]]
 
 
@@ -49,47 +49,47 @@ def heyoka_module() -> Any:
 
 
 def heyoka_sum(terms: Sequence[Any]) -> Any:
-    """The sum of expressions and numbers."""
+    """Return the sum of expressions and numbers."""
     heyoka = heyoka_module()
     return heyoka.sum([heyoka.expression(x) if isinstance(x, float) else x for x in terms])
 
 
-def _heyoka_expressions(program: Program, known: dict[sp.Symbol, Any]) -> list[Any]:
-    """The program's outputs as heyoka's expressions of what is `known`, its arguments."""
-    heyoka, named = heyoka_module(), dict(known)
+def _heyoka_expressions(program: Program, values: dict[sp.Symbol, Any]) -> list[Any]:
+    """Translate the program's outputs, given heyoka's expressions of its arguments."""
+    heyoka, named = heyoka_module(), dict(values)
     stages, outputs = reduce_common(program)
     for name, expression in stages:
         named[name] = _translate(expression, named, heyoka)
     return [_translate(e, named, heyoka) for e in outputs]
 
 
-def _translate(e: sp.Expr, known: dict[sp.Symbol, Any], heyoka: Any) -> Any:
-    if e in known:
-        return known[e]
+def _translate(e: sp.Expr, values: dict[sp.Symbol, Any], heyoka: Any) -> Any:
+    if e in values:
+        return values[e]
     if e.is_Number:
         return heyoka.expression(float(e))
     if e.is_Pow:
-        base, power = _translate(e.base, known, heyoka), e.exp
+        base, power = _translate(e.base, values, heyoka), e.exp
         if power == sp.Rational(1, 2):
             return heyoka.sqrt(base)
         if not power.is_Integer:
             return base ** float(power)
         product = reduce(mul, [base] * abs(int(power)))
         return product if power > 0 else 1.0 / product
-    parts = [_translate(x, known, heyoka) for x in e.args]
+    arguments = [_translate(x, values, heyoka) for x in e.args]
     if e.is_Add:
-        return heyoka.sum(parts)
+        return heyoka.sum(arguments)
     if e.is_Mul:
-        return reduce(mul, parts)
+        return reduce(mul, arguments)
     if isinstance(e, sp.sech):
-        return 1.0 / heyoka.cosh(*parts)
+        return 1.0 / heyoka.cosh(*arguments)
     if not hasattr(heyoka, e.func.__name__):
         raise InputError(f"engine='fast' does not know the function {e.func.__name__}: use engine='core'")
-    return getattr(heyoka, e.func.__name__)(*parts)
+    return getattr(heyoka, e.func.__name__)(*arguments)
 
 
 def taylor_rhs(program: Program, states: int, parameters: tuple[float, ...]) -> Callable[[float, Array], Array]:
-    """The program, for given parameters, as a compiled right-hand side (s, y) → y', for any solver."""
+    """Compile the program with given parameters to a right-hand side (s, y) → y', for any solver."""
     compiled, inputs = _compiled_function(program), np.array([*[0.0] * states, *parameters])
 
     def rhs(s: float, y: Array) -> Array:
@@ -101,31 +101,28 @@ def taylor_rhs(program: Program, states: int, parameters: tuple[float, ...]) -> 
 
 @lru_cache(maxsize=16)
 def _compiled_function(program: Program) -> Any:
-    """The program as heyoka's function of an array of its arguments."""
+    """Compile the program to heyoka's function of an array of its arguments."""
     heyoka = heyoka_module()
-    known = {s: heyoka.make_vars(str(s)) for s in program.arguments}
-    outputs = _heyoka_expressions(program, known)
-    return heyoka.cfunc(outputs, [known[s] for s in program.arguments], fast_math=True)
+    variables = {s: heyoka.make_vars(str(s)) for s in program.arguments}
+    outputs = _heyoka_expressions(program, variables)
+    return heyoka.cfunc(outputs, [variables[s] for s in program.arguments], fast_math=True)
 
 
 def taylor_solver(
     generated: Generated, order: int, longest_between: float = np.inf, angles: tuple[int, ...] = ()
 ) -> SegmentSolver:
-    """What integrates a segment for `lagrotor.numerics.integrate.integrate` by heyoka; steps times order for evaluations.
-
-    generated: within the pulse or not → the program and the values of its parameters, whose last three are, within it, the
-    peak of a force exp(−(s/width)²), with `width` after them. The states are projected after no more than `longest_between`.
-    angles: which states may grow without end besides the cyclic ones; their error is held by that of their rates, which are
-    states too. Raises InputError without heyoka.
-    """
+    """Return the solver of a segment by heyoka; steps times order count as evaluations. `generated` maps True (in a pulse) or
+    False to the program and the values of its parameters. In a pulse the last three are the peak of a force exp(−(s/width)²),
+    with `width` after them. States are projected at least every `longest_between`. The states `angles` may grow without end
+    like the cyclic ones; the error of their rates, which are states too, bounds theirs."""
     heyoka_module()
 
     def solve(segment: Segment, pulsed: bool, tol: float) -> Stretch:
         (program, values), d, project = generated(pulsed), len(segment.start), segment.project
         solver, scale = _solver(program, d, pulsed, order, 1, get_ident(), angles), _carried(program, d, angles)
-        solver.pars[:] = values[: len(solver.pars)]  # the last ones may be in no expression
+        solver.pars[:] = values[: len(solver.pars)]  # the last ones may be unused
         onto = None if project is None else lambda y: project(y / scale) * scale
-        span, size = (segment.left, segment.right), dummy_size(tol, order)
+        span, size = (segment.begin, segment.until), dummy_size(tol, order)
 
         def unscaled(run: Stretch) -> Stretch:
             return Stretch(states_on_constraints(project, run.states / scale), run.end / scale, run.evaluations)
@@ -144,10 +141,7 @@ def taylor_solver(
 
 
 def march_lanes(program: Program, parameters: Array, legs: Mapping[int, Leg]) -> dict[int, Stretch | StopError]:
-    """The legs of an autonomous motion with parameters (p, n), by the number of the motion, eight at a time.
-
-    The lanes of a processor's vectors step together, each with its own step. Raises InputError without heyoka.
-    """
+    """Integrate the legs of an autonomous motion with parameters (p, n), by number, eight at a time, each with its own step."""
     answers: dict[int, Stretch | StopError] = {}
     orders: dict[int, list[int]] = {}
     for i, leg in legs.items():
@@ -157,10 +151,10 @@ def march_lanes(program: Program, parameters: Array, legs: Mapping[int, Leg]) ->
         solver, cyclic = _solver(program, d, False, order, _LANES, get_ident()), _cyclic(program, d)
         numbers.sort(key=lambda i: len(legs[i].times))
         for begin in range(0, len(numbers), _LANES):
-            kept = numbers[begin : begin + _LANES]
-            lanes = kept + kept[-1:] * (_LANES - len(kept))  # the last few are filled up with copies
+            batch = numbers[begin : begin + _LANES]
+            lanes = batch + batch[-1:] * (_LANES - len(batch))  # copies fill the last lanes
             m = len(legs[lanes[-1]].times)
-            # A shorter one is read once more and again where it ends, at neighbouring doubles.
+            # A shorter one is read at its end again and again, at neighbouring doubles.
             since, later = (
                 [legs[i].times - legs[i].times[0] for i in lanes],
                 1 + 4 * np.finfo(float).eps * np.arange(1, m),
@@ -173,19 +167,19 @@ def march_lanes(program: Program, parameters: Array, legs: Mapping[int, Leg]) ->
             solver.pars[:] = parameters[:, lanes]
             _, states = solver.propagate_grid(np.ascontiguousarray(grid), max_steps=_MOST_STEPS)
             states[:, cyclic] /= _CARRIED
-            for lane, (i, (outcome, _, _, steps)) in enumerate(zip(kept, solver.propagate_res, strict=False)):
-                read, spent = states[: len(legs[i].times), :d, lane], steps * order
+            for lane, (i, (outcome, _, _, steps)) in enumerate(zip(batch, solver.propagate_res, strict=False)):
+                read, evaluations = states[: len(legs[i].times), :d, lane], steps * order
                 whole = np.isfinite(read).all(1)
                 n = len(read) if whole.all() else int(np.argmin(whole))
-                made = Stretch(read[:n].copy(), read[max(n, 1) - 1].copy(), spent)
+                stretch = Stretch(read[:n].copy(), read[max(n, 1) - 1].copy(), evaluations)
                 stopped = n < len(read) or "time_limit" not in str(outcome)
                 reason = "the Taylor series has no step"
-                answers[i] = StopError(float(legs[i].times[max(n, 1) - 1]), reason, made) if stopped else made
+                answers[i] = StopError(float(legs[i].times[max(n, 1) - 1]), reason, stretch) if stopped else stretch
     return answers
 
 
 def _carried(program: Program, states: int, angles: tuple[int, ...]) -> Array:
-    """What each state is multiplied by while it is integrated."""
+    """Return the factor of each state during the integration."""
     scale = np.ones(states)
     scale[[*_cyclic(program, states), *angles]] = _CARRIED
     return scale
@@ -193,7 +187,7 @@ def _carried(program: Program, states: int, angles: tuple[int, ...]) -> Array:
 
 @lru_cache(maxsize=64)
 def _cyclic(program: Program, states: int) -> list[int]:
-    """Which of the states no rate depends on."""
+    """Return the indices of the states on which no rate depends."""
     stages, outputs = reduce_common(program)
     used = {s for e in (*(e for _, e in stages), *outputs) for s in e.free_symbols}
     return [i for i, s in enumerate(program.arguments[:states]) if s not in used]
@@ -203,47 +197,42 @@ def _cyclic(program: Program, states: int) -> list[int]:
 def _solver(
     program: Program, states: int, driven: bool, order: int, lanes: int, thread: int, angles: tuple[int, ...] = ()
 ) -> Any:
-    """The compiled integrator of a program whose first `states` arguments are the state; each thread has its own.
-
-    Its state has one component more, which is constant.
-    """
+    """Compile the integrator of a program whose first `states` arguments are the state; each thread has its own."""
     heyoka = heyoka_module()
     names, parameters = program.arguments[:states], program.arguments[states:]
     variables, scale = [heyoka.make_vars(str(s)) for s in names], _carried(program, states, angles)
-    known = {s: x if c == 1 else x * (1 / c) for s, x, c in zip(names, variables, scale, strict=True)}
-    known |= {s: heyoka.par[i] for i, s in enumerate(parameters)}
+    values = {s: x if c == 1 else x * (1 / c) for s, x, c in zip(names, variables, scale, strict=True)}
+    values |= {s: heyoka.par[i] for i, s in enumerate(parameters)}
     if driven:
         pulse = heyoka.exp(-((heyoka.time / heyoka.par[len(parameters)]) ** 2.0))
-        known |= {s: known[s] * pulse for s in parameters[-3:]}
-    rates = _heyoka_expressions(program, known)
-    # A pulse is short: there what compiles faster pays.
+        values |= {s: values[s] * pulse for s in parameters[-3:]}
+    rates = _heyoka_expressions(program, values)
+    # A pulse is short, so that fast compiling outweighs fast code.
     equations = [(x, r if c == 1 else r * c) for x, r, c in zip(variables, rates, scale, strict=True)]
     return compiled_solver(equations, order, lanes, compact=lanes == 1 and (driven or states > 6))
 
 
 def taylor_order(tol: float, companion: bool = False) -> int:
-    """The cheapest order for a local error, of 7 to 19 tried with the displaced pair; code of higher ones outgrows a cache. Of a
-    companion it is never that of the run it is compared with: where the size of the states sets the steps, both have the same.
-    Of the tightest both are even: the error of an even order turns a phase and grows like t, of an odd one like t²."""
+    """Return the cheapest order for a local error, of 7 to 19 tried with the displaced pair; code of higher orders outgrows a
+    cache. A companion has another order, since equal states may give equal steps. At the tightest errors both are even: the
+    error of an even order turns a phase and grows like t, for an odd order like t²."""
     return (10 if tol >= 1e-7 else 14) - companion if tol >= 1e-11 else 16 + 2 * companion
 
 
 def compiled_solver(equations: Sequence[tuple[Any, Any]], order: int, lanes: int = 1, compact: bool = True) -> Any:
-    """The integrator of (variable, its rate) of this order, its state one constant component longer.
-
-    compact: its loops are not unrolled, which compiles many times faster and runs a little slower.
-    """
+    """Compile the integrator of (variable, rate) pairs; its state has one constant component more. Compact code keeps its
+    loops: it compiles many times faster and runs a little slower."""
     heyoka = heyoka_module()
     equations = [*equations, (heyoka.make_vars("size"), heyoka.expression(0.0))]
-    given = {"tol": _compiled_for(order), "fast_math": True}
+    settings = {"tol": _compiled_for(order), "fast_math": True}
     if lanes > 1:
         zero = np.zeros((len(equations), lanes))
-        return heyoka.taylor_adaptive_batch(equations, state=zero, compact_mode=compact, **given)
-    return heyoka.taylor_adaptive(equations, state=[0.0] * len(equations), compact_mode=compact, **given)
+        return heyoka.taylor_adaptive_batch(equations, state=zero, compact_mode=compact, **settings)
+    return heyoka.taylor_adaptive(equations, state=[0.0] * len(equations), compact_mode=compact, **settings)
 
 
 def dummy_size(tol: float, order: int) -> float:
-    """Of the constant dummy state: with it a step of this order leaves a tenth of `tol`."""
+    """Return the size of the constant component with which the error of a step of this order is a tenth of `tol`."""
     return tol / 10 / _compiled_for(order)
 
 
@@ -258,46 +247,44 @@ def taylor_march(
     longest: float = np.inf,
     after_step: Callable[[Any], bool] | None = None,
 ) -> Stretch:
-    """States (n, d) at the times within the span, begun with y (d,); steps times order for evaluations.
-
-    size: of the dummy state. project: brings a state onto its constraints, after no more than `longest_between`.
-    longest: of a step. after_step: called with the solver after each step; whether to go on. Raises StopError where it stops.
-    """
-    (left, right), parts, steps = span, [np.empty((0, len(y)))], 0
+    """Return states (n, d) at the times within the span from y (d,); steps times order count as evaluations. `size` is that
+    of the constant component, `longest` the longest step. A state is projected at least every `longest_between`. `after_step`
+    is called with the solver after each step; False stops the run."""
+    (now, end), pieces, steps = span, [np.empty((0, len(y)))], 0
     options: dict[str, Any] = {"max_delta_t": longest, "max_steps": _MOST_STEPS}
     options |= {} if after_step is None else {"callback": after_step}
-    while left < right or len(parts) == 1:
-        until = min(right, left + longest_between)
-        inside = times[(times > left if len(parts) > 1 else times >= left) & (times <= until)]
-        grid = np.unique([left, *inside, until])
-        solver.time, solver.state[:-1], solver.state[-1] = left, y, size
-        outcome, _, _, more, _, states = solver.propagate_grid(grid, **options)
-        steps += more
+    while now < end or len(pieces) == 1:
+        until = min(end, now + longest_between)
+        inside = times[(times > now if len(pieces) > 1 else times >= now) & (times <= until)]
+        grid = np.unique([now, *inside, until])
+        solver.time, solver.state[:-1], solver.state[-1] = now, y, size
+        outcome, _, _, new_steps, _, states = solver.propagate_grid(grid, **options)
+        steps += new_steps
         finite = np.isfinite(states).all(axis=1)
         whole = len(finite) if finite.all() else int(np.argmin(finite))
         places = np.searchsorted(grid, inside)
-        parts.append(states[places[places < whole], :-1])
+        pieces.append(states[places[places < whole], :-1])
         y = states[whole - 1, :-1].copy() if whole else y
         if whole < len(grid) or "time_limit" not in str(outcome):
             at, y = _last_step(solver, float(grid[max(whole, 1) - 1]), y, size)
-            reached = Stretch(np.concatenate(parts), y, steps * solver.order)
+            reached = Stretch(np.concatenate(pieces), y, steps * solver.order)
             raise StopError(at, "the Taylor series has no step; engine='core' may go on", reached)
         try:
-            y, left = (y if project is None else project(y)), until
+            y, now = (y if project is None else project(y)), until
         except StopError as stop:
-            before = np.concatenate(parts)[: np.searchsorted(times, stop.at)]
-            reached = Stretch(before, before[-1] if len(before) else y, steps * solver.order)
+            earlier = np.concatenate(pieces)[: np.searchsorted(times, stop.at)]
+            reached = Stretch(earlier, earlier[-1] if len(earlier) else y, steps * solver.order)
             raise StopError(stop.at, stop.reason, reached, cause=stop.cause) from None
-    return Stretch(np.concatenate(parts), y, steps * solver.order)
+    return Stretch(np.concatenate(pieces), y, steps * solver.order)
 
 
 def _compiled_for(order: int) -> float:
-    """The tolerance of which heyoka makes this order, the least whole number not under 1 − ln(tol)/2."""
+    """Return the tolerance from which heyoka chooses this order, the least whole number not under 1 − ln(tol)/2."""
     return exp(-2 * (order - 1)) * (1 + 1e-9)
 
 
 def _last_step(solver: Any, at: float, y: Array, size: float) -> tuple[float, Array]:
-    """The time and the state (d,) at the end of the last step that a solver can take from y: what ended it is seen there."""
+    """Return the time and the state (d,) after the last step that a solver can take from y."""
     solver.time, solver.state[:-1], solver.state[-1] = at, y, size
     for _ in range(_LAST_STEPS):
         outcome, _ = solver.step()

@@ -1,6 +1,6 @@
-"""All zeros of smooth functions on an interval, from their Chebyshev series: nothing between two samples is passed over.
+"""All zeros of smooth functions on an interval, from their Chebyshev series: no zero between two samples is missed.
 
-A function is sampled at Chebyshev's nodes; where the coefficients have not fallen off, the interval is halved. The zeros of the
+A function is sampled at Chebyshev's nodes; where the last coefficients are not small, the interval is halved. The zeros of the
 series are eigenvalues (Boyd 2002, Computing zeros on a real interval through Chebyshev expansion and polynomial rootfinding).
 """
 
@@ -16,21 +16,19 @@ from lagrotor.numerics.segment import Array
 _DEGREE = 16
 _NODES = np.cos(np.pi * np.arange(_DEGREE, -1, -1) / _DEGREE)  # from −1 to 1, the ends among them
 _SERIES = np.linalg.inv(chebyshev.chebvander(_NODES, _DEGREE))  # values at the nodes → coefficients
-_FALLEN = 1e-9  # the last coefficients over the largest, of a function that is resolved
+_FALLEN = 1e-9  # last coefficients over the largest, for a resolved function
 _HALVINGS = 8
-_SLACK = 1e-7  # of a half interval: a zero at an end is in both of its neighbours, never in neither
+_SLACK = 1e-7  # of a half interval: a zero at an end belongs to both neighbours, never to neither
 _BESIDE_ENDS = np.array([-1 - 2 * _SLACK, 1 + 2 * _SLACK])
-_REAL = 1e-6  # the imaginary part of a real zero: of a double one the square root of rounding
+_REAL = 1e-6  # imaginary part of a real zero: for a double zero the square root of rounding
 
 Functions = Callable[[Array], Array]  # times (m,) → values (k, m)
 
 
 @dataclass(frozen=True)
 class Zeros:
-    """t (n,): zeros in increasing order; index (n,): of which function; direction (n,): 1 upward, −1 downward, 0 touched.
-
-    hidden: an interval in which a function is not resolved, where zeros may be missing; None: all of them are there.
-    """
+    """Zeros t (n,) in increasing order, the index of the function of each, and its direction: 1 upward, −1 downward, 0 touched.
+    `hidden` is an interval in which a function is not resolved and zeros may be missing; None if all zeros are known."""
 
     t: Array
     index: Array
@@ -39,14 +37,14 @@ class Zeros:
 
 
 def zeros_between(
-    functions: Functions, left: float, right: float, touch: Array | float = 0.0, noise: Array | float = 0.0
+    functions: Functions, lower: float, upper: float, touch: Array | float = 0.0, noise: Array | float = 0.0
 ) -> Zeros:
-    """The zeros of k functions in [left, right]. touch, (k,) or one: a least |value| that counts as a zero, where the
-    function turns round without crossing; noise: rounding of the values, which no halving resolves."""
-    parts: list[tuple[float, int, int]] = []
-    hidden = _search(functions, left, right, touch, noise, parts, _HALVINGS)
-    parts = _each_once(sorted(parts), _SLACK * (right - left))
-    t, index, direction = (np.array(column) for column in zip(*parts, strict=True)) if parts else (np.zeros(0),) * 3
+    """Find the zeros of k functions in an interval. A turning point within `touch` of zero, (k,) or a number, counts as a
+    zero. `noise` is the rounding of the values, which no halving resolves."""
+    roots: list[tuple[float, int, int]] = []
+    hidden = _search(functions, lower, upper, touch, noise, roots, _HALVINGS)
+    roots = _distinct(sorted(roots), _SLACK * (upper - lower))
+    t, index, direction = (np.array(column) for column in zip(*roots, strict=True)) if roots else (np.zeros(0),) * 3
     return Zeros(t, index.astype(int), direction.astype(int), hidden)
 
 
@@ -56,7 +54,7 @@ def chebyshev_nodes(edges: Array) -> Array:
 
 
 def may_vanish(values: Array, touch: Array | float = 0.0, noise: Array | float = 0.0) -> NDArray[np.bool_]:
-    """Return which series through values (k, m) at Chebyshev's nodes may be zero; one that is zero everywhere is not."""
+    """Return True for each series through values (k, m) at the nodes that may have a zero without being zero everywhere."""
     size = np.abs(values @ _SERIES.T)
     return (size[:, 0] <= size[:, 1:].sum(1) + touch) & (np.abs(values).max(1) > touch + noise)
 
@@ -74,14 +72,14 @@ def interpolant(length: float, values: Array) -> tuple[Callable[[Array], Array],
 
 def _search(
     functions: Functions,
-    left: float,
-    right: float,
+    lower: float,
+    upper: float,
     touch: Array | float,
     noise: Array | float,
-    parts: list[tuple[float, int, int]],
+    roots: list[tuple[float, int, int]],
     halvings: int,
 ) -> tuple[float, float] | None:
-    middle, half = (left + right) / 2, (right - left) / 2
+    middle, half = (lower + upper) / 2, (upper - lower) / 2
     values = functions(middle + half * _NODES)
     series, near = values @ _SERIES.T, may_vanish(values, touch, noise)
     size = np.abs(series)
@@ -89,20 +87,20 @@ def _search(
     if not (falling | ~near).all() or not np.isfinite(values).all():
         if halvings == 0:
             signs, t = np.sign(values), middle + half * (_NODES[:-1] + _NODES[1:]) / 2
-            for row, k in np.argwhere(signs[:, :-1] * signs[:, 1:] < 0).tolist():  # all that is known: a change of sign
-                parts.append((float(t[k]), row, int(signs[row, k + 1])))
-            return left, right
-        ends = [(left, middle), (middle, right)]
-        hidden = [_search(functions, a, b, touch, noise, parts, halvings - 1) for a, b in ends]
-        return next((each for each in hidden if each), None)
+            for row, k in np.argwhere(signs[:, :-1] * signs[:, 1:] < 0).tolist():  # only changes of sign are known
+                roots.append((float(t[k]), row, int(signs[row, k + 1])))
+            return lower, upper
+        ends = [(lower, middle), (middle, upper)]
+        hidden = [_search(functions, a, b, touch, noise, roots, halvings - 1) for a, b in ends]
+        return next((interval for interval in hidden if interval), None)
     for i in np.flatnonzero(near):
         least = float(touch if np.ndim(touch) == 0 else np.asarray(touch)[i])
-        parts += [(middle + half * x, int(i), way) for x, way in _zeros_of(series[i], least)]
+        roots += [(middle + half * x, int(i), way) for x, way in _zeros_of(series[i], least)]
     return None
 
 
 def _zeros_of(series: Array, touch: float) -> list[tuple[float, int]]:
-    """(place in [−1, 1], direction) of the zeros of a Chebyshev series."""
+    """Return (place in [−1, 1], direction) of the zeros of a Chebyshev series."""
     series = np.where(np.abs(series) > 1e-15 * np.abs(series).max(), series, 0.0)
     slope: Array = np.asarray(chebyshev.chebder(series), float)
     if _keeps_its_sign(slope):
@@ -112,7 +110,7 @@ def _zeros_of(series: Array, touch: float) -> list[tuple[float, int]]:
     turns = [x for x in _real_roots(slope) if abs(chebyshev.chebval(x, series)) <= touch]
     crossed = []
     for x in _real_roots(series):
-        # A pair of zeros at a turn is one touched zero, where nothing between zero and turn exceeds `touch`.
+        # Two zeros at a turning point are one touched zero if no value between them exceeds `touch`.
         between = (np.abs(chebyshev.chebval(np.linspace(x, turn, 9), series)).max() for turn in turns)
         if not any(largest <= 1.01 * touch for largest in between):
             crossed.append((x, 1 if chebyshev.chebval(x, slope) > 0 else -1))
@@ -120,8 +118,7 @@ def _zeros_of(series: Array, touch: float) -> list[tuple[float, int]]:
 
 
 def _keeps_its_sign(series: Array) -> bool:
-    """Return whether the constant outweighs all other terms, on [−1, 1] and so little beyond as a zero may lie: |T_k| is at most
-    cosh(k √(2 · 10⁻⁶)) there."""
+    """Return True if the constant outweighs all other terms where |T_k| ≤ cosh(k √(2 · 10⁻⁶)), slightly beyond [−1, 1]."""
     return bool(abs(series[0]) > 1.001 * np.abs(series[1:]).sum())
 
 
@@ -134,10 +131,10 @@ def _real_roots(series: Array) -> list[float]:
     return sorted(float(x) for x in np.clip(real, -1, 1))
 
 
-def _each_once(parts: list[tuple[float, int, int]], near: float) -> list[tuple[float, int, int]]:
-    """Without the zeros that two neighbouring intervals have in common."""
-    kept: list[tuple[float, int, int]] = []
-    for t, i, way in parts:
-        if not any(j == i and d == way and t - s <= near for s, j, d in kept[-4:]):
-            kept.append((t, i, way))
-    return kept
+def _distinct(roots: list[tuple[float, int, int]], near: float) -> list[tuple[float, int, int]]:
+    """Remove the second of two zeros that neighbouring intervals share."""
+    unique: list[tuple[float, int, int]] = []
+    for t, i, way in roots:
+        if not any(j == i and d == way and t - s <= near for s, j, d in unique[-4:]):
+            unique.append((t, i, way))
+    return unique

@@ -240,14 +240,8 @@ class Trajectory(Run):
         arrays = {name: getattr(self, name) for name in UNITS if name != "P"} | {"P": self.joint_line_momentum}
         return {name: Quantity(values, _AXES[values.ndim], UNITS[name]) for name, values in arrays.items()}
 
-    def about(self) -> dict[str, Any]:
-        """Return the scene, the model and the reason why it was chosen.
-
-        Returns
-        -------
-        dict
-            Plain values for a file.
-        """
+    def _about(self) -> dict[str, Any]:
+        """Return the scene, the model and the reason why it was chosen."""
         return {"scene": asdict(self.scene), "model": self.model, "why": self.why}
 
     @staticmethod

@@ -373,8 +373,8 @@ def _stages(
         return values[x] if isinstance(x, Recorded) else x if isinstance(x, sp.Expr) else exact_number(x)
 
     for x in tape:
-        values[x] = _OPERATIONS[x.kind](*map(expression, x.parts)) if x.parts else leaves[x.kind]
-        if x.parts and x.kind != "neg" and not values[x].is_Atom:
+        values[x] = _OPERATIONS[x.kind](*map(expression, x.operands)) if x.operands else leaves[x.kind]
+        if x.operands and x.kind != "neg" and not values[x].is_Atom:
             stages.append((sp.Symbol(f"w_{len(stages)}", real=True), values[x]))
             values[x] = stages[-1][0]
     return stages, [expression(x) for x in outputs]

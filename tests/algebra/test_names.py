@@ -6,7 +6,7 @@ import sympy as sp
 from lagrotor.algebra.name_clashes import check_names
 from lagrotor.errors import InputError
 from lagrotor.mechanics import Frame, System, coordinates
-from lagrotor.numerics import Program
+from lagrotor.numerics.codegen import Program
 from lagrotor.paper import Premise, judge, prove, verdict
 from lagrotor.paper.equation_statements import statement
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER

@@ -14,7 +14,7 @@ import numpy as np
 from lagrotor import Scene
 from lagrotor.benchmark.scenes_and_methods import AMPLITUDE, SERIES_ORDER
 from lagrotor.models import minimal, spheres
-from lagrotor.numerics import compile_program
+from lagrotor.numerics.printers import compile_program
 from lagrotor.theory import series_orbit
 
 TARGET = Path(__file__).with_name("reference.json")

@@ -250,7 +250,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "simulate: g without a value": lambda: run(values={m: 1, l: 1}),
         "simulate: values name lenght": lambda: run(values={"m": 1, "l": 1, "g": 10, "lenght": 2}),
         "rhs: values name lenght": lambda: pendulum.rhs({"m": 1, "l": 1, "g": 10, "lenght": 2}),
-        "values give theta a value, which moves": lambda: run(values=VALUES | {"theta": 1}),
+        "values give theta a value, which varies in time": lambda: run(values=VALUES | {"theta": 1}),
         "simulate: m = -1 was declared positive": lambda: run(values=VALUES | {m: -1}),
         "declared a whole number": lambda: run(System(A, UNIT - sp.Symbol("n", integer=True) * q**2), {"n": 0.5}),
         r"simulate: values = \[1, 1, 10\] must be {symbol": lambda: run(values=[1, 1, 10]),
@@ -340,7 +340,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "x = nan is not finite": lambda: point.linearise({x: np.nan}, {m: 1}),
         "{theta: k} must be numbers": lambda: pendulum.linearise({q: k}, VALUES),
         "phi in the point": lambda: pendulum.linearise({q: 0, "phi": 0}, VALUES),
-        r"gives coordinates and velocities \(p, q, r\)": lambda: ball_top().linearise(UPRIGHT | {"q0_dot": 1}, BODY),
+        r"give it coordinates and velocities \(p, q, r\)": lambda: ball_top().linearise(UPRIGHT | {"q0_dot": 1}, BODY),
         "W in the point": lambda: ball_top().linearise(UPRIGHT | {"W": 1}),
         r"linearise: m = \[1\] must be a real": lambda: pendulum.linearise({q: 0}, VALUES | {m: [1]}),
         "values name k": lambda: pendulum.linearise({q: 0}, VALUES, (k,)),
@@ -411,7 +411,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "project_position": lambda: project_position(lambda q: q[:1] - 1, lambda q: 0 * q[None], np.zeros(2)),
         "does not determine the velocities": lambda: legendre((u + w) ** 2, P, sp.symbols("p:2")),
         "{theta: 1} is no equilibrium": lambda: pendulum.linearise({q: 1}),
-        "theta_ddot = -8.41e-10 is left over": lambda: pendulum.linearise({q: 1}, VALUES | {g: 1e-9}),
+        "theta_ddot = -8.41e-10 is not zero": lambda: pendulum.linearise({q: 1}, VALUES | {g: 1e-9}),
         "is no steady motion: .* is not zero": lambda: CART.linearise({cx: 0, ct: 1}, inputs=(F,)),
         "the constraints are dependent at": lambda: System(P, FLAT, (x**2 + y**2 - 1, x**2 + y**2 - 1)).linearise(
             {x: 1, y: 0}

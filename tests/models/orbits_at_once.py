@@ -13,8 +13,8 @@ import numpy as np
 
 from lagrotor import Scene
 from lagrotor.models.minimal import MODEL, program
-from lagrotor.numerics import compile_program
 from lagrotor.numerics.codegen import tangent_program
+from lagrotor.numerics.printers import compile_program
 
 Long = np.longdouble
 ENOUGH = bool(np.finfo(Long).eps < 2e-19)  # a mantissa of 64 bits

@@ -39,7 +39,7 @@ def test_a_run_that_does_not_conserve_is_refused(monkeypatch: pytest.MonkeyPatch
     with pytest.warns(LagrotorWarning, match="minimal does not keep tol"):
         assert simulate(SHOCKED, T, "minimal", 1e-9).error > 1e-3
     monkeypatch.setattr(
-        error_estimate, "_alikeness", lambda *_: 1.0
+        error_estimate, "_shared_error_factor", lambda *_: 1.0
     )  # twin: unheard, it passes with a small error estimate
     assert simulate(SHOCKED, T, "minimal", 1e-9).error < 1e-9
 

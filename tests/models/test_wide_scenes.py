@@ -195,7 +195,7 @@ def test_two_runs_that_are_off_alike_are_seen_by_what_they_conserve(monkeypatch:
 
     tolerances = 10.0 ** -np.arange(5, 8, 0.125)
     assert all(map(bounded, tolerances))
-    monkeypatch.setattr(error_estimate, "_alikeness", lambda *_: 1.0)  # twin
+    monkeypatch.setattr(error_estimate, "_shared_error_factor", lambda *_: 1.0)  # twin
     assert not all(map(bounded, tolerances))
 
 

@@ -28,7 +28,7 @@ def derived_files() -> dict[Path, str]:
         import_module(f"lagrotor.{name}")
     blocks: dict[Path, str] = {}
     for one in kept_functions():
-        for given in one.kept:
+        for given in one.cases:
             block = f"# %% {one.name(*given)}\n{one.derive(*given)}\n\n"
             blocks[one.file] = blocks.get(one.file, f"# sympy {__version__}\n\n") + block
     return blocks

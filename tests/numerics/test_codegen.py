@@ -9,9 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lagrotor.errors import SingularError
-from lagrotor.numerics import Program, compile_program, operations
-from lagrotor.numerics.codegen import reduce_common, solve_symmetric
-from lagrotor.numerics.printers import in_blocks, javascript
+from lagrotor.numerics import operations
+from lagrotor.numerics.codegen import Program, reduce_common, solve_symmetric
+from lagrotor.numerics.printers import compile_program, in_blocks, javascript
 
 x, y, z = sp.symbols("x y z", real=True)
 s, t = sp.symbols("s t", real=True)

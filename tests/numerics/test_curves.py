@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from lagrotor.numerics import first_passage, mean_between, peak, spectrum, turn_means
+from lagrotor.numerics import first_passage, peak, spectrum, turn_means
+from lagrotor.numerics.curves import mean_between
 
 
 def test_the_peak_of_a_known_sine():

@@ -9,12 +9,19 @@ import pytest
 
 from lagrotor.errors import IntegrationError, LagrotorWarning
 from lagrotor.numerics import error_estimate
-from lagrotor.numerics.error_estimate import UNKNOWN, EstimatedRun, Evolution, Patience, errors_up_to, estimate_run
+from lagrotor.numerics.error_estimate import (
+    UNKNOWN,
+    EstimatedRun,
+    EvaluationBudget,
+    Evolution,
+    errors_up_to,
+    estimate_run,
+)
 from lagrotor.numerics.integrate import TIGHTEST
 from lagrotor.numerics.segment import Array, StopError, Stretch
 
 T = np.linspace(0.0, 10.0, 11)
-ENOUGH = Patience(1e6, 1e6)
+ENOUGH = EvaluationBudget(1e6, 1e6)
 SAFETY, APART, FIRST, ROUNDING, START, LEAST, RESOLVED, LOST, SWING = (
     getattr(error_estimate, name).value
     for name in ("SAFETY", "APART", "FIRST", "ROUNDING", "START", "LEAST", "RESOLVED", "LOST", "SWING")
@@ -45,7 +52,7 @@ class Made:
         return Stretch(states, states[-1], self.cost)
 
     def evolution(self, **more: Any) -> Evolution:
-        given: dict[str, Any] = {"turn": 1.0, "patience": ENOUGH} | more
+        given: dict[str, Any] = {"turn": 1.0, "budget": ENOUGH} | more
         return Evolution(np.ones(1), self, lambda one, other: np.abs(one - other)[:, 0], **given)
 
     def run(self, tol: float, times: Array = T, **more: Any) -> EstimatedRun:
@@ -164,7 +171,7 @@ def test_a_run_is_watched_where_its_conservation_is_measured() -> None:
         return np.zeros(1)
 
     made = Made(share=0.1)
-    made.run(1e-6, defect=defect, watch=np.array([-1.0, 0.017, 3.1234, 99.0]))
+    made.run(1e-6, conservation_error=defect, watch=np.array([-1.0, 0.017, 3.1234, 99.0]))
     assert {0.017, 3.1234} < set(seen[0]) and not {-1.0, 99.0} & set(seen[0])
     assert seen[0][0] == 0 and seen[0][-1] == 10
 
@@ -226,14 +233,21 @@ def test_of_two_pairs_that_stop_at_one_time_the_better_known_is_kept() -> None:
 def test_what_is_conserved_is_held_to_the_error() -> None:
     kept = error_estimate.KEPT.value
     error = Made(share=0.1).run(1e-6).errors[-1]
-    assert Made(share=0.1).run(1e-6, defect=lambda t, y: np.array([0.99 * kept * error])).ending.kind == "end"
+    assert (
+        Made(share=0.1).run(1e-6, conservation_error=lambda t, y: np.array([0.99 * kept * error])).ending.kind == "end"
+    )
     with pytest.raises(IntegrationError, match="followed another motion") as refusal:
-        Made(share=0.1).run(1e-6, defect=lambda t, y: np.array([-1.01 * kept * error]), elsewhere=True)
+        Made(share=0.1).run(
+            1e-6, conservation_error=lambda t, y: np.array([-1.01 * kept * error]), has_other_coordinates=True
+        )
     assert refusal.value.evaluations > 0
-    far = {"difference": lambda one, other: 10 * error, "defect": lambda t, y: np.array([9.9 * kept * error])}
+    far = {
+        "difference": lambda one, other: 10 * error,
+        "conservation_error": lambda t, y: np.array([9.9 * kept * error]),
+    }
     assert Made(share=0.1).run(1e-6, **far).ending.kind == "end"
     with pytest.raises(IntegrationError, match="not finite"):
-        Made(share=np.nan).run(1e-6, elsewhere=True)
+        Made(share=np.nan).run(1e-6, has_other_coordinates=True)
 
 
 def test_between_two_events_that_differ_only_what_is_read_there_is_compared() -> None:
@@ -251,7 +265,7 @@ def test_between_two_events_that_differ_only_what_is_read_there_is_compared() ->
 
 def test_of_too_many_turns_nothing_is_begun() -> None:
     made = Made()
-    with pytest.raises(IntegrationError, match=r"1\.0e\+300 turns, after which rounding leaves nothing known"):
+    with pytest.raises(IntegrationError, match=r"1\.0e\+300 turns, over which rounding errors exceed the states"):
         made.run(1e-6, np.array([0.0, 1e300]))
     assert not made.locals
 
@@ -280,7 +294,7 @@ def test_below_what_is_resolved_safety_counts_twice(local: float, slack: float, 
 
     evolution = replace(made.evolution(), start=np.array([1.0, 0, 0]), integrate=integrate)
     if slack > 1:
-        evolution = replace(evolution, slack=lambda states: np.where(states[:, 2] < 1, slack, 1.0))
+        evolution = replace(evolution, constraint_uncertainty=lambda states: np.where(states[:, 2] < 1, slack, 1.0))
     run = estimate_run(evolution, T, local * RESOLVED * APART / FIRST)
     assert run.local == pytest.approx(local * RESOLVED) and len(made.locals) == 2
     apart = SAFETY ** (1 + twice) * 0.01 * run.local * (APART - 1) * T[-1] + LEAST * run.local
@@ -301,23 +315,23 @@ def test_where_two_have_parted_nothing_is_known_from_that_time_on() -> None:
     assert run.ending.kind == "lost" and run.horizon < run.ending.at < 60 and run.t[-1] == 200
     assert run.t[at] == run.ending.at and run.errors[at] == run.errors[-1] == UNKNOWN > run.errors[at - 1] > LOST / 10
     with pytest.warns(
-        LagrotorWarning, match=r"neighbouring motions part .*, and tol can be meant only up to t = [\d.]+ s$"
+        LagrotorWarning, match=r"neighbouring motions separate .*, and tol is kept only up to t = [\d.]+ s$"
     ):
         run.warn_unless_kept("made", 1e-6)
 
 
 def test_the_budget_grows_with_the_turns() -> None:
     made = Made(share=0.1)
-    made.run(1e-6, patience=Patience(1_000, 10))
+    made.run(1e-6, budget=EvaluationBudget(1_000, 10))
     assert made.budgets == [1_100, 1_100]
-    made.run(1e-6, patience=Patience(1e9, 10))
+    made.run(1e-6, budget=EvaluationBudget(1e9, 10))
     assert made.budgets[2:] == [error_estimate.MOST_EVALUATIONS] * 2
 
 
 def test_what_does_not_conserve_is_compared_with_a_looser_one() -> None:
     """Whatever is integrated more tightly than at first is off what it must conserve, and refused."""
     made = Made(share=0.01)
-    run = made.run(1e-6, defect=lambda t, y: np.array([y[-1, 0] - 1 < 0.09 * FIRST_LOCAL], float))
+    run = made.run(1e-6, conservation_error=lambda t, y: np.array([y[-1, 0] - 1 < 0.09 * FIRST_LOCAL], float))
     assert [local / FIRST_LOCAL for local in made.locals] == pytest.approx([1, 1 / APART, APART])
     assert run.local == made.locals[0] and run.ending.kind == "end"
 

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lagrotor.numerics import best_harmonics, harmonics_at
+from lagrotor.numerics.curves import best_harmonics, harmonics_at
 
 T = np.linspace(0.8, 8.8, 400)
 
@@ -21,9 +21,9 @@ def test_the_parts_of_a_known_curve():
     assert fit.slope == pytest.approx([0.01, -0.02])
     assert fit.waves[0] == pytest.approx(np.array([0.2, 0.1]) * np.exp(0.4j))
     assert fit.waves[1] == pytest.approx([-0.05j, 0], abs=1e-12)
-    assert fit.left < 1e-20
-    assert harmonics_at(T, curve(5.0), 5.2).left > 0.1  # the twin
-    assert harmonics_at(T, curve(5.0), 5.0, count=1).left > 0.1
+    assert fit.residual_squares < 1e-20
+    assert harmonics_at(T, curve(5.0), 5.2).residual_squares > 0.1  # the twin
+    assert harmonics_at(T, curve(5.0), 5.0, count=1).residual_squares > 0.1
 
 
 @settings(max_examples=30, deadline=None)
@@ -31,4 +31,4 @@ def test_the_parts_of_a_known_curve():
 def test_the_rate_is_found_from_a_guess(rate, off):
     found = best_harmonics(T, curve(rate), rate * off)
     assert found.rate == pytest.approx(rate, rel=1e-5)
-    assert found.left < 1e-6
+    assert found.residual_squares < 1e-6

@@ -157,7 +157,7 @@ def test_what_lsoda_made_before_it_failed_is_kept(monkeypatch: pytest.MonkeyPatc
     times, odeint = np.linspace(0.5, 9.5, 10), solvers._odeint
 
     def fails(segment: Segment, rhs: RightHandSide, error: float, first: float):  # type: ignore[no-untyped-def]
-        states, log = odeint(replace(segment, right=6.0, t_eval=times[times <= 6]), rhs, error, first)
+        states, log = odeint(replace(segment, until=6.0, t_eval=times[times <= 6]), rhs, error, first)
         rest = np.full((1 + len(times) - len(states[1:-1]), 2), 7.0)  # no number that it made
         return np.concatenate([states[:-1], rest]), log | {"message": "Repeated error test failures"}
 
@@ -200,11 +200,11 @@ def test_where_a_solver_stops_dop853_goes_on_and_the_solver_returns(
     begun, right, taken, follow = list[float](), module.lsoda, [0], module.dop853
 
     def stops(segment: Segment, error: float) -> Stretch:
-        begun.append(segment.left)
-        if segment.left > 3:
+        begun.append(segment.begin)
+        if segment.begin > 3:
             return right(segment, error)
-        until = segment.left + 1
-        part = replace(segment, right=until, t_eval=segment.t_eval[segment.t_eval <= until])
+        until = segment.begin + 1
+        part = replace(segment, until=until, t_eval=segment.t_eval[segment.t_eval <= until])
         raise StopError(until, "no more steps", right(part, error) if reached else None, lost)
 
     def follows(segment: Segment, error: float) -> Stretch:

@@ -18,7 +18,7 @@ from flint import arb, arb_poly
 from lagrotor import Link, Rotor, Scene, Shock, Structure, simulate
 from lagrotor.errors import ConstraintError, InputError
 from lagrotor.mechanics import System, coordinates
-from lagrotor.numerics import Program
+from lagrotor.numerics.codegen import Program
 from lagrotor.pair.notation import AXES
 from lagrotor.proofs import NotProved, enclose, lohner_frames, taylor_step
 from lagrotor.proofs.balls import ZERO, as_text, of_text, precision

@@ -19,7 +19,7 @@ from lagrotor import Link, Scene
 from lagrotor.errors import InputError
 from lagrotor.mechanics import System, coordinates
 from lagrotor.models.orbits.shooting import QuarterPeriod
-from lagrotor.numerics import Program
+from lagrotor.numerics.codegen import Program
 from lagrotor.proofs import NotProved, check, enclose, equilibrium, means, no_crossing, periodic_orbit, precession
 from lagrotor.proofs.balls import as_text, ball_data, exact, precision
 from lagrotor.proofs.checker.checking import second_derivatives

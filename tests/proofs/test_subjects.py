@@ -14,7 +14,7 @@ pytest.importorskip("flint", reason="the extra `proof` is not installed")
 from lagrotor import Link, Scene, Shock, Structure
 from lagrotor.errors import InputError
 from lagrotor.mechanics import System, coordinates, t
-from lagrotor.numerics import Program
+from lagrotor.numerics.codegen import Program
 from lagrotor.pair.notation import AXES
 from lagrotor.proofs import NotProved, check, crossing, enclose, equilibrium, precession
 from lagrotor.proofs.checker.expression_tapes import Words

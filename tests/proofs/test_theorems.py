@@ -13,7 +13,7 @@ from flint import arb
 from lagrotor import Link, Scene, floquet
 from lagrotor.errors import DomainError, InputError
 from lagrotor.mechanics import System, coordinates, t
-from lagrotor.numerics import Program
+from lagrotor.numerics.codegen import Program
 from lagrotor.pair.notation import AXES
 from lagrotor.proofs import (
     NotProved,

@@ -1,4 +1,4 @@
-"""The smooth motion of a system in numbers: its right-hand side, the way back onto its constraints, its integration."""
+"""The smooth motion of a system in numbers: its right-hand side, its projection onto constraints, its integration."""
 
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -20,17 +20,11 @@ from lagrotor.numerics.taylor import taylor_order, taylor_rhs, taylor_solver
 
 Values = Mapping[Any, Any]
 Rhs = Callable[[float, Array], Any]
-_LIKE = 8.0  # ratio of a component to one below which none is scaled
+_LIKE = 8.0  # ratio of a component to one up to which no component is scaled
 
 
 def rhs(system: Equations, values: Values, engine: Engine = "core") -> Rhs:
-    """(t, y) → (v, u'), for the state y = (q, u), (N + m,): for any solver, and the fastest that the engine has. u is q' where
-    the system has no velocities of its own.
-
-    engine: "core", generated Python, which gives a list, or "fast", compiled by heyoka, which gives an array.
-
-    Raises InputError for a value that is missing, another engine, and without heyoka; when called, for another y.
-    """
+    """Return the right-hand side (t, y) → (v, u') for `System.rhs`; the state y = (q, u) has shape (N + m,)."""
     check_engine(engine)
     program = motion_program(system)
     parameters = parameter_values(program, values, "rhs")
@@ -53,8 +47,8 @@ def rhs(system: Equations, values: Values, engine: Engine = "core") -> Rhs:
 
 
 def projection_of(system: Equations, values: Values) -> Callable[[Array], Array]:
-    """A state (d,), or states (d, n), brought back onto the constraints: two steps of Newton's method along M⁻¹ Gᵀ. Components
-    that are followed with the motion stay."""
+    """Return the projection of a state (d,), or states (d, n), onto the constraints: two steps of Newton's method along M⁻¹
+    Gᵀ. Components that are followed with the motion do not change."""
     program = projection_program(system)
     function, parameters, d = program.function, parameter_values(program, values), len(program.states)
 
@@ -69,7 +63,7 @@ def projection_of(system: Equations, values: Values) -> Callable[[Array], Array]
 
 
 def powers_of_two(sizes: Array) -> Array:
-    """The sizes as powers of two, which rounds nothing; ones, where all are about as large as one."""
+    """Return the sizes as powers of two, which round nothing; ones where all sizes are near one."""
     scale = np.exp2(np.rint(np.log2(sizes)))
     return scale if scale.max() > _LIKE or scale.min() < 1 / _LIKE else np.ones(len(sizes))
 
@@ -87,24 +81,20 @@ def smooth_motion(
     solver: SegmentSolver | None = None,
     stiff: bool = False,
 ) -> Integrate:
-    """(start, times, local error, companion, budget) → the motion of a system without events, its start at times[0].
-
-    The solver is given each component in units of its size. turn: the time in which the motion typically turns. start: a state at
-    which it is regular. windows: where something acts briefly by the clock. followed: what is integrated with the motion.
-    progress: called with the time of each evaluation by the core. solver: one of the core's, the fastest if none is given.
-    stiff: whether neighbouring motions approach each other so fast that a method for stiff motions may be chosen.
-    """
-    program, known = motion_program(system, followed), len(sizes)
+    """Return the integration (start, times, local error, companion, budget) → motion of a system without events. The solver
+    takes each component in units of its size. `turn` is the typical period, `start` a regular state, `followed` the narrow
+    terms integrated with the motion. For a stiff motion a stiff method may be chosen."""
+    program, size = motion_program(system, followed), len(sizes)
     parameters, d = parameter_values(program, values), len(program.states) - len(followed)
     project = projection_of(system, values) if system.multipliers else None
-    units, begun = np.append(powers_of_two(sizes), np.ones(d - known)), np.zeros(len(followed))
+    units, begun = np.append(powers_of_two(sizes), np.ones(d - size)), np.zeros(len(followed))
     words = singular_position(system, values, start, sizes)
 
     def motion(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
         if len(times) == 1:
             return Stretch(start[None], start, 0)
         begin, since = float(times[0]), times - times[0]
-        start = np.concatenate([start[:known], [begin] * (d - known), begun])
+        start = np.concatenate([start[:size], [begin] * (d - size), begun])
         problem = Problem(
             reporting(program.rate(parameters, begin), progress, begin),
             start,
@@ -114,7 +104,7 @@ def smooth_motion(
             typical_rate=2 * np.pi / turn,
         )
         if engine == "fast":
-            clock = tuple(range(known, d + len(followed)))  # the time is a state, which may grow without end
+            clock = tuple(range(size, d + len(followed)))  # the time is a state, which may grow without end
             order, between = taylor_order(local, companion), turn / 2 if project else np.inf
             chosen = taylor_solver(lambda _: (program.program, parameters), order, between, clock)
         else:
@@ -137,7 +127,7 @@ def _as_in_pulse(segment: Segment, pulsed: bool, tol: float) -> Stretch:
 
 
 def _tighter(solver: SegmentSolver) -> SegmentSolver:
-    """Return the solver at a hundredth of its tolerance: two runs of a stiff motion at like tolerances share their error."""
+    """Return the solver at a hundredth of its tolerance: two runs of a stiff motion at similar tolerances share their error."""
 
     def solve(segment: Segment, pulsed: bool, tol: float) -> Stretch:
         return solver(segment, pulsed, max(tol / 100, min(tol, CROSSOVER.value)))

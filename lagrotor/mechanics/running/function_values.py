@@ -1,7 +1,7 @@
-"""What unknown functions in a Lagrangian, a force or a constraint are when it runs: U(r), a support y_s(t), a control u(t).
+"""Values of unknown functions in a Lagrangian, a force or a constraint: U(r), a support y_s(t), a control u(t).
 
-A value is an expression, put in before anything else; a callable with the derivatives that the equations need; or a table or
-a spline of scipy. A table is interpolated by a cubic spline (de Boor, A Practical Guide to Splines, ch. IV).
+A value is an expression, substituted before anything else; a callable with the derivatives that the equations need; or a table
+or a spline of scipy. A table is interpolated by a cubic spline (de Boor, A Practical Guide to Splines, ch. IV).
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -25,26 +25,22 @@ Kind = TypeVar("Kind", bound=Equations)
 
 @dataclass(frozen=True, eq=False)
 class FunctionValue:
-    """A function in numbers: its derivatives by orders, those that are known, or a spline of scipy, not a number beyond its
-    knots."""
+    """A function in numbers: its known derivatives by orders, or a spline of scipy, NaN beyond its knots."""
 
     name: str
     derivatives: Mapping[Orders, Callable[..., Any]]
     spline: Any = None
 
     def jet(self, where: str, orders: Orders) -> Callable[..., Any]:
-        """A derivative as a function of numbers, or of arrays, or of numbers with small imaginary parts (a complex step).
-
-        Raises InputError where it is not known.
-        """
+        """Return a derivative as a function of numbers or arrays, also with small imaginary parts (a complex step)."""
         f = self._known(where, orders)
 
         def one(*at: float) -> float:
             try:
                 return float(f(*at))
             except TypeError:
-                shown = f"{jet_name(self.name, orders)}({', '.join(map(str, at))})"
-                raise IntegrationError(f"{where}: {shown} gives {f(*at)!r}, which is no number: correct it") from None
+                text = f"{jet_name(self.name, orders)}({', '.join(map(str, at))})"
+                raise IntegrationError(f"{where}: {text} gives {f(*at)!r}, which is no number: correct it") from None
 
         def call(*at: Any) -> Any:
             if all(np.ndim(x) == 0 and not isinstance(x, complex | np.complexfloating) for x in at):
@@ -76,61 +72,58 @@ class FunctionValue:
 
 
 def jet_name(name: str, orders: Orders) -> str:
-    """U, U', U''; of several arguments U^(1,0)."""
+    """Return U, U', U''; U^(1,0) for several arguments."""
     if len(orders) == 1:
         return name + "'" * orders[0]
     return f"{name}^({','.join(map(str, orders))})" if any(orders) else name
 
 
 def put_functions(where: str, system: Kind, values: Any, others: Sequence[sp.Expr] = ()) -> tuple[Kind, Any]:
-    """The system with the expressions among the values of its functions put in, and the values: numbers by symbol or name,
-    and for each function its form, a Lambda, or a `FunctionValue`. others: expressions that may have functions, too.
-
-    Raises InputError for a function without a value, a value that is none, and one that the system does not have.
-    """
+    """Substitute those values of functions that are expressions into the system. Return it with all values: numbers, and a
+    `Lambda` or `FunctionValue` for each function. `others` are further expressions that may contain functions."""
     energy = system.L if system.bodies else system.lagrangian
-    parts = [energy, *system.acting, *(e for _, e in system.velocities), *others]
-    applied = unknown_functions(parts)
-    known = {str(f.func): f.func for f in applied}
+    expressions = [energy, *system.acting, *(e for _, e in system.velocities), *others]
+    applied = unknown_functions(expressions)
+    functions = {str(f.func): f.func for f in applied}
     if not isinstance(values, Mapping):
         raise InputError(f"{where}: values = {values!r} must be {{symbol: number, …}}, a dictionary")
     by_function = dict(_by_function(where, key, value) for key, value in values.items())
     if len(by_function) < len(values):
         raise InputError(f"{where}: a function has two values, as U and as U(x): give one")
     values = by_function
-    if not (known or any(isinstance(key, UndefinedFunction) for key in values)):
+    if not (functions or any(isinstance(key, UndefinedFunction) for key in values)):
         return system, values
     named = {
-        str(key): value for key, value in values.items() if isinstance(key, UndefinedFunction) or str(key) in known
+        str(key): value for key, value in values.items() if isinstance(key, UndefinedFunction) or str(key) in functions
     }
-    if letters := sorted(known.keys() & {str(s) for e in parts for s in e.free_symbols}):
-        raise InputError(f"{where}: {letters[0]} is a letter of the system and a function in it: rename one")
+    if letters := sorted(functions.keys() & {str(s) for e in expressions for s in e.free_symbols}):
+        raise InputError(f"{where}: {letters[0]} is a symbol of the system and a function in it: rename one")
     names = [str(key) for key in values]
     if twice := sorted(name for name in named if names.count(name) > 1):
         raise InputError(f"{where}: {twice[0]} with two values, of the function and of its name: give one")
-    if strangers := sorted(named.keys() - known.keys()):
+    if strangers := sorted(named.keys() - functions.keys()):
         raise InputError(
-            f"{where}: values name the function {strangers[0]}, which the system does not have{near(strangers[0], known)}"
+            f"{where}: values name the function {strangers[0]}, which the system does not have{near(strangers[0], functions)}"
         )
-    if missing := sorted(known.keys() - named.keys()):
+    if missing := sorted(functions.keys() - named.keys()):
         raise InputError(
             f"{where}: {', '.join(missing)} without a value: values = {{{missing[0]}: an expression, a callable, "
             "or a table (x, y)}"
         )
-    numbers: dict[Any, Any] = {key: value for key, value in values.items() if str(key) not in known}
-    written: dict[str, sp.Lambda] = {}
+    numbers: dict[Any, Any] = {key: value for key, value in values.items() if str(key) not in functions}
+    lambdas: dict[str, sp.Lambda] = {}
     for name, value in named.items():
         places = {f.args for f in applied if str(f.func) == name}
-        made = _value(where, name, places, value)
-        if isinstance(made, sp.Lambda):
-            if moving := made.free_symbols & {*system.c.q, *system.c.v, *system.c.a, t}:
+        resolved = _value(where, name, places, value)
+        if isinstance(resolved, sp.Lambda):
+            if moving := resolved.free_symbols & {*system.c.q, *system.c.v, *system.c.a, t}:
                 raise InputError(
-                    f"{where}: {name} = {made.expr} contains {', '.join(sorted(map(str, moving)))}, of which {applied[0]} is no "
-                    f"function: write it into the system, {name} with more arguments"
+                    f"{where}: {name} = {resolved.expr} contains {', '.join(sorted(map(str, moving)))}, but "
+                    f"{applied[0]} does not depend on it: write it into the system, {name} with more arguments"
                 )
-            written[name] = made
-        numbers[name] = made
-    return (_with_expressions(system, written) if written else system), numbers
+            lambdas[name] = resolved
+        numbers[name] = resolved
+    return (_with_expressions(system, lambdas) if lambdas else system), numbers
 
 
 def _by_function(where: str, key: Any, value: Any) -> tuple[Any, Any]:
@@ -143,16 +136,16 @@ def _by_function(where: str, key: Any, value: Any) -> tuple[Any, Any]:
     return key.func, sp.Lambda(key.args, value) if expressed else value
 
 
-def _with_expressions(system: Kind, written: Mapping[str, sp.Lambda]) -> Kind:
-    """The system with expressions in place of functions."""
+def _with_expressions(system: Kind, lambdas: Mapping[str, sp.Lambda]) -> Kind:
+    """Substitute expressions for functions in the system."""
 
     def put(e: sp.Expr) -> sp.Expr:
-        return with_values(e, written)
+        return with_values(e, lambdas)
 
     lagrangian: Any = system.lagrangian
     if not system.bodies:
         lagrangian = put(lagrangian)
-    elif unknown_functions(system.L - sp.sympify(lagrangian.remainder, strict=True)):  # in the place of a frame
+    elif unknown_functions(system.L - sp.sympify(lagrangian.remainder, strict=True)):  # in the position of a frame
         lagrangian = put(system.L)
     else:
         lagrangian = replace(lagrangian, remainder=put(lagrangian.remainder))
@@ -168,7 +161,7 @@ def _with_expressions(system: Kind, written: Mapping[str, sp.Lambda]) -> Kind:
 
 
 def with_values(e: sp.Expr, values: Mapping[Any, Any]) -> sp.Expr:
-    """An expression with those functions written out whose values are expressions."""
+    """Substitute the functions whose values are expressions."""
 
     def made(name: str, orders: Orders, arguments: tuple[sp.Expr, ...]) -> sp.Expr | None:
         form = values.get(name)
@@ -182,44 +175,44 @@ def with_values(e: sp.Expr, values: Mapping[Any, Any]) -> sp.Expr:
     return with_jets(e, made)
 
 
-def _value(where: str, name: str, places: set[tuple[sp.Expr, ...]], given: Any) -> sp.Lambda | FunctionValue:
-    """A value as an expression of its arguments or as a function of numbers."""
+def _value(where: str, name: str, places: set[tuple[sp.Expr, ...]], value: Any) -> sp.Lambda | FunctionValue:
+    """Return a value as an expression of its arguments or as a function of numbers."""
     count = len(next(iter(places)))
-    if isinstance(given, FunctionValue):
-        return given
-    if isinstance(given, sp.Lambda):
-        if len(given.variables) != count:
+    if isinstance(value, FunctionValue):
+        return value
+    if isinstance(value, sp.Lambda):
+        if len(value.variables) != count:
             raise InputError(
-                f"{where}: {name} = {given} has {len(given.variables)} arguments, where the system has {count}"
+                f"{where}: {name} = {value} has {len(value.variables)} arguments, where the system has {count}"
             )
-        form = sp.Lambda(given.variables, expression(f"{where}: {name}", given.expr))
+        form = sp.Lambda(value.variables, expression(f"{where}: {name}", value.expr))
         return _alone(where, name, form)
-    if isinstance(given, sp.Expr | int | float) and not isinstance(given, bool):
-        body = expression(f"{where}: {name}", given)
+    if isinstance(value, sp.Expr | int | float) and not isinstance(value, bool):
+        body = expression(f"{where}: {name}", value)
         (letters,) = places if len(places) == 1 else (None,)
         if letters is None or not all(a.is_Symbol for a in letters) or len({*letters}) < count:
             if body.free_symbols & set().union(*(a.free_symbols for place in places for a in place)):
                 raise InputError(
-                    f"{where}: {name} = {body} is of no argument that is a letter alone, as in "
+                    f"{where}: {name} = {body} has no argument that is a symbol alone, as in "
                     f"{name}({min(', '.join(map(str, place)) for place in places)}): "
                     "give sympy's Lambda(x, expression in x)"
                 )
             letters = sp.symbols(f"_x:{count}", real=True, cls=sp.Dummy)
         return _alone(where, name, sp.Lambda(tuple(letters), body))
-    if count == 1 and (spline := _spline_of(where, name, given)) is not None:
+    if count == 1 and (spline := _spline_of(where, name, value)) is not None:
         return spline
-    if callable(given):
-        return FunctionValue(name, {(0,) * count: given})
+    if callable(value):
+        return FunctionValue(name, {(0,) * count: value})
     if (
-        isinstance(given, Sequence)
-        and not isinstance(given, str)
-        and given
-        and all(map(callable, given))
+        isinstance(value, Sequence)
+        and not isinstance(value, str)
+        and value
+        and all(map(callable, value))
         and count == 1
     ):
-        return FunctionValue(name, {(k,): f for k, f in enumerate(given)})
+        return FunctionValue(name, {(k,): f for k, f in enumerate(value)})
     raise InputError(
-        f"{where}: {name} = {given!r} is no function of {count} argument{'s' * (count > 1)}: give an expression, a callable, "
+        f"{where}: {name} = {value!r} is no function of {count} argument{'s' * (count > 1)}: give an expression, a callable, "
         "callables "
         f"({name}, {name}', …), a table (x, y) of increasing x, or a spline of scipy"
     )
@@ -231,22 +224,22 @@ def _alone(where: str, name: str, form: sp.Lambda) -> sp.Lambda:
     return form
 
 
-def _spline_of(where: str, name: str, given: Any) -> FunctionValue | None:
-    """The spline of a table, or of scipy; None for what is neither. Raises InputError for a table that is none."""
+def _spline_of(where: str, name: str, value: Any) -> FunctionValue | None:
+    """Return the spline of a table, or of scipy; None for other values."""
     from scipy.interpolate import BSpline, CubicSpline, PPoly
 
-    if isinstance(given, BSpline | PPoly):
-        pieces = PPoly.from_spline(given, False) if isinstance(given, BSpline) else PPoly(given.c, given.x, False)
+    if isinstance(value, BSpline | PPoly):
+        pieces = PPoly.from_spline(value, False) if isinstance(value, BSpline) else PPoly(value.c, value.x, False)
         if pieces.c.ndim != 2 or np.iscomplexobj(pieces.c) or not np.isfinite(pieces.c).all():
             raise InputError(f"{where}: {name}: a spline of scipy must have real, finite values, one at each place")
         return FunctionValue(name, {}, pieces)
-    pair = isinstance(given, Sequence | np.ndarray) and not isinstance(given, str) and len(given) == 2
-    if not pair or any(callable(part) or np.ndim(part) != 1 for part in given):
+    pair = isinstance(value, Sequence | np.ndarray) and not isinstance(value, str) and len(value) == 2
+    if not pair or any(callable(column) or np.ndim(column) != 1 for column in value):
         return None
     try:
-        x, y = (np.array(part, float) for part in given)
+        x, y = (np.array(column, float) for column in value)
     except (TypeError, ValueError):
-        raise InputError(f"{where}: {name} = {given!r}: a table is two arrays of numbers, (x, y)") from None
+        raise InputError(f"{where}: {name} = {value!r}: a table is two arrays of numbers, (x, y)") from None
     if len(x) != len(y) or len(x) < 2 or not (np.isfinite(x).all() and np.isfinite(y).all()):
         raise InputError(
             f"{where}: {name}: a table (x, y) has as many finite y as x, at least two: these are {len(x)} and {len(y)}"
@@ -256,9 +249,9 @@ def _spline_of(where: str, name: str, given: Any) -> FunctionValue | None:
     return FunctionValue(name, {}, CubicSpline(x, y, extrapolate=False))
 
 
-def event_with(event: Event | Impact, put: Callable[[sp.Expr], sp.Expr]) -> Event | Impact:
-    """The event with `put` applied to its expressions."""
+def event_with(event: Event | Impact, substitute: Callable[[sp.Expr], sp.Expr]) -> Event | Impact:
+    """Apply a substitution to the expressions of an event."""
     if isinstance(event, Impact):
-        return replace(event, gap=put(event.gap), restitution=put(event.restitution))
-    after = None if event.velocities is None else tuple(map(put, event.velocities))
-    return replace(event, section=put(event.section), velocities=after)
+        return replace(event, gap=substitute(event.gap), restitution=substitute(event.restitution))
+    velocities = None if event.velocities is None else tuple(map(substitute, event.velocities))
+    return replace(event, section=substitute(event.section), velocities=velocities)

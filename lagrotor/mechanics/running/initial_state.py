@@ -1,6 +1,6 @@
-"""The start of a run: which values, positions and velocities a motion can begin with, and the nearest state on the constraints.
+"""The initial state of a run: checks of values, positions and velocities, and the nearest state on the constraints.
 
-The values must be of letters that the system has, of their declared sign. Masses must be those of bodies, friction must take
+Values belong to symbols of the system and have their declared signs. Bodies must have possible masses, friction must dissipate
 energy, and the mass matrix, with the constraints, must give one acceleration.
 """
 
@@ -32,18 +32,17 @@ from lagrotor.mechanics.steady_motions import no_turn
 from lagrotor.numerics.arrays import finite_array, real_array
 
 _POLE = 1e-13  # of a factor of det [A; G], below which it is zero
-_RANK = 1e-11  # of the largest eigenvalue, what is left of a direction that nothing moves, by rounding
-_OFF = 1e-7  # of 1 and the largest number of a start: how far it may be off its constraints
-_SMALL = 1e-5  # of the size of what is small, how far it may be off
-_SLOW = 1e-3  # of the way that the velocities cover: as large a place counts at least
-_LEAST = 1e-8  # a place that is smaller counts as this: it may be rounding of parameters of size one
+_RANK = 1e-11  # eigenvalue over the largest, below which a direction has no mass
+_OFF = 1e-7  # distance from the constraints over 1 + the largest number of a start
+_SMALL = 1e-5  # distance from the constraints over the size of a small component
+_SLOW = 1e-3  # least size of a position over the distance that the velocities cover
+_LEAST = 1e-8  # least size of a position, which may be rounding of parameters of size one
 _LEAST_NORM = 1e-3  # of a quaternion, from which the nearest of norm 1 is reached
 
 
 def check_values(where: str, system: Equations, values: Values, others: Iterable[sp.Expr] = ()) -> None:
-    """Raise InputError for names that are no letters of the system, or of `others`; for a value whose sign is not the
-    letter's; for a body or a friction that there is none of. A symbol of another system, of a table that several share, is
-    passed over."""
+    """Raise InputError for unknown names, a value of the wrong sign, or an impossible body or friction. A symbol of another
+    system, in a table shared by several systems, is ignored."""
     if not isinstance(values, Mapping):
         raise InputError(f"{where}: values = {values!r} must be {{symbol: number, …}}, a dictionary")
     moving = {*system.c.q, *system.c.v, *system.c.a, *system.speeds, time}
@@ -56,11 +55,12 @@ def check_values(where: str, system: Equations, values: Values, others: Iterable
         if not isinstance(value, FunctionValue | sp.Lambda)
     }
     if strangers := sorted({name for name in values if isinstance(name, str)} - letters.keys()):
-        known = f"its letters are {', '.join(sorted(letters))}" if letters else "it has no letter but its coordinates"
+        choices = f"its symbols are {', '.join(sorted(letters))}" if letters else "it has no symbol but its coordinates"
         meant = near(strangers[0], letters) if len(strangers) == 1 else ""
         it = "it" if len(strangers) == 1 else "them"
         raise InputError(
-            f"{where}: values name {', '.join(strangers)}, which the system does not have{meant or '; ' + known}: leave {it} out"
+            f"{where}: values name {', '.join(strangers)}, which the system does not have"
+            f"{meant or '; ' + choices}: leave {it} out"
         )
     for name, value in values.items():
         letter = letters.get(str(name))
@@ -70,15 +70,15 @@ def check_values(where: str, system: Equations, values: Values, others: Iterable
         if wrong or (letter.is_integer and value != round(value)):
             kind = "a whole number" if letter.is_integer and not wrong else "positive" if value < 0 else "negative"
             raise InputError(
-                f"{where}: {letter} = {value:g} was declared {kind}: what is derived of it holds for these alone"
+                f"{where}: {letter} = {value:g} was declared {kind}: derived results hold only for such values"
             )
-    put = {
+    numbers = {
         s: sp.sympify(value, strict=True)
         for s, value in by_symbol(f"{where}: values", values, letters.values()).items()
     }
     for body in system.bodies:
-        check_body(where, body, put)
-    check_friction(where, put_in(system.dissipation, put), system.c)
+        check_body(where, body, numbers)
+    check_friction(where, put_in(system.dissipation, numbers), system.c)
 
 
 def _number(where: str, name: Any, value: Any) -> float:
@@ -91,28 +91,27 @@ def _number(where: str, name: Any, value: Any) -> float:
 
 
 def check_pole(where: str, system: Equations, values: Values, state: Array) -> None:
-    """Raise SingularError where the velocities u of the system do not give v at a state."""
-    given = system.kinematics
-    if given is None:
+    """Raise SingularError where the quasi-velocities u do not give v at a state."""
+    kinematics = system.kinematics
+    if kinematics is None:
         return
     size = len(system.c.q) + len(system.speeds)
     at, now = state[None, :size], np.append(state, 0.0)[size : size + 1]
-    own = ", ".join(map(str, system.speeds))
-    poles = [function_program(system, e).along(values)(at, now).item() for e in given.poles]
+    speeds = ", ".join(map(str, system.speeds))
+    poles = [function_program(system, e).along(values)(at, now).item() for e in kinematics.poles]
     if (lost := np.abs(poles) <= _POLE).any():
         raise SingularError(
-            f"{where}: {given.poles[int(np.argmax(lost))]} = 0 there, where {own} do not give the velocities of the coordinates: "
-            "start beside it, or turn by unit quaternions, which have no pole: frame.ball(…)"
+            f"{where}: {kinematics.poles[int(np.argmax(lost))]} = 0 there, where {speeds} do not give the velocities "
+            "of the coordinates: start near it, or turn by unit quaternions, which have no pole: frame.ball(…)"
         )
     if not np.isfinite(velocities_along(system, values, at, now)).all():
         raise SingularError(
-            f"{where}: {own} do not give the velocities of the coordinates there: det [A; G] = 0; start beside it"
+            f"{where}: {speeds} do not give the velocities of the coordinates there: det [A; G] = 0; start near it"
         )
 
 
 def check_inertia(where: str, system: Equations, values: Values, state: Array) -> None:
-    """Raise SingularError where M, with the constraints, does not give one acceleration at a state; warn where the kinetic
-    energy of a velocity that the constraints allow is negative."""
+    """Raise SingularError where M, with the constraints, does not give one acceleration; warn of negative kinetic energy."""
     M = mass_at(system, values, state)
     G = rows_at(system, values, state)
     size = np.sqrt(np.abs(np.diag(M)))
@@ -120,17 +119,17 @@ def check_inertia(where: str, system: Equations, values: Values, state: Array) -
     M, G = M / np.outer(size, size), G / size
     lengths = np.linalg.norm(G, axis=1, keepdims=True)
     if not (np.isfinite(M).all() and np.isfinite(G).all() and lengths.all()):
-        return  # said of the right-hand side, or of the constraints
-    _, weights, turned = np.linalg.svd(G / lengths) if len(G) else (None, np.zeros(0), np.eye(len(M)))
-    free = turned[int((weights > _RANK).sum()) :]
+        return  # the right-hand side or the constraints will be refused
+    _, weights, directions = np.linalg.svd(G / lengths) if len(G) else (None, np.zeros(0), np.eye(len(M)))
+    free = directions[int((weights > _RANK).sum()) :]
     kinetic = np.linalg.eigvalsh(free @ M @ free.T) if len(free) else np.ones(1)
     if np.abs(kinetic).min() <= _RANK * max(np.abs(kinetic).max(), np.abs(M).max()):
         _, vectors = np.linalg.eigh(free @ M @ free.T)
         idle = np.abs(free.T @ vectors[:, int(np.abs(kinetic).argmin())])
-        names = ", ".join(str(v) for v, part in zip(system.speeds, idle, strict=True) if part > 0.2 * idle.max())
+        names = ", ".join(str(v) for v, weight in zip(system.speeds, idle, strict=True) if weight > 0.2 * idle.max())
         raise SingularError(
             f"{where}: the mass matrix is singular at the start (det M = 0): no mass moves with {names}, and no constraint "
-            "gives it; use fewer coordinates, give what it moves a mass, or start beside a pole"
+            "determines it; use fewer coordinates, give its body a mass, or start away from a pole"
         )
     if np.linalg.svd(M, compute_uv=False)[-1] <= _RANK * np.abs(M).max() and tree_motion(system) is not None:
         raise SingularError(
@@ -148,59 +147,53 @@ def check_inertia(where: str, system: Equations, values: Values, state: Array) -
 def consistent(
     where: str, system: Equations, values: Values, q0: ArrayLike, v0: ArrayLike, t: float = 0.0
 ) -> tuple[Array, Array]:
-    """The state (q, v) on the constraints that is nearest to q0, v0 in the mass metric, at the time t; (q, u) for velocities of
-    one's own, in the metric of their numbers.
-
-    Raises ConstraintError when it is not reached, SingularError where the constraints are dependent, InputError for a quaternion
-    of norm 0.
-    """
+    """Return the state (q, u) on the constraints nearest to q0, v0 in the mass metric, at the time t, for
+    `System.consistent`. Quasi-velocities are measured in the metric of their numbers."""
     n, m, h = len(system.c.q), len(system.speeds), len(system.constraints)
     q, v = state_vector(where, "q0", q0, n), state_vector(where, "v0", v0, m, system)
     for joint in system.ball_joints:
         if (size := float(np.linalg.norm(q[[system.c.q.index(s) for s in joint.quaternion]]))) < _LEAST_NORM:
             raise InputError(f"{where}: {no_turn(joint.quaternion, size)}")
-    given = start_program(system)
-    rest = (float(finite_array(f"{where}: t", t, ())), *parameter_values(given, values, where))
+    program = start_program(system)
+    arguments = (float(finite_array(f"{where}: t", t, ())), *parameter_values(program, values, where))
     ends = np.cumsum([m * m, h, h * n, len(system.left) * m])
 
-    def parts(at: ArrayLike, rates: ArrayLike) -> tuple[Array, Array, Array, Array, Array]:
-        """M, g, ∂g/∂q, G and G u + b."""
+    def matrices(at: ArrayLike, rates: ArrayLike) -> tuple[Array, Array, Array, Array, Array]:
+        """Return M, g, ∂g/∂q, G and G u + b."""
         with np.errstate(all="ignore"):
-            numbers = np.array(given.function(*np.concatenate([at, rates, rest])), float)
-        M, g, slope, G, off = np.split(numbers, ends)
-        return M.reshape(m, m), g, slope.reshape(h, n), G.reshape(-1, m), off
+            numbers = np.array(program.function(*np.concatenate([at, rates, arguments])), float)
+        M, g, slope, G, residual = np.split(numbers, ends)
+        return M.reshape(m, m), g, slope.reshape(h, n), G.reshape(-1, m), residual
 
     if h:
-        M, _, slope, _, _ = parts(q, v)
+        M, _, slope, _, _ = matrices(q, v)
         metric_there = metric(M, slope) if system.kinematics is None else None
         try:
-            placed = project_position(lambda at: parts(at, v)[1], lambda at: parts(at, v)[2], q, metric_there)
+            placed = project_position(lambda at: matrices(at, v)[1], lambda at: matrices(at, v)[2], q, metric_there)
         except (ConstraintError, SingularError) as error:
             raise type(error)(str(error).replace("project_position", where, 1)) from None
         q = np.asarray(placed, float)
-    mass, _, _, slope, wanted = parts(q, np.zeros(m))  # wanted: b, so that G u + b = 0
+    mass, _, _, slope, offset = matrices(q, np.zeros(m))  # b, so that G u + b = 0
     if not system.left:
         return q, v
     mass = metric(mass, slope)
-    particular = -np.linalg.pinv(slope) @ wanted
+    particular = -np.linalg.pinv(slope) @ offset
     return q, np.asarray(particular + project_velocity(slope, v - particular, mass), float)
 
 
 def rounding_of_start(system: Equations, values: Values, start: Array, t: float, duration: float = 1.0) -> Array:
-    """How far each component of a start (q, u), (N + m,), may be off the constraints: 10⁻⁷ (1 + max |start|), and where that is
-    less, 10⁻⁵ of its size, in whatever unit of length.
-
-    The sizes of x_k are max_j √M_jj |x_j| / √M_kk: the mass metric compares metres with radians; for velocities of one's own it
-    is 1. Velocities are no smaller than what leads through the places in the duration, or in one second where that is shorter.
-    """
-    n, m, given, weight = len(system.c.q), len(system.speeds), start_program(system), np.ones(1)
+    """Return the distance from the constraints that each component of a start (q, u), shape (N + m,), may have. It is 10⁻⁷ (1
+    + max |start|), or 10⁻⁵ of the component's size where that is less. The size of x_k is max_j √M_jj |x_j| / √M_kk, since
+    the mass metric compares metres with radians; for quasi-velocities the metric is 1. Velocities are at least the lengths
+    over the duration, or over one second where that is shorter."""
+    n, m, program, weight = len(system.c.q), len(system.speeds), start_program(system), np.ones(1)
     if system.kinematics is None:
         with np.errstate(all="ignore"):
-            M = np.array(given.function(*start, t, *parameter_values(given, values)), float)[: m * m].reshape(m, m)
+            M = np.array(program.function(*start, t, *parameter_values(program, values)), float)[: m * m].reshape(m, m)
         weight = np.sqrt(np.nan_to_num(np.abs(M.diagonal()), posinf=0.0))
-    length, speed = (float((weight * np.abs(part)).max()) for part in (start[:n], start[n:]))
+    length, speed = (float((weight * np.abs(values_of)).max()) for values_of in (start[:n], start[n:]))
     duration = min(duration, 1.0)
-    with np.errstate(divide="ignore", invalid="ignore"):  # what has no mass has no size: infinity
+    with np.errstate(divide="ignore", invalid="ignore"):  # the size of a massless component is infinite
         places = np.where(weight > 0, np.maximum(max(length, _SLOW * duration * speed) / weight, _LEAST), np.inf)
         speeds = np.fmax(np.where(weight > 0, speed / weight, np.inf), places / duration)
     sizes = np.append(np.broadcast_to(places, n), np.broadcast_to(speeds, m))
@@ -208,19 +201,19 @@ def rounding_of_start(system: Equations, values: Values, start: Array, t: float,
 
 
 def metric(mass: Array, slope: Array) -> Array:
-    """M, or where it is singular M + Gᵀ W G, W as in `programs.inertia`: a metric in which distances are measured."""
+    """Return M, or where it is singular M + Gᵀ W G with the W of `programs.inertia`."""
     if not len(slope) or np.linalg.matrix_rank(mass, hermitian=True) == len(mass):
         return mass
     return np.asarray(mass + slope.T / np.square(slope).sum(1) @ slope * np.trace(mass) / len(mass))
 
 
-def state_vector(where: str, name: str, given: ArrayLike, n: int, system: Equations | None = None) -> Array:
-    """n finite numbers; of velocities where a system is given."""
-    vector = real_array(given)
+def state_vector(where: str, name: str, numbers: ArrayLike, n: int, system: Equations | None = None) -> Array:
+    """Return n finite numbers, of velocities where a system is given."""
+    vector = real_array(numbers)
     if vector is None:
-        raise InputError(f"{where}: {name} = {given!r} must be {n} numbers")
+        raise InputError(f"{where}: {name} = {numbers!r} must be {n} numbers")
     if vector.shape != (n,) or not np.isfinite(vector).all():
-        own = system is not None and system.kinematics is not None
-        each = f"of {', '.join(map(str, system.speeds))}" if system and own else "one for each coordinate"
-        raise InputError(f"{where}: {name} = {given!r} must be {n} finite numbers, {each}")
+        quasi = system is not None and system.kinematics is not None
+        meaning = f"of {', '.join(map(str, system.speeds))}" if system and quasi else "one for each coordinate"
+        raise InputError(f"{where}: {name} = {numbers!r} must be {n} finite numbers, {meaning}")
     return vector

@@ -1,11 +1,11 @@
 """Small displacements: Floquet multipliers of a periodic motion, the Lyapunov exponent of any motion.
 
 With s' = f(s, t) of period T, δs(T) = Φ δs(0), Φ' = (∂f/∂s) Φ, Φ(0) = 1; under constraints in their tangent space, as in
-`state_space`. The multipliers are the eigenvalues of Φ: displacements grow where one is larger than 1 in size. One is 1 where
-time does not enter, by the shift along the orbit. Nayfeh & Mook, Nonlinear Oscillations, 5.2. Rounding of Φ hides multipliers
-that are 10⁻¹² times smaller than the largest. Where one is not resolved the period is cut, and the eigenvalues are those of a
-product of factors, whose periodic Schur form resolves each (Bojanczyk, Golub & Van Dooren 1992). Lyapunov's exponent is from
-the motion linearised along a run (Benettin, Galgani, Giorgilli & Strelcyn 1980).
+`state_space`. The multipliers are the eigenvalues of Φ: displacements grow where one is larger than 1 in size. Without explicit
+time one is 1, by the shift along the orbit. Nayfeh & Mook, Nonlinear Oscillations, 5.2. Rounding of Φ hides multipliers below
+10⁻¹² of the largest. Then the period is cut, and the periodic Schur form of the factors of Φ resolves each multiplier
+(Bojanczyk, Golub & Van Dooren 1992). Lyapunov's exponent is from the motion linearised along a run (Benettin, Galgani,
+Giorgilli & Strelcyn 1980).
 """
 
 from collections.abc import Mapping
@@ -33,28 +33,41 @@ from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.numerics.pulse import windows_since
 from lagrotor.result_display import Shown, scientific
 
-_LOCAL = (1e-10, 1e-12)  # errors of a step, of the integration that is read last and of the one it is compared with
+_LOCAL = (1e-10, 1e-12)  # local errors of the two integrations that are compared
 _CUTS = (1, 4, 32)  # pieces of the period, more where a multiplier is not resolved
-_RESOLVED = 1e-3  # of a multiplier, below which its error resolves it
-_CLOSED = 1e-6  # relative: what an orbit may be open by
-_MOST = 2_000_000  # evaluations
-MOST = 10_000_000  # the same, of an exponent
-_PIECES, _PARTS = 200, 10  # of a run: between them the tangent is brought back to length one; for the standard error
-_TIGHTEST = 1e-9  # tolerance: an exponent has fewer digits than that
+_RESOLVED = 1e-3  # relative error below which a multiplier is resolved
+_CLOSED = 1e-6  # relative distance between the ends of a closed orbit
+_MOST = 2_000_000  # evaluations of an integration of Φ
+MOST = 10_000_000  # evaluations for an exponent
+_PIECES, _PARTS = 200, 10  # pieces of a run, after which the tangent is normalised; parts for the standard error
+_TIGHTEST = 1e-9  # local error: an exponent has fewer digits
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class MonodromyMatrix(Shown):
-    """The matrix Φ (n, n) of one turn in the independent `states`, and its eigenvalues, the multipliers.
+    """The matrix Φ of one period, with its eigenvalues, the Floquet multipliers.
 
     Attributes
     ----------
+    states : tuple of Symbol
+        The n independent states.
+    matrix : Array
+        Φ, shape (n, n).
     error : float
         Difference of two integrations of Φ, relative to it.
     multipliers : NDArray[complex128]
-        (n,), the largest first; NaN where one is smaller than its error.
+        The largest first, shape (n,); NaN where one is smaller than its error.
     errors : Array
-        Absolute error of each multiplier, (n,); of one that is NaN the bound of its size.
+        Absolute error of each multiplier, shape (n,); for NaN a bound of its size.
+
+    Examples
+    --------
+    >>> from sympy import pi
+    >>> from lagrotor.mechanics import System, coordinates
+    >>> c = coordinates("x")
+    >>> orbit = System(c, (c.v[0]**2 - c.q[0]**2) / 2).floquet({c.q[0]: 1}, {}, pi)
+    >>> orbit.multipliers.real.round(6)
+    array([-1., -1.])
     """
 
     states: tuple[sp.Symbol, ...]
@@ -64,13 +77,18 @@ class MonodromyMatrix(Shown):
     errors: Array
 
     def summary(self) -> dict[str, str]:
-        """The states, the error of Φ and each multiplier, name → words."""
+        """Summarise the states, the error of Φ and the multipliers in words.
+
+        Returns
+        -------
+        dict
+            Name → words.
+        """
         head = {"states": ", ".join(map(str, self.states)), "error of the matrix": scientific(self.error, 1)}
         return head | multiplier_rows(self.multipliers, self.errors)
 
 
 def monodromy_matrix(system: Equations, at: Mapping[Any, Any], values: Values, period: float) -> MonodromyMatrix:
-    """`System.floquet`."""
     duration = _number(period)
     if not 0 < duration < np.inf:
         raise InputError(f"floquet: period = {period!r} must be a positive time in s")
@@ -79,14 +97,14 @@ def monodromy_matrix(system: Equations, at: Mapping[Any, Any], values: Values, p
     begin = _number(given_time)
     if not np.isfinite(begin):
         raise InputError(f"floquet: t = {given_time!r} must be a time in s")
-    given = motion_program(system)
-    n, d = len(system.c.q), len(given.states)
+    program = motion_program(system)
+    n, d = len(system.c.q), len(program.states)
     size = n + len(system.speeds)
     place = {s: x for s, x in at.items() if str(s) != str(t)} if isinstance(at, Mapping) else at
     state = point_state("floquet", system, place, values, begin)
     free, T = tangent_space("floquet", system, values, state, begin)
     start = np.append(state, [begin] * (d - size))
-    slope, width = motion_slope("floquet", given, values), T.shape[1]
+    slope, width = motion_slope("floquet", program, values), T.shape[1]
     check_smooth("floquet", slope, start, [f"the rate of {s}" for s in (*system.c.q, *system.speeds)], at)
     first, P, _ = local_slope(system, state, *_at(slope(start), size))
     largest = max(1.0, float(np.abs(start).max()))
@@ -99,56 +117,53 @@ def monodromy_matrix(system: Equations, at: Mapping[Any, Any], values: Values, p
     windows = windows_since(begin, clock_windows(system, values, begin + np.array([0.0, duration])))
 
     def factors(pieces: int, local: float) -> list[Array]:
-        """Return Φ as a product, the last factor first to act, of as many pieces of the period in orthonormal directions."""
+        """Return Φ as a product of pieces of the period in orthonormal directions; the first factor acts first."""
         (basis, upper), y = np.linalg.qr(P @ T), start
-        parts = [upper]
+        triangles = [upper]
         for a, b in pairwise(np.linspace(0, duration, pieces + 1)):
             problem = Problem(rate, np.concatenate([y, basis.ravel()]), _MOST, windows=windows, begin=a)
             y, spread = np.split(integrate(problem, np.array([b]), local).end, [d])
             basis, upper = np.linalg.qr(spread.reshape(size, width))
-            parts.append(upper)
-        last, _, back = local_slope(system, y[:size], *_at(slope(y), size))
+            triangles.append(upper)
+        last, _, inverse = local_slope(system, y[:size], *_at(slope(y), size))
         opened = np.abs(y - start)[n:size].max() / largest
-        other = np.abs(last - first).max() / max(1.0, float(np.abs(first).max()))
-        if local == _LOCAL[1] and not max(opened, other) < _CLOSED:
+        changed = np.abs(last - first).max() / max(1.0, float(np.abs(first).max()))
+        if local == _LOCAL[1] and not max(opened, changed) < _CLOSED:
             raise InputError(
                 f"floquet: after {duration:g} s the motion has not come back: its velocities are off by {opened:.2g} of their "
-                f"size and its coefficients by {other:.2g}; give a start on the orbit and its period"
+                f"size and its coefficients by {changed:.2g}; give a start on the orbit and its period"
             )
-        return [*parts, (back @ basis)[free]]
+        return [*triangles, (inverse @ basis)[free]]
 
     for pieces in _CUTS:
         coarse, fine = (factors(pieces, local) for local in _LOCAL)
-        (others, _), (roots, least) = (product_eigenvalues(*each) for each in zip((coarse, fine), _LOCAL, strict=True))
+        (others, _), (roots, least) = (product_eigenvalues(*pair) for pair in zip((coarse, fine), _LOCAL, strict=True))
         apart = np.abs(np.subtract.outer(roots, others)).min(1)
         errors = np.maximum(apart + least, np.finfo(float).tiny)
         if (errors < _RESOLVED * np.abs(roots)).all():
             break
-    one, two = (reduce(lambda product, factor: factor @ product, parts) for parts in (coarse, fine))
-    error = float(np.abs(one - two).max() / max(1.0, float(np.abs(two).max())))
-    states = tuple(s for s, own in zip(small_states(system), free, strict=True) if own)
-    return MonodromyMatrix(states, two, error, *resolved_multipliers(roots, errors))
+    looser, finer = (reduce(lambda product, factor: factor @ product, triangles) for triangles in (coarse, fine))
+    error = float(np.abs(looser - finer).max() / max(1.0, float(np.abs(finer).max())))
+    states = tuple(s for s, independent in zip(small_states(system), free, strict=True) if independent)
+    return MonodromyMatrix(states, finer, error, *resolved_multipliers(roots, errors))
 
 
 def _at(slope: tuple[Array, Array, Array], size: int) -> tuple[Array, Array]:
-    """The rate of (q, u), and its derivatives by them."""
     return slope[0][:size], slope[1][:size, :size]
 
 
-def _number(given: Any) -> float:
-    """NaN for what is none."""
+def _number(value: Any) -> float:
+    """Return a float, NaN for an object that is none."""
     try:
-        return np.nan if isinstance(given, str | bool) else float(given)
+        return np.nan if isinstance(value, str | bool) else float(value)
     except (TypeError, ValueError):
         return np.nan
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Lyapunov(Shown):
-    """The largest Lyapunov exponent, 1/s: the mean growth rate of the distance of neighbours along the run.
-
-    error: the standard error of that mean, from ten parts of the run; history (m,): the mean so far at the times t (m,).
-    """
+    """The largest Lyapunov exponent in 1/s, the mean growth rate of the distance of neighbouring motions. `error` is the
+    standard error of that mean, from ten parts of the run; `history` (m,) is the mean up to the times t (m,)."""
 
     exponent: float
     error: float
@@ -156,27 +171,22 @@ class Lyapunov(Shown):
     history: Array
 
     def summary(self) -> dict[str, str]:
-        """The exponent, its error and the time it belongs to, name → words."""
         return {
             "largest exponent [1/s]": f"{self.exponent:.4g} ± {self.error:.1g}",
             "over": f"{self.t[-1] - self.t[0]:g} s" if len(self.t) else "no time",
         }
 
 
-def lyapunov(run: SampledMotion) -> Lyapunov:
-    """The largest Lyapunov exponent over the time of the run.
-
-    It belongs to that time: for a regular motion it falls off as log(t)/t. Raises InputError for a run of one sample,
-    IntegrationError where a neighbour's motion cannot go on, as at a singular position that the run passes.
-    """
+def lyapunov_exponent(run: SampledMotion) -> Lyapunov:
+    """Compute the largest Lyapunov exponent for `SystemRun.lyapunov`."""
     if len(run.t) < 2:
         raise InputError("lyapunov: a run of one sample has no duration: simulate to a later time")
     if not run.switched.smooth:
         raise InputError(
-            "lyapunov: the motion has events or forces that jump: its linearised motion jumps, too, and is not run"
+            "lyapunov: the motion has events or forces that jump: its linearised motion jumps, too, and is not computed"
         )
-    given, n = tangent_motion(motion_program(run.system)), run.q.shape[1] + run.u.shape[1]
-    parameters, d = parameter_values(given, run.values), len(given.states) // 2
+    program, n = tangent_motion(motion_program(run.system)), run.q.shape[1] + run.u.shape[1]
+    parameters, d = parameter_values(program, run.values), len(program.states) // 2
     project = projection_of(run.system, run.values) if run.system.multipliers else None
     grid = np.linspace(run.t[0], run.t[-1], _PIECES + 1)
     y = np.concatenate([run.q[0], run.u[0], [run.t[0]] * (d - n)])
@@ -186,7 +196,7 @@ def lyapunov(run: SampledMotion) -> Lyapunov:
         tangent = tangent / np.linalg.norm(tangent)
         begin = float(grid[i])
         problem = Problem(
-            given.rate(parameters, begin),
+            program.rate(parameters, begin),
             np.concatenate([y, tangent]),
             MOST // _PIECES,
             windows=windows_since(begin, run.scales.windows),
@@ -195,6 +205,6 @@ def lyapunov(run: SampledMotion) -> Lyapunov:
         y, tangent = end[:d] if project is None else project(end[:d]), end[d:]
         growth[i] = np.log(np.linalg.norm(tangent))
     duration = grid[1:] - grid[0]
-    parts = growth.reshape(_PARTS, -1).sum(1) * _PARTS / duration[-1]
+    means = growth.reshape(_PARTS, -1).sum(1) * _PARTS / duration[-1]
     history = np.cumsum(growth) / duration
-    return Lyapunov(float(history[-1]), float(parts.std(ddof=1) / np.sqrt(_PARTS)), grid[1:], history)
+    return Lyapunov(float(history[-1]), float(means.std(ddof=1) / np.sqrt(_PARTS)), grid[1:], history)

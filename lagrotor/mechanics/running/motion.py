@@ -1,11 +1,11 @@
-"""A motion of a system that was run: its states at some times, and whatever else is a function of them."""
+"""A simulated motion of a system: its states at some times, and any function of them."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from hashlib import sha256
 from math import inf
-from typing import Any, Self
+from typing import Any, Self, TypeVar
 
 import numpy as np
 import sympy as sp
@@ -23,72 +23,157 @@ from lagrotor.mechanics.running.programs import energy_program, function_program
 from lagrotor.mechanics.running.scales import Scales
 from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.integrate import Engine
-from lagrotor.numerics.run import Quantity, Run
+from lagrotor.numerics.run import Quantity, Run, check_nonempty
 from lagrotor.numerics.segment import Integrate
+
+Kind = TypeVar("Kind", bound="SampledMotion")
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class SampledMotion(Run):
-    """A motion of a system at the times t (n,) in s: coordinates q (n, N), velocities v (n, N), and u (n, m), those of one's
-    own or v.
-
-    errors are relative: of each coordinate to its largest value over the run, of each velocity to its own, neither less than a
-    thousandth of what the kinetic energy makes it.
-    """
+    """The states of a simulated motion, and functions of them; `SystemRun` lists the fields."""
 
     system: Equations
     values: Values
     tol: float
     engine: Engine
     scales: Scales
-    states: Array  # of the integration, with time and mode
+    states: Array
     local: float
     switched: Switched
 
     @property
     def q(self) -> Array:
-        """The coordinates, (n, N)."""
+        """The coordinates, shape (n, N).
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import System, coordinates
+        >>> c = coordinates("x")
+        >>> run = System(c, (c.v[0]**2 - c.q[0]**2) / 2).simulate({}, (1,), (0,), [0, 1, 2])
+        >>> run.q.round(6).T
+        array([[ 1.      ,  0.540302, -0.416147]])
+        """
         return self.states[:, : len(self.system.c.q)]
 
     @cached_property
     def v(self) -> Array:
-        """Their velocities, (n, N)."""
+        """The velocities of the coordinates, shape (n, N).
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import System, coordinates
+        >>> c = coordinates("x")
+        >>> System(c, c.v[0]**2 / 2 + c.q[0]).simulate({}, (0,), (0,), [0, 1, 2]).v.round(6).T
+        array([[0., 1., 2.]])
+        """
         return velocities_along(self.system, self.values, self.states, self.t)
 
     @property
     def u(self) -> Array:
-        """The velocities of the system's own, (n, m), or v."""
+        """The quasi-velocities of the system, or v where it has none, shape (n, m).
+
+        Examples
+        --------
+        >>> from sympy import Symbol
+        >>> from lagrotor.mechanics import System, coordinates
+        >>> c = coordinates("x")
+        >>> twice = {Symbol("u", real=True): 2 * c.v[0]}
+        >>> System(c, c.v[0]**2 / 2, velocities=twice).simulate({}, (0,), (4,), [0, 1]).u.round(6).T
+        array([[4., 4.]])
+        """
         n = len(self.system.c.q)
         return self.states[:, n : n + len(self.system.speeds)]
 
     def summary(self) -> dict[str, str]:
-        """What moves, and how well its motion is known, name → words."""
+        """Summarise the coordinates, the times, the error and the ending in words.
+
+        Returns
+        -------
+        dict
+            Name → words.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import System, coordinates
+        >>> c = coordinates("x")
+        >>> System(c, c.v[0]**2 / 2).simulate({}, (0,), (1,), [0, 1]).summary()["ending"]
+        'the last time was reached'
+        """
         return {"coordinates": ", ".join(map(str, self.system.c.q))} | super().summary()
 
     @property
     def energy(self) -> Array:
-        """The Jacobi integral v·∂L/∂v − L, (n,)."""
+        """The Jacobi integral v·∂L/∂v − L in J, shape (n,).
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import System, coordinates
+        >>> c = coordinates("x")
+        >>> System(c, c.v[0]**2 / 2 - c.q[0]).simulate({}, (3,), (0,), [0, 1]).energy.round(6)
+        array([3., 3.])
+        """
         return energy_program(self.system).along(self.values)(self.states, self.t)[0]
 
     @property
     def drift(self) -> Array:
-        """The largest violation of a constraint, |g| or |G v + b|, (n,); zero without constraints."""
-        off = (*self.system.constraints, *self.system.residual)
-        return np.abs(self._values(*off)).max(0) if off else np.zeros(len(self.t))
+        """The largest violation of a constraint, |g| or |G v + b|, shape (n,); zero without constraints.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import System, coordinates
+        >>> c = coordinates("x y")
+        >>> pendulum = System(c, sum(s**2 for s in c.v) / 2 - c.q[1], [sum(s**2 for s in c.q) - 1])
+        >>> bool(pendulum.simulate({}, (0, -1), (1, 0), [0, 1]).drift.max() < 1e-12)
+        True
+        """
+        residuals = (*self.system.constraints, *self.system.residual)
+        return np.abs(self._values(*residuals)).max(0) if residuals else np.zeros(len(self.t))
 
     @property
     def reactions(self) -> dict[str, Array]:
-        """The multipliers along the run, (n,) each, by the names of their constraints, or 1, 2, …: those of a gap in m, or of a
-        slip in m/s, are forces in N."""
+        """The multipliers by the names of their constraints, shape (n,) each.
+
+        The names are 1, 2, … unless the system gives others. For a gap in m or a slip in m/s the multiplier is a force in N.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import System, coordinates
+        >>> c = coordinates("x y")
+        >>> pendulum = System(c, sum(s**2 for s in c.v) / 2 - c.q[1], [sum(s**2 for s in c.q) - 1])
+        >>> pendulum.simulate({}, (0, -1), (0, 0), [0, 1]).reactions["1"].round(6)
+        array([-0.5, -0.5])
+        """
         both = zip(self.system.multiplier_names, self.system.multipliers, strict=True)
         return {name: self.evaluate(lam) for name, lam in both}
 
     def evaluate(self, expression: sp.Expr) -> Array:
-        """An expression along the run, (n,): in q, v, t and the parameters, the accelerations c.a, and the multipliers λ
-        of the constraints, system.multipliers, with which Gᵀ λ is the generalised force of the constraints.
+        """Evaluate an expression along the run.
 
-        Where dry friction sticks, sign(w) is what holds it, between −1 and 1.
-        Raises InputError when it contains anything else.
+        Where dry friction sticks, sign(w) is the friction force over its bound, between −1 and 1.
+
+        Parameters
+        ----------
+        expression : Expr
+            In q, v, t, the parameters, the accelerations c.a, and the multipliers λ of `system.multipliers`, with which Gᵀ λ is
+            the generalised force of the constraints.
+
+        Returns
+        -------
+        Array
+            Shape (n,).
+
+        Raises
+        ------
+        InputError
+            If the expression contains another symbol.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import System, coordinates
+        >>> c = coordinates("x")
+        >>> System(c, (c.v[0]**2 - c.q[0]**2) / 2).simulate({}, (1,), (0,), [0, 1]).evaluate(c.a[0]).round(6)
+        array([-1.      , -0.540302])
         """
         e = with_values(checked("evaluate: expression", expression), self.values)
         if self.switched.smooth:
@@ -99,39 +184,70 @@ class SampledMotion(Run):
         return function_program(self.system, *expressions).along(self.values, "evaluate")(self.states, self.t)
 
     def at(self, times: ArrayLike) -> Self:
-        """The motion at any times (m,) within the run, as exact as the run: integrated from the sample before each."""
-        self.check_times("at")
-        wanted = check_times("at", np.atleast_1d(times))
-        if wanted[0] < self.t[0] or wanted[-1] > self.t[-1]:
-            raise InputError(f"at: times must lie between {self.t[0]:g} and {self.t[-1]:g} s, the ends of the run")
-        before = np.clip(np.searchsorted(self.t, wanted, side="right") - 1, 0, len(self.t) - 1)
-        run_on = integration_of(self.system, self.values, self.engine, self.scales, self.switched, self.states[0])
-        states, evaluations = np.empty((len(wanted), self.states.shape[1])), self.evaluations
-        for i in np.unique(before):
-            inside = before == i
-            grid = np.union1d(self.t[i], wanted[inside])
-            part = run_on(self.states[i], grid, self.local, False, inf)
-            states[inside] = part.states[np.searchsorted(grid, wanted[inside])]
-            evaluations += part.evaluations
-        return replace(self.read(wanted, states), evaluations=evaluations)
+        """Return the motion at other times within the run, as exact as the run, integrated from the sample before each.
 
-    def read(self, times: Array, states: Array) -> Self:
-        """The run at other times, at which its states are known."""
-        errors = self.errors[np.minimum(np.searchsorted(self.t, times), len(self.t) - 1)]
-        return replace(self, t=times, errors=errors, states=states)
+        Parameters
+        ----------
+        times : ArrayLike
+            Increasing times in s, shape (m,).
+
+        Returns
+        -------
+        Self
+            A run at these times.
+
+        Raises
+        ------
+        InputError
+            For a time outside the run.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import System, coordinates
+        >>> c = coordinates("x")
+        >>> System(c, (c.v[0]**2 - c.q[0]**2) / 2).simulate({}, (1,), (0,), [0, 3]).at([1, 2]).q.round(6).T
+        array([[ 0.540302, -0.416147]])
+        """
+        check_nonempty("at", self.t)
+        instants = check_times("at", np.atleast_1d(times))
+        if instants[0] < self.t[0] or instants[-1] > self.t[-1]:
+            raise InputError(f"at: times must lie between {self.t[0]:g} and {self.t[-1]:g} s, the ends of the run")
+        samples = np.clip(np.searchsorted(self.t, instants, side="right") - 1, 0, len(self.t) - 1)
+        run_on = integration_of(self.system, self.values, self.engine, self.scales, self.switched, self.states[0])
+        states, evaluations = np.empty((len(instants), self.states.shape[1])), self.evaluations
+        for i in np.unique(samples):
+            inside = samples == i
+            grid = np.union1d(self.t[i], instants[inside])
+            stretch = run_on(self.states[i], grid, self.local, False, inf)
+            states[inside] = stretch.states[np.searchsorted(grid, instants[inside])]
+            evaluations += stretch.evaluations
+        return replace(with_states(self, instants, states), evaluations=evaluations)
 
     def quantities(self) -> dict[str, Quantity]:
-        """Coordinates, velocities, energy and, under constraints, their violation."""
+        """Return coordinates, velocities, energy and, with constraints, their violation.
+
+        Returns
+        -------
+        dict
+            Name → `Quantity` with values (n,), axes and unit.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import System, coordinates
+        >>> c = coordinates("x")
+        >>> list(System(c, c.v[0]**2 / 2).simulate({}, (0,), (1,), [0, 1]).quantities())
+        ['x', 'x_dot', 'energy']
+        """
         c, system = self.system.c, self.system
         names, columns = (*c.q, *c.v, *system.speeds), (*self.q.T, *self.v.T, *self.u.T)
-        held = {str(s): Quantity(column, ("t",), "") for s, column in zip(names, columns, strict=True)}
-        held["energy"] = Quantity(self.energy, ("t",), "J")
+        table = {str(s): Quantity(column, ("t",), "") for s, column in zip(names, columns, strict=True)}
+        table["energy"] = Quantity(self.energy, ("t",), "J")
         if self.system.multipliers:
-            held["drift"] = Quantity(self.drift, ("t",), "")
-        return held
+            table["drift"] = Quantity(self.drift, ("t",), "")
+        return table
 
-    def about(self) -> dict[str, Any]:
-        """What `save` writes beside the arrays, as JSON: no equation, which would have to be read as one."""
+    def _about(self) -> dict[str, Any]:
+        """Describe the run for `save` without an equation, which would have to be read as one."""
         return {
             "coordinates": [str(q) for q in self.system.c.q],
             "equations": digest_of(self.system),
@@ -149,9 +265,15 @@ class SampledMotion(Run):
         }
 
 
+def with_states(run: Kind, times: Array, states: Array) -> Kind:
+    """Return the run at other times, with its states there."""
+    errors = run.errors[np.minimum(np.searchsorted(run.t, times), len(run.t) - 1)]
+    return replace(run, t=times, errors=errors, states=states)
+
+
 def digest_of(system: Equations) -> str:
-    """What identifies the equations of a system."""
-    parts = (
+    """Return a digest that identifies the equations of a system."""
+    equations = (
         system.lagrangian if system.bodies else written(system.L),
         system.constraints,
         system.rolling,
@@ -159,7 +281,7 @@ def digest_of(system: Equations) -> str:
         system.forces,
         *([system.velocities] if system.velocities else []),
     )
-    return sha256("; ".join(map(str, parts)).encode()).hexdigest()
+    return sha256("; ".join(map(str, equations)).encode()).hexdigest()
 
 
 def integration_of(
@@ -171,7 +293,7 @@ def integration_of(
     start: Array,
     progress: Callable[[float], None] | None = None,
 ) -> Integrate:
-    """Return the integration of the motion; progress: called with times at which it is evaluated."""
+    """Return the integration of the motion; `progress` is called with the times of its evaluations."""
     if h.smooth and scales:
         return smooth_motion(
             system,
@@ -185,5 +307,5 @@ def integration_of(
             progress,
             stiff=scales.stiff,
         )
-    observe: Observer | None = progress and (lambda now, left, until, curve: progress(now + until))
+    observe: Observer | None = progress and (lambda now, lower, until, curve: progress(now + until))
     return lambda start, times, local, companion, budget: march(h, start, times, local, budget, observe, companion)

@@ -1,9 +1,10 @@
-"""Parts of a system that change within a small part of its swing: bumps, steps and walls of coordinates and velocities.
+"""Narrow terms of a system, which change within a small part of the motion: bumps, steps and walls of coordinates and
+velocities.
 
-A solver whose step is longer than such a part sees nothing of it. Its argument g, of exp(g), tanh(g) or another function, is
-followed with the motion, as ψ = asinh(g): ψ' grows like 1/distance on the way to g = 0, so that steps shrink before it. Of a
-power Dᵖ or log(D), a Lorentzian, it is ψ = log|D|. A part is narrow if ψ changes by more than MOST where one component
-moves through its swing at the rate there. Newton's method seeks it, from states of the motion, at zeros and turning points of g.
+A solver whose step is longer than such a term misses it. The argument g of exp(g), tanh(g) or another function is followed with
+the motion as ψ = asinh(g). ψ' is proportional to 1/distance from g = 0, so that steps shrink before it. For a power Dᵖ or
+log(D), a Lorentzian, ψ = log|D|. A term is narrow if ψ changes by more than MOST where one component moves through its swing at
+the rate there. Newton's method seeks that place, from states of the motion, at zeros and turning points of g.
 """
 
 from collections.abc import Mapping, Sequence
@@ -25,56 +26,56 @@ from lagrotor.numerics.pulse import COMPANION_STEP
 from lagrotor.numerics.segment import Array
 from lagrotor.result_display import scientific
 
-MOST = 8.0  # of ψ over the swing of one component, beyond which solvers need to be led
-EDGE = 1e-6  # of the swing, within which two jumps of a Piecewise are seen as one
-_PLACES, _SWEEPS = 16, 6  # states from which zeros and turning points are sought, and how often each component is moved
-_ZERO = 1e-20  # of its size: a power of zero is as narrow everywhere as the motion comes near, and solvers follow it
-# Error of ψ over local^(1/4): DOP853 weighs its error of order 5 by that of order 3 of all components, which grows like
-# local^(−1/2). Of 120 steps and bumps of widths 10⁻⁵ to 0.03, one is missed where it is 1, and none where it is 0.1.
+MOST = 8.0  # change of ψ over the swing of one component, beyond which a term is narrow
+EDGE = 1e-6  # of the swing, within which two jumps of a Piecewise are one
+_PLACES, _SWEEPS = 16, 6  # states from which zeros and turning points are sought; Newton steps of each component
+_ZERO = 1e-20  # D over its size: solvers follow a power of zero, whose width is the distance of the motion
+# Error of ψ over local^(1/4): DOP853 weighs its error of order 5 by the error of order 3 of all components, ∝ local^(−1/2). Of
+# 120 steps and bumps of widths 10⁻⁵ to 0.03, the value 1 misses one, and 0.1 none.
 _LOOSELY = 0.01
 _WIDE = (sp.sin, sp.cos, sp.tan, sp.cot, sp.Abs, sp.sign, sp.Heaviside, sp.asin, sp.acos)
 
 
 class NarrowPart(NamedTuple):
-    """The argument g of a part f(g) of a system's expressions, the factor with which ψ' = factor · g', and the part."""
+    """The argument g of a term f(g) of a system's expressions, the factor with which ψ' = factor · g', and the term."""
 
     argument: sp.Expr
     factor: sp.Expr
-    part: sp.Expr
+    term: sp.Expr
 
 
 @lru_cache(maxsize=64)
 def _parts(system: Equations, section: sp.Expr | None) -> tuple[NarrowPart, ...]:
-    """The parts of a section, or of what acts on the motion, that may be narrow, one for each argument."""
+    """Return the terms of a section, or of the energy and forces, that may be narrow, one for each argument."""
     energy = getattr(system.lagrangian, "remainder", system.lagrangian)
     states = {*system.c.q, *system.c.v, *system.speeds}
-    made: dict[sp.Expr, NarrowPart] = {}
+    narrow: dict[sp.Expr, NarrowPart] = {}
 
-    def add(part: sp.Expr, g: sp.Expr, log: bool) -> None:
+    def add(term: sp.Expr, g: sp.Expr, log: bool) -> None:
         unknown = g.free_symbols & {*system.reactions, *system.multipliers, *system.c.a}
         if g.free_symbols & states and not unknown and not g.has(AppliedUndef, sp.Derivative, sp.Piecewise):
             g = -g if g.could_extract_minus_sign() else g
-            made.setdefault(g, NarrowPart(g, 1 / g if log else (1 + g**2) ** sp.Rational(-1, 2), part))
+            narrow.setdefault(g, NarrowPart(g, 1 / g if log else (1 + g**2) ** sp.Rational(-1, 2), term))
 
-    for part in subexpressions(*((energy, *system.acting) if section is None else (section,))):
-        of_base = isinstance(part, sp.Pow) and bool(part.base.free_symbols & states)
+    for term in subexpressions(*((energy, *system.acting) if section is None else (section,))):
+        of_base = isinstance(term, sp.Pow) and bool(term.base.free_symbols & states)
         if of_base and not (
-            part.exp.is_number and abs(part.exp) <= MOST**2
+            term.exp.is_number and abs(term.exp) <= MOST**2
         ):  # like exp(n (b² − 1)/2) where b is near 1
-            add(part, part.exp * (part.base**2 - 1) / 2, False)
-        if of_base and not (part.exp.is_positive and (part.exp.is_Integer or not part.exp.is_number)):
-            add(part, part.base, True)
-        elif isinstance(part, sp.Pow) and part.exp.free_symbols & states:
-            add(part, part.exp * sp.log(part.base), False)
-        elif isinstance(part, sp.Function) and len(part.args) == 1 and not isinstance(part, (AppliedUndef, *_WIDE)):
-            add(part, part.args[0], isinstance(part, sp.log))
-        elif isinstance(part, Relational):  # of a Piecewise
-            add(part, part.lhs - part.rhs, False)
-    return tuple(made.values())
+            add(term, term.exp * (term.base**2 - 1) / 2, False)
+        if of_base and not (term.exp.is_positive and (term.exp.is_Integer or not term.exp.is_number)):
+            add(term, term.base, True)
+        elif isinstance(term, sp.Pow) and term.exp.free_symbols & states:
+            add(term, term.exp * sp.log(term.base), False)
+        elif isinstance(term, sp.Function) and len(term.args) == 1 and not isinstance(term, (AppliedUndef, *_WIDE)):
+            add(term, term.args[0], isinstance(term, sp.log))
+        elif isinstance(term, Relational):  # of a Piecewise
+            add(term, term.lhs - term.rhs, False)
+    return tuple(narrow.values())
 
 
 def with_followed(scale: Array, followed: Sequence[NarrowPart], local: float, companion: bool = False) -> Array:
-    """Return the units of a solver with those of what is followed, of which a larger error is allowed."""
+    """Return the units of a solver with those of the followed terms, whose error may be larger."""
     unit = FOLLOWED * (COMPANION_STEP if companion else 1.0) * _LOOSELY * local**0.25 / local
     return np.append(scale, np.full(len(followed), unit))
 
@@ -82,64 +83,63 @@ def with_followed(scale: Array, followed: Sequence[NarrowPart], local: float, co
 def narrow_parts(
     system: Equations, values: Mapping[Any, Any], states: Array, section: sp.Expr | None = None
 ) -> tuple[NarrowPart, ...]:
-    """Return the parts of the system, or of a section, that are narrow for a motion with the states (n, d): q, u and, where
-    more is known, the time."""
-    parts = (_with_edge(system, values, part, states) for part in _parts(system, section))
-    return tuple(part for part in parts if _narrowness(system, values, part, states) > MOST)
+    """Return the terms of the system, or of a section, that are narrow for states (n, d) = (q, u), or (q, u, t)."""
+    candidates = (_with_edge(system, values, candidate, states) for candidate in _parts(system, section))
+    return tuple(candidate for candidate in candidates if _narrowness(system, values, candidate, states) > MOST)
 
 
-def _with_edge(system: Equations, values: Mapping[Any, Any], part: NarrowPart, states: Array) -> NarrowPart:
-    """The part, of a condition with the width of its edge, EDGE of the swing of g: ψ = asinh(g/width)."""
-    if not isinstance(part.part, Relational):
-        return part
-    swing = np.ptp(function_program(system, part.argument).along(values)(states, np.zeros(len(states))))
+def _with_edge(system: Equations, values: Mapping[Any, Any], feature: NarrowPart, states: Array) -> NarrowPart:
+    """Give a condition of a Piecewise the width EDGE of the swing of g: ψ = asinh(g/width)."""
+    if not isinstance(feature.term, Relational):
+        return feature
+    swing = np.ptp(function_program(system, feature.argument).along(values)(states, np.zeros(len(states))))
     width = sp.Float(EDGE * 10.0 ** np.ceil(np.log10(swing or 1.0)))
-    return part._replace(factor=(width**2 + part.argument**2) ** sp.Rational(-1, 2))
+    return feature._replace(factor=(width**2 + feature.argument**2) ** sp.Rational(-1, 2))
 
 
 def narrowest_words(
     system: Equations, values: Mapping[Any, Any], narrow: Sequence[NarrowPart], run: EstimatedRun
 ) -> str:
-    """Name the narrowest part, when a run first passes its place, and the way out; none where tol was not kept before."""
+    """Name the narrowest term, the time of its first passage, and the way out; "" if tol was not kept before that time."""
     if not narrow or len(run.t) < 2:
         return ""
-    known = [_narrowness(system, values, part, run.states) for part in narrow]
-    part, most = max(zip(narrow, known, strict=True), key=itemgetter(1))
-    g = function_program(system, part.argument).along(values)(run.states, run.t)[0]
+    narrowness = [_narrowness(system, values, feature, run.states) for feature in narrow]
+    feature, greatest = max(zip(narrow, narrowness, strict=True), key=itemgetter(1))
+    g = function_program(system, feature.argument).along(values)(run.states, run.t)[0]
     passed = np.flatnonzero(g[:-1] * g[1:] <= 0)
     i = int(passed[0] if len(passed) else np.argmin(np.abs(g[:-1])))
     words = (
-        f"{part.part} changes within {scientific(1 / max(most, MOST), 1)} of the swing, first between t = {run.t[i]:.6g} and "
-        f"{run.t[i + 1]:.6g} s: a step or a wall so steep is followed exactly as an Event or an Impact"
+        f"{feature.term} changes within {scientific(1 / max(greatest, MOST), 1)} of the swing, first between t = "
+        f"{run.t[i]:.6g} and {run.t[i + 1]:.6g} s: a step or a wall so steep is followed exactly as an Event or an Impact"
     )
     return words if run.horizon >= run.t[i] else ""
 
 
-def _narrowness(system: Equations, values: Mapping[Any, Any], part: NarrowPart, states: Array) -> float:
-    """The most by which ψ changes over the swing of a component, at its rate at one place; 0 where D is zero somewhere."""
-    every, g = (*system.c.q, *system.speeds), part.argument
+def _narrowness(system: Equations, values: Mapping[Any, Any], feature: NarrowPart, states: Array) -> float:
+    """Return the largest change of ψ over the swing of a component at its fastest rate; 0 where D is zero."""
+    every, g = (*system.c.q, *system.speeds), feature.argument
     moving = [i for i, s in enumerate(every) if s in g.free_symbols and np.ptp(states[:, i]) > 0]
     if not moving:
         return 0.0
     slopes = [derivative(g, every[i]) for i in moving]
     bends = [derivative(e, every[i]) for e, i in zip(slopes, moving, strict=True)]
-    along = function_program(system, g, part.factor, *slopes, *bends).along(values)
-    logarithmic = part.factor == 1 / g
+    outputs = function_program(system, g, feature.factor, *slopes, *bends).along(values)
+    logarithmic = feature.factor == 1 / g
     start = states[:: max(1, len(states) // _PLACES)]
     times = start[:, len(every)] if states.shape[1] > len(every) else np.zeros(len(start))
-    swing, k, most, size = np.ptp(states[:, moving], axis=0)[:, None], len(moving), 0.0, 0.0
+    swing, k, greatest, size = np.ptp(states[:, moving], axis=0)[:, None], len(moving), 0.0, 0.0
     with np.errstate(all="ignore"):
         for turning in (True, False):
             places = start[:, : len(every)].copy()
             for sweep in range(_SWEEPS * k):
-                value, factor, first, second = np.split(along(places, times), [1, 2, 2 + k])
+                value, factor, first, second = np.split(outputs(places, times), [1, 2, 2 + k])
                 sizes = np.abs(value[np.isfinite(value)])
                 size = size or float(sizes.max(initial=0.0))
                 if logarithmic and sizes.min(initial=size) <= _ZERO * size:
                     return 0.0
                 rate, bend = np.abs(factor * first), np.abs(factor * second - value * factor**3 * first**2)
-                most = max(most, float(np.nanmax(swing * np.maximum(rate, bend**0.5), initial=0.0)))
+                greatest = max(greatest, float(np.nanmax(swing * np.maximum(rate, bend**0.5), initial=0.0)))
                 j = sweep % k
                 step = first[j] / second[j] if turning else value[0] / first[j]
                 places[:, moving[j]] -= np.where(np.isfinite(step), step, 0.0)
-    return most
+    return greatest

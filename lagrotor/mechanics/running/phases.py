@@ -1,8 +1,8 @@
 """A motion in phases, each smooth: between them velocities jump, gaps close and open, dry friction sticks and slips.
 
-In a phase every sign is fixed, what sticks is a rolling constraint, and a closed gap is a holonomic one. The phase ends where
-one of its conditions does: a gap or a sliding velocity reaches zero, a reaction its bound. All are sought on the solver's
-own steps, as zeros of smooth functions, so none depends on the times at which a run is read.
+In a phase every sign is constant, sticking friction is a rolling constraint, and a closed gap is a holonomic one. The phase
+ends with one of its conditions: a gap or a sliding velocity reaches zero, a reaction its bound. These times are sought on the
+solver's own steps, as zeros of smooth functions, so none depends on the sample times of the run.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -26,7 +26,7 @@ from lagrotor.mechanics.running.programs import (
 )
 from lagrotor.mechanics.running.singular_positions import mass_at, rows_at, unbounded_force
 from lagrotor.mechanics.running.switches import Event, Impact, Surface, without_jumps
-from lagrotor.numerics.error_estimate import start_beside
+from lagrotor.numerics.error_estimate import perturbed_state
 from lagrotor.numerics.pulse import Window, segments, windows_since
 from lagrotor.numerics.run import Ending
 from lagrotor.numerics.segment import Segment, StopError, Stretch, in_units
@@ -34,34 +34,34 @@ from lagrotor.numerics.solver_constants import MOST_EVENTS
 from lagrotor.numerics.solvers import dop853_steps
 from lagrotor.numerics.zeros import zeros_between
 
-_BESIDE = 1e-7  # of a step: a condition that has just become true is not sought so near to its start
-_FRESH = 0.01  # of the first step of a phase, in which that is looked at
-_ROUNDINGS = 64.0  # of a state, of which a condition is unsure
+_BESIDE = 1e-7  # of a step: so near to its start no zero is sought, as a condition may have just become true
+_FRESH = 0.01  # of the first step of a phase, in which a zero may be a condition that has just become true
+_ROUNDINGS = 64.0  # rounding errors of a state that make the noise of a condition
 _NOISE = 1e-12  # of the size of a velocity or a reaction, below which it is zero
 _STEP = 1e-5  # of a size, by which a component is varied for the size of a function
-_AT_ONCE = 20  # events without time between them, after which the motion is outside what is followed
-_HABIT, _GONE = 8, 1e-8  # impacts whose intervals shrink alike; what is left to their end, of the run
-SAFETY = 20.0  # local error of a run over that of the steps on which its events are sought
+_AT_ONCE = 20  # events at one time, after which the motion is refused
+_HABIT, _GONE = 8, 1e-8  # impacts whose intervals shrink by one factor; the time to their accumulation over the run
+SAFETY = 20.0  # local error of a run over the local error of the steps on which its events are sought
 
 
 class ContactMode(NamedTuple):
-    """The sign of each surface, 0 where it sticks; whether each impact's gap is closed; ended: 0, or which ending froze the
-    motion, counted from 1. Components of the state of a run, after q, v and t."""
+    """The contacts of a motion: the sign of each surface (0: it sticks), 1 for each closed gap, and the ending. `ended` is 0,
+    or the number from 1 of the ending that froze the motion. These follow q, v and t in the state of a run."""
 
     signs: tuple[int, ...]
     closed: tuple[int, ...]
     ended: int = 0
 
-    def put(self, part: Literal["signs", "closed"], i: int, value: int) -> "ContactMode":
-        """The mode with another value of one component."""
-        values: list[int] = [*getattr(self, part)]
+    def with_value(self, component: Literal["signs", "closed"], i: int, value: int) -> "ContactMode":
+        """Return the mode with another value of one component."""
+        values: list[int] = [*getattr(self, component)]
         values[i] = int(value)
-        changed: dict[str, Any] = {part: tuple(values)}
+        changed: dict[str, Any] = {component: tuple(values)}
         return self._replace(**changed)
 
 
 class Moment(NamedTuple):
-    """A state (q, v, …), when, and the mode of its contacts."""
+    """A state (q, v, …), its time, and the mode of its contacts."""
 
     y: Array
     t: float
@@ -69,7 +69,7 @@ class Moment(NamedTuple):
 
 
 class Hit(NamedTuple):
-    """The end of a phase: the time since its start, and of which kind is the condition that ended, with its index."""
+    """The end of a phase: the time since its start, and kind and index of the condition that ended."""
 
     since: float
     kind: str
@@ -78,7 +78,7 @@ class Hit(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Phase:
-    """A smooth system: what sticks and what is closed among its constraints; conditions: (kind, index, expression > 0)."""
+    """A smooth system with sticking surfaces and closed gaps as constraints; conditions: (kind, index, expression > 0)."""
 
     system: Equations
     conditions: tuple[tuple[str, int, sp.Expr], ...]
@@ -97,12 +97,9 @@ Observer = Callable[[float, float, float, Callable[[Array], Array]], None]
 
 @dataclass(frozen=True, eq=False)
 class Switched:
-    """A system with events: its smooth part, the values of the parameters, the surfaces of its jumps, and the events.
-
-    scale (N + m,): of each component, for the solver; sizes: of each, zero before they are known.
-    windows: where something acts briefly by the clock. narrow: parts that change within a small part of the swing.
-    While it is run: the phases that it was in, the endings of its runs, and the times between which a step may hide an event.
-    """
+    """A system with events: its smooth part, parameter values, surfaces of jumps and events. `scale` and `sizes` (N + m,)
+    belong to the components; sizes are zero before they are measured. A run adds its phases, its endings, the times between
+    which a step may hide an event, and accumulations of impacts."""
 
     system: Equations
     values: Mapping[Any, Any]
@@ -123,17 +120,16 @@ class Switched:
 
     @property
     def size(self) -> int:
-        """N + m, of q and u."""
+        """The number N + m of components of q and u."""
         return self.n + len(self.system.speeds)
 
     @property
     def smooth(self) -> bool:
-        """Whether nothing switches."""
+        """True if nothing switches."""
         return not (self.surfaces or self.events)
 
     @property
     def slipping(self) -> ContactMode:
-        """The mode in which nothing sticks and no gap is closed."""
         return ContactMode((1,) * len(self.surfaces), (0,) * len(self.impacts))
 
     @property
@@ -141,39 +137,38 @@ class Switched:
         return tuple(e for e in self.events if isinstance(e, Impact))
 
     def mode(self, state: Array) -> ContactMode:
-        parts = tuple(int(x) for x in np.rint(state[self.size + 1 :]))
+        numbers = tuple(int(x) for x in np.rint(state[self.size + 1 :]))
         signs = len(self.surfaces)
-        return ContactMode(parts[:signs], parts[signs:-1], parts[-1])
+        return ContactMode(numbers[:signs], numbers[signs:-1], numbers[-1])
 
     def state(self, y: Array, time: float, mode: ContactMode) -> Array:
-        """(q, v, t, mode): what a run carries from stage to stage."""
+        """Return (q, v, t, mode), the state that a run passes from stage to stage."""
         return np.concatenate([y[: self.size], [time], mode.signs, mode.closed, [mode.ended]])
 
     def evaluate(self, system: Equations, expressions: Sequence[sp.Expr], at: Moment) -> Array:
-        """Expressions at one moment, of the motion of `system`."""
         program = function_program(system, *expressions)
         return program.along(self.numbers(at.mode))(at.y[None], np.array([at.t]))[:, 0]
 
     def sizes_of(self, system: Equations, expressions: Sequence[sp.Expr], at: Moment) -> Array:
-        """The sizes (k,) of terms of expressions at one moment, in any units: Σ |∂e/∂y| times the size of y."""
+        """Return the sizes (k,) of the terms of expressions at one moment, Σ |∂e/∂y| times the size of y."""
         y = at.y[: self.size]
         steps = np.diag(_STEP * np.maximum(np.abs(y), self.sizes))
-        beside = function_program(system, *expressions).along(self.numbers(at.mode))(
+        values = function_program(system, *expressions).along(self.numbers(at.mode))(
             np.vstack([y + steps, y - steps]), np.full(2 * self.size, at.t)
         )
         with np.errstate(all="ignore"):
-            sizes = np.abs(beside[:, : self.size] - beside[:, self.size :]).sum(1) / (2 * _STEP)
+            sizes = np.abs(values[:, : self.size] - values[:, self.size :]).sum(1) / (2 * _STEP)
         return np.asarray(np.nan_to_num(sizes, posinf=0.0))
 
     def numbers(self, mode: ContactMode) -> dict[str, Any]:
-        """The values of the parameters, and of the signs in this mode."""
+        """Return the values of the parameters, and of the signs in this mode."""
         if not isinstance(self.values, Mapping):
-            return self.values  # and are refused where a parameter is sought
+            return self.values  # `parameter_values` will refuse it
         signs = zip(self.surfaces, mode.signs, strict=True)
         return {str(k): v for k, v in self.values.items()} | {str(s.sign): float(sign) for s, sign in signs}
 
     def phase(self, mode: ContactMode) -> Phase:
-        """The phase of a mode. Which way what slips does not change its equations, only the value of a sign."""
+        """Return the phase of a mode. The sign of a slipping surface is a parameter, so it does not change the equations."""
         sticking = tuple(i for i, s in enumerate(mode.signs) if s == 0)
         key = (sticking, mode.closed)
         if key not in self.phases:
@@ -182,15 +177,15 @@ class Switched:
 
     def _phase(self, sticking: tuple[int, ...], closed: tuple[int, ...]) -> Phase:
         base, still = self.system, {self.surfaces[i].sign: sp.S.Zero for i in sticking}
-        held = [self.surfaces[i].argument.xreplace(still) for i in sticking]
-        gaps = [i for i, each in enumerate(closed) if each]
-        own, kept = base.multiplier_names, len(base.constraints)
-        names = (*own[:kept], *(f"gap {i + 1}" for i in gaps), *own[kept:], *(f"held {i + 1}" for i in sticking))
+        slips = [self.surfaces[i].argument.xreplace(still) for i in sticking]
+        gaps = [i for i, state in enumerate(closed) if state]
+        labels, h = base.multiplier_names, len(base.constraints)
+        names = (*labels[:h], *(f"gap {i + 1}" for i in gaps), *labels[h:], *(f"held {i + 1}" for i in sticking))
         system = Equations(
             base.c,
             base.lagrangian.xreplace(still),
             (*base.constraints, *(self.impacts[i].gap for i in gaps)),
-            (*base.rolling, *held),
+            (*base.rolling, *slips),
             base.dissipation.xreplace(still),
             tuple(e.xreplace(still) for e in base.forces),
             names,
@@ -219,14 +214,14 @@ class Switched:
 
 
 def with_events(system: Equations, values: Mapping[Any, Any], events: tuple[Event | Impact, ...] = ()) -> Switched:
-    """The system with its events and the surfaces of its jumps."""
+    """Return the system with its events and the surfaces of its jumps."""
     smooth, surfaces = without_jumps(system)
     size = len(system.c.q) + len(system.speeds)
     return Switched(smooth, values, surfaces, events, np.ones(size), np.zeros(size))
 
 
 def begin(h: Switched, q: Array, v: Array, time: float) -> Array:
-    """The state (q, v, t, mode) at the start: signs as the velocities are, all gaps open but those that are at rest on zero."""
+    """Return the initial state (q, v, t, mode): signs of the velocities, and all gaps open except those at rest on zero."""
     start = Moment(np.concatenate([q, v]), time, h.slipping)
     try:
         mode = _settle(h, start)
@@ -244,38 +239,34 @@ def march(
     observe: Observer | None = None,
     companion: bool = False,
 ) -> Stretch:
-    """The states (q, v, t, mode) at the times, the first of which is that of the start, and the times of jumps.
-
-    Time is counted from the start: by a clock far from zero each event would be rounded to the spacing of doubles there.
-
-    Where an event ends the motion, or it cannot be followed further, the state stays as it is there, its time included.
-    observe: called with the time at which a phase began, the ends of each step since then, and its dense output, (q, u).
-    companion: by other steps in narrow parts and brief windows.
-    Raises StopError with what was reached, where the solver stops.
-    """
+    """Return the states (q, v, t, mode) at the times, from `start` at the first of them, and the times of jumps. Time counts
+    from the start, since far from zero the clock would round each event. After an event that ends the motion, the state with
+    its time stays constant. `observe` is called with the time of the phase's start, and the ends and dense output of each
+    step. A companion takes other steps in narrow terms and brief windows."""
     clock, since = float(start[h.size]), times - times[0]
-    end, y, now, mode, spent = float(since[-1]), start[: h.size], 0.0, h.mode(start), 0
+    end, y, now, mode, evaluations = float(since[-1]), start[: h.size], 0.0, h.mode(start), 0
     if mode.ended:
         return Stretch(np.repeat(start[None], len(times), axis=0), start, 0)
-    parts, jumps, history, habit = [start[None]], list[float](), dict[tuple[str, int], list[float]](), 0.0
+    blocks, jumps, history, habit = [start[None]], list[float](), dict[tuple[str, int], list[float]](), 0.0
 
     def add(states: Array) -> None:
         later = times[since > now]
-        parts.append(
+        blocks.append(
             np.array([h.state(y, t, mode) for y, t in zip(states, later, strict=False)]).reshape(-1, len(start))
         )
 
     while now < end and not mode.ended:
         try:
             later = since[since > now] - now
-            stretch, hit = _smooth(h, y, clock + now, mode, later, local, budget - spent, observe, habit, companion)
+            unused = budget - evaluations
+            stretch, hit = _smooth(h, y, clock + now, mode, later, local, unused, observe, habit, companion)
         except StopError as stop:
             reached = stop.reached or Stretch(np.empty((0, h.size)), y, 0)
             add(reached.states)
             last = h.state(reached.end, clock + now + stop.at, mode)
-            so_far = Stretch(np.concatenate(parts), last, spent + stop.evaluations, tuple(jumps))
+            so_far = Stretch(np.concatenate(blocks), last, evaluations + stop.evaluations, tuple(jumps))
             raise StopError(clock + now + stop.at, stop.reason, so_far, cause=stop.cause) from None
-        spent += stretch.evaluations
+        evaluations += stretch.evaluations
         add(stretch.states)
         y = stretch.end[: h.size]
         if hit is None:
@@ -293,14 +284,14 @@ def march(
         if hit.kind in ("gap", "event"):
             jumps.append(clock + now)
     last = h.state(y, clock + now, mode)
-    known = sum(map(len, parts))
-    parts.append(np.repeat(last[None], len(times) - known, axis=0))
-    return Stretch(np.concatenate(parts), last, spent, tuple(jumps))
+    length = sum(map(len, blocks))
+    blocks.append(np.repeat(last[None], len(times) - length, axis=0))
+    return Stretch(np.concatenate(blocks), last, evaluations, tuple(jumps))
 
 
 def _end(h: Switched, mode: ContactMode, ending: Ending) -> ContactMode:
-    """The mode of a motion that has ended; endings for the same reason are one, whatever their times."""
-    same = [i for i, each in enumerate(h.endings) if (each.kind, each.reason) == (ending.kind, ending.reason)]
+    """Return the mode of a motion that has ended; endings with the same reason share one entry."""
+    same = [i for i, earlier in enumerate(h.endings) if (earlier.kind, earlier.reason) == (ending.kind, ending.reason)]
     if not same:
         h.endings.append(ending)
     return mode._replace(ended=1 + (same[0] if same else len(h.endings) - 1))
@@ -318,8 +309,7 @@ def _smooth(
     habit: float,
     companion: bool,
 ) -> tuple[Stretch, Hit | None]:
-    """The motion in one phase, from `now` to the first of its conditions that ends, or to the last of the times, which count
-    from there. habit: the time that has passed between the last two events of a kind."""
+    """Integrate one phase to its first condition that ends; `habit` is the time between the last two events of a kind."""
     phase, numbers = h.phase(mode), h.numbers(mode)
     system, scale = phase.system, h.scale
     if depends_on_time(system):
@@ -332,10 +322,10 @@ def _smooth(
 
     rhs = motion.rate(parameter_values(motion, numbers), now)
     segment = in_units(Segment(rhs, y, 0.0, times[-1], times, np.inf, budget, project), scale)
-    parts, done, solver = [np.empty((0, len(y)))], 0, None
+    blocks, count, solver = [np.empty((0, len(y)))], 0, None
     try:
         for solver in _steps(segment, windows_since(now, h.windows, companion), local / SAFETY):
-            left, right, dense = solver.t_old, solver.t, solver.dense_output()
+            begin, end_of_step, dense = solver.t_old, solver.t, solver.dense_output()
 
             def curve(s: Array, dense: Any = dense) -> Array:
                 return np.asarray(dense(s).T * scale)
@@ -345,68 +335,68 @@ def _smooth(
 
             hit = None
             if phase.conditions:
-                ends, at = curve(np.array([left, right])), np.array([now + left, now + right])
-                off = np.abs(watch(start_beside(ends, _ROUNDINGS), at) - watch(ends, at)).max(1)
-                hit, hidden = _first(h, phase, conditions, left, right, habit, off)
+                ends, at = curve(np.array([begin, end_of_step])), np.array([now + begin, now + end_of_step])
+                rounding = np.abs(watch(perturbed_state(ends, _ROUNDINGS), at) - watch(ends, at)).max(1)
+                hit, hidden = _first(h, phase, conditions, begin, end_of_step, habit, rounding)
                 h.hidden.extend((now + a, now + b) for a, b in hidden)
-            until = right if hit is None else hit.since
+            until = end_of_step if hit is None else hit.since
             if observe is not None:
-                observe(now, left, until, curve)
+                observe(now, begin, until, curve)
             reached = int(np.searchsorted(times, until, side="right"))
-            parts.append(curve(times[done:reached]))
-            done = reached
+            blocks.append(curve(times[count:reached]))
+            count = reached
             if hit is not None:
                 y = curve(np.array([until]))[0]
-                return Stretch(np.concatenate(parts), y if project is None else project(y), solver.nfev), hit
+                return Stretch(np.concatenate(blocks), y if project is None else project(y), solver.nfev), hit
     except StopError as stop:
         end = stop.reached.end * scale if stop.reached else y
-        so_far = Stretch(np.concatenate(parts), end, stop.evaluations)
+        so_far = Stretch(np.concatenate(blocks), end, stop.evaluations)
         words = unbounded_force(system, numbers, y, end, h.sizes) if stop.cause == "stopped" and h.sizes.all() else ""
         raise StopError(stop.at, words or stop.reason, so_far, cause="singular" if words else stop.cause) from None
     assert solver is not None  # a phase that is begun has a length
-    return Stretch(np.concatenate(parts), solver.y * scale, solver.nfev), None
+    return Stretch(np.concatenate(blocks), solver.y * scale, solver.nfev), None
 
 
 def _steps(segment: Segment, windows: Sequence[Window], error: float) -> Iterator[Any]:
-    """As `dop853_steps` has it, by steps that are bounded in windows; evaluations are those of all of the segment."""
-    y, spent = segment.start, 0
-    for left, right, longest in segments(segment.left, segment.right, windows):
-        part = replace(segment, start=y, left=left, right=right, longest=longest, budget=segment.budget - spent)
+    """Yield the steps of `dop853_steps`, bounded in windows; `nfev` counts all evaluations of the segment."""
+    y, nfev = segment.start, 0
+    for begin, until, longest in segments(segment.begin, segment.until, windows):
+        piece = replace(segment, start=y, begin=begin, until=until, longest=longest, budget=segment.budget - nfev)
         try:
-            for solver in dop853_steps(part, error):
-                solver.nfev += spent
+            for solver in dop853_steps(piece, error):
+                solver.nfev += nfev
                 yield solver
-                solver.nfev -= spent
+                solver.nfev -= nfev
         except StopError as stop:
-            stop.evaluations += spent
+            stop.evaluations += nfev
             raise
-        solver.nfev += spent
-        y, spent = solver.y, solver.nfev
+        solver.nfev += nfev
+        y, nfev = solver.y, solver.nfev
 
 
 def _first(
-    h: Switched, phase: Phase, conditions: Any, left: float, right: float, habit: float, noise: Array
+    h: Switched, phase: Phase, conditions: Any, lower: float, upper: float, habit: float, noise: Array
 ) -> tuple[Hit | None, list[tuple[float, float]]]:
-    """The first condition of a phase that ends in a step, and where one may be hidden; times count from the start of the phase.
-    noise: of each condition, by rounding."""
-    begun = left > 0
-    # The next of impacts that accumulate is near to the start of a step that is made for the motion between them.
-    soon = 4 * habit if not begun and 0 < 4 * habit < right else left
-    start = left if begun else _BESIDE * (soon or right)
-    parts = [zeros_between(conditions, a, b, noise=noise) for a, b in ((left, soon), (soon, right)) if b > a]
-    hidden = [part.hidden for part in parts if part.hidden]
+    """Return the first condition of a phase that ends in a step, and the intervals that may hide one. Times count from the
+    start of the phase; `noise` is the rounding error of each condition."""
+    begun = lower > 0
+    # The next of accumulating impacts is near to the start of a step, whose size the motion between them determines.
+    soon = 4 * habit if not begun and 0 < 4 * habit < upper else lower
+    start = lower if begun else _BESIDE * (soon or upper)
+    intervals = [zeros_between(conditions, a, b, noise=noise) for a, b in ((lower, soon), (soon, upper)) if b > a]
+    hidden = [interval.hidden for interval in intervals if interval.hidden]
     hits = []
-    for part in parts:
-        for s, k, way in zip(part.t, part.index, part.direction, strict=True):
+    for interval in intervals:
+        for s, k, way in zip(interval.t, interval.index, interval.direction, strict=True):
             kind, i, _ = phase.conditions[k]
             event = h.events[i] if kind == "event" else None
-            wanted = event.direction if isinstance(event, Event) else -1
-            # A condition that began at zero touches it once more by rounding, and is true again at twice the time.
-            rounding = not begun and s < _FRESH * right and event is None and conditions(np.array([2 * s]))[k, 0] > 0
-            if s > start and wanted in (0, way) and not rounding:
-                hits.append(Hit(polish(conditions, int(k), float(s), left, right), kind, i))
-    if not begun and not hits:  # a condition that does not hold from the start on
-        ends = conditions(np.array([10 * start, right]))
+            direction = event.direction if isinstance(event, Event) else -1
+            # A condition that starts at zero may touch zero again by rounding; then it is true at twice the time.
+            rounding = not begun and s < _FRESH * upper and event is None and conditions(np.array([2 * s]))[k, 0] > 0
+            if s > start and direction in (0, way) and not rounding:
+                hits.append(Hit(polish(conditions, int(k), float(s), lower, upper), kind, i))
+    if not begun and not hits:  # seek a condition that is false from the start on
+        ends = conditions(np.array([10 * start, upper]))
         scale = np.abs(ends).max(1)
         for k, (kind, i, _) in enumerate(phase.conditions):
             if kind != "event" and (ends[k] < -_NOISE * scale[k]).all():
@@ -414,46 +404,46 @@ def _first(
     return min(hits, default=None), hidden
 
 
-def polish(functions: Any, k: int, t: float, left: float, right: float) -> float:
-    """A zero to the last digit that the dense output has, by the secant method."""
-    other = min(t + 1e-5 * (right - left), right) if t < right else t - 1e-5 * (right - left)
-    f, g = functions(np.array([t, other]))[k]
+def polish(functions: Any, k: int, t: float, lower: float, upper: float) -> float:
+    """Improve a zero by the secant method to the last digit of the dense output."""
+    second = min(t + 1e-5 * (upper - lower), upper) if t < upper else t - 1e-5 * (upper - lower)
+    f, g = functions(np.array([t, second]))[k]
     for _ in range(4):
         if f == g or f == 0:
             break
-        following = float(np.clip(t - f * (t - other) / (f - g), left, right))
+        following = float(np.clip(t - f * (t - second) / (f - g), lower, upper))
         (value,) = functions(np.array([following]))[k]
         if abs(value) >= abs(f):
             break
-        other, g, t, f = t, f, following, value
+        second, g, t, f = t, f, following, value
     return t
 
 
 def _switch(h: Switched, at: Moment, hit: Hit, gone: float | None) -> Moment:
-    """The state and the mode after an event. gone: the time after which infinitely many of them will be over."""
+    """Return state and mode after an event. `gone` is the time after which infinitely many events are over, or None."""
     kind, i = hit.kind, hit.i
     mode, v = at.mode, at.y[h.n : h.size]
     if kind == "surface" and h.surfaces[i].argument.free_symbols & {*h.system.multipliers}:
-        mode = mode.put("signs", i, -mode.signs[i])  # a reaction is reversed
+        mode = mode.with_value("signs", i, -mode.signs[i])  # a reaction is reversed
     elif kind == "surface":
-        mode = mode.put("signs", i, _sign_beyond(h, at, i))
+        mode = mode.with_value("signs", i, _sign_beyond(h, at, i))
     elif kind == "pull":
         raise StopError(
             at.t,
-            f"{h.surfaces[i].bound} becomes negative: what rubs would pull, and is let go or held on its other side; a guide "
-            "that holds on both sides rubs by |reaction(…)|",
+            f"{h.surfaces[i].bound} becomes negative: the rubbing contact would pull, and opens or touches on its "
+            "other side; a guide that holds on both sides rubs by |reaction(…)|",
         )
     elif kind in ("above", "below"):
-        mode = mode.put("signs", i, -1 if kind == "above" else 1)
+        mode = mode.with_value("signs", i, -1 if kind == "above" else 1)
     elif kind == "reaction":
-        mode = mode.put("closed", i, False)
+        mode = mode.with_value("closed", i, False)
     elif kind == "gap":
         e = float(h.evaluate(h.system, [h.impacts[i].restitution], at)[0])
         if gone is not None:
             e = 0.0
             h.accumulations[i] = at.t + gone
         v, gentle = _rebound(h, at, i, e)
-        mode = mode.put("closed", i, e == 0 or gentle)
+        mode = mode.with_value("closed", i, e == 0 or gentle)
     else:
         event = h.events[i]
         assert isinstance(event, Event)
@@ -464,14 +454,13 @@ def _switch(h: Switched, at: Moment, hit: Hit, gone: float | None) -> Moment:
         v = h.evaluate(h.system, event.velocities, at)
     if not np.isfinite(v).all():
         raise StopError(at.t, "the velocities after an event are not finite")
-    after = Moment(np.concatenate([at.y[: h.n], v]), at.t, mode)
-    return after._replace(mode=_settle(h, after, fixed=kind in ("above", "below", "surface")))
+    moment = Moment(np.concatenate([at.y[: h.n], v]), at.t, mode)
+    return moment._replace(mode=_settle(h, moment, fixed=kind in ("above", "below", "surface")))
 
 
 def _rebound(h: Switched, at: Moment, i: int, e: float) -> tuple[Array, bool]:
-    """The velocities after an impact: M Δv = Gᵀ Λ, the approach reversed and multiplied by e, all else held; and whether
-    there was no velocity of approach."""
-    mode = at.mode.put("closed", i, True)
+    """Return the velocities after an impact, M Δv = Gᵀ Λ, with −e times the velocity of approach, and True if that was zero."""
+    mode = at.mode.with_value("closed", i, True)
     n, system = h.n, h.phase(mode._replace(signs=tuple(s or 1 for s in mode.signs))).system
     numbers, state = h.numbers(mode), np.append(at.y[: h.size], at.t)
     G, M = rows_at(system, numbers, state), mass_at(system, numbers, state)
@@ -485,7 +474,7 @@ def _rebound(h: Switched, at: Moment, i: int, e: float) -> tuple[Array, bool]:
 
 
 def _sign_beyond(h: Switched, at: Moment, i: int) -> int:
-    """The sign of a surface where the state is on it: by the rates of w on either side (Filippov); 0 where both lead to it."""
+    """Return the sign of w after w = 0, by the rates of w on both sides (Filippov); 0 where both lead to w = 0."""
     argument = h.surfaces[i].argument
     above, below = _rates_beside(h, at, i, 1)
     if not argument.free_symbols & {*h.system.c.v} and max(abs(above), abs(below)) <= _NOISE * float(
@@ -500,19 +489,19 @@ def _sign_beyond(h: Switched, at: Moment, i: int) -> int:
     if below < -size and above <= size:
         return -1
     if above > size and below < -size:
-        raise StopError(at.t, f"on {h.surfaces[i].argument} = 0 the motion may go on to either side")
+        raise StopError(at.t, f"on {h.surfaces[i].argument} = 0 the motion may continue to either side")
     if h.surfaces[i].bound is None:
         raise StopError(
-            at.t, f"the motion stays on {h.surfaces[i].argument} = 0, where a force jumps that is no dry friction"
+            at.t, f"the motion stays on {h.surfaces[i].argument} = 0, where a force jumps that is not dry friction"
         )
     return 0
 
 
 def _rates_beside(h: Switched, at: Moment, i: int, order: int) -> tuple[float, float]:
-    """The first or second rate of w above and below its surface."""
+    """Return the first or second rate of w above and below its surface."""
 
     def rate(sign: int) -> float:
-        mode, e = at.mode.put("signs", i, sign), h.surfaces[i].argument
+        mode, e = at.mode.with_value("signs", i, sign), h.surfaces[i].argument
         system = h.phase(mode).system
         for _ in range(order):
             e = total_derivative(e, system.c)
@@ -522,43 +511,42 @@ def _rates_beside(h: Switched, at: Moment, i: int, order: int) -> tuple[float, f
 
 
 def _settle(h: Switched, at: Moment, fixed: bool = False) -> ContactMode:
-    """A mode that the state and its reactions agree with. fixed: the signs are those that were decided at an event."""
+    """Find a mode that agrees with the state and its reactions; `fixed` keeps the signs that an event decided."""
     mode = at.mode
     if h.surfaces and not fixed:
         arguments = [s.argument for s in h.surfaces]
         w, noise = h.evaluate(h.system, arguments, at), _NOISE * h.sizes_of(h.system, arguments, at)
         for i in map(int, np.flatnonzero(np.abs(w) > noise)):
-            mode = mode.put("signs", i, int(np.sign(w[i])))
+            mode = mode.with_value("signs", i, int(np.sign(w[i])))
         for i in map(int, np.flatnonzero(np.abs(w) <= noise)):
-            mode = mode.put("signs", i, _sign_beyond(h, at._replace(mode=mode), i))
+            mode = mode.with_value("signs", i, _sign_beyond(h, at._replace(mode=mode), i))
     for _ in range(2 * (len(mode.signs) + len(mode.closed)) + 1):
         phase = h.phase(mode)
-        reactions = [each for each in phase.conditions if each[0] in ("above", "below", "reaction")]
+        reactions = [condition for condition in phase.conditions if condition[0] in ("above", "below", "reaction")]
         if not reactions:
             break
-        expressions, here = [e for *_, e in reactions], at._replace(mode=mode)
-        values = h.evaluate(phase.system, expressions, here)
+        expressions, moment = [e for *_, e in reactions], at._replace(mode=mode)
+        values = h.evaluate(phase.system, expressions, moment)
         worst = int(np.argmin(values))
         size = np.abs(values).max() if len(values) > 1 else 0.0
-        if values[worst] >= -_NOISE * (size + float(h.sizes_of(phase.system, expressions, here)[worst])):
+        if values[worst] >= -_NOISE * (size + float(h.sizes_of(phase.system, expressions, moment)[worst])):
             break
         kind, i, _ = reactions[worst]
-        mode = (
-            mode.put("closed", i, False) if kind == "reaction" else mode.put("signs", i, -1 if kind == "above" else 1)
-        )
+        change: tuple[Any, int] = ("closed", 0) if kind == "reaction" else ("signs", -1 if kind == "above" else 1)
+        mode = mode.with_value(change[0], i, change[1])
     return mode
 
 
 def _accumulating(history: Mapping[Any, list[float]], past: list[float], span: float, clock: float) -> float | None:
-    """What is left to the time at which events accumulate, each a constant part of the one before it: where that is next to
-    nothing. clock: what it showed at the start. Raises StopError where they are too many."""
+    """Return the time to the accumulation of events if it is negligible, None otherwise; the intervals shrink by a constant
+    factor. `clock` is the time at the start. Raises StopError for too many events."""
     now = past[-1]
     if len(past) > _HABIT:
         intervals = np.diff(past[-_HABIT - 1 :])
         ratio = intervals[-1] / intervals[-2] if intervals[-2] > 0 else 1.0
-        left = intervals[-1] * ratio / (1 - ratio) if ratio < 1 else np.inf
-        if (np.diff(intervals) < 0).all() and left <= _GONE * span:
-            return float(left)
+        remaining = intervals[-1] * ratio / (1 - ratio) if ratio < 1 else np.inf
+        if (np.diff(intervals) < 0).all() and remaining <= _GONE * span:
+            return float(remaining)
     if len(past) > _AT_ONCE and now - past[-_AT_ONCE] <= 1e-13 * now:
         raise StopError(clock + now, "events follow each other without time between them")
     if sum(map(len, history.values())) > MOST_EVENTS.value:
@@ -567,22 +555,22 @@ def _accumulating(history: Mapping[Any, list[float]], past: list[float], span: f
 
 
 def evaluate(h: Switched, expression: sp.Expr, times: Array, states: Array) -> Array:
-    """An expression along a motion in phases (n,): accelerations and multipliers are those of each phase, and the sign of what
-    sticks is what holds it over its bound."""
+    """Evaluate an expression along a motion in phases, shape (n,), with the accelerations and multipliers of each phase. The
+    sign of a sticking surface is its friction force over the bound."""
     c, values = len(h.system.constraints), np.empty(len(times))
     modes = [h.mode(state) for state in states]
     for mode in dict.fromkeys(modes):
-        here = np.array([each == mode for each in modes])
+        in_mode = np.array([state_mode == mode for state_mode in modes])
         phase = h.phase(mode)
         lam, closed = phase.system.multipliers, sum(mode.closed)
-        put: dict[sp.Expr, sp.Expr] = {
+        substitutions: dict[sp.Expr, sp.Expr] = {
             name: lam[i if i < c else i + closed] for i, name in enumerate(h.system.multipliers)
         }
         sticking = [s for s, sign in zip(h.surfaces, mode.signs, strict=True) if sign == 0]
         for s, reaction in zip(sticking, lam[len(lam) - len(sticking) :], strict=True):
             assert s.bound is not None
             for w, holding in ((s.argument, -reaction / s.bound), (sp.expand(-s.argument), reaction / s.bound)):
-                put |= {sp.sign(w): holding, sp.Abs(w): sp.S.Zero}
-        program = function_program(phase.system, expression.xreplace(put))
-        values[here] = program.along(h.numbers(mode))(states[here], times[here])[0]
+                substitutions |= {sp.sign(w): holding, sp.Abs(w): sp.S.Zero}
+        program = function_program(phase.system, expression.xreplace(substitutions))
+        values[in_mode] = program.along(h.numbers(mode))(states[in_mode], times[in_mode])[0]
     return values

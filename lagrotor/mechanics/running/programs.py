@@ -1,8 +1,7 @@
 """The equations of motion as generated programs: state → its derivative, in stages that never multiply out.
 
-The state is (q, u), u the velocities of one's own or v, with t as a last component where time enters explicitly. The
-mass matrix is factored by L D Lᵀ, the
-constraints by that of their Schur complement S = G M⁻¹ Gᵀ, element by element as stages.
+The state is (q, u), u the quasi-velocities or v, with t as a last component where time enters explicitly. The mass matrix is
+factored by L D Lᵀ, the constraints by that of their Schur complement S = G M⁻¹ Gᵀ, element by element as stages.
 """
 
 import math
@@ -32,19 +31,19 @@ from lagrotor.numerics.codegen import Program, Stage, solve_symmetric, tangent_p
 from lagrotor.numerics.printers import compile_program, rhs_source
 from lagrotor.numerics.source_cache import function_of
 
-LEAST_TREE = 2  # coordinates from which on the recursion of a tree takes less operations than the mass matrix
+LEAST_TREE = 2  # coordinates from which the recursion of a tree takes fewer operations than the mass matrix
 _OWN = "s y t I Q rate bare make pulse width begin LOST OutsideError"  # names of generated code
-_LONG = 300  # operations of a Lagrangian from which on its equations are made by sweeps
-_STATES = 3  # random ones, at which the rank of a matrix is read off
+_LONG = 300  # operations of a Lagrangian from which its equations are made by sweeps
+_STATES = 3  # random states at which the rank of a matrix is measured
 _NEWTON = 20  # steps that bring them onto the constraints
 _ROUNDING = 1e-12  # of a matrix with a unit diagonal, in its singular values
-FOLLOWED = 1000  # times ψ: heyoka carries it, as what no rate depends on, at a millionth
-MANY = 100  # stages from which on common parts of their sums and products are not worth the search
+FOLLOWED = 1000  # factor of ψ: heyoka scales ψ, on which no rate depends, down to a millionth
+MANY = 100  # stages from which common parts of their sums and products are not worth the search
 
 
 @dataclass(frozen=True)
 class Jet:
-    """An unknown function in a program, or a derivative of one: how often by each argument."""
+    """An unknown function in a program, or a derivative of one; `orders` counts the derivatives by each argument."""
 
     name: str
     orders: tuple[int, ...]
@@ -55,11 +54,8 @@ class Jet:
 
 @dataclass(frozen=True, eq=False)
 class Generated:
-    """The program of a system's motion, (state, parameters) → d(state)/dt, with names that any language takes.
-
-    states: the symbols q, v and, where time enters, t; parameters: the other symbols, sorted by name, and after them the
-    functions and derivatives of functions that are called.
-    """
+    """The program of a system's motion, (state, parameters) → d(state)/dt, with names that any language accepts. `states` are
+    q, v and, where time enters, t. `parameters` are the other symbols by name, then the functions that are called."""
 
     program: Program
     states: tuple[sp.Symbol, ...]
@@ -72,21 +68,21 @@ class Generated:
 
     @cached_property
     def rhs(self) -> Callable[..., Any]:
-        """parameters → rhs(t, y)."""
+        """The function parameters → rhs(t, y)."""
         clock = self.states.index(t) if t in self.states else None
         return function_of(rhs_source(self.program, len(self.states), clock=clock))
 
     def rate(self, parameters: Sequence[Any], begin: float) -> Callable[..., Any]:
-        """rhs(s, y), the time being begin + s: as a state it would be off by the rounding of all steps together."""
+        """Return rhs(s, y) at the time begin + s: as a state, the time would accumulate the rounding of all steps."""
         return self.rhs(*parameters, begin) if t in self.states else self.rhs(*parameters)
 
     @cached_property
     def function(self) -> Callable[..., Any]:
-        """(*arguments) → outputs, for numbers and arrays."""
+        """The function (*arguments) → outputs, for numbers and arrays."""
         return compile_program(self.program, "numpy")
 
     def along(self, values: Mapping[Any, Any], where: str = "simulate") -> Callable[[Array, Array], Array]:
-        """(states (n, ≥ N + m), q and u first; times (n,)) → outputs (k, n), for a program in q, u and t."""
+        """Return a function of states (n, ≥ N + m), q and u first, and times (n,) that returns the outputs (k, n)."""
         function, parameters, d = self.function, parameter_values(self, values, where), len(self.states) - 1
 
         def outputs(states: Array, times: Array) -> Array:
@@ -102,44 +98,47 @@ class Generated:
 
 @lru_cache(maxsize=64)
 def motion_program(system: Equations, followed: tuple[Any, ...] = ()) -> Generated:
-    """The program of a system's right-hand side, (q, u[, t], ψ) → (v, u'[, 1], ψ').
+    """Generate the right-hand side (q, u[, t], ψ) → (v, u'[, 1], ψ') of a system.
 
-    followed: g, the factor and the part of each ψ, ψ' = factor · g'; FOLLOWED ψ is integrated with the motion.
+    Parameters
+    ----------
+    system : Equations
+        The system.
+    followed : tuple of NarrowPart, default ()
+        Each gives a ψ with ψ' = factor · g'; FOLLOWED ψ is integrated with the motion.
 
-    Raises
-    ------
-    SingularError
-        When the mass matrix or the Schur complement is singular in its structure.
+    Returns
+    -------
+    Generated
+        The program.
     """
     stages, rates, _ = motion_of_speeds(system)
     clock = [sp.S.One] * depends_on_time(system)
     moving = dict(zip((*system.c.q, t, *system.speeds), (*system.c.v, sp.S.One, *rates), strict=True))
-    if (given := system.kinematics) is not None:
-        moving |= dict(zip(system.c.v, given.B * sp.Matrix(rates) + given.alpha, strict=True))
-    more = [FOLLOWED * factor * along(g, moving.keys(), moving.values()) for g, factor, _ in followed]
+    if (kinematics := system.kinematics) is not None:
+        moving |= dict(zip(system.c.v, kinematics.B * sp.Matrix(rates) + kinematics.alpha, strict=True))
+    followed_rates = [FOLLOWED * factor * along(g, moving.keys(), moving.values()) for g, factor, _ in followed]
     states = (*state_symbols(system), *(sp.Symbol(f"_followed{i}", real=True) for i in range(len(followed))))
-    return _program(states, stages, [*system.c.v, *rates, *clock, *more], moving=True)
+    return _program(states, stages, [*system.c.v, *rates, *clock, *followed_rates], moving=True)
 
 
 def state_symbols(system: Equations) -> tuple[sp.Symbol, ...]:
-    """The state of a motion: q, u and, where the time enters, t."""
+    """Return the state of a motion: q, u and, where the time enters, t."""
     return (*system.c.q, *system.speeds, *((t,) if depends_on_time(system) else ()))
 
 
 def _program(
     states: tuple[sp.Symbol, ...], stages: Sequence[Stage], outputs: Sequence[sp.Expr], moving: bool = False
 ) -> Generated:
-    """A program of a state and parameters, its symbols renamed where a language would not take their names.
-
-    moving: it is evaluated so often that common parts are worth the search.
-    """
+    """Return a program of a state and parameters, in which symbols get new names that any language accepts. In the program of a
+    motion, which is evaluated often, common parts of sums and products are sought."""
     stages, outputs, functions = _with_calls(stages, outputs)
-    own = dict.fromkeys(name for name, _ in stages)
-    used = set().union(*(e.free_symbols for _, e in stages), *(e.free_symbols for e in outputs)) - own.keys()
+    names = dict.fromkeys(name for name, _ in stages)
+    used = set().union(*(e.free_symbols for _, e in stages), *(e.free_symbols for e in outputs)) - names.keys()
     parameters = tuple(sorted(used - {*states}, key=str))
     rename: dict[Any, Any] = {
         s: sp.Symbol(f"y{i}_", real=True)
-        for i, s in enumerate((*states, *parameters, *(s for s in own if not s.name.startswith("_"))))
+        for i, s in enumerate((*states, *parameters, *(s for s in names if not s.name.startswith("_"))))
         if not _is_plain(str(s))
     }
     rename |= {c: c.evalf(17) for e in (*(e for _, e in stages), *outputs) for c in e.atoms(sp.NumberSymbol)}
@@ -152,7 +151,7 @@ def _program(
     numbers = set().union(*(e.atoms(sp.Float) for e in (*(e for _, e in stages), *outputs)))
     if lost := [c for c in numbers if c != 0 and float(c) in (0.0, math.inf, -math.inf)]:
         raise InputError(
-            f"{sp.Float(lost[0], 3)} is beyond what a double holds: sympy takes it out of an exponent with decimals, as in "
+            f"{sp.Float(lost[0], 3)} is outside the range of doubles: sympy separates it from an exponent with decimals, as in "
             "exp(x + 1838.0); write the exponent with symbols, and give them values"
         )
     program = Program(
@@ -165,26 +164,26 @@ def _program(
 
 
 def _with_calls(
-    stages: Sequence[Stage], outputs: Sequence[sp.Expr], known: Mapping[sp.Symbol, Jet] | None = None
+    stages: Sequence[Stage], outputs: Sequence[sp.Expr], calls: Mapping[sp.Symbol, Jet] | None = None
 ) -> tuple[list[Stage], list[sp.Expr], dict[sp.Symbol, Jet]]:
-    """Stages and outputs that call what stands for unknown functions and their derivatives, and these, by the names of which
-    they are arguments of the program. known: those that are called already."""
-    jets = {str(name): jet for name, jet in (known or {}).items()}
-    made = {jet: name for name, jet in (known or {}).items()}
+    """Replace unknown functions and their derivatives by calls; return stages, outputs, and the functions by name of
+    argument. `calls` are the functions that are called already."""
+    jets = {str(name): jet for name, jet in (calls or {}).items()}
+    symbols = {jet: name for name, jet in (calls or {}).items()}
 
     def called(name: str, orders: tuple[int, ...], arguments: tuple[sp.Expr, ...]) -> sp.Expr:
-        before = jets.get(name)
-        jet = Jet(before.name, tuple(map(add, before.orders, orders))) if before else Jet(name, orders)
-        symbol = made.setdefault(jet, sp.Symbol(f"call{len(made)}_", real=True))
+        called_jet = jets.get(name)
+        jet = Jet(called_jet.name, tuple(map(add, called_jet.orders, orders))) if called_jet else Jet(name, orders)
+        symbol = symbols.setdefault(jet, sp.Symbol(f"call{len(symbols)}_", real=True))
         return sp.Function(str(symbol))(*arguments)
 
     stages = [(name, with_jets(e, called)) for name, e in stages]
     outputs = [with_jets(e, called) for e in outputs]
-    return stages, outputs, {symbol: jet for jet, symbol in made.items()}
+    return stages, outputs, {symbol: jet for jet, symbol in symbols.items()}
 
 
 def velocities_along(system: Equations, values: Mapping[Any, Any], states: Array, times: Array) -> Array:
-    """v (n, N) at states (n, ≥ N + m), q and u first."""
+    """Return v (n, N) at states (n, ≥ N + m), q and u first."""
     if system.kinematics is None:
         return states[:, len(system.c.q) : 2 * len(system.c.q)]
     return function_program(system, *system.c.v).along(values)(states, times).T
@@ -192,23 +191,21 @@ def velocities_along(system: Equations, values: Mapping[Any, Any], states: Array
 
 @lru_cache(maxsize=64)
 def rows_program(system: Equations) -> Generated:
-    """(q, u, t) → the rows of the constraints that multipliers keep, for u', one after another."""
+    """Generate (q, u, t) → G for u', the rows of the constraints that multipliers keep, one after another."""
     return function_program(system, *rows_left(system)[0])
 
 
 @lru_cache(maxsize=64)
 def mass_program(system: Equations) -> Generated:
-    """(q, u, t) → the mass matrix of u', one row after another."""
+    """Generate (q, u, t) → the mass matrix of u', one row after another."""
     stages, M, _ = equations_of_speeds(system)
     return _program((*system.c.q, *system.speeds, t), stages, [*M])
 
 
 @lru_cache(maxsize=64)
 def start_program(system: Equations) -> Generated:
-    """(q, u, t) → M, g, ∂g/∂q, and of the constraints that multipliers keep, the rows for u' and the residuals.
-
-    M is the mass matrix in the velocities v, and the unit matrix of u for those of one's own.
-    """
+    """Generate (q, u, t) → M, g, ∂g/∂q, and rows for u' and residuals of the constraints that multipliers keep. M is the mass
+    matrix of the velocities v, and the unit matrix for quasi-velocities."""
     h, M = len(system.constraints), system.mass_matrix if system.kinematics is None else sp.eye(len(system.speeds))
     residual = [system.residual[i] for i in system.left]
     return function_program(system, *M, *system.constraints, *system.rows[:h, :], *rows_left(system)[0], *residual)
@@ -216,42 +213,42 @@ def start_program(system: Equations) -> Generated:
 
 @lru_cache(maxsize=256)
 def function_program(system: Equations, *expressions: sp.Expr) -> Generated:
-    """(q, u, t) → expressions in q, v, u, t, the accelerations and the multipliers of a motion."""
+    """Generate (q, u, t) → values of expressions in q, v, u, t, the accelerations and the multipliers of a motion."""
     states = (*system.c.q, *system.speeds, t)
     named = dict(zip(system.reactions, system.multipliers, strict=True))
     expressions = tuple(e.xreplace(named) for e in expressions) if named else expressions
     symbols = set().union(*(e.free_symbols for e in expressions))
     if not symbols & {*system.c.a, *system.multipliers}:
         return _program(states, velocity_stages(system), expressions)
-    left = tuple(system.multipliers[i] for i in system.left)
-    every = bool(symbols & {*system.multipliers} - {*left})
+    independent = tuple(system.multipliers[i] for i in system.left)
+    every = bool(symbols & {*system.multipliers} - {*independent})
     stages, a, lam = constrained_motion(system, every)
-    made = dict(zip((*system.c.a, *(system.multipliers if every else left)), (*a, *lam), strict=True))
-    return _program(states, stages, [e.xreplace(made) for e in expressions])
+    solved = dict(zip((*system.c.a, *(system.multipliers if every else independent)), (*a, *lam), strict=True))
+    return _program(states, stages, [e.xreplace(solved) for e in expressions])
 
 
 def velocity_stages(system: Equations) -> list[Stage]:
-    """v, made of velocities of one's own."""
-    given = system.kinematics
-    if given is None:
+    """Return stages of v from quasi-velocities."""
+    kinematics = system.kinematics
+    if kinematics is None:
         return []
-    made = [(v, e) for v, e in zip(system.c.v, given.velocity, strict=True) if v != e]
-    return [*given.stages, *made]
+    velocities = [(v, e) for v, e in zip(system.c.v, kinematics.velocity, strict=True) if v != e]
+    return [*kinematics.stages, *velocities]
 
 
 @lru_cache(maxsize=64)
 def clock_program(system: Equations) -> Generated | None:
-    """(t) → the largest parts of the equations of motion that are made of t and parameters alone; None where there are none."""
+    """Generate (t) → the largest terms of the equations of motion in t and parameters alone; None without such terms."""
     if not depends_on_time(system):
         return None
     stages, rates, _ = motion_of_speeds(system)
-    clocks, parts = clock_parts(stages, (*system.c.v, *rates), {*system.c.q, *system.c.v, *system.speeds})
-    return _program((t,), clocks, parts) if parts else None
+    clocks, outputs = clock_parts(stages, (*system.c.v, *rates), {*system.c.q, *system.c.v, *system.speeds})
+    return _program((t,), clocks, outputs) if outputs else None
 
 
 @lru_cache(maxsize=64)
 def energy_program(system: Equations) -> Generated:
-    """(q, u, t) → the Jacobi integral."""
+    """Generate (q, u, t) → the Jacobi integral."""
     tree = tree_of(system) if len(system.c.q) >= LEAST_TREE else None
     if tree is None and _is_long(system):
         swept, energy = swept_energy(system)
@@ -264,7 +261,7 @@ def energy_program(system: Equations) -> Generated:
 
 
 def _is_plain(name: str) -> bool:
-    """Return whether generated code may have it for a name: one of mathematics, no word of a language, none that stages have."""
+    """Return True if generated code may use a name: no function of mathematics, no keyword, and no name of a stage."""
     return name.isidentifier() and not (
         iskeyword(name)
         or name in vars(math)
@@ -275,33 +272,30 @@ def _is_plain(name: str) -> bool:
 
 
 def depends_on_time(system: Equations) -> bool:
-    """Return whether t is in the Lagrangian, a force, the friction, a constraint or a velocity of one's own."""
+    """Return True if t is in the Lagrangian, a force, the friction, a constraint or a quasi-velocity."""
     expressions = (*system.acting, *(e for _, e in system.velocities))
     return t in system.letters or any(t in e.free_symbols for e in expressions)
 
 
 def constrained_motion(system: Equations, every: bool = True) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
-    """Stages, and accelerations and multipliers made of them; of all constraints, or of those that are left.
-
-    Those of constraints that velocities of one's own keep are what is missing in M α + h = Q + Gᵀ λ, by [A; G]⁻ᵀ.
-    """
+    """Return stages, accelerations and multipliers, of all constraints or of those not kept by quasi-velocities. The
+    multipliers of constraints that quasi-velocities keep follow from M α + h = Q + Gᵀ λ, by [A; G]⁻ᵀ."""
     stages, rates, lam = motion_of_speeds(system)
-    given = system.kinematics
-    if given is None:
+    kinematics = system.kinematics
+    if kinematics is None:
         return stages, rates, lam
-    a = given.B * sp.Matrix(rates) + given.alpha
-    multipliers = dict(zip(given.left, lam, strict=True))
-    if given.used and every:
-        held = system.rows.extract(list(given.left), list(range(len(a)))).T * sp.Matrix(len(lam), 1, lam)
+    a = kinematics.B * sp.Matrix(rates) + kinematics.alpha
+    multipliers = dict(zip(kinematics.left, lam, strict=True))
+    if kinematics.used and every:
+        reactions = system.rows.extract(list(kinematics.left), list(range(len(a)))).T * sp.Matrix(len(lam), 1, lam)
         push = system.generalised_forces.xreplace({system.multipliers[i]: e for i, e in multipliers.items()})
-        missing = given.inverse.T * (system.mass_matrix * a + system.bias - push - held)
-        multipliers |= dict(zip(given.used, missing[len(rates) :, :], strict=True))
+        missing = kinematics.inverse.T * (system.mass_matrix * a + system.bias - push - reactions)
+        multipliers |= dict(zip(kinematics.used, missing[len(rates) :, :], strict=True))
     return stages, list(a), [multipliers[i] for i in sorted(multipliers)]
 
 
 def motion_of_speeds(system: Equations) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
-    """Stages, and u' and the multipliers that are left made of them: of a tree of bodies by its recursion, else from the mass
-    matrix."""
+    """Return stages, u' and the independent multipliers, by the recursion of a tree of bodies or from the mass matrix."""
     G, gamma = rows_left(system)
     friction = bool(system.generalised_forces.free_symbols & {*system.multipliers})
     if (by_tree := tree_motion(system)) is not None:
@@ -319,33 +313,30 @@ def _is_long(system: Equations) -> bool:
 
 @lru_cache(maxsize=64)
 def equations_of_speeds(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matrix]:
-    """Stages, and made of them M and Q − h of M u' = Q − h + Gᵀ λ, with v in them.
-
-    Of a long Lagrangian by sweeps; of a short one for velocities of one's own by the equations of Boltzmann and Hamel, or,
-    where these velocities are made in stages, as they are projected.
-    """
+    """Return stages, M and Q − h of M u' = Q − h + Gᵀ λ, with v in them. A long Lagrangian takes sweeps; a short one with
+    quasi-velocities the equations of Boltzmann and Hamel, or their projection where the quasi-velocities have stages."""
     if _is_long(system):
         return swept_equations(system)
-    given, first = system.kinematics, velocity_stages(system)
+    kinematics, first = system.kinematics, velocity_stages(system)
     M, push = system.mass_matrix, system.generalised_forces - system.bias
-    if given is None:
+    if kinematics is None:
         return first, M, push
-    if given.stages:
-        return first, given.B.T * M * given.B, given.B.T * (push - M * given.alpha)
-    M, h = boltzmann_hamel(system.L, system.c, given, system.speeds)
-    put = dict(zip(system.c.v, given.velocity, strict=True))
-    return first, M, given.B.T * system.generalised_forces.xreplace(put) - h
+    if kinematics.stages:
+        return first, kinematics.B.T * M * kinematics.B, kinematics.B.T * (push - M * kinematics.alpha)
+    M, h = boltzmann_hamel(system.L, system.c, kinematics, system.speeds)
+    velocities = dict(zip(system.c.v, kinematics.velocity, strict=True))
+    return first, M, kinematics.B.T * system.generalised_forces.xreplace(velocities) - h
 
 
 def tree_motion(system: Equations) -> tuple[list[Stage], sp.Matrix] | None:
-    """Stages, and M⁻¹ (Q − h) and M⁻¹ Gᵀ column by column, of a tree of bodies by its recursion; None where it is none, or
-    where constraints must bind what no mass moves with."""
+    """Return stages, and M⁻¹ (Q − h) and M⁻¹ Gᵀ in columns, by the recursion of a tree of bodies. None for any other system,
+    and where constraints bind a direction without mass."""
     tree = tree_of(system) if len(system.c.q) >= LEAST_TREE else None
     if tree is None:
         return None
-    keep, (G, _), given = Stages(), rows_left(system), system.kinematics
+    keep, (G, _), kinematics = Stages(), rows_left(system), system.kinematics
     push = system.generalised_forces + rest_forces(tree, system.c)
-    push, by_reaction = push_left(system, push if given is None else given.B.T * push)
+    push, by_reaction = push_left(system, push if kinematics is None else kinematics.B.T * push)
     columns = [list(push), *((G.T + by_reaction).col(i).flat() for i in range(G.rows))]
     try:
         solved = sp.Matrix(tree_accelerations(joints(tree, keep), system.speeds, columns, keep)).T
@@ -358,28 +349,23 @@ def tree_motion(system: Equations) -> tuple[list[Stage], sp.Matrix] | None:
 
 @lru_cache(maxsize=64)
 def inertia(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matrix]:
-    """Stages of W, then W and M + Gᵀ W G made of them; W = 0 where M is regular.
-
-    Where a massless direction is bound by the constraints, as the length of a quaternion is, the equations with these rows
-    added, (M + Gᵀ W G) a = Q − h − Gᵀ W γ + Gᵀ λ, have the same solutions, accelerations and multipliers, and a positive
-    definite matrix. W is the mean mass over the squared length of each row. Decided at random states.
-
-    Raises SingularError where the constraints do not bind it.
-    """
+    """Return stages of W, then W and M + Gᵀ W G; W = 0 where M is regular. Constraints may bind a massless direction, as the
+    length of a quaternion. Then (M + Gᵀ W G) a = Q − h − Gᵀ W γ + Gᵀ λ has the same solutions and a positive definite matrix. W
+    is the mean mass over the squared length of each row. Random states decide; SingularError if no constraint binds the
+    direction."""
     (stages, M, _), (G, _) = equations_of_speeds(system), rows_left(system)
     if _regular(system, stages, M):
         return [], sp.zeros(G.rows, G.rows), M
     if (mean := M.trace() / M.rows) != 0:
-        made = {sp.Symbol(f"_w{i}", real=True): mean / G[i, :].dot(G[i, :]) for i in range(G.rows)}
-        bound = M + G.T * sp.diag(*made) * G
-        if _regular(system, stages, bound.xreplace(made)):
-            return [*made.items()], sp.diag(*made), bound
+        weights = {sp.Symbol(f"_w{i}", real=True): mean / G[i, :].dot(G[i, :]) for i in range(G.rows)}
+        bound = M + G.T * sp.diag(*weights) * G
+        if _regular(system, stages, bound.xreplace(weights)):
+            return [*weights.items()], sp.diag(*weights), bound
     raise SingularError(singular_mass("System", M, system.c))
 
 
 def _regular(system: Equations, stages: Sequence[Stage], matrix: sp.Matrix) -> bool:
-    """Whether a symmetric matrix made of stages has full rank at one of some random states on the constraints; where it has
-    no value, it is taken to."""
+    """Return True if a symmetric matrix made of stages has full rank, or no value, at random states on the constraints."""
     bound = (*system.constraints, *jacobian(system.constraints, system.c.q))
     program = _program((*system.c.q, *system.speeds, t), stages, [*matrix, *bound])
     letters = (*system.c.q, *system.speeds, t, *(p for p in program.parameters if not isinstance(p, Jet)))
@@ -408,20 +394,19 @@ def _regular(system: Equations, stages: Sequence[Stage], matrix: sp.Matrix) -> b
 def under_constraints(
     stages: list[Stage], solved: sp.Matrix, G: sp.Matrix, gamma: sp.Matrix, friction: bool = False
 ) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
-    """From M⁻¹ (Q − h) and, column by column, W = M⁻¹ (Gᵀ + ∂Q/∂λ) to the accelerations under the constraints, and the
-    multipliers."""
+    """Return stages, accelerations and multipliers under the constraints; `solved` is M⁻¹ (Q − h, Gᵀ + ∂Q/∂λ)."""
     free, W = solved[:, :1], solved[:, 1:]
     if not G.rows:
         return stages, list(free), []
-    S, off = G * W, -(G * free + gamma)
+    S, right_side = G * W, -(G * free + gamma)
     if friction and G.rows > 1:  # S is not symmetric
-        S, off = S.T * S, S.T * off
-    right, lam = constraint_solve(S, off, "_s")
-    return [*stages, *right], list(free + W * lam), list(lam)
+        S, right_side = S.T * S, S.T * right_side
+    solve_stages, lam = constraint_solve(S, right_side, "_s")
+    return [*stages, *solve_stages], list(free + W * lam), list(lam)
 
 
 def constraint_solve(S: sp.Matrix, right: sp.Matrix, prefix: str) -> tuple[list[Stage], sp.Matrix]:
-    """Stages that solve S x = right for the Schur complement S."""
+    """Return stages that solve S x = right for the Schur complement S, and x."""
     try:
         return solve_symmetric(S, right, prefix)
     except SingularError:
@@ -430,48 +415,43 @@ def constraint_solve(S: sp.Matrix, right: sp.Matrix, prefix: str) -> tuple[list[
 
 @lru_cache(maxsize=64)
 def projection_program(system: Equations) -> Generated:
-    """One Newton step of the state onto the constraints, along M⁻¹ Gᵀ: q − M⁻¹ Gᵀ S⁻¹ g, v − M⁻¹ Gᵀ S⁻¹ (G v + b).
-
-    Rolling constraints bind velocities alone. With velocities of one's own, along Gᵀ: M = 1.
-    """
+    """Generate one Newton step onto the constraints, along M⁻¹ Gᵀ: q − M⁻¹ Gᵀ S⁻¹ g, v − M⁻¹ Gᵀ S⁻¹ (G v + b). Rolling
+    constraints bind velocities alone. For quasi-velocities the step is along Gᵀ: M = 1."""
     G, n, h = system.rows, len(system.c.q), len(system.constraints)
     if system.kinematics is None:
         added, _, M = inertia(system)
         stages, W = solve_symmetric(M, G.T, "_m")
-        stages, across, V = [*equations_of_speeds(system)[0], *added, *stages], G, W
+        stages, rows, V = [*equations_of_speeds(system)[0], *added, *stages], G, W
     else:
-        across, _ = rows_left(system)
-        stages, W, V = velocity_stages(system), G.T, across.T
+        rows, _ = rows_left(system)
+        stages, W, V = velocity_stages(system), G.T, rows.T
     moves, speeds = sp.zeros(n, 1), sp.zeros(len(system.speeds), 1)
     if h:
-        more, x = constraint_solve(G[:h, :] * W[:, :h], sp.Matrix(system.constraints), "_h")
-        stages, moves = [*stages, *more], W[:, :h] * x
-    if across.rows:
-        more, x = constraint_solve(across * V, system.residual.extract(list(system.left), [0]), "_s")
-        stages, speeds = [*stages, *more], V * x
+        solve_stages, x = constraint_solve(G[:h, :] * W[:, :h], sp.Matrix(system.constraints), "_h")
+        stages, moves = [*stages, *solve_stages], W[:, :h] * x
+    if rows.rows:
+        solve_stages, x = constraint_solve(rows * V, system.residual.extract(list(system.left), [0]), "_s")
+        stages, speeds = [*stages, *solve_stages], V * x
     state = sp.Matrix([*system.c.q, *system.speeds]) - moves.col_join(speeds)
     states = state_symbols(system)
     return _program(states, stages, [*state, *states[len(state) :]])
 
 
-def tangent_motion(given: Generated) -> Generated:
-    """The motion with its linearisation, (y, δ; parameters) → (f, (∂f/∂y) δ)."""
-    d, arguments = len(given.states), given.program.arguments
+def tangent_motion(motion: Generated) -> Generated:
+    """Return the motion with its linearisation, (y, δ; parameters) → (f, (∂f/∂y) δ)."""
+    d, arguments = len(motion.states), motion.program.arguments
     names = [sp.Symbol(f"d{i}_", real=True) for i in range(d)]
     slopes = {y: [name] for y, name in zip(arguments, names, strict=False)}
-    both = tangent_program(given.program, slopes, (*arguments[:d], *names, *arguments[d:]))
-    known = {s: p for s, p in zip(arguments[d:], given.parameters, strict=True) if isinstance(p, Jet)}
-    stages, outputs, functions = _with_calls(both.stages, both.outputs, known)
-    more = list(functions)[len(known) :]
-    both = replace(both, arguments=(*both.arguments, *more), stages=tuple(stages), outputs=tuple(outputs))
-    return Generated(both, (*given.states, *names), (*given.parameters, *(functions[s] for s in more)))
+    both = tangent_program(motion.program, slopes, (*arguments[:d], *names, *arguments[d:]))
+    calls = {s: p for s, p in zip(arguments[d:], motion.parameters, strict=True) if isinstance(p, Jet)}
+    stages, outputs, functions = _with_calls(both.stages, both.outputs, calls)
+    new_functions = list(functions)[len(calls) :]
+    both = replace(both, arguments=(*both.arguments, *new_functions), stages=tuple(stages), outputs=tuple(outputs))
+    return Generated(both, (*motion.states, *names), (*motion.parameters, *(functions[s] for s in new_functions)))
 
 
-def parameter_values(given: Generated, values: Mapping[Any, Any], where: str = "simulate") -> tuple[Any, ...]:
-    """The parameters' values in the program's order, numbers and callables; keys are symbols or their names.
-
-    Raises InputError, on behalf of the function `where`, when one is missing or is not a finite number.
-    """
+def parameter_values(program: Generated, values: Mapping[Any, Any], where: str = "simulate") -> tuple[Any, ...]:
+    """Return the parameters' values in the program's order, numbers and callables; keys are symbols or their names."""
     if not isinstance(values, Mapping):
         raise InputError(f"{where}: values = {values!r} must be {{symbol: number, …}}, a dictionary")
     by_name = {str(key): value for key, value in values.items()}
@@ -479,17 +459,17 @@ def parameter_values(given: Generated, values: Mapping[Any, Any], where: str = "
         names = [str(key) for key in values]
         twice = sorted({name for name in names if names.count(name) > 1})
         raise InputError(f"{where}: {', '.join(twice)} with two values, of the symbol and of its name: give one")
-    if moving := [str(s) for s in given.states if str(s) in by_name]:
+    if moving := [str(s) for s in program.states if str(s) in by_name]:
         raise InputError(
-            f"{where}: values give {', '.join(moving)} a value, which moves: a start is given by q0 and v0, a time by t"
+            f"{where}: values give {', '.join(moving)} a value, which varies in time: give a start as q0 and v0, a time as t"
         )
-    if missing := [name for name in given.letters if name not in by_name]:
-        misspelt = near(missing[0], by_name.keys() - {str(p) for p in given.parameters})
+    if missing := [name for name in program.letters if name not in by_name]:
+        misspelt = near(missing[0], by_name.keys() - {str(p) for p in program.parameters})
         raise InputError(
             f"{where}: {', '.join(missing)} without a value: values = {{symbol: number, …}} names each{misspelt}"
         )
     numbers: list[Any] = []
-    for name in given.letters:
+    for name in program.letters:
         try:
             if isinstance(by_name[name], str | bool):
                 raise TypeError
@@ -498,7 +478,7 @@ def parameter_values(given: Generated, values: Mapping[Any, Any], where: str = "
             raise InputError(f"{where}: {name} = {by_name[name]!r} must be a number") from None
         if not abs(numbers[-1]) < float("inf"):
             raise InputError(f"{where}: {name} = {numbers[-1]} must be finite")
-    for jet in given.parameters[len(numbers) :]:
+    for jet in program.parameters[len(numbers) :]:
         assert isinstance(jet, Jet)
         value = by_name.get(jet.name)
         if not isinstance(value, FunctionValue):

@@ -1,4 +1,4 @@
-"""How the rates of small motion move as one letter or two are changed: root loci, and where a motion becomes unstable."""
+"""Rates of small motion as one or two parameters change: root loci, and boundaries of stability."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -20,15 +20,35 @@ from lagrotor.numerics.arrays import increasing_array
 if TYPE_CHECKING:
     from lagrotor.drawing.run_figure import RunFigure
 
-_GROWS = 1e-6  # of the largest rate: a real part that is above rounding, of double roots too
+_GROWS = 1e-6  # real part over the largest rate: above the rounding of double roots
 _HALVINGS = 40  # halvings of the interval between two numbers
 
 
 @dataclass(frozen=True, eq=False)
 class RootLocus:
-    """rates (m, n), 1/s, at the numbers (m,) of a letter; boundaries: its values at which the motion becomes stable or unstable,
-    each alone between two of the numbers that were given, among which they are put. There the largest real part is a millionth of
-    the largest rate: rates that coincide are not known better than to the root of rounding."""
+    """The rates of small motion as functions of one parameter.
+
+    Attributes
+    ----------
+    letter : Symbol
+        The parameter.
+    numbers : Array
+        Its values, with the boundaries among them, shape (m,).
+    rates : NDArray[complex128]
+        In 1/s, each continued from one value to the next, shape (m, n).
+    boundaries : tuple of float
+        Values between which the motion becomes stable or unstable, at most one between two given numbers. There the largest
+        real part is a millionth of the largest rate: equal rates are known only to the root of rounding.
+
+    Examples
+    --------
+    >>> from sympy import Symbol
+    >>> from lagrotor.mechanics import System, coordinates
+    >>> c, k = coordinates("x"), Symbol("k")
+    >>> locus = System(c, (c.v[0]**2 - k * c.q[0]**2) / 2).root_locus({c.q[0]: 0}, {}, k, [-1, 0.5])
+    >>> [round(abs(x), 6) for x in locus.boundaries]
+    [0.0]
+    """
 
     letter: sp.Symbol
     numbers: Array
@@ -37,11 +57,17 @@ class RootLocus:
 
     @property
     def growth(self) -> Array:
-        """The largest real part, (m,), 1/s."""
+        """The largest real part in 1/s, shape (m,)."""
         return np.asarray(self.rates.real.max(1))
 
     def plot(self) -> "RunFigure":
-        """Real and imaginary parts over the letter, the boundaries as lines."""
+        """Draw real and imaginary parts over the parameter, with the boundaries as lines.
+
+        Returns
+        -------
+        RunFigure
+            A figure that a notebook shows.
+        """
         from lagrotor.drawing.run_figure import rates_figure
 
         return rates_figure(f"${latex(self.letter)}$", self.numbers, self.rates, self.boundaries)
@@ -50,12 +76,11 @@ class RootLocus:
 def root_locus(
     system: Equations, at: Mapping[Any, Any], values: Values, letter: sp.Symbol | str, numbers: ArrayLike
 ) -> RootLocus:
-    """`System.root_locus`."""
     grid, name = increasing_array("root_locus: numbers", numbers), str(letter)
     rates_at = _rates("root_locus", system, at, values, [name])
-    known = [rates_at(x) for x in grid.tolist()]
-    boundaries = _boundaries(rates_at, grid, known, _HALVINGS)
-    pairs = [*zip(grid.tolist(), known, strict=True), *((x, rates_at(x)) for x in boundaries)]
+    rates_on_grid = [rates_at(x) for x in grid.tolist()]
+    boundaries = _boundaries(rates_at, grid, rates_on_grid, _HALVINGS)
+    pairs = [*zip(grid.tolist(), rates_on_grid, strict=True), *((x, rates_at(x)) for x in boundaries)]
     pairs.sort(key=lambda pair: pair[0])
     places, rates = np.array([x for x, _ in pairs]), [r for _, r in pairs]
     return RootLocus(sp.Symbol(name, real=True), places, _followed(rates), tuple(boundaries))
@@ -63,8 +88,19 @@ def root_locus(
 
 @dataclass(frozen=True, eq=False)
 class StabilityChart:
-    """growth (n, m), 1/s: the largest real part of the rates at the numbers (m,) and (n,) of two letters; boundaries (k, 2):
-    values of both at which the motion becomes stable or unstable, on each line of the second letter as in `RootLocus`."""
+    """The largest growth of small motion over two parameters.
+
+    Attributes
+    ----------
+    letters : tuple of Symbol
+        The two parameters.
+    numbers : tuple of Array
+        Their values, shape (m,) and (n,).
+    growth : Array
+        The largest real part of the rates in 1/s, shape (n, m).
+    boundaries : Array
+        Values of both parameters at which the motion becomes stable or unstable, shape (k, 2).
+    """
 
     letters: tuple[sp.Symbol, sp.Symbol]
     numbers: tuple[Array, Array]
@@ -72,7 +108,13 @@ class StabilityChart:
     boundaries: Array
 
     def plot(self) -> "RunFigure":
-        """Where it grows, shaded by how fast, with the boundaries."""
+        """Draw the growth as shades, with the boundaries.
+
+        Returns
+        -------
+        RunFigure
+            A figure that a notebook shows.
+        """
         from lagrotor.drawing.run_figure import chart_figure
 
         names = (f"${latex(self.letters[0])}$", f"${latex(self.letters[1])}$")
@@ -82,17 +124,16 @@ class StabilityChart:
 def stability_chart(
     system: Equations, at: Mapping[Any, Any], values: Values, numbers: Mapping[Any, ArrayLike], period: Any = None
 ) -> StabilityChart:
-    """`System.stability_chart`."""
     if not isinstance(numbers, Mapping) or len({*map(str, numbers)}) != 2:
-        raise InputError(f"stability_chart: numbers = {numbers!r} must be {{letter: numbers, other: numbers}}")
+        raise InputError(f"stability_chart: numbers = {numbers!r} must be {{symbol: numbers, symbol: numbers}}")
     names = [str(letter) for letter in numbers]
-    first, second = (increasing_array(f"stability_chart: {name}", each) for name, each in numbers.items())
+    first, second = (increasing_array(f"stability_chart: {name}", places) for name, places in numbers.items())
     rates_at = _rates("stability_chart", system, at, values, names, period)
     rows, edges = list[list[float]](), list[tuple[float, float]]()
     for y in second.tolist():
-        known = [rates_at(x, y) for x in first.tolist()]
-        rows.append([float(rates.real.max()) for rates in known])
-        edges += [(x, y) for x in _boundaries(lambda x, y=y: rates_at(x, y), first, known, _HALVINGS // 2)]  # type: ignore[misc]
+        rates_on_line = [rates_at(x, y) for x in first.tolist()]
+        rows.append([float(rates.real.max()) for rates in rates_on_line])
+        edges += [(x, y) for x in _boundaries(lambda x, y=y: rates_at(x, y), first, rates_on_line, _HALVINGS // 2)]  # type: ignore[misc]
     letters = (sp.Symbol(names[0], real=True), sp.Symbol(names[1], real=True))
     return StabilityChart(letters, (first, second), np.array(rows), np.array(edges).reshape(-1, 2))
 
@@ -100,7 +141,8 @@ def stability_chart(
 def _rates(
     where: str, system: Equations, at: Mapping[Any, Any], values: Values, names: Sequence[str], period: Any = None
 ) -> Callable[..., NDArray[np.complex128]]:
-    """(number of each letter, …) → the rates there; those of multipliers where a period is given, ln(μ)/T."""
+    """Return a function of one number for each parameter with the rates there; with a period T, ln(μ)/T of the multipliers
+    μ."""
     if not isinstance(values, Mapping) or {*names} & {*map(str, values)}:
         raise InputError(
             f"{where}: values = {values!r} must be a dictionary without {', '.join(names)}, which takes the numbers"
@@ -112,31 +154,30 @@ def _rates(
     of_period = {str(s) for s in turn.free_symbols} if turn is not None else set()
     period_values = {s: x for s, x in values.items() if str(s) in of_period}
     letters = system.letters.union(*(e.free_symbols for e in system.acting))
-    own = {*names} & {*map(str, letters)}  # the others are letters of the motion alone
+    of_system = {*names} & {*map(str, letters)}  # the others occur in `at` or the period alone
     if (
         strangers := {*names}
-        - own
+        - of_system
         - {str(s) for e in (*places.values(), sp.sympify(turn or 0, strict=True)) for s in e.free_symbols}
     ):
         raise InputError(
-            f"{where}: {min(strangers)} is no letter of the system, nor of the motion: nothing changes with it"
+            f"{where}: {min(strangers)} is no symbol of the system, nor of the motion: nothing changes with it"
         )
 
     def rates(*numbers: float) -> NDArray[np.complex128]:
-        known = dict(zip(names, numbers, strict=True))
+        by_name = dict(zip(names, numbers, strict=True))
 
         def put(e: sp.Expr) -> sp.Expr:
-            return put_in(e, {u: known[str(u)] for u in e.free_symbols if str(u) in known})
+            return put_in(e, {u: by_name[str(u)] for u in e.free_symbols if str(u) in by_name})
 
         point = {s: put(e) for s, e in places.items()}
-        mine = {**values, **{name: x for name, x in known.items() if name in own}}
+        mine = {**values, **{name: x for name, x in by_name.items() if name in of_system}}
         if turn is None:
             return state_space(system, point, mine, where=where).rates
         T = put_in(put(turn), by_symbol(f"{where}: values", period_values, turn.free_symbols))
-        turned = monodromy_matrix(system, point, mine, T)
-        roots = np.where(
-            np.isnan(turned.multipliers), turned.errors, turned.multipliers
-        )  # of NaN the bound of its size
+        monodromy = monodromy_matrix(system, point, mine, T)
+        # For a multiplier below its error, the bound of its size.
+        roots = np.where(np.isnan(monodromy.multipliers), monodromy.errors, monodromy.multipliers)
         return np.asarray(np.log(roots + (roots == 0)) / float(T))
 
     return rates
@@ -145,28 +186,28 @@ def _rates(
 def _boundaries(
     rates_at: Callable[[float], NDArray[np.complex128]],
     grid: Array,
-    known: Sequence[NDArray[np.complex128]],
+    rates_on_grid: Sequence[NDArray[np.complex128]],
     halvings: int,
 ) -> list[float]:
-    """Where the motion becomes stable or unstable between two numbers."""
+    """Find by bisection the numbers at which the motion becomes stable or unstable."""
 
     def grows(rates: NDArray[np.complex128]) -> bool:
         return bool(rates.real.max() > _GROWS * np.abs(rates).max())
 
     boundaries = list[float]()
-    for low, high, *ends in zip(grid.tolist(), grid[1:].tolist(), known, known[1:], strict=False):
-        before, after = map(grows, ends)
-        if before == after:
+    for low, high, *ends in zip(grid.tolist(), grid[1:].tolist(), rates_on_grid, rates_on_grid[1:], strict=False):
+        grows_below, grows_above = map(grows, ends)
+        if grows_below == grows_above:
             continue
         for _ in range(halvings):
             middle = (low + high) / 2
-            low, high = (middle, high) if grows(rates_at(middle)) == before else (low, middle)
+            low, high = (middle, high) if grows(rates_at(middle)) == grows_below else (low, middle)
         boundaries.append((low + high) / 2)
     return boundaries
 
 
 def _followed(rates: Sequence[NDArray[np.complex128]]) -> NDArray[np.complex128]:
-    """The rates in an order in which each is nearest to the one before it."""
+    """Order the rates at each number so that they continue those before."""
     from scipy.optimize import linear_sum_assignment
 
     rows = [rates[0]]

@@ -1,4 +1,4 @@
-"""Pictures of any run: its coordinates and energy over time, and a film of its bodies."""
+"""Pictures of a run: its coordinates and energy over time, and films and views of its bodies."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -15,38 +15,33 @@ from lagrotor.mechanics.expressions import vector_of
 from lagrotor.mechanics.glossary import latex, letter_latex
 from lagrotor.mechanics.running.flow import Array
 from lagrotor.mechanics.running.motion import SampledMotion
+from lagrotor.numerics.run import check_nonempty
 
 if TYPE_CHECKING:
     from lagrotor.drawing.run_figure import RunFigure
     from lagrotor.drawing.view import View
 
 Point = Sequence[sp.Expr]
-_WIDE = 18  # letters of a name beside a panel in one line
+_WIDE = 18  # characters of a name beside a panel in one line
 _NOTHING = (
     "{}: the Lagrangian was given without bodies, so there is nothing to draw: give lines=[[(0, 0, 0), (x, y, z)], …] with "
     "positions in the coordinates, or build L from Frame(c).body(…)"
 )
 
 
-def plot(run: SampledMotion, *what: Any) -> "RunFigure":
-    """A figure of what is named, over time: coordinates, velocities and those of one's own, "E" the energy, reactions by the
-    names of their constraints, or expressions as `evaluate` takes them, a long one by its name, Eq(F, expression). Without any:
-    the coordinates, the change of the energy and, under constraints, their violation.
-
-    Raises InputError for what is none of these.
-    """
+def plot(run: SampledMotion, *quantities: Any) -> "RunFigure":
     from lagrotor.drawing.run_figure import coordinates_figure, curves_figure
 
-    run.check_times("plot")
-    if not what:
+    check_nonempty("plot", run.t)
+    if not quantities:
         labels = {f"${letter_latex(q)}$": run.q[:, i] for i, q in enumerate(run.system.c.q)}
         return coordinates_figure(run.t, labels, run.energy, run.drift)
-    curves = (_curve(run, each) for each in what)
-    return curves_figure(run.t, {label.replace(r"\&", "&"): values for label, values in curves})  # as matplotlib has it
+    curves = (_curve(run, quantity) for quantity in quantities)
+    return curves_figure(run.t, {label.replace(r"\&", "&"): values for label, values in curves})  # matplotlib's escape
 
 
 def _curve(run: SampledMotion, what: Any) -> tuple[str, Array]:
-    """The label and the values of a curve."""
+    """Return the label and the values of a quantity."""
     c, name = run.system.c, str(what)
     letters = (*c.q, *c.v, *run.system.speeds)
     moving = dict(zip(map(str, letters), (*run.q.T, *run.v.T, *run.u.T), strict=True))
@@ -58,9 +53,9 @@ def _curve(run: SampledMotion, what: Any) -> tuple[str, Array]:
     if isinstance(what, str) and name in run.system.names:
         return fill(name, _WIDE).replace("$", r"\$"), run.reactions[name]
     if isinstance(what, str):
-        known = [*moving, "E", *run.system.names]
+        names = [*moving, "E", *run.system.names]
         raise InputError(
-            f"plot: {name!r} is none of {', '.join(known)}{near(name, known)}: name one, or give an expression"
+            f"plot: {name!r} is none of {', '.join(names)}{near(name, names)}: name one, or give an expression"
         )
     if isinstance(what, sp.Equality):
         return f"${latex(what.lhs)}$", run.evaluate(what.rhs)
@@ -70,15 +65,11 @@ def _curve(run: SampledMotion, what: Any) -> tuple[str, Array]:
 
 
 def view(run: SampledMotion, lines: Sequence[Sequence[Point]] = ()) -> "View":
-    """The motion in three dimensions that turn, of its bodies with their frames, and of `lines` as `animate` takes
-    them: a notebook shows it, and `.save("motion.html")` writes it.
-
-    Raises InputError as `animate` does.
-    """
+    """Return a view of the bodies with their frames and of the lines."""
     from lagrotor.drawing.view import view_lines, view_times
     from lagrotor.drawing.wheel import ROTORS
 
-    run.check_times("view")
+    check_nonempty("view", run.t)
     frames = run.at(view_times(run.t[0], run.t[-1]))
     drawn = _drawn("view", frames, lines)
     outlines = [(ROTORS[i % len(ROTORS)], _outline(frames, body)) for i, body in enumerate(run.system.bodies)]
@@ -86,20 +77,17 @@ def view(run: SampledMotion, lines: Sequence[Sequence[Point]] = ()) -> "View":
     moving = [*(line for _, carried in outlines for line in carried), *drawn]
     if not moving:
         raise InputError(_NOTHING.format("view"))
-    # Of a body the first line leaves a path, from the frame to the centre: paths of its rim would hide it.
+    # Only the first line of a body, from the frame to the centre, traces its path: paths of the rim would hide it.
     firsts = np.cumsum([0, *(len(carried) for _, carried in outlines)])[:-1].tolist()
     traced = [*firsts, *range(len(moving) - len(drawn), len(moving))]
     return view_lines(frames.t, moving, inks, f"motion of {', '.join(map(str, run.system.c.q))}", traced)
 
 
 def animate(run: SampledMotion, path: str | Path, fps: float = 25.0, lines: Sequence[Sequence[Point]] = ()) -> Path:
-    """Write the run as a film (.gif) of its bodies, or of `lines`: each a sequence of points (x, y, z) in q and t.
-
-    Raises InputError when the system has no bodies and no lines are given, or for a name or rate that will not do.
-    """
+    """Write a film of the lines, or of the bodies where there are none."""
     from lagrotor.drawing.film import animate_lines, check_film, frame_times
 
-    run.check_times("animate")
+    check_nonempty("animate", run.t)
     check_film(path, float(run.t[-1] - run.t[0]), fps)
     frames = run.at(frame_times(run.t[0], run.t[-1], fps))
     drawn = _drawn("animate", frames, lines) or [line for body in run.system.bodies for line in _outline(frames, body)]
@@ -109,18 +97,18 @@ def animate(run: SampledMotion, path: str | Path, fps: float = 25.0, lines: Sequ
 
 
 def _drawn(where: str, frames: SampledMotion, lines: Sequence[Sequence[Point]]) -> list[Array]:
-    """The lines along the run, each (m, p, 3)."""
-    for given in (*([lines] if lines else ()), *lines):
-        if not isinstance(given, Sequence) or not given:
+    """Evaluate the lines along the run, shape (m, p, 3) each."""
+    for item in (*([lines] if lines else ()), *lines):
+        if not isinstance(item, Sequence) or not item:
             raise InputError(
-                f"{where}: {given!r} in lines is no line: lines=[[(0, 0, 0), (x, y, z)], …], each of points (x, y, z)"
+                f"{where}: {item!r} in lines is no line: lines=[[(0, 0, 0), (x, y, z)], …], each of points (x, y, z)"
             )
     points = [[vector_of(f"{where}: a point of lines", e, 3) for e in line] for line in lines]
     return [np.stack([_vectors(frames, point) for point in line], 1) for line in points]
 
 
 def _outline(frames: SampledMotion, body: Body) -> list[Array]:
-    """The body's lines carried along, each (m, p, 3)."""
+    """Evaluate the lines of a body along the run, shape (m, p, 3) each."""
     origin = _vectors(frames, body.frame.place())
     axes = [_vectors(frames, body.frame.place(e) - body.frame.place()) for e in np.eye(3, dtype=int).tolist()]
     lines = [np.stack([_vectors(frames, point)[0] for point in line]) for line in body.outline]
@@ -128,5 +116,5 @@ def _outline(frames: SampledMotion, body: Body) -> list[Array]:
 
 
 def _vectors(frames: SampledMotion, point: Point) -> Array:
-    """A point (x, y, z) of expressions along the run, (m, 3)."""
+    """Evaluate a point (x, y, z) of expressions along the run, shape (m, 3)."""
     return np.stack([frames.evaluate(e) for e in point], -1)

@@ -1,7 +1,7 @@
-"""The scales of a motion and its conserved quantities, by which errors of a run are judged in any units.
+"""The scales of a motion and its conserved quantities, by which errors of a run are measured in any units.
 
-Jacobi's integral and the momenta of cyclic coordinates are watched while a motion is run. A run that does not keep them within
-its error estimate is not the system's motion. Constraints are kept by projection.
+Jacobi's integral and the momenta of cyclic coordinates are checked while a motion is run. A run that does not conserve them
+within its error estimate is refused. Projection keeps the constraints.
 """
 
 from collections.abc import Callable
@@ -34,25 +34,23 @@ from lagrotor.numerics.segment import Integrate, Segment, StopError, Stretch
 from lagrotor.numerics.solvers import dop853, lsoda
 
 _COARSE, _EVALUATIONS = 1e-3, 4_000  # local error and budget of the survey of a motion
-_PEAK = 100.0  # times what a component mostly is, beyond which it does not count for its size
-_AT_REST = 1e-10  # of the largest value of a component: one that is mostly smaller was at rest
-_PER_TURN = 50  # evaluations that the survey takes for a turn
-_STIFF = 30.0  # rate at which neighbours are drawn together, times the duration
-_LOST = 1e-12  # of the largest velocity, below which another has no digit in the energy
-_ROUNDING = 1e-14  # of the largest place: under constraints a smaller one is rounding of the others
-_OVERFLOWS = 1e75  # of a number whose fourth power is in the energy
-_QUIET = 1e-3  # of the velocity that all of the kinetic energy gives a coordinate: what moves less is at rest
+_PEAK = 100.0  # a component over its median, beyond which it does not count for its size
+_AT_REST = 1e-10  # median over the largest value of a component, below which it was at rest
+_PER_TURN = 50  # evaluations of the survey per turn
+_STIFF = 30.0  # rate at which neighbouring motions approach each other, times the duration
+_LOST = 1e-12  # velocity over the largest, below which it does not change the energy in a double
+_ROUNDING = 1e-14  # position over the largest, below which it is rounding of the others under constraints
+_OVERFLOWS = 1e75  # a number whose fourth power overflows
+_QUIET = 1e-3  # least velocity over the velocity that all kinetic energy would give a coordinate
 _WRITTEN = 600  # operations of a Lagrangian up to which its cyclic coordinates are sought
 _STEP = 1e-5  # of a size, by which a component is varied for the slope of an integral
 
 
 @dataclass(frozen=True, eq=False)
 class Scales:
-    """turn: the time (s) in which the motion typically turns. sizes (N + m,): the largest value of each coordinate and velocity,
-    not less than what a thousandth of the kinetic velocity makes it. evaluations: what it took to find them. stiff: whether
-    neighbouring motions are drawn together so fast that a run may be by a stiff method. windows: where something acts briefly by
-    the clock. survey (m, d): the states that they are made of.
-    """
+    """The typical period `turn` in s and the size of each coordinate and velocity, shape (N + m,), of a motion. A size is the
+    largest value, at least the value that a thousandth of the kinetic velocity gives. In a stiff motion neighbouring motions
+    approach each other so fast that a stiff method may be used. `survey` (m, d) are the states that were measured."""
 
     turn: float
     sizes: Array
@@ -61,27 +59,24 @@ class Scales:
     windows: tuple[Window, ...] = ()
     survey: Array = field(default_factory=lambda: np.empty((0, 0)))
 
-    def distance(self, one: Array, other: Array) -> Array:
-        """How far apart two runs (n, d) are, (n,): the largest difference of a component over its size."""
+    def distance(self, first: Array, second: Array) -> Array:
+        """Return the largest difference of a component over its size between two runs (n, d) at each time, shape (n,)."""
         size = len(self.sizes)
-        sizes = np.maximum(self.sizes, np.abs(other[:, :size]))
-        return np.asarray(np.minimum((np.abs(one[:, :size] - other[:, :size]) / sizes).max(1), 2.0))
+        sizes = np.maximum(self.sizes, np.abs(second[:, :size]))
+        return np.asarray(np.minimum((np.abs(first[:, :size] - second[:, :size]) / sizes).max(1), 2.0))
 
 
 def clock_windows(system: Equations, values: Values, times: Array) -> tuple[Window, ...]:
-    """Where something that is made of the time alone changes faster than it mostly does.
-
-    Raises InputError where a function refuses a time of the run.
-    """
+    """Find the windows in which terms of the time alone change faster than in most of the run."""
     program = clock_program(system)
     if program is None:
         return ()
-    along = program.along(values)
+    outputs = program.along(values)
     try:
-        return brief_windows(lambda looks: along(looks[:, None], looks), float(times[0]), float(times[-1]))
+        return brief_windows(lambda looks: outputs(looks[:, None], looks), float(times[0]), float(times[-1]))
     except (ArithmeticError, ValueError) as refusal:
         raise InputError(
-            f"simulate: a function of time refuses a time between t = {times[0]:g} and {times[-1]:g} s ({refusal}): end the run "
+            f"simulate: a function of time fails at a time between t = {times[0]:g} and {times[-1]:g} s ({refusal}): end the run "
             "before, or return a number"
         ) from None
 
@@ -95,11 +90,8 @@ def motion_scales(
     windows: tuple[Window, ...] = (),
     followed: tuple[NarrowPart, ...] = (),
 ) -> Scales:
-    """The scales of a motion from a coarse integration over the times, or over what a small budget reaches of them.
-
-    motion: where it is not smooth. windows: where something acts briefly by the clock. followed: what is integrated with the
-    motion.
-    """
+    """Measure the scales of a motion by a coarse integration over the times, or over the part that a small budget reaches.
+    `motion` is the integration of a motion that is not smooth, `followed` the narrow terms integrated with it."""
     span = float(times[-1] - times[0])
     if span == 0:
         return Scales(1.0, _sizes(system, values, start[None], 1.0), 0, survey=start[None])
@@ -107,14 +99,14 @@ def motion_scales(
     size = len(system.c.q) + len(system.speeds)
     guess = size + 2 if smooth else 0  # evaluations of `first_sizes`
     if motion is None:
-        motion = _coarsely(system, values, start, span, windows, followed)
+        motion = _coarse_motion(system, values, start, span, windows, followed)
     try:
         stretch, reached = motion(start, grid, _COARSE, False, _EVALUATIONS), span
     except StopError as stop:
         stretch = stop.reached or Stretch(start[None], start, 1)
-        # Of a motion that stops at once little is known; one whose budget is spent was followed for as long as that.
+        # A motion that stops at once has an unknown scale; one whose budget is spent was followed up to there.
         reached = max(stop.at - float(times[0]), 0.0 if stop.cause == "budget" else 1e-3 * span)
-        if stop.cause != "budget":  # it may go to infinity, and be as large as its last steps make it
+        if stop.cause != "budget":  # a motion to infinity is as large as its last steps make it
             stretch = replace(stretch, states=stretch.states[: len(stretch.states) * 9 // 10], end=start)
     states, evaluations, stiff = _finite(start, stretch), guess + stretch.evaluations, False
     if smooth and (system.forces or system.dissipation != 0):
@@ -123,26 +115,21 @@ def motion_scales(
         n, some = len(system.c.q), states[:: max(1, len(states) // 8)]
         stiff = min(_rates(bare, state, n, size).real.min() for state in some) * span < -_STIFF
         evaluations += len(some) * (size + 1)
-    if stiff and reached < span:  # DOP853's steps are set by what dies out, not by the motion
+    if stiff and reached < span:  # the decaying modes, not the motion, determine DOP853's steps
         try:
-            motion = _coarsely(system, values, start, span, windows, followed, lsoda)
+            motion = _coarse_motion(system, values, start, span, windows, followed, lsoda)
             stretch = motion(start, grid, _COARSE, False, _EVALUATIONS)
             states, evaluations, reached = _finite(states, stretch), evaluations + guess + stretch.evaluations, span
         except StopError as stop:
             evaluations += guess + stop.evaluations
     turn = min(reached * _PER_TURN / max(stretch.evaluations, 1), span)
-    kept = (
-        states if windows else _but_for_peaks(states)
-    )  # what acts briefly leaves a motion that is far larger than before it
-    return Scales(turn, _sizes(system, values, kept, turn), evaluations, bool(stiff), windows, states)
+    usual = states if windows else _without_peaks(states)  # after a pulse a motion may be far larger than before
+    return Scales(turn, _sizes(system, values, usual, turn), evaluations, bool(stiff), windows, states)
 
 
-def _but_for_peaks(states: Array) -> Array:
-    """The states (m, d) of which no component is far larger than it mostly is.
-
-    On its way to infinity a motion is as large at its end as no step before may be wrong by. What was at rest before has no such
-    size.
-    """
+def _without_peaks(states: Array) -> Array:
+    """Remove states in which a component is far above its median. A motion to infinity has large values at its end, by which
+    earlier errors must not be measured. A component that was at rest has no such bound."""
     mostly, largest = np.median(np.abs(states), 0), np.abs(states).max(0)
     return np.asarray(states[(np.abs(states) <= np.where(mostly > _AT_REST * largest, _PEAK * mostly, np.inf)).all(1)])
 
@@ -152,7 +139,7 @@ def _finite(start: Array, stretch: Stretch) -> Array:
     return np.asarray(states[np.isfinite(states).all(1)])
 
 
-def _coarsely(
+def _coarse_motion(
     system: Equations,
     values: Values,
     start: Array,
@@ -163,14 +150,14 @@ def _coarsely(
 ) -> Integrate:
     program, n, m = motion_program(system), len(system.c.q), len(system.speeds)
     sizes = first_sizes(program.rhs(*parameter_values(program, values)), start, span, n, m)
-    by_one = lambda part, _, tol: solver(part, tol)  # noqa: E731
+    by_one = lambda segment, _, tol: solver(segment, tol)  # noqa: E731
     return smooth_motion(system, values, "core", sizes, span, start, windows, followed, solver=by_one)
 
 
 def first_sizes(bare: Rhs, start: Array, span: float, n: int, m: int) -> Array:
-    """A first guess of the sizes, from the state, its derivative and the fastest rate of the linear motion about it."""
-    known = np.nan_to_num(np.asarray(bare(0.0, start), float)[: n + m], posinf=0.0, neginf=0.0)
-    q, u, v, a = start[:n], start[n : n + m], known[:n], known[n:]
+    """Guess the sizes from the state, its derivative and the fastest rate of the linear motion about it."""
+    rates = np.nan_to_num(np.asarray(bare(0.0, start), float)[: n + m], posinf=0.0, neginf=0.0)
+    q, u, v, a = start[:n], start[n : n + m], rates[:n], rates[n:]
     rate = max(float(np.abs(_rates(bare, start, n, n + m)).max()), 1 / span)
     places, speeds = np.maximum(np.abs(q), np.abs(v) / rate), np.maximum(np.abs(u), np.abs(a) / rate)
     if m == n:
@@ -179,18 +166,18 @@ def first_sizes(bare: Rhs, start: Array, span: float, n: int, m: int) -> Array:
 
 
 def _rates(bare: Rhs, state: Array, n: int, size: int) -> NDArray[np.complex128]:
-    """The eigenvalues of the linear motion about a state, 1/s; zero where it is not finite."""
-    known, slope = np.asarray(bare(0.0, state), float)[:size], np.zeros((size, size))
+    """Return the eigenvalues of the linear motion about a state in 1/s; zero where it is not finite."""
+    value, slope = np.asarray(bare(0.0, state), float)[:size], np.zeros((size, size))
     for j in range(size):
         step = 1e-6 * (np.abs(state[:n] if j < n else state[n:size]).max() or 1.0)
-        moved = state.copy()
-        moved[j] += step
-        slope[:, j] = (np.asarray(bare(0.0, moved), float)[:size] - known) / step
+        displaced = state.copy()
+        displaced[j] += step
+        slope[:, j] = (np.asarray(bare(0.0, displaced), float)[:size] - value) / step
     return np.asarray(np.linalg.eigvals(slope) if np.isfinite(slope).all() else [0.0], complex)
 
 
 def _sizes(system: Equations, values: Values, states: Array, turn: float) -> Array:
-    """The largest value of each component of states (m, d), with its least."""
+    """Return the size of each component of states (m, d)."""
     n, m, jacobi = len(system.c.q), len(system.speeds), energy_program(system).along(values)
     q, u = states[:, :n], states[:, n : n + m]
     times = states[:, n + m] if states.shape[1] > n + m else np.zeros(len(states))
@@ -207,15 +194,15 @@ def _sizes(system: Equations, values: Values, states: Array, turn: float) -> Arr
     kinetic = float(np.nanmax(np.abs(moving - at_rest), initial=0.0))
     least, top = np.zeros(m), float(largest[n:].max()) or 1.0
     for i, speed in enumerate(np.where(largest[n:] > _LOST * top, largest[n:], top)):
-        along = 0 * u + speed * np.eye(m)[i]
-        mass = np.nanmedian(energy(along) + energy(-along) - 2 * at_rest) / speed**2
+        direction = 0 * u + speed * np.eye(m)[i]
+        mass = np.nanmedian(energy(direction) + energy(-direction) - 2 * at_rest) / speed**2
         least[i] = _QUIET * np.sqrt(2 * kinetic / mass) if mass > 0 else 0.0
     speeds = np.maximum(largest[n:], least)
     if system.kinematics is None:
         places = np.maximum(largest[:n], speeds * turn / (2 * np.pi))
     else:
         alone = [0 * u, u, *(0 * u + speed * e for speed, e in zip(speeds, np.eye(m), strict=True))]
-        still, *v = (velocities_along(system, values, np.hstack([q, each]), times) for each in alone)
+        still, *v = (velocities_along(system, values, np.hstack([q, speeds_alone]), times) for speeds_alone in alone)
         places = np.maximum(largest[:n], np.abs(np.array(v) - still).max((0, 1)) * turn / (2 * np.pi))
     rounding = 0.0
     if system.multipliers:
@@ -227,32 +214,33 @@ def _sizes(system: Equations, values: Values, states: Array, turn: float) -> Arr
 
 
 def _positive(sizes: Array, least: float = 0.0) -> Array:
-    """The sizes, the largest one for those that are not finite or no more than `least` of it."""
+    """Replace sizes that are not finite, or at most `least` of the largest, by the largest."""
     largest = float(np.nanmax(sizes, initial=0.0)) or 1.0
     return np.where(np.isfinite(sizes) & (sizes > least * largest), sizes, largest)
 
 
 @lru_cache(maxsize=64)
 def integrals(system: Equations) -> tuple[Generated, ...]:
-    """The programs of what every motion of the system conserves, as far as that is seen at once."""
-    written = isinstance(system.lagrangian, sp.Expr)
-    kept = []
+    """Return the programs of conserved quantities that follow from the form of the equations."""
+    is_expression = isinstance(system.lagrangian, sp.Expr)
+    programs = []
     if not (depends_on_time(system) or system.forces or system.dissipation != 0):
         at_rest = dict.fromkeys(system.c.v, sp.S.Zero)
         if all(decide_zero(put_in(e, at_rest)).answer == "zero" for e in system.rolling):
-            kept.append(energy_program(system))
-    if written and not longer(system.L, _WRITTEN):
+            programs.append(energy_program(system))
+    if is_expression and not longer(system.L, _WRITTEN):
         for q in cyclic_coordinates(system):
-            kept.append(function_program(system, derivative(system.L, system.c.v[system.c.q.index(q)])))
-    return tuple(kept)
+            programs.append(function_program(system, derivative(system.L, system.c.v[system.c.q.index(q)])))
+    return tuple(programs)
 
 
-def defect_of(system: Equations, values: Values, sizes: Array) -> Callable[[Array, Array], Array] | None:
-    """(times (n,), states (n, d)) → the errors, relative to the sizes, that would explain how far the integrals are off."""
+def conservation_error_of(system: Equations, values: Values, sizes: Array) -> Callable[[Array, Array], Array] | None:
+    """Return a function (times (n,), states (n, d)) → signed relative state errors that would explain the change of the
+    integrals."""
     conserved = [program.along(values) for program in integrals(system)]
     n = len(system.c.q) + len(system.speeds)
 
-    def defect(times: Array, states: Array) -> Array:
+    def conservation_error(times: Array, states: Array) -> Array:
         errors = []
         for integral in conserved:
             y = states[:, :n]
@@ -261,10 +249,10 @@ def defect_of(system: Equations, values: Values, sizes: Array) -> Callable[[Arra
                 with np.errstate(all="ignore"):
                     slope += np.abs(integral(y + step, times) - integral(y - step, times))[0] / (2 * _STEP)
             slope = np.nan_to_num(slope, posinf=0.0)  # where a step leaves the integral's domain
-            known = integral(y, times)[0]
-            rounding = 1e-15 * np.abs(known).max()
-            off = np.sign(known - known[0]) * np.maximum(np.abs(known - known[0]) - rounding, 0.0)
-            errors.append(off / np.maximum(slope, 1e-3 * slope.max() + 1e-300))
+            level = integral(y, times)[0]
+            change, rounding = level - level[0], 1e-15 * np.abs(level).max()
+            change = np.sign(change) * np.maximum(np.abs(change) - rounding, 0.0)
+            errors.append(change / np.maximum(slope, 1e-3 * slope.max() + 1e-300))
         return np.concatenate(errors)
 
-    return defect if conserved else None
+    return conservation_error if conserved else None

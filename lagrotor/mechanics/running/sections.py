@@ -1,27 +1,27 @@
-"""Crossings of sections, and Poincaré sections, on the steps of the run itself, whatever the times at which it was read.
+"""Crossings of sections on the steps of the run, independent of its sample times.
 
 A smooth motion is integrated again from sample to sample, by the solver and the local error of the run, in stages that begin at
-samples. A first pass records the times at which the solver evaluates; a second one reads the states at Chebyshev's nodes of
-panels of _STEPS such times. Between its nodes a panel is a polynomial, resolved to the local error or halved; a section that has
-no zero by the sizes of its coefficients is left at once. So the search costs two integrations, where a run is two or more.
+samples. A first pass records the times of the evaluations; a second one reads the states at Chebyshev's nodes of panels of
+_STEPS such times. A panel is a polynomial, resolved to the local error or halved. The sizes of its coefficients exclude a zero
+of the section in most panels. So the search costs two integrations, where a run is two or more.
 """
 
 import warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from math import inf
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 import sympy as sp
 
 from lagrotor.algebra import derivative
 from lagrotor.errors import InputError, LagrotorWarning
-from lagrotor.mechanics.expressions import expression, vector_of
+from lagrotor.mechanics.expressions import expression
 from lagrotor.mechanics.lagrangian import t
 from lagrotor.mechanics.running.flow import Array
 from lagrotor.mechanics.running.function_values import with_values
-from lagrotor.mechanics.running.motion import SampledMotion, integration_of
+from lagrotor.mechanics.running.motion import Kind, SampledMotion, integration_of, with_states
 from lagrotor.mechanics.running.narrow_features import narrow_parts
 from lagrotor.mechanics.running.phases import Observer, march, polish
 from lagrotor.mechanics.running.programs import function_program
@@ -29,24 +29,21 @@ from lagrotor.numerics.segment import StopError
 from lagrotor.numerics.solver_constants import CROSSOVER
 from lagrotor.numerics.zeros import chebyshev_nodes, interpolant, may_vanish, zeros_between
 
-Kind = TypeVar("Kind", bound=SampledMotion)
-_ONE = 1e-5  # of a step: zeros so near to each other and in the same direction are one
+_ONE = 1e-5  # distance, over the step, below which zeros of the same direction are one
 _LEAST = 1e-13  # of the section's size, below which it is zero
-_TURNS = 8  # of a stage: few, so that neighbouring motions do not part in it; more than the first steps cost
+_TURNS = 8  # turns in a stage: few, so that neighbouring motions stay close, but the first steps of a stage cost little
 _STEPS = 8  # times of evaluations in a panel, which has twice as many intervals between its nodes
 _HALVINGS = 8  # of a panel whose polynomial is not resolved
-_BUDGET = 60_000, 4_800  # evaluations of a stage, to begin and for each turn: three times those that a run may take
-_CLOCK = 1e3  # spacings of doubles at the time, of a shortest panel
-_Step = tuple[float, float, float, Callable[[Array], Array]]  # as an Observer has it
-Values = Callable[[Array, Array], Array]  # of the section: states (m, d) and times (m,) → (1, m)
+_BUDGET = 60_000, 4_800  # evaluations of a stage, in all and per turn: three times those of a run
+_CLOCK = 1e3  # spacings of doubles at the time in the shortest panel
+_Step = tuple[float, float, float, Callable[[Array], Array]]  # the arguments of an Observer
+Values = Callable[[Array, Array], Array]  # states (m, d) and times (m,) → the section (1, m)
 
 
 @dataclass
 class _Search:
-    """The crossings of a section (time, direction, state) from the time `begin` on, of steps in the order of time.
-
-    within: short steps that follow each other, in which the section is within `touch` of zero all along.
-    """
+    """The crossings (time, direction, state) from the time `begin` on, in steps in the order of time. `near_zero` collects
+    consecutive short steps in which the section stays within `touch` of zero."""
 
     value: Values
     begin: float
@@ -54,60 +51,44 @@ class _Search:
     touch: float
     passages: list[tuple[float, int, Array]] = field(default_factory=list)
     hidden: list[tuple[float, float]] = field(default_factory=list)
-    within: list[_Step] = field(default_factory=list)
+    near_zero: list[_Step] = field(default_factory=list)
 
-    def observe(self, begun: float, left: float, right: float, curve: Any) -> None:
-        nodes = chebyshev_nodes(np.array([left, right]))[0]
-        if self.within and begun + left > self.within[-1][0] + self.within[-1][2] + _ONE * (right - left):
+    def observe(self, begun: float, lower: float, upper: float, curve: Any) -> None:
+        nodes = chebyshev_nodes(np.array([lower, upper]))[0]
+        if self.near_zero and begun + lower > self.near_zero[-1][0] + self.near_zero[-1][2] + _ONE * (upper - lower):
             self.leave()
-        if begun + left > self.begin and np.abs(self.value(curve(nodes), begun + nodes)).max() <= self.touch:
-            self.within.append((begun, left, right, curve))
+        if begun + lower > self.begin and np.abs(self.value(curve(nodes), begun + nodes)).max() <= self.touch:
+            self.near_zero.append((begun, lower, upper, curve))
             return
         self.leave()
-        self._search(begun, left, right, curve, self.touch)
+        self._search(begun, lower, upper, curve, self.touch)
 
     def leave(self) -> None:
         """Search the steps within `touch` of zero if the section has changed its sign there."""
         signs = [
-            [bool(self.value(curve(np.array([s])), np.array([begun + s]))[0, 0] > 0) for s in (left, right)]
-            for begun, left, right, curve in self.within
+            [bool(self.value(curve(np.array([s])), np.array([begun + s]))[0, 0] > 0) for s in (lower, upper)]
+            for begun, lower, upper, curve in self.near_zero
         ]
-        for step, (before, after) in zip(self.within, signs, strict=True):
-            if signs[0][0] != signs[-1][1] and before != after:
+        for step, (sign_before, sign_after) in zip(self.near_zero, signs, strict=True):
+            if signs[0][0] != signs[-1][1] and sign_before != sign_after:
                 self._search(*step, 0.0)
-        self.within.clear()
+        self.near_zero.clear()
 
-    def _search(self, begun: float, left: float, right: float, curve: Any, touch: float) -> None:
+    def _search(self, begun: float, lower: float, upper: float, curve: Any, touch: float) -> None:
         def values(s: Array) -> Array:
             return self.value(curve(s), begun + s)
 
-        zeros, passages = zeros_between(values, left, right, touch), self.passages
+        zeros, passages = zeros_between(values, lower, upper, touch), self.passages
         self.hidden += [(begun + zeros.hidden[0], begun + zeros.hidden[1])] if zeros.hidden else []
         for s, way in zip(zeros.t, zeros.direction, strict=True):
-            since = float(s) if way == 0 else polish(values, 0, float(s), left, right)
-            at, near = begun + since, _ONE * (right - left)
+            since = float(s) if way == 0 else polish(values, 0, float(s), lower, upper)
+            at, near = begun + since, _ONE * (upper - lower)
             if at > self.begin + near and not (passages and passages[-1][1] == way and at - passages[-1][0] <= near):
                 passages.append((at, int(way), curve(np.array([since]))[0][: self.size]))
 
 
 def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
-    """Return the states where section(q, v, t) = 0 is crossed, in the order of time; there may be none.
-
-    Times and states are as exact as the run. Every zero of the polynomials through the solver's steps is a crossing, also two
-    in one step. Where the section turns round within tol of zero it is touched, and two crossings there may be one or none. The
-    search takes at most twice the evaluations of the run, by the engine "core", and more only of a section that is narrow
-    itself. A LagrotorWarning says where the section changes faster than the polynomials can follow.
-
-    Parameters
-    ----------
-    section : expression in q, v and t
-    direction : 1 for upward crossings, −1 for downward ones, 0 for both and for states where the section is touched.
-
-    Raises
-    ------
-    InputError
-        For another direction, a section that does not change, and a run of one sample.
-    """
+    """Find the crossings of a section for `SystemRun.crossings`."""
     if direction not in (-1, 0, 1):
         raise InputError(f"crossings: direction = {direction!r} must be 1 (upward), −1 (downward) or 0 (both)")
     if len(run.t) < 2:
@@ -116,18 +97,18 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
     value = function_program(run.system, section).along(run.values, "crossings")
     touch = max(run.tol, _LEAST) * _change(run, section)
     h = run.switched
-    narrow = {part.argument: part for part in narrow_parts(h.system, h.numbers(h.slipping), run.scales.survey, section)}
-    narrow |= {part.argument: part for part in h.narrow}
+    features = (*narrow_parts(h.system, h.numbers(h.slipping), run.scales.survey, section), *h.narrow)
+    narrow = {feature.argument: feature for feature in features}
     run = replace(run, switched=replace(h, narrow=tuple(narrow.values())))
     search = _Search(value, float(run.t[0]), size, touch)
     passages, evaluations = search.passages, run.evaluations
-    known = value(run.states, run.t)[0]
+    values_at_samples = value(run.states, run.t)[0]
     for i, j in _stages(run):
-        end, spent = _stage(run, i, j, value, touch, search.observe)
-        evaluations += spent
+        end, cost = _stage(run, i, j, value, touch, search.observe)
+        evaluations += cost
         side = float(value(end[None], run.t[[j]])[0, 0])
-        if side * known[j] < 0:  # between the end of a stage and the beginning of the next
-            way = 1 if known[j] > 0 else -1
+        if side * values_at_samples[j] < 0:  # a zero between the end of a stage and the beginning of the next
+            way = 1 if values_at_samples[j] > 0 else -1
             near_end = bool(passages) and run.t[j] - passages[-1][0] < 1e-3 * (run.t[j] - run.t[j - 1])
             if near_end and passages[-1][1] == -way:
                 passages.pop()  # the next stage begins before it
@@ -139,21 +120,22 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
             f"crossings: between t = {hidden[0][0]:.6g} and {hidden[0][1]:.6g} s the section changes faster than it can be "
             "followed: crossings may be hidden there",
             LagrotorWarning,
-            stacklevel=2,
+            stacklevel=3,
         )
-    kept = [(t, y) for t, way, y in passages if direction in (0, way)]
-    times = np.array([t for t, _ in kept])
+    selected = [(t, y) for t, way, y in passages if direction in (0, way)]
+    times = np.array([t for t, _ in selected])
     tail = run.states.shape[1] - size
-    rows = np.array([y for _, y in kept]).reshape(-1, size)
-    before = np.clip(np.searchsorted(run.t, times, side="right") - 1, 0, len(run.t) - 1)
-    more = run.states[before, size:].copy()
+    rows = np.array([y for _, y in selected]).reshape(-1, size)
+    samples = np.clip(np.searchsorted(run.t, times, side="right") - 1, 0, len(run.t) - 1)
+    clock_and_mode = run.states[samples, size:].copy()
     if tail:
-        more[:, 0] = times
-    return replace(run.read(times, np.hstack([rows, more])), evaluations=evaluations, switched=h)
+        clock_and_mode[:, 0] = times
+    states = np.hstack([rows, clock_and_mode])
+    return replace(with_states(run, times, states), evaluations=evaluations, switched=h)
 
 
 def _stages(run: SampledMotion) -> Iterator[tuple[int, int]]:
-    """Yield the first and the last sample of each stage; of several samples at one time a stage begins at the last."""
+    """Yield the first and the last sample of each stage; of several samples at one time the last begins a stage."""
     i, n = 0, len(run.t)
     while (i := int(np.searchsorted(run.t, run.t[i], side="right")) - 1) < n - 1:
         j = int(np.searchsorted(run.t, run.t[i] + _TURNS * run.scales.turn, side="right")) - 1
@@ -164,22 +146,22 @@ def _stages(run: SampledMotion) -> Iterator[tuple[int, int]]:
 def _stage(run: SampledMotion, i: int, j: int, value: Values, touch: float, observe: Observer) -> tuple[Array, int]:
     """Observe the motion from sample i to sample j where the section may be zero; return its last state and the evaluations."""
     begin, end = run.t[[i, j]]
-    # Below CROSSOVER no method for stiff motions is chosen, and the others take too many steps.
+    # Below CROSSOVER no stiff method is chosen, and the others take too many steps.
     local = max(run.local, CROSSOVER.value) if run.scales.stiff else run.local
     if not run.switched.smooth:
         stretch = march(run.switched, run.states[i], run.t[[i, j]], local, inf, observe)
         return stretch.end, stretch.evaluations
-    sizes, spent = run.scales.sizes, 0
+    sizes, evaluations = run.scales.sizes, 0
 
     def states_at(times: Array, start: Array, record: Callable[[float], None] | None = None) -> Array:
-        nonlocal spent
+        nonlocal evaluations
         budget = _BUDGET[0] + _BUDGET[1] * float(times[-1] - times[0]) / run.scales.turn
         run_on = integration_of(run.system, run.values, "core", run.scales, run.switched, run.states[0], record)
         try:
             stretch = run_on(start, times, local, False, budget)
-        except StopError:  # LSODA may fail by rounding where it is read at many times
+        except StopError:  # LSODA may fail by rounding at many output times
             stretch = run_on(start, times, 10 * local, False, budget)
-        spent += stretch.evaluations
+        evaluations += stretch.evaluations
         return stretch.states
 
     def look(edges: Array, start: Array, halvings: int) -> Array:
@@ -190,12 +172,12 @@ def _stage(run: SampledMotion, i: int, j: int, value: Values, touch: float, obse
         values = value(states, times)[0][panels]
         short = np.abs(values).max(1) <= touch
         for k in np.flatnonzero(may_vanish(values, touch) | short | ~np.isfinite(values).all(1)):
-            left, right = edges[k : k + 2]
-            curve, last = interpolant(right - left, states[panels[k], : len(sizes)])
+            lower, upper = edges[k : k + 2]
+            curve, last = interpolant(upper - lower, states[panels[k], : len(sizes)])
             if halvings and (last > max(local, _LEAST) * sizes).any():
-                look(np.array([left, (left + right) / 2, right]), states[panels[k, 0]], halvings - 1)
+                look(np.array([lower, (lower + upper) / 2, upper]), states[panels[k, 0]], halvings - 1)
             else:
-                observe(float(left), 0.0, float(right - left), curve)
+                observe(float(lower), 0.0, float(upper - lower), curve)
         return states[-1]
 
     log: list[float] = []
@@ -203,18 +185,11 @@ def _stage(run: SampledMotion, i: int, j: int, value: Values, touch: float, obse
     times, least = np.unique(log), _CLOCK * np.spacing(max(abs(begin), abs(end)))
     edges = times[(times > begin) & (times < end - least)][_STEPS - 1 :: _STEPS]
     edges = edges[np.diff(edges, prepend=begin) > least]
-    return look(np.concatenate([[begin], edges, [end]]), run.states[i], _HALVINGS), spent
-
-
-def poincare(run: SampledMotion, section: sp.Expr, of: Sequence[sp.Expr], direction: int = 1) -> Array:
-    """The values of the expressions `of` at the crossings, (m, len(of)): of two, the points of a Poincaré section."""
-    wanted = vector_of("poincare: of", of, len(of) if isinstance(of, Sequence) else 2)
-    there = crossings(run, section, direction)
-    return np.stack([there.evaluate(e) for e in wanted], axis=1)
+    return look(np.concatenate([[begin], edges, [end]]), run.states[i], _HALVINGS), evaluations
 
 
 def _change(run: SampledMotion, section: sp.Expr) -> float:
-    """The most by which a section changes where each component of the state changes by its size."""
+    """Return the largest change of a section when each component of the state changes by its size."""
     symbols, sizes = (*run.system.c.q, *run.system.speeds), run.scales.sizes
     if not section.free_symbols & {*symbols, *run.system.c.v, *run.system.c.a, *run.system.multipliers, t}:
         raise InputError(f"crossings: section = {section} does not change: give q, v or t in it")

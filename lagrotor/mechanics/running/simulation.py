@@ -1,16 +1,18 @@
-"""A run of any system: initial values in; states, and whatever else is a function of them, out."""
+"""A simulation of any system, and the run that it returns."""
 
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import sympy as sp
 from numpy.typing import ArrayLike
 
 from lagrotor.errors import ConstraintError, InputError, LagrotorWarning
 from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.expressions import vector_of
 from lagrotor.mechanics.lagrangian import t as time
 from lagrotor.mechanics.running import run_plots, sections
 from lagrotor.mechanics.running.flow import Array, Values, powers_of_two, projection_of
@@ -23,63 +25,118 @@ from lagrotor.mechanics.running.initial_state import (
     rounding_of_start,
     state_vector,
 )
-from lagrotor.mechanics.running.monodromy import lyapunov
-from lagrotor.mechanics.running.motion import SampledMotion, digest_of, integration_of
+from lagrotor.mechanics.running.monodromy import Lyapunov, lyapunov_exponent
+from lagrotor.mechanics.running.motion import SampledMotion, digest_of, integration_of, with_states
 from lagrotor.mechanics.running.narrow_features import narrow_parts, narrowest_words
 from lagrotor.mechanics.running.phases import Moment, Switched, begin, with_events
 from lagrotor.mechanics.running.programs import depends_on_time, function_program, parameter_values, rows_program
-from lagrotor.mechanics.running.scales import Scales, clock_windows, defect_of, motion_scales
+from lagrotor.mechanics.running.scales import Scales, clock_windows, conservation_error_of, motion_scales
 from lagrotor.mechanics.running.singular_positions import independence
 from lagrotor.mechanics.running.switches import Event, Impact, check_events
 from lagrotor.numerics.arrays import check_times
-from lagrotor.numerics.error_estimate import Evolution, Patience, estimate_run
+from lagrotor.numerics.error_estimate import EvaluationBudget, Evolution, estimate_run
 from lagrotor.numerics.integrate import Engine, check_engine, check_progress, check_tolerance
 from lagrotor.numerics.run import read_run
 from lagrotor.numerics.solver_constants import DEPENDENT
 
-_BELOW = 1e-7  # of the size of a gap, so far below zero a start is refused
-_PATIENCE = Patience(20_000, 1_600)
-_STIFF = Patience(200_000, 16_000)  # of a stiff motion, whose turns take many steps
-_A_TURN = 16  # intervals in a turn, in which rows of constraints do not turn by a right angle
-_BETWEEN = 8  # intervals of the interpolation between two samples, in which dependent constraints are sought
+if TYPE_CHECKING:
+    from lagrotor.drawing.run_figure import RunFigure
+    from lagrotor.drawing.view import View
+
+_BELOW = 1e-7  # gap below zero, over its size, at which an initial state is refused
+_BUDGET = EvaluationBudget(20_000, 1_600)
+_STIFF = EvaluationBudget(200_000, 16_000)  # the turns of a stiff motion take many steps
+_PER_TURN = 16  # intervals in a turn, in which rows of constraints do not turn by a right angle
+_BETWEEN = 8  # intervals between two samples in which dependent constraints are sought
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class SystemRun(SampledMotion):
-    """A run of a system: the motion, and what can be computed from it."""
+    """A simulated motion of a system, returned by `System.simulate`.
 
-    crossings = sections.crossings
-    poincare = sections.poincare
-    lyapunov = lyapunov
-    plot = run_plots.plot
-    animate = run_plots.animate
-    view = run_plots.view
+    The error of a coordinate or velocity is relative to its largest value over the run, or to a thousandth of the value that
+    all kinetic energy would give, if that is larger.
+
+    Attributes
+    ----------
+    t : Array
+        Times in s that were reached, shape (n,).
+    errors : Array
+        Estimated largest error up to each time, shape (n,).
+    horizon : float
+        The time in s from which the errors exceed `tol`; inf if they never do.
+    evaluations : int
+        Evaluations of the right-hand side in all integrations.
+    ending : Ending
+        The reason why the run ended where it did.
+    system : Equations
+        The system, with expressions in place of unknown functions.
+    values : Mapping
+        The values of its parameters.
+    tol : float
+        The tolerance.
+    engine : {"core", "fast"}
+        The solvers.
+    scales : Scales
+        Typical period and sizes of the motion.
+    states : Array
+        States of the integration: q, u and, where they enter, time and contact modes, shape (n, d).
+    local : float
+        The local error of the better of two integrations.
+    switched : Switched
+        The system with its events.
+
+    Examples
+    --------
+    >>> from lagrotor.mechanics import System, coordinates
+    >>> c = coordinates("x")
+    >>> run = System(c, (c.v[0]**2 - c.q[0]**2) / 2).simulate({}, (1,), (0,), [0, 1, 2])
+    >>> run.error < run.tol, run.ending.kind
+    (True, 'end')
+    """
 
     @staticmethod
     def load(path: str | Path, system: Equations, events: Any = (), functions: Values | None = None) -> "SystemRun":
-        """The run that `save` wrote; a file holds no equations.
+        """Read a run that `save` wrote; a file holds no equations.
 
         Parameters
         ----------
         path : str or Path
             The .npz file.
         system : Equations
-            What it was a run of.
-        events : default ()
-            Those it was run with.
+            The system of the run.
+        events : Event, Impact or sequence of these, default ()
+            The events of the run.
         functions : Values or None, optional
-            The values of functions it was run with.
+            The values of its unknown functions.
+
+        Returns
+        -------
+        SystemRun
+            The run.
 
         Raises
         ------
         InputError
-            Where it is no such file, or one of another system.
+            For any other file, or a run of another system.
+
+        Examples
+        --------
+        >>> from tempfile import gettempdir
+        >>> from lagrotor.mechanics import System, coordinates
+        >>> c = coordinates("x")
+        >>> free = System(c, c.v[0]**2 / 2)
+        >>> path = free.simulate({}, (0,), (1,), [0, 1]).save(gettempdir() + "/free.npz")
+        >>> SystemRun.load(path, free).q.round(6).T
+        array([[0., 1.]])
         """
         if not isinstance(system, Equations):
             raise InputError(f"load: system = {system!r} must be the System that it is a run of")
-        given = check_events(system, events)
-        system, more = put_functions("load", system, functions or {}, [e for event in given for e in event.expressions])
-        given, saved = tuple(event_with(event, lambda e: with_values(e, more)) for event in given), read_run(path)
+        events = check_events(system, events)
+        expressions = [e for event in events for e in event.expressions]
+        system, callables = put_functions("load", system, functions or {}, expressions)
+        events = tuple(event_with(event, lambda e: with_values(e, callables)) for event in events)
+        saved = read_run(path)
         about, arrays, c = saved.about, saved.arrays, system.c
         try:
             if about["coordinates"] != [str(q) for q in c.q] or about["equations"] != digest_of(system):
@@ -89,19 +146,19 @@ class SystemRun(SampledMotion):
             q, u = (np.stack([arrays[str(s)] for s in names], 1) for names in (c.q, system.speeds))
             states = np.hstack([q, u, np.array(about["modes"], float).reshape(len(q), -1)])
             scales = Scales(float(about["turn"]), np.array(about["sizes"], float), 0)
-            values = {str(name): float(value) for name, value in about["values"].items()} | more
+            values = {str(name): float(value) for name, value in about["values"].items()} | callables
             tol, local, engine = check_tolerance(about["tol"]), float(about["local"]), about["engine"]
             check_engine(engine, "load")
             whole = len(states) == len(saved.fields["t"]) and scales.sizes.shape == (len(c.q) + len(system.speeds),)
             if not whole or not np.isfinite(states).all():
-                raise ValueError("its states are none")
+                raise ValueError("its states are invalid")
         except InputError:
             raise
         except (KeyError, TypeError, ValueError, AttributeError) as refusal:
             raise InputError(f"load: {path} is no run of a system ({refusal}): give a file that `save` wrote") from None
-        h = with_events(system, values, given)
+        h = with_events(system, values, events)
         windows = clock_windows(h.phase(h.slipping).system, h.numbers(h.slipping), saved.fields["t"])
-        swings = np.repeat(states[:1], 2, axis=0)  # as far as the motion came between its samples
+        swings = np.repeat(states[:1], 2, axis=0)  # the largest values of the motion, also between its samples
         swings[:, : len(scales.sizes)] = scales.sizes, -scales.sizes
         scales = replace(scales, windows=windows, survey=np.vstack([states, swings]))
         narrow = narrow_parts(h.system, h.numbers(h.slipping), scales.survey)
@@ -110,6 +167,167 @@ class SystemRun(SampledMotion):
             **saved.fields, system=system, values=values, tol=tol, engine=engine, scales=scales, states=states,
             local=local, switched=h,
         )  # fmt: skip
+
+    def crossings(self, section: sp.Expr, direction: int = 0) -> "SystemRun":
+        """Find the states where section(q, v, t) = 0 is crossed, in the order of time; there may be none.
+
+        Times and states are as exact as the run. Every zero of the polynomials through the solver's steps is a crossing, also
+        two in one step. A section that turns round within tol of zero is touched: two crossings there may be one or none. The
+        search takes at most twice the evaluations of the run, by the engine "core", and more only for a narrow section. A
+        LagrotorWarning says where the section changes faster than the polynomials can follow.
+
+        Parameters
+        ----------
+        section : Expr
+            In q, v and t.
+        direction : {0, 1, -1}, default 0
+            Upward crossings (1), downward ones (−1), or both and states where the section is touched (0).
+
+        Returns
+        -------
+        SystemRun
+            The run at the crossings.
+
+        Raises
+        ------
+        InputError
+            For another direction, a section that does not change, and a run of one sample.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import System, coordinates
+        >>> c = coordinates("x")
+        >>> run = System(c, (c.v[0]**2 - c.q[0]**2) / 2).simulate({}, (1,), (0,), [0, 6])
+        >>> run.crossings(c.q[0], direction=-1).t.round(6)
+        array([1.570796])
+        """
+        return sections.crossings(self, section, direction)
+
+    def poincare(self, section: sp.Expr, of: Sequence[sp.Expr], direction: int = 1) -> Array:
+        """Evaluate expressions at the crossings of a section; two of them give the points of a Poincaré section.
+
+        Parameters
+        ----------
+        section : Expr
+            In q, v and t.
+        of : sequence of Expr
+            The k expressions.
+        direction : {1, -1, 0}, default 1
+            Upward crossings (1), downward ones (−1) or both (0).
+
+        Returns
+        -------
+        Array
+            Shape (m, k) at m crossings.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import System, coordinates
+        >>> c = coordinates("x")
+        >>> run = System(c, (c.v[0]**2 - c.q[0]**2) / 2).simulate({}, (1,), (0,), [0, 6])
+        >>> run.poincare(c.v[0], (c.q[0], c.q[0]**2)).round(6)
+        array([[-1.,  1.]])
+        """
+        expressions = vector_of("poincare: of", of, len(of) if isinstance(of, Sequence) else 2)
+        crossings = self.crossings(section, direction)
+        return np.stack([crossings.evaluate(e) for e in expressions], axis=1)
+
+    def lyapunov(self) -> Lyapunov:
+        """Compute the largest Lyapunov exponent over the time of the run, ∝ log(t)/t for a regular motion.
+
+        Returns
+        -------
+        Lyapunov
+            The exponent in 1/s with its standard error, and its mean up to each time.
+
+        Raises
+        ------
+        InputError
+            For a run of one sample, and a motion with events or forces that jump.
+        IntegrationError
+            If a neighbouring motion cannot continue, as at a singular position.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import System, coordinates
+        >>> c = coordinates("x")
+        >>> run = System(c, (c.v[0]**2 + c.q[0]**2) / 2).simulate({}, (1,), (0,), [0, 9])
+        >>> round(run.lyapunov().history[-1])
+        1
+        """
+        return lyapunov_exponent(self)
+
+    def plot(self, *quantities: Any) -> "RunFigure":
+        """Draw quantities over time; by default the coordinates, the change of the energy and the drift of constraints.
+
+        Parameters
+        ----------
+        *quantities : str or Expr
+            Coordinates, velocities, "E" for the energy, names of constraints for their reactions, or expressions; Eq(F,
+            expression) names a long one F.
+
+        Returns
+        -------
+        RunFigure
+            A figure that a notebook shows; `.savefig(path)` writes it.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import System, coordinates
+        >>> c = coordinates("x")
+        >>> figure = System(c, c.v[0]**2 / 2).simulate({}, (0,), (1,), [0, 1]).plot("x", c.v[0]**2)
+        """
+        return run_plots.plot(self, *quantities)
+
+    def animate(self, path: str | Path, fps: float = 25.0, lines: "Sequence[Sequence[run_plots.Point]]" = ()) -> Path:
+        """Write the run as a film of its bodies, or of lines.
+
+        Parameters
+        ----------
+        path : str or Path
+            A file name that ends in .gif.
+        fps : float, default 25.0
+            Frames per second.
+        lines : sequence of sequences of points, default ()
+            The points (x, y, z) of each line in m, as expressions in q and t; required for a system without bodies.
+
+        Returns
+        -------
+        Path
+            The file.
+
+        Examples
+        --------
+        >>> from tempfile import gettempdir
+        >>> from lagrotor.mechanics import System, coordinates
+        >>> c = coordinates("x")
+        >>> run = System(c, (c.v[0]**2 - c.q[0]**2) / 2).simulate({}, (1,), (0,), [0, 1])
+        >>> run.animate(gettempdir() + "/run.gif", fps=5, lines=[[(0, 0, 0), (c.q[0], 0, 1)]]).name
+        'run.gif'
+        """
+        return run_plots.animate(self, path, fps, lines)
+
+    def view(self, lines: "Sequence[Sequence[run_plots.Point]]" = ()) -> "View":
+        """Show the bodies with their frames, or lines, in three dimensions.
+
+        Parameters
+        ----------
+        lines : sequence of sequences of points, default ()
+            The points (x, y, z) of each line in m, as expressions in q and t; required for a system without bodies.
+
+        Returns
+        -------
+        View
+            A notebook shows it, and `.save("motion.html")` writes it.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import System, coordinates
+        >>> c = coordinates("x")
+        >>> run = System(c, (c.v[0]**2 - c.q[0]**2) / 2).simulate({}, (1,), (0,), [0, 1])
+        >>> page = run.view(lines=[[(0, 0, 0), (c.q[0], 0, 1)]])
+        """
+        return run_plots.view(self, lines)
 
 
 def simulate_system(
@@ -123,16 +341,16 @@ def simulate_system(
     events: Event | Impact | Sequence[Event | Impact] = (),
     progress: Callable[[float], None] | None = None,
 ) -> SystemRun:
-    """`System.simulate`."""
+    """Simulate a system for `System.simulate`."""
     times, tol = check_times("simulate", t), check_tolerance(tol)
     check_engine(engine)
     check_progress(progress)
-    given = check_events(system, events)
-    system, values = put_functions("simulate", system, values, [e for event in given for e in event.expressions])
-    given = tuple(event_with(event, lambda e: with_values(e, values)) for event in given)
+    events = check_events(system, events)
+    system, values = put_functions("simulate", system, values, [e for event in events for e in event.expressions])
+    events = tuple(event_with(event, lambda e: with_values(e, values)) for event in events)
     if engine == "fast" and any(isinstance(value, FunctionValue) for value in dict(values).values()):
         raise InputError("simulate: engine='fast' takes no callable and no table for a function: use engine='core'")
-    h, n = with_events(system, values, given), len(system.c.q)
+    h, n = with_events(system, values, events), len(system.c.q)
     q, v = state_vector("simulate", "q0", q0, n), state_vector("simulate", "v0", v0, len(system.speeds), system)
     parameter_values(h.phase(h.slipping).motion, h.numbers(h.slipping))
     check_values("simulate", system, values, [e for event in h.events for e in event.expressions])
@@ -168,44 +386,46 @@ def simulate_system(
         _check_gaps(h, Moment(np.concatenate([q, v]), times[0], h.slipping))
     evolution = Evolution(
         start=start,
-        # A solver looks beyond its last time.
+        # A solver evaluates beyond its last time.
         integrate=integration_of(
             system, values, engine, scales, h, start, progress and (lambda now: progress(min(now, float(times[-1]))))
         ),
         distance=scales.distance,
         turn=scales.turn,
-        patience=_STIFF if scales.stiff else _PATIENCE,
+        budget=_STIFF if scales.stiff else _BUDGET,
         project=projection_of(system, values) if system.multipliers and h.smooth else None,
-        slack=_slack(system, values, scales.sizes) if len(system.left) > 1 and h.smooth else None,
+        constraint_uncertainty=_uncertainty(system, values, scales.sizes)
+        if len(system.left) > 1 and h.smooth
+        else None,
         sizes=np.append(scales.sizes, np.zeros(len(start) - len(scales.sizes))),
-        defect=defect_of(system, values, scales.sizes) if h.smooth else None,
+        conservation_error=conservation_error_of(system, values, scales.sizes) if h.smooth else None,
         sudden=bool(h.narrow),
     )
     estimate = estimate_run(evolution, times, tol)
     run = SystemRun(
-        **estimate.known | {"evaluations": estimate.evaluations + scales.evaluations}, system=system, values=values, tol=tol,
+        **estimate.run_fields | {"evaluations": estimate.evaluations + scales.evaluations}, system=system, values=values, tol=tol,
         engine=engine, scales=scales, states=estimate.states, local=estimate.local, switched=h,
     )  # fmt: skip
     hint = narrowest_words(h.system, h.numbers(h.slipping), h.narrow, estimate)
     estimate.warn_unless_kept(", ".join(map(str, system.c.q)), tol, 3, hint)
     if system.multipliers:
         _warn_of_dependence(run)
-    return run if h.smooth else _up_to_its_end(run)
+    return run if h.smooth else _cut_at_event(run)
 
 
-def _slack(system: Equations, values: Values, sizes: Array) -> Callable[[Array], Array]:
-    """States (n, d) → how far off, in units of rounding and of the sizes, nearly dependent constraints leave them, (n,)."""
+def _uncertainty(system: Equations, values: Values, sizes: Array) -> Callable[[Array], Array]:
+    """Return a function of states (n, d): errors (n,) along nearly dependent constraints, in machine epsilons of the sizes."""
     unit = sizes[: len(system.c.q)] if system.kinematics is None else sizes[len(system.c.q) :]
 
-    def slack(states: Array) -> Array:
+    def uncertainty(states: Array) -> Array:
         least = independence(system, values, states, unit)
         return np.where(least < DEPENDENT.value, 1 / np.maximum(least, np.finfo(float).eps), 1.0)
 
-    return slack
+    return uncertainty
 
 
 def _check_gaps(h: Switched, at: Moment) -> None:
-    """Raises InputError for a gap that is negative at the start."""
+    """Raise InputError for a gap that is negative at the start."""
     gaps = [impact.gap for impact in h.impacts]
     if not gaps:
         return
@@ -217,8 +437,8 @@ def _check_gaps(h: Switched, at: Moment) -> None:
             )
 
 
-def _up_to_its_end(run: SystemRun) -> SystemRun:
-    """The run up to where an event ended it, with the state there as its last."""
+def _cut_at_event(run: SystemRun) -> SystemRun:
+    """Cut the run where an event ended it; the state there is the last."""
     h = run.switched
     if h.hidden:
         a, b = h.hidden[0]
@@ -230,38 +450,38 @@ def _up_to_its_end(run: SystemRun) -> SystemRun:
         )
     ended = np.rint(run.states[:, -1]).astype(int)
     if not ended[-1]:
-        rest = [
+        accumulations = [
             f"impacts on {[e for e in h.events if isinstance(e, Impact)][i].gap} accumulate at t = {at:.9g} s"
             for i, at in h.accumulations.items()
             if at < run.t[-1]
         ]
-        return replace(run, ending=replace(run.ending, reason="; ".join(rest))) if rest else run
+        return replace(run, ending=replace(run.ending, reason="; ".join(accumulations))) if accumulations else run
     k = int(np.argmax(ended > 0))
     at, ending = float(run.states[k, h.size]), h.endings[ended[k] - 1]
     k += k == 0 or at > run.t[k - 1]  # the state of the end is the last sample
-    kept = run.read(np.append(run.t[: k - 1], at), run.states[:k])
+    shorter = with_states(run, np.append(run.t[: k - 1], at), run.states[:k])
     if ending.kind != "event" or "accumulate" in ending.reason:
         warnings.warn(f"simulate: {replace(ending, at=at)}", LagrotorWarning, stacklevel=3)
-    return replace(kept, ending=replace(ending, at=at))
+    return replace(shorter, ending=replace(ending, at=at))
 
 
 def _on_constraints(system: Equations, values: Values, start: Array, times: Array) -> tuple[Array, Array]:
-    """The start, which must be on the constraints but for rounding."""
+    """Return the initial state on the constraints, or raise ConstraintError if it is further from them than rounding."""
     n = len(system.c.q)
     q, v = consistent("simulate", system, values, start[:n], start[n:], times[0])
-    off = np.abs(np.concatenate([q, v]) - start)
-    if (off > rounding_of_start(system, values, start, times[0], times[-1] - times[0])).any():
+    distance = np.abs(np.concatenate([q, v]) - start)
+    if (distance > rounding_of_start(system, values, start, times[0], times[-1] - times[0])).any():
         raise ConstraintError(
-            f"simulate: the start is off the constraints by {off.max():.3g}; the nearest state on them is q0 = {_as_text(q)}, "
-            f"v0 = {_as_text(v)} (system.consistent gives it)"
+            f"simulate: the start is off the constraints by {distance.max():.3g}; the nearest state on them is "
+            f"q0 = {_as_text(q)}, v0 = {_as_text(v)} (system.consistent gives it)"
         )
     return q, v
 
 
 def _warn_of_dependence(run: SystemRun) -> None:
-    """Warn with the time where the constraints of a run are dependent between two of its samples: there the product of the rows
-    of G, g₁ ∧ … ∧ g_k, is zero. Where it is simply zero it is reversed beyond, and then det(G(t) G(t')ᵀ) < 0 for times before and
-    after it. Samples that are so far apart that a row may turn right round between them are passed over."""
+    """Warn with the time where the constraints of a run become dependent between two samples. There the product of the rows
+    of G, g₁ ∧ … ∧ g_k, is zero. At a simple zero it changes its sign, and det(G(t) G(t')ᵀ) < 0 for times before and after.
+    Samples between which a row may turn by a right angle are ignored."""
     rows = run.system.rows
     if len(run.t) < 2 or not run.system.left or not rows.free_symbols & {*run.system.c.q, time}:
         return
@@ -272,7 +492,7 @@ def _warn_of_dependence(run: SystemRun) -> None:
     states = np.hstack([CubicHermiteSpline(run.t, run.q, run.v)(fine), still])
     G = rows_program(run.system).along(run.values)(states, fine)
     G = G.T.reshape(-1, len(run.system.left), len(run.system.speeds))
-    near = np.repeat(np.diff(run.t) < _BETWEEN / _A_TURN * run.scales.turn, _BETWEEN)
+    near = np.repeat(np.diff(run.t) < _BETWEEN / _PER_TURN * run.scales.turn, _BETWEEN)
     reversed_after = fine[:-1][near & (np.linalg.det(G[:-1] @ G[1:].swapaxes(1, 2)) < 0)]
     if len(reversed_after):
         warnings.warn(

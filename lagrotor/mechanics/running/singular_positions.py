@@ -1,4 +1,4 @@
-"""Whether a position is singular, measured: a mass matrix, or constraints, that have lost a direction there."""
+"""Singular positions, measured: a mass matrix, or constraints, whose rank is smaller at a state."""
 
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -19,12 +19,9 @@ _TAKES_PART = 0.2  # component of a direction from which on a coordinate is name
 def singular_position(
     system: Equations, values: Mapping[Any, Any], start: Array, sizes: Array
 ) -> Callable[[Array], str]:
-    """state → the words of the singular position that is measured there, none where it is regular; `start`: a regular state.
-
-    sizes (N + m,): of the components of the motion.
-    """
-    known = np.sqrt(np.abs(np.diag(mass_at(system, values, start))))
-    scale = np.where(known > 0, known, 1.0)
+    """Return a function of a state with the words for a singular position, "" where it is regular; `start` is regular."""
+    lengths = np.sqrt(np.abs(np.diag(mass_at(system, values, start))))
+    scale = np.where(lengths > 0, lengths, 1.0)
 
     def words(state: Array) -> str:
         if not np.isfinite(state).all():
@@ -33,7 +30,7 @@ def singular_position(
         first, _ = _least(mass_at(system, values, start) / np.outer(scale, scale))
         if first > 0 and least < _SINGULAR * first:
             moving = system.c.q if system.kinematics is None else system.speeds
-            names = ", ".join(str(q) for q, part in zip(moving, direction, strict=True) if abs(part) > _TAKES_PART)
+            names = ", ".join(str(q) for q, share in zip(moving, direction, strict=True) if abs(share) > _TAKES_PART)
             return (
                 f"the mass matrix has there {scientific(max(least, 0.0) / first, 1)} of its least eigenvalue at the start, along "
                 f"{names}: a pole of these coordinates. Angles about three different axes, turned('xyz'), have none where those "
@@ -47,10 +44,10 @@ def singular_position(
 
 
 def unbounded_force(system: Equations, values: Mapping[Any, Any], start: Array, state: Array, sizes: Array) -> str:
-    """The words of a force that grows without bound, as at a collision: the acceleration at the state would change a velocity by
-    its size in 10⁻⁸ of the time in which the motion covers its sizes, and has grown since the start; none elsewhere."""
+    """Return the words for a force that grows without bound, as at a collision; "" for any other. Its acceleration has grown
+    since the start, and would change a velocity by its size in 10⁻⁸ of the typical time."""
     n, program = len(system.c.q), function_program(system, *system.c.a)
-    first, change = (_at(program, system, values, each)[:, 0] for each in (start, state))
+    first, change = (_at(program, system, values, y)[:, 0] for y in (start, state))
     i, typical = int(np.argmax(np.abs(change))), float(np.max(sizes[n:]) / np.max(sizes[:n]))
     least = max(_UNBOUNDED * typical * np.max(sizes[n:]), _GROWN * np.abs(first).max())
     if not least < abs(change[i]) < np.inf:  # also where it is no number
@@ -61,7 +58,7 @@ def unbounded_force(system: Equations, values: Mapping[Any, Any], start: Array, 
 
 
 def mass_at(system: Equations, values: Mapping[Any, Any], state: Array) -> Array:
-    """M of u' at a state, (m, m); of a tree of bodies from the energy, which is quadratic in the velocities."""
+    """Return M of u' at a state, shape (m, m); for a tree of bodies from its energy, which is quadratic in the velocities."""
     n, m = len(system.c.q), len(system.speeds)
     if not system.bodies:
         return _at(mass_program(system), system, values, state).reshape(m, m)
@@ -76,7 +73,7 @@ def mass_at(system: Equations, values: Mapping[Any, Any], state: Array) -> Array
 
 
 def rows_at(system: Equations, values: Mapping[Any, Any], state: Array) -> Array:
-    """The rows of the constraints that multipliers keep, for u', at a state, (k, m)."""
+    """Return the rows for u' of the constraints that multipliers keep, at a state, shape (k, m)."""
     rows = _at(rows_program(system), system, values, state) if system.left else np.zeros(0)
     return rows.reshape(len(system.left), len(system.speeds))
 
@@ -98,8 +95,8 @@ def _least(matrix: Array) -> tuple[float, Array]:
 
 
 def independence(system: Equations, values: Mapping[Any, Any], states: Array, sizes: Array | float = 1.0) -> Array:
-    """The least singular value of the rows of G at states (n, d), (n,), each row of length one where q or u are in units of
-    the sizes; zero where a row is not finite, or nothing."""
+    """Return the least singular value of the rows of G at states (n, d), shape (n,), each row of length one in units of the
+    sizes. It is zero where a row is not finite or vanishes."""
     times = np.array([_time(state, system) for state in states])
     G = rows_program(system).along(values)(states, times).T.reshape(len(states), len(system.left), -1) * sizes
     lengths, least = np.linalg.norm(G, axis=2, keepdims=True), np.zeros(len(states))

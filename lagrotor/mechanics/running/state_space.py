@@ -1,10 +1,10 @@
 """Small motion about an equilibrium or a steady motion in numbers: x' = A x + B u, y = C x + D u, under any constraints.
 
-With the motion s' = f(s, u) of the state s = (q, v), and the constraints Φ(s) = (g, G v + b) = 0, small displacements are
-δs = T x, T a basis of the null space of ∂Φ/∂s in which the independent states x are their own names. Then A = ∂f/∂s T and
-B = ∂f/∂u, in the rows of x. Derivatives are by a complex step, which rounds no difference (Squire & Trapp 1998).
+The motion is s' = f(s, u) with the state s = (q, v) under the constraints Φ(s) = (g, G v + b) = 0. Small displacements are
+δs = T x. The columns of T span the null space of ∂Φ/∂s; its rows at the independent states x are the unit matrix. Then
+A = ∂f/∂s T and B = ∂f/∂u, in the rows of x. Derivatives are by a complex step, which rounds no difference (Squire & Trapp 1998).
 
-Schwab & Meijaard, Linearized dynamics of nonholonomic systems (2003) for what rolls.
+Rolling: Schwab & Meijaard, Linearized dynamics of nonholonomic systems (2003).
 """
 
 from collections.abc import Mapping, Sequence
@@ -32,26 +32,47 @@ from lagrotor.mechanics.running.programs import (
 from lagrotor.mechanics.steady_motions import small_states, small_turns
 
 _STEP = 1e-30  # of the complex step, whose square is below all rounding
-_OTHER = -4  # of the step: another one, which gives the same derivative where there is one
-_STEADY, _SAME = 1e-8, 1e-7  # relative: accelerations left, a matrix that stays
+_OTHER = -4  # factor of a second step, which gives the same derivative if one exists
+_STEADY, _SAME = 1e-8, 1e-7  # relative: accelerations of a steady motion, changes of a constant matrix
 _ROUNDING = 1e-12  # of accelerations of free motion
-_DEPENDENT = 1e-10  # constraints whose normals are in a plane but for rounding
+_DEPENDENT = 1e-10  # least pivot of the constraints' rows, relative, below which they are dependent
 _NOT_ANALYTIC = (sp.Abs, sp.sign, sp.Max, sp.Min, sp.Heaviside, sp.atan2, sp.floor, sp.ceiling, sp.Mod, sp.Piecewise)
 
 
 class Slope(Protocol):
-    """state → outputs (k,), their derivatives by the state (k, d), and by the inputs (k, p), by a complex step."""
+    """A function of the state: outputs (k,), and by a complex step their derivatives by the state (k, d) and inputs (k, p)."""
 
     def __call__(self, state: Array, step: float = _STEP) -> tuple[Array, Array, Array]: ...
 
 
 @dataclass(frozen=True, eq=False)
 class StateSpace:
-    """x' = A x + B u, y = C x + D u for small x: displacements of `states`, symbols of coordinates and velocities; turn_p is
-    the small turn of a ball joint about the axis of p, in its turned axes.
+    """The linear system x' = A x + B u, y = C x + D u for small displacements x from a steady motion.
 
-    rates: the eigenvalues of A, 1/s, sorted by their real parts, the greatest first; those of coordinates on which nothing
-    depends are zero.
+    The state turn_p is the small turn of a ball joint about the axis of p, in its turned axes.
+
+    Attributes
+    ----------
+    states : tuple of Symbol
+        The coordinates and velocities that x displaces, n symbols.
+    A : Array
+        Shape (n, n).
+    B : Array
+        Shape (n, p) for p inputs.
+    C : Array
+        Shape (k, n) for k outputs.
+    D : Array
+        Shape (k, p).
+
+    Examples
+    --------
+    >>> from sympy import Symbol
+    >>> from lagrotor.mechanics import System, coordinates
+    >>> c, F = coordinates("x"), Symbol("F")
+    >>> linear = System(c, c.v[0]**2 / 2 - c.q[0]**2, forces=(F,)).linearise({c.q[0]: 0}, {}, [F], [c.q[0]])
+    >>> linear.A, linear.B.T, linear.C
+    (array([[ 0.,  1.],
+           [-2.,  0.]]), array([[0., 1.]]), array([[1., 0.]]))
     """
 
     states: tuple[sp.Symbol, ...]
@@ -62,7 +83,15 @@ class StateSpace:
 
     @property
     def rates(self) -> NDArray[np.complex128]:
-        """The eigenvalues of A, (n,)."""
+        """The eigenvalues of A in 1/s, the largest real part first, shape (n,); zero for coordinates on which nothing depends.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import System, coordinates
+        >>> c = coordinates("x")
+        >>> System(c, c.v[0]**2 / 2 + 2 * c.q[0]**2).linearise({c.q[0]: 0}, {}).rates.real
+        array([ 2., -2.])
+        """
         roots = np.linalg.eigvals(self.A).astype(complex)
         return roots[np.lexsort((roots.imag, -roots.real))]
 
@@ -75,22 +104,22 @@ def state_space(
     outputs: Sequence[sp.Expr] = (),
     where: str = "linearise",
 ) -> StateSpace:
-    """The linear system about a point at which all accelerations vanish: see `steady_motions.linearise`."""
-    wanted = tuple(expression(f"{where}: outputs[{i}]", e) for i, e in enumerate(outputs))
+    """Linearise a system about a point at which all accelerations vanish, for `System.linearise`."""
+    output_expressions = tuple(expression(f"{where}: outputs[{i}]", e) for i, e in enumerate(outputs))
     if not isinstance(values, Mapping):
         raise InputError(f"{where}: values = {values!r} must be a dictionary")
     if strangers := {*inputs} & {*system.c.q, *system.c.v, *system.speeds, t}:
         raise InputError(
-            f"{where}: the input {min(strangers, key=str)} moves: inputs are letters of forces or constraints"
+            f"{where}: the input {min(strangers, key=str)} moves: inputs are symbols of forces or constraints"
         )
-    known = {str(s): 0.0 for s in inputs} | {str(s): value for s, value in values.items()}
-    check_values(where, system, known, wanted)
+    numbers = {str(s): 0.0 for s in inputs} | {str(s): value for s, value in values.items()}
+    check_values(where, system, numbers, output_expressions)
     if depends_on_time(system):
         raise InputError(
-            f"{where}: the motion depends on time explicitly: write a letter for an input F(t), or simulate it"
+            f"{where}: the motion depends on time explicitly: write a symbol for an input F(t), or simulate it"
         )
-    start = point_state(where, system, at, known)
-    motion = motion_slope(where, motion_program(system), known, inputs)
+    start = point_state(where, system, at, numbers)
+    motion = motion_slope(where, motion_program(system), numbers, inputs)
     rate, J, B = motion(start)
     check_smooth(where, motion, start, [f"the rate of {s}" for s in (*system.c.q, *system.speeds)], at)
     n, d = len(system.c.q), len(start)
@@ -98,53 +127,56 @@ def state_space(
     least = _STEADY * size * float(np.abs(J[n:d]).max()) + _ROUNDING
     if np.abs(rate[n:]).max() > least:
         rates = system.c.a if system.kinematics is None else [f"{u}'" for u in system.speeds]
-        left = ", ".join(f"{a} = {x:.3g}" for a, x in zip(rates, rate[n:], strict=True) if abs(x) > least)
-        raise SingularError(f"{where}: {dict(at)} is no steady motion: {left} is left over; start from one")
-    A, P, back = local_slope(system, start, rate, J)
+        rates_text = ", ".join(f"{a} = {x:.3g}" for a, x in zip(rates, rate[n:], strict=True) if abs(x) > least)
+        raise SingularError(f"{where}: {dict(at)} is no steady motion: {rates_text} is not zero; start from one")
+    A, P, inverse = local_slope(system, start, rate, J)
     later = start + np.concatenate([rate[:n], np.zeros(d - n)]) / size
     for joint in system.ball_joints:  # a turn about a fixed axis
         places = [system.c.q.index(q) for q in joint.quaternion]
         later[places] /= np.linalg.norm(later[places])
     onward, J, _ = motion(later)
-    other = local_slope(system, later, onward, J)[0]
-    if np.abs(onward[n:]).max() > least or np.abs(other - A).max() > _SAME * max(1.0, float(np.abs(A).max())):
+    later_A = local_slope(system, later, onward, J)[0]
+    if np.abs(onward[n:]).max() > least or np.abs(later_A - A).max() > _SAME * max(1.0, float(np.abs(A).max())):
         raise InputError(
-            f"{where}: what moves there enters the equations, whose coefficients change with time: use coordinates that "
+            f"{where}: the coefficients of the linear equations change with time: use coordinates that "
             "turn along with the motion"
         )
-    free, T = tangent_space(where, system, known, start)
-    shown, there = motion_slope(where, function_program(system, *wanted), known, inputs), np.append(start, 0.0)
-    check_smooth(where, shown, there, wanted, at)
-    _, C, D = shown(there)
-    states = tuple(s for s, own in zip(small_states(system), free, strict=True) if own)
-    return StateSpace(states, A[free] @ T, (back @ B)[free], C[:, :d] @ P @ T, D)
+    free, T = tangent_space(where, system, numbers, start)
+    output_slope = motion_slope(where, function_program(system, *output_expressions), numbers, inputs)
+    output_state = np.append(start, 0.0)
+    check_smooth(where, output_slope, output_state, output_expressions, at)
+    _, C, D = output_slope(output_state)
+    states = tuple(s for s, independent in zip(small_states(system), free, strict=True) if independent)
+    return StateSpace(states, A[free] @ T, (inverse @ B)[free], C[:, :d] @ P @ T, D)
 
 
 def local_slope(system: Equations, state: Array, rate: Array, J: Array) -> tuple[Array, Array, Array]:
-    """P⁻ (J P − P'), P and P⁻ of `small_turns`, of a state (q, u) of a motion, its rate (q', u') and J = ∂f/∂(q, u)."""
-    P, back = (np.array(e, np.float64) for e in small_turns(system, state))
-    moved = np.array(small_turns(system, rate)[0], np.float64) - np.array(small_turns(system, 0 * rate)[0], np.float64)
-    return back @ (J @ P - moved), P, back
+    """Return P⁻ (J P − P'), P and P⁻ of `small_turns` at a state (q, u), with its rate (q', u') and J = ∂f/∂(q, u)."""
+    P, inverse = (np.array(e, np.float64) for e in small_turns(system, state))
+    change_of_P = np.array(small_turns(system, rate)[0], np.float64) - np.array(
+        small_turns(system, 0 * rate)[0], np.float64
+    )
+    return inverse @ (J @ P - change_of_P), P, inverse
 
 
 def point_state(where: str, system: Equations, at: Mapping[Any, Any], values: Values, time: float = 0.0) -> Array:
-    """The state of the point; coordinates on which the motion depends are named in it, others are zero."""
+    """Return the state of a point, with zeros for omitted coordinates on which the motion does not depend."""
     c = system.c
     point = by_symbol(f"{where}: at", at, (*c.q, *system.speeds))
     used, _ = _parts(motion_program(system))
-    moving = dict(zip(c.q, motion_program(system).program.arguments, strict=False))  # which may have other names there
+    moving = dict(zip(c.q, motion_program(system).program.arguments, strict=False))  # a program may rename symbols
     if missing := [str(q) for q in c.q if q not in point and moving[q] in used]:
         raise InputError(f"{where}: {', '.join(missing)} without a value: the point needs each coordinate's")
     if strangers := [str(s) for s in point if s not in {*c.q, *system.speeds}]:
         names = "" if system.kinematics is None else f" ({', '.join(map(str, system.speeds))})"
         raise InputError(
-            f"{where}: {', '.join(strangers)} in the point: it gives coordinates and velocities{names}; others are values"
+            f"{where}: {', '.join(strangers)} in the point: give it coordinates and velocities{names}, other symbols in values"
         )
-    given = [expression(f"{where}: {s}", point.get(s, 0)) for s in (*c.q, *system.speeds)]
-    inside = {s for e in given for s in e.free_symbols}
+    entries = [expression(f"{where}: {s}", point.get(s, 0)) for s in (*c.q, *system.speeds)]
+    inside = {s for e in entries for s in e.free_symbols}
     letters = {s: x for s, x in by_symbol(f"{where}: values", values, inside).items() if s in inside}
     try:
-        start = np.array([float(e.subs(letters)) for e in given])
+        start = np.array([float(e.subs(letters)) for e in entries])
     except (TypeError, ValueError):
         raise InputError(f"{where}: {dict(at)} must be numbers, {{coordinate: number, …}}") from None
     if not np.isfinite(start).all():
@@ -153,9 +185,9 @@ def point_state(where: str, system: Equations, at: Mapping[Any, Any], values: Va
         n = len(c.q)
         near = np.concatenate(consistent(where, system, values, start[:n], start[n:], time))
         if (np.abs(near - start) > rounding_of_start(system, values, start, time)).any():
-            shown = ", ".join(f"{s} = {x:.9g}" for s, x in zip((*c.q, *system.speeds), near, strict=True) if x)
+            nearest = ", ".join(f"{s} = {x:.9g}" for s, x in zip((*c.q, *system.speeds), near, strict=True) if x)
             raise ConstraintError(
-                f"{where}: the point is off the constraints; the nearest on them is {shown or 'zero'}"
+                f"{where}: the point is off the constraints; the nearest on them is {nearest or 'zero'}"
             )
         start = near
     check_pole(where, system, values, np.append(start, time))
@@ -163,44 +195,44 @@ def point_state(where: str, system: Equations, at: Mapping[Any, Any], values: Va
 
 
 @lru_cache(maxsize=64)
-def _parts(given: Generated) -> tuple[set[sp.Basic], set[sp.Basic]]:
-    """The letters of a program's stages and outputs, and their parts that have no derivative everywhere."""
-    expressions = [*(e for _, e in given.program.stages), *given.program.outputs]
+def _parts(program: Generated) -> tuple[set[sp.Basic], set[sp.Basic]]:
+    """Return the symbols of a program, and its terms that lack a derivative somewhere."""
+    expressions = [*(e for _, e in program.program.stages), *program.program.outputs]
     symbols = set().union(*(e.free_symbols for e in expressions))
     return symbols, set().union(*(e.atoms(*_NOT_ANALYTIC) for e in expressions))
 
 
-def motion_slope(where: str, given: Generated, values: Values, inputs: Sequence[sp.Symbol] = ()) -> Slope:
-    """state → outputs (k,), their derivatives by the state (k, d), and by the inputs (k, p)."""
-    _, jumping = _parts(given)
+def motion_slope(where: str, program: Generated, values: Values, inputs: Sequence[sp.Symbol] = ()) -> Slope:
+    """Return the function of the state with the outputs of a program and their derivatives by the state and the inputs."""
+    _, jumping = _parts(program)
     if jumping:
         raise InputError(
-            f"{where}: {min(jumping, key=str)} has no derivative everywhere: write the case that holds there"
+            f"{where}: {min(jumping, key=str)} has no derivative everywhere: write only the case that applies there"
         )
-    numbers, d = parameter_values(given, values, where), len(given.states)
+    numbers, d = parameter_values(program, values, where), len(program.states)
     calls = [f for f in numbers if callable(f)]
     numbers = numbers[: len(numbers) - len(calls)]
-    names = [str(s) for s in (*given.states, *given.parameters)]
+    names = [str(s) for s in (*program.states, *program.parameters)]
 
     def slope(state: Array, step: float = _STEP) -> tuple[Array, Array, Array]:
         at = np.concatenate([state, numbers]).astype(complex)
-        moved = at[:, None] + 1j * step * np.eye(len(at))
+        displaced = at[:, None] + 1j * step * np.eye(len(at))
         with np.errstate(all="ignore"):
-            rows = [np.broadcast_to(e, len(at)) for e in given.function(*moved, *calls)]
+            rows = [np.broadcast_to(e, len(at)) for e in program.function(*displaced, *calls)]
         table = np.array(rows, complex).reshape(len(rows), len(at))
         by = table.imag / step
-        own = [names.index(str(s)) if str(s) in names else None for s in inputs]
-        pushed = [np.zeros(len(by)) if i is None else by[:, i] for i in own]
+        columns = [names.index(str(s)) if str(s) in names else None for s in inputs]
+        pushed = [np.zeros(len(by)) if i is None else by[:, i] for i in columns]
         return table[:, 0].real, by[:, :d], np.array(pushed).reshape(len(inputs), len(by)).T
 
     return slope
 
 
 def check_smooth(where: str, slope: Slope, state: Array, names: Sequence[Any], at: Mapping[Any, Any]) -> None:
-    """Raise SingularError where an output has no value or no derivative, as √x at zero, whose steps give others each time."""
-    first, other = (np.column_stack(slope(state, h))[: len(names)] for h in (_STEP, _OTHER * _STEP))
+    """Raise SingularError where an output has no value or no derivative, as √x at zero, so that it depends on the step."""
+    first, second = (np.column_stack(slope(state, h))[: len(names)] for h in (_STEP, _OTHER * _STEP))
     with np.errstate(invalid="ignore"):
-        smooth = np.abs(first - other) <= _SAME * np.abs(first) + _ROUNDING * (1 + np.abs(first).max(initial=0))
+        smooth = np.abs(first - second) <= _SAME * np.abs(first) + _ROUNDING * (1 + np.abs(first).max(initial=0))
     if not smooth.all():
         name = names[int(np.argmin(smooth.all(1)))]
         raise SingularError(
@@ -211,24 +243,21 @@ def check_smooth(where: str, slope: Slope, state: Array, names: Sequence[Any], a
 def tangent_space(
     where: str, system: Equations, values: Values, state: Array, time: float = 0.0
 ) -> tuple[NDArray[np.bool_], Array]:
-    """Which of the states y of `small_turns` are independent, and T that gives all of them."""
+    """Return a mask of the independent states y of `small_turns`, and T, which gives all states from these."""
     P = np.array(small_turns(system, state)[0], np.float64)
     d = P.shape[1]
     n = d - len(system.speeds)
     units = [joint.unit_length for joint in system.ball_joints]
-    held_by = [g for g in system.constraints if g not in units]
-    if not held_by and not system.left:
+    holonomic = [g for g in system.constraints if g not in units]
+    if not holonomic and not system.left:
         return np.ones(d, bool), np.eye(d)
     from scipy.linalg import qr
 
-    h = len(held_by)
-    bound = function_program(system, *held_by, *(system.residual[i] for i in system.left))
+    h = len(holonomic)
+    bound = function_program(system, *holonomic, *(system.residual[i] for i in system.left))
     slope = motion_slope(where, bound, values)(np.append(state, time))[1][:, : len(state)] @ P
-    held = np.zeros(0, int)
-    for rows, first in (
-        (slope[:h, :n], 0),
-        (slope[h:, n:], n),
-    ):  # coordinates, then velocities, are given by the others
+    dependent = np.zeros(0, int)
+    for rows, first in ((slope[:h, :n], 0), (slope[h:, n:], n)):  # dependent coordinates, then velocities
         if len(rows):
             _, triangle, order = qr(rows, pivoting=True)
             diagonal = np.abs(np.diag(triangle))
@@ -236,10 +265,10 @@ def tangent_space(
                 raise SingularError(
                     f"{where}: the constraints are dependent there: leave out what follows from the others"
                 )
-            held = np.append(held, first + order[: len(rows)])
+            dependent = np.append(dependent, first + order[: len(rows)])
     free = np.ones(d, bool)
-    free[held] = False
+    free[dependent] = False
     T = np.zeros((d, int(free.sum())))
     T[free] = np.eye(T.shape[1])
-    T[held] = -np.linalg.solve(slope[:, held], slope[:, free])
+    T[dependent] = -np.linalg.solve(slope[:, dependent], slope[:, free])
     return free, T

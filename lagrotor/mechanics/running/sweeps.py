@@ -1,7 +1,7 @@
-"""A long Lagrangian's equations by sweeps through its parts, each a stage: backward for a gradient, forward along a direction.
+"""The equations of a long Lagrangian by sweeps through its stages: backward for a gradient, forward along a direction.
 
-With p = ∂L/∂v, M b = dp along v' = b and M α + h = dp/dt − ∂L/∂q at v' = α. A gradient costs some three times L, however many
-coordinates there are, a derivative along a direction some two times what is differentiated.
+With p = ∂L/∂v, M b = dp along v' = b and M α + h = dp/dt − ∂L/∂q at v' = α. A gradient costs about three times L for any number
+of coordinates, a derivative along a direction about twice its expression.
 
 Griewank & Walther, Evaluating Derivatives, 2nd ed., ch. 3.
 """
@@ -23,24 +23,24 @@ from lagrotor.numerics.codegen import Stage
 
 
 def swept_equations(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matrix]:
-    """Stages, and made of them M and Q − h of M u' = Q − h + Gᵀ λ; in velocities of one's own Bᵀ M B and Bᵀ (Q − M α − h)."""
-    keep, c, given = Stages(), system.c, system.kinematics
+    """Return stages, M and Q − h of M u' = Q − h + Gᵀ λ; for quasi-velocities Bᵀ M B and Bᵀ (Q − M α − h)."""
+    keep, c, kinematics = Stages(), system.c, system.kinematics
     n, m = len(c.q), len(system.speeds)
     B, alpha, first, place = sp.eye(n), sp.zeros(n, 1), list[Stage](), 0
     onward = dict(zip((*c.q, t), (*c.v, sp.S.One), strict=True))
-    if given:
-        K = jacobian(list(given.rows), c.v).applyfunc(lambda e: expression_stages(keep, e))
+    if kinematics:
+        K = jacobian(list(kinematics.rows), c.v).applyfunc(lambda e: expression_stages(keep, e))
         inverse = inverse_of(K, (), c, keep)[1]
-        B, own = inverse[:, :m], sp.Matrix([*system.speeds, *[0] * (n - m)])
-        v = inverse * (own - given.rows.xreplace(dict.fromkeys(c.v, sp.S.Zero)))
-        first = [*given.stages, *keep.made, *((a, e) for a, e in zip(c.v, v, strict=True) if a != e)]
+        B, speeds = inverse[:, :m], sp.Matrix([*system.speeds, *[0] * (n - m)])
+        v = inverse * (speeds - kinematics.rows.xreplace(dict.fromkeys(c.v, sp.S.Zero)))
+        first = [*kinematics.stages, *keep.made, *((a, e) for a, e in zip(c.v, v, strict=True) if a != e)]
         place = len(keep.made)
-        gamma = forward_sweep(keep, [expression_stages(keep, e) for e in given.rows], onward)
+        gamma = forward_sweep(keep, [expression_stages(keep, e) for e in kinematics.rows], onward)
         alpha = (-inverse * sp.Matrix(gamma)).applyfunc(keep)
     slopes = backward_sweep(keep, expression_stages(keep, system.L), (*c.q, *c.v))
     momenta = slopes[n:]
     drift = forward_sweep(keep, momenta, onward | dict(zip(c.v, alpha, strict=True)))
-    rest = sp.Matrix([keep(a - b) for a, b in zip(slopes[:n], drift, strict=True)])
+    forces = sp.Matrix([keep(a - b) for a, b in zip(slopes[:n], drift, strict=True)])
     M = sp.zeros(m, m)
     for j in range(m):
         needed = [i for i in range(n) if any(B[i, j:])]
@@ -51,44 +51,44 @@ def swept_equations(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matri
             column[i] = e
         for i in range(j, m):
             M[i, j] = M[j, i] = keep(B[:, i].dot(column))
-    return [*first, *keep.made[place:]], M, B.T * (rest + system.generalised_forces)
+    return [*first, *keep.made[place:]], M, B.T * (forces + system.generalised_forces)
 
 
 def swept_energy(system: Equations) -> tuple[list[Stage], sp.Expr]:
-    """Stages, and the Jacobi integral v·∂L/∂v − L made of them."""
+    """Return stages and the Jacobi integral v·∂L/∂v − L."""
     keep, v = Stages(), system.c.v
     L = expression_stages(keep, system.L)
     return keep.made, sp.Add(-L, *(a * p for a, p in zip(v, backward_sweep(keep, L, v), strict=True)))
 
 
 def expression_stages(keep: Stages, e: sp.Expr) -> sp.Expr:
-    """An expression as a stage after those of all its parts. A sum that has all terms of another one is made of that."""
+    """Return an expression as a stage after those of all its subexpressions; a sum uses a shorter one that it contains."""
     sums = sorted((s for s in subexpressions(e) if s.is_Add), key=lambda s: len(s.args))
     terms = {s: {*s.args} for s in sums if len({*s.args}) == len(s.args)}  # left unevaluated, one may have a term twice
-    known = dict[sp.Expr, sp.Expr]()
+    stages = dict[sp.Expr, sp.Expr]()
 
-    def stage(part: sp.Expr) -> sp.Expr:
-        if part.is_Atom:
-            return part
-        if part not in known and not all(isinstance(a, sp.Expr) for a in part.args):
-            known[part] = keep(part)  # whose parts are no values: a case and its condition, an integral and its letter
-        if part not in known:
+    def stage(term: sp.Expr) -> sp.Expr:
+        if term.is_Atom:
+            return term
+        if term not in stages and not all(isinstance(a, sp.Expr) for a in term.args):
+            stages[term] = keep(term)  # a Piecewise or an integral, whose arguments are no values
+        if term not in stages:
             shorter = (
-                next((s for s in reversed(sums) if s in terms and terms[s] < terms[part]), None)
-                if part in terms
+                next((s for s in reversed(sums) if s in terms and terms[s] < terms[term]), None)
+                if term in terms
                 else None
             )
             if shorter is None:
-                known[part] = keep(part.func(*map(stage, part.args)))
+                stages[term] = keep(term.func(*map(stage, term.args)))
             else:
-                known[part] = keep(sp.Add(stage(shorter), *(stage(a) for a in part.args if a not in terms[shorter])))
-        return known[part]
+                stages[term] = keep(sp.Add(stage(shorter), *(stage(a) for a in term.args if a not in terms[shorter])))
+        return stages[term]
 
     return stage(e)
 
 
 def backward_sweep(keep: Stages, output: sp.Expr, symbols: Sequence[sp.Symbol]) -> list[sp.Expr]:
-    """∂output/∂s of a stage, or of a multiple of one, for each symbol, backward."""
+    """Return ∂output/∂s for each symbol, backward from a stage or a multiple of one."""
     shares: dict[sp.Expr, list[sp.Expr]] = defaultdict(list)
     for s, slope in _slopes(output):
         shares[s].append(slope)
@@ -100,26 +100,26 @@ def backward_sweep(keep: Stages, output: sp.Expr, symbols: Sequence[sp.Symbol]) 
 
 
 def forward_sweep(keep: Stages, outputs: Sequence[sp.Expr], direction: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Expr]:
-    """The derivatives of stages where the symbols change at the rates `direction`, forward."""
+    """Return the derivatives of stages where the symbols change at the rates `direction`."""
     rates = {s: rate for s, rate in direction.items() if rate != 0}
 
     def rate(e: sp.Expr) -> sp.Expr:
         return keep(sp.Add(*(keep(keep(slope) * rates[s]) for s, slope in _slopes(e) if s in rates)))
 
     for name, e in _below(keep, outputs):
-        if (own := rate(e)) != 0:
-            rates[name] = own
+        if (change := rate(e)) != 0:
+            rates[name] = change
     return [rate(e) for e in outputs]
 
 
 def _below(keep: Stages, outputs: Sequence[sp.Expr]) -> list[Stage]:
-    """The stages that outputs are made of, in order."""
+    """Return the stages that the outputs need, in order."""
     body, needed = dict(keep.made), set[sp.Symbol]()
-    left = [s for e in outputs for s in e.free_symbols]
-    while left:
-        if (s := left.pop()) in body and s not in needed:
+    queue = [s for e in outputs for s in e.free_symbols]
+    while queue:
+        if (s := queue.pop()) in body and s not in needed:
             needed.add(s)
-            left += body[s].free_symbols
+            queue += body[s].free_symbols
     return [(name, e) for name, e in body.items() if name in needed]
 
 

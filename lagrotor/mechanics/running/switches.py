@@ -1,9 +1,10 @@
-"""What makes a motion switch: given events, impacts, and the surfaces on which a force jumps.
+"""Switches of a motion: events, impacts, and the surfaces on which a force jumps.
 
-An impact on a gap g(q, t) ≥ 0 changes the velocities along M⁻¹ Gᵀ alone, G = ∂g/∂q, so that (G v + b)⁺ = −e (G v + b)⁻; all
-constraints hold on both sides of it (Pfeiffer & Glocker, Multibody Dynamics with Unilateral Contacts, ch. 7). A force with
-sign(w) or |w| jumps on w = 0. It is dry friction where it is −F sign(w) ∂w/∂v: there it may hold w at zero, with a reaction of
-at most F (Filippov, Differential Equations with Discontinuous Righthand Sides, §4).
+An impact on a gap g(q, t) ≥ 0 changes the velocities along M⁻¹ Gᵀ alone, G = ∂g/∂q, so that (G v + b)⁺ = −e (G v + b)⁻. All
+constraints hold before and after it. Pfeiffer & Glocker, Multibody Dynamics with Unilateral Contacts, ch. 7.
+
+A force with sign(w) or |w| jumps on w = 0. The force −F sign(w) ∂w/∂v is dry friction: it may hold w at zero, with a reaction
+of at most F. Filippov, Differential Equations with Discontinuous Righthand Sides, §4.
 """
 
 from collections.abc import Sequence
@@ -23,12 +24,23 @@ from lagrotor.mechanics.lagrangian import force_column, gradient, jacobian, t
 
 @dataclass(frozen=True)
 class Event:
-    """Where section(q, v, t) = 0 is crossed: upward (direction = 1), downward (−1), or both (0).
+    """An event at the crossings of a section; it ends the run or changes the velocities.
 
     Attributes
     ----------
-    velocities : tuple[Expr, ...] or None, optional
-        Those after it, an expression of the state before it for each coordinate; without them the run ends there.
+    section : Expr
+        In q, v and t; the event is where it is zero.
+    velocities : tuple of Expr or None, optional
+        The velocities after the event, as functions of the state before it; without them the run ends.
+    direction : {0, 1, -1}, default 0
+        Upward crossings (1), downward ones (−1), or both (0).
+
+    Examples
+    --------
+    >>> from lagrotor.mechanics import Event, System, coordinates
+    >>> c = coordinates("x")
+    >>> System(c, c.v[0]**2 / 2).simulate({}, (0,), (1,), [0, 5], events=Event(c.q[0] - 2)).t
+    array([0., 2.])
     """
 
     section: sp.Expr
@@ -48,21 +60,34 @@ class Event:
                 raise InputError(
                     f"Event: velocities = {self.velocities!r} must be a tuple, an expression for each coordinate"
                 )
-            given = vector_of("Event: velocities", self.velocities, len(self.velocities))
-            object.__setattr__(self, "velocities", given)
+            velocities = vector_of("Event: velocities", self.velocities, len(self.velocities))
+            object.__setattr__(self, "velocities", velocities)
 
     @property
     def expressions(self) -> tuple[sp.Expr, ...]:
-        """Those of the event, which have a value along a motion."""
+        """The expressions of the event, which have a value along a motion."""
         return self.section, *(self.velocities or ())
 
 
 @dataclass(frozen=True)
 class Impact:
-    """A gap g(q, t) that does not become negative: where it closes, the velocity of approach is reversed and multiplied by the
-    coefficient of restitution, a number from 0 to 1 or a parameter.
+    """An impact where a gap closes: the velocity of approach is reversed and multiplied by the coefficient of restitution.
 
-    Where nothing rebounds the gap stays closed, as a constraint, while its reaction pushes.
+    Without a rebound the gap stays closed, as a constraint, while its reaction pushes.
+
+    Attributes
+    ----------
+    gap : Expr
+        In q and t; it does not become negative.
+    restitution : Expr, default 1
+        A number from 0 to 1 or a parameter.
+
+    Examples
+    --------
+    >>> from lagrotor.mechanics import Impact, System, coordinates
+    >>> c = coordinates("x")
+    >>> System(c, c.v[0]**2 / 2).simulate({}, (2,), (-1,), [0, 4], events=Impact(c.q[0], 0.5)).q.round(6).T
+    array([[2., 1.]])
     """
 
     gap: sp.Expr
@@ -77,13 +102,13 @@ class Impact:
 
     @property
     def expressions(self) -> tuple[sp.Expr, ...]:
-        """Those of the impact, which have a value along a motion."""
+        """The expressions of the impact, which have a value along a motion."""
         return self.gap, self.restitution
 
 
 @dataclass(frozen=True)
 class Surface:
-    """w(q, v, t) = 0, on which a force jumps; `sign` stands for sign(w) in the equations. bound: F of dry friction, or none."""
+    """A surface w(q, v, t) = 0 on which a force jumps; `sign` replaces sign(w), `bound` is F of dry friction or None."""
 
     argument: sp.Expr
     sign: sp.Symbol
@@ -91,39 +116,35 @@ class Surface:
 
 
 def check_events(system: Equations, events: Any) -> tuple[Event | Impact, ...]:
-    """The events of a run as a tuple. Raises InputError for what is none, or does not fit the system."""
-    given = (events,) if isinstance(events, Event | Impact) else events
-    if not isinstance(given, Sequence) or not all(isinstance(each, Event | Impact) for each in given):
+    """Return the events of a run as a tuple, or raise InputError if they do not fit the system."""
+    event_tuple = (events,) if isinstance(events, Event | Impact) else events
+    if not isinstance(event_tuple, Sequence) or not all(isinstance(event, Event | Impact) for event in event_tuple):
         raise InputError(f"simulate: events = {events!r} must be Event(section) or Impact(gap), or several in a tuple")
     c, n = system.c, len(system.speeds)
-    for each in given:
-        if isinstance(each, Impact):
-            if wrong := each.gap.free_symbols & {*c.v, *c.a}:
-                raise InputError(f"Impact: the gap {each.gap} contains {_names(wrong)}: it depends on q and t alone")
-            if not each.gap.free_symbols & {*c.q}:
-                raise InputError(f"Impact: the gap {each.gap} contains no coordinate: no impact changes it")
-        elif each.velocities is not None and len(each.velocities) != n:
+    for event in event_tuple:
+        if isinstance(event, Impact):
+            if wrong := event.gap.free_symbols & {*c.v, *c.a}:
+                raise InputError(f"Impact: the gap {event.gap} contains {_names(wrong)}: it depends on q and t alone")
+            if not event.gap.free_symbols & {*c.q}:
+                raise InputError(f"Impact: the gap {event.gap} contains no coordinate: no impact changes it")
+        elif event.velocities is not None and len(event.velocities) != n:
             raise InputError(
-                f"Event: {len(each.velocities)} velocities after it, for {n} of the system: give one for each"
+                f"Event: {len(event.velocities)} velocities after it, for {n} of the system: give one for each"
             )
-        if isinstance(each, Event) and (wrong := each.section.free_symbols & {*c.a}):
+        if isinstance(event, Event) and (wrong := event.section.free_symbols & {*c.a}):
             raise InputError(
-                f"Event: the section {each.section} contains {_names(wrong)}: it depends on q, v, t and reactions alone"
+                f"Event: the section {event.section} contains {_names(wrong)}: it depends on q, v, t and reactions alone"
             )
-    return tuple(given)
+    return tuple(event_tuple)
 
 
 def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
-    """The system with a symbol for each sign that jumps where the state passes a surface, and these surfaces.
-
-    sign(w) → σ, |w| → σ w, Heaviside(w) → (1 + σ)/2, the larger of a and b → (a + b + σ (a − b))/2, the smaller likewise.
-    """
+    """Return the system with a symbol σ for each sign that jumps where the state passes a surface, and these surfaces. sign(w)
+    → σ, |w| → σ w, Heaviside(w) → (1 + σ)/2, Max(a, b) → (a + b + σ (a − b))/2, Min(a, b) with −σ."""
     moving = {*system.c.q, *system.c.v, *system.reactions, t}
-    L = getattr(
-        system.lagrangian, "remainder", system.lagrangian
-    )  # of an energy of bodies the expression that is added to them
+    L = getattr(system.lagrangian, "remainder", system.lagrangian)  # for bodies, the terms added to their energy
     places = [*system.forces, system.dissipation, L]
-    put: dict[sp.Expr, sp.Expr] = {}
+    substitutions: dict[sp.Expr, sp.Expr] = {}
     signs: dict[sp.Expr, sp.Expr] = {}
     for atom in sorted({e for e in subexpressions(*places) if isinstance(e, _JUMPING)}, key=sp.default_sort_key):
         w = atom.args[0] - atom.args[1] if isinstance(atom, sp.Max | sp.Min) else atom.args[0]
@@ -131,17 +152,17 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
             w = sp.expand(w)
             opposite = sp.expand(-w)
             s = -signs[opposite] if opposite in signs else signs.setdefault(w, sp.Symbol(f"sign({w})", real=True))
-            put[atom] = _smooth(atom, w, s)
+            substitutions[atom] = _smooth(atom, w, s)
     for root in system.generalised_forces.atoms(sp.Pow):
         if root.exp == sp.Rational(-1, 2) and _jumps_at_zero(system.generalised_forces, root.base, system.c.v):
             raise InputError(
                 f"simulate: {root} is not defined where {root.base} = 0, and dry friction in several directions at once, "
-                f"which sticks there, is not run: add the square of a small speed under the root, {root.base} + v_0**2; what "
-                "would stick under a load f below the bound F then creeps at v_0 f/sqrt(F**2 - f**2)"
+                f"which sticks there, is not supported: add the square of a small speed under the root, {root.base} + v_0**2; "
+                "a contact that would stick under a load f below the bound F then creeps at v_0 f/sqrt(F**2 - f**2)"
             )
-    if not put:
+    if not substitutions:
         return system, ()
-    if nested := [atom for atom in put if any(atom != other and atom.has(other) for other in put)]:
+    if nested := [atom for atom in substitutions if any(atom != outer and atom.has(outer) for outer in substitutions)]:
         raise InputError(f"simulate: {nested[0]} has a jump within a jump: write each case as a system of its own")
     slopes = [derivative(L, s) for s in (*system.c.q, *system.c.v)]
     steps = {(step, e) for e in slopes for step in e.atoms(sp.DiracDelta)}
@@ -151,25 +172,23 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
             f"simulate: the Lagrangian jumps where {w} = 0, and its force is infinite there: give an Impact or an Event; of a "
             f"potential without a jump write {w} as a factor"
         )
-    # A solver looks beyond the surface before it ends its phase there: Hertz's (−z)^(5/2) has |z| for −z.
+    # A solver evaluates beyond the surface before its phase ends there, so Hertz's (−z)^(5/2) gets |z| for −z.
     roots = {
-        e: sp.Abs(e.base.xreplace(put)) ** e.exp
+        e: sp.Abs(e.base.xreplace(substitutions)) ** e.exp
         for e in subexpressions(*places)
         if isinstance(e, sp.Pow) and e.exp.is_number and not e.exp.is_integer
-        if e.base.has(*put) or any((e.base / w).is_number for w in signs)
+        if e.base.has(*substitutions) or any((e.base / w).is_number for w in signs)
     }
-    put |= roots
-    friction = gradient(system.dissipation.xreplace(put), system.c.v)
-    forces = tuple((force_column(system.forces or None, system.c, "System") - friction).xreplace(put))
-    smooth = replace(system, lagrangian=system.lagrangian.xreplace(put), forces=forces, dissipation=sp.S.Zero)
+    substitutions |= roots
+    friction = gradient(system.dissipation.xreplace(substitutions), system.c.v)
+    forces = tuple((force_column(system.forces or None, system.c, "System") - friction).xreplace(substitutions))
+    smooth = replace(system, lagrangian=system.lagrangian.xreplace(substitutions), forces=forces, dissipation=sp.S.Zero)
     return smooth, tuple(Surface(w, s, _friction(smooth, w, s)) for w, s in signs.items())
 
 
 def _is_a_jump(step: sp.DiracDelta, slope: sp.Expr, moving: Sequence[sp.Symbol]) -> bool:
-    """Whether the factor of δ(w) in a slope differs from zero where w = 0, at the first such point that Newton's method gives.
-
-    The lengths of a rope with and without a drum are equal where it touches, by an identity that is not written out.
-    """
+    """Return True if the factor of δ(w) in a slope differs from zero at a root of w, found by Newton's method. The lengths of a
+    rope with and without a drum are equal where it touches, by an identity that sympy does not see."""
     mark, w = sp.Dummy(), step.args[0]
     factor = derivative(slope.xreplace({step: mark}), mark)
     letters = sorted((factor.free_symbols | w.free_symbols), key=str)
@@ -188,18 +207,17 @@ def _is_a_jump(step: sp.DiracDelta, slope: sp.Expr, moving: Sequence[sp.Symbol])
     return False
 
 
-_TRIALS, _NO_JUMP = 12, 1e-8  # points at which a root is sought, and the size of a factor that is rounding
+_TRIALS, _NO_JUMP = 12, 1e-8  # points from which a root is sought; a factor below which there is no jump
 _JUMPING = (sp.sign, sp.Abs, sp.Heaviside, sp.Max, sp.Min)
 
 
 def _jumps_at_zero(push: sp.Matrix, e: sp.Expr, v: Sequence[sp.Symbol]) -> bool:
-    """Whether a square e of several velocities, under roots of a force, is zero at rest, or where it is least and the force,
-    by √e → 0, does not vanish with it."""
+    """Return True if a force with √e, e quadratic in several velocities, jumps at rest or at the least value of e."""
     speeds = [s for s in v if s in e.free_symbols]
     still = dict.fromkeys(speeds, sp.S.Zero)
-    rest, slope = e.xreplace(still), gradient(e, speeds).xreplace(still)
+    value_at_rest, slope = e.xreplace(still), gradient(e, speeds).xreplace(still)
     curvature = jacobian(list(gradient(e, speeds)), speeds)
-    if len(speeds) < 2 or rest == 0:
+    if len(speeds) < 2 or value_at_rest == 0:
         return len(speeds) > 1
     if curvature.free_symbols & {*speeds}:
         return False
@@ -207,7 +225,7 @@ def _jumps_at_zero(push: sp.Matrix, e: sp.Expr, v: Sequence[sp.Symbol]) -> bool:
         least, free = curvature.gauss_jordan_solve(-slope)
     except ValueError:
         return False
-    if decide_zero(rest + slope.dot(least.xreplace(dict.fromkeys(free, sp.S.Zero))) / 2).answer != "zero":
+    if decide_zero(value_at_rest + slope.dot(least.xreplace(dict.fromkeys(free, sp.S.Zero))) / 2).answer != "zero":
         return False
     r = sp.Dummy("r", positive=True)
     sizes = [sp.expand(r * f.xreplace({sp.sqrt(e): r, 1 / sp.sqrt(e): 1 / r})).xreplace({r: sp.S.Zero}) for f in push]
@@ -226,7 +244,7 @@ def _smooth(atom: sp.Expr, w: sp.Expr, s: sp.Symbol) -> sp.Expr:
 
 
 def _friction(system: Equations, w: sp.Expr, s: sp.Symbol) -> sp.Expr | None:
-    """F, where the force that jumps with the sign s of w is −F s ∂w/∂v; None where it is another."""
+    """Return F if the force that jumps with the sign s of w is −F s ∂w/∂v; None for any other force."""
     c = system.c
     slope = gradient(w, c.v)
     lagrangian = s in system.lagrangian.free_symbols

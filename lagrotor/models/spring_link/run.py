@@ -19,7 +19,7 @@ from lagrotor.models.spring_link.rigid_body import Array, finite_rotation, inert
 from lagrotor.models.spring_link.system import TIP, RigidBodySystem, link_force, step_limit
 from lagrotor.numerics import operation_recorder
 from lagrotor.numerics.arrays import check_times
-from lagrotor.numerics.error_estimate import Evolution, Patience, estimate_run
+from lagrotor.numerics.error_estimate import EvaluationBudget, Evolution, estimate_run
 from lagrotor.numerics.integrate import Problem, check_tolerance, integrate
 from lagrotor.numerics.operation_recorder import Recorded
 from lagrotor.numerics.pulse import pulse_windows
@@ -253,10 +253,10 @@ def run_solver(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, tol: 
         problem = Problem(under(None), start, budget, driven, at, windows, begin=float(times[0]))
         return integrate(problem, times, local, lambda segment, _, error: lsoda(segment, max(error / 20, _TIGHTEST)))
 
-    evolution = Evolution(system.state[: 18 * n_b], integrate_from, distance, turn, Patience(50_000, 2_000))
+    evolution = Evolution(system.state[: 18 * n_b], integrate_from, distance, turn, EvaluationBudget(50_000, 2_000))
     run = estimate_run(evolution, times, tolerance)
     run.warn_unless_kept("run_solver", tolerance)
-    return _run_of(system, run.states, run.known)
+    return _run_of(system, run.states, run.run_fields)
 
 
 def step_function(system: RigidBodySystem, shock: Shock | None, dt: float) -> _OfState:

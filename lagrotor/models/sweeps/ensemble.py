@@ -20,7 +20,7 @@ from lagrotor.models.model import PACE, NaturalUnits, check_range, constant_mome
 from lagrotor.models.simulate import evolution_of, simulate, trajectory_of
 from lagrotor.models.sweeps.batch_dop853 import Index, Rates, Swarm, march_swarm
 from lagrotor.numerics.arrays import check_times
-from lagrotor.numerics.error_estimate import Evolution, Leg, Patience, estimate_runs, first_time
+from lagrotor.numerics.error_estimate import EvaluationBudget, Evolution, Leg, estimate_runs, first_time
 from lagrotor.numerics.integrate import check_engine, check_tolerance
 from lagrotor.numerics.run import Ending
 from lagrotor.numerics.segment import Array, StopError, Stretch
@@ -32,7 +32,7 @@ from lagrotor.result_display import Shown, scientific
 CHUNK = 2048  # trajectories: an array of them is 16 KiB, and the arrays of one evaluation stay in the cache
 MODELS = ("minimal", "spheres", "none")
 # Three times the evaluations of motions far from singular positions at a tolerance of 1e-13.
-_PATIENCE = Patience(5_000, 250 * 2 * pi)
+_PATIENCE = EvaluationBudget(5_000, 250 * 2 * pi)
 _MOST_ROWS = 4_000_000  # the most states of one batch, 200 MB
 
 

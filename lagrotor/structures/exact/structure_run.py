@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError
 from lagrotor.numerics.arrays import check_times, finite_array
-from lagrotor.numerics.error_estimate import Evolution, Patience, estimate_run
+from lagrotor.numerics.error_estimate import EvaluationBudget, Evolution, estimate_run
 from lagrotor.numerics.integrate import Engine, Problem, check_engine, check_tolerance, integrate
 from lagrotor.numerics.run import Quantity, Run, read_run
 from lagrotor.numerics.segment import Integrate, StopError, Stretch
@@ -122,14 +122,8 @@ class StructureRun(Run):
             "momenta": Quantity(self.momenta, ("rotor", "t"), "kg m²/s"),
         }
 
-    def about(self) -> dict[str, Any]:
-        """Return the structure as `save` writes it.
-
-        Returns
-        -------
-        dict
-            The fields of the structure.
-        """
+    def _about(self) -> dict[str, Any]:
+        """Return the structure as `save` writes it."""
         return {"structure": asdict(self.structure)}
 
     @staticmethod
@@ -233,7 +227,7 @@ class StructureRun(Run):
         return lines, [*[BAR] * len(bars), *[MARK] * len(far), *rotors]
 
 
-_PATIENCE = Patience(50_000, 2_000 * 2 * pi)
+_PATIENCE = EvaluationBudget(50_000, 2_000 * 2 * pi)
 
 
 def simulate_structure(
@@ -258,9 +252,9 @@ def simulate_structure(
         _integration(s, motion, engine),
         motion.distance,
         turn=2 * pi,
-        patience=_PATIENCE,
+        budget=_PATIENCE,
         project=motion.project,
-        defect=lambda _, states: motion.defect(states, conserved),
+        conservation_error=lambda _, states: motion.defect(states, conserved),
         difference=motion.difference_of_rates,
         singular=lambda y: bar_in_line(motion, y),
     )
@@ -276,7 +270,7 @@ def simulate_structure(
     run.warn_unless_kept("the structure's run", tol)
     axes, velocities = motion.axes_and_rates(run.states).swapaxes(1, 2).copy()
     return StructureRun(
-        **run.known | {"t": times[: len(run.t)]}, structure=s, axes=axes, rates=c.rate * velocities,
+        **run.run_fields | {"t": times[: len(run.t)]}, structure=s, axes=axes, rates=c.rate * velocities,
         momenta=c.G[:, None] * np.exp(-c.decay[:, None] * (run.t - begin)),
     )  # fmt: skip
 

@@ -12,8 +12,9 @@ from lagrotor.mechanics import Frame, System, coordinates, motion_program, t
 from lagrotor.mechanics.bodies.moving_frames import turn_matrix
 from lagrotor.mechanics.bodies.trees import tree_of
 from lagrotor.mechanics.running.programs import energy_program, parameter_values
-from lagrotor.numerics import compile_program, operations
+from lagrotor.numerics import operations
 from lagrotor.numerics.codegen import reduce_common
+from lagrotor.numerics.printers import compile_program
 from tests.systems import I1, I2, I3, VALUES, chain, g, k, l, m
 
 GRAVITY = (0, 0, -g)

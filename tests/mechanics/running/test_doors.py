@@ -34,11 +34,11 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
     "misspelt": (lambda: run(values={m: 1, "lenght": 1}), r"length without a value.*lenght\?"),
     "text": (lambda: run(values={m: 1, length: "1"}), "length = '1' must be a number"),
     "truth": (lambda: run(values={m: True, length: 1}), "m = True must be a number"),
-    "coordinate": (lambda: run(values={m: 1, length: 1, x: 3}), "theta a value, which moves"),
+    "coordinate": (lambda: run(values={m: 1, length: 1, x: 3}), "theta a value, which varies in time"),
     "twice": (lambda: run(values={m: 1, length: 1, "m": 3}), "m with two values"),
     "strangers": (
         lambda: run(values={m: 1, length: 1, "b": 1, "a": 1}),
-        "values name a, b, which .* its letters are length, m: leave them out",
+        "values name a, b, which .* its symbols are length, m: leave them out",
     ),
     "overflow": (lambda: forced(x).simulate({}, (1e300,), (1e300,), T), "the energy overflows at the start"),
     "no energy": (lambda: System(c, v**2 / 2 - sp.sqrt(x - 1)).simulate({}, (0,), (0,), T), "energy has no real value"),
@@ -151,5 +151,5 @@ def test_velocities_of_an_event_that_are_not_finite_end_the_run_there() -> None:
 
 
 def test_a_run_of_more_turns_than_rounding_leaves_is_refused_at_once() -> None:
-    with pytest.raises(IntegrationError, match=r"has \d\.\de\+\d+ turns, after which rounding leaves nothing known"):
+    with pytest.raises(IntegrationError, match=r"has \d\.\de\+\d+ turns, over which rounding errors exceed the states"):
         forced(-x).simulate({}, (1.0,), (0.0,), [0.0, 1e300])

@@ -104,7 +104,7 @@ def test_a_force_that_holds_but_is_no_friction_ends_the_run_in_words_and_at_once
     """Two forces that push across one another's velocity: their sliding motion is outside what is followed."""
     c = coordinates("a b")
     system = System(c, (c.v[0] ** 2 + c.v[1] ** 2) / 2, forces=(-sp.sign(c.v[0]), -sp.sign(c.v[0])))
-    with pytest.warns(LagrotorWarning, match="no dry friction"):
+    with pytest.warns(LagrotorWarning, match="not dry friction"):
         run = system.simulate({}, (0, 0), (1, 0), np.linspace(0, 5, 11))
     assert run.t[-1] == pytest.approx(1, abs=1e-6) and run.evaluations < 5_000
 
@@ -138,7 +138,7 @@ def test_a_bead_rubs_on_a_hoop_by_what_presses_it() -> None:
         assert (run.evaluate(N).min() < 0) == (rough < 0.5) and (abs(rate[-1]) < 1e-9) == (rough > 0.5)
     assert np.tan(angle[-1]) < 0.9
     inward = System(c, L, bead.constraints, names=("hoop",), dissipation=mu * N * abs(along))
-    with pytest.warns(LagrotorWarning, match="becomes negative: what rubs would pull"):
+    with pytest.warns(LagrotorWarning, match="becomes negative: the rubbing contact would pull"):
         inward.simulate({m: 1.7, g: 9.81, R: 1, mu: 0.1}, (0, -1), (5.5, 0), times)
 
 

@@ -105,7 +105,7 @@ def test_what_is_no_function_is_refused_in_words() -> None:
         (([1, 2], [2, np.nan]), "finite"),
         (([1, 2, 3], [2, 3]), "3 and 2"),
         (sp.Function("W")(x), "without a value"),
-        (v, "no function"),
+        (v, "does not depend on it"),
         (sp.Symbol("zz") * x, "zz without a value"),
         (sp.Lambda((x, v), x), "has 2 arguments"),
         (lambda s: s**2, r"U', which a callable for U alone does not give: give values={U: \(U, U'\)}"),
@@ -124,7 +124,7 @@ def test_what_is_no_function_is_refused_in_words() -> None:
             WELL.simulate(values, (0.5,), (0,), T)
     with pytest.raises(InputError, match="engine='core'"):
         WELL.simulate({m: 1, U: ([0, 1], [0, 1])}, (0.5,), (0,), T, engine="fast")
-    with pytest.raises(InputError, match="a letter of the system and a function"):
+    with pytest.raises(InputError, match="a symbol of the system and a function"):
         System(C, m * v**2 / 2 - sp.Function("m")(x)).simulate({m: 1, "m": x}, (0,), (0,), T)
     for potential, words in (
         (sp.Function("x")(t), "plain"),

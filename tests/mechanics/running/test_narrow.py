@@ -141,7 +141,7 @@ def test_where_nothing_is_narrow_nothing_is_followed() -> None:
     morse = System(LINE, V**2 / 2 - (1 - sp.exp(-X)) ** 2)
     assert morse.simulate({}, (1,), (0,), T).switched.narrow == ()
     (part,) = hill("a step").simulate({W: 0.01}, (0,), (1,), T).switched.narrow
-    assert part.part == sp.tanh((X - C) / W)
+    assert part.term == sp.tanh((X - C) / W)
 
 
 def test_a_step_that_is_followed_does_not_warn_and_one_beyond_all_digits_is_named() -> None:

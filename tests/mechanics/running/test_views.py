@@ -176,7 +176,7 @@ def test_charts_of_stability_have_the_boundaries_of_textbooks() -> None:
     for numbers, words in (
         ({w: [1, 2]}, "numbers"),
         ({w: [1, 2], k: [1, 2]}, "without w, k"),
-        ({w: [1, 2], sp.Symbol("z"): [1, 2]}, "z is no letter"),
+        ({w: [1, 2], sp.Symbol("z"): [1, 2]}, "z is no symbol"),
         ({w: [2, 1], c_i: [1, 2]}, "increasing"),
     ):
         with pytest.raises(InputError, match=words):

@@ -125,7 +125,7 @@ def measure_c24(case: _SmallMotion) -> dict[str, float]:
     fit = harmonics_at(run.t, x_y, natural_rate(scene), 1)
     (x_1, y_1, x_2, y_2), slope = fit.waves[0], fit.slope
     return _count_roots(scene) | {
-        "left_by_one_line_and_a_slope_relative": abs(fit.rest).max() / abs(x_y).max(),
+        "left_by_one_line_and_a_slope_relative": abs(fit.residual).max() / abs(x_y).max(),
         "slope_y_1_per_s": slope[1],
         "slope_ratio_y_2_to_y_1": slope[3] / slope[1],
         "slope_x_over_slope_y": abs(slope[0] / slope[1]),
