@@ -1,20 +1,19 @@
 # %% [markdown]
-# # Unequal spins: the shift of the rate, the drift of the azimuth, and where a twist grows
+# # Unequal spins: the shift of the rate, the drift of the azimuth, and the growth of a twist
 #
-# **Objective.** How the rate of an orbit about upright changes with its amplitude, for any two spins, any bar and length, as one
-# formula that joins equal and opposite spins; and how fast the orbit turns about the joint line, so that it does not close; and
-# which of these orbits lose a small twist.
+# **Objective.** For any two spins and any bar: the change of the rate of an orbit about upright with its amplitude, as one
+# formula that includes equal and opposite spins; the rate at which the orbit rotates about the joint line, so that it is not
+# periodic; the orbits on which a small twist grows.
 #
-# **Assumptions.** An orbit that swings between $x=\pm r_0$, where the axes are parallel; a series in $r_0$.
+# **Assumptions.** An orbit that oscillates between $x=\pm r_0$, where the axes are parallel; a series in $r_0$.
 #
 # **Notation.** As in t11: $n$ the mean axis, $\beta$ its lean, $\alpha$ its azimuth about the joint line, $h$ half the angle
-# between the axes. Units: $2(a+b)=1$, $\Omega_0=1$, so that with $\Sigma=G_1+G_2$, $D=G_1-G_2$,
-# $\sigma=(a+b)/(a-b)$ the natural rate (t1) reads $\Sigma^2+\sigma D^2=1$.
-# $\zeta=\sigma D^2$ is 0 for equal and 1 for opposite spins. $\Phi$ the phase,
+# between the axes. Units: $2(a+b)=1$, $\Omega_0=1$. With $\Sigma=G_1+G_2$, $D=G_1-G_2$, $\sigma=(a+b)/(a-b)$ the natural rate
+# (t1) then means $\Sigma^2+\sigma D^2=1$. $\zeta=\sigma D^2$ is 0 for equal and 1 for opposite spins. $\Phi$ the phase,
 # $\dot\Phi=\Omega=1+c\,r_0^2+\dots$; $z=e^{i\Phi}$.
 #
-# **What is known, what is new.** The method is Lindstedt's (1882). For $\zeta=0$ the shift is that of one top on a cone,
-# $1/\cos$; for $\zeta=1$ that of t3. Between them, for the drift, and for the growth of a twist, we know no source.
+# **Earlier work.** The method is Lindstedt's (1882). For $\zeta=0$ the shift is the shift $1/\cos$ of one top on a cone; for
+# $\zeta=1$ it is the shift of t3. For $\zeta$ between them, for the drift, and for the growth of a twist we know no source.
 
 # %%
 import numpy as np
@@ -41,7 +40,7 @@ from lagrotor.theory.rate_shift import opposite_share
 # %% [markdown]
 # ## The Lagrangian through fifth order
 #
-# From t11, exact for any two spins, with all coordinates and rates of first order:
+# The Lagrangian of t11 is exact for any two spins. It is expanded with all coordinates and rates of first order:
 
 # %%
 (beta, h, _), (beta_v, h_v, alpha_v) = LEANING.q, LEANING.v
@@ -58,22 +57,22 @@ prove(
 )
 
 # %% [markdown]
-# In third order, besides a derivative by the time, a twist takes momentum about the joint line (t6):
+# The third order is a time derivative plus a term by which a twist contributes to the momentum about the joint line (t6):
 
 # %%
 tilt = h**3 * (sp.Rational(1, 3) / k - sp.Rational(1, 6) / k**3) - h * beta**2 / (2 * k)
 prove(
     orders[3] - total * (tilt.diff(h) * h_v + tilt.diff(beta) * beta_v),
     apart * alpha_v * h**2 / k,
-    "the third order less a derivative by the time",
+    "the third order minus a time derivative",
     names="L_3",
 )
 
 # %% [markdown]
 # ## The orbit
 #
-# Even in $\Phi$ are $\beta$ and $\dot\alpha$, odd is $h$. Half a turn later $\beta$ ends at $-r_0$. First order is the normal
-# mode, and the unknowns of second and third are
+# $\beta$ and $\dot\alpha$ are even in $\Phi$, and $h$ is odd. Half a period later $x=\sin\beta=-r_0$. The first order is the
+# normal mode. The second and third orders have the unknowns
 
 # %%
 z, r = sp.symbols("z r")
@@ -103,7 +102,7 @@ def later(e: sp.Expr) -> sp.Expr:
 
 
 def put(e: sp.Expr, most: int) -> sp.Expr:
-    """A polynomial of the coordinates and rates along the orbit, through r**most."""
+    """Evaluate a polynomial of the coordinates and rates along the orbit, through r**most."""
     along = dict(zip((beta, h, beta_v, h_v, alpha_v), (lean, half, later(lean), later(half), turning), strict=True))
     powers: dict[tuple[sp.Symbol, int], sp.Expr] = {}
 
@@ -152,7 +151,7 @@ prove(
 )
 
 # %% [markdown]
-# In second order the lean has no part, the twist and the turning have one of twice the frequency:
+# In second order the lean has no term; the twist and $\dot\alpha$ each have a term of twice the frequency:
 
 # %%
 second = [
@@ -163,14 +162,14 @@ at_second = sp.solve(second, [b20, b22, h22, n2, a22, P2], dict=True)[0]
 prove(
     tuple(at_second[u] for u in (b22, n2, h22, a22)),
     (0, 0, apart**2 * total * sigma**2 / (4 * k), apart**3 * sigma**2 / (2 * k)),
-    "the second order of the orbit; no turning about the joint line",
+    "the second order of the orbit, without mean rotation about the joint line",
     names=("b_{22}", "n_2", "h_{22}", "a_{22}"),
 )
 
 # %% [markdown]
 # ## The shift of the rate
 #
-# In third order the terms of the frequency of the orbit itself give three equations for $h_{31}$, $a_{31}$ and $c$:
+# In third order the terms with the orbit's frequency give three equations for $h_{31}$, $a_{31}$ and $c$:
 
 # %%
 third = [part(e, 3, 1).subs(at_second) for e in (equation_beta, equation_h, momentum)]
@@ -186,16 +185,16 @@ prove(
 # %%
 law = sp.Rational(1, 2) + sp.Rational(3, 4) * share * (sigma - 1)
 law -= share**2 * (sigma**2 - 1) / 4 + sp.Rational(3, 4) * share**2 * sigma / k**2
-prove(shift_coefficient(sigma, k, share), law, "in full, by ζ", names="c")
+prove(shift_coefficient(sigma, k, share), law, "the shift as a function of ζ", names="c")
 
 # %% [markdown]
-# It joins what was known: equal spins, ½ from $1/\cos$, and opposite spins, the series of t3.
+# The formula contains the known limits: ½ from $1/\cos$ for equal spins, and the series of t3 for opposite spins.
 
 # %%
 prove(
     (law.subs(share, 0), 1 + law.subs(share, 1) * r0**2),
     (sp.Rational(1, 2), paired_frequency(3).expressions[0]),
-    "equal spins; opposite spins",
+    "the limits of equal and of opposite spins",
     names=("c", r"\Omega/\Omega_0"),
 )
 
@@ -203,16 +202,16 @@ prove(
 # ## The drift of the azimuth
 #
 # The mean of $\partial L/\partial\beta=d(\partial L/\partial\dot\beta)/dt$ vanishes. Its first term is
-# $\Sigma\langle\dot\alpha\rangle$, and the others of fourth order follow from the orbit through third:
+# $\Sigma\langle\dot\alpha\rangle$. The other terms of fourth order follow from the orbit through third order:
 
 # %%
 thrice = [part(e, 3, 3).subs(at_second).subs(at_third) for e in (equation_beta, equation_h, momentum)]
 at_third |= {u: reduced(value) for u, value in sp.solve(thrice, [b33, h33, a33], dict=True)[0].items()}
-others = part(put(L.diff(beta), 4), 4, 0).subs(at_second).subs(at_third)
+fourth = part(put(L.diff(beta), 4), 4, 0).subs(at_second).subs(at_third)
 prove(
-    reduced(-others / total),
+    reduced(-fourth / total),
     drift_coefficient(sigma, k, apart),
-    "the mean rate of turning about the joint line over r_0⁴",
+    "the mean rate of rotation about the joint line over r_0⁴",
     names=r"\langle\dot\alpha\rangle/r_0^4",
 )
 
@@ -220,17 +219,18 @@ prove(
 prove(
     drift_coefficient(sigma, k, apart),
     apart**3 * sigma**2 * (sigma - 5) / (16 * k),
-    "in full",
+    "the drift as a formula",
     names=r"\langle\dot\alpha\rangle/r_0^4",
 )
 
 # %% [markdown]
-# A bar of $\sigma=5$ would let the orbits of all spins close to this order.
+# With a bar of $\sigma=5$ the orbits of all spins would be periodic to this order.
 #
-# ## A twist beside the orbit
+# ## Growth of a twist
 #
-# Axes at rest in any twist $\eta$ are in equilibrium. The small swing about them is that of the inertia $M$ and of the spins'
-# skew $F$, 3 by 3, $M\ddot q+F\dot q=0$; with $f$ the axial vector of $F$ its rate is $\Omega^2=f^TMf/\det M$:
+# Axes at rest with any twist $\eta$ are in equilibrium. Small oscillations about this equilibrium obey $M\ddot q+F\dot q=0$
+# with the 3×3 inertia matrix $M$ and the antisymmetric gyroscopic matrix $F$. With the axial vector $f$ of $F$ the rate is
+# $\Omega^2=f^TMf/\det M$:
 
 # %%
 eta = sp.Symbol("eta", real=True)
@@ -247,14 +247,14 @@ balance = sp.expand(numerator - (1 - slower.subs(share, sigma * apart**2) * eta*
 prove(
     tuple(reduced(balance.coeff(eta, n)) for n in range(3)),
     (0, 0, 0),
-    "the square of the rate about a twist η, 1 − (σ − 1)((σ + 1)ζ − 1)/σ η², through η²",
+    "the square of the rate at a twist η, 1 − (σ − 1)((σ + 1)ζ − 1)/σ η², through η²",
     names=("E_0", "E_1", "E_2"),
 )
 
 # %% [markdown]
-# The action of the swing, $J=\tfrac12r_0^2$ at $\eta=0$, is its adiabatic invariant, so that $J\,\Omega(\eta)$ is the potential
-# of a slow twist. A twist that changes at the rate $\dot\eta$ makes the pair turn, as $\ddot\beta=0$ needs
-# $\Sigma\dot\alpha=D\dot\eta$, and its energy is
+# The action of the oscillation, $J=\tfrac12r_0^2$ at $\eta=0$, is an adiabatic invariant. Therefore $J\,\Omega(\eta)$ is the
+# potential of a slow twist. If the twist changes at the rate $\dot\eta$, the pair rotates, because $\ddot\beta=0$ requires
+# $\Sigma\dot\alpha=D\dot\eta$. The kinetic energy is
 
 # %%
 steady = {beta_v: 0, h_v: eta, alpha_v: apart * eta / total}
@@ -266,7 +266,8 @@ prove(
 )
 
 # %% [markdown]
-# So $\ddot\eta=\sigma\Sigma^2J\,\big((\sigma-1)((\sigma+1)\zeta-1)/\sigma\big)\,\eta$, and a twist grows as $e^{\lambda t}$ with
+# So $\ddot\eta=\sigma\Sigma^2J\,\big((\sigma-1)((\sigma+1)\zeta-1)/\sigma\big)\,\eta$. A twist is proportional to
+# $e^{\lambda t}$ with
 
 # %%
 action = r0**2 / 2
@@ -274,17 +275,19 @@ growth = sigma * (1 - share) * action * slower
 prove(
     growth,
     twist_coefficient(sigma, share) * r0**2,
-    "the square of the growth of a twist; its slow frequency where negative",
+    "the square of the growth rate of a twist; if negative, minus the square of its frequency",
     names=r"\lambda^2/\Omega_0^2",
 )
 
 # %% [markdown]
-# For equal spins it is the leading growth of t9, $(1-\sigma)/2\;r_0^2$; for opposite ones it is zero, and that of t5 follows.
+# For equal spins this is the leading growth of t9, $(1-\sigma)/2\;r_0^2$. For opposite spins it is zero, and the growth of t5
+# is the leading term.
 #
 # ## Measured on exact orbits
 #
-# Parameters used nowhere else: orbits of the exact equations, found by Newton's method. The last bar is a light one with much
-# inertia: there what follows the drift's law is only $-0.048\,r_0^2$ of it, so that the order after shows early.
+# Newton's method computes the orbits of the exact equations, with parameters used nowhere else. The last bar is light and has
+# a large inertia. For this bar the next term of the drift is only $-0.048\,r_0^2$ times the law, so the order after it is
+# visible early.
 
 # %%
 AMPLITUDES = (0.02, 0.03, 0.045)
@@ -297,7 +300,7 @@ SCENES = {
 
 
 def distances(scene: Scene, change: float = 0.0) -> tuple[list[float], list[float]]:
-    """Distance of both laws from the exact orbits, over Omega_0 r0² and over the drift; `change` of c, as a twin."""
+    """Errors of both laws against exact orbits, over Omega_0 r0² and over the drift; `change` of c as a control."""
     natural, shift, drift = natural_rate(scene), [], []
     for amplitude in AMPLITUDES:
         orbit = upright_orbit(scene, amplitude)
@@ -314,39 +317,41 @@ GROWING = {
 
 
 def growth_distances(scene: Scene, change: float = 0.0) -> list[float]:
-    """Relative distance of lambda² from that of the exact orbits' multipliers; `change` of it, as a twin."""
-    law, off = float(twist_coefficient(scene.sigma, opposite_share(scene))) * (1 + change), []
+    """Relative errors of lambda² against the multipliers of exact orbits; `change` of lambda² as a control."""
+    law, errors = float(twist_coefficient(scene.sigma, opposite_share(scene))) * (1 + change), []
     for amplitude in AMPLITUDES:
         orbit = upright_orbit(scene, amplitude)
         slope = flow(orbit.scene)(MODEL.start(orbit.scene), 2 * np.pi / orbit.frequency).slope
         exponents = (np.log(np.linalg.eigvals(slope).astype(complex)) / (2 * np.pi)) ** 2
-        off.append(abs(exponents[np.argmax(np.abs(exponents))].real / amplitude**2 / law - 1))
-    return off
+        errors.append(abs(exponents[np.argmax(np.abs(exponents))].real / amplitude**2 / law - 1))
+    return errors
 
 
-grown = {name: measured_order(AMPLITUDES, growth_distances(one)) for name, one in GROWING.items()}
-ungrown = measured_order(AMPLITUDES, growth_distances(GROWING["a heavy bar"], 0.05))
-assert all(abs(order - 2) < 0.1 for order in grown.values()), grown
-assert abs(ungrown) < 1
-measured = {name: tuple(measured_order(AMPLITUDES, part) for part in distances(one)) for name, one in SCENES.items()}
+growth_orders = {name: measured_order(AMPLITUDES, growth_distances(scene)) for name, scene in GROWING.items()}
+control_order = measured_order(AMPLITUDES, growth_distances(GROWING["a heavy bar"], 0.05))
+assert all(abs(order - 2) < 0.1 for order in growth_orders.values()), growth_orders
+assert abs(control_order) < 1
+measured = {
+    name: tuple(measured_order(AMPLITUDES, errors) for errors in distances(scene)) for name, scene in SCENES.items()
+}
 twin = measured_order(AMPLITUDES, distances(SCENES["+11, −4"], 0.05)[0])
 assert all(abs(order - 2) < 0.1 for pair in measured.values() for order in pair), measured
 assert abs(twin) < 1
 Remark(
     "Unequal spins",
-    "Against exact orbits the shift of the rate and the drift of the azimuth are off by relative errors that fall as "
-    "the amplitude to the "
-    + "; ".join(f"{one:.2f} and {two:.2f} ({name})" for name, (one, two) in measured.items())
-    + f". With a twentieth more in c the error does not fall ({twin:.2f}). In the paper's scene with spins 10 and −9 rad/s the "
-    f"orbit of r_0 = 0.204 turns by {np.degrees(azimuth_drift(Scene((10, -9), link=Link(1, 0.01, 0.1))) * 0.204**4):.4f} "
-    "degrees a second.",
+    "The shift of the rate and the drift of the azimuth are compared with exact orbits. Measured exponents of their relative "
+    "errors in the amplitude: "
+    + "; ".join(f"{shift:.2f} and {drift:.2f} ({name})" for name, (shift, drift) in measured.items())
+    + f". With c increased by 0.05 the error does not decrease (exponent {twin:.2f}). In the paper's scene with spins 10 and "
+    "−9 rad/s the orbit of r_0 = 0.204 rotates by "
+    f"{np.degrees(azimuth_drift(Scene((10, -9), link=Link(1, 0.01, 0.1))) * 0.204**4):.4f} degrees per second.",
 )
 
 # %%
 Remark(
-    "Where a twist grows",
-    "Against the multipliers of exact orbits λ² is off by a relative error that falls as the amplitude to the "
-    + ", ".join(f"{order:.2f} ({name})" for name, order in grown.items())
-    + f"; with a twentieth more it does not fall ({ungrown:.2f}). The growth is of first order in the amplitude: a swing of a "
-    "heavy bar with unequal spins soon leaves upright.",
+    "The growth of a twist",
+    "λ² is compared with the multipliers of exact orbits. Measured exponents of its relative error in the amplitude: "
+    + ", ".join(f"{order:.2f} ({name})" for name, order in growth_orders.items())
+    + f". With λ² increased by 5 % the error does not decrease (exponent {control_order:.2f}). The growth rate is of first "
+    "order in the amplitude, so oscillations of a heavy bar with unequal spins soon depart from upright.",
 )

@@ -1,8 +1,8 @@
 # %% [markdown]
 # # Stability of the paired precession
 #
-# **Objective.** The growth of the neighbours of the periodic orbit, derived from the variational equations: the exponents as
-# a power series in the amplitude, where the orbit is elliptic and where hyperbolic, and the edge between them.
+# **Objective.** The growth of perturbations of the periodic orbit, derived from the variational equations: the exponents as a
+# power series in the amplitude, the ranges in which the orbit is elliptic or hyperbolic, and the boundary between them.
 #
 # **Assumptions.** Opposite spins, any bar; the orbit's series of t3. The laws are leading terms, each with its error.
 #
@@ -24,21 +24,22 @@ from lagrotor.paper import Formula, Remark, prove
 from lagrotor.theory import averaged_hamiltonian, elliptic_edge, exponent_series, growth_squared, paired_series
 
 # %% [markdown]
-# ## Which perturbations can grow
+# ## Perturbations that can grow
 #
-# At rest four of the six multipliers belong to displacements that stay: turning about the joint line, its rate, a shift of
-# both axes along $x$, and a twist. Along the orbit the energy with the shift of time, and the momentum with the turning, keep
-# four multipliers at 1. Exchanging the rotors half a period later ($S$, t3) maps the orbit to itself; shift of time and turning
-# are even under it, the shift along $x$ and the twist are odd. So the last pair is made of perturbations odd under $S$,
+# At rest four of the six multipliers belong to constant displacements: rotation about the joint line, its rate, a shift of
+# both axes along $x$, and a twist. Along the orbit four multipliers equal 1. Two of them are due to the energy and the shift
+# of time, two to the momentum and the rotation. Exchange of the rotors with a shift by half a period ($S$, t3) maps the orbit
+# to itself. The shift of time and the rotation are even under $S$; the shift along $x$ and the twist are odd. So the last
+# pair of multipliers belongs to perturbations that are odd under $S$,
 #
 # $$\delta=\xi\,p(\Phi)+\eta\,q(\Phi),\qquad \frac{d\xi}{d\Phi}=A\,\eta,\qquad \frac{d\eta}{d\Phi}=B\,\xi,$$
 #
-# $p$ and $q$ periodic, $p=(1,0,0)$ and $q=(0,1,0)$ in $(x,Y,z)$ at $r_0=0$. Then $\lambda^2=AB$. Time reversed with $y\to-y$,
-# $p$ is even, $q$ odd; hence the shape of the two equations.
+# with periodic $p$ and $q$. At $r_0=0$ they are $p=(1,0,0)$ and $q=(0,1,0)$ in $(x,Y,z)$. Then $\lambda^2=AB$. Under time
+# reversal with $y\to-y$ the vector $p$ is even and $q$ is odd. This gives the two equations their form.
 #
 # ## The variational equations
 #
-# The equations of motion of rotor 1 and the two constraints, from the Lagrangian (t3), in units $a+b=1$ and $\Omega_0$ with
+# The Lagrangian (t3) gives the equations of motion of rotor 1 and the two constraints. The units are $a+b=1$ and $\Omega_0$, and
 # $y=\sqrt\sigma\,Y$:
 
 # %%
@@ -55,19 +56,20 @@ equations[1] /= sp.sqrt(sigma)
 Formula(equations, "E")
 
 # %% [markdown]
-# With $\delta x$ and so on put in, to first order in $\xi$ and $\eta$, and $A\eta$, $B\xi$ for the derivatives of $\xi$ and
-# $\eta$: a velocity varies by $(p'+Bq)\,\xi+(q'+Ap)\,\eta$, an acceleration by
-# $(p''+2Bq'+ABp)\,\xi+(q''+2Ap'+ABq)\,\eta$, times $\Omega$ and $\Omega^2$. So each of the five equations gives two to be solved,
+# The variations are substituted to first order in $\xi$ and $\eta$, with $\xi'=A\eta$ and $\eta'=B\xi$. The variation of a
+# velocity is $\Omega$ times $(p'+Bq)\,\xi+(q'+Ap)\,\eta$. The variation of an acceleration is $\Omega^2$ times
+# $(p''+2Bq'+ABp)\,\xi+(q''+2Ap'+ABq)\,\eta$. So each of the five equations gives two variational equations,
 #
 # $$E_\xi=\sum_j\Big(\frac{\partial E}{\partial q_j}\,p_j+\Omega\,\frac{\partial E}{\partial\dot q_j}\,(p_j'+Bq_j)
 # +\Omega^2\,\frac{\partial E}{\partial\ddot q_j}\,(p_j''+2Bq_j'+ABp_j)\Big)=0,$$
 #
-# and $E_\eta=0$, in which $p$ and $q$, $A$ and $B$ are exchanged. The derivatives of $E$ are taken on the orbit; $j$ runs over
-# both axes and the multipliers, and as $p$ and $q$ are odd under $S$, those of rotor 2 are $x_2(\Phi)=x_1(\Phi+\pi)$,
-# $Y_2(\Phi)=-Y_1(\Phi+\pi)$, $z_2(\Phi)=-z_1(\Phi+\pi)$, and so for $\lambda_2$; the bar's $\tau(\Phi+\pi)=-\tau(\Phi)$.
+# and $E_\eta=0$, in which $p$ and $q$, $A$ and $B$ are exchanged. The derivatives of $E$ are taken on the orbit; $j$ runs
+# over both axes and the multipliers. As $p$ and $q$ are odd under $S$, their components for rotor 2 are
+# $x_2(\Phi)=x_1(\Phi+\pi)$, $Y_2(\Phi)=-Y_1(\Phi+\pi)$, $z_2(\Phi)=-z_1(\Phi+\pi)$, and
+# $\lambda_2(\Phi)=-\lambda_1(\Phi+\pi)$. For the bar $\tau(\Phi+\pi)=-\tau(\Phi)$.
 #
-# From $p=(1,0,0)$, $q=(0,1,0)$ and the orbit's first order, $x=r_0\cos\Phi$ and $Y_1=-Y_2=r_0\sin\Phi$, the coefficients of
-# $r_0$ are, each letter being the first-order term of $p$ or of $q$, a dot $d/d\Phi$ and $y$ written for $Y$,
+# The orbit has the first order $x=r_0\cos\Phi$, $Y_1=-Y_2=r_0\sin\Phi$. With $p=(1,0,0)$ and $q=(0,1,0)$ the coefficients of
+# $r_0$ follow. Each symbol means the first-order term of $p$ or of $q$, a dot means $d/d\Phi$, and $y$ means $Y$:
 
 
 # %%
@@ -79,7 +81,7 @@ for names, slower in ((AXES.v, AXES.q), (AXES.a, AXES.v)):
 
 
 def first_order(displaced: dict) -> list[sp.Expr]:
-    """The coefficient of r_0 in the five equations for what varies from the displacement at rest."""
+    """The coefficient of r_0 in the five variational equations, for the perturbation `displaced` at r_0 = 0."""
     vary = sp.Symbol("vary")
     put = {s: int(s in (z1, z2)) + r0 * swinging.get(s, 0) + vary * (displaced.get(s, 0) + r0 * s) for s in unknown}
     return [sp.expand(sp.expand(e.xreplace(put)).coeff(vary, 1)).coeff(r0, 1) for e in equations]
@@ -112,10 +114,11 @@ prove(
 )
 
 # %% [markdown]
-# At every order the next terms of $p$ and $q$ stand in these same left sides, and what is known drives them. They leave the means
-# of $x$ and of $Y$ undetermined, which $p=(1,0,0)$ and $q=(0,1,0)$ fix, and drop out of the means of the first two equations.
-# By the velocities $p'+Bq$ and $q'+Ap$ the mean of the first has the term $B$ for $p$, that of the second $-A/\sigma$ for $q$:
-# these determine $A$ and $B$. (The other two means vanish, as odd in $\Phi$.) The solution through second order:
+# At every order the linear terms of these equations contain the new terms of $p$ and $q$, driven by the lower orders. The
+# equations do not determine the means of $x$ and $Y$; by definition these are the means of $p=(1,0,0)$ and $q=(0,1,0)$. The
+# new terms cancel in the means of the first two equations. Because of the velocities $p'+Bq$ and $q'+Ap$, the mean of the
+# first equation for $p$ contains $B$, and the mean of the second equation for $q$ contains $-A/\sigma$. These two means
+# determine $A$ and $B$. (The other two means vanish, because the terms are odd in $\Phi$.) The solution through second order:
 
 # %%
 orbit, found = paired_series(4), exponent_series(4)
@@ -128,7 +131,7 @@ prove(
         0,
         -c(Phi) * r0 - sigma * (1 - c(2 * Phi)) * r0**2 / (2 * k),
     ),
-    "a shift along x, carried by the orbit",
+    "the shift along x on the orbit",
     names=("p_x", "p_Y", "p_z"),
 )
 
@@ -141,14 +144,14 @@ prove(
         1 - 2 * c(Phi) * r0 / k + 2 * bend * c(2 * Phi) * r0**2,
         -sigma * s(Phi) * r0 + sigma * s(2 * Phi) * r0**2 / (4 * k),
     ),
-    "a twist, carried by the orbit",
+    "the twist on the orbit",
     names=("q_x", "q_Y", "q_z"),
 )
 
 # %% [markdown]
 # ## The two coefficients
 #
-# The twist drives the shift from second order on; the shift drives the twist from fourth order on:
+# The twist drives the shift at second order. The shift drives the twist only at fourth order:
 
 # %%
 A, B = (orbit.expression(part) for part in (found.A, found.B))
@@ -161,13 +164,13 @@ prove(
 )
 
 # %% [markdown]
-# With them and with $p$, $q$ through fourth order the variational equations hold: their coefficients of $\xi$ and of $\eta$
-# vanish in orders 0 to 4.
+# With these coefficients and with $p$, $q$ through fourth order the variational equations hold: their coefficients of $\xi$
+# and of $\eta$ vanish in orders 0 to 4.
 
 
 # %%
 def three(own: tuple, other: tuple, by: FourierSeries, back: FourierSeries, sign: int) -> dict:
-    """Coordinates, velocities and accelerations of both axes of what varies as own, driven by other; sign under S."""
+    """Coordinates, velocities and accelerations of both axes for the vector `own`, coupled to `other`; `sign` under S."""
     rate, values = orbit.frequency, {}
     for i in range(3):
         once = own[i].derivative() + by * other[i]
@@ -179,7 +182,7 @@ def three(own: tuple, other: tuple, by: FourierSeries, back: FourierSeries, sign
 
 
 def put(e: sp.Expr, values: dict) -> FourierSeries:
-    """A polynomial of the coordinates with their series put in."""
+    """Substitute the series of the coordinates into a polynomial."""
     polynomial, total = sp.Poly(e, *values), FourierSeries({}, 4)
     for powers, coefficient in polynomial.terms():
         term = total.constant(orbit.field.from_sympy(coefficient))
@@ -190,8 +193,8 @@ def put(e: sp.Expr, values: dict) -> FourierSeries:
     return total
 
 
-def left(variations: dict) -> sp.Matrix:
-    """What the variational equations leave in orders 0 to 4 of r_0."""
+def residuals(variations: dict) -> sp.Matrix:
+    """The residuals of the variational equations in orders 0 to 4 of r_0."""
     rows = []
     for e in equations:
         terms = (put(sp.expand(e).diff(symbol), along) * change for symbol, change in variations.items())
@@ -203,7 +206,7 @@ def left(variations: dict) -> sp.Matrix:
 still = tuple(FourierSeries({}, 4) for _ in found.p)
 along = three(orbit.solution.unknowns, still, still[0], still[0], 1)
 prove(
-    left(three(found.p, found.q, found.B, found.A, -1)),
+    residuals(three(found.p, found.q, found.B, found.A, -1)),
     sp.zeros(5, 5),
     "the coefficients of ξ in the five equations",
     names=r"\left(E_\xi^{(0)},\dots,E_\xi^{(4)}\right)",
@@ -211,16 +214,16 @@ prove(
 
 # %%
 prove(
-    left(three(found.q, found.p, found.A, found.B, -1)),
+    residuals(three(found.q, found.p, found.A, found.B, -1)),
     sp.zeros(5, 5),
     "the coefficients of η in the five equations",
     names=r"\left(E_\eta^{(0)},\dots,E_\eta^{(4)}\right)",
 )
 
 # %% [markdown]
-# The averaged motion (t11) says the same of $A$: it gives the half-angle $\eta$ between the axes the stiffness $H_{\eta\eta}$,
-# and $2G\dot\beta=H_{\eta\eta}\,\eta$. A unit of $q$ turns $\eta$ by $\sqrt\sigma$, the orbit swings by $s=\sqrt\sigma\,r_0$ and
-# has $P=Gs^2/k$; per radian of phase, $1/\Omega_0$ each:
+# The averaged motion (t11) gives the same $A$. The half-angle $\eta$ between the axes has the stiffness $H_{\eta\eta}$, and
+# $2G\dot\beta=H_{\eta\eta}\,\eta$. A unit of $q$ changes $\eta$ by $\sqrt\sigma$. The orbit has the amplitude
+# $s=\sqrt\sigma\,r_0$ in $\eta$ and the momentum $P=Gs^2/k$. Per radian of phase, that is per time $1/\Omega_0$:
 
 # %%
 still = {LEAN: 0, HALF: 0, P: G * SWING**2 / k}
@@ -230,12 +233,12 @@ per_radian = swung * sp.sqrt(sigma) / (2 * G) * sp.sqrt(a**2 - b**2) / G
 prove(
     (per_radian**2).subs(units),
     (A.coeff(r0, 2) * r0**2) ** 2,
-    "the square of the leading term of A, from the averaged motion",
+    "the square of the leading term of A, by the averaged motion",
     names="A^2",
 )
 
 # %% [markdown]
-# ## Growth a turn
+# ## Growth per period
 #
 # $\lambda^2=AB$. For a bar with $b\neq0$ the leading term is
 
@@ -243,7 +246,7 @@ prove(
 prove(
     growth_squared().expressions[0],
     sp.expand(A * B).coeff(r0, 6) * r0**6,
-    "the leading term, the library's law",
+    "the leading term equals the library's law",
     names=r"\lambda^2",
 )
 
@@ -251,7 +254,7 @@ prove(
 prove(
     growth_squared().expressions[0],
     sp.Rational(3, 16) * sigma**2 * (1 - sigma) * r0**6 / k**2,
-    "in full",
+    "the explicit law",
     names=r"\lambda^2",
 )
 
@@ -268,28 +271,30 @@ prove(
 )
 
 # %%
-prove(growth_squared(8, dumbbell=True).expressions[0], sp.Rational(9, 32) * r0**8 / k**4, "which the library holds",
+prove(growth_squared(8, dumbbell=True).expressions[0], sp.Rational(9, 32) * r0**8 / k**4, "the library's law for σ = 1",
       names=r"\lambda^2")  # fmt: skip
 
 # %% [markdown]
-# ## The edge
+# ## The boundary of stability
 #
-# For $\sigma>1$ the first two terms of $A$ have opposite signs: beyond the amplitude where they cancel even $b>0$ gives a
-# hyperbolic orbit.
+# For $\sigma>1$ the first two terms of $A$ have opposite signs and cancel at some amplitude. Beyond this amplitude the orbit is
+# hyperbolic even for $b>0$.
 
 # %%
 edge = elliptic_edge().expressions[0]
-prove(edge**2, 24 * k**2 * (sigma - 1) / fourth, "where the first two terms of A cancel", names="r_0^2")
+prove(
+    edge**2, 24 * k**2 * (sigma - 1) / fourth, "the amplitude at which the first two terms of A cancel", names="r_0^2"
+)
 
 # %% [markdown]
-# It is right to first order in $\sigma-1$, where it is
+# This law is correct to first order in $\sigma-1$:
 
 # %%
 delta = sp.Symbol("delta", positive=True)
 prove(
     sp.cancel((edge**2).subs(sigma, 1 + delta)),
     sp.Rational(2, 3) * k**2 * delta,
-    "the edge for small δ = σ − 1",
+    "the boundary for small δ = σ − 1",
     small=delta,
     order=1,
     names="r_0^2",
@@ -307,20 +312,20 @@ BARS = {
 
 
 def measure(link: Link, amplitudes: tuple[float, ...]) -> tuple[str, float, float, float]:
-    """(kind, slope of |mu + 1/mu − 2|, largest relative error of the law, the one that it gives there)."""
+    """(kind, exponent of |mu + 1/mu − 2|, relative error of the law at the largest amplitude, its estimate)."""
     scene = Scene(spins=(10, -10), link=link)
     law = growth_squared(8, dumbbell=True) if scene.sigma == 1 else growth_squared()
     exact = [floquet(scene, amplitude) for amplitude in amplitudes]
-    squares = np.array([one.growth**2 - one.turning**2 for one in exact]) / (4 * np.pi**2)
-    said, given = (np.asarray(of(np.array(amplitudes), scene.sigma, scene.k)) for of in (law, law.error))
-    off = np.abs(said - squares)
-    assert (off < given).all()
-    excess = [abs(one.pair_sum - 2) for one in exact]
+    squares = np.array([result.growth**2 - result.turning**2 for result in exact]) / (4 * np.pi**2)
+    predicted, bounds = (np.asarray(form(np.array(amplitudes), scene.sigma, scene.k)) for form in (law, law.error))
+    errors = np.abs(predicted - squares)
+    assert (errors < bounds).all()
+    excess = [abs(result.pair_sum - 2) for result in exact]
     return (
         exact[0].kind,
         measured_order(amplitudes, excess),
-        float(off[-1] / squares[-1]),
-        float(given[-1] / squares[-1]),
+        float(errors[-1] / squares[-1]),
+        float(bounds[-1] / squares[-1]),
     )
 
 
@@ -329,35 +334,35 @@ assert [kind for kind, *_ in measured.values()] == ["hyperbolic", "hyperbolic", 
 paper = floquet(Scene(spins=(10, -10), link=Link(1, 0.01, 0.1)), 0.204)
 Remark(
     "Stability of the paired precession",
-    "At small amplitude it is elliptic for b > 0 and hyperbolic for b ≤ 0. Exact multipliers: "
+    "At small amplitude the orbit is elliptic for b > 0 and hyperbolic for b ≤ 0. Exact multipliers: "
     + "; ".join(
-        f"{name}, r_0 = {BARS[name][1][-1]}: {kind}, μ + 1/μ − 2 ~ r_0^{slope:.2f}, the law off by {100 * abs(off):.1f} %, "
-        f"at most {100 * abs(given):.1f} % given"
-        for name, (kind, slope, off, given) in measured.items()
+        f"{name}, r_0 = {BARS[name][1][-1]}: {kind}, μ + 1/μ − 2 ∝ r_0^{slope:.2f}, error of the law {100 * abs(error):.1f} %, "
+        f"error bound {100 * abs(bound):.1f} %"
+        for name, (kind, slope, error, bound) in measured.items()
     )
-    + f". In the paper's scene the growth per turn at r_0 = 0.204 is {paper.growth:.5f}, known to {paper.exponent_error:.0e}.",
+    + f". In the paper's scene the growth per period at r_0 = 0.204 is {paper.growth:.5f} ± {paper.exponent_error:.0e}.",
 )
 
 
 # %%
 def edge_at(sigma_value: float) -> tuple[float, float, float]:
-    """r_0 at k = 1 where the orbit of a bar with K = 0 turns hyperbolic: the law, its given error, exact orbits to 5e-6."""
-    law, given = (float(of(sigma_value, 1.0)) for of in (elliptic_edge(), elliptic_edge().error))
+    """r_0 above which the orbit is hyperbolic for K = 0, k = 1: by the law, its error estimate, on exact orbits to 5e-6."""
+    law, bound = (float(form(sigma_value, 1.0)) for form in (elliptic_edge(), elliptic_edge().error))
     scene = Scene(spins=(10, -10), link=Link(1, 2 * 1.25 * (sigma_value - 1), 0))
 
     def excess(r0: float) -> float:
         return (floquet(scene, r0).pair_sum - 2) / r0**6  # nearly a line: A B begins with r_0⁶
 
-    return law, given, float(brentq(excess, law - 1.5 * given, law + 1.5 * given, xtol=5e-6))
+    return law, bound, float(brentq(excess, law - 1.5 * bound, law + 1.5 * bound, xtol=5e-6))
 
 
 edges = {value: edge_at(value) for value in (1.02, 1.1, 1.2)}
-assert all(abs(said - seen) < given for said, given, seen in edges.values())
-ratios = [abs(said - seen) / seen for said, _, seen in edges.values()]
+assert all(abs(law - exact) < bound for law, bound, exact in edges.values())
+ratios = [abs(law - exact) / exact for law, _, exact in edges.values()]
 Remark(
-    "Elliptic to hyperbolic",
-    "The edge at k = 1, its given error, and that of exact orbits: "
-    + "; ".join(f"σ = {value}: {said:.4f} ± {given:.4f}, {seen:.4f}" for value, (said, given, seen) in edges.items())
+    "Boundary between elliptic and hyperbolic",
+    "The boundary at k = 1 by the law, with its error estimate, and on exact orbits: "
+    + "; ".join(f"σ = {value}: {law:.4f} ± {bound:.4f}, {exact:.4f}" for value, (law, bound, exact) in edges.items())
     + ". The law is asymptotic in σ − 1: its relative error grows from "
     + f"{100 * ratios[0]:.1f} % to {100 * ratios[-1]:.0f} % here.",
 )
