@@ -4,9 +4,9 @@
 # **Objective.** The processor time for a given error with the four core packages, with the fast extra, and with other tools
 # on the same pair; the throughput per second.
 #
-# **Assumptions.** Times differ between machines and between runs. These results are from one machine and one run of `python
-# -m benchmarks.speed`: medians of processor time over samples of at least 10 ms. Errors and numbers of evaluations, which are
-# the same on every machine, are in `b1_chart`.
+# **Assumptions.** Times differ between machines and between runs. These results are from one machine and one run of
+# `python -m benchmarks.speed`: medians of processor time over samples of at least 10 ms. Errors and numbers of evaluations,
+# which are the same on every machine, are in `b1_chart`.
 
 # %%
 from lagrotor.benchmark.records import record_age, recorded_multiple, recorded_speed

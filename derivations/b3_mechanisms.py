@@ -1,13 +1,13 @@
 # %% [markdown]
-# # Other tools on growing mechanisms
+# # Mechanisms of increasing size with lagrotor and with other tools
 #
 # **Objective.** The processor time for a mechanism with this tool and with others: for preparation, for one right-hand side,
 # and for a run.
 #
 # **Assumptions.** Rods of $l = 0.7$ m with $m = 1.3$ kg at their ends in a plane, relative angles; gyroscopes of $I_1 = 0.3$,
 # $I_3 = 0.2$ kg m² on each other's tips. Each tool is used as its documentation recommends, in a separate process. Before the
-# timing, the right-hand sides of all tools agree to $10^{-9}$. The results are from one machine, recorded by `python -m
-# benchmarks.mechanisms --record`. The numbers of operations are the same on every machine.
+# timing, the right-hand sides of all tools agree to $10^{-9}$. The results are from one machine, recorded by
+# `python -m benchmarks.mechanisms --record`. The numbers of operations are the same on every machine.
 #
 # **Notation.** $n$ the number of rods or gyroscopes; ready: the time from the description of the mechanism to its right-hand
 # side, including compilation; rhs: the time of one evaluation from Python.

@@ -75,8 +75,8 @@ space = coordinates("x y z")
 x, y, z = space.q
 free = m * sum(v**2 for v in space.v) / 2 - m * g * z
 wire = System(space, free, (x**2 + y**2 + z**2 - R**2, y * sp.cos(Omega * t) - x * sp.sin(Omega * t)))
-along = (R * sp.sin(theta) * sp.cos(Omega * t), R * sp.sin(theta) * sp.sin(Omega * t), -R * sp.cos(theta))
-solved = wire.in_coordinates(c, dict(zip(space.q, along, strict=True)))
+bead_position = (R * sp.sin(theta) * sp.cos(Omega * t), R * sp.sin(theta) * sp.sin(Omega * t), -R * sp.cos(theta))
+solved = wire.in_coordinates(c, dict(zip(space.q, bead_position, strict=True)))
 assert solved.constraints == () and solved.same_as(hoop).answer == "zero"
 assert decide_equal(solved.L, hoop.L).answer == "zero"
 values, times, twin = {m: 0.4, R: 0.5, g: 9.81, Omega: 6.0}, np.linspace(0, 5, 101), {Omega: 6.001}

@@ -6,10 +6,10 @@
 #
 # **Assumptions.** All centres of mass at the centre; no friction.
 #
-# **Notation.** The angle of the outer gimbal about $z$ is $\alpha$, of the inner gimbal about its $x$ axis $\beta$, and of
-# the rotor about its axis $y$ $\gamma$; at $\beta=0$ the three axes are perpendicular. $A_o$ the inertia of the outer gimbal
-# about its axis; $B_i, C_i, A_i$ the inertias of the inner gimbal about its $x, y, z$; $I_3$, $I_1$ the axial and transverse
-# inertias of the rotor; $H$ its axial momentum.
+# **Notation.** $\alpha$ the angle of the outer gimbal about $z$, $\beta$ the angle of the inner gimbal about its $x$ axis,
+# $\gamma$ the angle of the rotor about its axis $y$; at $\beta=0$ the three axes are perpendicular. $A_o$ the inertia of the
+# outer gimbal about its axis; $B_i, C_i, A_i$ the inertias of the inner gimbal about its $x, y, z$; $I_3$, $I_1$ the axial and
+# transverse inertias of the rotor; $H$ its axial momentum.
 
 # %%
 import numpy as np

@@ -60,10 +60,10 @@ weight = np.outer(size, size) * beyond
 
 def by_hand(_: float, y: np.ndarray) -> np.ndarray:
     theta, rate = y[:3], y[3:]
-    apart, along, up = theta[:, None] - theta[None, :], size * np.cos(theta), size * np.sin(theta)
-    force = -(weight * np.sin(apart)) @ rate**2 - 9.81 * lever * along
-    rows = np.array([-up, along])
-    bent = np.array([along, up]) @ rate**2
+    apart, horizontal, vertical = theta[:, None] - theta[None, :], size * np.cos(theta), size * np.sin(theta)
+    force = -(weight * np.sin(apart)) @ rate**2 - 9.81 * lever * horizontal
+    rows = np.array([-vertical, horizontal])
+    bent = np.array([horizontal, vertical]) @ rate**2
     whole = np.block([[weight * np.cos(apart), rows.T], [rows, np.zeros((2, 2))]])
     return np.concatenate([rate, np.linalg.solve(whole, np.concatenate([force, bent]))[:3]])
 

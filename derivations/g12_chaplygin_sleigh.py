@@ -64,9 +64,9 @@ rate = 2 * 0.3 * last / inertia
 def difference(parameters: dict) -> float:
     """The largest error of the angular velocity (rad/s) or of the speed (m/s) against the closed solution."""
     run = sleigh.simulate(parameters, (0, 0, 0), (0, 0, 1.5), times, tol=1e-12)
-    along = run.v[:, 0] * np.cos(run.q[:, 2]) + run.v[:, 1] * np.sin(run.q[:, 2])
+    speed = run.v[:, 0] * np.cos(run.q[:, 2]) + run.v[:, 1] * np.sin(run.q[:, 2])
     turn = np.abs(run.v[:, 2] - 1.5 / np.cosh(rate * times)).max()
-    return float(max(turn, np.abs(along - last * np.tanh(rate * times)).max()))
+    return float(max(turn, np.abs(speed - last * np.tanh(rate * times)).max()))
 
 
 off = difference(values)

@@ -32,9 +32,12 @@ rolling = System(c, disc.kinetic - disc.potential((0, 0, -g)), (z - R * sp.cos(l
 
 # %%
 x_v, y_v, z_v, phi_v, lean_v, psi_v = c.v
-along = x_v * sp.cos(phi) + y_v * sp.sin(phi)
-across = y_v * sp.cos(phi) - x_v * sp.sin(phi)
-expected = along - R * (psi_v + phi_v * sp.sin(lean)), across * sp.cos(lean) + z_v * sp.sin(lean) + R * lean_v
+forward_speed = x_v * sp.cos(phi) + y_v * sp.sin(phi)
+sideways_speed = y_v * sp.cos(phi) - x_v * sp.sin(phi)
+expected = (
+    forward_speed - R * (psi_v + phi_v * sp.sin(lean)),
+    sideways_speed * sp.cos(lean) + z_v * sp.sin(lean) + R * lean_v,
+)
 prove(rolling.rolling, expected, "the constraints of no slip", names=("0", "0"))
 
 # %%

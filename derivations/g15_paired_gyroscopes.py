@@ -32,9 +32,9 @@ for i, side in enumerate((-1, 1)):
     axis = ground.moved(side * ell / 2).turned("xy", c.q[3 * i : 3 * i + 2])
     L = L + axis.turned("z", c.q[3 * i + 2]).body(M, (I1, I1, I3), (0, 0, R / 2)).kinetic
     tips.append(axis.moved(0, 0, R))
-along = Frame(c).moved(*tips[0].place()).turned("zy", c.q[6:])
-bar = along.body(m, (0, K, K), (ell / 2, 0, 0))
-pair = System(c, L + bar.kinetic, tuple(along.place((ell, 0, 0)) - tips[1].place()))
+bar_frame = Frame(c).moved(*tips[0].place()).turned("zy", c.q[6:])
+bar = bar_frame.body(m, (0, K, K), (ell / 2, 0, 0))
+pair = System(c, L + bar.kinetic, tuple(bar_frame.place((ell, 0, 0)) - tips[1].place()))
 
 # %% [markdown]
 # ## Conservation of the axial momenta
@@ -114,14 +114,14 @@ costs |= {
     for massive in (False, True)
 }
 assert all(2 * costs["bar eliminated", massive][0] < costs["bar eliminated", massive][1] for massive in (False, True))
-assert [case for case, (written, auto) in costs.items() if auto <= written] == [("unit vectors", True)]
+assert [case for case, (manual, automatic) in costs.items() if automatic <= manual] == [("unit vectors", True)]
 tables = [
     Table(
         "The pair: operations of a right-hand side",
         ("coordinates", "bar", "package's program", "generated", "ratio"),
         tuple(
-            (name, "with mass" if massive else "massless", f"{written}", f"{auto}", f"{auto / written:.2f}")
-            for (name, massive), (written, auto) in costs.items()
+            (name, "with mass" if massive else "massless", f"{manual}", f"{automatic}", f"{automatic / manual:.2f}")
+            for (name, massive), (manual, automatic) in costs.items()
         ),
         "The model above with three bodies in eight coordinates and a closed loop requires "
         f"{operations(motion_program(pair).program)} operations.",

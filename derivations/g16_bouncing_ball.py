@@ -50,7 +50,7 @@ prove(t0 + total, t0 * (1 + e) / (1 - e), "the time of the last impact", names="
 # %% [markdown]
 # ## Comparison with the single flights
 #
-# The simulation locates the impacts independently of the output times. After the impacts accumulate, the ball rests on the floor.
+# The simulation locates the impacts independently of the output times. After the last impact the ball rests on the floor.
 
 # %%
 values, twin = {m: 0.3, g: 9.81, e: 0.7}, {e: 0.701}

@@ -31,13 +31,13 @@ rocking = Event(theta, velocities=(rate_ratio * rate,))
 # the centre is perpendicular to the line from the old edge.
 
 # %%
-w, after = sp.symbols("omega omega_1", positive=True)
+w, omega_1 = sp.symbols("omega omega_1", positive=True)
 old, new = sp.Matrix([R * sp.sin(alpha), 0]), sp.Matrix([-R * sp.sin(alpha), 0])
 centre = sp.Matrix([0, R * sp.cos(alpha)])
 velocity = w * sp.Matrix([-(centre - old)[1], (centre - old)[0]])
 arm = centre - new
 about_new = m * R**2 / 3 * w + m * (arm[0] * velocity[1] - arm[1] * velocity[0])
-(rate_after,) = sp.solve(sp.Eq(about_new, sp.Rational(4, 3) * m * R**2 * after), after)
+(rate_after,) = sp.solve(sp.Eq(about_new, sp.Rational(4, 3) * m * R**2 * omega_1), omega_1)
 prove(
     sp.expand_trig(rate_after / w),
     rate_ratio,
@@ -66,8 +66,7 @@ prove(
 # %% [markdown]
 # ## Comparison with a simulation
 #
-# The force is discontinuous in the sign of the tilt, and the rate is discontinuous at each impact. The largest tilts occur at
-# zero rate.
+# The force is discontinuous at zero tilt, and the rate is discontinuous at each impact. The largest tilts occur at zero rate.
 
 # %%
 values, times, twin = {m: 80.0, g: 9.81, R: 1.1, alpha: 0.3}, np.linspace(0, 12, 241), {alpha: 0.301}

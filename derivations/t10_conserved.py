@@ -82,16 +82,16 @@ prove(
 
 # %%
 assert reduced.invariance((0, 1, 0, -1)).answer == "nonzero"
-turned = reduced.noether((0, 1, 0, 1)).expression
-where = {}
+momentum = reduced.noether((0, 1, 0, 1)).expression
+in_mercator = {}
 for i, (u, al) in enumerate(((u1, al1), (u2, al2))):
     r = mercator_axis(u, al)
     rates = r.jacobian(MERCATOR.q) * sp.Matrix(MERCATOR.v)
-    where |= dict(zip(AXES.q[3 * i : 3 * i + 3], r, strict=True))
-    where |= dict(zip(AXES.v[3 * i : 3 * i + 3], rates, strict=True))
+    in_mercator |= dict(zip(AXES.q[3 * i : 3 * i + 3], r, strict=True))
+    in_mercator |= dict(zip(AXES.v[3 * i : 3 * i + 3], rates, strict=True))
 prove(
-    turned,
-    joint_line_momentum().subs(where),
+    momentum,
+    joint_line_momentum().subs(in_mercator),
     "the momentum about the joint line",
     written=r"P = \sum_i (a\,\dot r_i + b\,\dot r_j)\cdot(e_x\times r_i) + G_i\,x_i,\qquad j \neq i",
 )

@@ -47,7 +47,7 @@ from lagrotor.theory import (
 #
 # Let $r_1=n\cos h-q\sin h$ and $r_2=n\cos h+q\sin h$ with $q$ a unit vector perpendicular to the mean axis $n$. The bar's
 # constraint is $k(x_2-x_1)+1-r_1\cdot r_2=2\sin h\,(k\,q_x+\sin h)=0$, that is $q_x=-\sin h/k$. So for any $k$ and at any
-# lean the bar only determines the inclination of $q$. In the directions across and along the lean
+# lean the bar only determines the inclination of $q$. In terms of the directions across and along the lean, $q$ is
 
 # %%
 (beta, h, alpha), (beta_v, h_v, alpha_v) = LEANING.q, LEANING.v
@@ -73,8 +73,8 @@ prove(
 
 # %%
 chi, chi_v = sp.symbols("chi chi_dot", real=True)
-across, lengthwise = sp.Matrix([0, -sp.cos(alpha), -sp.sin(alpha)]), mean_axis.diff(beta)
-turned = across * sp.cos(chi) + lengthwise * sp.sin(chi)
+crosswise, lengthwise = sp.Matrix([0, -sp.cos(alpha), -sp.sin(alpha)]), mean_axis.diff(beta)
+unit_twist = crosswise * sp.cos(chi) + lengthwise * sp.sin(chi)
 
 
 def velocity(r: sp.Matrix) -> sp.Matrix:
@@ -86,7 +86,7 @@ mean_square = beta_v**2 + alpha_v**2 * sp.cos(beta) ** 2
 apart_square = (chi_v + alpha_v * sp.sin(beta)) ** 2
 apart_square += (alpha_v * sp.cos(chi) * sp.cos(beta) + beta_v * sp.sin(chi)) ** 2
 prove(
-    (velocity(mean_axis).dot(velocity(mean_axis)), velocity(turned).dot(velocity(turned))),
+    (velocity(mean_axis).dot(velocity(mean_axis)), velocity(unit_twist).dot(velocity(unit_twist))),
     (mean_square, apart_square),
     "the squares of the velocities of n, and of q = f cos χ + e sin χ",
     names=(r"|\dot n|^2", r"|\dot q|^2"),
@@ -284,9 +284,9 @@ prove(sp.expand(on_curve).subs(D**2, squared), level, "W on the curve", names="W
 # On the curve $\dot\beta_s=4g\,\eta D/c$, so the time to reach a lean is the integral of $c\,d\beta/(4g\,\eta D)$:
 
 # %%
-along = 4 * HALF * inner / c - 2 * kappa * SWING**2 * HALF
+lean_rate = 4 * HALF * inner / c - 2 * kappa * SWING**2 * HALF
 of_D = HALF**2 + (SWING**2 - p - kappa * SWING**2 * c) / 2
-prove(along, 4 * HALF * of_D / c, "the rate of change of the lean over g", names=r"\dot\beta_s/g")
+prove(lean_rate, 4 * HALF * of_D / c, "the rate of change of the lean over g", names=r"\dot\beta_s/g")
 
 # %% [markdown]
 # ## The condition under which x turns back
@@ -389,8 +389,8 @@ on_swing = {h: HALF + SWING * sine, h_v: SWING * cosine, beta_v: -root * SWING *
 
 def in_swing(e: sp.Expr) -> sp.Poly:
     """Write an expression along the oscillation as a polynomial in `SWING_SYMBOLS`."""
-    put = e.subs(secant, sp.sqrt(1 + tangent**2)).subs(on_swing, simultaneous=True)
-    return sp.Poly(sp.expand(put), *SWING_SYMBOLS, domain=fractions)
+    along_swing = e.subs(secant, sp.sqrt(1 + tangent**2)).subs(on_swing, simultaneous=True)
+    return sp.Poly(sp.expand(along_swing), *SWING_SYMBOLS, domain=fractions)
 
 
 def over_swing(f: sp.Poly) -> sp.Poly:
@@ -436,9 +436,9 @@ W_6 = sp.Add(
 # %%
 both = W.subs(P, G * p_push / k).subs(shape) + W_6
 at_rest = both.diff(p_push).subs(still)
-own = SWING**2 - (k**2 - 1) / (2 * k**2) * SWING**4
+orbit_momentum = SWING**2 - (k**2 - 1) / (2 * k**2) * SWING**4
 prove(
-    sp.series(at_rest.subs(p_push, own), SWING, 0, 6).removeO(),
+    sp.series(at_rest.subs(p_push, orbit_momentum), SWING, 0, 6).removeO(),
     0,
     "the momentum of the precession to the next order, p = s² − (k² − 1) s⁴/(2 k²)",
     names=r"\partial_p(W+W_6)",
@@ -472,12 +472,12 @@ square, small = sp.Symbol("s_2", positive=True), sp.Symbol("epsilon", positive=T
 def swing_squared(p_now: sp.Expr) -> sp.Expr:
     """s² of the amplitude r_0, to the next order."""
     r_0 = root * sp.sqrt(square)
-    more = farther.subs({p_push: p_now, SWING: sp.sqrt(square)})
-    return sp.expand((r_0**2 + r_0**4 / 3 + 2 * r_0 * more) / root**2)
+    excess = farther.subs({p_push: p_now, SWING: sp.sqrt(square)})
+    return sp.expand((r_0**2 + r_0**4 / 3 + 2 * r_0 * excess) / root**2)
 
 
 counted = {square: small * square, push: small * push}
-p_all = sp.expand(own.subs(SWING, sp.sqrt(swing_squared(square))) + push)
+p_all = sp.expand(orbit_momentum.subs(SWING, sp.sqrt(swing_squared(square))) + push)
 orbit = {p_push: p_all.subs(counted), SWING: sp.sqrt(swing_squared(square + push).subs(counted))}
 brackets = []
 for q, unit in ((LEAN, -2), (HALF, -sp.Rational(1, 2))):

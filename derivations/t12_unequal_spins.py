@@ -71,8 +71,8 @@ prove(
 # %% [markdown]
 # ## The orbit
 #
-# $\beta$ and $\dot\alpha$ are even in $\Phi$, and $h$ is odd. Half a period later $x=\sin\beta=-r_0$. The first order is the
-# normal mode. The second and third orders have the unknowns
+# $\beta$ and $\dot\alpha$ are even in $\Phi$, and $h$ is odd. Half a period later $\beta=-r_0$. The first order is the normal
+# mode. The second and third orders have the unknowns
 
 # %%
 z, r = sp.symbols("z r")
@@ -101,27 +101,27 @@ def later(e: sp.Expr) -> sp.Expr:
     return sp.expand(sp.I * z * e.diff(z)) * Omega
 
 
-def put(e: sp.Expr, most: int) -> sp.Expr:
+def put(e: sp.Expr, highest: int) -> sp.Expr:
     """Evaluate a polynomial of the coordinates and rates along the orbit, through r**most."""
-    along = dict(zip((beta, h, beta_v, h_v, alpha_v), (lean, half, later(lean), later(half), turning), strict=True))
+    on_orbit = dict(zip((beta, h, beta_v, h_v, alpha_v), (lean, half, later(lean), later(half), turning), strict=True))
     powers: dict[tuple[sp.Symbol, int], sp.Expr] = {}
 
     def cut(value: sp.Expr) -> sp.Expr:
         value = sp.expand(value)
-        return sum((value.coeff(r, n) * r**n for n in range(most + 1)), sp.Integer(0))
+        return sum((value.coeff(r, n) * r**n for n in range(highest + 1)), sp.Integer(0))
 
     def power(symbol: sp.Symbol, n: int) -> sp.Expr:
         if n == 0:
             return sp.Integer(1)
         if (symbol, n) not in powers:
-            powers[symbol, n] = cut(power(symbol, n - 1) * along[symbol])
+            powers[symbol, n] = cut(power(symbol, n - 1) * on_orbit[symbol])
         return powers[symbol, n]
 
     result = sp.Integer(0)
-    for exponents, coefficient in sp.Poly(e, *along).terms():
-        if sum(exponents) <= most:
+    for exponents, coefficient in sp.Poly(e, *on_orbit).terms():
+        if sum(exponents) <= highest:
             term = coefficient
-            for symbol, n in zip(along, exponents, strict=True):
+            for symbol, n in zip(on_orbit, exponents, strict=True):
                 term = cut(term * power(symbol, n))
             result += term
     return sp.expand(result)

@@ -2,7 +2,7 @@
 # # Completeness of the integrals
 #
 # **Objective.** Evidence against a first integral besides the energy $E$, the axial momenta $G_i$ and the momentum $P$ about
-# the joint line; regular motion at small amplitude, and the accurate time of a chaotic run.
+# the joint line; regular motion at small amplitude, and the horizon of a chaotic run.
 #
 # **Assumptions.** Opposite spins, no external force. The numbers are for a heavy bar, with which the mean $x$ turns back.
 #

@@ -47,8 +47,8 @@ prove(
 
 # %%
 f = sp.Matrix([g[2].diff(h), -g[2].diff(beta), g[1].diff(beta) - g[0].diff(h)])
-mean, across = leaning_frame()
-x_1, x_2 = (mean[0] * sp.cos(h) + sign * across[0] * sp.sin(h) for sign in (-1, 1))
+mean, twist_axis = leaning_frame()
+x_1, x_2 = (mean[0] * sp.cos(h) + sign * twist_axis[0] * sp.sin(h) for sign in (-1, 1))
 flux = (G_1 + G_2) * sp.sin(beta) * sp.cos(h) + (G_1 - G_2) * sp.sin(h) ** 2 / k
 prove((g[2], G_1 * x_1 + G_2 * x_2), (flux, flux), "the flux", names=(r"g_\alpha", "G_1x_1+G_2x_2"))
 
@@ -122,8 +122,8 @@ prove(J * slope.dot(Q_v) + u * u_v, 0, "the energy of the centre is conserved", 
 
 # %% [markdown]
 # A slower motion is closer to the line $g_\alpha=P$. The centre turns back on this line at $J\Omega=H$. Near upright this
-# gives the growth of a twist, or its slow frequency, of t12. On the line $\ddot s=-J\,d^2\Omega/ds^2\,s$, with
-# $J=(a+b)r_0^2\Omega_0$ for the oscillation between $x=\pm r_0$:
+# gives the growth of a twist, or its slow frequency, of t12. The distance $s$ along the line obeys
+# $\ddot s=-J\,d^2\Omega/ds^2\,s$, with $J=(a+b)r_0^2\Omega_0$ for the oscillation between $x=\pm r_0$:
 
 
 # %%

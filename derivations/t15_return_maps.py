@@ -147,10 +147,10 @@ def returns(h, n, size, count=120):
     """(q, p) minus the orbit's initial state, at the returns of the exact motion from z = size."""
     states, base, driven = (*h.q, *h.p), np.array(list(n.orbit.values())), h.H.has(t)
     rates = sp.lambdify((*states, t), [*(h.H.diff(p) for p in h.p), *(-h.H.diff(q) for q in h.q)], "math")
-    along = np.array(rates(*base, 0.0))
+    normal = np.array(rates(*base, 0.0))
 
     def section(_, state):
-        return (state - base) @ along
+        return (state - base) @ normal
 
     section.direction = 1
     times, start = n.period * np.arange(count + 1), list(n.place([size]).values())
@@ -165,10 +165,10 @@ def angle(n, apart):
     """The mean angle (rad) of these returns. The smooth weight makes it converge faster than any power."""
     slope = np.array([[f.terms.get(e, 0.0) for e in ((1, 0), (0, 1))] for f in n.frame]) @ n.vectors
     around = np.linalg.lstsq(slope, apart.T + 0j)[0][0]
-    turned = np.angle(around[:-1] / around[1:] * np.exp(-1j * n.frequencies[0])) + n.frequencies[0]
-    share = (np.arange(turned.size) + 0.5) / turned.size
+    angles = np.angle(around[:-1] / around[1:] * np.exp(-1j * n.frequencies[0])) + n.frequencies[0]
+    share = (np.arange(angles.size) + 0.5) / angles.size
     weights = np.exp(-1 / (share * (1 - share)))
-    return float(weights @ turned / weights.sum())
+    return float(weights @ angles / weights.sum())
 
 
 measured = {}

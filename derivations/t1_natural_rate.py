@@ -165,9 +165,9 @@ prove(
 # Three of these zero roots belong to displacements: without gravity every position at rest is an equilibrium.
 
 # %%
-rest = dict.fromkeys(AXES.v, 0)
+zero_rates = dict.fromkeys(AXES.v, 0)
 prove(
-    (pair.L.subs(rest), sum(e**2 for e in pair.push.subs(rest))),
+    (pair.L.subs(zero_rates), sum(e**2 for e in pair.push.subs(zero_rates))),
     (0, 0),
     "energy and gyroscopic force vanish at rest",
     names=("L", "|Q|^2"),
@@ -215,9 +215,9 @@ def shift(amplitude: float) -> float:
         G_2: TESTED.momenta[1],
         x: amplitude,
     }
-    across = [float(velocities[v].subs(numbers)) for v in (v1, v2)]
+    y_rates = [float(velocities[v].subs(numbers)) for v in (v1, v2)]
     axis = (amplitude, 0.0, float(np.sqrt(1 - amplitude**2)))
-    start = consistent_scene(TESTED.spins, (axis, axis), [(0, y_v, 0) for y_v in across], link=TESTED.link)
+    start = consistent_scene(TESTED.spins, (axis, axis), [(0, y_v, 0) for y_v in y_rates], link=TESTED.link)
     times = np.linspace(0, 20 * 2 * np.pi / natural, 1201)
     speed = simulate(start, times, "minimal", 1e-10).rates[:, :, 0].mean(0)
     return abs(peak(*spectrum(times * natural, speed)) - 1)

@@ -137,9 +137,9 @@ prove(
 
 # %%
 p = sp.Matrix([P_X, P_1, P_2])
-along, across = shock_energy().expressions
+drift_energy, swing_energy = shock_energy().expressions
 prove(
-    along + across,
+    drift_energy + swing_energy,
     (p.T * inverse * p)[0] / 2,
     "the energy after an impulse",
     written=r"E_{\text{drift}} + E_{\text{swing}} = \tfrac12\,p\cdot M^{-1} p",
@@ -152,7 +152,7 @@ prove(
 equal_spins = {G_1: G, G_2: G, P_1: 0, P_2: 0}
 equal_x = P_X**2 / (4 * (a + b))
 prove(
-    (along.subs(equal_spins), across.subs(equal_spins)),
+    (drift_energy.subs(equal_spins), swing_energy.subs(equal_spins)),
     (0, equal_x),
     "energy of the drift and of the oscillation",
     names=(r"E_{\text{drift}}", r"E_{\text{swing}}"),

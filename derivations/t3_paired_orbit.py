@@ -136,8 +136,8 @@ class SeriesSymbol:
 
 FIELD, w = coefficient_field(sigma, k), sp.Symbol("w", positive=True)
 library = equations(sigma, k, FIELD)([SeriesSymbol(q) for q in (x1, y1, z1, lambda_1, tau)], SeriesSymbol(w))
-own, shared = (1 + 1 / sigma) / 2, (1 - 1 / sigma) / 2
-units = {a: own, b: shared, G: 1 / sp.sqrt(sigma)}
+direct, shared = (1 + 1 / sigma) / 2, (1 - 1 / sigma) / 2
+units = {a: direct, b: shared, G: 1 / sp.sqrt(sigma)}
 wide = {q: sp.sqrt(sigma) * q for names in (AXES.q, AXES.v, AXES.a) for q in (names[1], names[4])}
 by_phase = {s: w * s for s in AXES.v} | {s: w**2 * s for s in AXES.a}
 scaled = [e.subs(units).subs(wide, simultaneous=True).xreplace(by_phase) for e in first]
@@ -165,16 +165,16 @@ prove([e.expression for e in library[3:]], (2 * unit_length, bar), "the library'
 
 
 # %%
-def of_power(n: int, put: dict) -> list[sp.Expr]:
-    """The coefficient of r_0^n in the five equations with w = 1, for the values `put` of the unknowns."""
+def of_power(n: int, values: dict) -> list[sp.Expr]:
+    """The coefficient of r_0^n in the five equations with w = 1, for the given `values` of the unknowns."""
     five = (scaled[0], scaled[1] / sp.sqrt(sigma), scaled[2], unit_length, bar)
-    return [sp.expand(e.subs(w, 1).xreplace(put)).coeff(r0, n) for e in five]
+    return [sp.expand(e.subs(w, 1).xreplace(values)).coeff(r0, n) for e in five]
 
 
 unknown = (*AXES.q, *AXES.v, *AXES.a, *multipliers)
 at_rest = dict.fromkeys(unknown, 0) | {z1: 1, z2: 1}
-linear = (own * x1_a + shared * x2_a + y1_v + k * tau, own * y1_a + shared * y2_a - x1_v / sigma)
-in_z = own * z1_a + shared * z2_a - lambda_1 + tau
+linear = (direct * x1_a + shared * x2_a + y1_v + k * tau, direct * y1_a + shared * y2_a - x1_v / sigma)
+in_z = direct * z1_a + shared * z2_a - lambda_1 + tau
 prove(
     of_power(1, {s: at_rest[s] + r0 * s for s in unknown}),
     (*linear, in_z, z1, -k * (x1 - x2) - z1 - z2),
@@ -190,8 +190,8 @@ prove(
 
 # %%
 series = paired_series(3)
-x, Y, z = (series.expression(part) for part in (series.x, series.Y, series.z))
-unit, pull = (series.expression(part) for part in series.solution.unknowns[3:])
+x, Y, z = (series.expression(component) for component in (series.x, series.Y, series.z))
+unit, pull = (series.expression(multiplier) for multiplier in series.solution.unknowns[3:])
 prove(
     tuple(e.coeff(r0, 1) for e in (x, Y, z)),
     (sp.cos(Phi), sp.sin(Phi), 0),
@@ -313,14 +313,14 @@ prove(
 # ## Momentum about the joint line
 #
 # The momentum $P=\sum_i(r_i\times p_i)_x+G(x_1-x_2)$ with $p_i=a\dot r_i+b\dot r_j$ is conserved (t10), so it does not depend on
-# the phase. For the orbit
+# the phase. On the orbit its value is
 
 # %%
 first_axis = (x, sp.sqrt(sigma) * Y, z)
 second_axis = [sign * e.subs(Phi, Phi + sp.pi) for sign, e in zip((-1, 1, 1), first_axis, strict=True)]
 on_orbit = dict(zip(AXES.q, (*first_axis, *second_axis), strict=True))
 on_orbit |= dict(zip(AXES.v, (frequency * e.diff(Phi) for e in (*first_axis, *second_axis)), strict=True))
-momentum = joint_line_momentum().subs(opposite).subs({a: own * sp.sqrt(sigma), b: shared * sp.sqrt(sigma), G: 1})
+momentum = joint_line_momentum().subs(opposite).subs({a: direct * sp.sqrt(sigma), b: shared * sp.sqrt(sigma), G: 1})
 second = sigma / k
 prove(
     momentum.xreplace(on_orbit),

@@ -83,23 +83,25 @@ for names, slower in ((AXES.v, AXES.q), (AXES.a, AXES.v)):
 def first_order(displaced: dict) -> list[sp.Expr]:
     """The coefficient of r_0 in the five variational equations, for the perturbation `displaced` at r_0 = 0."""
     vary = sp.Symbol("vary")
-    put = {s: int(s in (z1, z2)) + r0 * swinging.get(s, 0) + vary * (displaced.get(s, 0) + r0 * s) for s in unknown}
-    return [sp.expand(sp.expand(e.xreplace(put)).coeff(vary, 1)).coeff(r0, 1) for e in equations]
+    substitution = {
+        s: int(s in (z1, z2)) + r0 * swinging.get(s, 0) + vary * (displaced.get(s, 0) + r0 * s) for s in unknown
+    }
+    return [sp.expand(sp.expand(e.xreplace(substitution)).coeff(vary, 1)).coeff(r0, 1) for e in equations]
 
 
 (x1_v, y1_v, _, *_), (x1_a, y1_a, z1_a, x2_a, y2_a, z2_a) = AXES.v, AXES.a
-own, shared = units[a], units[b]
+direct, shared = units[a], units[b]
 linear = (
-    own * x1_a + shared * x2_a + y1_v + k * multipliers[2],
-    own * y1_a + shared * y2_a - x1_v / sigma,
-    own * z1_a + shared * z2_a - multipliers[0] + multipliers[2],
+    direct * x1_a + shared * x2_a + y1_v + k * multipliers[2],
+    direct * y1_a + shared * y2_a - x1_v / sigma,
+    direct * z1_a + shared * z2_a - multipliers[0] + multipliers[2],
     z1,
     -k * (x1 - x2) - z1 - z2,
 )
 driven = (0, 0, -sp.cos(Phi), sp.cos(Phi), -2 * sp.cos(Phi))
 prove(
     first_order({x1: 1, x2: 1}),
-    [term + more for term, more in zip(linear, driven, strict=True)],
+    [term + drive for term, drive in zip(linear, driven, strict=True)],
     "the equations for p to first order, each to vanish",
     names=[rf"E_{{\xi,{i}}}^{{(1)}}" for i in range(1, 6)],
 )
@@ -108,7 +110,7 @@ prove(
 driven = (0, 0, -sp.sin(Phi), sigma * sp.sin(Phi), 2 * sigma * sp.sin(Phi))
 prove(
     first_order({y1: 1, y2: -1}),
-    [term + more for term, more in zip(linear, driven, strict=True)],
+    [term + drive for term, drive in zip(linear, driven, strict=True)],
     "the equations for q to first order, each to vanish",
     names=[rf"E_{{\eta,{i}}}^{{(1)}}" for i in range(1, 6)],
 )
@@ -121,8 +123,8 @@ prove(
 # determine $A$ and $B$. (The other two means vanish, because the terms are odd in $\Phi$.) The solution through second order:
 
 # %%
-orbit, found = paired_series(4), exponent_series(4)
-p, q = ([orbit.expression(part) for part in parts] for parts in (found.p, found.q))
+orbit, exponents = paired_series(4), exponent_series(4)
+p, q = ([orbit.expression(component) for component in vector] for vector in (exponents.p, exponents.q))
 c, s = sp.cos, sp.sin
 prove(
     [sum((e.coeff(r0, n) * r0**n for n in range(3)), sp.Integer(0)) for e in p[:3]],
@@ -154,7 +156,7 @@ prove(
 # The twist drives the shift at second order. The shift drives the twist only at fourth order:
 
 # %%
-A, B = (orbit.expression(part) for part in (found.A, found.B))
+A, B = (orbit.expression(coefficient) for coefficient in (exponents.A, exponents.B))
 fourth = 37 * k**2 * sigma**3 - 72 * k**2 * sigma**2 + 33 * k**2 * sigma + 2 * k**2 + 33 * sigma**2 - 3 * sigma + 6
 prove(
     (A, B),
@@ -169,16 +171,20 @@ prove(
 
 
 # %%
-def three(own: tuple, other: tuple, by: FourierSeries, back: FourierSeries, sign: int) -> dict:
-    """Coordinates, velocities and accelerations of both axes for the vector `own`, coupled to `other`; `sign` under S."""
+def three(vector: tuple, partner: tuple, coupling: FourierSeries, back_coupling: FourierSeries, sign: int) -> dict:
+    """Coordinates, velocities and accelerations of both axes for `vector`, coupled to `partner`; `sign` under S."""
     rate, values = orbit.frequency, {}
     for i in range(3):
-        once = own[i].derivative() + by * other[i]
-        twice = own[i].derivative().derivative() + (by * other[i].derivative()).times(2) + by * back * own[i]
-        for names, part in ((AXES.q, own[i]), (AXES.v, rate * once), (AXES.a, rate * rate * twice)):
-            later = part.half_period_later()
-            values |= {names[i]: part, names[i + 3]: later.times(-sign if i == 0 else sign)}
-    return values | {multipliers[0]: own[3], multipliers[2]: own[4]}
+        once = vector[i].derivative() + coupling * partner[i]
+        twice = (
+            vector[i].derivative().derivative()
+            + (coupling * partner[i].derivative()).times(2)
+            + coupling * back_coupling * vector[i]
+        )
+        for names, term in ((AXES.q, vector[i]), (AXES.v, rate * once), (AXES.a, rate * rate * twice)):
+            later = term.half_period_later()
+            values |= {names[i]: term, names[i + 3]: later.times(-sign if i == 0 else sign)}
+    return values | {multipliers[0]: vector[3], multipliers[2]: vector[4]}
 
 
 def put(e: sp.Expr, values: dict) -> FourierSeries:
@@ -197,16 +203,16 @@ def residuals(variations: dict) -> sp.Matrix:
     """The residuals of the variational equations in orders 0 to 4 of r_0."""
     rows = []
     for e in equations:
-        terms = (put(sp.expand(e).diff(symbol), along) * change for symbol, change in variations.items())
+        terms = (put(sp.expand(e).diff(symbol), on_orbit) * change for symbol, change in variations.items())
         total = orbit.expression(sum(terms, FourierSeries({}, 4)))
         rows.append([total.coeff(r0, n) for n in range(5)])
     return sp.Matrix(rows)
 
 
-still = tuple(FourierSeries({}, 4) for _ in found.p)
-along = three(orbit.solution.unknowns, still, still[0], still[0], 1)
+still = tuple(FourierSeries({}, 4) for _ in exponents.p)
+on_orbit = three(orbit.solution.unknowns, still, still[0], still[0], 1)
 prove(
-    residuals(three(found.p, found.q, found.B, found.A, -1)),
+    residuals(three(exponents.p, exponents.q, exponents.B, exponents.A, -1)),
     sp.zeros(5, 5),
     "the coefficients of ξ in the five equations",
     names=r"\left(E_\xi^{(0)},\dots,E_\xi^{(4)}\right)",
@@ -214,7 +220,7 @@ prove(
 
 # %%
 prove(
-    residuals(three(found.q, found.p, found.A, found.B, -1)),
+    residuals(three(exponents.q, exponents.p, exponents.A, exponents.B, -1)),
     sp.zeros(5, 5),
     "the coefficients of η in the five equations",
     names=r"\left(E_\eta^{(0)},\dots,E_\eta^{(4)}\right)",

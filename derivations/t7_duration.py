@@ -49,9 +49,9 @@ prove(
 # The mean rate of rotation is $\langle\dot\alpha\rangle=\partial H/\partial P$:
 
 # %%
-turned = averaged_hamiltonian().diff(P).subs(LEAN, 0)
+rotation_rate = averaged_hamiltonian().diff(P).subs(LEAN, 0)
 prove(
-    turned,
+    rotation_rate,
     (P - 2 * G * (HALF**2 + SWING**2 / 2) / k) / (2 * (a + b)),
     "the mean rate of rotation at zero lean",
     names=r"\langle\dot\alpha\rangle",
@@ -66,7 +66,10 @@ prove(
 # %%
 size = {HALF: P_X / (2 * G), P: -p_y, SWING: att * sp.sqrt(P_X**2 + (a + b) / (a - b) * p_y**2) / (2 * G)}
 prove(
-    turned.subs(size), shock_toppling().expressions[0], "the rate of rotation of t6", names=r"\langle\dot\alpha\rangle"
+    rotation_rate.subs(size),
+    shock_toppling().expressions[0],
+    "the rate of rotation of t6",
+    names=r"\langle\dot\alpha\rangle",
 )
 
 # %% [markdown]

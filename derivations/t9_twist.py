@@ -33,14 +33,14 @@ from lagrotor.theory import (
 # %% [markdown]
 # ## Exact equivalence to one rotor
 #
-# The pair has three Euler–Lagrange expressions (t8), of $U$, $\Delta$ and $\alpha$. In a parallel motion $\Delta=0$ for all
-# time. The residual of the equation of the twist is then
+# The pair has three Euler–Lagrange expressions (t8), here called along (of $U$), across (of $\Delta$) and about (of
+# $\alpha$). In a parallel motion $\Delta=0$ for all time. The residual of the equation of the twist is then
 
 # %%
 straight = {Delta: 0, Delta_v: 0, Delta_a: 0}
-along, across, about = (e.subs(straight) for e in euler_lagrange(twisted_lagrangian(), TWISTED))
+in_U, in_twist, in_alpha = (e.subs(straight) for e in euler_lagrange(twisted_lagrangian(), TWISTED))
 prove(
-    across,
+    in_twist,
     (G_2 - G_1) * U_v / (2 * sp.cosh(U) ** 2),
     "the residual of the twist equation for parallel motion",
     names=r"\text{across}",
@@ -58,7 +58,7 @@ Formula(one_rotor, r"\mathcal L^{\text{rotor}}")
 rotor = euler_lagrange(one_rotor, TWISTED)
 equal = {G_1: G, G_2: G}
 prove(
-    (along.subs(equal), about.subs(equal)),
+    (in_U.subs(equal), in_alpha.subs(equal)),
     (2 * rotor[0], 2 * rotor[2]),
     "the equations of the pair are twice those of one rotor",
     written=(r"\text{along} = 2\,\mathcal E_U^{\text{rotor}}", r"\text{about} = 2\,\mathcal E_\alpha^{\text{rotor}}"),
@@ -75,7 +75,7 @@ x = sp.tanh(U)
 x_a = U_a / sp.cosh(U) ** 2 - 2 * sp.tanh(U) * U_v**2 / sp.cosh(U) ** 2
 speed = (U_v**2 + alpha_v**2) / sp.cosh(U) ** 2
 twisting = euler_lagrange(twisted_lagrangian().subs(equal), TWISTED)[1]
-inertia, stiffness = (twisting.diff(one).subs(straight) for one in (Delta_a, Delta))
+inertia, stiffness = (twisting.diff(symbol).subs(straight) for symbol in (Delta_a, Delta))
 prove(inertia, (a - b) / 2 * (1 - x**2), "the inertia of the twist, x = tanh U", names=r"\text{inertia}")
 
 # %%
@@ -90,8 +90,9 @@ prove(
 # ## Hill's equation
 #
 # On the cone, $x=\rho\cos\Phi$ and $|r'|^2=\rho^2$ in units of the precession rate $G/((a+b)\cos\theta)$ (derived with 5.24).
-# With $\beta=b/(a-b)$ the twist obeys Hill's equation $$\big((1-\rho^2\cos^2\Phi)\,\Delta'\big)' +
-# 2\beta\rho^2\sin^2\Phi\;\Delta = 0,$$ with coefficients of period $\pi$.
+# With $\beta=b/(a-b)$ the twist obeys Hill's equation
+# $$\big((1-\rho^2\cos^2\Phi)\,\Delta'\big)' + 2\beta\rho^2\sin^2\Phi\;\Delta = 0,$$
+# with coefficients of period $\pi$.
 
 # %%
 on_cone = rho * sp.cos(Phi)
@@ -164,7 +165,7 @@ prove(
 
 # %%
 grown = twist_growth().expressions[0]
-unstable = grown.replace(sp.Max, lambda *parts: next(part for part in parts if part != 0))
+unstable = grown.replace(sp.Max, lambda *arguments: next(argument for argument in arguments if argument != 0))
 prove(
     (unstable * (a + b)) ** 2,
     G**2 * rho**2 * (-b / (a - b)),
@@ -194,12 +195,12 @@ lyapunov_criterion()
 # %%
 heavy, cones = Scene(spins=(10, 10), link=Link(1, 1, 0)), np.radians(np.arange(5, 90, 5))
 resonant = {float(np.degrees(c)): g for c in cones if (g := twist_multiplier_growth(heavy, c))}
-within = max(np.degrees(c) for c in cones if twist_bounded(heavy, c))
-assert within < min(resonant)
+widest = max(np.degrees(c) for c in cones if twist_bounded(heavy, c))
+assert widest < min(resonant)
 Remark(
     "Wide cones",
     "A point mass of 1 kg is in the middle of the bar (K = 0, b > 0), and cones are tested in steps of 5°. By Lyapunov's "
-    f"criterion a small twist is bounded up to {within:.0f}°. The first cone with growth is {min(resonant):.0f}°, at "
+    f"criterion a small twist is bounded up to {widest:.0f}°. The first cone with growth is {min(resonant):.0f}°, at "
     f"{resonant[min(resonant)]:.2f} 1/s.",
 )
 
