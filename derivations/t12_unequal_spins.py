@@ -327,9 +327,9 @@ def growth_distances(scene: Scene, change: float = 0.0) -> list[float]:
     return errors
 
 
-growth_orders = {name: measured_order(AMPLITUDES, growth_distances(scene)) for name, scene in GROWING.items()}
+grown = {name: measured_order(AMPLITUDES, growth_distances(scene)) for name, scene in GROWING.items()}
 control_order = measured_order(AMPLITUDES, growth_distances(GROWING["a heavy bar"], 0.05))
-assert all(abs(order - 2) < 0.1 for order in growth_orders.values()), growth_orders
+assert all(abs(order - 2) < 0.1 for order in grown.values()), grown
 assert abs(control_order) < 1
 measured = {
     name: tuple(measured_order(AMPLITUDES, errors) for errors in distances(scene)) for name, scene in SCENES.items()
@@ -351,7 +351,7 @@ Remark(
 Remark(
     "The growth of a twist",
     "λ² is compared with the multipliers of exact orbits. Measured exponents of its relative error in the amplitude: "
-    + ", ".join(f"{order:.2f} ({name})" for name, order in growth_orders.items())
+    + ", ".join(f"{order:.2f} ({name})" for name, order in grown.items())
     + f". With λ² increased by 5 % the error does not decrease (exponent {control_order:.2f}). The growth rate is of first "
     "order in the amplitude, so oscillations of a heavy bar with unequal spins soon depart from upright.",
 )

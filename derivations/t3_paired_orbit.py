@@ -344,21 +344,21 @@ prove(paired_momentum(3).expressions[0], second * r0**2, "the library's momentum
 scene = Scene(spins=(10, -10), link=Link(1.3, 0.35, 0.11))
 bar_of = scene.sigma, scene.k
 amplitudes = (0.05, 0.1, 0.2)
-errors, bounds = {"frequency": [], "momentum": []}, {"frequency": [], "momentum": []}
+off, bounds = {"frequency": [], "momentum": []}, {"frequency": [], "momentum": []}
 for amplitude in amplitudes:
     orbit = precession_orbit(scene, amplitude, 1e-11)
     exact = {"frequency": orbit.frequency / natural_rate(scene), "momentum": orbit.momentum / scene.momenta[0]}
     for name, form in (("frequency", paired_frequency(3)), ("momentum", paired_momentum(4))):
-        errors[name].append(abs(float(form(amplitude, *bar_of)) - exact[name]))
+        off[name].append(abs(float(form(amplitude, *bar_of)) - exact[name]))
         bounds[name].append(float(form.error(amplitude, *bar_of)))
-slopes = {name: measured_order(amplitudes, values) for name, values in errors.items()}
+slopes = {name: measured_order(amplitudes, values) for name, values in off.items()}
 assert abs(slopes["frequency"] - 4) < 0.2 and abs(slopes["momentum"] - 6) < 0.3
-assert all(error < bound for name in errors for error, bound in zip(errors[name], bounds[name], strict=True))
+assert all(error < bound for name in off for error, bound in zip(off[name], bounds[name], strict=True))
 Remark(
     "Frequency and momentum of the paired precession",
     f"At σ = {scene.sigma:.4f}, k = {scene.k:g}, r_0 = {amplitudes[-1]} the frequency through r_0³ has the error "
-    f"{errors['frequency'][-1]:.1e} (bound {bounds['frequency'][-1]:.1e}), and P/G through r_0⁴ the error "
-    f"{errors['momentum'][-1]:.1e} "
+    f"{off['frequency'][-1]:.1e} (bound {bounds['frequency'][-1]:.1e}), and P/G through r_0⁴ the error "
+    f"{off['momentum'][-1]:.1e} "
     f"(bound {bounds['momentum'][-1]:.1e}). Measured exponents of the errors: {slopes['frequency']:.2f} and "
     f"{slopes['momentum']:.2f}. "
     "A pair at rest has P = 0, so a shock along x alone cannot start this orbit.",

@@ -191,14 +191,14 @@ Remark(
 )
 
 # %%
-side_forces = (0.0, cancelling_force(scene(40)), -11.0)
-without, at_second, at_paper = (turning_rate(run_after(scene(40, f), 8, 1e-9)) for f in side_forces)
+tried = (0.0, cancelling_force(scene(40)), -11.0)
+without, at_second, at_paper = (turning_rate(run_after(scene(40, f), 8, 1e-9)) for f in tried)
 by_window = {turns: exact_cancelling_force(scene(40), turns) for turns in (8, 40)}
 exact = by_window[8]
 assert abs(at_paper) < abs(at_second) < abs(without) / 10
 Remark(
     "The force −11",
-    f"For F_x = 40 N the force along y that cancels the drift is −{-side_forces[1]:.2f} N to second order. On exact runs it "
+    f"For F_x = 40 N the force along y that cancels the drift is −{-tried[1]:.2f} N to second order. On exact runs it "
     "depends on the averaging time: "
     + ", ".join(f"−{-force:.2f} N over {turns} oscillations" for turns, force in by_window.items())
     + f"; the paper took −11 N. Mean α′ over 8 oscillations: {without:+.4f} rad/s with F_y = 0, {at_second:+.4f} with the "
