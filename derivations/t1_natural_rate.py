@@ -59,7 +59,7 @@ prove(
 # %% [markdown]
 # ## Equations of motion
 #
-# The Euler–Lagrange expressions minus the gyroscopic forces, to first order, along these three directions:
+# To first order, the Euler–Lagrange expressions minus the gyroscopic forces have these components along the three directions:
 
 # %%
 x, x_v, x_a = sp.symbols("x x_dot x_ddot", real=True)
@@ -132,7 +132,7 @@ prove(
 # %% [markdown]
 # ## Limits
 #
-# Opposite spins, equal spins, and one spinning rotor with a dumbbell as bar ($b=0$):
+# The limits are opposite spins, equal spins, and one spinning rotor with a dumbbell as bar ($b=0$):
 
 # %%
 opposite, equal = (sp.factor(squared.subs({G_1: G, G_2: sign * G})) for sign in (-1, 1))

@@ -25,7 +25,7 @@ from lagrotor.paper import Formula, Remark, prove
 # %% [markdown]
 # ## Lagrangian and bar
 #
-# With opposite spins, $G_1=G$, $G_2=-G$:
+# The spins are opposite, $G_1=G$, $G_2=-G$. The Lagrangian and the bar's constraint are
 
 # %%
 u1, al1, u2, al2 = MERCATOR.q
@@ -134,7 +134,7 @@ Remark(
 # %% [markdown]
 # ## Error of the series
 #
-# The frequency through $r_0^3$ (t3) and its error estimate, at the smallest of these amplitudes:
+# The frequency through $r_0^3$ (t3) is compared with the exact frequency at the smallest of these amplitudes:
 
 # %%
 law = paired_frequency(3)

@@ -229,7 +229,7 @@ prove(
 # %% [markdown]
 # The averaged motion (t11) gives the same $A$. The half-angle $\eta$ between the axes has the stiffness $H_{\eta\eta}$, and
 # $2G\dot\beta=H_{\eta\eta}\,\eta$. A unit of $q$ changes $\eta$ by $\sqrt\sigma$. The orbit has the amplitude
-# $s=\sqrt\sigma\,r_0$ in $\eta$ and the momentum $P=Gs^2/k$. Per radian of phase, that is per time $1/\Omega_0$:
+# $s=\sqrt\sigma\,r_0$ in $\eta$ and the momentum $P=Gs^2/k$. Per radian of phase, that is per time $1/\Omega_0$, this gives
 
 # %%
 still = {LEAN: 0, HALF: 0, P: G * SWING**2 / k}

@@ -4,7 +4,7 @@
 # **Objective.** Uniform rotation about the joint line as an exact solution at any angle, and its stability; the difference
 # between shocks of $+50$ N and $-50$ N along y.
 #
-# **Assumptions.** Both axes parallel in the y-z plane; any bar. Linear stability.
+# **Assumptions.** Both axes are parallel in the y-z plane; any bar. The stability is linear stability.
 #
 # **Notation.** $\dot\alpha=\nu$ the rate of rotation, $A=a+b$, $D=a-b$, $G=G_1=-G_2$, $e = b\nu^2 - G\nu/k$; $U$ the mean
 # Mercator latitude, $\Delta$ the twist, $\alpha$ the angle about the joint line.
