@@ -1,15 +1,15 @@
 # %% [markdown]
 # # Speed against accuracy
 #
-# **Physics.** Two rotors of $M = R = I_1 = I_3 = 1$ with spins $\pm 10$ rad/s, a massless bar as long as they are, no
-# gravity: the exact pair, integrated in each of the models and by each solver of the core packages.
+# **Physics.** Two rotors of $M = R = I_1 = I_3 = 1$ with spins $\pm 10$ rad/s, a massless bar of length 1, no gravity. The
+# exact pair is integrated in each of the models and by each solver of the core packages.
 #
-# **Consistent initial state.** The paired precession of amplitude $r_0 = 0.204$, by its series through $r_0^{21}$: on the bar,
-# and with the velocities that belong to it. Without the velocity of second order the same pair falls within 20 s.
+# **Consistent initial state.** The paired precession of amplitude $r_0 = 0.204$, by its series through $r_0^{21}$. The
+# positions and velocities satisfy the bar's constraint. Without the velocity of second order the same pair falls within 20 s.
 #
-# **Reference.** Two formulations at $10^{-13}$, the bar eliminated and unit vectors with multipliers; their distance is the
-# error of the reference. A calculation with thirty digits, by extrapolation, agrees with both to $3\times10^{-13}$
-# (tests/benchmark).
+# **Reference.** Two formulations at the tolerance $10^{-13}$: the eliminated bar, and unit vectors with multipliers. Their
+# difference is the error of the reference. A calculation with thirty digits, by extrapolation, agrees with both to
+# $3\times10^{-13}$ (tests/benchmark).
 
 # %%
 from dataclasses import replace
@@ -21,8 +21,8 @@ from lagrotor.paper import Remark, Table
 
 # %% [markdown]
 # **Tolerances.** Every second power of ten from $10^{-3}$ to $10^{-13}$. The largest error of a tip over the run is compared
-# with the number of evaluations of the right-hand side, nfev, which is the same on every machine. `lagrotor chart` adds
-# processor time, the fast extra, and Radau and BDF, which need most; other tools are in `b2_seconds`.
+# with the number of evaluations of the right-hand side, nfev, which is the same on every machine. `lagrotor chart` adds the
+# processor time, the fast extra, and Radau and BDF, which require the most evaluations. Other tools are in `b2_seconds`.
 
 # %%
 TOLERANCES = tuple(10.0**-n for n in range(3, 14, 2))
@@ -35,12 +35,12 @@ by_work = front([p for p in found.points if p.nfev], "nfev")
 
 
 def least(method: str, error: float) -> float | None:
-    """nfev of a method for an error (m), between its tolerances."""
+    """nfev of a method for an error (m), interpolated between its tolerances."""
     return work_at([p for p in found.points if p.method == method], error, "nfev")
 
 
 def needed(method: str, error: float) -> str:
-    """The same to two digits, since it is read between two tolerances; — where the error is not reached."""
+    """nfev to two digits, because it is interpolated; — if the method does not reach the error."""
     nfev = least(method, error)
     return "—" if nfev is None else f"{float(f'{nfev:.2g}'):,.0f}"
 
@@ -48,13 +48,13 @@ def needed(method: str, error: float) -> str:
 displaced.scene
 
 # %% [markdown]
-# **A pulse that is stepped over.** The shock of 5.2.1 comes after two seconds of rest. A solver that is called once over the
-# run, with no limit to its step, has by then a step longer than the shock, and most miss it without a warning.
+# **A pulse between two steps.** The shock of 5.2.1 follows two seconds of rest. A solver that is called once over the run,
+# without a limit on its step, then has a step longer than the shock. Most solvers miss the shock without a warning.
 
 # %%
 missed = benchmark("shock", shock, TRAPS, (1e-3, 1e-6), float("inf"))
-seen = sorted({p.method for p in missed.points if p.error < 0.1})
-assert seen == ["solve_ivp, DOP853, one call"]
+correct = sorted({p.method for p in missed.points if p.error < 0.1})
+assert correct == ["solve_ivp, DOP853, one call"]
 
 # %% [markdown]
 # **Conclusion.**
@@ -64,31 +64,33 @@ best = min(series, key=lambda p: p.error)
 ratio = least("solve_ivp, RK45", 1e-9) / least("minimal, Adams", 1e-9)
 Remark(
     "Speed against accuracy",
-    f"On its own orbit the closed form needs no evaluation; its error is {best.error:.0e} m. Among integrations the order of the "
-    f"method decides: for 1e-9 m Adams in equal steps needs about {needed('minimal, Adams', 1e-9)} evaluations, Runge–Kutta of "
-    f"order 5 {ratio:.0f} times as many. scipy's solvers, at a tolerance of 1e-13, stay above the error of the reference, but "
-    "for DOP853 in `ode`, which starts anew at every output time and so needs about the same number for every tolerance.",
+    f"On the paired precession the closed form requires no evaluation; its error is {best.error:.0e} m. For the integrations "
+    "the order of the method matters most. For an error of 1e-9 m Adams with equal steps requires about "
+    f"{needed('minimal, Adams', 1e-9)} evaluations, and Runge–Kutta of order 5 requires {ratio:.0f} times as many. At a "
+    "tolerance of 1e-13 the errors of scipy's solvers exceed the error of the reference, except for DOP853 in `ode`. That "
+    "solver restarts at every output time, so its number of evaluations hardly depends on the tolerance.",
 )
 
 # %%
 tables = [
     Table(
-        "Speed against accuracy: the front in evaluations",
+        "Speed against accuracy: the Pareto front in evaluations",
         ("method", "tolerance", "error of a tip (m)", "evaluations"),
         tuple((p.method, f"{p.setting:g}", f"{p.error:.1e}", f"{p.nfev:,}") for p in (best, *by_work)),
-        f"The closed form at its best, then integrations. The reference's two formulations agree to {found.floor:.0e} m.",
+        f"The first row is the closed form with the smallest error; the other rows are integrations. The two formulations of the "
+        f"reference agree to {found.floor:.0e} m.",
     ),
     Table(
         "Speed against accuracy: evaluations for an error of the tips (m)",
         ("method", "1e-6", "1e-9", "1e-12"),
         tuple((name, *(needed(name, error) for error in (1e-6, 1e-9, 1e-12))) for name in (*OURS, *SCIPY)),
-        "To two digits: between the two tolerances about the error, on logarithmic scales.",
+        "Logarithmic interpolation between the tolerances on either side of the error gives these numbers to two digits.",
     ),
     Table(
         "Speed against accuracy: solvers called once over the shock of 5.2.1",
         ("method", "tolerance", "error of a tip (m)", "evaluations"),
         tuple((p.method, f"{p.setting:g}", f"{p.error:.1e}", f"{p.nfev:,}") for p in missed.points),
-        "An error of 0.4 m is the whole motion.",
+        "An error of 0.4 m is as large as the motion.",
     ),
 ]
 tables[0]

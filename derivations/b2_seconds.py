@@ -1,12 +1,12 @@
 # %% [markdown]
 # # Speed against accuracy, in seconds
 #
-# **Objective.** The processor time that an error costs, with the four core packages, with the fast extra, and with other
-# tools on the same pair; and what runs in a second.
+# **Objective.** The processor time for a given error with the four core packages, with the fast extra, and with other tools
+# on the same pair; the throughput per second.
 #
-# **Assumptions.** Times differ from machine to machine and from run to run. These are the results of one machine, recorded in
-# one run by `python -m benchmarks.speed`: medians of processor time over samples of at least 10 ms.
-# Errors and numbers of evaluations, the same everywhere, are in `b1_chart`.
+# **Assumptions.** Times differ between machines and between runs. These results are from one machine and one run of
+# `python -m benchmarks.speed`: medians of processor time over samples of at least 10 ms. Errors and numbers of evaluations,
+# which are the same on every machine, are in `b1_chart`.
 
 # %%
 from lagrotor.benchmark.records import record_age, recorded_multiple, recorded_speed
@@ -21,20 +21,20 @@ age = record_age("speed", found["date"], found["digest"])
 
 
 def milliseconds(value):
-    """Three digits, or a dash where the error is not reached."""
+    """Milliseconds to three digits, or a dash if the error is not reached."""
     return "—" if value is None else f"{1e3 * value:.3g}"
 
 
 def multiple(name, error, of):
-    """Seconds of a method over those of another at the same error, or a dash."""
+    """The ratio of the processor times of two methods at the same error, or a dash."""
     ratio = recorded_multiple(found, name, error, of)
     return "—" if ratio is None else f"{ratio:.3g}"
 
 
 # %% [markdown]
-# ## What `model="auto"` chooses
+# ## The choice of `model="auto"`
 #
-# On the paired precession it takes the closed form as long as the last terms of its series give an error below `tol`.
+# On the paired precession `auto` chooses the closed form if the last terms of its series give an error below `tol`.
 
 # %%
 displaced = CASES["displaced"](True)
@@ -45,9 +45,9 @@ reach = max(decades)
 decades
 
 # %% [markdown]
-# ## At equal error
+# ## Processor time at equal error
 #
-# Fastest first, at the largest of the errors.
+# The methods are sorted by processor time at the largest of the errors.
 
 # %%
 names = [name for name in at_error[ERRORS[0]] if any(at_error[error][name] for error in ERRORS)]
@@ -57,7 +57,7 @@ versions = ", ".join(f"{name} {number}" for name, number in found["versions"].it
 tables = [
     Table(
         "Speed against accuracy: milliseconds for an error of the tips (m), 10 s of the displaced pair",
-        ("method", *ERRORS, "least error (m)", "set-up (s)"),
+        ("method", *ERRORS, "smallest error (m)", "set-up (s)"),
         tuple(
             (
                 name,
@@ -67,8 +67,8 @@ tables = [
             )
             for name in names
         ),
-        f"One run of {where}; {versions}. Processor time; 1001 output times. The closed form is valid on the paired "
-        f"precession, where auto takes it down to tol = 1e-{reach}; the others integrate. {age}",
+        f"Processor time of one run on {where}; {versions}; 1001 output times. The closed form is valid on the paired "
+        f"precession, where auto chooses it down to tol = 1e-{reach}; the other methods integrate. {age}",
     ),
     Table(
         "Speed against accuracy: other tools as multiples",
@@ -78,16 +78,17 @@ tables = [
             for name in names
             if at_error[ERRORS[0]][name]
         ),
-        "Any model: the best of the core packages, here the closed form, its fit to the start included. Core and fast: the best "
-        f"of their integrations, with the core packages and with the fast extra. From the same run. {age}",
+        "Any model: the fastest method of the core packages, here the closed form, including its fit to the initial state. "
+        "Core and fast: the fastest integration with the core packages and with the fast extra. All times are from the same "
+        f"run. {age}",
     ),
     Table(
         "Throughput",
-        ("what", "a second", "share", "of"),
+        ("quantity", "rate per second", "ratio", "reference"),
         tuple(
             (x["what"], f"{x['rate']:.3g} {x['unit']}", f"{x['share']:.2g}", x["against"]) for x in found["throughput"]
         ),
-        f"From the same run: ensembles in one process a core, the rest in one. {where}. {age}",
+        f"From the same run on {where}. Ensembles use one process per core; the other rows use one process. {age}",
     ),
 ]
 tables[0]

@@ -1,23 +1,22 @@
 # %% [markdown]
-# # Other tools on growing mechanisms
+# # Mechanisms of increasing size with lagrotor and with other tools
 #
-# **Objective.** What a mechanism costs with this tool and with others: until it is ready, for one right-hand side, for a run.
+# **Objective.** The processor time for a mechanism with this tool and with others: for preparation, for one right-hand side,
+# and for a run.
 #
-# **Assumptions.** Rods of $l = 0.7$ m with $m = 1.3$ kg at their ends in a plane, relative angles; gyroscopes of
-# $I_1 = 0.3$, $I_3 = 0.2$ kg m² on each other's tips. Each tool is used as its documentation recommends, in a process of its
-# own; its right-hand side is equal to the others' to $10^{-9}$ before it is timed. One machine, recorded by
-# `python -m benchmarks.mechanisms --record`; the counts of operations are the same everywhere.
+# **Assumptions.** Rods of $l = 0.7$ m with $m = 1.3$ kg at their ends in a plane, relative angles; gyroscopes of $I_1 = 0.3$,
+# $I_3 = 0.2$ kg m² on each other's tips. Each tool is used as its documentation recommends, in a separate process. Before the
+# timing, the right-hand sides of all tools agree to $10^{-9}$. The results are from one machine, recorded by
+# `python -m benchmarks.mechanisms --record`. The numbers of operations are the same on every machine.
 #
-# **Notation.** $n$ the number of rods or gyroscopes; ready: from the description of the mechanism to its right-hand side,
-# compiling included; rhs: one evaluation from Python.
+# **Notation.** $n$ the number of rods or gyroscopes; ready: the time from the description of the mechanism to its right-hand
+# side, including compilation; rhs: the time of one evaluation from Python.
 
 # %%
 from lagrotor.benchmark.mechanism_tables import (
-    COMPARISON_HEAD,
     DECISION_HEAD,
     MECHANISM_HEAD,
     TARGET_HEAD,
-    comparison_rows,
     decision_rows,
     mechanism_rows,
     target_rows,
@@ -45,37 +44,38 @@ tables = [
         "Mechanisms: targets and measurements",
         TARGET_HEAD,
         tuple(target_rows(found.measured, found.decided, found.operations, beside["rows"])),
-        "Multiples of processor time, each within one record: rods and gyroscopes over sympy and the time to be ready are from "
-        f"the table beside sympy, the others from the tables of tools and of decisions. {age_beside} Each rod more takes "
-        f"{each['rods']} operations, each gyroscope more {each['gyroscopes']}; the first, on the ground, takes much less "
-        f"({found.operations['gyroscopes'][0]} for a gyroscope). Twice as many therefore take more than twice the "
-        "operations, most so where there are few.",
+        "Ratios of processor times, each within one record. The ratios of rods and gyroscopes to sympy and the time to be "
+        "ready are from the table of the comparison with sympy, the others from the tables of tools and of decisions. "
+        f"{age_beside} Each additional rod requires {each['rods']} operations, each additional gyroscope "
+        f"{each['gyroscopes']}. The first body, on the ground, requires much fewer ({found.operations['gyroscopes'][0]} for a "
+        "gyroscope). A chain of double length therefore requires more than twice the operations, especially a short chain.",
     ),
     Table(
-        "Mechanisms: tools, and what each needs",
+        "Mechanisms: processor times of the tools",
         MECHANISM_HEAD,
         tuple(mechanism_rows(found.measured)),
-        f"Processor time on {where}, medians; {versions}. Of lagrotor and of sympy's methods, ready and rhs are in the table "
-        "beside sympy. The run is one second, its error the largest at eleven times, by scipy's DOP853 or LSODA or the tool's "
-        "own integrator, whichever is quickest. symbrim is not among them: it has bicycles, riders and a rolling disc, and "
-        f"neither mechanism. {age}",
+        f"Processor time on {where}, medians; {versions}. For lagrotor and sympy's methods, ready and rhs are in the table of "
+        "the comparison with sympy. The run has a length of one second, and its error is the largest at eleven times. The "
+        "integrator is the fastest of scipy's DOP853, LSODA and the tool's integrator. symbrim is not included: it has "
+        f"bicycles, riders and a rolling disc, but neither of these mechanisms. {age}",
     ),
     Table(
-        "Mechanisms: do two formulations agree?",
+        "Mechanisms: decisions whether two formulations agree",
         DECISION_HEAD,
         tuple(decision_rows(found.decided)),
-        f"The same steps with the exact decision and with sympy's simplify in its place, from a run of its own. {age}",
+        f"The same steps with the exact decision and with sympy's simplify in its place, from a separate run. {age}",
     ),
     Table(
-        "Mechanisms from bodies and from a Lagrangian, beside sympy",
+        "Mechanisms from bodies and from a Lagrangian, compared with sympy",
         COMPARISON_HEAD,
         tuple(comparison_rows(beside["rows"], beside["longest"])),
-        "From bodies beside KanesMethod; from the Lagrangian written out, the writing included, beside LagrangesMethod, of "
-        "sympy's own energies of the same bodies, for the bicycle of this one. sympy's right-hand sides are lambdify's "
-        "with common subexpressions, then numpy's solve. rhs differs by: from lagrotor's of bodies, relative. A method that used "
-        f"{beside['longest']:g} s was ended, larger mechanisms were not given to it. The bicycle is that of sympy's own test, "
-        f"in its letters, the arm one of six joints. Processor time on {where_beside}, one method "
-        f"after the other, ready measured once, by `python -m benchmarks.bodies_and_lagrangians --record`. {age_beside}",
+        "Mechanisms from bodies are compared with KanesMethod, mechanisms from an explicit Lagrangian with LagrangesMethod; "
+        "the time of writing the Lagrangian is included. LagrangesMethod uses sympy's energies of the same bodies, for the "
+        "bicycle lagrotor's energies. sympy's right-hand sides use lambdify with common subexpressions, then numpy's solve. "
+        "The column 'rhs differs by' gives the relative difference from lagrotor's right-hand side of bodies. A method was "
+        f"stopped after {beside['longest']:g} s, and was not applied to larger mechanisms. The bicycle is the bicycle of "
+        f"sympy's test suite, with its symbols; the arm has six joints. Processor time on {where_beside}, one method after "
+        f"another, with a single measurement of ready, by `python -m benchmarks.bodies_and_lagrangians --record`. {age_beside}",
     ),
 ]
 tables[0]

@@ -1,16 +1,17 @@
 # %% [markdown]
-# # Chains of rotors beside multibody engines
+# # Chains of rotors with lagrotor and with multibody engines
 #
-# **Objective.** What a run of many rotors costs with this tool and with engines, at the same error.
+# **Objective.** The processor time for runs of many rotors with this tool and with multibody engines, at the same error.
 #
 # **Assumptions.** Equal rotors of 10 rad/s in a staircase, massless bars of 1 m, no weight, three seconds from random tilts
-# of 0.05 and rates of 0.5 rad/s. The engines have three hinges a rotor. Accelerations under the bars, integrated by odeint,
-# come from Pinocchio's solver for constraints, or from Pinocchio's or Drake's matrices by sparse LU. MuJoCo has the bars as
-# tendons of fixed length, with the Runge–Kutta method of fourth order; Drake's own steps have them as constraints. One
-# machine and one thread, the tools in turns, recorded by `python -m benchmarks.structure_comparison`.
+# of 0.05 and rates of 0.5 rad/s. The engines use three hinges per rotor. The accelerations under the bars are integrated by
+# odeint. They come from Pinocchio's solver for constraints, or from Pinocchio's or Drake's matrices by sparse LU. In MuJoCo
+# the bars are tendons of fixed length, and the integrator is Runge–Kutta of fourth order. In Drake's time steps the bars are
+# constraints. One machine and one thread, the tools in turns, recorded by `python -m benchmarks.structure_comparison`.
 #
-# **Notation.** Error: the largest error of a tip's coordinate, m. `simulate` integrates twice, for its error estimate; the
-# engines give none. With the fast extra both integrations run side by side in the processor's vectors, at the price of one.
+# **Notation.** Error: the largest error of a tip's coordinate, m. `simulate` integrates twice for its error estimate; the
+# engines give no estimate. With the fast extra both integrations use the vector instructions of the processor and take the
+# time of a single integration.
 
 # %%
 import numpy as np
@@ -28,8 +29,8 @@ def milliseconds(seconds: float | None) -> str:
     return "—" if seconds is None else f"{1e3 * seconds:.3g}"
 
 
-def times(theirs: float | None, own: float | None) -> str:
-    return f"{theirs / own:.1f}" if theirs and own else "—"
+def times(seconds: float | None, reference: float | None) -> str:
+    return f"{seconds / reference:.1f}" if seconds and reference else "—"
 
 
 def nearest(n: int) -> Timed:
@@ -40,8 +41,8 @@ def nearest(n: int) -> Timed:
 
 
 wanted = Table(
-    "Chains of rotors: wanted and measured",
-    ("rotors", "the fastest engine", "wanted", "over `simulate` with the fast extra"),
+    "Chains of rotors: target and measurement",
+    ("rotors", "fastest engine", "target", "ratio to `simulate` with the fast extra"),
     tuple(
         (
             str(n),
@@ -51,22 +52,22 @@ wanted = Table(
         )
         for n in CHAIN_SIZES
     ),
-    "Multiples of processor time to the same error. Pinocchio does not run 256 rotors here: its data hold four tensors of the "
-    f"cube of 768 speeds, 14 GB. {age}",
+    "Ratios of processor times at the same error. Pinocchio cannot run 256 rotors on this machine, because its data contain four "
+    f"tensors of size 768³, 14 GB. {age}",
 )
 wanted
 
 # %%
 table = Table(
-    "Chains of rotors: time to one error",
+    "Chains of rotors: processor time at equal error",
     (
         "rotors",
         "tool",
         "setting",
         "error (m)",
-        "a run (ms)",
-        "over the fast extra",
-        "why not further",
+        "run (ms)",
+        "ratio to the fast extra",
+        "reason for the limit",
     ),
     tuple(
         (
@@ -80,8 +81,8 @@ table = Table(
         )
         for x in found
     ),
-    f"Processor time to an error of {CHAIN_ERROR:.0e} m, medians, {machine['processor']}, {machine['cores']} cores, Python "
-    f"{machine['Python']}; compiling left out. A tool without a time did not come to that error with its finest step, or "
+    f"Processor time for an error of {CHAIN_ERROR:.0e} m, medians, {machine['processor']}, {machine['cores']} cores, Python "
+    f"{machine['Python']}, without compilation. A tool without a time did not reach this error with its smallest step, or "
     f"did not run. {age}",
 )
 table

@@ -1,10 +1,10 @@
 # %% [markdown]
 # # A spherical pendulum
 #
-# **Objective.** The equations of a mass on a rod that may swing any way, its conserved momentum, its conical motion and the
-# frequency of small departures from it.
+# **Objective.** The equations of a pendulum that moves in three dimensions, its conserved momentum, its conical motion and the
+# frequency of small perturbations of the conical motion.
 #
-# **Assumptions.** A point of mass $m$ on a rigid rod of length $l$ without mass; gravity $g$.
+# **Assumptions.** A point mass $m$ on a rigid massless rod of length $l$; gravity $g$.
 #
 # **Notation.** $\theta$ from the downward vertical, $\varphi$ the azimuth.
 
@@ -23,13 +23,13 @@ bob = Frame(c).turned("zy", (phi, -theta)).body(m, centre=(0, 0, -l))
 pendulum = System(c, bob.kinetic - bob.potential((0, 0, -g)))
 
 # %% [markdown]
-# ## The Lagrangian and what is conserved
+# ## The Lagrangian and the conserved momentum
 #
-# $\varphi$ is cyclic; its momentum is the angular momentum about the vertical (Landau & Lifshitz, §14, problem 1).
+# $\varphi$ is cyclic. Its momentum is the angular momentum about the vertical (Landau & Lifshitz, §14, problem 1).
 
 # %%
 swinging = m * l**2 * (theta_v**2 + phi_v**2 * sp.sin(theta) ** 2) / 2 + m * g * l * sp.cos(theta)
-prove(pendulum.L, swinging, "the Lagrangian of the sketch is the textbook's", names="L")
+prove(pendulum.L, swinging, "the Lagrangian of the bodies equals the textbook's", names="L")
 
 # %%
 assert pendulum.cyclic == (phi,)
@@ -39,19 +39,22 @@ prove(momentum, m * l**2 * phi_v * sp.sin(theta) ** 2, "the momentum of the azim
 # %% [markdown]
 # ## The conical pendulum
 #
-# It turns steadily at $\Omega^2 = g/(l\cos\theta_0)$. Departures from the cone swing at
-# $\omega^2 = \Omega^2(1 + 3\cos^2\theta_0)$: between $2\Omega$ near the vertical and $\Omega$ near the horizontal.
+# The pendulum rotates uniformly at $\Omega^2 = g/(l\cos\theta_0)$. Small perturbations of the cone oscillate at
+# $\omega^2 = \Omega^2(1 + 3\cos^2\theta_0)$. This frequency is $2\Omega$ near the vertical and $\Omega$ near the horizontal.
 
 # %%
 steady = System(c, pendulum.L.subs(g, l * Omega**2 * sp.cos(tilt))).linearise({theta: tilt, phi_v: Omega})
 s = sp.Symbol("s")
 squared = -(steady.characteristic(s) / (steady.mass.det() * s**2) - s**2)
-prove(-squared, Omega**2 * (1 + 3 * sp.cos(tilt) ** 2), "the frequency of nodding about the cone", names=r"\omega^2")
+prove(
+    -squared, Omega**2 * (1 + 3 * sp.cos(tilt) ** 2), "the frequency of oscillations about the cone", names=r"\omega^2"
+)
 
 # %% [markdown]
-# ## Against the mass in Cartesian coordinates
+# ## Comparison with Cartesian coordinates
 #
-# The same mass as $(x, y, z)$ under its tension, $\ddot r = -g e_z - (|\dot r|^2 - g z) r / l^2$, integrated independently.
+# In Cartesian coordinates $(x, y, z)$ the tension of the rod gives $\ddot r = -g e_z - (|\dot r|^2 - g z) r / l^2$. This
+# equation is integrated independently.
 
 # %%
 values = {m: 1.3, l: 0.8, g: 9.81}
@@ -64,13 +67,13 @@ def tension(_: float, y: np.ndarray) -> np.ndarray:
     return np.concatenate([v, -9.81 * np.eye(3)[2] - (v @ v - 9.81 * r[2]) * r / 0.64])
 
 
-def difference(given: dict) -> float:
-    """The largest distance between the two, m."""
-    run = pendulum.simulate(given, (0, 1), (1.5, 0), times, tol=1e-12)
+def difference(parameters: dict) -> float:
+    """The largest distance between the two motions, m."""
+    run = pendulum.simulate(parameters, (0, 1), (1.5, 0), times, tol=1e-12)
     start = 0.8 * np.array([np.sin(1), 0, -np.cos(1), 0, 1.5 * np.sin(1), 0])
-    other = solve_ivp(tension, (0, 4), start, "DOP853", times, rtol=1e-13, atol=1e-13).y[:3].T
+    reference = solve_ivp(tension, (0, 4), start, "DOP853", times, rtol=1e-13, atol=1e-13).y[:3].T
     place = np.stack([run.evaluate(e) for e in bob.frame.place(bob.centre)], 1)
-    return float(np.abs(place - other).max())
+    return float(np.abs(place - reference).max())
 
 
 off = difference(values)

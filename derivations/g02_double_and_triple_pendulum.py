@@ -1,12 +1,12 @@
 # %% [markdown]
 # # Double and triple pendulum
 #
-# **Objective.** The equations of two and of three masses below each other, the frequencies of their small motion, and how
-# fast neighbours part in a large one.
+# **Objective.** The equations of the double and the triple pendulum, their frequencies of small oscillations, and the Lyapunov
+# exponent of a large motion.
 #
-# **Assumptions.** Equal points of mass $m$ on equal rods of length $l$ without mass, in a plane; gravity $g$.
+# **Assumptions.** Equal point masses $m$ on equal massless rods of length $l$, in a plane; gravity $g$.
 #
-# **Notation.** $q_i$ the angle of rod $i$ against the one above, $\theta_i=q_1+\dots+q_i$ against the vertical.
+# **Notation.** $q_i$ the angle of rod $i$ from the rod above it, $\theta_i=q_1+\dots+q_i$ the angle from the vertical.
 
 # %%
 import numpy as np
@@ -32,7 +32,7 @@ def pendulum(n: int) -> System:
 # %% [markdown]
 # ## Two rods
 #
-# In the angles against the vertical it is the Lagrangian of Landau & Lifshitz, §5, problem 1.
+# In the angles from the vertical this is the Lagrangian of Landau & Lifshitz, §5, problem 1.
 
 # %%
 double, angles = pendulum(2), coordinates("theta_1 theta_2")
@@ -47,21 +47,25 @@ small = absolute.linearise({a: 0, b: 0})
 prove(
     small.characteristic(s) / small.mass.det(),
     (s**2 + (2 + sp.sqrt(2)) * g / l) * (s**2 + (2 - sp.sqrt(2)) * g / l),
-    "two frequencies, $\\omega^2=(2\\pm\\sqrt2)\\,g/l$",
+    "the two frequencies, $\\omega^2=(2\\pm\\sqrt2)\\,g/l$",
     names=r"\det(s^2M+K)/\det M",
 )
 
 # %% [markdown]
-# ## Three rods: the frequencies are the roots of a cubic, in units of $g/l$ those of the Laguerre polynomial $L_3$
+# ## Three rods
+#
+# The squares of the frequencies are the roots of a cubic. In units of $g/l$ they are the roots of the Laguerre polynomial $L_3$.
 
 # %%
 triple = pendulum(3)
 hanging = triple.linearise(dict.fromkeys(triple.c.q, 0))
 polynomial = hanging.characteristic(s) / hanging.mass.det() * (l / g) ** 3
-prove(polynomial, 6 * sp.laguerre(3, -(s**2) * l / g), "the cubic of three rods")
+prove(polynomial, 6 * sp.laguerre(3, -(s**2) * l / g), "the cubic equation of three rods")
 
 # %% [markdown]
-# ## Against the textbook's equations in the angles to the vertical, integrated independently
+# ## Comparison with the textbook's equations
+#
+# The textbook's equations in the angles from the vertical are integrated independently.
 
 # %%
 values, times = {m: 1.0, l: 0.7, g: 9.81}, np.linspace(0, 2, 51)
@@ -75,17 +79,17 @@ def textbook(_: float, y: np.ndarray, below: np.ndarray) -> np.ndarray:
     return np.concatenate([rate, np.linalg.solve(below * np.cos(apart), force)])
 
 
-def difference(given: dict) -> float:
-    """The largest difference of an angle, both systems."""
-    found = []
+def difference(parameters: dict) -> float:
+    """The largest difference of an angle in the two systems."""
+    differences = []
     for system, start in ((double, (0.5, 0.3)), (triple, (0.5, 0.3, -0.2))):
-        run = system.simulate(given, start, np.zeros(len(start)), times, tol=1e-12)
+        run = system.simulate(parameters, start, np.zeros(len(start)), times, tol=1e-12)
         y = np.concatenate([np.cumsum(start), np.zeros(len(start))])
         n = np.arange(len(start))
         below = len(n) - np.maximum.outer(n, n)
-        other = solve_ivp(textbook, (0, 2), y, "DOP853", times, args=(below,), rtol=1e-13, atol=1e-13).y.T
-        found.append(np.abs(np.cumsum(run.q, axis=1) - other[:, : len(start)]).max())
-    return float(max(found))
+        reference = solve_ivp(textbook, (0, 2), y, "DOP853", times, args=(below,), rtol=1e-13, atol=1e-13).y.T
+        differences.append(np.abs(np.cumsum(run.q, axis=1) - reference[:, : len(start)]).max())
+    return float(max(differences))
 
 
 off = difference(values)
@@ -93,9 +97,9 @@ assert off < 1e-9
 off
 
 # %% [markdown]
-# ## How fast neighbours part
+# ## Lyapunov exponent
 #
-# The largest Lyapunov exponent of a wide swing is above zero by many times its error.
+# The largest Lyapunov exponent of a large motion is positive and exceeds its error more than four times.
 
 # %%
 wide = double.simulate(values, (2.0, 0.5), (0, 0), np.linspace(0, 40, 401), tol=1e-9)

@@ -1,10 +1,10 @@
 # %% [markdown]
 # # A heavy symmetric top
 #
-# **Objective.** Its Lagrangian, its effective potential, steady precession, the threshold above which it sleeps upright, and
-# its nutation.
+# **Objective.** The Lagrangian of the top, its effective potential, steady precession, the stability threshold of the upright
+# (sleeping) top, and nutation.
 #
-# **Assumptions.** A body with inertias $I_1, I_1, I_3$ about its centre, the distance $l$ from a fixed tip.
+# **Assumptions.** A body with inertias $I_1, I_1, I_3$ about its centre, which is at the distance $l$ from a fixed tip.
 #
 # **Notation.** $\varphi,\theta,\psi$ Euler's angles, $J=I_1+ml^2$, $p_\varphi, p_\psi$ the momenta.
 
@@ -28,7 +28,7 @@ J = I1 + m * l**2
 
 # %%
 turning = J * (theta_v**2 + phi_v**2 * sp.sin(theta) ** 2) / 2 + I3 * (psi_v + phi_v * sp.cos(theta)) ** 2 / 2
-prove(top.L, turning - m * g * l * sp.cos(theta), "the Lagrangian of the body is the textbook's", names="L")
+prove(top.L, turning - m * g * l * sp.cos(theta), "the Lagrangian of the body equals the textbook's", names="L")
 
 # %%
 assert top.cyclic == (phi, psi)
@@ -40,20 +40,23 @@ prove(reduced.L, J * theta_v**2 / 2 - effective - m * g * l * sp.cos(theta), "th
 # %% [markdown]
 # ## Steady precession
 #
-# At any inclination there are two values of $p_\varphi$, where $p_\psi^2 \ge 4 J m g l\cos\theta$:
+# At any inclination with $p_\psi^2 \ge 4 J m g l\cos\theta$ steady precession has two values of $p_\varphi$:
 
 # %%
 steady = reduced.equilibria("p_phi")
 assert len(steady) == 2 and steady[0].domain == (p_psi**2 - sp.expand(4 * J * m * g * l * sp.cos(theta)) >= 0,)
 slow_plus_fast = steady[0].at[p_phi] + steady[1].at[p_phi]
 prove(
-    slow_plus_fast, p_psi * (1 + sp.cos(theta) ** 2) / sp.cos(theta), "the sum of both", names=r"p_\varphi+p_\varphi'"
+    slow_plus_fast,
+    p_psi * (1 + sp.cos(theta) ** 2) / sp.cos(theta),
+    "the sum of the two values",
+    names=r"p_\varphi+p_\varphi'",
 )
 
 # %% [markdown]
 # ## The sleeping top
 #
-# Upright both momenta are equal, and $\theta=0$ is stable if $p^2 > 4 J m g l$:
+# In the upright position both momenta are equal. It is linearly stable if $p^2 > 4 J m g l$:
 
 # %%
 upright = top.routh({"phi": p, "psi": p}).linearise({theta: 0})
@@ -61,7 +64,9 @@ threshold = upright.stable_if.lhs
 prove(threshold, p**2 - 4 * J * m * g * l, "the sleeping top's threshold", names=r"p^2-p_{\min}^2")
 
 # %% [markdown]
-# ## Against Euler's equations of the body and its rotation matrix, integrated independently
+# ## Comparison with Euler's equations
+#
+# Euler's equations of the body and the equation of its rotation matrix are integrated independently.
 
 # %%
 values = {I1: 0.3, I3: 0.5, m: 1.0, g: 9.81, l: 0.6}
@@ -76,14 +81,14 @@ def euler(_: float, y: np.ndarray) -> np.ndarray:
     return np.concatenate([(Q @ spun).ravel(), (torque - spun @ (inertia * w)) / inertia])
 
 
-def difference(given: dict) -> float:
-    """The largest distance of the ends of the two axes, of length one."""
-    run = top.simulate(given, (0, 0.5, 0), (0, 0, 12), times, tol=1e-12)
+def difference(parameters: dict) -> float:
+    """The largest distance between the two unit vectors of the axis."""
+    run = top.simulate(parameters, (0, 0.5, 0), (0, 0, 12), times, tol=1e-12)
     c_, s_ = np.cos(0.5), np.sin(0.5)
     start = np.array([[1, 0, 0], [0, c_, -s_], [0, s_, c_]])
-    other = solve_ivp(euler, (0, 2), [*start.ravel(), 0, 0, 12], "DOP853", times, rtol=1e-13, atol=1e-13).y
+    reference = solve_ivp(euler, (0, 2), [*start.ravel(), 0, 0, 12], "DOP853", times, rtol=1e-13, atol=1e-13).y
     axis = np.stack([run.evaluate(e) for e in body.frame.place((0, 0, 1))])
-    return float(np.abs(axis - other[[2, 5, 8]]).max())
+    return float(np.abs(axis - reference[[2, 5, 8]]).max())
 
 
 off = difference(values)
@@ -91,7 +96,9 @@ assert off < 1e-9
 off
 
 # %% [markdown]
-# ## Nutation: the inclination swings between two turning points
+# ## Nutation
+#
+# The inclination oscillates between two turning points.
 
 # %%
 run = top.simulate(values, (0, 0.5, 0), (0, 0, 12), times)

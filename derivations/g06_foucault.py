@@ -1,12 +1,12 @@
 # %% [markdown]
 # # Foucault's pendulum
 #
-# **Objective.** The turning of the plane of swing, exactly, in the frame of the ground at the latitude $\lambda$.
+# **Objective.** The exact rotation of the plane of oscillation in the frame of the ground at the latitude $\lambda$.
 #
-# **Assumptions.** Small swings: the bob moves in the horizontal plane under the force $-m(g/l)(x, y)$. The ground turns
-# about its vertical at $\Omega\sin\lambda$; the centrifugal force is kept.
+# **Assumptions.** Small oscillations: the bob moves in the horizontal plane under the force $-m(g/l)(x, y)$. The ground
+# rotates about its vertical at $\Omega\sin\lambda$. The centrifugal force is included.
 #
-# **Notation.** $x, y$ on the ground, $n=\Omega\sin\lambda$.
+# **Notation.** $x, y$ coordinates on the ground, $n=\Omega\sin\lambda$.
 
 # %%
 import numpy as np
@@ -23,41 +23,42 @@ bob = Frame(c).turned("z", n * t).moved(x, y).body(m)
 pendulum = System(c, bob.kinetic - m * g * (x**2 + y**2) / (2 * l))
 
 # %% [markdown]
-# ## Coriolis' force is in the kinetic energy
+# ## The Coriolis force in the kinetic energy
 
 # %%
 turning = m * (x_v**2 + y_v**2) / 2 + m * n * (x * y_v - y * x_v) + m * n**2 * (x**2 + y**2) / 2
-prove(pendulum.L, turning - m * g * (x**2 + y**2) / (2 * l), "seen from the ground", names="L")
+prove(pendulum.L, turning - m * g * (x**2 + y**2) / (2 * l), "the Lagrangian in the frame of the ground", names="L")
 
 # %% [markdown]
 # ## Two circular motions
 #
-# The frequencies are $\sqrt{g/l}\pm n$: the characteristic polynomial is $(s^2 + (\omega_0+n)^2)(s^2+(\omega_0-n)^2)$. Their
-# difference $2n$ turns the plane of swing at the rate $-\Omega\sin\lambda$.
+# The characteristic polynomial is $(s^2 + (\omega_0+n)^2)(s^2+(\omega_0-n)^2)$, so the frequencies are $\sqrt{g/l}\pm n$.
+# Because of their difference $2n$ the plane of oscillation rotates at the rate $-\Omega\sin\lambda$.
 
 # %%
 s, w0 = sp.Symbol("s"), sp.sqrt(g / l)
 small = pendulum.linearise({x: 0, y: 0})
 both = sp.expand((s**2 + (w0 + n) ** 2) * (s**2 + (w0 - n) ** 2))
-prove(small.characteristic(s) / m**2, both, "two circular motions", names=r"\det(s^2M+sC+K)/m^2")
+prove(small.characteristic(s) / m**2, both, "the characteristic polynomial", names=r"\det(s^2M+sC+K)/m^2")
 
 # %%
 spin = pendulum.noether((-y, x)).expression
-prove(spin, m * (x * y_v - y * x_v) + m * n * (x**2 + y**2), "the angular momentum in space", names="p")
+prove(spin, m * (x * y_v - y * x_v) + m * n * (x**2 + y**2), "the angular momentum in the inertial frame", names="p")
 
 # %% [markdown]
-# ## Against the closed solution
+# ## Comparison with the closed solution
 #
-# An ellipse in space: $\zeta = x+iy = e^{-int}\,(\zeta_0\cos\omega_0 t + (\dot\zeta_0+in\zeta_0)\sin(\omega_0t)/\omega_0)$.
+# The path is an ellipse in the inertial frame. On the ground $\zeta = x+iy$ is
+# $\zeta = e^{-int}\,(\zeta_0\cos\omega_0 t + (\dot\zeta_0+in\zeta_0)\sin(\omega_0t)/\omega_0)$.
 
 # %%
 values = {m: 28.0, l: 67.0, g: 9.81, Omega: 0.02, latitude: 0.85}
 times, twin = np.linspace(0, 120, 601), {Omega: 0.0201}
 
 
-def difference(given: dict) -> float:
-    """The largest distance of the two, m."""
-    run = pendulum.simulate(given, (3.0, 0), (0, 0), times, tol=1e-10)
+def difference(parameters: dict) -> float:
+    """The largest distance between the two motions, m."""
+    run = pendulum.simulate(parameters, (3.0, 0), (0, 0), times, tol=1e-10)
     rate, frequency = 0.02 * np.sin(0.85), np.sqrt(9.81 / 67)
     in_space = 3 * np.cos(frequency * times) + 3j * rate * np.sin(frequency * times) / frequency
     return float(np.abs(run.q[:, 0] + 1j * run.q[:, 1] - np.exp(-1j * rate * times) * in_space).max())

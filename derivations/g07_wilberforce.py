@@ -1,9 +1,9 @@
 # %% [markdown]
 # # Wilberforce's pendulum
 #
-# **Objective.** The beats between bouncing and twisting of a mass on a coil spring.
+# **Objective.** The beats between vertical oscillation and twist of a mass on a coil spring.
 #
-# **Assumptions.** A linear coupling $\tfrac12\epsilon z\vartheta$ of stretch and twist; tuned: both frequencies are equal.
+# **Assumptions.** A linear coupling $\tfrac12\epsilon z\vartheta$ of stretch and twist. The two uncoupled frequencies are equal.
 #
 # **Notation.** $z$ the stretch, $\vartheta$ the twist, $I$ the inertia about the vertical, $k$ and
 # $\delta$ the stiffnesses, $\omega^2=k/m=\delta/I$.
@@ -23,34 +23,41 @@ springs = m * w**2 * z**2 / 2 + I * w**2 * twist**2 / 2 + eps * z * twist / 2
 pendulum = System(c, bob.kinetic - springs)
 
 # %% [markdown]
-# ## Two modes, both with bouncing and twisting of equal energy (Berg & Marshall, Am. J. Phys. 59, 32)
+# ## Two modes (Berg & Marshall, Am. J. Phys. 59, 32)
+#
+# In both modes the stretch and the twist have equal energies.
 
 # %%
 s = sp.Symbol("s")
 linear = pendulum.linearise({z: 0, twist: 0})
 split = eps / (2 * sp.sqrt(m) * sp.sqrt(I))
 factors = (s**2 + w**2 + split) * (s**2 + w**2 - split)
-prove(linear.characteristic(s) / (m * I), sp.expand(factors), "the split", names=r"\det(s^2M+K)/(mI)")
+prove(
+    linear.characteristic(s) / (m * I),
+    sp.expand(factors),
+    "the splitting of the frequencies",
+    names=r"\det(s^2M+K)/(mI)",
+)
 
 # %%
 stable = linear.stable_if
 stable
 
 # %% [markdown]
-# ## Against the closed solution
+# ## Comparison with the closed solution
 #
-# With $\omega_{1,2}^2=\omega^2\pm\epsilon/(2\sqrt{mI})$, released stretched by $z_0$ and at rest,
-# $z=\tfrac12 z_0(\cos\omega_1t+\cos\omega_2t)$ and $\vartheta=\tfrac12 z_0\sqrt{m/I}\,(\cos\omega_1t-\cos\omega_2t)$: after
-# half a beat, at $t=\pi/(\omega_1-\omega_2)$, all energy is in the twist.
+# The mass is released from rest with the stretch $z_0$. With $\omega_{1,2}^2=\omega^2\pm\epsilon/(2\sqrt{mI})$ the solution
+# is $z=\tfrac12 z_0(\cos\omega_1t+\cos\omega_2t)$ and $\vartheta=\tfrac12 z_0\sqrt{m/I}\,(\cos\omega_1t-\cos\omega_2t)$.
+# After half a beat, at $t=\pi/(\omega_1-\omega_2)$, all energy is in the twist.
 
 # %%
 values, times, twin = {m: 0.5, I: 1e-4, w: 6.0, eps: 1e-2}, np.linspace(0, 40, 801), {eps: 1.001e-2}
 first, second = (np.sqrt(36 + sign * 1e-2 / (2 * np.sqrt(0.5e-4))) for sign in (1, -1))
 
 
-def difference(given: dict) -> float:
+def difference(parameters: dict) -> float:
     """The largest difference of the stretches, m."""
-    run = pendulum.simulate(given, (0.1, 0), (0, 0), times, tol=1e-11)
+    run = pendulum.simulate(parameters, (0.1, 0), (0, 0), times, tol=1e-11)
     return float(np.abs(run.q[:, 0] - 0.05 * (np.cos(first * times) + np.cos(second * times))).max())
 
 

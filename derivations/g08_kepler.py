@@ -1,9 +1,10 @@
 # %% [markdown]
 # # Kepler's problem
 #
-# **Objective.** Angular momentum and the Laplace–Runge–Lenz vector in Cartesian coordinates, decided; the ellipse they give.
+# **Objective.** Conservation of angular momentum and of the Laplace–Runge–Lenz vector in Cartesian coordinates; the elliptic
+# orbit.
 #
-# **Assumptions.** A mass $m$ attracted by $-k/r$ from a fixed centre, in a plane.
+# **Assumptions.** A mass $m$ in the potential $-k/r$ of a fixed centre, in a plane.
 #
 # **Notation.** $r=\sqrt{x^2+y^2}$, $\ell$ the angular momentum, $A=(A_x, A_y)$ the Laplace–Runge–Lenz vector.
 
@@ -24,56 +25,63 @@ kepler = System(c, planet.kinetic + k / r)
 # %% [markdown]
 # ## Two symmetries
 #
-# Turning the plane gives the angular momentum. The other one moves no point by itself: the field depends on the velocity,
-# $\xi = m\,(-y\dot y,\; 2x\dot y-\dot x y)$, and changes $L$ by the time derivative of a gauge function (Lévy-Leblond 1971).
+# Rotation of the plane gives the angular momentum. The second symmetry is not a map of points, because its field depends on
+# the velocity, $\xi = m\,(-y\dot y,\; 2x\dot y-\dot x y)$. It changes $L$ by the time derivative of a gauge function
+# (Lévy-Leblond 1971).
 
 # %%
 spin = kepler.noether((-y, x)).expression
-prove(spin, m * (x * y_v - y * x_v), "turning the plane", names=r"\ell")
+prove(spin, m * (x * y_v - y * x_v), "the angular momentum, from rotation of the plane", names=r"\ell")
 
 # %%
 A = m * y_v * spin - m * k * x / r, -m * x_v * spin - m * k * y / r
 field = m * (x * y_v - y * x_v) * sp.Matrix([0, 1]) + m * y_v * sp.Matrix([-y, x])
 along_y = kepler.noether(list(field), gauge=m**2 * y_v * (x * y_v - y * x_v) + m * k * x / r)
-prove(along_y.expression, A[0], "the Laplace–Runge–Lenz vector by Noether", names="A_x")
+prove(along_y.expression, A[0], "the Laplace–Runge–Lenz vector by Noether's theorem", names="A_x")
 
 # %% [markdown]
-# ## Conserved by the equations of motion; the orbit that follows
+# ## Conservation and the orbit
 #
-# $|A|^2 = m^2k^2 + 2mE\ell^2$, and $A\cdot r = \ell^2 - mkr$: the orbit $r = \ell^2/(mk + |A|\cos\varphi)$, an ellipse for $E<0$.
+# The vector satisfies $|A|^2 = m^2k^2 + 2mE\ell^2$ and $A\cdot r = \ell^2 - mkr$. The orbit is therefore
+# $r = \ell^2/(mk + |A|\cos\varphi)$, an ellipse for $E<0$.
 
 # %%
-moved = dict(zip(c.a, accelerations(kepler.L, c), strict=True))
-prove([total_derivative(e, c).subs(moved) for e in A], (0, 0), "the vector stays", names=(r"\dot A_x", r"\dot A_y"))
+motion = dict(zip(c.a, accelerations(kepler.L, c), strict=True))
+prove(
+    [total_derivative(e, c).subs(motion) for e in A],
+    (0, 0),
+    "the vector is conserved",
+    names=(r"\dot A_x", r"\dot A_y"),
+)
 
 # %%
 assert all(kepler.conserved(e).answer == "zero" for e in (*A, spin, kepler.energy))
 assert kepler.conserved(A[0] + k * x).answer == "nonzero"
-prove(A[0] ** 2 + A[1] ** 2, m**2 * k**2 + 2 * m * kepler.energy * spin**2, "its length", names="|A|^2")
+prove(A[0] ** 2 + A[1] ** 2, m**2 * k**2 + 2 * m * kepler.energy * spin**2, "the length of the vector", names="|A|^2")
 
 # %%
 prove(A[0] * x + A[1] * y, spin**2 - m * k * r, "the equation of the orbit", names=r"A\cdot r")
 
 # %% [markdown]
-# ## Against Kepler's equation
+# ## Comparison with Kepler's equation
 #
-# $n\,t = u - e\sin u$ with the mean motion $n$, the eccentricity $e$ and the eccentric anomaly $u$.
+# Kepler's equation is $n\,t = u - e\sin u$ with the mean motion $n$, the eccentricity $e$ and the eccentric anomaly $u$.
 
 # %%
 values, times, twin = {m: 2.0, k: 2.0}, np.linspace(0, 20, 201), {k: 2.001}
 eccentricity = 0.6
 
 
-def difference(given: dict) -> float:
-    """The largest distance of the two, for a semi-major axis of one."""
+def difference(parameters: dict) -> float:
+    """The largest distance between the two motions, for a semi-major axis of one."""
     run = kepler.simulate(
-        given, (1 - eccentricity, 0), (0, np.sqrt((1 + eccentricity) / (1 - eccentricity))), times, 1e-9
+        parameters, (1 - eccentricity, 0), (0, np.sqrt((1 + eccentricity) / (1 - eccentricity))), times, 1e-9
     )
     u = times.copy()
     for _ in range(60):
         u -= (u - eccentricity * np.sin(u) - times) / (1 - eccentricity * np.cos(u))
-    other = np.stack([np.cos(u) - eccentricity, np.sqrt(1 - eccentricity**2) * np.sin(u)], 1)
-    return float(np.abs(run.q - other).max())
+    reference = np.stack([np.cos(u) - eccentricity, np.sqrt(1 - eccentricity**2) * np.sin(u)], 1)
+    return float(np.abs(run.q - reference).max())
 
 
 off = difference(values)

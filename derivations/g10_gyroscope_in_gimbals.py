@@ -1,15 +1,15 @@
 # %% [markdown]
 # # A gyroscope in gimbals
 #
-# **Objective.** The Lagrangian of rotor, inner and outer gimbal, the frequency of its nutation, and the walk of the outer
-# gimbal that a finite nutation causes.
+# **Objective.** The Lagrangian of rotor, inner and outer gimbal, the frequency of nutation, and the drift of the outer gimbal
+# due to a finite nutation.
 #
 # **Assumptions.** All centres of mass at the centre; no friction.
 #
-# **Notation.** $\alpha$ turns the outer gimbal about $z$, $\beta$ the inner about its $x$, $\gamma$ the rotor about its own
-# axis $y$; at $\beta=0$ the three axes are at right angles. $A_o$ the inertia of the outer gimbal about its axis;
-# $B_i, C_i, A_i$ those of the inner one about its $x, y, z$; $I_3$, $I_1$ those of the rotor along and across its axis; $H$
-# its axial momentum.
+# **Notation.** $\alpha$ the angle of the outer gimbal about $z$, $\beta$ the angle of the inner gimbal about its $x$ axis,
+# $\gamma$ the angle of the rotor about its axis $y$; at $\beta=0$ the three axes are perpendicular. $A_o$ the inertia of the
+# outer gimbal about its axis; $B_i, C_i, A_i$ the inertias of the inner gimbal about its $x, y, z$; $I_3$, $I_1$ the axial and
+# transverse inertias of the rotor; $H$ its axial momentum.
 
 # %%
 import numpy as np
@@ -34,12 +34,13 @@ gimbals = System(c, outer.body(1, (0, 0, Ao)).kinetic + inner.body(1, (Bi, Ci, A
 # %%
 about = Ao + (A + I1) * sp.cos(beta) ** 2 + Ci * sp.sin(beta) ** 2
 textbook = (about * alpha_v**2 + (Bi + I1) * beta_v**2 + I3 * (gamma_v + alpha_v * sp.sin(beta)) ** 2) / 2
-prove(gimbals.L, textbook, "three bodies", names="L")
+prove(gimbals.L, textbook, "the Lagrangian of the three bodies", names="L")
 
 # %% [markdown]
 # ## Nutation
 #
-# With the axial momentum $H=I_3(\dot\gamma+\dot\alpha\sin\beta)$ the two gimbals swing at $H/\sqrt{(A_o+A_i+I_1)(B_i+I_1)}$.
+# With the axial momentum $H=I_3(\dot\gamma+\dot\alpha\sin\beta)$ the two gimbals oscillate at the frequency
+# $H/\sqrt{(A_o+A_i+I_1)(B_i+I_1)}$.
 
 # %%
 assert gimbals.cyclic == (alpha, gamma)
@@ -50,12 +51,12 @@ frequency = H**2 / ((Ao + A + I1) * (Bi + I1))
 prove(
     nutation.characteristic(s) / nutation.mass.det(),
     s**2 * (s**2 + frequency),
-    "nutation",
+    "the frequency of nutation",
     names=r"\det(s^2M+sC)/\det M",
 )
 
 # %% [markdown]
-# ## Against the two momenta put into the equation of $\beta$ by hand
+# ## Comparison with the equation of $\beta$ after manual elimination of the two momenta
 
 # %%
 values = {Ao: 0.3, A: 0.1, Bi: 0.2, Ci: 0.15, I1: 0.4, I3: 0.6}
@@ -70,13 +71,13 @@ def by_hand(_: float, y: np.ndarray) -> list[float]:
     return [rate, y[2], ((0.15 - 0.5) * sine * cosine * rate**2 + 6 * cosine * rate) / 0.6]
 
 
-def difference(given: dict) -> float:
-    """The largest difference of the gimbals' angles."""
+def difference(parameters: dict) -> float:
+    """The largest difference of a gimbal's angle."""
     inertia = 0.3 + 0.5 * np.cos(0.4) ** 2 + 0.15 * np.sin(0.4) ** 2
     rate = 0.3 / inertia
-    run = gimbals.simulate(given, (0, 0.4, 0), (rate, 0, 10 - rate * np.sin(0.4)), times, tol=1e-11)
-    other = solve_ivp(by_hand, (0, 5), [0, 0.4, 0], "DOP853", times, rtol=1e-13, atol=1e-13).y[:2].T
-    return float(np.abs(run.q[:, :2] - other).max())
+    run = gimbals.simulate(parameters, (0, 0.4, 0), (rate, 0, 10 - rate * np.sin(0.4)), times, tol=1e-11)
+    reference = solve_ivp(by_hand, (0, 5), [0, 0.4, 0], "DOP853", times, rtol=1e-13, atol=1e-13).y[:2].T
+    return float(np.abs(run.q[:, :2] - reference).max())
 
 
 off = difference(values)
@@ -84,7 +85,9 @@ assert off < 1e-9
 off
 
 # %% [markdown]
-# ## The gimbals' walk: about a mean inclination that is not zero the outer gimbal drifts
+# ## The drift of the outer gimbal
+#
+# If the mean inclination is not zero, nutation makes the outer gimbal drift.
 
 # %%
 run = gimbals.simulate(values, (0, 0.4, 0), (0.5, 0, 10), np.linspace(0, 20, 801))

@@ -1,11 +1,11 @@
 # %% [markdown]
 # # A four-bar linkage
 #
-# **Objective.** A closed loop of bars: its one degree of freedom, its motion under gravity, and how well the loop stays closed.
+# **Objective.** A closed loop of bars: its single degree of freedom, its motion under gravity, and the error of the loop closure.
 #
 # **Assumptions.** Three uniform bars of mass $\mu$ per length and lengths $a, b, c$; the ground bar has length $d$.
 #
-# **Notation.** $q_1, q_2, q_3$ the angles of each bar against the one before, in a vertical plane.
+# **Notation.** $q_1, q_2, q_3$ the angle of each bar from the previous bar, in a vertical plane.
 
 # %%
 import numpy as np
@@ -28,15 +28,15 @@ end = frame.place()
 linkage = System(angles, L, (end[0] - d, end[2]))
 
 # %% [markdown]
-# ## One degree of freedom is left
+# ## The single degree of freedom
 #
-# With two lengths alike in pairs ($c=a$, $d=b$) the loop may be a parallelogram: then the coupler stays level, $q_2=-q_1$.
+# If opposite bars have equal lengths ($c=a$, $d=b$), the loop can be a parallelogram. The coupler is then horizontal, $q_2=-q_1$.
 
 # %%
 a, b, c = lengths
 q_1, q_2, q_3 = angles.q
 closed = [e.subs({d: b, c: a}).subs({q_2: -q_1, q_3: q_1 - sp.pi}) for e in linkage.constraints]
-prove(closed, (0, 0), "a parallelogram closes", names=("g_1", "g_2"))
+prove(closed, (0, 0), "a parallelogram satisfies the loop constraints", names=("g_1", "g_2"))
 
 # %%
 values = {mu: 2.0, g: 9.81, a: 0.4, b: 0.9, c: 0.7, d: 1.0}
@@ -46,7 +46,9 @@ assert freedom == 1
 freedom
 
 # %% [markdown]
-# ## Against the bars in the angles to the horizontal, mass matrix and multipliers by hand
+# ## Comparison with angles from the horizontal
+#
+# The mass matrix and the multipliers in the angles from the horizontal are written by hand and integrated independently.
 
 # %%
 size = np.array([0.4, 0.9, 0.7])
@@ -58,21 +60,21 @@ weight = np.outer(size, size) * beyond
 
 def by_hand(_: float, y: np.ndarray) -> np.ndarray:
     theta, rate = y[:3], y[3:]
-    apart, along, up = theta[:, None] - theta[None, :], size * np.cos(theta), size * np.sin(theta)
-    force = -(weight * np.sin(apart)) @ rate**2 - 9.81 * lever * along
-    rows = np.array([-up, along])
-    bent = np.array([along, up]) @ rate**2
+    apart, horizontal, vertical = theta[:, None] - theta[None, :], size * np.cos(theta), size * np.sin(theta)
+    force = -(weight * np.sin(apart)) @ rate**2 - 9.81 * lever * horizontal
+    rows = np.array([-vertical, horizontal])
+    bent = np.array([horizontal, vertical]) @ rate**2
     whole = np.block([[weight * np.cos(apart), rows.T], [rows, np.zeros((2, 2))]])
     return np.concatenate([rate, np.linalg.solve(whole, np.concatenate([force, bent]))[:3]])
 
 
-def difference(given: dict) -> float:
+def difference(parameters: dict) -> float:
     """The largest difference of an angle."""
-    start = linkage.consistent(given, q0, v0)
-    run = linkage.simulate(given, *start, times, tol=1e-11)
+    start = linkage.consistent(parameters, q0, v0)
+    run = linkage.simulate(parameters, *start, times, tol=1e-11)
     begin = np.concatenate([np.cumsum(q0), np.cumsum(v0)])
-    other = solve_ivp(by_hand, (0, 2), begin, "DOP853", times, rtol=1e-13, atol=1e-13).y[:3].T
-    return float(np.abs(np.cumsum(run.q, axis=1) - other).max())
+    reference = solve_ivp(by_hand, (0, 2), begin, "DOP853", times, rtol=1e-13, atol=1e-13).y[:3].T
+    return float(np.abs(np.cumsum(run.q, axis=1) - reference).max())
 
 
 off = difference(values)

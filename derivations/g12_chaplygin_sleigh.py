@@ -1,13 +1,13 @@
 # %% [markdown]
 # # Chaplygin's sleigh
 #
-# **Objective.** A body on a blade that cannot slip sideways: its equations, the energy it keeps, the momenta it does not, and
-# the straight line it ends on.
+# **Objective.** A body on a blade that cannot slip sideways: its equations, conservation of energy but not of momentum, and the
+# straight line to which its path tends.
 #
-# **Assumptions.** A horizontal plane; the blade lies on the body's axis, the distance $l$ behind the centre of mass.
+# **Assumptions.** A horizontal plane. The blade is on the body's axis, at the distance $l$ behind the centre of mass.
 #
-# **Notation.** $x, y$ the blade, $\varphi$ its direction, $\omega=\dot\varphi$, $u$ the speed along it, $J$ the inertia about
-# the centre.
+# **Notation.** $x, y$ the position of the blade, $\varphi$ its direction, $\omega=\dot\varphi$, $u$ the speed along it, $J$ the
+# inertia about the centre of mass.
 
 # %%
 import numpy as np
@@ -27,7 +27,7 @@ sleigh = System(c, runner.kinetic, rolling=(blade.velocity()[1],))
 # ## The blade's constraint and the reduced equations (Neimark & Fufaev, ch. II)
 
 # %%
-prove(sleigh.rolling[0], y_v * sp.cos(phi) - x_v * sp.sin(phi), "no slip sideways", names="0")
+prove(sleigh.rolling[0], y_v * sp.cos(phi) - x_v * sp.sin(phi), "the constraint of no sideways slip", names="0")
 
 # %%
 u = sp.Symbol("u", real=True)
@@ -35,20 +35,24 @@ on_blade = {x_v: u * sp.cos(phi), y_v: u * sp.sin(phi)}
 a, _ = constrained_accelerations(sleigh)
 speeding = (a[0] * sp.cos(phi) + a[1] * sp.sin(phi) + phi_v * (y_v * sp.cos(phi) - x_v * sp.sin(phi))).subs(on_blade)
 turning = -m * l * phi_v * u / (J + m * l**2)
-prove((speeding, a[2].subs(on_blade)), (l * phi_v**2, turning), "speed and turn", names=(r"\dot u", r"\dot\omega"))
+prove(
+    (speeding, a[2].subs(on_blade)), (l * phi_v**2, turning), "the reduced equations", names=(r"\dot u", r"\dot\omega")
+)
 
 # %% [markdown]
-# ## Energy stays, momentum does not: the blade pushes across
+# ## Conservation of energy
+#
+# The energy is conserved. The momentum is not conserved, because the blade exerts a sideways force.
 
 # %%
 assert sleigh.cyclic == ()
-prove(sleigh.power, 0, "the blade does no work", names=r"\dot E")
+prove(sleigh.power, 0, "the force of the blade does no work", names=r"\dot E")
 
 # %% [markdown]
-# ## Against the closed solution
+# ## Comparison with the closed solution
 #
-# From $u=0$: $\omega=\omega_0\,\mathrm{sech}\,\nu t$ and $u=u_\infty\tanh\nu t$ with $u_\infty=\omega_0\sqrt{(J+ml^2)/m}$ and
-# $\nu=m\,l\,u_\infty/(J+ml^2)$.
+# For a start with $u=0$ the solution is $\omega=\omega_0\,\mathrm{sech}\,\nu t$ and $u=u_\infty\tanh\nu t$ with
+# $u_\infty=\omega_0\sqrt{(J+ml^2)/m}$ and $\nu=m\,l\,u_\infty/(J+ml^2)$.
 
 # %%
 values, times, twin = {m: 2.0, l: 0.3, J: 0.5}, np.linspace(0, 12, 241), {J: 0.5001}
@@ -57,12 +61,12 @@ last = 1.5 * np.sqrt(inertia / 2)
 rate = 2 * 0.3 * last / inertia
 
 
-def difference(given: dict) -> float:
-    """The largest difference of the angular velocity from its closed form, rad/s."""
-    run = sleigh.simulate(given, (0, 0, 0), (0, 0, 1.5), times, tol=1e-12)
-    along = run.v[:, 0] * np.cos(run.q[:, 2]) + run.v[:, 1] * np.sin(run.q[:, 2])
+def difference(parameters: dict) -> float:
+    """The largest error of the angular velocity (rad/s) or of the speed (m/s) against the closed solution."""
+    run = sleigh.simulate(parameters, (0, 0, 0), (0, 0, 1.5), times, tol=1e-12)
+    speed = run.v[:, 0] * np.cos(run.q[:, 2]) + run.v[:, 1] * np.sin(run.q[:, 2])
     turn = np.abs(run.v[:, 2] - 1.5 / np.cosh(rate * times)).max()
-    return float(max(turn, np.abs(along - last * np.tanh(rate * times)).max()))
+    return float(max(turn, np.abs(speed - last * np.tanh(rate * times)).max()))
 
 
 off = difference(values)

@@ -1,12 +1,12 @@
 # %% [markdown]
 # # A rolling disc
 #
-# **Objective.** A thin disc that rolls on a plane without slipping: its constraints, what is conserved, the speed above which
-# it rolls upright.
+# **Objective.** A thin disc that rolls on a plane without slipping: its constraints, conservation of energy, and the speed
+# above which upright rolling is stable.
 #
-# **Assumptions.** A homogeneous disc of radius $R$; its rim stays on the plane and does not slip.
+# **Assumptions.** A homogeneous disc of radius $R$. Its rim touches the plane and does not slip.
 #
-# **Notation.** $x, y, z$ the centre, $\varphi$ the heading, $\vartheta$ the lean, $\psi$ the roll.
+# **Notation.** $x, y, z$ the centre, $\varphi$ the heading, $\vartheta$ the lean, $\psi$ the rolling angle.
 
 # %%
 import numpy as np
@@ -26,24 +26,28 @@ slip = wheel.velocity((0, 0, -R), frame=axle)
 rolling = System(c, disc.kinetic - disc.potential((0, 0, -g)), (z - R * sp.cos(lean),), rolling=tuple(slip[:2, 0]))
 
 # %% [markdown]
-# ## The point of contact is at rest
+# ## The velocity of the contact point
 #
-# Along the heading and across it, in the axes of the axle:
+# The velocity of the contact point is zero. In the axes of the axle, its components along the heading and across it are
 
 # %%
 x_v, y_v, z_v, phi_v, lean_v, psi_v = c.v
-along = x_v * sp.cos(phi) + y_v * sp.sin(phi)
-across = y_v * sp.cos(phi) - x_v * sp.sin(phi)
-expected = along - R * (psi_v + phi_v * sp.sin(lean)), across * sp.cos(lean) + z_v * sp.sin(lean) + R * lean_v
-prove(rolling.rolling, expected, "no slip", names=("0", "0"))
+forward_speed = x_v * sp.cos(phi) + y_v * sp.sin(phi)
+sideways_speed = y_v * sp.cos(phi) - x_v * sp.sin(phi)
+expected = (
+    forward_speed - R * (psi_v + phi_v * sp.sin(lean)),
+    sideways_speed * sp.cos(lean) + z_v * sp.sin(lean) + R * lean_v,
+)
+prove(rolling.rolling, expected, "the constraints of no slip", names=("0", "0"))
 
 # %%
-prove(rolling.power, 0, "the plane does no work", names=r"\dot E")
+prove(rolling.power, 0, "the forces of the plane do no work", names=r"\dot E")
 
 # %% [markdown]
-# ## Against Newton and Euler
+# ## Comparison with Newton's and Euler's equations
 #
-# Momentum, angular momentum about the centre, and the force at the contact eliminated; integrated independently.
+# The equations of momentum and of angular momentum about the centre, with the contact force eliminated, are integrated
+# independently.
 
 # %%
 values, times, twin = {m: 2.0, R: 0.5, g: 9.81}, np.linspace(0, 2, 81), {R: 0.5001}
@@ -68,17 +72,17 @@ def newton_euler(_: float, state: np.ndarray) -> np.ndarray:
     return np.concatenate([(turn @ Q).ravel(), w_v, -turn @ contact])
 
 
-def difference(given: dict) -> float:
-    """The largest distance of the two centres, m."""
-    start = rolling.consistent(given, q0, v0)
-    run = rolling.simulate(given, *start, times, tol=1e-10)
+def difference(parameters: dict) -> float:
+    """The largest distance between the two centres, m."""
+    start = rolling.consistent(parameters, q0, v0)
+    run = rolling.simulate(parameters, *start, times, tol=1e-10)
     at = dict(zip((*c.q, *c.v), (*q0, *v0), strict=True)) | values
     origin = wheel.place()
     Q = np.column_stack([np.array((wheel.place(e) - origin).subs(at), float) for e in np.eye(3, dtype=int).tolist()])
     spin = Q @ np.array(wheel.angular_velocity.subs(at), float).ravel()
     state = np.concatenate([Q.ravel(), spin, q0[:3]])
-    other = solve_ivp(newton_euler, (0, 2), state, "DOP853", times, rtol=1e-13, atol=1e-13).y[12:].T
-    return float(np.abs(run.q[:, :3] - other).max())
+    reference = solve_ivp(newton_euler, (0, 2), state, "DOP853", times, rtol=1e-13, atol=1e-13).y[12:].T
+    return float(np.abs(run.q[:, :3] - reference).max())
 
 
 off = difference(values)
@@ -86,19 +90,22 @@ assert off < 1e-9
 off
 
 # %% [markdown]
-# ## Rolling upright is stable above $\dot\psi_0^2 = g/(3R)$ (Routh, Advanced Rigid Dynamics, §244)
+# ## Stability of upright rolling
 #
-# The heading turns with the lean, and to first order $\ddot\vartheta = \kappa\,(\vartheta - \eta^2(\vartheta-\vartheta_0))$
-# with $\kappa>0$, $\vartheta_0$ the lean at the start and $\eta$ the speed over the critical one: for $\eta>1$ a lean swings
-# between $\vartheta_0$ and $\vartheta_0(\eta^2+1)/(\eta^2-1)$, below it grows.
+# Upright rolling is stable above $\dot\psi_0^2 = g/(3R)$ (Routh, Advanced Rigid Dynamics, §244). A lean changes the heading,
+# and to first order $\ddot\vartheta = \kappa\,(\vartheta - \eta^2(\vartheta-\vartheta_0))$. Here $\kappa>0$, $\vartheta_0$ is
+# the initial lean, and $\eta$ is the ratio of the speed to the critical speed. For $\eta>1$ the lean oscillates between
+# $\vartheta_0$ and $\vartheta_0(\eta^2+1)/(\eta^2-1)$. For $\eta<1$ it grows.
 
 # %%
 critical, first = np.sqrt(9.81 / (3 * 0.5)), 1e-5
 leans = {}
 for ratio in (0.9, 1.1, 1.5):
     rate = ratio * critical
-    begun = rolling.consistent(values, (0, 0, 0.5, 0, first, 0), (0.5 * rate, 0, 0, 0, 0, rate))
-    leans[ratio] = float(np.abs(rolling.simulate(values, *begun, np.linspace(0, 6, 601), 1e-11).q[:, 4]).max() / first)
+    initial = rolling.consistent(values, (0, 0, 0.5, 0, first, 0), (0.5 * rate, 0, 0, 0, 0, rate))
+    leans[ratio] = float(
+        np.abs(rolling.simulate(values, *initial, np.linspace(0, 6, 601), 1e-11).q[:, 4]).max() / first
+    )
 assert leans[0.9] > 1e3
 assert all(abs(leans[n] / ((n**2 + 1) / (n**2 - 1)) - 1) < 1e-3 for n in (1.1, 1.5))
 leans

@@ -1,9 +1,11 @@
 # %% [markdown]
-# # Chains: n rods, and n gyroscopes on each other's tips
+# # Chains of n rods and of n gyroscopes
 #
-# **Objective.** That the program of a tree of bodies grows with their number and not faster, and that it is right.
+# **Objective.** The program of a tree of bodies: its number of operations, which is proportional to the number of bodies, and its
+# correctness.
 #
-# **Assumptions.** Rods without mass with a mass at each joint, in a plane, relative angles; gyroscopes on two angles and a spin.
+# **Assumptions.** A plane chain of massless rods with a mass at each joint, in relative angles. A chain of gyroscopes, each
+# on the tip of the previous gyroscope, with two angles and a spin.
 #
 # **Notation.** $n$ the number of rods or gyroscopes.
 
@@ -42,31 +44,35 @@ def gyroscopes(n: int) -> System:
 # %% [markdown]
 # ## Operations of one evaluation
 #
-# Each rod more costs the same; so does each gyroscope. The first costs less, since the ground does not move, so that twice
-# as many take a little more than twice the operations, the less so the longer the chain.
+# Each additional rod requires the same number of operations, and so does each additional gyroscope. The first body requires
+# fewer, because the ground does not move. A chain of double length therefore requires slightly more than twice the
+# operations. For longer chains the ratio approaches two.
 
 # %%
 counts = {
-    made.__name__: {n: operations(motion_program(made(n)).program) for n in (5, 6, 12)} for made in (rods, gyroscopes)
+    chain.__name__: {n: operations(motion_program(chain(n)).program) for n in (5, 6, 12)}
+    for chain in (rods, gyroscopes)
 }
-doubling = {name: found[12] / found[6] for name, found in counts.items()}
-for found in counts.values():
-    assert found[12] - found[6] == 6 * (found[6] - found[5])
+doubling = {name: count[12] / count[6] for name, count in counts.items()}
+for count in counts.values():
+    assert count[12] - count[6] == 6 * (count[6] - count[5])
 assert max(doubling.values()) < 2.3
 counts, doubling
 
 # %% [markdown]
-# ## The spins of the gyroscopes are conserved
+# ## Conservation of the spins of the gyroscopes
 
 # %%
 pair = gyroscopes(2)
 assert pair.cyclic == (pair.c.q[2], pair.c.q[5])
 spin = pair.noether((0, 0, 0, 0, 0, 1)).expression
 tip = Frame(pair.c).turned("xy", pair.c.q[:2]).turned("xy", pair.c.q[3:5])
-prove(spin, I3 * (pair.c.v[5] + tip.angular_velocity[2]), "the axial momentum of the upper one", names="p")
+prove(spin, I3 * (pair.c.v[5] + tip.angular_velocity[2]), "the axial momentum of the upper gyroscope", names="p")
 
 # %% [markdown]
-# ## Against the textbook's equations in the angles to the vertical, six rods
+# ## Comparison with the textbook's equations for six rods
+#
+# The textbook's equations in the angles from the vertical are integrated independently.
 
 # %%
 values, times, twin = {m: 1.0, l: 0.5, g: 9.81}, np.linspace(0, 1, 41), {l: 0.5001}
@@ -80,13 +86,13 @@ def textbook(_: float, y: np.ndarray) -> np.ndarray:
     return np.concatenate([rate, np.linalg.solve(below * np.cos(apart), force)])
 
 
-def difference(given: dict) -> float:
-    """The largest difference of an angle to the vertical."""
+def difference(parameters: dict) -> float:
+    """The largest difference of an angle from the vertical."""
     start = np.linspace(0.5, 0.0, 6)
-    run = rods(6).simulate(given, start, 0 * start, times, tol=1e-12)
+    run = rods(6).simulate(parameters, start, 0 * start, times, tol=1e-12)
     y = np.concatenate([np.cumsum(start), 0 * start])
-    other = solve_ivp(textbook, (0, 1), y, "DOP853", times, rtol=1e-13, atol=1e-13).y[:6].T
-    return float(np.abs(np.cumsum(run.q, axis=1) - other).max())
+    reference = solve_ivp(textbook, (0, 1), y, "DOP853", times, rtol=1e-13, atol=1e-13).y[:6].T
+    return float(np.abs(np.cumsum(run.q, axis=1) - reference).max())
 
 
 off = difference(values)

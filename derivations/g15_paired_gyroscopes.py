@@ -1,13 +1,14 @@
 # %% [markdown]
-# # The paper's pair, from a sketch
+# # The paper's pair as three bodies with a closed loop
 #
-# **Objective.** That two gyroscopes whose tips are joined by a bar, drawn as three bodies and a closed loop, move as the
-# package's own model of them.
+# **Objective.** Comparison of two models of two gyroscopes whose tips are joined by a bar: three bodies with a closed loop,
+# and the package's model of the pair.
 #
-# **Assumptions.** No gravity. Each axis stands on a ground joint; the bar is a body with mass $m$ and transverse inertia $K$
-# that hangs on the first tip and is held at the second.
+# **Assumptions.** No gravity. Each axis is mounted on a ground joint. The bar is a body with mass $m$ and transverse inertia
+# $K$. It is attached to the first tip, and the loop constraint connects it to the second tip.
 #
-# **Notation.** $a_i, b_i$ turn axis $i$ about $x$ and then $y$, $s_i$ is its spin; $d, e$ turn the bar about $z$ and $y$.
+# **Notation.** $a_i, b_i$ the angles of axis $i$ about $x$ and then $y$, $s_i$ its spin angle; $d, e$ the angles of the bar
+# about $z$ and $y$.
 
 # %%
 from dataclasses import replace
@@ -31,21 +32,21 @@ for i, side in enumerate((-1, 1)):
     axis = ground.moved(side * ell / 2).turned("xy", c.q[3 * i : 3 * i + 2])
     L = L + axis.turned("z", c.q[3 * i + 2]).body(M, (I1, I1, I3), (0, 0, R / 2)).kinetic
     tips.append(axis.moved(0, 0, R))
-along = Frame(c).moved(*tips[0].place()).turned("zy", c.q[6:])
-bar = along.body(m, (0, K, K), (ell / 2, 0, 0))
-pair = System(c, L + bar.kinetic, tuple(along.place((ell, 0, 0)) - tips[1].place()))
+bar_frame = Frame(c).moved(*tips[0].place()).turned("zy", c.q[6:])
+bar = bar_frame.body(m, (0, K, K), (ell / 2, 0, 0))
+pair = System(c, L + bar.kinetic, tuple(bar_frame.place((ell, 0, 0)) - tips[1].place()))
 
 # %% [markdown]
-# ## The spins stay: axial momenta
+# ## Conservation of the axial momenta
 #
-# $G_i = I_3(\dot s_i + \dot a_i\sin b_i)$; the bar does not reach them.
+# The axial momenta $G_i = I_3(\dot s_i + \dot a_i\sin b_i)$ are conserved, because the bar exerts no moment about the axes.
 
 # %%
 spin = pair.noether((0, 0, 1, 0, 0, 0, 0, 0)).expression
 prove(spin, I3 * (c.v[2] + c.v[0] * sp.sin(c.q[1])), "the axial momentum", names="G_1")
 
 # %% [markdown]
-# ## Against the pair's own model, whose bar is eliminated
+# ## Comparison with the package's model, in which the bar is eliminated
 
 # %%
 values = {M: 1.0, R: 1.0, I1: 1.0, I3: 1.0, ell: 1.0, m: 0.01, K: 0.1}
@@ -55,7 +56,7 @@ scene: Scene = consistent_scene((10.0, -10.0), axes, ((0.3, 0, 0), (0.3, 0.2, 0)
 
 
 def start() -> tuple[list[float], list[float]]:
-    """The scene's state in the angles."""
+    """The angles and angular velocities of the scene's initial state."""
     q, v = [], []
     for r, r_v, omega in zip(scene.axes, scene.rates, scene.spins, strict=True):
         a, b = np.arctan2(-r[1], r[2]), np.arcsin(r[0])
@@ -69,12 +70,12 @@ def start() -> tuple[list[float], list[float]]:
     return [*q, np.arctan2(way[1], way[0]), -np.arcsin(way[2])], [*v, d_v, -way_v[2] / np.sqrt(flat)]
 
 
-def difference(given: dict) -> float:
-    """The largest distance of the tips, m."""
-    run = pair.simulate(given, *start(), times, tol=1e-12)
-    own = simulate_scene(scene, t=times, model="minimal", tol=1e-12)
-    placed = np.array([[run.evaluate(e) for e in tip.place()] for tip in tips]).transpose(0, 2, 1)
-    return float(np.abs(placed - own.tips).max())
+def difference(parameters: dict) -> float:
+    """The largest distance between the tips of the two models, m."""
+    run = pair.simulate(parameters, *start(), times, tol=1e-12)
+    reference = simulate_scene(scene, t=times, model="minimal", tol=1e-12)
+    tip_positions = np.array([[run.evaluate(e) for e in tip.place()] for tip in tips]).transpose(0, 2, 1)
+    return float(np.abs(tip_positions - reference.tips).max())
 
 
 off = difference(values)
@@ -82,12 +83,13 @@ assert off < 1e-9
 off
 
 # %% [markdown]
-# ## What is made by hand for the pair, beside what is generated
+# ## Hand-written and generated programs of the pair
 #
-# Operations of one evaluation of the right-hand side, of the package's own programs and of those that its `System` makes of
-# the same Lagrangian, with a massless bar and with one that has mass. Eliminating the bar by hand more than halves them. In
-# Euler angles the order of elimination saves a tenth, and keeps the digits near the pole. Unit vectors are written by hand
-# without the bar's mass only; with it, the package runs what is generated.
+# The table gives the number of operations of one evaluation of the right-hand side. It compares the package's hand-written
+# programs with the programs that `System` generates from the same Lagrangian, for a massless bar and for a bar with mass.
+# Elimination of the bar by hand saves more than half of the operations. In Euler angles the order of elimination saves a
+# tenth and preserves accuracy near the pole. For unit vectors the hand-written program is for a massless bar only; for a bar
+# with mass the package uses the generated program.
 
 # %%
 vectors, angles, mercator = axes_pair(), pair_with_bar(), System(MERCATOR, mercator_lagrangian())
@@ -112,16 +114,17 @@ costs |= {
     for massive in (False, True)
 }
 assert all(2 * costs["bar eliminated", massive][0] < costs["bar eliminated", massive][1] for massive in (False, True))
-assert [case for case, (own, made) in costs.items() if made <= own] == [("unit vectors", True)]
+assert [case for case, (manual, automatic) in costs.items() if automatic <= manual] == [("unit vectors", True)]
 tables = [
     Table(
         "The pair: operations of a right-hand side",
-        ("coordinates", "bar", "own program", "generated", "ratio"),
+        ("coordinates", "bar", "package's program", "generated", "ratio"),
         tuple(
-            (name, "with mass" if massive else "massless", f"{own}", f"{made}", f"{made / own:.2f}")
-            for (name, massive), (own, made) in costs.items()
+            (name, "with mass" if massive else "massless", f"{manual}", f"{automatic}", f"{automatic / manual:.2f}")
+            for (name, massive), (manual, automatic) in costs.items()
         ),
-        f"The sketch above, three bodies in eight coordinates with a closed loop: {operations(motion_program(pair).program)}.",
+        "The model above with three bodies in eight coordinates and a closed loop requires "
+        f"{operations(motion_program(pair).program)} operations.",
     )
 ]
 tables[0]

@@ -1,9 +1,9 @@
 # %% [markdown]
 # # A bouncing ball
 #
-# **Objective.** Infinitely many impacts in a finite time, the time at which they are over, and the rest beyond it.
+# **Objective.** Infinitely many impacts in a finite time, the time of the last impact, and the state of rest after it.
 #
-# **Assumptions.** A ball of mass $m$ falls from the height $h$; each impact leaves the part $e<1$ of its speed.
+# **Assumptions.** A ball of mass $m$ falls from the height $h$. Each impact multiplies its speed by $e<1$.
 #
 # **Notation.** $x$ the height, $t_0=\sqrt{2h/g}$ the time of the first fall, $S$ the time from the first impact to the last.
 
@@ -23,29 +23,34 @@ floor = Impact(x, restitution=e)
 # %% [markdown]
 # ## An impact
 #
-# The velocity is reversed and multiplied by $e$: the next height is $e^2h$, the next flight lasts $2et_0$.
+# The velocity is reversed and multiplied by $e$. The next height is $e^2h$, and the next flight lasts $2et_0$.
 
 # %%
 speed = g * t0
-prove((e * speed) ** 2 / (2 * g), e**2 * (g * t0**2 / 2), "the height after an impact, e² of that before", names="h_1")
+prove(
+    (e * speed) ** 2 / (2 * g),
+    e**2 * (g * t0**2 / 2),
+    "the height after an impact, e² times the height before",
+    names="h_1",
+)
 
 # %%
 prove(2 * (e * speed) / g, 2 * e * t0, "the time to the next impact", names="t_1")
 
 # %% [markdown]
-# ## All of them
+# ## The time of the last impact
 #
-# What follows the second impact is what follows the first, $e$ times as fast: $S = 2et_0 + eS$. So the last impact is at
-# $t_0+S=t_0\,(1+e)/(1-e)$.
+# The motion after the second impact equals the motion after the first with all times multiplied by $e$. Hence $S = 2et_0 + eS$,
+# and the last impact is at $t_0+S=t_0\,(1+e)/(1-e)$.
 
 # %%
 (total,) = sp.solve(sp.Eq(S, 2 * e * t0 + e * S), S)
 prove(t0 + total, t0 * (1 + e) / (1 - e), "the time of the last impact", names="t_{\\infty}")
 
 # %% [markdown]
-# ## Against the flights one by one
+# ## Comparison with the single flights
 #
-# The impacts are located on the motion itself, wherever it is read; where they accumulate the gap stays closed.
+# The simulation locates the impacts independently of the output times. After the last impact the ball rests on the floor.
 
 # %%
 values, twin = {m: 0.3, g: 9.81, e: 0.7}, {e: 0.701}
@@ -54,7 +59,7 @@ times = np.linspace(0, 1.2 * last, 241)
 
 
 def flights(restitution: float) -> np.ndarray:
-    """Heights of a ball let fall from the height one."""
+    """Heights of a ball that falls from the height 1 m."""
     begin, up, heights = -np.sqrt(2 / 9.81), np.sqrt(2 * 9.81), np.zeros(len(times))
     while up > 1e-12:
         since = times - begin
@@ -64,9 +69,9 @@ def flights(restitution: float) -> np.ndarray:
     return heights
 
 
-def difference(given: dict) -> float:
-    """Of the run from the flights with e = 0.7, m."""
-    run = ball.simulate(given, (1,), (0,), times, 1e-11, events=floor)
+def difference(parameters: dict) -> float:
+    """The largest difference between the run and the flights with e = 0.7, m."""
+    run = ball.simulate(parameters, (1,), (0,), times, 1e-11, events=floor)
     return float(np.abs(run.q[:, 0] - flights(0.7)).max())
 
 
@@ -81,7 +86,7 @@ assert not run.q[times > last].any() or np.abs(run.q[times > last]).max() < 1e-9
 run.ending.reason
 
 # %% [markdown]
-# An event without velocities ends a run, with the state on its section.
+# An event without velocities ends a run. The final state is on the section of the event.
 
 # %%
 first = ball.simulate(values, (1,), (0,), times, events=Event(x))

@@ -1,13 +1,13 @@
 # %% [markdown]
 # # A rocking block
 #
-# **Objective.** What an impact takes from a block that rocks from one of its lower edges to the other (Housner 1963), and how its
-# rocking dies down.
+# **Objective.** The loss of angular velocity at each impact of a block that rocks from one of its lower edges to the other
+# (Housner 1963), and the decay of the rocking.
 #
-# **Assumptions.** A uniform block of mass $m$ turns about the left or right lower edge without sliding or rebounding.
+# **Assumptions.** A uniform block of mass $m$ rotates about the left or right lower edge without sliding or rebounding.
 #
-# **Notation.** $R$ from an edge to the centre, $\alpha$ the angle of that line to the vertical of the block at rest, $\theta$
-# the tilt, positive about the right edge; the inertia about an edge is $\tfrac43 mR^2$.
+# **Notation.** $R$ the distance from an edge to the centre, $\alpha$ the angle between this line and the vertical for the
+# block at rest, $\theta$ the tilt, positive about the right edge; the inertia about an edge is $\tfrac43 mR^2$.
 
 # %%
 import numpy as np
@@ -21,63 +21,69 @@ c = coordinates("theta")
 (theta,), (rate,) = c.q, c.v
 height = R * sp.cos(alpha - sp.Abs(theta))
 block = System(c, sp.Rational(2, 3) * m * R**2 * rate**2 - m * g * height)
-kept = 1 - sp.Rational(3, 2) * sp.sin(alpha) ** 2
-rocking = Event(theta, velocities=(kept * rate,))
+rate_ratio = 1 - sp.Rational(3, 2) * sp.sin(alpha) ** 2
+rocking = Event(theta, velocities=(rate_ratio * rate,))
 
 # %% [markdown]
-# ## What an impact leaves
+# ## The angular velocity after an impact
 #
-# The reaction acts at the edge that becomes the new centre of the turn: the angular momentum about it is kept. Before, the
-# centre of the block moves at right angles to its line from the old edge.
+# The reaction acts at the new edge, so the angular momentum about this edge is conserved. Before the impact the velocity of
+# the centre is perpendicular to the line from the old edge.
 
 # %%
-w, after = sp.symbols("omega omega_1", positive=True)
+w, omega_1 = sp.symbols("omega omega_1", positive=True)
 old, new = sp.Matrix([R * sp.sin(alpha), 0]), sp.Matrix([-R * sp.sin(alpha), 0])
 centre = sp.Matrix([0, R * sp.cos(alpha)])
 velocity = w * sp.Matrix([-(centre - old)[1], (centre - old)[0]])
 arm = centre - new
 about_new = m * R**2 / 3 * w + m * (arm[0] * velocity[1] - arm[1] * velocity[0])
-(left,) = sp.solve(sp.Eq(about_new, sp.Rational(4, 3) * m * R**2 * after), after)
-prove(sp.expand_trig(left / w), kept, "the part of the rate that is left", names=r"\omega_1/\omega")
+(rate_after,) = sp.solve(sp.Eq(about_new, sp.Rational(4, 3) * m * R**2 * omega_1), omega_1)
+prove(
+    sp.expand_trig(rate_after / w),
+    rate_ratio,
+    "the ratio of the rates after and before an impact",
+    names=r"\omega_1/\omega",
+)
 
 # %% [markdown]
-# ## How the tilt dies down
+# ## The decay of the tilt
 #
-# Between two impacts the energy is kept, so the next largest tilt $\theta_1$ follows from the one before, $\theta_0$:
-# $\cos(\alpha-\theta_1)-\cos\alpha = r^2\,(\cos(\alpha-\theta_0)-\cos\alpha)$, with $r$ from above.
+# Between two impacts the energy is conserved. Therefore the largest tilt $\theta_1$ after an impact follows from the largest tilt
+# $\theta_0$ before it: $\cos(\alpha-\theta_1)-\cos\alpha = r^2\,(\cos(\alpha-\theta_0)-\cos\alpha)$ with the ratio
+# $r=\omega_1/\omega$.
 
 # %%
 tilt = sp.Symbol("theta_0", positive=True)
 energy = m * g * R * (sp.cos(alpha - tilt) - sp.cos(alpha))
 rate_squared = energy / (sp.Rational(2, 3) * m * R**2)
 prove(
-    sp.Rational(2, 3) * m * R**2 * kept**2 * rate_squared,
-    kept**2 * m * g * R * (sp.cos(alpha - tilt) - sp.cos(alpha)),
+    sp.Rational(2, 3) * m * R**2 * rate_ratio**2 * rate_squared,
+    rate_ratio**2 * m * g * R * (sp.cos(alpha - tilt) - sp.cos(alpha)),
     "the energy after an impact",
     names="E_1",
 )
 
 # %% [markdown]
-# ## Against the run
+# ## Comparison with a simulation
 #
-# The force jumps with the sign of the tilt, the rate at each impact; the largest tilts are where the rate is zero.
+# The force is discontinuous at zero tilt, and the rate is discontinuous at each impact. The largest tilts occur at zero rate.
 
 # %%
 values, times, twin = {m: 80.0, g: 9.81, R: 1.1, alpha: 0.3}, np.linspace(0, 12, 241), {alpha: 0.301}
 
 
 def tilts(count: int) -> np.ndarray:
-    """The largest tilts, from 0.25 rad on, for alpha = 0.3."""
-    r, found = 1 - 1.5 * np.sin(0.3) ** 2, [0.25]
+    """The next `count` largest tilts after 0.25 rad, for alpha = 0.3."""
+    r, largest = 1 - 1.5 * np.sin(0.3) ** 2, [0.25]
     for _ in range(count):
-        lifted = np.cos(0.3) + r**2 * (np.cos(0.3 - found[-1]) - np.cos(0.3))
-        found.append(0.3 - np.arccos(lifted))
-    return np.array(found[1:])
+        cosine = np.cos(0.3) + r**2 * (np.cos(0.3 - largest[-1]) - np.cos(0.3))
+        largest.append(0.3 - np.arccos(cosine))
+    return np.array(largest[1:])
 
 
-def difference(given: dict) -> float:
-    """Of the largest tilts, rad."""
-    run = block.simulate(given, (0.25,), (0,), times, 1e-9, events=rocking)
+def difference(parameters: dict) -> float:
+    """The largest difference of the largest tilts, rad."""
+    run = block.simulate(parameters, (0.25,), (0,), times, 1e-9, events=rocking)
     largest = np.abs(run.crossings(rate).q[:6, 0])
     return float(np.abs(largest - tilts(6)).max())
 

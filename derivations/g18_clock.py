@@ -1,13 +1,13 @@
 # %% [markdown]
 # # The escapement of a clock
 #
-# **Objective.** A clock with dry friction goes at one amplitude, whatever it was started with (Andronov, Vitt & Khaikin, *Theory
-# of Oscillators*, ch. III).
+# **Objective.** The amplitude of a clock with dry friction, which is independent of the initial amplitude (Andronov, Vitt &
+# Khaikin, *Theory of Oscillators*, ch. III).
 #
-# **Assumptions.** A balance of unit mass and stiffness under dry friction $F$; at each upward passage of rest the escapement
-# gives it the energy $k^2/2$.
+# **Assumptions.** A balance of unit mass and stiffness under dry friction $F$. When it passes $x=0$ to the right, the
+# escapement adds the energy $k^2/2$.
 #
-# **Notation.** $a_n$ the largest elongation to the right of the $n$-th turn.
+# **Notation.** $a_n$ the largest elongation to the right in the $n$-th period.
 
 # %%
 import numpy as np
@@ -23,10 +23,10 @@ clock = System(c, v**2 / 2 - x**2 / 2, forces=(-F * sp.sign(v),))
 escapement = Event(x, velocities=(sp.sqrt(v**2 + k**2),), direction=1)
 
 # %% [markdown]
-# ## One turn
+# ## One period
 #
-# To the left the motion is a harmonic one about $+F$, to the right about $-F$. From $a$ on the right it comes to $-(a-2F)$ on the
-# left, and passes rest with the speed $u$, $u^2=(a-3F)^2-F^2$.
+# Motion to the left is harmonic about $+F$, motion to the right is harmonic about $-F$. From $a$ on the right the balance
+# moves to $-(a-2F)$ on the left. It then passes $x=0$ with the speed $u$, $u^2=(a-3F)^2-F^2$.
 
 # %%
 u_squared = (a - 3 * F) ** 2 - F**2
@@ -37,9 +37,9 @@ following = sp.sqrt(u_squared + k**2 + F**2) - F
 prove((following + F) ** 2, (a - 3 * F) ** 2 + k**2, "the next elongation to the right", names="(a_1+F)^2")
 
 # %% [markdown]
-# ## The amplitude at which it goes
+# ## The amplitude of the periodic motion
 #
-# It repeats itself where $(a+F)^2=(a-3F)^2+k^2$: at $a=F+k^2/(8F)$, and at no other.
+# The motion is periodic if $(a+F)^2=(a-3F)^2+k^2$. The only solution is $a=F+k^2/(8F)$.
 
 # %%
 (steady,) = sp.solve(sp.Eq((a + F) ** 2, (a - 3 * F) ** 2 + k**2), a)
@@ -50,14 +50,14 @@ slope = (a - 3 * F) / (following + F)
 prove(
     slope.subs(k, 0).subs(a, 5 * F),
     sp.Integer(1),
-    "without impulses a difference stays: nothing brings it back",
+    "without impulses a difference of amplitudes is constant",
     names=r"a_1'",
 )
 
 # %% [markdown]
-# ## Against the run
+# ## Comparison with a simulation
 #
-# Stick and slip of the friction are followed, and the impulses located on the motion itself.
+# The simulation follows the stick and slip of the friction and locates the impulses.
 
 # %%
 values, times, twin = {F: 0.02, k: 0.35}, np.linspace(0, 80, 401), {F: 0.0201}
@@ -65,15 +65,15 @@ values, times, twin = {F: 0.02, k: 0.35}, np.linspace(0, 80, 401), {F: 0.0201}
 
 def elongations(start: float, count: int) -> np.ndarray:
     """Largest elongations to the right for F = 0.02 and k = 0.35."""
-    found = [start]
+    largest = [start]
     for _ in range(count):
-        found.append(np.sqrt((found[-1] - 0.06) ** 2 + 0.35**2) - 0.02)
-    return np.array(found[1:])
+        largest.append(np.sqrt((largest[-1] - 0.06) ** 2 + 0.35**2) - 0.02)
+    return np.array(largest[1:])
 
 
-def difference(given: dict) -> float:
-    """Of ten elongations."""
-    run = clock.simulate(given, (2.0,), (0,), times, 1e-11, events=escapement)
+def difference(parameters: dict) -> float:
+    """The largest difference of ten elongations."""
+    run = clock.simulate(parameters, (2.0,), (0,), times, 1e-11, events=escapement)
     return float(np.abs(run.crossings(v, -1).q[:10, 0] - elongations(2.0, 10)).max())
 
 

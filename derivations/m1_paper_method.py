@@ -1,16 +1,15 @@
 # %% [markdown]
-# # The paper's own method beside the exact model and the closed forms
+# # The paper's method, the exact model and the closed forms
 #
-# **Objective.** Every number that the paper prints of its simulations: as printed, by the paper's method with the
-# stiffness found (claim C08), by the exact model, in closed form. And the longest step that its stiff
-# springs allow, predicted and measured.
+# **Objective.** The numbers that the paper prints for its simulations: as printed, by the paper's method with the stiffness
+# of claim C08, by the exact model, and in closed form. The longest stable step with the paper's stiff springs, predicted and
+# measured.
 #
-# **Assumptions.** $S = 10^4$ N/m, $D = 250$ kg/s ($n = 20$, $\omega_s = 10$ in 4.01), steps of 1 ms; the bar of mass 1
-# and inertia 1 unless said otherwise. The numbers are those of the tests of the claims.
+# **Assumptions.** $S = 10^4$ N/m, $D = 250$ kg/s ($n = 20$, $\omega_s = 10$ in 4.01), steps of 1 ms. The bar has mass 1 and
+# inertia 1 unless stated otherwise. The numbers are the results of the tests of the claims.
 
 # %%
 from lagrotor import Link, Scene, natural_rate
-from lagrotor.benchmark.limits.step_size import step_limit_by_bisection
 from lagrotor.models import paper_system, step_limit
 from lagrotor.paper import Table
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
@@ -27,7 +26,7 @@ none = "none"
 rows = (
     ("energy before the shock, spins 10 (J)", "100", f"{c08['before_J']:.2f}", f"{c08['before_J']:.2f}", "I_3 omega²"),
     (
-        "energy after it (J)",
+        "energy after the shock (J)",
         "about 100.45",
         f"{c08['highest_springs_J']:.4f}",
         f"{c08['after_exact_J']:.4f}",
@@ -43,7 +42,7 @@ rows = (
     (
         "projection as printed (3.16)",
         "NaN",
-        f"NaN from {c07['shock_at_s'] - c07['nan_at_s_printed_rotation']:.2f} s before the shock; cured: none",
+        f"NaN from {c07['shock_at_s'] - c07['nan_at_s_printed_rotation']:.2f} s before the shock; corrected: none",
         none,
         f"fails below |Omega| = {c07['largest_omega_that_fails_rad_per_s']:.2g} rad/s",
     ),
@@ -73,8 +72,8 @@ rows = (
 # %% [markdown]
 # ## The longest stable step
 #
-# Predicted from stiffness, damping and the mobility of all joints together; measured by bisection on the step,
-# to 1 % of it.
+# The step is predicted from stiffness, damping and the mobility of all joints together. It is measured by bisection with a
+# relative error of 1 %.
 
 # %%
 systems = (
@@ -85,17 +84,24 @@ systems = (
 )
 limits = []
 for springs, bar, system in systems:
-    predicted, found = step_limit(system), step_limit_by_bisection(system, 5)
-    row = (springs, bar, 1e3 * predicted.whole, 1e3 * found, found / predicted.whole, 1e3 * predicted.joints.min())
+    predicted, measured = step_limit(system), step_limit_by_bisection(system, 5)
+    row = (
+        springs,
+        bar,
+        1e3 * predicted.whole,
+        1e3 * measured,
+        measured / predicted.whole,
+        1e3 * predicted.joints.min(),
+    )
     limits.append((*row[:2], *(f"{value:.3g}" for value in row[2:])))
 
 tables = [
     Table(
         "The paper's simulated numbers",
-        ("what", "printed", "paper's method", "exact model", "closed form"),
+        ("quantity", "printed", "paper's method", "exact model", "closed form"),
         rows,
-        "Rates after a shock of 40 N along x on tip 1: by the paper's method fitted over the first 3 s, exact over 8 s, of "
-        "opposite spins over 3.3 s. The excess of the runs over the closed forms is the amplitude's.",
+        "Rates after a shock of 40 N along x on tip 1, fitted over the first 3 s for the paper's method, over 8 s for the "
+        "exact model, and over 3.3 s for opposite spins. The runs exceed the closed forms because of the finite amplitude.",
     ),
     Table(
         "The longest stable step of the paper's method",
@@ -103,12 +109,13 @@ tables = [
             "S (N/m), D (kg/s)",
             "bar m, K",
             "predicted (ms)",
-            "found (ms)",
-            "found / predicted",
-            "worst single joint (ms)",
+            "measured (ms)",
+            "measured / predicted",
+            "shortest for a single joint (ms)",
         ),
         tuple(limits),
-        "Predicted from all joints together, h < 4/(w D + sqrt((w D)² + 4 w S)); a single joint gives too long a step.",
+        "The prediction uses all joints together, h < 4/(w D + sqrt((w D)² + 4 w S)). For a single joint the predicted step "
+        "is too long.",
     ),
 ]
 tables[0]

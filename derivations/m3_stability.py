@@ -1,34 +1,34 @@
 # %% [markdown]
-# # Where methods fail
+# # Limits of the methods
 #
-# **Objective.** For each regime in which a method fails: the threshold that a formula predicts, the one measured, and
-# what lagrotor does there.
+# **Objective.** For each regime in which a method fails: the predicted threshold, the measured threshold, and the response of
+# lagrotor.
 #
-# **Assumptions.** Runs short enough for a report; `lagrotor stability` has the long ones (10,000 turns) and the
-# rates of ensembles.
+# **Assumptions.** The runs are short enough for a report. `lagrotor stability` makes the long runs (10,000 periods) and
+# computes the rates of ensembles.
 
 # %%
 from lagrotor.benchmark.limits.step_size import limits
 from lagrotor.paper import Table
 
-found = limits(quick=True)
-list(dict.fromkeys(x.regime for x in found))
+thresholds = limits(quick=True)
+list(dict.fromkeys(x.regime for x in thresholds))
 
 # %% [markdown]
-# ## Predicted and measured
+# ## Predicted and measured thresholds
 
 # %%
 tables = [
     Table(
-        "Where methods fail",
-        ("regime", "quantity", "formula", "predicted", "measured", "measured / predicted", "what lagrotor does"),
+        "Limits of the methods",
+        ("regime", "quantity", "formula", "predicted", "measured", "measured / predicted", "response of lagrotor"),
         tuple(
             (x.regime, x.what, x.formula, f"{x.predicted:.3g}", f"{x.measured:.3g}", f"{x.ratio:.2f}", x.tool)
-            for x in found
+            for x in thresholds
         ),
-        "Thresholds measured by bisection or read off runs; over few turns energy, momentum and phase drift more slowly than "
-        "over many, where energy and momentum grow in proportion to time, the phase as v t + c t². "
-        "Full runs: `lagrotor stability`.",
+        "The thresholds are measured by bisection or on runs. Over few periods the drift of energy, momentum and phase is "
+        "slower than over many. Over many periods the errors of energy and momentum are proportional to time, and the error "
+        "of the phase is v t + c t². Full runs: `lagrotor stability`.",
     )
 ]
 tables[0]

@@ -1,9 +1,9 @@
 # %% [markdown]
 # # Conserved quantities of the pair
 #
-# **Objective.** Every conserved quantity by Noether's theorem, compared with the exact models; the completeness of the list.
+# **Objective.** The conserved quantities by Noether's theorem, checked on the exact models; the completeness of the list.
 #
-# **Assumptions.** No external force; any spins and any bar; opposite spins in the last two sections.
+# **Assumptions.** No external force; any spins and any bar. The last two sections assume opposite spins.
 #
 # **Notation.** $E$ the energy, $G_i$ the axial momenta, $P$ the momentum about the joint line, which runs through both ground
 # joints; $A$, $B$ the paper's integrals (5.12, 5.13); $r_i$ the axes; $a$, $b$ the inertias with the bar's share, $k=\ell/R$;
@@ -24,7 +24,7 @@ from lagrotor.paper import Formula, Remark, prove
 # %% [markdown]
 # ## The spins
 #
-# In Euler angles, with the bar's kinetic energy and its constraint:
+# The Lagrangian in Euler angles, with the bar's kinetic energy, and the bar's constraint are
 
 # %%
 whole = pair_with_bar()
@@ -46,7 +46,7 @@ prove(
 )
 
 # %% [markdown]
-# Their momenta are therefore constant, the axial momenta $G_i=I_3(\dot\psi_i+\dot\phi_i\cos\theta_i)$:
+# Their momenta are therefore constant. These are the axial momenta $G_i=I_3(\dot\psi_i+\dot\phi_i\cos\theta_i)$:
 
 # %%
 theta_1, theta_2 = PAIR.q[0], PAIR.q[3]
@@ -59,10 +59,10 @@ prove(
 )
 
 # %% [markdown]
-# ## Turning about the joint line
+# ## Rotation about the joint line
 #
-# The spins are eliminated (Routh); the coordinates are Mercator coordinates. A change of both $\alpha_i$ by the same angle does
-# not change the Lagrangian and the constraint of the bar:
+# The spins are eliminated (Routh), and the coordinates are Mercator coordinates. A rotation of both $\alpha_i$ by the same
+# angle does not change the Lagrangian and the bar's constraint:
 
 # %%
 u1, al1, u2, al2 = MERCATOR.q
@@ -71,27 +71,27 @@ reduced = System(MERCATOR, mercator_lagrangian(), (bar,))
 prove(
     [e.diff(al1) + e.diff(al2) for e in (reduced.L, bar)],
     (0, 0),
-    "turning both axes alike changes neither the Lagrangian nor the bar",
+    "rotation of both axes by the same angle changes neither the Lagrangian nor the bar's constraint",
     names=(r"\delta L", r"\delta g"),
 )
 
 # %% [markdown]
-# A change in opposite senses does change the constraint. Noether's theorem gives the momentum
+# A rotation in opposite senses changes the bar's constraint. Noether's theorem gives the momentum
 # $P=\partial L/\partial\dot\alpha_1+\partial L/\partial\dot\alpha_2$. In Cartesian components of the axes it is the angular
 # momentum about the joint line:
 
 # %%
 assert reduced.invariance((0, 1, 0, -1)).answer == "nonzero"
-turned = reduced.noether((0, 1, 0, 1)).expression
-where = {}
+momentum = reduced.noether((0, 1, 0, 1)).expression
+in_mercator = {}
 for i, (u, al) in enumerate(((u1, al1), (u2, al2))):
     r = mercator_axis(u, al)
     rates = r.jacobian(MERCATOR.q) * sp.Matrix(MERCATOR.v)
-    where |= dict(zip(AXES.q[3 * i : 3 * i + 3], r, strict=True))
-    where |= dict(zip(AXES.v[3 * i : 3 * i + 3], rates, strict=True))
+    in_mercator |= dict(zip(AXES.q[3 * i : 3 * i + 3], r, strict=True))
+    in_mercator |= dict(zip(AXES.v[3 * i : 3 * i + 3], rates, strict=True))
 prove(
-    turned,
-    joint_line_momentum().subs(where),
+    momentum,
+    joint_line_momentum().subs(in_mercator),
     "the momentum about the joint line",
     equations=r"P = \sum_i (a\,\dot r_i + b\,\dot r_j)\cdot(e_x\times r_i) + G_i\,x_i,\qquad j \neq i",
 )
@@ -102,8 +102,8 @@ Formula(joint_line_momentum(), "P")
 # %% [markdown]
 # ## Time
 #
-# $L$ does not contain the time. Noether's integral of its translation is the energy. It equals the kinetic energy, since the
-# gyroscopic terms are linear in the rates.
+# $L$ does not depend on time. The translation of time gives the energy. It equals the kinetic energy, because the gyroscopic
+# terms are linear in the rates and cancel.
 
 # %%
 quadratic = reduced.L - sum(
@@ -117,7 +117,7 @@ prove(
 )
 
 # %% [markdown]
-# ## On the exact models
+# ## Conservation in the exact models
 
 # %%
 orbit = exact_orbit(Scene(spins=(10, -10), link=Link(1, 0, 0)), 0.3)
@@ -130,7 +130,7 @@ for model in ("minimal", "spheres", "euler"):
 assert max(drift.values()) < 1e-7
 Remark(
     "Conserved quantities",
-    "E, G_1, G_2 and P are conserved by Noether's theorem. Largest change over 3 s of a run at tolerance 1e-11 (J, kg m²/s): "
+    "E, G_1, G_2 and P are conserved by Noether's theorem. Largest change over a run of 3 s at tolerance 1e-11 (J, kg m²/s): "
     + ", ".join(f"{model} {value:.1e}" for model, value in drift.items())
     + ".",
 )
@@ -138,36 +138,36 @@ Remark(
 # %% [markdown]
 # ## The paper's integrals
 #
-# $B = G_1 - G_2$ is conserved. $A$ is not: it is an integral of the ansatz Lagrangian only, and oscillates on the paired
+# $B = G_1 - G_2$ is conserved exactly. $A$ is an integral of the ansatz Lagrangian only, and it oscillates on the paired
 # precession.
 
 # %%
 amplitudes = (0.05, 0.1, 0.2)
 swings = []
 for amplitude in amplitudes:
-    one = exact_orbit(Scene(spins=(10, -10), link=Link(1, 0.01, 0.1)), amplitude)
-    turn_times = np.linspace(0, 2 * np.pi / one.frequency, 97)
-    swings.append(swing(ansatz_A(simulate(one.scene, turn_times, "minimal", 1e-12))))
+    precession = exact_orbit(Scene(spins=(10, -10), link=Link(1, 0.01, 0.1)), amplitude)
+    turn_times = np.linspace(0, 2 * np.pi / precession.frequency, 97)
+    swings.append(swing(ansatz_A(simulate(precession.scene, turn_times, "minimal", 1e-12))))
 order = measured_order(amplitudes, swings)
 Remark(
     "The paper's A",
-    "B = G_1 − G_2 is conserved; A oscillates on the paired precession by "
+    "B = G_1 − G_2 is conserved exactly. On the paired precession A oscillates by "
     + ", ".join(f"{value:.4f} at r_0 = {r}" for r, value in zip(amplitudes, swings, strict=True))
-    + f" kg m²/s, ∝ r_0^{order:.2f}.",
+    + f" kg m²/s, proportional to r_0^{order:.2f}.",
 )
 
 # %% [markdown]
 # ## Completeness
 #
-# A further integral, independent of $E$ and $P$ along the paired precession, would make another pair of its multipliers equal
-# to 1 (Poincaré). This pair is not 1 (t5: $\lambda^2=\frac9{32}r_0^8/k^4$ for a massless bar).
+# With an integral independent of $E$ and $P$ along the paired precession, another pair of its multipliers would equal 1
+# (Poincaré). The last pair does not equal 1 (t5: $\lambda^2=\frac9{32}r_0^8/k^4$ for a massless bar).
 
 # %%
 multiplier = floquet(orbit.scene, 0.3)
 assert multiplier.kind == "hyperbolic" and multiplier.pair_sum - 2 > 1000 * multiplier.error
 Remark(
     "No further integral",
-    "No further analytic integral is independent of these along the paired precession: at r_0 = 0.3 with a massless bar its last "
-    f"multiplier is {multiplier.multipliers[4].real:.5f}, not 1; μ + 1/μ − 2 = {multiplier.pair_sum - 2:.1e} with an error of "
+    "No further analytic integral is independent of these along the paired precession. At r_0 = 0.3 with a massless bar its "
+    f"multiplier is {multiplier.multipliers[4].real:.5f}, not 1: μ + 1/μ − 2 = {multiplier.pair_sum - 2:.1e}, with an error of "
     f"{multiplier.error:.0e}.",
 )

@@ -1,20 +1,19 @@
 # %% [markdown]
-# # Unequal spins: the shift of the rate, the drift of the azimuth, and where a twist grows
+# # Unequal spins: the shift of the rate, the drift of the azimuth, and the growth of a twist
 #
-# **Objective.** Three properties of an orbit about upright for any two spins, any bar and length: the shift of its rate with the
-# amplitude, in one formula that includes equal and opposite spins; its drift about the joint line, by which it does not close;
-# and its stability against a small twist.
+# **Objective.** For any two spins and any bar: the change of the rate of an orbit about upright with its amplitude, as one
+# formula that includes equal and opposite spins; the rate at which the orbit rotates about the joint line, so that it is not
+# periodic; the orbits on which a small twist grows.
 #
-# **Assumptions.** The orbit swings between $x=\pm r_0$, where the axes are parallel; series in $r_0$.
+# **Assumptions.** An orbit that oscillates between $x=\pm r_0$, where the axes are parallel; a series in $r_0$.
 #
 # **Notation.** As in t11: $n$ the mean axis, $\beta$ its lean, $\alpha$ its azimuth about the joint line, $h$ half the angle
-# between the axes. Units: $2(a+b)=1$, $\Omega_0=1$, so that with $\Sigma=G_1+G_2$, $D=G_1-G_2$,
-# $\sigma=(a+b)/(a-b)$ the natural rate (t1) reads $\Sigma^2+\sigma D^2=1$.
-# $\zeta=\sigma D^2$ is 0 for equal and 1 for opposite spins. $\Phi$ the phase,
+# between the axes. Units: $2(a+b)=1$, $\Omega_0=1$. With $\Sigma=G_1+G_2$, $D=G_1-G_2$, $\sigma=(a+b)/(a-b)$ the natural rate
+# (t1) then means $\Sigma^2+\sigma D^2=1$. $\zeta=\sigma D^2$ is 0 for equal and 1 for opposite spins. $\Phi$ the phase,
 # $\dot\Phi=\Omega=1+c\,r_0^2+\dots$; $z=e^{i\Phi}$.
 #
-# **What is known, what is new.** The method is Lindstedt's (1882). For $\zeta=0$ the shift is that of one top on a cone,
-# $1/\cos$; for $\zeta=1$ that of t3. We know no source for other $\zeta$, for the drift, and for the growth of a twist.
+# **Earlier work.** The method is Lindstedt's (1882). For $\zeta=0$ the shift is the shift $1/\cos$ of one top on a cone; for
+# $\zeta=1$ it is the shift of t3. For $\zeta$ between them, for the drift, and for the growth of a twist we know no source.
 
 # %%
 import numpy as np
@@ -35,7 +34,7 @@ from lagrotor.theory.rate_shift import drift_coefficient, opposite_share, shift_
 # %% [markdown]
 # ## The Lagrangian through fifth order
 #
-# From t11, exact for any two spins, with all coordinates and rates of first order:
+# The Lagrangian of t11 is exact for any two spins. It is expanded with all coordinates and rates of first order:
 
 # %%
 (beta, h, _), (beta_v, h_v, alpha_v) = LEANING.q, LEANING.v
@@ -52,22 +51,22 @@ prove(
 )
 
 # %% [markdown]
-# In third order, apart from a time derivative, a twist takes momentum about the joint line (t6):
+# The third order is a time derivative plus a term by which a twist contributes to the momentum about the joint line (t6):
 
 # %%
 tilt = h**3 * (sp.Rational(1, 3) / k - sp.Rational(1, 6) / k**3) - h * beta**2 / (2 * k)
 prove(
     orders[3] - total * (tilt.diff(h) * h_v + tilt.diff(beta) * beta_v),
     apart * alpha_v * h**2 / k,
-    "the third order less a derivative by the time",
+    "the third order minus a time derivative",
     names="L_3",
 )
 
 # %% [markdown]
 # ## The orbit
 #
-# $\beta$ and $\dot\alpha$ are even in $\Phi$, $h$ is odd. Half a turn later $\beta$ is $-r_0$. The first order is the normal
-# mode, and the unknowns of the second and third orders are
+# $\beta$ and $\dot\alpha$ are even in $\Phi$, and $h$ is odd. Half a period later $\beta=-r_0$. The first order is the normal
+# mode. The second and third orders have the unknowns
 
 # %%
 z, r = sp.symbols("z r")
@@ -96,27 +95,27 @@ def later(e: sp.Expr) -> sp.Expr:
     return sp.expand(sp.I * z * e.diff(z)) * Omega
 
 
-def put(e: sp.Expr, most: int) -> sp.Expr:
-    """Return a polynomial of the coordinates and rates along the orbit, through r**most."""
-    along = dict(zip((beta, h, beta_v, h_v, alpha_v), (lean, half, later(lean), later(half), turning), strict=True))
+def put(e: sp.Expr, highest: int) -> sp.Expr:
+    """Evaluate a polynomial of the coordinates and rates along the orbit, through r**most."""
+    on_orbit = dict(zip((beta, h, beta_v, h_v, alpha_v), (lean, half, later(lean), later(half), turning), strict=True))
     powers: dict[tuple[sp.Symbol, int], sp.Expr] = {}
 
     def cut(value: sp.Expr) -> sp.Expr:
         value = sp.expand(value)
-        return sum((value.coeff(r, n) * r**n for n in range(most + 1)), sp.Integer(0))
+        return sum((value.coeff(r, n) * r**n for n in range(highest + 1)), sp.Integer(0))
 
     def power(symbol: sp.Symbol, n: int) -> sp.Expr:
         if n == 0:
             return sp.Integer(1)
         if (symbol, n) not in powers:
-            powers[symbol, n] = cut(power(symbol, n - 1) * along[symbol])
+            powers[symbol, n] = cut(power(symbol, n - 1) * on_orbit[symbol])
         return powers[symbol, n]
 
     result = sp.Integer(0)
-    for exponents, coefficient in sp.Poly(e, *along).terms():
-        if sum(exponents) <= most:
+    for exponents, coefficient in sp.Poly(e, *on_orbit).terms():
+        if sum(exponents) <= highest:
             term = coefficient
-            for symbol, n in zip(along, exponents, strict=True):
+            for symbol, n in zip(on_orbit, exponents, strict=True):
                 term = cut(term * power(symbol, n))
             result += term
     return sp.expand(result)
@@ -146,7 +145,7 @@ prove(
 )
 
 # %% [markdown]
-# The second order has no term of the lean, and terms of the twist and of the turning with twice the frequency:
+# In second order the lean has no term; the twist and $\dot\alpha$ each have a term of twice the frequency:
 
 # %%
 second = [
@@ -157,14 +156,14 @@ at_second = sp.solve(second, [b20, b22, h22, n2, a22, P2], dict=True)[0]
 prove(
     tuple(at_second[u] for u in (b22, n2, h22, a22)),
     (0, 0, apart**2 * total * sigma**2 / (4 * k), apart**3 * sigma**2 / (2 * k)),
-    "the second order of the orbit; no turning about the joint line",
+    "the second order of the orbit, without mean rotation about the joint line",
     names=("b_{22}", "n_2", "h_{22}", "a_{22}"),
 )
 
 # %% [markdown]
 # ## The shift of the rate
 #
-# In third order, the terms with the frequency of the orbit give three equations for $h_{31}$, $a_{31}$ and $c$:
+# In third order the terms with the orbit's frequency give three equations for $h_{31}$, $a_{31}$ and $c$:
 
 # %%
 third = [part(e, 3, 1).subs(at_second) for e in (equation_beta, equation_h, momentum)]
@@ -180,16 +179,16 @@ prove(
 # %%
 law = sp.Rational(1, 2) + sp.Rational(3, 4) * share * (sigma - 1)
 law -= share**2 * (sigma**2 - 1) / 4 + sp.Rational(3, 4) * share**2 * sigma / k**2
-prove(shift_coefficient(sigma, k, share), law, "in full, by ζ", names="c")
+prove(shift_coefficient(sigma, k, share), law, "the shift as a function of ζ", names="c")
 
 # %% [markdown]
-# It contains the known cases: for equal spins ½, from $1/\cos$, and for opposite spins the series of t3.
+# The formula contains the known limits: ½ from $1/\cos$ for equal spins, and the series of t3 for opposite spins.
 
 # %%
 prove(
     (law.subs(share, 0), 1 + law.subs(share, 1) * r0**2),
     (sp.Rational(1, 2), paired_frequency(3).expressions[0]),
-    "equal spins; opposite spins",
+    "the limits of equal and of opposite spins",
     names=("c", r"\Omega/\Omega_0"),
 )
 
@@ -197,16 +196,16 @@ prove(
 # ## The drift of the azimuth
 #
 # The mean of $\partial L/\partial\beta=d(\partial L/\partial\dot\beta)/dt$ vanishes. Its first term is
-# $\Sigma\langle\dot\alpha\rangle$, and the other terms of fourth order follow from the orbit through third order:
+# $\Sigma\langle\dot\alpha\rangle$. The other terms of fourth order follow from the orbit through third order:
 
 # %%
 thrice = [part(e, 3, 3).subs(at_second).subs(at_third) for e in (equation_beta, equation_h, momentum)]
 at_third |= {u: reduced(value) for u, value in sp.solve(thrice, [b33, h33, a33], dict=True)[0].items()}
-others = part(put(L.diff(beta), 4), 4, 0).subs(at_second).subs(at_third)
+fourth = part(put(L.diff(beta), 4), 4, 0).subs(at_second).subs(at_third)
 prove(
-    reduced(-others / total),
+    reduced(-fourth / total),
     drift_coefficient(sigma, k, apart),
-    "the mean rate of turning about the joint line over r_0⁴",
+    "the mean rate of rotation about the joint line over r_0⁴",
     names=r"\langle\dot\alpha\rangle/r_0^4",
 )
 
@@ -214,17 +213,17 @@ prove(
 prove(
     drift_coefficient(sigma, k, apart),
     apart**3 * sigma**2 * (sigma - 5) / (16 * k),
-    "in full",
+    "the drift as a formula",
     names=r"\langle\dot\alpha\rangle/r_0^4",
 )
 
 # %% [markdown]
-# With a bar of $\sigma=5$ the orbits of all spins would close to this order.
+# With a bar of $\sigma=5$ the orbits of all spins would be periodic to this order.
 #
 # ## Growth of a twist
 #
-# Axes at rest with any twist $\eta$ are in equilibrium. The small swing about this equilibrium obeys $M\ddot q+F\dot q=0$, with
-# the mass matrix $M$ and the gyroscopic matrix $F$, skew, 3 by 3. With $f$ the axial vector of $F$ its rate is
+# Axes at rest with any twist $\eta$ are in equilibrium. Small oscillations about this equilibrium obey $M\ddot q+F\dot q=0$
+# with the 3×3 inertia matrix $M$ and the antisymmetric gyroscopic matrix $F$. With the axial vector $f$ of $F$ the rate is
 # $\Omega^2=f^TMf/\det M$:
 
 # %%
@@ -242,13 +241,13 @@ balance = sp.expand(numerator - (1 - slower.subs(share, sigma * apart**2) * eta*
 prove(
     tuple(reduced(balance.coeff(eta, n)) for n in range(3)),
     (0, 0, 0),
-    "the square of the rate about a twist η, 1 − (σ − 1)((σ + 1)ζ − 1)/σ η², through η²",
+    "the square of the rate at a twist η, 1 − (σ − 1)((σ + 1)ζ − 1)/σ η², through η²",
     names=("E_0", "E_1", "E_2"),
 )
 
 # %% [markdown]
-# The action of the swing, $J=\tfrac12r_0^2$ at $\eta=0$, is its adiabatic invariant, so that $J\,\Omega(\eta)$ is the potential
-# of a slow twist. A twist that changes at the rate $\dot\eta$ turns the pair, since $\ddot\beta=0$ requires
+# The action of the oscillation, $J=\tfrac12r_0^2$ at $\eta=0$, is an adiabatic invariant. Therefore $J\,\Omega(\eta)$ is the
+# potential of a slow twist. If the twist changes at the rate $\dot\eta$, the pair rotates, because $\ddot\beta=0$ requires
 # $\Sigma\dot\alpha=D\dot\eta$. The kinetic energy is
 
 # %%
@@ -261,7 +260,8 @@ prove(
 )
 
 # %% [markdown]
-# So $\ddot\eta=\sigma\Sigma^2J\,\big((\sigma-1)((\sigma+1)\zeta-1)/\sigma\big)\,\eta$, and a twist grows as $e^{\lambda t}$ with
+# So $\ddot\eta=\sigma\Sigma^2J\,\big((\sigma-1)((\sigma+1)\zeta-1)/\sigma\big)\,\eta$. A twist is proportional to
+# $e^{\lambda t}$ with
 
 # %%
 action = r0**2 / 2
@@ -269,17 +269,18 @@ growth = sigma * (1 - share) * action * slower
 prove(
     growth,
     twist_coefficient(sigma, share) * r0**2,
-    "the square of the growth of a twist; its slow frequency where negative",
+    "the square of the growth rate of a twist; if negative, minus the square of its frequency",
     names=r"\lambda^2/\Omega_0^2",
 )
 
 # %% [markdown]
-# For equal spins it is the leading growth of t9, $(1-\sigma)/2\;r_0^2$; for opposite ones it is zero, and that of t5 follows.
+# For equal spins this is the leading growth of t9, $(1-\sigma)/2\;r_0^2$. For opposite spins it is zero, and the growth of t5
+# is the leading term.
 #
 # ## Measured on exact orbits
 #
-# The parameters occur nowhere else in this work; Newton's method gives the orbits of the exact equations. The last bar is light
-# with a large inertia. For it the next term of the drift is only $-0.048\,r_0^2$ times the law, so that the term after it is
+# Newton's method computes the orbits of the exact equations, with parameters used nowhere else. The last bar is light and has
+# a large inertia. For this bar the next term of the drift is only $-0.048\,r_0^2$ times the law, so the order after it is
 # visible early.
 
 # %%
@@ -293,7 +294,7 @@ SCENES = {
 
 
 def distances(scene: Scene, change: float = 0.0) -> tuple[list[float], list[float]]:
-    """Return the errors of both laws over Omega_0 r0² and over the drift; `change` of c for a negative control."""
+    """Errors of both laws against exact orbits, over Omega_0 r0² and over the drift; `change` of c as a control."""
     natural, shift, drift = natural_rate(scene), [], []
     for amplitude in AMPLITUDES:
         orbit = upright_orbit(scene, amplitude)
@@ -310,39 +311,41 @@ GROWING = {
 
 
 def growth_distances(scene: Scene, change: float = 0.0) -> list[float]:
-    """Return the relative error of lambda² against the exact multipliers; `change` of it for a negative control."""
-    law, off = float(twist_coefficient(scene.sigma, opposite_share(scene))) * (1 + change), []
+    """Relative errors of lambda² against the multipliers of exact orbits; `change` of lambda² as a control."""
+    law, errors = float(twist_coefficient(scene.sigma, opposite_share(scene))) * (1 + change), []
     for amplitude in AMPLITUDES:
         orbit = upright_orbit(scene, amplitude)
         slope = flow(orbit.scene)(MODEL.start(orbit.scene), 2 * np.pi / orbit.frequency).slope
         exponents = (np.log(np.linalg.eigvals(slope).astype(complex)) / (2 * np.pi)) ** 2
-        off.append(abs(exponents[np.argmax(np.abs(exponents))].real / amplitude**2 / law - 1))
-    return off
+        errors.append(abs(exponents[np.argmax(np.abs(exponents))].real / amplitude**2 / law - 1))
+    return errors
 
 
-grown = {name: measured_order(AMPLITUDES, growth_distances(one)) for name, one in GROWING.items()}
-ungrown = measured_order(AMPLITUDES, growth_distances(GROWING["a heavy bar"], 0.05))
+grown = {name: measured_order(AMPLITUDES, growth_distances(scene)) for name, scene in GROWING.items()}
+control_order = measured_order(AMPLITUDES, growth_distances(GROWING["a heavy bar"], 0.05))
 assert all(abs(order - 2) < 0.1 for order in grown.values()), grown
-assert abs(ungrown) < 1
-measured = {name: tuple(measured_order(AMPLITUDES, part) for part in distances(one)) for name, one in SCENES.items()}
+assert abs(control_order) < 1
+measured = {
+    name: tuple(measured_order(AMPLITUDES, errors) for errors in distances(scene)) for name, scene in SCENES.items()
+}
 twin = measured_order(AMPLITUDES, distances(SCENES["+11, −4"], 0.05)[0])
 assert all(abs(order - 2) < 0.1 for pair in measured.values() for order in pair), measured
 assert abs(twin) < 1
 Remark(
     "Unequal spins",
-    "Against exact orbits the relative errors of the shift of the rate and of the drift of the azimuth are proportional to the "
-    "amplitude to the powers "
-    + "; ".join(f"{one:.2f} and {two:.2f} ({name})" for name, (one, two) in measured.items())
-    + f". With 5 % more in c the error does not fall (power {twin:.2f}). In the paper's scene with spins 10 and −9 rad/s the "
-    f"orbit of r_0 = 0.204 turns by {np.degrees(azimuth_drift(Scene((10, -9), link=Link(1, 0.01, 0.1))) * 0.204**4):.4f} "
-    "degrees per second.",
+    "The shift of the rate and the drift of the azimuth are compared with exact orbits. Measured exponents of their relative "
+    "errors in the amplitude: "
+    + "; ".join(f"{shift:.2f} and {drift:.2f} ({name})" for name, (shift, drift) in measured.items())
+    + f". With c increased by 0.05 the error does not decrease (exponent {twin:.2f}). In the paper's scene with spins 10 and "
+    "−9 rad/s the orbit of r_0 = 0.204 rotates by "
+    f"{np.degrees(azimuth_drift(Scene((10, -9), link=Link(1, 0.01, 0.1))) * 0.204**4):.4f} degrees per second.",
 )
 
 # %%
 Remark(
-    "Where a twist grows",
-    "Against the multipliers of exact orbits the relative error of λ² is proportional to the amplitude to the power "
+    "The growth of a twist",
+    "λ² is compared with the multipliers of exact orbits. Measured exponents of its relative error in the amplitude: "
     + ", ".join(f"{order:.2f} ({name})" for name, order in grown.items())
-    + f"; with 5 % more it does not fall (power {ungrown:.2f}). The growth rate is of first order in the amplitude: a swing of "
-    "a heavy bar with unequal spins soon leaves upright.",
+    + f". With λ² increased by 5 % the error does not decrease (exponent {control_order:.2f}). The growth rate is of first "
+    "order in the amplitude, so oscillations of a heavy bar with unequal spins soon depart from upright.",
 )

@@ -1,12 +1,12 @@
 # %% [markdown]
-# # Are the integrals complete?
+# # Completeness of the integrals
 #
-# **Objective.** The question if the pair has a first integral other than the energy $E$, the axial momenta $G_i$ and the momentum
-# $P$ about the joint line; motions that are regular without one; the prediction horizon of chaotic motions.
+# **Objective.** Evidence against a first integral besides the energy $E$, the axial momenta $G_i$ and the momentum $P$ about
+# the joint line; regular motion at small amplitude, and the horizon of a chaotic run.
 #
-# **Assumptions.** Opposite spins, no external force; numbers for a heavy bar, with which the mean $x$ turns back.
+# **Assumptions.** Opposite spins, no external force. The numbers are for a heavy bar, with which the mean $x$ turns back.
 #
-# **Notation.** $\alpha$ the azimuth about the joint line; $\lambda$ the largest Lyapunov exponent, per turn of the swing.
+# **Notation.** $\alpha$ the azimuth about the joint line; $\lambda$ the largest Lyapunov exponent, per period of the oscillation.
 
 # %%
 import warnings
@@ -22,18 +22,23 @@ from lagrotor.pair.notation import LEANING
 from lagrotor.paper import Remark, prove
 
 # %% [markdown]
-# ## The reduced motion
+# ## The reduced system
 #
-# Without the spins the pair has three degrees of freedom. One of them is cyclic:
+# With the spins eliminated the pair has three degrees of freedom. The azimuth is cyclic:
 
 # %%
-prove(leaning_lagrangian().diff(LEANING.q[2]), 0, "the azimuth does not occur", names=r"\partial L/\partial\alpha")
+prove(
+    leaning_lagrangian().diff(LEANING.q[2]),
+    0,
+    "the Lagrangian is independent of the azimuth",
+    names=r"\partial L/\partial\alpha",
+)
 
 # %% [markdown]
-# With $E$ and $P$ fixed, the motion lies on a surface of three dimensions. One more integral would confine every motion to a
-# surface of two dimensions, a curve in a Poincaré section. The distance of neighbouring motions would then grow at most like a
-# power of time, $\lambda=0$, except near unstable orbits. Near rest such an integral exists to every order, the action of the
-# swing (t11); its series need not converge.
+# So $E$ and $P$ restrict a motion to a manifold of three dimensions. A further integral would restrict it to two dimensions,
+# a curve in a Poincaré section. Neighbouring motions would then separate no faster than a power of time, $\lambda=0$, except
+# at unstable orbits and the motions that approach them. Near rest the action of the oscillation (t11) is such an integral to
+# every order, but its series need not converge.
 
 
 # %%
@@ -42,7 +47,7 @@ RATE = natural_rate(PAIR)
 
 
 def start(r0: float, momentum: float, phase: float = 0.0) -> Scene:
-    """Return an upright start with P/G and the energy of a swing of amplitude r0, as a swing (phase 0) or a twist (π/2)."""
+    """Upright state with the energy of an oscillation of amplitude r0: oscillation (phase 0) or twist (π/2), with P/G."""
     turn = -momentum * PAIR.momenta[0] / (2 * sum(PAIR.inertias))
     swing, twist = r0 * RATE * np.cos(phase), r0 * RATE * np.sin(phase) * np.sqrt(PAIR.sigma)
     rates = ((swing, turn - twist, 0), (swing, turn + twist, 0))
@@ -50,7 +55,7 @@ def start(r0: float, momentum: float, phase: float = 0.0) -> Scene:
 
 
 def log_distances(scene: Scene, turns: int, piece: int = 1) -> np.ndarray:
-    """Return the logarithm of the growth of an infinitesimal perturbation after every `piece` turns."""
+    """The logarithm of the distance of a neighbouring motion over the initial distance, after every `piece` periods."""
     through, state, time = flow(scene), MODEL.start(scene), 2 * np.pi / RATE * piece
     unit, total = np.repeat([1.0, RATE], 3), [0.0]
     direction = unit * np.array([0.5, 0.6, 0.2, 0.3, -0.4, 0.3])
@@ -68,16 +73,16 @@ power = (slow[40] - slow[10]) / np.log(4)
 assert power < 2.2 and fast[40] > 20
 Remark(
     "Regular and chaotic",
-    f"At r_0 = 0.05, P/G = −0.3 a perturbation grows ∝ t^{power:.2f}; at r_0 = 0.3, P/G = 0.1 it grows as exp(λ t) with "
-    f"λ = {fast[40] / 40:.2f} per turn. With one more integral such growth would occur only near an unstable orbit. Figure t13 "
-    "shows both kinds of motion over amplitude and momentum.",
+    f"At r_0 = 0.05, P/G = −0.3 the distance of neighbouring motions is proportional to the power {power:.2f} of time. At r_0 "
+    f"= 0.3, P/G = 0.1 it is proportional to exp(λ t) with λ = {fast[40] / 40:.2f} per period. With a further integral this "
+    "would occur only near an unstable orbit. Figure t13 shows both cases over amplitude and momentum.",
 )
 
 # %% [markdown]
-# ## The horizon
+# ## The horizon of a run
 #
-# An initial error $\varepsilon$ grows to the tolerance within $\ln(\mathrm{tol}/\varepsilon)/\lambda$ turns. The horizon of a run
-# is this time:
+# An initial error $\varepsilon$ grows to the tolerance after $\ln(\mathrm{tol}/\varepsilon)/\lambda$ periods. This time is
+# the horizon of a run:
 
 # %%
 with warnings.catch_warnings():
@@ -87,6 +92,7 @@ horizon = run.horizon * RATE / (2 * np.pi)
 reach = float(np.interp(np.log(1e-6 / 1e-14), fast, np.arange(41)))
 assert 0.4 * reach < horizon < 2.5 * reach
 Remark(
-    "How long a run is known",
-    f"The run keeps tol = 10⁻⁶ for {horizon:.0f} turns; an initial error of 10⁻¹⁴ grows to it within {reach:.0f} turns.",
+    "Horizon of a chaotic run",
+    f"The error of the run is below tol = 10⁻⁶ for {horizon:.0f} periods. An initial error of 10⁻¹⁴ grows to tol after "
+    f"{reach:.0f} periods.",
 )

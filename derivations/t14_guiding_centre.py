@@ -1,17 +1,17 @@
 # %% [markdown]
 # # The guiding centre of two unequal spins
 #
-# **Objective.** The path of the centre about which the pair swings, at any lean and any twist of the axes, for any two spins and
+# **Objective.** The motion of the centre of the pair's oscillation, at any lean and any twist of the axes, for any two spins and
 # any bar.
 #
-# **Assumptions.** The motion is slow compared with the spins; the amplitude $\varepsilon$ of the swing is its measure. The spins
-# are not opposite (t11 treats opposite spins).
+# **Assumptions.** The motion is slow compared with the spins; its small parameter is the amplitude $\varepsilon$ of the
+# oscillation. The spins are not opposite (opposite spins: t11).
 #
 # **Notation.** As in t11: $\beta$ the lean of the mean axis, $h$ half the angle between the axes, $\alpha$ the azimuth about the
 # joint line; $q=(\beta,h,\alpha)$, $\Sigma=G_1+G_2$, $D=G_1-G_2$, $\sigma=(a+b)/(a-b)$, $\zeta=\sigma D^2/(\Sigma^2+\sigma D^2)$.
 #
-# **What is known, what is new.** The guiding centre of a charged particle: Alfvén (1940), Northrop (1963), Littlejohn (1983).
-# As far as we know, it is new that two coupled rotors are such a particle, with the consequences below.
+# **Earlier work.** The guiding centre of a charged particle: Alfvén (1940), Northrop (1963), Littlejohn (1983). We know no
+# source for the equivalence of two coupled rotors to such a particle, or for its consequences.
 
 # %%
 import numpy as np
@@ -29,8 +29,8 @@ from lagrotor.theory.rate_shift import twist_coefficient
 # %% [markdown]
 # ## A charged particle
 #
-# With the spins eliminated, the Lagrangian of t11 is exactly that of a particle in three dimensions with a mass matrix $M(q)$ and
-# a vector potential $g(q)$, the coefficients of the velocities in $L$, without any other force:
+# With the spins eliminated, the Lagrangian of t11 is exactly the Lagrangian of a particle in three dimensions. Its mass
+# $M(q)$ and vector potential $g(q)$ are derivatives of $L$ with respect to the velocities, and there is no other force:
 
 # %%
 (beta, h, alpha), v = LEANING.q, sp.Matrix(LEANING.v)
@@ -43,24 +43,29 @@ prove(
 )
 
 # %% [markdown]
-# On the lines of the field $f=\operatorname{curl}g$, the function $g_\alpha$ is constant. It is the contribution
+# On the lines of the field $f=\operatorname{curl}g$ the component $g_\alpha$ is constant. It is the contribution
 # $G_1x_1+G_2x_2$ of the spins to the momentum about the joint line:
 
 # %%
 f = sp.Matrix([g[2].diff(h), -g[2].diff(beta), g[1].diff(beta) - g[0].diff(h)])
-mean, across = leaning_frame()
-x_1, x_2 = (mean[0] * sp.cos(h) + sign * across[0] * sp.sin(h) for sign in (-1, 1))
+mean, twist_axis = leaning_frame()
+x_1, x_2 = (mean[0] * sp.cos(h) + sign * twist_axis[0] * sp.sin(h) for sign in (-1, 1))
 flux = (G_1 + G_2) * sp.sin(beta) * sp.cos(h) + (G_1 - G_2) * sp.sin(h) ** 2 / k
 prove((g[2], G_1 * x_1 + G_2 * x_2), (flux, flux), "the flux", names=(r"g_\alpha", "G_1x_1+G_2x_2"))
 
 # %%
-prove(f[0] * flux.diff(beta) + f[1] * flux.diff(h), 0, "along the field", names=r"f\cdot\nabla g_\alpha")
+prove(
+    f[0] * flux.diff(beta) + f[1] * flux.diff(h),
+    0,
+    "the derivative of the flux along the field",
+    names=r"f\cdot\nabla g_\alpha",
+)
 
 # %% [markdown]
-# ## The swing about an equilibrium
+# ## Oscillation about an equilibrium
 #
-# The pair at rest is in equilibrium at any position. A small velocity obeys $M\dot v=v\times f$. For any symmetric $M$ and any
-# $f$ one root is zero, for a velocity along $f$, and the others are $\pm i\Omega$:
+# Every position at rest is an equilibrium. A small velocity obeys $M\dot v=v\times f$. For any symmetric $M$ and any $f$ one
+# root is zero and belongs to a velocity along $f$. The other roots are $\pm i\Omega$:
 
 # %%
 m = sp.Matrix(3, 3, lambda i, j: sp.Symbol(f"m_{min(i, j)}{max(i, j)}"))
@@ -70,29 +75,29 @@ turn = sp.Matrix([[0, f_3, -f_2], [-f_3, 0, f_1], [f_2, -f_1, 0]])  # v × f
 prove(
     (root * m - turn).det() - root * (root**2 * m.det() + (any_field.T * m * any_field)[0]),
     0,
-    "the swing and its rate, Ω² = f·M f/det M",
+    "the oscillation and its rate, Ω² = f·M f/det M",
     names=r"\det(sM+f\times)-s\,(s^2\det M+f\cdot Mf)",
 )
 
 # %% [markdown]
-# For parallel axes $\Omega$ is the natural rate at every lean:
+# For parallel axes this is the natural rate, at every lean:
 
 # %%
 untwisted = [e.subs(h, 0) for e in ((f.T * M * f)[0], M.det())]
 prove(
     sp.cancel(untwisted[0] / untwisted[1]),
     natural_frequency().expressions[0] ** 2,
-    "the swing of parallel axes, at any lean",
+    "the rate for parallel axes, at any lean",
     names=r"\Omega^2",
 )
 
 # %% [markdown]
 # ## The centre
 #
-# The energy of the swing is $J\Omega$, and the action $J$ is its adiabatic invariant. The centre $Q$ has the speed $u$ along the
-# unit vector $b=Mf/\sqrt{f\cdot Mf}$ of the field, and the Lagrangian $(g+ub)\cdot\dot Q-J\Omega-u^2/2$. With
+# The oscillation has the energy $J\Omega$ and the adiabatic invariant $J$. The centre $Q$ has the speed $u$ along the unit
+# covector $b=Mf/\sqrt{f\cdot Mf}$ of the field. Its Lagrangian is $(g+ub)\cdot\dot Q-J\Omega-u^2/2$. With
 # $B=f+u\operatorname{curl}b$ its equations are $\dot Q\times B=\dot u\,b+J\nabla\Omega$ and $b\cdot\dot Q=u$. For any $b$, $B$
-# and $\nabla\Omega$ their solution is $\dot Q=(u\,B+J\,b\times\nabla\Omega)/b\cdot B$ and
+# and $\nabla\Omega$ the solution is $\dot Q=(u\,B+J\,b\times\nabla\Omega)/b\cdot B$ and
 # $\dot u=-J\,B\cdot\nabla\Omega/b\cdot B$:
 
 # %%
@@ -100,31 +105,31 @@ u, J = sp.symbols("u J")
 along, B, slope = (sp.Matrix(sp.symbols(f"{name}_1:4")) for name in ("b", "B", "w"))
 Q_v = (u * B + J * along.cross(slope)) / along.dot(B)
 u_v = -J * B.dot(slope) / along.dot(B)
-left = Q_v.cross(B) - u_v * along - J * slope
+residual = Q_v.cross(B) - u_v * along - J * slope
 component = r"(\dot Q\times B-\dot u\,b-J\nabla\Omega)"
 prove(
-    (*left, along.dot(Q_v)),
+    (*residual, along.dot(Q_v)),
     (0, 0, 0, u),
     "the motion of the centre",
     names=(*(rf"{component}_{j}" for j in (1, 2, 3)), r"b\cdot\dot Q"),
 )
 
 # %% [markdown]
-# The energy is conserved, and since $\alpha$ is cyclic, so is $P=g_\alpha+ub_\alpha$. They give the path of $(\beta,h)$ without
+# The energy is conserved, and so is $P=g_\alpha+ub_\alpha$, because $\alpha$ is cyclic. Both give the path of $(\beta,h)$ without
 # integration: $J\Omega+(P-g_\alpha)^2/(2b_\alpha^2)=H$.
 
 # %%
-prove(J * slope.dot(Q_v) + u * u_v, 0, "the energy of the centre stays", names=r"\dot H")
+prove(J * slope.dot(Q_v) + u * u_v, 0, "the energy of the centre is conserved", names=r"\dot H")
 
 # %% [markdown]
-# A slower motion stays closer to the line $g_\alpha=P$; on it the motion turns back where $J\Omega$ has grown to $H$. Near
-# upright this gives the growth of a twist, or its slow frequency, of t12: along the line $\ddot s=-J\,d^2\Omega/ds^2\,s$, with
-# $J=(a+b)r_0^2\Omega_0$ for the swing between $x=\pm r_0$:
+# A slower motion is closer to the line $g_\alpha=P$. The centre turns back on this line at $J\Omega=H$. Near upright this
+# gives the growth of a twist, or its slow frequency, of t12. The distance $s$ along the line obeys
+# $\ddot s=-J\,d^2\Omega/ds^2\,s$, with $J=(a+b)r_0^2\Omega_0$ for the oscillation between $x=\pm r_0$:
 
 
 # %%
 def square_of(e: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-    """Return the coefficients of h⁰ and h² of an even function of h, upright."""
+    """The coefficients of h⁰ and h² of an even function of h."""
     return sp.factor(e.subs(h, 0)), sp.factor(e.diff(h, 2).subs(h, 0) / 2)
 
 
@@ -138,17 +143,17 @@ growth = -(a + b) * r0**2 * bent * square_of(f_up[1])[0] ** 2 / size
 prove(
     (growth / natural).subs(b, a * (sigma - 1) / (sigma + 1)),
     twist_coefficient(sigma, share_of) * r0**2,
-    "the growth of a twist beside upright, from the centre's motion",
+    "the growth of a twist near upright, from the motion of the centre",
     names=r"\lambda^2/\Omega_0^2",
 )
 
 # %% [markdown]
 # ## Measured on exact runs
 #
-# The starts have a lean and a twist. A motion of size $\varepsilon$ is integrated for a time $\propto1/\varepsilon$, so that the
-# path of the centre has the same length for every $\varepsilon$. The parameters occur nowhere else in this work. The centre of an
-# exact state is $q+\dot v/\Omega^2$. The first correction depends on the initial phase of the swing; the largest error of four
-# phases counts.
+# The runs start with a lean and a twist; the parameters are used nowhere else. A motion of size $\varepsilon$ is simulated
+# for a time proportional to $1/\varepsilon$, so the centre moves equally far for every $\varepsilon$. The centre of an exact
+# state is $q+\dot v/\Omega^2$. The first correction depends on the initial phase of the oscillation, so the largest error of
+# four starts is taken.
 
 # %%
 SIZES = (0.01, 0.015, 0.0225)
@@ -167,17 +172,17 @@ def moving(pair: Scene, size: float, push: tuple[float, ...]) -> Scene:
 
 
 def distance(pair: Scene, size: float, push: tuple[float, ...], straight: bool = False) -> float:
-    """Return the largest distance in rad of the path from the exact centres; `straight`: without ∇Ω, a negative control."""
+    """The largest distance (rad) of the path from the centres of the exact run; `straight`: without ∇Ω, as a control."""
     start = moving(pair, size, push)
     run = simulate(start, np.linspace(0, 0.3 / size, 13), "minimal", 1e-9)
-    seen = [
+    exact = [
         guiding_centre(Scene(pair.spins, pair.rotor, pair.link, axes=r, rates=w)).place
-        for r, w in zip(*(part.swapaxes(0, 1).tolist() for part in (run.axes, run.rates)), strict=True)
+        for r, w in zip(*(vectors.swapaxes(0, 1).tolist() for vectors in (run.axes, run.rates)), strict=True)
     ]
-    begun = guiding_centre(start)
-    centre = GuidingCentre(start, begun.place, np.sqrt(2 * begun.energy), 0.0) if straight else begun
-    apart = centre.path(run.t) - np.array(seen)
-    return float(np.abs(np.angle(np.exp(1j * apart))).max())
+    initial = guiding_centre(start)
+    centre = GuidingCentre(start, initial.place, np.sqrt(2 * initial.energy), 0.0) if straight else initial
+    difference = centre.path(run.t) - np.array(exact)
+    return float(np.abs(np.angle(np.exp(1j * difference))).max())
 
 
 measured = {
@@ -189,8 +194,9 @@ assert all(abs(order - 1) < 0.1 for order in measured.values()), measured
 assert abs(twin) < 0.5, twin
 Remark(
     "The guiding centre",
-    "The predicted guiding centre differs from the centres of exact runs by an angle proportional to these powers of the size of "
-    "the motion: "
+    "The predicted centre differs from the centres of exact runs by an angle proportional to εᵖ, where ε is the amplitude. "
+    "Measured exponents p: "
     + "; ".join(f"{order:.2f} ({name})" for name, order in measured.items())
-    + f"; if the energy of the swing is counted as motion along the field, the distance does not fall (power {twin:z.2f}).",
+    + ". If the energy of the oscillation is taken as motion along the field, the difference does not decrease (p = "
+    f"{twin:z.2f}).",
 )

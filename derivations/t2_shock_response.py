@@ -1,10 +1,10 @@
 # %% [markdown]
 # # The linear response to a shock
 #
-# **Objective.** The motion after a Gaussian pulse, for any two spins and any bar: the centre of the precession, the permanent
-# displacement, the drift, the amplitude and the energy; and the paper's $100 \to 100.45$ as a formula.
+# **Objective.** The motion after a Gaussian pulse, for any two spins and any bar: centre of the precession, permanent
+# displacement, drift, amplitude and energy; the paper's $100 \to 100.45$ as a formula.
 #
-# **Assumptions.** The pair is at rest and upright before the pulse; first order in the pulse.
+# **Assumptions.** The pair is at rest and upright before the pulse. First order in the pulse.
 #
 # **Notation.** $q=(x,y_1,y_2)$; $M$, $C$ of t1; $p=(p_x,p_1,p_2)$ the impulse times $R$; $w$ the width of the pulse;
 # $N=M^{-1}C$; $n$ with $Cn=0$.
@@ -23,8 +23,9 @@ from lagrotor.theory import impulse_matrices, shock_displacement, shock_energy
 # %% [markdown]
 # ## From the equation of motion to powers of one matrix
 #
-# The linear pair obeys $M\ddot q + C\dot q = Q(t)$. It integrates once: $M\dot q + Cq = p(t)$, the impulse received so far.
-# A unit impulse at $s=0$ leaves $\dot q = M^{-1}p - Nq$, so that the response is $H(s)p$ with $\dot H = e^{-Ns}M^{-1}$.
+# The linear pair obeys $M\ddot q + C\dot q = Q(t)$. One integration gives $M\dot q + Cq = p(t)$, with the impulse $p(t)$ up to
+# time $t$. After an impulse $p$ at $s=0$ the equation is $\dot q = M^{-1}p - Nq$. The response is $H(s)p$ with
+# $\dot H = e^{-Ns}M^{-1}$.
 
 # %%
 linear = impulse_matrices()
@@ -34,56 +35,57 @@ N = inverse * C
 Formula(N, "N")
 
 # %% [markdown]
-# $N$ satisfies a cubic equation, since one eigenvalue is zero and the others are $\pm i\Omega_0$ (t1):
+# $N$ satisfies a cubic equation, because its eigenvalues are zero and $\pm i\Omega_0$ (t1):
 
 # %%
 prove(N**3, -squared * N, "N³ = −Ω_0² N", equations=r"N^3 = -\Omega_0^2\,N")
 
 # %% [markdown]
-# The exponential series therefore reduces to the powers up to the second,
+# The exponential is therefore a polynomial of second degree in $N$,
 # $$e^{-Ns} = 1 - N\,\frac{\sin\Omega_0 s}{\Omega_0} + N^2\,\frac{1-\cos\Omega_0 s}{\Omega_0^2}.$$
-# It is 1 at $s=0$, and its derivative by $s$ is $-N$ times itself:
+# The right side is 1 at $s=0$, and its derivative with respect to $s$ is $-N$ times itself:
 
 # %%
 s, w_0 = sp.symbols("s Omega_0", positive=True)
 power = sp.Matrix(3, 3, sp.symbols("N_11 N_12 N_13 N_21 N_22 N_23 N_31 N_32 N_33"))
 exponential = sp.eye(3) - power * sp.sin(w_0 * s) / w_0 + power**2 * (1 - sp.cos(w_0 * s)) / w_0**2
-left = exponential.diff(s) + power * exponential
+residual = exponential.diff(s) + power * exponential
 prove(
-    left,
+    residual,
     (power**3 + w_0**2 * power) * (1 - sp.cos(w_0 * s)) / w_0**2,
-    "what is left of the equation of the exponential, zero by the cubic equation",
+    "the residual of the differential equation, zero by the cubic equation",
     equations=r"\frac{d}{ds}\,e^{-Ns} + N e^{-Ns} = (N^3 + \Omega_0^2 N)\,\frac{1 - \cos\Omega_0 s}{\Omega_0^2}",
 )
 
 # %% [markdown]
 # ## The response to a unit impulse
 #
-# Integrated over $s$ and multiplied by $M^{-1}$,
+# Integration over $s$ and multiplication by $M^{-1}$ give
 # $$H(s) = \Big(1+\frac{N^2}{\Omega_0^2}\Big)M^{-1}s + D\,(1-\cos\Omega_0 s) + S\,\frac{\sin\Omega_0 s}{\Omega_0},\qquad
 # D=-\frac{NM^{-1}}{\Omega_0^2},\quad S=-\frac{N^2M^{-1}}{\Omega_0^2}.$$
-# The first matrix projects onto $n$: the pair drifts along the one direction that no gyroscopic force opposes.
+# The first matrix projects onto $n$: the pair drifts along the only direction without gyroscopic force.
 
 # %%
 drift, D, S = linear.drift, linear.displacement, linear.swing
-prove(D, -N * inverse / squared, "the displacement that stays", equations=r"D = -\frac{N M^{-1}}{\Omega_0^2}")
+prove(D, -N * inverse / squared, "the permanent displacement", equations=r"D = -\frac{N M^{-1}}{\Omega_0^2}")
 
 # %%
-prove(S, -N * N * inverse / squared, "the velocity of the swing", equations=r"S = -\frac{N^2 M^{-1}}{\Omega_0^2}")
+prove(S, -N * N * inverse / squared, "the velocity of the oscillation", equations=r"S = -\frac{N^2 M^{-1}}{\Omega_0^2}")
 
 # %%
 prove(
     drift,
     (sp.eye(3) + N * N / squared) * inverse,
-    "the drift is what the swing leaves of the velocity",
+    "the drift is the initial velocity minus the velocity of the oscillation",
     equations=r"\text{drift} = \Big(1 + \frac{N^2}{\Omega_0^2}\Big)\,M^{-1}",
 )
 
 # %%
-prove(drift, n * n.T / (n.T * M * n)[0], "and it is along n", equations=r"\text{drift} = \frac{n\,n^T}{n^T M\,n}")
+prove(drift, n * n.T / (n.T * M * n)[0], "the drift is along n", equations=r"\text{drift} = \frac{n\,n^T}{n^T M\,n}")
 
 # %% [markdown]
-# The library's matrices solve the equation of motion: $M\dot H + CH = 1$, term by term in $1$, $s$, $\cos$ and $\sin$.
+# The library's matrices solve the equation of motion $M\dot H + CH = 1$. The terms in $1$, $s$, $\cos$ and $\sin$ agree
+# separately.
 
 # %%
 prove(M * drift + C * D, sp.eye(3), "the constant terms", equations=r"M\cdot\text{drift} + C\,D = 1")
@@ -98,7 +100,7 @@ prove(M * S, C * D, "the terms in the cosine", equations=r"M\,S = C\,D")
 prove(squared * M * D, -C * S, "the terms in the sine", equations=r"\Omega_0^2\,M\,D = -C\,S")
 
 # %% [markdown]
-# For opposite spins and a shock along the bar, the centre of the precession is a twist, without a displacement along $x$:
+# For opposite spins and a shock along the bar, the centre of the precession is twisted but not displaced along $x$:
 
 # %%
 along_x = {G_1: G, G_2: -G, P_1: 0, P_2: 0}
@@ -113,8 +115,8 @@ prove(
 # %% [markdown]
 # ## The width of the pulse
 #
-# A pulse is a sum of impulses. The drift and the centre depend on its integral. The swing depends on its Fourier component at
-# $\Omega_0$, which is the integral times $A_w = e^{-(\Omega_0 w)^2/4}$.
+# A pulse is a superposition of impulses. The drift and the centre depend on its integral. The oscillation depends on its Fourier
+# component at $\Omega_0$, so its amplitude has the factor $A_w = e^{-(\Omega_0 w)^2/4}$.
 
 # %%
 w = sp.Symbol("w", positive=True)
@@ -130,16 +132,16 @@ prove(
 # %% [markdown]
 # ## Energy
 #
-# The energy of the drift is $p\cdot\text{drift}\,p/2$, the energy of the swing $p\cdot S\,p/2$ times $A_w^2$. For a short pulse
-# the sum is the work of the impulse on a pair at rest:
+# The drift has the energy $p\cdot\text{drift}\,p/2$ and the oscillation $p\cdot S\,p/2$. For a pulse of finite width the
+# second has the factor $A_w^2$. For an impulse the sum is the work done on a pair at rest:
 
 # %%
 p = sp.Matrix([P_X, P_1, P_2])
-along, across = shock_energy().expressions
+drift_energy, swing_energy = shock_energy().expressions
 prove(
-    along + across,
+    drift_energy + swing_energy,
     (p.T * inverse * p)[0] / 2,
-    "the energy that an impulse gives",
+    "the energy after an impulse",
     equations=r"E_{\text{drift}} + E_{\text{swing}} = \tfrac12\,p\cdot M^{-1} p",
 )
 
@@ -150,9 +152,9 @@ prove(
 equal_spins = {G_1: G, G_2: G, P_1: 0, P_2: 0}
 equal_x = P_X**2 / (4 * (a + b))
 prove(
-    (along.subs(equal_spins), across.subs(equal_spins)),
+    (drift_energy.subs(equal_spins), swing_energy.subs(equal_spins)),
     (0, equal_x),
-    "energy of the drift and of the swing",
+    "energy of the drift and of the oscillation",
     names=(r"E_{\text{drift}}", r"E_{\text{swing}}"),
 )
 
@@ -165,38 +167,38 @@ Formula(equal_x * att**2, "E")
 # %%
 Remark(
     "The energy of the shock, 100 to 100.45 J",
-    "A shock along x gives equal spins p_x²/(4 (a + b)) exp(−(Ω_0 w)²/2) J: in the paper's scene "
-    f"100 + {answer.energy:.5f} J; the exact run gives {exact:.5f} J. Without the factor of the width it would be "
-    f"100 + {answer.impulse_energy:.5f} J.",
+    "A shock along x adds the energy p_x²/(4 (a + b)) exp(−(Ω_0 w)²/2) J to a pair with equal spins. In the paper's scene "
+    f"this is 100 + {answer.energy:.5f} J; an exact run gives {exact:.5f} J. Without the factor of the width it is 100 + "
+    f"{answer.impulse_energy:.5f} J.",
 )
 
 # %% [markdown]
 # ## Order of the error
 #
-# The error is of second order in the shock and grows with time. For a scene, `shock_response_error` estimates it from the
-# residual of the linear motion in the exact equations.
+# The neglected terms are of second order in the shock and grow with time. For a scene `shock_response_error` estimates them from
+# the residual of the linear motion in the exact equations.
 
 # %%
 sizes, times = (0.01, 0.02, 0.04), np.linspace(0, 2.5, 101)
 errors, estimates = [], []
 for size in sizes:
     scene = Scene(spins=(3, -11), link=Link(1.3, 0.4, 0.2), shock=Shock((40 * size, -30 * size, 0), 1, 0.11, 2))
-    axes, seen = simulate(scene, times, tol=1e-12).axes, shock_response(scene).through(times)
-    errors.append(max(float(np.linalg.norm(axes[i, :, :2] - seen[:, [0, i + 1]], axis=-1).max()) for i in (0, 1)))
+    axes, response = simulate(scene, times, tol=1e-12).axes, shock_response(scene).through(times)
+    errors.append(max(float(np.linalg.norm(axes[i, :, :2] - response[:, [0, i + 1]], axis=-1).max()) for i in (0, 1)))
     estimates.append(shock_response_error(scene, 2.5))
 slope = measured_order(sizes, errors)
-assert abs(slope - 2) < 0.1 and all(off < bound for off, bound in zip(errors, estimates, strict=True))
+assert abs(slope - 2) < 0.1 and all(error < bound for error, bound in zip(errors, estimates, strict=True))
 Remark(
     "Shock response",
-    f"The error of the closed form is of second order in the shock (measured power {slope:.3f}), for any spins and any bar, also "
-    "during the pulse: "
-    + "; ".join(f"{off:.2g} R, estimated {bound:.2g}" for off, bound in zip(errors, estimates, strict=True))
-    + f" at {', '.join(f'{50 * size:g}' for size in sizes)} N after 2.5 s. An estimate above 0.1 R is refused.",
+    f"The error of the closed form is of second order in the shock (measured exponent {slope:.3f}), for any spins and any bar, "
+    "also during the pulse: "
+    + "; ".join(f"{error:.2g} R, estimated {bound:.2g}" for error, bound in zip(errors, estimates, strict=True))
+    + f" at {', '.join(f'{50 * size:g}' for size in sizes)} N after 2.5 s. Beyond an estimate of 0.1 R it is refused.",
 )
 
 # %%
 Remark(
-    "What a shock along x leaves",
-    "Opposite spins keep the displacement (x, y_1, y_2) = (0, 1, −1) p_x/(2 G): a permanent twist as large as the swing, and no "
-    "displacement along x.",
+    "Displacement after a shock along x",
+    "For opposite spins the displacement is (x, y_1, y_2) = (0, 1, −1) p_x/(2 G): a permanent twist as large as the "
+    "oscillation, and no displacement along x.",
 )

@@ -2,9 +2,10 @@
 # # The paired precession as a series
 #
 # **Objective.** The periodic orbit of opposite spins for any bar, order by order in its amplitude: the axes, the frequency,
-# the momentum about the joint line; and the error of the series.
+# the momentum about the joint line, and the error of the series.
 #
-# **Assumptions.** Opposite spins, $G_1=G$, $G_2=-G$; any bar. The exchange of the rotors is a shift by half a period.
+# **Assumptions.** Opposite spins, $G_1=G$, $G_2=-G$; any bar. The orbit is symmetric: exchange of the rotors is equivalent to a
+# shift by half a period.
 #
 # **Notation.** $r_i=(x_i,y_i,z_i)$ the axes; $a$, $b$ the inertias with the bar's share; $\sigma=(a+b)/(a-b)$, $k=\ell/R$;
 # $\Omega_0=G/\sqrt{a^2-b^2}$ the natural rate; $\Phi=\Omega t$ the phase; $r_0$ the sine of the inclination when the axes are
@@ -38,7 +39,7 @@ from lagrotor.theory.paired_precession.series import coefficient_field, equation
 # %% [markdown]
 # ## Lagrangian and constraints
 #
-# The kinetic energy is quadratic with constant coefficients; each axis feels the gyroscopic force $G_i\,r_i\times\dot r_i$.
+# The kinetic energy is quadratic with constant coefficients. On each axis acts the gyroscopic force $G_i\,r_i\times\dot r_i$.
 
 # %%
 pair = axes_pair()
@@ -51,8 +52,8 @@ Formula(sp.Matrix(pair.constraints), "g")
 # %% [markdown]
 # ## Equations of motion
 #
-# $\frac{d}{dt}\frac{\partial L}{\partial\dot q}-Q=\lambda_1 r_1+\dots$ for the first axis, with the sign of $\tau$ chosen so
-# that a positive $\tau$ is a tension of the bar:
+# The equations are $\frac{d}{dt}\frac{\partial L}{\partial\dot q}-Q=\lambda_1 r_1+\dots$. A positive $\tau$ means that the bar
+# pulls. For the first axis they are
 
 # %%
 multipliers = sp.symbols("lambda_1 lambda_2 tau", real=True)
@@ -73,9 +74,9 @@ prove(tuple(motion[:3]), first, "the equations of motion of rotor 1, each to van
 # %% [markdown]
 # ## Exchange of the rotors
 #
-# Under $r_1\leftrightarrow S r_2$, $S: x\to-x$, with the multipliers of the unit lengths exchanged, the equations of rotor 1
-# become those of rotor 2, mirrored. A motion with $r_2(t)=S r_1(t+T/2)$ is therefore consistent, and the equations of rotor 1
-# are sufficient.
+# Let $S$ be the reflection $x\to-x$. Under $r_1\leftrightarrow S r_2$, with the multipliers of the unit lengths exchanged, the
+# equations of rotor 1 become the reflected equations of rotor 2. So a motion with $r_2(t)=S r_1(t+T/2)$ is consistent, and the
+# equations of rotor 1 are sufficient.
 
 # %%
 exchange = {}
@@ -87,91 +88,93 @@ exchanged = [e.xreplace(exchange) for e in motion[:3]]
 prove(
     exchanged,
     (-motion[3], motion[4], motion[5]),
-    "rotor 1's equations exchanged are rotor 2's, mirrored",
+    "rotor 1's equations after the exchange are rotor 2's equations, reflected",
     names=("E_x^*", "E_y^*", "E_z^*"),
 )
 
 # %% [markdown]
 # ## Units
 #
-# In units $a+b=1$, of $\Omega_0$ for rates and with $y=\sqrt\sigma\,Y$, every coefficient is rational in $\sigma$ and $k$.
-# Time is measured by the phase $\Phi$, so that each derivative brings a factor $w=\Omega/\Omega_0$. The library's equations,
-# in symbols for the unknowns, equal those above:
+# Let $a+b=1$, let $\Omega_0$ be the unit of rates, and let $y=\sqrt\sigma\,Y$. Then every coefficient is rational in $\sigma$ and
+# $k$. Time is replaced by the phase $\Phi$, so each derivative has a factor $w=\Omega/\Omega_0$. The library's equations,
+# evaluated for symbols in place of the series, equal the equations above:
 
 
 # %%
 @dataclass(frozen=True)
-class Standing:
-    """An expression in place of a series: its derivative is the velocity, half a period later it is the other rotor's."""
+class SeriesSymbol:
+    """A symbol in place of a series: its derivative is the velocity; a shift by half a period exchanges the rotors."""
 
-    of: sp.Expr
+    expression: sp.Expr
 
     def __add__(self, other):
-        return Standing(self.of + other.of)
+        return SeriesSymbol(self.expression + other.expression)
 
     def __sub__(self, other):
-        return Standing(self.of - other.of)
+        return SeriesSymbol(self.expression - other.expression)
 
     def __mul__(self, other):
-        return Standing(self.of * other.of)
+        return SeriesSymbol(self.expression * other.expression)
 
     def __neg__(self):
-        return Standing(-self.of)
+        return SeriesSymbol(-self.expression)
 
     def times(self, factor):
-        return Standing(FIELD.to_sympy(FIELD.convert(factor)) * self.of)
+        return SeriesSymbol(FIELD.to_sympy(FIELD.convert(factor)) * self.expression)
 
     def constant(self, value):
-        return Standing(FIELD.to_sympy(value))
+        return SeriesSymbol(FIELD.to_sympy(value))
 
     def derivative(self):
-        return Standing(self.of.subs(dict(zip(AXES.q + AXES.v, AXES.v + AXES.a, strict=True)), simultaneous=True))
+        return SeriesSymbol(
+            self.expression.subs(dict(zip(AXES.q + AXES.v, AXES.v + AXES.a, strict=True)), simultaneous=True)
+        )
 
     def half_period_later(self):
-        return Standing(self.of.subs(exchange, simultaneous=True))
+        return SeriesSymbol(self.expression.subs(exchange, simultaneous=True))
 
 
 FIELD, w = coefficient_field(sigma, k), sp.Symbol("w", positive=True)
-library = equations(sigma, k, FIELD)([Standing(q) for q in (x1, y1, z1, lambda_1, tau)], Standing(w))
-own, shared = (1 + 1 / sigma) / 2, (1 - 1 / sigma) / 2
-units = {a: own, b: shared, G: 1 / sp.sqrt(sigma)}
+library = equations(sigma, k, FIELD)([SeriesSymbol(q) for q in (x1, y1, z1, lambda_1, tau)], SeriesSymbol(w))
+direct, shared = (1 + 1 / sigma) / 2, (1 - 1 / sigma) / 2
+units = {a: direct, b: shared, G: 1 / sp.sqrt(sigma)}
 wide = {q: sp.sqrt(sigma) * q for names in (AXES.q, AXES.v, AXES.a) for q in (names[1], names[4])}
 by_phase = {s: w * s for s in AXES.v} | {s: w**2 * s for s in AXES.a}
 scaled = [e.subs(units).subs(wide, simultaneous=True).xreplace(by_phase) for e in first]
 prove(
-    [e.of for e in library[:3]],
+    [e.expression for e in library[:3]],
     (scaled[0], scaled[1] / sp.sqrt(sigma), scaled[2]),
     "the library's equations of motion",
     names=("E_x", r"E_Y", "E_z"),
 )
 
 # %% [markdown]
-# and its two constraints are the unit length and the bar:
+# The library's two constraints are the unit length and the bar:
 
 # %%
 unit_length, _, bar = (g.subs(wide, simultaneous=True) for g in pair.constraints)
-prove([e.of for e in library[3:]], (2 * unit_length, bar), "the library's constraints", names=("g_1", "g_3"))
+prove([e.expression for e in library[3:]], (2 * unit_length, bar), "the library's constraints", names=("g_1", "g_3"))
 
 # %% [markdown]
 # ## First order
 #
-# The ansatz is $x=r_0x^{(1)}(\Phi)+r_0^2x^{(2)}(\Phi)+\dots$, and the same for $Y$, $z$ and the multipliers, with
-# $\Omega/\Omega_0=1+w_2r_0^2+\dots$ (Lindstedt and Poincaré). The pair at rest has $z=1$ and all other unknowns zero. Below are
-# the coefficients of $r_0$ in the five equations. A dot is $d/d\Phi$, $y$ stands for $Y$, and each symbol for its first-order
-# term:
+# Let $x=r_0x^{(1)}(\Phi)+r_0^2x^{(2)}(\Phi)+\dots$, with the same form of $Y$, $z$ and the multipliers, and
+# $\Omega/\Omega_0=1+w_2r_0^2+\dots$ (Lindstedt and Poincaré). At order zero $z=1$, and all other unknowns are zero. The
+# coefficients of $r_0$ in the five equations follow. Here a dot means $d/d\Phi$, $y$ means $Y$, and each symbol means its
+# first-order term:
 
 
 # %%
-def of_power(n: int, put: dict) -> list[sp.Expr]:
-    """Return the coefficient of r_0^n in the five equations for w = 1 and the unknowns of `put`."""
+def of_power(n: int, values: dict) -> list[sp.Expr]:
+    """The coefficient of r_0^n in the five equations with w = 1, for the given `values` of the unknowns."""
     five = (scaled[0], scaled[1] / sp.sqrt(sigma), scaled[2], unit_length, bar)
-    return [sp.expand(e.subs(w, 1).xreplace(put)).coeff(r0, n) for e in five]
+    return [sp.expand(e.subs(w, 1).xreplace(values)).coeff(r0, n) for e in five]
 
 
 unknown = (*AXES.q, *AXES.v, *AXES.a, *multipliers)
 at_rest = dict.fromkeys(unknown, 0) | {z1: 1, z2: 1}
-linear = (own * x1_a + shared * x2_a + y1_v + k * tau, own * y1_a + shared * y2_a - x1_v / sigma)
-in_z = own * z1_a + shared * z2_a - lambda_1 + tau
+linear = (direct * x1_a + shared * x2_a + y1_v + k * tau, direct * y1_a + shared * y2_a - x1_v / sigma)
+in_z = direct * z1_a + shared * z2_a - lambda_1 + tau
 prove(
     of_power(1, {s: at_rest[s] + r0 * s for s in unknown}),
     (*linear, in_z, z1, -k * (x1 - x2) - z1 - z2),
@@ -180,15 +183,15 @@ prove(
 )
 
 # %% [markdown]
-# The last two give $z=0$ and $x_1=x_2$. As $x_2(\Phi)=-x_1(\Phi+\pi)$ and $Y_2(\Phi)=Y_1(\Phi+\pi)$, the motion has odd
-# harmonics only, and $Y_2=-Y_1$. Half a period later all terms of the first equation change their sign except $k\tau$, since the
-# bar is the same for both rotors. Hence $\tau=0$, and by the third equation $\lambda_1=0$. With $a+b=1$, $a-b=1/\sigma$ the
-# equations are $\ddot x+\dot Y=0$ and $\ddot Y-\dot x=0$, and the pair swings as in t1:
+# The last two equations give $z=0$ and $x_1=x_2$. As $x_2(\Phi)=-x_1(\Phi+\pi)$ and $Y_2(\Phi)=Y_1(\Phi+\pi)$, the motion has
+# only odd harmonics, and $Y_2=-Y_1$. Half a period later all terms of the first equation change sign, except $k\tau$, because
+# the bar is the same for both rotors. Hence $\tau=0$, and the third equation gives $\lambda_1=0$. With $a+b=1$,
+# $a-b=1/\sigma$ the remaining equations are $\ddot x+\dot Y=0$ and $\ddot Y-\dot x=0$. The pair oscillates as in t1:
 
 # %%
 series = paired_series(3)
-x, Y, z = (series.expression(part) for part in (series.x, series.Y, series.z))
-unit, pull = (series.expression(part) for part in series.solution.unknowns[3:])
+x, Y, z = (series.expression(component) for component in (series.x, series.Y, series.z))
+unit, pull = (series.expression(multiplier) for multiplier in series.solution.unknowns[3:])
 prove(
     tuple(e.coeff(r0, 1) for e in (x, Y, z)),
     (sp.cos(Phi), sp.sin(Phi), 0),
@@ -199,7 +202,7 @@ prove(
 # %% [markdown]
 # ## Second order
 #
-# With the first-order solution the coefficients of $r_0^2$ are, each symbol being its second-order term,
+# After substitution of the first order, the coefficients of $r_0^2$ follow. Each symbol now means its second-order term:
 
 # %%
 turning = {x1: sp.cos(Phi), y1: sp.sin(Phi), x2: sp.cos(Phi), y2: -sp.sin(Phi)}
@@ -214,9 +217,9 @@ prove(
 )
 
 # %% [markdown]
-# The left sides are those of the first order, as at every order. The unit length lowers $z$. The bar then inclines twisted axes,
-# $x_1-x_2=2\sigma\sin^2\Phi/k$, that is $\sigma(Y_1-Y_2)^2/(2k)$ of the first order. In even harmonics $x_2=-x_1$ and
-# $Y_2=Y_1$: the gyroscopic force of the lean drives $Y$, $\ddot Y=\dot x/\sigma$:
+# The linear terms are the same at every order. The unit length lowers $z$. The bar then makes twisted axes lean by
+# $x_1-x_2=2\sigma\sin^2\Phi/k$, which is $\sigma(Y_1-Y_2)^2/(2k)$ with the first-order $Y_i$. For even harmonics $x_2=-x_1$ and
+# $Y_2=Y_1$. The gyroscopic force of the lean drives $Y$ by $\ddot Y=\dot x/\sigma$:
 
 # %%
 second_order = (
@@ -229,7 +232,7 @@ prove(
 )
 
 # %% [markdown]
-# The multipliers begin at this order, $\tau$ from $E_x$ and $\lambda_1$ from $E_z$:
+# The multipliers also begin at second order. $\tau$ follows from $E_x$ and $\lambda_1$ from $E_z$:
 
 # %%
 prove(
@@ -241,24 +244,24 @@ prove(
 
 
 # %% [markdown]
-# The library's five equations, which equal those above, hold through second order:
+# These terms satisfy the library's five equations, which are the equations above, through second order:
 
 
 # %%
-def left(order: int, rate: FourierSeries, field: Domain) -> list[FourierSeries]:
-    """Return the five equations through third order, with the series through an order as the unknowns."""
-    known = (FourierSeries(part.through(order).terms, 3) for part in series.solution.unknowns)
-    one = [FourierSeries({n: field.convert_from(c, FIELD) for n, c in part.terms.items()}, 3) for part in known]
-    return equations(sigma, k, field)(one, rate)
+def residuals(order: int, rate: FourierSeries, field: Domain) -> list[FourierSeries]:
+    """The residuals of the five equations, through third order, for the series through `order`."""
+    truncated = (FourierSeries(unknown.through(order).terms, 3) for unknown in series.solution.unknowns)
+    values = [FourierSeries({n: field.convert_from(c, FIELD) for n, c in term.terms.items()}, 3) for term in truncated]
+    return equations(sigma, k, field)(values, rate)
 
 
-def of_order(n: int, found: list[FourierSeries]) -> list[sp.Expr]:
-    """Return the coefficient of r_0^n in each equation."""
-    return [series.expression(e).coeff(r0, n) for e in found]
+def of_order(n: int, series_list: list[FourierSeries]) -> list[sp.Expr]:
+    """The coefficient of r_0^n in each of the equations."""
+    return [series.expression(e).coeff(r0, n) for e in series_list]
 
 
 prove(
-    sp.Matrix([of_order(n, left(2, constant_series(FIELD.one, 3), FIELD)) for n in range(3)]),
+    sp.Matrix([of_order(n, residuals(2, constant_series(FIELD.one, 3), FIELD)) for n in range(3)]),
     sp.zeros(3, 5),
     "orders 0, 1 and 2 of the five equations",
     names=r"\left(E^{(0)}, E^{(1)}, E^{(2)}\right)",
@@ -267,15 +270,15 @@ prove(
 # %% [markdown]
 # ## Third order: the frequency
 #
-# The unknown first harmonics of $x^{(3)}$ and $Y^{(3)}$ enter both $E_x$ and $\sigma E_Y$ by their difference, with opposite
-# signs, so that the sum does not contain them. The coefficient of $\cos\Phi$ in $E_x$ plus that of $\sin\Phi$ in $\sigma E_Y$
-# must therefore vanish:
+# The unknown first harmonics of $x^{(3)}$ and $Y^{(3)}$ enter $E_x$ and $\sigma E_Y$ only by their difference, with opposite
+# signs, so they cancel in the sum. The remainder must vanish. It is the coefficient of $\cos\Phi$ in $E_x$ plus the
+# coefficient of $\sin\Phi$ in $\sigma E_Y$:
 
 # %%
 w_2 = sp.Symbol("w_2", real=True)
 wider = sp.ZZ.frac_field(*FIELD.symbols, w_2)
 rate = constant_series(wider.one, 3) + constant_series(wider.from_sympy(w_2), 3, 2)
-in_x, in_Y = (left(2, rate, wider)[i].harmonics(3) for i in range(2))
+in_x, in_Y = (residuals(2, rate, wider)[i].harmonics(3) for i in range(2))
 condition = wider.to_sympy(in_x[1]) + sigma * wider.to_sympy(in_Y[-1])
 solution = sp.solve(condition, w_2)[0]
 prove(
@@ -286,41 +289,41 @@ prove(
 )
 
 # %% [markdown]
-# It gives the frequency, which equals the library's:
+# The solution is the library's frequency:
 
 # %%
 frequency = paired_frequency(3).expressions[0]
 prove(frequency, 1 + solution * r0**2, "the frequency of the paired precession", names=r"\Omega/\Omega_0")
 
 # %% [markdown]
-# With it the third order is solved, and all five equations hold through it:
+# With this frequency the third order has a solution, and all five equations hold through third order:
 
 # %%
 prove(
-    sp.Matrix(of_order(3, left(3, series.frequency, FIELD))),
+    sp.Matrix(of_order(3, residuals(3, series.frequency, FIELD))),
     sp.zeros(5, 1),
     "order 3 of the five equations",
     names="E^{(3)}",
 )
 
 # %% [markdown]
-# Every further order has the same linear equations for its terms, and the correction of the frequency makes the first harmonic
-# solvable.
+# Every further order is solved in the same way. The equations are linear in the new terms, and the correction of the frequency
+# makes the equations of the first harmonic solvable.
 #
 # ## Momentum about the joint line
 #
-# $P=\sum_i(r_i\times p_i)_x+G(x_1-x_2)$ with $p_i=a\dot r_i+b\dot r_j$ is conserved (t10), so that on the orbit it does not
-# depend on the phase:
+# The momentum $P=\sum_i(r_i\times p_i)_x+G(x_1-x_2)$ with $p_i=a\dot r_i+b\dot r_j$ is conserved (t10), so it does not depend on
+# the phase. On the orbit its value is
 
 # %%
-one = (x, sp.sqrt(sigma) * Y, z)
-other = [sign * e.subs(Phi, Phi + sp.pi) for sign, e in zip((-1, 1, 1), one, strict=True)]
-put = dict(zip(AXES.q, (*one, *other), strict=True))
-put |= dict(zip(AXES.v, (frequency * e.diff(Phi) for e in (*one, *other)), strict=True))
-carried = joint_line_momentum().subs(opposite).subs({a: own * sp.sqrt(sigma), b: shared * sp.sqrt(sigma), G: 1})
+first_axis = (x, sp.sqrt(sigma) * Y, z)
+second_axis = [sign * e.subs(Phi, Phi + sp.pi) for sign, e in zip((-1, 1, 1), first_axis, strict=True)]
+on_orbit = dict(zip(AXES.q, (*first_axis, *second_axis), strict=True))
+on_orbit |= dict(zip(AXES.v, (frequency * e.diff(Phi) for e in (*first_axis, *second_axis)), strict=True))
+momentum = joint_line_momentum().subs(opposite).subs({a: direct * sp.sqrt(sigma), b: shared * sp.sqrt(sigma), G: 1})
 second = sigma / k
 prove(
-    carried.xreplace(put),
+    momentum.xreplace(on_orbit),
     second * r0**2,
     "the momentum, in units of G",
     small=r0,
@@ -329,12 +332,13 @@ prove(
 )
 
 # %%
-prove(paired_momentum(3).expressions[0], second * r0**2, "which is what the library holds", names="P/G")
+prove(paired_momentum(3).expressions[0], second * r0**2, "the library's momentum", names="P/G")
 
 # %% [markdown]
-# ## The error, against exact orbits of a bar not used elsewhere
+# ## Errors measured on exact orbits
 #
-# The error bound of each law is its distance from the series of six more orders, plus the estimated remainder of that series.
+# Each law estimates its error: the difference from the series with six more orders, plus the estimated remainder of the longer
+# series. This bar is used nowhere else.
 
 # %%
 scene = Scene(spins=(10, -10), link=Link(1.3, 0.35, 0.11))
@@ -349,29 +353,30 @@ for amplitude in amplitudes:
         bounds[name].append(float(form.error(amplitude, *bar_of)))
 slopes = {name: measured_order(amplitudes, values) for name, values in off.items()}
 assert abs(slopes["frequency"] - 4) < 0.2 and abs(slopes["momentum"] - 6) < 0.3
-assert all(one < most for name in off for one, most in zip(off[name], bounds[name], strict=True))
+assert all(error < bound for name in off for error, bound in zip(off[name], bounds[name], strict=True))
 Remark(
     "Frequency and momentum of the paired precession",
-    f"At σ = {scene.sigma:.4f}, k = {scene.k:g}, r_0 = {amplitudes[-1]} the error of the frequency through r_0³ is "
-    f"{off['frequency'][-1]:.1e} (bound {bounds['frequency'][-1]:.1e}), that of P/G through r_0⁴ "
-    f"{off['momentum'][-1]:.1e} (bound {bounds['momentum'][-1]:.1e}). Measured powers of r_0: "
-    f"{slopes['frequency']:.2f} and {slopes['momentum']:.2f}. "
-    "A pair at rest has P = 0, and a shock along x does not change P: it cannot bring the pair onto this orbit.",
+    f"At σ = {scene.sigma:.4f}, k = {scene.k:g}, r_0 = {amplitudes[-1]} the frequency through r_0³ has the error "
+    f"{off['frequency'][-1]:.1e} (bound {bounds['frequency'][-1]:.1e}), and P/G through r_0⁴ the error "
+    f"{off['momentum'][-1]:.1e} "
+    f"(bound {bounds['momentum'][-1]:.1e}). Measured exponents of the errors: {slopes['frequency']:.2f} and "
+    f"{slopes['momentum']:.2f}. "
+    "A pair at rest has P = 0, so a shock along x alone cannot start this orbit.",
 )
 
 # %%
 phases = np.linspace(0, 2 * np.pi, 61)
 orbits = {order: series_orbit(scene, 0.2, order) for order in (5, 9, 13)}
 truth = precession_orbit(scene, 0.2, 1e-11).at_phase(phases)
-reach = {
-    order: (float(np.linalg.norm(one.at_phase(phases) - truth, axis=-1).max()), one.error)
-    for order, one in orbits.items()
+deviations = {
+    order: (float(np.linalg.norm(orbit.at_phase(phases) - truth, axis=-1).max()), orbit.error)
+    for order, orbit in orbits.items()
 }
 third_order = np.array(corrected_trajectories(3)(0.2, phases, *bar_of)).reshape(2, 3, -1).transpose(0, 2, 1)
-assert all(one < most for one, most in reach.values())
+assert all(error < bound for error, bound in deviations.values())
 Remark(
     "Error of the axes",
-    "Largest distance of an axis from the exact orbit over one turn at r_0 = 0.2, and the error bound: "
-    + "; ".join(f"order {order}: {one:.1e}, {most:.1e}" for order, (one, most) in reach.items())
-    + f". Through r_0³ it is {np.linalg.norm(third_order - truth, axis=-1).max():.1e}.",
+    "Largest distance of an axis from the exact orbit over one period at r_0 = 0.2, and its error bound: "
+    + "; ".join(f"order {order}: {error:.1e}, {bound:.1e}" for order, (error, bound) in deviations.items())
+    + f". Through r_0³ the distance is {np.linalg.norm(third_order - truth, axis=-1).max():.1e}.",
 )

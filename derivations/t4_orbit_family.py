@@ -1,8 +1,8 @@
 # %% [markdown]
-# # The family of paired precessions to its end
+# # The family of paired precessions up to its end
 #
-# **Objective.** The proof that a quarter of a period determines the periodic orbit; the frequency against the amplitude, and
-# the turning point or end of the family.
+# **Objective.** The symmetry by which a quarter of a period determines the periodic orbit; frequency against amplitude; the
+# turning points and the end of the family.
 #
 # **Assumptions.** Opposite spins, any bar. Only a few orbits of each bar are computed here; `ends()` follows the families to
 # $r_0 = 0.99$.
@@ -25,7 +25,7 @@ from lagrotor.paper import Formula, Remark, prove
 # %% [markdown]
 # ## Lagrangian and bar
 #
-# With opposite spins, $G_1=G$, $G_2=-G$:
+# The spins are opposite, $G_1=G$, $G_2=-G$. The Lagrangian and the bar's constraint are
 
 # %%
 u1, al1, u2, al2 = MERCATOR.q
@@ -38,38 +38,38 @@ Formula(L, "L")
 Formula(bar, "g")
 
 # %% [markdown]
-# ## First symmetry: reversal of time and $y\to-y$
+# ## First symmetry: time reversal and $y\to-y$
 #
-# $\alpha_i\to-\alpha_i$ with $t\to-t$: $\dot\alpha_i$ keeps its sign, and $\dot u_i$ changes it.
+# The map is $\alpha_i\to-\alpha_i$ with $t\to-t$. Then $\dot\alpha_i$ is unchanged and $\dot u_i$ changes sign:
 
 # %%
 mirrored = {al1: -al1, al2: -al2, u1_v: -u1_v, u2_v: -u2_v}
 prove(
     (L.xreplace(mirrored), bar.xreplace(mirrored)),
     (L, bar),
-    "Lagrangian and bar with time reversed and y → −y",
+    "Lagrangian and bar under time reversal and y → −y",
     equations=("L^* = L", "g^* = g"),
 )
 
 # %% [markdown]
-# ## Second symmetry: exchange of the rotors, $x\to-x$, and reversal of time with $y\to-y$
+# ## Second symmetry: exchange of the rotors, $x\to-x$, and time reversal with $y\to-y$
 #
-# $u_1\leftrightarrow-u_2$, $\alpha_1\leftrightarrow-\alpha_2$, $t\to-t$:
+# The map is $u_1\to-u_2$, $u_2\to-u_1$, $\alpha_1\to-\alpha_2$, $\alpha_2\to-\alpha_1$ with $t\to-t$:
 
 # %%
 exchanged = {u1: -u2, u2: -u1, al1: -al2, al2: -al1, u1_v: u2_v, u2_v: u1_v, al1_v: al2_v, al2_v: al1_v}
 prove(
     (L.xreplace(exchanged), bar.xreplace(exchanged)),
     (L, bar),
-    "Lagrangian and bar with the rotors exchanged and time reversed",
+    "Lagrangian and bar under exchange of the rotors and time reversal",
     equations=("L^* = L", "g^* = g"),
 )
 
 # %% [markdown]
 # ## A quarter of a period determines the orbit
 #
-# A motion through a fixed state of a time-reversing symmetry is its own mirror image. The fixed states of the first symmetry
-# are $\Delta=\alpha=0$, $\dot U=0$. For the second they are the states where
+# If a motion passes through a state that a time-reversing symmetry leaves unchanged, its past is the image of its future. The
+# first symmetry leaves the states with $\Delta=\alpha=0$, $\dot U=0$ unchanged. For the second symmetry
 
 # %%
 U_after, alpha_after = (
@@ -80,14 +80,15 @@ twist_after = (al2_v - al1_v).xreplace(exchanged)
 prove(
     (U_after, alpha_after, twist_after),
     (-(u1 + u2) / 2, -(al1 + al2) / 2, -(al2_v - al1_v)),
-    "U, α and the rate of the twist change their sign: they vanish there",
+    "U, α and the rate of the twist change sign, so they vanish in an unchanged state",
     names=("U^*", r"\alpha^*", r"\dot\Delta^*"),
 )
 
 # %% [markdown]
-# A motion from the first set to the second within $T/4$ therefore closes after $T$: three conditions, $U=\alpha=0$ and
-# $\dot\Delta=0$, for the three unknowns $\dot\Delta(0)$, $\dot\alpha(0)$ and $T/4$ at given $r_0$. `lagrotor` solves them by
-# Newton's method with the exact derivative of the flow, and follows the solutions along their curve.
+# A motion that leads from the first set of states to the second in the time $T/4$ is therefore periodic with the period $T$.
+# These are three conditions, $U=\alpha=0$ and $\dot\Delta=0$, for the unknowns $\dot\Delta(0)$, $\dot\alpha(0)$ and $T/4$ at
+# given $r_0$. `lagrotor` solves them by Newton's method with the exact derivative of the flow. It then follows the solutions
+# along their curve.
 
 # %%
 BARS = {
@@ -104,7 +105,7 @@ def scene_of(link: Link) -> Scene:
 
 
 def ends() -> dict[str, OrbitFamily]:
-    """Return each family from r_0 = 0.05 to 0.99."""
+    """Each family from r_0 = 0.05 up to 0.99."""
     return {name: trace_family(scene_of(link)) for name, link in BARS.items()}
 
 
@@ -125,26 +126,26 @@ assert curves["massless, k = 1"][3] > curves["massless, k = 1"][2]
 Remark(
     "The family of orbits",
     f"Ω/Ω_0 at r_0 = {', '.join(map(str, amplitudes))}: {rows}; estimated errors at most {max(errors):.1e}. For k = 1 the "
-    "frequency falls to a minimum and then rises; with a massless bar longer than √(3/2) R it rises from the start (s5_3b). "
-    "The families continue to r_0 = 0.99 without a turning point (ends(), slow). They end at r_0 = 1, where the axes lie along "
-    "the joint line.",
+    "frequency decreases, has a minimum and increases again; with a massless bar longer than √(3/2) R it increases from the "
+    "start (s5_3b). The families have no turning point up to r_0 = 0.99 (ends(), slow). They end at r_0 = 1, where the axes "
+    "lie along the joint line.",
 )
 
 # %% [markdown]
-# ## How far the series reaches
+# ## Error of the series
 #
-# The frequency through $r_0^3$ (t3) and its estimated error, at the smallest of these amplitudes:
+# The frequency through $r_0^3$ (t3) is compared with the exact frequency at the smallest of these amplitudes:
 
 # %%
 law = paired_frequency(3)
-reach = {}
+deviations = {}
 for name, link in list(BARS.items())[:2]:
     at = (amplitudes[0], scene_of(link).sigma, scene_of(link).k)
-    reach[name] = (abs(float(law(*at)) - curves[name][0]), float(law.error(*at)))
-assert all(off < bound for off, bound in reach.values())
+    deviations[name] = (abs(float(law(*at)) - curves[name][0]), float(law.error(*at)))
+assert all(error < bound for error, bound in deviations.values())
 Remark(
     "The series at r_0 = 0.2",
-    "Error of the frequency through r_0³, and its estimate: "
-    + "; ".join(f"{off:.1e}, {bound:.1e} ({name})" for name, (off, bound) in reach.items())
+    "Difference of the frequency through r_0³ from the exact one, and its error estimate: "
+    + "; ".join(f"{error:.1e}, {bound:.1e} ({name})" for name, (error, bound) in deviations.items())
     + ".",
 )

@@ -1,12 +1,12 @@
 # %% [markdown]
-# # Toppling, exactly
+# # Toppling as an exact solution
 #
-# **Objective.** Uniform turning about the joint line as an exact solution at any angle, and its stability; the difference
-# between a shock of $+50$ N and one of $-50$ N along y.
+# **Objective.** Uniform rotation about the joint line as an exact solution at any angle, and its stability; the difference
+# between shocks of $+50$ N and $-50$ N along y.
 #
-# **Assumptions.** Both axes parallel in the y-z plane; any bar. The stability is that of infinitesimal disturbances.
+# **Assumptions.** Both axes are parallel in the y-z plane; any bar. The stability is linear stability.
 #
-# **Notation.** $\dot\alpha=\nu$ the rate of turning, $A=a+b$, $D=a-b$, $G=G_1=-G_2$, $e = b\nu^2 - G\nu/k$; $U$ the mean
+# **Notation.** $\dot\alpha=\nu$ the rate of rotation, $A=a+b$, $D=a-b$, $G=G_1=-G_2$, $e = b\nu^2 - G\nu/k$; $U$ the mean
 # Mercator latitude, $\Delta$ the twist, $\alpha$ the angle about the joint line.
 
 # %%
@@ -31,15 +31,15 @@ A, D = a + b, a - b
 # %% [markdown]
 # ## The Lagrangian near parallel axes
 #
-# In Mercator coordinates about the joint line the bar holds $\cosh w-k\sinh w=\cos\Delta$ with $w=u_1-u_2$. For a small twist
-# its solution is $w=\Delta^2/(2k)+\dots$; the second derivatives at $\Delta=0$ need no further terms:
+# In Mercator coordinates about the joint line the bar's constraint is $\cosh w-k\sinh w=\cos\Delta$ with $w=u_1-u_2$. For a small
+# twist its solution is $w=\Delta^2/(2k)+\dots$. This order is sufficient for second derivatives at $\Delta=0$:
 
 # %%
 w = Delta**2 / (2 * k)
 prove(
     (sp.cosh(w) - k * sp.sinh(w) - sp.cos(Delta)).diff(Delta, 2).subs(Delta, 0),
     0,
-    "the bar's constraint is held through the second order in the twist",
+    "the bar's constraint is satisfied through second order in the twist",
 )
 
 # %% [markdown]
@@ -52,37 +52,37 @@ prove(L.diff(alpha), 0, "the angle about the joint line is cyclic")
 # %% [markdown]
 # ## An exact solution for opposite spins
 #
-# Uniform turning is $U=\Delta=0$, $\dot\alpha=\nu$. Its residual in the Euler–Lagrange equations is
+# Uniform rotation is $U=\Delta=0$, $\dot\alpha=\nu$. The residuals of the Euler–Lagrange equations are
 
 # %%
 turning = dict.fromkeys((*TWISTED.q, *TWISTED.v, *TWISTED.a), sp.Integer(0)) | {alpha_v: nu}
 residual = [e.xreplace(turning) for e in euler_lagrange(L, TWISTED)]
-prove(residual, (-(G_1 + G_2) * nu, 0, 0), "what uniform turning leaves of the three equations")
+prove(residual, (-(G_1 + G_2) * nu, 0, 0), "the residuals of the three equations for uniform rotation")
 
 # %% [markdown]
-# It vanishes, at any angle and rate and for any bar, if and only if $(G_1+G_2)\nu=0$.
+# The residuals vanish at any angle and rate and for any bar if and only if $(G_1+G_2)\nu=0$.
 #
 # ## Small perturbations
 #
-# Since $\alpha$ is cyclic, the equations of a small perturbation have constant coefficients, the second derivatives of the
-# Lagrangian along the solution. The quadratic Lagrangian for opposite spins is
+# As $\alpha$ is cyclic, the equations of a small perturbation have constant coefficients. These are the second derivatives of the
+# Lagrangian on the solution. The quadratic Lagrangian for opposite spins is
 
 # %%
 e = b * nu**2 - G * nu / k
-state, off = (U, Delta, U_v, Delta_v, alpha_v), sp.symbols("U Delta U_dot Delta_dot beta_dot", real=True)
+state, perturbation = (U, Delta, U_v, Delta_v, alpha_v), sp.symbols("U Delta U_dot Delta_dot beta_dot", real=True)
 second = hessian(L, state).xreplace(turning).subs({G_1: G, G_2: -G})
-quadratic = (sp.Matrix([off]) * second * sp.Matrix(off))[0] / 2
-u, d, u_v, d_v, beta_v = off
+quadratic = (sp.Matrix([perturbation]) * second * sp.Matrix(perturbation))[0] / 2
+u, d, u_v, d_v, beta_v = perturbation
 prove(
     sp.expand(quadratic),
     A * u_v**2 + D * d_v**2 / 4 - A * nu**2 * u**2 - e * d**2 / 2 - G * u * d_v + A * beta_v**2,
-    "the quadratic Lagrangian of a disturbance",
+    "the quadratic Lagrangian of a perturbation",
     names=r"\mathcal L_2",
 )
 
 # %% [markdown]
-# with the equations $2A\ddot U + 2A\nu^2U + G\dot\Delta=0$ and $\tfrac D2\ddot\Delta + e\Delta - G\dot U=0$. The ansatz $e^{st}$
-# gives
+# Its equations of motion are $2A\ddot U + 2A\nu^2U + G\dot\Delta=0$ and $\tfrac D2\ddot\Delta + e\Delta - G\dot U=0$. For
+# solutions proportional to $e^{st}$:
 
 # %%
 s = sp.Symbol("s")
@@ -96,8 +96,8 @@ prove(
 )
 
 # %%
-two, one, zero = toppling_polynomial()
-prove(two * s**4 + one * s**2 + zero, characteristic, "as the library has it", names="p_2s^4+p_1s^2+p_0")
+p_2, p_1, p_0 = toppling_polynomial()
+prove(p_2 * s**4 + p_1 * s**2 + p_0, characteristic, "the library's polynomial", names="p_2s^4+p_1s^2+p_0")
 
 # %%
 whole = hessian(L, [*TWISTED.q, *TWISTED.v]).xreplace(turning).subs({G_1: G, G_2: -G})
@@ -116,33 +116,35 @@ prove(
 
 # %%
 discriminant = (A * D * nu**2 - 2 * A * e) ** 2 + G**4 + 2 * G**2 * (A * D * nu**2 + 2 * A * e)
-prove(one**2 - 4 * two * zero, discriminant, "the discriminant", names="p_1^2-4p_2p_0")
+prove(p_1**2 - 4 * p_2 * p_0, discriminant, "the discriminant", names="p_1^2-4p_2p_0")
 
 # %% [markdown]
-# For $e>0$ the discriminant and all coefficients are positive: both $s^2$ are negative, and the turning is stable. For $e<0$ the
-# product of the two $s^2$ is negative: one is positive, and the turning is unstable. The boundary is $e=0$:
+# For $e>0$ the discriminant and all coefficients are positive. Both $s^2$ are then negative, and the rotation is linearly
+# stable. For $e<0$ the product of the two $s^2$ is negative. Then a positive $s^2$ exists, and the rotation is unstable. The
+# threshold is $e=0$:
 
 # %%
 edge = toppling_threshold().expressions[0]
-prove(e.subs(nu, edge), 0, "the threshold, where turning changes its stability")
+prove(e.subs(nu, edge), 0, "the threshold at which the stability changes")
 
 # %%
 prove(edge, G / (k * b), "the threshold as a formula")
 
 # %% [markdown]
-# The positive root, in a form without cancellation of digits, is $s^2=-2p_0/(p_1+\sqrt{p_1^2-4p_2p_0})$; the library's growth
-# rate is this $s$. For slow turning in the unstable sense the growth rate is $\propto\nu^{3/2}$:
+# The positive root, in a form without cancellation of digits, is $s^2=-2p_0/(p_1+\sqrt{p_1^2-4p_2p_0})$. It gives the library's
+# growth rate. For slow rotation in the unstable sense the growth rate is proportional to $\nu^{3/2}$:
 
 # %%
-slow = sp.limit(-zero / one / nu**3, nu, 0)
-prove(slow, 2 * A / (G * k), "s² over ν³ of slow turning")
+slow = sp.limit(-p_0 / p_1 / nu**3, nu, 0)
+prove(slow, 2 * A / (G * k), "s² over ν³ for slow rotation")
 
 
 # %% [markdown]
-# ## Predicted and measured
+# ## Predicted and measured growth rates
 #
-# Exact runs start with a tilt of $10^{-9}$ out of the plane; their growth is fitted between 8 and 13 growth times. The closed
-# form is exact for infinitesimal perturbations, so that only the fit limits the agreement, up to a tilt of ten per cent.
+# Exact runs start with a tilt of $10^{-9}$ out of the plane. Their growth rate is fitted between 8 and 13 growth times,
+# before the tilt reaches ten per cent. The closed form is exact for infinitesimal perturbations, so only the fit limits the
+# agreement.
 
 
 # %%
@@ -151,7 +153,7 @@ def measured(link: Link, rate: float) -> tuple[float, float]:
     scene = Scene(spins=(10, -10), link=link, rates=((1e-9, -rate, 0.0),) * 2)
     predicted = float(toppling_growth()(rate, 10.0, *scene.inertias, link.length))
     times = np.linspace(8 / predicted, 13 / predicted, 41)
-    # A hundredth of the least tilt at the end: errors grow as the tilt does.
+    # The tolerance is small because the numerical errors grow at the rate of the tilt.
     x = np.abs(simulate(scene, [0.0, *times], "spheres", 1e-9).after(times[0]).axes[:, :, 0].mean(0))
     return predicted, float(np.polyfit(times, np.log(x), 1)[0])
 
@@ -163,20 +165,20 @@ pairs = {
 assert all(abs(p / q - 1) < 0.01 for p, q in pairs.values())
 rows = "; ".join(f"{name}: predicted {p:.4f}, measured {q:.4f}" for name, (p, q) in pairs.items())
 Remark(
-    "Toppling is exact",
-    "Uniform turning about the joint line solves the equations at any angle and rate if and only if (G_1 + G_2) ν = 0.",
+    "Toppling as an exact solution",
+    "Uniform rotation about the joint line solves the equations at any angle and rate if and only if (G_1 + G_2) ν = 0.",
 )
 
 # %%
 Remark(
     "Stability of toppling",
-    "The turning is stable for b ν² > G ν/k, unstable for b ν² < G ν/k; for b = 0 it depends only on the sense of rotation. The "
-    f"threshold is ν = G/(k b). Perturbations of slow unstable turning grow with s² = 2 (a + b) ν³/(G k). Growth rates of "
-    f"infinitesimal perturbations (1/s): {rows}.",
+    "The rotation is linearly stable for b ν² > G ν/k and unstable for b ν² < G ν/k. For a massless bar only its sense "
+    "matters. The threshold is ν = G/(k b). Slow unstable rotation has s² = 2 (a + b) ν³/(G k). Growth rates (1/s) of "
+    f"infinitesimal perturbations: {rows}.",
 )
 
 # %% [markdown]
-# ## A shock of +50 N and one of −50 N along y
+# ## Shocks of +50 N and −50 N along y
 
 # %%
 shocks = {}
@@ -191,8 +193,8 @@ assert shocks[-50][2] > shocks[50][2]
 Remark(
     "+50 N against −50 N along y",
     "; ".join(
-        f"F_y = {force:+d} N turns the pair at {rate:+.3f} rad/s (first order), growth {growth:.3f} 1/s, exact mean x within "
-        f"{width:.3f} R from 2.5 to 20 s"
+        f"F_y = {force:+d} N: rate of rotation {rate:+.3f} rad/s (first order), growth rate {growth:.3f} 1/s, range of the exact "
+        f"mean x {width:.3f} R from 2.5 to 20 s"
         for force, (rate, growth, width) in shocks.items()
     )
     + ".",

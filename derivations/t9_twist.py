@@ -1,8 +1,8 @@
 # %% [markdown]
-# # Equal spins: one rotor, until it twists
+# # Equal spins: the parallel pair and its twist instability
 #
-# **Objective.** The proof that the parallel pair is exactly one rotor; the condition under which the axes stay parallel; the
-# growth rate of a twist otherwise, and the error of its closed form.
+# **Objective.** The exact equivalence of the parallel pair to one rotor; the conditions under which the axes stay parallel;
+# the growth rate of a twist, and the error of its closed form.
 #
 # **Assumptions.** Equal spins, any bar; an infinitesimal twist.
 #
@@ -31,19 +31,24 @@ from lagrotor.theory import (
 (U, Delta, alpha), (U_v, Delta_v, alpha_v), (U_a, Delta_a, alpha_a) = TWISTED.q, TWISTED.v, TWISTED.a
 
 # %% [markdown]
-# ## The parallel pair is one rotor, exactly
+# ## Exact equivalence to one rotor
 #
-# The pair has three Euler–Lagrange equations (t8), for $U$, $\Delta$ and $\alpha$. A parallel motion has $\Delta=0$ for all time.
-# Its residual in the equation of the twist is
+# The pair has three Euler–Lagrange expressions (t8), here called along (of $U$), across (of $\Delta$) and about (of
+# $\alpha$). In a parallel motion $\Delta=0$ for all time. The residual of the equation of the twist is then
 
 # %%
 straight = {Delta: 0, Delta_v: 0, Delta_a: 0}
-along, across, about = (e.subs(straight) for e in euler_lagrange(twisted_lagrangian(), TWISTED))
-prove(across, (G_2 - G_1) * U_v / (2 * sp.cosh(U) ** 2), "what a parallel motion leaves in it", names=r"\text{across}")
+in_U, in_twist, in_alpha = (e.subs(straight) for e in euler_lagrange(twisted_lagrangian(), TWISTED))
+prove(
+    in_twist,
+    (G_2 - G_1) * U_v / (2 * sp.cosh(U) ** 2),
+    "the residual of the twist equation for parallel motion",
+    names=r"\text{across}",
+)
 
 # %% [markdown]
-# The residual vanishes on every parallel motion if and only if $G_1=G_2$. The other two equations are then twice those of one
-# rotor of inertia $a+b$ and momentum $G$, whose Lagrangian in Mercator coordinates is
+# It vanishes on every parallel motion if and only if $G_1=G_2$. The other two expressions are then twice those of one rotor of
+# inertia $a+b$ and momentum $G$. The Lagrangian of this rotor in Mercator coordinates is
 
 # %%
 one_rotor = (a + b) / 2 * (U_v**2 + alpha_v**2) / sp.cosh(U) ** 2 + G * sp.tanh(U) * alpha_v
@@ -53,41 +58,41 @@ Formula(one_rotor, r"\mathcal L^{\text{rotor}}")
 rotor = euler_lagrange(one_rotor, TWISTED)
 equal = {G_1: G, G_2: G}
 prove(
-    (along.subs(equal), about.subs(equal)),
+    (in_U.subs(equal), in_alpha.subs(equal)),
     (2 * rotor[0], 2 * rotor[2]),
-    "the pair is two of one rotor",
+    "the equations of the pair are twice those of one rotor",
     equations=(r"\text{along} = 2\,\mathcal E_U^{\text{rotor}}", r"\text{about} = 2\,\mathcal E_\alpha^{\text{rotor}}"),
 )
 
 # %% [markdown]
 # ## The equation of a small twist
 #
-# To first order in $\Delta$ the equation is $\frac{d}{dt}(\text{inertia}\,\dot\Delta)+\text{stiffness}\,\Delta=0$. It has no
-# gyroscopic term and does not contain the length of the bar:
+# To first order in $\Delta$ the equation is $\frac{d}{dt}(\text{inertia}\,\dot\Delta)+\text{stiffness}\,\Delta=0$. It contains no
+# gyroscopic term and is independent of the length of the bar:
 
 # %%
 x = sp.tanh(U)
 x_a = U_a / sp.cosh(U) ** 2 - 2 * sp.tanh(U) * U_v**2 / sp.cosh(U) ** 2
 speed = (U_v**2 + alpha_v**2) / sp.cosh(U) ** 2
 twisting = euler_lagrange(twisted_lagrangian().subs(equal), TWISTED)[1]
-inertia, stiffness = (twisting.diff(one).subs(straight) for one in (Delta_a, Delta))
+inertia, stiffness = (twisting.diff(symbol).subs(straight) for symbol in (Delta_a, Delta))
 prove(inertia, (a - b) / 2 * (1 - x**2), "the inertia of the twist, x = tanh U", names=r"\text{inertia}")
 
 # %%
 prove(
     stiffness,
     b * (speed + x * x_a),
-    "its stiffness, b (|r′|² + x x″)",
+    "the stiffness of the twist, b (|r′|² + x x″)",
     equations=r"\text{stiffness} = b\,\big(|\dot r|^2 + x\,\ddot x\big)",
 )
 
 # %% [markdown]
 # ## Hill's equation
 #
-# On the cone, $x=\rho\cos\Phi$ and $|r'|^2=\rho^2$ in units of the precession's rate, which is
-# $G/((a+b)\cos\theta)$ (derived with 5.24). With $\beta=b/(a-b)$ the twist obeys
+# On the cone, $x=\rho\cos\Phi$ and $|r'|^2=\rho^2$ in units of the precession rate $G/((a+b)\cos\theta)$ (derived with 5.24).
+# With $\beta=b/(a-b)$ the twist obeys Hill's equation
 # $$\big((1-\rho^2\cos^2\Phi)\,\Delta'\big)' + 2\beta\rho^2\sin^2\Phi\;\Delta = 0,$$
-# of period $\pi$.
+# with coefficients of period $\pi$.
 
 # %%
 on_cone = rho * sp.cos(Phi)
@@ -100,9 +105,9 @@ prove(
 # %% [markdown]
 # ## Growth on narrow cones
 #
-# Let $H$ be the left side of Hill's equation over $e^{\mu\Phi}$. Put $\Delta=e^{\mu\Phi}u$ with
-# $\mu=\mu_1\rho+\mu_3\rho^3+\dots$ and $u=1+\rho^2(p\cos2\Phi+\dots)+\dots$ of period $\pi$. The means of $H$ over a period
-# must vanish order by order and fix the exponent; the second harmonic at second order fixes $p$.
+# Let $\Delta=e^{\mu\Phi}u$ with $\mu=\mu_1\rho+\mu_3\rho^3+\dots$ and $u=1+\rho^2(p\cos2\Phi+\dots)+\dots$ of period $\pi$.
+# Let $H$ be the left side of Hill's equation divided by $e^{\mu\Phi}$. The means of $H$ over a period must vanish order by
+# order and determine the exponent. The second harmonic at second order determines $p$.
 
 # %%
 beta, mu_1, mu_3, p = sp.symbols("beta mu_1 mu_3 p", real=True)
@@ -113,7 +118,7 @@ hill = sp.expand(flux.diff(Phi) + mu * flux + 2 * beta * rho**2 * sp.sin(Phi) **
 
 
 def mean(order: int, weight: sp.Expr = sp.S.One) -> sp.Expr:
-    """Return the mean over a period of one order of Hill's equation, times `weight`."""
+    """The mean over a period of one order of Hill's equation times `weight`: the terms without Φ."""
     return sp.expand((hill.coeff(rho, order) * weight).rewrite(sp.exp)).as_independent(Phi)[0]
 
 
@@ -136,7 +141,7 @@ prove(
 )
 
 # %% [markdown]
-# so that $\mu_3=\mu_1\,(1/4+\beta/16)$. In time, with $1/\cos\theta=1+\rho^2/2+\dots$, the growth rate for $\beta<0$ is
+# Hence $\mu_3=\mu_1\,(1/4+\beta/16)$. With $1/\cos\theta=1+\rho^2/2+\dots$ the growth rate per unit of time for $\beta<0$ is
 # $$\frac{|G|}{a+b}\sqrt{-\beta}\;\rho\,\Big(1+\big(\tfrac34+\tfrac\beta{16}\big)\rho^2+\dots\Big).$$
 
 # %%
@@ -155,12 +160,12 @@ prove(
 )
 
 # %% [markdown]
-# The first term is the library's closed form, the second its error. The factor $1/(1-\rho^2)$ for all further terms is
-# empirical; Hill's equation confirms it:
+# The first term is the library's closed form, and the second is its error. The factor $1/(1-\rho^2)$ for all further terms is
+# empirical. It is checked on Hill's equation:
 
 # %%
 grown = twist_growth().expressions[0]
-unstable = grown.replace(sp.Max, lambda *parts: next(part for part in parts if part != 0))
+unstable = grown.replace(sp.Max, lambda *arguments: next(argument for argument in arguments if argument != 0))
 prove(
     (unstable * (a + b)) ** 2,
     G**2 * rho**2 * (-b / (a - b)),
@@ -176,10 +181,10 @@ Formula(relative, r"\frac{\text{error}}{\text{growth}}")
 # %% [markdown]
 # ## Cones on which the axes stay parallel
 #
-# For $b>0$ the stiffness is positive. Lyapunov's criterion for $(P y')'+Qy=0$ of period $T$, $\int d\Phi/P\int Q\,d\Phi\le4$
-# (Magnus & Winkler, Hill's Equation, ch. V), implies that a small twist is bounded. Since
-# $\int_0^\pi d\Phi/(1-\rho^2\cos^2\Phi)=\pi/\sqrt{1-\rho^2}$ and $\int_0^\pi2\beta\rho^2\sin^2\Phi\,d\Phi=\pi\beta\rho^2$,
-# the criterion holds on cones with
+# For $b>0$ the stiffness is positive. Solutions of $(P y')'+Qy=0$ of period $T$ are bounded by Lyapunov's criterion if
+# $\int d\Phi/P\int Q\,d\Phi\le4$ (Magnus & Winkler, Hill's Equation, ch. V). The integrals are
+# $\int_0^\pi d\Phi/(1-\rho^2\cos^2\Phi)=\pi/\sqrt{1-\rho^2}$ and $\int_0^\pi2\beta\rho^2\sin^2\Phi\,d\Phi=\pi\beta\rho^2$. A
+# small twist is therefore bounded on cones with
 
 # %%
 lyapunov_criterion()
@@ -190,24 +195,24 @@ lyapunov_criterion()
 # %%
 heavy, cones = Scene(spins=(10, 10), link=Link(1, 1, 0)), np.radians(np.arange(5, 90, 5))
 resonant = {float(np.degrees(c)): g for c in cones if (g := twist_multiplier_growth(heavy, c))}
-within = max(np.degrees(c) for c in cones if twist_bounded(heavy, c))
-assert within < min(resonant)
+widest = max(np.degrees(c) for c in cones if twist_bounded(heavy, c))
+assert widest < min(resonant)
 Remark(
     "Wide cones",
-    f"A point mass of 1 kg in the middle of the bar (K = 0, b > 0): of the tested cones, Lyapunov's criterion bounds a small "
-    f"twist up to {within:.0f}°. The narrowest cone on which it grows is {min(resonant):.0f}°, with the rate "
+    "A point mass of 1 kg is in the middle of the bar (K = 0, b > 0), and cones are tested in steps of 5°. By Lyapunov's "
+    f"criterion a small twist is bounded up to {widest:.0f}°. The first cone with growth is {min(resonant):.0f}°, at "
     f"{resonant[min(resonant)]:.2f} 1/s.",
 )
 
 # %% [markdown]
-# ## Predicted and measured
+# ## Predicted and measured growth rates
 #
-# The initial twist rate is $10^{-7}$ rad/s; the twist is read once every half turn.
+# The runs start with a twist rate of $10^{-7}$ rad/s. The twist is sampled at multiples of half a period of the precession.
 
 
 # %%
 def measured(link: Link, angle: float) -> tuple[float, float, float]:
-    """Return the growth rate in 1/s to first order in the angle, by Hill's equation, and of the exact motion."""
+    """Growth rates (1/s): to first order in the angle, by Hill's equation, and of the exact motion."""
     scene = Scene(spins=(10, 10), link=link)
     first = float(twist_growth()(np.sin(angle), 10.0, *scene.inertias))
     hill = twist_multiplier_growth(scene, angle)
@@ -221,7 +226,7 @@ def measured(link: Link, angle: float) -> tuple[float, float, float]:
 pairs = {angle: measured(Link(1, 1, 1), angle) for angle in (0.1, 0.4)}
 tested = Scene(spins=(10, 10), link=Link(1, 1, 1)).inertias
 errors = {angle: float(twist_growth_error()(np.sin(angle), 10.0, *tested)) for angle in pairs}
-assert all(abs(hill / seen - 1) < 0.005 for _, hill, seen in pairs.values())
+assert all(abs(hill / exact - 1) < 0.005 for _, hill, exact in pairs.values())
 assert all(abs(first - hill) < errors[angle] for angle, (first, hill, _) in pairs.items())
 assert twist_multiplier_growth(Scene(spins=(10, 10), link=Link(1, 1, 0.2)), 0.4) == 0
 paper = Scene(spins=(10, 10), link=Link(1, 1, 1), shock=Shock((50, 0, 0), 2, 1 / 50))
@@ -229,19 +234,20 @@ size = float(np.max(shock_response(paper).amplitude))
 rate = float(twist_growth()(size, 10.0, *paper.inertias))
 Remark(
     "Equal spins",
-    "Motions with parallel axes are solutions if and only if G_1 = G_2. The pair is then one rotor of inertia a + b and momentum "
-    "G per axis. Both statements are exact.",
+    "Motion with parallel axes is an exact solution if and only if G_1 = G_2. The pair is then equivalent to one rotor with "
+    "inertia a + b and momentum G per axis.",
 )
 
 # %%
 Remark(
     "The twist instability",
     "A small twist is bounded on narrow cones for b > 0, that is K < m ℓ²/4. For b < 0 it grows at the rate "
-    "ρ |G| √(−b/(a − b))/(a + b), ρ the sine of the half-angle; the next term is of third order. Rates (1/s) for m = K = 1: "
+    "ρ |G| √(−b/(a − b))/(a + b), with ρ the sine of the half-angle; the next term is of third order. Growth rates (1/s) for "
+    "m = K = 1: "
     + "; ".join(
-        f"{angle} rad: {f:.4f}, error at most {errors[angle]:.4f}, Hill {h:.4f}, measured {s:.4f}"
+        f"{angle} rad: {f:.4f} with an error of at most {errors[angle]:.4f}, Hill's equation {h:.4f}, measured {s:.4f}"
         for angle, (f, h, s) in pairs.items()
     )
-    + f". In the paper's scene of figure 10 (amplitude {size:.4f}) a twist grows at {rate:.3f} 1/s: the axes are not "
+    + f". In the paper's scene of figure 10 (amplitude {size:.4f}) a twist grows at {rate:.3f} 1/s, so its axes are not "
     "'necessarily aligned at all times'.",
 )
