@@ -14,9 +14,11 @@
 
 # %%
 from lagrotor.benchmark.mechanism_tables import (
+    COMPARISON_HEAD,
     DECISION_HEAD,
     MECHANISM_HEAD,
     TARGET_HEAD,
+    comparison_rows,
     decision_rows,
     mechanism_rows,
     target_rows,

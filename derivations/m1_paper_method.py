@@ -10,6 +10,7 @@
 
 # %%
 from lagrotor import Link, Scene, natural_rate
+from lagrotor.benchmark.limits.step_size import step_limit_by_bisection
 from lagrotor.models import paper_system, step_limit
 from lagrotor.paper import Table
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
