@@ -128,7 +128,10 @@ def by_symbol(where: str, values: Mapping[Any, Any], symbols: Iterable[sp.Symbol
     if text := next((f"{key} = {value!r}" for key, value in values.items() if isinstance(value, str)), ""):
         raise InputError(f"{where}: {text} is text: give a number or an expression")
     names = {str(s): s for s in symbols}
-    return {names.get(str(key), key): value for key, value in values.items()}
+    by_key = {names.get(str(key), key): value for key, value in values.items()}
+    if len(by_key) < len(values):
+        raise InputError(f"{where} = {values}: a symbol and its name have two values: give one")
+    return by_key
 
 
 def in_order(where: str, numbers: Any, symbols: Sequence[sp.Symbol]) -> Any:
