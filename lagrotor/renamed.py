@@ -60,12 +60,18 @@ NAMES = {
 
 # Class → {old attribute: new attribute}. The class takes `old_attribute` as its `__getattr__`.
 ATTRIBUTES = {
+    "AveragedMotion": {"letters": "amplitudes"},
+    "Chern": {"off": "flux_error"},
     "Decision": {"at": "points", "seen": "residual"},
     "Equations": {"mass": "mass_matrix", "push": "generalised_forces"},
+    "PrecessionLaw": {"beside": "quadratic"},
+    "Stated": {"written": "form"},
+    "Step": {"written": "equations"},
 }
 
 # Function or method, by its qualified name → {old keyword: new keyword}.
 KEYWORDS: dict[str, dict[str, str]] = {
+    "System.from_sympy": {"given": "source"},
     "judge": {"given": "premises"},
     "judge_text": {"given": "premises"},
     "parameter_premise": {"put": "substitution", "own": "scene_values"},

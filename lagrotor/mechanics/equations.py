@@ -274,7 +274,10 @@ class Equations:
 
     @property
     def forcing(self) -> sp.Matrix:
-        """The column Q − h, shape (n, 1), without the multipliers: M a = forcing + Gᵀ λ along a motion."""
+        """The column Q − h, shape (n, 1): M a = forcing + Gᵀ λ along a motion.
+
+        It contains the multipliers only as far as `forces` contain reactions. It is in q, v and t, also with quasi-velocities.
+        """
         return self.generalised_forces - self.bias
 
     @cached_property

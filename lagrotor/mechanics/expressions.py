@@ -116,6 +116,8 @@ def _with_sines(e: sp.Expr) -> sp.Expr:
 
 def vector_of(where: str, components: Any, n: int) -> tuple[sp.Expr, ...]:
     """Return n expressions; raise InputError for anything else."""
+    if hasattr(components, "tolist") and not isinstance(components, sp.MatrixBase):
+        components = components.tolist()  # an array of numpy
     if not isinstance(components, Sequence | sp.MatrixBase) or isinstance(components, str) or len(components) != n:
         raise InputError(f"{where} = {components!r} must be {n} expressions")
     return tuple(expression(f"{where}[{i}]", e) for i, e in enumerate(components))
