@@ -52,7 +52,9 @@ class FunctionValue:
                 return float(f(*at))
             except TypeError:
                 text = f"{jet_name(self.name, orders)}({', '.join(map(str, at))})"
-                raise IntegrationError(f"{where}: {text} gives {f(*at)!r}, which is not a number: correct the function") from None
+                raise IntegrationError(
+                    f"{where}: {text} gives {f(*at)!r}, which is not a number: correct the function"
+                ) from None
 
         def call(*at: Any) -> Any:
             if all(np.ndim(x) == 0 and not isinstance(x, complex | np.complexfloating) for x in at):

@@ -29,7 +29,7 @@ class Event:
     Attributes
     ----------
     section : Expr
-        In q, v and t; the event is where it is zero.
+        An expression in q, v and t. The event happens where it crosses zero.
     velocities : tuple of Expr or None, optional
         The velocities after the event, as functions of the state before it; without them the run ends.
     direction : {0, 1, -1}, default 0
@@ -65,7 +65,7 @@ class Event:
 
     @property
     def expressions(self) -> tuple[sp.Expr, ...]:
-        """The expressions of the event, which have a value along a motion."""
+        """All expressions of the event: its section, and the velocities after it."""
         return self.section, *(self.velocities or ())
 
 
@@ -78,7 +78,7 @@ class Impact:
     Attributes
     ----------
     gap : Expr
-        In q and t; it does not become negative.
+        An expression in q and t, which does not become negative.
     restitution : Expr, default 1
         A number from 0 to 1 or a parameter.
 
@@ -102,13 +102,23 @@ class Impact:
 
     @property
     def expressions(self) -> tuple[sp.Expr, ...]:
-        """The expressions of the impact, which have a value along a motion."""
+        """Both expressions of the impact: its gap and its restitution."""
         return self.gap, self.restitution
 
 
 @dataclass(frozen=True)
 class Surface:
-    """A surface w(q, v, t) = 0 on which a force jumps; `sign` replaces sign(w), `bound` is F of dry friction or None."""
+    """A surface w(q, v, t) = 0 on which a force jumps.
+
+    Attributes
+    ----------
+    argument : Expr
+        The function w.
+    sign : Symbol
+        The symbol that replaces sign(w).
+    bound : Expr or None
+        The bound F of the force if it is dry friction, otherwise None.
+    """
 
     argument: sp.Expr
     sign: sp.Symbol
@@ -139,8 +149,9 @@ def check_events(system: Equations, events: Any) -> tuple[Event | Impact, ...]:
 
 
 def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
-    """Return the system with a symbol σ for each sign that jumps where the state passes a surface, and these surfaces. sign(w)
-    → σ, |w| → σ w, Heaviside(w) → (1 + σ)/2, Max(a, b) → (a + b + σ (a − b))/2, Min(a, b) with −σ."""
+    """Replace each sign that jumps where the state passes a surface by a symbol σ. Return the smooth system and a `Surface`
+    for each symbol. The replacements are sign(w) → σ, |w| → σ w, Heaviside(w) → (1 + σ)/2, Max(a, b) → (a + b + σ (a −
+    b))/2, and Min(a, b) with −σ in place of σ."""
     moving = {*system.c.q, *system.c.v, *system.reactions, t}
     L = getattr(system.lagrangian, "remainder", system.lagrangian)  # for bodies, the terms added to their energy
     places = [*system.forces, system.dissipation, L]
@@ -187,8 +198,9 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
 
 
 def _is_a_jump(step: sp.DiracDelta, slope: sp.Expr, moving: Sequence[sp.Symbol]) -> bool:
-    """Return True if the factor of δ(w) in a slope differs from zero at a root of w, found by Newton's method. The lengths of a
-    rope with and without a drum are equal where it touches, by an identity that sympy does not see."""
+    """Return True if the Lagrangian jumps where w = 0: in its derivative `slope` the factor of δ(w) is not zero at a root
+    of w. The root is found by Newton's method, because sympy does not see every identity. For example, a rope has the same
+    length with and without a drum when it touches the drum."""
     mark, w = sp.Dummy(), step.args[0]
     factor = derivative(slope.xreplace({step: mark}), mark)
     letters = sorted((factor.free_symbols | w.free_symbols), key=str)
@@ -212,7 +224,8 @@ _JUMPING = (sp.sign, sp.Abs, sp.Heaviside, sp.Max, sp.Min)
 
 
 def _jumps_at_zero(push: sp.Matrix, e: sp.Expr, v: Sequence[sp.Symbol]) -> bool:
-    """Return True if a force with √e, e quadratic in several velocities, jumps at rest or at the least value of e."""
+    """Return True if a force with √e jumps at rest or at the least value of e. The expression e is quadratic in several
+    velocities."""
     speeds = [s for s in v if s in e.free_symbols]
     still = dict.fromkeys(speeds, sp.S.Zero)
     value_at_rest, slope = e.xreplace(still), gradient(e, speeds).xreplace(still)
