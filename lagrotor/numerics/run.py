@@ -28,7 +28,8 @@ _SAYS = {
 
 @dataclass(frozen=True)
 class Ending:
-    """The ending of a run: its kind (see _SAYS), the time `at` in s if it differs from the last time, and a reason."""
+    """The ending of a run: its kind, one of _SAYS, the time `at` in s if it differs from the last time, and a reason in
+    words."""
 
     kind: Literal["end", "lost", "budget", "singular", "event", "stopped"] = "end"
     at: float = inf
@@ -52,7 +53,7 @@ class Ending:
 
 
 class Quantity(NamedTuple):
-    """A quantity of a run at each of its times: values, the name of each axis ("t" among them), and the unit."""
+    """A quantity of a run: its values, the name of each axis of their array, one of them "t", and its unit."""
 
     values: Array
     axes: tuple[str, ...]
@@ -61,9 +62,21 @@ class Quantity(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Run(Shown):
-    """A simulated motion at the times t (n,) in s that were reached; the initial state holds at t[0]. `errors` (n,) are the
-    estimated largest errors up to each time, relative to the size of the state, NaN where not known. `horizon` is the time in
-    s from which they exceed the tolerance. `evaluations` counts those of all integrations."""
+    """A simulated motion at the times that were reached.
+
+    Attributes
+    ----------
+    t : Array
+        Times in s, shape (n,); the initial state holds at t[0].
+    errors : Array
+        Estimated largest error up to each time, relative to the size of the state, shape (n,); NaN if it is not known.
+    horizon : float
+        The time in s from which the errors exceed the tolerance; inf if they never do.
+    evaluations : int
+        Evaluations of the right-hand side in all integrations.
+    ending : Ending
+        The reason why the run ended where it did.
+    """
 
     t: Array
     errors: Array
@@ -79,7 +92,7 @@ class Run(Shown):
     @property
     @abstractmethod
     def energy(self) -> Array:
-        """The kinetic and potential energy, including the spins', in J, shape (n,)."""
+        """The sum of kinetic and potential energy in J, shape (n,). The kinetic energy includes that of the spins."""
 
     @abstractmethod
     def quantities(self) -> Mapping[str, Quantity]:
@@ -158,7 +171,7 @@ class Run(Shown):
         Returns
         -------
         pandas.DataFrame
-            Indexed by t in s; pandas must be installed.
+            The table, indexed by t in s; pandas must be installed.
         """
         pandas = optional_package("pandas")
         return pandas.DataFrame(
@@ -171,7 +184,7 @@ class Run(Shown):
         Returns
         -------
         xarray.Dataset
-            Over t in s and the other axes of the quantities; xarray must be installed.
+            The variables over t in s and the other axes of the quantities; xarray must be installed.
         """
         xarray, quantities = optional_package("xarray"), self.quantities()
         places: dict[str, Any] = {"t": ("t", self.t, {"units": "s"})}
@@ -185,8 +198,9 @@ class Run(Shown):
     def save(self, path: str | Path) -> Path:
         """Write the run to a file; the ending of its name chooses the format.
 
-        .npz: times, errors, every quantity, and a description as JSON with a digest, which `load` of the same class reads back.
-        .csv: a column for each component. .png, .svg, .pdf: `plot`. .gif: `animate`.
+        A .npz file holds the times, the errors, every quantity, and a description as JSON with a digest; `load` of the same
+        class reads it back. A .csv file has a column for each component. A .png, .svg or .pdf file holds the figure of `plot`,
+        and a .gif file the film of `animate`.
 
         Parameters
         ----------
@@ -201,7 +215,7 @@ class Run(Shown):
         Raises
         ------
         InputError
-            For another ending of the name.
+            If the name has another ending.
 
         Examples
         --------
@@ -234,7 +248,8 @@ def check_nonempty(where: str, t: Array) -> None:
 
 
 class Saved(NamedTuple):
-    """The contents of a file of `Run.save`: the entries and arrays of the class, and the fields of `Run`."""
+    """The contents of a file that `Run.save` wrote. The entries `about` and the arrays belong to the class of the run;
+    `fields` are those of `Run`."""
 
     about: dict[str, Any]
     arrays: dict[str, Array]
@@ -257,9 +272,9 @@ def read_run(path: str | Path) -> Saved:
     elif not np.isfinite(t).all() or (np.diff(t) < 0).any():  # crossings on an impact's gap have two states at one time
         wrong = "its times decrease"
     elif type(evaluations) is not int or evaluations < 0:
-        wrong = "its number of evaluations is none"
+        wrong = "its number of evaluations is no count"
     elif type(horizon) is not float or (errors < 0).any():
-        wrong = "its errors or its horizon is none"
+        wrong = "its errors are negative, or its horizon is no number"
     if wrong:
         raise InputError(f"load: {path} is no run: {wrong}: give a file that `save` wrote")
     return Saved(

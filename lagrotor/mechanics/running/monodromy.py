@@ -195,7 +195,8 @@ def lyapunov_exponent(run: SampledMotion) -> Lyapunov:
         raise InputError("lyapunov: a run of one sample has no duration: simulate to a later time")
     if not run.switched.smooth:
         raise InputError(
-            "lyapunov: the motion has events or forces that jump: its linearised motion jumps, too, and is not computed"
+            "lyapunov: the motion has events or forces that jump, and its linearised motion, which jumps too, is not "
+            "computed: use forces without jumps"
         )
     program, n = tangent_motion(motion_program(run.system)), run.q.shape[1] + run.u.shape[1]
     parameters, d = parameter_values(program, run.values), len(program.states) // 2

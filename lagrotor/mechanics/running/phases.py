@@ -614,7 +614,7 @@ def _accumulating(history: Mapping[Any, list[float]], past: list[float], span: f
     if len(past) > _AT_ONCE and now - past[-_AT_ONCE] <= 1e-13 * now:
         raise StopError(clock + now, "events follow each other without time between them")
     if sum(map(len, history.values())) > MOST_EVENTS.value:
-        raise StopError(clock + now, f"{MOST_EVENTS.value:,} events", cause="budget")
+        raise StopError(clock + now, f"the run did not end within {MOST_EVENTS.value:,} events", cause="budget")
     return None
 
 
