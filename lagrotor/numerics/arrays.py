@@ -13,8 +13,8 @@ Array = NDArray[np.float64]
 def finite_array(
     where: str, values: ArrayLike, shape: tuple[int, ...] | None = None, kind: type = float
 ) -> NDArray[Any]:
-    """Return a copy of the values as an array of finite numbers, or raise InputError. If a shape is given, the array must
-    have it; −1 in a shape stands for every length but zero."""
+    """Return a copy of the values as an array of finite numbers, or raise InputError. If a shape is given, the array must have
+    it; −1 in a shape stands for every length but zero."""
     try:
         if kind is not complex and np.iscomplexobj(values):
             raise TypeError

@@ -21,9 +21,9 @@ Stage = tuple[sp.Symbol, sp.Expr]
 
 @dataclass(frozen=True)
 class Program:
-    """A straight-line program, arguments → stages → outputs. A stage may use the arguments and the stages before it. If
-    `shared` is true, the stages already share their common parts; then only equal subexpressions are sought, in linear
-    time. The expressions in `positive` are positive where the program is well conditioned."""
+    """A straight-line program, arguments → stages → outputs. A stage may use the arguments and the stages before it. If `shared`
+    is true, the stages already share their common parts; then only equal subexpressions are sought, in linear time. The
+    expressions in `positive` are positive where the program is well conditioned."""
 
     arguments: tuple[sp.Symbol, ...]
     stages: tuple[Stage, ...]
@@ -112,8 +112,8 @@ def operations(program: Program) -> int:
 
 
 def _count(expression: sp.Expr) -> int:
-    """Count the operations of an expression as `sympy.count_ops` does, without its search for a fraction in products that
-    have none."""
+    """Count the operations of an expression as `sympy.count_ops` does, without its search for a fraction in products that have
+    none."""
     stack, count = [expression], 0
     while stack:
         e = stack.pop()
@@ -157,8 +157,8 @@ def tangent_program(
 
 
 def solve_symmetric(matrix: sp.Matrix, right: sp.Matrix, prefix: str) -> tuple[list[Stage], sp.Matrix]:
-    """Solve matrix · x = right by L D Lᵀ without pivoting, for a positive definite matrix. Return the stages of the
-    solution, whose names begin with `prefix`, and x, shape (n, r). Golub & Van Loan, Matrix Computations, 4.1."""
+    """Solve matrix · x = right by L D Lᵀ without pivoting, for a positive definite matrix. Return the stages of the solution,
+    whose names begin with `prefix`, and x, shape (n, r). Golub & Van Loan, Matrix Computations, 4.1."""
     n, columns = right.shape
     stages: list[Stage] = []
 

@@ -82,8 +82,8 @@ def peak(rate: Array, amplitude: Array) -> float:
 
 
 def mean_between(t: Array, x: Array, start: float, end: float) -> Array:
-    """Return the mean of x from time `start` to time `end`, by linear interpolation. For x of shape (n,) it is a number,
-    for (n, k) its shape is (k,)."""
+    """Return the mean of x from time `start` to time `end`, by linear interpolation. For x of shape (n,) it is a number, for (n,
+    k) its shape is (k,)."""
     times = np.linspace(start, end, 400, endpoint=False)
     columns = x.reshape(len(t), -1).T
     return np.array([np.interp(times, t, column).mean() for column in columns]).reshape(x.shape[1:])
@@ -143,8 +143,8 @@ def turn_means(t: Array, tips: Array) -> tuple[Array, Array]:
 @dataclass(frozen=True, eq=False)
 class Harmonics:
     """A fit x(t) ≈ constant + slope (t − t̄) + Re Σ waves_n exp(i n rate (t − t_0)) of k columns of samples. The rate is in
-    rad/s; `constant` and `slope` have the shape (k,). The complex amplitudes of the harmonics 1, 2, … are `waves`, shape
-    (count, k). The samples minus the fit are `residual`, shape (n, k)."""
+    rad/s; `constant` and `slope` have the shape (k,). The complex amplitudes of the harmonics 1, 2, … are `waves`, shape (count,
+    k). The samples minus the fit are `residual`, shape (n, k)."""
 
     rate: float
     constant: Array
@@ -168,9 +168,9 @@ def harmonics_at(t: Array, x: Array, rate: float, count: int = 2) -> Harmonics:
 
 
 def best_harmonics(t: Array, x: Array, guess: float, low: float = 0.8, high: float = 1.3) -> Harmonics:
-    """Fit two harmonics of the rate, between low · guess and high · guess in rad/s, that leaves the least residual. The
-    rate is first sought on a grid; each cell changes the phase over the whole run by a fifth of a turn. Then it is refined
-    near the best grid point."""
+    """Fit two harmonics of the rate, between low · guess and high · guess in rad/s, that leaves the least residual. The rate is
+    first sought on a grid; each cell changes the phase over the whole run by a fifth of a turn. Then it is refined near the best
+    grid point."""
     from scipy.optimize import minimize_scalar
 
     def misfit(rate: float) -> float:

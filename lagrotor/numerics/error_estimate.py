@@ -82,8 +82,7 @@ class Evolution:
 
 
 class Leg(NamedTuple):
-    """The arguments of one call of `Evolution.integrate`. The flag `companion` marks the run that only serves for
-    comparison."""
+    """The arguments of one call of `Evolution.integrate`. The flag `companion` marks the run that only serves for comparison."""
 
     start: Array
     times: Array
@@ -94,9 +93,9 @@ class Leg(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class EstimatedRun:
-    """A run with its estimated errors: states (n, d) and the largest error up to each time (n,), at the times (n,) in s
-    that were reached. The horizon is the time in s from which the errors exceed tol. The ending says why the run ended, and
-    `local` is the local error of the better of two integrations."""
+    """A run with its estimated errors: states (n, d) and the largest error up to each time (n,), at the times (n,) in s that were
+    reached. The horizon is the time in s from which the errors exceed tol. The ending says why the run ended, and `local` is the
+    local error of the better of two integrations."""
 
     t: Array
     states: Array
@@ -122,8 +121,8 @@ class EstimatedRun:
         return replace(self, ending=ending, **changes)
 
     def warn_unless_kept(self, name: str, tol: float, stacklevel: int = 2, hint: str = "") -> None:
-        """Warn if the error exceeds `tol` or the run ended early. The run is called `name`, and `hint` adds a possible
-        cause and a remedy."""
+        """Warn if the error exceeds `tol` or the run ended early. The run is called `name`, and `hint` adds a possible cause and
+        a remedy."""
         sentences, error = [], float(self.errors[-1])
         if error > tol:
             apart = error / self.local
@@ -155,9 +154,9 @@ class _Integration:
 
 @dataclass(frozen=True, eq=False)
 class _Pair:
-    """Two integrations that are compared, the looser and the tighter one. The largest errors up to each common time are
-    `errors` (m,). From the time `lost` on they exceed LOST. A `refusal` says why the tighter integration is not the motion
-    up to its last time."""
+    """Two integrations that are compared, the looser and the tighter one. The largest errors up to each common time are `errors`
+    (m,). From the time `lost` on they exceed LOST. A `refusal` says why the tighter integration is not the motion up to its last
+    time."""
 
     loose: _Integration
     tight: _Integration
@@ -192,8 +191,8 @@ class _Course:
         self.integrations: dict[tuple[float, bool], _Integration] = {}
 
     def integration(self, local: float, companion: bool) -> Generator[Leg, Stretch, _Integration]:
-        """Return the integration at a local error, computed only once. A companion, which only serves for comparison,
-        starts from a perturbed state."""
+        """Return the integration at a local error, computed only once. A companion, which only serves for comparison, starts from
+        a perturbed state."""
         evolution = self.evolution
         if run := self.integrations.get((local, companion)):
             return run
@@ -269,9 +268,9 @@ def estimate_runs(
 
 
 def _requests(evolution: Evolution, times: Array, tol: float) -> Generator[Leg, Stretch, EstimatedRun]:
-    """Yield the integrations of pairs until a pair keeps `tol`, then return the run. The first pair has the largest useful
-    local error, and the next pair the local error that the estimate requires. In a short run local errors add up to less,
-    so the first one is larger. After a refusal looser pairs follow, up to the local error GIVEN_UP."""
+    """Yield the integrations of pairs until a pair keeps `tol`, then return the run. The first pair has the largest useful local
+    error, and the next pair the local error that the estimate requires. In a short run local errors add up to less, so the first
+    one is larger. After a refusal looser pairs follow, up to the local error GIVEN_UP."""
     course = _Course(evolution, times)
     turns = float(course.turns[-1])
     unavoidable = ROUNDING.value * (START.value + turns)
@@ -314,8 +313,8 @@ def _at_singular(refusal: IntegrationError) -> bool:
 
 
 def _compare(course: _Course, local: float, companion: bool) -> Generator[Leg, Stretch, _Pair]:
-    """Return the pair of the integrations at the given local error and at 1/APART of it, with its errors. The tighter
-    integration is refused if its conserved quantities change by far more than the estimated error explains."""
+    """Return the pair of the integrations at the given local error and at 1/APART of it, with its errors. The tighter integration
+    is refused if its conserved quantities change by far more than the estimated error explains."""
     evolution = course.evolution
     loose = yield from course.integration(local, companion)
     # Another model or a looser pair is tried next, so the tighter integration is not needed.
@@ -361,9 +360,9 @@ def _compare(course: _Course, local: float, companion: bool) -> Generator[Leg, S
 
 
 def _shared_error_factor(defects: Sequence[Array], rounding: float) -> float:
-    """Return the factor, at least 1, of the estimate for an error that both runs share, so that their difference hides it.
-    It follows from the conserved quantities of both runs, unless their change is mostly rounding. SAFETY covers an error of
-    the better run up to half the difference."""
+    """Return the factor, at least 1, of the estimate for an error that both runs share, so that their difference hides it. It
+    follows from the conserved quantities of both runs, unless their change is mostly rounding. SAFETY covers an error of the
+    better run up to half the difference."""
     if not defects or _largest(defects[1]) < 10 * rounding:
         return 1.0
     return max(1.0, 2 * _largest(defects[1]) / max(_largest(defects[1] - defects[0]), rounding))
@@ -374,10 +373,10 @@ def _largest(values: Array) -> float:
 
 
 def errors_up_to(t: Array, errors: Array, turn: float, sudden: bool = False) -> Array:
-    """Return the largest error up to each time t (n,), shape (n,), for a motion with the typical period `turn` in s. Two
-    runs that separate cross each other, so the maximum includes the next part of a swing. Errors grow as a power of time or
-    as e^(λt), so their logarithm is concave, although two runs may be close by chance. The result is therefore the least
-    concave curve above the logarithm, unless motions separate suddenly."""
+    """Return the largest error up to each time t (n,), shape (n,), for a motion with the typical period `turn` in s. Two runs
+    that separate cross each other, so the maximum includes the next part of a swing. Errors grow as a power of time or as e^(λt),
+    so their logarithm is concave, although two runs may be close by chance. The result is therefore the least concave curve above
+    the logarithm, unless motions separate suddenly."""
     grown = np.maximum.accumulate(errors)
     grown[1:] = grown[np.searchsorted(t, t[1:] + SWING.value * turn, side="right") - 1]
     if sudden or not (grown[0] > 0 and np.isfinite(grown).all()):
@@ -416,9 +415,9 @@ def first_time(t: Array, where: NDArray[np.bool_]) -> float:
 
 
 def _hopeless(course: _Course, pair: _Pair) -> bool:
-    """Return True if two integrations separated so fast that no tolerance keeps the error below LOST to the end. The
-    difference grew as e^(λt) or as a power of t. It reached LOST at the time `lost`, and half of that growth in logarithms
-    at `early`. The tightest tolerance moves `lost` at most to the later of the two times that these laws predict."""
+    """Return True if two integrations separated so fast that no tolerance keeps the error below LOST to the end. The difference
+    grew as e^(λt) or as a power of t. It reached LOST at the time `lost`, and half of that growth in logarithms at `early`. The
+    tightest tolerance moves `lost` at most to the later of the two times that these laws predict."""
     local, begin = pair.loose.local, float(course.times[0])
     grown, tighter = log(LOST.value / local), log(local / TIGHTEST)
     if pair.lost == inf or grown <= 0:

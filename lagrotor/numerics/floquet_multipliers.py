@@ -18,9 +18,9 @@ _APART = 1e-12  # entry of a direction below which two blocks count as separated
 
 
 def product_eigenvalues(factors: Sequence[Array], error: float) -> tuple[NDArray[np.complex128], Array]:
-    """Return the eigenvalues (n,) of a product of matrices (n, n), and their errors (n,); the first factor acts first.
-    Orthogonal iteration makes the factors block triangular. A block has eigenvalues of nearly equal modulus, so that no
-    larger one hides them. `error` is the relative error of each factor, or its absolute error if its norm is below one."""
+    """Return the eigenvalues (n,) of a product of matrices (n, n), and their errors (n,); the first factor acts first. Orthogonal
+    iteration makes the factors block triangular. A block has eigenvalues of nearly equal modulus, so that no larger one hides
+    them. `error` is the relative error of each factor, or its absolute error if its norm is below one."""
     start, n = np.eye(len(factors[0])), len(factors[0])
     for _ in range(_SWEEPS):
         basis, triangles = start, list[tuple[Array, float]]()
@@ -45,8 +45,8 @@ def product_eigenvalues(factors: Sequence[Array], error: float) -> tuple[NDArray
 
 
 def resolved_multipliers(values: NDArray[np.complex128], errors: Array) -> tuple[NDArray[np.complex128], Array]:
-    """Return the multipliers and their errors. A multiplier below its error becomes NaN, and its error an upper bound of
-    its modulus."""
+    """Return the multipliers and their errors. A multiplier below its error becomes NaN, and its error an upper bound of its
+    modulus."""
     below = ~(np.abs(values) > errors)
     return np.where(below, complex(np.nan, np.nan), values), np.where(below, np.abs(values) + errors, errors)
 

@@ -28,8 +28,8 @@ Engine = Literal["core", "fast"]
 
 @dataclass(frozen=True)
 class Problem:
-    """The initial value problem y' = free(s, y) with s = t − at, and y = start at t = `begin`. Within the windows,
-    driven(s, y) takes the place of free(s, y)."""
+    """The initial value problem y' = free(s, y) with s = t − at, and y = start at t = `begin`. Within the windows, driven(s, y)
+    takes the place of free(s, y)."""
 
     free: RightHandSide
     start: Array
@@ -63,10 +63,9 @@ def check_progress(progress: object) -> None:
 
 
 def integrate(problem: Problem, times: Array, tol: float, solver: SegmentSolver | None = None) -> Stretch:
-    """Integrate from `begin` through increasing times (n,) in s with the local error `tol`, by the given solver or the
-    fastest one of the core. In the time s = t − at, a pulse far shorter than the spacing of doubles near `at` is resolved.
-    The run is cut at the edges of its windows, so that no tolerance can miss a brief force. A StopError holds the states up
-    to the stop."""
+    """Integrate from `begin` through increasing times (n,) in s with the local error `tol`, by the given solver or the fastest
+    one of the core. In the time s = t − at, a pulse far shorter than the spacing of doubles near `at` is resolved. The run is cut
+    at the edges of its windows, so that no tolerance can miss a brief force. A StopError holds the states up to the stop."""
     t_eval = times - problem.at
     begin, end = problem.begin - problem.at, float(t_eval[-1])
     y, evaluations = problem.start, 0

@@ -16,8 +16,7 @@ _LONGEST = 160  # characters from which an expression gets a name
 @dataclass(eq=False)
 class Recorded:
     """The result of a recorded operation. Its kind is "+", "-", "*", "/", "neg" or the name of a function of the operands;
-    without operands it is the name of an argument. The tape holds all results of one record in the order of their
-    computation."""
+    without operands it is the name of an argument. The tape holds all results of one record in the order of their computation."""
 
     tape: list[Recorded] = field(repr=False)
     kind: str

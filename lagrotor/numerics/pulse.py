@@ -58,11 +58,11 @@ def segments(begin: float, end: float, windows: Sequence[Window]) -> Iterator[Wi
 
 
 def brief_windows(functions: Callable[[Array], Array], begin: float, end: float) -> tuple[Window, ...]:
-    """Find the windows of time in which functions of t, times (n,) → values (k, n), change faster than in most of the run.
-    A cell of the run is smooth if a polynomial of degree 4 fits the function to 10⁻⁶ of its range. The cells are doubled as
-    long as most of them are smooth; each other cell becomes a window. The longest step in a window is its length, or in the
-    smallest cells the time of the fastest change. Changes inside a window are removed before cells are doubled, because all
-    larger cells would contain them."""
+    """Find the windows of time in which functions of t, times (n,) → values (k, n), change faster than in most of the run. A cell
+    of the run is smooth if a polynomial of degree 4 fits the function to 10⁻⁶ of its range. The cells are doubled as long as most
+    of them are smooth; each other cell becomes a window. The longest step in a window is its length, or in the smallest cells the
+    time of the fastest change. Changes inside a window are removed before cells are doubled, because all larger cells would
+    contain them."""
     import numpy as np  # imported late: a scene needs only the reach of a pulse
 
     if not begin < end:
@@ -93,8 +93,8 @@ def _merged(first: Window, second: Window) -> Window | None:
 
 
 def _longest_steps(values: Array) -> Array:
-    """Return the longest step in each interval for one function, shape (_LOOKS,), in units of an interval; inf where the
-    function is smooth."""
+    """Return the longest step in each interval for one function, shape (_LOOKS,), in units of an interval; inf where the function
+    is smooth."""
     import numpy as np
 
     longest, finite = np.full(_LOOKS, np.inf), np.flatnonzero(np.isfinite(values))

@@ -28,8 +28,7 @@ _SAYS = {
 
 @dataclass(frozen=True)
 class Ending:
-    """The ending of a run: its kind, one of _SAYS, the time `at` in s if it differs from the last time, and a reason in
-    words."""
+    """The ending of a run: its kind, one of _SAYS, the time `at` in s if it differs from the last time, and a reason in words."""
 
     kind: Literal["end", "lost", "budget", "singular", "event", "stopped"] = "end"
     at: float = inf
@@ -248,8 +247,8 @@ def check_nonempty(where: str, t: Array) -> None:
 
 
 class Saved(NamedTuple):
-    """The contents of a file that `Run.save` wrote. The entries `about` and the arrays belong to the class of the run;
-    `fields` are those of `Run`."""
+    """The contents of a file that `Run.save` wrote. The entries `about` and the arrays belong to the class of the run; `fields`
+    are those of `Run`."""
 
     about: dict[str, Any]
     arrays: dict[str, Array]

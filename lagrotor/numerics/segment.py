@@ -17,10 +17,10 @@ LOST = ValueError, ZeroDivisionError, OverflowError  # raised by arithmetic outs
 
 @dataclass(frozen=True)
 class Segment:
-    """The problem y' = rhs(s, y) from the state `start` at the time `begin` to `until`, with states at the times `t_eval`.
-    No step is longer than `longest`, or than half the time from its first state to a singular position. The function
-    `project` brings a state (d,), or states (d, n), back onto the constraints. The solver stops after `budget` evaluations.
-    The typical rate in rad/s bounds the first step."""
+    """The problem y' = rhs(s, y) from the state `start` at the time `begin` to `until`, with states at the times `t_eval`. No
+    step is longer than `longest`, or than half the time from its first state to a singular position. The function `project`
+    brings a state (d,), or states (d, n), back onto the constraints. The solver stops after `budget` evaluations. The typical
+    rate in rad/s bounds the first step."""
 
     rhs: RightHandSide
     start: Array
@@ -45,8 +45,8 @@ class Segment:
 
 @dataclass(frozen=True, eq=False)
 class Stretch:
-    """A motion computed by a solver: states (n, d) at the first n of the requested times, the last state (d,) and the
-    number of evaluations. All times are reached unless the solver stopped. At the times `jumps` an event changed the state."""
+    """A motion computed by a solver: states (n, d) at the first n of the requested times, the last state (d,) and the number of
+    evaluations. All times are reached unless the solver stopped. At the times `jumps` an event changed the state."""
 
     states: Array
     end: Array
@@ -125,8 +125,8 @@ def states_on_constraints(project: Projection | None, states: Array) -> Array:
 
 class StopError(IntegrationError):
     """A solver stopped at the time `at` in s; within a solver this is the segment's own time. The cause is budget (the
-    evaluations are spent), singular (a singular position was measured), event (an event ends the run), or stopped (the
-    solver cannot continue and gives only its reason). `reached` is the motion up to the stop, with its last state."""
+    evaluations are spent), singular (a singular position was measured), event (an event ends the run), or stopped (the solver
+    cannot continue and gives only its reason). `reached` is the motion up to the stop, with its last state."""
 
     def __init__(
         self,

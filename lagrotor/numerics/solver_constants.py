@@ -7,8 +7,8 @@ Value = TypeVar("Value", float, tuple[float, ...])
 
 
 class Calibrated(NamedTuple, Generic[Value]):
-    """A number, or factors c_1, c_2, …, that was found by trial. `of` is its meaning, `on` the runs on which it was found,
-    and `test` the test that fails for wrong values."""
+    """A number, or factors c_1, c_2, …, that was found by trial. `of` is its meaning, `on` the runs on which it was found, and
+    `test` the test that fails for wrong values."""
 
     value: Value
     of: str

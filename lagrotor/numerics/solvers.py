@@ -106,10 +106,9 @@ def dop853(segment: Segment, error: float) -> Stretch:
 
 
 def lsoda(segment: Segment, error: float) -> Stretch:
-    """Solve the segment by LSODA, with `error` as relative and absolute local error. The first step does not depend on the
-    first output time, so that outputs do not change the run. With constraints the run is interrupted about once a turn and
-    the state projected. Otherwise the violation of the constraints may grow exponentially, as it does for axes under
-    pressure."""
+    """Solve the segment by LSODA, with `error` as relative and absolute local error. The first step does not depend on the first
+    output time, so that outputs do not change the run. With constraints the run is interrupted about once a turn and the state
+    projected. Otherwise the violation of the constraints may grow exponentially, as it does for axes under pressure."""
     if segment.project is None:
         return _lsoda(segment, error)
     now, y, evaluations, longest_cut = segment.begin, segment.start, 0, np.inf
@@ -258,18 +257,18 @@ def _successful(states: Array, log: dict[str, Any]) -> bool:
 
 
 def adams_order(error: float) -> int:
-    """Return the order of the Adams pair for a local error. A higher order needs fewer steps for accuracy, but shorter ones
-    for stability."""
+    """Return the order of the Adams pair for a local error. A higher order needs fewer steps for accuracy, but shorter ones for
+    stability."""
     return 10 if error >= 1e-10 else 12
 
 
 @lru_cache(maxsize=8)
 def adams_weights(q: int) -> tuple[Array, Array, Array, Array]:
-    """Return the weights A, B, S, P of an Adams pair of q nodes, computed exactly from the Lagrange polynomials l_j and
-    then rounded. A are integrals over the step after the last node (Adams–Bashforth), B over the step before it
-    (Adams–Moulton). Both have the shape (2, q): the rounded weights, and their rounding error, which all steps of all runs
-    would otherwise share. S (q, q) are the integrals from the first node to each node. P (q, q + 1) are the coefficients of
-    the integral of l_j from node q // 2, as a polynomial in the number of steps."""
+    """Return the weights A, B, S, P of an Adams pair of q nodes, computed exactly from the Lagrange polynomials l_j and then
+    rounded. A are integrals over the step after the last node (Adams–Bashforth), B over the step before it (Adams–Moulton). Both
+    have the shape (2, q): the rounded weights, and their rounding error, which all steps of all runs would otherwise share. S (q,
+    q) are the integrals from the first node to each node. P (q, q + 1) are the coefficients of the integral of l_j from node q //
+    2, as a polynomial in the number of steps."""
     middle, last = q // 2, q - 1 - q // 2
     nodes = [i - middle for i in range(q)]
     rows = []
@@ -295,8 +294,8 @@ def adams_weights(q: int) -> tuple[Array, Array, Array, Array]:
 
 @dataclass(frozen=True)
 class _Piece:
-    """A run of n equal steps h from the time t, by the Adams pair of order q. `states` and their rates y' in `velocities`
-    have the shape (n + 1, d). The next step is `change` times as long."""
+    """A run of n equal steps h from the time t, by the Adams pair of order q. `states` and their rates y' in `velocities` have
+    the shape (n + 1, d). The next step is `change` times as long."""
 
     q: int
     t: float
@@ -318,9 +317,9 @@ class _Piece:
 
 
 def _piece(segment: Segment, q: int, y: Array, t: float, h: float, steps: int, limit: float) -> _Piece:
-    """Take equal steps h until `steps` are made, or until h proves too long (change < 1) or needlessly short (change > 1).
-    A step predicts, evaluates, corrects and evaluates. It keeps (corrector − predictor)/h below `limit` (Hairer, Nørsett &
-    Wanner, III.1)."""
+    """Take equal steps h until `steps` are made, or until h proves too long (change < 1) or needlessly short (change > 1). A step
+    predicts, evaluates, corrects and evaluates. It keeps (corrector − predictor)/h below `limit` (Hairer, Nørsett & Wanner,
+    III.1)."""
     rhs = segment.rhs
     A, B, _, _ = adams_weights(q)
     states, velocities, differences = np.empty((3, steps + 1, len(y)))
@@ -363,8 +362,8 @@ def _piece(segment: Segment, q: int, y: Array, t: float, h: float, steps: int, l
 def _first_nodes(
     segment: Segment, q: int, y: Array, t: float, h: float, states: Array, velocities: Array
 ) -> tuple[int, bool]:
-    """Compute the first q states and rates by iterating the integral equation of the motion. Return the number of
-    evaluations, and True if the iteration converged."""
+    """Compute the first q states and rates by iterating the integral equation of the motion. Return the number of evaluations,
+    and True if the iteration converged."""
     S, size = h * adams_weights(q)[2], 1 + np.abs(y).max()
     states[:], velocities[:] = y, segment.rhs(t, y)
     evaluations = 1
@@ -381,9 +380,9 @@ def _first_nodes(
 
 
 def adams(segment: Segment, error: float) -> Stretch:
-    """Solve the segment by the Adams predictor and corrector in equal steps, whose length follows from the difference of
-    the two. Raise StopError if the cost far exceeds the completed share of the budget, or if shorter steps have no smaller
-    error. In the latter case the right-hand side is not accurate enough."""
+    """Solve the segment by the Adams predictor and corrector in equal steps, whose length follows from the difference of the two.
+    Raise StopError if the cost far exceeds the completed share of the budget, or if shorter steps have no smaller error. In the
+    latter case the right-hand side is not accurate enough."""
     t_eval, right, y, t, longest = segment.t_eval, segment.until, segment.start, segment.begin, segment.longest
     q, limit = adams_order(error), min(100 * error, 1e-3)  # at order 10, steps with a larger difference are unstable
     h = min(

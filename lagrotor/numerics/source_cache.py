@@ -21,8 +21,8 @@ _MOST = 64  # functions of one kind in the memory of a process
 
 @dataclass(frozen=True, eq=False)
 class GeneratedFunction:
-    """A function whose source is returned by `derive`, as the last definition of the text. For the arguments in `cases` the
-    text is stored in a file."""
+    """A function whose source is returned by `derive`, as the last definition of the text. For the arguments in `cases` the text
+    is stored in a file."""
 
     derive: Callable[..., str]
     cases: tuple[tuple[Any, ...], ...]

@@ -111,11 +111,11 @@ def _compiled_function(program: Program) -> Any:
 def taylor_solver(
     generated: Generated, order: int, longest_between: float = np.inf, angles: tuple[int, ...] = ()
 ) -> SegmentSolver:
-    """Return a solver of segments by heyoka. Its number of evaluations is steps times order. The function `generated` takes
-    True in a pulse, otherwise False, and returns the program and the values of its parameters. In a pulse the last three
-    parameters are the peaks of a force exp(−(s/width)²), and the value of `width` follows them. States are projected at
-    least every `longest_between` seconds. The states with the indices `angles`, like cyclic ones, may grow without end;
-    since their rates are states too, the error of these bounds theirs."""
+    """Return a solver of segments by heyoka. Its number of evaluations is steps times order. The function `generated` takes True
+    in a pulse, otherwise False, and returns the program and the values of its parameters. In a pulse the last three parameters
+    are the peaks of a force exp(−(s/width)²), and the value of `width` follows them. States are projected at least every
+    `longest_between` seconds. The states with the indices `angles`, like cyclic ones, may grow without end; since their rates are
+    states too, the error of these bounds theirs."""
     heyoka_module()
 
     def solve(segment: Segment, pulsed: bool, tol: float) -> Stretch:
@@ -142,8 +142,8 @@ def taylor_solver(
 
 
 def march_lanes(program: Program, parameters: Array, legs: Mapping[int, Leg]) -> dict[int, Stretch | StopError]:
-    """Integrate the legs of an autonomous motion, each with its own column of the parameters (p, n). Eight legs are
-    integrated at once, each with its own steps. Return a stretch or a stop for each number."""
+    """Integrate the legs of an autonomous motion, each with its own column of the parameters (p, n). Eight legs are integrated at
+    once, each with its own steps. Return a stretch or a stop for each number."""
     answers: dict[int, Stretch | StopError] = {}
     orders: dict[int, list[int]] = {}
     for i, leg in legs.items():
@@ -216,15 +216,15 @@ def _solver(
 
 
 def taylor_order(tol: float, companion: bool = False) -> int:
-    """Return the order that is cheapest for a local error. Orders from 7 to 19 were tried with the displaced pair; the code
-    of higher orders does not fit a cache. A companion has another order, since equal states may give equal steps. At the
-    tightest errors both orders are even: the phase error of an even order grows as t, that of an odd order as t²."""
+    """Return the order that is cheapest for a local error. Orders from 7 to 19 were tried with the displaced pair; the code of
+    higher orders does not fit a cache. A companion has another order, since equal states may give equal steps. At the tightest
+    errors both orders are even: the phase error of an even order grows as t, that of an odd order as t²."""
     return (10 if tol >= 1e-7 else 14) - companion if tol >= 1e-11 else 16 + 2 * companion
 
 
 def compiled_solver(equations: Sequence[tuple[Any, Any]], order: int, lanes: int = 1, compact: bool = True) -> Any:
-    """Compile the integrator of (variable, rate) pairs; its state has one more component, a constant. Compact code keeps
-    its loops, so that it compiles many times faster and runs a little slower."""
+    """Compile the integrator of (variable, rate) pairs; its state has one more component, a constant. Compact code keeps its
+    loops, so that it compiles many times faster and runs a little slower."""
     heyoka = heyoka_module()
     equations = [*equations, (heyoka.make_vars("size"), heyoka.expression(0.0))]
     settings = {"tol": _compiled_for(order), "fast_math": True}
@@ -250,10 +250,10 @@ def taylor_march(
     longest: float = np.inf,
     after_step: Callable[[Any], bool] | None = None,
 ) -> Stretch:
-    """Integrate from the state y (d,), and return the states (n, d) at the times within the span. The number of evaluations
-    is steps times order. The constant component has the value `size`, and no step is longer than `longest`. The state is
-    projected at least every `longest_between` seconds. After each step `after_step` is called with the solver; the run
-    stops if it returns False."""
+    """Integrate from the state y (d,), and return the states (n, d) at the times within the span. The number of evaluations is
+    steps times order. The constant component has the value `size`, and no step is longer than `longest`. The state is projected
+    at least every `longest_between` seconds. After each step `after_step` is called with the solver; the run stops if it returns
+    False."""
     (now, end), pieces, steps = span, [np.empty((0, len(y)))], 0
     options: dict[str, Any] = {"max_delta_t": longest, "max_steps": _MOST_STEPS}
     options |= {} if after_step is None else {"callback": after_step}

@@ -50,8 +50,8 @@ class Zeros:
 def zeros_between(
     functions: Functions, lower: float, upper: float, touch: Array | float = 0.0, noise: Array | float = 0.0
 ) -> Zeros:
-    """Find the zeros of k functions in an interval. A turning point within `touch` of zero, a number or shape (k,), counts
-    as a zero. The values have the rounding error `noise`, which no halving of the interval resolves."""
+    """Find the zeros of k functions in an interval. A turning point within `touch` of zero, a number or shape (k,), counts as a
+    zero. The values have the rounding error `noise`, which no halving of the interval resolves."""
     roots: list[tuple[float, int, int]] = []
     hidden = _search(functions, lower, upper, touch, noise, roots, _HALVINGS)
     roots = _distinct(sorted(roots), _SLACK * (upper - lower))
@@ -65,15 +65,15 @@ def chebyshev_nodes(edges: Array) -> Array:
 
 
 def may_vanish(values: Array, touch: Array | float = 0.0, noise: Array | float = 0.0) -> NDArray[np.bool_]:
-    """Return an array (k,) for k functions with values (k, m) at the nodes. An element is True if the function's Chebyshev
-    series may have a zero and is not zero everywhere."""
+    """Return an array (k,) for k functions with values (k, m) at the nodes. An element is True if the function's Chebyshev series
+    may have a zero and is not zero everywhere."""
     size = np.abs(values @ _SERIES.T)
     return (size[:, 0] <= size[:, 1:].sum(1) + touch) & (np.abs(values).max(1) > touch + noise)
 
 
 def interpolant(length: float, values: Array) -> tuple[Callable[[Array], Array], Array]:
-    """Return the polynomial through values (m, d) at the nodes of [0, length]. Return also the size of its last
-    coefficients (d,), which is small if the polynomial resolves the curve."""
+    """Return the polynomial through values (m, d) at the nodes of [0, length]. Return also the size of its last coefficients
+    (d,), which is small if the polynomial resolves the curve."""
     series = _SERIES @ values
 
     def curve(times: Array) -> Array:
@@ -131,8 +131,8 @@ def _zeros_of(series: Array, touch: float) -> list[tuple[float, int]]:
 
 
 def _keeps_its_sign(series: Array) -> bool:
-    """Return True if the constant term outweighs all others, so that there is no zero in [−1, 1] or slightly beyond. There
-    |T_k| ≤ cosh(k √(2 · 10⁻⁶))."""
+    """Return True if the constant term outweighs all others, so that there is no zero in [−1, 1] or slightly beyond. There |T_k|
+    ≤ cosh(k √(2 · 10⁻⁶))."""
     return bool(abs(series[0]) > 1.001 * np.abs(series[1:]).sum())
 
 

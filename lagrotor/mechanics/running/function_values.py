@@ -1,8 +1,8 @@
 """Values of unknown functions in a Lagrangian, a force or a constraint: U(r), a support y_s(t), a control u(t).
 
 A value may be an expression, which is substituted before the equations are derived. It may be a callable, or a tuple of
-callables for the function and its derivatives. It may also be a table (x, y) or a spline of scipy. A table is interpolated
-by a cubic spline (de Boor, A Practical Guide to Splines, ch. IV).
+callables for the function and its derivatives. It may also be a table (x, y) or a spline of scipy. A table is interpolated by a
+cubic spline (de Boor, A Practical Guide to Splines, ch. IV).
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -43,8 +43,8 @@ class FunctionValue:
     spline: Any = None
 
     def jet(self, where: str, orders: Orders) -> Callable[..., Any]:
-        """Return the derivative of these orders as a function of numbers or arrays. It also takes small imaginary parts, so
-        that a complex step can differentiate it."""
+        """Return the derivative of these orders as a function of numbers or arrays. It also takes small imaginary parts, so that
+        a complex step can differentiate it."""
         f = self._known(where, orders)
 
         def one(*at: float) -> float:
@@ -93,9 +93,8 @@ def jet_name(name: str, orders: Orders) -> str:
 
 
 def put_functions(where: str, system: Kind, values: Any, others: Sequence[sp.Expr] = ()) -> tuple[Kind, Any]:
-    """Substitute the functions whose values are expressions into the system. Return the system and all values: a number for
-    each symbol, a `Lambda` or `FunctionValue` for each function. `others` are further expressions that may contain
-    functions."""
+    """Substitute the functions whose values are expressions into the system. Return the system and all values: a number for each
+    symbol, a `Lambda` or `FunctionValue` for each function. `others` are further expressions that may contain functions."""
     energy = system.L if system.bodies else system.lagrangian
     expressions = [energy, *system.acting, *(e for _, e in system.velocities), *others]
     applied = unknown_functions(expressions)
@@ -142,8 +141,8 @@ def put_functions(where: str, system: Kind, values: Any, others: Sequence[sp.Exp
 
 
 def _by_function(where: str, key: Any, value: Any) -> tuple[Any, Any]:
-    """Split an entry U(x): value into U and Lambda(x, value), or into U and the value if it is no expression. Return an
-    entry with any other key unchanged."""
+    """Split an entry U(x): value into U and Lambda(x, value), or into U and the value if it is no expression. Return an entry
+    with any other key unchanged."""
     if not isinstance(key, AppliedUndef):
         return key, value
     if not all(a.is_Symbol for a in key.args) or len({*key.args}) < len(key.args):
@@ -192,8 +191,8 @@ def with_values(e: sp.Expr, values: Mapping[Any, Any]) -> sp.Expr:
 
 
 def _value(where: str, name: str, places: set[tuple[sp.Expr, ...]], value: Any) -> sp.Lambda | FunctionValue:
-    """Convert the value of a function to a `Lambda` if it is an expression, or to a `FunctionValue` if it is numerical.
-    `places` are the arguments with which the function occurs in the system."""
+    """Convert the value of a function to a `Lambda` if it is an expression, or to a `FunctionValue` if it is numerical. `places`
+    are the arguments with which the function occurs in the system."""
     count = len(next(iter(places)))
     if isinstance(value, FunctionValue):
         return value

@@ -1,7 +1,7 @@
 """The initial state of a run: checks of values, positions and velocities, and the nearest state on the constraints.
 
-Each value must belong to a symbol of the system and have the sign with which the symbol was declared. Bodies must have
-possible masses, and friction must dissipate energy. The mass matrix and the constraints must determine the accelerations.
+Each value must belong to a symbol of the system and have the sign with which the symbol was declared. Bodies must have possible
+masses, and friction must dissipate energy. The mass matrix and the constraints must determine the accelerations.
 """
 
 from collections.abc import Iterable, Mapping
@@ -41,8 +41,8 @@ _LEAST_NORM = 1e-3  # least norm of a quaternion that can be scaled to norm 1
 
 
 def check_values(where: str, system: Equations, values: Values, others: Iterable[sp.Expr] = ()) -> None:
-    """Raise InputError for an unknown name, a value of the wrong sign, or an impossible body or friction. A key that is a
-    symbol of another system is ignored, so that several systems can share one dictionary."""
+    """Raise InputError for an unknown name, a value of the wrong sign, or an impossible body or friction. A key that is a symbol
+    of another system is ignored, so that several systems can share one dictionary."""
     if not isinstance(values, Mapping):
         raise InputError(f"{where}: values = {values!r} must be {{symbol: number, …}}, a dictionary")
     moving = {*system.c.q, *system.c.v, *system.c.a, *system.speeds, time}
@@ -111,8 +111,8 @@ def check_pole(where: str, system: Equations, values: Values, state: Array) -> N
 
 
 def check_inertia(where: str, system: Equations, values: Values, state: Array) -> None:
-    """Raise SingularError if the mass matrix M and the constraints do not determine the accelerations at the state. Warn if
-    the kinetic energy of some velocities is negative."""
+    """Raise SingularError if the mass matrix M and the constraints do not determine the accelerations at the state. Warn if the
+    kinetic energy of some velocities is negative."""
     M = mass_at(system, values, state)
     G = rows_at(system, values, state)
     size = np.sqrt(np.abs(np.diag(M)))
@@ -183,11 +183,10 @@ def consistent(
 
 
 def rounding_of_start(system: Equations, values: Values, start: Array, t: float, duration: float = 1.0) -> Array:
-    """Return, for each component of an initial state (q, u), the distance from the constraints that counts as rounding,
-    shape (N + m,). It is 10⁻⁷ (1 + max |start|), or 10⁻⁵ of the component's size if that is less. The size of a coordinate
-    x_k is max_j √M_jj |x_j| / √M_kk, since the mass metric makes metres and radians comparable. For quasi-velocities M is
-    replaced by 1. The size of a velocity is at least the size of its coordinate divided by the duration, or by one second
-    if the run is longer."""
+    """Return, for each component of an initial state (q, u), the distance from the constraints that counts as rounding, shape (N
+    + m,). It is 10⁻⁷ (1 + max |start|), or 10⁻⁵ of the component's size if that is less. The size of a coordinate x_k is max_j
+    √M_jj |x_j| / √M_kk, since the mass metric makes metres and radians comparable. For quasi-velocities M is replaced by 1. The
+    size of a velocity is at least the size of its coordinate divided by the duration, or by one second if the run is longer."""
     n, m, program, weight = len(system.c.q), len(system.speeds), start_program(system), np.ones(1)
     if system.kinematics is None:
         with np.errstate(all="ignore"):
@@ -203,16 +202,15 @@ def rounding_of_start(system: Equations, values: Values, start: Array, t: float,
 
 
 def metric(mass: Array, slope: Array) -> Array:
-    """Return a regular metric for projections: M if it is regular, else M + Gᵀ W G with the weights W of
-    `programs.inertia`. The rows G of the constraints are `slope`."""
+    """Return a regular metric for projections: M if it is regular, else M + Gᵀ W G with the weights W of `programs.inertia`. The
+    rows G of the constraints are `slope`."""
     if not len(slope) or np.linalg.matrix_rank(mass, hermitian=True) == len(mass):
         return mass
     return np.asarray(mass + slope.T / np.square(slope).sum(1) @ slope * np.trace(mass) / len(mass))
 
 
 def state_vector(where: str, name: str, numbers: ArrayLike, n: int, system: Equations | None = None) -> Array:
-    """Check that `numbers` are n finite numbers, and return them, shape (n,). If a system is given, they are its
-    velocities."""
+    """Check that `numbers` are n finite numbers, and return them, shape (n,). If a system is given, they are its velocities."""
     vector = real_array(numbers)
     if vector is None:
         raise InputError(f"{where}: {name} = {numbers!r} must be {n} numbers")

@@ -1,11 +1,11 @@
 """Small displacements: Floquet multipliers of a periodic motion, the Lyapunov exponent of a motion.
 
-For s' = f(s, t) of period T, δs(T) = Φ δs(0) with Φ' = (∂f/∂s) Φ and Φ(0) = 1. Under constraints, displacements lie in
-their tangent space (see `state_space`). The Floquet multipliers are the eigenvalues of Φ; displacements grow if the modulus
-of one exceeds 1. If the time does not enter explicitly, one multiplier is 1, and belongs to a shift along the orbit. Nayfeh
-& Mook, Nonlinear Oscillations, 5.2. Rounding of Φ hides multipliers below 10⁻¹² of the largest. The period is then cut into
-pieces, and the periodic Schur form of their matrices resolves each multiplier (Bojanczyk, Golub & Van Dooren 1992). The
-Lyapunov exponent is computed from the motion linearised along a run (Benettin, Galgani, Giorgilli & Strelcyn 1980).
+For s' = f(s, t) of period T, δs(T) = Φ δs(0) with Φ' = (∂f/∂s) Φ and Φ(0) = 1. Under constraints, displacements lie in their
+tangent space (see `state_space`). The Floquet multipliers are the eigenvalues of Φ; displacements grow if the modulus of one
+exceeds 1. If the time does not enter explicitly, one multiplier is 1, and belongs to a shift along the orbit. Nayfeh & Mook,
+Nonlinear Oscillations, 5.2. Rounding of Φ hides multipliers below 10⁻¹² of the largest. The period is then cut into pieces, and
+the periodic Schur form of their matrices resolves each multiplier (Bojanczyk, Golub & Van Dooren 1992). The Lyapunov exponent
+is computed from the motion linearised along a run (Benettin, Galgani, Giorgilli & Strelcyn 1980).
 """
 
 from collections.abc import Mapping
@@ -117,8 +117,8 @@ def monodromy_matrix(system: Equations, at: Mapping[Any, Any], values: Values, p
     windows = windows_since(begin, clock_windows(system, values, begin + np.array([0.0, duration])))
 
     def factors(pieces: int, local: float) -> list[Array]:
-        """Return matrices whose product is Φ, the first acting first: one for each of `pieces` parts of the period, and two
-        at its ends. Between them displacements are given in orthonormal directions."""
+        """Return matrices whose product is Φ, the first acting first: one for each of `pieces` parts of the period, and two at
+        its ends. Between them displacements are given in orthonormal directions."""
         (basis, upper), y = np.linalg.qr(P @ T), start
         triangles = [upper]
         for a, b in pairwise(np.linspace(0, duration, pieces + 1)):

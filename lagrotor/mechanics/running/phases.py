@@ -1,8 +1,8 @@
 """A motion in phases, each smooth: between them velocities jump, gaps close and open, dry friction sticks and slips.
 
-In a phase every sign is constant, sticking friction is a rolling constraint, and a closed gap is a holonomic constraint.
-The phase ends when one of its conditions fails: a gap or a sliding velocity reaches zero, or a reaction reaches its bound.
-These times are zeros of smooth functions on the solver's own steps, so none depends on the sample times of the run.
+In a phase every sign is constant, sticking friction is a rolling constraint, and a closed gap is a holonomic constraint. The
+phase ends when one of its conditions fails: a gap or a sliding velocity reaches zero, or a reaction reaches its bound. These
+times are zeros of smooth functions on the solver's own steps, so none depends on the sample times of the run.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -78,17 +78,8 @@ class Moment(NamedTuple):
 
 
 class Hit(NamedTuple):
-    """The end of a phase.
-
-    Attributes
-    ----------
-    since : float
-        Time in s since the start of the phase.
-    kind : str
-        Kind of the condition that failed, for example "gap" or "event".
-    i : int
-        Index of its surface, impact or event.
-    """
+    """The end of a phase: the time in s since the start of the phase, and the condition that failed. The condition is given by
+    its kind, for example gap or event, and by the index i of its surface, impact or event."""
 
     since: float
     kind: str
@@ -104,8 +95,7 @@ class Phase:
     system : Equations
         The smooth equations, with sticking surfaces and closed gaps as constraints.
     conditions : tuple
-        Tuples (kind, index, expression). The phase lasts until an expression reaches zero; all but an event's are
-        positive.
+        Tuples (kind, index, expression). The phase lasts until an expression reaches zero; all but an event's are positive.
     """
 
     system: Equations
@@ -125,18 +115,11 @@ Observer = Callable[[float, float, float, Callable[[Array], Array]], None]
 
 @dataclass(frozen=True, eq=False)
 class Switched:
-    """A system with events and forces that jump. A run adds to the last four fields.
+    """A system with events and forces that jump. The smooth part is `system`; a symbol replaces each sign that jumps, and
+    `surfaces` says where. A run adds to the last four fields.
 
     Attributes
     ----------
-    system : Equations
-        The smooth part, in which a symbol replaces each sign that jumps.
-    values : Mapping
-        The values of the parameters.
-    surfaces : tuple of Surface
-        The surfaces on which a force jumps.
-    events : tuple of Event or Impact
-        The events.
     scale, sizes : Array
         Scale of the solver for each component of (q, u) and its size, shape (N + m,); sizes are zero before they are
         measured.
@@ -203,8 +186,8 @@ class Switched:
         return program.along(self.numbers(at.mode))(at.y[None], np.array([at.t]))[:, 0]
 
     def sizes_of(self, system: Equations, expressions: Sequence[sp.Expr], at: Moment) -> Array:
-        """Return the size of each of k expressions at one moment, shape (k,). It is the sum over all components y_j of
-        |∂e/∂y_j| times the size of y_j."""
+        """Return the size of each of k expressions at one moment, shape (k,). It is the sum over all components y_j of |∂e/∂y_j|
+        times the size of y_j."""
         y = at.y[: self.size]
         steps = np.diag(_STEP * np.maximum(np.abs(y), self.sizes))
         values = function_program(system, *expressions).along(self.numbers(at.mode))(
@@ -276,8 +259,8 @@ def with_events(system: Equations, values: Mapping[Any, Any], events: tuple[Even
 
 
 def begin(h: Switched, q: Array, v: Array, time: float) -> Array:
-    """Return the initial state (q, v, t, mode). Each surface has the sign of its velocity, and all gaps are open except
-    those at rest on zero."""
+    """Return the initial state (q, v, t, mode). Each surface has the sign of its velocity, and all gaps are open except those at
+    rest on zero."""
     start = Moment(np.concatenate([q, v]), time, h.slipping)
     try:
         mode = _settle(h, start)
@@ -295,11 +278,11 @@ def march(
     observe: Observer | None = None,
     companion: bool = False,
 ) -> Stretch:
-    """Integrate from `start`, the state (q, v, t, mode) at times[0]. Return the states at the times, and the times of
-    jumps. Time is counted from the start, since far from zero the clock would round the time of each event. After an event
-    that ends the motion, its state and time are repeated. For each step, `observe` is called with the time at which its
-    phase began, the beginning and the end of the step since then, and the dense output. A companion is the second run of an
-    error estimate; it takes other steps in narrow terms and brief windows."""
+    """Integrate from `start`, the state (q, v, t, mode) at times[0]. Return the states at the times, and the times of jumps. Time
+    is counted from the start, since far from zero the clock would round the time of each event. After an event that ends the
+    motion, its state and time are repeated. For each step, `observe` is called with the time at which its phase began, the
+    beginning and the end of the step since then, and the dense output. A companion is the second run of an error estimate; it
+    takes other steps in narrow terms and brief windows."""
     clock, since = float(start[h.size]), times - times[0]
     end, y, now, mode, evaluations = float(since[-1]), start[: h.size], 0.0, h.mode(start), 0
     if mode.ended:
@@ -366,8 +349,8 @@ def _smooth(
     habit: float,
     companion: bool,
 ) -> tuple[Stretch, Hit | None]:
-    """Integrate one phase until its first condition fails, or to the last time. Return the motion, and the `Hit` or None.
-    `habit` is the time in s between the last two events of the same kind."""
+    """Integrate one phase until its first condition fails, or to the last time. Return the motion, and the `Hit` or None. `habit`
+    is the time in s between the last two events of the same kind."""
     phase, numbers = h.phase(mode), h.numbers(mode)
     system, scale = phase.system, h.scale
     if depends_on_time(system):
@@ -416,8 +399,8 @@ def _smooth(
 
 
 def _steps(segment: Segment, windows: Sequence[Window], error: float) -> Iterator[Any]:
-    """Yield the solver after each step of DOP853, whose steps are bounded in the windows. Its `nfev` counts all evaluations
-    of the segment so far."""
+    """Yield the solver after each step of DOP853, whose steps are bounded in the windows. Its `nfev` counts all evaluations of
+    the segment so far."""
     y, nfev = segment.start, 0
     for begin, until, longest in segments(segment.begin, segment.until, windows):
         piece = replace(segment, start=y, begin=begin, until=until, longest=longest, budget=segment.budget - nfev)
@@ -436,8 +419,8 @@ def _steps(segment: Segment, windows: Sequence[Window], error: float) -> Iterato
 def _first(
     h: Switched, phase: Phase, conditions: Any, lower: float, upper: float, habit: float, noise: Array
 ) -> tuple[Hit | None, list[tuple[float, float]]]:
-    """Return the first condition of a phase that fails within a step, or None, and the intervals in which one may be
-    hidden. Times count from the start of the phase. The rounding error of each condition is `noise` (k,)."""
+    """Return the first condition of a phase that fails within a step, or None, and the intervals in which one may be hidden.
+    Times count from the start of the phase. The rounding error of each condition is `noise` (k,)."""
     begun = lower > 0
     # The next of accumulating impacts is near to the start of a step, whose size the motion between them determines.
     soon = 4 * habit if not begun and 0 < 4 * habit < upper else lower
@@ -479,8 +462,8 @@ def polish(functions: Any, k: int, t: float, lower: float, upper: float) -> floa
 
 
 def _switch(h: Switched, at: Moment, hit: Hit, gone: float | None) -> Moment:
-    """Return the state and the mode after an event. `gone` is the time in s after which infinitely many such events are
-    over; None if they do not accumulate."""
+    """Return the state and the mode after an event. `gone` is the time in s after which infinitely many such events are over;
+    None if they do not accumulate."""
     kind, i = hit.kind, hit.i
     mode, v = at.mode, at.y[h.n : h.size]
     if kind == "surface" and h.surfaces[i].argument.free_symbols & {*h.system.multipliers}:
@@ -519,8 +502,8 @@ def _switch(h: Switched, at: Moment, hit: Hit, gone: float | None) -> Moment:
 
 
 def _rebound(h: Switched, at: Moment, i: int, e: float) -> tuple[Array, bool]:
-    """Return the velocities (m,) after impact i, and True if the velocity of approach was zero. The impulse Λ obeys M Δv =
-    Gᵀ Λ, and the gap opens with e times the velocity of approach."""
+    """Return the velocities (m,) after impact i, and True if the velocity of approach was zero. The impulse Λ obeys M Δv = Gᵀ Λ,
+    and the gap opens with e times the velocity of approach."""
     mode = at.mode.with_value("closed", i, True)
     n, system = h.n, h.phase(mode._replace(signs=tuple(s or 1 for s in mode.signs))).system
     numbers, state = h.numbers(mode), np.append(at.y[: h.size], at.t)
@@ -535,8 +518,8 @@ def _rebound(h: Switched, at: Moment, i: int, e: float) -> tuple[Array, bool]:
 
 
 def _sign_beyond(h: Switched, at: Moment, i: int) -> int:
-    """Return the sign of the argument w of surface i after w = 0, from the rates of w on both sides (Filippov). Return 0 if
-    both rates lead back to w = 0, so that the surface sticks."""
+    """Return the sign of the argument w of surface i after w = 0, from the rates of w on both sides (Filippov). Return 0 if both
+    rates lead back to w = 0, so that the surface sticks."""
     argument = h.surfaces[i].argument
     above, below = _rates_beside(h, at, i, 1)
     if not argument.free_symbols & {*h.system.c.v} and max(abs(above), abs(below)) <= _NOISE * float(
@@ -573,8 +556,8 @@ def _rates_beside(h: Switched, at: Moment, i: int, order: int) -> tuple[float, f
 
 
 def _settle(h: Switched, at: Moment, fixed: bool = False) -> ContactMode:
-    """Find a contact mode that agrees with the state and its reactions. If `fixed` is true, an event has decided the signs,
-    and they are not taken from the velocities."""
+    """Find a contact mode that agrees with the state and its reactions. If `fixed` is true, an event has decided the signs, and
+    they are not taken from the velocities."""
     mode = at.mode
     if h.surfaces and not fixed:
         arguments = [s.argument for s in h.surfaces]
@@ -601,9 +584,9 @@ def _settle(h: Switched, at: Moment, fixed: bool = False) -> ContactMode:
 
 
 def _accumulating(history: Mapping[Any, list[float]], past: list[float], span: float, clock: float) -> float | None:
-    """Return the time in s until infinitely many events are over, if it is negligible beside the duration `span`; None
-    otherwise. It follows from intervals that shrink by a constant factor. The time at the start is `clock`. Raise StopError
-    for too many events."""
+    """Return the time in s until infinitely many events are over, if it is negligible beside the duration `span`; None otherwise.
+    It follows from intervals that shrink by a constant factor. The time at the start is `clock`. Raise StopError for too many
+    events."""
     now = past[-1]
     if len(past) > _HABIT:
         intervals = np.diff(past[-_HABIT - 1 :])
@@ -619,8 +602,8 @@ def _accumulating(history: Mapping[Any, list[float]], past: list[float], span: f
 
 
 def evaluate(h: Switched, expression: sp.Expr, times: Array, states: Array) -> Array:
-    """Evaluate an expression along a motion in phases, shape (n,). Its accelerations and multipliers are those of each
-    phase. The sign of a sticking surface is its friction force divided by the bound."""
+    """Evaluate an expression along a motion in phases, shape (n,). Its accelerations and multipliers are those of each phase. The
+    sign of a sticking surface is its friction force divided by the bound."""
     c, values = len(h.system.constraints), np.empty(len(times))
     modes = [h.mode(state) for state in states]
     for mode in dict.fromkeys(modes):

@@ -55,17 +55,9 @@ class Jet:
 
 @dataclass(frozen=True, eq=False)
 class Generated:
-    """A program of a motion, (state, parameters) → outputs, with names that every language accepts.
-
-    Attributes
-    ----------
-    program : Program
-        The stages and the outputs, for example d(state)/dt.
-    states : tuple of Symbol
-        The components of the state: q, u and, if time enters, t.
-    parameters : tuple of Symbol or Jet
-        The other symbols by name, then the functions that are called.
-    """
+    """A program (state, parameters) → outputs, for example d(state)/dt, with names that every language accepts. The components of
+    the state are `states`: q, u and, if time enters, t. The parameters are the other symbols by name, then the functions that are
+    called."""
 
     program: Program
     states: tuple[sp.Symbol, ...]
@@ -83,8 +75,8 @@ class Generated:
         return function_of(rhs_source(self.program, len(self.states), clock=clock))
 
     def rate(self, parameters: Sequence[Any], begin: float) -> Callable[..., Any]:
-        """Return the right-hand side rhs(s, y) at the time t = begin + s. If t were integrated as a state, it would
-        accumulate the rounding errors of all steps."""
+        """Return the right-hand side rhs(s, y) at the time t = begin + s. If t were integrated as a state, it would accumulate
+        the rounding errors of all steps."""
         return self.rhs(*parameters, begin) if t in self.states else self.rhs(*parameters)
 
     @cached_property
@@ -93,8 +85,8 @@ class Generated:
         return compile_program(self.program, "numpy")
 
     def along(self, values: Mapping[Any, Any], where: str = "simulate") -> Callable[[Array, Array], Array]:
-        """Return a function that evaluates the k outputs along a run. It takes states (n, ≥ N + m), which begin with q and
-        u, and times (n,), and returns an array (k, n)."""
+        """Return a function that evaluates the k outputs along a run. It takes states (n, ≥ N + m), which begin with q and u, and
+        times (n,), and returns an array (k, n)."""
         function, parameters, d = self.function, parameter_values(self, values, where), len(self.states) - 1
 
         def outputs(states: Array, times: Array) -> Array:
@@ -142,9 +134,9 @@ def state_symbols(system: Equations) -> tuple[sp.Symbol, ...]:
 def _program(
     states: tuple[sp.Symbol, ...], stages: Sequence[Stage], outputs: Sequence[sp.Expr], moving: bool = False
 ) -> Generated:
-    """Return the program of a state and parameters whose symbols have new names that every language accepts. The program of
-    a motion (`moving`) is evaluated often, so common parts of its sums and products are sought, unless it has more than
-    MANY stages."""
+    """Return the program of a state and parameters whose symbols have new names that every language accepts. The program of a
+    motion (`moving`) is evaluated often, so common parts of its sums and products are sought, unless it has more than MANY
+    stages."""
     stages, outputs, functions = _with_calls(stages, outputs)
     names = dict.fromkeys(name for name, _ in stages)
     used = set().union(*(e.free_symbols for _, e in stages), *(e.free_symbols for e in outputs)) - names.keys()
@@ -179,8 +171,8 @@ def _program(
 def _with_calls(
     stages: Sequence[Stage], outputs: Sequence[sp.Expr], calls: Mapping[sp.Symbol, Jet] | None = None
 ) -> tuple[list[Stage], list[sp.Expr], dict[sp.Symbol, Jet]]:
-    """Replace unknown functions and their derivatives by calls. Return the stages, the outputs, and the `Jet` of each
-    symbol that is called. `calls` are the functions that are called already."""
+    """Replace unknown functions and their derivatives by calls. Return the stages, the outputs, and the `Jet` of each symbol that
+    is called. `calls` are the functions that are called already."""
     jets = {str(name): jet for name, jet in (calls or {}).items()}
     symbols = {jet: name for name, jet in (calls or {}).items()}
 
@@ -204,8 +196,8 @@ def velocities_along(system: Equations, values: Mapping[Any, Any], states: Array
 
 @lru_cache(maxsize=64)
 def rows_program(system: Equations) -> Generated:
-    """Generate (q, u, t) → the elements of G, row by row. These are the coefficients of u' in the constraints that
-    multipliers enforce."""
+    """Generate (q, u, t) → the elements of G, row by row. These are the coefficients of u' in the constraints that multipliers
+    enforce."""
     return function_program(system, *rows_left(system)[0])
 
 
@@ -218,8 +210,8 @@ def mass_program(system: Equations) -> Generated:
 
 @lru_cache(maxsize=64)
 def start_program(system: Equations) -> Generated:
-    """Generate (q, u, t) → M, g and ∂g/∂q, then the coefficients of u' and the residuals of the constraints that
-    multipliers enforce. M is the mass matrix of the velocities v; for quasi-velocities it is the unit matrix."""
+    """Generate (q, u, t) → M, g and ∂g/∂q, then the coefficients of u' and the residuals of the constraints that multipliers
+    enforce. M is the mass matrix of the velocities v; for quasi-velocities it is the unit matrix."""
     h, M = len(system.constraints), system.mass_matrix if system.kinematics is None else sp.eye(len(system.speeds))
     residual = [system.residual[i] for i in system.left]
     return function_program(system, *M, *system.constraints, *system.rows[:h, :], *rows_left(system)[0], *residual)
@@ -252,8 +244,8 @@ def velocity_stages(system: Equations) -> list[Stage]:
 
 @lru_cache(maxsize=64)
 def clock_program(system: Equations) -> Generated | None:
-    """Generate (t) → the largest parts of the equations of motion that contain only t and parameters. Return None if there
-    are none."""
+    """Generate (t) → the largest parts of the equations of motion that contain only t and parameters. Return None if there are
+    none."""
     if not depends_on_time(system):
         return None
     stages, rates, _ = motion_of_speeds(system)
@@ -293,9 +285,9 @@ def depends_on_time(system: Equations) -> bool:
 
 
 def constrained_motion(system: Equations, every: bool = True) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
-    """Return the stages, the accelerations and the multipliers of a motion under constraints. If `every` is true, the
-    multipliers include those of constraints that the quasi-velocities satisfy by themselves. They follow from M α + h = Q +
-    Gᵀ λ, by [A; G]⁻ᵀ."""
+    """Return the stages, the accelerations and the multipliers of a motion under constraints. If `every` is true, the multipliers
+    include those of constraints that the quasi-velocities satisfy by themselves. They follow from M α + h = Q + Gᵀ λ, by [A;
+    G]⁻ᵀ."""
     stages, rates, lam = motion_of_speeds(system)
     kinematics = system.kinematics
     if kinematics is None:
@@ -311,8 +303,8 @@ def constrained_motion(system: Equations, every: bool = True) -> tuple[list[Stag
 
 
 def motion_of_speeds(system: Equations) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
-    """Return the stages, the accelerations u' and the independent multipliers. They are computed by the recursion of a tree
-    of bodies, or else from the mass matrix."""
+    """Return the stages, the accelerations u' and the independent multipliers. They are computed by the recursion of a tree of
+    bodies, or else from the mass matrix."""
     G, gamma = rows_left(system)
     friction = bool(system.generalised_forces.free_symbols & {*system.multipliers})
     if (by_tree := tree_motion(system)) is not None:
@@ -331,8 +323,8 @@ def _is_long(system: Equations) -> bool:
 @lru_cache(maxsize=64)
 def equations_of_speeds(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matrix]:
     """Return the stages, M and Q − h of the equations M u' = Q − h + Gᵀ λ, in which v may occur. A long Lagrangian is
-    differentiated by sweeps. A short one with quasi-velocities gives the Boltzmann–Hamel equations, or their projection if
-    the quasi-velocities have stages."""
+    differentiated by sweeps. A short one with quasi-velocities gives the Boltzmann–Hamel equations, or their projection if the
+    quasi-velocities have stages."""
     if _is_long(system):
         return swept_equations(system)
     kinematics, first = system.kinematics, velocity_stages(system)
@@ -347,8 +339,8 @@ def equations_of_speeds(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.M
 
 
 def tree_motion(system: Equations) -> tuple[list[Stage], sp.Matrix] | None:
-    """Return the stages, and a matrix with the columns M⁻¹ (Q − h) and M⁻¹ Gᵀ, by the recursion of a tree of bodies. Return
-    None for any other system, or if constraints bind a direction without mass."""
+    """Return the stages, and a matrix with the columns M⁻¹ (Q − h) and M⁻¹ Gᵀ, by the recursion of a tree of bodies. Return None
+    for any other system, or if constraints bind a direction without mass."""
     tree = tree_of(system) if len(system.c.q) >= LEAST_TREE else None
     if tree is None:
         return None
@@ -367,10 +359,10 @@ def tree_motion(system: Equations) -> tuple[list[Stage], sp.Matrix] | None:
 
 @lru_cache(maxsize=64)
 def inertia(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matrix]:
-    """Return the stages of W, the diagonal matrix W, and M + Gᵀ W G. If M is regular, W = 0. Otherwise constraints may bind
-    the direction without mass, for example the length of a quaternion. Then (M + Gᵀ W G) a = Q − h − Gᵀ W γ + Gᵀ λ has the
-    same solutions and a positive definite matrix. The weight of each row of G is the mean mass divided by the row's squared
-    length. Ranks are measured at random states. Raise SingularError if no constraint binds the direction."""
+    """Return the stages of W, the diagonal matrix W, and M + Gᵀ W G. If M is regular, W = 0. Otherwise constraints may bind the
+    direction without mass, for example the length of a quaternion. Then (M + Gᵀ W G) a = Q − h − Gᵀ W γ + Gᵀ λ has the same
+    solutions and a positive definite matrix. The weight of each row of G is the mean mass divided by the row's squared length.
+    Ranks are measured at random states. Raise SingularError if no constraint binds the direction."""
     (stages, M, _), (G, _) = equations_of_speeds(system), rows_left(system)
     if _regular(system, stages, M):
         return [], sp.zeros(G.rows, G.rows), M
@@ -383,8 +375,8 @@ def inertia(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matrix]:
 
 
 def _regular(system: Equations, stages: Sequence[Stage], matrix: sp.Matrix) -> bool:
-    """Return True if a symmetric matrix that the stages compute has full rank at a random state on the constraints, or a
-    value at none of these states."""
+    """Return True if a symmetric matrix that the stages compute has full rank at a random state on the constraints, or a value at
+    none of these states."""
     bound = (*system.constraints, *jacobian(system.constraints, system.c.q))
     program = _program((*system.c.q, *system.speeds, t), stages, [*matrix, *bound])
     letters = (*system.c.q, *system.speeds, t, *(p for p in program.parameters if not isinstance(p, Jet)))
@@ -413,8 +405,8 @@ def _regular(system: Equations, stages: Sequence[Stage], matrix: sp.Matrix) -> b
 def under_constraints(
     stages: list[Stage], solved: sp.Matrix, G: sp.Matrix, gamma: sp.Matrix, friction: bool = False
 ) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
-    """Return the stages, accelerations and multipliers under the constraints G a + γ = 0. The columns of `solved` are M⁻¹
-    (Q − h) and M⁻¹ (Gᵀ + ∂Q/∂λ)."""
+    """Return the stages, accelerations and multipliers under the constraints G a + γ = 0. The columns of `solved` are M⁻¹ (Q − h)
+    and M⁻¹ (Gᵀ + ∂Q/∂λ)."""
     free, W = solved[:, :1], solved[:, 1:]
     if not G.rows:
         return stages, list(free), []
@@ -471,8 +463,8 @@ def tangent_motion(motion: Generated) -> Generated:
 
 
 def parameter_values(program: Generated, values: Mapping[Any, Any], where: str = "simulate") -> tuple[Any, ...]:
-    """Return the values of the program's parameters in its order: numbers, then callables. The keys of `values` are symbols
-    or their names."""
+    """Return the values of the program's parameters in its order: numbers, then callables. The keys of `values` are symbols or
+    their names."""
     if not isinstance(values, Mapping):
         raise InputError(f"{where}: values = {values!r} must be {{symbol: number, …}}, a dictionary")
     by_name = {str(key): value for key, value in values.items()}

@@ -141,8 +141,8 @@ def stability_chart(
 def _rates(
     where: str, system: Equations, at: Mapping[Any, Any], values: Values, names: Sequence[str], period: Any = None
 ) -> Callable[..., NDArray[np.complex128]]:
-    """Return a function that takes one number for each named parameter and returns the rates of small motion in 1/s. If a
-    period T is given, these are ln(μ)/T of the Floquet multipliers μ."""
+    """Return a function that takes one number for each named parameter and returns the rates of small motion in 1/s. If a period
+    T is given, these are ln(μ)/T of the Floquet multipliers μ."""
     if not isinstance(values, Mapping) or {*names} & {*map(str, values)}:
         raise InputError(
             f"{where}: values = {values!r} must be a dictionary without {', '.join(names)}, which takes the numbers"

@@ -48,25 +48,10 @@ _STEP = 1e-5  # of a size, by which a component is varied for the slope of an in
 
 @dataclass(frozen=True, eq=False)
 class Scales:
-    """The time scale and the sizes of a motion, measured by a coarse integration.
-
-    Attributes
-    ----------
-    turn : float
-        Typical period in s.
-    sizes : Array
-        Size of each component of (q, u), shape (N + m,): its largest value, or the value that a thousandth of the
-        velocity
-        with all kinetic energy would give, if that is larger.
-    evaluations : int
-        Evaluations of the coarse integration.
-    stiff : bool
-        True if neighbouring motions approach each other so fast that a stiff method may be used.
-    windows : tuple of Window
-        Times in which a force changes fast.
-    survey : Array
-        The states of the coarse integration, shape (m, d).
-    """
+    """The typical period `turn` in s and the size of each component of (q, u), shape (N + m,), of a motion. A size is the largest
+    value, or the value that a thousandth of the velocity with all kinetic energy would give, if that is larger. In a stiff motion
+    neighbouring motions approach each other so fast that a stiff method may be used. The states that were measured are `survey`
+    (m, d). In the windows a force changes fast."""
 
     turn: float
     sizes: Array
@@ -107,9 +92,9 @@ def motion_scales(
     windows: tuple[Window, ...] = (),
     followed: tuple[NarrowPart, ...] = (),
 ) -> Scales:
-    """Measure the scales of a motion by a coarse integration over the times. If its small budget is spent before the end,
-    only the part up to there is measured. A motion with events needs its own integration as `motion`. The narrow terms in
-    `followed` are integrated along with the motion."""
+    """Measure the scales of a motion by a coarse integration over the times. If its small budget is spent before the end, only
+    the part up to there is measured. A motion with events needs its own integration as `motion`. The narrow terms in `followed`
+    are integrated along with the motion."""
     span = float(times[-1] - times[0])
     if span == 0:
         return Scales(1.0, _sizes(system, values, start[None], 1.0), 0, survey=start[None])
@@ -146,8 +131,8 @@ def motion_scales(
 
 
 def _without_peaks(states: Array) -> Array:
-    """Remove the states in which a component exceeds _PEAK times its median. A motion to infinity has large values at its
-    end; errors before must not be measured by these. A component that is at rest most of the time is not tested."""
+    """Remove the states in which a component exceeds _PEAK times its median. A motion to infinity has large values at its end;
+    errors before must not be measured by these. A component that is at rest most of the time is not tested."""
     mostly, largest = np.median(np.abs(states), 0), np.abs(states).max(0)
     return np.asarray(states[(np.abs(states) <= np.where(mostly > _AT_REST * largest, _PEAK * mostly, np.inf)).all(1)])
 
@@ -185,8 +170,7 @@ def first_sizes(bare: Rhs, start: Array, span: float, n: int, m: int) -> Array:
 
 
 def _rates(bare: Rhs, state: Array, n: int, size: int) -> NDArray[np.complex128]:
-    """Return the eigenvalues in 1/s of the motion linearised about a state; one zero if the linearised motion is not
-    finite."""
+    """Return the eigenvalues in 1/s of the motion linearised about a state; one zero if the linearised motion is not finite."""
     value, slope = np.asarray(bare(0.0, state), float)[:size], np.zeros((size, size))
     for j in range(size):
         step = 1e-6 * (np.abs(state[:n] if j < n else state[n:size]).max() or 1.0)
@@ -241,8 +225,8 @@ def _positive(sizes: Array, least: float = 0.0) -> Array:
 
 @lru_cache(maxsize=64)
 def integrals(system: Equations) -> tuple[Generated, ...]:
-    """Return a program for each conserved quantity that the form of the equations shows: the Jacobi integral and the
-    momenta of cyclic coordinates."""
+    """Return a program for each conserved quantity that the form of the equations shows: the Jacobi integral and the momenta of
+    cyclic coordinates."""
     is_expression = isinstance(system.lagrangian, sp.Expr)
     programs = []
     if not (depends_on_time(system) or system.forces or system.dissipation != 0):
@@ -256,9 +240,9 @@ def integrals(system: Equations) -> tuple[Generated, ...]:
 
 
 def conservation_error_of(system: Equations, values: Values, sizes: Array) -> Callable[[Array, Array], Array] | None:
-    """Return a function that measures how well a run keeps its conserved quantities, or None if there are none. It takes
-    times (n,) and states (n, d). For each quantity in turn, it returns the n signed relative state errors that would
-    explain its change."""
+    """Return a function that measures how well a run keeps its conserved quantities, or None if there are none. It takes times
+    (n,) and states (n, d). For each quantity in turn, it returns the n signed relative state errors that would explain its
+    change."""
     conserved = [program.along(values) for program in integrals(system)]
     n = len(system.c.q) + len(system.speeds)
 

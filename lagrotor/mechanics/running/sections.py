@@ -1,10 +1,10 @@
 """Crossings of sections on the steps of the run, independent of its sample times.
 
-A smooth motion is integrated again from sample to sample, by the solver and the local error of the run. A stage is a part
-of the run that begins and ends at samples. In each stage a first integration records the times of the evaluations. A second
-one reads the states at Chebyshev's nodes of panels; a panel spans _STEPS of these times. The polynomial through a panel's
-nodes is resolved to the local error, or the panel is halved. The sizes of its coefficients exclude a zero of the section in
-most panels. So the search costs two integrations; a run costs two or more.
+A smooth motion is integrated again from sample to sample, by the solver and the local error of the run. A stage is a part of
+the run that begins and ends at samples. In each stage a first integration records the times of the evaluations. A second one
+reads the states at Chebyshev's nodes of panels; a panel spans _STEPS of these times. The polynomial through a panel's nodes is
+resolved to the local error, or the panel is halved. The sizes of its coefficients exclude a zero of the section in most panels.
+So the search costs two integrations; a run costs two or more.
 """
 
 import warnings
@@ -43,23 +43,9 @@ Values = Callable[[Array, Array], Array]  # states (m, d) and times (m,) → the
 
 @dataclass
 class _Search:
-    """The search for crossings, step by step in the order of time.
-
-    Attributes
-    ----------
-    value : Values
-        The section as a function of states and times.
-    begin, touch : float
-        Time in s after which crossings count; distance from zero below which the section touches it.
-    size : int
-        Number of components of q and u.
-    passages : list of tuple
-        The crossings so far, as (time, direction, state).
-    hidden : list of tuple
-        Intervals of time in s in which a crossing may be hidden.
-    near_zero : list of tuple
-        Consecutive short steps in which the section stays within `touch` of zero.
-    """
+    """The search for crossings after the time `begin`, step by step in the order of time. The section is the function `value` of
+    the state. The crossings so far are `passages`, each (time, direction, state); `hidden` are intervals of time that may hide
+    one. The list `near_zero` collects consecutive short steps in which the section stays within `touch` of zero."""
 
     value: Values
     begin: float
@@ -151,8 +137,8 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
 
 
 def _stages(run: SampledMotion) -> Iterator[tuple[int, int]]:
-    """Yield the first and the last sample of each stage, which lasts at most _TURNS periods or one interval. If several
-    samples have one time, the last of them begins a stage."""
+    """Yield the first and the last sample of each stage, which lasts at most _TURNS periods or one interval. If several samples
+    have one time, the last of them begins a stage."""
     i, n = 0, len(run.t)
     while (i := int(np.searchsorted(run.t, run.t[i], side="right")) - 1) < n - 1:
         j = int(np.searchsorted(run.t, run.t[i] + _TURNS * run.scales.turn, side="right")) - 1
@@ -161,8 +147,8 @@ def _stages(run: SampledMotion) -> Iterator[tuple[int, int]]:
 
 
 def _stage(run: SampledMotion, i: int, j: int, value: Values, touch: float, observe: Observer) -> tuple[Array, int]:
-    """Integrate from sample i to sample j, and call `observe` with each step in which the section may be zero. Return the
-    last state and the number of evaluations."""
+    """Integrate from sample i to sample j, and call `observe` with each step in which the section may be zero. Return the last
+    state and the number of evaluations."""
     begin, end = run.t[[i, j]]
     # Below CROSSOVER no stiff method is chosen, and the others take too many steps.
     local = max(run.local, CROSSOVER.value) if run.scales.stiff else run.local

@@ -414,8 +414,8 @@ def simulate_system(
 
 
 def _uncertainty(system: Equations, values: Values, sizes: Array) -> Callable[[Array], Array]:
-    """Return a function that takes states (n, d) and returns the error of each along nearly dependent constraints, shape
-    (n,). The unit of the error is the machine epsilon times the size of a component."""
+    """Return a function that takes states (n, d) and returns the error of each along nearly dependent constraints, shape (n,).
+    The unit of the error is the machine epsilon times the size of a component."""
     unit = sizes[: len(system.c.q)] if system.kinematics is None else sizes[len(system.c.q) :]
 
     def uncertainty(states: Array) -> Array:
@@ -467,8 +467,8 @@ def _cut_at_event(run: SystemRun) -> SystemRun:
 
 
 def _on_constraints(system: Equations, values: Values, start: Array, times: Array) -> tuple[Array, Array]:
-    """Return the initial state on the constraints. Raise ConstraintError if it is further from the given state than
-    rounding explains."""
+    """Return the initial state on the constraints. Raise ConstraintError if it is further from the given state than rounding
+    explains."""
     n = len(system.c.q)
     q, v = consistent("simulate", system, values, start[:n], start[n:], times[0])
     distance = np.abs(np.concatenate([q, v]) - start)
@@ -481,9 +481,9 @@ def _on_constraints(system: Equations, values: Values, start: Array, times: Arra
 
 
 def _warn_of_dependence(run: SystemRun) -> None:
-    """Warn if the constraints of a run become dependent between two samples, and name the time. At such a time the product
-    g₁ ∧ … ∧ g_k of the rows of G is zero. At a simple zero it changes its sign, so that det(G(t) G(t')ᵀ) < 0 for t before
-    and t' after it. Samples between which a row may turn by a right angle are ignored."""
+    """Warn if the constraints of a run become dependent between two samples, and name the time. At such a time the product g₁ ∧ …
+    ∧ g_k of the rows of G is zero. At a simple zero it changes its sign, so that det(G(t) G(t')ᵀ) < 0 for t before and t' after
+    it. Samples between which a row may turn by a right angle are ignored."""
     rows = run.system.rows
     if len(run.t) < 2 or not run.system.left or not rows.free_symbols & {*run.system.c.q, time}:
         return

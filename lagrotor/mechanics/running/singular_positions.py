@@ -19,8 +19,8 @@ _TAKES_PART = 0.2  # component of a direction from which on a coordinate is name
 def singular_position(
     system: Equations, values: Mapping[Any, Any], start: Array, sizes: Array
 ) -> Callable[[Array], str]:
-    """Return a function that takes a state and returns a sentence about its singular position, or "" if it is regular. Each
-    state is compared with the regular state `start`."""
+    """Return a function that takes a state and returns a sentence about its singular position, or "" if it is regular. Each state
+    is compared with the regular state `start`."""
     lengths = np.sqrt(np.abs(np.diag(mass_at(system, values, start))))
     scale = np.where(lengths > 0, lengths, 1.0)
 
@@ -45,8 +45,8 @@ def singular_position(
 
 
 def unbounded_force(system: Equations, values: Mapping[Any, Any], start: Array, state: Array, sizes: Array) -> str:
-    """Return a sentence if a force grows without bound, for example at a collision, and "" if none does. Its acceleration
-    has grown a thousandfold since the start, and would change a velocity by its size in 10⁻⁸ of the typical time."""
+    """Return a sentence if a force grows without bound, for example at a collision, and "" if none does. Its acceleration has
+    grown a thousandfold since the start, and would change a velocity by its size in 10⁻⁸ of the typical time."""
     n, program = len(system.c.q), function_program(system, *system.c.a)
     first, change = (_at(program, system, values, y)[:, 0] for y in (start, state))
     i, typical = int(np.argmax(np.abs(change))), float(np.max(sizes[n:]) / np.max(sizes[:n]))
@@ -97,8 +97,8 @@ def _least(matrix: Array) -> tuple[float, Array]:
 
 
 def independence(system: Equations, values: Mapping[Any, Any], states: Array, sizes: Array | float = 1.0) -> Array:
-    """Return the least singular value of the rows of G at each of the states (n, d), shape (n,). Each row is given in units
-    of the sizes and scaled to length one. The value is zero if a row is zero or not finite."""
+    """Return the least singular value of the rows of G at each of the states (n, d), shape (n,). Each row is given in units of
+    the sizes and scaled to length one. The value is zero if a row is zero or not finite."""
     times = np.array([_time(state, system) for state in states])
     G = rows_program(system).along(values)(states, times).T.reshape(len(states), len(system.left), -1) * sizes
     lengths, least = np.linalg.norm(G, axis=2, keepdims=True), np.zeros(len(states))

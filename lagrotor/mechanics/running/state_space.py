@@ -41,8 +41,8 @@ _NOT_ANALYTIC = (sp.Abs, sp.sign, sp.Max, sp.Min, sp.Heaviside, sp.atan2, sp.flo
 
 
 class Slope(Protocol):
-    """A function of the state (d,) that returns k outputs (k,), and their derivatives with respect to the state (k, d) and
-    to p inputs (k, p). The derivatives are taken by a complex step."""
+    """A function of the state (d,) that returns k outputs (k,), and their derivatives with respect to the state (k, d) and to p
+    inputs (k, p). The derivatives are taken by a complex step."""
 
     def __call__(self, state: Array, step: float = _STEP) -> tuple[Array, Array, Array]: ...
 
@@ -153,8 +153,8 @@ def state_space(
 
 
 def local_slope(system: Equations, state: Array, rate: Array, J: Array) -> tuple[Array, Array, Array]:
-    """Return the matrix P⁻ (J P − P') of the linear motion at a state (q, u), and P and P⁻. The matrix P of `small_turns`
-    maps small displacements to changes of (q, u). The rate of the state is (q', u'), and J = ∂f/∂(q, u)."""
+    """Return the matrix P⁻ (J P − P') of the linear motion at a state (q, u), and P and P⁻. The matrix P of `small_turns` maps
+    small displacements to changes of (q, u). The rate of the state is (q', u'), and J = ∂f/∂(q, u)."""
     P, inverse = (np.array(e, np.float64) for e in small_turns(system, state))
     change_of_P = np.array(small_turns(system, rate)[0], np.float64) - np.array(
         small_turns(system, 0 * rate)[0], np.float64
@@ -206,8 +206,8 @@ def _parts(program: Generated) -> tuple[set[sp.Basic], set[sp.Basic]]:
 
 
 def motion_slope(where: str, program: Generated, values: Values, inputs: Sequence[sp.Symbol] = ()) -> Slope:
-    """Return a function that takes a state and returns the outputs of a program with their derivatives with respect to the
-    state and the inputs."""
+    """Return a function that takes a state and returns the outputs of a program with their derivatives with respect to the state
+    and the inputs."""
     _, jumping = _parts(program)
     if jumping:
         raise InputError(
@@ -233,8 +233,8 @@ def motion_slope(where: str, program: Generated, values: Values, inputs: Sequenc
 
 
 def check_smooth(where: str, slope: Slope, state: Array, names: Sequence[Any], at: Mapping[Any, Any]) -> None:
-    """Raise SingularError if an output has no value or no derivative at the state, as √x at zero. Its derivative then
-    depends on the complex step."""
+    """Raise SingularError if an output has no value or no derivative at the state, as √x at zero. Its derivative then depends on
+    the complex step."""
     first, second = (np.column_stack(slope(state, h))[: len(names)] for h in (_STEP, _OTHER * _STEP))
     with np.errstate(invalid="ignore"):
         smooth = np.abs(first - second) <= _SAME * np.abs(first) + _ROUNDING * (1 + np.abs(first).max(initial=0))
@@ -248,8 +248,8 @@ def check_smooth(where: str, slope: Slope, state: Array, names: Sequence[Any], a
 def tangent_space(
     where: str, system: Equations, values: Values, state: Array, time: float = 0.0
 ) -> tuple[NDArray[np.bool_], Array]:
-    """Return a mask of the independent small displacements (d,), and the matrix T, which maps these to all d displacements
-    of `small_turns`."""
+    """Return a mask of the independent small displacements (d,), and the matrix T, which maps these to all d displacements of
+    `small_turns`."""
     P = np.array(small_turns(system, state)[0], np.float64)
     d = P.shape[1]
     n = d - len(system.speeds)

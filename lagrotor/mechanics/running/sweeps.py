@@ -1,8 +1,8 @@
 """The equations of a long Lagrangian by sweeps through its stages: backward for a gradient, forward along a direction.
 
-With the momenta p = ∂L/∂v, the product M b is the derivative of p when v changes at the rate b. M α + h is dp/dt − ∂L/∂q
-for v' = α. A gradient costs about three times as much as L for any number of coordinates. A derivative along a direction
-costs about twice as much as its expression.
+With the momenta p = ∂L/∂v, the product M b is the derivative of p when v changes at the rate b. M α + h is dp/dt − ∂L/∂q for v'
+= α. A gradient costs about three times as much as L for any number of coordinates. A derivative along a direction costs about
+twice as much as its expression.
 
 Griewank & Walther, Evaluating Derivatives, 2nd ed., ch. 3.
 """
@@ -24,8 +24,8 @@ from lagrotor.numerics.codegen import Stage
 
 
 def swept_equations(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matrix]:
-    """Return the stages, M and Q − h of the equations M u' = Q − h + Gᵀ λ. For quasi-velocities these are Bᵀ M B and Bᵀ (Q
-    − M α − h)."""
+    """Return the stages, M and Q − h of the equations M u' = Q − h + Gᵀ λ. For quasi-velocities these are Bᵀ M B and Bᵀ (Q − M α
+    − h)."""
     keep, c, kinematics = Stages(), system.c, system.kinematics
     n, m = len(c.q), len(system.speeds)
     B, alpha, first, place = sp.eye(n), sp.zeros(n, 1), list[Stage](), 0
@@ -64,8 +64,8 @@ def swept_energy(system: Equations) -> tuple[list[Stage], sp.Expr]:
 
 
 def expression_stages(keep: Stages, e: sp.Expr) -> sp.Expr:
-    """Add a stage for each subexpression of an expression, and return the name of the last one. A sum is built on a shorter
-    sum that it contains."""
+    """Add a stage for each subexpression of an expression, and return the name of the last one. A sum is built on a shorter sum
+    that it contains."""
     sums = sorted((s for s in subexpressions(e) if s.is_Add), key=lambda s: len(s.args))
     terms = {s: {*s.args} for s in sums if len({*s.args}) == len(s.args)}  # left unevaluated, one may have a term twice
     stages = dict[sp.Expr, sp.Expr]()
@@ -91,8 +91,8 @@ def expression_stages(keep: Stages, e: sp.Expr) -> sp.Expr:
 
 
 def backward_sweep(keep: Stages, output: sp.Expr, symbols: Sequence[sp.Symbol]) -> list[sp.Expr]:
-    """Return ∂output/∂s for each of the symbols, by a sweep backward through the stages. The output is a stage or a
-    multiple of one."""
+    """Return ∂output/∂s for each of the symbols, by a sweep backward through the stages. The output is a stage or a multiple of
+    one."""
     shares: dict[sp.Expr, list[sp.Expr]] = defaultdict(list)
     for s, slope in _slopes(output):
         shares[s].append(slope)

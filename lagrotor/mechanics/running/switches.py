@@ -108,17 +108,8 @@ class Impact:
 
 @dataclass(frozen=True)
 class Surface:
-    """A surface w(q, v, t) = 0 on which a force jumps.
-
-    Attributes
-    ----------
-    argument : Expr
-        The function w.
-    sign : Symbol
-        The symbol that replaces sign(w).
-    bound : Expr or None
-        The bound F of the force if it is dry friction, otherwise None.
-    """
+    """A surface w(q, v, t) = 0 on which a force jumps; w is its argument. The symbol `sign` replaces sign(w). If the force is dry
+    friction, `bound` is its bound F, otherwise None."""
 
     argument: sp.Expr
     sign: sp.Symbol
@@ -149,9 +140,9 @@ def check_events(system: Equations, events: Any) -> tuple[Event | Impact, ...]:
 
 
 def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
-    """Replace each sign that jumps where the state passes a surface by a symbol σ. Return the smooth system and a `Surface`
-    for each symbol. The replacements are sign(w) → σ, |w| → σ w, Heaviside(w) → (1 + σ)/2, Max(a, b) → (a + b + σ (a −
-    b))/2, and Min(a, b) with −σ in place of σ."""
+    """Replace each sign that jumps where the state passes a surface by a symbol σ. Return the smooth system and a `Surface` for
+    each symbol. The replacements are sign(w) → σ, |w| → σ w, Heaviside(w) → (1 + σ)/2, Max(a, b) → (a + b + σ (a − b))/2, and
+    Min(a, b) with −σ in place of σ."""
     moving = {*system.c.q, *system.c.v, *system.reactions, t}
     L = getattr(system.lagrangian, "remainder", system.lagrangian)  # for bodies, the terms added to their energy
     places = [*system.forces, system.dissipation, L]
@@ -198,9 +189,9 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
 
 
 def _is_a_jump(step: sp.DiracDelta, slope: sp.Expr, moving: Sequence[sp.Symbol]) -> bool:
-    """Return True if the Lagrangian jumps where w = 0: in its derivative `slope` the factor of δ(w) is not zero at a root
-    of w. The root is found by Newton's method, because sympy does not see every identity. For example, a rope has the same
-    length with and without a drum when it touches the drum."""
+    """Return True if the Lagrangian jumps where w = 0: in its derivative `slope` the factor of δ(w) is not zero at a root of w.
+    The root is found by Newton's method, because sympy does not see every identity. For example, a rope has the same length with
+    and without a drum when it touches the drum."""
     mark, w = sp.Dummy(), step.args[0]
     factor = derivative(slope.xreplace({step: mark}), mark)
     letters = sorted((factor.free_symbols | w.free_symbols), key=str)

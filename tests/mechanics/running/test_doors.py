@@ -35,7 +35,7 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
     "text": (lambda: run(values={m: 1, length: "1"}), "length = '1' must be a number"),
     "truth": (lambda: run(values={m: True, length: 1}), "m = True must be a number"),
     "coordinate": (lambda: run(values={m: 1, length: 1, x: 3}), "theta a value, which varies in time"),
-    "twice": (lambda: run(values={m: 1, length: 1, "m": 3}), "m with two values"),
+    "twice": (lambda: run(values={m: 1, length: 1, "m": 3}), "values give m twice"),
     "strangers": (
         lambda: run(values={m: 1, length: 1, "b": 1, "a": 1}),
         "values name a, b, which .* its symbols are length, m: leave them out",
