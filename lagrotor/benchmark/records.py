@@ -117,7 +117,7 @@ class Timed:
 
 @cache
 def code_digest(name: RecordName) -> str:
-    """Return the SHA-256 of the code that a record measures, without comments, docstrings and line numbers."""
+    """Return the SHA-256 digest of the code that a record measures. Comments, docstrings and line numbers do not change it."""
     digest = sha256()
     for folder in (Path(package.__path__[0]) for package in MEASURED_PACKAGES[name]):
         for file in sorted(folder.rglob("*.py")):

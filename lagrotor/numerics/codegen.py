@@ -1,7 +1,7 @@
 """Straight-line programs: common subexpressions, number of operations, derivatives; `printers` writes them as code.
 
-A `Program` is a list of named stages and the outputs made of them. A stage keeps a quantity of the derivation (a matrix
-element, a pivot) from being multiplied out; common subexpressions are sought after that.
+A `Program` is a list of named stages and the outputs made of them. A stage names a quantity of the derivation, for
+example a matrix element or a pivot, so that its products are not expanded. Common subexpressions are extracted afterwards.
 """
 
 from collections.abc import Mapping, Sequence

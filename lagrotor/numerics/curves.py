@@ -104,7 +104,7 @@ def first_passage(t: Array, x: Array, level: float) -> float:
     Returns
     -------
     float
-        The time in s; infinity where x stays below the level.
+        The time in s; infinity if x stays below the level.
     """
     from scipy.interpolate import CubicSpline
 
@@ -159,7 +159,8 @@ class Harmonics:
 
 
 def harmonics_at(t: Array, x: Array, rate: float, count: int = 2) -> Harmonics:
-    """Fit `count` harmonics of a rate in rad/s to samples x, shape (n,) or (n, k), at times t in s."""
+    """Fit a constant, a slope and `count` harmonics of a rate in rad/s to samples x, shape (n,) or (n, k), at the times t in
+    s."""
     s, columns = t - t[0], x.reshape(len(t), -1)
     waves = [wave(n * rate * s) for n in range(1, count + 1) for wave in (np.cos, np.sin)]
     table = np.column_stack([np.ones_like(s), s - s.mean(), *waves])

@@ -1,13 +1,13 @@
 """Error estimate of every run: the motion is integrated at two local errors, and their difference shows the error.
 
-SAFETY times the difference of the two runs is taken for the error of the better one. It is also the distance by which
-neighbouring motions separate. From the time at which it exceeds `tol` the run is beyond its horizon; from the time at which it
-exceeds LOST nothing is known. Conserved quantities must be conserved within 100 times the estimate.
+The error of the better run is estimated as SAFETY times the difference of the two runs, which also shows how far neighbouring
+motions separate. From the time at which the estimate exceeds `tol`, the run is beyond its horizon. From the time at which it
+exceeds LOST, the states count as unknown. Conserved quantities must not change by more than 100 times the estimate.
 
 Where errors are proportional to the local error, the difference is APART − 1 times the error of the better run, and the
 estimate is SAFETY (APART − 1) times that error. An error that both runs share is not seen, which is why their local errors
-differ by the factor APART. The estimate is not a bound: one of 360 random systems, a chaotic one, exceeds it by 1.6 times, and
-warns that `tol` is not kept.
+differ by the factor APART. The estimate is not a bound. Of 360 random systems, one chaotic system has 1.6 times the estimated
+error; its run warns that `tol` is not kept.
 """
 
 import warnings
@@ -107,7 +107,7 @@ class EstimatedRun:
 
     @property
     def run_fields(self) -> dict[str, Any]:
-        """The fields of a `Run`, by name."""
+        """The values of the fields of a `Run`, by the name of the field."""
         return {name: getattr(self, name) for name in ("t", "errors", "horizon", "evaluations", "ending")}
 
     def by_clock(self, begin: float, unit: float) -> "EstimatedRun":

@@ -84,7 +84,7 @@ def brief_windows(functions: Callable[[Array], Array], begin: float, end: float)
 
 
 def _merged(first: Window, second: Window) -> Window | None:
-    """Merge two windows where that takes fewer steps than restarting a solver; None otherwise."""
+    """Return the union of two windows if it takes fewer steps than a restart of the solver between them; None otherwise."""
     merged = Window(first.begin, second.end, min(first.longest, second.longest))
     extra_steps = (merged.end - merged.begin) / merged.longest - sum(
         (b - a) / longest for a, b, longest in (first, second)

@@ -103,7 +103,7 @@ class Run(Shown):
 
     @abstractmethod
     def animate(self, path: str | Path, fps: float = 25.0) -> Path:
-        """Write the run as a film, a .gif."""
+        """Write the run as a film to a .gif file, and return its path."""
 
     def summary(self) -> dict[str, str]:
         """Summarise the number of times, the evaluations, the error and the ending in words, by name."""
@@ -243,7 +243,9 @@ class Run(Shown):
 def check_nonempty(where: str, t: Array) -> None:
     """Raise InputError for a run without times."""
     if not len(t):
-        raise InputError(f"{where}: the run has no times, as for a section that is never crossed")
+        raise InputError(
+            f"{where}: the run has no times, for example because no section is crossed: take a run with times"
+        )
 
 
 class Saved(NamedTuple):
@@ -256,8 +258,8 @@ class Saved(NamedTuple):
 
 
 def read_run(path: str | Path) -> Saved:
-    """Read a run that was saved as .npz, and check the fields of `Run`. Raises InputError for any other file, an incomplete
-    one, decreasing times, or invalid errors, evaluations or ending."""
+    """Read a run from an .npz file that `save` wrote, and check the fields of `Run`. Raise InputError if it is another file or
+    incomplete, its times decrease, or its errors, evaluations or ending are invalid."""
     about, arrays = read_arrays(path_of("load: path", path))
     try:
         t, errors = arrays.pop("t"), arrays.pop("errors")
@@ -282,7 +284,7 @@ def read_run(path: str | Path) -> Saved:
 
 
 def _labels(axis: str, size: int) -> list[Any]:
-    """Label components x, y, z, and number any other axis from 1."""
+    """Return the labels of the components along an axis: x, y, z for the axis "component", otherwise numbers from 1 on."""
     return list("xyz"[:size]) if axis == "component" else list(range(1, size + 1))
 
 

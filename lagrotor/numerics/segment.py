@@ -1,4 +1,4 @@
-"""A segment of a run without an edge of a pulse inside: the input of a solver, and the states that it returns."""
+"""A segment of a run, inside which no window of a pulse begins or ends: the input of a solver, and the states that it returns."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -119,7 +119,7 @@ def by_units(solve: SegmentSolver, scale: Array) -> SegmentSolver:
 
 
 def states_on_constraints(project: Projection | None, states: Array) -> Array:
-    """Bring states (n, d) back onto their constraints."""
+    """Return the states (n, d) projected back onto their constraints; without a projection return them unchanged."""
     return project(states.T).T if project and len(states) else states
 
 
@@ -142,7 +142,7 @@ class StopError(IntegrationError):
 
 
 class OutsideError(StopError):
-    """The run left the range in which its right-hand side is well conditioned."""
+    """The state left the range in which the right-hand side is well conditioned."""
 
     def __init__(self, at: float) -> None:
         super().__init__(at, "the coordinates become singular", cause="singular")

@@ -232,7 +232,8 @@ def _lsoda(segment: Segment, error: float) -> Stretch:
 
 
 def _odeint(segment: Segment, rhs: RightHandSide, error: float, first: float) -> tuple[Array, dict[str, Any]]:
-    """Return the states at the segment's ends and the times between them, and scipy's log."""
+    """Solve a segment by scipy's odeint. Return the states at its beginning, at the output times and at its end, and scipy's
+    log."""
     from scipy.integrate import odeint
 
     with warnings.catch_warnings():
@@ -306,7 +307,7 @@ class _Piece:
     change: float
 
     def read(self, times: Array) -> Array:
-        """Return states (m, d) at times within the piece, by the polynomial of the pair."""
+        """Return the states (m, d) at times (m,) within the piece, by the interpolating polynomial of the Adams pair."""
         q = self.q
         P = adams_weights(q)[3]
         steps = (times - self.t) / self.h

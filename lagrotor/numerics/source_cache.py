@@ -36,7 +36,7 @@ class GeneratedFunction:
         return self._functions(*arguments)
 
     def source(self, *arguments: Any) -> str:
-        """Return the source, stored or derived."""
+        """Return the source for these arguments: the stored text, or else the derived one."""
         return _blocks(self.file).get(self.name(*arguments)) or self.derive(*arguments)
 
     def name(self, *arguments: Any) -> str:

@@ -49,7 +49,7 @@ def heyoka_module() -> Any:
 
 
 def heyoka_sum(terms: Sequence[Any]) -> Any:
-    """Return the sum of expressions and numbers."""
+    """Return heyoka's sum of its expressions and of numbers."""
     heyoka = heyoka_module()
     return heyoka.sum([heyoka.expression(x) if isinstance(x, float) else x for x in terms])
 
@@ -190,7 +190,7 @@ def _carried(program: Program, states: int, angles: tuple[int, ...]) -> Array:
 
 @lru_cache(maxsize=64)
 def _cyclic(program: Program, states: int) -> list[int]:
-    """Return the indices of the states on which no rate depends."""
+    """Return the indices of the cyclic states, on which no rate depends."""
     stages, outputs = reduce_common(program)
     used = {s for e in (*(e for _, e in stages), *outputs) for s in e.free_symbols}
     return [i for i, s in enumerate(program.arguments[:states]) if s not in used]
@@ -288,7 +288,8 @@ def _compiled_for(order: int) -> float:
 
 
 def _last_step(solver: Any, at: float, y: Array, size: float) -> tuple[float, Array]:
-    """Return the time and the state (d,) after the last step that a solver can take from y."""
+    """Return the time and the state (d,) after the last step that the solver can take, starting from the state y at the time
+    `at`."""
     solver.time, solver.state[:-1], solver.state[-1] = at, y, size
     for _ in range(_LAST_STEPS):
         outcome, _ = solver.step()

@@ -146,7 +146,7 @@ def _real_roots(series: Array) -> list[float]:
 
 
 def _distinct(roots: list[tuple[float, int, int]], near: float) -> list[tuple[float, int, int]]:
-    """Remove the second of two zeros that neighbouring intervals share."""
+    """Remove the second of two equal zeros, which neighbouring intervals both found at their common end."""
     unique: list[tuple[float, int, int]] = []
     for t, i, way in roots:
         if not any(j == i and d == way and t - s <= near for s, j, d in unique[-4:]):

@@ -94,19 +94,19 @@ def joint_line_limits(quick: bool) -> list[Limit]:
     return [
         Limit(
             "a bar shorter than the axes, folding over (chi past pi/2)",
-            "difference between minimal and spheres through the fold (R)",
-            "none: chi is regular there; no more than the tolerance",
+            "largest difference between minimal and spheres during the fold (R)",
+            "chi is regular there, so the difference is at most the tolerance",
             tol,
             fold_difference(tol),
             "nothing needs to be done",
         ),
         Limit(
             "the constraints where bar and axes are in line",
-            "how far from it (rad) a swinging pair must pass for spheres to go on",
-            f"{CLEARANCE:g}/sqrt(2), both axes counted: within it the three gradients are as good as dependent",
+            "least distance (rad) at which spheres continues past that position",
+            f"{CLEARANCE:g}/sqrt(2), since both axes count: within it the three gradients are nearly dependent",
             CLEARANCE / sqrt(2),
             threshold(lambda miss: not passes(miss), CLEARANCE / 10, 10 * CLEARANCE, 0.1 if quick else 0.01),
-            "spheres stops, and says where; closed_form refuses",
+            "spheres stops and names the position; closed_form refuses the scene",
         ),
     ]
 

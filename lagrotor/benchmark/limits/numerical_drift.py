@@ -69,14 +69,14 @@ def drift_limits(quick: bool) -> list[Limit]:
         Limit(
             regime,
             f"time (s) to {allowed:g} R with steps of {1e3 * step:g} ms",
-            f"the same, from steps of {1e3 * steps[0]:g} ms over {end:g} s",
+            f"g ~ t² h⁴, its factor from steps of {1e3 * steps[0]:g} ms over {end:g} s",
             float(np.sqrt(allowed / (leading * step**4))),
             float(np.exp(crossing)),
             tool,
         ),
         Limit(
             regime,
-            "most that is left after each projection (R)",
+            "largest violation after a projection (R)",
             "rounding: eps",
             float(np.finfo(float).eps),
             float(residual),
@@ -141,7 +141,7 @@ def long_limits(quick: bool) -> list[Limit]:
     rows = []
     for solver, tol in runs:
         run = long_run(turns, solver, tol)
-        steady = "ten times that after a tenth: it grows as t"
+        steady = "ten times the drift in the first tenth, since it grows as t"
         for name, values, predicted, law in (
             ("energy, relative", run.energy, 10 * run.energy[:11].max(), steady),
             ("momentum P / G", run.momentum, 10 * run.momentum[:11].max(), steady),

@@ -72,7 +72,7 @@ def amplitude_limits(quick: bool) -> list[Limit]:
             Limit(
                 "amplitude of the closed form",
                 f"r0 at which order {order} is off by {target:g} R at equal phase",
-                f"(error / c)^(1/{order + 1}), c the next coefficient",
+                f"(error / c)^(1/{order + 1}), with the next coefficient c",
                 predicted,
                 exp(brentq(beyond, near, far, xtol=0.02 if quick else 1e-4)),
                 "states its order and error; refuses |r0| >= 1",
@@ -124,7 +124,7 @@ def spin_limits(quick: bool) -> list[Limit]:
         Limit(
             "spins nearly opposite",
             f"(G_1 + G_2)/G_1 that puts the pair {target:g} R off the closed orbit of r0 = {r0:g} in a turn",
-            f"error ~ (G_1 + G_2), its slope from {tiny:g}",
+            f"error ~ (G_1 + G_2), with the slope measured at {tiny:g}",
             target * tiny / opposite_spin_error(tiny, r0),
             measured,
             "refuses spins that are not exactly opposite",
@@ -132,7 +132,7 @@ def spin_limits(quick: bool) -> list[Limit]:
         Limit(
             "spins nearly equal",
             f"(G_1 − G_2)/G_1 that twists parallel axes {target:g} R apart in a turn, inclined by {r0:g}",
-            f"error ~ (G_1 − G_2), its slope from {tiny:g}",
+            f"error ~ (G_1 − G_2), with the slope measured at {tiny:g}",
             target * tiny / equal_spin_error(tiny, r0),
             threshold(lambda share: equal_spin_error(share, r0) > target, 1e-4, 0.9, 0.05 if quick else 0.01),
             "closed_form refuses spins that are not exactly equal or opposite",
@@ -143,7 +143,7 @@ def spin_limits(quick: bool) -> list[Limit]:
             "(a + b) push / I_3: the largest inclination is 2 atan((a + b) push / G)",
             heavy * push / bar.rotor.I3,
             threshold(falls, 0.5 * heavy, 2 * heavy, 0.01 if quick else 0.001),
-            "none: parallel equal spins are one rotor in closed form at any inclination",
+            "not needed: a parallel pair with equal spins is one rotor in closed form at any inclination",
         ),
     ]
 
@@ -159,10 +159,10 @@ def horizon_limits(quick: bool) -> list[Limit]:
             Limit(
                 "the horizon of prediction",
                 f"turns until two starts {apart:g} apart at r0 = {r0:g} differ by {lost:g}",
-                "log(1/delta)/lambda, lambda of the exact Floquet multipliers",
+                "log(lost/apart)/lambda, with lambda from the exact Floquet multipliers",
                 predicted,
                 _parting(orbit.scene, turn * np.arange(0, 1.1 * predicted, 0.02), apart, lost) / turn,
-                "beyond it no run predicts more than means",
+                "beyond it a run predicts only means",
             )
         )
     return rows

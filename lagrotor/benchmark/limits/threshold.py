@@ -29,7 +29,7 @@ def threshold(fails: Callable[[float], bool], low: float, high: float, share: fl
     """
     below = fails(low)
     if fails(high) == below:
-        raise ValueError(f"threshold: no change between {low:g} and {high:g}")
+        raise ValueError(f"threshold: the result is the same at {low:g} and {high:g}: widen the interval")
     lower, upper = log(low), log(high)
     while upper - lower > share:
         middle = (lower + upper) / 2

@@ -152,7 +152,7 @@ def _by_function(where: str, key: Any, value: Any) -> tuple[Any, Any]:
 
 
 def _with_expressions(system: Kind, lambdas: Mapping[str, sp.Lambda]) -> Kind:
-    """Substitute expressions for functions in the system."""
+    """Return the system with expressions in place of the functions, which are given by name."""
 
     def put(e: sp.Expr) -> sp.Expr:
         return with_values(e, lambdas)

@@ -160,7 +160,7 @@ def consistent(
     ends = np.cumsum([m * m, h, h * n, len(system.left) * m])
 
     def matrices(at: ArrayLike, rates: ArrayLike) -> tuple[Array, Array, Array, Array, Array]:
-        """Return M, g, ∂g/∂q, G and G u + b."""
+        """Return M, g, ∂g/∂q, G and the residual G u + b at a state."""
         with np.errstate(all="ignore"):
             numbers = np.array(program.function(*np.concatenate([at, rates, arguments])), float)
         M, g, slope, G, residual = np.split(numbers, ends)

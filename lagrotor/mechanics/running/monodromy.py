@@ -82,7 +82,7 @@ class MonodromyMatrix(Shown):
         Returns
         -------
         dict
-            Name → words.
+            Words, by the name of the row.
         """
         head = {"states": ", ".join(map(str, self.states)), "error of the matrix": scientific(self.error, 1)}
         return head | multiplier_rows(self.multipliers, self.errors)

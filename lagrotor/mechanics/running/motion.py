@@ -44,7 +44,7 @@ class SampledMotion(Run):
 
     @property
     def q(self) -> Array:
-        """The coordinates, shape (n, N).
+        """The N coordinates at the n times, shape (n, N).
 
         Examples
         --------
@@ -58,7 +58,7 @@ class SampledMotion(Run):
 
     @cached_property
     def v(self) -> Array:
-        """The velocities of the coordinates, shape (n, N).
+        """The velocities of the N coordinates at the n times, shape (n, N).
 
         Examples
         --------
@@ -71,7 +71,7 @@ class SampledMotion(Run):
 
     @property
     def u(self) -> Array:
-        """The quasi-velocities of the system, or v where it has none, shape (n, m).
+        """The m quasi-velocities at the n times, shape (n, m); the velocities v if the system has none.
 
         Examples
         --------
@@ -91,7 +91,7 @@ class SampledMotion(Run):
         Returns
         -------
         dict
-            Name → words.
+            Words, by the name of the row.
 
         Examples
         --------

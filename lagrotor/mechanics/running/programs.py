@@ -127,7 +127,7 @@ def motion_program(system: Equations, followed: tuple[Any, ...] = ()) -> Generat
 
 
 def state_symbols(system: Equations) -> tuple[sp.Symbol, ...]:
-    """Return the state of a motion: q, u and, where the time enters, t."""
+    """Return the symbols of a motion's state: q, u and, if time enters explicitly, t."""
     return (*system.c.q, *system.speeds, *((t,) if depends_on_time(system) else ()))
 
 
@@ -255,7 +255,7 @@ def clock_program(system: Equations) -> Generated | None:
 
 @lru_cache(maxsize=64)
 def energy_program(system: Equations) -> Generated:
-    """Generate (q, u, t) → the Jacobi integral."""
+    """Generate (q, u, t) → the Jacobi integral v·∂L/∂v − L."""
     tree = tree_of(system) if len(system.c.q) >= LEAST_TREE else None
     if tree is None and _is_long(system):
         swept, energy = swept_energy(system)

@@ -61,7 +61,7 @@ class RootLocus:
         return np.asarray(self.rates.real.max(1))
 
     def plot(self) -> "RunFigure":
-        """Draw real and imaginary parts over the parameter, with the boundaries as lines.
+        """Draw the real and imaginary parts of the rates over the parameter; lines mark the boundaries.
 
         Returns
         -------
@@ -108,7 +108,7 @@ class StabilityChart:
     boundaries: Array
 
     def plot(self) -> "RunFigure":
-        """Draw the growth as shades, with the boundaries.
+        """Draw the growth over both parameters as shades, with the boundaries.
 
         Returns
         -------

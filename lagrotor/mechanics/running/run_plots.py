@@ -97,7 +97,7 @@ def animate(run: SampledMotion, path: str | Path, fps: float = 25.0, lines: Sequ
 
 
 def _drawn(where: str, frames: SampledMotion, lines: Sequence[Sequence[Point]]) -> list[Array]:
-    """Evaluate the lines along the run, shape (m, p, 3) each."""
+    """Evaluate the points of the lines along the run. Each line with p points gives an array (m, p, 3) for m times."""
     for item in (*([lines] if lines else ()), *lines):
         if not isinstance(item, Sequence) or not item:
             raise InputError(
@@ -108,7 +108,7 @@ def _drawn(where: str, frames: SampledMotion, lines: Sequence[Sequence[Point]]) 
 
 
 def _outline(frames: SampledMotion, body: Body) -> list[Array]:
-    """Evaluate the lines of a body along the run, shape (m, p, 3) each."""
+    """Evaluate the outline of a body along the run. Each line with p points gives an array (m, p, 3) for m times."""
     origin = _vectors(frames, body.frame.place())
     axes = [_vectors(frames, body.frame.place(e) - body.frame.place()) for e in np.eye(3, dtype=int).tolist()]
     lines = [np.stack([_vectors(frames, point)[0] for point in line]) for line in body.outline]

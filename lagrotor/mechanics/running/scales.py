@@ -1,7 +1,7 @@
 """The scales of a motion and its conserved quantities, by which errors of a run are measured in any units.
 
 Jacobi's integral and the momenta of cyclic coordinates are checked while a motion is run. A run that does not conserve them
-within its error estimate is refused. Projection keeps the constraints.
+within its error estimate is refused. Constraints need no such check, since each state is projected onto them.
 """
 
 from collections.abc import Callable
@@ -218,7 +218,7 @@ def _sizes(system: Equations, values: Values, states: Array, turn: float) -> Arr
 
 
 def _positive(sizes: Array, least: float = 0.0) -> Array:
-    """Replace sizes that are not finite, or at most `least` of the largest, by the largest."""
+    """Replace each size that is not finite, or at most `least` times the largest size, by the largest size."""
     largest = float(np.nanmax(sizes, initial=0.0)) or 1.0
     return np.where(np.isfinite(sizes) & (sizes > least * largest), sizes, largest)
 

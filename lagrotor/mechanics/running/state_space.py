@@ -85,7 +85,9 @@ class StateSpace:
 
     @property
     def rates(self) -> NDArray[np.complex128]:
-        """The eigenvalues of A in 1/s, the largest real part first, shape (n,); zero for coordinates on which nothing depends.
+        """The eigenvalues of A in 1/s, the largest real part first, shape (n,).
+
+        A coordinate on which nothing depends gives the eigenvalue zero.
 
         Examples
         --------

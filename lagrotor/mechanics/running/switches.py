@@ -248,7 +248,7 @@ def _smooth(atom: sp.Expr, w: sp.Expr, s: sp.Symbol) -> sp.Expr:
 
 
 def _friction(system: Equations, w: sp.Expr, s: sp.Symbol) -> sp.Expr | None:
-    """Return F if the force that jumps with the sign s of w is −F s ∂w/∂v; None for any other force."""
+    """Return the bound F if the force that jumps with the sign s of w is dry friction −F s ∂w/∂v; None for any other force."""
     c = system.c
     slope = gradient(w, c.v)
     lagrangian = s in system.lagrangian.free_symbols
