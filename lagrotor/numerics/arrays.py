@@ -44,7 +44,8 @@ def real_array(values: ArrayLike) -> Array | None:
 
 
 def increasing_array(where: str, values: ArrayLike, what: str = "numbers") -> Array:
-    """Return increasing finite numbers as an array (n,), n > 0, or raise InputError, which calls them `what`."""
+    """Return increasing finite numbers as an array (n,), n > 0, or raise InputError. The message uses `what` as the name of the
+    numbers."""
     numbers, text = real_array(values), repr(values)
     text = text if len(text) < 60 else f"{text[:57]}…"
     if numbers is None:

@@ -155,8 +155,8 @@ class _Integration:
 @dataclass(frozen=True, eq=False)
 class _Pair:
     """Two integrations that are compared, the looser and the tighter one. The largest errors up to each common time are `errors`
-    (m,). From the time `lost` on they exceed LOST. A `refusal` says why the tighter integration is not the motion up to its last
-    time."""
+    (m,). From the time `lost` on they exceed LOST, and the states are unknown. A `refusal` says why the tighter integration is
+    not the motion up to its last time."""
 
     loose: _Integration
     tight: _Integration
@@ -221,7 +221,8 @@ class _Course:
 
 
 def perturbed_state(y0: Array, epsilons: float = 1.0) -> Array:
-    """Perturb a state (…, d) by `epsilons` machine epsilons of each component at most, in no special direction."""
+    """Multiply each component of a state (…, d) by 1 and at most `epsilons` machine epsilons more or less, in no special
+    direction."""
     return y0 * (1 + epsilons * np.finfo(float).eps * np.cos(np.arange(1, y0.shape[-1] + 1)))
 
 
@@ -249,7 +250,8 @@ def estimate_runs(
     integrate: Callable[[Mapping[int, Leg]], Mapping[int, Stretch | StopError]],
 ) -> list[EstimatedRun | IntegrationError]:
     """Integrate many motions together, each with an estimated error, and return a run or an IntegrationError for each. The
-    function `integrate` takes the next leg of each motion, by the motion's number. It returns a stretch or a stop for each."""
+    function `integrate` takes the arguments of the next integration of each motion, a `Leg`, by the motion's number. It returns
+    the stretch or the StopError of each."""
     requests = [_requests(evolution, t, tol) for evolution, t in zip(evolutions, times, strict=True)]
     ended: dict[int, EstimatedRun | IntegrationError] = {}
     answers: Mapping[int, Stretch | StopError | None] = dict.fromkeys(range(len(requests)))
@@ -360,9 +362,9 @@ def _compare(course: _Course, local: float, companion: bool) -> Generator[Leg, S
 
 
 def _shared_error_factor(defects: Sequence[Array], rounding: float) -> float:
-    """Return the factor, at least 1, of the estimate for an error that both runs share, so that their difference hides it. It
-    follows from the conserved quantities of both runs, unless their change is mostly rounding. SAFETY covers an error of the
-    better run up to half the difference."""
+    """Return the factor, at least 1, by which the estimate must grow because both runs share an error that their difference
+    hides. It follows from the conserved quantities of both runs, unless their change is mostly rounding. SAFETY covers an error
+    of the better run up to half the difference."""
     if not defects or _largest(defects[1]) < 10 * rounding:
         return 1.0
     return max(1.0, 2 * _largest(defects[1]) / max(_largest(defects[1] - defects[0]), rounding))
@@ -374,7 +376,7 @@ def _largest(values: Array) -> float:
 
 def errors_up_to(t: Array, errors: Array, turn: float, sudden: bool = False) -> Array:
     """Return the largest error up to each time t (n,), shape (n,), for a motion with the typical period `turn` in s. Two runs
-    that separate cross each other, so the maximum includes the next part of a swing. Errors grow as a power of time or as e^(λt),
+    that separate may cross, so the maximum extends to SWING periods later. Errors grow as a power of time or as e^(λt),
     so their logarithm is concave, although two runs may be close by chance. The result is therefore the least concave curve above
     the logarithm, unless motions separate suddenly."""
     grown = np.maximum.accumulate(errors)

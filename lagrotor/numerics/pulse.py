@@ -1,4 +1,5 @@
-"""Windows of a run, in which a force of t changes fast; a run is cut at their edges and its steps are bounded in them."""
+"""Windows of a run, in which a force that depends on t changes fast. A run is cut at the edges of its windows, and its steps are
+bounded in them. A companion is a second run, with which the first one is compared."""
 
 from __future__ import annotations
 
@@ -32,7 +33,8 @@ class Window(NamedTuple):
 
 
 def pulse_windows(width: float, companion: bool = False) -> tuple[Window, ...]:
-    """Return the window of a pulse exp(−(s/width)²), in which steps are no longer than its width."""
+    """Return the window of a pulse exp(−(s/width)²), in which steps are at most as long as its width, and shorter for a
+    companion."""
     reach = PULSE_REACH * width
     return windows_since(0.0, (Window(-reach, reach, width),), companion)
 

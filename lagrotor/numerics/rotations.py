@@ -14,7 +14,7 @@ _LEVI_CIVITA = np.array(
 
 def turn_between(u: Array, v: Array) -> Array:
     """Return the shortest rotations P with P u = v, shape (…, 3, 3): P = (u·v) 1 + [n]× + n nᵀ/(1 + u·v), n = u × v. Raises
-    InputError where v is opposite to u, since no rotation is the shortest."""
+    InputError if v is opposite to u, since then no rotation is the shortest."""
     n, c = np.cross(u, v), (u * v).sum(-1)[..., None, None]
     if (1 + c < 1e-12).any():
         raise InputError("turn_between: an axis reverses between two samples; take more samples")

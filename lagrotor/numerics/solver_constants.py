@@ -32,7 +32,7 @@ LSODA_SAFETY = Calibrated(
 )
 DETOUR = Calibrated(
     4 * pi,
-    "angle (rad, of the typical rate) over which DOP853 first continues where another solver stops",
+    "typical rate times the time (rad) for which DOP853 first continues when another solver stops",
     "the 1,000 wide scenes: those of more than 500 turns beside a dead point",
     "test_cost.py::test_no_run_takes_ten_times_as_long_as_the_best_rung",
 )
@@ -99,8 +99,7 @@ START = Calibrated(
 )
 SWING = Calibrated(
     0.5,
-    "turns within which two runs that separate cross each other: the error at a time is the largest difference up to then and so "
-    "much later",
+    "turns within which two runs that separate may cross: the error at a time includes differences up to this many turns later",
     "without it seed 1209 of the wide systems and one of seeds 2004 to 2099 exceed the estimate; with it three of seeds 3000 to "
     "3119, one by 3.8 times",
     "test_wide_systems.py::test_one_of_each_kind_keeps_its_promise",

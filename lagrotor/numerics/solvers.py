@@ -108,7 +108,7 @@ def dop853(segment: Segment, error: float) -> Stretch:
 def lsoda(segment: Segment, error: float) -> Stretch:
     """Solve the segment by LSODA, with `error` as relative and absolute local error. The first step does not depend on the first
     output time, so that outputs do not change the run. With constraints the run is interrupted about once a turn and the state
-    projected. Otherwise the violation of the constraints may grow exponentially, as it does for axes under pressure."""
+    projected. Otherwise the violation of the constraints may grow exponentially, as it does if the bar is under pressure."""
     if segment.project is None:
         return _lsoda(segment, error)
     now, y, evaluations, longest_cut = segment.begin, segment.start, 0, np.inf

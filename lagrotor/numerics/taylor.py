@@ -115,7 +115,7 @@ def taylor_solver(
     in a pulse, otherwise False, and returns the program and the values of its parameters. In a pulse the last three parameters
     are the peaks of a force exp(−(s/width)²), and the value of `width` follows them. States are projected at least every
     `longest_between` seconds. The states with the indices `angles`, like cyclic ones, may grow without end; since their rates are
-    states too, the error of these bounds theirs."""
+    states too, the error of the rates bounds that of the angles."""
     heyoka_module()
 
     def solve(segment: Segment, pulsed: bool, tol: float) -> Stretch:
@@ -143,7 +143,7 @@ def taylor_solver(
 
 def march_lanes(program: Program, parameters: Array, legs: Mapping[int, Leg]) -> dict[int, Stretch | StopError]:
     """Integrate the legs of an autonomous motion, each with its own column of the parameters (p, n). Eight legs are integrated at
-    once, each with its own steps. Return a stretch or a stop for each number."""
+    once, each with its own steps. Return the motion or the StopError of each leg by its number."""
     answers: dict[int, Stretch | StopError] = {}
     orders: dict[int, list[int]] = {}
     for i, leg in legs.items():

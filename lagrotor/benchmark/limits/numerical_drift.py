@@ -26,8 +26,8 @@ STEADY = Scene((10.0, -10.0), link=Link(1.0, 0.3, 0.02))
 def constraint_drift(scene: Scene, step: float, count: int, every: int, projected: bool = False) -> Array:
     """Return the violation of the constraints of `spheres` after each `every` steps of `count` in all, shape (count // every,).
 
-    The steps in s are of the classical Runge–Kutta method. The violation is the largest of | |r_i| − 1 | and the bar's |length
-    − ell|, in units of R.
+    The steps of `step` seconds are classical Runge–Kutta steps; if `projected` is true, each state is projected onto the
+    constraints. The violation is the largest of | |r_i| − 1 | and the bar's |length − ell|, in units of R.
     """
     rate, y = spheres.MODEL.rate(scene, False), spheres.MODEL.start(scene)
     assert scene.link is not None and spheres.MODEL.projection is not None

@@ -50,7 +50,7 @@ def _orbit(scene: Scene, r0: float) -> ExactOrbit:
 
 
 def next_term(scene: Scene, order: int) -> float:
-    """Return the coefficient of r0**(order + 1) in the axes, the largest over a turn."""
+    """Return the largest coefficient of r0**(order + 1) over a turn in the series of the axes, in units of R."""
     phases, small = np.linspace(0, 2 * pi, 181), 0.5
     high, low = (_series(scene, n).axes(small, phases) for n in (order + 1, order))
     return float(np.linalg.norm(high - low, axis=-1).max()) / small ** (order + 1)
@@ -82,8 +82,8 @@ def amplitude_limits(quick: bool) -> list[Limit]:
 
 
 def opposite_spin_error(share: float, r0: float = 0.1) -> float:
-    """Return the distance from the periodic orbit after a turn, the largest in units of R. Spin 2 is −(1 − share) times spin
-    1."""
+    """Return the largest distance of the axes from the periodic orbit within a turn, in units of R. Spin 2 is −(1 − share) times
+    spin 1."""
     first, *_ = PAIR.spins
     apart = _within_a_turn((first, -first * (1 - share)), r0) - _within_a_turn(PAIR.spins, r0)
     return float(np.linalg.norm(apart, axis=-1).max())

@@ -7,8 +7,8 @@ from math import exp, log
 
 @dataclass(frozen=True)
 class Limit:
-    """One row of the table of limits: the regime, the quantity with its unit, a formula, the predicted and the measured value,
-    and lagrotor's way out."""
+    """One row of the table of limits: the regime, the quantity with its unit, the formula of its prediction, the predicted and
+    the measured value, and lagrotor's way out."""
 
     regime: str
     what: str

@@ -44,7 +44,8 @@ MANY = 100  # stages from which common parts of their sums and products are not 
 
 @dataclass(frozen=True)
 class Jet:
-    """An unknown function in a program, or a derivative of one; `orders` counts the derivatives by each argument."""
+    """An unknown function in a program, or a derivative of one. `orders` says how often it is differentiated with respect to each
+    argument."""
 
     name: str
     orders: tuple[int, ...]
@@ -286,8 +287,8 @@ def depends_on_time(system: Equations) -> bool:
 
 def constrained_motion(system: Equations, every: bool = True) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
     """Return the stages, the accelerations and the multipliers of a motion under constraints. If `every` is true, the multipliers
-    include those of constraints that the quasi-velocities satisfy by themselves. They follow from M α + h = Q + Gᵀ λ, by [A;
-    G]⁻ᵀ."""
+    include those of constraints that the quasi-velocities satisfy by themselves. They follow from M α + h = Q + Gᵀ λ, by the
+    inverse of the joint matrix [A; G] of quasi-velocities and constraints."""
     stages, rates, lam = motion_of_speeds(system)
     kinematics = system.kinematics
     if kinematics is None:
@@ -375,8 +376,8 @@ def inertia(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matrix]:
 
 
 def _regular(system: Equations, stages: Sequence[Stage], matrix: sp.Matrix) -> bool:
-    """Return True if a symmetric matrix that the stages compute has full rank at a random state on the constraints, or a value at
-    none of these states."""
+    """Return True if a symmetric matrix that the stages compute has full rank at one of several random states on the constraints.
+    Return True also if it has a finite value at none of them."""
     bound = (*system.constraints, *jacobian(system.constraints, system.c.q))
     program = _program((*system.c.q, *system.speeds, t), stages, [*matrix, *bound])
     letters = (*system.c.q, *system.speeds, t, *(p for p in program.parameters if not isinstance(p, Jet)))

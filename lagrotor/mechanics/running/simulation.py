@@ -141,7 +141,7 @@ class SystemRun(SampledMotion):
         try:
             if about["coordinates"] != [str(q) for q in c.q] or about["equations"] != digest_of(system):
                 raise InputError(
-                    f"load: {path} is a run of another system, in {', '.join(about['coordinates'])}: give its own"
+                    f"load: {path} is a run of another system, in {', '.join(about['coordinates'])}: give that system"
                 )
             q, u = (np.stack([arrays[str(s)] for s in names], 1) for names in (c.q, system.speeds))
             states = np.hstack([q, u, np.array(about["modes"], float).reshape(len(q), -1)])
@@ -359,7 +359,7 @@ def simulate_system(
         at_start = program.along(h.numbers(h.slipping))(np.concatenate([q, v])[None], times[:1])[:, 0]
         if isinstance(event, Impact) and not 0 <= at_start[1] <= 1:
             raise InputError(
-                f"simulate: the restitution {event.restitution} is {at_start[1]:.6g}: it lies between 0 and 1"
+                f"simulate: the restitution {event.restitution} is {at_start[1]:.6g}: it must lie between 0 and 1"
             )
     if system.multipliers:
         q, v = _on_constraints(system, values, np.concatenate([q, v]), times)

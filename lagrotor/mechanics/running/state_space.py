@@ -51,7 +51,8 @@ class Slope(Protocol):
 class StateSpace:
     """The linear system x' = A x + B u, y = C x + D u for small displacements x from a steady motion.
 
-    The state turn_p is a small rotation of a ball joint with the angular velocity component p, about the turned axis of p.
+    For a ball joint, the state turn_p is a small rotation angle. Its axis is the one of the turned frame to which the angular
+    velocity component p belongs.
 
     Attributes
     ----------
@@ -165,13 +166,14 @@ def local_slope(system: Equations, state: Array, rate: Array, J: Array) -> tuple
 
 
 def point_state(where: str, system: Equations, at: Mapping[Any, Any], values: Values, time: float = 0.0) -> Array:
-    """Return the state of a point, with zeros for omitted coordinates on which the motion does not depend."""
+    """Return the state (q, u) at a point. Coordinates that the point omits are zero if the motion does not depend on them,
+    otherwise InputError is raised."""
     c = system.c
     point = by_symbol(f"{where}: at", at, (*c.q, *system.speeds))
     used, _ = _parts(motion_program(system))
     moving = dict(zip(c.q, motion_program(system).program.arguments, strict=False))  # a program may rename symbols
     if missing := [str(q) for q in c.q if q not in point and moving[q] in used]:
-        raise InputError(f"{where}: {', '.join(missing)} without a value: the point needs each coordinate's")
+        raise InputError(f"{where}: {', '.join(missing)} without a value: the point needs a value of each coordinate")
     if strangers := [str(s) for s in point if s not in {*c.q, *system.speeds}]:
         names = "" if system.kinematics is None else f" ({', '.join(map(str, system.speeds))})"
         raise InputError(

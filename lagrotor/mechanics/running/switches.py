@@ -125,16 +125,16 @@ def check_events(system: Equations, events: Any) -> tuple[Event | Impact, ...]:
     for event in event_tuple:
         if isinstance(event, Impact):
             if wrong := event.gap.free_symbols & {*c.v, *c.a}:
-                raise InputError(f"Impact: the gap {event.gap} contains {_names(wrong)}: it depends on q and t alone")
+                raise InputError(f"Impact: the gap {event.gap} contains {_names(wrong)}: it may contain only q and t")
             if not event.gap.free_symbols & {*c.q}:
                 raise InputError(f"Impact: the gap {event.gap} contains no coordinate: no impact changes it")
         elif event.velocities is not None and len(event.velocities) != n:
             raise InputError(
-                f"Event: {len(event.velocities)} velocities after it, for {n} of the system: give one for each"
+                f"Event: velocities has {len(event.velocities)} entries, but the system has {n} velocities: give one for each"
             )
         if isinstance(event, Event) and (wrong := event.section.free_symbols & {*c.a}):
             raise InputError(
-                f"Event: the section {event.section} contains {_names(wrong)}: it depends on q, v, t and reactions alone"
+                f"Event: the section {event.section} contains {_names(wrong)}: it may contain only q, v, t and reactions"
             )
     return tuple(event_tuple)
 

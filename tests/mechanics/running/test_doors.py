@@ -51,11 +51,11 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
     "no section": (lambda: Event(sp.S.One), "which nothing crosses"),
     "velocities": (lambda: Event(x, -v), "must be a tuple"),  # type: ignore[arg-type]
     "no event": (lambda: run(events=x), "must be Event"),
-    "gap of a velocity": (lambda: run(events=Impact(v)), "depends on q and t alone"),
+    "gap of a velocity": (lambda: run(events=Impact(v)), "may contain only q and t"),
     "gap of the time": (lambda: run(events=Impact(t)), "contains no coordinate"),
     "restitution of 2": (lambda: Impact(x, 2), "must lie between 0"),
     "direction": (lambda: Event(x, direction=2), "direction"),
-    "velocities after": (lambda: run(events=Event(x, (v, v))), "velocities after it"),
+    "velocities after": (lambda: run(events=Event(x, (v, v))), "has 2 entries, but the system has 1"),
     "fast events": (lambda: run(engine="fast", events=Event(x)), "takes no events"),
     "letter of an event": (lambda: run(events=Impact(x, e)), "e without a value"),
     "neighbours of impacts": (lambda: run(events=Impact(x)).lyapunov(), "jump"),
