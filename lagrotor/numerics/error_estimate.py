@@ -4,8 +4,8 @@ The error of the better run is estimated as SAFETY times the difference of the t
 motions separate. From the time at which the estimate exceeds `tol`, the run is beyond its horizon. From the time at which it
 exceeds LOST, the states count as unknown. Conserved quantities must not change by more than 100 times the estimate.
 
-Where errors are proportional to the local error, the difference is APART − 1 times the error of the better run, and the
-estimate is SAFETY (APART − 1) times that error. An error that both runs share is not seen, which is why their local errors
+Where errors are proportional to the local error, the difference is APART − 1 times the error of the better run. The estimate is
+then SAFETY (APART − 1) times that error. An error that both runs share is not seen, which is why their local errors
 differ by the factor APART. The estimate is not a bound. Of 360 random systems, one chaotic system has 1.6 times the estimated
 error; its run warns that `tol` is not kept.
 """
@@ -170,8 +170,8 @@ class _Pair:
 
     @property
     def merit(self) -> tuple[bool, float, float, int, float]:
-        """A sort key for pairs of runs, smallest for the best. In order of priority, a better pair is not refused, has the
-        smaller error, is lost later, has more common times, and has the smaller error up to a stop."""
+        """A sort key for pairs of runs, smallest for the best. A better pair, in order of priority, is not refused, has the
+        smaller error, is lost later, has more common times, or the smaller error up to a stop."""
         estimate = float(np.max(self.errors, initial=0.0))
         return self.refusal is not None, self.error, -self.lost, -len(self.errors), estimate
 

@@ -124,9 +124,9 @@ def states_on_constraints(project: Projection | None, states: Array) -> Array:
 
 
 class StopError(IntegrationError):
-    """A solver stopped at the time `at` in s; within a solver this is the segment's own time. The cause is budget (the
-    evaluations are spent), singular (a singular position was measured), event (an event ends the run), or stopped (the solver
-    cannot continue and gives only its reason). `reached` is the motion up to the stop, with its last state."""
+    """A solver stopped at the time `at` in s; within a solver this is the segment's own time. There are four causes: budget (the
+    evaluations are spent), singular (a singular position was measured), event (an event ends the run), and stopped. In the last
+    case the solver cannot continue and gives only its reason. `reached` is the motion up to the stop, with its last state."""
 
     def __init__(
         self,

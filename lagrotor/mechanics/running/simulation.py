@@ -54,8 +54,8 @@ _BETWEEN = 8  # intervals between two samples in which dependent constraints are
 class SystemRun(SampledMotion):
     """A simulated motion of a system, returned by `System.simulate`.
 
-    The error of a coordinate or velocity is relative to its largest value over the run, or to a thousandth of the value that
-    all kinetic energy would give, if that is larger.
+    The error of a coordinate or velocity is relative to its size, the largest value over the run. The size is at least a
+    thousandth of the value that all kinetic energy would give.
 
     Attributes
     ----------

@@ -125,7 +125,7 @@ def check_events(system: Equations, events: Any) -> tuple[Event | Impact, ...]:
     for event in event_tuple:
         if isinstance(event, Impact):
             if wrong := event.gap.free_symbols & {*c.v, *c.a}:
-                raise InputError(f"Impact: the gap {event.gap} contains {_names(wrong)}: it may contain only q and t")
+                raise InputError(f"Impact: the gap {event.gap} contains {_names(wrong)}: it may depend only on q and t")
             if not event.gap.free_symbols & {*c.q}:
                 raise InputError(f"Impact: the gap {event.gap} contains no coordinate: no impact changes it")
         elif event.velocities is not None and len(event.velocities) != n:
@@ -134,7 +134,7 @@ def check_events(system: Equations, events: Any) -> tuple[Event | Impact, ...]:
             )
         if isinstance(event, Event) and (wrong := event.section.free_symbols & {*c.a}):
             raise InputError(
-                f"Event: the section {event.section} contains {_names(wrong)}: it may contain only q, v, t and reactions"
+                f"Event: the section {event.section} contains {_names(wrong)}: it may depend only on q, v, t and reactions"
             )
     return tuple(event_tuple)
 

@@ -51,7 +51,7 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
     "no section": (lambda: Event(sp.S.One), "which nothing crosses"),
     "velocities": (lambda: Event(x, -v), "must be a tuple"),  # type: ignore[arg-type]
     "no event": (lambda: run(events=x), "must be Event"),
-    "gap of a velocity": (lambda: run(events=Impact(v)), "may contain only q and t"),
+    "gap of a velocity": (lambda: run(events=Impact(v)), "may depend only on q and t"),
     "gap of the time": (lambda: run(events=Impact(t)), "contains no coordinate"),
     "restitution of 2": (lambda: Impact(x, 2), "must lie between 0"),
     "direction": (lambda: Event(x, direction=2), "direction"),
