@@ -1,11 +1,10 @@
-"""Narrow terms of a system, which change within a small part of the motion: bumps, steps and walls of coordinates and velocities.
+"""Narrow terms of a system, which change within a small part of the motion: bumps, steps and walls.
 
 A solver whose step is longer than such a term misses it. Therefore an auxiliary variable ψ is integrated along with the motion.
 For a term exp(g), tanh(g) or another function of g, it is ψ = asinh(g). Then ψ' is proportional to 1/distance from g = 0, so
-that the solver shortens its steps before that place. For a power Dᵖ, log(D) or a Lorentzian, ψ = log|D|. At some place
-the rate of ψ with respect to a component of the state is largest. A term is narrow if at this rate ψ would change by more than
-MOST over the range of the component. Newton's method seeks the place at zeros and turning points of g, from states of the
-motion.
+that the solver shortens its steps before that place. For a power Dᵖ, log(D) or a Lorentzian, ψ = log|D|. At some place the rate
+of ψ with respect to a component of the state is largest. A term is narrow if at this rate ψ would change by more than MOST over
+the range of the component. Newton's method seeks the place at zeros and turning points of g, from states of the motion.
 """
 
 from collections.abc import Mapping, Sequence
