@@ -280,9 +280,9 @@ def march(
 ) -> Stretch:
     """Integrate from `start`, the state (q, v, t, mode) at times[0]. Return the states at the times, and the times of jumps. Time
     is counted from the start, since far from zero the clock would round the time of each event. After an event that ends the
-    motion, its state and time are repeated. For each step, `observe` is called with the time at which its phase began. It
-    also gets the beginning and the end of the step, counted from then, and the dense output. A companion is the second run of an error estimate; it
-    takes other steps in narrow terms and brief windows."""
+    motion, its state and time are repeated. For each step, `observe` is called with the time at which its phase began. It also
+    gets the beginning and the end of the step, counted from then, and the dense output. A companion is the second run of an error
+    estimate; it takes other steps in narrow terms and brief windows."""
     clock, since = float(start[h.size]), times - times[0]
     end, y, now, mode, evaluations = float(since[-1]), start[: h.size], 0.0, h.mode(start), 0
     if mode.ended:
