@@ -341,7 +341,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "{theta: k} must be numbers": lambda: pendulum.linearise({q: k}, VALUES),
         "the point has phi": lambda: pendulum.linearise({q: 0, "phi": 0}, VALUES),
         r"give it coordinates and velocities \(p, q, r\)": lambda: ball_top().linearise(UPRIGHT | {"q0_dot": 1}, BODY),
-        "the point has W": lambda: ball_top().linearise(UPRIGHT | {"W": 1}),
+        "W in the point": lambda: ball_top().linearise(UPRIGHT | {"W": 1}),
         r"linearise: m = \[1\] must be a real": lambda: pendulum.linearise({q: 0}, VALUES | {m: [1]}),
         "values name k": lambda: pendulum.linearise({q: 0}, VALUES, (k,)),
         "the input theta moves": lambda: pendulum.linearise({q: 0}, VALUES, (q,)),

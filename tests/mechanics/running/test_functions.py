@@ -113,7 +113,7 @@ def test_what_is_no_function_is_refused_in_words() -> None:
     ):
         with pytest.raises(InputError, match=words):
             WELL.simulate({m: 1, U: value}, (0.5,), (0,), T)
-    with pytest.raises(IntegrationError, match="no number"):
+    with pytest.raises(IntegrationError, match="not a number"):
         WELL.simulate({m: 1, U: [abs, lambda s: None]}, (0.5,), (0,), T)
     for values, words in (
         ({m: 1}, "U without a value"),
