@@ -84,9 +84,7 @@ def _in_box(
     c = system.c
     values = {name: value for name, value in values.items() if not isinstance(value, sp.Lambda)}
     if len(system.constraints) > 1:
-        raise InputError(
-            "equilibria: with a box at most one constraint is possible: solve the others by in_coordinates"
-        )
+        raise InputError("equilibria: a box takes one constraint at most: solve the others by in_coordinates")
     if system.rolling:
         raise InputError("equilibria: with rolling, equilibria are not isolated: give linearise a point")
     symbols = system.letters | system.generalised_forces.free_symbols

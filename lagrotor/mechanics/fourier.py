@@ -49,7 +49,7 @@ class FourierSeries:
         return self._cache[n]
 
     def assign(self, n: int, h: int, value: Coefficient) -> None:
-        """Set one coefficient of a series that was made from terms. Call `forget` for series that were computed from it before."""
+        """Set one coefficient of a series that was made from terms. Call `forget` for series computed from it before."""
         if value:
             self._compute(n)[h] = value  # type: ignore[index]
 

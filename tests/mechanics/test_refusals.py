@@ -128,7 +128,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "2 coordinates, 1 velocities, 2 accel": lambda: Coordinates(P.q, (u,), P.a),
         "coordinates: 3 must be names": lambda: coordinates(3),
         "coordinates: x must be a name": lambda: coordinates([sp.Symbol("x")]),
-        "'2x' would be read otherwise": lambda: coordinates("2x"),
+        "'2x' would be another symbol": lambda: coordinates("2x"),
         "x, x_ddot, x_dot repeated": lambda: coordinates("x y x"),
         "Coordinates: t repeated": lambda: coordinates("t"),
         "Coordinates: x_dot repeated": lambda: coordinates("x x_dot"),
@@ -145,7 +145,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "L = Matrix.* is no expression": lambda: System(A, sp.Matrix([v])),
         "is complex": lambda: System(A, sp.I * v**2),
         "L = oo is not finite": lambda: System(A, v**2 + sp.oo),
-        "they come first": lambda: System(SWING, A),
+        "the first argument": lambda: System(SWING, A),
         # Constraints, forces and friction
         "constraints.0.: 1 = 0 binds no coordinate": lambda: System(A, SWING, (sp.S.One,)),
         "- 2 = 0 binds no coordinate": lambda: System(A, SWING, (sp.sin(q) ** 2 + sp.cos(q) ** 2 - 2,)),

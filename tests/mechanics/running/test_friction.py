@@ -210,7 +210,7 @@ def test_friction_by_a_reaction_in_a_tree_and_in_velocities_of_ones_own() -> Non
     assert sp.simplify(accelerations[0] + mu * g * c.v[0]) == 0
     for make, words in (
         (lambda: System(c, L, floor, dissipation=mu * reaction("flor") * abs(c.v[0])), "none of the constraints"),
-        (lambda: System(c, sp.sympify(L) - N, floor), "belongs into forces and dissipation alone"),
+        (lambda: System(c, sp.sympify(L) - N, floor), "may stand in forces and dissipation alone"),
         (lambda: System(c, L, floor, forces=(-mu * N**2, 0)).rhs(values), "must enter linearly"),
         (lambda: System(c, L, floor, dissipation=rubs, velocities={u: c.v[0]}).rhs(values), "leave out velocities"),
     ):
