@@ -62,7 +62,7 @@ class PeriodicSeries:
         return min(series.order for series in (*self.unknowns, self.frequency))
 
     def at_rest(self, field: Domain) -> "PeriodicSeries":
-        """Return the terms of order 0 alone, with coefficients converted into `field`, also if they are floating-point numbers."""
+        """Return the terms of order 0 alone. Their coefficients, exact or in floating point, are converted into `field`."""
         still = [
             FourierSeries({(0, h): field.convert(v) for h, v in series.harmonics(0).items()}, series.order)
             for series in (*self.unknowns, self.frequency)
@@ -514,7 +514,7 @@ def _terms_about(
 def _stiffness_and_mass(terms: Mapping[tuple[int, ...], sp.Expr], place: str) -> tuple[sp.Expr, sp.Expr]:
     """Return the coefficients K of q and M of a where `small` is zero. Raises InputError unless small motions are periodic."""
     if any(not any(powers) for _, *powers in terms):
-        raise InputError(f"lindstedt_poincare: {place} is no equilibrium: the force is not zero: give at=")
+        raise InputError(f"lindstedt_poincare: {place} is no equilibrium: the force is not zero: give one as at=")
     if any(j % 2 for _, _, j, _ in terms):
         raise InputError(
             "lindstedt_poincare: the equation has odd powers of the velocity, and is not the same backward: use averaged, which "
@@ -523,7 +523,7 @@ def _stiffness_and_mass(terms: Mapping[tuple[int, ...], sp.Expr], place: str) ->
     K, M = terms.get((0, 1, 0, 0), sp.S.Zero), terms.get((0, 0, 0, 1), sp.S.Zero)
     if K == 0 or M == 0 or (K / M).is_nonpositive:
         raise InputError(
-            f"lindstedt_poincare: {place} has no frequency of small motion, ω² = {K / M if M else 'K/0'}: give at="
+            f"lindstedt_poincare: {place} has no frequency of small motion, ω² = {K / M if M else 'K/0'}: give a stable at="
         )
     return K, M
 

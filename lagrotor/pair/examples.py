@@ -1,4 +1,4 @@
-"""Ready scenes by name: the runs that the paper links to, each with how long it is worth watching."""
+"""Scenes by name, for the runs that the paper links to, each with a duration that shows its motion."""
 
 from dataclasses import dataclass
 

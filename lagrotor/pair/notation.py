@@ -1,4 +1,4 @@
-"""The glossary of the pair: every symbol with its meaning and unit.
+"""The glossary of the pair of rotors: every symbol with its meaning and its unit.
 
 Coordinates, velocities and accelerations are plain symbols: `theta_1`, `theta_1_dot`, `theta_1_ddot`.
 """

@@ -290,9 +290,9 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "the motion has not come back": lambda: pendulum.floquet({q: 1}, VALUES, 1),
         "t = nan must be a time": lambda: pendulum.floquet({q: 0, t: np.nan}, VALUES, 1),
         # Symmetry and other coordinates
-        r"ξ = \(1, 0\): a transformation has one": lambda: pendulum.noether((1, 0)),
-        "ξ = 1: a transformation has one": lambda: pendulum.noether(1),
-        "free of accelerations": lambda: pendulum.variation(A.a),
+        r"ξ = \(1, 0\): give one component": lambda: pendulum.noether((1, 0)),
+        "ξ = 1: give one component": lambda: pendulum.noether(1),
+        "without accelerations": lambda: pendulum.variation(A.a),
         "gauge = theta_ddot contains theta_ddot": lambda: pendulum.noether((1,), a),
         "conserved: f = 'E' is no": lambda: pendulum.conserved("E"),
         "conserved: f = g must be": lambda: pendulum.conserved(g),
@@ -309,7 +309,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "y neither given nor among": lambda: point.in_coordinates(A, {x: q}),
         r"give new coordinates\(…\)": lambda: pendulum.in_coordinates(3, {q: q}),
         # Equilibria
-        "unknowns must be names of symbols: values": lambda: pendulum.equilibria(VALUES),
+        "unknowns must be names of symbols: give": lambda: pendulum.equilibria(VALUES),
         "no phi in the system": lambda: pendulum.equilibria("phi"),
         "unknowns = 3 must be names": lambda: pendulum.equilibria(3),
         "equilibria: .* depends on time: .* simulate it": lambda: timed.equilibria(),
@@ -372,7 +372,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "amplitude = A is a symbol": lambda: System(A, UNIT - sp.Symbol("A") * k * q**4).lindstedt_poincare(2, k),
         "error: values = 3 must be": lambda: pendulum.lindstedt_poincare(2, s).error(3),
         "error: .* without a value": lambda: pendulum.lindstedt_poincare(2, s).error({s: 0.1}),
-        "order = 3: 1 or 2": lambda: weak.averaged(3, k),
+        "order = 3 must be 1 or 2": lambda: weak.averaged(3, k),
         "must be a symbol of the system, which is linear": lambda: pendulum.averaged(1, s),
         "with ν = 2": lambda: weak.averaged(1, k, frequency=2),
         "q0 = nan and v0 = 0": lambda: weak.averaged(1, k).run({k: 0.1}, np.nan, 0, [0, 1]),
@@ -455,8 +455,8 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "legendre: L is not quadratic": lambda: legendre(u**2 + w**4, P, sp.symbols("p:2")),
         "lindstedt_poincare: .* is no polynomial": lambda: pendulum.lindstedt_poincare(2, m),
         "averaged: .* is no polynomial": lambda: System(A, UNIT - k * sp.exp(q)).averaged(1, k),
-        "no rate that is a rational part": lambda: System(A, UNIT + k * sp.sin(sp.sqrt(2) * t) * q).averaged(1, k),
-        "or has a phase": lambda: System(A, UNIT + k * sp.cos(t + 1) * q).averaged(1, k),
+        "is no rational multiple of": lambda: System(A, UNIT + k * sp.sin(sp.sqrt(2) * t) * q).averaged(1, k),
+        "or it has a phase": lambda: System(A, UNIT + k * sp.cos(t + 1) * q).averaged(1, k),
     },
 }
 

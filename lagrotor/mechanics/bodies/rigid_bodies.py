@@ -2,8 +2,8 @@
 
     T = ½ m |v|² + ½ ω·I ω,        V = −m g·r      (g a uniform field, r the place of the centre).
 
-A sum of such energies and of expressions is a Lagrangian, and a sympy expression in every function of sympy. From the
-bodies System makes a tree, which gives faster code and the picture.
+A sum of such energies and of expressions is a Lagrangian, which every function of sympy takes as an expression. From the
+bodies System makes a tree, for faster code and for the picture.
 """
 
 from collections.abc import Mapping
@@ -30,7 +30,7 @@ _ROUNDING = 1e-9  # relative, of an inertia
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """A rigid body: its frame, mass, inertia (3, 3) about its centre of mass, and that centre, in the frame's axes."""
+    """A rigid body in a frame, with mass in kg, inertia (3, 3) about its centre of mass in kg m², and that centre in m."""
 
     frame: MovingFrame
     mass: sp.Expr
@@ -51,7 +51,7 @@ class Body:
         return Energy(((self, None, sp.S.One),))
 
     def potential(self, field: Vector) -> "Energy":
-        """Return −m g·r in a uniform field g, in the ground's axes: (0, 0, −g) for gravity with z up."""
+        """Return the potential energy −m g·r in J, for a uniform field g in the ground's axes: (0, 0, −g) if z points up."""
         return Energy(((self, vector_of("potential: field", field, 3), sp.S.One),))
 
     def rolls_on(self, surface: Any, radius: Any, axis: Vector | None = None, centre: Vector | None = None) -> Contact:
@@ -113,10 +113,10 @@ def make_body(frame: MovingFrame, mass: Any, inertia: Any, centre: Vector) -> Bo
 
 
 def check_body(where: str, body: Body, values: Mapping[sp.Symbol, Any] | None = None) -> None:
-    """Raise InputError where no body has that mass and inertia: m ≥ 0, and ½ tr I − I = ∫ r rᵀ dm ≥ 0.
+    """Raise InputError if no body can have that mass and inertia: m ≥ 0, and ½ tr I − I = ∫ r rᵀ dm ≥ 0.
 
-    For principal inertias that is I1 ≤ I2 + I3 in turn. Inertia about one axis alone belongs to motion in a plane. Symbols
-    without a number are not checked.
+    For principal inertias the second condition is I1 ≤ I2 + I3 and its permutations. Inertia about one axis alone is allowed,
+    for motion in a plane. Symbols without a number are not checked.
     """
     mass, I = (e.subs(values or {}) for e in (body.mass, body.inertia))
     if mass.is_negative:
@@ -150,7 +150,8 @@ class Frame(MovingFrame):
         The frame before the step; None for the ground.
     axis : int or None
     amount : Expr or Matrix
-        A turn about axis 0, 1 or 2 by an angle; or a shift (3, 1) or a rotation (3, 3) with axis None.
+        The step from the parent. For a turn, `axis` is 0, 1 or 2 and `amount` the angle in rad. If `axis` is None, `amount`
+        is a shift (3, 1) in m or a rotation matrix (3, 3).
     quaternion : tuple of Symbol
     omega : tuple of Symbol
         The coordinates, scalar first, and the angular velocities of a ball joint.
@@ -417,8 +418,8 @@ class Frame(MovingFrame):
         quaternion : str or sequence
             Four coordinates or their names, scalar first.
         omega : str or sequence
-            Three new symbols or their names: the angular velocities about the axes of the turned frame, which are
-            velocities of the system in place of those of the four.
+            Three new symbols or their names: the angular velocities about the axes of the turned frame. In the system they
+            replace the velocities of the four coordinates.
 
         Returns
         -------
@@ -443,7 +444,7 @@ class Frame(MovingFrame):
         place : str or sequence
             Three coordinates or their names.
         quaternion, omega : str or sequence
-            As of `ball`.
+            Four coordinates, and three new symbols of angular velocities: see `ball`.
 
         Returns
         -------
@@ -511,7 +512,10 @@ class Frame(MovingFrame):
 
 @dataclass(frozen=True)
 class Energy:
-    """A sum of factors times kinetic or potential energies of bodies, plus an expression."""
+    """A sum of energies of bodies, each times a factor, plus an expression.
+
+    A term is (body, field, factor): the potential energy in that field, or the kinetic energy if field is None.
+    """
 
     terms: tuple[tuple[Body, tuple[sp.Expr, ...] | None, sp.Expr], ...]
     remainder: sp.Expr = sp.S.Zero
@@ -523,7 +527,7 @@ class Energy:
 
     @property
     def bodies(self) -> tuple[Body, ...]:
-        """The bodies, each once."""
+        """The bodies in the sum, each of them once."""
         return tuple(dict.fromkeys(body for body, _, _ in self.terms))
 
     @cached_property
