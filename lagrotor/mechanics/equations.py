@@ -88,7 +88,7 @@ class Equations:
         _ = self.kinematics
 
     def _take_velocities(self) -> None:
-        """Store the quasi-velocities as pairs, those of ball joints included, and replace them in the expressions."""
+        """Store all quasi-velocities as pairs (u, expression in v), also those of ball joints, and express the fields by v."""
         joints = self.ball_joints
         turns = dict.fromkeys((joint.quaternion, joint.omega) for joint in joints)
         letters = [s for group in turns for symbols in group for s in symbols]
@@ -199,12 +199,12 @@ class Equations:
 
     @property
     def multiplier_names(self) -> tuple[str, ...]:
-        """The names of the constraints and then of rolling, or their numbers from 1."""
+        """The names of the constraints and then of the rolling constraints, or their numbers from 1."""
         return self.names or tuple(str(i + 1) for i in range(len(self.constraints) + len(self.rolling)))
 
     @property
     def _letters(self) -> tuple[Any, ...]:
-        """The symbols of the system, by group, whose names must differ."""
+        """The groups of symbols and expressions of the system, in which no two symbols may have the same name."""
         moving = self.c.q, self.c.v, self.c.a, t
         return *moving, self.acting, self.velocities, self.letters if self.bodies else ()
 
@@ -267,7 +267,7 @@ class Equations:
 
     @property
     def momenta(self) -> sp.Matrix:
-        """The conjugate momenta p = ∂L/∂v, shape (n, 1)."""
+        """The conjugate momenta p = ∂L/∂v in q, v and t, shape (n, 1)."""
         return free.momenta(self.L, self.c)
 
     @cached_property
@@ -472,7 +472,7 @@ def degrees_of_freedom(system: Equations, at: Mapping[sp.Symbol, float]) -> int:
     Returns
     -------
     int
-        n less the number of singular values of G above rounding.
+        n minus the number of singular values of G above rounding errors.
     """
     G = system.rows.subs(dict(at))
     if G.free_symbols:

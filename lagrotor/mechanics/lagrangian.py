@@ -180,7 +180,7 @@ def mass_matrix(L: sp.Expr, c: Coordinates) -> sp.Matrix:
 
 
 def bias(L: sp.Expr, c: Coordinates) -> sp.Matrix:
-    """Return h = (∂²L/∂v∂q) v + ∂²L/∂v∂t − ∂L/∂q: centrifugal, gyroscopic and driving terms less the potential forces."""
+    """Return h = (∂²L/∂v∂q) v + ∂²L/∂v∂t − ∂L/∂q: centrifugal, gyroscopic and driving terms minus potential forces."""
     drift = momenta(L, c).applyfunc(lambda p: along(p, (*c.q, t), (*c.v, 1)))
     return drift - gradient(L, c.q)
 

@@ -1,6 +1,7 @@
 """Small motion about an equilibrium or a steady motion in symbols, with rolling and inputs: x' = A x + B u, y = C x + D u.
 
-With F = M a + h − Q − Gᵀ λ = 0 and G a + γ = 0, small changes of q, v and of the inputs u give those of a and λ,
+With F = M a + h − Q − Gᵀ λ = 0 and G a + γ = 0, small changes of q, v and of the inputs u determine the small changes of a
+and λ,
 
     M δa − Gᵀ δλ = −(∂F/∂q δq + ∂F/∂v δv + ∂F/∂u δu),        G δa = −(∂γ/∂q δq + ∂γ/∂v δv),
 

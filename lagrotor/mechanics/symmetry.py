@@ -50,7 +50,7 @@ class FirstIntegral:
     expression : Expr
         The quantity in q, v and t.
     domain : tuple of Expr
-        Expressions in the denominators; the quantity is conserved where none of them vanishes.
+        Expressions. Conservation is proved where none of them vanishes.
     """
 
     expression: sp.Expr
@@ -203,7 +203,7 @@ def routh(system: Kind, cyclic: str | Sequence[str | sp.Symbol] | Mapping[str | 
     rolling = tuple(f.subs(substitution) for f in system.rolling)
     if entering := {*chosen} & set().union(*(e.free_symbols for e in (*forces, *rolling, *system.constraints))):
         raise NotASymmetryError(
-            f"routh: {', '.join(map(str, entering))} enters the forces or the constraints on the others: keep it"
+            f"routh: {', '.join(map(str, entering))} enters the forces or the constraints on the others: keep it as a coordinate"
         )
     return replace(
         system,

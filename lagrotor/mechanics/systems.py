@@ -309,8 +309,8 @@ class System(Equations):
 
         Without a box the equilibria are exact, and angles in sines and cosines lie between −π and π. With values and a box,
         interval Newton's method encloses all equilibria in the box, also under one constraint g(q) = 0. A pole of a force is
-        no equilibrium. If an edge is a decimal or irrational number, as 0.3 or π, the box contains all numbers that round to
-        it.
+        no equilibrium. If an edge is a decimal or irrational number, as 0.3 or π, every number that rounds to it is in the
+        box.
 
         Parameters
         ----------
@@ -463,7 +463,7 @@ class System(Equations):
         small : Symbol
             A parameter. Where it is zero, the system must be q'' = −ν² q.
         frequency : Expr or None, optional
-            ν, by default that of the system at small = 0.
+            The frequency ν in rad/s; by default the frequency of the system where `small` is zero.
 
         Returns
         -------
@@ -528,7 +528,7 @@ class System(Equations):
         inputs : sequence, default ()
             Parameters u of the system. They are zero at the point unless `at` or `values` names them.
         outputs : sequence, default ()
-            Expressions y in q, v, a and the multipliers.
+            Expressions y in q, v, a and the multipliers, which are measured.
 
         Returns
         -------
@@ -584,8 +584,8 @@ class System(Equations):
         Parameters
         ----------
         at : mapping
-            {coordinate or velocity: value} at t = 0, or at another time if {t: time} is among them. The state of rest of a
-            driven system is a periodic motion, too.
+            {coordinate or velocity: value} at t = 0, or at the time that `at` gives for t. Rest in a driven system is a
+            periodic motion, too.
         values : mapping
             {symbol: number} for all parameters.
         period : float
@@ -636,7 +636,7 @@ class System(Equations):
         Returns
         -------
         RootLocus
-            The rates in 1/s, and the values at which the motion becomes stable or unstable.
+            The rates in 1/s, and the values of `symbol` at which the motion becomes stable or unstable.
 
         Examples
         --------
@@ -769,7 +769,7 @@ class System(Equations):
         events: "Event | Impact | Sequence[Event | Impact]" = (),
         progress: "Callable[[float], None] | None" = None,
     ) -> "SystemRun":
-        """Integrate the equations of motion. If forces contain sign(w) or dissipation |w|, the motion may stick and slip.
+        """Integrate the equations of motion. Where forces contain sign(w), or the dissipation |w|, bodies can stick and slip.
 
         A run that cannot reach its last time ends earlier with a LagrotorWarning, and `run.ending` gives the reason. Another
         warning names the time at which the constraints become dependent.

@@ -390,7 +390,7 @@ class Oscillation:
     small : Symbol
         The expansion parameter: a parameter of the system, or the amplitude itself.
     amplitude : Symbol
-        The value of q at Φ = 0 less the equilibrium value.
+        The value of q at Φ = 0 minus its value at equilibrium.
     system : Equations
         The system in motion, which has one coordinate.
 

@@ -39,7 +39,7 @@ from lagrotor.pair.notation import (
 
 JOINT_LINE = sp.Matrix([1, 0, 0])
 J_OF = I1 + M * R**2 / 4
-# The bar adds half its mass at each tip, and its own rotation.
+# The centre of the bar moves with the mean velocity of the tips; K is the inertia of the bar's own rotation.
 INERTIAS: dict[sp.Symbol, sp.Expr] = {
     a: J + m * R**2 / 4 + K * R**2 / ell**2,
     b: m * R**2 / 4 - K * R**2 / ell**2,

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from lagrotor.drawing.view import View
 
 
-# The largest error of the length of a stored axis, by the loosest tolerances.
+# The largest error of the length of a stored axis, reached at the loosest tolerances.
 UNIT_ERROR = 1e-3
 
 UNITS = {

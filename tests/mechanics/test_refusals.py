@@ -228,7 +228,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "other coordinates than the body": lambda: BALL.rolls_on(Plane(Frame(P)), l),
         "radius of the surface = 'R'": lambda: BALL.rolls_on(Sphere(ground, "R"), l),
         "radius = 0 of the surface must be positive": lambda: BALL.rolls_on(Cylinder(ground, 0), l),
-        "larger than that of the ball inside, 3": lambda: BALL.rolls_on(Sphere(ground, 1, hollow=True), 3),
+        "larger than the radius 3 of the ball inside": lambda: BALL.rolls_on(Sphere(ground, 1, hollow=True), 3),
         "rolls on a Plane": lambda: BALL.rolls_on(Sphere(ground, k), l, axis=(0, 0, 1)),
         "is no direction": lambda: BALL.rolls_on(Plane(ground), l, axis=(0, 0, 0)),
         "rolls_on: centre = .* 3 expressions": lambda: BALL.rolls_on(Plane(ground), l, centre=(0, 0)),

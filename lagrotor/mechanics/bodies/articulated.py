@@ -78,13 +78,13 @@ class Joint:
     bend: Small = _STILL
 
     def inward(self, e: Small, keep: Stages) -> Small:
-        """Return the components of vectors in the link from those in the parent."""
+        """Transform the components of vectors from the parent's axes to the link's axes."""
         if self.rotation is not None:
             e = keep.each(self.rotation.T * e)
         return self.turn.back().of(e, keep)
 
     def outward(self, e: Small, keep: Stages) -> Small:
-        """Return the components of vectors in the parent from those in the link."""
+        """Transform the components of vectors from the link's axes to the parent's axes."""
         e = self.turn.of(e, keep)
         return e if self.rotation is None else keep.each(self.rotation * e)
 

@@ -2,7 +2,7 @@
 
 With the shape's centre p and the surface's normal n, in the surface's axes, a ball of radius ρ touches at p − ρ n, a thin disc
 with the axis a at p − ρ e/|e|, e = n − (n·a) a. It rolls where v + ω × (x − p) of the body is the velocity of the surface there.
-The multipliers are forces in N: that of the gap is normal, those of the slips act along the two tangents.
+The multipliers are forces in N: the gap has the normal force, and the slips have the forces along the two tangents.
 
 Neimark & Fufaev, Dynamics of Nonholonomic Systems, ch. I, §§2, 3; Routh, Advanced Rigid Dynamics, §§212–244.
 """
@@ -145,7 +145,7 @@ def contact(
     if isinstance(surface, Sphere):
         R = expression("rolls_on: radius of the surface", surface.radius)
         if not R.is_positive or (surface.hollow and (R - r).is_nonpositive):
-            least = f"larger than that of the ball inside, {r}" if surface.hollow else "positive"
+            least = f"larger than the radius {r} of the ball inside" if surface.hollow else "positive"
             raise InputError(f"rolls_on: radius = {R} of the surface must be {least}")
     ground, (axes, drift) = surface.frame, in_ground(surface.frame)
     if frame.c != ground.c:

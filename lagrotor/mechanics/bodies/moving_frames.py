@@ -93,7 +93,7 @@ class MovingFrame:
         split = angles.replace(",", " ").split() if isinstance(angles, str) else angles
         amounts = list(split) if isinstance(split, Sequence | sp.MatrixBase) else [split]
         if not axes or set(axes) - set(AXES) or len(amounts) != len(axes) or None in amounts:
-            raise InputError(f"turned: axes {axes!r} and angles {angles!r}: one angle for each letter of x, y, z")
+            raise InputError(f"turned: axes {axes!r} and angles {angles!r}: give one angle for each letter of x, y, z")
         frame = self
         for letter, angle in zip(axes, amounts, strict=True):
             frame = type(self)(self.c, frame, AXES.index(letter), _amount("turned: angle", self, angle))

@@ -98,7 +98,7 @@ def make_body(frame: MovingFrame, mass: Any, inertia: Any, centre: Vector) -> Bo
         raise InputError(f"body: inertia = {inertia!r}, centre = {centre!r}: give (I1, I2, I3) and (x, y, z)") from None
     if I.shape != (3, 3) or place.shape != (3, 1) or decide_equal(I, I.T).answer == "nonzero":
         raise InputError(
-            f"body: inertia = {inertia!r} must be (I1, I2, I3) or a symmetric (3, 3), the centre (x, y, z)"
+            f"body: inertia = {inertia!r} must be (I1, I2, I3) or a symmetric (3, 3), and the centre (x, y, z)"
         )
     I = sp.Matrix(3, 3, lambda i, j: I[min(i, j), max(i, j)])  # symmetric also as expressions
     m = expression("body: mass", mass)
@@ -120,7 +120,7 @@ def check_body(where: str, body: Body, values: Mapping[sp.Symbol, Any] | None = 
     """
     mass, I = (e.subs(values or {}) for e in (body.mass, body.inertia))
     if mass.is_negative:
-        raise InputError(f"{where}: mass = {mass} must not be negative")
+        raise InputError(f"{where}: mass = {mass} must not be negative: give 0 or more")
     if any(I[i, i].is_negative for i in range(3)):
         raise InputError(f"{where}: inertia = {I.tolist()} must not be negative about an axis")
     if I.free_symbols or sum(e != 0 for e in I) == sum(I[i, i] != 0 for i in range(3)) == 1:
@@ -202,7 +202,7 @@ class Frame(MovingFrame):
         at : sequence, default (0, 0, 0)
             The point in this frame, in m.
         axes : Frame or None, optional
-            The frame in whose axes the force is given; by default this one, Frame(c) for the ground.
+            The frame in whose axes the force is given: this one by default; Frame(c) is the ground.
 
         Returns
         -------
@@ -244,7 +244,7 @@ class Frame(MovingFrame):
         against : Frame or None, optional
             The frame on which the reaction acts; by default the ground.
         axes : Frame or None, optional
-            The frame in whose axes the torque is given; by default this one, Frame(c) for the ground.
+            The frame in whose axes the torque is given: this one by default; Frame(c) is the ground.
 
         Returns
         -------
@@ -437,7 +437,7 @@ class Frame(MovingFrame):
         return moving_frames.ball_joint(self, quaternion, omega)
 
     def free(self, place: Any, quaternion: Any, omega: Any) -> Self:
-        """Return a frame shifted along the axes and turned as by `ball`: six degrees of freedom.
+        """Return a frame shifted along the axes and turned by a unit quaternion: six degrees of freedom.
 
         Parameters
         ----------

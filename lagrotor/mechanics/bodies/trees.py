@@ -38,8 +38,8 @@ class TreeLink:
     """A joint and the bodies that it carries; parent −1 is the ground.
 
     The link's axes come from the parent's by `shift`, then `rotation`, then a turn by `angle` about `axis`. `coordinates` are
-    the indices of the joint's velocities, and `columns` their s_j. `rate` is its velocity relative to the parent, shape (6,
-    1), and `swing` the time derivative of `rate` at a = 0.
+    the indices of the joint's velocities, and `columns` their s_j. `rate`, shape (6, 1), is its velocity relative to the
+    parent, and `swing` the time derivative of that velocity at a = 0.
     """
 
     parent: int
@@ -102,7 +102,7 @@ def rest_forces(tree: Tree, c: Coordinates) -> sp.Matrix:
 
 
 class _NoTreeError(Exception):
-    """The system is no tree: a step shares coordinates with another joint, contains velocities, or lacks its own velocity."""
+    """The system is no tree: a step shares coordinates with another joint or contains velocities, or a rate is no velocity."""
 
 
 def _links(system: Equations, bodies: list[Body]) -> tuple[TreeLink, ...] | None:

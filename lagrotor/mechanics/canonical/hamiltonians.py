@@ -169,7 +169,9 @@ class Hamiltonian:
             )
         p_of = gradient(F, q)
         if decide_zero(jacobian(p_of, new).det(method="berkowitz")).answer == "zero":
-            raise SingularError(f"generated: det ∂²F/∂q∂P = 0 for F = {F}: it generates no transformation")
+            raise SingularError(
+                f"generated: det ∂²F/∂q∂P = 0 for F = {F}: it generates no transformation; choose another F"
+            )
         K = shortest(self.H.xreplace(dict(zip(p, p_of, strict=True))) + derivative(F, t))
         return GeneratedTransformation(new, tuple(p), tuple(p_of), tuple(gradient(F, new)), K)
 

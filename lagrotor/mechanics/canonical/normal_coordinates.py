@@ -28,7 +28,7 @@ from sympy.polys.polyerrors import CoercionFailed
 from lagrotor.errors import NotExactError, SingularError
 
 Matrix = NDArray[Any]
-_DEFECTIVE = 1e-9  # energy of a unit vector over the rate, below which a mode is not diagonalizable
+_DEFECTIVE = 1e-9  # energy of a unit vector divided by the rate; below it a mode is not diagonalizable
 _CLOSE = 1e-7  # of the largest rate: rates closer to each other, or to zero, count as equal
 
 

@@ -1,7 +1,8 @@
 """The return map of a periodic orbit as power series, and Birkhoff's normal form of a canonical map about a fixed point.
 
 With the linear part Λ diagonal, z_j → e^{−iα_j} z_j, the map is F = Φ_h ∘ Λ with the flow Φ_h of a series h in unit time. A
-change of coordinates Φ_χ of degree d changes h_d to h_d − χ + χ∘Λ⁻¹, and removes all terms z^a w^b but those with
+change of coordinates Φ_χ of degree d changes h_d to h_d − χ + χ∘Λ⁻¹, and removes all terms z^a w^b except the resonant ones,
+with
 
     |1 − e^{iα·(a − b)}| ≈ 0:    F = Φ_K ∘ Λ,     K of the actions I_j = z_j w_j and the resonances.
 
@@ -402,7 +403,9 @@ class _Orbit:
             late = _combined(ahead, self._back(X, x))[0]
             wait = -late / _combined(ahead, self.motion.rate(X, self.motion.begin))[0]
             if not abs(wait.coefficients[0]) < _FAR * period:
-                raise InputError(f"normal_form: no return near t = {period:.6g} s: give a start and the period")
+                raise InputError(
+                    f"normal_form: no return near t = {period:.6g} s: give a start on the orbit and its period"
+                )
             period += wait.coefficients[0]
             X = self.motion.advance(X, wait, local)
         landing = _combined(S, self._back(X, x))
