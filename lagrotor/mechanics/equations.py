@@ -353,7 +353,7 @@ class Equations:
             lack = (
                 "has no velocities of its own: give velocities={…}"
                 if relation is None
-                else "has too long expressions of v by its own velocities: use motion, which has v itself"
+                else "is too long in its own velocities: use motion, whose equations contain v"
             )
             raise InputError(f"hamel: the system {lack}")
         velocities = dict(zip(self.c.v, relation.velocity, strict=True))

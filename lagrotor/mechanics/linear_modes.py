@@ -133,10 +133,10 @@ class LinearSystem:
     def stable_if(self) -> sp.Basic:
         """The condition on the parameters under which every mode stays bounded or decays, a sympy relation.
 
-        The condition is sufficient, and necessary except on its boundary. If det(s² M + s C + K) is even in s, its roots s²
-        must be real, negative and distinct: its coefficients and the Hankel minors of its power sums are positive. Without
-        gyroscopic forces roots may coincide. If it is not even, this holds for its even factors, and the others have positive
-        Routh–Hurwitz determinants.
+        The condition is sufficient, and necessary except on its boundary. If det(s² M + s C + K) is even in s, the roots s²
+        must be real, negative and distinct: the coefficients and the Hankel minors of the power sums are positive. Without
+        gyroscopic forces roots may coincide. If the polynomial is not even, its even factors satisfy this condition, and its
+        other factors have positive Routh–Hurwitz determinants.
 
         Factors that are positive by the assumptions are divided out, and an eigenvalue shared by independent modes counts
         once. Zero roots are allowed if they belong to neighbouring equilibria or to drifts at constant velocity. Growth as t²

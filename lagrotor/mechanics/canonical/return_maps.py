@@ -182,7 +182,7 @@ def map_normal_form(F: Sequence[Polynomial], order: int, detuning: float = 0.0) 
         if (near := np.abs(np.linalg.eigvals(M) - value).min()) < _NEAR:
             way = "name the momentum of a symmetry, or " if value == 1 else ""
             raise SingularError(
-                f"normal_form: a multiplier is {value} but for {near:.1g}: {way}change a parameter or energy"
+                f"normal_form: a multiplier is {value} within {near:.1g}: {way}change a parameter or energy"
             )
     normal = normal_coordinates(-J @ (M - np.eye(n)) @ np.linalg.inv(M + np.eye(n)), J)  # Cayley: same vectors
     shares, weights = normal.frequencies, normal.weights
@@ -371,7 +371,7 @@ def _along(rate: Array) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class _Orbit:
-    """An orbit to be followed for one return, with the angles by which it turns as a whole, and its energy.
+    """An orbit to be followed for one return, with the whole turns of its angles in that time, and its energy.
 
     Under a drive the energy is None.
     """
