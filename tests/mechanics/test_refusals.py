@@ -185,7 +185,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "it reflects": lambda: ground.turned([[sp.cos(q), sp.sin(q), 0], [sp.sin(q), -sp.cos(q), 0], [0, 0, 1]]),
         "with R Rᵀ = 1": lambda: ground.turned([[1, 1, 0], [0, 1, 0], [0, 0, 1]]),
         "neither letters": lambda: ground.turned(7),
-        "axes 'w' and angles theta: one angle": lambda: ground.turned("w", q),
+        "axes 'w' and angles theta: give one angle": lambda: ground.turned("w", q),
         "turned: angle: q is none of the coordinates": lambda: ground.turned("x", "q"),
         r"moved: .* x is none of the coordinates": lambda: ground.moved("x"),
         "from which this one was turned": lambda: ground.velocity(frame=ground.turned("z", 1)),
