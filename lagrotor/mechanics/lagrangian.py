@@ -66,7 +66,7 @@ class Coordinates:
         """Return the coordinate, velocity or acceleration with this name."""
         symbols = {str(s): s for s in (*self.q, *self.v, *self.a)}
         if name not in symbols:
-            meant = near(name, symbols) or ": a configuration finds its own symbols alone by name"
+            meant = near(name, symbols) or ": find these symbols by their names"
             raise InputError(f"Coordinates: {name!r} is none of {', '.join(symbols)}{meant}")
         return symbols[name]
 
