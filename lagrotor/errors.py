@@ -8,11 +8,11 @@ class LagrotorError(Exception):
 
 
 class InputError(LagrotorError, ValueError):
-    """An input without meaning, refused before work starts."""
+    """An input that has no meaning. It is refused before any work starts."""
 
 
 class NotExactError(LagrotorError, ValueError):
-    """An expression outside the class that is decided exactly."""
+    """An expression outside the class for which equality can be decided exactly."""
 
 
 class TooLargeError(NotExactError):
@@ -20,7 +20,7 @@ class TooLargeError(NotExactError):
 
 
 class WorkError(LagrotorError):
-    """A decision that needs more work than its caller allows. It is not recorded as undecided."""
+    """A decision that needs more work than its caller allows. The answer is not recorded as undecided: more work may decide."""
 
 
 class DomainError(LagrotorError, ValueError):
@@ -28,7 +28,7 @@ class DomainError(LagrotorError, ValueError):
 
 
 class ConstraintError(LagrotorError, ValueError):
-    """A state that does not satisfy its holonomic constraints, or cannot be brought onto them."""
+    """A state that does not satisfy the holonomic constraints of its system, or cannot be projected onto them."""
 
 
 class NotASymmetryError(LagrotorError, ValueError):
@@ -44,11 +44,14 @@ class ScriptError(LagrotorError):
 
 
 class SingularError(LagrotorError, ArithmeticError):
-    """Coordinates or constraints that are singular at this state."""
+    """Coordinates or constraints that are singular at the given state."""
 
 
 class IntegrationError(LagrotorError, ArithmeticError):
-    """An integration that could not reach the end of the run, or gave another motion, after so many evaluations."""
+    """An integration that failed before the end of the run, or that followed another motion, with other conserved quantities.
+
+    `evaluations` is the number of evaluations of the right-hand side before it was given up.
+    """
 
     evaluations: int = 0
 
@@ -62,7 +65,7 @@ class LagrotorWarning(UserWarning):
 
 
 def near(name: object, names: Iterable[str]) -> str:
-    """Return the names that are near a wrong one as a question for the end of a message; "" if none is near."""
+    """Return a question for the end of an error message, ": mass or mast?", with names like `name`; "" if none is like it."""
     from difflib import get_close_matches
 
     by_lower = {candidate.lower(): candidate for candidate in names}

@@ -52,7 +52,7 @@ def path_of(where: str, path: str | Path) -> Path:
 
 
 def read_text(path: str | Path, otherwise: str = "") -> str:
-    """Read the text of a file in UTF-8, or in the encoding `otherwise`; raise InputError if it cannot be read."""
+    """Read a text file in UTF-8 or UTF-16, else in the encoding `otherwise`; raise InputError if it cannot be read."""
     try:
         with path_of("path", path).open("rb") as file:
             wide = file.read(2) in (b"\xff\xfe", b"\xfe\xff")
@@ -62,7 +62,7 @@ def read_text(path: str | Path, otherwise: str = "") -> str:
     except UnicodeError:
         if otherwise:
             return Path(path).read_text(encoding=otherwise)
-        raise InputError(f"{path} is no text in UTF-8: give a file that is") from None
+        raise InputError(f"{path} is no text in UTF-8: save it in that encoding") from None
 
 
 def read_toml(path: str | Path) -> dict[str, Any]:
@@ -70,7 +70,7 @@ def read_toml(path: str | Path) -> dict[str, Any]:
     try:
         return tomllib.loads(read_text(path))
     except tomllib.TOMLDecodeError as error:
-        raise InputError(f"{path} is no TOML: {error}") from None
+        raise InputError(f"{path} is no TOML: {error}: correct the file there") from None
 
 
 def write_text(target: Path, text: str) -> Path:
@@ -79,7 +79,7 @@ def write_text(target: Path, text: str) -> Path:
 
 
 def write_arrays(target: Path, about: Mapping[str, Any], arrays: Mapping[str, Any]) -> Path:
-    """Write arrays as .npz with a description: `about`, the version, and a digest of the whole, as JSON."""
+    """Write arrays as .npz. The entry "about" is JSON: `about`, the version and a SHA-256 digest of all contents."""
     import numpy as np
 
     rows: dict[str, Any] = {name: np.ascontiguousarray(values) for name, values in arrays.items()}
@@ -89,7 +89,7 @@ def write_arrays(target: Path, about: Mapping[str, Any], arrays: Mapping[str, An
 
 
 def read_arrays(path: Path) -> tuple[dict[str, Any], Arrays]:
-    """Read the description and the arrays of `write_arrays`; raise InputError if the file is damaged.
+    """Return the description and the arrays that `write_arrays` wrote; raise InputError if the file is damaged.
 
     Sizes and types are checked in the headers before any array is read.
     """
@@ -112,7 +112,7 @@ def read_arrays(path: Path) -> tuple[dict[str, Any], Arrays]:
 
 
 def _read_array(archive: ZipFile, path: Path, name: str, entry: ZipInfo) -> "NDArray[Any]":
-    """Read one array after its header agrees with its size."""
+    """Read one array of the archive, after checking its type and its size against the header."""
     import numpy as np
 
     if entry.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
@@ -126,7 +126,7 @@ def _read_array(archive: ZipFile, path: Path, name: str, entry: ZipInfo) -> "NDA
             raise InputError(f"{path}: {name} holds {dtype}, not plain numbers: make it anew")
         size = int(np.prod(shape, dtype=object)) * dtype.itemsize
         if size > (_LARGEST_ABOUT if name == "about" else _LARGEST) or size != entry.file_size - file.tell():
-            raise InputError(f"{path}: {name} declares {size} bytes, which is too many or not its size")
+            raise InputError(f"{path}: {name} declares {size} bytes, too many or not its size: make it anew")
         data = file.read(size)
     return np.frombuffer(data, dtype).reshape(shape).copy()
 

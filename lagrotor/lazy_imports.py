@@ -23,7 +23,7 @@ def names_of_face(file: Path) -> dict[str, str]:
 
 
 def face(package: str) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
-    """Return `__getattr__`, `__dir__` and `__all__` of a package, for its `__init__.py`."""
+    """Return `__getattr__`, `__dir__` and `__all__` for the `__init__.py` of a package, which assigns them to these names."""
     names = names_of_face(Path(str(sys.modules[package].__file__)))
     return partial(_import_name, package, names), partial(sorted, names), sorted(names)
 

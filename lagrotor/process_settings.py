@@ -14,9 +14,10 @@ _GARBAGE = 100_000, 10, 10
 
 
 def begin_process(objects: int = _GARBAGE[0]) -> None:
-    """Set one thread of linear algebra, a larger cache of sympy, and rare garbage collections.
+    """Prepare a process for long work: one thread of linear algebra, a larger cache of sympy, rarer garbage collections.
 
-    Settings of the user stay. The first two act only before numpy and sympy are imported.
+    Environment variables that the user has set are kept. The first two settings act only before numpy and sympy are imported.
+    `objects` is the number of new objects between two garbage collections.
     """
     for name in _THREADS:
         os.environ.setdefault(name, "1")

@@ -99,7 +99,7 @@ R = TypeVar("R")
 
 
 def accept_old_keywords(function: Callable[P, R]) -> Callable[P, R]:
-    """Let a function take its keywords of earlier releases, the row of its qualified name in KEYWORDS."""
+    """Let a function accept its keywords of earlier releases, which KEYWORDS lists under its qualified name."""
     row = KEYWORDS[function.__qualname__]
 
     @wraps(function)
@@ -116,7 +116,7 @@ def accept_old_keywords(function: Callable[P, R]) -> Callable[P, R]:
 
 
 def old_name(package: str, name: str) -> Any:
-    """Return the object that a package had under an old name; None where it had none."""
+    """Return the object that a package had under an old name; None if `name` is no old name in this package."""
     if (new := NAMES.get(f"{package}.{name}")) is None:
         return None
     module, attribute = new.rsplit(".", 1)
@@ -127,7 +127,7 @@ def old_name(package: str, name: str) -> Any:
 
 
 def old_attribute(instance: Any, name: str) -> Any:
-    """Return the attribute that an object had under an old name; raise AttributeError where it had none."""
+    """Return the attribute that an object had under an old name; raise AttributeError if `name` is no old name."""
     for kind in type(instance).__mro__:
         if new := ATTRIBUTES.get(kind.__name__, {}).get(name):
             warn(f"{kind.__name__}.{name} is now {new}: use that instead", DeprecationWarning, stacklevel=2)
@@ -136,7 +136,7 @@ def old_attribute(instance: Any, name: str) -> Any:
 
 
 def new_name(name: str) -> str | None:
-    """Return the new name of a module by the longest row that covers it; None where no row does."""
+    """Return the new name of a module that RENAMED lists, itself or a package above it; None if neither is listed."""
     rows = [old for old in RENAMED if name == old or name.startswith(f"{old}.")]
     return RENAMED[old] + name.removeprefix(old) if (old := max(rows, key=len, default="")) else None
 
@@ -158,11 +158,11 @@ class RenamedModules(MetaPathFinder, Loader):
         return module
 
     def exec_module(self, module: ModuleType) -> None:
-        """Give the module its specification back, in whose place importing has put that of the old name."""
+        """Restore the module's specification, which the import has replaced by one with the old name."""
         module.__spec__ = module.__spec__ and module.__spec__.loader_state
 
 
 def install() -> None:
-    """Put the finder before Python's, once."""
+    """Put the finder of renamed modules before Python's finders, unless it is already there."""
     if not any(isinstance(finder, RenamedModules) for finder in sys.meta_path):
         sys.meta_path.insert(0, RenamedModules())

@@ -7,7 +7,7 @@ _HIGH = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def superscript(power: int) -> str:
-    """Return a whole power in superscript: −14 as ⁻¹⁴."""
+    """Return an integer exponent in superscript digits: −14 as ⁻¹⁴."""
     return str(power).translate(_HIGH)
 
 
@@ -33,11 +33,11 @@ def scientific(value: float, digits: int = 0) -> str:
 
 
 class Shown(ABC):
-    """A result with a `summary`, printed in lines and in Jupyter as a table. A dataclass of this kind has repr=False."""
+    """A result whose `summary` is printed as lines, and in Jupyter as a table. A dataclass that inherits it needs repr=False."""
 
     @abstractmethod
     def summary(self) -> dict[str, str]:
-        """Return the result in words, by name."""
+        """Return the result in words: {name of a quantity: its value as text}."""
 
     def __repr__(self) -> str:
         rows = self.summary()

@@ -12,7 +12,8 @@ The main types, in the order in which data passes through them:
     SystemRun       a simulated motion with its error (`running`)
 
 Equations are expressions; numpy and scipy are imported when a method needs numbers. `System` has every analysis as a method of
-one line. A new analysis is a function of an `Equations` in a module of its own, and such a method.
+one line. To add an analysis, write a function of an `Equations` in a module of its own and a method of `System` that calls
+it.
 """
 
 from typing import TYPE_CHECKING

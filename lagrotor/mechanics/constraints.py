@@ -19,7 +19,7 @@ from lagrotor.mechanics.lagrangian import dependent_rows
 
 Array = NDArray[np.floating[Any]]
 
-# Beyond this condition number of the (row-scaled) Schur complement the multipliers carry no digit worth reading.
+# Beyond this condition number of the (row-scaled) Schur complement rounding errors exceed the multipliers.
 WORST_CONDITION = 1e12
 
 
@@ -40,8 +40,9 @@ def project_position(
 ) -> Array:
     """Project a configuration onto g = 0 by Newton's method along M⁻¹ Gᵀ: q ← q − M⁻¹ Gᵀ S⁻¹ g.
 
-    To first order in the distance the result is the nearest one in the mass metric. Steps end below 10⁻¹⁴ (1 + |q|), whatever
-    the unit of g, or when g is below the rounding of its terms, which near dependent constraints moves q by more.
+    `g_fun` and `G_fun` return g, shape (k,), and its Jacobian G, shape (k, n). To first order in the distance the result is
+    the nearest configuration in the mass metric. The iteration ends after a step below 10⁻¹⁴ (1 + |q|), or when g is below
+    the rounding error of its terms. Near dependent constraints such a step may be longer.
     """
     start, q = q, np.array(q, dtype=float)
     for _ in range(_STEPS):

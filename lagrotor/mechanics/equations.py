@@ -1,11 +1,11 @@
-"""The equations of motion of a Lagrangian system with forces, friction and constraints, and time where it enters.
+"""The equations of motion of a Lagrangian system with forces, friction and constraints, which may depend on time.
 
     M a + h = Q + Gᵀ λ,        G v + b = 0,        G a + γ = 0.
 
 The generalised forces Q are the applied forces less ∂D/∂v of Rayleigh's dissipation function D. The rows of G, b and γ
 belong to the holonomic constraints g(q, t) = 0 (row ∂g/∂q, b = ∂g/∂t), and after them to the rolling constraints
-f(q, v, t) = 0, which are affine in the velocities (row ∂f/∂v, b = f at v = 0). γ is the part without a of the second, or
-first, time derivative.
+f(q, v, t) = 0, which are affine in the velocities (row ∂f/∂v, b = f at v = 0). γ is the part without a of the second time
+derivative of g, and of the first of f.
 
 Goldstein, Poole & Safko, Classical Mechanics, 3rd ed., §§1.4, 1.5, 2.4, 2.7; Neimark & Fufaev, Dynamics of
 Nonholonomic Systems, ch. III.
@@ -61,7 +61,7 @@ class Equations:
     def __post_init__(self) -> None:
         if not isinstance(self.c, Coordinates):
             raise InputError(
-                f"System: {self.c!r} must be Coordinates: coordinates('theta phi') makes them; they come first"
+                f"System: {self.c!r}, the first argument, must be Coordinates: make them with coordinates('theta phi')"
             )
         for name in ("constraints", "rolling", "forces"):
             entries = getattr(self, name)
@@ -88,7 +88,7 @@ class Equations:
         _ = self.kinematics
 
     def _take_velocities(self) -> None:
-        """Store the quasi-velocities as pairs, those of ball joints included, and replace them in the expressions."""
+        """Store all quasi-velocities as pairs (u, expression in v), also those of ball joints, and express the fields by v."""
         joints = self.ball_joints
         turns = dict.fromkeys((joint.quaternion, joint.omega) for joint in joints)
         letters = [s for group in turns for symbols in group for s in symbols]
@@ -133,7 +133,7 @@ class Equations:
         return list(dict.fromkeys(frame for frame in steps if frame.omega))
 
     def _name(self, field: str, named: Mapping[Any, Any]) -> None:
-        """Store the names of the constraints or of rolling. Those of the other field are numbers unless it is named, too."""
+        """Store the names of the constraints in one field. Constraints in the other field keep their names, or get numbers."""
         if wrong := [name for name in named if not isinstance(name, str) or not name.strip() or name in self.names]:
             raise InputError(
                 f"System: {wrong[0]!r} in {field} is no name, or is in use: give {{name: expression}}, each name once"
@@ -148,7 +148,12 @@ class Equations:
         velocities, higher = {*self.c.v}, {*self.c.a}
         for name in ("constraints", "rolling", "forces"):
             for i, e in enumerate(getattr(self, name)):
-                _free_of(f"{name}[{i}]", e.free_symbols, higher, "an equation of motion gives them; write it without")
+                _free_of(
+                    f"{name}[{i}]",
+                    e.free_symbols,
+                    higher,
+                    "accelerations follow from the equations; write it without them",
+                )
                 if name == "constraints":
                     way = "a holonomic constraint depends on coordinates and time alone; integrate it, or give it to rolling"
                     _free_of(f"constraints[{i}]", e.free_symbols, velocities, way)
@@ -179,26 +184,27 @@ class Equations:
         return (*self.constraints, *self.rolling, self.dissipation, *self.forces)
 
     def _check_reactions(self) -> None:
-        """Raise InputError for a reaction of no constraint, or one outside forces and dissipation."""
+        """Raise InputError for a symbol reaction(name) that names no constraint, or that is outside forces and dissipation."""
         names = self.multiplier_names
         places = (*self.constraints, *self.rolling, *(e for _, e in self.velocities))
         elsewhere = self.letters.union(*(e.free_symbols for e in places))
         for s in sorted(set().union(elsewhere, *(e.free_symbols for e in self.acting)), key=str):
             name = str(s)[len("reaction(") : -1] if str(s).startswith("reaction(") else None
             if name is not None and (s in elsewhere or name not in names):
-                what = "belongs into forces and dissipation alone" if name in names else "is of none of the constraints"
+                what = "may stand in forces and dissipation alone" if name in names else "names no constraint"
                 raise InputError(
-                    f"System: {s} {what}: theirs are {', '.join(names) or 'none'}, as {{name: expression}} has them"
+                    f"System: {s} {what}: the constraints have the names {', '.join(names) or '(none)'}; name them by "
+                    "{name: expression}"
                 )
 
     @property
     def multiplier_names(self) -> tuple[str, ...]:
-        """The names of the constraints and then of rolling, or their numbers from 1."""
+        """The names of the constraints and then of the rolling constraints, or their numbers from 1."""
         return self.names or tuple(str(i + 1) for i in range(len(self.constraints) + len(self.rolling)))
 
     @property
     def _letters(self) -> tuple[Any, ...]:
-        """The symbols of the system, by group, whose names must differ."""
+        """The groups of symbols and expressions of the system, in which no two symbols may have the same name."""
         moving = self.c.q, self.c.v, self.c.a, t
         return *moving, self.acting, self.velocities, self.letters if self.bodies else ()
 
@@ -219,7 +225,9 @@ class Equations:
         check_names("System", *self._letters, self.letters)
         acting = self.letters.union(*(sp.sympify(e, strict=True).free_symbols for e in (*self.forces, *self.residual)))
         if reserved := sorted(str(s) for s in acting if re.fullmatch(r"_a\d+", str(s))):
-            raise InputError(f"System: {', '.join(reserved)}: names as _a0 are those of generated programs; rename")
+            raise InputError(
+                f"System: {', '.join(reserved)}: generated programs use names like _a0; choose other names"
+            )
         _free_of(
             "L",
             self.letters,
@@ -230,17 +238,17 @@ class Equations:
 
     @property
     def speeds(self) -> tuple[sp.Symbol, ...]:
-        """The velocities u of a state (q, u): the quasi-velocities, or v."""
+        """The velocities u of a state (q, u): the quasi-velocities, or v if the system has none."""
         return tuple(u for u, _ in self.velocities) or self.c.v
 
     @property
     def speed_rates(self) -> tuple[sp.Symbol, ...]:
-        """The derivatives u' of `speeds`: symbols with the names of u and _dot, or a."""
+        """The time derivatives u' of `speeds`: symbols u_dot; the accelerations a if there are no quasi-velocities."""
         return tuple(sp.Symbol(f"{u}_dot", real=True) for u, _ in self.velocities) or self.c.a
 
     @cached_property
     def kinematics(self) -> Kinematics | None:
-        """The relation v = B u + b to the quasi-velocities; None without any."""
+        """The relation v = B u + b between v and the quasi-velocities; None if the system has no quasi-velocities."""
         if not self.velocities:
             return None
         units = [self.constraints.index(joint.unit_length) for joint in self.ball_joints]
@@ -249,7 +257,7 @@ class Equations:
 
     @property
     def left(self) -> tuple[int, ...]:
-        """The numbers of the constraints that multipliers maintain."""
+        """The indices of the constraints that have multipliers; quasi-velocities satisfy the other constraints by themselves."""
         return self.kinematics.left if self.kinematics else tuple(range(len(self.residual)))
 
     @property
@@ -259,7 +267,7 @@ class Equations:
 
     @property
     def momenta(self) -> sp.Matrix:
-        """The conjugate momenta p = ∂L/∂v, shape (n, 1)."""
+        """The conjugate momenta p = ∂L/∂v in q, v and t, shape (n, 1)."""
         return free.momenta(self.L, self.c)
 
     @cached_property
@@ -282,10 +290,10 @@ class Equations:
 
     @cached_property
     def accelerations(self) -> sp.Matrix:
-        """The accelerations a in q, v and t, shape (n, 1); under constraints those of a state on them.
+        """The accelerations a in q, v and t, shape (n, 1). Under constraints they hold at states that satisfy these.
 
-        For small systems: the adjugate of M grows fast with n. `rhs` has them in numbers. SingularError is raised where
-        det M vanishes identically, or the constraints are dependent.
+        Use them for small systems, since the adjugate of M grows fast with n; `System.rhs` computes them in numbers.
+        SingularError is raised if det M vanishes identically, or if the constraints are dependent.
         """
         return constrained_accelerations(self)[0].as_immutable()
 
@@ -313,9 +321,10 @@ class Equations:
 
     @cached_property
     def multipliers(self) -> tuple[sp.Symbol, ...]:
-        """The multipliers in `motion` and `power`, one for each constraint.
+        """The symbols of the multipliers in `motion` and `power`, one for each constraint.
 
-        They are λ with the name or the number of the constraint, Λ if the system uses λ, and `reaction(name)` if forces have it.
+        A symbol is lambda_ with the name or number of its constraint, or Lambda_ if the system already has such a symbol. It
+        is `reaction(name)` if the forces contain that.
         """
         names = [name.replace(" ", "_") for name in self.multiplier_names]
         names = names if len({*names}) == len(names) else list(self.multiplier_names)
@@ -339,13 +348,15 @@ class Equations:
     def hamel(self) -> sp.Matrix:
         """The Boltzmann–Hamel equations in quasi-velocities, shape (m, 1), zero along a motion.
 
-        They are M u' + h − Bᵀ Q − (G' B)ᵀ λ with u' = `speed_rates`: see `quasi_velocities`. InputError is raised without
-        quasi-velocities, or if v is too long to be written in them.
+        They are M u' + h − Bᵀ Q − (G' B)ᵀ λ with u' = `speed_rates`: see `quasi_velocities`. InputError is raised if the
+        system has no quasi-velocities, or if v as a function of them is too long to write out.
         """
         relation = self.kinematics
         if relation is None or relation.stages:
             lack = (
-                "has no velocities of its own: give velocities={…}" if relation is None else "has too long an inverse"
+                "has no velocities of its own: give velocities={…}"
+                if relation is None
+                else "is too long in its own velocities: use motion, whose equations contain v"
             )
             raise InputError(f"hamel: the system {lack}")
         velocities = dict(zip(self.c.v, relation.velocity, strict=True))
@@ -372,7 +383,8 @@ class Equations:
 def reaction(name: str | int) -> sp.Symbol:
     """Return the symbol of the multiplier of a constraint, for forces and dissipation.
 
-    Coulomb's friction is dissipation = μ reaction("floor") |v|, or μ |reaction("wire")| |v| of a guide that holds on both sides.
+    Coulomb friction on a floor is dissipation = μ reaction("floor") |v|; in a guide that can push to both sides it is μ
+    |reaction("wire")| |v|.
 
     Parameters
     ----------
@@ -382,19 +394,19 @@ def reaction(name: str | int) -> sp.Symbol:
     Returns
     -------
     Symbol
-        λ; of a gap in m the normal force in N.
+        The multiplier λ. If the constraint is a gap in m, λ is the normal force in N.
     """
     return sp.Symbol(f"reaction({name})", real=True)
 
 
 def push_left(system: Equations, push: sp.Matrix) -> tuple[sp.Matrix, sp.Matrix]:
-    """Return the forces without reactions, and ∂Q/∂λ with a column for each multiplier; Q must be affine in λ."""
+    """Split forces that are affine in the multipliers: return Q at λ = 0 and ∂Q/∂λ, with one column for each multiplier."""
     lam = [system.multipliers[i] for i in system.left]
     by_reaction = jacobian(list(push), lam) if lam else sp.zeros(push.rows, 0)
     active = push.xreplace(dict.fromkeys(lam, sp.S.Zero))
     if wrong := (by_reaction.free_symbols | active.free_symbols) & {*system.multipliers}:
         way = (
-            "leave out velocities that use its constraint up"
+            "quasi-velocities satisfy its constraint, which has no multiplier; leave these velocities out"
             if min(wrong, key=str) not in lam
             else ("it must enter linearly, or by its size |λ| in a run")
         )
@@ -403,7 +415,7 @@ def push_left(system: Equations, push: sp.Matrix) -> tuple[sp.Matrix, sp.Matrix]
 
 
 def rows_left(system: Equations) -> tuple[sp.Matrix, sp.Matrix]:
-    """Return the rows and γ, for u', of the constraints that multipliers maintain."""
+    """Return G' and γ' of G' u' + γ' = 0, the constraints with multipliers as conditions on the rates u'."""
     relation = system.kinematics
     if relation is None:
         return system.rows, system.gamma
@@ -468,7 +480,7 @@ def degrees_of_freedom(system: Equations, at: Mapping[sp.Symbol, float]) -> int:
     Returns
     -------
     int
-        n less the number of singular values of G above rounding.
+        n minus the number of singular values of G above rounding errors.
     """
     G = system.rows.subs(dict(at))
     if G.free_symbols:
@@ -485,7 +497,7 @@ def degrees_of_freedom(system: Equations, at: Mapping[sp.Symbol, float]) -> int:
 def check_friction(where: str, dissipation: sp.Expr, c: Coordinates) -> None:
     """Raise InputError if D(q, v, t) is below D(q, 0, t) at great velocities: −∂D/∂v would drive the motion.
 
-    D is evaluated at random states for random parameters, and refused if none of these makes it a dissipation.
+    D is evaluated at random states for several random sets of parameters. It is refused if it falls for every set.
     """
     moving = dissipation.free_symbols & {*c.q, *c.v, t}
     falls = [

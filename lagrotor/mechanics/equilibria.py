@@ -65,7 +65,7 @@ def equilibria(
 ) -> tuple[Equilibrium, ...]:
     """Return the configurations at rest: `System.equilibria`."""
     if isinstance(unknowns, Mapping):
-        raise InputError("equilibria: unknowns must be names of symbols: values are given as values={symbol: number}")
+        raise InputError("equilibria: unknowns must be names of symbols: give numbers by values={symbol: number}")
     if values is not None or box is not None:
         if unknowns:
             raise InputError(f"equilibria: in a box all coordinates are unknown: leave out unknowns = {unknowns!r}")
@@ -89,7 +89,7 @@ def _in_box(
         raise InputError("equilibria: with rolling, equilibria are not isolated: give linearise a point")
     symbols = system.letters | system.generalised_forces.free_symbols
     if strangers := {name for name in values if isinstance(name, str)} - {*map(str, symbols)}:
-        raise InputError(f"equilibria: values name {min(strangers)}, which the system does not have: leave it out")
+        raise InputError(f"equilibria: values name {min(strangers)}, which is no symbol of the system: leave it out")
     numbers = {s: _rational(f"equilibria: {s}", x) for s, x in by_symbol("equilibria: values", values, symbols).items()}
     at_rest = dict.fromkeys((*c.v, *c.a), sp.S.Zero)
     forces = [put_in(e, at_rest).subs(numbers) for e in euler_lagrange(system.L, c) - system.generalised_forces]
@@ -140,10 +140,10 @@ def _about(region: Box, coordinates: Sequence[sp.Symbol]) -> str:
 
 
 def _at_rest(forces: Sequence[sp.Expr], constraints: Sequence[sp.Expr], box: Box) -> tuple[list[Box], list[Box]]:
-    """Return the boxes of the roots and the undecided boxes.
+    """Return two lists of boxes: each of the first contains one equilibrium, those of the second are undecided.
 
-    Under a constraint with multiplier r tan χ these are roots of F cos χ + r ∂g/∂q sin χ = 0, g = 0; r makes both terms alike
-    in size.
+    Under a constraint g = 0 with the multiplier r tan χ the equations are F cos χ + r ∂g/∂q sin χ = 0 and g = 0. The number r
+    gives both terms a similar size.
     """
     if not constraints:
         return roots_in_box(forces, box)
@@ -159,7 +159,7 @@ def _at_rest(forces: Sequence[sp.Expr], constraints: Sequence[sp.Expr], box: Box
 
 
 def _size(row: Sequence[sp.Expr], box: Box) -> sp.Rational:
-    """Return the largest product of an entry and its side of the box at two points inside; 1 where all are zero or undefined."""
+    """Return the largest |entry| × (side of the box) at two points of the box; 1 if all entries are zero or undefined there."""
     sizes = [sp.S.Zero]
     for share in (sp.Rational(2, 7), sp.Rational(5, 7)):
         values = enclosures(row, {q: low + share * (high - low) for q, (low, high) in box.items()})
@@ -224,7 +224,7 @@ def _unknowns(system: Equations, unknowns: str | Sequence[str | sp.Symbol]) -> t
 def _polynomials(
     conditions: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol]
 ) -> tuple[list[sp.Expr], dict[sp.Expr, tuple[sp.Symbol, sp.Symbol]]]:
-    """Return the numerators of the conditions, with cos and sin of each unknown angle as symbols tied by c² + s² = 1."""
+    """Write the conditions as polynomials, which include c² + s² − 1 for each angle; return them and {angle: (c, s)}."""
     roots = {p for e in conditions for p in e.atoms(sp.Pow) if not p.exp.is_integer}
     if any(p.free_symbols & {*unknowns} for p in roots):
         raise _refusal(conditions, unknowns)
@@ -251,7 +251,10 @@ def _polynomials(
 def _solve(
     polynomials: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol], solution: Solution, circles: set[sp.Expr]
 ) -> Iterator[Solution]:
-    """Yield each solution of all polynomials, found by factors of degree one or two; a circle c² + s² = 1 alone stays free."""
+    """Yield each common root {unknown: value} of the polynomials, found from factors of degree one or two.
+
+    An angle on which only c² + s² = 1 depends stays free.
+    """
     factor_lists: list[list[sp.Expr]] = []
     whole: list[sp.Expr] = []
     for e in polynomials:
@@ -283,7 +286,7 @@ def _solve(
 
 
 def _easiest(factor: sp.Expr, unknowns: Sequence[sp.Symbol]) -> tuple[sp.Symbol, int]:
-    """Return the unknown for which this factor is solved most easily, linear before quadratic, and the effort."""
+    """Return the unknown for which this factor is solved most easily, and a number for the effort: linear before quadratic."""
     inside = [x for x in unknowns if x in factor.free_symbols]
     efforts = []
     for x in inside:
@@ -301,7 +304,7 @@ def _equilibrium(
     pairs: Mapping[sp.Expr, tuple[sp.Symbol, sp.Symbol]],
     fixed: Mapping[sp.Symbol, sp.Expr],
 ) -> Equilibrium | None:
-    """Return the solution in the coordinates; None where it is not real."""
+    """Return the equilibrium that belongs to a root {unknown: value}; None if the root is not real."""
     at: Solution = dict(fixed) | {x: solution[x] for x in unknowns if x in solution}
     domain: list[sp.Basic] = []
     for u, (c, s) in pairs.items():

@@ -1,4 +1,4 @@
-"""Expressions of users are checked: plain symbols, finite, no text. Results are written as short as possible."""
+"""Check the expressions that users give (plain symbols, finite, no text), and write results as short as possible."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
@@ -59,12 +59,12 @@ def unknown_functions(expressions: Any) -> list[sp.Expr]:
 
 
 def put_in(e: sp.Expr, values: Mapping[Any, Any]) -> sp.Expr:
-    """Return the expression with values for symbols, also inside derivatives U'(r)."""
+    """Replace symbols in an expression by values, also inside derivatives U'(r) of unknown functions."""
     return e.subs(values, simultaneous=True) if e.has(sp.Derivative) else e.xreplace(dict(values))
 
 
 def jets_of(e: sp.Expr) -> list[sp.Expr]:
-    """Return the outermost undefined functions and their derivatives."""
+    """Return the undefined functions and their derivatives in an expression, outermost alone: of sin(U'(y(t))) only U'(y(t))."""
     if not e.has(AppliedUndef):
         return []
     return [e] if jet_of(e) is not None else [jet for a in e.args for jet in jets_of(a)]
@@ -73,7 +73,10 @@ def jets_of(e: sp.Expr) -> list[sp.Expr]:
 def with_jets(
     e: sp.Expr, replacement: Callable[[str, tuple[int, ...], tuple[sp.Expr, ...]], sp.Expr | None]
 ) -> sp.Expr:
-    """Replace undefined functions and derivatives by replacement(name, orders of differentiation, arguments) unless None."""
+    """Replace undefined functions and derivatives by replacement(name, orders, arguments); where that is None they stay.
+
+    `orders` is the order of differentiation by each argument, all zero for the function itself.
+    """
     if not e.has(AppliedUndef):
         return e
     if (jet := jet_of(e)) is not None:
@@ -85,12 +88,12 @@ def with_jets(
 
 
 def longer(e: sp.Expr, operations: int) -> bool:
-    """Return True if an expression has more operations, without writing out one that is too long."""
+    """Return True if an expression has more than so many operations. Shared parts are not written out to count them."""
     return length(e) > 10 * operations or bool(sp.count_ops(e) > operations)
 
 
 def shortest(e: sp.Expr) -> sp.Expr:
-    """Return the expression, its normal form, or that with A sin² for A − A cos²: the one with the fewest operations."""
+    """Return the shortest of three equal forms: the expression, its normal form, and that form with A sin² for A − A cos²."""
     if longer(e, _MOST_OPERATIONS):
         return e
     if jets := jets_of(e):
@@ -124,7 +127,7 @@ def vector_of(where: str, components: Any, n: int) -> tuple[sp.Expr, ...]:
 
 
 def by_symbol(where: str, values: Mapping[Any, Any], symbols: Iterable[sp.Symbol]) -> dict[Any, Any]:
-    """Return values by symbol from a mapping by symbol or name; raise InputError for anything else, and for text."""
+    """Return {symbol: value} from a mapping by symbol or name; raise InputError for no mapping, or if a value is text."""
     if not isinstance(values, Mapping):
         raise InputError(f"{where} = {values!r} must be a dictionary by symbol, {{symbol: …}}")
     if text := next((f"{key} = {value!r}" for key, value in values.items() if isinstance(value, str)), ""):

@@ -26,7 +26,7 @@ Pairs = list[tuple[Waves, Waves]]
 
 
 class FourierSeries:
-    """The series of the coefficients {(n, h): value} through eps**order, of eps^n cos(h Phi), for h < 0 of eps^n sin(|h| Phi)."""
+    """A series through eps**order from {(n, h): coefficient} of eps^n cos(h Phi), or of eps^n sin(|h| Phi) if h < 0."""
 
     def __init__(self, terms: Mapping[Key, Coefficient], order: int) -> None:
         powers: dict[int, dict[int, Coefficient]] = defaultdict(dict)
@@ -49,7 +49,7 @@ class FourierSeries:
         return self._cache[n]
 
     def assign(self, n: int, h: int, value: Coefficient) -> None:
-        """Set the coefficient of eps**n and harmonic h of a series given by terms; `forget` the results computed without it."""
+        """Set one coefficient of a series that was made from terms. Call `forget` for series computed from it before."""
         if value:
             self._compute(n)[h] = value  # type: ignore[index]
 
@@ -84,7 +84,7 @@ class FourierSeries:
         return self._from(lambda n: {h: v * factor for h, v in self.at(n).items()})
 
     def raised(self, n: int) -> FourierSeries:
-        """Return eps**n × f."""
+        """Return this series times eps**n."""
         return self._from(lambda k: self.at(k - n) if k >= n else {})
 
     def convert(self, value: Callable[[Any], Coefficient]) -> FourierSeries:
@@ -104,7 +104,7 @@ class FourierSeries:
         return constant_series(value, self.order)
 
     def through(self, order: int) -> FourierSeries:
-        """Return the terms up to an order, as a series of that order."""
+        """Return the terms up to the power eps**order, as a series of that order."""
         return FourierSeries({k: v for k, v in self.terms.items() if k[0] <= order}, order)
 
 
@@ -124,7 +124,10 @@ def forget(series: Sequence[FourierSeries], n: int) -> None:
 
 
 def _product(pairs: Pairs) -> Waves:
-    """Return the sum of products of waves; rational ones as integers over one denominator, reduced once a harmonic."""
+    """Return the harmonics of the sum of products f g over pairs (f, g) of trigonometric sums.
+
+    Rational coefficients are multiplied as integers over one denominator, and reduced once for each harmonic.
+    """
     integers, below = _over_one_denominator(pairs)
     total: dict[int, Coefficient] = defaultdict(int)
     for first, second in integers:
@@ -133,7 +136,7 @@ def _product(pairs: Pairs) -> Waves:
 
 
 def _add_twice_the_product(total: dict[int, Coefficient], first: Waves, second: Waves) -> None:
-    """Add twice the product to the total, by 2 cos p cos q = cos(p−q) + cos(p+q) and its kin."""
+    """Add twice the product of two trigonometric sums to the total, by 2 cos p cos q = cos(p−q) + cos(p+q) and its like."""
     for q, v in second.items():
         for p, u in first.items():
             product = u * v
@@ -152,7 +155,7 @@ def _add_twice_the_product(total: dict[int, Coefficient], first: Waves, second: 
 
 
 def _over_one_denominator(pairs: Pairs) -> tuple[Pairs, int]:
-    """Return rational waves as integers, with the common denominator of all products; other waves unchanged, over 1."""
+    """Return pairs with integer coefficients, and the common denominator of their products; if not rational, pairs and 1."""
     if not all(isinstance(v, QQ.dtype) for pair in pairs for waves in pair for v in waves.values()):
         return pairs, 1
     integers = [(_integers(first), _integers(second)) for first, second in pairs]
@@ -161,6 +164,6 @@ def _over_one_denominator(pairs: Pairs) -> tuple[Pairs, int]:
 
 
 def _integers(waves: Waves) -> tuple[Waves, int]:
-    """Return rational waves as integers over one denominator."""
+    """Return the rational coefficients of a trigonometric sum as integer numerators, and their common denominator."""
     below = lcm(*(int(v.denominator) for v in waves.values()))
     return {h: v.numerator * (below // v.denominator) for h, v in waves.items()}, below

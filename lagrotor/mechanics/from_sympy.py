@@ -76,7 +76,7 @@ def _generalised_forces(loads: Sequence[Any], frame: Any, speeds: Sequence[sp.Ex
 
 
 def _of_speeds(kane: Any) -> dict[str, Any]:
-    """Return the fields of a KanesMethod, whose velocities are linear in the speeds u."""
+    """Return the fields of a `System` by name, from a KanesMethod whose velocities are linear in its speeds u."""
     from sympy.physics.mechanics import KanesMethod, dynamicsymbols
 
     frame, q, u, bodies = kane._inertial, kane.q, kane.u, kane.bodies
@@ -84,7 +84,9 @@ def _of_speeds(kane: Any) -> dict[str, Any]:
     velocity = kane._k_nh * u + kane._f_nh if len(kane._k_nh) else []
     clock = dynamicsymbols._t
     if len(kinematic) != len(q):
-        raise InputError(f"from_sympy: {len(kinematic)} kinematic equations for {len(q)} coordinates: give as many")
+        raise InputError(
+            f"from_sympy: {len(kinematic)} kinematic equations for {len(q)} coordinates: give one for each"
+        )
     q, kinematic = _with_own_coordinates(list(q), list(u), list(kinematic))
     c, functions = _coordinates(q, clock)
     still = dict.fromkeys(kane._uaux, 0)
@@ -135,7 +137,7 @@ def _with_own_coordinates(q: list[Any], u: list[Any], kinematic: list[Any]) -> t
 
 
 def _solved(equations: sp.Matrix, u: list[Any]) -> tuple[sp.Matrix, list[sp.Expr]]:
-    """Solve the first independent equations for the speeds u; return these and the other equations.
+    """Solve the first independent equations for the speeds u; return the speeds, and the equations that were not used.
 
     With fewer speeds than coordinates, as with a quaternion, some kinematic equations remain.
     """
@@ -159,12 +161,14 @@ def _independent(constraints: Sequence[sp.Expr], velocity: Sequence[sp.Expr], c:
 
 def _coordinates(functions: list[Any], clock: sp.Symbol) -> tuple[Coordinates, list[Any]]:
     if not all(isinstance(f, sp.core.function.AppliedUndef) and f.args == (clock,) for f in functions):
-        raise InputError(f"from_sympy: {functions} must be dynamicsymbols, each a coordinate")
+        raise InputError(
+            f"from_sympy: {functions} must be dynamicsymbols: give one function of time for each coordinate"
+        )
     return coordinates([f.func.__name__ for f in functions]), functions
 
 
 def _plain(e: Any, functions: Sequence[Any], c: Coordinates, clock: sp.Symbol) -> sp.Expr:
-    """Return an expression of functions of time in plain symbols."""
+    """Replace the functions of time in an expression, and their derivatives, by plain symbols."""
     substitution: dict[Any, sp.Expr] = {}
     for f, q, v, a in zip(functions, c.q, c.v, c.a, strict=True):
         substitution |= {f.diff(clock, 2): a, f.diff(clock): v, f: q}

@@ -20,7 +20,7 @@ from lagrotor.mechanics.symmetry import cyclic_coordinates
 
 @dataclass(frozen=True)
 class Entry:
-    """A row of a glossary."""
+    """A row of a glossary: a symbol, its meaning in words, and its unit."""
 
     symbol: sp.Symbol
     meaning: str
@@ -28,7 +28,7 @@ class Entry:
 
 
 class Glossary(dict[sp.Symbol, Entry]):
-    """The entries of symbols, in the order in which these are declared."""
+    """A glossary {symbol: entry}, in the order in which the symbols are declared."""
 
     def letter(self, name: str, meaning: str, unit: str, **assumptions: bool) -> sp.Symbol:
         """Declare a symbol.
@@ -87,7 +87,7 @@ class Glossary(dict[sp.Symbol, Entry]):
 
 
 def latex(expression: Any, names: Mapping[sp.Symbol, str] | None = None) -> str:
-    """Return LaTeX of an expression, with dots for symbols that end in _dot or _ddot, and names for some symbols."""
+    """Return an expression as LaTeX. Symbols that end in _dot or _ddot get dots; `names` gives LaTeX for chosen symbols."""
     free = (s for s in getattr(expression, "free_symbols", ()) if isinstance(s, sp.Symbol))
     return light(sp.latex(expression, symbol_names={s: letter_latex(s) for s in free} | dict(names or {})))
 
@@ -129,7 +129,7 @@ def letter_latex(symbol: sp.Symbol) -> str:
 
 
 def multiplier_latex(letter: str, name: str) -> str:
-    """Return LaTeX of a multiplier with the name, in upright letters, or the number of its constraint."""
+    """Return LaTeX of a multiplier: a letter whose index is the number of its constraint, or its name in upright letters."""
     upright = _FOREIGN.sub(r"\\text{\g<0>}", "".join(_MARKS.get(c, c) for c in name))
     return rf"\{letter}_{{{name}}}" if name.isdigit() else rf"\{letter}_{{\mathrm{{{upright}}}}}"
 
@@ -138,9 +138,10 @@ _MOST_COORDINATES, _MOST_OPERATIONS = 6, 400  # the largest system and formula t
 
 
 def formulas(system: Equations) -> dict[str, list[str]]:
-    """Return LaTeX by heading: energies, dissipation, equations of motion, constraints, Jacobi's integral, cyclic momenta.
+    """Return {heading: lines of LaTeX}: energies, dissipation, equations of motion, constraints, conserved quantities.
 
-    Short quasi-velocities q' = B u + b precede the Boltzmann–Hamel equations. Of a long formula only its operations are counted.
+    The relation q' = B u + b to quasi-velocities, if short, precedes the Boltzmann–Hamel equations. A long formula is
+    replaced by the number of its operations.
     """
     c = system.c
     if system.bodies and len(c.q) > _MOST_COORDINATES:
@@ -182,7 +183,7 @@ def formulas(system: Equations) -> dict[str, list[str]]:
 
 
 def _in_own_velocities(system: Equations) -> list[sp.Expr]:
-    """Return the Boltzmann–Hamel equations, with the accelerations of coordinates by their names."""
+    """Return the Boltzmann–Hamel equations. A rate u' that is the acceleration of a coordinate has the symbol of that."""
     c = system.c
     named = {rate: c.a[c.v.index(u)] for u, rate in zip(system.speeds, system.speed_rates, strict=True) if u in c.v}
     return [e.xreplace(named) for e in system.hamel]

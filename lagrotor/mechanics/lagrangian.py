@@ -31,8 +31,8 @@ t = sp.Symbol("t", real=True)  # the time, s, where a Lagrangian, a force or a c
 class Coordinates:
     """The coordinates of a system with their velocities and accelerations, n of each.
 
-    Every symbol is found by its name, too: c.theta, c["theta_dot"]. Of coordinates called q, v or a only c["q"] is the symbol,
-    because c.q are all of them.
+    Each symbol is also found by its name: c.theta, c["theta_dot"]. For a coordinate called q, v or a write c["q"], because
+    c.q is the tuple of all coordinates.
 
     Attributes
     ----------
@@ -67,15 +67,15 @@ class Coordinates:
     __iter__: ClassVar[None] = None  # the symbols are c.q, c.v and c.a
 
     def __getitem__(self, name: str) -> sp.Symbol:
-        """Return the coordinate, velocity or acceleration of a name."""
+        """Return the coordinate, velocity or acceleration with this name."""
         symbols = {str(s): s for s in (*self.q, *self.v, *self.a)}
         if not isinstance(name, str) or name not in symbols:
-            meant = near(name, symbols) or ": the symbols of a configuration are found by their names"
+            meant = near(name, symbols) or ": find these symbols by their names"
             raise InputError(f"Coordinates: {name!r} is none of {', '.join(symbols)}{meant}")
         return symbols[name]
 
     def __getattr__(self, name: str) -> sp.Symbol:
-        """Return the symbol of a name that is no attribute."""
+        """Return the symbol with this name, if no attribute has it."""
         if name.startswith("_") or "a" not in vars(self):
             raise AttributeError(name)
         # Python reads c.ϕ as c.φ: it normalizes the letters of identifiers.
@@ -118,7 +118,7 @@ def coordinates(names: str | Sequence[str]) -> Coordinates:
         raise InputError(f"coordinates: {strange[0]!r} must be a name: coordinates('phi theta psi')")
     if odd := [e for e in stems if not re.fullmatch(r"\\?[^\W\d_][\w{}^'\\]*", e) or e.count("{") != e.count("}")]:
         raise InputError(
-            f"coordinates: {odd[0]!r} would be read otherwise in a formula: a name begins with a letter, has no blanks, and "
+            f"coordinates: {odd[0]!r} would be another symbol in a formula: a name begins with a letter, has no blanks, and "
             "closes its braces"
         )
     q, v, a = (tuple(sp.Symbol(stem + order, real=True) for stem in stems) for order in ("", "_dot", "_ddot"))
@@ -192,7 +192,7 @@ def mass_matrix(L: sp.Expr, c: Coordinates) -> sp.Matrix:
 
 
 def bias(L: sp.Expr, c: Coordinates) -> sp.Matrix:
-    """Return h = (∂²L/∂v∂q) v + ∂²L/∂v∂t − ∂L/∂q: centrifugal, gyroscopic and driving terms less the potential forces."""
+    """Return h = (∂²L/∂v∂q) v + ∂²L/∂v∂t − ∂L/∂q: centrifugal, gyroscopic and driving terms minus potential forces."""
     drift = momenta(L, c).applyfunc(lambda p: along(p, (*c.q, t), (*c.v, 1)))
     return drift - gradient(L, c.q)
 
@@ -272,12 +272,12 @@ def force_column(forces: Sequence[sp.Expr] | None, c: Coordinates, where: str) -
 
 
 def dependent_rows(where: str, value: str) -> str:
-    """Return the message for dependent constraints."""
+    """Return the error message for constraints that are dependent; `value` is the evidence in words."""
     return f"{where}: the constraints are dependent ({value}): their multipliers are not unique; drop a constraint"
 
 
 def singular_mass(where: str, M: sp.Matrix, c: Coordinates) -> str:
-    """Return the message for a Lagrangian whose momenta do not determine its velocities."""
+    """Return the error message for a Lagrangian whose momenta do not determine its velocities."""
     idle = [v for j, v in enumerate(c.v) if M[:, j].is_zero_matrix] or c.v
     return (
         f"{where}: the mass matrix is singular (det M = 0): the Lagrangian is not regular in "
@@ -299,9 +299,11 @@ def linear_solve(A: sp.Matrix, B: sp.Matrix, refusal: str) -> sp.Matrix:
 def clock_parts(
     stages: Iterable[tuple[sp.Symbol, sp.Expr]], outputs: Iterable[sp.Expr], moving: AbstractSet[sp.Basic]
 ) -> tuple[list[tuple[sp.Symbol, sp.Expr]], list[sp.Expr]]:
-    """Return the stages that depend on t and parameters alone, and the largest such subexpressions of stages and outputs.
+    """Find the parts of a program that depend on time but not on the state.
 
-    `moving` are the symbols that are no parameters.
+    `stages` are pairs (symbol, expression) that later expressions may use, and `moving` are the symbols of the state. The
+    result is the list of stages without these symbols, and the list of the largest subexpressions that contain t and none of
+    them.
     """
     moving, by_time = {*moving}, {t}
     clocks, maximal = list[tuple[sp.Symbol, sp.Expr]](), dict[sp.Expr, None]()

@@ -26,7 +26,7 @@ class Mode:
     rate : Expr
         Complex rate in 1/s, i ω for an undamped oscillation.
     shape : Matrix
-        Amplitudes of the full coordinates, shape (n, 1), up to a factor.
+        Complex amplitudes of all n coordinates, shape (n, 1), up to a common factor.
     """
 
     rate: sp.Expr
@@ -133,12 +133,14 @@ class LinearSystem:
     def stable_if(self) -> sp.Basic:
         """The condition on the parameters under which every mode stays bounded or decays, a sympy relation.
 
-        It is sufficient and, but for equality, necessary. A polynomial det(s² M + s C + K) even in s needs real, negative,
-        distinct roots s²: positive coefficients and Hankel minors of the power sums. Without gyroscopic forces roots may
-        coincide. Otherwise the even factors satisfy this, and the Routh–Hurwitz determinants of the others are positive.
+        The condition is sufficient, and necessary except on its boundary. If det(s² M + s C + K) is even in s, the roots s²
+        must be real, negative and distinct: the coefficients and the Hankel minors of the power sums are positive. Without
+        gyroscopic forces roots may coincide. If the polynomial is not even, its even factors satisfy this condition, and its
+        other factors have positive Routh–Hurwitz determinants.
 
-        Factors that are positive by the assumptions are divided out, and an eigenvalue shared by independent modes counts once.
-        Zero roots of neighbouring equilibria and of drifts at constant velocity are allowed; growth as t² gives False.
+        Factors that are positive by the assumptions are divided out, and an eigenvalue shared by independent modes counts
+        once. Zero roots are allowed if they belong to neighbouring equilibria or to drifts at constant velocity. Growth as t²
+        gives False.
         """
         natural = all(map(is_identically_zero, (*self.gyroscopic, *(self.stiffness - self.stiffness.T))))
         return sp.false if self._zeros > max(2, self._drifts) else stability_condition(self._pencil(_S), _S, natural)
@@ -151,7 +153,7 @@ class LinearSystem:
 
     @property
     def _drifts(self) -> int:
-        """The number of independent solutions K q = 0 (equilibria) and K q + C v = 0 with K v = 0 (drifts)."""
+        """The number of independent solutions q₀ + v t: equilibria with K q₀ = 0, drifts with K v = 0 and K q₀ + C v = 0."""
         K = self.stiffness
         right, left_null = (m.nullspace(iszerofunc=is_identically_zero) for m in (K, K.T))
         coupled = sp.Matrix(len(left_null), len(right), lambda i, j: left_null[i].dot(self.gyroscopic * right[j]))
@@ -159,7 +161,10 @@ class LinearSystem:
 
 
 def stability_condition(pencil: sp.Matrix, s: sp.Symbol, natural: bool = False) -> sp.Basic:
-    """Return the condition of `LinearSystem.stable_if` for det(pencil) = 0; natural: s² M + K, both symmetric."""
+    """Return the condition of stability for the roots s of det(pencil) = 0, as `LinearSystem.stable_if` describes it.
+
+    `natural` says that the pencil is s² M + K with symmetric M and K.
+    """
     pencil = pencil.applyfunc(lambda e: e.xreplace({x: sp.Rational(x) for x in e.atoms(sp.Float)}))
     factors = _last_invariant(pencil, s)
     products = [sp.Mul(*factors)]
@@ -188,7 +193,7 @@ def _is_even(e: sp.Expr, s: sp.Symbol) -> bool:
 
 
 def _last_invariant(pencil: sp.Matrix, s: sp.Symbol) -> list[sp.Expr]:
-    """Return the factors of the last invariant polynomial: repeated roots stay repeated only where motions grow as t exp(s t).
+    """Return the factors of the last invariant polynomial, in which a root s is repeated only if a motion grows as t exp(s t).
 
     The common divisor of the minors of order n − 1 is divided out. Gantmacher, vol. 1, ch. VI.
     """
@@ -207,7 +212,7 @@ def _last_invariant(pencil: sp.Matrix, s: sp.Symbol) -> list[sp.Expr]:
 
 
 def reduced(e: sp.Expr) -> sp.Expr:
-    """Return a shorter equal form, unique where the class of decisions has a normal form."""
+    """Return a shorter equal form, which is unique for an expression that has a normal form."""
     try:
         return sp.factor(normal_form(e))
     except NotExactError:
@@ -243,7 +248,10 @@ def _all_negative(a: list[sp.Expr]) -> list[sp.Expr]:
 
 
 def _hurwitz(a: list[sp.Expr]) -> list[sp.Expr]:
-    """Return the coefficients over the leading one, and the Routh–Hurwitz determinants."""
+    """Return expressions that are all positive exactly if all roots of a_0 x^n + … + a_n have negative real parts.
+
+    They are the ratios a_i/a_0 and the Routh–Hurwitz determinants.
+    """
     a = [reduced(x / a[0]) for x in a]
     n = len(a) - 1
 
@@ -255,7 +263,7 @@ def _hurwitz(a: list[sp.Expr]) -> list[sp.Expr]:
 
 
 def _conjunction(expressions: list[sp.Expr]) -> sp.Basic:
-    """Return the relation that all expressions are positive, without positive factors and without implied conditions."""
+    """Return the relation that all expressions are positive. Factors known as positive and implied conditions are left out."""
     positive = list(dict.fromkeys(factor for e in expressions for factor in _essential(e) if not factor.is_positive))
     if any(e.is_nonpositive for e in positive):
         return sp.false
@@ -265,7 +273,10 @@ def _conjunction(expressions: list[sp.Expr]) -> sp.Basic:
 
 
 def _essential(e: sp.Expr) -> list[sp.Expr]:
-    """Return simpler expressions that are all positive exactly if e is: the odd factors together, the squares of the others."""
+    """Return simpler expressions that are all positive exactly if e is positive.
+
+    They are the product of the factors with an odd power, and the square of each factor with an even power.
+    """
     above, below = sp.fraction(sp.together(reduced(e)))
     coefficient, factors = sp.factor_list(above * below)
     odd = [factor for factor, power in factors if power % 2 and not factor.is_positive]

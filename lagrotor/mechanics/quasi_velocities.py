@@ -5,12 +5,11 @@ If u has fewer components than q, constraints G v + g = 0 supply the missing row
     [A]     [u − a]
     [G] v = [ − g ],        v = B u + b,        v' = B u' + α,
 
-with α the accelerations at u' = 0. The equations of motion along the columns of B are free of the multipliers of these
-constraints,
+with α the accelerations at u' = 0. Multiplied by Bᵀ, the equations of motion lose the multipliers of these constraints,
 
     Bᵀ (M B u' + M α + h − Q) = (G' B)ᵀ λ,
 
-with G' the rows of the other constraints. Poles are where det [A; G] = 0.
+with G' the rows of the other constraints. At a pole det [A; G] = 0, and u does not determine v.
 
 Hamel, Theoretische Mechanik (1949), §§ 235–242; Kane & Levinson, Dynamics: Theory and Applications (1985), ch. 2.
 """
@@ -39,10 +38,11 @@ _ROUNDING = 1e-9  # relative residual below which a row depends on the others
 
 @dataclass(frozen=True, eq=False)
 class Kinematics:
-    """The maps v = B u + b and v' = B u' + α, in q, u and t (α also in v), after the stages of B, b and α.
+    """The maps v = B u + b and v' = B u' + α, as expressions in q, u and t; α contains v, too.
 
-    rows: (A v + a, G v + g), shape (n, 1); inverse: [A; G]⁻¹, shape (n, n). used, left: the numbers of the constraints in G,
-    and of the others. poles: expressions in q and t; where one vanishes, u does not determine v (long ones are omitted).
+    They may use the symbols of `stages`, pairs (symbol, expression) to be evaluated first. `rows` is (A v + a, G v + g),
+    shape (n, 1), and `inverse` is [A; G]⁻¹, shape (n, n). `used` and `left` are the indices of the constraints in G, and of
+    the others. Where an expression in `poles` vanishes, u does not determine v; long expressions are omitted.
     """
 
     stages: tuple[Stage, ...]
@@ -57,7 +57,10 @@ class Kinematics:
 
 
 def check_velocities(c: Coordinates, velocities: Any, named: Mapping[sp.Symbol, sp.Expr] | None = None) -> Pairs:
-    """Return the quasi-velocities as pairs (u, expression affine in v). named: symbols that the expressions may contain."""
+    """Return the quasi-velocities, checked, as pairs (u, expression affine in v).
+
+    `named` gives further symbols that these may contain, {symbol: expression in q, v and t}.
+    """
     pairs = list(velocities.items()) if isinstance(velocities, Mapping) else velocities
     if not isinstance(pairs, list | tuple) or not all(isinstance(pair, tuple) and len(pair) == 2 for pair in pairs):
         raise InputError(f"System: velocities = {velocities!r} must be {{symbol: expression in q, v and t, …}}")
@@ -66,7 +69,7 @@ def check_velocities(c: Coordinates, velocities: Any, named: Mapping[sp.Symbol, 
     for u, e in pairs:
         name = f"System: velocities[{u}]"
         if not isinstance(u, sp.Symbol) or u in {*c.q, *c.a, t}:
-            raise InputError(f"{name}: a quasi-velocity is named by a symbol without another meaning: rename it")
+            raise InputError(f"{name}: a quasi-velocity must be named by a symbol without another meaning: rename it")
         e = expression(name, e).xreplace(definitions)
         if u in c.v and e != u:
             raise InputError(f"{name} = {e}: {u} is the velocity of a coordinate and cannot be redefined: rename it")
@@ -93,9 +96,10 @@ def check_velocities(c: Coordinates, velocities: Any, named: Mapping[sp.Symbol, 
 def kinematics(
     c: Coordinates, pairs: Pairs, constraints: Sequence[sp.Expr], residual: sp.Matrix, first: Sequence[int]
 ) -> Kinematics:
-    """Solve the quasi-velocities for v; residual: G v + g of all constraints, first: the numbers of those to use first.
+    """Solve the definitions of the quasi-velocities, with as many constraints as needed, for v.
 
-    The ranks are decided at random states. Raises InputError for dependent velocities, or too few of them.
+    `residual` is G v + g of all constraints, and `first` has the indices of the constraints to use first. Ranks are
+    determined at random states. Raises InputError if the quasi-velocities are dependent or too few.
     """
     velocities = [e for _, e in pairs]
     order = [*first, *(i for i in range(len(residual)) if i not in first)]
@@ -126,7 +130,7 @@ def kinematics(
 def boltzmann_hamel(
     L: sp.Expr, c: Coordinates, kinematics: Kinematics, speeds: Sequence[sp.Symbol]
 ) -> tuple[sp.Matrix, sp.Matrix]:
-    """Return M and h of d'Alembert's principle M u' + h = Bᵀ Q, in q, u and t, without a stage.
+    """Return M and h of the equations of motion M u' + h = Bᵀ Q, in q, u and t. The relation must have no stages.
 
     With L̄(q, U, t) the Lagrangian in all rows U = (u, w), w = G v + g = 0, and π = ∂L̄/∂U, along the column i of B:
 
@@ -155,9 +159,9 @@ def inverse_of(
 ) -> tuple[list[Stage], sp.Matrix, list[sp.Expr]]:
     """Return stages, K⁻¹ in their symbols, and the factors of det K that depend on q or t.
 
-    relations: polynomials in q that vanish. keep: the stages of K, to which each new entry is added. The blocks are solved in
-    order of dependence: orthogonal rows by the transpose, small blocks by the adjugate, others by K⁻¹ = Kᵀ (K Kᵀ)⁻¹, which
-    needs no pivots.
+    A stage is a pair (symbol, expression). `relations` are polynomials in q that vanish at every state. `keep` has the stages
+    that K uses and takes the new ones. The blocks of K are solved in order of dependence. The inverse is the transpose for
+    orthogonal rows, the adjugate over det K for small blocks, and Kᵀ (K Kᵀ)⁻¹ for others, which needs no pivots.
     """
     n = K.rows
     stages, short, prefix = (keep.made, keep, "_j") if keep else ([], _reduced, "_k")
@@ -190,7 +194,10 @@ def inverse_of(
 
 
 def _blocks(K: sp.Matrix) -> list[tuple[list[int], list[int]]]:
-    """Return rows and columns of the blocks of a triangular form: rows with one unknown first, columns with one row last."""
+    """Return (rows, columns) of each block of a block-triangular form of K.
+
+    Rows with one unknown come first, columns that a single row contains come last.
+    """
     rows, columns = {*range(K.rows)}, {*range(K.rows)}
     columns_of = {i: {j for j in columns if K[i, j] != 0} for i in rows}
     rows_of = {j: {i for i in rows if j in columns_of[i]} for j in columns}
@@ -230,7 +237,7 @@ def _reduced(e: sp.Expr) -> sp.Expr:
 
 
 def _modulo(e: sp.Expr, relations: Sequence[sp.Expr], c: Coordinates) -> sp.Expr:
-    """Reduce a polynomial in q by relations that vanish."""
+    """Reduce a polynomial in q modulo polynomials that vanish; return another expression unchanged."""
     applicable = [g for g in relations if g.free_symbols <= {*c.q} and g.free_symbols & e.free_symbols]
     if not applicable or not all(g.is_polynomial(*c.q) for g in (*applicable, e)):
         return e
@@ -238,7 +245,7 @@ def _modulo(e: sp.Expr, relations: Sequence[sp.Expr], c: Coordinates) -> sp.Expr
 
 
 def _values(matrix: sp.Matrix) -> list[list[list[float]]]:
-    """Return the matrix in numbers at the random states at which it has values."""
+    """Evaluate the matrix at random states; leave out those at which it has no value."""
     unknown = matrix.atoms(sp.Derivative, sp.core.function.AppliedUndef)
     plain = matrix.xreplace({f: sp.Symbol(f"_f{i}", real=True) for i, f in enumerate(sorted(unknown, key=str))})
     symbols = sorted(plain.free_symbols, key=str)
@@ -251,7 +258,7 @@ def _values(matrix: sp.Matrix) -> list[list[list[float]]]:
 
 
 def independent_rows(matrix: sp.Matrix, rank: int) -> list[int]:
-    """Return the first independent rows, at most `rank`, at the random state with the largest number of them."""
+    """Return the indices of the first independent rows, at most `rank`, at the random state that has most of them."""
     best: list[int] = []
     for rows in _values(matrix):
         chosen, basis = list[int](), list[list[float]]()
@@ -266,7 +273,7 @@ def independent_rows(matrix: sp.Matrix, rank: int) -> list[int]:
 
 
 def _without(row: Sequence[float], basis: Sequence[Sequence[float]]) -> list[float]:
-    """Subtract the components along orthonormal vectors, twice against rounding."""
+    """Subtract from a row its components along orthonormal vectors, twice to reduce rounding errors."""
     remainder = list(row)
     for _ in range(2):
         for direction in basis:

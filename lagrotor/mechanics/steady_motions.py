@@ -1,17 +1,19 @@
 """Small motion about an equilibrium or a steady motion in symbols, with rolling and inputs: x' = A x + B u, y = C x + D u.
 
-With F = M a + h − Q − Gᵀ λ = 0 and G a + γ = 0, small changes of q, v and of the inputs u give those of a and λ,
+With F = M a + h − Q − Gᵀ λ = 0 and G a + γ = 0, small changes of q, v and of the inputs u determine the small changes of a
+and λ,
 
     M δa − Gᵀ δλ = −(∂F/∂q δq + ∂F/∂v δv + ∂F/∂u δu),        G δa = −(∂γ/∂q δq + ∂γ/∂v δv),
 
-with F and γ at a = 0. The constraints Φ = (g, G v + b) = 0 give some of (q, v) by the others, the states x. With
-quasi-velocities the equations of Boltzmann and Hamel replace F.
+with F and γ at a = 0. The constraints Φ = (g, G v + b) = 0 express some of (q, v) by the others, which are the states x. With
+quasi-velocities the Boltzmann–Hamel equations replace F.
 
-A ball joint has small displacements y of its state (q, u), three rotations ϑ about the axes of ω for its four quaternions:
+With a ball joint, small displacements y replace changes of the state (q, u). In y three rotations ϑ about the axes of ω
+replace the four components of the quaternion:
 
     δ(q, u) = P y,    δq = ½ Eᵀ(q) ϑ of a quaternion,        y' = P⁻ (∂f/∂(q, u) P − P') y
 
-about a motion (q, u)' = f, P⁻ the left inverse. In the axes of the body a spinning body gives constant coefficients.
+about a motion (q, u)' = f, with the left inverse P⁻ of P. In axes fixed to a spinning body the coefficients are constant.
 
 Schwab & Meijaard, Linearized dynamics of nonholonomic systems (2003).
 """
@@ -39,7 +41,10 @@ Point = Mapping[Any, Any]
 
 
 def small_states(system: Equations) -> tuple[sp.Symbol, ...]:
-    """Return the symbols of y: coordinates, velocities, and turn_p, the small rotation of a ball joint about the axis of p."""
+    """Return the symbols of the small displacements y: coordinates and velocities.
+
+    For a ball joint with the angular velocities p, q, r the small rotations turn_p, turn_q, turn_r replace the quaternion.
+    """
     first = {joint.quaternion[0]: joint.omega for joint in system.ball_joints}
     gone = {q for joint in system.ball_joints for q in joint.quaternion[1:]}
     turns = {q: [sp.Symbol(f"turn_{w}", real=True) for w in omega] for q, omega in first.items()}
@@ -48,7 +53,10 @@ def small_states(system: Equations) -> tuple[sp.Symbol, ...]:
 
 
 def small_turns(system: Equations, state: Any) -> tuple[list[list[Any]], list[list[Any]]]:
-    """Return P (d, k) and P⁻ (k, d), affine in the state of d components."""
+    """Return P, shape (d, k), with δ(q, u) = P y, and its left inverse, shape (k, d), as lists of rows.
+
+    `state` are the d values of (q, u), on which the entries depend affinely.
+    """
     c, joints = system.c, {joint.quaternion[0]: joint for joint in system.ball_joints}
     gone = {q for joint in joints.values() for q in joint.quaternion[1:]}
     columns, rows = list[dict[int, Any]](), list[dict[int, Any]]()
@@ -66,7 +74,7 @@ def small_turns(system: Equations, state: Any) -> tuple[list[list[Any]], list[li
 
 
 def no_turn(quaternion: Sequence[sp.Symbol], norm: float) -> str:
-    """Return the reason for which a quaternion is refused as an initial value."""
+    """Return the end of an error message: why a quaternion is refused as an initial value."""
     return f"the quaternion ({', '.join(map(str, quaternion))}) has norm {norm:.3g} and gives no direction: give one of norm 1"
 
 
@@ -111,7 +119,7 @@ class StateEquations:
 
     @property
     def stable_if(self) -> sp.Basic:
-        """The condition on the parameters under which all motions except drifts stay bounded, as of `LinearSystem.stable_if`."""
+        """The condition on the parameters under which all motions but drifts stay bounded: see `LinearSystem.stable_if`."""
         s = sp.Symbol("s")
         return stability_condition(sp.eye(self.A.rows) * s - self.A, s)
 
@@ -119,11 +127,12 @@ class StateEquations:
 def state_equations(
     system: Equations, at: Point, inputs: Sequence[sp.Symbol] = (), outputs: Sequence[sp.Expr] = ()
 ) -> StateEquations:
-    """Linearise about a point (coordinates and velocities, the others zero) at which all accelerations vanish.
+    """Linearise about a point at which all accelerations vanish.
 
-    inputs: symbols of the system, zero at the point unless `at` gives them. outputs: expressions in q, v, a and the
-    multipliers. Raises SingularError for nonzero accelerations or a singular point, and InputError for a missing coordinate,
-    coefficients that change with time, or a point off the constraints.
+    `at` gives the coordinates, and the velocities that are not zero. `inputs` are symbols of the system, which are zero at
+    the point unless `at` gives them. `outputs` are expressions in q, v, a and the multipliers. Raises SingularError if an
+    acceleration is not zero or the point is singular. Raises InputError if a coordinate is missing, the coefficients change
+    with time, or the point is off the constraints.
     """
     kinematics = system.kinematics
     V, F = (sp.Matrix(system.c.v), system.motion) if kinematics is None else (kinematics.velocity, system.hamel)
@@ -169,12 +178,11 @@ def state_equations(
 def linearise(system: Equations, at: Mapping[Any, Any] | Equilibrium) -> LinearSystem:
     """Return the linear system about an equilibrium, in a basis of the null space of the constraints.
 
-    at: values of the coordinates on which the motion depends; velocities are zero unless given (a steady motion in a
-    coordinate on which nothing depends), and a parameter may be given too. Where the equations are 0/0 there, they are
-    first reduced.
+    `at` gives the coordinates on which the motion depends, and parameters if wanted. Velocities are zero unless given; a
+    steady motion has one in a coordinate on which nothing depends. Equations that are 0/0 at the point are first reduced.
 
-    Raises SingularError when the point is no equilibrium, or a singular one of these coordinates, or the constraints are
-    dependent there; InputError when something depends on time.
+    Raises SingularError if the point is no equilibrium, if these coordinates are singular there, or if the constraints are
+    dependent there. Raises InputError if anything depends on time.
     """
     c, point = system.c, at.at if isinstance(at, Equilibrium) else at
     if system.generalised_forces.free_symbols & {*system.multipliers}:
@@ -202,12 +210,17 @@ def linearise(system: Equations, at: Mapping[Any, Any] | Equilibrium) -> LinearS
 def _place(
     system: Equations, at: Point, inputs: Sequence[sp.Symbol], motion: Sequence[sp.Expr], residual: Sequence[sp.Expr]
 ) -> dict[sp.Symbol, sp.Expr]:
-    """Return the point, zero where `at` names nothing. Raises InputError for wrong names, explicit time, violated constraints."""
+    """Return the point as {symbol: value}, with zero for velocities, accelerations and inputs that `at` does not name.
+
+    Raises InputError for wrong names, equations that depend on time, or a point off the constraints.
+    """
     c, speeds, equations = system.c, system.speeds, [*motion, *system.residual]
     used = set[sp.Basic]().union(*(e.free_symbols for e in equations))
     symbols = {*c.q, *speeds} | system.L.free_symbols | system.generalised_forces.free_symbols | used
     if strangers := [str(u) for u in inputs if u not in symbols or u in (*c.q, *c.v, *speeds, t)]:
-        raise InputError(f"linearise: inputs {', '.join(strangers)} are no symbols of forces or constraints")
+        raise InputError(
+            f"linearise: inputs {', '.join(strangers)} are no symbols of forces or constraints: leave them out"
+        )
     symbols = symbols - {*c.v} | {*speeds}
     point = by_symbol("linearise: at", at, symbols)
     if strangers := [str(s) for s in point if s not in symbols]:
@@ -221,17 +234,20 @@ def _place(
     if any(decide_zero(derivative(e, t)).answer != "zero" for e in equations):
         raise InputError("linearise: it depends on time explicitly: write a symbol for an input F(t), or simulate it")
     if missing := [str(q) for q in c.q if q not in point and q in used]:
-        raise InputError(f"linearise: {', '.join(missing)} without a value: the point needs each coordinate's")
+        raise InputError(f"linearise: {', '.join(missing)} without a value: give the point a value for each coordinate")
     values = dict.fromkeys((*c.q, *c.v, *c.a, *speeds, *system.speed_rates, *inputs), sp.S.Zero)
     values |= {s: expression(f"linearise: {s}", x) for s, x in point.items()}
     residuals = _values(at, values, sp.Matrix([*system.constraints, *residual]))
     if wrong := [e for e in residuals if decide_zero(e).answer == "nonzero"]:
-        raise InputError(f"linearise: the point is off the constraints: a residual is {wrong[0]}: give one on them")
+        raise InputError(f"linearise: the point is off the constraints: a residual is {wrong[0]}: give a point on them")
     return values
 
 
 def _values(at: Point, point: Point, matrix: sp.Matrix) -> sp.Matrix:
-    """Return the matrix at the point, 0/0 reduced. Raises SingularError where it is singular, InputError where a force jumps."""
+    """Return the matrix at the point, where entries that are 0/0 are first reduced.
+
+    Raises SingularError if an entry is singular there, and InputError if a force jumps there.
+    """
     numbers = {s: x for s, x in point.items() if not x.free_symbols}
 
     def value(e: sp.Expr) -> sp.Expr:
@@ -248,14 +264,14 @@ def _values(at: Point, point: Point, matrix: sp.Matrix) -> sp.Matrix:
     if values.has(sp.nan, sp.zoo, sp.oo):
         raise SingularError(f"linearise: the equations are singular at {dict(at)}: use coordinates regular there")
     if values.has(sp.DiracDelta):
-        raise InputError(f"linearise: forces jump at {dict(at)}: write the case that holds there")
+        raise InputError(f"linearise: forces jump at {dict(at)}: write the expression of one side alone")
     return values
 
 
 def _check_steady(
     system: Equations, point: Point, flow: Sequence[sp.Expr], forces: Sequence[sp.Expr], coefficients: Any
 ) -> None:
-    """Raise InputError if forces or coefficients change along the motion; a ball joint rotates about a fixed axis."""
+    """Raise InputError if forces or coefficients change along the motion, in which a ball joint turns about a fixed axis."""
     time = sp.Dummy("tau", real=True)
     rates = dict(zip(system.c.q, flow, strict=True))
     course = {q: point[q] + v * time for q, v in rates.items() if v != 0}
@@ -276,12 +292,14 @@ def _check_steady(
 
 
 def _in_speeds(system: Equations, e: sp.Expr, velocity_of: Mapping[Any, Any]) -> sp.Expr:
-    """Return an output in q, u, u' and the remaining multipliers."""
+    """Write an output as an expression in q, u, u' and the multipliers that quasi-velocities leave."""
     kinematics = system.kinematics
     if kinematics is None:
         return e
     if e.free_symbols & {system.multipliers[i] for i in kinematics.used}:
-        raise InputError(f"linearise: output {e} depends on a reaction without a value in quasi-velocities: drop these")
+        raise InputError(
+            f"linearise: output {e} depends on a reaction that quasi-velocities leave without a value: drop them"
+        )
     accelerations = kinematics.B * sp.Matrix(system.speed_rates) + kinematics.alpha
     return e.xreplace(dict(zip(system.c.a, accelerations, strict=True))).xreplace(dict(velocity_of))
 
@@ -299,7 +317,7 @@ def _solve_exactly(matrix: sp.Matrix, right: sp.Matrix, refusal: str) -> sp.Matr
 
 
 def _tangent(slope: sp.Matrix, size: int, k: int, n: int) -> tuple[list[int], sp.Matrix]:
-    """Return the indices of the dependent states, coordinates before velocities, and T with δ(q, v) = T x."""
+    """Return the indices of the dependent states, coordinates before velocities, and T with y = T x for the other states x."""
     if not slope.rows:
         return [], sp.eye(size)
     chosen: list[int] = []

@@ -1,4 +1,4 @@
-"""Symmetries, their Noether integrals and reductions, and the decision if two systems have the same motion.
+"""Symmetries, their Noether integrals and reductions, and the decision whether two systems have the same motion.
 
 A transformation q → q + ε ξ(q, v, t) carries velocities along by v → v + ε ξ', so a Lagrangian changes by
 
@@ -50,7 +50,7 @@ class FirstIntegral:
     expression : Expr
         The quantity in q, v and t.
     domain : tuple of Expr
-        Factors; the decision holds where none of them vanishes.
+        Expressions. Conservation is proved where none of them vanishes.
     """
 
     expression: sp.Expr
@@ -124,12 +124,12 @@ def conserved(system: Equations, f: sp.Expr) -> Decision:
         rate = total_derivative(f, system.c).xreplace(dict(zip(system.c.a, a, strict=True)))
     decision = decide_zero(rate)
     if decision.answer == "nonzero" and system.multipliers:
-        return replace(decision, answer="undecided", reason=f"Off the constraints it is not zero. {decision.reason}")
+        return replace(decision, answer="undecided", reason=f"Off the constraints df/dt is not zero. {decision.reason}")
     return decision
 
 
 def _rate_along_speeds(system: Equations, f: sp.Expr) -> sp.Expr:
-    """Return df/dt in q, u and t, with u' from the Boltzmann–Hamel equations; unit quaternions have q0 > 0."""
+    """Return df/dt in q, u and t, with u' from the Boltzmann–Hamel equations, and with q0 > 0 for unit quaternions."""
     relation, c, u = system.kinematics, system.c, system.speeds
     assert relation is not None
     velocities = dict(zip(c.v, relation.velocity, strict=True))
@@ -203,7 +203,7 @@ def routh(system: Kind, cyclic: str | Sequence[str | sp.Symbol] | Mapping[str | 
     rolling = tuple(f.subs(substitution) for f in system.rolling)
     if entering := {*chosen} & set().union(*(e.free_symbols for e in (*forces, *rolling, *system.constraints))):
         raise NotASymmetryError(
-            f"routh: {', '.join(map(str, entering))} enters the forces or the constraints on the others: keep it"
+            f"routh: {', '.join(map(str, entering))} enters the forces or the constraints on the others: keep it as a coordinate"
         )
     return replace(
         system,
@@ -217,7 +217,7 @@ def routh(system: Kind, cyclic: str | Sequence[str | sp.Symbol] | Mapping[str | 
 
 
 def _free_of(L: sp.Expr, cyclic: Mapping[sp.Symbol, sp.Expr]) -> sp.Expr:
-    """Return L at zero values of the cyclic coordinates, if it is finite there."""
+    """Return L with the cyclic coordinates set to zero, which removes them; return L itself if it is not finite there."""
     at_zero = L.subs(dict.fromkeys(cyclic, 0))
     return L if at_zero.has(sp.nan, sp.zoo, sp.oo, -sp.oo) else at_zero
 
@@ -225,7 +225,7 @@ def _free_of(L: sp.Expr, cyclic: Mapping[sp.Symbol, sp.Expr]) -> sp.Expr:
 def _momenta(
     c: Coordinates, cyclic: str | Sequence[str | sp.Symbol] | Mapping[str | sp.Symbol, sp.Expr]
 ) -> dict[sp.Symbol, sp.Expr]:
-    """Return the named coordinates with their momenta."""
+    """Return {cyclic coordinate: momentum}; a momentum that the caller does not give is the symbol p_name."""
     by_name = {str(q): q for q in c.q}
     if not isinstance(cyclic, Iterable):
         raise InputError(f"routh: {cyclic!r} must name cyclic coordinates, as 'phi psi'")
@@ -242,7 +242,7 @@ def _momenta(
 def _check_momenta(where: str, u: Sequence[sp.Symbol], p: Sequence[sp.Expr], used: set[sp.Basic]) -> None:
     if len(p) != len(u) or set().union(*(e.free_symbols for e in p)) & used:
         raise InputError(
-            f"{where}: momenta {tuple(p)} for the velocities {tuple(u)}: for each velocity a momentum of its own, in "
+            f"{where}: momenta {tuple(p)} for the velocities {tuple(u)}: each velocity needs a momentum of its own, in "
             "symbols that are not used yet; rename them"
         )
 
@@ -278,8 +278,7 @@ def _field(system: Equations, xi: Sequence[sp.Expr]) -> sp.Matrix:
     field = sp.Matrix([expression(f"noether: ξ[{i}]", e) for i, e in enumerate(xi)]) if fits else sp.Matrix()
     if not fits or field.free_symbols & {*system.c.a}:
         raise InputError(
-            f"noether: ξ = {xi}: a transformation has one component ξ(q, v, t) for each of {system.c.q}, free of "
-            "accelerations; write it so"
+            f"noether: ξ = {xi}: give one component ξ(q, v, t) for each of {system.c.q}, without accelerations"
         )
     return field
 
@@ -290,7 +289,7 @@ _POINTS = 3  # random points at which accelerations are compared first
 def same_as(system: Equations, other: Equations) -> Decision:
     """Decide if two systems have the same accelerations: `System.same_as`."""
     if not isinstance(other, Equations):
-        raise InputError(f"same_as: {other!r} is no System to compare with")
+        raise InputError(f"same_as: {other!r} is no System: give one to compare with")
     if system.c != other.c:
         raise InputError(
             f"same_as: {system.c.q} and {other.c.q} are not the same coordinates: write one system in those of the other "
@@ -301,7 +300,7 @@ def same_as(system: Equations, other: Equations) -> Decision:
         return direct
     if system.multipliers or other.multipliers:
         decision = decide_equal(*(constrained_accelerations(system_of)[0] for system_of in (system, other)))
-        reason = "Off the constraints they differ."
+        reason = "Off the constraints the accelerations differ."
     elif refuted := _refutation(system, other):
         return refuted
     else:
@@ -319,7 +318,7 @@ def same_as(system: Equations, other: Equations) -> Decision:
 
 
 def _refutation(system: Equations, other: Equations) -> Decision | None:
-    """Return the decision that accelerations differ if their enclosures at a point are disjoint; None otherwise."""
+    """Return the decision that the accelerations differ, if their enclosures at a random point are disjoint; else None."""
     pairs = [(it.mass_matrix, it.generalised_forces - it.bias) for it in (system, other)]
     symbols = set().union(*(entry.free_symbols for pair in pairs for entry in pair))
     for point in points(symbols, _POINTS):
@@ -330,13 +329,13 @@ def _refutation(system: Equations, other: Equations) -> Decision | None:
         if (i := apart(first, right)) is not None:
             value, two = (float(x[i].mid) for x in (first, right))
             apart_by = sp.Rational(float((first[i] - right[i]).mid))
-            reason = f"At the witness {system.c.a[i]} is {value:.6g}, and {two:.6g} of the other."
+            reason = f"At the witness {system.c.a[i]} is {value:.6g} in the first system, {two:.6g} in the other."
             return Decision("nonzero", (), reason, residual=apart_by, points=(point,))
     return None
 
 
 def _factor(system: Equations, other: Equations) -> sp.Expr:
-    """Return the ratio of the mass matrices if it is constant, from their shortest entries; else 1."""
+    """Return the ratio of the mass matrices, from their shortest entries, if it does not depend on q and t; else 1."""
     entries = [pair for pair in zip(system.mass_matrix, other.mass_matrix, strict=True) if 0 not in pair]
     mine, theirs = min(entries, key=lambda pair: sp.count_ops(pair), default=(sp.S.One, sp.S.One))
     try:
@@ -355,7 +354,7 @@ def in_coordinates(system: Kind, c: Coordinates, where: Mapping[sp.Symbol, sp.Ex
         )
     if lost := [str(q) for q in old.q if q not in where and q not in c.q]:
         raise InputError(
-            f"in_coordinates: {', '.join(lost)} neither given nor among the new coordinates {c.q}: give it"
+            f"in_coordinates: {', '.join(lost)} neither given nor among the new coordinates {c.q}: give its expression"
         )
     places = [expression(f"in_coordinates: {q}", where.get(q, q)) for q in old.q]
     substitution = dict(zip(old.q, places, strict=True))

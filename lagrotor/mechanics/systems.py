@@ -38,8 +38,8 @@ Kind = TypeVar("Kind", bound=Equations)
 class System(Equations):
     """A mechanical system: a Lagrangian L(q, v, t) with constraints, friction and forces.
 
-    Unknown functions, as sympy's Function("U")(r), may stand in every expression; a run takes values for them. InputError is
-    raised for expressions that are no mechanical system.
+    Unknown functions, as sympy's Function("U")(r), may stand in every expression, and `simulate` takes values for them.
+    InputError is raised if the expressions do not describe a mechanical system.
 
     Attributes
     ----------
@@ -56,9 +56,9 @@ class System(Equations):
     forces : sequence
         The generalised forces Q(q, v, t), one for each coordinate, or none.
     names : tuple of str
-        The names of the constraints and of rolling.
+        The names of the constraints and then of the rolling constraints.
     velocities : mapping
-        Quasi-velocities {u: expression affine in v}, as many as coordinates, or fewer if constraints give the others.
+        Quasi-velocities {u: expression affine in v}: one for each coordinate, or fewer if constraints determine the rest.
 
     Examples
     --------
@@ -223,7 +223,7 @@ class System(Equations):
         Returns
         -------
         Decision
-            "zero" if df/dt vanishes with the accelerations put in. Under constraints "undecided" if it does not vanish
+            "zero" if df/dt vanishes along every motion. Under constraints the answer is "undecided" if df/dt does not vanish
             identically, since it may vanish on the constraints.
 
         Examples
@@ -245,8 +245,8 @@ class System(Equations):
         Parameters
         ----------
         cyclic : str, sequence or mapping
-            Names of cyclic coordinates, "phi psi", whose momenta are then called p_phi, p_psi; or a mapping from
-            coordinates to momenta. L is quadratic in their velocities.
+            Names of cyclic coordinates, "phi psi", whose momenta are then called p_phi, p_psi; or a mapping from coordinates
+            to momenta. L must be quadratic in the velocities of these coordinates.
 
         Returns
         -------
@@ -309,16 +309,16 @@ class System(Equations):
     ) -> tuple[Equilibrium, ...]:
         """Return the configurations at rest: ∂L/∂q + Q + Gᵀ λ = 0 and g = 0 at v = 0.
 
-        Without a box they are exact, and angles in sines and cosines lie between −π and π. With values and a box, interval
-        Newton's method encloses all equilibria in it, also under one constraint g(q) = 0. A pole of a force is no
-        equilibrium. An edge that is no rational, as π or 0.3, stands for all numbers that round to it: an equilibrium there is
-        in the box.
+        Without a box the equilibria are exact, and angles in sines and cosines lie between −π and π. With values and a box,
+        interval Newton's method encloses all equilibria in the box, also under one constraint g(q) = 0. A pole of a force is
+        no equilibrium. If an edge is a decimal or irrational number, as 0.3 or π, every number that rounds to it is in the
+        box.
 
         Parameters
         ----------
         unknowns : str or sequence, default ()
-            Names of the symbols to solve for; the coordinates by default. In a system from `routh` it may be a momentum,
-            p_phi, that a steady motion needs at any inclination.
+            Names of the symbols to solve for; the coordinates by default. In a system from `routh` a momentum may be unknown:
+            solving for p_phi gives the momentum of the steady motion at every inclination.
         values : mapping or None, optional
             {symbol: number} for all parameters.
         box : mapping or None, optional
@@ -327,19 +327,20 @@ class System(Equations):
         Returns
         -------
         tuple of Equilibrium
-            Values of the unknowns with the conditions under which they are real; from a box numbers with an `enclosure`.
+            Values of the unknowns, and the conditions under which they are real. With a box they are numbers with an
+            `enclosure`.
 
         Raises
         ------
         InputError
             If the conditions depend on time or cannot be solved exactly.
         SingularError
-            If a part of the box stays undecided, as about equilibria that are not isolated.
+            If a part of the box stays undecided, for example around equilibria that are not isolated.
 
         Warns
         -----
         LagrotorWarning
-            Names each place where a force has no derivative or no value and nothing is decided.
+            If nothing is decided where a force has no derivative or no value; the message names these places.
 
         Examples
         --------
@@ -354,8 +355,8 @@ class System(Equations):
     def same_as(self, other: Equations) -> Decision:
         """Decide if two systems have the same accelerations in the same coordinates.
 
-        Lagrangians may differ by a factor and a total time derivative. Blocks that do not interact, each with another factor,
-        are "undecided", and so is what agrees only on the constraints.
+        Lagrangians may differ by a factor and a total time derivative. The answer is "undecided" if the systems consist of
+        blocks without interaction that have different factors, or if they agree only on the constraints.
 
         Parameters
         ----------
@@ -384,15 +385,16 @@ class System(Equations):
     def in_coordinates(self: Kind, c: Coordinates, where: Mapping[sp.Symbol, sp.Expr]) -> Kind:
         """Return the system in new coordinates Q.
 
-        L, D and the constraints take q(Q, t) and v = dq/dt; forces take the virtual work (∂q/∂Q)ᵀ Q. Constraints that
-        vanish identically are left out.
+        In L, D and the constraints q(Q, t) and v = dq/dt are substituted. The virtual work of the forces stays the same, so
+        that the new ones are (∂q/∂Q)ᵀ times the old. Constraints that vanish identically are left out.
 
         Parameters
         ----------
         c : Coordinates
             The new coordinates; fewer where they solve constraints.
         where : mapping
-            {old coordinate: expression in the new ones and t}. The others keep their names and are among the new ones.
+            {old coordinate: expression in the new ones and t}. An old coordinate that is not named must be among the new
+            ones.
 
         Returns
         -------
@@ -420,17 +422,17 @@ class System(Equations):
         order : int
             The highest power of `small`.
         small : Symbol
-            A parameter at zero of which the system is linear; or a new symbol, which is the amplitude then: the value of q
-            at phase 0 less `at`.
+            Either a parameter, and then the system must be linear where it is zero; or a new symbol, and then it is the
+            amplitude, the value of q at phase 0 minus `at`.
         at : Expr, default 0
             The equilibrium.
         amplitude : Symbol or None, optional
-            The amplitude's name where `small` is a parameter; A by default.
+            The symbol of the amplitude if `small` is a parameter; A by default.
 
         Returns
         -------
         Oscillation
-            The frequency and the motion, with their O().
+            The frequency and the motion as series, each with its O() term.
 
         Raises
         ------
@@ -461,9 +463,9 @@ class System(Equations):
         order : int
             The highest power of `small`, 1 or 2.
         small : Symbol
-            A parameter; at zero the system is q'' = −ν² q.
+            A parameter. Where it is zero, the system must be q'' = −ν² q.
         frequency : Expr or None, optional
-            ν, by default that of the system at small = 0.
+            The frequency ν in rad/s; by default the frequency of the system where `small` is zero.
 
         Returns
         -------
@@ -526,9 +528,9 @@ class System(Equations):
         values : mapping or None, optional
             {symbol: number} for all parameters.
         inputs : sequence, default ()
-            Parameters u, zero unless `at` or `values` name them.
+            Parameters u of the system. They are zero at the point unless `at` or `values` names them.
         outputs : sequence, default ()
-            Expressions y in q, v, a and the multipliers.
+            Expressions y in q, v, a and the multipliers, which are measured.
 
         Returns
         -------
@@ -584,11 +586,12 @@ class System(Equations):
         Parameters
         ----------
         at : mapping
-            {coordinate or velocity: value} at t = 0, or at the value of t. A driven system at rest is a motion, too.
+            {coordinate or velocity: value} at t = 0, or at the time that `at` gives for t. Rest in a driven system is a
+            periodic motion, too.
         values : mapping
             {symbol: number} for all parameters.
         period : float
-            The period in s; at rest that of the drive.
+            The period of the motion in s; for a state of rest, the period of the drive.
 
         Returns
         -------
@@ -630,12 +633,12 @@ class System(Equations):
         symbol : Symbol or str
             The parameter that changes.
         numbers : array_like
-            Its values, increasing, shape (n,).
+            The values of `symbol`, increasing, shape (n,).
 
         Returns
         -------
         RootLocus
-            The rates in 1/s, and the values at which the motion becomes stable or unstable.
+            The rates in 1/s, and the values of `symbol` at which the motion becomes stable or unstable.
 
         Examples
         --------
@@ -667,7 +670,8 @@ class System(Equations):
         numbers : mapping
             {symbol: increasing numbers} of two symbols.
         period : optional
-            The period of a periodic motion in s, a number or an expression in the symbols; its multipliers give the growth.
+            The period of a periodic motion in s, a number or an expression in the symbols. The growth rate is then that of
+            the largest Floquet multiplier.
 
         Returns
         -------
@@ -767,10 +771,10 @@ class System(Equations):
         events: "Event | Impact | Sequence[Event | Impact]" = (),
         progress: "Callable[[float], None] | None" = None,
     ) -> "SystemRun":
-        """Integrate the equations of motion. Forces that jump with sign(w) or |w| stick and slip.
+        """Integrate the equations of motion. Where forces contain sign(w), or the dissipation |w|, bodies can stick and slip.
 
-        A run that cannot reach its last time ends earlier; `run.ending` gives the reason, with a LagrotorWarning. Another
-        warning names the time of a position at which the constraints are dependent.
+        A run that cannot reach its last time ends earlier with a LagrotorWarning, and `run.ending` gives the reason. Another
+        warning names the time at which the constraints become dependent.
 
         Integration steps are short where a function of t alone changes fast, if the change lasts a ten-thousandth of the run;
         a briefer pulse may be missed. They are short, too, where an expression of coordinates or velocities changes within an
@@ -788,8 +792,9 @@ class System(Equations):
         t : array_like
             Increasing times in s, shape (k,).
         tol : float, default 1e-09
-            The largest error of the whole run, relative to the sizes of coordinates and velocities. It is estimated:
-            `run.error`, `run.errors`, and `run.horizon`, up to which it is kept. Beyond it a LagrotorWarning is given.
+            The largest error of the whole run, relative to the sizes of coordinates and velocities. The error is estimated in
+            `run.error` and `run.errors`, and it is below `tol` until the time `run.horizon`. If that is before the end, a
+            LagrotorWarning is given.
         engine : Engine, default 'core'
             "core", or "fast" with heyoka.
         events : Event, Impact or sequence, default ()

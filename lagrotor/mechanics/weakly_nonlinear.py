@@ -3,7 +3,7 @@
 Lindstedt–Poincaré: q = q₀ + Σ εⁿ xₙ(Φ), Φ' = ω₀ (1 + Σ wₙ εⁿ), for a motion symmetric under time reversal. ε is a parameter of
 the system, with an arbitrary amplitude A, or ε is the amplitude itself.
 
-Characteristic exponents: in a system at rest with two constant displacements (p_0 and q_0, exponent zero), an orbit of small
+Characteristic exponents: a system at rest has two constant displacements, p_0 and q_0, with exponent zero. An orbit of small
 amplitude eps couples them. A perturbation of the orbit has the form
 
     xi p(Phi) + eta q(Phi),    d xi/d Phi = A eta,    d eta/d Phi = B xi,
@@ -62,7 +62,7 @@ class PeriodicSeries:
         return min(series.order for series in (*self.unknowns, self.frequency))
 
     def at_rest(self, field: Domain) -> "PeriodicSeries":
-        """Return the exact terms of order 0, also of a series in floating point."""
+        """Return the terms of order 0 alone. Their coefficients, exact or in floating point, are converted into `field`."""
         still = [
             FourierSeries({(0, h): field.convert(v) for h, v in series.harmonics(0).items()}, series.order)
             for series in (*self.unknowns, self.frequency)
@@ -82,10 +82,11 @@ def periodic_series(
 ) -> PeriodicSeries:
     """Return the series of the periodic orbit equilibrium + eps mode + …, with frequency 1 + omega_2 eps² + ….
 
-    residual: (unknowns, frequency) → the equations of motion as Fourier series, time derivatives carried by the frequency.
-    mode: for each unknown {harmonic: coefficient} (cos for h ≥ 0, sin for h < 0), which fixes its parity. field: of the
-    coefficients. numeric: the same equations in floating point, ten times as fast. mode_power: power of eps of the mode, 0
-    where eps multiplies the nonlinearity and the mode has an arbitrary amplitude.
+    `residual`(unknowns, frequency) returns the equations of motion as Fourier series; a time derivative in them is frequency
+    × d/dPhi. `mode` has for each unknown {harmonic: coefficient} (cos for h ≥ 0, sin for h < 0), which fixes the parity of
+    the unknown. `field` is the field of the coefficients. `numeric` returns the same equations in floating point, ten times
+    as fast. `mode_power` is the power of eps of the mode; it is 0 if eps multiplies the nonlinearity and the amplitude of the
+    mode is arbitrary.
 
     Order n is linear in the coefficients of eps^n; at the mode's own harmonic the correction omega_{n − mode_power} makes the
     system solvable. Raises SingularError at a resonance with another mode.
@@ -125,9 +126,10 @@ def periodic_series(
 def _columns(
     residual: Residual, equilibrium: Sequence[Coefficient], sines: Sequence[bool], order: int, unit: Coefficient
 ) -> dict[int, list[Column]]:
-    """Return harmonic h → the linear operator there: for each unknown the response of the equations to a unit of it.
+    """Return the equations linearised at the equilibrium: {harmonic: one column for each unknown}.
 
-    At equilibrium harmonics do not couple, so that one evaluation serves all.
+    A column has the coefficients of the equations for a unit of that harmonic in the unknown. At equilibrium harmonics do not
+    couple, so that one evaluation serves all.
     """
     still, columns = [constant_series(r, 1) for r in equilibrium], dict[int, list[Column]]()
     for j, sine in enumerate(sines):
@@ -144,7 +146,7 @@ def waves(sine: bool, highest: int, power: int, unit: Coefficient) -> FourierSer
 
 
 def by_harmonic(equations: Sequence[FourierSeries], highest: int, power: int) -> dict[int, Column]:
-    """Return harmonic h up to `highest` → the coefficients of eps**power there."""
+    """Return for each harmonic up to `highest` the coefficients of eps**power in the equations."""
     columns: dict[int, Column] = {h: {} for h in range(highest + 1)}
     for i, equation in enumerate(equations):
         for key, v in equation.harmonics(power).items():
@@ -155,7 +157,7 @@ def by_harmonic(equations: Sequence[FourierSeries], highest: int, power: int) ->
 def _frequency_column(
     residual: Residual, unknowns: Sequence[FourierSeries], unit: Coefficient, mode_power: int
 ) -> dict[tuple[int, int], Coefficient]:
-    """Return the response of the mode to a unit change of frequency; exact, as the equations are quadratic in it."""
+    """Return the change of the equations per unit of the frequency, exact because the frequency enters quadratically."""
     first = [u.through(mode_power) for u in unknowns]
     up, down = (residual(first, constant_series(value, 1)) for value in (unit + unit, unit - unit))
     column = {}
@@ -168,10 +170,12 @@ def _frequency_column(
 def harmonic_solver(
     columns: list[Column], extra: Column | None, fixed: int | None, field: Domain, value: Callable[[Any], Coefficient]
 ) -> Solver:
-    """Return the solver of one harmonic for the unknowns, and for the shift of a frequency where `extra` is its column.
+    """Return a function that solves the equations at one harmonic of an order.
 
-    The solver takes the coefficients of an order, the harmonic, and the value of unknown number `fixed`. The system is reduced
-    exactly once for all orders, and undetermined unknowns are zero. The solver raises SingularError for an unsolvable order.
+    It takes the residuals of the order, the harmonic, and the value of the unknown with the index `fixed`. It returns the
+    coefficients of the unknowns, and the shift of the frequency if `extra` is the column of that, else zero. The system is
+    reduced exactly once for all orders, and undetermined unknowns are zero. The function raises SingularError for an
+    unsolvable order.
     """
     system = [*columns, *([extra] if extra is not None else [])]
     rows = sorted({key for column in system for key in column})
@@ -202,7 +206,10 @@ def harmonic_solver(
 def _eliminate(
     table: list[list[Coefficient]], field: Domain, value: Callable[[Any], Coefficient]
 ) -> tuple[list[int], list[list[Coefficient]]]:
-    """Return the determined unknowns, and the matrix from the right side to them and to the conditions of solvability."""
+    """Return the indices of the determined unknowns, and a matrix that multiplies the right side of the equations.
+
+    The product begins with the values of these unknowns. The other numbers in it vanish if the equations can be solved.
+    """
     n, m = len(table), len(table[0]) if table else 0
     wide = [row + [field.one if i == j else field.zero for j in range(n)] for i, row in enumerate(table)]
     if not wide:
@@ -215,8 +222,8 @@ def _eliminate(
 class Perturbed:
     """A perturbed orbit, orbit + xi p + eta q to first order, with xi' = A eta, eta' = B xi.
 
-    Its arithmetic turns the equations of an orbit into the variational equations. exchange: the sign of p and q in the
-    equations at half a period later.
+    Its arithmetic turns the equations of an orbit into the variational equations. `exchange` is the sign of p and q in the
+    equations half a period later.
     """
 
     orbit: Series
@@ -246,12 +253,12 @@ class Perturbed:
         return self._with(self.orbit.times(factor), self.p.times(factor), self.q.times(factor))
 
     def derivative(self) -> "Perturbed":
-        """Return df/dPhi, (p' + B q) xi + (q' + A p) eta."""
+        """Return df/dPhi. Its perturbation is (p' + B q) xi + (q' + A p) eta."""
         p, q = self.p.derivative() + self.B * self.q, self.q.derivative() + self.A * self.p
         return self._with(self.orbit.derivative(), p, q)
 
     def half_period_later(self) -> "Perturbed":
-        """Return f(Phi + pi), the perturbation with the sign `exchange`."""
+        """Return f(Phi + pi), with the perturbation multiplied by `exchange`."""
         p, q = (series.half_period_later().times(self.exchange) for series in (self.p, self.q))
         return self._with(self.orbit.half_period_later(), p, q)
 
@@ -286,10 +293,10 @@ def characteristic_exponents(
 ) -> ExponentSeries:
     """Return A and B through eps**order for an orbit known through at least that order.
 
-    residual, numeric: the equations as of `periodic_series`. exchange: the sign of p and q in the equations at half a period
-    later. sines: True for each unknown with a sine series; p has the same parities, q the opposite ones. neutral: the numbers
-    of the unknowns whose unit displacements are p_0 and q_0; later orders leave their means unchanged. Raises SingularError
-    where another exponent is close to zero.
+    `residual` and `numeric` are the equations of motion that `periodic_series` describes. `exchange` is the sign of p and q
+    in the equations half a period later. `sines` is True for each unknown with a sine series; p has the same parities, q the
+    opposite ones. `neutral` has the indices of the unknowns whose unit displacements are p_0 and q_0. The means of these two
+    unknowns have no terms of higher order. Raises SingularError if another exponent is close to zero.
     """
     parity = {"p": list(sines), "q": [not sine for sine in sines]}
     fixed = dict(zip("pq", neutral, strict=True))
@@ -323,7 +330,7 @@ def _varied(
     slow: Mapping[str, Series],
     exchange: int,
 ) -> list[Perturbed]:
-    """Return the equations of an orbit with this perturbation and the rates A = slow["q"] and B = slow["p"]."""
+    """Evaluate the equations of motion on an orbit with this perturbation, for A = slow["q"] and B = slow["p"]."""
 
     def at(f: FourierSeries, p: Series, q: Series) -> Perturbed:
         return Perturbed(f, p, q, slow["q"], slow["p"], exchange)
@@ -342,10 +349,10 @@ def _responses(
     unit: Coefficient,
     exchange: int,
 ) -> tuple[dict[tuple[str, int], list[Column]], dict[str, Column]]:
-    """Return the linear equations at rest.
+    """Return the perturbed equations at rest, as two mappings to columns of coefficients.
 
-    These are (p or q, harmonic) → the response to a unit of each unknown, and the responses to a unit of B and of A. At
-    equilibrium harmonics do not couple, so that one evaluation serves all.
+    The first maps ("p" or "q", harmonic) to one column for a unit of each unknown. The second maps "p" to the column for a
+    unit of B, and "q" to that for a unit of A. At equilibrium harmonics do not couple, so that one evaluation serves all.
     """
     nothing, operators, drift = FourierSeries({}, order), dict[tuple[str, int], list[Column]](), dict[str, Column]()
     for j in range(len(equilibrium.unknowns)):
@@ -383,9 +390,9 @@ class Oscillation:
     small : Symbol
         The expansion parameter: a parameter of the system, or the amplitude itself.
     amplitude : Symbol
-        The value of q at Φ = 0 less the equilibrium value.
+        The value of q at Φ = 0 minus its value at equilibrium.
     system : Equations
-        The system that moves.
+        The system in motion, which has one coordinate.
 
     Examples
     --------
@@ -414,7 +421,7 @@ class Oscillation:
         Returns
         -------
         float
-            Absolute difference of the frequencies over the simulated one.
+            Absolute difference of the two frequencies, divided by the simulated one.
 
         Raises
         ------
@@ -483,7 +490,10 @@ def oscillation(
 def _terms_about(
     equilibrium: sp.Expr, system: Equations, order: int, small: sp.Symbol, amplitude: sp.Symbol | None
 ) -> dict[tuple[int, ...], sp.Expr]:
-    """Return the coefficients by powers of small, q, v and a; without an amplitude `small` measures the size of the motion."""
+    """Expand the equation about the equilibrium: return {(powers of small, q, v, a): coefficient}.
+
+    If `amplitude` is None, `small` is the size of the motion, and q, v and a are of first order in it.
+    """
     (q,), (v,), (a,) = system.c.q, system.c.v, system.c.a
     equation = system.motion[0]
     if amplitude is not None and str(amplitude) in map(str, equation.free_symbols):
@@ -502,17 +512,19 @@ def _terms_about(
 
 
 def _stiffness_and_mass(terms: Mapping[tuple[int, ...], sp.Expr], place: str) -> tuple[sp.Expr, sp.Expr]:
-    """Return the coefficients of q and a at small = 0. Raises InputError unless small motions are periodic."""
+    """Return the coefficients K of q and M of a where `small` is zero. Raises InputError unless small motions are periodic."""
     if any(not any(powers) for _, *powers in terms):
-        raise InputError(f"lindstedt_poincare: {place} is no equilibrium: the force is not zero: give at=")
+        raise InputError(f"lindstedt_poincare: {place} is no equilibrium: the force is not zero: give one as at=")
     if any(j % 2 for _, _, j, _ in terms):
         raise InputError(
-            "lindstedt_poincare: the equation has odd powers of the velocity, and is not the same backward: friction makes an "
-            "amplitude change, which averaged gives"
+            "lindstedt_poincare: the equation has odd powers of the velocity, and is not the same backward: use averaged, which "
+            "gives the change of the amplitude"
         )
     K, M = terms.get((0, 1, 0, 0), sp.S.Zero), terms.get((0, 0, 0, 1), sp.S.Zero)
     if K == 0 or M == 0 or (K / M).is_nonpositive:
-        raise InputError(f"lindstedt_poincare: {place} has no frequency of small motion, ω² = {K / M if M else 'K/0'}")
+        raise InputError(
+            f"lindstedt_poincare: {place} has no frequency of small motion, ω² = {K / M if M else 'K/0'}: give a stable at="
+        )
     return K, M
 
 
@@ -525,9 +537,9 @@ class AveragedMotion:
     amplitudes : tuple[Symbol, Symbol]
         The symbols a and b, in the unit of q.
     rates : tuple[Expr, Expr]
-        The averaged a' and b' through small**order.
+        The averaged rates a' and b', as series through small**order.
     state : tuple[Expr, Expr]
-        The coordinate q and velocity q' by a, b and t, for order 2 with the correction ε u₁.
+        The coordinate q and the velocity q' as expressions in a, b and t. For order 2 they contain the correction ε u₁.
     frequency : Expr
         The unperturbed angular frequency ν in rad/s.
     small : Symbol
@@ -557,7 +569,10 @@ class AveragedMotion:
 
     @property
     def polar(self) -> tuple[sp.Expr, sp.Expr]:
-        """The rates (r', β') of q = r cos(νt + β) in the symbols r and beta, or r_0 and beta_0 where the system uses those."""
+        """The rates (r', β') of q = r cos(νt + β), in the symbols r and beta.
+
+        If the system already uses one of these names, the symbols are r_0 and beta_0.
+        """
         used = {str(s) for e in self.rates for s in e.free_symbols}
         names = ["r_0", "beta_0"] if used & {"r", "beta"} else ["r", "beta"]
         r, beta = sp.Symbol(names[0], positive=True), sp.Symbol(names[1], real=True)
@@ -624,7 +639,7 @@ def averaged(system: Equations, order: int, small: sp.Symbol, frequency: Any = N
     """Return the slow motion of the amplitudes through small**order: `System.averaged`."""
     _check_one("averaged", system, order, small)
     if order > _HIGHEST_ORDER:
-        raise InputError(f"averaged: order = {order}: 1 or 2 are known")
+        raise InputError(f"averaged: order = {order} must be 1 or 2: no higher one is derived")
     (q,), (v,), (a,) = system.c.q, system.c.v, system.c.a
     equation = system.motion[0]
     slope = sp.diff(equation, a)
@@ -674,7 +689,7 @@ def averaged(system: Equations, order: int, small: sp.Symbol, frequency: Any = N
 
 @dataclass(frozen=True)
 class _Waves:
-    """Sines and cosines of time as symbols, and their harmonics of the base frequency, negative for a sine."""
+    """The sines and cosines of time in a force: {function: symbol}, and the harmonic number of each, negative for a sine."""
 
     symbol_of: Mapping[sp.Expr, sp.Symbol]
     harmonics: tuple[int, ...]
@@ -685,7 +700,7 @@ class _Waves:
 
 
 def _trigonometric(F: sp.Expr, nu: sp.Expr) -> tuple[int, _Waves]:
-    """Return the harmonic number of ν on the largest common base frequency, and the functions of time in F."""
+    """Return the integer ν/ν₀ for the largest common base frequency ν₀, and the sines and cosines of time in F."""
     nodes = sorted((e for e in F.atoms(sp.sin, sp.cos) if t in e.free_symbols), key=sp.default_sort_key)
     ratios = []
     for e in nodes:
@@ -693,8 +708,8 @@ def _trigonometric(F: sp.Expr, nu: sp.Expr) -> tuple[int, _Waves]:
         ratio = sp.Rational(str(ratio)) if ratio.is_Float else ratio
         if not ratio.is_Rational or ratio <= 0:
             raise DomainError(
-                f"averaged: {e} has no rate that is a rational part of ν = {nu}, or has a phase: write rates like 2 ν, and a "
-                "phase by symbols for its cosine and sine"
+                f"averaged: the frequency of {e} is no rational multiple of ν = {nu}, or it has a phase: write frequencies like "
+                "2 ν, and symbols for the cosine and sine of a phase"
             )
         ratios.append(ratio)
     base = lcm(*(int(ratio.q) for ratio in ratios)) if ratios else 1
@@ -704,7 +719,7 @@ def _trigonometric(F: sp.Expr, nu: sp.Expr) -> tuple[int, _Waves]:
 
 
 def _sum_of_products(coefficients: Sequence[tuple[tuple[int, ...], Coefficient]], series: Sequence[Series]) -> Series:
-    """Return Σ c smallⁿ Π seriesᵢ^kᵢ over ((n, k₁, …), c)."""
+    """Return the sum of c smallⁿ Π seriesᵢ^kᵢ over the entries ((n, k₁, …), c) of `coefficients`."""
     total = series[0].constant(0)
     for (n, *powers), c in coefficients:
         factors = (f for f, k in zip(series, powers, strict=True) for _ in range(k))
@@ -713,7 +728,7 @@ def _sum_of_products(coefficients: Sequence[tuple[tuple[int, ...], Coefficient]]
 
 
 def _integral(g: FourierSeries, n: int, rate: Any) -> FourierSeries:
-    """Return the zero-mean integral over time of the terms of small**n, for phase' = rate."""
+    """Integrate the terms of small**n over time, with zero mean; `rate` is the time derivative of the phase."""
     terms = {}
     for k, c in g.harmonics(n).items():
         if k:
@@ -722,7 +737,7 @@ def _integral(g: FourierSeries, n: int, rate: Any) -> FourierSeries:
 
 
 def _expression_of(u: FourierSeries, field: Domain, phase: sp.Expr, small: sp.Symbol) -> sp.Expr:
-    """Return a series as an expression of its phase."""
+    """Return a series as an expression in its phase and `small`."""
     waves = ((n, k, field.to_sympy(c)) for (n, k), c in u.terms.items())
     return sp.Add(*(c * small**n * (sp.cos(k * phase) if k >= 0 else sp.sin(-k * phase)) for n, k, c in waves))
 
@@ -730,8 +745,8 @@ def _expression_of(u: FourierSeries, field: Domain, phase: sp.Expr, small: sp.Sy
 def _check_one(where: str, system: Equations, order: int, small: sp.Symbol) -> None:
     if len(system.c.q) != 1 or system.multipliers:
         raise InputError(
-            f"{where}: one coordinate without constraints is taken: leave out cyclic ones by routh, solve constraints by "
-            "in_coordinates; of several modes normal_form gives the frequencies"
+            f"{where}: one coordinate without constraints is taken: eliminate others by routh if cyclic, constraints by "
+            "in_coordinates; for several modes use Hamiltonian.normal_form"
         )
     if not isinstance(order, int) or isinstance(order, bool) or order < 1:
         raise InputError(f"{where}: order = {order!r} must be a whole number, at least 1")
@@ -754,10 +769,10 @@ def _polynomial(where: str, e: sp.Expr, variables: Sequence[sp.Symbol]) -> sp.Po
 
 
 def _field(coefficients: Sequence[sp.Expr]) -> tuple[Domain, Any]:
-    """Return the field of some expressions, and the conversion into it."""
+    """Return an exact field that contains the expressions, and the function that converts an expression into its element."""
     field, _ = sp.construct_domain([*coefficients, sp.S.Half], field=True)
     if field.is_EX:
         field, _ = sp.construct_domain([*coefficients, sp.S.Half], field=True, extension=True)
     if field.is_EX or not field.is_Exact:
-        raise DomainError(f"the coefficients {coefficients} are in no exact field: write decimals as fractions")
+        raise DomainError(f"the coefficients {coefficients} belong to no exact field: write decimals as fractions")
     return field, lambda e: field.from_sympy(sp.sympify(e, strict=True))

@@ -3,7 +3,7 @@
 - `notation` has every symbol with its meaning and unit, `lagrangians` the kinetic energies, the constraint and A and
   B in symbols.
 - A `Scene` holds rotors, bar, spins, shock and initial state in SI units. `read_scene` reads one from TOML.
-- `consistent_scene` (`initial_conditions`) projects a start onto the bar's constraint.
+- `consistent_scene` (`initial_conditions`) projects an initial state onto the bar's constraint.
 - A `Trajectory` is the result of a simulation: axes over time, tips, energy, momentum, error and ending, the same for
   every model.
 

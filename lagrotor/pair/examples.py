@@ -1,4 +1,4 @@
-"""Ready scenes by name: the runs that the paper links to, each with how long it is worth watching."""
+"""Scenes by name, for the runs that the paper links to, each with a duration that shows its motion."""
 
 from dataclasses import dataclass
 
@@ -14,11 +14,11 @@ class Ready:
     says: str
 
 
-# The bar of section 4: a rigid body of mass 1 kg and inertia 1 kg m²; that of 5.2.1 is a hundredth and a tenth of it.
+# The bar of section 4 has the mass 1 kg and the inertia 1 kg m², the bar of 5.2.1 a hundredth and a tenth of these.
 HEAVY_LINK, LIGHT = Link(length=1.0, mass=1.0, inertia=1.0), Link(length=1.0, mass=0.01, inertia=0.1)
-# The shock of section 4.2, 50 exp(−(50 (t − 2))²) N on the tip of rotor 1, and its twin across.
+# The shock of section 4.2, 50 exp(−(50 (t − 2))²) N on the tip of rotor 1 along the bar, and the same across the bar.
 SHOCK_X, SHOCK_Y = Shock((50.0, 0.0, 0.0), 2.0, 1 / 50), Shock((0.0, 50.0, 0.0), 2.0, 1 / 50)
-# The shock of section 5.2.1, whose push across is chosen so that the pair does not topple.
+# The shock of section 5.2.1, whose component across the bar is chosen so that the pair does not topple.
 SHOCK_PAIRED = Shock((40.0, -11.0, 0.0), 2.0, 1 / 20)
 
 SCENES: dict[str, Ready] = {

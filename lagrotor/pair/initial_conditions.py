@@ -15,7 +15,10 @@ Array = NDArray[np.floating[Any]]
 
 @generated(((),))
 def _constraint_equations() -> str:
-    """Return code for (r_1, r_2, a, b, k) → the three constraints, their rows (3, 6) and the mass matrix (6, 6)."""
+    """Return the code of a function of (r_1, r_2, a, b, k).
+
+    It gives the three constraints, their Jacobian (3, 6) and the mass matrix (6, 6) as one flat tuple.
+    """
     from lagrotor.numerics.codegen import Program
     from lagrotor.numerics.printers import program_source
     from lagrotor.pair.lagrangians import axes_pair
@@ -33,7 +36,9 @@ def consistent_scene(
     link: Link | None = None,
     shock: Shock | None = None,
 ) -> Scene:
-    """Return the scene on the bar's constraint whose start is nearest to an approximate one in the mass metric.
+    """Return the scene whose initial state satisfies the bar's constraint and is nearest to an approximate one.
+
+    Distances are those of the mass metric.
 
     Parameters
     ----------
@@ -68,7 +73,7 @@ def consistent_scene(
     except (TypeError, ValueError):
         raise InputError(f"consistent_scene: axes {axes!r} and rates {rates!r} must be two vectors each") from None
     if not (np.isfinite(q).all() and np.isfinite(v).all()):
-        raise InputError("consistent_scene: axes and rates must be finite")
+        raise InputError("consistent_scene: axes and rates must be finite numbers: correct them")
 
     from lagrotor.mechanics.constraints import project_position, project_velocity
 

@@ -1,4 +1,4 @@
-"""The paper's system: one rotor, the pair, the bar, the ansatz with its A and B, and the pair on two unit spheres.
+"""The paper's system in symbols: one rotor, the pair, the bar, the ansatz with A and B, and the pair on two unit spheres.
 
 All expressions use the symbols of the glossary. The kinetic energy of the coupled pair is
 
@@ -39,7 +39,7 @@ from lagrotor.pair.notation import (
 
 JOINT_LINE = sp.Matrix([1, 0, 0])
 J_OF = I1 + M * R**2 / 4
-# The bar adds half its mass at each tip, and its own rotation.
+# The centre of the bar moves with the mean velocity of the tips; K is the inertia of the bar's own rotation.
 INERTIAS: dict[sp.Symbol, sp.Expr] = {
     a: J + m * R**2 / 4 + K * R**2 / ell**2,
     b: m * R**2 / 4 - K * R**2 / ell**2,
@@ -102,7 +102,7 @@ def pair_lagrangian(inertia: sp.Expr = J) -> sp.Expr:
 
 
 def pair_with_bar() -> System:
-    """Return the exact pair in Euler angles, with the bar's energy.
+    """Return the exact pair in Euler angles, with the bar's energy and its constraint.
 
     Returns
     -------
@@ -157,12 +157,12 @@ def ansatz_integrals() -> tuple[sp.Expr, sp.Expr]:
 def axes_pair(bar: bool = True) -> System:
     """Return the pair as two points on unit spheres, in coordinates without a singularity.
 
-    After Routh reduction of the spins the force G_i r_i × r_i' acts on each axis.
+    The spins are eliminated by Routh's reduction, after which the force G_i r_i × r_i' acts on each axis.
 
     Parameters
     ----------
     bar : bool, default True
-        True for the constraint of the bar beside the two unit lengths.
+        If True, the constraint of the bar is added to the two unit lengths.
 
     Returns
     -------
@@ -217,10 +217,11 @@ def mercator_lagrangian() -> sp.Expr:
 
 @dataclass(frozen=True)
 class BarCurve:
-    """The bar's constraint solved by one parameter chi: twist Delta = alpha_2 − alpha_1, latitude w = u_1 − u_2.
+    """The solution of the bar's constraint in one parameter chi: the twist Delta, rho, and the latitude w.
 
-    In Mercator coordinates the constraint is cosh w − k sinh w = cos Delta (k = ell / R), independent of the mean latitude.
-    The pair keeps the coordinates (U, chi, alpha). `rho` = k cosh w − sinh w.
+    In Mercator coordinates Delta = alpha_2 − alpha_1 and w = u_1 − u_2, and the constraint is cosh w − k sinh w = cos Delta
+    with k = ell / R, independent of the mean latitude. The pair then has the coordinates (U, chi, alpha). rho is k cosh w −
+    sinh w.
     """
 
     twist: sp.Expr
@@ -277,8 +278,8 @@ def minimal_embedding(twist: sp.Expr, latitude: sp.Expr) -> dict[sp.Symbol, sp.E
 def leaning_frame() -> tuple[sp.Matrix, sp.Matrix]:
     """Return orthonormal n and q with r_1 = n cos h − q sin h and r_2 = n cos h + q sin h.
 
-    The mean axis n leans by beta along the joint line and is turned by alpha about it. The bar requires q_x = −sin(h)/k, so
-    q = f cos chi + e sin chi with sin chi = −sin(h)/(k cos beta), f across the joint line and e along the lean.
+    The mean axis n is inclined by beta along the joint line and turned by alpha about that line. The bar requires q_x =
+    −sin(h)/k, so q = f cos chi + e sin chi with sin chi = −sin(h)/(k cos beta), f across the joint line and e along the lean.
 
     Returns
     -------

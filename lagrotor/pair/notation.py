@@ -1,4 +1,4 @@
-"""The glossary of the pair: every symbol with its meaning and unit.
+"""The glossary of the pair of rotors: every symbol with its meaning and its unit.
 
 Coordinates, velocities and accelerations are plain symbols: `theta_1`, `theta_1_dot`, `theta_1_ddot`.
 """
@@ -36,7 +36,7 @@ G_1 = _real("G_1", "axial angular momentum of rotor 1", "kg m²/s")
 G_2 = _real("G_2", "axial angular momentum of rotor 2", "kg m²/s")
 Omega = _real("Omega", "angular frequency of the paired precession", "rad/s")
 r0 = _real("r_0", "amplitude: sine of the inclination when the two axes are parallel", "1")
-q = _positive("q", "average inclination over r_0: the mean of √(cos² Phi + sigma sin² Phi) over a turn", "1")
+q = _positive("q", "average inclination divided by r_0: the mean of √(cos² Phi + sigma sin² Phi) over a turn", "1")
 A_x = _positive("A_x", "amplitude of a tip along the joint line, R r_0", "m")
 A_y = _positive("A_y", "amplitude of a tip across it, R √sigma r_0", "m")
 theta_0 = _real("theta_0", "inclination of sine r_0", "rad")
@@ -54,7 +54,7 @@ P_X = _real("p_x", "R times the impulse along x", "kg m²/s")
 P_1 = _real("p_1", "R times the impulse along y on rotor 1", "kg m²/s")
 P_2 = _real("p_2", "R times the impulse along y on rotor 2", "kg m²/s")
 p_y = _real("p_y", "R times the impulse along y on the shocked rotor", "kg m²/s")
-att = _positive("A_w", "what the pulse's width leaves of the swing, exp(−(Omega_0 w)²/4)", "1")
+att = _positive("A_w", "factor by which the width of the pulse reduces the swing, exp(−(Omega_0 w)²/4)", "1")
 LEAN = _real("beta_s", "lean of the mean axis along the joint line, mean over the swing", "rad")
 HALF = _real("eta", "half the angle between the axes, mean over the swing", "rad")
 SWING = _real("s", "amplitude of the swing in half the angle between the axes", "rad")

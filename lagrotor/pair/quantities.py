@@ -1,4 +1,4 @@
-"""Numbers and vectors of users are checked, and refused with the value, the reason and the remedy."""
+"""Check the numbers and vectors that users give; a refusal names the value, the reason and the remedy."""
 
 from collections.abc import Iterable
 from math import isfinite, nan
@@ -11,7 +11,7 @@ SMALLEST, _LARGEST = 1e-60, 1e60  # magnitudes whose fifth powers are still doub
 
 
 def finite_number(value: object, where: str, unit: str) -> float:
-    """Return a finite number of a size at most _LARGEST."""
+    """Return a value as a float; raise InputError unless it is a finite number of size at most _LARGEST."""
     try:
         number = nan if isinstance(value, str | bytes) else float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError, OverflowError):
@@ -26,7 +26,7 @@ def finite_number(value: object, where: str, unit: str) -> float:
 
 
 def not_vanishing(value: object, where: str, unit: str) -> float:
-    """Return zero or a number of a size at least SMALLEST."""
+    """Return a value as a float; raise InputError unless it is zero or of a size between SMALLEST and _LARGEST."""
     number = finite_number(value, where, unit)
     if 0 < abs(number) < SMALLEST:
         raise InputError(f"{where} = {number:g} {unit} is below {SMALLEST:g}, where squares vanish; change the units")
@@ -34,10 +34,10 @@ def not_vanishing(value: object, where: str, unit: str) -> float:
 
 
 def positive(value: object, where: str, unit: str) -> float:
-    """Return a positive number, at least SMALLEST."""
+    """Return a value as a float; raise InputError unless it is positive, between SMALLEST and _LARGEST."""
     number = finite_number(value, where, unit)
     if number <= 0:
-        raise InputError(f"{where} = {number:g} {unit} must be greater than zero")
+        raise InputError(f"{where} = {number:g} {unit} must be greater than zero: give a positive number")
     return not_vanishing(number, where, unit)
 
 
@@ -49,7 +49,7 @@ def not_negative(value: object, where: str, unit: str) -> float:
 
 
 def numbers(value: object, count: int, where: str, unit: str) -> tuple[float, ...]:
-    """Return `count` finite numbers."""
+    """Return a sequence as a tuple of floats; raise InputError unless it has `count` finite numbers."""
     items = list(value) if isinstance(value, Iterable) and not isinstance(value, str) else None
     if items is None or len(items) != count:
         raise InputError(f"{where} = {value!r} must be {count} numbers in {unit}")
@@ -62,8 +62,8 @@ def finite_vector(value: object, where: str, unit: str) -> Vector:
 
 
 def two_vectors(value: object, where: str, unit: str) -> tuple[Vector, Vector]:
-    """Return a vector for each rotor."""
+    """Return two vectors of three finite numbers, one vector for each rotor; raise InputError for anything else."""
     items = list(value) if isinstance(value, Iterable) and not isinstance(value, str) else []
     if len(items) != 2:
-        raise InputError(f"{where} = {value!r} must be two vectors, one a rotor")
+        raise InputError(f"{where} = {value!r} must be two vectors, one for each rotor")
     return finite_vector(items[0], f"{where}[0]", unit), finite_vector(items[1], f"{where}[1]", unit)

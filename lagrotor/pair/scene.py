@@ -177,10 +177,11 @@ class Scene:
     link : Link or None
         The bar; None for uncoupled rotors.
     shock : Shock or None
-        The shock, if there is one.
+        The shock; None for a scene without one.
     axes : tuple of vectors
     rates : tuple of vectors
-        The unit vectors r_i and r_i' (1/s) at the start, with |ell e_x + R (r_2 − r_1)| = ell and rates tangent to it.
+        The unit vectors r_i of the axes and their rates r_i' in 1/s, at the start. They satisfy the constraint of the bar,
+        |ell e_x + R (r_2 − r_1)| = ell, and its time derivative.
 
     Examples
     --------
@@ -309,7 +310,7 @@ class Scene:
 
     @property
     def k(self) -> float:
-        """The ratio ell/R of the lengths of bar and axis; InputError without a bar."""
+        """The ratio ell/R of the lengths of bar and axis. Without a bar InputError is raised."""
         if self.link is None:
             raise InputError("Scene: k = ell/R needs a bar; give the scene a link")
         return self.link.length / self.rotor.length
@@ -320,7 +321,7 @@ class Scene:
         Returns
         -------
         dict of str
-            Words by name.
+            {name: description in words}.
         """
         rotor, bar, shock = self.rotor, self.link, self.shock
         return {

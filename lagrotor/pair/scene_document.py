@@ -45,7 +45,7 @@ def read_document(path: str | Path, make: Callable[[dict[str, Any]], Kind]) -> K
 
 
 def scene_of(table: Mapping[str, Any]) -> Scene:
-    """Return the scene of a table by the names of the fields."""
+    """Return the scene whose fields a table gives by their names."""
     check_fields(table, Scene, "a scene")
     if "spins" not in table:
         raise InputError("spins is missing: give the axial angular velocities in rad/s, spins = [10, -10]")
@@ -62,17 +62,17 @@ def check_fields(table: Mapping[str, Any], kind: type, what: str) -> None:
     names = [field.name for field in fields(kind)]
     if unknown := [name for name in table if name not in names]:
         listed = ", ".join(names)
-        raise InputError(f"{unknown[0]!r} is no field of {what}: they are {listed}{near(unknown[0], names)}")
+        raise InputError(f"{unknown[0]!r} is no field of {what}: the fields are {listed}{near(unknown[0], names)}")
 
 
 def part_of(name: str, kind: type, table: Any) -> Any:
-    """Return an object of a kind from a table of its fields."""
+    """Return an object of the class `kind` from a table of its fields."""
     names = [field.name for field in fields(kind)]
     if not isinstance(table, dict) or any(key not in names for key in table):
         raise InputError(f"{name} = {table!r} must be a table of {', '.join(names)}")
     needed = [field.name for field in fields(kind) if field.default is MISSING and field.default_factory is MISSING]
     if lacking := [key for key in needed if key not in table]:
-        raise InputError(f"{name} = {table!r} lacks {', '.join(lacking)}")
+        raise InputError(f"{name} = {table!r} lacks {', '.join(lacking)}: add it")
     return kind(**table)
 
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from lagrotor.drawing.view import View
 
 
-# The largest error of the length of a stored axis, by the loosest tolerances.
+# The largest error of the length of a stored axis, reached at the loosest tolerances.
 UNIT_ERROR = 1e-3
 
 UNITS = {
@@ -36,7 +36,7 @@ _AXES = {3: ("rotor", "t", "component"), 2: ("rotor", "t"), 1: ("t",)}
 
 
 def tilting_energy(scene: Scene, rates: Array) -> Array:
-    """Return a/2 (|r_1'|² + |r_2'|²) + b r_1'·r_2' for rates (2, n, 3), shape (n,), in J."""
+    """Return the energy a/2 (|r_1'|² + |r_2'|²) + b r_1'·r_2' in J, shape (n,), for rates of shape (2, n, 3)."""
     a, b = scene.inertias
     v1, v2 = rates
     return np.asarray(a / 2 * ((v1**2).sum(-1) + (v2**2).sum(-1)) + b * (v1 * v2).sum(-1))
@@ -71,7 +71,7 @@ class Trajectory(Run):
     horizon : float
     evaluations : int
     ending : Ending
-        As of `Run`; errors are those of an axis, and of a tip in units of R.
+        The fields of `Run`. The errors are those of an axis, which equal the errors of a tip in units of R.
 
     Examples
     --------
@@ -103,7 +103,7 @@ class Trajectory(Run):
 
     @property
     def link_length(self) -> Array:
-        """The distance of the tips, shape (n,), in m; with a bar its length."""
+        """The distance between the tips, shape (n,), in m. With a bar it equals the bar's length, up to the error of the run."""
         return np.linalg.norm(self.tips[1] - self.tips[0], axis=-1)
 
     @property
@@ -154,7 +154,7 @@ class Trajectory(Run):
         fps : float, default 25.0
             Pictures per second.
         step : callable, default lambda name: None
-            Called at the start of each second of the film.
+            Called with a text at the start of each second of the film.
 
         Returns
         -------
@@ -214,7 +214,7 @@ class Trajectory(Run):
         Returns
         -------
         dict of str
-            Words by name.
+            {name: description in words}.
         """
         first, last = float(self.energy[0]), float(self.energy[-1])
         return (
@@ -235,7 +235,7 @@ class Trajectory(Run):
         Returns
         -------
         dict of Quantity
-            Values, names of the axes of the array, and unit by name.
+            {name: its values, the names of the array's dimensions, and its unit}.
         """
         arrays = {name: getattr(self, name) for name in UNITS if name != "P"} | {"P": self.joint_line_momentum}
         return {name: Quantity(values, _AXES[values.ndim], UNITS[name]) for name, values in arrays.items()}
@@ -284,7 +284,7 @@ class Trajectory(Run):
             ) from None
         wrong = _wrong(run_fields["t"], axes, rates, momenta)
         if not (isinstance(model, str) and isinstance(why, str)):
-            wrong = "its model is none"
+            wrong = "its model or the reason for that is no text"
         if wrong:
             raise InputError(f"load: {path} is no run: {wrong}: give a file that `save` wrote")
         return Trajectory(scene=scene, model=model, why=why, axes=axes, rates=rates, momenta=momenta, **run_fields)

@@ -53,7 +53,7 @@ REFUSED: dict[str, tuple[Callable[[], object], str, str]] = {
     "not a rotor": (lambda: scene(rotor=1.0), "rotor = 1.0", "must be a Rotor"),
     "not a bar": (lambda: scene(link=1.0), "link = 1.0", "must be a Link"),
     "not a shock": (lambda: scene(shock=(1, 0, 0)), "shock = (1, 0, 0)", "must be a Shock"),
-    "one axis": (lambda: scene(axes=((0, 0, 1),)), "axes = ((0, 0, 1),)", "two vectors, one a rotor"),
+    "one axis": (lambda: scene(axes=((0, 0, 1),)), "axes = ((0, 0, 1),)", "two vectors, one for each rotor"),
     "axis in the plane": (lambda: scene(axes=((0, 1), (0, 0, 1))), "axes[0] = (0, 1)", "3 numbers"),
     "axis of NaN": (lambda: scene(axes=((0, 0, nan), (0, 0, 1))), "axes[0][2] = nan", "give it in 1"),
     "long axis": (lambda: scene(axes=((0, 0, 1), (0, 0, 1.1))), "axes[1] has length 1.1", "divide it by its length"),

@@ -10,9 +10,9 @@ The second pass goes inward. Each link gets the inertia I of all that it carries
     [N]   [J   H] [α]
     [F] = [Hᵀ  M] [a],
 
-and each coordinate of its joint, of column s, reduces it to I − U Uᵀ/D with U = I s, D = s·U. The result is turned and
-shifted to the parent. The third pass goes outward and gives q''. With several columns of joint forces τ the same factors give
-M⁻¹ τ for each, which the constraints need.
+and each coordinate of its joint, with the column s, reduces it to I − U Uᵀ/D with U = I s, D = s·U. The result is turned and
+shifted to the parent's axes and origin. The third pass goes outward and gives q''. With several columns of joint forces τ the
+same factors give M⁻¹ τ for each, which the constraints need.
 
 Featherstone, Rigid Body Dynamics Algorithms (2008), ch. 7; Luh, Walker & Paul (1980) for the accelerations.
 """
@@ -62,7 +62,9 @@ class Turn:
 class Joint:
     """A link at one state, with the shift, rotation and turn from the parent's axes.
 
-    `spin` is ω, `lift` is (α, a) at q'' = 0. With `bend` K = [α]× + [ω]×² the point r has the acceleration a + K r.
+    `columns` are the velocities (angular, linear) per unit rate of each coordinate, and `rate` is the velocity relative to
+    the parent. `spin` is ω, and `lift` is (α, a) at q'' = 0. With `bend` K = [α]× + [ω]×² the point r has the acceleration a
+    + K r.
     """
 
     link: TreeLink
@@ -76,13 +78,13 @@ class Joint:
     bend: Small = _STILL
 
     def inward(self, e: Small, keep: Stages) -> Small:
-        """Return the components of vectors in the link from those in the parent."""
+        """Transform the components of vectors from the parent's axes to the link's axes."""
         if self.rotation is not None:
             e = keep.each(self.rotation.T * e)
         return self.turn.back().of(e, keep)
 
     def outward(self, e: Small, keep: Stages) -> Small:
-        """Return the components of vectors in the parent from those in the link."""
+        """Transform the components of vectors from the link's axes to the parent's axes."""
         e = self.turn.of(e, keep)
         return e if self.rotation is None else keep.each(self.rotation * e)
 
@@ -116,7 +118,10 @@ def joints(tree: Tree, keep: Stages) -> list[Joint]:
 
 
 def _with_motion(joint: Joint, parent: Joint | None, ground: Small, keep: Stages) -> Joint:
-    """Return the joint with ω and (α, a): α = α' + ω' × u + u',  a = a' + K' d + 2 ω × d' + d''."""
+    """Return the joint with its motion, from that of its parent, which has the index p.
+
+    u and ḋ are the joint's velocities: α = α_p + ω_p × u + u̇,  a = a_p + K_p d + 2 ω_p × ḋ + d̈.
+    """
     w, (b, a) = (parent.spin, parent.lift) if parent else (_NONE, (_NONE, ground))
     (u, d), (u_swing, d_swing) = halves(joint.rate), halves(joint.link.swing)
     a = keep.each(a + parent.bend * joint.shift) if parent else a
@@ -128,7 +133,7 @@ def _with_motion(joint: Joint, parent: Joint | None, ground: Small, keep: Stages
 
 
 def tree_energy(tree: Tree, chain: Sequence[Joint], speeds: Sequence[sp.Symbol], keep: Stages) -> sp.Expr:
-    """Compute the Jacobi integral v·∂L/∂v − L in stages, from the velocities (ω, v) of the links.
+    """Compute the Jacobi integral v·∂L/∂v − L from the velocities (ω, v) of the links, and store its parts as stages.
 
     If time moves a joint, T = T₂ + T₁ + T₀ in powers of the velocities, and the integral is T₂ − T₀ + V. With the velocities
     V = (ω, v), and V* at v = 0, T₂ − T₀ is ½ V·I V − V·I V*. Goldstein §2.7.
@@ -156,7 +161,10 @@ Column = list[sp.Expr]
 
 @dataclass(frozen=True)
 class Factor:
-    """The elimination of one coordinate of column s: E = U/D (6, 1), and x = (τ − s·(N, F))/D for each column of torques."""
+    """The elimination of the coordinate with this number, which moves the link along the column s, shape (6, 1).
+
+    E is U/D, shape (6, 1). x has (τ − s·(N, F))/D for each column τ of joint forces.
+    """
 
     number: int
     s: Small
@@ -212,7 +220,7 @@ def tree_accelerations(
 
 
 def _outcome(chain: Sequence[Joint], factors: Sequence[Sequence[Factor]], j: int, keep: Stages) -> Column:
-    """Return the accelerations of column j in the order of the coordinates, by the third pass."""
+    """Make the third pass: return the accelerations for column j of the joint forces, in the order of the coordinates."""
     solved: dict[int, sp.Expr] = {}
     places: list[Small] = []
     for joint, eliminated in zip(chain, factors, strict=True):
@@ -235,7 +243,10 @@ def _rigid(joint: Joint, keep: Stages) -> Small:
 
 
 def _bias_force(joint: Joint, keep: Stages) -> Small:
-    """Return (N, F) about the joint at q'' = 0: F = Σ m (a + K c), N its moment plus I α + ω × I ω."""
+    """Return the torque and force (N, F), shape (6, 1), about the joint that the bodies of a link need at q'' = 0.
+
+    F is the sum of f = m (a + K c), and N is the sum of c × f + I α + ω × I ω.
+    """
     b, a = joint.lift
     N, F = _NONE, _NONE
     for mass in joint.link.masses:

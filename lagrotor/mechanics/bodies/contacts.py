@@ -2,7 +2,7 @@
 
 With the shape's centre p and the surface's normal n, in the surface's axes, a ball of radius ρ touches at p − ρ n, a thin disc
 with the axis a at p − ρ e/|e|, e = n − (n·a) a. It rolls where v + ω × (x − p) of the body is the velocity of the surface there.
-The multipliers are forces in N: that of the gap is normal, those of the slips act along the two tangents.
+The multipliers are forces in N: the gap has the normal force, and the slips have the forces along the two tangents.
 
 Neimark & Fufaev, Dynamics of Nonholonomic Systems, ch. I, §§2, 3; Routh, Advanced Rigid Dynamics, §§212–244.
 """
@@ -84,7 +84,7 @@ class Cylinder(Sphere):
     frame : Frame
     radius : Expr
     hollow : bool
-        As of `Sphere`.
+        The frame, the radius in m, and True if bodies touch the cylinder from inside.
     """
 
     def _normal(self, p: sp.Matrix) -> sp.Matrix:
@@ -102,13 +102,13 @@ class Cylinder(Sphere):
 class Contact:
     """The contact of a body with a surface.
 
-    A System of a body that rolls has its `constraints` and `rolling`, of one that slides its `constraints` alone. Each has a
-    name in `run.reactions`, with forces along the axes of the frame if the surface is a plane.
+    If the body rolls, give the System both `constraints` and `rolling` of the contact. If it slides, give `constraints` only.
+    `run.reactions` has the contact forces by these names; on a plane they are along the axes of its frame.
 
     Attributes
     ----------
     gap : Expr
-        The distance g(q, t) in m.
+        The distance g(q, t) between body and surface in m.
     slips : tuple of Expr
         The two slip velocities f(q, v, t) in m/s.
     point : Matrix
@@ -126,7 +126,7 @@ class Contact:
 
     @property
     def rolling(self) -> Mapping[str, sp.Expr]:
-        """The slip velocities by name that do not vanish identically."""
+        """The slip velocities by name, without those that vanish identically."""
         named = zip(("along 1", "along 2"), self.slips, strict=True)
         return {name: e for name, e in named if decide_zero(e).answer != "zero"}
 
@@ -134,10 +134,10 @@ class Contact:
 def contact(
     frame: MovingFrame, surface: Plane | Sphere | Cylinder, radius: Any, axis: Vector | None, centre: Vector
 ) -> Contact:
-    """Return the contact of a ball about a centre, or of a thin disc with an axis, and a surface: `Body.rolls_on`."""
+    """Return the contact of a surface with a ball about a centre, or with a thin disc about an axis: `Body.rolls_on`."""
     if not isinstance(surface, Plane | Sphere) or not isinstance(surface.frame, MovingFrame):
         raise InputError(
-            f"rolls_on: {surface!r} is no surface: Plane(frame), Sphere(frame, radius) or Cylinder(frame, radius)"
+            f"rolls_on: {surface!r} is no surface: give Plane(frame), Sphere(frame, radius) or Cylinder(frame, radius)"
         )
     r = expression("rolls_on: radius", radius)
     if not r.is_positive:
@@ -145,7 +145,7 @@ def contact(
     if isinstance(surface, Sphere):
         R = expression("rolls_on: radius of the surface", surface.radius)
         if not R.is_positive or (surface.hollow and (R - r).is_nonpositive):
-            least = f"larger than that of the ball inside, {r}" if surface.hollow else "positive"
+            least = f"larger than the radius {r} of the ball inside" if surface.hollow else "positive"
             raise InputError(f"rolls_on: radius = {R} of the surface must be {least}")
     ground, (axes, drift) = surface.frame, in_ground(surface.frame)
     if frame.c != ground.c:
@@ -158,11 +158,11 @@ def contact(
     else:
         if not isinstance(surface, Plane):
             raise InputError(
-                "rolls_on: a disc rolls on a Plane: of other surfaces its point of contact is no closed form"
+                "rolls_on: a disc rolls on a Plane: on other surfaces its point of contact has no closed form"
             )
         axle = sp.Matrix(vector_of("rolls_on: axis", axis, 3))
         if axle.dot(axle) == 0:
-            raise InputError(f"rolls_on: axis = {axis} is no direction")
+            raise InputError(f"rolls_on: axis = {axis} is no direction: give one that is not zero")
         a = (axes.T * in_ground(frame)[0] * axle).applyfunc(shortest) / sp.sqrt(axle.dot(axle))
         lean = sp.sqrt(1 - n.dot(a) ** 2)
         below, gap = (n - a * n.dot(a)) * r / lean, surface._height(p) - r * lean

@@ -32,7 +32,7 @@ class Pathway:
     c : Coordinates
         The coordinates of the system.
     lengths : tuple of (weight, length)
-        The possible lengths; one has the weight 1 at each time, the others 0.
+        The possible lengths in m. At each time one length has the weight 1 and the others have the weight 0.
     """
 
     c: Coordinates
@@ -93,8 +93,8 @@ class Pathway:
         axis : sequence, default (0, 0, 1)
             The direction of the axis.
         side : int, default 1
-            1 if the path turns about the axis in the positive sense from P to Q, −1 for the negative, by up to 3/2 π. It is
-            straight where the straight line passes on that side.
+            1 if the path from P to Q turns about the axis in the positive sense, −1 if in the negative. It turns by at most
+            3/2 π. Where the straight line passes the cylinder on that side, the path is straight.
 
         Returns
         -------
@@ -120,7 +120,7 @@ class Pathway:
             square = shortest(e.dot(e))
             if (R**2 - square).is_positive:
                 raise InputError(
-                    f"around: an end is {sp.sqrt(square)} from the axis, inside the cylinder of radius {R}"
+                    f"around: an end is {sp.sqrt(square)} from the axis, inside the cylinder of radius {R}: move it"
                 )
             if decide_zero(square - R**2).answer != "zero":  # otherwise the end is on the surface
                 turn -= sp.acos(R / sp.sqrt(square))
@@ -216,7 +216,9 @@ class Pathway:
 
     def _check_moves(self, what: str) -> None:
         if not self.length.has(*self.c.q, t):
-            raise InputError(f"{what}: the length {self.length} depends on none of {self.c.q}: it gives no force")
+            raise InputError(
+                f"{what}: the length {self.length} depends on none of {self.c.q}: it gives no force; move an end"
+            )
 
 
 def force(frame: MovingFrame, components: Vector, at: Vector, axes: MovingFrame | None) -> sp.Matrix:
@@ -238,7 +240,7 @@ def torque(frame: MovingFrame, moment: Vector, against: MovingFrame | None, axes
 
 
 def _rotation(where: str, frame: MovingFrame, axes: MovingFrame | None) -> sp.Matrix:
-    """Return the rotation into the ground's axes from those of a frame, or of another one."""
+    """Return the rotation into the ground's axes from those of `axes`, or from those of `frame` if `axes` is None."""
     if axes is not None:
         _check(f"{where}: axes", frame, axes)
     return in_ground(frame if axes is None else axes)[0]

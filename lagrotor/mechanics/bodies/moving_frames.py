@@ -9,11 +9,12 @@ u the rate of the turn about its axis (the axial vector of Rᵀ R'). Featherston
 
 Joints are such steps by name: pin, prismatic, screw, cylindrical, universal, planar, weld; ball and free, which have no pole;
 `coincides` and `keeps_axis` close loops. A ball joint turns by a unit quaternion q = (q0, q1, q2, q3), scalar first. Its
-velocities are those of its angular velocity ω relative to the frame before it, in the turned axes:
+velocities are the components of its angular velocity ω relative to the frame before it, in the turned axes:
 
     R = 1 + 2 q0 [e]× + 2 [e]×²,  e = (q1, q2, q3),        q' = ½ q ∘ (0, ω),        ω = 2 E(q) q'.
 
-|q| = 1 is a constraint of the system that ω uses up. Altmann, Rotations, Quaternions and Double Groups (1986), ch. 12.
+|q| = 1 is a constraint of the system; ω satisfies it by itself, so that it has no multiplier. Altmann, Rotations, Quaternions
+and Double Groups (1986), ch. 12.
 """
 
 from collections.abc import Sequence
@@ -54,7 +55,7 @@ class MovingFrame:
 
     @property
     def to_the_ground(self) -> "list[MovingFrame]":
-        """The frames from this one to the ground."""
+        """The list of frames from this one to the ground, both included."""
         return [self] if self.parent is None else [self, *self.parent.to_the_ground]
 
     def __repr__(self) -> str:
@@ -92,7 +93,7 @@ class MovingFrame:
         split = angles.replace(",", " ").split() if isinstance(angles, str) else angles
         amounts = list(split) if isinstance(split, Sequence | sp.MatrixBase) else [split]
         if not axes or set(axes) - set(AXES) or len(amounts) != len(axes) or None in amounts:
-            raise InputError(f"turned: axes {axes!r} and angles {angles!r}: one angle for each letter of x, y, z")
+            raise InputError(f"turned: axes {axes!r} and angles {angles!r}: give one angle for each letter of x, y, z")
         frame = self
         for letter, angle in zip(axes, amounts, strict=True):
             frame = type(self)(self.c, frame, AXES.index(letter), _amount("turned: angle", self, angle))
@@ -146,7 +147,7 @@ class MovingFrame:
 
     @property
     def ball_velocities(self) -> dict[sp.Symbol, sp.Expr]:
-        """The angular velocities of a ball joint by symbol, ω = 2 E(q) q'."""
+        """The angular velocities ω = 2 E(q) q' of a ball joint by symbol; empty for any other step."""
         if not self.omega:
             return {}
         rates = [self.c.v[self.c.q.index(q)] for q in self.quaternion]
@@ -155,7 +156,7 @@ class MovingFrame:
 
     @property
     def unit_length(self) -> sp.Expr:
-        """The constraint |q|² − 1 of a ball joint."""
+        """The expression |q|² − 1 of a ball joint, which stays zero."""
         return sp.Add(*(q**2 for q in self.quaternion), -1)
 
     @cached_property
@@ -212,7 +213,8 @@ class MovingFrame:
         point : sequence, default (0, 0, 0)
             The present components (x, y, z) of the point in `frame`, in m.
         frame : Frame or None, optional
-            The frame whose axes are used: this one, or one before it, as that of a wheel's axle for the point of contact.
+            The frame whose axes are used: this one, or one before it. For a wheel's point of contact the axle's frame is
+            handy.
 
         Returns
         -------
@@ -251,7 +253,7 @@ class MovingFrame:
 
 
 def in_ground(frame: MovingFrame) -> tuple[sp.Matrix, sp.Matrix]:
-    """Return the rotation and ω of a frame in the axes of the ground."""
+    """Return the rotation matrix of a frame into the ground's axes, and its ω in these axes, shapes (3, 3) and (3, 1)."""
     return frame._relative(frame.to_the_ground[-1])[:2]
 
 
@@ -270,7 +272,7 @@ def turn_matrix(axis: int, angle: sp.Expr) -> sp.Matrix:
 
 
 def _amount(where: str, frame: MovingFrame, amount: Any) -> sp.Expr:
-    """Return an expression, or the coordinate that a text names."""
+    """Return the coordinate if `amount` is its name, else `amount` as an expression."""
     return _coordinate(where, frame, amount) if isinstance(amount, str) else expression(where, amount)
 
 
@@ -278,9 +280,11 @@ def _rotation(matrix: Any) -> sp.Matrix:
     try:
         R = sp.Matrix(matrix)
     except (TypeError, ValueError):
-        raise InputError(f"turned: {matrix!r} is neither letters of x, y, z nor a rotation matrix (3, 3)") from None
+        raise InputError(
+            f"turned: {matrix!r} is neither letters of x, y, z nor a rotation matrix (3, 3): give one"
+        ) from None
     if R.shape != (3, 3) or decide_equal(R * R.T, sp.eye(3)).answer == "nonzero":
-        raise InputError("turned: a rotation must be a matrix (3, 3) with R Rᵀ = 1; this one is not")
+        raise InputError("turned: a rotation must be a matrix (3, 3) with R Rᵀ = 1; correct this one")
     if decide_zero(R.det(method="berkowitz") - 1).answer == "nonzero":
         raise InputError("turned: this matrix has R Rᵀ = 1 and det R = −1: it reflects; change the sign of one axis")
     return R
@@ -294,7 +298,7 @@ def weld(frame: Kind, at: Vector, axes: str, angles: Any) -> Kind:
     moving = set().union(*(e.free_symbols for e in (*place, *amounts))) & {*frame.c.q, *frame.c.v}
     if moving:
         raise InputError(
-            f"weld: {', '.join(sorted(map(str, moving)))} moves it: a weld is fixed; take a joint that moves"
+            f"weld: {', '.join(sorted(map(str, moving)))} moves the frame, but a weld is fixed: take a joint that moves"
         )
     shifted = frame.moved(*place)
     return shifted.turned(axes, amounts) if axes or amounts else shifted
@@ -342,8 +346,8 @@ def ball_joint(frame: Kind, quaternion: Any, omega: Any) -> Kind:
     names = {*map(str, w)}
     if len({*q}) < 4 or len(names) < 3 or names & {str(s) for s in (*frame.c.q, *frame.c.v, *frame.c.a)}:
         raise InputError(
-            f"ball: quaternion {quaternion!r} and omega {omega!r}: seven different names, of which those of omega are no "
-            "coordinates'"
+            f"ball: quaternion {quaternion!r} and omega {omega!r}: give seven different names, and for omega none of a "
+            "coordinate"
         )
     if shared := [str(s) for step in frame.to_the_ground for s in {*step.quaternion} & {*q}]:
         raise InputError(
@@ -389,7 +393,7 @@ def _check_frame(where: str, frame: Any) -> None:
 
 
 def _constraints(where: str, components: Sequence[sp.Expr], frame: MovingFrame) -> tuple[sp.Expr, ...]:
-    """Return the components that do not vanish identically."""
+    """Return the components without those that vanish identically; raise InputError if none depends on a coordinate."""
     constraints = tuple(e for e in map(sp.expand, components) if e != 0)
     if not any(e.free_symbols & {*frame.c.q} for e in constraints):
         raise InputError(
@@ -399,7 +403,7 @@ def _constraints(where: str, components: Sequence[sp.Expr], frame: MovingFrame) 
 
 
 def _about(where: str, frame: Kind, axis: Any, step: Any) -> Kind:
-    """Take a step about z about another axis instead."""
+    """Apply `step`, a function that turns or shifts a frame along its z axis, along another axis instead."""
     if isinstance(axis, str) and axis in ("x", "y", "z"):
         k = AXES.index(axis)
         R = sp.Matrix(3, 3, lambda i, j: int((i - j - k - 1) % 3 == 0))  # z → axis k, x and y → those after it
@@ -433,7 +437,7 @@ def _direction(where: str, axis: Any) -> sp.Matrix:
 
 
 def _names(where: str, names: Any, number: int) -> list[str | sp.Symbol]:
-    """Return names, of a text or a sequence, or symbols."""
+    """Return a list of names or symbols from a text or a sequence; raise InputError unless there are `number` of them."""
     listed = names.replace(",", " ").split() if isinstance(names, str) else names
     if (
         not isinstance(listed, Sequence)

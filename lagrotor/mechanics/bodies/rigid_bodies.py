@@ -2,8 +2,8 @@
 
     T = ½ m |v|² + ½ ω·I ω,        V = −m g·r      (g a uniform field, r the place of the centre).
 
-A sum of such energies and of expressions is a Lagrangian, and a sympy expression in every function of sympy. From the
-bodies System makes a tree, which gives faster code and the picture.
+A sum of such energies and of expressions is a Lagrangian, which every function of sympy takes as an expression. From the
+bodies System makes a tree, for faster code and for the picture.
 """
 
 from collections.abc import Mapping
@@ -30,7 +30,7 @@ _ROUNDING = 1e-9  # relative, of an inertia
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """A rigid body: its frame, mass, inertia (3, 3) about its centre of mass, and that centre, in the frame's axes."""
+    """A rigid body in a frame, with mass in kg, inertia (3, 3) about its centre of mass in kg m², and that centre in m."""
 
     frame: MovingFrame
     mass: sp.Expr
@@ -51,7 +51,7 @@ class Body:
         return Energy(((self, None, sp.S.One),))
 
     def potential(self, field: Vector) -> "Energy":
-        """Return −m g·r in a uniform field g, in the ground's axes: (0, 0, −g) for gravity with z up."""
+        """Return the potential energy −m g·r in J, for a uniform field g in the ground's axes: (0, 0, −g) if z points up."""
         return Energy(((self, vector_of("potential: field", field, 3), sp.S.One),))
 
     def rolls_on(self, surface: Any, radius: Any, axis: Vector | None = None, centre: Vector | None = None) -> Contact:
@@ -98,7 +98,7 @@ def make_body(frame: MovingFrame, mass: Any, inertia: Any, centre: Vector) -> Bo
         raise InputError(f"body: inertia = {inertia!r}, centre = {centre!r}: give (I1, I2, I3) and (x, y, z)") from None
     if I.shape != (3, 3) or place.shape != (3, 1) or decide_equal(I, I.T).answer == "nonzero":
         raise InputError(
-            f"body: inertia = {inertia!r} must be (I1, I2, I3) or a symmetric (3, 3), the centre (x, y, z)"
+            f"body: inertia = {inertia!r} must be (I1, I2, I3) or a symmetric (3, 3), and the centre (x, y, z)"
         )
     I = sp.Matrix(3, 3, lambda i, j: I[min(i, j), max(i, j)])  # symmetric also as expressions
     m = expression("body: mass", mass)
@@ -113,14 +113,14 @@ def make_body(frame: MovingFrame, mass: Any, inertia: Any, centre: Vector) -> Bo
 
 
 def check_body(where: str, body: Body, values: Mapping[sp.Symbol, Any] | None = None) -> None:
-    """Raise InputError where no body has that mass and inertia: m ≥ 0, and ½ tr I − I = ∫ r rᵀ dm ≥ 0.
+    """Raise InputError if no body can have that mass and inertia: m ≥ 0, and ½ tr I − I = ∫ r rᵀ dm ≥ 0.
 
-    For principal inertias that is I1 ≤ I2 + I3 in turn. Inertia about one axis alone belongs to motion in a plane. Symbols
-    without a number are not checked.
+    For principal inertias the second condition is I1 ≤ I2 + I3 and its permutations. Inertia about one axis alone is allowed,
+    for motion in a plane. Symbols without a number are not checked.
     """
     mass, I = (e.subs(values or {}) for e in (body.mass, body.inertia))
     if mass.is_negative:
-        raise InputError(f"{where}: mass = {mass} must not be negative")
+        raise InputError(f"{where}: mass = {mass} must not be negative: give 0 or more")
     if any(I[i, i].is_negative for i in range(3)):
         raise InputError(f"{where}: inertia = {I.tolist()} must not be negative about an axis")
     if I.free_symbols or sum(e != 0 for e in I) == sum(I[i, i] != 0 for i in range(3)) == 1:
@@ -150,7 +150,8 @@ class Frame(MovingFrame):
         The frame before the step; None for the ground.
     axis : int or None
     amount : Expr or Matrix
-        A turn about axis 0, 1 or 2 by an angle; or a shift (3, 1) or a rotation (3, 3) with axis None.
+        The step from the parent. For a turn, `axis` is 0, 1 or 2 and `amount` the angle in rad. If `axis` is None, `amount`
+        is a shift (3, 1) in m or a rotation matrix (3, 3).
     quaternion : tuple of Symbol
     omega : tuple of Symbol
         The coordinates, scalar first, and the angular velocities of a ball joint.
@@ -201,7 +202,7 @@ class Frame(MovingFrame):
         at : sequence, default (0, 0, 0)
             The point in this frame, in m.
         axes : Frame or None, optional
-            The frame in whose axes the force is given; by default this one, Frame(c) for the ground.
+            The frame in whose axes the force is given: this one by default; Frame(c) is the ground.
 
         Returns
         -------
@@ -243,7 +244,7 @@ class Frame(MovingFrame):
         against : Frame or None, optional
             The frame on which the reaction acts; by default the ground.
         axes : Frame or None, optional
-            The frame in whose axes the torque is given; by default this one, Frame(c) for the ground.
+            The frame in whose axes the torque is given: this one by default; Frame(c) is the ground.
 
         Returns
         -------
@@ -417,8 +418,8 @@ class Frame(MovingFrame):
         quaternion : str or sequence
             Four coordinates or their names, scalar first.
         omega : str or sequence
-            Three new symbols or their names: the angular velocities about the axes of the turned frame, which are
-            velocities of the system in place of those of the four.
+            Three new symbols or their names: the angular velocities about the axes of the turned frame. In the system they
+            replace the velocities of the four coordinates.
 
         Returns
         -------
@@ -436,14 +437,14 @@ class Frame(MovingFrame):
         return moving_frames.ball_joint(self, quaternion, omega)
 
     def free(self, place: Any, quaternion: Any, omega: Any) -> Self:
-        """Return a frame shifted along the axes and turned as by `ball`: six degrees of freedom.
+        """Return a frame shifted along the axes and turned by a unit quaternion: six degrees of freedom.
 
         Parameters
         ----------
         place : str or sequence
             Three coordinates or their names.
         quaternion, omega : str or sequence
-            As of `ball`.
+            Four coordinates, and three new symbols of angular velocities: see `ball`.
 
         Returns
         -------
@@ -511,7 +512,10 @@ class Frame(MovingFrame):
 
 @dataclass(frozen=True)
 class Energy:
-    """A sum of factors times kinetic or potential energies of bodies, plus an expression."""
+    """A sum of energies of bodies, each times a factor, plus an expression.
+
+    A term is (body, field, factor): the potential energy in that field, or the kinetic energy if field is None.
+    """
 
     terms: tuple[tuple[Body, tuple[sp.Expr, ...] | None, sp.Expr], ...]
     remainder: sp.Expr = sp.S.Zero
@@ -523,7 +527,7 @@ class Energy:
 
     @property
     def bodies(self) -> tuple[Body, ...]:
-        """The bodies, each once."""
+        """The bodies in the sum, each of them once."""
         return tuple(dict.fromkeys(body for body, _, _ in self.terms))
 
     @cached_property

@@ -1,4 +1,4 @@
-"""Matrices of at most six rows, in whose products zeros cost nothing. Stages store their entries.
+"""Matrices of at most six rows whose products skip zeros, and the stages of a program, which store their entries.
 
 Matrices of sympy would take most of the recursion's time.
 """
@@ -16,7 +16,7 @@ _0 = sp.S.Zero
 
 
 class Small:
-    """A matrix as a list of rows; a column's entries are also `v[i]`."""
+    """A small matrix as a list of rows. Entry i of a column v is also v[i]."""
 
     __slots__ = ("rows",)
 
@@ -79,12 +79,12 @@ def blocks(grid: Sequence[Sequence[Small]]) -> Small:
 
 
 def halves(e: Small) -> tuple[Small, Small]:
-    """Return the angular and the linear rows of a matrix of six."""
+    """Return the first three rows (angular) and the last three rows (linear) of a matrix of six rows."""
     return Small(e.rows[:3]), Small(e.rows[3:])
 
 
 def unit(axis: int, length: Scalar) -> Small:
-    """Return a column of three along an axis."""
+    """Return a column of three entries, `length` in the row `axis` and zero in the others."""
     return Small.column(*(length if i == axis else _0 for i in range(3)))
 
 
@@ -100,7 +100,10 @@ def _dot(a: Sequence[Scalar], b: Sequence[Scalar]) -> Scalar:
 
 @dataclass
 class Stages:
-    """Named stages of a program in order; an expression that occurs again is the same stage."""
+    """The stages of a program, pairs (symbol, expression), in order.
+
+    A call with an expression adds a stage and returns its symbol; an expression that occurs again has the same stage.
+    """
 
     made: list[Stage] = field(default_factory=list)
     names: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
@@ -119,7 +122,7 @@ class Stages:
         return matrix.each(self)
 
     def symmetric(self, matrix: Small) -> Small:
-        """Store the entries of a symmetric matrix, each once."""
+        """Return a symmetric matrix whose entries are replaced by stages, each stored once."""
         n = len(matrix.rows)
         upper = {(i, j): self(matrix[i, j]) for i in range(n) for j in range(i, n)}
         return Small([[upper[min(i, j), max(i, j)] for j in range(n)] for i in range(n)])

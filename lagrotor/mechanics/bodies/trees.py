@@ -38,7 +38,8 @@ class TreeLink:
     """A joint and the bodies that it carries; parent −1 is the ground.
 
     The link's axes come from the parent's by `shift`, then `rotation`, then a turn by `angle` about `axis`. `coordinates` are
-    the numbers of its velocities, `columns` their s_j, `rate` the relative velocity and `swing` its derivative at a = 0.
+    the indices of the joint's velocities, and `columns` their s_j. `rate`, shape (6, 1), is its velocity relative to the
+    parent, and `swing` the time derivative of that velocity at a = 0.
     """
 
     parent: int
@@ -68,7 +69,7 @@ class TreeLink:
 
 @dataclass(frozen=True)
 class Tree:
-    """The links, parents first, the field (3, 1) on all bodies, and the other terms of the Lagrangian, at most linear in v."""
+    """The links, parents first; the field (3, 1) on all bodies; the terms of L without bodies, at most linear in v."""
 
     links: tuple[TreeLink, ...]
     field: sp.Matrix
@@ -76,7 +77,7 @@ class Tree:
 
 
 def tree_of(system: Equations) -> Tree | None:
-    """Return the tree if the Lagrangian is T of bodies less potentials in one field, plus terms linear in v; else None."""
+    """Return the tree if L is T of bodies minus their potentials in one field, plus terms at most linear in v; else None."""
     L = system.lagrangian
     if not isinstance(L, Energy):
         return None
@@ -96,16 +97,16 @@ def tree_of(system: Equations) -> Tree | None:
 
 
 def rest_forces(tree: Tree, c: Coordinates) -> sp.Matrix:
-    """Return the generalised forces (n, 1) of the other terms of the Lagrangian, which add nothing to the mass matrix."""
+    """Return the generalised forces, shape (n, 1), of the terms of L without bodies; these do not enter the mass matrix."""
     return -bias(tree.remainder, c)
 
 
 class _NoTreeError(Exception):
-    """A step that shares coordinates with another joint or contains velocities, or a quasi-velocity of no joint."""
+    """The system is no tree: a step shares coordinates with another joint or contains velocities, or a rate is no velocity."""
 
 
 def _links(system: Equations, bodies: list[Body]) -> tuple[TreeLink, ...] | None:
-    """Return the links that carry the bodies; None if they are no tree of joints."""
+    """Return the links that carry the bodies; None if these links do not form a tree of joints."""
     walk = _Walk(system)
     try:
         for body in bodies:
@@ -122,7 +123,10 @@ def _links(system: Equations, bodies: list[Body]) -> tuple[TreeLink, ...] | None
 
 
 class _Walk:
-    """The links so far, and for each frame the link that carries it with the fixed shift and rotation from this link."""
+    """A walk from the bodies to the ground, with the links that it has found so far.
+
+    `known` has the place of each frame: the index of the link that carries it, and the fixed shift and rotation from there.
+    """
 
     def __init__(self, system: Equations) -> None:
         c = self.c = system.c
@@ -143,7 +147,7 @@ class _Walk:
         return self.known[frame]
 
     def step(self, frame: MovingFrame, parent: int, d: sp.Matrix, R: sp.Matrix) -> Place:
-        """Take the step of a frame from a place; a step that moves makes a new link."""
+        """Return the place of a frame from that of its parent, (link, d, R); a step that moves adds a new link."""
         is_shift = frame.axis is None and frame.amount.cols == 1
         moving = frame.amount.free_symbols & self.moving
         if not moving:
@@ -175,7 +179,7 @@ class _Walk:
 
 
 def _slope(frame: MovingFrame, s: sp.Symbol) -> Small:
-    """Return the derivative (6, 1) of a step by a coordinate or time, in the axes after it."""
+    """Return the velocity (6, 1) of a step per unit rate of a coordinate or of time, in the axes after the step."""
     if frame.axis is not None:
         return blocks([[unit(frame.axis, derivative(frame.amount, s))], [_NONE]])
     slope = _derivative(Small.of(frame.amount), s)

@@ -34,8 +34,8 @@ if TYPE_CHECKING:
 class Hamiltonian:
     """A Hamiltonian H(q, p, t) with the Poisson bracket of its variables.
 
-    Every method raises InputError for a function with a velocity, or with another symbol that has the name of q, p or t: it
-    would count as a constant.
+    Every method raises InputError for a function that contains a velocity, or a symbol that has only the name in common with
+    one of q, p and t; it would count as a constant.
 
     Attributes
     ----------
@@ -73,7 +73,7 @@ class Hamiltonian:
         Returns
         -------
         Expr
-            The bracket.
+            The bracket, in q, p and t.
         """
         f, g = self._function("bracket", f), self._function("bracket", g)
         fq, fp, gq, gp = (gradient(e, s) for e in (f, g) for s in (self.q, self.p))
@@ -169,7 +169,9 @@ class Hamiltonian:
             )
         p_of = gradient(F, q)
         if decide_zero(jacobian(p_of, new).det(method="berkowitz")).answer == "zero":
-            raise SingularError(f"generated: det ∂²F/∂q∂P = 0 for F = {F}: it generates no transformation")
+            raise SingularError(
+                f"generated: det ∂²F/∂q∂P = 0 for F = {F}: it generates no transformation; choose another F"
+            )
         K = shortest(self.H.xreplace(dict(zip(p, p_of, strict=True))) + derivative(F, t))
         return GeneratedTransformation(new, tuple(p), tuple(p_of), tuple(gradient(F, new)), K)
 
@@ -183,28 +185,29 @@ class Hamiltonian:
     ) -> "NormalForm":
         """Compute Birkhoff's normal form about an equilibrium, or about a periodic orbit.
 
-        A steady motion is an equilibrium of the system that `System.routh` returns. With symbols for its momenta the
-        derivatives of the normal form by them are the mean rates of the cyclic angles.
+        A steady motion is an equilibrium of the system that `System.routh` returns. If its momenta are symbols, the
+        derivatives of the normal form with respect to them are the mean rates of the cyclic angles.
 
         Parameters
         ----------
         order : int
             The highest degree in the coordinates and momenta.
         at : mapping
-            {coordinate or momentum: value}. Momenta that are not named are those of rest; of an orbit, those of the
-            velocities. With t it is a point of a driven orbit.
+            {coordinate or momentum: value}. If no momentum is named, the momenta are those of rest. For an orbit velocities
+            may be named instead, and t gives the time of the point under a drive (0 by default).
         values : mapping or None, optional
             {symbol: number}; without them the coefficients are exact if the frequencies are rational, or rational in the
             parameters.
         detuning : float, default 0.0
-            The largest combination of the frequencies, in rad/s, that counts as a resonance.
+            Integer combinations of the frequencies up to this size, in rad/s, count as resonances.
         period : float or None, optional
-            The period of the orbit in s: exact for a drive, approximate for the orbit through the energy of `at`.
+            The period of the orbit in s. It is exact under a drive; otherwise an approximate one finds the orbit with the
+            energy of `at`.
 
         Returns
         -------
         NormalForm or ReturnMapForm
-            The form about an equilibrium; with a period, that of the return map.
+            The normal form about an equilibrium; with a period, the normal form of the return map of the orbit.
 
         Raises
         ------
@@ -225,7 +228,9 @@ class Hamiltonian:
             raise InputError(f"normal_form: at: {', '.join(strange)} not among {x}: name coordinates and momenta")
         q, p = self.q, self.p
         if missing := [str(s) for s in q if s not in point and H.has(s)]:
-            raise InputError(f"normal_form: {', '.join(missing)} without a value: the point needs each coordinate's")
+            raise InputError(
+                f"normal_form: {', '.join(missing)} without a value: give the point a value for each coordinate"
+            )
         at_rest = dict.fromkeys(x, sp.S.Zero) | point
         if not point.keys() & {*p}:
             slopes = gradient(H, p).xreplace({s: at_rest[s] for s in q})
@@ -237,7 +242,7 @@ class Hamiltonian:
     def _with_values(
         self, at: Mapping[Any, Any], named: Sequence[sp.Symbol], values: Mapping[Any, Any]
     ) -> tuple[sp.Expr, dict[sp.Symbol, sp.Expr]]:
-        """Return H and a point with numbers for the parameters."""
+        """Return H and the point {symbol: value}, both with the values of the parameters substituted."""
         where = "normal_form"
         point = {s: expression(f"{where}: {s}", e) for s, e in by_symbol(f"{where}: at", at, named).items()}
         letters = self.H.free_symbols.union(*(e.free_symbols for e in point.values()))
@@ -247,7 +252,7 @@ class Hamiltonian:
     def _about_orbit(
         self, order: int, at: Mapping[Any, Any], values: Mapping[Any, Any], detuning: float, period: float
     ) -> "ReturnMapForm":
-        """Compute the form of the return map; the momenta of angles that H does not contain are parameters."""
+        """Compute the normal form of the return map; the momentum of an angle that H does not contain is a parameter."""
         from lagrotor.mechanics.canonical.normal_forms import check_form_order
         from lagrotor.mechanics.canonical.return_maps import return_map_form
 
@@ -261,9 +266,11 @@ class Hamiltonian:
         x = (*self.q, *self.p)
         H, point = self._with_values(at, (*x, *self.v, t), values)
         if strange := [str(s) for s in point if s not in {*x, *self.v, t}]:
-            raise InputError(f"normal_form: at: {', '.join(strange)} not among {x}, {self.v} and t")
+            raise InputError(f"normal_form: at: {', '.join(strange)} not among {x}, {self.v} and t: name these")
         if missing := [str(s) for s in self.q if s not in point and self.H.has(s)]:
-            raise InputError(f"normal_form: {', '.join(missing)} without a value: the start needs each coordinate's")
+            raise InputError(
+                f"normal_form: {', '.join(missing)} without a value: give the start a value for each coordinate"
+            )
         no_letter("normal_form", (H.free_symbols - {*x, t}).union(*(e.free_symbols for e in point.values())))
         place = dict.fromkeys(self.q, sp.S.Zero) | {t: sp.S.Zero} | point
         if not point.keys() & {*self.p}:
@@ -284,7 +291,7 @@ def hamiltonian(system: Equations, momenta: Sequence[sp.Symbol] | None = None) -
     """Return H = p·v − L: `System.hamiltonian`."""
     if system.forces or system.dissipation != 0 or system.rolling or system.constraints:
         raise DomainError(
-            "hamiltonian: forces, friction and constraints have no Hamiltonian here: write what has a potential into L, and use "
+            "hamiltonian: forces, friction and constraints have no Hamiltonian here: write potentials of forces into L, and use "
             "independent coordinates, System.in_coordinates"
         )
     c, L = system.c, system.L
@@ -296,13 +303,13 @@ def hamiltonian(system: Equations, momenta: Sequence[sp.Symbol] | None = None) -
 
 @dataclass(frozen=True)
 class GeneratedTransformation:
-    """A canonical transformation by a generating function. P(q, p, t) is a solution of p = p_of for P, as by sympy's solve.
+    """A canonical transformation by a generating function. Solve p = p_of for P, as with sympy's solve, to get P(q, p, t).
 
     Attributes
     ----------
     new : tuple of Symbol
     old : tuple of Symbol
-        The momenta P and p.
+        The symbols of the new momenta P and of the old momenta p.
     p_of : tuple of Expr
     Q_of : tuple of Expr
         The old momenta and the new coordinates in (q, P, t).

@@ -5,7 +5,8 @@ energy is
 
     H = ω z w,     {z, w} = −i,     w = z̄,     the action I = z w ≥ 0:  ω < 0 for negative energy (Krein).
 
-A saddle with rates ± λ and vectors v, u has H = λ z w, {z, w} = 1. Modes of rate zero get a canonical basis alone.
+A saddle with rates ± λ and vectors v, u has H = λ z w, {z, w} = 1. Modes of rate zero are not diagonalised; they get a
+canonical basis.
 
 `exact_coordinates` works without rounding for frequencies that are rational, or rational in parameters. The vector w of each
 mode is scaled by ω/(v†A v), so that no root is needed: w = k z̄ with k > 0, and the action is z w.
@@ -27,16 +28,16 @@ from sympy.polys.polyerrors import CoercionFailed
 from lagrotor.errors import NotExactError, SingularError
 
 Matrix = NDArray[Any]
-_DEFECTIVE = 1e-9  # energy of a unit vector over the rate, below which a mode is not diagonalizable
+_DEFECTIVE = 1e-9  # energy of a unit vector divided by the rate; below it a mode is not diagonalizable
 _CLOSE = 1e-7  # of the largest rate: rates closer to each other, or to zero, count as equal
 
 
 @dataclass(frozen=True, eq=False)
 class NormalCoordinates:
-    """Coordinates z, w with x = vectors (2n, 2n) (z, w), {z_j, w_j} = weights_j, ½ x·A x = sum_j frequencies_j z_j w_j + N.
+    """Normal coordinates (z, w) in which ½ x·A x is sum_j frequencies_j z_j w_j + N.
 
-    frequencies (n,): ω with the sign of the energy where the weight is −i, λ where it is 1, and 0 for the modes of N.
-    Oscillations come first, by |ω|.
+    x = vectors (z, w), with `vectors` of shape (2n, 2n), and {z_j, w_j} = weights_j, shape (n,). A frequency is ω with the
+    sign of the energy if its weight is −i, λ if the weight is 1, and 0 for the modes in N. Oscillations come first, by |ω|.
     """
 
     vectors: Matrix
@@ -77,11 +78,11 @@ def normal_coordinates(A: Matrix, bracket: Matrix) -> NormalCoordinates:
 
 def _check(form: Matrix, rate: complex) -> None:
     if np.linalg.svd(form, compute_uv=False)[-1] < _DEFECTIVE * abs(rate):
-        raise SingularError(f"normal_form: the rate {rate:.6g} is double and not diagonal: move a parameter off it")
+        raise SingularError(f"normal_form: the rate {rate:.6g} is double and not diagonal: change a parameter")
 
 
 def _oscillations(A: Matrix, V: Matrix, omega: float, near: float) -> list[tuple[complex, complex, Matrix, Matrix]]:
-    """Return the modes of Ω A v = −i ω v, with the signs of their energies."""
+    """Return the modes Ω A v = −i ω v as tuples (frequency with the sign of the energy, weight, vector of z, vector of w)."""
     form = V.conj().T @ A @ V
     _check(form, 1j * omega)
     energies, rotation = np.linalg.eigh(form)
@@ -127,7 +128,7 @@ class ExactCoordinates:
 
 
 def exact_coordinates(A: sp.Matrix, bracket: sp.Matrix, parameters: set[sp.Symbol]) -> ExactCoordinates:
-    """Return normal coordinates of ½ x·A x.
+    """Return normal coordinates of ½ x·A x without rounding errors.
 
     Raises NotExactError for a frequency that is not rational, not real, or zero.
     """
@@ -173,7 +174,7 @@ def _null_vectors(M: sp.Matrix, field: Any) -> list[sp.Matrix]:
 
 
 def _orthogonal(vectors: list[sp.Matrix], A: sp.Matrix, field: Any) -> list[sp.Matrix]:
-    """Return vectors of the same span with v†A u = 0, none with v†A v = 0."""
+    """Return a basis of the span of `vectors` with v†A u = 0 for each two of them and v†A v ≠ 0 for each."""
     remaining, basis = list(vectors), list[sp.Matrix]()
     while remaining:
         energies = [_reduced((v.H * A * v)[0], field) for v in remaining]
@@ -200,7 +201,7 @@ def _signed(omega: sp.Expr, v: sp.Matrix, A: sp.Matrix, field: Any) -> tuple[sp.
 
 
 def _sign(energy: sp.Expr) -> int:
-    """Return the sign of a number, or of an expression that is zero only where a square is."""
+    """Return the sign, 1 or −1, of a number or of an expression that does not change its sign."""
     odd = energy
     if energy.free_symbols:
         coefficient, factors = sp.factor_list(sp.numer(sp.together(energy)) * sp.denom(sp.together(energy)))

@@ -1,14 +1,14 @@
-"""Birkhoff's normal form of a Hamiltonian about an equilibrium, to any order, by Lie series. Of orbits: `return_maps`.
+"""Birkhoff's normal form of a Hamiltonian about an equilibrium, to any order, by Lie series (of orbits: `return_maps`).
 
 In normal coordinates (see `normal_coordinates`) the quadratic part is H₂ = sum_j ω_j z_j w_j + N and
 
     {H₂, z^a w^b} = D z^a w^b + {N, z^a w^b},     D = i sum_j ω_j (a_j − b_j)   for oscillations.
 
-Degree by degree exp(L_χ) removes the terms with D ≠ 0, where {H₂, χ} is the sum of these terms; the transformation is canonical
-at every order. The remaining series has the actions I_j = z_j w_j and the resonances, D = 0 or |D| at most the `detuning`. N is
-the quadratic part of modes with rate zero; the normal form is then the Hamiltonian averaged over all oscillations. Arnold,
-Mathematical Methods of Classical Mechanics, app. 7; Giorgilli & Galgani, Cel. Mech. 17 (1978) 267; Deprit, Cel. Mech. 1 (1969)
-12.
+Degree by degree the terms with D ≠ 0 are removed by exp(L_χ), where {H₂, χ} is the sum of these terms; the transformation is
+canonical at every order. The remaining series contains the actions I_j = z_j w_j and the resonant terms, with D = 0 or |D| at
+most the `detuning`. N is the quadratic part of modes with rate zero; the normal form is then the Hamiltonian averaged over
+all oscillations. Arnold, Mathematical Methods of Classical Mechanics, app. 7; Giorgilli & Galgani, Cel. Mech. 17 (1978) 267;
+Deprit, Cel. Mech. 1 (1969) 12.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -37,7 +37,7 @@ from lagrotor.mechanics.canonical.taylor_series import LocalSeries
 from lagrotor.result_display import Shown, scientific
 
 _EQUAL = 1e-9  # of the largest frequency: a smaller divisor counts as zero in floating point
-_STEADY = "of a steady motion take the equilibrium of System.routh, of another periodic orbit name its period"
+_STEADY = "for a steady motion take the equilibrium of System.routh, for another periodic orbit give its period"
 _LARGE = 1e30  # times the first term: growth that no finite series of a nilpotent part has
 _SMALL = 1e-16  # of the largest coefficient: smaller terms of a nilpotent part's series are rounding
 
@@ -61,8 +61,8 @@ class NormalForm(Shown):
     known_through : int
         Degree through which H is transformed.
     error : float
-        Largest relative error of the coefficients of a degree after the inverse transformation, and of the brackets; 0 if
-        exact.
+        Largest relative error of the coefficients of one degree in the Hamiltonian that the inverse transformation gives, and
+        of the brackets of the normal coordinates; 0 if exact.
     field : Domain, optional
         The field of exact coefficients; None for floating-point numbers.
 
@@ -94,7 +94,7 @@ class NormalForm(Shown):
 
     @cached_property
     def actions(self) -> dict[Exponents, Any]:
-        """H without resonances: {exponents: coefficient of prod_j I_j^exponents_j}, over the modes with a frequency."""
+        """The terms of H in the actions alone: {(m_1 … m_n): coefficient of prod_j I_j^m_j}; m_j = 0 for modes of rate zero."""
         n = len(self.frequencies)
         return {e[:n]: self._real(c) for e, c in self.series.terms.items() if self._is_of_actions(e)}
 
@@ -182,7 +182,7 @@ def birkhoff(
     detuning : float, default 0.0
         Largest |D| in rad/s of a term that is kept as resonant.
     vectors : optional
-        The normal coordinates of H₂, for the result.
+        The matrix of the normal coordinates of H₂, which the result keeps.
     field : Domain, optional
         The field of the coefficients; None for numbers.
 
@@ -194,7 +194,7 @@ def birkhoff(
     Raises
     ------
     SingularError
-        When rates are so small that they count as zero, and are not.
+        If rates are so small that they count as zero although they are not zero.
     """
     n = len(weights)
     pair = [tuple(int(i in (j, n + j)) for i in range(2 * n)) for j in range(n)]
@@ -232,8 +232,8 @@ def birkhoff(
             if field is None:
                 if np.abs(term.coefficients).max(initial=0) > _LARGE * first:
                     raise SingularError(
-                        "normal_form: some rates are so small beside the largest that they are taken to be zero, and are not: "
-                        "move a parameter off this value"
+                        "normal_form: some rates are so small beside the largest that they count as zero, and are not: "
+                        "change a parameter"
                     )
                 term = term.where(np.abs(term.coefficients) > _SMALL * np.abs(generator.coefficients).max())
             generator = generator + term
@@ -270,9 +270,9 @@ def normal_form_at(
 ) -> NormalForm:
     """Return the normal form of H(x), x = (q_1 … q_n, p_1 … p_n) with canonical brackets, about the equilibrium `at`.
 
-    Exact if H has no floating-point number and the frequencies are rational, or rational in the symbols of H. Raises InputError
-    where `at` is no equilibrium or symbols need values, DomainError where H is not analytic, SingularError for a double rate
-    that is not diagonal.
+    The form is exact if H has no floating-point number and the frequencies are rational, or rational in the symbols of H.
+    Raises InputError if `at` is no equilibrium or symbols need values, DomainError if H is not analytic there, and
+    SingularError if a double rate has too few eigenvectors.
     """
     check_form_order(order, detuning)
     parameters = H.free_symbols - {*x} | set().union(*(sp.sympify(v, strict=True).free_symbols for v in at.values()))
@@ -314,7 +314,10 @@ def _symplectic(n: int) -> Any:
 
 
 def normal_quadratic(A: Any, vectors: Any, weights: Coefficients, frequencies: Coefficients) -> Polynomial:
-    """Return ½ x·A x in normal coordinates: the frequencies and the block of the modes of rate zero, without rounding errors."""
+    """Return ½ x·A x in normal coordinates, without terms that are rounding errors.
+
+    It is the sum of ω_j z_j w_j, and of the products that contain only modes of rate zero.
+    """
     n, terms = len(weights), dict[Exponents, complex]()
     B = vectors.T @ A @ vectors / 2
     still = [j for j in range(n) if frequencies[j] == 0]
@@ -374,7 +377,7 @@ def _expanded(
     value: Callable[[sp.Expr], Any],
     kind: Any,
 ) -> Polynomial:
-    """Return H at x = at + vectors y as a polynomial in y."""
+    """Return H at x = at + vectors y as a polynomial in y; `value` makes its coefficients from numbers of sympy."""
     convert = value if kind is object else complex
     displacements = {s: linear_form([convert(vectors[k, j]) for j in range(len(x))], kind) for k, s in enumerate(x)}
     return LocalSeries(at, displacements, order, value).of(H)

@@ -25,7 +25,10 @@ Exponents = tuple[int, ...]
 
 @dataclass(frozen=True, eq=False)
 class Polynomial:
-    """The sum of coefficients[k] × prod_j x_j^exponents[k, j]: exponents (m, n), rows unique, coefficients (m,), nonzero."""
+    """A polynomial, the sum of coefficients[k] × prod_j x_j^exponents[k, j].
+
+    `exponents` has the shape (m, n) and no equal rows. `coefficients` has the shape (m,) and no zeros.
+    """
 
     exponents: NDArray[np.int64]
     coefficients: Coefficients
@@ -55,7 +58,7 @@ class Polynomial:
         return Polynomial(self.exponents[chosen], self.coefficients[chosen])
 
     def part(self, degree: int) -> Polynomial:
-        """Return the homogeneous polynomial of a degree."""
+        """Return the homogeneous part of a degree."""
         return self.parts.get(degree, self.where(np.zeros(len(self.coefficients), dtype=bool)))
 
     def through(self, order: int) -> Polynomial:
@@ -69,20 +72,20 @@ class Polynomial:
         return total([self, other.times(-1)])
 
     def times(self, factor: Any) -> Polynomial:
-        """Return the product with a nonzero number, or with a number for each term (m,)."""
+        """Return the product with a nonzero number, or with one nonzero number for each term, shape (m,)."""
         return Polynomial(self.exponents, self.coefficients * factor)
 
     def over(self, divisor: Any) -> Polynomial:
-        """Return the quotient by a number, or by a number for each term (m,)."""
+        """Return the quotient by a number, or by one number for each term, shape (m,)."""
         return Polynomial(self.exponents, self.coefficients / divisor)
 
     def product(self, factor: Polynomial, order: int) -> Polynomial:
-        """Return the product through an order."""
+        """Return the product through the degree `order`."""
         pairs = [(a, b) for d, a in self.parts.items() for e, b in factor.parts.items() if d + e <= order]
         return total([_product(a, b) for a, b in pairs] or [self.part(-1)])
 
     def power(self, n: int, order: int) -> Polynomial:
-        """Return the n-th power through an order, n ≥ 1."""
+        """Return the n-th power, n ≥ 1, through the degree `order`."""
         return reduce(lambda a, b: a.product(b, order), [self] * n)
 
     def derivative(self, k: int) -> Polynomial:
@@ -93,7 +96,7 @@ class Polynomial:
         return Polynomial(lower, by.coefficients * by.exponents[:, k].astype(by.coefficients.dtype))
 
     def substitute(self, values: Sequence[Polynomial], order: int, first: int = 0) -> Polynomial:
-        """Substitute polynomials x_k = values[k], through an order, by Horner's rule variable by variable."""
+        """Substitute x_k = values[k] through the degree `order`, by Horner's rule in one variable after another from `first`."""
         if first == self.variables:
             constants = np.zeros((len(self.coefficients), values[0].variables), dtype=np.int64)
             return Polynomial(constants, self.coefficients)
@@ -104,7 +107,7 @@ class Polynomial:
         return result if result is not None else self
 
     def at(self, point: Coefficients) -> Any:
-        """Return the values at points (…, n)."""
+        """Return the values at points of shape (…, n), as an array of shape (…)."""
         return (np.prod(np.asarray(point)[..., None, :] ** self.exponents, axis=-1) * self.coefficients).sum(-1)
 
 
@@ -162,7 +165,10 @@ def _collect(keys: NDArray[np.uint64], exponents: NDArray[np.int64], coefficient
 
 
 def inverse_matrix(m: Sequence[Sequence[Polynomial]], order: int) -> list[list[Polynomial]]:
-    """Return m⁻¹ = m₀⁻¹ − m₀⁻¹ (m − m₀) m₀⁻¹ + … of a matrix of polynomials through an order, m₀ regular."""
+    """Return the inverse m₀⁻¹ − m₀⁻¹ (m − m₀) m₀⁻¹ + … of a square matrix of polynomials, through the degree `order`.
+
+    The matrix m₀ of the constant terms must be regular.
+    """
     n, some = range(len(m)), m[0][0]
     over = np.linalg.inv([[f.part(0).coefficients.sum() for f in row] for row in m])
     higher = [[f - f.part(0) for f in row] for row in m]
@@ -177,7 +183,7 @@ def inverse_matrix(m: Sequence[Sequence[Polynomial]], order: int) -> list[list[P
 
 
 def poisson_bracket(f: Polynomial, g: Polynomial, weights: Coefficients, order: int) -> Polynomial:
-    """Return {f, g} through an order, weights c (n,) of the n canonical pairs."""
+    """Return {f, g} through the degree `order`; `weights`, shape (n,), are the brackets c_j of the canonical pairs."""
     n = len(weights)
     summands = [f.part(-1)]
     for j in range(n):
@@ -188,7 +194,7 @@ def poisson_bracket(f: Polynomial, g: Polynomial, weights: Coefficients, order: 
 
 
 def lie_transform(f: Polynomial, g: Polynomial, weights: Coefficients, order: int) -> Polynomial:
-    """Return exp(L_g) f through an order, f along the flow of g for unit time; g has no terms below degree 3."""
+    """Return exp(L_g) f through the degree `order`: f after the flow of g in unit time. g has no terms below degree 3."""
     result = term = f
     k = 0
     while len(term.coefficients):

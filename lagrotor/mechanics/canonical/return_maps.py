@@ -1,7 +1,8 @@
 """The return map of a periodic orbit as power series, and Birkhoff's normal form of a canonical map about a fixed point.
 
 With the linear part Λ diagonal, z_j → e^{−iα_j} z_j, the map is F = Φ_h ∘ Λ with the flow Φ_h of a series h in unit time. A
-change of coordinates Φ_χ of degree d changes h_d to h_d − χ + χ∘Λ⁻¹, and removes all terms z^a w^b but those with
+change of coordinates Φ_χ of degree d changes h_d to h_d − χ + χ∘Λ⁻¹, and removes all terms z^a w^b except the resonant ones,
+with
 
     |1 − e^{iα·(a − b)}| ≈ 0:    F = Φ_K ∘ Λ,     K of the actions I_j = z_j w_j and the resonances.
 
@@ -59,7 +60,7 @@ class ReturnMapForm(NormalForm):
     Attributes
     ----------
     frequencies : tuple[Any, ...]
-        Rotation angle α_j per return in rad, between −π and π, with Krein's sign; of a hyperbolic pair the logarithm of the
+        Rotation angle α_j per return in rad, between −π and π, with Krein's sign; for a hyperbolic pair the logarithm of its
         multiplier.
     series : Polynomial
         The polynomial sum_j α_j z_j w_j + K.
@@ -68,12 +69,12 @@ class ReturnMapForm(NormalForm):
     generators : tuple[Polynomial, ...]
         The functions χ of degree 3, 4, … in the order in which exp(L_χ) act.
     vectors : ndarray
-        The displacement y by the normal coordinates (z, w) of Λ, shape (2m, 2m).
+        The matrix that gives the displacement y from the normal coordinates (z, w) of Λ, shape (2m, 2m).
     known_through : int
         Degree through which the series is known.
     error : float
-        Largest relative error of the coefficients of a degree: between two integrations, and of the map recovered from the
-        form.
+        Largest relative error of the coefficients of one degree, from the difference between two integrations and from the
+        map that is recovered from the normal form.
     field : None
         Coefficients are floating-point numbers.
     period : float
@@ -149,11 +150,11 @@ class ReturnMapForm(NormalForm):
 
 
 def map_normal_form(F: Sequence[Polynomial], order: int, detuning: float = 0.0) -> NormalForm:
-    """Return the normal form of a canonical map y → F(y), y = (u_1 … u_m, v_1 … v_m), F(0) = 0, through K of an order.
+    """Return the normal form of a canonical map y → F(y), y = (u_1 … u_m, v_1 … v_m), F(0) = 0, with K through an order.
 
-    F: real polynomials through the degree order − 1. detuning: |1 − e^{iα·(a − b)}| up to which a resonance is kept. Raises
-    InputError if F is not canonical to first order, SingularError for a multiplier of 1, −1, above 10⁶, or double and not
-    diagonal.
+    `F` are real polynomials through the degree order − 1. Terms with |1 − e^{iα·(a − b)}| up to `detuning` are kept as
+    resonances. Raises InputError if F is not canonical to first order. Raises SingularError if a multiplier is 1 or −1, above
+    10⁶, or double with too few eigenvectors.
     """
     check_form_order(order, detuning)
     n = len(F)
@@ -169,8 +170,8 @@ def map_normal_form(F: Sequence[Polynomial], order: int, detuning: float = 0.0) 
         or not np.abs(M.T @ J @ M - J).max() < _NEAR * (1 + np.abs(M).max()) ** 2
     ):
         raise InputError(
-            f"map_normal_form: F is no canonical map with F(0) = 0: M = {M.tolist()} of its first order has not MᵀJM = J, or F "
-            "has a constant"
+            f"map_normal_form: F is no canonical map with F(0) = 0: M = {M.tolist()} of its first order violates MᵀJM = J, or F "
+            "has a constant term; correct F"
         )
     if (largest := np.abs(np.linalg.eigvals(M)).max()) > 1 / _NEAR:
         raise SingularError(
@@ -181,7 +182,7 @@ def map_normal_form(F: Sequence[Polynomial], order: int, detuning: float = 0.0) 
         if (near := np.abs(np.linalg.eigvals(M) - value).min()) < _NEAR:
             way = "name the momentum of a symmetry, or " if value == 1 else ""
             raise SingularError(
-                f"normal_form: a multiplier is {value} to {near:.1g}: {way}change a parameter or energy"
+                f"normal_form: a multiplier is {value} within {near:.1g}: {way}change a parameter or energy"
             )
     normal = normal_coordinates(-J @ (M - np.eye(n)) @ np.linalg.inv(M + np.eye(n)), J)  # Cayley: same vectors
     shares, weights = normal.frequencies, normal.weights
@@ -196,7 +197,7 @@ def map_normal_form(F: Sequence[Polynomial], order: int, detuning: float = 0.0) 
     if not linear < _NEAR:
         raise SingularError(
             f"normal_form: the multipliers {np.linalg.eigvals(M).tolist()} are not separated (residual {linear:.1g}): some are "
-            "near 1 and others near −1; move a parameter or the energy"
+            "near 1 and others near −1; change a parameter or the energy"
         )
     rows = [linear_form(row) for row in normal.vectors]
     inner = [f.substitute(rows, degree) for f in F]
@@ -220,7 +221,10 @@ def map_normal_form(F: Sequence[Polynomial], order: int, detuning: float = 0.0) 
 
 
 def _exponent(f: Sequence[Polynomial], K: Polynomial, rates: Coefficients, weights: Coefficients, d: int) -> Polynomial:
-    """Return h_d of f = Φ_{K + h_d + …} ∘ Λ: {x, h_d} is the residual of f ∘ Λ⁻¹ at degree d − 1, and Euler's rule gives h_d."""
+    """Return the terms h_d of degree d in f = Φ_{K + h_d + …} ∘ Λ.
+
+    {x, h_d} is the residual of f ∘ Λ⁻¹ at degree d − 1, and Euler's rule for homogeneous functions gives h_d from it.
+    """
     m = len(weights)
     summands = []
     for k in range(2 * m):
@@ -233,13 +237,13 @@ def _exponent(f: Sequence[Polynomial], K: Polynomial, rates: Coefficients, weigh
 
 
 def _conjugate(f: Sequence[Polynomial], chi: Polynomial, weights: Coefficients, degree: int) -> list[Polynomial]:
-    """Return Φ_χ⁻¹ ∘ f ∘ Φ_χ."""
+    """Return the map Φ_χ⁻¹ ∘ f ∘ Φ_χ through a degree."""
     away = [lie_transform(variable(k, len(f)), chi.times(-1), weights, degree) for k in range(len(f))]
     return [lie_transform(g.substitute(f, degree), chi, weights, degree) for g in away]
 
 
 def _error(f: Sequence[Polynomial], form: NormalForm, rates: Coefficients, K: Polynomial) -> float:
-    """Return the largest difference between Φ_χ ∘ (Φ_K ∘ Λ) ∘ Φ_χ⁻¹ and the map."""
+    """Return the largest relative difference between the map f and the one that its form gives, Φ_χ ∘ (Φ_K ∘ Λ) ∘ Φ_χ⁻¹."""
     n, degree = len(f), form.known_through - 1
     g = [lie_transform(variable(k, n), K, form.weights, degree) for k in range(n)]
     g = [component.times(np.exp(component.exponents @ rates)) for component in g]
@@ -249,7 +253,10 @@ def _error(f: Sequence[Polynomial], form: NormalForm, rates: Coefficients, K: Po
 
 
 def largest_difference(f: Sequence[Polynomial], g: Sequence[Polynomial]) -> float:
-    """Return the largest difference of coefficients of a degree, relative to the largest of that or of the lowest degree."""
+    """Return the largest relative difference between the coefficients of two maps.
+
+    In each degree it is relative to the largest coefficient of f in that degree, or in the lowest degree if that is larger.
+    """
     sizes = dict[int, float]()
     for d, homogeneous in ((d, homogeneous) for whole in f for d, homogeneous in whole.parts.items()):
         sizes[d] = max(sizes.get(d, 0.0), float(np.abs(homogeneous.coefficients).max()))
@@ -268,7 +275,10 @@ _FAR = 0.5  # of the orbit's size or period, without a drive: a larger step lead
 
 
 class _Motion:
-    """Hamilton's equations for jets of x in units (2n,), with the same product in each canonical pair."""
+    """Hamilton's equations for jets of x, which are truncated power series in a displacement of the initial state.
+
+    The scales `units`, shape (2n,), have the same product in each canonical pair.
+    """
 
     def __init__(self, H: sp.Expr, x: Sequence[sp.Symbol], begin: float, units: Array) -> None:
         n = len(x) // 2
@@ -309,7 +319,10 @@ class _Motion:
         return _jet(self._H(*X, self.begin)[0], X[0].space)
 
     def path(self, X: list[TruncatedSeries], duration: TruncatedSeries, local: float, shares: Array) -> Array:
-        """Return x at fractions σ of a duration, itself a series: dx/dσ = duration f(x), shape (k, 2n, N)."""
+        """Integrate dx/dσ = duration f(x) for a duration that is a series, too; return x at the fractions σ in `shares`.
+
+        The result has the shape (k, 2n, N), with the N coefficients of each component.
+        """
         space = X[0].space
 
         def rate(s: float, state: Array) -> list[float]:
@@ -327,7 +340,7 @@ class _Motion:
 
 @dataclass(frozen=True, eq=False)
 class _Return:
-    """The map y → F(y) in the orbit's units, the initial state x of y, both as jets, and the period."""
+    """The return map y → F(y) and the initial state x(y), both as jets in the orbit's units, and the period in s."""
 
     F: list[TruncatedSeries]
     start: list[TruncatedSeries]
@@ -340,13 +353,16 @@ def _jet(value: Any, space: JetSpace) -> TruncatedSeries:
 
 
 def _combined(columns: Array, jets: Sequence[TruncatedSeries]) -> list[TruncatedSeries]:
-    """Return Sᵀ times a vector of jets."""
+    """Return the product of the transpose of `columns` and a vector of jets."""
     rows = np.array([f.coefficients for f in jets])
     return [TruncatedSeries(row, jets[0].space) for row in columns.T @ rows]
 
 
 def _along(rate: Array) -> Array:
-    """Return S, orthogonal and canonical, (2n, 2n), with x_1 along a rate: a unitary matrix for q + i p."""
+    """Return an orthogonal and canonical matrix S, shape (2n, 2n), whose first column is parallel to a rate of shape (2n,).
+
+    As a map of q + i p it is unitary.
+    """
     n = len(rate) // 2
     Q, R = np.linalg.qr(np.column_stack([rate[:n] + 1j * rate[n:], np.eye(n)]))
     Q[:, 0] *= R[0, 0] / abs(R[0, 0])
@@ -355,7 +371,10 @@ def _along(rate: Array) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class _Orbit:
-    """An orbit to be followed for one return: the turns of its angles, and its energy, None with a drive."""
+    """An orbit to be followed for one return, with the whole turns of its angles in that time, and its energy.
+
+    Under a drive the energy is None.
+    """
 
     motion: _Motion
     turns: Array
@@ -384,14 +403,16 @@ class _Orbit:
             late = _combined(ahead, self._back(X, x))[0]
             wait = -late / _combined(ahead, self.motion.rate(X, self.motion.begin))[0]
             if not abs(wait.coefficients[0]) < _FAR * period:
-                raise InputError(f"normal_form: no return near t = {period:.6g} s: give a start and the period")
+                raise InputError(
+                    f"normal_form: no return near t = {period:.6g} s: give a start on the orbit and its period"
+                )
             period += wait.coefficients[0]
             X = self.motion.advance(X, wait, local)
         landing = _combined(S, self._back(X, x))
         return _Return([*landing[1:n], *landing[n + 1 :]], start, period, abs(float((landing[n] - p).coefficients[0])))
 
     def _back(self, X: list[TruncatedSeries], x: Array) -> list[TruncatedSeries]:
-        """Return X − x, without whole turns."""
+        """Return X − x without the whole turns of the angles."""
         return [f - s for f, s in zip(X, x + self.turns, strict=True)]
 
 
@@ -402,10 +423,10 @@ def _numbers(x: Array) -> list[TruncatedSeries]:
 def return_map_form(
     H: sp.Expr, x: Sequence[sp.Symbol], at: Mapping[Any, float], period: float, order: int, detuning: float
 ) -> ReturnMapForm:
-    """Return the normal form about the periodic orbit near the initial state `at`, of the same energy, or of the drive's period.
+    """Return the normal form of the return map of the periodic orbit near the initial state `at`.
 
-    Raises InputError where no orbit is near or nothing moves; DomainError where H is not analytic; SingularError as
-    `map_normal_form`.
+    The orbit has the energy of that state, or under a drive its period. Raises InputError if no orbit is near or nothing
+    moves, DomainError if H is not analytic, and SingularError for the multipliers that `map_normal_form` refuses.
     """
     n, begin, driven = len(x) // 2, float(at.get(t, 0.0)), H.has(t)
     if n == 1 and not driven:
@@ -479,7 +500,10 @@ def return_map_form(
 
 
 def _units(path: Array, ratios: Array) -> Array:
-    """Return units of q and p, (2n,), that make the orbit about 1 wide, with one product in each pair; ratios: q to p at rest."""
+    """Return units of q and p, shape (2n,), in which the orbit is about 1 wide and which have one product in each pair.
+
+    `ratios` are the ratios of the units of q to those of p, for pairs that do not move.
+    """
     q, p = np.split(np.ptp(path, axis=0) / 2, 2)
     wide = (q > 1e-9 * q.max()) & (p > 1e-9 * p.max())
     if wide.any():

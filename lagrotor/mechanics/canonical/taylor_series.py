@@ -2,8 +2,9 @@
 
 `LocalSeries` gives the Taylor polynomial of an expression about a point, exact or in floating-point numbers. A
 `TruncatedSeries` stores all coefficients through a degree, lowest degrees first, and compiled programs accept it as a number:
-jet transport. Its motion contains all derivatives by the initial state, the variational equations to any order. Both expand f
-about the value u of its argument, f(u + v) = sum_m f^(m)(u) v^m / m!; v has no constant term, so that the sum is finite.
+jet transport. The motion of such a series contains all derivatives with respect to the initial state: it solves the
+variational equations to any order. Both expand f about the value u of its argument, f(u + v) = sum_m f^(m)(u) v^m / m!; v has
+no constant term, so that the sum is finite.
 
 Berz, Modern Map Methods in Particle Beam Physics, ch. 2; Jorba & Zou, Experimental Mathematics 14 (2005) 99.
 """
@@ -36,7 +37,7 @@ _CORNERED = (sp.Abs, sp.sign, sp.Heaviside, sp.floor, sp.ceiling, sp.re, sp.im, 
 class LocalSeries:
     """Polynomials of expressions at x = at[x] + displacements[x], where the displacements are polynomials without constant terms.
 
-    value: conversion of a sympy number to a coefficient. Raises DomainError where an expression is not analytic at the point.
+    `value` converts a number of sympy to a coefficient. Raises DomainError if an expression is not analytic at the point.
     """
 
     at: Mapping[sp.Symbol, sp.Expr]
@@ -46,7 +47,7 @@ class LocalSeries:
     cache: dict[sp.Expr, Polynomial] = field(default_factory=dict)
 
     def of(self, e: sp.Expr) -> Polynomial:
-        """Return the polynomial of an expression, through the order."""
+        """Return the Taylor polynomial of an expression, through the order."""
         if e not in self.cache:
             self.cache[e] = self._expanded(e)
         return self.cache[e]
@@ -105,7 +106,11 @@ _SMOOTH = ("sqrt", "exp", "log", "sin", "cos", "tan", "sinh", "cosh", "tanh", *_
 
 @dataclass(frozen=True, eq=False)
 class JetSpace:
-    """All exponents (N, n) through a degree; term k of a product sums first × second from place `begins[k]` on."""
+    """The exponents of all monomials in n variables through a degree, shape (N, n), and a table for products of series.
+
+    Coefficient k of a product a·b is the sum of a[first[j]] b[second[j]] for j from begins[k] up to, not including, begins[k
+    + 1].
+    """
 
     exponents: NDArray[np.int64]
     first: NDArray[np.int64]
@@ -130,7 +135,7 @@ class JetSpace:
 
 @lru_cache(maxsize=16)
 def jet_space(variables: int, degree: int) -> JetSpace:
-    """Return the space of series in so many variables through a degree."""
+    """Return the space of the series in a number of variables through a degree."""
     choices = [choice for d in range(degree + 1) for choice in combinations_with_replacement(range(variables), d)]
     rows = [np.bincount(np.array(choice, dtype=int), minlength=variables) for choice in choices]
     exponents = np.array(rows, dtype=np.int64).reshape(-1, variables)
@@ -145,7 +150,7 @@ def jet_space(variables: int, degree: int) -> JetSpace:
 class TruncatedSeries(NDArrayOperatorsMixin):
     """A series sum_k coefficients[k] × prod_j x_j^exponents[k, j], which numpy's analytic functions of one argument accept.
 
-    Raises DomainError for another function.
+    Any other function raises DomainError.
     """
 
     coefficients: Array
@@ -153,7 +158,7 @@ class TruncatedSeries(NDArrayOperatorsMixin):
 
     @property
     def polynomial(self) -> Polynomial:
-        """The nonzero terms."""
+        """The series as a polynomial of its nonzero terms."""
         return Polynomial(self.space.exponents, self.coefficients + 0j).where(self.coefficients != 0)
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **_: Any) -> TruncatedSeries:
@@ -185,7 +190,7 @@ class TruncatedSeries(NDArrayOperatorsMixin):
         return reduce(mul, [self] * int(n)) if n else self.space.constant(1.0)
 
     def _composed(self, name: str, *exponent: float) -> TruncatedSeries:
-        """Return f of this jet, by Horner's rule in the jet without its constant."""
+        """Return f of this series, by Horner's rule in the series without its constant term; NaN outside the domain of f."""
         f = _taylor(name, self.space.degree, *exponent)
         try:
             *lower, last = f(float(self.coefficients[0]))
@@ -206,7 +211,7 @@ def _not_analytic(name: str) -> DomainError:
 
 @lru_cache(maxsize=64)
 def _taylor(name: str, degree: int, n: float = 1.0) -> Callable[[float], list[float]]:
-    """Return u → f^(m)(u)/m!, m = 0 … degree, for a function of numpy by its name, or the power n."""
+    """Return a function of u that gives f^(m)(u)/m! for m = 0 … degree; f is a function of numpy by name, or the power n."""
     if name != "power" and name not in _SMOOTH:
         raise _not_analytic(name)
     f = _Z ** (int(n) if n == int(n) else n) if name == "power" else getattr(sp, _NAMES.get(name, name))(_Z)

@@ -209,10 +209,13 @@ def test_friction_by_a_reaction_in_a_tree_and_in_velocities_of_ones_own() -> Non
     accelerations, _ = constrained_accelerations(System(c, sp.sympify(L), floor, dissipation=rubs))
     assert sp.simplify(accelerations[0] + mu * g * c.v[0]) == 0
     for make, words in (
-        (lambda: System(c, L, floor, dissipation=mu * reaction("flor") * abs(c.v[0])), "none of the constraints"),
-        (lambda: System(c, sp.sympify(L) - N, floor), "belongs into forces and dissipation alone"),
+        (lambda: System(c, L, floor, dissipation=mu * reaction("flor") * abs(c.v[0])), "names no constraint"),
+        (lambda: System(c, sp.sympify(L) - N, floor), "may stand in forces and dissipation alone"),
         (lambda: System(c, L, floor, forces=(-mu * N**2, 0)).rhs(values), "must enter linearly"),
-        (lambda: System(c, L, floor, dissipation=rubs, velocities={u: c.v[0]}).rhs(values), "leave out velocities"),
+        (
+            lambda: System(c, L, floor, dissipation=rubs, velocities={u: c.v[0]}).rhs(values),
+            "leave these velocities out",
+        ),
     ):
         with pytest.raises(InputError, match=words):
             make()

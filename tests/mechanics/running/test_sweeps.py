@@ -95,7 +95,7 @@ def test_a_long_lagrangian_of_any_form_has_the_equations_of_its_derivatives(L: C
 
 def test_a_letter_named_as_a_stage_is_refused() -> None:
     c, own = coordinates("x y z"), sp.Symbol("_a0", real=True)
-    with pytest.raises(InputError, match="_a0: names as _a0 are those of generated programs"):
+    with pytest.raises(InputError, match="_a0: generated programs use names like _a0"):
         System(c, sum(v**2 for v in c.v) / 2 - own * long_potential(c)).rhs({own: 1})
 
 
