@@ -1,4 +1,8 @@
-"""Enclosures of Γ, of Bessel functions J of rational order by power series, and of elliptic integrals K and E by means.
+"""Enclosures of Γ, of Bessel functions J of rational order, and of elliptic integrals K and E.
+
+J is summed as a power series; K and E come from the arithmetic-geometric mean.
+
+Abramowitz & Stegun, Handbook of Mathematical Functions, chs. 6, 9, 17.
 
 Abramowitz & Stegun, Handbook of Mathematical Functions, chs. 6, 9, 17.
 """
@@ -25,7 +29,12 @@ def _check(x: Any) -> None:
 
 
 def _series(first: Any, ratio: Any, above: Any) -> Any:
-    """Return first + first*ratio(0) + …, for decreasing ratios; above(k) bounds |ratio| from index k on."""
+    """Enclose first + first*ratio(0) + first*ratio(0)*ratio(1) + …; above(k) bounds
+
+    ratio
+
+    from index k on.
+    """
     total, term, k = first, first, 0
     least = iv.mpf(2) ** (-iv.prec - 20)
     while True:
@@ -55,7 +64,7 @@ def _binomial(orders: Sequence[sp.Expr], values: Sequence[Any]) -> Any:
 
 
 def _bessel(orders: Sequence[sp.Expr], values: Sequence[Any]) -> Any:
-    """Return J: (x/2)ᵛ Σ (−x²/4)ᵏ/(k! Γ(v + k + 1)), for x > 0 or integer v."""
+    """Return the Bessel function J of order v at x, (x/2)ᵛ Σ (−x²/4)ᵏ/(k! Γ(v + k + 1)), for x > 0 or integer v."""
     v, x = orders[0], values[1]
     if not v.is_Rational:
         raise NotExactError("A Bessel function is enclosed at rational orders only.")
