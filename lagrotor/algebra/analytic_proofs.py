@@ -145,7 +145,7 @@ def _cases(expression: sp.Expr, where: Region) -> Iterator[tuple[sp.Expr, Region
 
 
 def _periods(node: sp.Expr) -> Iterator[tuple[sp.Symbol, int]]:
-    """Yield (n, period) for each integer symbol n on which a sign (−1)**n, a power i**n or an angle n π r depends periodically."""
+    """Yield (n, period) for each integer symbol n on which a sign (−1)**n, a power i**n or an angle n π r depends."""
     if (node.is_Pow and node.base in (sp.S.NegativeOne, sp.I)) or (node.is_Pow and node.base.is_negative):
         turn = sp.expand(node.exp * (sp.Rational(1, 2) if node.base is sp.I else 1)) / 2
     elif isinstance(node, sp.sin | sp.cos | sp.tan | sp.cot | sp.sec | sp.csc):

@@ -171,7 +171,7 @@ def _may_vanish(e: sp.Expr, X: Box) -> bool:
 
 
 def _krawczyk(system: _Equations, X: Box) -> Box | None:
-    """Return K(X); None if an enclosure is unknown, a piecewise function may switch in X, or the midpoint of F'(X) is singular."""
+    """Return K(X); None if an enclosure is unknown, a piecewise function may switch in X, or the middle of F'(X) is singular."""
     equations, unknowns = system.equations, system.unknowns
     if any(_may_vanish(e, X) for e in system.switches):
         return None  # the derivatives of the pieces do not bound a jump

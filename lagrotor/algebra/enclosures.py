@@ -177,7 +177,7 @@ class PointEnclosure:
         return e.xreplace(dict(self.point)) if plain else e
 
     def _integral(self, e: sp.Expr) -> Any:
-        """Enclose a definite integral. If the integrand is an undefined function f(u), the values of its antiderivative are free."""
+        """Enclose a definite integral. For an undefined function f(u), the values of the antiderivative are free."""
         body, (u, *ends), *others = e.args
         if not others and len(ends) == 2 and not body.has(AppliedUndef, sp.Integral):
             return self._quadrature(body, u, *map(self.of, ends))
@@ -426,7 +426,7 @@ def enclosures(expressions: Iterable[sp.Expr], point: Mapping[sp.Symbol, Any]) -
 
 
 def _evalf(e: sp.Expr, precision: int, options: Any) -> tuple[Any, ...]:
-    """Return (re, im, bits of re, bits of im), as sympy's `evalf_table` requires it. If no enclosure is known, sympy evaluates."""
+    """Return (re, im, bits of re, bits of im), as sympy's `evalf_table` requires; without an enclosure sympy evaluates."""
     sides = None
     for number in (precision, 2 * precision + 60, 4 * precision + 600):
         with working_digits(number), suppress(NotExactError, RecursionError):

@@ -125,16 +125,7 @@ def _is_rational_step(node: sp.Expr) -> bool:
 
 
 def radicand(node: sp.Expr) -> sp.Expr | None:
-    """Return B for a power B**(k/2) with odd k, and x**2 for
-
-    x
-
-    of a real x, since
-
-    x
-
-    = sqrt(x**2); None otherwise.
-    """
+    """Return B for a power B**(k/2) with odd k, and x**2 for |x| of a real x, since |x| = sqrt(x**2); None otherwise."""
     if node.is_Pow and node.exp.is_Rational and node.exp.q == 2:
         return node.base
     if isinstance(node, sp.Abs) and node.args[0].is_real:

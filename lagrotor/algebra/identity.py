@@ -109,17 +109,12 @@ class Decision:
 
     @property
     def witness(self) -> Mapping[sp.Expr, sp.Rational] | None:
-        """A counterexample, a point {symbol or function value: number} at which a nonzero expression does not vanish; else None."""
+        """A point {symbol or function value: number} at which a nonzero expression does not vanish; None otherwise."""
         return self._largest[0] if self.answer == "nonzero" else None
 
     @property
     def evidence(self) -> float | None:
-        """The largest
-
-        residual
-
-        at `points`, for a nonzero or undecided expression; None if no value is known.
-        """
+        """The largest |residual| at `points`, for a nonzero or undecided expression; None if no value is known."""
         return self._largest[1]
 
     @property
@@ -410,12 +405,7 @@ def _domain(ring: Ring) -> tuple[sp.Expr, ...]:
 
 
 def _monic(factor: sp.Expr) -> sp.Expr:
-    """Simplify a factor, keeping its zeros: divide a polynomial by its leading coefficient; replace
-
-    u
-
-    and roots of u by u.
-    """
+    """Simplify a factor, keeping its zeros: divide a polynomial by its leading coefficient; replace |u| and roots of u by u."""
     while isinstance(factor, sp.Abs) or (factor.is_Pow and factor.exp.is_Rational and factor.exp > 0):
         factor = factor.args[0]
     if not factor.is_Add or not (polynomial := factor.as_poly()):

@@ -72,7 +72,7 @@ def _root(n: sp.Rational, symbol: sp.Symbol, value: sp.Expr, where: Region) -> C
 
 
 def _arcs(kernel: sp.Expr, symbol: sp.Symbol, value: sp.Expr, where: Region) -> Iterator[Conditioned]:
-    """Yield (solution, conditions) of kernel = value for sin, cos or tan of the symbol, on the monotone piece that contains it."""
+    """Yield (solution, conditions) of kernel = value for sin, cos or tan of a symbol, on the monotone piece that contains it."""
     conditions = (*_at_least(value, sp.S.NegativeOne), *_at_least(sp.S.One, value))
     for k in _TURNS:
         start = k * sp.pi - (0 if isinstance(kernel, sp.cos) else sp.pi / 2)

@@ -3,8 +3,6 @@
 J is summed as a power series; K and E come from the arithmetic-geometric mean.
 
 Abramowitz & Stegun, Handbook of Mathematical Functions, chs. 6, 9, 17.
-
-Abramowitz & Stegun, Handbook of Mathematical Functions, chs. 6, 9, 17.
 """
 
 from collections.abc import Sequence
@@ -29,12 +27,7 @@ def _check(x: Any) -> None:
 
 
 def _series(first: Any, ratio: Any, above: Any) -> Any:
-    """Enclose first + first*ratio(0) + first*ratio(0)*ratio(1) + …; above(k) bounds
-
-    ratio
-
-    from index k on.
-    """
+    """Enclose first + first*ratio(0) + first*ratio(0)*ratio(1) + …; above(k) bounds |ratio| from index k on."""
     total, term, k = first, first, 0
     least = iv.mpf(2) ** (-iv.prec - 20)
     while True:

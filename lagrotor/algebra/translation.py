@@ -101,7 +101,7 @@ class Translation:
         return translated
 
     def symbol(self, head: Any, arguments: tuple[sp.Expr, ...], meaning: sp.Expr) -> sp.Symbol:
-        """Return the symbol that stands for the function `meaning` of translated arguments; equal arguments have the same symbol."""
+        """Return the symbol for the function `meaning` of translated arguments; equal arguments have the same symbol."""
         group = self.symbols.setdefault(head, [])
         for others, symbol in group[-_MOST_SAME:]:
             if all(self._same(a, b) for a, b in zip(arguments, others, strict=True)):
@@ -158,15 +158,7 @@ class Translation:
         return self._function(e)
 
     def _unbarred(self, e: sp.Mul) -> tuple[sp.Expr, ...]:
-        """Return the factors of a product, in which ± a b replaces
-
-        a
-
-
-        b
-
-        if the sign of a b is known.
-        """
+        """Return the factors of a product, in which ± a b replaces |a| |b| if the sign of a b is known."""
         bars = [factor for factor in e.args if isinstance(factor, sp.Abs)]
         product = sp.Mul(*(factor.args[0] for factor in bars))
         product_signs = signs(product, self.where) if len(bars) > 1 else None
