@@ -57,7 +57,7 @@ def check_orbit(certificate: Any) -> None:
 
 
 def check_amplitude(certificate: Any, claimed: Any) -> None:
-    """Verify that the start of the one orbit has the claimed amplitude, for a scene and with the pair's reversals."""
+    """Verify that the orbit is a paired precession of a scene, and that its start has the claimed amplitude."""
     of_pair = certificate["reversals"] == [[1, -1, -1, -1, 1, 1], [-1, 1, -1, 1, -1, 1]]
     demand("scene" in (certificate["about"] or {}) and of_pair, "the orbit is no precession of the pair")
     demand(certificate["ones"] == 4, "a precession has four multipliers equal to 1")
@@ -68,7 +68,7 @@ def check_amplitude(certificate: Any, claimed: Any) -> None:
 
 
 def check_conditions(carried: VerifiedSteps, first: Any, last: Any, free: Any, conditions: Any) -> None:
-    """Verify that start and conditions are those of the fixed sets of the two reversals."""
+    """Verify that the free states at the start and the conditions at the end define the fixed sets of two reversals."""
     moving = carried.flow.moving
     if not first:
         demand(sorted(conditions) == list(range(moving)), "the conditions do not close the orbit")
@@ -83,7 +83,7 @@ def check_conditions(carried: VerifiedSteps, first: Any, last: Any, free: Any, c
 
 
 def check_kind(certificate: Any, carried: VerifiedSteps, first: Any, last: Any) -> None:
-    """Verify the stability: the trace of the monodromy matrix minus the ones against ±2, or all multipliers."""
+    """Verify the stability: the sum μ + 1/μ of one pair is compared with ±2, or all multipliers with the unit circle."""
     claim, moving = certificate["claim"], carried.flow.moving
     demand(is_place(certificate["ones"], moving + 1), "the number of multipliers equal to 1 is invalid")
     demand(claim["kind"] in ("undecided", "elliptic", "hyperbolic", "attracting", "parabolic"), "the kind is unknown")
@@ -114,7 +114,7 @@ def kind_of(pair: Ball) -> str:
 
 
 def pair_sum(D: Any, first: Any, last: Any, ones: int) -> Ball:
-    """Return μ + 1/μ of the multipliers that are not 1, from the derivative between two reversals."""
+    """Return μ + 1/μ of the one pair of multipliers that can differ from 1, from the derivative D between two reversals."""
     moving = D.nrows()
     X = middle_inverse(D)
     R = unit(moving) - D * X

@@ -29,7 +29,7 @@ _MOST_ROOTS, _MOST_TRIES, _OF_ONE_PRIME = 4, 256, 64
 
 
 class Residue(NamedTuple):
-    """A result modulo the prime, a bound of its degree, and its linear form, variable → coefficient, for exponentials."""
+    """A result modulo the prime, a bound of its degree, and for exponentials a linear form {variable: coefficient}."""
 
     value: int
     degree: int
@@ -53,11 +53,14 @@ def check_reversal(tape: Tape, signs: Any) -> None:
 
 
 class NoSquareError(Exception):
-    """A radicand is no square at a point."""
+    """A radicand has no square root modulo the prime at a point."""
 
 
 def points_of(tape: Tape) -> Iterator["Residues"]:
-    """Yield one prime and point at which all roots are residues, with each sign of each root; or with roots as variables."""
+    """Yield the tape at one point modulo a prime, once for each choice of the signs of its roots.
+
+    Every root exists there. For a tape with too many roots, the only point has variables in place of the roots.
+    """
     variables = Residues(tape, None)
     variables.outputs([])
     for attempt in range(_MOST_TRIES if variables.roots <= _MOST_ROOTS else 0):
@@ -71,7 +74,7 @@ def points_of(tape: Tape) -> Iterator["Residues"]:
 
 @lru_cache(maxsize=64)
 def _prime(seed: str) -> int:
-    """Return the next prime after a 512-bit number for which −1 is no square and odd roots are unique."""
+    """Return a prime of about 512 bits for a seed, modulo which −1 has no square root and odd roots are unique."""
     p = int(nextprime(int(sha512(seed.encode()).hexdigest(), 16)))
     while not (p % 4 == 3 and gcd(p - 1, _ODD) == 1):
         p = int(nextprime(p))
@@ -79,7 +82,10 @@ def _prime(seed: str) -> int:
 
 
 class Residues:
-    """The results of a tape modulo a prime; attempt: the number of the point, or None; signs: one bit for each root."""
+    """The results of a tape modulo a prime.
+
+    `attempt` is the number of the point, None if roots are variables. Each bit of `signs` is the sign of a root.
+    """
 
     def __init__(self, tape: Tape, attempt: int | None, signs: int = 0) -> None:
         self.tape, self._digest = tape, sha512(f"{tape} {attempt}".encode()).hexdigest()
@@ -93,7 +99,7 @@ class Residues:
         self.domain: set[tuple[str, int]] = set()  # arguments that must be positive, or in [−1, 1]
 
     def outputs(self, signs: list[int]) -> list[Residue]:
-        """Return the outputs, with signs for the first arguments."""
+        """Return the outputs of the tape, after its first arguments were multiplied by `signs`."""
 
         def argument(place: int) -> Residue:
             return self._variable(self._point("argument", place) * (signs[place] if place < len(signs) else 1))
@@ -143,7 +149,7 @@ class Residues:
         return self._variable((2 * sign * point if name == "sin" else 1 - point**2) * below, 2)
 
     def _logarithm(self, a: Residue) -> Terms:
-        """Return the logarithm of a radicand, which is positive; then so is its one factor that is not known to be."""
+        """Return the logarithm of a radicand, which is positive; hence its one factor of unknown sign is positive, too."""
         if a.value not in self._logarithms:
             logarithm, factor, power = self._halves.get(a.value, ({}, a, 1))
             if factor.value not in self._logarithms:
@@ -171,7 +177,7 @@ class Residues:
         return self._variable(value, degree)
 
     def _exponential(self, terms: Terms) -> Residue:
-        """Return e^Σ: e^(x a) is a whole power of e^(a/5040), e^(x log a) a power of a, as far as x allows."""
+        """Return e^Σ of a linear form Σ: e^(x a) is a power of e^(a/5040), e^(x log a) of a, as far as x allows."""
         product = self._number(Fraction(1))
         for variable, x in terms.items():
             of_log = variable in self._arguments
@@ -190,7 +196,7 @@ class Residues:
         return len(self._roots)
 
     def _root(self, variable: int, a: Residue, power: Fraction) -> Residue | None:
-        """Return a^power if residues have it: √a with the sign of its bit, and odd roots; else None."""
+        """Return a^power if it exists modulo the prime, else None. A bit gives the sign of √a; odd roots are unique."""
         odd = power.denominator if power.denominator % 2 else power.denominator // 2
         if odd != power.denominator and self._signs is None:
             self._roots[variable] = 0

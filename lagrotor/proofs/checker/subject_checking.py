@@ -49,24 +49,24 @@ def _rates(words: Words, certificate: Any) -> list[int]:
 
 
 def residues(words: Words, places: Sequence[int]) -> Iterator[tuple[list[int], int]]:
-    """Yield the residues of results and the prime, for each choice of the signs of roots.
+    """Yield the residues of results modulo a prime, and the prime, for each choice of the signs of the roots.
 
-    Positive quantities come from earlier results, of the program along whose motion they were positive, not of the named
-    subject.
+    Some quantities must be positive. They come from the earlier results, those of the program, along whose motion they were
+    positive, and not from the named subject.
     """
     for point in points_of(words.tape(places)):
         yield [x.value for x in point.outputs([])], point.p
 
 
 def demand_equal(words: Words, first: Sequence[int], second: Sequence[int], what: str) -> None:
-    """Verify that results are the same functions of the arguments, pair by pair."""
+    """Verify that two lists of results are the same functions of the arguments, entry by entry."""
     demand(len(first) == len(second), what)
     for values, _ in residues(words, [*first, *second]):
         demand(values[: len(first)] == values[len(first) :], what)
 
 
 def _check_start(certificate: Any, words: Words, constraints: Sequence[int]) -> None:
-    """Verify that the start can satisfy the constraints. An orbit or equilibrium may have none."""
+    """Verify that the start can satisfy the constraints. An orbit or equilibrium must not have any constraints."""
     if certificate["kind"] in ("periodic orbit", "equilibrium"):
         demand(len(constraints) == 0, "an equilibrium or orbit may have no constraints")
         return
@@ -85,7 +85,7 @@ def _middle(certificate: Any) -> list[Ball]:
 
 
 def _values(words: Words, places: Sequence[int], at: Sequence[Ball], certificate: Any) -> list[Ball]:
-    """Return results at a start; further symbols have the value 1. Raises NotProved if a result is undefined."""
+    """Return the values of results at a start, with 1 for further symbols. Raises NotProved if a value is undefined."""
     numbers = [*at, *balls(certificate["motion"]["parameters"])]
     arguments = [*numbers, *[arb(1)] * (len(words.arguments) - len(numbers))]
     duals = [Dual(Series([x], ZERO, 1)) for x in arguments]
@@ -95,7 +95,7 @@ def _values(words: Words, places: Sequence[int], at: Sequence[Ball], certificate
 
 
 def _check_generated(certificate: Any, field: Field) -> None:
-    """Verify the program and the observables that are generated for a scene or structure."""
+    """Verify that program and observables equal those that are generated for the named scene or structure."""
     arguments, observed = certificate["motion"]["arguments"], certificate.get("observed")
     words = Words(arguments, None)
     rates, what = _rates(words, certificate), "the program is not that of the subject"
@@ -134,7 +134,7 @@ def _check_rates(certificate: Any, data: Any) -> None:
 
 
 class LagrangianOfWords:
-    """The certificate's program, and the text of a Lagrangian, of forces, dissipation and constraints."""
+    """The program of a certificate, and the text of the Lagrangian, forces, dissipation and constraints."""
 
     def __init__(self, certificate: Any, data: Any) -> None:
         arguments, symbols = certificate["motion"]["arguments"], data["letters"]
@@ -169,7 +169,7 @@ class LagrangianOfWords:
         return [self.words.slope(place, {symbol: unit}) for symbol in symbols]
 
     def missing(self) -> list[int]:
-        """Return d/dt ∂L/∂v − ∂L/∂q − Q + ∂D/∂v."""
+        """Return the places of d/dt ∂L/∂v − ∂L/∂q − Q + ∂D/∂v, which must be zero, for each coordinate."""
         words, rows = self.words, []
         by_q, by_v, friction = self.by(self.L, self.q), self.by(self.L, self.v), self.by(self.D, self.v)
         for p, slope, Q, d in zip(by_v, by_q, self.forces, friction, strict=True):
@@ -178,7 +178,7 @@ class LagrangianOfWords:
         return rows
 
     def energy(self) -> int:
-        """Return v·∂L/∂v − L."""
+        """Return the place of the energy v·∂L/∂v − L."""
         words, total = self.words, self.words.keep("subtract", self.words.keep("number", "0"), self.L)
         for v, p in zip(self.v, self.by(self.L, self.v), strict=True):
             total = words.keep("add", total, words.keep("multiply", v, p))

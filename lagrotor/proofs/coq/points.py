@@ -29,7 +29,8 @@ def points_of(
 ) -> Iterator[dict[sp.Symbol, sp.Expr]]:
     """Yield up to `limit` points that satisfy the eliminated equations and the conditions, the same ones in each call.
 
-    fixed: values of symbols; zeros: further expressions to vanish, each a polynomial in one of its symbols.
+    `fixed` has values of some symbols. `zeros` are further expressions that must vanish; each is a polynomial in one of the
+    symbols.
     """
     drawn, count = random.Random(1), 0
     for _ in range(_TRIES):
@@ -48,7 +49,7 @@ def points_of(
 
 
 def _solve(free: dict[sp.Symbol, sp.Expr], zeros: Sequence[sp.Expr], drawn: random.Random) -> bool:
-    """Change symbols so that each equation holds at rational numbers; return True if all then do."""
+    """Change values in `free` to rational numbers at which all `zeros` vanish; return True if that succeeds."""
     solved: list[tuple[sp.Symbol, sp.Expr]] = []
     for zero in zeros:
         for symbol, value in solved:
