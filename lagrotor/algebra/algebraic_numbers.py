@@ -48,7 +48,7 @@ class _Bound:
     def degree(self) -> int:
         degree = prod(self.roots.values()) * int(sp.totient(self.turns))
         if degree > _MOST_BITS:
-            raise NotExactError("The degree is too large.")
+            raise NotExactError("The degree of the number field is too large.")
         return degree
 
     def of(self, e: sp.Expr) -> tuple[float, float]:

@@ -134,7 +134,7 @@ def _cases(expression: sp.Expr, where: Region) -> Iterator[tuple[sp.Expr, Region
         for symbol, period in _periods(node):
             periods[symbol] = lcm(periods.get(symbol, 1), period)
     if prod(periods.values()) > _MOST_CASES:
-        raise NotExactError(f"There are more than {_MOST_CASES} cases of whole numbers.")
+        raise NotExactError(f"The integer symbols give more than {_MOST_CASES} cases.")
     for residues in product(*(range(period) for period in periods.values())):
         replacements = {}
         for (symbol, period), residue in zip(periods.items(), residues, strict=True):

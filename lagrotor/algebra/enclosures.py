@@ -70,7 +70,7 @@ def solved_at(A: sp.Matrix, b: sp.Matrix, point: Point) -> list[Any]:
             rows = [[_real(enclosure.of(e)) for e in row] for row in A.row_join(b).tolist()]
             return _eliminated(rows)
         except (ArithmeticError, ValueError, libmp.ComplexResult) as error:
-            raise NotExactError(f"Not enclosed at {point}: {error}.") from None
+            raise NotExactError(f"The value at {point} is not enclosed: {error}.") from None
 
 
 def apart(first: Sequence[Any], second: Sequence[Any]) -> int | None:
@@ -102,7 +102,7 @@ class PointEnclosure:
         try:
             return self.of(e)
         except (ArithmeticError, ValueError, libmp.ComplexResult, TypeError, AttributeError) as error:
-            raise NotExactError(f"Not enclosed at {self.point}: {error}.") from None
+            raise NotExactError(f"The value at {self.point} is not enclosed: {error}.") from None
 
     def of(self, e: sp.Expr) -> Any:
         if e not in self.known:
@@ -406,7 +406,7 @@ Bounds: TypeAlias = tuple[sp.Rational, sp.Rational]  # lower, upper
 
 
 def enclosure(e: sp.Expr, point: Mapping[sp.Symbol, Any]) -> Bounds | None:
-    """Return rational bounds of e at a point of rationals or pairs (lower, upper); None if no real enclosure is known."""
+    """Return rational bounds of e at a point with coordinates that are rationals or pairs (lower, upper); None if unknown."""
     return enclosures([e], point)[0]
 
 

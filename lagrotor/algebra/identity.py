@@ -388,7 +388,7 @@ def normal_form(expression: sp.Expr) -> sp.Expr:
         if conjugate != denominator:
             numerator, denominator = ring.product(numerator, conjugate), ring.product(denominator, conjugate)
     if len(numerator) + len(denominator) > _MOST_NORMAL:
-        raise NotExactError(f"Its normal form is too large: terms {len(numerator)} over {len(denominator)}.")
+        raise NotExactError(f"The normal form is too large: {len(numerator)} terms over {len(denominator)} terms.")
     numerator, denominator = numerator.cancel(denominator)
     return ring.expression(numerator) / ring.expression(denominator)
 

@@ -396,7 +396,9 @@ def _is_real(node: sp.Expr) -> bool:
 def _refined(series: _Series, q: int) -> _Series:
     """Return the same series in powers of small**(1/q), where q is a multiple of the q of the given series."""
     if q > _MOST_ROOTS:
-        raise NotExactError(f"powers with the common denominator {q} are not expanded: the largest is {_MOST_ROOTS}")
+        raise NotExactError(
+            f"powers with the common denominator {q} are not expanded: the largest one allowed is {_MOST_ROOTS}"
+        )
     factor = q // series.q
     terms = tuple(coefficient for term in series.terms for coefficient in _padded([term], factor))
     return series._replace(start=series.start * factor, terms=terms, q=q)

@@ -50,7 +50,7 @@ def split_roots(
     roots = [Root(base, under, ring.product(over, under)) for base, over, under in bases]
     for root in roots:
         if len(root.square) > _MOST_TERMS or max(map(sum, root.square.monoms()), default=0) > _MOST_DEGREE:
-            raise TooLargeError(f"The root of {root.base} is too large: terms {len(root.square)}.")
+            raise TooLargeError(f"The root of {root.base} is too large: its square has {len(root.square)} terms.")
     numbers, polynomials = _coprime_parts([root.square for root in roots])
     independent: list[Root] = []
     dependent: list[Dependent] = []

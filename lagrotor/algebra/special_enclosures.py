@@ -23,7 +23,7 @@ def _ball(radius: Any) -> Any:
 
 def _check(x: Any) -> None:
     if not abs(x).b < _LARGEST:
-        raise NotExactError("A series is not summed at so large an argument.")
+        raise NotExactError("The argument is too large for the sum of a series.")
 
 
 def _series(first: Any, ratio: Any, above: Any) -> Any:
@@ -43,7 +43,7 @@ def _series(first: Any, ratio: Any, above: Any) -> Any:
 def _gamma(orders: Sequence[sp.Expr], values: Sequence[Any]) -> Any:
     [x] = values
     if orders[0].is_integer and orders[0].is_nonpositive:
-        raise NotExactError("A pole of the gamma function.")
+        raise NotExactError("The gamma function has a pole there.")
     _check(x)
     return iv.gamma(x)
 

@@ -95,7 +95,7 @@ class Translation:
         return self.known[e]
 
     def restore(self, translated: sp.Expr) -> sp.Expr:
-        """Return the original expression of a translation."""
+        """Return a translated expression in the original symbols and functions."""
         while generated := translated.free_symbols & self.meaning.keys():
             translated = translated.xreplace({symbol: self.meaning[symbol] for symbol in generated})
         return translated

@@ -114,7 +114,7 @@ def matrix_data(matrix: Matrix) -> list[list[str]]:
 
 
 def format_ball(x: Ball, digits: int = 30) -> str:
-    """Return a ball as text, [8.1234567 +/- 3e-8], or its ends if no digit is certain. The text contains the ball."""
+    """Return a ball as text, [8.1234567 +/- 3e-8]; if no digit is certain, return the two ends. The text contains the ball."""
     if x.rel_accuracy_bits() > 3 or abs(x) < 1e-6:
         return str(x.str(digits))
     ends = x.lower() - abs(x.lower()) * 0.01, x.upper() + abs(x.upper()) * 0.01

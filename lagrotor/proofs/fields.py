@@ -299,7 +299,10 @@ def scene_ratio(scene: Scene) -> Any:
 
 
 def scene_start(scene: Scene) -> tuple[Ball, ...]:
-    """Return (U, chi, alpha, rates) of the scene's axes. The twist is that of the axes, and the bar determines the rest."""
+    """Return (U, chi, alpha, rates) of the scene's axes.
+
+    chi follows from the twist between the axes; the bar determines their other difference.
+    """
     value, ratio = ball(scene_numbers(scene)[k]), scene_ratio(scene)
     u, alpha, u_v, alpha_v = [], [], [], []
     for i, (axis, rate) in enumerate(zip(scene.axes, scene.rates, strict=True)):

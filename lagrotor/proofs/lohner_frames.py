@@ -4,8 +4,8 @@ A node contains every x(t) that starts in x_0 + w:
 
     m + Q s + V w,   V in C + Q S.
 
-m, Q, C are exact, s and S are balls. m + Q s encloses the motion of the middle x_0. V is the derivative by w over the whole
-set; the mean-value theorem gives the enclosure. A step maps m to y and has the derivative D over the set:
+m, Q, C are exact, s and S are balls. m + Q s encloses the motion of the middle x_0. V is the derivative with respect
+to w over the whole set; by the mean-value theorem the node contains the motions. A step maps m to y and has the derivative D over the set:
 
     m₁ + Q₁ s₁ ∋ y + D Q s,   C₁ + Q₁ S₁ ∋ D (C + Q S).
 
@@ -142,7 +142,7 @@ def step_of(
     rows = taylor(motion, node.m, n) if rows is None else rows
     bounds, _ = bound_remainder(motion, at := scale_terms(rows, h, n), node.m, h, n)
     if not max_of(bounds) < _LARGEST_REMAINDER * accuracy.tol * size_of(rows):
-        raise RemainderError("the remainder of the Taylor series is large over the step")
+        raise RemainderError("the remainder of the Taylor series is too large over the step")
     least = max_of(bounds) * arb(2) ** -16  # the checker's bounds of small components are larger
     image = [
         sum(row, arb(0)) + arb(0, (SLACK * bound + least).abs_upper()) for row, bound in zip(at, bounds, strict=True)

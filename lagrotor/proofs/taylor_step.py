@@ -5,7 +5,7 @@ map e ↦ h ∫ f(P + e) ds − P takes the ball |e_i| ≤ ε_i into itself if
 
     h (|f_{n−1}| / n + remainder(f) / (n + 1)) ≤ ε,
 
-and the motion is its fixed point. The derivative D by the initial state solves the linear equation D' = h J D.
+and the motion is its fixed point. The derivative D with respect to the initial state solves the linear equation D' = h J D.
 """
 
 from collections.abc import Sequence
@@ -40,8 +40,8 @@ _TRIES = 4  # iterations of the Picard map for a remainder bound
 class Motion:
     """x' = f(x; parameters): the outputs of the tape are the rates of its first arguments.
 
-    The arguments after the `moving` states are constant parameters that vary within intervals; derivatives by them are
-    taken, too.
+    The arguments after the `moving` states are constant parameters that vary within intervals. Derivatives with respect to them
+    are computed, too.
     """
 
     tape: Tape

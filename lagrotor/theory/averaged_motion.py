@@ -267,8 +267,8 @@ def turns_back(scene: Scene) -> bool:
         )
     if len({ending[0] == inf for ending in endings}) > 1:
         raise DomainError(
-            "turns_back: so near the threshold the next order of the averaged motion is decisive: take a smaller shock, or run it "
-            "with lagrotor.simulate"
+            "turns_back: the shock is so near the threshold that the next order of the averaged motion decides: take a smaller "
+            "shock, or run it with lagrotor.simulate"
         )
     return time == inf
 

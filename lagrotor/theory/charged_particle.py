@@ -167,8 +167,8 @@ def guiding_centre(scene: Scene) -> GuidingCentre:
     swing = np.linalg.solve(at.mass, np.cross(velocity, at.field)) / at.rate**2
     if not np.linalg.norm(swing) <= LARGEST_SWING.value:
         raise DomainError(
-            f"guiding_centre: the pair swings by {np.linalg.norm(swing):.3g} rad, beyond {LARGEST_SWING.value:g}: it has no "
-            "centre near; take a smaller motion, or lagrotor.simulate"
+            f"guiding_centre: the pair swings by {np.linalg.norm(swing):.3g} rad, beyond {LARGEST_SWING.value:g}, so that "
+            "no guiding centre describes it; take a smaller motion, or lagrotor.simulate"
         )
     speed = float(at.direction @ velocity)
     action = (float(velocity @ at.mass @ velocity) - speed**2) / (2 * at.rate)

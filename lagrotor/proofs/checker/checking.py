@@ -170,8 +170,8 @@ def check_means(certificate: Any) -> None:
     demand(len(claims) > 0, "no mean is claimed")
     spans = [(read_ball(x["since"]), read_ball(x["until"])) for x in claims]
     for since, until in spans:
-        demand(bool(since >= 0 and since < until), "a span has no length")
-        demand(carried.time.contains(until) or carried.time >= until, "the steps end before a span does")
+        demand(bool(since >= 0 and since < until), "the interval of a mean has no length")
+        demand(carried.time.contains(until) or carried.time >= until, "the steps end before the interval of a mean")
     totals = [ZERO] * len(claims)
     for at, h, series in pieces_of(certificate, carried, claims):
         for i, (f, span) in enumerate(zip(series, spans, strict=True)):
@@ -204,7 +204,7 @@ def check_equilibrium(certificate: Any) -> None:
     demand(fits, "the claimed coordinates do not contain the equilibrium")
     claim = certificate["claim"]["stability"]
     kinds = ("stable", "asymptotically stable", "stable to first order", "unstable", "undecided")
-    demand(claim in kinds, "the stability is unknown")
+    demand(claim in kinds, "the claimed stability is unknown")
     if claim == "unstable":
         demand(any(z.real > 0 for z in linear(J, n).eig()), "no eigenvalue is proved to have a positive real part")
     elif claim == "asymptotically stable":

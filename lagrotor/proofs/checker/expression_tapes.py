@@ -48,7 +48,7 @@ class Words:
         if observed:
             tape, names = read_tape(observed), observed["names"]
             fits = tape["arguments"] == list(arguments) and len({*names} - {*arguments}) == len(tape["outputs"])
-            demand(fits, "the observables have other names")
+            demand(fits, "the names of the observables do not fit the motion")
             self.names |= dict(zip(names, self.include(tape), strict=True))
         plain = not any(re.search(r"^\d|[\s+*/().-]", name) or name in {"pi", *_FUNCTIONS} for name in self.names)
         demand(plain, "the name of a state or observable is an expression")

@@ -1,12 +1,14 @@
 """Reversals: f(S x) = −S f(x) for signs S of the states, decided on the tape of f.
 
-The identity is one of rational functions of variables: the arguments, π, and functions of them. sin, asin and atan are
-odd, sin² + cos² = 1, e^(a+b) = e^a e^b, and √a and e^(n log a) are powers of a. It is evaluated modulo a 512-bit prime at
-one point, both from a digest of the tape. The point makes every radicand a square, and both signs of up to four roots are
-tested; the roots of a tape with more are variables, of which less is known. A false identity holds there with a
-probability of at most its degree over the prime (Schwartz and Zippel), here below 2⁻²⁵⁰. A true one that needs more
-identities is rejected. The laws of roots and logarithms hold for positive arguments: at S x no argument may need to be
-positive that was not so at x, on the motion.
+The identity is treated as one of rational functions. Their variables are the arguments, π, and functions of these. The rules
+are: sin, asin and atan are odd, sin² + cos² = 1, e^(a+b) = e^a e^b, and √a and e^(n log a) are powers of a. The identity is
+evaluated modulo a 512-bit prime at one point; a digest of the tape determines both. Every radicand has a square root at this
+point, and both signs of up to four roots are tested. If a tape has more roots, they are variables, and fewer identities are
+recognized.
+
+A false identity holds at the point with a probability of at most its degree divided by the prime (Schwartz and Zippel), here
+below 2⁻²⁵⁰. A true identity that needs further rules is rejected. The laws of roots and logarithms hold for positive arguments.
+An argument that must be positive at S x must therefore also have to be positive at x, on the motion.
 """
 
 from collections.abc import Iterator, Mapping
@@ -49,7 +51,10 @@ def check_reversal(tape: Tape, signs: Any) -> None:
             stays = len(residues.domain) == followed
         demand(stays, "the reversed motion may leave the domain of its roots and logarithms")
         for s, a, b in zip(signs, rates, images, strict=True):
-            demand((s * a.value + b.value) % residues.p == 0, "the reversed motion is no motion")
+            demand(
+                (s * a.value + b.value) % residues.p == 0,
+                "the reversed motion does not satisfy the equations of motion",
+            )
 
 
 class NoSquareError(Exception):

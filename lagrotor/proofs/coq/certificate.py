@@ -5,7 +5,7 @@ both sides have a value are hypotheses. The conclusion is printed = derived; for
 hypotheses hold and the enclosure of the difference excludes zero. A line that holds has a second theorem, that its
 hypotheses hold at some point, since contradictory ones imply anything.
 
-The printed side is that of the catalogue, the derived side that of the script, both without substitution of premises.
+The printed side comes from the catalogue, the derived side from the script, both without substitution of premises.
 Premises and the values of a scene are equations among the hypotheses. A symbol that a premise scales, such as F in F =
 epsilon*F, is a new symbol on the right.
 """

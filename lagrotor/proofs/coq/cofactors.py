@@ -1,7 +1,7 @@
-"""Polynomials under equations: elimination of symbols, one fraction of a quotient, cofactors of a sum of vanishing
-polynomials.
+"""Polynomials under equations: symbols are eliminated, a quotient becomes one fraction, and cofactors are found.
 
-Buchberger's algorithm finds the cofactors q_i of p = sum q_i zero_i + rest; each member of its basis carries its own.
+Buchberger's algorithm finds the cofactors q_i of p = sum q_i zero_i + rest, where the zero_i vanish. Each member of the basis
+carries its own cofactors.
 """
 
 from collections.abc import Sequence

@@ -1,12 +1,12 @@
-"""The proof that two sides are equal, as steps that Coq checks: each side in generators, their numerator as cofactors times
-relations.
+"""The proof that two sides are equal, as steps that Coq checks.
 
-A generator is a symbol, the cosine and the sine of a base angle, an exponential, a root, or an uninterpreted function. The
-addition theorems write every function in them (`atom_n`); every denominator is factored (`whole_n`), and each factor gets a
-symbol (`factor_n`, `sum_n`). The two sides times a monomial then differ by a polynomial, the sum of q_i times relation_i:
-sin^2 + cos^2 - 1, root^2 - radicand, factor - polynomial. Division finds the q_i, since the leading terms of the relations
-have no symbol in common; Coq checks them by `ring`. A premise with a symbol alone on one side is substituted; the
-numerators of other premises, a^2 + b^2 = 1, are relations too (`ideal_n`), with `cofactors`.
+Both sides are written in generators, and the numerator of their difference as a sum of cofactors times relations. A generator
+is a symbol, the cosine and the sine of a base angle, an exponential, a root, or an uninterpreted function. The addition
+theorems express every function in generators (`atom_n`). Every denominator is factored (`whole_n`), and each factor gets a
+symbol (`factor_n`, `sum_n`). The two sides times a monomial then differ by a polynomial, the sum of q_i times relation_i. The
+relations are sin^2 + cos^2 - 1, root^2 - radicand, and factor - polynomial. Division finds the q_i, since the leading terms of
+the relations have no symbol in common; Coq checks them by `ring`. A premise with a symbol alone on one side is substituted. The
+numerators of other premises, such as a^2 + b^2 = 1, are further relations (`ideal_n`), for which `cofactors` finds the q_i.
 """
 
 import re
@@ -440,7 +440,7 @@ class Sides:
         return {base: (self._generators["cos", base], self._generators["sin", base]) for base in vanishing}
 
     def roots(self) -> list[tuple[sp.Symbol, sp.Expr]]:
-        """Return the pairs (root, square); for the root of a quotient, of root times denominator."""
+        """Return (generator, square) for each root; for a quotient the generator is the root times the denominator."""
         keys = (key for key in self._generators if isinstance(key, tuple) and key[0] == "root")
         return [(self._generators[key], sp.expand(key[1] * _under(key[1]) ** 2)) for key in keys]
 

@@ -93,7 +93,7 @@ def value_at_point(expression: sp.Expr, point: Mapping[sp.Symbol, sp.Expr]) -> A
 
 
 def rational_bounds(value: Any) -> tuple[sp.Rational, sp.Rational]:
-    """Return rationals with few digits below and above a value, both of its sign."""
+    """Return two rationals with few digits, one below and one above a value, both with the sign of the value."""
     step = sp.Integer(10) ** (floor(log10(abs(float(value)))) - 2)
     low = step * (int(mp.floor(value / (mp.mpf(step.p) / step.q))) - 1)
     return low, low + 3 * step

@@ -344,10 +344,10 @@ def periodic_orbit(
         the fixed set of the first row. The orbit reaches the fixed set of the second after a quarter of a period; with one row,
         it reaches the same fixed set after half a period.
     integrals : int, default 1
-        The number of integrals with the energy. Each makes two multipliers equal to 1.
+        The number of integrals of motion, including the energy. Each makes two multipliers equal to 1.
     fixed : sequence, default ()
-        States that keep their value, by symbol or name. Each parameter of a family of orbits fixes one state; without names,
-        the first ones that the reversal leaves free.
+        Symbols or names of states that keep their value. Each parameter of a family of orbits requires one such state. By default
+        they are the first states that the reversal leaves free.
     tol : float, default 1e-20
         Local error of a step, relative to the size of the state.
 
@@ -415,7 +415,7 @@ def _problem_of(field: Field, first: Signs, last: Signs, fixed: tuple[int, ...])
     spare = len(free) + 1 - len(conditions)
     if spare < 0 or len(fixed) > spare or any(i not in free for i in fixed):
         raise InputError(
-            f"periodic_orbit: {len(free)} free states and the period for {len(conditions)} conditions: fix "
+            f"periodic_orbit: {len(free)} free states and the period must satisfy {len(conditions)} conditions: fix "
             f"{max(spare, 0)} states that the reversal leaves free"
         )
     chosen = [*fixed, *(i for i in free if i not in fixed)][:spare]

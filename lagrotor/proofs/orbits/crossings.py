@@ -192,8 +192,8 @@ def crossing(
     v0 : sequence, optional
         Initial velocities, each a number or a pair.
     event : sympy.Expr or sympy.Eq
-        The expression, or Eq(name, expression). That of a Scene may contain x_1 … z_2 of the axes and their rates, that of a
-        Structure x_0, y_0, z_0, ….
+        The expression of the states, or Eq(name, expression). For a Scene it may contain the components x_1 … z_2 of the axes and
+        their rates, for a Structure the components x_0, y_0, z_0, ….
     t_end : number
         The time in s before which the crossing is sought.
     tol : float, default 1e-17
@@ -262,7 +262,7 @@ def no_crossing(
     v0 : sequence, optional
         Initial velocities, each a number or a pair.
     event : sympy.Expr or sympy.Eq
-        The expression, or Eq(name, expression), as `crossing` takes it.
+        The expression of the states, or Eq(name, expression).
     t_end : number
         End of the interval in s.
     tol : float, default 1e-17
@@ -278,7 +278,7 @@ def no_crossing(
     InputError
         If an argument does not fit the system.
     NotProved
-        If a zero is not excluded. The message says up to which time it is.
+        If a zero is not excluded. The message gives the time up to which it is excluded.
 
     Examples
     --------
@@ -341,7 +341,7 @@ def means(
     v0 : sequence, optional
         Initial velocities, each a number or a pair.
     spans : sequence of (expression, t₁, t₂), default ()
-        The expressions, as `crossing` takes them, and their intervals of time in s.
+        Each row has an expression of the states, or Eq(name, expression), and the two ends of the interval in s.
     tol : float, default 1e-17
         Local error of a step, relative to the size of the state.
 
