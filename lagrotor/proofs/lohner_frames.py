@@ -4,8 +4,9 @@ A node contains every x(t) that starts in x_0 + w:
 
     m + Q s + V w,   V in C + Q S.
 
-m, Q, C are exact, s and S are balls. m + Q s encloses the motion of the middle x_0. V is the derivative with respect
-to w over the whole set; by the mean-value theorem the node contains the motions. A step maps m to y and has the derivative D over the set:
+m, Q, C are exact, s and S are balls. m + Q s encloses the motion of the middle x_0. V is the derivative with respect to w over
+the whole set; by the mean-value theorem the node contains the motions. A step maps m to y and has the derivative D over the
+set:
 
     m₁ + Q₁ s₁ ∋ y + D Q s,   C₁ + Q₁ S₁ ∋ D (C + Q S).
 

@@ -1,9 +1,10 @@
 """The order to which two sides agree in a small quantity.
 
-Their difference is a power of the small quantity times a factor that is finite at zero. Near zero cos b = 1 - u sin(b)^2 with u = 1/(1 + cos b). A root y of R with the value y_0 at zero is y = y_0 + (R - y_0^2) w
-with w = 1/(y + y_0). Terms of too low an order that contain u or w are expanded by u = 1/2 + u^2 sin(b)^2/2 and w = 1/(2
-y_0) - (R - y_0^2) w^2/(2 y_0). These identities give a polynomial; its terms of low order must vanish. The others are
-written in cosines and roots again, so that Coq checks an exact identity.
+Their difference is a power of the small quantity times a factor that is finite at zero. Near zero cos b = 1 - u sin(b)^2 with u
+= 1/(1 + cos b). A root y of R with the value y_0 at zero is y = y_0 + (R - y_0^2) w with w = 1/(y + y_0). Terms of too low an
+order that contain u or w are expanded by u = 1/2 + u^2 sin(b)^2/2 and w = 1/(2 y_0) - (R - y_0^2) w^2/(2 y_0). These identities
+give a polynomial; its terms of low order must vanish. The others are written in cosines and roots again, so that Coq checks an
+exact identity.
 """
 
 from dataclasses import dataclass
