@@ -18,7 +18,10 @@ _MOST_CONDITIONS, _MOST_SIGNS = 8, 3
 def branch_of_zero(
     expression: sp.Expr, where: Region, missing: tuple[sp.Basic, ...]
 ) -> tuple[tuple[sp.Basic, ...], Proof]:
-    """Return a minimal set of inequalities that prove the expression to be zero, and the proof; (), Proof(None) without one."""
+    """Return a minimal set of inequalities under which the expression is proved to be zero, and that proof.
+
+    If no such set is found, the result is (), Proof(None).
+    """
     natural = conditions(expression)
     if sp.false in natural:
         return (), Proof(None)
@@ -40,7 +43,7 @@ def branch_of_zero(
 
 
 def _candidates(natural: tuple[sp.Basic, ...], missing: tuple[sp.Basic, ...]) -> Iterator[tuple[sp.Basic, ...]]:
-    """Yield sets of inequalities under which a proof is tried, those with strict inequalities after the others.
+    """Yield sets of inequalities under which a proof is tried, each followed by the same set with strict inequalities.
 
     The first set is `natural`, the conditions for a real value. The next ones add some of the inequalities in `missing`, in
     either direction.
@@ -83,7 +86,10 @@ def _fewest(
 
 
 def _proof(expression: sp.Expr, where: Region, chosen: tuple[sp.Basic, ...]) -> Proof:
-    """Return a proof of zero under the chosen inequalities; Proof(None) without one, or if no point of their region is known."""
+    """Return a proof of zero in the region with the chosen inequalities.
+
+    The result is Proof(None) if no proof is found, if a counterexample is known, or if no point of that region is known.
+    """
     inside = where.with_(*chosen)
     witness, enclosed = find_witness(expression, inside)
     if witness is not None or not enclosed:

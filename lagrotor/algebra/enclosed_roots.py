@@ -22,7 +22,10 @@ Box = dict[sp.Symbol, Bounds]
 
 
 def enclosed_root(equations: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol], point: Point) -> Box | None:
-    """Return a narrow box with a proved root, found from `point`, where the other symbols stay fixed; None without proof."""
+    """Search for a root near a point, and return a narrow box that is proved to contain one root; None if the proof fails.
+
+    Symbols other than the unknowns keep the values that `point` gives them.
+    """
     others = {s: value for s, value in point.items() if s not in unknowns}
     functions = [e.xreplace(others) for e in equations]
     slopes = [[derivative(f, s) for s in unknowns] for f in functions]

@@ -213,7 +213,10 @@ class PointEnclosure:
         return total
 
     def _jet(self, kind: Any, arguments: tuple[sp.Expr, ...]) -> sp.Rational:
-        """Return the value chosen for an undefined function: the same at arguments that may be equal, a new one at all others."""
+        """Return the value chosen for an undefined function or derivative `kind` at some arguments.
+
+        Arguments that may be equal get the same value, all other arguments a new one.
+        """
         at = tuple(map(self.of, arguments))
         for earlier, places, value in self.free:
             if earlier == kind and not any(excludes_zero(x - y) for x, y in zip(at, places, strict=True)):
@@ -381,10 +384,7 @@ _FUNCTIONS: dict[Any, Any] = {
 
 
 def _eliminated(rows: list[list[Any]]) -> list[Any]:
-    """Return the solution x of A x = b by elimination; `rows` are the rows of the augmented matrix [A
-
-    b].
-    """
+    """Return the solution x of A x = b by elimination; each row has the entries of a row of A, then the entry of b."""
     n = len(rows)
     for j in range(n):
         pivot = max(range(j, n), key=lambda i: abs(rows[i][j].mid))

@@ -217,7 +217,10 @@ def _by_a_point(expression: sp.Expr, where: Region, exact: Decision) -> Decision
 
 
 def _by_analysis(expression: sp.Expr, where: Region, exact: Decision) -> Decision:
-    """Decide by a counterexample or a proof; else search for a branch with a proof. `exact` is the decision before that."""
+    """Decide by a counterexample or by a proof; otherwise search for a branch on which a proof holds.
+
+    `exact` is the decision that the exact procedure reached before.
+    """
     plain, proof, reason = evaluated(expression, where), Proof(None), exact.reason
     witness, enclosed = find_witness(plain, where)
     branched = (n for n in plain.atoms(*BRANCHED, sp.Pow) if not (n.is_Pow and n.exp.is_integer))

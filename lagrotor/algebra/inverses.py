@@ -33,7 +33,10 @@ def argument(function: Any, value: sp.Expr) -> Conditioned:
 
 
 def solved_for(kernel: sp.Expr, symbol: sp.Symbol, value: sp.Expr, where: Region) -> Conditioned | None:
-    """Solve kernel = value for the symbol; return (solution, conditions), or None if it is not unique or not known."""
+    """Solve kernel = value for the symbol, and return the solution with its conditions.
+
+    The result is None if the region admits several solutions, or if no inverse of the kernel is known.
+    """
     if not is_real(symbol, where) or not is_real(value, where):
         return None
     if kernel.is_Pow and kernel.base == symbol and kernel.exp.is_Rational:

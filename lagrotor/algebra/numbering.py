@@ -92,7 +92,7 @@ def without_number(e: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
 def _refined(
     colors: dict[sp.Symbol, int], nodes: Sequence[sp.Basic], expressions: Sequence[sp.Basic]
 ) -> dict[sp.Symbol, int]:
-    """Refine the colors of the symbols by the positions of the symbols, until no further color appears."""
+    """Refine the colors by the positions at which the symbols occur, until the number of different colors stays the same."""
     while len(set(colors.values())) < len(colors):
         inside = _shapes(nodes, colors)
         places: dict[sp.Basic, list[int]] = {e: [] for e in nodes}

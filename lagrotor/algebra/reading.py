@@ -54,7 +54,10 @@ class Roots(NamedTuple):
         return sp.Mul(*map(self.ring.expression, over)) / self.ring.expression(root.denominator)
 
     def known_sign(self, root: Dependent) -> int | None:
-        """Return the sign of a dependent root, such as 1 in sqrt(a)*sqrt(b) = sqrt(a*b) for a >= 0; None if it is unknown."""
+        """Return the sign of a dependent root if the symbols' assumptions decide it, and None otherwise.
+
+        For example, sqrt(a)*sqrt(b) = sqrt(a*b) if a >= 0 or b >= 0.
+        """
         if not root.numerator:
             return 1
         if not any(base.free_symbols for base in (root.base, *(member.base for member in root.of))):

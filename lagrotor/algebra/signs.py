@@ -101,7 +101,10 @@ class _Signs:
         self.circles = 0
 
     def of(self, e: sp.Expr) -> Signs | None:
-        """Return the possible signs of e; None if it may not be real. Results of circular questions are not cached."""
+        """Return the possible signs of e; None if e is not known to be real.
+
+        A result that rests on an unfinished question is not cached, so that the order of the questions does not matter.
+        """
         if e in self.known:
             return self.known[e]
         if e in self.open:
@@ -189,7 +192,11 @@ class _Signs:
 
     @cached_property
     def products(self) -> list[tuple[int, frozenset[sp.Expr], frozenset[sp.Expr], bool]]:
-        """The inequalities of the region, each as (sign of the number, odd-power factors, even-power factors, True if strict)."""
+        """The inequalities of the region in factored form.
+
+        Each is a tuple: the sign of the number, the factors of odd powers, the factors of even positive powers, and True if the
+        inequality is strict.
+        """
         return [(*_factored(sp.factor(e)), strict) for e, strict in self.where.above if len(e.args) <= _FACTORED]
 
     def _function(self, e: sp.Expr) -> Signs | None:
@@ -336,7 +343,10 @@ class _Signs:
 
 
 def _ends(fact: tuple[sp.Expr, bool]) -> Iterator[tuple[sp.Expr, bool]]:
-    """Yield (x − a, strict) and (b − x, strict) for an inequality (x − a)(b − x) > 0 or ≥ 0 in one symbol, rational a < b."""
+    """Split an inequality (x − a)(b − x) > 0 or ≥ 0 in one symbol, with rational a < b, into two linear ones.
+
+    Yield (x − a, strict) and (b − x, strict), and nothing for any other inequality.
+    """
     e, strict = fact
     polynomial = e.as_poly() if len(e.free_symbols) == 1 and e.is_polynomial() else None
     if not polynomial or polynomial.is_multivariate or not (polynomial.domain.is_ZZ or polynomial.domain.is_QQ):

@@ -13,7 +13,11 @@ _MOST_TERMS = 40  # of an expanded sum
 
 
 def expand_sum(e: sp.Sum) -> sp.Expr | None:
-    """Expand a sum between integers, take out constant factors, or write Σ to n + 2 as Σ to n and two terms; else None."""
+    """Rewrite a sum by one of three rules, and return None if none applies.
+
+    A sum between integers is expanded. Constant factors are taken out of a sum. A sum to n + 2 becomes a sum to n and two
+    terms.
+    """
     body, (i, low, high), *others = e.args
     if others:
         return None

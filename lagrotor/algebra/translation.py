@@ -270,7 +270,10 @@ class Translation:
         return result
 
     def _without_squares(self, base: sp.Expr, r: sp.Rational, meaning: sp.Expr) -> sp.Expr:
-        """Return base**r for a base of any sign: (a b)**r = a**r b**r for squares a > 0, with first powers only in b."""
+        """Return base**r for a base of any sign, after positive squares have been extracted.
+
+        The rule is (a b)**r = a**r b**r for a square a > 0; only first powers remain in b.
+        """
         content, factors = self.factors(base)
         result, remainder = self._number_power(abs(content), r), sp.sign(content)
         for p, k in factors:
