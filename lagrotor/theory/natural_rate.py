@@ -158,8 +158,8 @@ def natural_rate_limits(scene: Scene) -> dict[str, RateLimit]:
     """Return the natural rate in four limits near a scene with a bar: equal, opposite, massless, dumbbell.
 
     In "equal" and "opposite" both momenta have the root mean square G of the scene's momenta; the rates are G/(a + b) and
-    G/√(a² − b²). In "massless" the bar has no mass: a = J, b = 0. In "dumbbell" the bar's mass is at its ends: K = m ell²/4, b
-    = 0, a = J + m R²/2. Raises InputError without a bar.
+    G/√(a² − b²). In "massless" the bar has no mass: a = J, b = 0. In "dumbbell" the bar's mass is at its ends: K = m ell²/4,
+    b = 0, a = J + m R²/2. Raises InputError without a bar.
     """
     if scene.link is None:
         raise InputError("natural_rate_limits: the scene has no bar, which all four limits need: add a Link")

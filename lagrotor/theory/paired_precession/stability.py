@@ -162,7 +162,10 @@ def elliptic_edge() -> ClosedForm:
 
 
 def _edge_error(shape: float, ratio: float) -> float:
-    """Return the error of the law: its distance from the root of A through r_0^12, plus twice the last change of the root."""
+    """Return the error of the law for the edge; inf if the root of A has not converged.
+
+    It is the distance of the law from the root of A through r_0^12, plus twice the larger of the last two changes of this root.
+    """
     series = paired_series(1, *map(sp.Rational, (shape, ratio)))
     A = _numbers(series, 12)[0]
     roots = [_least_root(A[2 : order + 1 : 2]) for order in (8, 10, 12)]
