@@ -137,7 +137,7 @@ def slow_motion(scene: Scene) -> SlowMotion:
     Raises
     ------
     InputError
-        Unless opposite spins with a bar and a shock start at rest upright.
+        Unless the spins are opposite, and the pair, with a bar and a shock, starts at rest and upright.
     DomainError
         Where |eta| + s > 0.4.
 
@@ -190,7 +190,7 @@ def time_to_reach(scene: Scene, x: float) -> float:
     Raises
     ------
     InputError
-        Unless opposite spins with a bar and a shock start at rest upright.
+        Unless the spins are opposite, and the pair, with a bar and a shock, starts at rest and upright.
     DomainError
         Unless 0 < x < 1; for |eta| + s > 0.4; for a twist above 30 degrees, sin chi = (|eta| + s)/(k sqrt(1 − x²)); and where
         `turns_back` cannot decide.
@@ -238,7 +238,7 @@ def turns_back(scene: Scene) -> bool:
     Raises
     ------
     InputError
-        Unless opposite spins with a bar and a shock start at rest upright.
+        Unless the spins are opposite, and the pair, with a bar and a shock, starts at rest and upright.
     DomainError
         For |eta| + s > 0.4; for a twist above 30 degrees; and if twice the next order could change the answer.
 

@@ -124,7 +124,7 @@ class ClosedForm:
         Raises
         ------
         InputError
-            For a wrong number of arguments, and for a series without a known bound.
+            If the number of arguments is wrong, or if no bound is known for the series.
         DomainError
             Outside the domain, and where the series does not converge.
         """

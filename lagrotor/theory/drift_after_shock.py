@@ -156,7 +156,7 @@ def toppling_after_shock(scene: Scene) -> float:
     Raises
     ------
     InputError
-        Unless opposite spins with a bar and a shock start at rest upright.
+        Unless the spins are opposite, and the pair, with a bar and a shock, starts at rest and upright.
 
     References
     ----------
@@ -189,7 +189,7 @@ def wander_after_shock(scene: Scene) -> float:
     Raises
     ------
     InputError
-        Unless opposite spins with a bar and a shock start at rest upright.
+        Unless the spins are opposite, and the pair, with a bar and a shock, starts at rest and upright.
 
     References
     ----------
@@ -226,7 +226,7 @@ def cancelling_force(scene: Scene) -> float:
     Raises
     ------
     InputError
-        Unless opposite spins with a bar and a shock start at rest upright.
+        Unless the spins are opposite, and the pair, with a bar and a shock, starts at rest and upright.
     DomainError
         If no force along y cancels the rotation.
 

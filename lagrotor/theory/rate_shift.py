@@ -37,7 +37,7 @@ def twist_coefficient(sigma: Any, share: Any) -> Any:
 
 
 def opposite_share(scene: Scene) -> float:
-    """Return `share`, 1 for opposite and 0 for equal spins. Raises InputError without a bar, and without any spin."""
+    """Return `share`, 1 for opposite and 0 for equal spins. Raises InputError without a bar, or if neither rotor spins."""
     if not isinstance(scene, Scene) or scene.link is None or scene.spins == (0, 0):
         raise InputError(f"the shift of the natural rate: {scene!r} needs a bar and a spin")
     first, second = scene.momenta
@@ -61,7 +61,7 @@ def frequency_shift(scene: Scene) -> float:
     Raises
     ------
     InputError
-        Without a bar, and without any spin.
+        If the scene has no bar, or if neither rotor spins.
 
     References
     ----------
@@ -96,7 +96,7 @@ def azimuth_drift(scene: Scene) -> float:
     Raises
     ------
     InputError
-        Without a bar, and without any spin.
+        If the scene has no bar, or if neither rotor spins.
 
     References
     ----------

@@ -146,7 +146,7 @@ def shock_response(scene: Scene) -> ShockResponse:
     Raises
     ------
     InputError
-        Without a shock or a bar, when the pair is not at rest upright, or when the pulse began before t = 0.
+        If there is no shock or no bar, if the pair is not at rest and upright, or if the pulse began before t = 0.
 
     References
     ----------

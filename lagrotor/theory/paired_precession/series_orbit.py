@@ -166,7 +166,7 @@ def series_orbit(scene: Scene, r0: float, order: int) -> PrecessionOrbit:
     InputError
         Unless the spins are opposite, there is a bar, and order is at least 1.
     DomainError
-        Unless |r0| < 1, and if the terms of the series do not decrease.
+        Unless |r0| < 1, or if the terms of the series do not decrease.
 
     References
     ----------
