@@ -38,7 +38,7 @@ def is_zero(number: sp.Expr) -> bool | None:
 
 
 class _Bound:
-    """Base-2 logarithms of u and l of every subexpression, and the degree of the field."""
+    """The bounds u and l of the module's text for each subexpression, as base-2 logarithms, and the degree D of the field."""
 
     def __init__(self) -> None:
         self.roots: dict[sp.Expr, int] = {}
@@ -48,7 +48,7 @@ class _Bound:
     def degree(self) -> int:
         degree = prod(self.roots.values()) * int(sp.totient(self.turns))
         if degree > _MOST_BITS:
-            raise NotExactError("The degree is too large.")
+            raise NotExactError("The degree of the number field is too large.")
         return degree
 
     def of(self, e: sp.Expr) -> tuple[float, float]:

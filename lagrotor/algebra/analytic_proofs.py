@@ -1,4 +1,7 @@
-"""Proofs that an expression is zero in a region: by evaluation, translation, induction on n, squares, or derivatives."""
+"""Proofs that an expression is zero in a region.
+
+The methods are evaluation, translation, induction on n, comparison of squares, and zero derivatives.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +26,11 @@ _MOST_ROUNDS = 6
 
 @dataclass(frozen=True)
 class Proof:
-    """A proof of zero: the method (None: no proof), divisors that must not vanish, and inequalities that might complete it."""
+    """The result of an attempt to prove that an expression is zero.
+
+    `how` names the method; it is None if the attempt failed. The proof holds where no expression in `divisors` vanishes. A
+    failed attempt might succeed under the inequalities in `missing`.
+    """
 
     how: str | None
     divisors: tuple[sp.Expr, ...] = ()
@@ -31,7 +38,7 @@ class Proof:
 
 
 def evaluated(e: sp.Expr, where: Region = Region()) -> sp.Expr:  # noqa: B008
-    """Evaluate derivatives, finite sums, and the integrals whose closed form is proved."""
+    """Evaluate the derivatives and finite sums in an expression, and those integrals whose closed form is proved."""
     for _ in range(_MOST_ROUNDS):
         previous = e
         e = e.replace(lambda n: isinstance(n, sp.Derivative) and jet_of(n) is None, _differentiated)
@@ -73,7 +80,7 @@ def _integral(e: sp.Integral, where: Region) -> sp.Expr:
 
 
 def proof_of_zero(expression: sp.Expr, where: Region) -> Proof:
-    """Prove zero by translation, by induction on the upper limit of a sum, by squares, or by derivatives."""
+    """Try to prove that an expression is zero by translation, induction on the upper limit of a sum, squares, or derivatives."""
     divisors: tuple[sp.Expr, ...] = ()
     missing: tuple[sp.Basic, ...] = ()
     try:
@@ -102,7 +109,7 @@ def proof_of_zero(expression: sp.Expr, where: Region) -> Proof:
 
 
 def _is_difference_of_squares(expression: sp.Expr, where: Region) -> bool:
-    """Return True for a − b with both positive and a² = b²."""
+    """Return True if the expression is a difference a − b of positive terms with a² = b², and is therefore zero."""
     terms = sp.Add.make_args(expression)
     sides = [sp.Add(*(sign * term for term in terms if is_positive(sign * term, where))) for sign in (1, -1)]
     if not expression.has(sp.Pow) or 0 in sides or sides[0] - sides[1] != expression:
@@ -118,13 +125,16 @@ def _vanishes(expression: sp.Expr, where: Region) -> bool:
 
 
 def _cases(expression: sp.Expr, where: Region) -> Iterator[tuple[sp.Expr, Region]]:
-    """Yield the expression for each residue class of the integers in its signs (−1)**n and angles n π r."""
+    """Yield (expression, region) for each residue class of the integer symbols n in signs (−1)**n and angles n π r.
+
+    In each case n is replaced by period * m + residue with a new integer m, so that the signs and angles have fixed values.
+    """
     periods: dict[sp.Symbol, int] = {}
     for node in sp.preorder_traversal(expression):
         for symbol, period in _periods(node):
             periods[symbol] = lcm(periods.get(symbol, 1), period)
     if prod(periods.values()) > _MOST_CASES:
-        raise NotExactError(f"There are more than {_MOST_CASES} cases of whole numbers.")
+        raise NotExactError(f"The integer symbols give more than {_MOST_CASES} cases.")
     for residues in product(*(range(period) for period in periods.values())):
         replacements = {}
         for (symbol, period), residue in zip(periods.items(), residues, strict=True):
@@ -135,7 +145,7 @@ def _cases(expression: sp.Expr, where: Region) -> Iterator[tuple[sp.Expr, Region
 
 
 def _periods(node: sp.Expr) -> Iterator[tuple[sp.Symbol, int]]:
-    """Yield the integer symbols in a power of a root of unity or in an angle n π r, with their period."""
+    """Yield (n, period) for each integer symbol n on which a sign (−1)**n, a power i**n or an angle n π r depends."""
     if (node.is_Pow and node.base in (sp.S.NegativeOne, sp.I)) or (node.is_Pow and node.base.is_negative):
         turn = sp.expand(node.exp * (sp.Rational(1, 2) if node.base is sp.I else 1)) / 2
     elif isinstance(node, sp.sin | sp.cos | sp.tan | sp.cot | sp.sec | sp.csc):

@@ -1,4 +1,4 @@
-"""The branch on which an expression vanishes: the fewest of the inequalities that a proof of zero needs."""
+"""The branch on which an expression vanishes: a minimal set of inequalities under which it is proved to be zero."""
 
 from __future__ import annotations
 
@@ -18,7 +18,10 @@ _MOST_CONDITIONS, _MOST_SIGNS = 8, 3
 def branch_of_zero(
     expression: sp.Expr, where: Region, missing: tuple[sp.Basic, ...]
 ) -> tuple[tuple[sp.Basic, ...], Proof]:
-    """Return inequalities, none superfluous, under which zero is proved, with the proof; none if none are known."""
+    """Return a minimal set of inequalities under which the expression is proved to be zero, and that proof.
+
+    If no such set is found, the result is (), Proof(None).
+    """
     natural = conditions(expression)
     if sp.false in natural:
         return (), Proof(None)
@@ -40,7 +43,11 @@ def branch_of_zero(
 
 
 def _candidates(natural: tuple[sp.Basic, ...], missing: tuple[sp.Basic, ...]) -> Iterator[tuple[sp.Basic, ...]]:
-    """Yield sets of conditions: those of a real value, then with missing inequalities of either sign; open regions last."""
+    """Yield sets of inequalities under which a proof is tried, each followed by the same set with strict inequalities.
+
+    The first set is `natural`, the conditions for a real value. The next ones add some of the inequalities in `missing`, in
+    either direction.
+    """
     if sp.false in natural:  # it has no real value
         return
     missing = tuple(relation for relation in missing if relation not in (sp.true, sp.false))
@@ -79,7 +86,10 @@ def _fewest(
 
 
 def _proof(expression: sp.Expr, where: Region, chosen: tuple[sp.Basic, ...]) -> Proof:
-    """Return a proof in the smaller region if the region has a known point and no counterexample."""
+    """Return a proof of zero in the region with the chosen inequalities.
+
+    The result is Proof(None) if no proof is found, if a counterexample is known, or if no point of that region is known.
+    """
     inside = where.with_(*chosen)
     witness, enclosed = find_witness(expression, inside)
     if witness is not None or not enclosed:
@@ -91,7 +101,7 @@ def _proof(expression: sp.Expr, where: Region, chosen: tuple[sp.Basic, ...]) -> 
 
 
 def simplify_conditions(relations: tuple[sp.Basic, ...], where: Region) -> tuple[sp.Basic, ...]:
-    """Return the inequalities that do not already hold in the region, in their simplest form."""
+    """Return, in their simplest form, those inequalities that do not already hold in the region."""
     inequalities: dict[sp.Basic, None] = {}
     for relation in relations:
         if relation is sp.true or relation is sp.false:
@@ -105,14 +115,14 @@ def simplify_conditions(relations: tuple[sp.Basic, ...], where: Region) -> tuple
 
 
 def sided(e: sp.Expr, strict: bool) -> sp.Basic:
-    """Return e > 0 or e ≥ 0 with a positive leading sign: x ≤ 0 for −x ≥ 0."""
+    """Return the inequality e > 0 (if `strict`) or e ≥ 0. If e has a leading minus sign, write it as −e < 0 or −e ≤ 0."""
     if e.could_extract_minus_sign():
         return sp.Lt(-e, 0) if strict else sp.Le(-e, 0)
     return sp.Gt(e, 0) if strict else sp.Ge(e, 0)
 
 
 def _reduced_factors(e: sp.Expr, where: Region) -> list[sp.Expr]:
-    """Return the product of the factors of e that are not known to be positive."""
+    """Return a list with one entry: e without factors that are positive, and without even powers if others remain."""
     content, factors = sp.factor(e).as_coeff_mul()
     factors = [_exponent(f) for f in factors if not is_positive(f, where)]
     odd = [f for f in factors if not (f.is_Pow and f.exp.is_Integer and f.exp % 2 == 0)]
@@ -121,5 +131,5 @@ def _reduced_factors(e: sp.Expr, where: Region) -> list[sp.Expr]:
 
 
 def _exponent(f: sp.Expr) -> sp.Expr:
-    """Return u for exp(u) − 1, which has the sign of u."""
+    """Return u if f is exp(u) − 1, which has the same sign as u; return f otherwise."""
     return (f + 1).args[0] if isinstance(f + 1, sp.exp) else f

@@ -39,7 +39,7 @@ def is_continuous(e: sp.Expr, where: Region, symbols: frozenset[sp.Symbol]) -> b
 
 
 def _is_function_continuous(e: sp.Expr, u: sp.Expr, where: Region) -> bool:
-    """Return True for a function with singular points or a branch cut if it is continuous at a continuous argument u."""
+    """Return True if a function with singular points or a branch cut is continuous at the continuous argument u."""
     if isinstance(e, sp.log):
         return is_positive(u, where) or is_positive(sp.re(u), where)
     if isinstance(e, _REAL):
@@ -81,7 +81,10 @@ def _holds_origin(e: sp.Expr) -> bool:
 
 
 def is_constant_zero(expression: sp.Expr, where: Region, vanishes: Callable[[sp.Expr, Region], bool]) -> bool:
-    """Return True if continuity, zero derivatives and a zero value at one point prove zero in the region."""
+    """Return True if an expression is proved to be zero by continuity, zero derivatives and one zero value.
+
+    The region must be connected. `vanishes` decides whether an expression is zero in a region.
+    """
     symbols = sorted(expression.free_symbols, key=sp.default_sort_key)
     if len(symbols) > _MOST_SYMBOLS or any(symbol.is_integer or not is_real(symbol, where) for symbol in symbols):
         return False
@@ -113,7 +116,10 @@ def _is_zero(value: sp.Expr, vanishes: Callable[[sp.Expr, Region], bool]) -> boo
 
 
 def is_small_angle(expression: sp.Expr, vanishes: Callable[[sp.Expr, Region], bool]) -> bool:
-    """Return True if a sum of arcs is zero: a multiple of it has the sine 0 and an absolute value below 3."""
+    """Return True if a sum of asin, acos and atan of numbers is proved to be zero.
+
+    The proof: an integer multiple of the sum has the sine 0 and an absolute value below 3, which is less than π.
+    """
     if expression.free_symbols or not expression.has(sp.asin, sp.acos, sp.atan):
         return False
     rates = [term.as_coeff_Mul()[0] for term in sp.Add.make_args(sp.expand(expression))]

@@ -19,7 +19,7 @@ def derivative(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
     Parameters
     ----------
     expression : Expr
-        The expression e. A product f δ(g) in its derivative is zero if f vanishes with g.
+        The expression e. A product f δ(g) in the derivative counts as zero if f is zero wherever g is.
     symbol : Symbol
         The symbol s.
 
@@ -40,7 +40,7 @@ def derivative(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
 
 
 def along(expression: sp.Expr, symbols: Iterable[sp.Symbol], rates: Iterable[sp.Expr]) -> sp.Expr:
-    """Return the derivative along a vector field, Σ r ∂e/∂s.
+    """Return the rate of change of an expression along a vector field: Σ r ∂e/∂s over the symbols s with rates r.
 
     Parameters
     ----------
@@ -119,7 +119,7 @@ def _derivative(e: sp.Expr, s: sp.Symbol, slopes_of: dict[sp.Expr, sp.Expr]) -> 
 
 
 def _vanishes(product: sp.Expr) -> bool:
-    """Return True for f δ(g) if f is zero wherever g is, as in x δ(x)."""
+    """Return True for a product f δ(g) in which f is zero wherever g is zero, as in x δ(x)."""
     for delta in product.args if product.is_Mul else ():
         if isinstance(delta, sp.DiracDelta) and len(delta.args) == 1:
             f, g = product / delta, delta.args[0]

@@ -24,7 +24,10 @@ Box = dict[sp.Symbol, Bounds]
 
 
 def enclosed_root(equations: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol], point: Point) -> Box | None:
-    """Return a narrow box with a root, found from `point`, which also fixes the other symbols; None without proof."""
+    """Search for a root near a point, and return a narrow box that is proved to contain one root; None if the proof fails.
+
+    Symbols other than the unknowns keep the values that `point` gives them.
+    """
     others = {s: value for s, value in point.items() if s not in unknowns}
     functions = [e.xreplace(others) for e in equations]
     slopes = [[derivative(f, s) for s in unknowns] for f in functions]
@@ -45,7 +48,7 @@ def enclosed_root(equations: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol], p
 
 
 def _image(values: Sequence[Bounds], spread: Sequence[Sequence[Bounds]], Y: sp.Matrix, x: Point, X: Box) -> Box:
-    """Return K(X) from F(x), F'(X), Y and x."""
+    """Return the Krawczyk image K(X) of a box X, from enclosures of F(x) and F'(X), the matrix Y and the centre x of X."""
     K: Box = {}
     for i, s in enumerate(X):
         correction = _sum(_times((Y[i, j], Y[i, j]), v) for j, v in enumerate(values))
@@ -61,7 +64,7 @@ def _image(values: Sequence[Bounds], spread: Sequence[Sequence[Bounds]], Y: sp.M
 def _near(
     functions: Sequence[sp.Expr], slopes: Sequence[Sequence[sp.Expr]], unknowns: Sequence[sp.Symbol], point: Point
 ) -> list[sp.Rational] | None:
-    """Return rational values of the unknowns near a root, by Newton's method from the point."""
+    """Return rational values of the unknowns near a root, found by Newton's method from `point`; None without convergence."""
     f, jacobian = (
         sp.lambdify([list(unknowns)], outputs, "mpmath") for outputs in (list(functions), [list(r) for r in slopes])
     )
@@ -95,7 +98,7 @@ def _sum(intervals: Iterable[Bounds]) -> Bounds:
 def roots_in_box(equations: Sequence[sp.Expr], box: Box) -> tuple[list[Box], list[Box]]:
     """Return narrow boxes with exactly one root each, and small undecided boxes; there is no root outside all of these.
 
-    A box without a root has an equation that excludes zero or a Krawczyk image that does not meet it. A box that contains its
+    A box has no root if some equation excludes zero in it, or if it is disjoint from its Krawczyk image. A box that contains its
     Krawczyk image has one root. Any other box is intersected with the image and bisected, until 16 boxes are undecided or 4,000
     were examined. A root on the boundary of `box` is included. Where a denominator may vanish the numerators replace the
     equations. A box in which a function may switch its piece is undecided.
@@ -145,7 +148,7 @@ def roots_in_box(equations: Sequence[sp.Expr], box: Box) -> tuple[list[Box], lis
 
 
 def kinks_in(equations: Sequence[sp.Expr], narrow: Box, box: Box) -> list[sp.Expr]:
-    """Return denominators, radicands and switch conditions that may vanish in or near a narrow box."""
+    """Return denominators, radicands and conditions of piecewise functions that may vanish in or near a narrow box."""
     if any(high - low > _LEAST * (box[s][1] - box[s][0]) for s, (low, high) in narrow.items() if s in box):
         return []
     near = {s: (low - _REACH * (high - low), high + _REACH * (high - low)) for s, (low, high) in narrow.items()}
@@ -158,7 +161,7 @@ def kinks_in(equations: Sequence[sp.Expr], narrow: Box, box: Box) -> list[sp.Exp
 
 
 class _Equations:
-    """Equations, their derivatives by the unknowns row by row, and the expressions that vanish where a function switches."""
+    """Equations, their Jacobian matrix row by row, and expressions that vanish where a piecewise function switches."""
 
     def __init__(self, equations: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol]) -> None:
         self.equations, self.unknowns = equations, unknowns
@@ -173,7 +176,7 @@ def _may_vanish(e: sp.Expr, X: Box) -> bool:
 
 
 def _krawczyk(system: _Equations, X: Box) -> Box | None:
-    """Return K(X); None if an enclosure is unknown, a function may switch its piece, or the middle of F'(X) is singular."""
+    """Return K(X); None if an enclosure is unknown, a piecewise function may switch in X, or the middle of F'(X) is singular."""
     equations, unknowns = system.equations, system.unknowns
     if any(_may_vanish(e, X) for e in system.switches):
         return None  # the derivatives of the pieces do not bound a jump
@@ -195,7 +198,7 @@ def _meet(a: Bounds, b: Bounds) -> bool:
 
 
 def _common(a: Bounds, b: Bounds) -> Bounds:
-    """Return the intersection of two intervals that meet, with few digits."""
+    """Return the intersection of two overlapping intervals; ends are rounded outward to numbers with few digits."""
     low = max(a[0], _below(b[0])) if a[0] < b[0] else a[0]
     return low, min(a[1], -_below(-b[1])) if b[1] < a[1] else a[1]
 

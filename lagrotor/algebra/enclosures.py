@@ -63,23 +63,27 @@ def are_apart(lhs: sp.Expr, rhs: sp.Expr, point: Mapping[sp.Expr, Any]) -> bool:
 
 
 def solved_at(A: sp.Matrix, b: sp.Matrix, point: Point) -> list[Any]:
-    """Return intervals that contain x of A x = b at the point; raise NotExactError if A is not proved to be regular."""
+    """Return intervals that contain the solution x of A x = b at a point; raise NotExactError if A may be singular."""
     with working_digits(DIGITS):
         try:
             enclosure = PointEnclosure(point)
             rows = [[_real(enclosure.of(e)) for e in row] for row in A.row_join(b).tolist()]
             return _eliminated(rows)
         except (ArithmeticError, ValueError, libmp.ComplexResult) as error:
-            raise NotExactError(f"Not enclosed at {point}: {error}.") from None
+            raise NotExactError(f"The value at {point} is not enclosed: {error}.") from None
 
 
 def apart(first: Sequence[Any], second: Sequence[Any]) -> int | None:
-    """Return the first index at which two intervals are disjoint; None if every pair meets."""
+    """Compare two rows of intervals, and return the first index at which they are disjoint; None if each pair overlaps."""
     return next((i for i, (x, y) in enumerate(zip(first, second, strict=True)) if x.b < y.a or y.b < x.a), None)
 
 
 class PointEnclosure:
-    """Enclosures of subexpressions at a point of rationals or pairs (lower, upper); `jets`: values of undefined functions."""
+    """Enclosures of expressions and of their subexpressions at one point.
+
+    The point gives each symbol a rational value or an interval (lower, upper). `jets` holds the values chosen for undefined
+    functions and for their derivatives.
+    """
 
     def __init__(self, point: Mapping[sp.Expr, Any]) -> None:
         self.point = {s: value for s, value in point.items() if not isinstance(value, tuple)}
@@ -98,7 +102,7 @@ class PointEnclosure:
         try:
             return self.of(e)
         except (ArithmeticError, ValueError, libmp.ComplexResult, TypeError, AttributeError) as error:
-            raise NotExactError(f"Not enclosed at {self.point}: {error}.") from None
+            raise NotExactError(f"The value at {self.point} is not enclosed: {error}.") from None
 
     def of(self, e: sp.Expr) -> Any:
         if e not in self.known:
@@ -135,7 +139,7 @@ class PointEnclosure:
         return _FUNCTIONS[e.func](self.of(e.args[0]))
 
     def _piecewise(self, e: sp.Piecewise) -> Any:
-        """Return an interval that contains the values of all pieces that may apply."""
+        """Return an interval that contains the values of every piece of a piecewise function that may apply."""
         ends = []
         for piece, condition in e.args:
             holds = self._holds(condition)
@@ -147,7 +151,7 @@ class PointEnclosure:
         raise NotExactError(f"{e} is not enclosed: no piece is shown to hold.")
 
     def _holds(self, condition: sp.Basic) -> bool | None:
-        """Return True or False for an equation or inequality; None if undecided."""
+        """Return True or False if an equation or inequality is decided at the point; None if it is undecided."""
         if condition in (sp.true, sp.false):
             return bool(condition)
         if isinstance(condition, sp.And | sp.Or):
@@ -168,12 +172,12 @@ class PointEnclosure:
         return False if difference.b < 0 or (difference.b == 0 and strict) else None
 
     def _order(self, e: sp.Expr) -> sp.Expr:
-        """Return an exponent or order with the values of the point if it is a polynomial in symbols."""
+        """Substitute the point into an exponent or order if it is a polynomial in symbols; otherwise return it unchanged."""
         plain = all(n.is_Add or n.is_Mul or n.is_Atom for n in sp.preorder_traversal(e))
         return e.xreplace(dict(self.point)) if plain else e
 
     def _integral(self, e: sp.Expr) -> Any:
-        """Enclose a definite integral; for an undefined f(u) the antiderivative is as free as f."""
+        """Enclose a definite integral. For an undefined function f(u), the values of the antiderivative are free."""
         body, (u, *ends), *others = e.args
         if not others and len(ends) == 2 and not body.has(AppliedUndef, sp.Integral):
             return self._quadrature(body, u, *map(self.of, ends))
@@ -185,7 +189,7 @@ class PointEnclosure:
         return _leaf(values[-1]) - (_leaf(values[0]) if len(values) == 2 else 0)
 
     def _quadrature(self, body: sp.Expr, u: sp.Symbol, low: Any, high: Any) -> Any:
-        """Return the sum over equal pieces of the integrand's range times the piece's length."""
+        """Enclose an integral as a sum over equal pieces: the range of the integrand times the length of the piece."""
         step, total = _real(high - low) / _PIECES, iv.mpf(0)
         for k in range(_PIECES):
             piece = PointEnclosure(self.point)
@@ -195,7 +199,7 @@ class PointEnclosure:
         return total
 
     def _repeated(self, e: sp.Expr) -> Any:
-        """Enclose a sum or product between integers."""
+        """Enclose a sum or product whose limits are integers."""
         body, (index, low, high), *others = e.args
         start, end = (sp.sympify(side, strict=True).xreplace(dict(self.point)) for side in (low, high))
         if others or not (start.is_Integer and end.is_Integer) or end - start > _MOST_TERMS:
@@ -209,7 +213,10 @@ class PointEnclosure:
         return total
 
     def _jet(self, kind: Any, arguments: tuple[sp.Expr, ...]) -> sp.Rational:
-        """Return the free value: equal at arguments that may be equal, new at other arguments."""
+        """Return the value chosen for an undefined function or derivative `kind` at some arguments.
+
+        Arguments that may be equal get the same value, all other arguments a new one.
+        """
         at = tuple(map(self.of, arguments))
         for earlier, places, value in self.free:
             if earlier == kind and not any(excludes_zero(x - y) for x, y in zip(at, places, strict=True)):
@@ -221,7 +228,7 @@ class PointEnclosure:
 
 
 def jet_of(e: sp.Expr) -> tuple[Any, tuple[sp.Expr, ...]] | None:
-    """Return ((function, derivative orders), arguments) of a derivative of an undefined function; None otherwise."""
+    """Split a derivative of an undefined function into ((function, derivative orders), arguments); None for anything else."""
     if isinstance(e, sp.Subs):
         inner = jet_of(e.expr)
         if inner is None or not set(e.variables) <= set(inner[1]):
@@ -282,7 +289,7 @@ def _exp(x: Any) -> Any:
 
 
 def _log(x: Any) -> Any:
-    """Return the principal logarithm; its imaginary part on the cut, the negative real axis, is π."""
+    """Return the principal logarithm. On the branch cut, the negative real axis, its imaginary part is π."""
     if not _is_complex(x):
         if x.a > 0:
             return iv.log(x)
@@ -312,7 +319,7 @@ def _atan(x: Any) -> Any:
 
 
 def _asin(x: Any) -> Any:
-    """Return asin; on the cuts x > 1 and x < −1 it has sympy's branch."""
+    """Return asin; on the branch cuts x > 1 and x < −1 it has the same value as in sympy."""
     if not _is_complex(x):
         if x.a > 1 or x.b < -1:
             return iv.pi / 2 - _acos(x)
@@ -377,7 +384,7 @@ _FUNCTIONS: dict[Any, Any] = {
 
 
 def _eliminated(rows: list[list[Any]]) -> list[Any]:
-    """Return x from the rows of [A | b]."""
+    """Return the solution x of A x = b by elimination; each row has the entries of a row of A, then the entry of b."""
     n = len(rows)
     for j in range(n):
         pivot = max(range(j, n), key=lambda i: abs(rows[i][j].mid))
@@ -399,7 +406,7 @@ Bounds: TypeAlias = tuple[sp.Rational, sp.Rational]  # lower, upper
 
 
 def enclosure(e: sp.Expr, point: Mapping[sp.Symbol, Any]) -> Bounds | None:
-    """Return rational bounds of e at a point of rationals or pairs (lower, upper); None if no real enclosure is known."""
+    """Return rational bounds of e at a point with coordinates that are rationals or pairs (lower, upper); None if unknown."""
     return enclosures([e], point)[0]
 
 
@@ -419,7 +426,7 @@ def enclosures(expressions: Iterable[sp.Expr], point: Mapping[sp.Symbol, Any]) -
 
 
 def _evalf(e: sp.Expr, precision: int, options: Any) -> tuple[Any, ...]:
-    """Return (re, im, bits of re, bits of im), as in sympy's `evalf_table`; without an enclosure sympy evaluates."""
+    """Return (re, im, bits of re, bits of im), as sympy's `evalf_table` requires; without an enclosure sympy evaluates."""
     sides = None
     for number in (precision, 2 * precision + 60, 4 * precision + 600):
         with working_digits(number), suppress(NotExactError, RecursionError):
@@ -434,7 +441,7 @@ def _evalf(e: sp.Expr, precision: int, options: Any) -> tuple[Any, ...]:
 
 
 def _significant(interval: Any, precision: int) -> tuple[Any, Any]:
-    """Return the middle of a real interval and its certain bits; (None, None) for 0."""
+    """Return the midpoint of a real interval and the number of its certain bits; (None, None) for the interval 0."""
     if interval.a == interval.b == 0:
         return None, None
     middle, width = interval.mid._mpi_[0], interval.delta._mpi_[1]
@@ -445,7 +452,7 @@ def _significant(interval: Any, precision: int) -> tuple[Any, Any]:
 
 
 def _rational(end: Any) -> sp.Rational:
-    """Return an interval's end, a dyadic rational."""
+    """Return the end of an interval, which is a binary fraction, as a rational number."""
     sign, mantissa, exponent, _ = end._mpi_[0]
     return (-1) ** sign * sp.Integer(int(mantissa)) * sp.Integer(2) ** int(exponent)
 

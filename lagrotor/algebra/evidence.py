@@ -44,7 +44,7 @@ def _drawn(symbol: sp.Symbol, generator: random.Random, scale: sp.Rational) -> s
 
 
 def largest_value(expression: sp.Expr, at: Iterable[Point] | None = None) -> tuple[Point | None, float | None]:
-    """Return the point with the largest |expression| and this value, real points first; (None, None) without a value."""
+    """Return the point with the largest |expression|, and this value; real points come first. (None, None) without a value."""
     places = list(points(expression.free_symbols) if at is None else at)
     sizes = [(i, size) for i, point in enumerate(places) if (size := magnitude_at(expression, point)) is not None]
     ranked = [(_is_real_at(expression, places[i]), size, i) for i, size in sizes]
@@ -61,7 +61,7 @@ def _is_real_at(expression: sp.Expr, point: Point) -> bool:
 
 
 def magnitude_at(expression: sp.Expr, point: Point) -> float | None:
-    """Return |expression| at the point; None if it is not enclosed."""
+    """Return |expression| at the point; None if no enclosure is known."""
     try:
         value = enclosed_at(expression, point)
         size = float((abs(value.real.mid) ** 2 + abs(value.imag.mid) ** 2).b) ** 0.5
@@ -71,7 +71,7 @@ def magnitude_at(expression: sp.Expr, point: Point) -> float | None:
 
 
 def sign_at(expression: sp.Expr, point: Point) -> int | None:
-    """Return the sign of an expression that is +1 or −1 wherever it is defined; None if undefined."""
+    """Return the sign at a point of an expression that equals +1 or −1 wherever it is defined; None if it is undefined."""
     try:
         value = enclosed_at(expression, point)
     except (NotExactError, RecursionError):

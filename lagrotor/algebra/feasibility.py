@@ -1,7 +1,8 @@
-"""Infeasibility of equations and inequalities, decided for linear forms in kernels with the bounds that `signs` knows.
+"""Proofs that equations and inequalities have no common solution.
 
-A kernel is a symbol, a product or a function. Fourier–Motzkin elimination of the kernels ends in a false inequality between
-numbers if the conditions exclude each other; otherwise nothing is decided.
+Each side is a linear form in kernels: symbols, products or functions. `signs` gives bounds of the kernels. If Fourier–Motzkin
+elimination of the kernels ends in a false inequality between numbers, the conditions exclude each other; otherwise nothing is
+decided.
 """
 
 from __future__ import annotations
@@ -19,14 +20,14 @@ _SMALL = sp.Rational(1, 10**6)  # upper bound of a small quantity
 
 
 class _Row(NamedTuple):
-    """The condition Σ rate · kernel + number > 0 if `strict`, else ≥ 0."""
+    """A linear inequality: Σ rate · kernel + number > 0 if `strict`, and ≥ 0 otherwise."""
 
     rates: dict[sp.Expr, sp.Rational]
     number: sp.Expr
     strict: bool
 
     def plus(self, second: _Row, kernel: sp.Expr) -> _Row:
-        """Return the sum of two rows that eliminates a kernel with opposite signs."""
+        """Return a positive combination of two rows in which a kernel cancels; its two coefficients must have opposite signs."""
         a, b = (1 / abs(row.rates[kernel]) for row in (self, second))
         rates = {
             k: a * self.rates.get(k, sp.S.Zero) + b * second.rates.get(k, sp.S.Zero)
@@ -37,7 +38,7 @@ class _Row(NamedTuple):
 
 
 def is_infeasible(equations: Sequence[sp.Expr], where: Region, small: Sequence[sp.Symbol] = ()) -> bool:
-    """Return True if it is proved that no point of the region solves all e = 0; symbols in `small` are arbitrarily small."""
+    """Return True if it is proved that no point of the region solves all e = 0; symbols in `small` are at most 10⁻⁶ in size."""
     if sum(node_count(e) for e in (*equations, *(e for e, _ in where.above))) > _MOST_PARTS:
         return False
     if any(map(_has_no_root, equations)) or any(0 not in (signs(e, where) or ANY) for e in equations):
@@ -57,7 +58,10 @@ def is_infeasible(equations: Sequence[sp.Expr], where: Region, small: Sequence[s
 
 
 def has_principal_values(e: sp.Basic, equations: Sequence[sp.Expr], where: Region) -> bool:
-    """Return True if principal values count: e has i or a complex symbol, or is real at no inner point and has no odd root."""
+    """Return True if roots and logarithms in e must be read as complex principal values.
+
+    This is so if e contains i or a complex symbol, or if e has no odd root and is real at no inner point of the region.
+    """
     if e.has(sp.I) or not all(s.is_real for s in e.free_symbols):
         return True
     natural = conditions(e)
@@ -75,7 +79,7 @@ def _has_no_root(e: sp.Expr) -> bool:
 
 
 def _forms(e: sp.Expr) -> list[sp.Expr]:
-    """Return an expression, its expansion, and its form with completed squares."""
+    """Return the forms of an expression that are tried: itself, its expansion, and completed squares; none if it contains i."""
     if e.has(sp.I):
         return []
     return list(dict.fromkeys((e, sp.expand(e), _completed(sp.expand(e)))))
@@ -92,7 +96,7 @@ def _completed(e: sp.Expr) -> sp.Expr:
 
 
 def _linear(e: sp.Expr) -> tuple[dict[sp.Expr, sp.Rational], sp.Expr]:
-    """Return the rational coefficients of the kernels, and the constant term."""
+    """Write e as Σ rate · kernel + number, and return the rational rate of each kernel, and the number."""
     rates, number = dict[sp.Expr, sp.Rational](), sp.S.Zero
     for term in sp.Add.make_args(e):
         rate, kernel = term.as_coeff_Mul(rational=True)
@@ -104,7 +108,7 @@ def _linear(e: sp.Expr) -> tuple[dict[sp.Expr, sp.Rational], sp.Expr]:
 
 
 def _bounding(kernel: sp.Expr, where: Region, small: Sequence[sp.Symbol]) -> Iterator[_Row]:
-    """Yield the bounds of a kernel by itself."""
+    """Yield the inequalities that bound a single kernel, from the region, from smallness, and for an even root from its sign."""
     for side, bound in zip((1, -1), bounds(kernel, where), strict=True):
         if bound is not None:
             yield _Row({kernel: sp.Integer(side)}, -side * bound[0], bound[1])
@@ -115,7 +119,7 @@ def _bounding(kernel: sp.Expr, where: Region, small: Sequence[sp.Symbol]) -> Ite
 
 
 def _excludes(rows: list[_Row], kernels: Sequence[sp.Expr]) -> bool:
-    """Return True if the rows have no solution in kernels that are treated as independent real numbers."""
+    """Return True if the rows have no common solution when the kernels are treated as independent real numbers."""
     for kernel in kernels:
         above, below = ([row for row in rows if side * row.rates.get(kernel, 0) > 0] for side in (1, -1))
         rows = [row for row in rows if kernel not in row.rates]

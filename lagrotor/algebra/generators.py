@@ -37,7 +37,11 @@ Monomial = frozenset[tuple[sp.Expr, int]]
 
 @dataclass
 class Multiples:
-    """The multiples of one monomial: lcm of the denominators, largest factor, True if only exponentials contain it."""
+    """The multiples of one monomial that occur in the angles of an expression.
+
+    `step` is the least common multiple of the denominators of their factors, and `largest` the largest factor. `exponential` is
+    True if they occur in exponentials only.
+    """
 
     step: int = 1
     largest: sp.Rational = sp.S.Zero
@@ -46,7 +50,10 @@ class Multiples:
 
 @dataclass
 class Survey:
-    """The symbols and pi, radicands and angles of an expression; `largest` bounds multiples written in cosine and sine."""
+    """The content of some expressions: symbols and pi in `atoms`, radicands of square roots, and angles.
+
+    Multiples of an angle up to `largest` are written in its cosine and sine, larger multiples in an exponential.
+    """
 
     largest: float
     atoms: dict[sp.Expr, None] = field(default_factory=dict)
@@ -60,7 +67,7 @@ class Survey:
 
 
 def survey(*expressions: sp.Expr, largest: float = LARGEST_MULTIPLE) -> Survey:
-    """Collect the generators of the expressions; raise NotExactError outside the class."""
+    """Return the symbols, radicands and angles that the expressions contain; raise NotExactError outside the class."""
     content, visited, stack = Survey(largest), set[sp.Expr](), list(expressions)
     try:
         while stack:
@@ -78,7 +85,7 @@ def survey(*expressions: sp.Expr, largest: float = LARGEST_MULTIPLE) -> Survey:
 
 
 def _enter(node: sp.Expr, content: Survey) -> tuple[sp.Expr, ...]:
-    """Enter a node into the survey; return its subexpressions that remain to be visited."""
+    """Record a node in the survey, and return those of its subexpressions that are still to be visited."""
     if node.is_Symbol or node is sp.pi:
         _check_symbol(node)
         content.atoms[node] = None
@@ -118,7 +125,7 @@ def _is_rational_step(node: sp.Expr) -> bool:
 
 
 def radicand(node: sp.Expr) -> sp.Expr | None:
-    """Return B for a power B**(k/2) of a square root or for |x| = sqrt(x**2) of a real x; None otherwise."""
+    """Return B for a power B**(k/2) with odd k, and x**2 for |x| of a real x, since |x| = sqrt(x**2); None otherwise."""
     if node.is_Pow and node.exp.is_Rational and node.exp.q == 2:
         return node.base
     if isinstance(node, sp.Abs) and node.args[0].is_real:
@@ -127,7 +134,7 @@ def radicand(node: sp.Expr) -> sp.Expr | None:
 
 
 def angle_of(function: sp.Expr) -> tuple[sp.Rational, dict[sp.Expr, sp.Rational]]:
-    """Return (turn, rates) of an argument turn*pi + sum of rate*monomial; raise NotExactError for another argument."""
+    """Write an argument as turn*pi + sum of rate*monomial; return (turn, {monomial: rate}) or raise NotExactError."""
     turn, rates = sp.S.Zero, {}
     for powers, rate in _terms(function.args[0], function).items():
         if powers == {(sp.pi, 1)} and function.func in CIRCULAR:

@@ -79,9 +79,9 @@ class Decision:
     residual : Expr or None
         The expression that `witness` and `evidence` evaluate.
     points : tuple of dict or None
-        Points at which the residual is evaluated; None: random points.
+        Points at which the residual is evaluated; if None, random points are taken.
     conditions : Callable
-        The search for `branch`; it runs when `branch` is read.
+        A function that searches for the inequalities of `branch`; it is called when `branch` is read.
 
     Examples
     --------
@@ -109,12 +109,12 @@ class Decision:
 
     @property
     def witness(self) -> Mapping[sp.Expr, sp.Rational] | None:
-        """The counterexample: symbol or function value -> number, where a nonzero expression does not vanish; else None."""
+        """A point {symbol or function value: number} at which a nonzero expression does not vanish; None otherwise."""
         return self._largest[0] if self.answer == "nonzero" else None
 
     @property
     def evidence(self) -> float | None:
-        """The largest absolute value of a nonzero or undecided expression at the points; None if it has no value."""
+        """The largest |residual| at `points`, for a nonzero or undecided expression; None if no value is known."""
         return self._largest[1]
 
     @property
@@ -126,7 +126,7 @@ class Decision:
 def decide_zero(expression: sp.Expr, assumptions: Iterable[Any] = ()) -> Decision:
     """Decide whether an expression vanishes identically.
 
-    The answer is "undecided" for an expression with floats, for one beyond the bound on the work, and where no proof is known.
+    The answer is "undecided" if the expression contains floats, if the decision takes too much work, or if no proof is known.
 
     Parameters
     ----------
@@ -209,7 +209,7 @@ def _is_foreign(expression: sp.Expr) -> bool:
 
 
 def _by_a_point(expression: sp.Expr, where: Region, exact: Decision) -> Decision:
-    """Return a refutation by a real counterexample, or the exact decision if none is known."""
+    """Return a refutation by a real counterexample; if no counterexample is known, return the decision `exact`."""
     witness, _ = find_witness(expression, where)
     if witness is None or not witness.real:
         return exact
@@ -217,7 +217,10 @@ def _by_a_point(expression: sp.Expr, where: Region, exact: Decision) -> Decision
 
 
 def _by_analysis(expression: sp.Expr, where: Region, exact: Decision) -> Decision:
-    """Decide by a counterexample, by a proof, or on the branch where the conditions of a proof hold."""
+    """Decide by a counterexample or by a proof; otherwise search for a branch on which a proof holds.
+
+    `exact` is the decision that the exact procedure reached before.
+    """
     plain, proof, reason = evaluated(expression, where), Proof(None), exact.reason
     witness, enclosed = find_witness(plain, where)
     branched = (n for n in plain.atoms(*BRANCHED, sp.Pow) if not (n.is_Pow and n.exp.is_integer))
@@ -262,7 +265,7 @@ def _branch_inside(plain: sp.Expr, where: Region, missing: Any, domain: tuple[sp
 
 
 def _inside(branch: tuple[sp.Basic, ...], domain: tuple[sp.Expr, ...]) -> tuple[sp.Basic, ...]:
-    """Return x > 0 for x >= 0 if x must not vanish."""
+    """Make an inequality x >= 0 of a branch strict if x is in the domain, whose factors must not vanish."""
     apart = {sp.expand(sign * factor) for factor in domain for sign in (1, -1)}
     return tuple(r.func(r.lhs, r.rhs) if (e := r.gts - r.lts) not in apart else sided(e, True) for r in branch)
 
@@ -319,7 +322,7 @@ def decide_equal(
     Returns
     -------
     Decision
-        The decision on lhs - rhs; of matrices, that of the first entry that is not zero.
+        The decision on lhs - rhs. For matrices it is the decision on the first nonzero entry, else on the first undecided one.
 
     Raises
     ------
@@ -404,13 +407,13 @@ def normal_form(expression: sp.Expr) -> sp.Expr:
         if conjugate != denominator:
             numerator, denominator = ring.product(numerator, conjugate), ring.product(denominator, conjugate)
     if len(numerator) + len(denominator) > _MOST_NORMAL:
-        raise NotExactError(f"Its normal form is too large: terms {len(numerator)} over {len(denominator)}.")
+        raise NotExactError(f"The normal form is too large: {len(numerator)} terms over {len(denominator)} terms.")
     numerator, denominator = numerator.cancel(denominator)
     return ring.expression(numerator) / ring.expression(denominator)
 
 
 def _domain(ring: Ring) -> tuple[sp.Expr, ...]:
-    """Return the distinct irreducible factors of all divisors, in the symbols of the expression."""
+    """Return the factors that must not vanish: the distinct irreducible factors of all divisors."""
     factors = [
         factor
         for divisor, name in ring.divisors.items()
@@ -421,7 +424,7 @@ def _domain(ring: Ring) -> tuple[sp.Expr, ...]:
 
 
 def _monic(factor: sp.Expr) -> sp.Expr:
-    """Return a readable factor of the domain: a polynomial over its leading coefficient, u for |u| and for a root of u."""
+    """Simplify a factor, keeping its zeros: divide a polynomial by its leading coefficient; replace |u| and roots of u by u."""
     while isinstance(factor, sp.Abs) or (factor.is_Pow and factor.exp.is_Rational and factor.exp > 0):
         factor = factor.args[0]
     if not factor.is_Add or not (polynomial := factor.as_poly()):
@@ -457,6 +460,6 @@ def _irreducible(ring: Ring, polynomial: PolyElement) -> list[sp.Expr]:
 # Most divisors of a paper's audit recur in another identity.
 @lru_cache(maxsize=1024)
 def _factors(names: tuple[sp.Expr, ...], terms: frozenset[tuple[tuple[int, ...], Any]]) -> tuple[sp.Expr, ...]:
-    """Return the irreducible factors of a polynomial in these generators, each once."""
+    """Return the distinct irreducible factors of a polynomial, given by its generators and its terms (exponents, coefficient)."""
     ring = Ring(names)
     return tuple(ring.expression(factor) for factor, _ in ring.polynomials.from_dict(dict(terms)).factor_list()[1])

@@ -21,7 +21,7 @@ _MOST_OPERATIONS = 60
 
 
 def value_of_integral(e: sp.Integral, where: Region, vanishes: Callable[[sp.Expr, Region], bool]) -> sp.Expr | None:
-    """Return the proved value of ∫ f dx between its limits, or None."""
+    """Return the value of a definite integral ∫ f dx if a closed form is proved, and None otherwise."""
     body, *limits = e.args
     if len(limits) > 1:
         inner = value_of_integral(sp.Integral(body, limits[0]), where, vanishes)
@@ -50,7 +50,7 @@ def value_of_integral(e: sp.Integral, where: Region, vanishes: Callable[[sp.Expr
 
 
 def _antiderivative(body: sp.Expr, t: sp.Symbol) -> sp.Expr:
-    """Return a candidate antiderivative; it contains an integral if none is found."""
+    """Return a candidate for an antiderivative. If none is found, the result still contains an integral."""
     power, cofactor = sp.S.Zero, body
     for factor in sp.Mul.make_args(sp.factor_terms(body)):
         base, exponent = factor.as_base_exp()
@@ -71,7 +71,7 @@ def _antiderivative(body: sp.Expr, t: sp.Symbol) -> sp.Expr:
 
 
 def _between(t: sp.Symbol, low: sp.Expr, high: sp.Expr, where: Region, lower: Any, upper: Any) -> list[sp.Basic]:
-    """Return the inequalities that t obeys between the limits: lower(t, low), upper(t, high)."""
+    """Return the inequalities that hold for t between the limits. `lower` and `upper` build a relation, such as Gt or Le."""
     if low.is_infinite or high.is_infinite or is_nonnegative(high - low, where):
         relations = [lower(t, low)] if low.is_finite is not False else []
         if low.free_symbols and is_positive(low, where):
@@ -85,7 +85,10 @@ def _between(t: sp.Symbol, low: sp.Expr, high: sp.Expr, where: Region, lower: An
 
 
 def _at(F: sp.Expr, t: sp.Symbol, end: sp.Expr, where: Region) -> sp.Expr | None:
-    """Return F at a limit if F is continuous there, else the limit of F if the limit of each term is certain, else None."""
+    """Return the value of the antiderivative F at an end of the integral, or the limit of F for t → end.
+
+    If F is not continuous at the end, the limits of its terms are added. The result is None if one of them is not certain.
+    """
     if end.is_finite is not False and is_continuous(F, where, frozenset({t})):
         value = F.subs(t, end)
         return None if value.has(sp.nan, sp.zoo, sp.oo, -sp.oo) else value
@@ -114,7 +117,7 @@ def _at(F: sp.Expr, t: sp.Symbol, end: sp.Expr, where: Region) -> sp.Expr | None
 
 
 def _falls(product: sp.Expr, t: sp.Symbol, side: int, where: Region) -> bool:
-    """Return True if a product of powers, bounded waves and an exponential tends to 0."""
+    """Return True if a product of powers of t, sines, cosines and an exponential tends to 0 for t → ∞ (`side` 1) or −∞ (−1)."""
     power, decays = sp.S.Zero, False
     for factor in sp.Mul.make_args(product):
         if isinstance(factor, sp.sin | sp.cos):

@@ -24,7 +24,7 @@ _TURNS = (0, -1, 1, -2, 2)
 
 
 def argument(function: Any, value: sp.Expr) -> Conditioned:
-    """Return u from function(u) = value for a function in INVERSES: acos u = v is u = cos v with 0 ≤ v ≤ π."""
+    """Solve function(u) = value for u, and return u with its conditions: acos u = v gives u = cos v with 0 ≤ v ≤ π."""
     inner, low, high = INVERSES[function]
     return inner(value), (
         *(_at_least(value, low) if low is not None else ()),
@@ -33,7 +33,10 @@ def argument(function: Any, value: sp.Expr) -> Conditioned:
 
 
 def solved_for(kernel: sp.Expr, symbol: sp.Symbol, value: sp.Expr, where: Region) -> Conditioned | None:
-    """Return the symbol from kernel = value, with the conditions; None if the region admits several solutions."""
+    """Solve kernel = value for the symbol, and return the solution with its conditions.
+
+    The result is None if the region admits several solutions, or if no inverse of the kernel is known.
+    """
     if not is_real(symbol, where) or not is_real(value, where):
         return None
     if kernel.is_Pow and kernel.base == symbol and kernel.exp.is_Rational:
@@ -55,7 +58,7 @@ def _at_least(e: sp.Expr, low: sp.Expr) -> tuple[sp.Basic, ...]:
 
 
 def _side(e: sp.Expr, where: Region) -> int:
-    """Return 1 if e ≥ 0, −1 if e ≤ 0, 0 if its sign is unknown."""
+    """Return 1 if e ≥ 0 in the region, −1 if e ≤ 0, and 0 if the sign of e is unknown."""
     return 1 if is_nonnegative(e, where) else -1 if is_nonnegative(-e, where) else 0
 
 
@@ -72,7 +75,7 @@ def _root(n: sp.Rational, symbol: sp.Symbol, value: sp.Expr, where: Region) -> C
 
 
 def _arcs(kernel: sp.Expr, symbol: sp.Symbol, value: sp.Expr, where: Region) -> Iterator[Conditioned]:
-    """Yield the solutions of sin, cos or tan of the symbol for the monotone piece that contains the symbol."""
+    """Yield (solution, conditions) of kernel = value for sin, cos or tan of a symbol, on the monotone piece that contains it."""
     conditions = (*_at_least(value, sp.S.NegativeOne), *_at_least(sp.S.One, value))
     for k in _TURNS:
         start = k * sp.pi - (0 if isinstance(kernel, sp.cos) else sp.pi / 2)

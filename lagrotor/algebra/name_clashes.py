@@ -9,7 +9,7 @@ from lagrotor.errors import InputError
 
 
 def check_names(where: str, *values: Any) -> None:
-    """Raise InputError, beginning with `where`, if two symbols in the values share a name; dummies are ignored."""
+    """Raise InputError, whose text begins with `where`, if different symbols in the values share a name (except dummies)."""
     first_of_name: dict[str, sp.Symbol] = {}
     for symbol in symbols_in(values):
         if type(symbol) is sp.Symbol and (namesake := first_of_name.setdefault(symbol.name, symbol)) != symbol:

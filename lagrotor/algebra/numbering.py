@@ -25,7 +25,7 @@ _SORTED = cmp_to_key(sp.Basic.compare)
 
 
 class Numbering:
-    """The symbols of expressions with names that contain only their canonical number, and the way back."""
+    """The symbols of some expressions, renamed after their canonical numbers; `to_input` restores the original names."""
 
     def __init__(self, *expressions: sp.Basic) -> None:
         self.symbols = canonical_order(expressions)
@@ -81,7 +81,7 @@ def canonical_order(expressions: Sequence[sp.Basic]) -> list[sp.Symbol]:
 
 
 def without_number(e: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-    """Return (number, expression / number), where all nonzero multiples of an expression give the same second value."""
+    """Return (number, expression / number); all nonzero multiples of an expression give the same second entry."""
     number, form = split_content(e)
     if form.is_Add:
         shape, opposite = (_shapes(subexpressions(side), {})[side] for side in (form, -form))
@@ -92,7 +92,7 @@ def without_number(e: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
 def _refined(
     colors: dict[sp.Symbol, int], nodes: Sequence[sp.Basic], expressions: Sequence[sp.Basic]
 ) -> dict[sp.Symbol, int]:
-    """Return the colors refined by positions until their number no longer grows."""
+    """Refine the colors by the positions at which the symbols occur, until the number of different colors stays the same."""
     while len(set(colors.values())) < len(colors):
         inside = _shapes(nodes, colors)
         places: dict[sp.Basic, list[int]] = {e: [] for e in nodes}

@@ -199,9 +199,9 @@ def agreement_order(printed: sp.Expr, derived: sp.Expr, small: sp.Symbol, throug
 
 
 class _Series(NamedTuple):
-    """Terms of small**(start/q), small**((start + 1)/q), ...; the terms after the last one are unknown.
+    """A truncated series: the coefficients of small**(start/q), small**((start + 1)/q), …. Later terms are unknown.
 
-    real: True if all terms except the constant, also the unknown ones, are real for real values of small.
+    `real` is True if every coefficient except the constant one, known or unknown, is real.
     """
 
     start: int
@@ -217,7 +217,7 @@ class _Series(NamedTuple):
         return self.terms[power - self.start] if self.start <= power else sp.S.Zero
 
     def led_by(self, first: sp.Expr) -> _Series:
-        """Return the series with another first term."""
+        """Return the series with `first` in place of its first coefficient."""
         return self._replace(terms=(first, *self.terms[1:]))
 
 
@@ -244,7 +244,7 @@ def _terms(expression: sp.Expr, small: sp.Symbol, order: int) -> list[tuple[int 
 
 
 class _TooShortError(Exception):
-    """All known terms vanish, so the leading one is unknown."""
+    """All computed terms of a series vanish, so that more terms are needed to find the leading one."""
 
 
 def _expanded(node: sp.Expr, small: sp.Symbol, length: int) -> _Series:
@@ -295,7 +295,10 @@ def _of_function(node: sp.Expr, argument: _Series, small: sp.Symbol, length: int
 
 
 def _from_branch_point(node: sp.Expr, u0: sp.Expr) -> sp.Expr:
-    """Return acos u = 2 asin √((1 − u)/2), acosh u = 2 asinh √((u − 1)/2), and asin and acos(−u) by these."""
+    """Rewrite acos, asin or acosh near a branch point, u0 = ±1, where these functions have no Taylor series.
+
+    The result contains asin or asinh of a root: acos u = 2 asin √((1 − u)/2), acosh u = 2 asinh √((u − 1)/2).
+    """
     u = node.args[0]
     if isinstance(node, sp.acosh):
         return 2 * sp.asinh(sp.sqrt((u - 1) / 2))
@@ -306,7 +309,7 @@ def _from_branch_point(node: sp.Expr, u0: sp.Expr) -> sp.Expr:
 
 
 def _of_constant_power(node: sp.Expr, base: _Series, small: sp.Symbol) -> _Series:
-    """Return base**a = small**(s*a) * w**a."""
+    """Return the series of base**a for a constant a. For base = small**s * w it is small**(s*a) * w**a."""
     if base.start and not node.exp.is_Rational:
         raise NotExactError(f"{node} is singular at {small} = 0, and its exponent is no rational number")
     if not node.exp.is_Integer:
@@ -329,7 +332,7 @@ def _inverse(series: _Series) -> _Series:
 
 
 def _logarithm(node: sp.Expr, base: _Series, small: sp.Symbol) -> _Series:
-    """Return log(base) = s*log(small) + log w."""
+    """Return the series of log(base). For base = small**s * w it is s*log(small) + log w."""
     _check_cut(node, base, small)
     series = _composed(sp.log(_ARGUMENT), _ARGUMENT, base._replace(start=0))
     series = series._replace(real=series.real and _is_positive(base, small))
@@ -337,7 +340,7 @@ def _logarithm(node: sp.Expr, base: _Series, small: sp.Symbol) -> _Series:
 
 
 def _composed(function: sp.Expr, z: sp.Symbol, inner: _Series) -> _Series:
-    """Return the sum of f^(m)(u0) * v**m / m! for the inner series u0 + v."""
+    """Return the series of f(u0 + v), the sum of f^(m)(u0) * v**m / m!, where the inner series is u0 + v."""
     length, u0 = len(inner.terms), inner.terms[0]
     if u0.has(_LOG):
         raise NotExactError(f"{function} of an argument whose leading term is a logarithm has no series")
@@ -357,7 +360,7 @@ def _composed(function: sp.Expr, z: sp.Symbol, inner: _Series) -> _Series:
 
 
 def _check_cut(node: sp.Expr, inner: _Series, small: sp.Symbol) -> None:
-    """Raise NotExactError unless the argument starts off the branch cut or stays on the real line."""
+    """Raise NotExactError unless the argument is off the branch cut at small = 0, or stays on the real line."""
     u0, *tail = inner.terms
     one_sided = bool(small.is_extended_nonnegative)
     on_line = False
@@ -391,9 +394,11 @@ def _is_real(node: sp.Expr) -> bool:
 
 
 def _refined(series: _Series, q: int) -> _Series:
-    """Return the same series in powers of small**(1/q); q is a multiple of the series' q."""
+    """Return the same series in powers of small**(1/q), where q is a multiple of the q of the given series."""
     if q > _MOST_ROOTS:
-        raise NotExactError(f"powers with the common denominator {q} are not expanded: the largest is {_MOST_ROOTS}")
+        raise NotExactError(
+            f"powers with the common denominator {q} are not expanded: the largest one allowed is {_MOST_ROOTS}"
+        )
     factor = q // series.q
     terms = tuple(coefficient for term in series.terms for coefficient in _padded([term], factor))
     return series._replace(start=series.start * factor, terms=terms, q=q)
@@ -431,7 +436,7 @@ def _padded(terms: list[sp.Expr], length: int) -> tuple[sp.Expr, ...]:
 
 
 def _stripped(series: _Series) -> _Series:
-    """Drop leading terms that vanish."""
+    """Drop leading terms that vanish; raise _TooShortError if all known terms do."""
     for place, term in enumerate(series.terms):
         if not _vanishes(term):
             return series._replace(start=series.start + place, terms=series.terms[place:])
@@ -439,7 +444,7 @@ def _stripped(series: _Series) -> _Series:
 
 
 def _regular(node: sp.Expr, series: _Series, small: sp.Symbol) -> _Series:
-    """Return the argument of the node from small**0 on; raise NotExactError if it has a negative power."""
+    """Return the series of the node's argument with start = 0; raise NotExactError if it has a negative power."""
     for power in range(series.start, min(series.end, 0)):
         if not _vanishes(series.at(power)):
             negative = sp.Rational(power, series.q)

@@ -24,14 +24,14 @@ _SYMBOLS = 16
 
 
 class Quotient(NamedTuple):
-    """numerator / product of factor**exponent; the factors are stored separately to recognize common ones."""
+    """A numerator over a product of factor**exponent; the factors are stored separately to recognize common ones."""
 
     numerator: PolyElement
     factors: dict[PolyElement, int]
 
 
 class Ring:
-    """The polynomials in the generators `names`, and every factor by which something was divided."""
+    """A ring of polynomials in the generators `names`. Its `divisors` record every factor by which something was divided."""
 
     def __init__(self, names: Iterable[sp.Expr]) -> None:
         self.names = tuple(names) or (sp.Dummy(),)
@@ -53,7 +53,7 @@ class Ring:
         return polynomial.as_expr(*self.names)
 
     def spend(self, work: int) -> None:
-        """Add to the work; raise NotExactError beyond the bound."""
+        """Add to the work that was done in this ring; raise NotExactError beyond the bound."""
         self.work += work
         if self.work > MOST_WORK:
             raise TooLargeError(f"Deciding it takes more than {MOST_WORK:,} products of terms.")
@@ -125,7 +125,7 @@ class Ring:
         return Quotient(self.power(base.numerator, abs(times)), factors)
 
     def inverse(self, polynomial: PolyElement, name: sp.Expr | None = None) -> Quotient:
-        """Return 1/polynomial and record its factors, or `name` for it; raise NotExactError if it is zero in the ring."""
+        """Return 1/polynomial and record its factors, or `name` if given, in `divisors`; raise NotExactError for zero."""
         if not polynomial:
             raise NotExactError("A denominator vanishes identically.")
         powers = tuple(min(exponents) for exponents in zip(*polynomial.itermonoms(), strict=True))
@@ -143,12 +143,12 @@ class Ring:
 
 @cache
 def _polynomials(generators: int) -> PolyRing:
-    """Return the polynomial ring in fixed symbols: the names of the generators themselves may coincide."""
+    """Return a polynomial ring in symbols with fixed names, since the names of the actual generators may coincide."""
     return PolyRing(sp.symbols(f"g:{generators}"), sp.QQ)
 
 
 def _length(polynomial: PolyElement) -> int:
-    """Return the length of the longest coefficient in units of _BITS."""
+    """Return the length of the longest coefficient of a polynomial, in multiples of _BITS bits."""
     return 1 + max(map(_bits, polynomial.itercoeffs()), default=0) // _BITS
 
 

@@ -17,7 +17,7 @@ from lagrotor.algebra.roots import Dependent, Root, split_roots
 
 
 class Pair(NamedTuple):
-    """Cosine and sine over a common product of factors."""
+    """Cosine and sine of an angle, both divided by the same product of factors."""
 
     cosine: PolyElement
     sine: PolyElement
@@ -28,7 +28,10 @@ class Pair(NamedTuple):
 
 
 class Roots(NamedTuple):
-    """Independent roots, dependent roots with their sign (None: it may differ from region to region), and their ring."""
+    """The square roots of some expressions, divided into independent and dependent ones, and the ring of their polynomials.
+
+    Each dependent root comes with its sign, which is None if it may differ from region to region.
+    """
 
     ring: Ring
     independent: list[Root]
@@ -39,19 +42,22 @@ class Roots(NamedTuple):
         return [root for root, sign in self.dependent if sign is None]
 
     def sign_ratio(self, root: Dependent) -> sp.Expr:
-        """Return the root divided by its expression with the sign +1."""
+        """Return a dependent root divided by its expression in independent roots with the sign +1; the value is +1 or −1."""
         return sp.sqrt(root.base) / (self._factor(root) * sp.Mul(*(sp.sqrt(factor.base) for factor in root.of)))
 
     def signs_at(self, point: Point) -> tuple[int | None, ...]:
         return tuple(sign_at(self.sign_ratio(root), point) for root in self.unsigned)
 
     def _factor(self, root: Dependent) -> sp.Expr:
-        """Return the factor that multiplies the product of the square roots `of`."""
+        """Return the factor by which the product of the square roots in `root.of` is multiplied to give ± the root."""
         over = [root.numerator, *(factor.denominator for factor in root.of)]
         return sp.Mul(*map(self.ring.expression, over)) / self.ring.expression(root.denominator)
 
     def known_sign(self, root: Dependent) -> int | None:
-        """Return the sign if the symbols' assumptions decide it: sqrt(a)*sqrt(b) = sqrt(a*b) for a >= 0 or b >= 0."""
+        """Return the sign of a dependent root if the symbols' assumptions decide it, and None otherwise.
+
+        For example, sqrt(a)*sqrt(b) = sqrt(a*b) if a >= 0 or b >= 0.
+        """
         if not root.numerator:
             return 1
         if not any(base.free_symbols for base in (root.base, *(member.base for member in root.of))):
@@ -63,7 +69,7 @@ class Roots(NamedTuple):
 
 
 def find_roots(survey: Survey) -> Roots:
-    """Divide the roots of the survey into independent and dependent ones."""
+    """Divide the square roots of the survey into independent ones and ones that these determine."""
     if not survey.radicands:
         return Roots(Ring(()), [], [])
     plain = Reader(survey, Ring(sorted(survey.atoms, key=sp.default_sort_key)), {})
@@ -75,7 +81,7 @@ def find_roots(survey: Survey) -> Roots:
 
 
 def reader(survey: Survey, roots: Roots, signs: Sequence[int] = ()) -> Reader:
-    """Return the reader of a survey's expressions for a choice of the unknown signs of roots."""
+    """Return a reader for the expressions of a survey; `signs` are the choices for the unknown signs of dependent roots."""
     names = set(survey.atoms)
     named = {root: roots.ring.expression(root.denominator) * sp.sqrt(root.base) for root in roots.independent}
     names |= set(named.values())
@@ -116,7 +122,7 @@ def _names(survey: Survey, angle: Angle) -> tuple[sp.Expr, ...]:
 
 
 class Reader:
-    """Reads the expressions of a survey into a ring; `roots` holds the square root of each radicand."""
+    """Converts expressions of a survey into quotients in a ring; `roots` holds the square root of each radicand."""
 
     def __init__(self, survey: Survey, ring: Ring, roots: dict[sp.Expr, Quotient]) -> None:
         self.survey, self.ring, self.roots = survey, ring, roots
@@ -168,14 +174,14 @@ class Reader:
         return total
 
     def _plus(self, hyperbolic: bool, a: Pair, b: Pair) -> Pair:
-        """Return C = C1*C2 -+ S1*S2 and S = S1*C2 + C1*S2."""
+        """Return cosine and sine of the sum of two angles: C = C1*C2 -+ S1*S2, S = S1*C2 + C1*S2."""
         product, sign = self.ring.product, 1 if hyperbolic else -1
         cosine = product(a.cosine, b.cosine) + sign * product(a.sine, b.sine)
         sine = product(a.sine, b.cosine) + product(a.cosine, b.sine)
         return Pair(cosine, sine, {f: a.factors.get(f, 0) + b.factors.get(f, 0) for f in a.factors | b.factors})
 
     def _multiple(self, angle: Angle, rate: sp.Rational) -> Pair:
-        """Return cosine and sine of rate*monomial, for a pair of generators by repeated doubling."""
+        """Return cosine and sine of rate*monomial as polynomials in the generators of its base angle, by repeated doubling."""
         ring, times = self.ring, abs(int(rate * self.survey.angles[angle].step))
         names, sign = _names(self.survey, angle), 1 if rate > 0 else -1
         if self.survey.compact(angle):
@@ -194,7 +200,7 @@ class Reader:
         return total
 
     def _exponential(self, monomial: sp.Expr, rate: sp.Rational) -> Quotient:
-        """Return exp(rate*monomial): a power of the generator, or cosh + sinh."""
+        """Return exp(rate*monomial), written as a power of the generator or as cosh + sinh."""
         angle = True, monomial
         if not self.survey.compact(angle):
             pair = self._multiple(angle, rate)

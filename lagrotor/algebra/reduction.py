@@ -24,7 +24,10 @@ Relations: TypeAlias = Mapping[sp.Symbol, tuple[int, sp.Expr]]
 
 
 def vanishes(expression: sp.Expr, relations: Relations, numbers: Mapping[sp.Symbol, sp.Expr]) -> tuple[Ring, bool]:
-    """Return the ring with all divisors, and True if the relations imply zero; raise NotExactError outside the class."""
+    """Return the ring, which has recorded all divisors, and True if the relations imply that the expression is zero.
+
+    Raise NotExactError if the expression is outside the class.
+    """
     content = survey(expression, *relations, *(value for _, value in relations.values()))
     roots = find_roots(content)
     if roots.unsigned:
@@ -62,7 +65,10 @@ def _is_null(
 
 
 def _reduced(polynomial: PolyElement, place: int, q: int, reading: Reader, value: sp.Expr) -> PolyElement:
-    """Return a multiple of the polynomial of degree below q in the symbol at index `place`."""
+    """Reduce a polynomial to degree below q in the symbol ρ at index `place`, by the relation ρ**q = value.
+
+    The result is a multiple of the polynomial, because the denominators of the value are multiplied out.
+    """
     degree = max((monomial[place] for monomial in polynomial.itermonoms()), default=0)
     if degree < q:
         return polynomial

@@ -18,14 +18,14 @@ _SIZES = ((sp.S.One, 6), (sp.Rational(1, 8), 3), (sp.Integer(5), 4))  # (scale o
 
 
 class _Witness(NamedTuple):
-    """A point where the enclosure excludes zero; `real`: True if all subexpressions are real there."""
+    """A point where the enclosure of an expression excludes zero; `real` is True if all subexpressions are real there."""
 
     point: Point
     real: bool
 
 
 class Sample(NamedTuple):
-    """The first witness, and the number of points at which the expression was enclosed."""
+    """The witness that a search found, or None, and the number of points at which the expression was enclosed."""
 
     witness: _Witness | None
     enclosed: int

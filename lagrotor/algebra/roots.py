@@ -27,7 +27,7 @@ _MOST_TERMS, _MOST_DEGREE = 60, 16
 
 
 class Root(NamedTuple):
-    """A root sqrt(base) = root/denominator, root**2 = square, in the ring of the symbols."""
+    """A square root with sqrt(base) = h/denominator, where h is a generator of the ring and h**2 = square, a polynomial."""
 
     base: sp.Expr
     denominator: PolyElement
@@ -35,7 +35,7 @@ class Root(NamedTuple):
 
 
 class Dependent(NamedTuple):
-    """A root sqrt(base) = sign * numerator/denominator * product of the roots `of`."""
+    """A square root that other roots determine: sqrt(base) = ± numerator/denominator * product of h for the roots in `of`."""
 
     base: sp.Expr
     numerator: PolyElement
@@ -46,11 +46,11 @@ class Dependent(NamedTuple):
 def split_roots(
     ring: Ring, bases: Iterable[tuple[sp.Expr, PolyElement, PolyElement]]
 ) -> tuple[list[Root], list[Dependent]]:
-    """Divide the roots of base = numerator/denominator into independent and dependent ones."""
+    """Divide roots into independent and dependent ones; a root is given by (base, numerator, denominator)."""
     roots = [Root(base, under, ring.product(over, under)) for base, over, under in bases]
     for root in roots:
         if len(root.square) > _MOST_TERMS or max(map(sum, root.square.monoms()), default=0) > _MOST_DEGREE:
-            raise TooLargeError(f"The root of {root.base} is too large: terms {len(root.square)}.")
+            raise TooLargeError(f"The root of {root.base} is too large: its square has {len(root.square)} terms.")
     numbers, polynomials = _coprime_parts([root.square for root in roots])
     independent: list[Root] = []
     dependent: list[Dependent] = []
@@ -75,7 +75,10 @@ def split_roots(
 
 
 def _coprime_parts(squares: Iterable[PolyElement]) -> tuple[list[int], list[PolyElement]]:
-    """Return pairwise coprime integers and polynomials, none a square, whose powers generate all these squares."""
+    """Return pairwise coprime integers and polynomials, none of them a square.
+
+    Each of the given polynomials is a product of their powers, up to its sign and the square of a rational number.
+    """
     numbers, polynomials = [], []
     for square in filter(None, squares):
         numbers.append(abs(_content(square)))
@@ -111,19 +114,19 @@ def _refined(
 
 
 def _rootless(number: int) -> int:
-    """Return the number with square roots extracted while it is a square."""
+    """Take the square root of an integer as often as the result is an integer."""
     while number > 1 and isqrt(number) ** 2 == number:
         number = isqrt(number)
     return number
 
 
 def _content(square: PolyElement) -> int:
-    """Return an integer that equals the leading coefficient up to a rational square."""
+    """Return an integer that equals the leading coefficient of a polynomial times the square of a rational number."""
     return int(square.LC.numerator) * int(square.LC.denominator)
 
 
 def _exponents(square: PolyElement, numbers: list[int], polynomials: list[PolyElement]) -> list[int]:
-    """Return 0 or 1 for the sign, then the multiplicity of each number and each polynomial."""
+    """Return a polynomial's exponents: 0 or 1 for its sign, then the multiplicity of each number and each polynomial."""
     content, exponents = _content(square), [int(square.LC < 0)]
     for number in numbers:
         exponents.append(0)
@@ -139,7 +142,7 @@ def _exponents(square: PolyElement, numbers: list[int], polynomials: list[PolyEl
 def _expressed(
     ring: Ring, root: Root, of: tuple[Root, ...], numbers: list[int], polynomials: list[PolyElement]
 ) -> Dependent:
-    """Return the root in terms of the roots whose squares, times its square, give the square of p."""
+    """Return the root in terms of the roots in `of`; its square times their squares is the square of a polynomial p."""
     squares = [root.square, *(basis_root.square for basis_root in of)]
     halves = [sum(n) // 2 for n in zip(*(_exponents(s, numbers, polynomials) for s in squares), strict=True)]
     content = prod((sp.Rational(int(s.LC.numerator), int(s.LC.denominator)) for s in squares), start=sp.S.One)

@@ -1,4 +1,4 @@
-"""Checks of arguments: scalar expressions of bounded size, with symbols that are zero by assumption replaced."""
+"""Checks of arguments. An expression must be scalar and of bounded size; symbols that are zero by assumption become 0."""
 
 from typing import Any
 
@@ -13,7 +13,7 @@ _MOST_DEPTH, _MOST_NODES = 150, 1_000_000
 
 
 def sympified(value: Any, name: str) -> Any:
-    """Return a sympy object, or raise InputError in the name of the function `name`. No text is parsed."""
+    """Convert a value to a sympy object; raise InputError, with the function's `name`, if that fails. Text is not parsed."""
     try:
         return sp.sympify(value, strict=True)
     except sp.SympifyError:
@@ -21,7 +21,7 @@ def sympified(value: Any, name: str) -> Any:
 
 
 def scalar(value: Any, name: str) -> sp.Expr:
-    """Return a scalar expression, or raise InputError; raise NotExactError if it is too large or too deep."""
+    """Convert a value to a scalar expression; raise InputError if it is none, NotExactError if it is too large or too deep."""
     expression = sympified(value, name)
     if not isinstance(expression, sp.Expr) or isinstance(expression, sp.MatrixExpr):
         raise InputError(f"{name}: {value!r} is not a scalar expression: give a sympy expression or a number")
@@ -31,7 +31,7 @@ def scalar(value: Any, name: str) -> sp.Expr:
 
 
 def _sizes(expression: sp.Basic) -> dict[sp.Basic, tuple[int, int]]:
-    """Return the nodes and the depth of each distinct subexpression; raise NotExactError beyond the bounds."""
+    """Return the number of nodes and the depth of each distinct subexpression; raise NotExactError beyond the bounds."""
     sizes: dict[sp.Basic, tuple[int, int]] = {}
     stack = [(expression, False)]
     while stack:
@@ -60,7 +60,7 @@ def node_count(expression: sp.Expr) -> int:
 
 
 def degree(expression: sp.Expr) -> int:
-    """Return a bound on the degree of a quotient in its symbols and functions, and of the functions' arguments."""
+    """Return an upper bound of the degree of an expression, and of the arguments of functions, in its symbols and functions."""
     degrees: dict[sp.Basic, int] = {}
     largest = 0
     for node in sp.postorder_traversal(expression):
@@ -78,7 +78,7 @@ def degree(expression: sp.Expr) -> int:
 
 
 def split_content(e: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-    """Return (number, e / number) with a nonzero number, such that the terms have no common numerical factor."""
+    """Split off the common numerical factor of all terms, and return (number, e / number) with a nonzero number."""
     common: dict[sp.Expr, sp.Rational] | None = None
     terms = sp.Add.make_args(e)
     for term in terms:

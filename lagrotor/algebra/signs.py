@@ -33,7 +33,7 @@ _FACTORED = 40  # terms of the largest sum that is factored
 
 @dataclass(frozen=True)
 class Region:
-    """The set where every e of the pairs (e, strict) in `above` is positive (strict) or nonnegative (not strict)."""
+    """The set of points at which each e of the pairs (e, strict) in `above` is positive (strict) or nonnegative (not strict)."""
 
     above: tuple[tuple[sp.Expr, bool], ...] = ()
 
@@ -50,7 +50,7 @@ class Region:
 
 
 def region(relations: Iterable[Any]) -> Region:
-    """Return the region where inequalities and conjunctions of them hold; raise InputError for anything else."""
+    """Return the region in which all given inequalities hold, or conjunctions of them; raise InputError for anything else."""
     inequalities: list[tuple[sp.Expr, bool]] = []
     for relation in relations:
         if relation is True or relation is sp.true:
@@ -83,7 +83,7 @@ def signs(e: sp.Expr, where: Region = Region()) -> Signs | None:
 
 
 def bounds(e: sp.Expr, where: Region) -> tuple[Bound | None, Bound | None]:
-    """Return the known lower and upper bound of a real expression, each with True if it is not attained."""
+    """Return the known lower and upper bound of a real expression, each as (bound, True if it is not attained), or None."""
     return _signs_in(where).range_of(e)
 
 
@@ -101,7 +101,10 @@ class _Signs:
         self.circles = 0
 
     def of(self, e: sp.Expr) -> Signs | None:
-        """Return the signs of a subexpression; results of circular questions are not cached, so no order matters."""
+        """Return the possible signs of e; None if e is not known to be real.
+
+        A result that rests on an unfinished question is not cached, so that the order of the questions does not matter.
+        """
         if e in self.known:
             return self.known[e]
         if e in self.open:
@@ -174,7 +177,7 @@ class _Signs:
         return ANY
 
     def _by_factors(self, e: sp.Expr) -> Signs:
-        """Return the signs of a product from facts about products of some of its factors."""
+        """Return the signs of a product; the region may state the sign of a product of some of the factors."""
         content, odd, even = _factored(e)
         possible = frozenset({content})
         for side, factors, squares, strict in self.products:
@@ -189,7 +192,11 @@ class _Signs:
 
     @cached_property
     def products(self) -> list[tuple[int, frozenset[sp.Expr], frozenset[sp.Expr], bool]]:
-        """The facts as (sign, factors of odd powers, squares in the numerator, strict)."""
+        """The inequalities of the region in factored form.
+
+        Each is a tuple: the sign of the number, the factors of odd powers, the factors of even positive powers, and True if the
+        inequality is strict.
+        """
         return [(*_factored(sp.factor(e)), strict) for e, strict in self.where.above if len(e.args) <= _FACTORED]
 
     def _function(self, e: sp.Expr) -> Signs | None:
@@ -219,7 +226,7 @@ class _Signs:
         return argument_signs if isinstance(e, _ODD) else ANY if isinstance(e, _REAL) else None
 
     def _circular(self, e: sp.Expr, u: sp.Expr) -> Signs:
-        """Return the signs from the interval of the argument: sin u has the sign (−1)ᵏ for kπ < u < (k + 1)π."""
+        """Return the signs of a sine or similar function from the range of u: sin u has the sign (−1)ᵏ for kπ < u < (k + 1)π."""
         start = -sp.pi / 2 if isinstance(e, sp.cos) else sp.S.Zero
         step = sp.pi / 2 if isinstance(e, sp.tan) else sp.pi
         for k in (0, -1, 1, -2, 2):
@@ -230,7 +237,7 @@ class _Signs:
         return ANY
 
     def _monotone(self, e: sp.Expr) -> Signs | None:
-        """Return the signs of a + b f(u), a and b numbers, f increasing: those of b (u − f⁻¹(−a/b))."""
+        """Return the signs of a + b f(u) for numbers a and b and an increasing f: the signs of b (u − f⁻¹(−a/b))."""
         for number, term in permutations(e.args) if len(e.args) == 2 else ():
             b, call = term.as_independent(*term.free_symbols, as_Add=False)
             if not number.is_number or not b.is_real or call.func not in _INCREASING:
@@ -243,7 +250,7 @@ class _Signs:
         return None
 
     def _by_squares(self, e: sp.Expr) -> Signs | None:
-        """Return the signs of a − b for nonnegative roots a and b: those of a² − b²."""
+        """Return the signs of a − b for nonnegative roots a and b: the signs of a² − b²."""
         for a, b in permutations(e.args) if len(e.args) == 2 and e.has(sp.Pow) else ():
             if (self.of(a) or ANY) <= NONNEGATIVE and (self.of(-b) or ANY) <= NONNEGATIVE:
                 square = sp.expand(a**2 - b**2)
@@ -265,7 +272,7 @@ class _Signs:
         return None
 
     def range_of(self, term: sp.Expr) -> tuple[Bound | None, Bound | None]:
-        """Return the lower and upper bound of a term, each with True if it is not attained."""
+        """Return the lower and upper bound of a term, each as (bound, True if it is not attained), or None if unknown."""
         c, dependent = term.as_independent(*term.free_symbols, as_Add=False) if term.free_symbols else (term, sp.S.One)
         base, power = dependent.as_base_exp()
         low: Bound | None = None
@@ -291,7 +298,7 @@ class _Signs:
         return (high, low) if c.is_negative else (low, high) if c.is_positive else (None, None)
 
     def _bounds(self, symbol: sp.Symbol) -> tuple[Bound | None, Bound | None]:
-        """Return the greatest lower and least upper numerical bound, each with True if it is not attained."""
+        """Return the best lower and upper numerical bound of a symbol, each as (bound, True if it is not attained), or None."""
         low: Bound | None = None
         high: Bound | None = None
         if symbol.is_extended_nonnegative:
@@ -312,7 +319,7 @@ class _Signs:
         return low, high
 
     def _from_facts(self, e: sp.Expr) -> Signs:
-        """Return the signs that the region implies for e, for a multiple of e, or for e minus a number."""
+        """Return the signs of e that follow from an inequality for a multiple of e, or for e minus a nonnegative number."""
         if e.is_Symbol:
             low, high = self._bounds(e)
             possible = ANY
@@ -336,7 +343,10 @@ class _Signs:
 
 
 def _ends(fact: tuple[sp.Expr, bool]) -> Iterator[tuple[sp.Expr, bool]]:
-    """Yield x − a and b − x for a fact (x − a)(b − x) in one symbol with rational a < b."""
+    """Split an inequality (x − a)(b − x) > 0 or ≥ 0 in one symbol, with rational a < b, into two linear ones.
+
+    Yield (x − a, strict) and (b − x, strict), and nothing for any other inequality.
+    """
     e, strict = fact
     polynomial = e.as_poly() if len(e.free_symbols) == 1 and e.is_polynomial() else None
     if not polynomial or polynomial.is_multivariate or not (polynomial.domain.is_ZZ or polynomial.domain.is_QQ):
@@ -347,12 +357,12 @@ def _ends(fact: tuple[sp.Expr, bool]) -> Iterator[tuple[sp.Expr, bool]]:
 
 
 def _between(u: sp.Expr, low: Any, high: Any) -> list[sp.Expr]:
-    """Return the expressions that are positive for low < u < high."""
+    """Return the expressions that must be positive so that low < u < high; a limit None is left out."""
     return [*(() if low is None else (u - low,)), *(() if high is None else (high - u,))]
 
 
 def _factored(e: sp.Expr) -> tuple[int, frozenset[sp.Expr], frozenset[sp.Expr]]:
-    """Return the sign of a product's number, its factors of odd powers, and its factors of even positive powers."""
+    """Split a product into the sign of its number, its factors of odd powers, and its factors of even positive powers."""
     number, factors = e.as_coeff_mul()
     side, odd, even = int(sp.sign(number)), set[sp.Expr](), set[sp.Expr]()
     for factor in factors:

@@ -1,4 +1,6 @@
-"""Enclosures of Γ, of Bessel functions J of rational order by power series, and of elliptic integrals K and E by means.
+"""Enclosures of Γ, of Bessel functions J of rational order, and of elliptic integrals K and E.
+
+J is summed as a power series; K and E come from the arithmetic-geometric mean.
 
 Abramowitz & Stegun, Handbook of Mathematical Functions, chs. 6, 9, 17.
 """
@@ -21,11 +23,11 @@ def _ball(radius: Any) -> Any:
 
 def _check(x: Any) -> None:
     if not abs(x).b < _LARGEST:
-        raise NotExactError("A series is not summed at so large an argument.")
+        raise NotExactError("The argument is too large for the sum of a series.")
 
 
 def _series(first: Any, ratio: Any, above: Any) -> Any:
-    """Return first + first*ratio(0) + …, for decreasing ratios; above(k) bounds |ratio| from index k on."""
+    """Enclose first + first*ratio(0) + first*ratio(0)*ratio(1) + …; above(k) bounds |ratio| from index k on."""
     total, term, k = first, first, 0
     least = iv.mpf(2) ** (-iv.prec - 20)
     while True:
@@ -41,7 +43,7 @@ def _series(first: Any, ratio: Any, above: Any) -> Any:
 def _gamma(orders: Sequence[sp.Expr], values: Sequence[Any]) -> Any:
     [x] = values
     if orders[0].is_integer and orders[0].is_nonpositive:
-        raise NotExactError("A pole of the gamma function.")
+        raise NotExactError("The gamma function has a pole there.")
     _check(x)
     return iv.gamma(x)
 
@@ -55,7 +57,7 @@ def _binomial(orders: Sequence[sp.Expr], values: Sequence[Any]) -> Any:
 
 
 def _bessel(orders: Sequence[sp.Expr], values: Sequence[Any]) -> Any:
-    """Return J: (x/2)ᵛ Σ (−x²/4)ᵏ/(k! Γ(v + k + 1)), for x > 0 or integer v."""
+    """Return the Bessel function J of order v at x, (x/2)ᵛ Σ (−x²/4)ᵏ/(k! Γ(v + k + 1)), for x > 0 or integer v."""
     v, x = orders[0], values[1]
     if not v.is_Rational:
         raise NotExactError("A Bessel function is enclosed at rational orders only.")

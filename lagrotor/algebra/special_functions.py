@@ -15,13 +15,13 @@ _MOST_STEPS = 30
 
 
 def _constant(u: sp.Expr) -> tuple[sp.Rational, sp.Expr]:
-    """Return the rational term of u, and the remainder."""
+    """Split u into a rational number and the remaining terms."""
     constant, remainder = sp.expand(u).as_coeff_Add()
     return (constant, remainder) if constant.is_Rational else (sp.S.Zero, constant + remainder)
 
 
 def _gamma(u: sp.Expr) -> sp.Expr | None:
-    """Return Γ in terms of Γ at an argument with a constant in [0, 1)."""
+    """Write Γ(u) in terms of Γ at an argument whose rational term lies in [0, 1); None if there is nothing to reduce."""
     u = sp.expand(u)
     constant, remainder = _constant(u)
     if not remainder and not (value := sp.gamma(constant)).has(sp.gamma):
@@ -44,7 +44,7 @@ def _binomial(n: sp.Expr, k: sp.Expr) -> sp.Expr | None:
 
 
 def _bessel(order: sp.Expr, x: sp.Expr) -> sp.Expr | None:
-    """Reduce the order to a constant in [0, 2): J_ν = (2(ν − 1)/x) J_{ν−1} − J_{ν−2}."""
+    """Reduce the rational term of the order to [0, 2) by J_ν = (2(ν − 1)/x) J_{ν−1} − J_{ν−2}; None if it lies there."""
     constant, remainder = _constant(order)
     if not remainder and abs(constant) == sp.S.Half:
         return sp.sqrt(2 / sp.pi) / sp.sqrt(x) * (sp.cos(x) if constant < 0 else sp.sin(x))

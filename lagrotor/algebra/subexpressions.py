@@ -46,7 +46,7 @@ def length(e: sp.Basic) -> int:
 
 
 def written(e: sp.Basic) -> str:
-    """Return the expression as text; a large expression as a list of numbered subexpressions."""
+    """Return the expression as text. A large expression is written as a list of numbered subexpressions."""
     if length(e) < _WRITTEN:
         return str(e)
     number = dict[sp.Basic, str]()

@@ -13,7 +13,11 @@ _MOST_TERMS = 40  # of an expanded sum
 
 
 def expand_sum(e: sp.Sum) -> sp.Expr | None:
-    """Expand a sum between integers, or write Σ to n + 2 as Σ to n and two terms, with constant factors outside."""
+    """Rewrite a sum by one of three rules, and return None if none applies.
+
+    A sum between integers is expanded. Constant factors are taken out of a sum. A sum to n + 2 becomes a sum to n and two
+    terms.
+    """
     body, (i, low, high), *others = e.args
     if others:
         return None
@@ -38,7 +42,7 @@ def expand_sum(e: sp.Sum) -> sp.Expr | None:
 
 
 def value_of_sum(e: sp.Sum, where: Region, vanishes: Callable[[sp.Expr, Region], bool]) -> sp.Expr | None:
-    """Return Gosper's closed form, proved by induction on the upper limit; None if there is none."""
+    """Return a closed form of a sum, found by Gosper's algorithm and proved by induction; None if there is none."""
     body, (i, low, high), *others = e.args
     if others or not (high.is_Symbol and high.is_integer and low.is_Integer) or body.has(high):
         return None
@@ -52,7 +56,7 @@ def value_of_sum(e: sp.Sum, where: Region, vanishes: Callable[[sp.Expr, Region],
 
 
 def holds_by_induction(expression: sp.Expr, where: Region, vanishes: Callable[[sp.Expr, Region], bool]) -> bool:
-    """Return True if an expression linear in one sum to n is zero for the first n, and for n + 1 if for n."""
+    """Return True if an expression, linear in one sum to n, is zero for the first n, and for n + 1 whenever it is for n."""
     sums = expression.atoms(sp.Sum)
     if len(sums) != 1:
         return False

@@ -50,7 +50,11 @@ _BY_OTHERS: dict[Any, Callable[[sp.Expr], sp.Expr]] = {
 
 
 def prove_zero(expression: sp.Expr, where: Region) -> tuple[tuple[sp.Expr, ...] | None, tuple[sp.Basic, ...]]:
-    """Return the divisors of a proof that the expression is zero, else None; and the signs that a rule missed."""
+    """Try to prove that an expression is zero, and return (divisors, missing).
+
+    `divisors` must not vanish; it is None if the proof fails. `missing` lists inequalities that a rule of the translation would
+    have needed.
+    """
     first = Translation(where)
     first.of(expression)
     second = Translation(where, first.steps, first.degrees)
@@ -63,7 +67,10 @@ def prove_zero(expression: sp.Expr, where: Region) -> tuple[tuple[sp.Expr, ...] 
 
 
 class Translation:
-    """The translation of expressions in one region; a second pass starts from the angles' steps and roots of the first."""
+    """The translation of expressions in one region.
+
+    A second pass starts with the denominators of angles (`steps`) and the degrees of roots that the first pass found.
+    """
 
     def __init__(
         self, where: Region, steps: Mapping[Any, int] | None = None, degrees: Mapping[sp.Expr, int] | None = None
@@ -88,13 +95,13 @@ class Translation:
         return self.known[e]
 
     def restore(self, translated: sp.Expr) -> sp.Expr:
-        """Return the original expression of a translation."""
+        """Return a translated expression in the original symbols and functions."""
         while generated := translated.free_symbols & self.meaning.keys():
             translated = translated.xreplace({symbol: self.meaning[symbol] for symbol in generated})
         return translated
 
     def symbol(self, head: Any, arguments: tuple[sp.Expr, ...], meaning: sp.Expr) -> sp.Symbol:
-        """Return the symbol for a function of translated arguments; equal arguments have the same symbol."""
+        """Return the symbol for the function `meaning` of translated arguments; equal arguments have the same symbol."""
         group = self.symbols.setdefault(head, [])
         for others, symbol in group[-_MOST_SAME:]:
             if all(self._same(a, b) for a, b in zip(arguments, others, strict=True)):
@@ -117,7 +124,7 @@ class Translation:
             return False
 
     def note_missing(self, strict: bool, *sides: sp.Expr) -> None:
-        """Note that the rule needs these sides to be positive (strict) or nonnegative."""
+        """Record in `missing` that a rule needs these sides to be positive (`strict`) or nonnegative."""
         for side in sides:
             if not side.has(sp.I) and side.is_real is not False:
                 relation = sp.Gt(side, 0) if strict else sp.Ge(side, 0)
@@ -151,7 +158,7 @@ class Translation:
         return self._function(e)
 
     def _unbarred(self, e: sp.Mul) -> tuple[sp.Expr, ...]:
-        """Return the factors of a product, with |a| |b| as ± a b if the sign of a b is known."""
+        """Return the factors of a product, in which ± a b replaces |a| |b| if the sign of a b is known."""
         bars = [factor for factor in e.args if isinstance(factor, sp.Abs)]
         product = sp.Mul(*(factor.args[0] for factor in bars))
         product_signs = signs(product, self.where) if len(bars) > 1 else None
@@ -185,7 +192,7 @@ class Translation:
         raise NotExactError(f"{e} is outside the class.")
 
     def _accumulated(self, e: sp.Expr) -> sp.Expr:
-        """Translate an integral to a difference of antiderivatives, a sum by its body and limits."""
+        """Translate an integral into a difference of antiderivatives, and a sum into a symbol for its body and limits."""
         body, (x, *ends), *others = e.args
         if others or not body.has(AppliedUndef):
             raise NotExactError(f"{e} is outside the class.")
@@ -224,7 +231,7 @@ class Translation:
         return self.exponential(sp.expand(self.of(exponent) * self._complex_log(base)))
 
     def _turned(self, e: sp.Expr) -> sp.Expr:
-        """Translate (−1)**n or i**n without the even or fourfold terms of n."""
+        """Translate (−1)**n or i**n; terms of n that leave the power unchanged, multiples of 2 or of 4, are dropped."""
         period = 2 if e.base is sp.S.NegativeOne else 4
         terms = [term for term in sp.Add.make_args(sp.expand(e.exp)) if not (term / period).is_integer]
         power = e.base ** sp.Add(*terms)
@@ -235,7 +242,7 @@ class Translation:
         return sign
 
     def _whole_power(self, base: sp.Expr, n: sp.Expr) -> sp.Expr:
-        """Return Π pᵢ**(kᵢ n) of factors of any sign."""
+        """Return base**n for an integer n as Π pᵢ**(kᵢ n) over the factors pᵢ of the base, which may have any sign."""
         content, factors = self.factors(base)
         result = self.exponential(sp.expand(n * self.log_size(abs(content))))
         if content < 0:
@@ -246,7 +253,7 @@ class Translation:
         return result
 
     def root(self, base: sp.Expr, r: sp.Rational, meaning: sp.Expr | None = None) -> sp.Expr:
-        """Return base**r of a translated base, with the factors of known sign extracted."""
+        """Return base**r of a translated base as a product of powers of its factors, as far as their signs are known."""
         original = self.restore(base) if meaning is None else meaning
         base_signs = signs(original, self.where)
         if base_signs is None or not base_signs <= NONNEGATIVE:
@@ -263,7 +270,10 @@ class Translation:
         return result
 
     def _without_squares(self, base: sp.Expr, r: sp.Rational, meaning: sp.Expr) -> sp.Expr:
-        """Return base**r of a base of any sign by (a b)**r = a**r b**r for a > 0; b keeps first powers only."""
+        """Return base**r for a base of any sign, after positive squares have been extracted.
+
+        The rule is (a b)**r = a**r b**r for a square a > 0; only first powers remain in b.
+        """
         content, factors = self.factors(base)
         result, remainder = self._number_power(abs(content), r), sp.sign(content)
         for p, k in factors:
@@ -297,7 +307,7 @@ class Translation:
         return self._principal(size, r, sp.Abs(original))
 
     def _principal(self, base: sp.Expr, r: sp.Rational, meaning: sp.Expr) -> sp.Expr:
-        """Return base**r = (base**(1/q))**p with a symbol for the root."""
+        """Return base**r as a power of a symbol for base**(1/q), where q is a common denominator of the exponents."""
         if r.is_Integer:
             return base**r
         if base.is_Rational:
@@ -313,7 +323,7 @@ class Translation:
         return sp.Mul(*(f if f.is_Rational else self._number(f) for f in sp.Mul.make_args(sp.Pow(value, r))))
 
     def _number(self, e: sp.Expr) -> sp.Expr:
-        """Return a symbol for an algebraic number."""
+        """Return a symbol for an algebraic number; a rational number and i are returned unchanged."""
         if e.is_Rational or e is sp.I:
             return e
         symbol = self.symbol("number", (e,), e)
@@ -321,7 +331,7 @@ class Translation:
         return symbol
 
     def exponential(self, u: sp.Expr) -> sp.Expr:
-        """Return exp(u) of a translated u, term by term."""
+        """Return exp(u) of a translated u as a product over the terms of u."""
         result = sp.S.One
         for rate, monomial in self.terms(u):
             if monomial.has(sp.I):
@@ -341,7 +351,7 @@ class Translation:
         return result
 
     def terms(self, u: sp.Expr) -> list[tuple[sp.Rational, sp.Expr]]:
-        """Return u as Σ rate · product of symbols, with a symbol for a divisor."""
+        """Write u as Σ rate · product of symbols, and return the pairs (rate, product); a sum as divisor becomes one symbol."""
         over, under = sp.fraction(sp.together(u))
         over = sp.expand(over)
         under = sp.expand(under)
@@ -362,7 +372,7 @@ class Translation:
     # Angles ------------------------------------------------------------------------------------------------------------
 
     def circle(self, u: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-        """Return cosine and sine of a translated u, term by term."""
+        """Return cosine and sine of a translated u by the addition theorems for the terms of u."""
         total, terms = (sp.S.One, sp.S.Zero), self.terms(u)
         if any(term in self.arcs and rate.q % 2 == 0 for rate, term in terms) and (half := self._half(u)) is not None:
             return half
@@ -376,7 +386,7 @@ class Translation:
         return total
 
     def _half(self, u: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
-        """Return √((1 + cos 2u)/2) and sin 2u/(2 cos u) if cos u is known to be nonnegative, else None."""
+        """Return cos u = √((1 + cos 2u)/2) and sin u = sin 2u/(2 cos u) if cos u is known to be nonnegative, else None."""
         if not is_nonnegative(sp.cos(self.restore(u)), self.where):
             return None
         cosine, sine = self.circle(sp.expand(2 * u))
@@ -471,11 +481,11 @@ class Translation:
         return symbol
 
     def _are_real(self, factors: list[tuple[sp.Expr, int]]) -> bool:
-        """Return True if each factor is known to be real; a product may be real without that."""
+        """Return True if each factor is known to be real. (A product can be real although its factors are not.)"""
         return all(is_real(self.restore(p), self.where) for p, _ in factors)
 
     def factors(self, u: sp.Expr) -> tuple[sp.Rational, list[tuple[sp.Expr, int]]]:
-        """Return u = content · Π p**k with coprime p of positive leading coefficient."""
+        """Write u as content · Π p**k with coprime p, whose leading coefficients are positive; return content and [(p, k)]."""
         if node_count(u) > _MOST_PARTS:
             raise TooLargeError(f"An argument of a root or a logarithm has more than {_MOST_PARTS} parts.")
         over, under = sp.fraction(sp.together(u))
@@ -507,7 +517,7 @@ class Translation:
         return content, [(sp.expand(p), int(k)) for p, k in factors]
 
     def _without_powers(self, side: sp.Expr) -> sp.Expr:
-        """Reduce powers of symbols by their polynomial relations."""
+        """Reduce high powers of symbols by the polynomial relations of these symbols."""
         for symbol, (q, value) in reversed(self.relations.items()):
             if side.has(symbol) and value.is_polynomial() and not value.is_Symbol:
                 side = sp.rem(side, symbol**q - value, symbol)
@@ -593,7 +603,7 @@ class Translation:
 
 
 def _angle_of_unit(base: sp.Expr) -> sp.Expr | None:
-    """Return u for base = cos u ± i sin u; None otherwise."""
+    """Return u if base = cos u ± i sin u; None otherwise."""
     for cosine in base.atoms(sp.cos):
         u = cosine.args[0]
         for side in (1, -1):
@@ -603,7 +613,7 @@ def _angle_of_unit(base: sp.Expr) -> sp.Expr | None:
 
 
 def _square_root(base: sp.Expr) -> sp.Expr | None:
-    """Return v for a product v² of even powers of symbols; None otherwise."""
+    """Return v if base = v² is a product of even powers; None otherwise."""
     number, factors = base.as_coeff_mul()
     powers = [factor.as_base_exp() for factor in factors]
     if not base.free_symbols or not number.is_positive or not all(k.is_Integer and k.is_even for _, k in powers):
@@ -612,12 +622,12 @@ def _square_root(base: sp.Expr) -> sp.Expr | None:
 
 
 def _sum(a: tuple[sp.Expr, sp.Expr], b: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
-    """Return cosine and sine of a sum of two angles."""
+    """Return cosine and sine of the sum of two angles, each given by its cosine and sine."""
     return a[0] * b[0] - a[1] * b[1], a[1] * b[0] + a[0] * b[1]
 
 
 def _multiple(pair: tuple[sp.Expr, sp.Expr], n: int) -> tuple[sp.Expr, sp.Expr]:
-    """Return cosine and sine of n times an angle."""
+    """Return cosine and sine of n times an angle, given by its cosine and sine."""
     if abs(n) > _MOST_MULTIPLE:
         raise NotExactError(f"A multiple {n} of an angle is too large.")
     total = reduce(lambda a, _: _sum(a, pair), range(abs(n)), (sp.S.One, sp.S.Zero))

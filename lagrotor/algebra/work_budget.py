@@ -17,11 +17,11 @@ _CACHES: list[Any] = []
 
 
 class _Exhausted(BaseException):
-    """The end of the budget; a BaseException, so that handlers of every error on the way do not catch it."""
+    """The budget is used up. This is a BaseException, so that no handler of general errors catches it on the way."""
 
 
 def bounded_cache(maxsize: int) -> Callable[[Callable[..., Any]], Any]:
-    """Return an lru_cache that `at_most` clears first, so that the count does not depend on earlier decisions."""
+    """Return a decorator like `lru_cache`; `at_most` clears the cache, so that the count is independent of earlier decisions."""
 
     def with_cache(function: Callable[..., Any]) -> Any:
         _CACHES.append(lru_cache(maxsize=maxsize)(function))
@@ -31,18 +31,18 @@ def bounded_cache(maxsize: int) -> Callable[[Callable[..., Any]], Any]:
 
 
 class Calls:
-    """A number of calls shared by several pieces of work."""
+    """A number of function calls that several pieces of work share."""
 
     def __init__(self, limit: float) -> None:
         self.remaining, self.begun = limit, False
 
 
 def at_most(calls: "int | Calls", work: Callable[..., _Result], *arguments: Any) -> _Result:
-    """Return work(*arguments); raise WorkError once it has made more calls of functions, in sympy or built in, than allowed.
+    """Return work(*arguments), or raise WorkError once it has made more function calls than allowed.
 
-    The count is the same on all machines with the same Python and sympy, within 0.1 % (the order of sets). A single call with
-    numbers of many digits or polynomials of high degree may still be long. Counting doubles the time. Under a profiler, which
-    counts calls itself, there is no bound.
+    Calls in sympy and of built-in functions count, too. The count is the same on all machines with the same Python and sympy,
+    up to 0.1 %, which depends on the order of sets. A single call with numbers of many digits or polynomials of high degree may
+    still be long. Counting doubles the time. Under a profiler, which counts calls itself, there is no bound.
     """
     if sys.getprofile() is not None:
         return work(*arguments)

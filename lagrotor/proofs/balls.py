@@ -29,7 +29,7 @@ __all__ = ["arb", "arb_mat", "arb_poly", "arb_series", "ctx", "fmpq"]
 
 @contextmanager
 def precision(bits: int, terms: int = 10) -> Iterator[None]:
-    """Set Arb's precision and the length of its series within a block."""
+    """Set the precision of Arb in bits, and the number of terms of its power series, within a `with` block."""
     outer = ctx.prec, ctx.cap
     ctx.prec, ctx.cap = bits, terms
     try:
@@ -57,12 +57,12 @@ def rational(value: Any, where: str) -> Fraction:
 
 
 def upper(x: Ball) -> Ball:
-    """Return an upper bound of the absolute value."""
+    """Return an upper bound of |x| for all x in a ball."""
     return arb(x.abs_upper())
 
 
 def exact(x: Ball) -> Ball:
-    """Return the midpoint, which is exact."""
+    """Return the midpoint of a ball, an exact number."""
     return x.mid()
 
 
@@ -72,7 +72,7 @@ def radius(x: Ball) -> Ball:
 
 
 def around(middle: Ball, wide: Ball) -> Ball:
-    """Return the ball about a midpoint with the given radius; both may be balls."""
+    """Return the ball about a midpoint with a radius; if these are balls, the result covers all their values."""
     return middle + arb(0, wide.abs_upper())
 
 
@@ -85,7 +85,7 @@ def max_of(values: Sequence[Ball]) -> Ball:
 
 
 def as_text(x: Ball) -> str:
-    """Return an exact number as mantissa (base 16), p, exponent of two: 3p-1 is 3/2."""
+    """Return an exact number as text: mantissa in base 16, p, exponent of two. For example, 3p-1 is 3/2."""
     mantissa, exponent = x.man_exp()
     return f"{int(mantissa):x}p{int(exponent)}"
 
@@ -114,7 +114,7 @@ def matrix_data(matrix: Matrix) -> list[list[str]]:
 
 
 def format_ball(x: Ball, digits: int = 30) -> str:
-    """Return a ball as text, [8.1234567 +/- 3e-8], or its ends if no digit is certain. The text contains the ball."""
+    """Return a ball as text, [8.1234567 +/- 3e-8]; if no digit is certain, return the two ends. The text contains the ball."""
     if x.rel_accuracy_bits() > 3 or abs(x) < 1e-6:
         return str(x.str(digits))
     ends = x.lower() - abs(x.lower()) * 0.01, x.upper() + abs(x.upper()) * 0.01

@@ -90,7 +90,10 @@ def structure_subject(s: Assembly) -> Subject:
 
 
 def system_subject(system: Equations, arguments: Sequence[str]) -> Subject:
-    """Return the text of the Lagrangian and of all forces and constraints; letters: symbols that occur in the text alone."""
+    """Return the Lagrangian, all forces and all constraints as text; None if the checker cannot read it.
+
+    `letters` lists the symbols that occur in this text alone.
+    """
     terms = system.L, *system.acting
     letters = set().union(*(map(str, e.free_symbols) for e in terms))
     acting = ("constraints", "rolling", "forces")
@@ -122,9 +125,9 @@ def _readable(expressions: Sequence[sp.Expr], names: Sequence[str]) -> bool:
 class Field:
     """The equations of motion of a system, with its initial set.
 
-    program: (states, parameters) → rates of the states; values: balls of the parameters; start: balls of the states;
-    stages: subexpressions of the observables; observables: symbol → expression of the states; constraints: expressions that
-    stay zero.
+    `program` computes the rates of the states from the states and parameters. `values` are balls of the parameters, `start`
+    balls of the states. `stages` are common subexpressions of the observables. `observables` gives symbols that stand for
+    expressions of the states. The expressions in `constraints` stay zero.
     """
 
     program: Program
@@ -158,7 +161,7 @@ class Field:
 
     @cached_property
     def start_set(self) -> tuple[Balls, Balls]:
-        """The exact middle and the spread of the initial states and interval parameters."""
+        """The initial states and interval parameters, as an exact middle and the spread about it."""
         middle: Balls = []
         spread: Balls = []
         for x in (*self.start, *(self.values[s] for s in self.varying)):
@@ -168,7 +171,7 @@ class Field:
         return middle, spread
 
     def function(self, expressions: Sequence[sp.Expr]) -> Tape:
-        """Return expressions of states and observables as a tape of the motion's arguments."""
+        """Return a tape that computes expressions of states and observables from the motion's arguments."""
         observables = self.observables or {}
         symbols = {*self.arguments, *observables, *(name for name, _ in self.stages)}
         for e in expressions:
@@ -180,12 +183,12 @@ class Field:
 
 
 def is_interval(x: Ball) -> bool:
-    """Return True if a ball is an intended interval, wider than a rounding error."""
+    """Return True if a ball is meant as an interval, because it is much wider than a rounding error."""
     return not x.is_exact() and x.rel_accuracy_bits() < 40 and float(x.rad()) > 1e-25
 
 
 def values_at(tape: Tape, arguments: Sequence[Ball], derivatives: bool = False) -> Any:
-    """Enclose the outputs of a tape at balls of its arguments; with `derivatives`, also the rows of their derivatives."""
+    """Enclose the outputs of a tape at balls of its arguments; with `derivatives`, return also the Jacobian matrix."""
     evaluation = Evaluation(tape, [TaylorModel(arb_poly([x]), ZERO, 1) for x in arguments])
     values = [f.poly[0] for f in evaluation.outputs]
     if not derivatives:
@@ -228,7 +231,7 @@ def _values(parameters: Sequence[sp.Symbol], values: Values) -> dict[sp.Symbol, 
 
 
 def system_field(system: Equations, values: Values, q0: Any, v0: Any) -> Field:
-    """Return the field of a Lagrangian system in (q, v[, t]); time starts at 0."""
+    """Return the field of a Lagrangian system with the states (q, v), and t if the equations contain it; t starts at 0."""
     if system.velocities:
         speeds = ", ".join(map(str, system.speeds))
         raise InputError(f"proofs: the system is written in {speeds}, quasi-velocities: leave them out")
@@ -251,7 +254,10 @@ def system_field(system: Equations, values: Values, q0: Any, v0: Any) -> Field:
 
 
 def scene_field(scene: Scene) -> Field:
-    """Return the field of the pair in (U, chi, alpha, rates[, t]), the bar eliminated; a shock acts at all times."""
+    """Return the field of the pair with the states (U, chi, alpha, rates), and t if needed.
+
+    The bar is eliminated, and a shock acts at all times.
+    """
     if scene.link is None:
         raise SingularError("proofs: the scene has no bar to eliminate; take the two rotors as a Structure")
     exactly = scene_numbers(scene)
@@ -289,13 +295,16 @@ def scene_numbers(scene: Scene) -> dict[sp.Symbol, sp.Rational]:
 
 
 def scene_ratio(scene: Scene) -> Any:
-    """Return 'equal', 'short' or 'long': the bar's length against an axis."""
+    """Return 'equal', 'short' or 'long', the result of a comparison of the bar's length with the length of an axis."""
     value = scene_numbers(scene)[k]
     return "equal" if value == 1 else "short" if value < 1 else "long"
 
 
 def scene_start(scene: Scene) -> tuple[Ball, ...]:
-    """Return (U, chi, alpha, rates) of the scene's axes. The twist is that of the axes, and the bar determines the rest."""
+    """Return (U, chi, alpha, rates) of the scene's axes.
+
+    chi follows from the twist between the axes; the bar determines their other difference.
+    """
     value, ratio = ball(scene_numbers(scene)[k]), scene_ratio(scene)
     u, alpha, u_v, alpha_v = [], [], [], []
     for i, (axis, rate) in enumerate(zip(scene.axes, scene.rates, strict=True)):
@@ -329,7 +338,7 @@ def exact_number(x: Any) -> sp.Rational:
 
 
 def exact_coefficients(s: Assembly) -> Coefficients:
-    """Return the coefficients of a structure in rational numbers. The length of a brace is a root."""
+    """Return the coefficients of a structure as rational numbers; only the length of a brace may be a root."""
     if any(s.hinge):
         raise InputError("proofs: a hinge's moment θ/sin θ has no rigorous series here; leave the hinges out")
     ell = np.array([_bar(s, *bar) for bar in s.bars], dtype=object)
@@ -337,7 +346,7 @@ def exact_coefficients(s: Assembly) -> Coefficients:
 
 
 def _bar(s: Assembly, i: int, j: int, ell: float) -> sp.Expr:
-    """Return the length of a bar; if it is the rounded distance of the upright tips, that distance exactly."""
+    """Return the length of a bar; if it is a rounded distance of the upright tips, return that distance exactly, as a root."""
     if not has_upright_size(asdict(s), i, j, ell):
         return exact_number(ell)
     ends = [[*map(exact_number, (*s.joints[k], s.rotor[k].length))] for k in (i, j)]
@@ -350,7 +359,10 @@ def structure_coordinates(s: Assembly) -> Coordinates:
 
 
 def structure_program(s: Assembly) -> tuple[Program, tuple[sp.Expr, ...]]:
-    """Return (r, r'[, t]) → (r', r''[, 1]), and the expressions that stay zero: |r_i|² − 1, |d|² − ell² and half their rates."""
+    """Return the program (r, r'[, t]) → (r', r''[, 1]) of a structure, and the expressions that stay zero.
+
+    These are |r_i|² − 1, |d|² − ell², and half of the rates of both.
+    """
     c, axes = exact_coefficients(s), structure_coordinates(s)
     N, timed, tape = len(c.R), any(x != 0 for x in c.decay), list[Recorded]()
     of_time = {f"G_{i}": G * sp.exp(-k * t) for i, (G, k) in enumerate(zip(c.G, c.decay, strict=True)) if k}
@@ -368,7 +380,7 @@ def structure_program(s: Assembly) -> tuple[Program, tuple[sp.Expr, ...]]:
 def _stages(
     tape: Sequence[Recorded], leaves: Mapping[str, sp.Expr], outputs: Sequence[Term]
 ) -> tuple[list[Stage], list[sp.Expr]]:
-    """Return each recorded operation as a stage with exact constants, and the outputs; leaves: name → expression."""
+    """Convert recorded operations to stages (symbol, expression), and return them with the outputs; constants are exact."""
     stages, values = list[Stage](), dict[Recorded, sp.Expr]()
 
     def expression(x: Any) -> sp.Expr:
@@ -388,7 +400,10 @@ def _constraints(c: Coefficients, axes: Coordinates) -> tuple[sp.Expr, ...]:
 
 
 def structure_field(s: Assembly, tilt: Any, rates: Any) -> Field:
-    """Return the field of a structure in the axes (3 N) and their rates (3 N)[, t], from x, y or unit vectors of the axes."""
+    """Return the field of a structure with the states axes (3 N), rates (3 N), and t if needed.
+
+    `tilt` has x and y of each axis, or unit vectors.
+    """
     program, constraints = structure_program(s)
     n = 3 * len(s.joints)
     if len(constraints) > 2 * len(s.joints) and tilt is not None:

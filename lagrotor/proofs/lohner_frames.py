@@ -4,8 +4,9 @@ A node contains every x(t) that starts in x_0 + w:
 
     m + Q s + V w,   V in C + Q S.
 
-m, Q, C are exact, s and S are balls. m + Q s encloses the motion of the middle x_0. V is the derivative by w over the whole
-set; the mean-value theorem gives the enclosure. A step maps m to y and has the derivative D over the set:
+m, Q, C are exact, s and S are balls. m + Q s encloses the motion of the middle x_0. V is the derivative with respect to w over
+the whole set; by the mean-value theorem the node contains the motions. A step maps m to y and has the derivative D over the
+set:
 
     m₁ + Q₁ s₁ ∋ y + D Q s,   C₁ + Q₁ S₁ ∋ D (C + Q S).
 
@@ -51,7 +52,7 @@ _SLOPE_TERMS = 0.85  # part of the terms for derivatives, which multiply a small
 
 @dataclass(frozen=True)
 class Node:
-    """The set at time t: m + Q s + (C + Q S) w, with t, m, Q, C exact."""
+    """The set of the points m + Q s + (C + Q S) w at time t, for all w in the initial spread; t, m, Q, C are exact."""
 
     t: Ball
     m: Balls
@@ -62,12 +63,12 @@ class Node:
 
     @property
     def middle(self) -> Balls:
-        """The enclosed motion of the middle of the initial set."""
+        """The enclosure of the motion that starts in the middle of the initial set, at time t."""
         return (self.Q * column(self.s) + column(self.m)).entries()
 
     @property
     def derivative(self) -> Matrix:
-        """The derivative by the initial state, over the whole set."""
+        """The derivative of the state with respect to the initial state, enclosed over the whole initial set."""
         return self.C + self.Q * self.S
 
     def box(self, w: Balls) -> Balls:
@@ -81,7 +82,7 @@ class Node:
 
 @dataclass(frozen=True)
 class LohnerStep:
-    """A step from `node` to `end` over the time h, with n Taylor terms and `slope_terms` terms of the derivative."""
+    """A step of length h from `node` to `end`, with n Taylor terms, and `slope_terms` terms of the derivative."""
 
     node: Node
     h: Ball
@@ -111,7 +112,10 @@ class Start:
 
 @dataclass(frozen=True)
 class Accuracy:
-    """The local error of a step relative to the size of the state; it sets the length of the series and the precision."""
+    """The tolerance of a step, its local error relative to the size of the state.
+
+    It sets the number of terms and the precision.
+    """
 
     tol: float
 
@@ -133,13 +137,13 @@ def step_of(
 ) -> LohnerStep:
     """Return the step of length h. Raises RemainderError if its remainder is not bounded, or far above the tolerance.
 
-    A pulse that begins within the step is in no Taylor term at its start, but in the remainder.
+    A pulse that begins within the step does not appear in the Taylor terms at its start, but the remainder bound includes it.
     """
     n, slope_terms = accuracy.terms, accuracy.slope_terms
     rows = taylor(motion, node.m, n) if rows is None else rows
     bounds, _ = bound_remainder(motion, at := scale_terms(rows, h, n), node.m, h, n)
     if not max_of(bounds) < _LARGEST_REMAINDER * accuracy.tol * size_of(rows):
-        raise RemainderError("the remainder of the Taylor series is large over the step")
+        raise RemainderError("the remainder of the Taylor series is too large over the step")
     least = max_of(bounds) * arb(2) ** -16  # the checker's bounds of small components are larger
     image = [
         sum(row, arb(0)) + arb(0, (SLACK * bound + least).abs_upper()) for row, bound in zip(at, bounds, strict=True)
@@ -149,9 +153,9 @@ def step_of(
 
 
 def derivative_over(motion: Motion, m: Balls, box: Balls, at: list[Balls], h: Ball, n: int) -> Matrix:
-    """Enclose the derivative of the step over a box about m, of which `at` are the scaled Taylor terms.
+    """Enclose the derivative of the step over a box about m; `at` are the scaled Taylor terms of the motion from m.
 
-    Over a wide box, the mean-value theorem gives narrower terms from those of m and their derivatives.
+    For a wide box, the mean-value theorem gives narrower Taylor terms from `at` and the derivatives of the terms.
     """
     wide = scale_terms(taylor(motion, box, n), h, n)
     shift = [x - y for x, y in zip(box, m, strict=True)]
@@ -170,7 +174,8 @@ def derivative_over(motion: Motion, m: Balls, box: Balls, at: list[Balls], h: Ba
 def widen_radii(D: Matrix) -> Matrix:
     """Return a matrix with each radius enlarged by a quarter, since the checker's order of operations gives other radii.
 
-    Radii near the remainder bounds are doubled, and an eighth of the largest is added: the checker's bounds differ more.
+    If all radii are as small as the remainder bounds, they are doubled and an eighth of the largest is added: the checker's
+    bounds differ more.
     """
     radii = [radius(x) for x in D.entries()]
     largest = max_of(radii)
@@ -185,7 +190,7 @@ def narrower(x: Ball, y: Ball) -> Ball:
 
 
 def frame(image: Matrix, node: Node) -> Matrix:
-    """Return a nearly orthogonal matrix, exact, of the directions of the image's columns, the longest first."""
+    """Return an exact, nearly orthogonal matrix; its columns follow the directions of the image's columns, the longest first."""
     size = image.nrows()
     columns = np.array([[float(x.mid()) for x in row] for row in image.tolist()])
     spread = [max(float(upper(x)) for x in (node.s[j], *(node.S[j, k] for k in range(size)))) for j in range(size)]
@@ -212,7 +217,7 @@ def next_node(node: Node, h: Ball, image: Balls, D: Matrix, Q: Matrix) -> Node:
 
 
 def widen(values: Balls) -> Balls:
-    """Return wider balls, by their own size and the largest, so that the checker's balls lie within them."""
+    """Widen each ball in proportion to its size and to the largest one, so that the checker's balls lie within the results."""
     least = max_of(values) * _WIDER_BY_ALL
     return [x if x.is_zero() else x + arb(0, (abs(x) * _WIDER + least).upper()) for x in values]
 
@@ -247,7 +252,7 @@ def steps_of(motion: Motion, start: Start, t: Ball, accuracy: Accuracy) -> Itera
 
 
 def step_length(rows: list[Balls], tol: float) -> float:
-    """Return the step at which the last Taylor terms are tol times the size of the state, to a few bits."""
+    """Return the step length, rounded to a few bits, at which the last Taylor terms are tol times the size of the state."""
     n, size = len(rows[0]), size_of(rows)
     length = 1e6
     for k in (n - 2, n - 1):
@@ -263,7 +268,7 @@ def size_of(rows: Sequence[Balls]) -> float:
 
 
 def flow_data(about: Any, motion: Motion, start: Start, steps: Sequence[LohnerStep], bits: int) -> Certificate:
-    """Return the entries that all certificates of a motion share."""
+    """Return the entries that the certificates of all motions have in common."""
     initial = {"middle": balls_data(start.middle), "spread": balls_data(start.spread)}
     data = {"version": VERSION, "bits": bits, "about": about, "motion": motion.data(), "start": initial}
     return data | {"steps": [step.data() for step in steps]}

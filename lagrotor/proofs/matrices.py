@@ -35,7 +35,7 @@ def middle_of(matrix: Matrix) -> Matrix:
 
 
 def matrix_norm(matrix: Matrix) -> Ball:
-    """Return an upper bound of the row-sum norm."""
+    """Return an upper bound of the row-sum norm, the largest sum of absolute values in a row."""
     return max_of([sum(map(abs, row), ZERO) for row in matrix.tolist()])
 
 
@@ -48,7 +48,7 @@ def middle_inverse(slope: Matrix) -> Matrix:
 
 
 def inverse(matrix: Matrix) -> Matrix:
-    """Enclose all inverses of a matrix ball: X (1 + R + R² + …), R = 1 − M X. Raises NotProved if the series may diverge."""
+    """Enclose the inverses of a matrix ball M by X (1 + R + R² + …), R = 1 − M X. Raises NotProved if the series may diverge."""
     n, X = matrix.nrows(), middle_inverse(matrix)
     R = identity(n) - matrix * X
     size = matrix_norm(R)
@@ -59,10 +59,14 @@ def inverse(matrix: Matrix) -> Matrix:
 
 
 def krawczyk(value: Balls, slope: Matrix, A: Matrix, w: Balls) -> Balls:
-    """Return K − z from F(z), DF over the box, A and the box w."""
+    """Return the Krawczyk box K minus its centre z, (1 − A D) w − A F(z).
+
+    `value` is F(z), `slope` encloses the Jacobian matrix D on the box, A approximates the inverse of D, and w is the box minus
+    z.
+    """
     return (-(A * column(value)) + (identity(len(w)) - A * slope) * column(w)).entries()
 
 
 def inside(image: Balls, w: Balls) -> bool:
-    """Return True if K − z lies in the interior of the box w."""
+    """Return True if `image`, the Krawczyk box K − z, lies in the interior of the box w."""
     return all(box.contains_interior(x) for x, box in zip(image, w, strict=True))

@@ -22,7 +22,7 @@ VERSION = 1
 
 
 class Certified(Protocol):
-    """A result with a certificate: an attribute, or a property that computes it."""
+    """A result that has a `certificate`, either as an attribute or as a property that computes it."""
 
     @property
     def certificate(self) -> Certificate: ...
@@ -57,7 +57,7 @@ def _decimal(text: str) -> str:
 
 
 def _time(data: Sequence[str]) -> str:
-    """Return a time, as a short decimal if its ball contains one."""
+    """Return a time as text: a short decimal if the ball contains one, else the ball."""
     x = _read_ball(data)
     short = f"{float(x.mid()):.12g}"
     return short if x.contains(arb(short)) else format_ball(x, 15)
@@ -96,7 +96,7 @@ def _means(certificate: Certificate) -> str:
 
 
 def _start_phrase(certificate: Certificate) -> str:
-    """Return the subject, the initial state and the parameters."""
+    """Return the sentence about the subject, the initial state and the parameters of a theorem."""
     motion, start = certificate["motion"], certificate["start"]
     rows = [*zip(start["middle"], start["spread"], strict=True), *((x,) for x in motion["parameters"])]
     sums = [map(sum, zip(*map(_read_fractions, row), strict=True)) for row in rows]
@@ -228,7 +228,7 @@ def _plain(x: Decimal) -> str:
 
 
 def _definitions(named: Sequence[Mapping[str, Any]]) -> str:
-    """Return the definition of each named expression, once."""
+    """Return one sentence for each named expression: its definition."""
     return "".join(dict.fromkeys(f" {row['of']} = {row['means']}." for row in named if "means" in row))
 
 
@@ -246,7 +246,7 @@ def _periodic_orbit(certificate: Certificate) -> str:
 
 
 def _keeps_energy(certificate: Certificate) -> bool:
-    """Return True if the named Lagrangian has no time and nothing else acts, so that two multipliers are 1."""
+    """Return True if two multipliers are 1 because energy is conserved: L has no time, and nothing else acts."""
     about = certificate["about"] or {}
     data = about.get("Lagrangian")
     if certificate["ones"] != 2 or data is None or "t" in data["letters"]:
@@ -255,7 +255,7 @@ def _keeps_energy(certificate: Certificate) -> bool:
 
 
 def _ones_phrase(ones: int, kind: str) -> str:
-    """Return the premise that a kind of orbit rests on: the number of multipliers equal to 1."""
+    """Return the sentence that `ones` multipliers are known to be 1, on which some kinds of orbits rest; else ""."""
     needed = ones and kind in ("elliptic", "hyperbolic", "parabolic")
     return f" That {ones} of its multipliers are 1 is known of the system." if needed else ""
 

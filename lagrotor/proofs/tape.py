@@ -56,7 +56,7 @@ class Recorder:
         return self.keep("number", str(rational(value, "a number in the equations")))
 
     def name(self, symbol: sp.Symbol, place: int) -> None:
-        """Set the place that a symbol denotes."""
+        """Let a symbol denote the result at a place of the tape."""
         self._known[symbol] = place
 
     def record(self, e: sp.Expr) -> int:
@@ -178,7 +178,7 @@ def select_outputs(first: Tape, others: Sequence[int]) -> Tape:
 
 
 def with_pace(tape: Tape, states: int) -> Tape:
-    """Return the motion in s = t / pace: every output times the pace, a new argument after the states."""
+    """Return the tape of the motion in s = t / pace: each output is multiplied by the pace, a new argument after the states."""
     operations: list[Operation] = []
     for name, *on in tape.operations:
         operations.append(("argument", on[0] + (on[0] >= states)) if name == "argument" else (name, *on))

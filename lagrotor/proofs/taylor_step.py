@@ -5,7 +5,7 @@ map e ↦ h ∫ f(P + e) ds − P takes the ball |e_i| ≤ ε_i into itself if
 
     h (|f_{n−1}| / n + remainder(f) / (n + 1)) ≤ ε,
 
-and the motion is its fixed point. The derivative D by the initial state solves the linear equation D' = h J D.
+and the motion is its fixed point. The derivative D with respect to the initial state solves the linear equation D' = h J D.
 """
 
 from collections.abc import Sequence
@@ -40,8 +40,8 @@ _TRIES = 4  # iterations of the Picard map for a remainder bound
 class Motion:
     """x' = f(x; parameters): the outputs of the tape are the rates of its first arguments.
 
-    The arguments after the `moving` states are constant parameters that vary within intervals; derivatives by them are
-    taken, too.
+    The arguments after the `moving` states are constant parameters that vary within intervals. Derivatives with respect to them
+    are computed, too.
     """
 
     tape: Tape
@@ -53,7 +53,7 @@ class Motion:
 
     @property
     def size(self) -> int:
-        """The number of states and of parameters that vary."""
+        """The number of states plus the number of parameters that vary."""
         return len(self.tape.arguments) - len(self.parameters)
 
     def data(self) -> dict[str, Any]:
@@ -77,7 +77,7 @@ def taylor(motion: Motion, start: Balls, n: int) -> list[Balls]:
 
 
 def scale_terms(rows: Sequence[Balls], h: Ball, n: int) -> list[Balls]:
-    """Return the first n coefficients in s = t/h."""
+    """Return the first n Taylor coefficients in s = t/h, from the coefficients in t."""
     powers = [arb(1)]
     for _ in range(n - 1):
         powers.append(powers[-1] * h)
@@ -85,7 +85,10 @@ def scale_terms(rows: Sequence[Balls], h: Ball, n: int) -> list[Balls]:
 
 
 def bound_remainder(motion: Motion, rows: Sequence[Balls], start: Balls, h: Ball, n: int) -> tuple[Balls, Evaluation]:
-    """Return remainder bounds ε for n scaled terms, and the evaluation of the tape that proves the Picard inclusion."""
+    """Return bounds ε of the remainders after n scaled terms, and the evaluation of the tape that proves them.
+
+    The proof is the Picard inclusion.
+    """
     still = [*start[motion.moving :], *motion.parameters]
     guess = [upper(row[-1]) + upper(row[-2]) for row in rows]
     least = max_of(guess) * arb(2) ** -20 + arb(2) ** (-2 * ctx.prec)
@@ -103,7 +106,10 @@ def bound_remainder(motion: Motion, rows: Sequence[Balls], start: Balls, h: Ball
 
 
 def step_derivative(motion: Motion, evaluation: Evaluation, h: Ball, n: int) -> tuple[Matrix, list[Matrix]]:
-    """Enclose the derivative D of the step by states and varying parameters, (size, size), and its n Taylor terms in s."""
+    """Enclose the derivative D of the step with respect to states and varying parameters, shape (size, size).
+
+    Return D and n Taylor terms of D in s.
+    """
     size = motion.size
     entries: list[Balls] = [[ZERO] * (size * size) for _ in range(n)]
     bound = ZERO

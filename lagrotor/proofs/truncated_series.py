@@ -15,7 +15,7 @@ from lagrotor.proofs.tape import Tape
 
 
 class RemainderError(NotProved):
-    """A remainder bound that does not close, because the step is too long for the series."""
+    """No remainder bound is proved, because the step is too long for the series."""
 
 
 class TaylorModel:
@@ -61,7 +61,7 @@ class TaylorModel:
         return self * b.inverse()
 
     def inverse(self) -> "TaylorModel":
-        """Return q/(1 − r), with q the truncated inverse of a and r = 1 − a q, whose powers begin at n."""
+        """Return 1/a = q/(1 − r), with q the truncated inverse of a, and r = 1 − a q, whose powers begin at n."""
         _constant(self, "a denominator")
         q = _poly(self.series().inv())
         size = _norm(q)
@@ -69,7 +69,10 @@ class TaylorModel:
         return TaylorModel(q, size * r / _margin(1 - r), self.n)
 
     def sqrt(self) -> "TaylorModel":
-        """Return q + s, s = (a − q² − s²)/(2 q): a contraction of |s| ≤ σ, σ = k (d + σ²)/2 and k σ < 1, k = |1/q|."""
+        """Return √a = q + s with the truncated root q. The error s = (a − q² − s²)/(2 q) is bounded by a contraction.
+
+        With k = |1/q| and d = |a − q²| the bound σ satisfies σ = k (d + σ²)/2 and k σ < 1.
+        """
         if not _constant(self, "a root's argument") > 0:
             raise RemainderError("a root's argument is not proved to be positive")
         q = _poly(self.series().sqrt())
@@ -78,7 +81,7 @@ class TaylorModel:
         return TaylorModel(q, k * d / (1 + _margin(1 - k * k * d).sqrt()), self.n)
 
     def exp(self) -> "TaylorModel":
-        """Return q + s, s' = a' s + (a' q − q'), times exp(e); the norm is at most exp(a_0 + |a − a_0|)."""
+        """Return exp(a + e) = (q + s) exp(e), where s' = a' s + (a' q − q'); the norm is at most exp(a_0 + |a − a_0|)."""
         q = _poly(self.series().exp())
         slope = self.poly.derivative()
         remainder = (self.poly[0] + _norm(self.poly - arb_poly([self.poly[0]])) + self.remainder).exp()
@@ -89,7 +92,7 @@ class TaylorModel:
         return TaylorModel(q, upper(remainder), self.n)
 
     def sin_cos(self) -> tuple["TaylorModel", "TaylorModel"]:
-        """Return sine and cosine: (S, C)' = a' (C, −S), then sin(a + e) = S cos e + C sin e."""
+        """Return sine and cosine from (S, C)' = a' (C, −S), then sin(a + e) = S cos e + C sin e."""
         n, slope = self.n, self.poly.derivative()
         pair = [_poly(q) for q in self.series().sin_cos()]
         sizes = [_norm(q) for q in pair]
@@ -101,7 +104,7 @@ class TaylorModel:
         return sine_model, TaylorModel(pair[1], s + cosine * rise + sine * turn, n)
 
     def by_slope(self, name: str, slope: "TaylorModel") -> "TaylorModel":
-        """Return g(a + e) = g(a_0) + ∫ a' g'(a) ds + e ∫ g'(a + θ e) dθ."""
+        """Return the function g(a + e) = g(a_0) + ∫ a' g'(a) ds + e ∫ g'(a + θ e) dθ from its derivative `slope`."""
         q = _poly(getattr(self.series(), name)())
         rate = self.poly.derivative()
         high = beyond(rate * slope.poly, self.n - 1) + _norm(rate) * slope.remainder
@@ -114,12 +117,12 @@ def _norm(poly: Any) -> Ball:
 
 
 def beyond(poly: Any, n: int) -> Ball:
-    """Return the norm of the terms from s^n on."""
+    """Return the norm of those terms of a polynomial that have powers from s^n on."""
     return _norm(poly.right_shift(n)) if poly.length() > n else ZERO
 
 
 def _constant(a: TaylorModel, what: str) -> Ball:
-    """Return the value at s = 0. Raises RemainderError if it can be zero."""
+    """Return the value at s = 0, which must not be zero. Raises RemainderError if it can be zero."""
     value = a.poly[0]
     if not (value > 0 or value < 0):
         raise RemainderError(f"{what} is not proved to be nonzero")
@@ -127,7 +130,7 @@ def _constant(a: TaylorModel, what: str) -> Ball:
 
 
 def _margin(x: Ball) -> Ball:
-    """Return x, a contraction's margin. Raises RemainderError if it is not positive."""
+    """Return x, which is positive if a map is a contraction. Raises RemainderError if it is not proved to be positive."""
     if not x > 0:
         raise RemainderError("the series does not converge over the step")
     return x
@@ -234,7 +237,7 @@ class Evaluation:
         return a.by_slope(name, slope)
 
     def gradient(self, output: int) -> list[TaylorModel | None]:
-        """Return the derivatives of one output by the arguments; None where it does not depend on one."""
+        """Return the derivatives of one output with respect to each argument; None for an argument without influence."""
         place = self.tape.outputs[output]
         adjoints: dict[int, TaylorModel] = {place: self.fixed(arb(1))}
         derivatives: list[TaylorModel | None] = [None] * len(self.tape.arguments)

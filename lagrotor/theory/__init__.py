@@ -1,7 +1,7 @@
 """Closed forms of the pair, each with its error.
 
 - `natural_frequency` and `natural_rate`: the frequency of small motion of a pair of any two spins.
-- `paired_precession`: opposite spins as a periodic series (`series`), its closed forms (`closed_forms`), their errors
+- `paired_precession`: the precession of opposite spins as a series (`series`), its closed forms (`closed_forms`), their errors
   (`remainder`) and its stability (`stability`). `rate_shift` has other orbits about the upright position.
 - `impulse_response` and `shock_response`: the linear response to an impulse and to a Gaussian pulse.
 - `drift_after_shock`, `averaged_motion`, `charged_particle`: opposite spins averaged over the fast precession, and

@@ -1,6 +1,6 @@
 """The slow motion of opposite spins: its frequency about the paired precession, and the drift of x after a shock.
 
-The centre (beta, eta) of the fast oscillation obeys, with rate g = G/(2 (a + b) k²) and W of `theory.drift_after_shock`,
+With g = G/(2 (a + b) k²) and W derived in `theory.drift_after_shock`, the centre (beta, eta) of the fast oscillation obeys
 
     beta' = g dW/deta,    eta' = −g dW/dbeta,    W = ((eta² + (s² − p)/2)² − 3 s⁴/8)/c − kappa s² eta²,    c = cos² beta.
 
@@ -115,7 +115,7 @@ class SlowMotion:
         return lean if time == inf else pi / 2
 
     def _twist(self, lean: float, half: float) -> float:
-        """Return the largest sin chi in an oscillation about a centre; chi is the rotation of the plane of the axes."""
+        """Return the largest sin chi while the axes oscillate about a centre; chi is the angle by which their plane rotates."""
         return (abs(half) + self.swing) / (self.ratio * cos(lean))
 
 
@@ -137,7 +137,7 @@ def slow_motion(scene: Scene) -> SlowMotion:
     Raises
     ------
     InputError
-        Unless opposite spins with a bar and a shock start at rest upright.
+        Unless the spins are opposite, and the pair, with a bar and a shock, starts at rest and upright.
     DomainError
         Where |eta| + s > 0.4.
 
@@ -190,7 +190,7 @@ def time_to_reach(scene: Scene, x: float) -> float:
     Raises
     ------
     InputError
-        Unless opposite spins with a bar and a shock start at rest upright.
+        Unless the spins are opposite, and the pair, with a bar and a shock, starts at rest and upright.
     DomainError
         Unless 0 < x < 1; for |eta| + s > 0.4; for a twist above 30 degrees, sin chi = (|eta| + s)/(k sqrt(1 − x²)); and where
         `turns_back` cannot decide.
@@ -218,11 +218,12 @@ def time_to_reach(scene: Scene, x: float) -> float:
 def turns_back(scene: Scene) -> bool:
     """Return True if the mean x of opposite spins stays bounded after the scene's shock.
 
-    To leading order it does after a shock along x, with eta = p_x/(2 G) and s = A |eta|, if
+    To leading order x turns back after a shock along x, which gives eta = p_x/(2 G) and s = A |eta|, if
 
         (sigma − 1) k² > 1 + 2/A² + sqrt(3/2),
 
-    3 + sqrt(3/2) for a short pulse. Otherwise x grows, at least until a twist of 30 degrees, the limit of the expansion.
+    where the right side is 3 + sqrt(3/2) for a short pulse. Otherwise x grows, at least until the twist is 30 degrees, which is
+    the limit of the expansion.
 
     Parameters
     ----------
@@ -237,9 +238,9 @@ def turns_back(scene: Scene) -> bool:
     Raises
     ------
     InputError
-        Unless opposite spins with a bar and a shock start at rest upright.
+        Unless the spins are opposite, and the pair, with a bar and a shock, starts at rest and upright.
     DomainError
-        For |eta| + s > 0.4; for a twist above 30 degrees; and so near the threshold that twice the next order could decide.
+        For |eta| + s > 0.4; for a twist above 30 degrees; and if twice the next order could change the answer.
 
     References
     ----------
@@ -266,14 +267,14 @@ def turns_back(scene: Scene) -> bool:
         )
     if len({ending[0] == inf for ending in endings}) > 1:
         raise DomainError(
-            "turns_back: so near the threshold the next order of the averaged motion decides: take a smaller shock, or run it "
-            "with lagrotor.simulate"
+            "turns_back: the shock is so near the threshold that the next order of the averaged motion decides: take a smaller "
+            "shock, or run it with lagrotor.simulate"
         )
     return time == inf
 
 
 def next_brackets(s2: Any, d: Any, sigma: Any, k2: Any) -> tuple[Any, Any]:
-    """Return F_6 and L_4 of `slow_frequency`, of numbers or symbols; s2 = sigma r0², d = k momentum/G, k2 = k²."""
+    """Return the next-order terms F_6 and L_4 of `slow_frequency`; s2 = sigma r0², d = k momentum/G, k2 = k²."""
     cubic = (3 / sigma + 10 - 8 * sigma) * k2 - 12, 8 * k2 / sigma + 14, (4 / sigma + 2) * k2 + 8
     square = (8 / sigma + 15 - 54 * sigma + 31 * sigma**2) * k2 + 6 / sigma - 21 + 51 * sigma
     F_6 = s2 * (cubic[0] * s2**2 - cubic[1] * d * s2 - cubic[2] * d**2) / (4 * k2)
@@ -282,7 +283,7 @@ def next_brackets(s2: Any, d: Any, sigma: Any, k2: Any) -> tuple[Any, Any]:
 
 
 def _next_share(s2: float, d: float, sigma: float, k2: float) -> float:
-    """Return the ratio of the next order of the slow frequency to the leading one with positive terms."""
+    """Return the larger ratio of next-order terms to leading-order terms, taken as positive, in F and L of `slow_frequency`."""
     sizes = 1.5 * s2**2 + d**2, abs(d) + max(1.0, abs(sigma - 1) * k2 / 2) * s2
     return max((abs(n) / size for n, size in zip(next_brackets(s2, d, sigma, k2), sizes, strict=True) if n), default=0)
 
@@ -322,7 +323,7 @@ def slow_frequency(scene: Scene, r0: float, momentum: float = 0.0) -> complex:
     InputError
         Unless the spins are opposite and there is a bar.
     DomainError
-        Where the next order exceeds half of the leading one with positive terms.
+        If the next order exceeds half of the leading one, in which all terms are taken as positive.
 
     References
     ----------

@@ -42,7 +42,11 @@ _LOCAL = 1e-9, 1e-12  # relative and absolute tolerance of the path
 
 
 class _Place(NamedTuple):
-    """M (3, 3), g_alpha, f and its direction b (3,), curl b (3,), Omega and its gradient (3,) at a place."""
+    """The fields of the charged particle at one place, with the symbols of the module's text.
+
+    Mass matrix M, shape (3, 3); g_alpha; the field f, its direction b and curl b, shape (3,) each; the rate Omega in rad/s and
+    its gradient, shape (3,).
+    """
 
     mass: Array
     flux: float
@@ -99,7 +103,7 @@ class GuidingCentre:
         InputError
             Unless the times are finite, ascending and not negative.
         DomainError
-            When the bar comes into line with an axis before.
+            If the bar comes into line with an axis before the last time.
         """
         from scipy.integrate import solve_ivp
 
@@ -147,10 +151,10 @@ def guiding_centre(scene: Scene) -> GuidingCentre:
     Raises
     ------
     InputError
-        Without a bar or spin, with a shock, and for opposite spins, whose uniform rate near upright makes the next order count
-        (`slow_motion`).
+        Without a bar or spin, with a shock, and for opposite spins: near upright their rate is uniform, so that the next order
+        matters; `slow_motion` contains it.
     DomainError
-        Where the oscillation exceeds 0.4 rad, or the bar is in line with an axis.
+        If the oscillation exceeds 0.4 rad, or the bar is in line with an axis.
 
     References
     ----------
@@ -163,8 +167,8 @@ def guiding_centre(scene: Scene) -> GuidingCentre:
     swing = np.linalg.solve(at.mass, np.cross(velocity, at.field)) / at.rate**2
     if not np.linalg.norm(swing) <= LARGEST_SWING.value:
         raise DomainError(
-            f"guiding_centre: the pair swings by {np.linalg.norm(swing):.3g} rad, beyond {LARGEST_SWING.value:g}: it has no "
-            "centre near; take a smaller motion, or lagrotor.simulate"
+            f"guiding_centre: the pair swings by {np.linalg.norm(swing):.3g} rad, beyond {LARGEST_SWING.value:g}, so that "
+            "no guiding centre describes it; take a smaller motion, or lagrotor.simulate"
         )
     speed = float(at.direction @ velocity)
     action = (float(velocity @ at.mass @ velocity) - speed**2) / (2 * at.rate)
@@ -172,7 +176,7 @@ def guiding_centre(scene: Scene) -> GuidingCentre:
 
 
 def leaning_state(scene: Scene) -> tuple[Array, Array]:
-    """Return the coordinates of `leaning_frame` at a scene's start, and their rates.
+    """Return the angles (beta, h, alpha) of a scene's axes at the start, and the rates of these angles.
 
     Parameters
     ----------
@@ -205,7 +209,9 @@ def leaning_state(scene: Scene) -> tuple[Array, Array]:
 
 
 def leaning_field() -> "tuple[sp.Matrix, sp.Matrix]":
-    """Derive M and g of the spin-reduced pair, L = q'·M q'/2 + g·q' in (beta, h, alpha).
+    """Derive the mass matrix M and the vector potential g of the pair with its spins eliminated.
+
+    The Lagrangian is L = q'·M q'/2 + g·q' in q = (beta, h, alpha).
 
     Returns
     -------
@@ -227,7 +233,10 @@ def leaning_field() -> "tuple[sp.Matrix, sp.Matrix]":
 
 @generated(((),))
 def _field_functions() -> str:
-    """Generate (beta, h, a, b, k, G_1, G_2) → M, f, their derivatives by beta and by h, and g_alpha: 37 numbers."""
+    """Return the source code of a function of (beta, h, a, b, k, G_1, G_2) with 37 outputs.
+
+    They are M and f, their derivatives with respect to beta and to h, and g_alpha.
+    """
     import sympy as sp
 
     from lagrotor.numerics.codegen import Program

@@ -33,7 +33,7 @@ class ClosedForm:
     expressions : tuple[Expr, ...]
         Expression of each output.
     arguments : tuple[Symbol, ...]
-        Symbols of the arguments; units as in `lagrotor.pair.notation`.
+        Symbols of the arguments; `lagrotor.pair.notation` states the unit of each.
     domain : tuple[Basic, ...]
         Conditions that the arguments must satisfy.
     assumptions : str
@@ -68,7 +68,7 @@ class ClosedForm:
 
     @cached_property
     def _functions(self) -> tuple[Callable[..., Any], Callable[..., Any]]:
-        """The functions from arguments to the outputs, and to the truth of each condition of the domain."""
+        """Two functions of the arguments: one returns the outputs, the other whether each condition of the domain is true."""
         units = ", ".join(f"{s} [{GLOSSARY[s].unit}]" if s in GLOSSARY else str(s) for s in self.arguments)
         doc = f"{self.name}({units}) -> {', '.join(self.outputs)}"
         conditions = Program(self.arguments, (), self.domain)
@@ -79,7 +79,7 @@ class ClosedForm:
         return Program(self.arguments, (), self.expressions)
 
     def code(self, module: str = "math") -> str:
-        """Generate source code of the function from arguments to a list of outputs, without checks of the domain.
+        """Generate source code of a function that returns the list of outputs; it does not check the domain.
 
         Parameters
         ----------
@@ -109,7 +109,7 @@ class ClosedForm:
         return self._in_shape(rows, shape)
 
     def error(self, *values: ArrayLike) -> Array | tuple[Array, ...]:
-        """Compute bounds of the errors of the outputs, without rounding.
+        """Compute a bound of the error of each output, without rounding errors.
 
         Parameters
         ----------
@@ -119,12 +119,12 @@ class ClosedForm:
         Returns
         -------
         ndarray or tuple[ndarray, ...]
-            Bounds in the form of the outputs; zero for an exact form.
+            Bounds with the same shapes as the outputs; zero for an exact form.
 
         Raises
         ------
         InputError
-            For a wrong number of arguments, and for a series without a known bound.
+            If the number of arguments is wrong, or if no bound is known for the series.
         DomainError
             Outside the domain, and where the series does not converge.
         """

@@ -31,12 +31,12 @@ _SHAPE = (a + b) / (a - b)  # sigma
 
 @cache
 def averaged_hamiltonian() -> sp.Expr:
-    """Derive the averaged Hamiltonian of opposite spins, with its function of s alone.
+    """Derive the averaged Hamiltonian of opposite spins, including the terms that depend on s alone.
 
     Returns
     -------
     Expr
-        H in J, by beta_s, eta and s (rad), P and G (kg m²/s), a and b (kg m²), and k.
+        H in J as a function of beta_s, eta and s (rad), P and G (kg m²/s), a and b (kg m²), and k.
 
     References
     ----------
@@ -54,7 +54,7 @@ def slow_rates() -> tuple[sp.Expr, sp.Expr]:
     Returns
     -------
     tuple[Expr, Expr]
-        The rates (beta_s', eta') in rad/s, by the symbols of `averaged_hamiltonian`.
+        The rates (beta_s', eta') in rad/s as functions of the symbols of `averaged_hamiltonian`.
 
     References
     ----------
@@ -73,7 +73,7 @@ def shock_toppling() -> ClosedForm:
     Returns
     -------
     ClosedForm
-        The rate in rad/s, by p_x, p_y (N m s), A, G = G_1 = −G_2 (kg m²/s), a, b (kg m²), k.
+        The rate in rad/s as a function of p_x, p_y (N m s), A, G = G_1 = −G_2 (kg m²/s), a, b (kg m²), k.
 
     References
     ----------
@@ -85,7 +85,7 @@ def shock_toppling() -> ClosedForm:
 
 @cache
 def cancelling_impulse() -> ClosedForm:
-    """Derive the impulse p_y that cancels the drift after a shock p_x on rotor 1: the small root of shock_toppling = 0.
+    """Derive the impulse p_y that cancels the drift after a shock p_x on rotor 1: the smaller root of shock_toppling = 0.
 
     p_y = −2 (2 + A²) p_x² / (4 k G (1 + sqrt(1 − A² sigma (2 + A²) p_x²/(4 k² G²)))). Outside the domain of the root no force
     along y stops the drift.
@@ -93,7 +93,7 @@ def cancelling_impulse() -> ClosedForm:
     Returns
     -------
     ClosedForm
-        The impulse in N m s, by p_x (N m s), A, G (kg m²/s), a, b (kg m²), k.
+        The impulse in N m s as a function of p_x (N m s), A, G (kg m²/s), a, b (kg m²), k.
 
     References
     ----------
@@ -116,7 +116,7 @@ def shock_wander() -> ClosedForm:
     Returns
     -------
     ClosedForm
-        The rate in 1/s, by p_x, p_y (N m s), A, G (kg m²/s), a, b (kg m²), k.
+        The rate in 1/s as a function of p_x, p_y (N m s), A, G (kg m²/s), a, b (kg m²), k.
 
     References
     ----------
@@ -156,7 +156,7 @@ def toppling_after_shock(scene: Scene) -> float:
     Raises
     ------
     InputError
-        Unless opposite spins with a bar and a shock start at rest upright.
+        Unless the spins are opposite, and the pair, with a bar and a shock, starts at rest and upright.
 
     References
     ----------
@@ -189,7 +189,7 @@ def wander_after_shock(scene: Scene) -> float:
     Raises
     ------
     InputError
-        Unless opposite spins with a bar and a shock start at rest upright.
+        Unless the spins are opposite, and the pair, with a bar and a shock, starts at rest and upright.
 
     References
     ----------
@@ -210,7 +210,7 @@ def wander_after_shock(scene: Scene) -> float:
 def cancelling_force(scene: Scene) -> float:
     """Compute the force along y that, added to the shock along x, cancels the mean rotation about the joint line.
 
-    The law is of second order. On exact runs the force depends on the time of averaging:
+    The law is of second order in the shock. In exact simulations the force also depends on the averaging time:
     `lagrotor.models.cancelling_force_error`.
 
     Parameters
@@ -221,14 +221,14 @@ def cancelling_force(scene: Scene) -> float:
     Returns
     -------
     float
-        The force F_y in N, with the time course of the shock.
+        The force F_y in N; it has the same time course as the shock.
 
     Raises
     ------
     InputError
-        Unless opposite spins with a bar and a shock start at rest upright.
+        Unless the spins are opposite, and the pair, with a bar and a shock, starts at rest and upright.
     DomainError
-        When no force cancels the rotation.
+        If no force along y cancels the rotation.
 
     References
     ----------
@@ -247,7 +247,7 @@ def cancelling_force(scene: Scene) -> float:
 
 
 def _arguments(scene: Scene, where: str) -> tuple[float, ...]:
-    """Return (p_x, p_y, A, G, a, b, k) of a scene, for the forms above."""
+    """Return the arguments (p_x, p_y, A, G, a, b, k) of the closed forms above for a scene, in SI units."""
     response = shock_response(scene)
     if scene.spins[0] != -scene.spins[1] or scene.spins[0] == 0 or scene.link is None:
         raise InputError(f"{where}: needs opposite spins, not {scene.spins}")

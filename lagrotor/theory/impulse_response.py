@@ -27,8 +27,8 @@ _SPUN = (sp.Gt(a, sp.Abs(b)), sp.Gt(G_1**2 + G_2**2, 0))
 class ImpulseMatrices:
     """Matrices of the response H(s) = drift s + displacement (1 − cos Omega s) + swing sin(Omega s)/Omega, in (x, y_1, y_2).
 
-    The shape is (3, 3), except of `null`, the null vector n of C, (3, 1). `mass`, `gyroscopic`: M and C. `frequency_squared`:
-    Omega².
+    Each has the shape (3, 3), except `null`, the null vector n of C, with the shape (3, 1). `mass` is M, `gyroscopic` is C, and
+    `frequency_squared` is Omega².
     """
 
     mass: sp.Matrix
@@ -47,7 +47,7 @@ def impulse_matrices() -> ImpulseMatrices:
     Returns
     -------
     ImpulseMatrices
-        Matrices in (x, y_1, y_2), by a, b (kg m²), G_1, G_2 (kg m²/s).
+        Matrices in (x, y_1, y_2) as functions of a, b (kg m²), G_1, G_2 (kg m²/s).
 
     References
     ----------
@@ -68,7 +68,7 @@ def impulse_matrices() -> ImpulseMatrices:
 
 
 def _in_plane_order(linear: LinearSystem) -> LinearSystem:
-    """Return the linear pair in the coordinates (x, y_1, y_2), by the rows x_1, y_1, y_2 of its basis."""
+    """Transform the linear pair to the coordinates (x, y_1, y_2), the rows x_1, y_1, y_2 of its basis."""
     rows = [linear.basis.row(i) for i in (0, 1, 4)]
     change = sp.Matrix.vstack(*rows).inv()
     matrices = (change.T * m * change for m in (linear.mass, linear.gyroscopic, linear.stiffness))
@@ -82,7 +82,7 @@ def shock_displacement() -> ClosedForm:
     Returns
     -------
     ClosedForm
-        The displacement (x, y_1, y_2) in units of R, by a, b (kg m²), G_1, G_2 (kg m²/s), p_x, p_1, p_2 (N m s).
+        The displacement (x, y_1, y_2) in units of R as a function of a, b (kg m²), G_1, G_2 (kg m²/s), p_x, p_1, p_2 (N m s).
 
     References
     ----------
@@ -92,7 +92,7 @@ def shock_displacement() -> ClosedForm:
 
 
 def shock_drift() -> ClosedForm:
-    """Derive the mean velocity (x', y_1', y_2') after an impulse in 1/s, n (n.p)/(n.M n) with n = (0, G_2, −G_1).
+    """Derive the mean velocity (x', y_1', y_2') in 1/s after an impulse p: n (n.p)/(n.M n) with n = (0, G_2, −G_1).
 
     Opposite spins topple, y_1' = y_2'; equal spins twist, y_1' = −y_2'; no pair drifts along x.
     """
@@ -105,14 +105,14 @@ def shock_swing() -> ClosedForm:
 
 
 def shock_energy() -> ClosedForm:
-    """Derive the energies that an impulse adds, (n.p)²/(2 n.M n) of the drift and p.S p/2 of the oscillation.
+    """Derive the energies that an impulse p gives to the drift, (n.p)²/(2 n.M n), and to the oscillation, p.S p/2.
 
     Their sum is p.M⁻¹ p/2. A Gaussian pulse of width w gives E_drift + exp(−(Omega_0 w)²/2) E_swing.
 
     Returns
     -------
     ClosedForm
-        The energies (E_drift, E_swing) in J, by a, b (kg m²), G_1, G_2 (kg m²/s), p_x, p_1, p_2 (N m s).
+        The energies (E_drift, E_swing) in J as functions of a, b (kg m²), G_1, G_2 (kg m²/s), p_x, p_1, p_2 (N m s).
 
     References
     ----------

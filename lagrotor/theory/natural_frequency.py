@@ -21,7 +21,7 @@ def linear_pair() -> LinearSystem:
     Returns
     -------
     LinearSystem
-        M, C and K = 0 by a, b (kg m²) and G_1, G_2 (kg m²/s).
+        M, C and K = 0 as functions of a, b (kg m²) and G_1, G_2 (kg m²/s).
 
     References
     ----------
@@ -32,7 +32,7 @@ def linear_pair() -> LinearSystem:
 
 @cache
 def natural_frequency() -> ClosedForm:
-    """Derive Omega_0² = (a (G_1² + G_2²) − 2 b G_1 G_2) / (2 (a + b)(a² − b²)), the one oscillation of the linear pair.
+    """Derive Omega_0² = (a (G_1² + G_2²) − 2 b G_1 G_2) / (2 (a + b)(a² − b²)) of the only oscillation of the linear pair.
 
     The other roots of det(s² M + s C) are zero: rotation about the joint line and displacements at rest. Omega_0 in rad/s, by
     a, b (kg m²), G_1, G_2 (kg m²/s). Equation (5.28) of the paper, corrected; derivations/t1_natural_rate.py.
@@ -47,12 +47,12 @@ def natural_frequency() -> ClosedForm:
 
 @cache
 def pair_precession_rate() -> ClosedForm:
-    """Derive phi' of the pair under the paper's ansatz from its integrals A and B, for any J and I_3.
+    """Derive the precession rate phi' under the paper's ansatz, from the integrals A and B of the motion, for any J and I_3.
 
     Returns
     -------
     ClosedForm
-        The rate in rad/s, by theta_1, theta_2 (rad), A, B (kg m²/s), J, I_3 (kg m²).
+        The rate in rad/s as a function of theta_1, theta_2 (rad), A, B (kg m²/s), J, I_3 (kg m²).
 
     References
     ----------
@@ -79,7 +79,7 @@ def free_precession_rate() -> ClosedForm:
     Returns
     -------
     ClosedForm
-        The rate phi' in rad/s, by theta (rad), G (kg m²/s), J (kg m²).
+        The rate phi' in rad/s as a function of theta (rad), G (kg m²/s), J (kg m²).
 
     References
     ----------

@@ -21,7 +21,7 @@ TURNS = 20  # of an oscillation for which the error is calibrated
 
 @generated(((),))
 def natural_frequency_value() -> str:
-    """Generate (a, b, G_1, G_2) → [Omega_0], numbers."""
+    """Return the source code of a function of the numbers a, b, G_1, G_2; it returns [Omega_0]."""
     from lagrotor.theory.natural_frequency import natural_frequency
 
     return natural_frequency().code()
@@ -29,7 +29,7 @@ def natural_frequency_value() -> str:
 
 @generated(((),))
 def _free_rate() -> str:
-    """Generate (theta, G, J) → [phi'], numbers."""
+    """Return the source code of a function of the numbers theta, G, J; it returns [phi']."""
     from lagrotor.theory.natural_frequency import free_precession_rate
 
     return free_precession_rate().code()
@@ -75,7 +75,9 @@ def natural_rate(scene: Scene) -> float:
 
 
 def natural_rate_error(scene: Scene, amplitude: float) -> float:
-    """Estimate the error of `natural_rate` for an orbit about upright, or for 20 turns of an oscillation from the linear mode.
+    """Estimate the error of `natural_rate` for an orbit about the upright position or an oscillation over 20 periods.
+
+    The oscillation starts in the linear mode.
 
     With c and share of `theory.rate_shift`, d = share² sigma/(2 k²) for oscillations of another phase, which turn about the
     joint line, and C equal to c with all terms positive, the error is
@@ -84,7 +86,7 @@ def natural_rate_error(scene: Scene, amplitude: float) -> float:
 
     It is an estimate, no bound. The first term is derived, the powers in N are derived, and its factor 3 is empirical: of
     10,000 random oscillations none had more than 0.71 of this error. One rotor alone precesses at Omega_0 / cos theta exactly.
-    A rotation at rate nu about the joint line shifts opposite spins by −(a + b) nu/(k G) of Omega_0 more.
+    For opposite spins, a rotation at rate nu about the joint line also shifts the rate by −(a + b) nu/(k G) Omega_0.
 
     Parameters
     ----------
@@ -145,7 +147,7 @@ def natural_rate_error(scene: Scene, amplitude: float) -> float:
 
 @dataclass(frozen=True)
 class RateLimit:
-    """One limit: `rate` in rad/s, its formula, and the change of the scene in words."""
+    """A limit of the natural rate: `rate` in rad/s, its formula, and in `says` how the scene differs in the limit."""
 
     rate: float
     formula: str
@@ -155,11 +157,12 @@ class RateLimit:
 def natural_rate_limits(scene: Scene) -> dict[str, RateLimit]:
     """Return the natural rate in four limits near a scene with a bar: equal, opposite, massless, dumbbell.
 
-    equal, opposite: both momenta have the root mean square G, G/(a + b) and G/√(a² − b²). massless: a = J, b = 0. dumbbell: the
-    bar's mass in its ends, K = m ell²/4, b = 0, a = J + m R²/2. Raises InputError without a bar.
+    In "equal" and "opposite" both momenta have the root mean square G of the scene's momenta; the rates are G/(a + b) and
+    G/√(a² − b²). In "massless" the bar has no mass: a = J, b = 0. In "dumbbell" the bar's mass is at its ends: K = m ell²/4,
+    b = 0, a = J + m R²/2. Raises InputError without a bar.
     """
     if scene.link is None:
-        raise InputError("natural_rate_limits: the scene has no bar: it has no limits")
+        raise InputError("natural_rate_limits: the scene has no bar, which all four limits need: add a Link")
     mean = hypot(*scene.spins) / sqrt(2)
     length, mass = scene.link.length, scene.link.mass
     changed = {

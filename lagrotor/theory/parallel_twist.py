@@ -6,8 +6,8 @@ r(t), x = r . e_x,
 
     d/dt ( (a − b)/2 (1 − x²) Delta' ) + b (|r'|² + x x'') Delta = 0,
 
-independent of G and ell / R. It grows for b < 0: a bar with K > m ell²/4, more inertia than two point masses at its ends. It
-drifts for b = 0. For b > 0 it is bounded on cones with pi² beta sin² theta <= 4 cos theta, beta = b/(a − b) (Lyapunov's
+independent of G and ell / R. The twist grows for b < 0: a bar with K > m ell²/4, more inertia than two point masses at the ends.
+It drifts for b = 0. For b > 0 it is bounded on cones with pi² beta sin² theta <= 4 cos theta, beta = b/(a − b) (Lyapunov's
 criterion; Magnus & Winkler, Hill's Equation, 1966, ch. V); on wider cones it may grow by resonance. Derived in
 derivations/t9_twist.py.
 """
@@ -36,8 +36,8 @@ def twist_growth() -> ClosedForm:
     Returns
     -------
     ClosedForm
-        The rate in 1/s, by rho, G (kg m²/s), a, b (kg m²). A call raises DomainError for b > 0 on a cone wider than Lyapunov's
-        criterion.
+        The rate in 1/s as a function of rho, G (kg m²/s), a, b (kg m²). A call raises DomainError for b > 0 on a cone wider than
+        Lyapunov's criterion allows.
 
     References
     ----------
@@ -57,15 +57,15 @@ def twist_growth() -> ClosedForm:
 
 @cache
 def twist_growth_error() -> ClosedForm:
-    """Derive the error of `twist_growth`: its third-order term over 1 − rho².
+    """Derive the error of `twist_growth`: the third-order term of the exact growth, divided by 1 − rho².
 
     The exact growth is rho |G| sqrt(−beta)/(a + b) (1 + (3/4 + beta/16) rho² + …), beta = b/(a − b), −1/2 < beta < 0. The
-    factor 1/(1 − rho²) for higher orders is an observation on Hill's equation.
+    factor 1/(1 − rho²) accounts for higher orders; it is not derived, but was observed on Hill's equation.
 
     Returns
     -------
     ClosedForm
-        The error in 1/s, by rho, G (kg m²/s), a, b (kg m²).
+        The error in 1/s as a function of rho, G (kg m²/s), a, b (kg m²).
 
     References
     ----------

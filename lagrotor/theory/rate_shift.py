@@ -1,4 +1,4 @@
-"""An orbit about upright of any two spins: the shift of its rate with amplitude, its azimuth drift, the growth of a twist.
+"""An orbit about the upright position for any two spins: shift of its rate with amplitude, azimuth drift, growth of a twist.
 
 The orbit oscillates between x = ±r0, where the axes are parallel, and closes up to a rotation about the joint line. With
 share = sigma (G_1 − G_2)² / ((G_1 + G_2)² + sigma (G_1 − G_2)²), 0 for equal and 1 for opposite spins, and k = ell/R,
@@ -22,22 +22,22 @@ from lagrotor.pair.scene import Scene
 
 
 def shift_coefficient(sigma: Any, k: Any, share: Any) -> Any:
-    """Return c of Omega = Omega_0 (1 + c r0² + …), of numbers or symbols."""
+    """Return the coefficient c in Omega = Omega_0 (1 + c r0² + …); the arguments are numbers or symbols."""
     return (2 + 3 * share * (sigma - 1) - share**2 * (sigma**2 - 1) - 3 * share**2 * sigma / k**2) / 4
 
 
 def drift_coefficient(sigma: Any, k: Any, root: Any) -> Any:
-    """Return alpha'/(Omega_0 r0⁴) of numbers or symbols; root: sqrt(share/sigma) with the sign of G_1 − G_2."""
+    """Return the azimuth drift alpha'/(Omega_0 r0⁴); `root` is sqrt(share/sigma) with the sign of G_1 − G_2."""
     return root**3 * sigma**2 * (sigma - 5) / (16 * k)
 
 
 def twist_coefficient(sigma: Any, share: Any) -> Any:
-    """Return lambda²/(Omega_0 r0)² of a twist, of numbers or symbols: positive for growth, negative for oscillation."""
+    """Return lambda²/(Omega_0 r0)² of a twist, which is positive if the twist grows and negative if it oscillates."""
     return (1 - share) * (sigma - 1) * ((sigma + 1) * share - 1) / 2
 
 
 def opposite_share(scene: Scene) -> float:
-    """Return the share of opposite spins. Raises InputError without a bar, and without any spin."""
+    """Return `share`, 1 for opposite and 0 for equal spins. Raises InputError without a bar, or if neither rotor spins."""
     if not isinstance(scene, Scene) or scene.link is None or scene.spins == (0, 0):
         raise InputError(f"the shift of the natural rate: {scene!r} needs a bar and a spin")
     first, second = scene.momenta
@@ -61,7 +61,7 @@ def frequency_shift(scene: Scene) -> float:
     Raises
     ------
     InputError
-        Without a bar, and without any spin.
+        If the scene has no bar, or if neither rotor spins.
 
     References
     ----------
@@ -96,7 +96,7 @@ def azimuth_drift(scene: Scene) -> float:
     Raises
     ------
     InputError
-        Without a bar, and without any spin.
+        If the scene has no bar, or if neither rotor spins.
 
     References
     ----------

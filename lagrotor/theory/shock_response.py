@@ -146,7 +146,7 @@ def shock_response(scene: Scene) -> ShockResponse:
     Raises
     ------
     InputError
-        Without a shock or a bar, when the pair is not at rest upright, or when the pulse began before t = 0.
+        If there is no shock or no bar, if the pair is not at rest and upright, or if the pulse began before t = 0.
 
     References
     ----------
@@ -174,7 +174,10 @@ def shock_response(scene: Scene) -> ShockResponse:
 
 @generated(((),))
 def _response() -> str:
-    """Generate (a, b, G_1, G_2, p_x, p_1, p_2) → displacement, drift, swing, both energies: 11 numbers."""
+    """Return the source code of a function of (a, b, G_1, G_2, p_x, p_1, p_2) with 11 outputs.
+
+    They are the displacement, the drift and the swing, three numbers each, and both energies.
+    """
     from lagrotor.numerics.codegen import Program
     from lagrotor.numerics.printers import program_source
     from lagrotor.theory.impulse_response import shock_displacement, shock_drift, shock_energy, shock_swing
@@ -185,7 +188,7 @@ def _response() -> str:
 
 @generated(((),))
 def _mass() -> str:
-    """Generate (a, b) → the mass matrix of the linear pair in (x, y_1, y_2), 9 numbers."""
+    """Return the source code of a function of (a, b) whose 9 outputs are the mass matrix of the linear pair in (x, y_1, y_2)."""
     from lagrotor.numerics.codegen import Program
     from lagrotor.numerics.printers import program_source
     from lagrotor.pair.notation import a, b
@@ -195,7 +198,10 @@ def _mass() -> str:
 
 
 def pulse_response(scene: Scene, shock: Shock) -> ShockResponse:
-    """Return the response to a whole pulse, wherever it began. Without any spin nothing oscillates: the drift is M⁻¹ p."""
+    """Return the response to a whole pulse, even if it began before t = 0.
+
+    Without any spin nothing oscillates, and the drift is M⁻¹ p.
+    """
     px, py, _ = (scene.rotor.length * i for i in shock.impulse)
     impulse = np.array([px, py, 0.0] if shock.body == 1 else [px, 0.0, py])
     inertia_a, inertia_b = scene.inertias

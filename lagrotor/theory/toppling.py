@@ -1,4 +1,4 @@
-"""Toppling exactly: both axes parallel in the y-z plane, in uniform rotation about the joint line, and its stability.
+"""Exact toppling, in which both axes are parallel in the y-z plane and rotate uniformly about the joint line, and its stability.
 
 In the coordinates (U, chi, alpha) of `pair.notation`, U = chi = 0, alpha = nu t solves the equations of motion of opposite
 spins at any angle and any rate nu, for any bar. As alpha is cyclic, the linearised motions have constant coefficients; in (U,
@@ -23,8 +23,8 @@ from lagrotor.theory.closed_form import ClosedForm
 def twisted_lagrangian() -> sp.Expr:
     """Derive the Lagrangian of the pair in (U, Delta, alpha), Delta = alpha_2 − alpha_1, for every k = ell/R; alpha is cyclic.
 
-    The bar, cosh w − k sinh w = cos Delta, is solved through Delta². Derivatives at Delta = 0 are exact to second order in
-    Delta, so the equations of motion there and their linearisation are exact.
+    The bar's constraint, cosh w − k sinh w = cos Delta, is solved for w through order Delta². Derivatives at Delta = 0
+    are exact to second order in Delta, so the equations of motion there and their linearisation are exact.
 
     Returns
     -------
@@ -54,7 +54,7 @@ def toppling_polynomial() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
     Returns
     -------
     tuple[Expr, Expr, Expr]
-        The coefficients (p_2, p_1, p_0), by nu (rad/s), G (kg m²/s), a, b (kg m²), k.
+        The coefficients (p_2, p_1, p_0) as functions of nu (rad/s), G (kg m²/s), a, b (kg m²), k.
 
     References
     ----------
@@ -73,7 +73,7 @@ def toppling_growth() -> ClosedForm:
     Returns
     -------
     ClosedForm
-        The rate in 1/s, by nu (rad/s, alpha' = −y'/z), G = G_1 = −G_2 (kg m²/s), a, b (kg m²), k.
+        The rate in 1/s as a function of nu (rad/s, alpha' = −y'/z), G = G_1 = −G_2 (kg m²/s), a, b (kg m²), k.
 
     References
     ----------
@@ -91,12 +91,12 @@ def toppling_growth() -> ClosedForm:
 def toppling_threshold() -> ClosedForm:
     """Derive nu* = G / (k b), beyond which the stability of a sense of rotation is reversed.
 
-    For b > 0 rates in (0, nu*) are unstable (G > 0); for b < 0 all nu > 0 and nu < nu*; b = 0 has no threshold.
+    For G > 0 the unstable rates are 0 < nu < nu* if b > 0, and nu < nu* or nu > 0 if b < 0. There is no threshold for b = 0.
 
     Returns
     -------
     ClosedForm
-        The threshold in rad/s, by G (kg m²/s), b (kg m²), k.
+        The threshold in rad/s as a function of G (kg m²/s), b (kg m²), k.
 
     References
     ----------

@@ -105,11 +105,23 @@ SMALL = x**2048
         (motion(v, -x), [True, -1], "a sign 1 or −1"),
         (motion(v, -x), [1], "a sign 1 or −1"),
         (motion(v, -x), [1, -1, 1], "a sign 1 or −1"),
-        (motion(v, -x, z, states=(x, v, z)), [1, -1, 1], "the reversed motion is no motion"),
-        (motion(v, -x + SMALL / 2), [-1, 1], "the reversed motion is no motion"),
-        (motion(v, -x + sp.Rational(1, 10**300)), [-1, 1], "the reversed motion is no motion"),
-        (motion(v, -x + v * sp.exp(-1000 * (1 + x**2))), [1, -1], "the reversed motion is no motion"),
-        (motion(v, -sp.sqrt(x**2)), [1, 1], "the reversed motion is no motion"),
+        (
+            motion(v, -x, z, states=(x, v, z)),
+            [1, -1, 1],
+            "the reversed motion does not satisfy the equations of motion",
+        ),
+        (motion(v, -x + SMALL / 2), [-1, 1], "the reversed motion does not satisfy the equations of motion"),
+        (
+            motion(v, -x + sp.Rational(1, 10**300)),
+            [-1, 1],
+            "the reversed motion does not satisfy the equations of motion",
+        ),
+        (
+            motion(v, -x + v * sp.exp(-1000 * (1 + x**2))),
+            [1, -1],
+            "the reversed motion does not satisfy the equations of motion",
+        ),
+        (motion(v, -sp.sqrt(x**2)), [1, 1], "the reversed motion does not satisfy the equations of motion"),
     ],
 )
 def test_what_reverses_a_motion_is_decided_on_its_tape(tape: Any, signs: Any, says: str) -> None:
@@ -147,9 +159,9 @@ def test_nothing_is_taken_at_the_reversed_motion_that_was_not_followed(name: str
 def test_a_theorem_names_each_state_that_is_no_time_and_no_name_is_an_expression() -> None:
     called_time = copy.deepcopy(ENCLOSURE) | {"about": None}
     called_time["motion"]["arguments"][0] = "t"
-    with pytest.raises(NotProved, match="t is not the time from 0 on"):
+    with pytest.raises(NotProved, match="the argument t is not the time, which starts at 0"):
         check(called_time)
-    with pytest.raises(NotProved, match="the observables are undefined"):
+    with pytest.raises(NotProved, match="there are observables, but the subject defines none"):
         check(ENCLOSURE | {"observed": 0})
     certificate = plain(MEANS)
     check(certificate)
@@ -174,7 +186,7 @@ def test_the_pair_s_reversals_are_decided_on_its_tape_and_no_other_signs_are(lin
             alike.append(tuple(row))
             check_reversal(tape, row)
         elif row in ([1] * 6, [-y for y in A], [y * -1 for y in B], [1, -1, -1, -1, 1, -1]):
-            with pytest.raises(NotProved, match="the reversed motion is no motion"):
+            with pytest.raises(NotProved, match="the reversed motion does not satisfy the equations of motion"):
                 check_reversal(tape, row)
     assert {*alike} == {A, B}
 
@@ -281,18 +293,23 @@ ENTRIES: list[tuple[str, str, Any, str]] = [
     ("quiet", "event/of", "sqrt(theta - 10)**2 + 11", "a root's argument"),
     ("quiet", "kind", "crossing", "does not change its sign"),
     ("mean", "claim/means", [], "no mean is claimed"),
-    ("mean", "claim/means/0/until", ["1p0", "2p0"], "a span has no length"),
+    ("mean", "claim/means/0/until", ["1p0", "2p0"], "the interval of a mean has no length"),
     ("rest", "claim/stability", "stable", "the energy is not proved to be definite"),
     ("rest", "claim/stability", "asymptotically stable", "not proved to have a negative real part"),
     ("rest", "claim/stability", "stable to first order", "not proved to be imaginary"),
     ("rest", "version", True, "version True"),
     ("rest", "box/0/1", "0p0", "does not contain its middle"),
-    ("orbit", "reversals", [[1, 1], [1, 1]], "not those of the reversal"),
+    ("orbit", "reversals", [[1, 1], [1, 1]], "not those of the second reversal"),
     ("orbit", "reversals", [[], []], "do not close the orbit"),
     ("orbit", "A", [["0p0"]], "does not close"),
     ("orbit", "free", [True], "do not fit"),
     ("orbit", "claim/kind", "elliptic", "pair of multipliers"),
-    ("orbit", "claim/period", [ORBIT["claim"]["period"][0], "0p0"], "the claimed period does not contain the orbit's"),
+    (
+        "orbit",
+        "claim/period",
+        [ORBIT["claim"]["period"][0], "0p0"],
+        "the claimed period does not contain the period of the orbit",
+    ),
     ("enclosure", "steps/0/h/0", "-1p0", "has no length"),
     ("enclosure", "steps/0/terms", 24.0, "no terms"),
     ("enclosure", "bits", 10**12, "no valid number of bits"),
@@ -308,9 +325,19 @@ ENTRIES: list[tuple[str, str, Any, str]] = [
     ("paired", "free", [0, 5, 6], "a fixed state is an interval"),
     ("paired", "claim/r0", ["1/5", "2/5"], "the claimed amplitude"),
     ("planar", "steps", lambda steps: [*steps[:2], *steps[3:]], "check: "),
-    ("planar", "steps", lambda steps: steps[:-1], "not one unit of s"),
-    ("planar", "claim/period", lambda x: moved(x, "1e-13"), "the claimed period does not contain the orbit's"),
-    ("planar", "claim/start/1", lambda x: moved(x, "1e-15"), "the claimed start does not contain the orbit's"),
+    ("planar", "steps", lambda steps: steps[:-1], "do not take one unit of s"),
+    (
+        "planar",
+        "claim/period",
+        lambda x: moved(x, "1e-13"),
+        "the claimed period does not contain the period of the orbit",
+    ),
+    (
+        "planar",
+        "claim/start/1",
+        lambda x: moved(x, "1e-15"),
+        "the claimed start does not contain the start of the orbit",
+    ),
     ("planar", "ones", 4, "check: "),
     ("planar", "steps/1/node/m/0", lambda x: moved([x, "0p0"], "1e-17")[0], "does not contain the motion"),
     ("planar", "steps/1/node/s", lambda s: [[m, "0p0"] for m, _ in s], "does not contain"),
@@ -327,7 +354,7 @@ ENTRIES: list[tuple[str, str, Any, str]] = [
         "planar",
         "claim/pair_sum",
         lambda x: moved(x, "1e-3"),
-        "the claimed sum of the multipliers does not contain theirs",
+        "the claimed sum of two multipliers does not contain the verified one",
     ),
     ("planar", "A", [["zz"]], "is not an exact number"),
     *(("planar", "claim/kind", kind, "check: ") for kind in ("hyperbolic", "parabolic", "attracting", "another")),

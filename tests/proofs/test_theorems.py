@@ -201,7 +201,7 @@ def test_means_over_time() -> None:
     assert "The mean of x**2 from t = 0.5 to 2 s is in [0.2336210" in verified(found) == found.theorem
     rows = (
         ("mean", "1p0", "a claimed mean does not contain the enclosed one"),
-        ("until", "5p0", "before a span"),
+        ("until", "5p0", "before the interval of a mean"),
         ("since", "1p0", "no length"),
     )
     for name, number, says in rows:

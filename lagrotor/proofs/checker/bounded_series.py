@@ -13,7 +13,10 @@ Ball = Any
 
 
 class Series:
-    """A power series on 0 ≤ s ≤ 1: n terms, and a bound of the sum of all further absolute values; nan if it may diverge."""
+    """A power series on 0 ≤ s ≤ 1: n terms, and a bound of the sum of the absolute values of all further terms.
+
+    The bound is nan if the series may diverge.
+    """
 
     def __init__(self, terms: list[Ball], remainder: Ball, n: int) -> None:
         self.terms, self.remainder, self.n = terms[:n], remainder, n
@@ -48,7 +51,7 @@ class Series:
         return self.terms[0] if self.terms else ZERO
 
     def inverse(self) -> "Series":
-        """Return 1/a = q/(1 − r), r = 1 − a q."""
+        """Return 1/a = q/(1 − r), where q is the truncated inverse and r = 1 − a q."""
         demand(self.at_start() > 0 or self.at_start() < 0, "a denominator is not proved to be nonzero")
         q, _ = terms_of("divide", self.terms, self.n)
         size = total(q)
@@ -56,7 +59,10 @@ class Series:
         return Series(q, size * r / below_one(r), self.n)
 
     def sqrt(self) -> "Series":
-        """Return q + e, e = (a − q² − e²)/(2 q): |e| ≤ k d/(1 + √(1 − k² d)), k = |1/q|, d = |a − q²|."""
+        """Return √a = q + e with the truncated root q. The error e = (a − q² − e²)/(2 q) is bounded by a contraction.
+
+        With k = |1/q| and d = |a − q²| the bound is |e| ≤ k d/(1 + √(1 − k² d)).
+        """
         demand(self.at_start() > 0, "a root's argument is not proved to be positive")
         q, _ = terms_of("sqrt", self.terms, self.n)
         k = Series(q, ZERO, self.n).inverse().size()
@@ -64,13 +70,13 @@ class Series:
         return Series(q, k * d / (1 + below_one(k * k * d).sqrt()), self.n)
 
     def log(self) -> tuple["Series", "Series"]:
-        """Return log a_0 + ∫ a'/a, and 1/a."""
+        """Return log a = log a_0 + ∫ a'/a, and 1/a."""
         demand(self.at_start() > 0, "a logarithm's argument is not proved to be positive")
         slope = self.inverse()
         return self._by_slope(slope, self.at_start().log()), slope
 
     def exp(self) -> "Series":
-        """Return q + e, e' = a' e + (a' q − q'); its size is at most exp(a_0 + |a − a_0|)."""
+        """Return exp a = q + e with a truncated q and e' = a' e + (a' q − q'); the size is at most exp(a_0 + |a − a_0|)."""
         (q, _), rate, n = terms_of("exp", self.terms, self.n), slopes_of(self.terms), self.n
         whole = (self.at_start() + total(self.terms[1:]) + self.remainder).exp()
         if not total(rate) / (n + 1) < 1:
@@ -79,14 +85,14 @@ class Series:
         return Series(q, arb(whole.upper()).min(e + (total(q) + e) * (self.remainder.exp() - 1)), n)
 
     def sin_cos(self) -> tuple["Series", "Series"]:
-        """Return sin(a) and cos(a): both errors solve a linear equation with the coefficient a'."""
+        """Return sin(a) and cos(a). The errors of both truncated series solve a linear equation with the coefficient a'."""
         rate, pair, n = slopes_of(self.terms), terms_of("sin", self.terms, self.n), self.n
         e = sum((_high(rate, q, n - 1) for q in pair), ZERO) / n / below_one(total(rate) / (n + 1))
         remainder = e + (sum(map(total, pair), ZERO) + 2 * e) * (self.remainder.exp() - 1)
         return Series(pair[0], remainder, n), Series(pair[1], remainder, n)
 
     def arc(self, name: str) -> tuple["Series", "Series"]:
-        """Return asin(a) or atan(a), and its derivative by a. Raises InputError for any other operation."""
+        """Return asin(a) or atan(a), and the derivative with respect to a. Raises InputError for any other operation."""
         unit, square = self.number(arb(1)), self * self
         if name not in ("asin", "atan"):
             raise InputError(f"check: the operation {name!r} is unknown")
@@ -94,7 +100,7 @@ class Series:
         return self._by_slope(slope, getattr(self.at_start(), name)()), slope
 
     def _by_slope(self, slope: "Series", value: Ball) -> "Series":
-        """Return g(a) from g'(a): g(a_0) + ∫ a' g'(a) ds, and the remainder of a times g'."""
+        """Return g(a) = g(a_0) + ∫ a' g'(a) ds from `slope` = g'(a); the remainder of a is multiplied by the size of g'."""
         rate = slopes_of(self.terms)
         product = (arb_poly(rate) * arb_poly(slope.terms)).coeffs()
         terms = [value, *(x / (k + 1) for k, x in enumerate(product[: self.n - 1]))]
@@ -108,14 +114,14 @@ def total(terms: Sequence[Ball]) -> Ball:
 
 
 def _longer(a: list[Ball], b: list[Ball], sign: int) -> list[Ball]:
-    """Return a ± b, term by term."""
+    """Return the terms of a + b (`sign` 1) or a − b (−1); the shorter list is extended by zeros."""
     width = max(len(a), len(b))
     first, second = a + [ZERO] * (width - len(a)), b + [ZERO] * (width - len(b))
     return [x + y if sign > 0 else x - y for x, y in zip(first, second, strict=True)]
 
 
 def _high(a: list[Ball], b: list[Ball], n: int) -> Ball:
-    """Return the sum of the absolute values of the product's terms from s^n on."""
+    """Return the sum of the absolute values of the terms of a b with powers from s^n on."""
     return total((arb_poly(a) * arb_poly(b)).coeffs()[n:])
 
 
@@ -125,7 +131,7 @@ def below_one(x: Ball) -> Ball:
 
 
 def sign_over(poly: Any, remainder: Ball, low: Ball, high: Ball, depth: int = 30) -> int:
-    """Return the sign of a polynomial with a remainder between two places, by bisection; 0 if it is not proved."""
+    """Return the sign of a polynomial plus a bounded remainder between two values of s, by bisection; 0 if it is not proved."""
     s, middle = low.union(high), (low + high) / 2
     value = poly(middle) + poly.derivative()(s) * (s - middle) + arb(0, remainder.upper())
     if value > 0 or value < 0:
@@ -137,13 +143,13 @@ def sign_over(poly: Any, remainder: Ball, low: Ball, high: Ball, depth: int = 30
 
 
 class Dual:
-    """A series and its derivatives by the initial coordinates; None if it does not depend on them."""
+    """A series and its derivatives with respect to the initial coordinates; `by` is None if it does not depend on them."""
 
     def __init__(self, value: Series, by: list[Series] | None = None) -> None:
         self.value, self.by = value, by
 
     def linear(self, factor: Series, b: "Dual | None" = None, second: Series | None = None) -> list[Series] | None:
-        """Return factor · self' + second · b'."""
+        """Return the derivatives factor · self' + second · b' of a function of two duals; None if both are constant."""
         first = None if self.by is None else [factor * x for x in self.by]
         if b is None or b.by is None or second is None:
             return first

@@ -18,7 +18,7 @@ _WIDE = 2.0**-24  # half-width of a box above which its Taylor terms are compute
 
 
 def number(text: str) -> Ball:
-    """Return an exact number from mantissa (base 16) and power of two."""
+    """Read an exact number from text: mantissa in base 16, p, exponent of two. For example, 3p-1 is 3/2."""
     demand(_EXACT.fullmatch(text) is not None, f"{text[:60]!r} is not an exact number")
     mantissa, _, power = text.partition("p")
     demand(abs(int(power)) <= MOST_BITS and len(mantissa) <= MOST_BITS, "a number has too many digits")
@@ -51,13 +51,16 @@ def unit(size: int) -> Any:
 
 
 def middle_inverse(D: Any) -> Any:
-    """Return an exact matrix near the inverse of the midpoint."""
+    """Return an exact matrix near the inverse of the midpoint of a matrix ball."""
     X = arb_mat(D.nrows(), D.ncols(), [x.mid() for x in D.entries()]).inv()
     return arb_mat(D.nrows(), D.ncols(), [x.mid() for x in X.entries()])
 
 
 def krawczyk(miss: Any, slope: Any, A: Any, w: Sequence[Ball]) -> list[Ball]:
-    """Return (1 − A D) w − A F. It must lie in the interior of the box w: then F has exactly one zero there."""
+    """Return the Krawczyk image (1 − A D) w − A F with D = `slope` and F = `miss`.
+
+    The image must lie in the interior of the box w; then F has exactly one zero in the box.
+    """
     K = ((unit(len(w)) - A * slope) * column(w) - A * miss).entries()
     for x, box in zip(K, w, strict=True):
         demand(box.contains_interior(x), "Krawczyk's test does not close")
@@ -75,7 +78,7 @@ class Flow:
         demand(0 < self.moving <= self.size, "the motion has no states")
 
     def arguments(self, rows: list[Series], still: Sequence[Ball], by: list[list[Series]] | None, n: int) -> list[Dual]:
-        """Return the series of all arguments, with derivatives if `by` has those of the states."""
+        """Return the series of all arguments; if `by` has the derivatives of the states, each series has derivatives."""
         flat = [Series([c], ZERO, n) for c in (*still, *self.parameters)]
         if by is None:
             return [Dual(x) for x in (*rows, *flat)]
@@ -86,7 +89,7 @@ class Flow:
         return duals + [Dual(x) for x in flat[len(still) :]]
 
     def step(self, start: list[Ball], h: Ball, n: int, coefficients: list[list[Ball]] | None = None) -> list[Series]:
-        """Return the series of the states over one step from the balls; `coefficients` replace the computed terms."""
+        """Return the series of the states over a step from the balls `start`; `coefficients` replace the computed terms."""
         still = start[self.moving :]
         terms = coefficients or motion_terms(self.tape, start[: self.moving], [*still, *self.parameters], h, n)
         bounds = [ZERO] * len(terms)
@@ -101,7 +104,7 @@ class Flow:
         raise NotProved("check: the remainder of the Taylor series is not bounded over a step")
 
     def slopes(self, rows: list[Series], still: Sequence[Ball], h: Ball, n: int) -> tuple[list[Any], Ball]:
-        """Return the terms of D, D' = h J D and D(0) = 1, and a remainder bound of each entry."""
+        """Return the terms of the derivative D of a step, with D' = h J D and D(0) = 1, and a remainder bound of each entry."""
         size, n_rows = self.size, self.moving
         by = [[Series([arb(int(i == j))], ZERO, n) for j in range(size)] for i in range(n_rows)]
         zero = [Series([], ZERO, n)] * size
@@ -147,7 +150,7 @@ def term(a: Series, k: int) -> Ball:
 
 
 def remainder_bound(rate: Series, h: Ball, n: int) -> Ball:
-    """Return a bound of h ∫ of the rate's terms from s^(n−1) on."""
+    """Return a bound of h times the integral of the terms of a rate from s^(n−1) on."""
     return arb((abs(h) * (abs(term(rate, n - 1)) / n + rate.remainder / (n + 1))).upper())
 
 
@@ -157,7 +160,7 @@ def within(new: Sequence[Ball], old: Sequence[Ball]) -> bool:
 
 
 def end_of(a: Series) -> Ball:
-    """Return the value at s = 1."""
+    """Return the value of a series at the end of the step, s = 1."""
     return sum(a.terms, ZERO) + arb(0, a.remainder.upper())
 
 
@@ -213,6 +216,6 @@ class VerifiedSteps:
 
 
 def box_of(node: Any, w: Sequence[Ball]) -> list[Ball]:
-    """Return m + Q s + (C + Q S) w."""
+    """Return the box m + Q s + (C + Q S) w, which contains the set of a node."""
     m, Q, s, C, S = node
     return (column(m) + Q * s + (C + Q * S) * column(w)).entries()

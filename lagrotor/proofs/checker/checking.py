@@ -115,7 +115,7 @@ def check_enclosure(certificate: Any) -> None:
 
 
 def pieces_of(certificate: Any, carried: VerifiedSteps, named: Sequence[Any]) -> Any:
-    """Yield the start time, the length and the series of the expressions for each step."""
+    """Yield for each step the start time, the length, and the series of the named expressions."""
     at = ZERO
     tape = tape_of_words(named, carried.flow.tape["arguments"], certificate["observed"])
     for box, h, n in carried.boxes:
@@ -170,8 +170,8 @@ def check_means(certificate: Any) -> None:
     demand(len(claims) > 0, "no mean is claimed")
     spans = [(read_ball(x["since"]), read_ball(x["until"])) for x in claims]
     for since, until in spans:
-        demand(bool(since >= 0 and since < until), "a span has no length")
-        demand(carried.time.contains(until) or carried.time >= until, "the steps end before a span does")
+        demand(bool(since >= 0 and since < until), "the interval of a mean has no length")
+        demand(carried.time.contains(until) or carried.time >= until, "the steps end before the interval of a mean")
     totals = [ZERO] * len(claims)
     for at, h, series in pieces_of(certificate, carried, claims):
         for i, (f, span) in enumerate(zip(series, spans, strict=True)):
@@ -204,7 +204,7 @@ def check_equilibrium(certificate: Any) -> None:
     demand(fits, "the claimed coordinates do not contain the equilibrium")
     claim = certificate["claim"]["stability"]
     kinds = ("stable", "asymptotically stable", "stable to first order", "unstable", "undecided")
-    demand(claim in kinds, "the stability is unknown")
+    demand(claim in kinds, "the claimed stability is unknown")
     if claim == "unstable":
         demand(any(z.real > 0 for z in linear(J, n).eig()), "no eigenvalue is proved to have a positive real part")
     elif claim == "asymptotically stable":
@@ -214,7 +214,7 @@ def check_equilibrium(certificate: Any) -> None:
 
 
 def check_stable(certificate: Any, J: Sequence[Dual], n: int, state: list[Ball]) -> None:
-    """Verify a definite energy, or distinct imaginary eigenvalues, of a conservative system."""
+    """Verify that the energy of a conservative system is definite, or that its eigenvalues are distinct and imaginary."""
     claim, about = certificate["claim"]["stability"], certificate["about"]
     demand(about is not None and "Lagrangian" in about, "the theorem names no Lagrangian with a conserved energy")
     system = LagrangianOfWords(certificate, about["Lagrangian"])
@@ -232,13 +232,13 @@ def check_stable(certificate: Any, J: Sequence[Dual], n: int, state: list[Ball])
 
 
 def linear(J: Sequence[Dual], n: int) -> Any:
-    """Return the matrix of the linear motion in (q, v)."""
+    """Return the matrix of the linearised motion in (q, v); J has the derivatives of the rates."""
     zero = Series([ZERO], ZERO, 1)
     return arb_mat([[x.at_start() for x in (f.by or [zero] * 2 * n)] for f in J])
 
 
 def gradients(tape: Any, flow: Flow, state: list[Ball]) -> list[Dual]:
-    """Return the outputs of the tape with their derivatives by the states."""
+    """Return the outputs of the tape, each with its derivatives with respect to the states."""
     rows = [Series([x], ZERO, 1) for x in state]
     by = [[Series([arb(int(i == j))], ZERO, 1) for j in range(len(state))] for i in range(len(state))]
     return evaluate(tape, flow.arguments(rows, [], by, 1))

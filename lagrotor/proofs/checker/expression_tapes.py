@@ -1,4 +1,4 @@
-"""The text of expressions as tapes: the checker evaluates the words of a theorem, and no other representation of them."""
+"""Conversion of the text of expressions into tapes. The checker evaluates the words of a theorem themselves."""
 
 import ast
 import re
@@ -19,7 +19,7 @@ _JOINED = {ast.Add: "add", ast.Sub: "subtract", ast.Mult: "multiply", ast.Div: "
 
 
 def tape_of_words(named: Sequence[Any], arguments: Sequence[str], observed: Any) -> Tape:
-    """Return expressions as a tape. A row is {of}, the text, or {of, means}, a name and its text."""
+    """Convert expressions to a tape. A row is {of: text}, or {of: name, means: text} for an expression with a name."""
     words = Words(arguments, observed)
     meanings: dict[str, str] = {}
     for row in named:
@@ -34,7 +34,10 @@ def tape_of_words(named: Sequence[Any], arguments: Sequence[str], observed: Any)
 
 
 class Words:
-    """The operations of expressions, each once; names: places of arguments and observables; constants: E and pi."""
+    """The operations of some expressions, each recorded once.
+
+    `names` gives the place of each argument and observable, `constants` the places of E and pi.
+    """
 
     def __init__(self, arguments: Sequence[str], observed: Any) -> None:
         self.arguments = [*arguments]
@@ -45,13 +48,13 @@ class Words:
         if observed:
             tape, names = read_tape(observed), observed["names"]
             fits = tape["arguments"] == list(arguments) and len({*names} - {*arguments}) == len(tape["outputs"])
-            demand(fits, "the observables have other names")
+            demand(fits, "the names of the observables do not fit the motion")
             self.names |= dict(zip(names, self.include(tape), strict=True))
         plain = not any(re.search(r"^\d|[\s+*/().-]", name) or name in {"pi", *_FUNCTIONS} for name in self.names)
         demand(plain, "the name of a state or observable is an expression")
 
     def include(self, tape: Tape) -> list[int]:
-        """Return the places of a tape's outputs; its arguments are matched by name."""
+        """Add the operations of a tape, whose arguments are matched by name, and return the places of its outputs."""
         names = tape["arguments"]
         places = results_of(tape, lambda i: self.names[names[i]], lambda x: self.keep("number", x), self.keep)
         return [places[place] for place in tape["outputs"]]
@@ -117,7 +120,10 @@ class Words:
         return self.keep("divide", above, below)
 
     def slope(self, place: int, direction: Mapping[int, int]) -> int:
-        """Return the derivative of a result along a direction, argument → component; other components are zero."""
+        """Add the derivative of a result along a direction, and return the place.
+
+        `direction` maps an argument to the place of a component; all other components are zero.
+        """
         zero, needed = self.keep("number", "0"), self.below([place])
         slopes = {at: direction.get(at, zero) for at in needed}
         for at in sorted(needed):
@@ -127,7 +133,7 @@ class Words:
         return slopes[place]
 
     def tape(self, places: Sequence[int]) -> Tape:
-        """Return results as a tape of the named arguments; operations that they do not need become zero."""
+        """Return a tape with these results as outputs; operations that they do not need are replaced by zero."""
         needed, operations = self.below(places), [*self.operations]
         for place in {*range(len(operations))} - needed:
             operations[place] = ["number", "0"]
@@ -162,7 +168,7 @@ class Words:
         return self.keep("multiply", at if name == "exp" else self.keep("cos", a), by[0])
 
     def exponential_sum(self, name: str, x: int) -> int:
-        """Return exp(x) + exp(−x) for "add", the difference for "subtract"."""
+        """Add exp(x) + exp(−x) for "add", the difference for "subtract", and return the place."""
         rise = self.keep("exp", x)
         return self.keep(name, rise, self.over(self.keep("number", "1"), rise))
 

@@ -34,7 +34,7 @@ def check_orbit(certificate: Any) -> None:
     demand_pace(carried.flow.tape)
     still = all(x.is_zero() for i, x in enumerate(carried.w) if i not in free)
     demand(still, "a fixed state is an interval")
-    demand(carried.time.contains(1) and carried.time.rad() < arb(2) ** -40, "the steps are not one unit of s")
+    demand(carried.time.contains(1) and carried.time.rad() < arb(2) ** -40, "the steps do not take one unit of s")
     check_conditions(carried, first, last, free, conditions)
     A, D = matrix(certificate["A"]), carried.derivative
     returns = 0 if first else 1
@@ -47,34 +47,34 @@ def check_orbit(certificate: Any) -> None:
     claim = certificate["claim"]
     states = balls(claim["start"])
     fits = len(states) == moving and all(y.contains(x) for x, y in zip(start, states, strict=False))
-    demand(fits, "the claimed start does not contain the orbit's")
+    demand(fits, "the claimed start does not contain the start of the orbit")
     period = turns * start[moving]
     fits = period > 0 and read_ball(claim["period"]).contains(period)
-    demand(fits, "the claimed period does not contain the orbit's")
+    demand(fits, "the claimed period does not contain the period of the orbit")
     check_kind(certificate, carried, first, last)
     if "r0" in claim:
         check_amplitude(certificate, claim["r0"])
 
 
 def check_amplitude(certificate: Any, claimed: Any) -> None:
-    """Verify that the start of the one orbit has the claimed amplitude, for a scene and with the pair's reversals."""
+    """Verify that the orbit is a paired precession of a scene, and that its start has the claimed amplitude."""
     of_pair = certificate["reversals"] == [[1, -1, -1, -1, 1, 1], [-1, 1, -1, 1, -1, 1]]
-    demand("scene" in (certificate["about"] or {}) and of_pair, "the orbit is no precession of the pair")
+    demand("scene" in (certificate["about"] or {}) and of_pair, "the orbit is not a paired precession of a scene")
     demand(certificate["ones"] == 4, "a precession has four multipliers equal to 1")
     demand(certificate["free"] == _FREE, "the amplitude is not fixed")
     U = read_ball(certificate["start"]["middle"][0])
     fits = claimed == [claimed[0]] * 2 and U.contains(rational_of(claimed[0]).atanh())
-    demand(fits, "the claimed amplitude is not that of the start")
+    demand(fits, "the claimed amplitude is not the amplitude of the start")
 
 
 def check_conditions(carried: VerifiedSteps, first: Any, last: Any, free: Any, conditions: Any) -> None:
-    """Verify that start and conditions are those of the fixed sets of the two reversals."""
+    """Verify that the free states at the start and the conditions at the end define the fixed sets of two reversals."""
     moving = carried.flow.moving
     if not first:
         demand(sorted(conditions) == list(range(moving)), "the conditions do not close the orbit")
         return
     ends = [i for i, s in enumerate(last) if s < 0]
-    demand(sorted(conditions) == ends, "the conditions are not those of the reversal")
+    demand(sorted(conditions) == ends, "the conditions are not those of the second reversal")
     for i, s in enumerate(first):
         fixed = carried.middle[i].is_zero() and carried.w[i].is_zero()
         demand(s > 0 or (fixed and i not in free), "the start is not in the fixed set of the reversal")
@@ -83,10 +83,13 @@ def check_conditions(carried: VerifiedSteps, first: Any, last: Any, free: Any, c
 
 
 def check_kind(certificate: Any, carried: VerifiedSteps, first: Any, last: Any) -> None:
-    """Verify the stability: the trace of the monodromy matrix minus the ones against ±2, or all multipliers."""
+    """Verify the stability: the sum μ + 1/μ of one pair is compared with ±2, or all multipliers with the unit circle."""
     claim, moving = certificate["claim"], carried.flow.moving
     demand(is_place(certificate["ones"], moving + 1), "the number of multipliers equal to 1 is invalid")
-    demand(claim["kind"] in ("undecided", "elliptic", "hyperbolic", "attracting", "parabolic"), "the kind is unknown")
+    demand(
+        claim["kind"] in ("undecided", "elliptic", "hyperbolic", "attracting", "parabolic"),
+        "the claimed kind is unknown",
+    )
     if claim["kind"] == "undecided":
         return
     whole = carried.derivative
@@ -105,7 +108,10 @@ def check_kind(certificate: Any, carried: VerifiedSteps, first: Any, last: Any) 
         demand(moving == ones, "a pair of multipliers can differ from 1")
         return
     demand(moving - ones == 2, "more than one pair of multipliers can differ from 1")
-    demand(read_ball(claim["pair_sum"]).contains(pair), "the claimed sum of the multipliers does not contain theirs")
+    demand(
+        read_ball(claim["pair_sum"]).contains(pair),
+        "the claimed sum of two multipliers does not contain the verified one",
+    )
     demand(claim["kind"] == kind_of(pair), f"the orbit is not proved to be {claim['kind']}")
 
 
@@ -114,7 +120,7 @@ def kind_of(pair: Ball) -> str:
 
 
 def pair_sum(D: Any, first: Any, last: Any, ones: int) -> Ball:
-    """Return μ + 1/μ of the multipliers that are not 1, from the derivative between two reversals."""
+    """Return μ + 1/μ of the one pair of multipliers that can differ from 1, from the derivative D between two reversals."""
     moving = D.nrows()
     X = middle_inverse(D)
     R = unit(moving) - D * X
@@ -129,5 +135,8 @@ def pair_sum(D: Any, first: Any, last: Any, ones: int) -> Ball:
     pair = sum((M[i, i] for i in range(moving)), ZERO) - ones
     factor = arb_poly([1, -pair, 1]) if moving > ones else arb_poly([1])
     difference = M.charpoly() - arb_poly([-1, 1]) ** ones * factor
-    demand(all(x.contains(0) for x in difference.coeffs()), "the multipliers are not the stated ones and a pair")
+    demand(
+        all(x.contains(0) for x in difference.coeffs()),
+        "the multipliers are not the stated number of ones and one pair",
+    )
     return pair

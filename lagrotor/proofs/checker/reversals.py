@@ -1,12 +1,14 @@
 """Reversals: f(S x) = −S f(x) for signs S of the states, decided on the tape of f.
 
-The identity is one of rational functions of variables: the arguments, π, and functions of them. sin, asin and atan are
-odd, sin² + cos² = 1, e^(a+b) = e^a e^b, and √a and e^(n log a) are powers of a. It is evaluated modulo a 512-bit prime at
-one point, both from a digest of the tape. The point makes every radicand a square, and both signs of up to four roots are
-tested; the roots of a tape with more are variables, of which less is known. A false identity holds there with a
-probability of at most its degree over the prime (Schwartz and Zippel), here below 2⁻²⁵⁰. A true one that needs more
-identities is rejected. The laws of roots and logarithms hold for positive arguments: at S x no argument may need to be
-positive that was not so at x, on the motion.
+The identity is treated as one of rational functions. Their variables are the arguments, π, and functions of these. The rules
+are: sin, asin and atan are odd, sin² + cos² = 1, e^(a+b) = e^a e^b, and √a and e^(n log a) are powers of a. The identity is
+evaluated modulo a 512-bit prime at one point; a digest of the tape determines both. Every radicand has a square root at this
+point, and both signs of up to four roots are tested. If a tape has more roots, they are variables, and fewer identities are
+recognized.
+
+A false identity holds at the point with a probability of at most its degree divided by the prime (Schwartz and Zippel), here
+below 2⁻²⁵⁰. A true identity that needs further rules is rejected. The laws of roots and logarithms hold for positive arguments.
+An argument that must be positive at S x must therefore also have to be positive at x, on the motion.
 """
 
 from collections.abc import Iterator, Mapping
@@ -29,7 +31,7 @@ _MOST_ROOTS, _MOST_TRIES, _OF_ONE_PRIME = 4, 256, 64
 
 
 class Residue(NamedTuple):
-    """A result modulo the prime, a bound of its degree, and its linear form, variable → coefficient, for exponentials."""
+    """A result modulo the prime, a bound of its degree, and for exponentials a linear form {variable: coefficient}."""
 
     value: int
     degree: int
@@ -49,15 +51,21 @@ def check_reversal(tape: Tape, signs: Any) -> None:
             stays = len(residues.domain) == followed
         demand(stays, "the reversed motion may leave the domain of its roots and logarithms")
         for s, a, b in zip(signs, rates, images, strict=True):
-            demand((s * a.value + b.value) % residues.p == 0, "the reversed motion is no motion")
+            demand(
+                (s * a.value + b.value) % residues.p == 0,
+                "the reversed motion does not satisfy the equations of motion",
+            )
 
 
 class NoSquareError(Exception):
-    """A radicand is no square at a point."""
+    """A radicand has no square root modulo the prime at a point."""
 
 
 def points_of(tape: Tape) -> Iterator["Residues"]:
-    """Yield one prime and point at which all roots are residues, with each sign of each root; or with roots as variables."""
+    """Yield the tape at one point modulo a prime, once for each choice of the signs of its roots.
+
+    Every root exists there. For a tape with too many roots, the only point has variables in place of the roots.
+    """
     variables = Residues(tape, None)
     variables.outputs([])
     for attempt in range(_MOST_TRIES if variables.roots <= _MOST_ROOTS else 0):
@@ -71,7 +79,7 @@ def points_of(tape: Tape) -> Iterator["Residues"]:
 
 @lru_cache(maxsize=64)
 def _prime(seed: str) -> int:
-    """Return the next prime after a 512-bit number for which −1 is no square and odd roots are unique."""
+    """Return a prime of about 512 bits for a seed, modulo which −1 has no square root and odd roots are unique."""
     p = int(nextprime(int(sha512(seed.encode()).hexdigest(), 16)))
     while not (p % 4 == 3 and gcd(p - 1, _ODD) == 1):
         p = int(nextprime(p))
@@ -79,7 +87,10 @@ def _prime(seed: str) -> int:
 
 
 class Residues:
-    """The results of a tape modulo a prime; attempt: the number of the point, or None; signs: one bit for each root."""
+    """The results of a tape modulo a prime.
+
+    `attempt` is the number of the point, None if roots are variables. Each bit of `signs` is the sign of a root.
+    """
 
     def __init__(self, tape: Tape, attempt: int | None, signs: int = 0) -> None:
         self.tape, self._digest = tape, sha512(f"{tape} {attempt}".encode()).hexdigest()
@@ -93,7 +104,7 @@ class Residues:
         self.domain: set[tuple[str, int]] = set()  # arguments that must be positive, or in [−1, 1]
 
     def outputs(self, signs: list[int]) -> list[Residue]:
-        """Return the outputs, with signs for the first arguments."""
+        """Return the outputs of the tape, after its first arguments were multiplied by `signs`."""
 
         def argument(place: int) -> Residue:
             return self._variable(self._point("argument", place) * (signs[place] if place < len(signs) else 1))
@@ -143,7 +154,7 @@ class Residues:
         return self._variable((2 * sign * point if name == "sin" else 1 - point**2) * below, 2)
 
     def _logarithm(self, a: Residue) -> Terms:
-        """Return the logarithm of a radicand, which is positive; then so is its one factor that is not known to be."""
+        """Return the logarithm of a radicand, which is positive; hence its one factor of unknown sign is positive, too."""
         if a.value not in self._logarithms:
             logarithm, factor, power = self._halves.get(a.value, ({}, a, 1))
             if factor.value not in self._logarithms:
@@ -171,7 +182,7 @@ class Residues:
         return self._variable(value, degree)
 
     def _exponential(self, terms: Terms) -> Residue:
-        """Return e^Σ: e^(x a) is a whole power of e^(a/5040), e^(x log a) a power of a, as far as x allows."""
+        """Return e^Σ of a linear form Σ: e^(x a) is a power of e^(a/5040), e^(x log a) of a, as far as x allows."""
         product = self._number(Fraction(1))
         for variable, x in terms.items():
             of_log = variable in self._arguments
@@ -190,7 +201,7 @@ class Residues:
         return len(self._roots)
 
     def _root(self, variable: int, a: Residue, power: Fraction) -> Residue | None:
-        """Return a^power if residues have it: √a with the sign of its bit, and odd roots; else None."""
+        """Return a^power if it exists modulo the prime, else None. A bit gives the sign of √a; odd roots are unique."""
         odd = power.denominator if power.denominator % 2 else power.denominator // 2
         if odd != power.denominator and self._signs is None:
             self._roots[variable] = 0

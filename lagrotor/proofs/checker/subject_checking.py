@@ -1,4 +1,4 @@
-"""The check of a theorem's subject: the rates of the program are those of the named scene, structure, Lagrangian or text.
+"""The check of a theorem's subject: the program has the rates of the named scene, structure, Lagrangian or text.
 
 The identities are decided modulo a prime, as in `reversals`. The checker generates the program of a scene or structure
 again from its numbers. For a Lagrangian it forms Lagrange's equations, with d'Alembert's principle for constraints, from
@@ -24,18 +24,24 @@ Ball = Any
 
 
 def check_subject(certificate: Any) -> None:
-    """Verify that the program belongs to the named subject; without a name its digest identifies it."""
+    """Verify that the program belongs to the named subject. If none is named, the digest of the program identifies it."""
     arguments, rates = certificate["motion"]["arguments"], certificate["motion"]["outputs"]
     if "t" in arguments:
         place, starts = arguments.index("t"), certificate.get("start", {}).get("middle", [])
         is_clock = place < len(rates) and certificate["motion"]["operations"][rates[place]] == ["number", "1"]
-        demand(is_clock and place < len(starts) and read_ball(starts[place]).is_zero(), "t is not the time from 0 on")
-        demand(read_ball(certificate["start"]["spread"][place]).is_zero(), "t is not the time from 0 on")
+        demand(
+            is_clock and place < len(starts) and read_ball(starts[place]).is_zero(),
+            "the argument t is not the time, which starts at 0",
+        )
+        demand(
+            read_ball(certificate["start"]["spread"][place]).is_zero(),
+            "the argument t is not the time, which starts at 0",
+        )
     about = certificate["about"]
     if about is None:
-        demand(certificate.get("observed") is None, "the observables are undefined")
+        demand(certificate.get("observed") is None, "there are observables, but the subject defines none")
         return
-    demand(type(about) is dict and len(about) == 1, "a theorem has one subject")
+    demand(type(about) is dict and len(about) == 1, "the certificate does not name exactly one subject")
     (kind,) = about
     _RULES[kind](certificate, about[kind])
 
@@ -49,26 +55,26 @@ def _rates(words: Words, certificate: Any) -> list[int]:
 
 
 def residues(words: Words, places: Sequence[int]) -> Iterator[tuple[list[int], int]]:
-    """Yield the residues of results and the prime, for each choice of the signs of roots.
+    """Yield the residues of results modulo a prime, and the prime, for each choice of the signs of the roots.
 
-    Positive quantities come from earlier results, of the program along whose motion they were positive, not of the named
-    subject.
+    A quantity counts as positive only if it must be positive in the program, along the motion. That the named subject needs it
+    to be positive does not count.
     """
     for point in points_of(words.tape(places)):
         yield [x.value for x in point.outputs([])], point.p
 
 
 def demand_equal(words: Words, first: Sequence[int], second: Sequence[int], what: str) -> None:
-    """Verify that results are the same functions of the arguments, pair by pair."""
+    """Verify that two lists of results are the same functions of the arguments, entry by entry."""
     demand(len(first) == len(second), what)
     for values, _ in residues(words, [*first, *second]):
         demand(values[: len(first)] == values[len(first) :], what)
 
 
 def _check_start(certificate: Any, words: Words, constraints: Sequence[int]) -> None:
-    """Verify that the start can satisfy the constraints. An orbit or equilibrium may have none."""
+    """Verify that the start can satisfy the constraints. An orbit or equilibrium must not have any constraints."""
     if certificate["kind"] in ("periodic orbit", "equilibrium"):
-        demand(len(constraints) == 0, "an equilibrium or orbit may have no constraints")
+        demand(len(constraints) == 0, "an equilibrium or orbit must not have constraints")
         return
     spread = balls(certificate["start"]["spread"])
     middle = _middle(certificate)
@@ -85,7 +91,7 @@ def _middle(certificate: Any) -> list[Ball]:
 
 
 def _values(words: Words, places: Sequence[int], at: Sequence[Ball], certificate: Any) -> list[Ball]:
-    """Return results at a start; further symbols have the value 1. Raises NotProved if a result is undefined."""
+    """Return the values of results at a start, with 1 for further symbols. Raises NotProved if a value is undefined."""
     numbers = [*at, *balls(certificate["motion"]["parameters"])]
     arguments = [*numbers, *[arb(1)] * (len(words.arguments) - len(numbers))]
     duals = [Dual(Series([x], ZERO, 1)) for x in arguments]
@@ -95,19 +101,21 @@ def _values(words: Words, places: Sequence[int], at: Sequence[Ball], certificate
 
 
 def _check_generated(certificate: Any, field: Field) -> None:
-    """Verify the program and the observables that are generated for a scene or structure."""
+    """Verify that program and observables equal those that are generated for the named scene or structure."""
     arguments, observed = certificate["motion"]["arguments"], certificate.get("observed")
     words = Words(arguments, None)
-    rates, what = _rates(words, certificate), "the program is not that of the subject"
+    rates, what = _rates(words, certificate), "the program is not the program of the subject"
     demand(arguments[: len(rates)] == [str(s) for s in field.states], what)
     demand_equal(words, rates, words.include(read_tape(vars(field.motion.tape))), what)
     constraints = words.include(read_tape(vars(field.function(field.constraints))))
     _check_start(certificate, words, constraints)
     if observed is not None:
         observables = [*(field.observables or ())]
-        demand(observed["names"] == [str(s) for s in observables], "the observables have other names")
+        demand(
+            observed["names"] == [str(s) for s in observables], "the observables do not have the names of the subject"
+        )
         first, second = (words.include(read_tape(tape)) for tape in (observed, vars(field.function(observables))))
-        demand_equal(words, first, second, "the observables are not those of the subject")
+        demand_equal(words, first, second, "the observables are not the observables of the subject")
 
 
 def _check_scene(certificate: Any, data: Any) -> None:
@@ -126,7 +134,7 @@ def _check_structure(certificate: Any, data: Any) -> None:
 
 def _check_rates(certificate: Any, data: Any) -> None:
     words = Words(certificate["motion"]["arguments"], None)
-    demand(certificate.get("observed") is None, "the observables are undefined")
+    demand(certificate.get("observed") is None, "there are observables, but the subject defines none")
     rates = _rates(words, certificate)
     named = [words.place(text) for text in data]
     demand_equal(words, rates, named, "the rates are not those of the text")
@@ -134,13 +142,13 @@ def _check_rates(certificate: Any, data: Any) -> None:
 
 
 class LagrangianOfWords:
-    """The certificate's program, and the text of a Lagrangian, of forces, dissipation and constraints."""
+    """The program of a certificate, and the text of the Lagrangian, forces, dissipation and constraints."""
 
     def __init__(self, certificate: Any, data: Any) -> None:
         arguments, symbols = certificate["motion"]["arguments"], data["letters"]
         demand(len({*arguments, *symbols}) == len(arguments) + len(symbols), "a symbol has two meanings")
-        demand(all(map(is_name, symbols)), "a symbol has no name")
-        demand(certificate.get("observed") is None, "the observables are undefined")
+        demand(all(map(is_name, symbols)), "the name of a symbol is not one word")
+        demand(certificate.get("observed") is None, "there are observables, but the subject defines none")
         self.words = words = Words([*arguments, *symbols], None)
         self.rates = _rates(words, certificate)
         self.n, self.timed = divmod(len(self.rates), 2)
@@ -169,7 +177,7 @@ class LagrangianOfWords:
         return [self.words.slope(place, {symbol: unit}) for symbol in symbols]
 
     def missing(self) -> list[int]:
-        """Return d/dt ∂L/∂v − ∂L/∂q − Q + ∂D/∂v."""
+        """Return the places of d/dt ∂L/∂v − ∂L/∂q − Q + ∂D/∂v, which must be zero, for each coordinate."""
         words, rows = self.words, []
         by_q, by_v, friction = self.by(self.L, self.q), self.by(self.L, self.v), self.by(self.D, self.v)
         for p, slope, Q, d in zip(by_v, by_q, self.forces, friction, strict=True):
@@ -178,7 +186,7 @@ class LagrangianOfWords:
         return rows
 
     def energy(self) -> int:
-        """Return v·∂L/∂v − L."""
+        """Return the place of the energy v·∂L/∂v − L."""
         words, total = self.words, self.words.keep("subtract", self.words.keep("number", "0"), self.L)
         for v, p in zip(self.v, self.by(self.L, self.v), strict=True):
             total = words.keep("add", total, words.keep("multiply", v, p))
@@ -209,7 +217,7 @@ class LagrangianOfWords:
 
 
 def second_derivatives(tape: Any, at: list[Ball], n: int) -> list[list[Ball]]:
-    """Return the second derivatives of an output by its first n arguments, from its series along each one and each pair."""
+    """Return the second derivatives of an output with respect to n arguments, from series along each argument and pair."""
 
     def along(*directions: int) -> Ball:
         rows = [Dual(Series([x, arb(int(i in directions))], ZERO, 3)) for i, x in enumerate(at)]

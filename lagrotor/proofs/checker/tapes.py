@@ -57,7 +57,11 @@ def read_tape(data: Any) -> Tape:
 def results_of(
     tape: Tape, argument: Callable[[int], Value], number: Callable[[str], Value], operation: Callable[..., Value]
 ) -> list[Value]:
-    """Return the results of a tape in an arithmetic: functions of an argument's place, a number, and an operation."""
+    """Evaluate a tape in some arithmetic, and return the results of all operations.
+
+    The three functions evaluate an argument from its place, a number from its text, and an operation from its name and
+    operands.
+    """
     results: list[Value] = []
     for name, *on in tape["operations"]:
         if name == "argument":
@@ -70,7 +74,7 @@ def results_of(
 
 
 def demand_pace(tape: Tape) -> None:
-    """Verify that each rate is an operation's result times the pace, an argument after the states that occurs nowhere else."""
+    """Verify that each rate is a result times the pace, an argument that follows the states and occurs nowhere else."""
     rates, operations = {*tape["outputs"]}, tape["operations"]
     pace = {place for place, operation in enumerate(operations) if operation == ["argument", len(tape["outputs"])]}
     for place, (name, *on) in enumerate(operations):
@@ -91,10 +95,10 @@ def slopes_of(a: list[Term]) -> list[Term]:
 
 
 def taylor_term(name: str, a: list[Term], b: list[Term], q: list[Term], twin: list[Term], k: int) -> Term:
-    """Return the k-th term of an operation on a (and b) from its earlier terms q.
+    """Return the k-th Taylor term of an operation on a (and b) from the earlier terms q.
 
-    twin: the terms of cosine for sine and of sine for cosine, of √(1 − a²) for asin, of 1 + a² for atan; a term is
-    appended.
+    `twin` has the terms of a second function: cosine for sine, sine for cosine, √(1 − a²) for asin, 1 + a² for atan. Each call
+    appends one term to it.
     """
     if name == "add":
         return a[k] + b[k]
@@ -136,7 +140,7 @@ def convolution(a: list[Term], b: list[Term], first: int, last: int, k: int | No
 
 
 def terms_of(name: str, a: list[Term], n: int) -> tuple[list[Term], list[Term]]:
-    """Return n terms of a function of a series, and those of its twin."""
+    """Return n terms of a function of a series a, and n terms of the twin that `taylor_term` uses for the function."""
     terms, twin, full = list[Term](), list[Term](), a + [ZERO] * (n - len(a))
     unit = [arb(1)] + [ZERO] * (n - 1)
     for k in range(n):
@@ -146,7 +150,7 @@ def terms_of(name: str, a: list[Term], n: int) -> tuple[list[Term], list[Term]]:
 
 
 def motion_terms(tape: Any, start: Sequence[Term], still: Sequence[Term], h: Term, n: int) -> list[list[Term]]:
-    """Return n terms in s = t/h of the states; `still` are the arguments that are constant."""
+    """Return n terms in s = t/h of each state; `still` has the values of the arguments that are constant."""
     rows = [[x] for x in start]
     operations = tape["operations"]
     terms: list[list[Term]] = [[] for _ in operations]

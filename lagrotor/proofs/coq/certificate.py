@@ -5,7 +5,7 @@ both sides have a value are hypotheses. The conclusion is printed = derived; for
 hypotheses hold and the enclosure of the difference excludes zero. A line that holds has a second theorem, that its
 hypotheses hold at some point, since contradictory ones imply anything.
 
-The printed side is that of the catalogue, the derived side that of the script, both without substitution of premises.
+The printed side comes from the catalogue, the derived side from the script, both without substitution of premises.
 Premises and the values of a scene are equations among the hypotheses. A symbol that a premise scales, such as F in F =
 epsilon*F, is a new symbol on the right.
 """
@@ -97,10 +97,10 @@ Theorems = tuple[tuple[str, ...], str]  # names and text
 class Proposition:
     """One line of an equation, or of its correction.
 
-    name: line_1 or correction_1, as its theorem; equations: the premises and scene values, (words, left, right), that the
-    line rests on, or all that were offered for a refuted one; region: their inequalities; stands_for: the symbol of each
-    derivative and integral, an unknown; tolerance: the largest relative error of a number read off a run; small, order: of
-    a series.
+    `name` is line_1 or correction_1, as in the name of its theorem. `equations` are the premises and scene values, each as
+    (words, left, right), on which the line rests; for a refuted line they are all that were offered. `region` has the
+    inequalities of these premises. `stands_for` gives the symbol of each derivative and integral, which are unknowns.
+    `tolerance` is the largest relative error of a number read off a run. `small` and `order` belong to a series.
     """
 
     name: str
@@ -162,7 +162,7 @@ def _proposition(name: str, line: LineVerdict, offered: tuple[Premise, ...]) -> 
 
 
 def _symbols_for_operators(sides: list[Any]) -> dict[sp.Expr, sp.Symbol]:
-    """Return derivative or integral → new symbol. Nested operators come after those that contain them."""
+    """Return {derivative or integral: new symbol}. Operators within another one come after it."""
     nodes = {node for side in sides for node in side.atoms(sp.Derivative, sp.Integral)}
     names = {symbol.name for side in sides for symbol in side.free_symbols}
     symbols: dict[sp.Expr, sp.Symbol] = {}
@@ -176,7 +176,7 @@ def _symbols_for_operators(sides: list[Any]) -> dict[sp.Expr, sp.Symbol]:
 
 
 def _unscaled(premise: Premise) -> Iterator[tuple[sp.Basic, Any]]:
-    """Yield the rows of a premise; a symbol that it replaces is a new symbol on the right."""
+    """Yield the equations of a premise. If it replaces a symbol F by epsilon*F, the F on the right becomes a new symbol."""
     scaled = {old: sp.Symbol(f"{old}_scaled", **old.assumptions0) for old in premise.put if old.is_Symbol}
     for old, new in premise.put.items():
         yield old, sp.sympify(new, strict=True).xreplace(scaled)
@@ -195,7 +195,7 @@ class CertifiedLine:
 
 
 def certificate(verdict: Verdict, entry: Equation) -> tuple[str, tuple[CertifiedLine, ...]]:
-    """Return the file of one equation and its lines; the text is empty if no line has a certificate."""
+    """Return the text of an equation's file, and its lines; the text is empty if no line has a certificate."""
     lines = tuple(map(certified_line, propositions(verdict)))
     if not any(line.theorems for line in lines):
         return "", lines
@@ -241,7 +241,7 @@ class _Hypotheses:
 
     @property
     def named(self) -> Iterator[tuple[str, str, str]]:
-        """The hypotheses: (name, proposition, words)."""
+        """The hypotheses, each as (name, proposition, comment in words)."""
         for n, (sign, e) in enumerate(self.signs, 1):
             yield f"sign_{n}", comparison(self.terms, sign, e), ""
         for n, (says, lhs, rhs) in enumerate(self.equations, 1):
@@ -294,7 +294,7 @@ def _as_comparison(condition: sp.Basic) -> Comparison:
 
 
 def _equality_theorem(p: Proposition) -> Theorems:
-    """Return the theorem that both sides are equal, and with hypotheses the theorem that they hold somewhere."""
+    """Return the theorem that both sides are equal; if it has hypotheses, also the theorem that they hold somewhere."""
     h, sides = _prepare(p)
     pairs = list(p.pairs)
     if p.tolerance is not None:
@@ -305,7 +305,7 @@ def _equality_theorem(p: Proposition) -> Theorems:
 
 
 def _kind_theorem(p: Proposition) -> Theorems:
-    """Return the theorem that a number is no vector, for a line with one of each."""
+    """Return the theorem that a number is not a vector, for a line with a number on one side and a vector on the other."""
     sides = [list(side) if isinstance(side, sp.MatrixBase) else [side] for side in (p.printed, p.derived)]
     none = replace(p, printed=sp.S.Zero, derived=sp.S.Zero, equations=(), region=())
     h = _hypotheses(none, [e for side in sides for e in side])
@@ -318,7 +318,7 @@ def _kind_theorem(p: Proposition) -> Theorems:
 
 
 def _prepare(p: Proposition, extra: Iterable[sp.Expr] = ()) -> tuple["_Hypotheses", Sides]:
-    """Return the hypotheses under which a line and `extra` expressions have values, and both sides in generators."""
+    """Return the hypotheses under which the sides and the `extra` expressions have values, and the sides in generators."""
     expressions = [*(e for pair in p.pairs for e in pair), *extra]
     h = _hypotheses(p, extra)
     return h, Sides(h.terms, expressions, h.pairs, h.defined, p.small)
@@ -361,7 +361,10 @@ def _theorem(name: str, head: str, h: "_Hypotheses", sides: Sides, claims: list[
 
 
 def _differences(p: Proposition, sides: Sides, small: sp.Symbol) -> list[tuple[sp.Expr, sp.Expr]]:
-    """Return the pairs whose difference vanishes through the order; for a number read off a run, the ratio and its limit."""
+    """Return the pairs (a, b) for which a − b vanishes through the order.
+
+    For a number read off a run, a is the ratio of this number to the derived one, and b is the limit of the ratio.
+    """
     if p.tolerance is None:
         return list(p.pairs)
     inverse = sp.Pow(p.derived, -1, evaluate=False)
@@ -372,7 +375,10 @@ def _differences(p: Proposition, sides: Sides, small: sp.Symbol) -> list[tuple[s
 def _to_order(
     p: Proposition, small: sp.Symbol, order: int, pairs: Iterable[tuple[sp.Expr, sp.Expr]]
 ) -> tuple["_Hypotheses", Sides, list[str], list[str], list[SeriesRemainder]]:
-    """Return claims that pairs differ by a power of the small quantity times a finite factor, and their proofs."""
+    """Return claims and proofs that each pair differs by a power of the small quantity times a finite factor.
+
+    The result is (hypotheses, sides, claims, tactics, remainders).
+    """
     draft = _prepare(p, [e for pair in pairs for e in pair])[1]
     remainders = [remainder(draft, lhs - rhs, small, order) for lhs, rhs in pairs]
     h, sides = _prepare(p, [e for pair in pairs for e in pair] + [row.factor for row in remainders])
@@ -387,7 +393,7 @@ def _to_order(
 
 
 def _sines_over(small: sp.Symbol, remainders: list[SeriesRemainder]) -> Iterator[tuple[sp.Expr, sp.Expr]]:
-    """Yield the sines that are divided by the small symbol: |sin x| ≤ |x| keeps the quotient finite."""
+    """Yield (sin x, x) for each sine that is divided by the small symbol; |sin x| ≤ |x| keeps the quotient finite."""
     for sine in sorted(set().union(*(r.factor.atoms(sp.sin) for r in remainders if r.at_zero is None)), key=str):
         if small in sine.free_symbols:
             yield sine, sine.args[0]
@@ -407,7 +413,7 @@ def _order_theorem(p: Proposition) -> Theorems:
 
 
 def _refuted_order_theorem(p: Proposition, order: int) -> Theorems:
-    """Return the theorems that the sides differ by small**n times a finite factor, and that it is nonzero at some point."""
+    """Return two theorems: the sides differ by small**n times a finite factor, and this factor is not zero at a point."""
     small = p.small
     assert small is not None
     p = replace(p, equations=_consistent_choices(p.equations)[0])
@@ -459,7 +465,7 @@ def _point_theorem(name: str, h: _Hypotheses, point: dict[sp.Symbol, sp.Expr], c
 
 
 def _counterexamples(p: Proposition) -> Theorems:
-    """Return a counterexample for each largest consistent choice of premises."""
+    """Return a counterexample for each largest set of premises that do not contradict each other."""
     choices = _consistent_choices(p.equations)
     names = [f"{p.name}_refuted" + (f"_{n}" if len(choices) > 1 else "") for n in range(1, len(choices) + 1)]
     head = comment(f"{p.name}: {p.quantity}: refuted: a point where the premises hold and the sides are apart")
@@ -471,7 +477,7 @@ _Rows = tuple[tuple[str, sp.Expr, sp.Expr], ...]
 
 
 def _consistent_choices(rows: _Rows) -> list[_Rows]:
-    """Return the largest consistent choices of premises, as rows; each contains the text's values.
+    """Return the largest sets of premises that do not contradict each other, as rows with the text's values.
 
     Raises NotExactError for a premise that contradicts itself or cannot be solved.
     """

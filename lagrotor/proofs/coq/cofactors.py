@@ -1,7 +1,7 @@
-"""Polynomials under equations: elimination of symbols, one fraction of a quotient, cofactors of a sum of vanishing
-polynomials.
+"""Polynomials under equations: symbols are eliminated, a quotient becomes one fraction, and cofactors are found.
 
-Buchberger's algorithm finds the cofactors q_i of p = sum q_i zero_i + rest; each member of its basis carries its own.
+Buchberger's algorithm finds the cofactors q_i of p = sum q_i zero_i + rest, where the zero_i vanish. Each member of the basis
+carries its own cofactors.
 """
 
 from collections.abc import Sequence
@@ -19,7 +19,9 @@ _MOST_TERMS = 4000
 
 
 def elimination(equations: Sequence[SymbolEquation]) -> tuple[dict[sp.Symbol, sp.Expr], dict[int, sp.Expr]]:
-    """Return symbol → value for equations with a symbol alone on one side, and place (from 1) → difference for the others.
+    """Solve the equations with a symbol alone on one side; return {symbol: value}, and {place: difference} of the others.
+
+    Places are counted from 1. Raises NotExactError for an equation that contradicts the earlier ones.
 
     Raises NotExactError for an equation that contradicts the earlier ones.
     """
@@ -46,7 +48,9 @@ _MOST_MEMBERS = 40
 
 
 def cofactors_of(target: PolyElement, zeros: Sequence[PolyElement]) -> tuple[list[PolyElement], PolyElement]:
-    """Return q_i and rest of target = sum q_i zero_i + rest. Becker & Weispfenning, Groebner Bases, 5.6.
+    """Return the cofactors q_i and the remainder of target = sum q_i zero_i + remainder.
+
+    Becker & Weispfenning, Groebner Bases, 5.6.
 
     Raises NotExactError if the basis is too large.
     """
@@ -54,7 +58,7 @@ def cofactors_of(target: PolyElement, zeros: Sequence[PolyElement]) -> tuple[lis
     basis: list[tuple[PolyElement, list[PolyElement]]] = []
 
     def reduce_by_basis(p: PolyElement, row: list[PolyElement]) -> tuple[PolyElement, list[PolyElement]]:
-        """Return the rest of p, and the row plus the cofactors of p − remainder."""
+        """Return the remainder of p modulo the basis, and the row plus the cofactors of p − remainder."""
         remainder = ring.zero
         while p:
             for member, combination in basis:
@@ -69,7 +73,7 @@ def cofactors_of(target: PolyElement, zeros: Sequence[PolyElement]) -> tuple[lis
         return remainder, row
 
     def add_member(p: PolyElement, row: list[PolyElement]) -> None:
-        """Add the rest of p modulo the basis; `row` has the cofactors of p."""
+        """Extend the basis by the remainder of p modulo the basis; `row` has the cofactors of p."""
         remainder, used = reduce_by_basis(p, [ring.zero] * len(zeros))
         if remainder:
             pairs.extend((i, len(basis)) for i in range(len(basis)))
@@ -94,7 +98,7 @@ def cofactors_of(target: PolyElement, zeros: Sequence[PolyElement]) -> tuple[lis
 
 @dataclass(frozen=True)
 class Fraction:
-    """A polynomial over a monomial."""
+    """A polynomial divided by a monomial."""
 
     numerator: PolyElement
     under: sp.Expr
@@ -102,7 +106,7 @@ class Fraction:
 
 
 def one_fraction(value: sp.Expr, symbols: Sequence[sp.Symbol]) -> Fraction:
-    """Return a value whose denominators are monomials as one fraction. Raises NotExactError if it is too large."""
+    """Return a value, whose denominators are monomials, as one fraction. Raises NotExactError if it is too large."""
     ring = PolyRing(list(symbols) or [sp.Dummy()], sp.QQ, sp.lex)
     quotient = _quotient(value, ring, {symbol: ring.gens[i] for i, symbol in enumerate(symbols)})
     numerator, powers = quotient
@@ -114,7 +118,7 @@ _Quotient = tuple[PolyElement, tuple[int, ...]]
 
 
 def _quotient(node: sp.Expr, ring: PolyRing, symbols: dict[sp.Symbol, PolyElement]) -> _Quotient:
-    """Return the numerator and the exponents of the denominator, a monomial."""
+    """Return the numerator of a value, and the exponents of the monomial that is the denominator."""
     none = (0,) * ring.ngens
     if node.is_Rational:
         return ring(sp.QQ(node.p, node.q)), none

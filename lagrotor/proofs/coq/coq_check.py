@@ -27,7 +27,7 @@ CERTIFICATE_LIST = "certificates.json"
 
 @dataclass(frozen=True)
 class CertifiedEquation:
-    """One equation of a folder: its verdict, its file ("" without one), its lines."""
+    """An equation of a folder: its verdict, the name of its file ("" if it has none), and its lines."""
 
     id: str
     verdict: str
@@ -36,7 +36,7 @@ class CertifiedEquation:
 
 
 def certify(verdicts: Iterable[Verdict], paper: Catalogue, folder: Path) -> list[CertifiedEquation]:
-    """Write a file for each equation with a certificate, and the list; remove the files of an earlier run.
+    """Write a Coq file for each equation that has a certificate, and the list of all lines; remove files of an earlier run.
 
     Raises InputError if the folder cannot be written to, or contains other files.
     """
@@ -105,7 +105,7 @@ _TO_INSTALL = "install Debian's packages coq and libcoq-interval (apt-get instal
 
 @dataclass(frozen=True)
 class Checked:
-    """The result of one line: accepted, rejected, or skipped; why: the reason of the last two."""
+    """The result of checking one line: accepted, rejected or skipped. `why` is the reason if it was not accepted."""
 
     id: str
     line: CertifiedLine
@@ -123,7 +123,7 @@ def missing_coq() -> str:
 
 
 def check_certificates(folder: Path, begins: Callable[[str], None] = lambda name: None) -> list[Checked]:
-    """Check every certificate of a folder, in parallel; `begins` is called with each id.
+    """Check every certificate of a folder, in parallel; `begins` is called with the id of each equation before its check.
 
     Raises InputError for a folder without certificates, LagrotorError without Coq.
     """
@@ -159,7 +159,7 @@ def _lines(row: CertifiedEquation, failed: Mapping[str, str]) -> Iterator[Checke
 
 
 def _failures_of(files: Sequence[tuple[CertifiedEquation, str]]) -> list[dict[str, str]]:
-    """Return for each file its rejected theorems with the reasons; the key "" is the whole file.
+    """Return {rejected theorem: reason} for each file; the key "" stands for the whole file.
 
     Coq takes longer to load its libraries than to check most files. All files are compiled together, each as a module, and
     one by one only if that fails.
@@ -177,7 +177,7 @@ def _failures_of(files: Sequence[tuple[CertifiedEquation, str]]) -> list[dict[st
 
 
 def _malformed(row: CertifiedEquation, text: str) -> str:
-    """Return what is wrong with the text of a file; empty if nothing is."""
+    """Return in words what makes the text of a file unacceptable; empty if nothing does."""
     if text and (word := foreign_word(text)):
         return f"the file holds {word}, which is no part of a certificate"
     for name in (name for line in row.lines for name in line.theorems):
@@ -187,7 +187,7 @@ def _malformed(row: CertifiedEquation, text: str) -> str:
 
 
 def _failures(row: CertifiedEquation, text: str) -> dict[str, str]:
-    """Return theorem → reason of its rejection, "" for the whole file. The next attempt omits a rejected theorem."""
+    """Return {rejected theorem: reason}, with "" for the whole file. A rejected theorem is omitted in the next attempt."""
     failed: dict[str, str] = {}
     with tempfile.TemporaryDirectory() as folder:
         while error := _compile(Path(folder), row.file, text):
@@ -202,7 +202,7 @@ def _failures(row: CertifiedEquation, text: str) -> dict[str, str]:
 
 
 def _compile(folder: Path, name: str, text: str) -> str:
-    """Return the objection of coqc as "line n: message"; empty if it accepts."""
+    """Compile a file, and return the objection of coqc as "line n: message"; empty if coqc accepts the file."""
     (folder / name).write_text(text, encoding="utf-8")
     try:
         run = subprocess.run(["coqc", "-q", name], cwd=folder, capture_output=True, text=True, timeout=_LONGEST)
@@ -216,7 +216,7 @@ def _compile(folder: Path, name: str, text: str) -> str:
 
 
 def foreign_word(text: str) -> str:
-    """Return the first content of a file that is no preamble, theorem about a line, or comment; empty if there is none."""
+    """Return the first content of a file that is not a preamble, a theorem about a line, or a comment; empty if all is."""
     head, preamble, plain = _without_comments(text).partition(PREAMBLE)
     if not preamble or head.strip():
         return "another beginning than the preamble of certificates"

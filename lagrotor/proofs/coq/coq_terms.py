@@ -35,7 +35,7 @@ Comparison = tuple[str, sp.Expr]  # ("<>" or "<=" or "<" zero, of an expression)
 
 
 class Terms:
-    """The names of the symbols and functions of some expressions, and their text.
+    """The names of the symbols and functions of some expressions in Coq, and the text of these expressions.
 
     Raises NotExactError if two symbols have one name, or an expression has no term over the reals.
     """
@@ -56,7 +56,7 @@ class Terms:
             self.add(symbol)
 
     def add(self, symbol: Any) -> str:
-        """Name a symbol, by its own name if Coq allows it."""
+        """Give a symbol a name, its own if Coq allows it, and return the name."""
         called = _plain(symbol)
         name = called if _WORD.fullmatch(called) else "x_" + re.sub(r"\W", "_", called, flags=re.ASCII)
         while name in _RESERVED or PROOF_NAMES.fullmatch(name) or name in self.names.values():
@@ -72,7 +72,7 @@ class Terms:
         return self._within(node, 4)
 
     def _within(self, node: Any, strength: int) -> str:
-        """Return the term, in brackets if it binds less than its place: 1 in a sum, 2 in a product, 3 a factor, 4 alone."""
+        """Return the term, in brackets if it binds less than `strength`: 1 in a sum, 2 in a product, 3 a factor, 4 alone."""
         text, binds = self._term(node)
         return text if binds >= strength else f"({text})"
 
@@ -181,7 +181,7 @@ def _conditions_of(node: Any) -> list[Comparison]:
 
 
 def _plainly(sign: str, e: sp.Expr) -> bool:
-    """Return True if a condition holds for a number, or for a symbol by its declared sign, which is a hypothesis."""
+    """Return True if a number satisfies a condition, or if the declared sign of a symbol, a hypothesis, implies it."""
     if e.is_Symbol:
         return bool(e.is_positive or (sign == "<>" and e.is_nonzero) or (sign == "<=" and e.is_nonnegative))
     plain = e.is_Rational or e is sp.pi

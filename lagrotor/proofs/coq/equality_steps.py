@@ -1,12 +1,12 @@
-"""The proof that two sides are equal, as steps that Coq checks: each side in generators, their numerator as cofactors times
-relations.
+"""The proof that two sides are equal, as steps that Coq checks.
 
-A generator is a symbol, the cosine and the sine of a base angle, an exponential, a root, or an uninterpreted function. The
-addition theorems write every function in them (`atom_n`); every denominator is factored (`whole_n`), and each factor gets a
-symbol (`factor_n`, `sum_n`). The two sides times a monomial then differ by a polynomial, the sum of q_i times relation_i:
-sin^2 + cos^2 - 1, root^2 - radicand, factor - polynomial. Division finds the q_i, since the leading terms of the relations
-have no symbol in common; Coq checks them by `ring`. A premise with a symbol alone on one side is substituted; the
-numerators of other premises, a^2 + b^2 = 1, are relations too (`ideal_n`), with `cofactors`.
+Both sides are written in generators, and the numerator of their difference as a sum of cofactors times relations. A generator
+is a symbol, the cosine and the sine of a base angle, an exponential, a root, or an uninterpreted function. The addition
+theorems express every function in generators (`atom_n`). Every denominator is factored (`whole_n`), and each factor gets a
+symbol (`factor_n`, `sum_n`). The two sides times a monomial then differ by a polynomial, the sum of q_i times relation_i. The
+relations are sin^2 + cos^2 - 1, root^2 - radicand, and factor - polynomial. Division finds the q_i, since the leading terms of
+the relations have no symbol in common; Coq checks them by `ring`. A premise with a symbol alone on one side is substituted. The
+numerators of other premises, such as a^2 + b^2 = 1, are further relations (`ideal_n`), for which `cofactors` finds the q_i.
 """
 
 import re
@@ -33,7 +33,7 @@ _LARGEST_MULTIPLE, _MOST_FACTORED = 12, 60
 
 @dataclass(frozen=True)
 class _Relation:
-    """A vanishing polynomial in generators: its name in the proof, and its text."""
+    """A polynomial in generators that is zero: its name in the proof, the polynomial, and its text."""
 
     name: str
     zero: sp.Expr
@@ -76,7 +76,7 @@ class Sides:
             self._premise(place, *equations[place - 1])
 
     def _premise(self, place: int, lhs: sp.Expr, rhs: sp.Expr) -> None:
-        """Add the numerator of an equation between symbols as a relation."""
+        """Add the numerator of lhs − rhs, where premise number `place` is lhs = rhs, to the relations."""
         difference = self._fraction(self.value(lhs - rhs))
         zero, under = difference.numerator.as_expr(), difference.under
         name, text = self._name("ideal"), self.terms.write(zero)
@@ -148,7 +148,7 @@ class Sides:
         raise NotExactError(f"nothing is known here of the power {node}")
 
     def _generator(self, key: Any, text: str) -> sp.Symbol:
-        """Return the generator of a function, written as that function in Coq."""
+        """Return the generator that stands for a function; `text` is the function in Coq."""
         if key not in self._generators:
             generator = sp.Dummy(text)
             self._generators[key] = generator
@@ -162,7 +162,7 @@ class Sides:
         self.relations.append(_Relation(name, zero, text))
 
     def _atom(self, node: sp.Expr) -> sp.Expr:
-        """Return the value of a function, with the step that proves it unless it is a generator itself."""
+        """Return the value of a function in generators, and add the step that proves it unless the function is a generator."""
         if node.func in _CIRCULAR:
             value, tactics = self._circular(node)
         elif node.func in _EXPONENTIAL:
@@ -183,7 +183,7 @@ class Sides:
         return value
 
     def _angle(self, node: sp.Expr) -> tuple[list[tuple[sp.Expr, int]], int]:
-        """Return the argument as whole multiples of base angles, and of a quarter turn."""
+        """Write an argument in base angles: return [(base angle, whole multiple)], and the number of quarter turns."""
         rates = _rates(node.args[0].xreplace(self.eliminated))
         quarters = rates.pop(sp.pi, sp.S.Zero) * 2
         if not quarters.is_Integer:
@@ -195,7 +195,7 @@ class Sides:
         return multiples, int(quarters)
 
     def _split(self, node: sp.Expr, multiples: Iterable[tuple[sp.Expr, int]], quarters: int, tactic: str) -> str:
-        """Return the tactics for a function of a sum of base angles, after its argument is written as such a sum."""
+        """Return tactics for a function: the argument is written as a sum of base angles, then `tactic` splits this sum."""
         angles = [(self.terms.write(base), n) for base, n in multiples] + [("PI / 2", quarters)]
         copies = [f"({text})" if n > 0 else f"(- ({text}))" for text, n in angles for _ in range(abs(n))]
         function = self.terms.write(node).split(" ")[0]
@@ -216,7 +216,7 @@ class Sides:
         return total[node.func is sp.sin], self._split(node, multiples, quarters, "circular")
 
     def _pair(self, base: sp.Expr) -> tuple[sp.Symbol, sp.Symbol]:
-        """Return cosine and sine of a base angle, generators with cos² + sin² = 1."""
+        """Return the cosine and the sine of a base angle, two generators with cos² + sin² = 1."""
         text, new = self.terms.alone(base), ("cos", base) not in self._generators
         pair = tuple(self._generator((name, base), f"{name} {text}") for name in ("cos", "sin"))
         if new:
@@ -261,7 +261,7 @@ class Sides:
         return symbol / under, proof
 
     def _add_root(self, node: sp.Expr, base: sp.Expr) -> None:
-        """Add the root of a radicand as a generator; for a quotient, a symbol for the root times the denominator."""
+        """Add the root of a radicand as a generator; for a quotient, the generator is the root times the denominator."""
         write, under = self.terms.write, base.as_numer_denom()[1]
         same = in_one(self._prove_value(base, node.base, reverse=True))
         proof = f"replace ({write(base)}) with ({write(node.base)}) by ({same}); {_NOT_NEGATIVE}"
@@ -289,18 +289,18 @@ class Sides:
         return generator, f"f_equal; {in_one(self._prove_value(inner, node.args[0]))}."
 
     def _uninterpreted(self, node: sp.Expr) -> tuple[sp.Expr, str]:
-        """Return a function of which only congruence is used: equal arguments give equal values."""
+        """Return the generator of an unknown function, and the proof that equal arguments give equal values."""
         inner = [sp.expand(self.value(argument)) for argument in node.args]
         alike = node.func(*inner)
         proofs = " | ".join(self._prove_value(new, old).rstrip(". ") for new, old in zip(inner, node.args, strict=True))
         return self._generator(("opaque", alike), self.terms.write(alike)), f"f_equal; first [ {in_one(proofs)} ]."
 
     def _prove_value(self, value: sp.Expr, node: sp.Expr, reverse: bool = False) -> str:
-        """Return tactics for node = value (value = node if `reverse`), value in generators."""
+        """Return tactics for node = value, or value = node if `reverse`; the value is in generators."""
         return ("symmetry. " if reverse else "") + self._into_generators() + self._equal(self.value(node), value)
 
     def _denominator(self, base: sp.Expr, condition: str = "") -> sp.Expr:
-        """Return the value of a denominator as a product of powers of symbols, which its condition proves to be nonzero."""
+        """Return a denominator as a product of powers of symbols; its condition proves that these symbols are not zero."""
         key = sp.Tuple(sp.Symbol("denominator"), base)
         if key in self._values:
             return self._values[key]
@@ -342,7 +342,7 @@ class Sides:
             self._assert(self._name("apart"), f"{text} <> 0", tactics)
 
     def _factor_powers(self, ring: PolyRing, polynomial: PolyElement) -> tuple[sp.Expr, list[tuple[sp.Symbol, int]]]:
-        """Return a number, and powers of symbols for the irreducible factors."""
+        """Write a polynomial as a number times powers of symbols, one for each irreducible factor; return both."""
         factored = len(polynomial) <= _MOST_FACTORED
         number, factors = polynomial.factor_list() if factored else (sp.QQ(1), [(polynomial, 1)])
         powers = []
@@ -356,7 +356,7 @@ class Sides:
         return sp.Rational(int(number.numerator), int(number.denominator)), powers
 
     def _factor(self, polynomial: sp.Expr) -> sp.Symbol:
-        """Return the symbol of a factor of a denominator."""
+        """Return the symbol that stands for a factor of a denominator."""
         if polynomial not in self._factors:
             name = self._name("factor")
             symbol = self._factors[polynomial] = sp.Dummy(name)
@@ -370,7 +370,7 @@ class Sides:
         return one_fraction(value, self._order(value))
 
     def _order(self, *values: sp.Expr) -> list[sp.Symbol]:
-        """Return the generators in an order in which each relation leads with the square or symbol that it is solved for.
+        """Return the generators in an order in which each relation leads with the square or symbol for which it is solved.
 
         The last relations come first, since a root or factor contains earlier generators.
         """
@@ -382,7 +382,7 @@ class Sides:
         return [*dict.fromkeys(leading), *others]
 
     def _reduced(self, numerator: PolyElement) -> tuple[list[PolyElement], PolyElement]:
-        """Return the cofactors of the relations, and the remainder."""
+        """Divide a numerator by the relations, and return the cofactors and the remainder."""
         ring = numerator.ring
         if not self.relations or not numerator:
             return [], numerator
@@ -420,7 +420,7 @@ class Sides:
         return self._reduced(fraction.numerator)[1].as_expr(), fraction.under
 
     def meaning(self) -> dict[sp.Symbol, sp.Expr]:
-        """Return generator → function, and factor of a denominator → its polynomial."""
+        """Return {generator: function}, and {symbol: polynomial} for the factors of denominators."""
         functions = {"cos": sp.cos, "sin": sp.sin, "exp": sp.exp, "abs": sp.Abs}
         meanings: dict[sp.Symbol, sp.Expr] = {}
         for key, symbol in self._generators.items():
@@ -434,25 +434,25 @@ class Sides:
         return meanings | {symbol: polynomial.xreplace(meanings) for polynomial, symbol in self._factors.items()}
 
     def small_pairs(self, small: sp.Symbol) -> dict[sp.Expr, tuple[sp.Symbol, sp.Symbol]]:
-        """Return base angle that vanishes with the small symbol → its cosine and sine."""
+        """Return {base angle: (cosine, sine)} for the base angles that vanish with the small symbol."""
         keys = (key for key in self._generators if isinstance(key, tuple) and key[0] == "cos")
         vanishing = (base for _, base in keys if base.as_powers_dict().get(small, sp.S.Zero).is_positive)
         return {base: (self._generators["cos", base], self._generators["sin", base]) for base in vanishing}
 
     def roots(self) -> list[tuple[sp.Symbol, sp.Expr]]:
-        """Return each root, or root times denominator, and its square."""
+        """Return (generator, square) for each root; for a quotient the generator is the root times the denominator."""
         keys = (key for key in self._generators if isinstance(key, tuple) and key[0] == "root")
         return [(self._generators[key], sp.expand(key[1] * _under(key[1]) ** 2)) for key in keys]
 
 
 def _under(radicand: sp.Expr) -> sp.Expr:
-    """Return the denominator by which a root is multiplied to be a generator; 1 if it is a number."""
+    """Return the factor by which a root is multiplied to be a generator: the denominator of the radicand, or 1 for a number."""
     under = radicand.as_numer_denom()[1]
     return sp.S.One if under.is_number else under
 
 
 def _leading(zero: sp.Expr, near: set[sp.Symbol]) -> sp.Symbol:
-    """Return the generator that a relation is solved for: the sine of a pair, or the cosine if the sine is small."""
+    """Return the generator for which a relation is solved: the sine of a pair, or the cosine if the sine is small."""
     for symbol in sorted(zero.free_symbols, key=lambda x: (_rank(x) - (x in near) * 1.5, x.name)):
         if sp.Poly(zero, symbol).degree() == (1 if symbol.name.startswith("factor_") else 2):
             return symbol
@@ -465,7 +465,7 @@ def _rank(symbol: sp.Symbol) -> int:
 
 
 def _rates(argument: sp.Expr) -> dict[sp.Expr, sp.Rational]:
-    """Return monomial → its rational factor in an angle."""
+    """Return {monomial: rational factor} for the terms of an angle."""
     rates: dict[sp.Expr, Any] = {}
     for term in sp.Add.make_args(sp.expand(argument)):
         rate, monomial = term.as_coeff_Mul()
@@ -478,7 +478,7 @@ def _rates(argument: sp.Expr) -> dict[sp.Expr, sp.Rational]:
 def _steps_of_angles(
     expressions: Iterable[sp.Expr], substitution: dict[sp.Symbol, sp.Expr]
 ) -> dict[tuple[bool, sp.Expr], int]:
-    """Return (circular or not, monomial) → the common denominator of its factors."""
+    """Return {(circular or not, monomial): common denominator of the factors} for the angles of all expressions."""
     denominators: dict[tuple[bool, sp.Expr], int] = {}
     for expression in expressions:
         for node in sp.preorder_traversal(expression):
@@ -491,5 +491,5 @@ def _steps_of_angles(
 
 
 def in_one(tactics: str) -> str:
-    """Return a sequence of tactics as one tactic."""
+    """Join a sequence of tactics into one tactic."""
     return re.sub(r"(?<!\.)\. ", "; ", tactics.rstrip(". "))

@@ -29,7 +29,8 @@ def points_of(
 ) -> Iterator[dict[sp.Symbol, sp.Expr]]:
     """Yield up to `limit` points that satisfy the eliminated equations and the conditions, the same ones in each call.
 
-    fixed: values of symbols; zeros: further expressions to vanish, each a polynomial in one of its symbols.
+    `fixed` has values of some symbols. `zeros` are further expressions that must vanish; each is a polynomial in one of the
+    symbols.
     """
     drawn, count = random.Random(1), 0
     for _ in range(_TRIES):
@@ -48,7 +49,7 @@ def points_of(
 
 
 def _solve(free: dict[sp.Symbol, sp.Expr], zeros: Sequence[sp.Expr], drawn: random.Random) -> bool:
-    """Change symbols so that each equation holds at rational numbers; return True if all then do."""
+    """Change values in `free` to rational numbers at which all `zeros` vanish; return True if that succeeds."""
     solved: list[tuple[sp.Symbol, sp.Expr]] = []
     for zero in zeros:
         for symbol, value in solved:
@@ -92,7 +93,7 @@ def value_at_point(expression: sp.Expr, point: Mapping[sp.Symbol, sp.Expr]) -> A
 
 
 def rational_bounds(value: Any) -> tuple[sp.Rational, sp.Rational]:
-    """Return rationals with few digits below and above a value, both of its sign."""
+    """Return two rationals with few digits, one below and one above a value, both with the sign of the value."""
     step = sp.Integer(10) ** (floor(log10(abs(float(value)))) - 2)
     low = step * (int(mp.floor(value / (mp.mpf(step.p) / step.q))) - 1)
     return low, low + 3 * step

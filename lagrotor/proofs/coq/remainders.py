@@ -1,10 +1,10 @@
-"""The order to which two sides agree in a small quantity: their difference as a power of it times a factor that is finite at
-zero.
+"""The order to which two sides agree in a small quantity.
 
-Near zero cos b = 1 - u sin(b)^2 with u = 1/(1 + cos b). A root y of R with the value y_0 at zero is y = y_0 + (R - y_0^2) w
-with w = 1/(y + y_0). Terms of too low an order that contain u or w are expanded by u = 1/2 + u^2 sin(b)^2/2 and w = 1/(2
-y_0) - (R - y_0^2) w^2/(2 y_0). These identities give a polynomial; its terms of low order must vanish. The others are
-written in cosines and roots again, so that Coq checks an exact identity.
+Their difference is a power of the small quantity times a factor that is finite at zero. Near zero cos b = 1 - u sin(b)^2 with u
+= 1/(1 + cos b). A root y of R with the value y_0 at zero is y = y_0 + (R - y_0^2) w with w = 1/(y + y_0). Terms of too low an
+order that contain u or w are expanded by u = 1/2 + u^2 sin(b)^2/2 and w = 1/(2 y_0) - (R - y_0^2) w^2/(2 y_0). These identities
+give a polynomial; its terms of low order must vanish. The others are written in cosines and roots again, so that Coq checks an
+exact identity.
 """
 
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ _MOST_TERMS = 4000
 
 @dataclass(frozen=True)
 class SeriesRemainder:
-    """difference = power * factor; at_zero: the factor where the small quantity is zero, None if it is a limit."""
+    """A difference as power * factor; `at_zero` is the factor at small = 0, None if it is only a limit there."""
 
     power: sp.Expr
     factor: sp.Expr
@@ -27,13 +27,13 @@ class SeriesRemainder:
 
 
 def value_at_zero(sides: Sides, expression: sp.Expr, small: sp.Symbol) -> sp.Expr:
-    """Return an expression where the small quantity is zero, in functions of the other symbols."""
+    """Return the value of an expression at small = 0, in functions of the other symbols."""
     over, under = sides.in_generators(expression)
     return sp.cancel((over / under).xreplace(sides.meaning()).xreplace({small: sp.S.Zero}))
 
 
 def remainder(sides: Sides, difference: sp.Expr, small: sp.Symbol, order: int) -> SeriesRemainder:
-    """Return difference = small**order * factor, or with the sine of small in its place.
+    """Write a difference as small**order * factor, or as a power of the sine of small times a factor.
 
     Raises NotExactError if terms of lower order do not vanish, or a function has no such form.
     """
@@ -59,10 +59,10 @@ def remainder(sides: Sides, difference: sp.Expr, small: sp.Symbol, order: int) -
 
 
 class _Near:
-    """The generators near zero.
+    """The expansion of the generators near small = 0.
 
-    weights: small symbol → its order; put: cosine or root → its value in small symbols and rule symbols; rules: rule symbol
-    → its expansion to the next order; meaning: symbol → function.
+    `weights` has the order of each small symbol. `put` has the value of each cosine and root in small symbols and rule symbols.
+    `rules` has the expansion of each rule symbol to the next order. `meaning` has the function for which a symbol stands.
     """
 
     def __init__(self, sides: Sides, small: sp.Symbol) -> None:
@@ -87,7 +87,7 @@ class _Near:
     def _add_root(
         self, root: sp.Symbol, square: sp.Expr, at_zero: sp.Expr, earlier: list[tuple[sp.Symbol, sp.Expr]]
     ) -> None:
-        """Expand a root about an earlier root, or a number, whose square differs from its own by the highest order."""
+        """Expand a root about the earlier root or number whose square agrees with the radicand to the highest order."""
         if not at_zero.is_Rational or at_zero == 0:
             raise NotExactError(f"{self.meaning[root]} has no rational value where {self.small} is zero")
         symbol, bases = sp.Dummy("w"), [(at_zero, at_zero**2), *earlier]
@@ -114,7 +114,7 @@ class _Near:
         return sum(int(powers.get(symbol, 0)) * weight for symbol, weight in self.weights.items())
 
     def expanded(self, over: sp.Expr, order: int) -> sp.Expr:
-        """Return the polynomial with every cosine and root substituted, and without terms below the order."""
+        """Substitute every cosine and root in a polynomial, and return it; terms below the order must cancel."""
         while over.free_symbols & set(self.put):
             over = _bounded(sp.expand(over.xreplace(self.put)))
         high = sp.S.Zero
@@ -127,7 +127,7 @@ class _Near:
         return sp.expand(high)
 
     def _next(self, term: sp.Expr) -> sp.Expr:
-        """Return a term of too low an order with one rule symbol expanded."""
+        """Expand one rule symbol in a term of too low an order; a term without rule symbols is returned unchanged."""
         symbol = next((x for x in self.rules if x in term.free_symbols), None)
         return term if symbol is None else term / symbol * self.rules[symbol]
 

@@ -53,9 +53,9 @@ _NEWTON = 12
 class OrbitProblem:
     """The boundary-value problem of a periodic orbit.
 
-    motion: scaled so that the arc to the end condition takes one unit of s; free: places of the unknown states and of the
-    pace; conditions: places of the states that vanish at the end, or return if there is no reversal; first, last: the
-    reversals at start and end, () without.
+    `motion` is scaled so that the arc to the end condition takes one unit of s. `free` has the places of the unknown states and
+    of the pace. `conditions` has the places of the states that vanish at the end, or return to their initial values if there is
+    no reversal. `first` and `last` are the reversals at start and end, () without.
     """
 
     motion: Motion
@@ -70,24 +70,27 @@ class OrbitProblem:
         return 1 if not self.first else 2 if self.first == self.last else 4
 
     def value(self, middle: Balls, end: Balls) -> Balls:
-        """Return the residual of the conditions."""
+        """Return the residuals of the conditions: end values that must vanish, or changes over a period."""
         return [end[i] - (0 if self.first else middle[i]) for i in self.conditions]
 
     def slope(self, derivative: Matrix, by: Sequence[int]) -> Matrix:
-        """Return the derivative of the conditions by some of the states and the pace."""
+        """Return the Jacobian matrix of the conditions with respect to the states and pace at the places `by`."""
         rows = [[derivative[i, j] - int(i == j and not self.first) for j in by] for i in self.conditions]
         return arb_mat(rows)
 
 
 def monodromy(quarter: Matrix, first: tuple[int, ...], last: tuple[int, ...]) -> Matrix:
-    """Return (A D⁻¹ B D)^m from the derivative D between the reversals A at the start and B at the end; m is the order of A B."""
+    """Return the monodromy matrix (A D⁻¹ B D)^m, where m is the order of A B.
+
+    D is the derivative of the motion between the reversals A at the start and B at the end.
+    """
     A, B = diagonal(first), diagonal(last)
     half = A * inverse(quarter) * B * quarter
     return half if first == last else half * half
 
 
 def conservative_kind(matrix: Matrix, ones: int) -> tuple[Kind, Ball | None]:
-    """Return the kind of a conservative orbit with `ones` multipliers equal to 1, and μ + 1/μ of the one other pair.
+    """Return the kind of a conservative orbit, and μ + 1/μ of the one pair besides `ones` multipliers equal to 1.
 
     Examples
     --------
@@ -120,7 +123,10 @@ def fits_pairs(matrix: Matrix, total: Ball, ones: int) -> bool:
 
 
 def general_kind(matrix: Matrix) -> Kind:
-    """Return 'attracting' if all multipliers but the one along the motion lie inside the unit circle, 'hyperbolic' if off it."""
+    """Return 'attracting' if all multipliers but the one along the motion lie inside the unit circle.
+
+    Return 'hyperbolic' if none of the others lies on the circle, and 'undecided' if neither is proved.
+    """
     try:
         multipliers: list[Any] = matrix.eig()
     except ValueError:  # not proved to be distinct
@@ -193,7 +199,7 @@ class PeriodicOrbit(Proved):
 
 @dataclass(frozen=True, eq=False)
 class OrbitProof:
-    """A Krawczyk test that closed: initial box, preconditioner A, steps, and the image K of the box."""
+    """A Krawczyk test that succeeded: the initial box, the preconditioner A, the steps, and the image K of the box."""
 
     problem: OrbitProblem
     start: Start
@@ -248,7 +254,10 @@ class OrbitProof:
 
 
 def prove_orbit(problem: OrbitProblem, middle: Balls, accuracy: Accuracy, ones: int, where: str) -> OrbitProof:
-    """Prove an orbit near an initial state and pace, at the current precision. Raises NotProved, with how far the proof came."""
+    """Prove an orbit near an initial state and pace, at the current precision.
+
+    Raises NotProved; its message says how far the proof came.
+    """
     middle, A, miss = refine_start(problem, list(middle), accuracy, where)
     sizes = [upper(x) for x in times(A, miss)]
     for grow in (2**10, 2**16, 2**24):
@@ -270,7 +279,7 @@ def prove_orbit(problem: OrbitProblem, middle: Balls, accuracy: Accuracy, ones: 
 def krawczyk_proof(
     problem: OrbitProblem, start: Start, A: Matrix, steps: tuple[LohnerStep, ...], ones: int, bits: int
 ) -> OrbitProof | None:
-    """Return the proof if the Krawczyk test closes, else None."""
+    """Return the proof if the Krawczyk image of the box lies inside the box, else None."""
     last = steps[-1].end
     w = [start.spread[i] for i in problem.free]
     image = krawczyk(problem.value(start.middle, last.middle), problem.slope(last.derivative, problem.free), A, w)
@@ -278,7 +287,10 @@ def krawczyk_proof(
 
 
 def refine_start(problem: OrbitProblem, middle: Balls, accuracy: Accuracy, where: str) -> tuple[Balls, Matrix, Balls]:
-    """Return the start and pace by Newton's method on midpoints, A near the inverse of the derivative, and the residual."""
+    """Improve the start and the pace by Newton's method on midpoints.
+
+    Return them, a matrix A near the inverse of the derivative, and the residual of the conditions.
+    """
     coarse = Accuracy(max(_COARSE, accuracy.tol))
     last = coarse if coarse.tol > accuracy.tol else accuracy
     last_size = float("inf")
@@ -332,10 +344,10 @@ def periodic_orbit(
         the fixed set of the first row. The orbit reaches the fixed set of the second after a quarter of a period; with one row,
         it reaches the same fixed set after half a period.
     integrals : int, default 1
-        The number of integrals with the energy. Each makes two multipliers equal to 1.
+        The number of integrals of motion, including the energy. Each makes two multipliers equal to 1.
     fixed : sequence, default ()
-        States that keep their value, by symbol or name. Each parameter of a family of orbits fixes one state; without names,
-        the first ones that the reversal leaves free.
+        Symbols or names of states that keep their value. Each parameter of a family of orbits requires one such state. By default
+        they are the first states that the reversal leaves free.
     tol : float, default 1e-20
         Local error of a step, relative to the size of the state.
 
@@ -396,14 +408,14 @@ def indices(field: Field, fixed: Sequence[Any]) -> tuple[int, ...]:
 
 
 def _problem_of(field: Field, first: Signs, last: Signs, fixed: tuple[int, ...]) -> OrbitProblem:
-    """Return the boundary-value problem. It fixes as many states as there are more unknowns than conditions."""
+    """Return the boundary-value problem. If there are k more unknowns than conditions, k states keep their values."""
     n = len(field.states)
     free = [i for i in range(n) if not first or first[i] > 0]
     conditions = [i for i in range(n) if last[i] < 0] if first else list(range(n))
     spare = len(free) + 1 - len(conditions)
     if spare < 0 or len(fixed) > spare or any(i not in free for i in fixed):
         raise InputError(
-            f"periodic_orbit: {len(free)} free states and the period for {len(conditions)} conditions: fix "
+            f"periodic_orbit: {len(free)} free states and the period must satisfy {len(conditions)} conditions: fix "
             f"{max(spare, 0)} states that the reversal leaves free"
         )
     chosen = [*fixed, *(i for i in free if i not in fixed)][:spare]
@@ -412,7 +424,7 @@ def _problem_of(field: Field, first: Signs, last: Signs, fixed: tuple[int, ...])
 
 
 def reversals_of(system: Any, field: Field, reversals: Sequence[Sequence[int]]) -> tuple[Signs, Signs]:
-    """Return one or two rows of signs, each proved to be a reversal."""
+    """Verify one or two time reversals, and return those at the start and at the end, each as one sign per state."""
     if not reversals:
         return (), ()
     rows = [tuple(row) for row in reversals]

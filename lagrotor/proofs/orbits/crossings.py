@@ -29,7 +29,7 @@ class ExpressionOnStep:
     series: TaylorModel
 
     def over(self, low: Ball, high: Ball) -> Ball:
-        """Enclose the values between two places of the step by the mean-value form."""
+        """Enclose the values of the expression between two places of the step, by the mean-value form."""
         s = low.union(high)
         at = exact(s)
         poly = self.series.poly
@@ -41,7 +41,7 @@ class ExpressionOnStep:
         return whole(high) - whole(low) + (high - low) * arb(0, self.series.remainder.abs_upper())
 
     def signs(self, low: Ball, high: Ball, depth: int = _DEPTH) -> Iterator[tuple[Ball, Ball, int]]:
-        """Bisect the step until each piece has a sign or the depth is used up, and yield the pieces in order."""
+        """Yield (low, high, sign) for pieces of the step, bisected until each has one sign or the depth is used up."""
         value = self.over(low, high)
         sign = 1 if value > 0 else -1 if value < 0 else 0
         if sign or not depth:
@@ -53,7 +53,7 @@ class ExpressionOnStep:
 
 
 def expressions_on_step(motion: Motion, tape: Tape, step: LohnerStep, w: Balls) -> list[ExpressionOnStep]:
-    """Return the outputs of a tape along one step, for all initial states."""
+    """Return Taylor models of the outputs of a tape along one step, for all initial states."""
     box, n = step.node.box(w), step.n
     rows = scale_terms(taylor(motion, box, n), step.h, n)
     bounds, _ = bound_remainder(motion, rows, box, step.h, n)
@@ -128,7 +128,7 @@ class Means(Proved):
 
 
 def prepare(system: Any, values: Any, q0: Any, v0: Any, expressions: Sequence[Any]) -> Problem:
-    """Return the field, the expressions as a tape of the field's arguments, and the initial set."""
+    """Return the field of the system, a tape that computes the expressions from the field's arguments, and the initial set."""
     plain = [e.rhs if isinstance(e, sp.Eq) and e.lhs.is_Symbol else e for e in expressions]
     for e in plain:
         if not isinstance(e, sp.Expr):
@@ -150,7 +150,7 @@ def prepare(system: Any, values: Any, q0: Any, v0: Any, expressions: Sequence[An
 
 
 def words(expression: sp.Basic) -> dict[str, str]:
-    """Return the text "of" an expression; for Eq(name, expression) the name, and the text that it "means".
+    """Return {"of": text} for an expression, and {"of": name, "means": text} for Eq(name, expression).
 
     Examples
     --------
@@ -164,7 +164,7 @@ def words(expression: sp.Basic) -> dict[str, str]:
 
 
 def observed_data(field: Field) -> dict[str, Any] | None:
-    """Return the tape and the names of the observables, as a certificate holds them; None for a motion without any."""
+    """Return the tape and the names of the observables for a certificate; None if the motion has no observables."""
     observables = field.observables or {}
     return field.function([*observables]).data() | {"names": [str(s) for s in observables]} if observables else None
 
@@ -192,8 +192,8 @@ def crossing(
     v0 : sequence, optional
         Initial velocities, each a number or a pair.
     event : sympy.Expr or sympy.Eq
-        The expression, or Eq(name, expression). That of a Scene may contain x_1 … z_2 of the axes and their rates, that of a
-        Structure x_0, y_0, z_0, ….
+        The expression of the states, or Eq(name, expression). For a Scene it may contain the components x_1 … z_2 of the axes and
+        their rates, for a Structure the components x_0, y_0, z_0, ….
     t_end : number
         The time in s before which the crossing is sought.
     tol : float, default 1e-17
@@ -262,7 +262,7 @@ def no_crossing(
     v0 : sequence, optional
         Initial velocities, each a number or a pair.
     event : sympy.Expr or sympy.Eq
-        The expression, or Eq(name, expression), as `crossing` takes it.
+        The expression of the states, or Eq(name, expression).
     t_end : number
         End of the interval in s.
     tol : float, default 1e-17
@@ -278,7 +278,7 @@ def no_crossing(
     InputError
         If an argument does not fit the system.
     NotProved
-        If a zero is not excluded. The message says up to which time it is.
+        If a zero is not excluded. The message gives the time up to which it is excluded.
 
     Examples
     --------
@@ -305,7 +305,10 @@ def no_crossing(
 def _signs(
     problem: Problem, end: Ball, accuracy: Accuracy, steps: list[LohnerStep]
 ) -> Iterator[tuple[LohnerStep, Ball, Ball, int]]:
-    """Yield each step up to a time in pieces, with the sign of an expression on each; append the steps to `steps`."""
+    """Yield (step, low, high, sign) for pieces of each step up to the time `end`; append the steps to `steps`.
+
+    `sign` is the sign of the expression between the places low and high of the step; 0 if it is not proved.
+    """
     field, tape, start = problem
     for step in steps_of(field.motion, start, end, accuracy):
         steps.append(step)
@@ -316,7 +319,7 @@ def _signs(
 def _certificate(
     problem: Problem, steps: Sequence[LohnerStep], bits: int, kind: str, event: Any, claim: dict[str, Any]
 ) -> Certificate:
-    """Return the certificate of a claim about an event, or about means, whose rows name their expressions."""
+    """Return the certificate of a claim about an event, or about means; the rows of means name their expressions."""
     field, _, start = problem
     flow = flow_data(field.subject, field.motion, start, steps, bits) | ({"event": event} if event else {})
     return flow | {"observed": observed_data(field), "kind": kind, "claim": claim}
@@ -338,7 +341,7 @@ def means(
     v0 : sequence, optional
         Initial velocities, each a number or a pair.
     spans : sequence of (expression, t₁, t₂), default ()
-        The expressions, as `crossing` takes them, and their intervals of time in s.
+        Each row has an expression of the states, or Eq(name, expression), and the two ends of the interval in s.
     tol : float, default 1e-17
         Local error of a step, relative to the size of the state.
 

@@ -67,7 +67,7 @@ class Enclosure(Shown):
         Parameters
         ----------
         expression : sympy.Expr
-            For a Scene it may also contain x_1 … z_2 of the axes and their rates.
+            The expression. For a Scene it may also contain the components x_1 … z_2 of the axes, and their rates.
 
         Returns
         -------
@@ -124,7 +124,7 @@ def time_ball(t: Any, where: str) -> Ball:
     """Return a time as a ball. Raises InputError if it is not positive."""
     time = ball(t, f"{where}: t")
     if not time > 0:
-        raise InputError(f"{where}: t = {t!r} must be after the start, at t = 0")
+        raise InputError(f"{where}: t = {t!r} must be after the start, which is at t = 0")
     return time
 
 

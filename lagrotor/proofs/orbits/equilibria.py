@@ -146,7 +146,10 @@ def equilibrium(system: Equations, values: Values | None = None, q0: Any = None,
 
 
 def locate(forces: Tape, middle: Balls, parameters: Sequence[Ball]) -> tuple[Balls, Balls, Matrix]:
-    """Return the midpoint, the box w about it that contains the equilibrium, and A, by Newton's method and the Krawczyk test."""
+    """Find an equilibrium by Newton's method, and prove it by the Krawczyk test.
+
+    Return the midpoint, the box w about it that contains the equilibrium, and the preconditioner A.
+    """
     n = len(middle)
     still = [arb(0)] * n
     last_size = float("inf")
@@ -172,7 +175,7 @@ def locate(forces: Tape, middle: Balls, parameters: Sequence[Ball]) -> tuple[Bal
 
 
 def _energy_hessian(field: Field, system: Equations) -> Tape:
-    """Return the second derivatives of the Jacobi integral by (q, v), row by row. Symbols without a value are set to 1."""
+    """Return the second derivatives of the Jacobi integral in (q, v), row by row; symbols without a value are 1."""
     states = (*system.c.q, *system.c.v)
     unused = dict.fromkeys(system.energy.free_symbols - {*field.arguments}, 1)
     first = [sp.diff(system.energy.xreplace(unused), x) for x in states]

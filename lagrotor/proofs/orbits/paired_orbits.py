@@ -156,13 +156,13 @@ def exactly(r0: Any) -> Fraction:
 
 
 def problem_of_pair(field: Field) -> OrbitProblem:
-    """Return the orbit problem of a quarter of a period, which takes one unit of s."""
+    """Return the boundary-value problem of the pair's orbit over a quarter of a period, which takes one unit of s."""
     motion = Motion(with_pace(field.motion.tape, len(field.states)), field.motion.parameters)
     return OrbitProblem(motion, FREE, CONDITIONS, A, B)
 
 
 def guess(curve: QuarterPeriod, r0: float, u: Ball) -> Balls:
-    """Return floating-point values of the initial state and the quarter period of amplitude r0, with the exact ball u for U."""
+    """Return an approximate initial state and quarter period of amplitude r0, as balls; the ball u for U is exact."""
     z = curve.follow(None, r0)
     state, pace = curve.state(z), float(z[3]) / abs(curve.natural)
     return [u, *(arb(float(x)) for x in state[1:]), arb(pace)]

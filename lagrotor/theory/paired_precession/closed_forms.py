@@ -30,7 +30,7 @@ def paired_frequency(order: int = 3) -> ClosedForm:
     Returns
     -------
     ClosedForm
-        The ratio of frequencies, by r_0, sigma and k, all dimensionless.
+        The ratio of frequencies as a function of r_0, sigma and k, all dimensionless.
 
     Raises
     ------
@@ -71,7 +71,7 @@ def corrected_trajectories(order: int = 3) -> ClosedForm:
     Returns
     -------
     ClosedForm
-        The unit vectors (x_1, y_1, z_1, x_2, y_2, z_2), by r_0, Phi (rad), sigma and k.
+        The unit vectors (x_1, y_1, z_1, x_2, y_2, z_2) as functions of r_0, Phi (rad), sigma and k.
 
     Raises
     ------
@@ -119,14 +119,14 @@ def paired_momentum(order: int = 4) -> ClosedForm:
     Returns
     -------
     ClosedForm
-        The ratio P/G, by r_0, sigma and k, all dimensionless.
+        The ratio P/G as a function of r_0, sigma and k, all dimensionless.
 
     Raises
     ------
     InputError
         Unless order is an integer, at least 1.
     SingularError
-        If P depended on the phase.
+        If the derived P depends on the phase.
 
     References
     ----------
@@ -158,7 +158,7 @@ def paired_momentum(order: int = 4) -> ClosedForm:
 
 
 def _scaled_inertias(series: PairedSeries) -> tuple[float, float]:
-    """Return (a, b) in units of G / Omega_0: a² − b² = 1, (a + b)/(a − b) = sigma."""
+    """Return (a, b) in units of G / Omega_0, from a² − b² = 1 and (a + b)/(a − b) = sigma."""
     root = float(series.shape) ** 0.5
     return (root + 1 / root) / 2, (root - 1 / root) / 2
 
@@ -170,6 +170,6 @@ def _momentum(series: PairedSeries, values: _Values) -> Array:
 
 
 def _momentum_rest(series: PairedSeries, amplitude: float) -> float:
-    """Return a bound of the momentum's error, from axes of length 1 and velocities of order Omega_0 R."""
+    """Return a bound of the error of P/G, from the errors of the axes (of length 1) and of the frequency."""
     (a, b), remainder = _scaled_inertias(series), series.remainder(amplitude)
     return 2 * (1 + 3 * (a + abs(b))) * (remainder.axes + remainder.frequency)

@@ -12,7 +12,7 @@ from lagrotor.numerics.codegen import Program
 
 
 def horner_program(order: int) -> Program:
-    """Return the program (c, s, coefficients of x, y, z) → x_1, y_1, z_1, x_2, y_2, z_2."""
+    """Return a program that computes x_1, y_1, z_1, x_2, y_2, z_2 from c, s and the coefficients of x, y, z."""
     c, s, w = sp.symbols("c s w", real=True)
     names = [[sp.Symbol(f"{q}{n}", real=True) for n in range(order + 1)] for q in "xyz"]
     stages = [(w, c * c)]

@@ -13,7 +13,10 @@ from lagrotor.numerics.printers import in_blocks
 
 
 def axes_of(harmonics: Array, phase: ArrayLike) -> Array:
-    """Return both axes (2, …, 3) at phases (…) in rad, by Clenshaw's recurrence in 2 Phi for even and odd harmonics."""
+    """Return both axes, shape (2, …, 3), at phases in rad, shape (…).
+
+    Clenshaw's recurrence in 2 Phi sums the even and the odd harmonics.
+    """
     phases = np.asarray(phase, dtype=float)
     padded = np.pad(harmonics, ((0, len(harmonics) % 2), (0, 0)))
     rows = padded.reshape(-1, 6, 1)[::-1]  # even x, y, z and odd x, y, z, the highest first
@@ -35,7 +38,7 @@ def axes_of(harmonics: Array, phase: ArrayLike) -> Array:
 
 
 def start_of(harmonics: Array) -> tuple[Array, Array]:
-    """Return both axes and their derivatives by the phase, each (2, 3), at Phi = 0."""
+    """Return both axes at Phi = 0 and their derivatives with respect to the phase, each of shape (2, 3)."""
     h = np.arange(len(harmonics))
     signs = np.stack([h**0, (-1) ** h])
     parallel, perpendicular = np.array([1.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.0])
@@ -44,7 +47,7 @@ def start_of(harmonics: Array) -> tuple[Array, Array]:
 
 
 def harmonic_momentum(harmonics: Array, frequency: float, inertias: tuple[float, float], momentum: float) -> float:
-    """Return P = sum_i (r_i × (a r_i' + b r_j'))_x + G (x_1 − x_2) about the joint line, at Phi = 0."""
+    """Return the momentum about the joint line at Phi = 0, P = sum_i (r_i × (a r_i' + b r_j'))_x + G (x_1 − x_2)."""
     a, b = inertias
     r, slope = start_of(harmonics)
     turning = np.cross(r, frequency * (a * slope + b * slope[::-1]))[:, 0].sum()

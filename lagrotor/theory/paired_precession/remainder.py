@@ -1,4 +1,4 @@
-"""Error bounds of closed forms of the paired precession, by a series of higher order.
+"""Error bounds of closed forms of the paired precession, from a comparison with a series of higher order.
 
 The bound of a form through r_0**n is its distance from the series through r_0**(n + 6), plus the estimated remainder of that
 series.
@@ -24,12 +24,12 @@ RemainderBound = Callable[[PairedSeries, float], float]
 
 
 def of_axes(series: PairedSeries, amplitude: float) -> float:
-    """Return the remainder of outputs that are components of the axes."""
+    """Return a bound of the series' truncation error for outputs that are components of the axes."""
     return series.remainder(amplitude).axes
 
 
 def with_error(form: ClosedForm, reference: SeriesReference, remainder: RemainderBound = of_axes) -> ClosedForm:
-    """Return the form with a bound of its error; sigma is 1 in a form without that argument."""
+    """Return the closed form with a function `bound` for its error. If sigma is not among the arguments, sigma = 1 is used."""
     assert form.order is not None
     order = max(form.order + EXTRA_ORDERS, 9)
 

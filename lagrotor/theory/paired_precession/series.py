@@ -37,9 +37,9 @@ _HIGHEST_WITH_SYMBOLS, _HIGHEST_OF_NUMBERS = 16, 32  # orders that take seconds,
 
 
 class Remainder(NamedTuple):
-    """Estimated bounds of the truncation error, inf without convergence.
+    """Estimated bounds of the truncation error; inf if the series does not converge.
 
-    `axes` bounds the axes and dr/dPhi at equal phase, `frequency` bounds Omega/Omega_0.
+    `axes` bounds the error of the axes and of dr/dPhi at equal phase, and `frequency` the error of Omega/Omega_0.
     """
 
     axes: float
@@ -48,9 +48,10 @@ class Remainder(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class PairedSeries:
-    """The orbit through r0**order for sigma = `shape`, k = `ratio`.
+    """The paired precession as a series through r0**order, for sigma = `shape` and k = `ratio`.
 
-    The axis of rotor 1 is (x, Y, z), Y = y / sqrt(sigma), with frequency / Omega_0; `solution` also has the multipliers.
+    The axis of rotor 1 is (x, sqrt(sigma) Y, z), and `frequency` is Omega/Omega_0. `solution` also holds the multipliers of the
+    constraints.
     """
 
     solution: PeriodicSeries
@@ -89,7 +90,7 @@ class PairedSeries:
 
     @property
     def coefficients(self) -> Array:
-        """The coefficients of r_1 for a numeric bar, shape (order + 1, order + 1, 3): [n, h] of r0**n and harmonic h."""
+        """The coefficients of r_1 for a numeric bar, shape (order + 1, order + 1, 3); entry [n, h] is of r0**n and harmonic h."""
         table = np.zeros((self.order + 1, self.order + 1, 3))
         for i, (component, width) in enumerate(((self.x, 1.0), (self.Y, sqrt(self.shape)), (self.z, 1.0))):
             for (n, h), value in component.terms.items():
@@ -126,14 +127,14 @@ class PairedSeries:
         return Remainder(of_axes, self.remainder_like(self.frequency_coefficients, r0))
 
     def remainder_like(self, coefficients: Array, r0: float) -> float:
-        """Estimate the truncation error of another power series of the orbit, whose terms are a fraction of those of the axes."""
+        """Estimate the truncation error of another series of the orbit; its terms are a fraction of the terms of the axes."""
         sizes = self._sizes[: len(coefficients)]
         ratio = max(OF_AXES, float((np.abs(coefficients)[2:] / sizes[2:]).max(initial=0.0)))
         return ratio * tail_bound(sizes * abs(r0) ** np.arange(len(sizes)))
 
     @property
     def _sizes(self) -> Array:
-        """The size of each power of r0 in the axes and their derivatives by the phase, shape (order + 1,)."""
+        """The size of the coefficient of each power of r0 in the axes and their phase derivatives, shape (order + 1,)."""
         harmonic = np.maximum(np.arange(self.order + 1), 1)[:, None]
         return np.linalg.norm((np.abs(self.coefficients) * harmonic).sum(1), axis=-1)
 
@@ -152,7 +153,7 @@ def tail_bound(terms: Array) -> float:
 
 
 def shape_of(scene: Scene) -> tuple[sp.Rational, sp.Rational]:
-    """Return (sigma, k) of a scene as exact rationals of the decimals of its parameters.
+    """Return (sigma, k) of a scene as exact rational numbers; a parameter has the value of the decimal that it prints.
 
     Raises InputError unless the spins are opposite and there is a bar.
     """
@@ -168,16 +169,17 @@ def shape_of(scene: Scene) -> tuple[sp.Rational, sp.Rational]:
 
 
 def coefficient_field(shape: sp.Expr, ratio: sp.Expr) -> Domain:
-    """Return the field of the coefficients: rational functions of sigma and k where they are symbols."""
+    """Return the field of the coefficients: the rational functions of those of sigma and k that are symbols."""
     free = sorted((sp.sympify(shape, strict=True).free_symbols | sp.sympify(ratio, strict=True).free_symbols), key=str)
     return sp.ZZ.frac_field(*free) if free else sp.QQ  # integer coefficients reduce faster than fractions
 
 
 def equations(shape: sp.Expr, ratio: sp.Expr, field: Domain | None = None) -> Residual:
-    """Return the equations of motion of r_1, with the multipliers of |r_1| = 1 and of the bar, and these two constraints.
+    """Return a function that evaluates the equations of motion of r_1 and the two constraints, |r_1| = 1 and the bar.
 
-    Units: a + b = 1, Omega_0, and y / sqrt(sigma); r_2 is r_1 exchanged, half a period later. Without a field the coefficients
-    are floating-point numbers. Derived from the Lagrangian in derivations/t3_paired_orbit.py.
+    The unknowns are x, Y, z and the multipliers of both constraints. Units are a + b = 1 and Omega_0 = 1, and y is divided by
+    sqrt(sigma). r_2 is r_1 half a period later, with the rotors exchanged. Without `field` the coefficients are floating-point
+    numbers. Derived from the Lagrangian in derivations/t3_paired_orbit.py.
     """
     s, length, unit_value = (float(v) if field is None else field.from_sympy(v) for v in (shape, ratio, sp.S.One))
     a_scaled, b_scaled = (unit_value + unit_value / s) / 2, (unit_value - unit_value / s) / 2  # a, b
@@ -233,7 +235,7 @@ def paired_series(order: int, shape: sp.Expr = sigma, ratio: sp.Expr = k, exact:
     Raises
     ------
     InputError
-        For any other order.
+        If the order is outside this range.
 
     References
     ----------

@@ -1,4 +1,4 @@
-"""The paired precession of a scene as a function of time, by the series through one order, with its error."""
+"""The paired precession of a scene as a function of time, from the series through a given order, with its error."""
 
 from dataclasses import dataclass
 from math import copysign, inf
@@ -36,7 +36,7 @@ class PrecessionOrbit(Shown):
     method : str
         Method of computation in words.
     harmonics : ndarray
-        Harmonics of r_1, shape (H + 1, 3), as in lagrotor.theory.paired_precession.orbit_harmonics.
+        Harmonics of r_1, shape (H + 1, 3): row h has the coefficients (X, Y, Z) of cos h Phi, sin h Phi and cos h Phi.
     """
 
     scene: Scene
@@ -91,7 +91,7 @@ class PrecessionOrbit(Shown):
         return axes_of(self.harmonics, phases)
 
     def error_at(self, t: ArrayLike) -> Array:
-        """Return a bound of the error of an axis, with the accumulated phase error.
+        """Return a bound of the error of an axis, including the phase error that has accumulated since t = 0.
 
         Parameters
         ----------
@@ -115,7 +115,7 @@ class PrecessionOrbit(Shown):
     def momentum_error(self) -> float:
         """A bound of the momentum's error in kg m²/s.
 
-        At Phi = 0 the axes of both orbits are parallel: G cancels, and P = −sum_i z_i (a y_i' + b y_j').
+        At Phi = 0 the axes are parallel in the exact orbit and in the series: G cancels, and P = −sum_i z_i (a y_i' + b y_j').
         """
         a, b = self.scene.inertias
         r, slope = start_of(self.harmonics)
@@ -128,7 +128,7 @@ class PrecessionOrbit(Shown):
     def start(self) -> Scene:
         """The scene started on the orbit at t = 0: the bar's constraint holds exactly.
 
-        Axes, and rates in units of `frequency`, are within twice `error` of the orbit.
+        The axes, and the rates in units of `frequency`, differ from those of the orbit by at most twice `error`.
         """
         (axes, slope), scene = start_of(self.harmonics), self.scene
         return consistent_scene(scene.spins, axes, self.frequency * slope, scene.rotor, scene.link, scene.shock)
@@ -142,10 +142,10 @@ def amplitude_of(r0: object, where: str) -> float:
 
 
 def series_orbit(scene: Scene, r0: float, order: int) -> PrecessionOrbit:
-    """Compute the paired precession of amplitude r0 by its series, whatever the error.
+    """Compute the paired precession of amplitude r0 by its series, however large the error is.
 
-    The error at equal phase, and of the frequency for an odd order, is O(r0**(order + 1)). The bounds are inf for order < 5,
-    which has too few terms for an estimate.
+    The error of the axes at equal phase is O(r0**(order + 1)); for an odd order so is the error of the frequency. The bounds
+    are inf for order < 5, since such a series has too few terms for an estimate.
 
     Parameters
     ----------
@@ -166,7 +166,7 @@ def series_orbit(scene: Scene, r0: float, order: int) -> PrecessionOrbit:
     InputError
         Unless the spins are opposite, there is a bar, and order is at least 1.
     DomainError
-        Unless |r0| < 1, and if the terms of the series do not decrease.
+        Unless |r0| < 1, or if the terms of the series do not decrease.
 
     References
     ----------

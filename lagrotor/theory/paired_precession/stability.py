@@ -55,7 +55,7 @@ def exponent_series(order: int, shape: sp.Expr = sigma, ratio: sp.Expr = k, exac
 
 @lru_cache(maxsize=16)
 def _exponents(orbit: PairedSeries, exact: bool) -> ExponentSeries:
-    """Return A and B through the order of the orbit's own series."""
+    """Return A and B through the order to which the series of the orbit is given."""
     residual = equations(orbit.shape, orbit.ratio, orbit.field)
     numeric = None if exact else equations(orbit.shape, orbit.ratio)
     # The exchange of the rotors, half a period later, gives a shift in x and a twist the opposite sign.
@@ -83,12 +83,12 @@ def growth_squared(order: int = 6, dumbbell: bool = False) -> ClosedForm:
     Returns
     -------
     ClosedForm
-        The square, by r_0, sigma and k, all dimensionless.
+        The square as a function of r_0, sigma and k, all dimensionless.
 
     Raises
     ------
     InputError
-        For an order below the first term's.
+        If the order is lower than the order of the first term.
 
     References
     ----------
@@ -113,7 +113,7 @@ def growth_squared(order: int = 6, dumbbell: bool = False) -> ClosedForm:
 
 
 def _numbers(series: PairedSeries, order: int) -> Array:
-    """Return A and B of a numeric bar in powers of r_0, shape (2, order + 1)."""
+    """Return the coefficients of A and B in powers of r_0 for a numeric bar, shape (2, order + 1)."""
     exponents = exponent_series(order, series.shape, series.ratio, exact=False)
     values = np.zeros((2, order + 1))
     for row, series_part in zip(values, (exponents.A, exponents.B), strict=True):
@@ -143,8 +143,8 @@ def elliptic_edge() -> ClosedForm:
     Returns
     -------
     ClosedForm
-        The amplitude by sigma and k, dimensionless. `error` compares with the root of A through r_0^12, inf if that root has
-        not converged.
+        The dimensionless amplitude as a function of sigma and k. `error` compares it with the root of A through r_0^12; it is inf
+        if that root has not converged.
 
     References
     ----------
@@ -162,7 +162,10 @@ def elliptic_edge() -> ClosedForm:
 
 
 def _edge_error(shape: float, ratio: float) -> float:
-    """Return the distance of the law from the root of A through r_0^12, plus the change of the root in its last two orders."""
+    """Return the error of the law for the edge; inf if the root of A has not converged.
+
+    It is the distance of the law from the root of A through r_0^12, plus twice the larger of the last two changes of this root.
+    """
     series = paired_series(1, *map(sp.Rational, (shape, ratio)))
     A = _numbers(series, 12)[0]
     roots = [_least_root(A[2 : order + 1 : 2]) for order in (8, 10, 12)]
