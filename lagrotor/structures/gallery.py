@@ -1,4 +1,4 @@
-"""The gallery of structures: each has a name, a caption and the duration of its film."""
+"""The gallery of structures. Each entry has a name, a caption and the duration of its film."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ _WEIGHT: dict[str, Any] = {"gravity": 9.81, "load": 2.0}
 
 @dataclass(frozen=True)
 class Example:
-    """A structure of the gallery: the function that makes it, the caption, and the duration of its film in s."""
+    """An entry of the gallery: `make` returns the structure, `says` is its caption, `duration` the length of its film in s."""
 
     make: Callable[[], Structure]
     says: str
@@ -83,7 +83,7 @@ def example(name: str) -> Structure:
     Parameters
     ----------
     name : str
-        One of the names in `GALLERY`, as "corner".
+        One of the names in `GALLERY`, such as "corner".
 
     Returns
     -------
