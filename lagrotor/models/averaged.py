@@ -5,11 +5,11 @@ Hamiltonian in the coordinates q of `minimal`,
 
     H = (p − g)·M⁻¹ (p − g)/2,    M(q) and g(q) of L = q'·M q'/2 + g·q',
 
-has one oscillation, the swing. The rotation about the joint line and the displacement of the swing's centre have the rate zero. The normal
-form through an order N is H averaged over the swing. Its action and the momentum about the joint line are constant, and some
-hundred steps follow the slow centre over any time. The forms through N − 2 and N − 4 are truncations of it. The error is
-estimated from the rate at which the differences between these three motions decrease. Spins that are not opposite let the axes twist apart freely, and no motion
-stays small.
+has one oscillation, the swing. The rotation about the joint line and the displacement of the swing's centre have the rate zero.
+The normal form through an order N is H averaged over the swing. Its action and the momentum about the joint line are constant,
+and some hundred steps follow the slow centre over any time. The forms through N − 2 and N − 4 are truncations of it. The error
+is estimated from the rate at which the differences between these three motions decrease. Spins that are not opposite let the
+axes twist apart freely, and no motion stays small.
 """
 
 from dataclasses import replace
@@ -47,11 +47,9 @@ _AT_ONCE = 256  # times per batch
 
 
 class Forms(NamedTuple):
-    """A normal form of the averaged motion about the equilibrium q = (lean, 0, 0), p = momentum.
-
-    `maps` are the six coordinates that diagonalise the quadratic part H₂, as polynomials in the normal coordinates. `turning`
-    is the index of the azimuth among these coordinates.
-    """
+    """A normal form of the averaged motion about the equilibrium q = (lean, 0, 0), p = momentum. `maps` are the six coordinates
+    that diagonalise the quadratic part H₂, as polynomials in the normal coordinates. `turning` is the index of the azimuth
+    among these coordinates."""
 
     form: "NormalForm"
     maps: tuple[Polynomial, ...]
@@ -169,10 +167,8 @@ def _linear(scene: Scene, forms: Forms, state: Array) -> Any:
 
 
 def _normal_start(scene: Scene, forms: Forms, order: int, start: Array) -> Any:
-    """Return the normal coordinates (6,) of a state of `minimal` whose azimuth is ignored.
-
-    Raises DomainError if the iteration for them does not converge.
-    """
+    """Return the normal coordinates (6,) of a state of `minimal` whose azimuth is ignored. Raises DomainError if the iteration
+    for them does not converge."""
     maps = _sums(tuple(f.through(order - 1) for f in forms.maps))
     linear = _linear(scene, forms, start)
     y, step = linear, np.inf
@@ -187,10 +183,8 @@ def _normal_start(scene: Scene, forms: Forms, order: int, start: Array) -> Any:
 
 
 def _states(scene: Scene, forms: Forms, order: int, start: Array, t: Array) -> tuple[Array, int]:
-    """Return the states of `minimal` (n, 6) at times t (n,) from the normal form, and the number of evaluations.
-
-    Raises DomainError if the centre of the swing moves far from the start.
-    """
+    """Return the states of `minimal` (n, 6) at times t (n,) from the normal form, and the number of evaluations. Raises
+    DomainError if the centre of the swing moves far from the start."""
     from scipy.integrate import solve_ivp
 
     form, swing = forms.form, np.zeros(6, complex)
@@ -231,15 +225,15 @@ def _centre(scene: Scene, state: Array) -> float:
 def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) -> ClosedMotion:
     """Return the motion up to t_end (s) by the normal form through order 6, or 8 if `tol` requires it.
 
-    The motion through a pulse is integrated twice, to estimate its error. Raises SingularError without a bar. Raises DomainError
-    if the spins are not opposite, the motion is not small, or the run ends within the pulse.
+    The motion through a pulse is integrated twice, to estimate its error. Raises SingularError without a bar. Raises
+    DomainError if the spins are not opposite, the motion is not small, or the run ends within the pulse.
     """
     if scene.link is None:
         raise SingularError("averaged: the scene has no bar; use model='closed_form'")
     if scene.spins[0] != -scene.spins[1] or scene.spins[0] == 0:
         raise DomainError(
             f"averaged: spins {scene.spins[0]:g}, {scene.spins[1]:g} rad/s are not opposite: the axes part freely, and no "
-            "motion stays small; use model='minimal', or lagrotor.theory.guiding_centre(scene).path(t) for the centre of the swing"
+            "motion stays small; use model='minimal', or lagrotor.theory.guiding_centre(scene).path(t) for the swing's centre"
         )
     units = natural_units(replace(scene, shock=scene.shock_until(t_end)))
     natural, end, begin, starts, count = units.scene, t_end * units.rate, 0.0, [MODEL.start(units.scene)], 0
@@ -298,10 +292,8 @@ def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) 
 
 
 def _pulsed(scene: Scene, t: Array, k: int) -> tuple[Array, int]:
-    """Return the states of `minimal` at times t through the pulse (n, 6), and the number of evaluations.
-
-    Integration k = 0 is more exact than integration k = 1, which serves to estimate the error.
-    """
+    """Return the states of `minimal` at times t through the pulse (n, 6), and the number of evaluations. Integration k = 0 is
+    more exact than integration k = 1, which serves to estimate the error."""
     times = np.unique(np.r_[0.0, t])
     try:
         run = integrate_model(MODEL, scene, times, _PULSE[k], companion=k > 0, budget=_MOST)

@@ -39,7 +39,7 @@ def closed_form(scene: Scene, t_end: float, tol: float, best: bool = False) -> C
     if scene.spins[0] == -scene.spins[1]:
         return paired_answer(scene, axes, rates, t_end, tol, best)
     raise DomainError(
-        f"closed_form: no closed form is known for a bar and spins {scene.spins[0]:g}, {scene.spins[1]:g} rad/s: they must be equal "
+        f"closed_form: none is known for a bar and spins {scene.spins[0]:g}, {scene.spins[1]:g} rad/s: they must be equal "
         "or opposite; use model='linear' or 'minimal'"
     )
 
@@ -70,10 +70,8 @@ def _tops(
 
 
 def _parallel(scene: Scene, axes: Array, rates: Array, t_end: float) -> ClosedMotion:
-    """Return the motion of equal spins with parallel axes, which turn as one rotor of inertia a + b.
-
-    Axes that are not exactly parallel may twist apart, which adds to the error. Raises DomainError if they are not parallel.
-    """
+    """Return the motion of equal spins with parallel axes, which turn as one rotor of inertia a + b. Axes that are not exactly
+    parallel may twist apart, which adds to the error. Raises DomainError if they are not parallel."""
     inertia, shared = scene.inertias
     mean, mean_rate = axes.mean(axis=0), rates.mean(axis=0)
     turn = float(np.linalg.norm(np.cross(mean, mean_rate) + scene.momenta[0] / (inertia + shared) * mean))

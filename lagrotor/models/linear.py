@@ -41,10 +41,8 @@ _A_PART, _A_TURN, _MOST = 17, 24, 100_000
 
 @dataclass(frozen=True, eq=False)
 class LinearPair:
-    """The linear motion of a pair about upright in q = (U, chi, alpha).
-
-    `upright` is the matrix from small changes of q to x, y_1, y_2. `mass` is M, `turning` is N = M⁻¹ C, `frequency` is Omega.
-    """
+    """The linear motion of a pair about upright in q = (U, chi, alpha). `upright` is the matrix from small changes of q to x,
+    y_1, y_2. `mass` is M, `turning` is N = M⁻¹ C, `frequency` is Omega."""
 
     upright: Array
     mass: Array
@@ -61,10 +59,8 @@ class LinearPair:
         return np.hstack([q + t * v - versed * once + (t - sine) / Omega**2 * twice, v - sine * once + versed * twice])
 
     def answer(self, t: Array, push: Array) -> Array:
-        """Return the response (n, 6) of (q, v) to accelerations `push` (n, 3) that act at the times t (n,).
-
-        It is the integral of exp(A (t − s)) (0, push(s)) over s from the first time to t.
-        """
+        """Return the response (n, 6) of (q, v) to accelerations `push` (n, 3) that act at the times t (n,). It is the integral
+        of exp(A (t − s)) (0, push(s)) over s from the first time to t."""
         Omega, t, once, twice = self.frequency, t[:, None], self.turning.T, (self.turning @ self.turning).T
         received = _integral(t, push)
         drift = t * received - _integral(t, t * push)
@@ -116,10 +112,8 @@ def pair_modes(scene: Scene) -> LinearPair:
 
 
 def _linear_states(scene: Scene, t: Array) -> Array:
-    """Return the states (U, chi, alpha and their rates) of the linear motion at t (n,), (n, 6).
-
-    Raises DomainError if |U| or |chi| exceeds pi/3.
-    """
+    """Return the states (U, chi, alpha and their rates) of the linear motion at t (n,), (n, 6). Raises DomainError if |U| or
+    |chi| exceeds pi/3."""
     linear, start = pair_modes(scene), MODEL.start(scene)
     states, shock = linear.free(start[:3], start[3:], t), scene.shock_until(float(t[-1]))
     if shock is not None:
@@ -146,7 +140,8 @@ def _straightened(linear: LinearPair, start: Array, shock: Shock) -> Shock:
 
 
 def _pulsed(scene: Scene, linear: LinearPair, shock: Shock, t: Array) -> tuple[Array, Array]:
-    """Return the response of (q, v) to the pulse at the times t (n + 1,): first at all but the last (n, 6), then at the last."""
+    """Return the response of (q, v) to the pulse at the times t (n + 1,): first at all but the last (n, 6), then at the
+    last."""
     from scipy.special import erfc
 
     response = pulse_response(scene, shock)
@@ -182,9 +177,9 @@ def linear_error(scene: Scene, t_end: float) -> float:
     """Return the largest error of an axis (tips: in units of R) of the linear motion up to t_end (s).
 
     Along the linear motion the exact equations have a residual of second order, and the linear response to it is the leading
-    error. The residual of the corrected motion gives the next order, and the difference of both is added. After a large rotation
-    about the joint line the coordinates mix, and an error may grow exponentially: see `_spread`. The sum is multiplied by
-    LINEAR_MARGIN. The result is 2, the largest possible error, if it is not small. Raises the errors of `linear_run`, and
+    error. The residual of the corrected motion gives the next order, and the difference of both is added. After a large
+    rotation about the joint line the coordinates mix, and an error may grow exponentially: see `_spread`. The sum is multiplied
+    by LINEAR_MARGIN. The result is 2, the largest possible error, if it is not small. Raises the errors of `linear_run`, and
     DomainError for a run of too many turns.
     """
     linear, shock = pair_modes(scene), scene.shock_until(t_end)

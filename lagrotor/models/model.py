@@ -33,10 +33,8 @@ PACE = 16.0
 
 @dataclass(frozen=True)
 class NaturalUnits:
-    """A scene in units in which R = 1, min(a + b, a − b) = 1 and its typical rate is PACE.
-
-    `rate` (rad/s) and `inertia` (kg m²) are the units of rate and of inertia.
-    """
+    """A scene in units in which R = 1, min(a + b, a − b) = 1 and its typical rate is PACE. `rate` (rad/s) and `inertia` (kg m²)
+    are the units of rate and of inertia."""
 
     scene: Scene
     rate: float
@@ -259,10 +257,8 @@ _LOWER[_KEPT] = np.linalg.solve(
 
 @dataclass(frozen=True, eq=False)
 class PulseNodes:
-    """Nodes t (n,) and weights (n,) of a Gauss–Legendre quadrature over a pulse up to `end`.
-
-    `lower` (n,) are weights of a lower order, whose result differs by about the error.
-    """
+    """Nodes t (n,) and weights (n,) of a Gauss–Legendre quadrature over a pulse up to `end`. `lower` (n,) are weights of a
+    lower order, whose result differs by about the error."""
 
     t: Array
     weights: Array
@@ -285,10 +281,8 @@ def pulse_nodes(scene: Scene, t_end: float) -> PulseNodes | None:
 
 
 def conservation_defect(scene: Scene, t: Array, observed: Observed, nodes: PulseNodes | None) -> Array:
-    """Return the violations of the conservation laws along a run, each as the error of axes and rates that would cause it.
-
-    The scene is in natural units. The laws are those of the lengths, the energy and the momentum about the joint line.
-    """
+    """Return the violations of the conservation laws along a run, each as the error of axes and rates that would cause it. The
+    scene is in natural units. The laws are those of the lengths, the energy and the momentum about the joint line."""
     (a, b), (v1, v2) = scene.inertias, observed.rates
     size = float(np.sqrt(((a * v1 + b * v2) ** 2 + (a * v2 + b * v1) ** 2).sum(-1)).max())
     lengths = [np.linalg.norm(observed.axes, axis=-1) - 1]

@@ -80,10 +80,8 @@ DIRECT: dict[str, Callable[[Scene, float, float, bool], ClosedMotion]] = {
 
 @dataclass(frozen=True)
 class Choice:
-    """The model that `auto` takes first, the estimated error of an axis, and the reason in words.
-
-    `motion` is the closed form of the motion; None if the model has to be integrated.
-    """
+    """The model that `auto` takes first, the estimated error of an axis, and the reason in words. `motion` is the closed form
+    of the motion; None if the model has to be integrated."""
 
     model: str
     estimate: float
@@ -95,8 +93,8 @@ def choose(scene: Scene, t_end: float, tol: float, engine: str = "core") -> Choi
     """Choose the cheapest model whose axes stay within `tol` (tips: in units of R) of the exact ones up to t_end (s).
 
     The errors of the closed forms and of the linear model are estimated without integration. For a short run with a bar,
-    integration by the fast engine costs less than this estimate and is chosen at once. An integrated model is checked while it runs: see
-    `lagrotor.numerics.error_estimate`.
+    integration by the fast engine costs less than this estimate and is chosen at once. An integrated model is checked while it
+    runs: see `lagrotor.numerics.error_estimate`.
     """
     turns, missed = typical_rate(scene) * t_end / (2 * pi), "a run too short to estimate the cheaper ones' errors"
     names = ["closed_form", "linear"] if engine == "core" or scene.link is None or turns > SHORT.value else []
@@ -141,7 +139,7 @@ def simulate(
     engine : str, default "core"
         "core", or "fast" for heyoka (`pip install lagrotor[fast]`), for "minimal", and for "spheres" without a bar.
     progress : callable or None, optional
-        A function of the time (s), called at each evaluation. The times begin anew with the second run.
+        A function of the time (s), called at each evaluation. The times begin anew with each compared run.
 
     Returns
     -------
@@ -261,10 +259,8 @@ class _ScaledScene:
             raise
 
     def by_ladder(self, choice: Choice) -> tuple[str, str, EstimatedRun]:
-        """Return the name, the reason and the run of the first model of the ladder that reaches the end.
-
-        If none does, the model that reaches the latest time is returned.
-        """
+        """Return the name, the reason and the run of the first model of the ladder that reaches the end. If none does, the
+        model that reaches the latest time is returned."""
         first_model = [model.name for model in LADDER].index(choice.model)
         # If none reaches the end, the first models continue where they are badly conditioned.
         tries = [(model, model is not LADDER[-1]) for model in LADDER[first_model:]]
@@ -306,10 +302,8 @@ def evolution_of(
     model: Model, scene: Scene, t_end: float, patience: EvaluationBudget, engine: str = "core", *, bounded: bool = False,
     progress: Callable[[float], None] | None = None,
 ) -> Evolution:  # fmt: skip
-    """Return the motion of a scene in natural units up to t_end by a model, with the measures of its error.
-
-    With `bounded` the run stops where the model is badly conditioned.
-    """
+    """Return the motion of a scene in natural units up to t_end by a model, with the measures of its error. With `bounded` the
+    run stops where the model is badly conditioned."""
     engine = engine if _fast_runs(model, scene) else "core"
     nodes = pulse_nodes(scene, t_end)
     start = model.start(scene)

@@ -98,13 +98,15 @@ class Assembly:
             raise InputError(f"Structure: bars[{k}] = {bar!r} must be (i, j) or (i, j, length)")
         i, j = (self._tip(item, f"bars[{k}]") for item in items[:2])
         if i == j:
-            raise InputError(f"Structure: bars[{k}] = ({i}, {j}) joins a tip to itself: join two different tips")
+            raise InputError(f"Structure: bars[{k}] = ({i}, {j}) is a bar to itself: join two different tips")
         reach = self.rotor[i].length, self.rotor[j].length
         apart = hypot(self.joints[i][0] - self.joints[j][0], self.joints[i][1] - self.joints[j][1])
         upright = hypot(apart, reach[0] - reach[1])
         length = finite_number(items[2], f"Structure: bars[{k}] length", "m") if len(items) == 3 else upright
         if length <= 0:
-            raise InputError(f"Structure: bars[{k}] = ({i}, {j}) is {length:g} m long: give a length above zero")
+            raise InputError(
+                f"Structure: bars[{k}] = ({i}, {j}) is {length:g} m long: its tips must be apart; give a length above zero"
+            )
         low, high = apart - sum(reach), apart + sum(reach)
         if not low <= length <= high:
             raise InputError(

@@ -31,14 +31,9 @@ _MOST = 6  # rotors
 class Characteristic(Shown):
     """The characteristic polynomial of a structure in symbols.
 
-    Attributes
-    ----------
-    polynomial : Expr
-        The polynomial in the symbol `s`, up to a constant factor.
-    system : LinearSystem
-        The mass, damping and stiffness matrices in symbols, on the degrees of freedom that the bars leave.
-    values : dict
-        The numerical value of each symbol.
+    - `polynomial`: the polynomial in the symbol `s`, up to a constant factor.
+    - `system`: the mass, damping and stiffness matrices in symbols, on the degrees of freedom that the bars leave.
+    - `values`: the numerical value of each symbol.
     """
 
     polynomial: sp.Expr
@@ -57,7 +52,9 @@ def characteristic(structure: Assembly) -> Characteristic:
     """Derive the characteristic polynomial of a structure: see `Structure.characteristic`."""
     N = len(structure.joints)
     if N > _MOST:
-        raise InputError(f"characteristic: {N} rotors are too many for a polynomial in symbols, at most {_MOST}: use modes()")
+        raise InputError(
+            f"characteristic: {N} rotors are too many for a polynomial in symbols, at most {_MOST}: use modes()"
+        )
     check_upright(structure, "characteristic")
     c, values, exact = coefficients(structure), dict[sp.Symbol, float](), np.vectorize(_exact, otypes=[object])
     G = [sp.Symbol(f"G_{i + 1}", real=True) if g else sp.Integer(0) for i, g in enumerate(c.G)]
@@ -89,10 +86,8 @@ def characteristic(structure: Assembly) -> Characteristic:
 
 
 def _symbols(name: str, numbers: Array, values: dict[sp.Symbol, float], real: bool = False) -> list[sp.Expr]:
-    """Return the symbols of some numbers, one per distinct value, and add {symbol: value} to `values`.
-
-    The symbols are declared positive, or only real if `real` is True. The number zero stays zero.
-    """
+    """Return the symbols of some numbers, one per distinct value, and add {symbol: value} to `values`. The symbols are declared
+    positive, or only real if `real` is True. The number zero stays zero."""
     distinct = [v for v in dict.fromkeys(numbers.tolist()) if v]
     sign = {"real": True} if real else {"positive": True}
     symbols = {v: sp.Symbol(name if len(distinct) == 1 else f"{name}_{k + 1}", **sign) for k, v in enumerate(distinct)}

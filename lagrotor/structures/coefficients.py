@@ -93,10 +93,8 @@ def coefficients(s: Assembly) -> Coefficients:
 def coefficients_in(
     s: Assembly, numbers: Callable[[Any], Any], ell: Array, root: Callable[[Array], Array]
 ) -> Coefficients:
-    """Return the coefficients in numbers of another kind than floats, such as intervals.
-
-    `numbers` converts floats, `root` takes square roots, and `ell` are the lengths of the bars. Hinges stay floats.
-    """
+    """Return the coefficients in numbers of another kind than floats, such as intervals. `numbers` converts floats, `root`
+    takes square roots, and `ell` are the lengths of the bars. Hinges stay floats."""
     M, R, I1, I3 = (numbers([getattr(rotor, name) for rotor in s.rotor]) for name in ("mass", "length", "I1", "I3"))
     load = numbers(s.load)
     A, S = I1 + M * R**2 / 4 + load * R**2, M * R / 2 + load * R

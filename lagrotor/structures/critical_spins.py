@@ -33,10 +33,8 @@ _GRID = np.geomspace(1e-3, 1e4, 281)  # of the natural factor: the scan if K is 
 
 
 def critical_spin(s: Assembly) -> float:
-    """Return the factor on all spins above which the linear motion stays bounded: see `Structure.critical_spin`.
-
-    A motion that friction reaches only by a relative coupling below 1e-10 counts as undamped.
-    """
+    """Return the factor on all spins above which the linear motion stays bounded: see `Structure.critical_spin`. A motion that
+    friction reaches only by a relative coupling below 1e-10 counts as undamped."""
     check_upright(s, "critical_spin")
     return spin_threshold(small_motion(s))
 
@@ -84,10 +82,8 @@ def _range(columns: Array) -> Array:
 
 
 def _by_branches(linear: SmallMotion) -> float:
-    """Return the critical factor if K is negative definite; inf if the gyroscopic matrix B is singular.
-
-    The factor is 1/max h(ω), where h is the smallest positive root of det(i B − h (ω M + |K|/ω)) = 0.
-    """
+    """Return the critical factor if K is negative definite; inf if the gyroscopic matrix B is singular. The factor is 1/max
+    h(ω), where h is the smallest positive root of det(i B − h (ω M + |K|/ω)) = 0."""
     from scipy.linalg import eigh
     from scipy.optimize import minimize_scalar
 
@@ -116,9 +112,7 @@ def _by_branches(linear: SmallMotion) -> float:
 
 def _by_scan(linear: SmallMotion) -> float:
     """Find the largest factor at which growth ends, by a scan and bisection: 0 if no factor grows, inf if the largest one does.
-
-    The factors of the scan are 6 % apart. Intervals of growth that lie between two of them are missed.
-    """
+    The factors of the scan are 6 % apart. Intervals of growth that lie between two of them are missed."""
     size = np.abs(linear.gyroscopic).max()
     if size == 0:
         return inf
@@ -141,16 +135,10 @@ def _by_scan(linear: SmallMotion) -> float:
 class Patterns:
     """The result of `sign_patterns`.
 
-    Attributes
-    ----------
-    count : int
-        The number of patterns of signs that were tried.
-    standing : int
-        The number of patterns that a finite spin makes stable.
-    least : float
-        The smallest critical spin of a pattern, rad/s; inf if no pattern can be stable.
-    best : tuple
-        The signs of the pattern with this critical spin.
+    - `count`: the number of patterns of signs that were tried.
+    - `standing`: the number of patterns that a finite spin makes stable.
+    - `least`: the smallest critical spin of a pattern, rad/s; inf if no pattern can be stable.
+    - `best`: the signs of the pattern with this critical spin.
     """
 
     count: int
@@ -182,7 +170,9 @@ def sign_patterns(s: Assembly) -> Patterns:
     """
     N = len(s.joints)
     if N > _MOST:
-        raise InputError(f"sign_patterns: {N} rotors have 2^{N - 1} patterns, too many to try: give at most {_MOST} rotors")
+        raise InputError(
+            f"sign_patterns: {N} rotors have 2^{N - 1} patterns, too many to try: give at most {_MOST} rotors"
+        )
     check_upright(s, "sign_patterns")
     linear = small_motion(s)
     I3 = np.array([rotor.I3 for rotor in s.rotor])

@@ -45,28 +45,16 @@ _EXACT = 1e-6  # relative detuning below which a mode is resonant
 class PrecessionLaw(Shown):
     """The precession rate Ω = rate + shift (tilt² − 2 skew tilt³) + O(tilt⁴) of a mode, in rad/s.
 
-    Attributes
-    ----------
-    rate : float
-        The rate of the mode at vanishing tilt, rad/s.
-    shift : float
-        The coefficient of tilt², rad/s.
-    skew : float
-        The number b of the module.
-    others : Array
-        The rates of the other modes, (n − 1,), rad/s, negative for modes of negative energy.
-    reach : float
-        The largest tilt at which the law is used: 0.5, or less if harmonics drive other modes.
-    sign : int
-        The sign of the energy of this mode.
-    action : float
-        The ratio I_j/a² in the units of `quadratic`.
-    quadratic : Polynomial
-        The terms of the normal form, rad/s, that are of second degree in the coordinates z, z̄ of the other modes.
-    structure : Assembly
-        The structure.
-    mode : int
-        The number of the mode.
+    - `rate`: the rate of the mode at vanishing tilt, rad/s.
+    - `shift`: the coefficient of tilt², rad/s.
+    - `skew`: the number b of the module.
+    - `others`: the rates of the other modes, (n − 1,), rad/s, negative for modes of negative energy.
+    - `reach`: the largest tilt at which the law is used: 0.5, or less if harmonics drive other modes.
+    - `sign`: the sign of the energy of this mode.
+    - `action`: the ratio I_j/a² in the units of `quadratic`.
+    - `quadratic`: the terms of the normal form, rad/s, that are of second degree in the coordinates z, z̄ of the other modes.
+    - `structure`: the structure.
+    - `mode`: the number of the mode.
     """
 
     rate: float
@@ -98,10 +86,8 @@ class PrecessionLaw(Shown):
 
     @property
     def edge(self) -> float:
-        """The smallest tilt at which a multiplier leaves the unit circle; inf if none does so up to `reach`.
-
-        It is searched among 400 tilts and refined by bisection.
-        """
+        """The smallest tilt at which a multiplier leaves the unit circle; inf if none does so up to `reach`. It is searched
+        among 400 tilts and refined by bisection."""
         tilts = np.linspace(0, self.reach, _TILTS + 1)[1:]
         beyond = next((float(tilt) for tilt in tilts if self.growth_at(tilt)), inf)
         stable = beyond - float(tilts[0])
@@ -161,7 +147,9 @@ def precession_law(s: Assembly, mode: int = 0) -> PrecessionLaw:
     rate, shape = precessing_mode(s, mode, where)
     rates, n = signed_rates(small_motion(s)), small_motion(s).dof
     if n > MOST_DOF:
-        raise InputError(f"{where}: {n} degrees of freedom are too many to expand: at most {MOST_DOF}; take steady_precession")
+        raise InputError(
+            f"{where}: {n} degrees of freedom are too many to expand: at most {MOST_DOF}; take steady_precession"
+        )
     if len(rates) < n:
         raise InputError(
             f"{where}: another mode grows or has no rate, and only oscillations are expanded: take steady_precession(mode, tilt)"

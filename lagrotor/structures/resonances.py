@@ -7,8 +7,8 @@ N = 1,
 
     |dN/dt| ≤ 2 d c N^(d/2):   no motion from N = ρ² topples before  t = 1/(d (d − 2) c ρ^(d−2)),
 
-and a motion along the steepest direction topples at this time. Off resonance δ N/d + K_d is conserved, where K_d collects all terms of
-degree d. With κ the largest value of K_d at N = 1, no start below ρ passes the barrier of δ N/d − κ N^(d/2) if
+and a motion along the steepest direction topples at this time. Off resonance δ N/d + K_d is conserved, where K_d collects all
+terms of degree d. With κ the largest value of K_d at N = 1, no start below ρ passes the barrier of δ N/d − κ N^(d/2) if
 
     |δ| > ½ d² κ (ρ²/x)^((d−2)/2),     x + (2/d) x^(d/2) = 1 − 2/d:    |δ| > 18 c ρ for d = 3.
 
@@ -58,28 +58,16 @@ class Resonance(Shown):
 
     The size of a push is the root of the sum of squares of the rates of all axes at the start, in rad/s. All axes start upright.
 
-    Attributes
-    ----------
-    order : int
-        The order, 3 or 4.
-    vectors : tuple
-        The integer vectors k with one number per mode, the vector nearest to resonance first.
-    rates : Array
-        The rates of the modes, (n,), rad/s, negative for modes of negative energy.
-    at : float
-        The factor on all spins at which these rates hold.
-    detuning : float
-        The detuning k·rates of the first vector, rad/s.
-    per_factor : float
-        The derivative of the detuning with respect to the factor on all spins, rad/s.
-    growth : float
-        The coefficient c of the module, 1/s, for N = (reach × push)².
-    largest : float
-        The coefficient κ of the module, 1/s.
-    reach : float
-        The ratio sqrt(N)/push in the steepest direction, s.
-    falls : bool
-        True if the terms of the same order do not stop the growth.
+    - `order`: the order, 3 or 4.
+    - `vectors`: the integer vectors k with one number per mode, the vector nearest to resonance first.
+    - `rates`: the rates of the modes, (n,), rad/s, negative for modes of negative energy.
+    - `at`: the factor on all spins at which these rates hold.
+    - `detuning`: the detuning k·rates of the first vector, rad/s.
+    - `per_factor`: the derivative of the detuning with respect to the factor on all spins, rad/s.
+    - `growth`: the coefficient c of the module, 1/s, for N = (reach × push)².
+    - `largest`: the coefficient κ of the module, 1/s.
+    - `reach`: the ratio sqrt(N)/push in the steepest direction, s.
+    - `falls`: True if the terms of the same order do not stop the growth.
     """
 
     order: int
@@ -110,19 +98,15 @@ class Resonance(Shown):
         return float(sqrt(_BARRIER[d]) * barrier / self.reach)
 
     def window(self, push: float) -> tuple[float, float]:
-        """Return the factors on all spins (low, high) between which a push (rad/s) may topple the structure.
-
-        The detuning is extrapolated linearly in the factor.
-        """
+        """Return the factors on all spins (low, high) between which a push (rad/s) may topple the structure. The detuning is
+        extrapolated linearly in the factor."""
         d, x = self.order, _BARRIER[self.order]
         half = d * d * self.largest / 2 * (self.reach * push / sqrt(x)) ** (d - 2) / abs(self.per_factor)
         return float(self.factor - half), float(self.factor + half)
 
     def least_time(self, push: float) -> float:
-        """Return the time (s) before which no push of a given size (rad/s) topples the structure.
-
-        At exact resonance a push of this size in the steepest direction takes exactly this time.
-        """
+        """Return the time (s) before which no push of a given size (rad/s) topples the structure. At exact resonance a push of
+        this size in the steepest direction takes exactly this time."""
         d = self.order
         return 1 / (d * (d - 2) * self.growth * (self.reach * push) ** (d - 2))
 
@@ -149,10 +133,8 @@ class Resonance(Shown):
 
 
 def signed_rates(linear: SmallMotion, factor: float = 1.0) -> Array:
-    """Return the rates ω_j in rad/s, ascending, negative for modes of negative energy.
-
-    The array is empty if a mode grows or has the rate zero.
-    """
+    """Return the rates ω_j in rad/s, ascending, negative for modes of negative energy. The array is empty if a mode grows or
+    has the rate zero."""
     scaled = linear.at_spins(factor)
     roots, vectors = scaled.waves
     if scaled.growth > 0 or not roots.imag.all():
@@ -168,7 +150,9 @@ def resonances(s: Assembly, factor: float = 1.0, orders: Sequence[int] = (3, 4))
     linear = small_motion(s)
     rates = signed_rates(linear, factor)
     if not len(rates):
-        raise InputError("resonances: a mode grows or has the rate zero, so that no resonance is defined: change the spins")
+        raise InputError(
+            "resonances: a mode grows or has the rate zero, so that no resonance is defined: change the spins"
+        )
     if not (rates[0] < 0 < rates[-1]):
         return ()
     if linear.dof > MOST_DOF:
@@ -205,16 +189,15 @@ def _of_order(s: Assembly, rates: Array, slopes: Array, factor: float, order: in
 
 
 def start_of_push(s: Assembly) -> Array:
-    """Return the states (q, p) after a push of 1 rad/s along each degree of freedom, (2n, n), in units of `LocalHamiltonian`."""
+    """Return the states (q, p) after a push of 1 rad/s along each degree of freedom, (2n, n), in units of
+    `LocalHamiltonian`."""
     h = local_hamiltonian(s)
     return np.vstack([np.zeros_like(h.mass), h.mass / h.rate])
 
 
 def _vectors(rates: Array, order: int) -> list[tuple[int, ...]]:
-    """Return the integer vectors k with k_j ≥ 0, the sum `order` and small k·rates.
-
-    Vectors of slow modes alone are included, because these modes grow by the same law.
-    """
+    """Return the integer vectors k with k_j ≥ 0, the sum `order` and small k·rates. Vectors of slow modes alone are included,
+    because these modes grow by the same law."""
     near, n = _NEAR * np.abs(rates).max(), len(rates)
     combinations = combinations_with_replacement(range(n), order)
     return [tuple(c.count(j) for j in range(n)) for c in combinations if abs(rates[list(c)].sum()) < near]
@@ -263,10 +246,8 @@ def _outweighs(terms: Polynomial, k: tuple[int, ...], groups: list[list[int]]) -
 
 
 def _least(f: Polynomial, groups: Array, sums: Array) -> float:
-    """Return the least real part of f(z, z̄) that minimisations from eight starts find.
-
-    Each row of `groups` is a mask of modes whose |z_j|² keep the sum in `sums`.
-    """
+    """Return the least real part of f(z, z̄) that minimisations from eight starts find. Each row of `groups` is a mask of modes
+    whose |z_j|² keep the sum in `sums`."""
     from scipy.optimize import minimize
 
     powers, double, sizes = f.exponents, np.hstack([groups, groups]), np.sqrt(sums)  # double: real and imaginary parts
@@ -300,10 +281,8 @@ def _slopes(linear: SmallMotion, factor: float) -> Array:
 
 @lru_cache(maxsize=16)
 def normal_form_of(s: Assembly, factor: float = 1.0, detuning: float = 0.0, order: int = 4) -> NormalForm:
-    """Return the normal form about upright through `order`, in the units of `LocalHamiltonian`.
-
-    It keeps the resonant terms whose detuning is at most `detuning`.
-    """
+    """Return the normal form about upright through `order`, in the units of `LocalHamiltonian`. It keeps the resonant terms
+    whose detuning is at most `detuning`."""
     check_upright(s, "normal_form_of")
     form = normal_form_of_series(local_hamiltonian(s, order).at_spins(factor), order, detuning)
     if len(signed_rates(small_motion(s), factor)) and 0 in form.frequencies:
@@ -312,10 +291,8 @@ def normal_form_of(s: Assembly, factor: float = 1.0, detuning: float = 0.0, orde
 
 
 def fall_time_along(s: Assembly, rates: ArrayLike, longest: float, detuning: float) -> float:
-    """Return the time in s at which the sine of an axis's inclination reaches 1, according to the normal form.
-
-    The axes start upright with the rates (N, 2) in rad/s. The result is inf if the time exceeds `longest` s.
-    """
+    """Return the time in s at which the sine of an axis's inclination reaches 1, according to the normal form. The axes start
+    upright with the rates (N, 2) in rad/s. The result is inf if the time exceeds `longest` s."""
     from scipy.integrate import solve_ivp
 
     h = local_hamiltonian(s)
@@ -324,7 +301,9 @@ def fall_time_along(s: Assembly, rates: ArrayLike, longest: float, detuning: flo
     push = finite_array("fall_time: push", rates)
     residual = push.ravel() - h.basis @ (h.basis.T @ push.ravel())
     if np.abs(residual).max() > _ON_BARS * np.abs(push).max():
-        raise InputError("fall_time: push: the bars do not allow these rates: give rates with which each bar keeps its length")
+        raise InputError(
+            "fall_time: push: the bars do not allow these rates: give rates with which each bar keeps its length"
+        )
     start = np.linalg.inv(n.vectors) @ (start_of_push(s) @ (h.basis.T @ push.ravel()))
     begin = np.array([f.at(start) for f in _new_coordinates(n, 3)])[:size]
     steps = n.series.exponents[:, :size] - n.series.exponents[:, size:]
@@ -363,15 +342,10 @@ def _new_coordinates(n: NormalForm, order: int) -> list[Polynomial]:
 class LargestPush(Shown):
     """The largest push that does not topple a structure.
 
-    Attributes
-    ----------
-    value : float
-        The size of the push, rad/s. If no resonance limits it, a larger push tilts an axis by more than 0.1, the range in
-        which the expansion is accurate.
-    behind : str
-        The reason for this value in words.
-    resonance : Resonance or None
-        The resonance that needs the smallest push; None if there is none.
+    - `value`: the size of the push, rad/s. If no resonance limits it, a larger push tilts an axis by more than 0.1, the range
+      in which the expansion is accurate.
+    - `behind`: the reason for this value in words.
+    - `resonance`: the resonance that needs the smallest push; None if there is none.
     """
 
     value: float

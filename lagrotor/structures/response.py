@@ -2,16 +2,17 @@
 
     X = R Z (−ω² M + i ω C + K)⁻¹ Zᵀ f,   f_i = R_i F_i − S_i a_ground,
 
-for forces F e^(iωt) on the tips and the acceleration a e^(iωt) of the ground, exact for small motion. The spins couple a sway x,
-of mass M and stiffness K = M Ω², to a motion z. The coupling is g; the motion z has the inertia m, a brace k_z = m Ω² f² and a
-damper c = 2 ζ m Ω:
+for forces F e^(iωt) on the tips and the acceleration a e^(iωt) of the ground, exact for small motion. The spins couple a sway
+x, of mass M and stiffness K = M Ω², to a motion z. The coupling is g; the motion z has the inertia m, a brace k_z = m Ω² f² and
+a damper c = 2 ζ m Ω:
 
     M x'' + K x + g z' = F,   m z'' + c z' + k_z z − g x' = 0,   γ² = g²/(M m Ω²).
 
 A pair with tips of inertia a has M = m = 2a, g = 2G and γ = G/(a Ω). There z is the mean y for equal spins and the yaw for
 opposite spins. At the optimum for the worst case both peaks of |X| have the same height, the least that any brace and damper
-allow. Den Hartog's fixed points (Mechanical Vibrations, 1956, § 3.3) are only a lower bound. Derived in derivations/n2_shaken.py. Tuned mass: Nishihara &
-Asami (J. Vib. Acoust. 124, 576, 2002), Warburton (Earthquake Eng. Struct. Dyn. 10, 1982).
+allow. Den Hartog's fixed points (Mechanical Vibrations, 1956, § 3.3) are only a lower bound. Derived in
+derivations/n2_shaken.py. Tuned mass: Nishihara & Asami (J. Vib. Acoust. 124, 576, 2002), Warburton (Earthquake Eng. Struct.
+Dyn. 10, 1982).
 """
 
 from dataclasses import dataclass
@@ -49,7 +50,9 @@ def response(
     try:
         q = np.linalg.solve(pencil, np.broadcast_to(right[:, None], (len(w), len(right), 1)))[..., 0]
     except np.linalg.LinAlgError:
-        raise InputError("response: one of the rates is a resonance without damping: give other rates, or add damping") from None
+        raise InputError(
+            "response: one of the rates is a resonance without damping: give other rates, or add damping"
+        ) from None
     return np.asarray((q @ linear.basis.T).reshape(-1, N, 2) * c.R[:, None])
 
 
@@ -67,15 +70,10 @@ def _forces(force: ArrayLike, at: int | None, N: int) -> Complex:
 class Absorber:
     """An optimal absorber.
 
-    Attributes
-    ----------
-    tuning : Array
-        The tuning f² of the brace, or of the tuned mass.
-    damping : Array
-        The damping ratio ζ.
-    value : Array
-        The peak of |X K/F|, or the mean square of x K/F under white noise in units of π S Ω. S is the two-sided spectral
-        density of the force. A sway without absorber and with the damping ratio ζ has the mean square 1/(2ζ).
+    - `tuning`: the tuning f² of the brace, or of the tuned mass.
+    - `damping`: the damping ratio ζ.
+    - `value`: the peak of |X K/F|, or the mean square of x K/F under white noise in units of π S Ω. S is the two-sided spectral
+      density of the force. A sway without absorber and with the damping ratio ζ has the mean square 1/(2ζ).
     """
 
     tuning: Array

@@ -40,20 +40,14 @@ class Modes(Shown):
 
     Of each conjugate pair of roots, the one with a positive rate is kept. Of the real roots, the larger half is kept.
 
-    Attributes
-    ----------
-    rates : Array
-        The angular frequencies, (n,), rad/s; 0 for a mode that does not oscillate.
-    growth : Array
-        The growth rates, (n,), 1/s. A growth below 1e-13 of the fastest root is set to zero.
-    shapes : Complex
-        The x and y of each axis, (n, N, 2), with the largest component 1. `modes_about` gives displacements (n, N, 3).
-    topple : int
-        The number of modes that grow.
-    energy_signs : Array
-        The sign of ω² ū·M u + ū·K u, (n,): −1 if an oscillation has less energy than the equilibrium, 0 for other modes.
-    left_out : Array
-        In the limit of fast spins, the first-order decrease of each rate by the inertia, (n,), rad/s; negative under weight.
+    - `rates`: the angular frequencies, (n,), rad/s; 0 for a mode that does not oscillate.
+    - `growth`: the growth rates, (n,), 1/s. A growth below 1e-13 of the fastest root is set to zero.
+    - `shapes`: the x and y of each axis, (n, N, 2), with the largest component 1. `modes_about` gives displacements (n, N, 3).
+    - `topple`: the number of modes that grow.
+    - `energy_signs`: the sign of ω² ū·M u + ū·K u, (n,): −1 if an oscillation has less energy than the equilibrium, 0 for other
+      modes.
+    - `left_out`: in the limit of fast spins, the first-order decrease of each rate by the inertia, (n,), rad/s; negative under
+      weight.
     """
 
     rates: Array
@@ -81,18 +75,11 @@ class SmallMotion:
 
     For waves at many wave numbers each array has one more leading axis, and so have the roots.
 
-    Attributes
-    ----------
-    mass, damping, stiffness : Matrix
-        The symmetric matrices, (n, n).
-    gyroscopic : Matrix
-        The antisymmetric matrix of the spins, (n, n).
-    basis : Matrix
-        The matrix Z, (2N, n), in the tilts u = Z q.
-    rate : float
-        A typical rate, rad/s, in units of which the eigenvalues are computed.
-    pull : float
-        `Coefficients.pull`, the scale of rounding of the stiffness; 0 if it is unknown.
+    - `mass`, `damping`, `stiffness`: the symmetric matrices, (n, n).
+    - `gyroscopic`: the antisymmetric matrix of the spins, (n, n).
+    - `basis`: the matrix Z, (2N, n), in the tilts u = Z q.
+    - `rate`: a typical rate, rad/s, in units of which the eigenvalues are computed.
+    - `pull`: `Coefficients.pull`, the scale of rounding of the stiffness; 0 if it is unknown.
     """
 
     mass: Matrix
@@ -134,10 +121,8 @@ class SmallMotion:
 
     @cached_property
     def waves(self) -> tuple[Complex, Complex]:
-        """The roots (m,) in 1/s and their vectors q as columns, (n, m).
-
-        Raises SingularError if the inertia is left out and no spin acts on some motion.
-        """
+        """The roots (m,) in 1/s and their vectors q as columns, (n, m). Raises SingularError if the inertia is left out and no
+        spin acts on some motion."""
         if not self.mass.any():
             return self._of_first_order
         s, x = np.linalg.eig(self.first_order)
@@ -270,20 +255,16 @@ def check_rates(s: Assembly, where: str) -> SmallMotion:
 
 
 def left_by(rows: Matrix) -> tuple[NDArray[np.intp], Matrix]:
-    """Return the rank (…,) of the rows (…, B, n) of the bars, and an orthonormal basis (…, n, n).
-
-    The columns of the basis from number `rank` on span the null space of the rows.
-    """
+    """Return the rank (…,) of the rows (…, B, n) of the bars, and an orthonormal basis (…, n, n). The columns of the basis from
+    number `rank` on span the null space of the rows."""
     _, sizes, vectors = np.linalg.svd(rows)
     ranks = np.asarray((sizes > _DEPENDENT * sizes.max(-1, initial=0.0, keepdims=True)).sum(-1))
     return ranks, _dagger(vectors)
 
 
 def on_basis(forms: Matrix, basis: Matrix, rate: float) -> SmallMotion:
-    """Return the linear system of four matrices `forms`, (…, 4, n, n), in the f columns of a basis (…, n, f).
-
-    The matrices are in the order of `matrices`. All arrays may be complex.
-    """
+    """Return the linear system of four matrices `forms`, (…, 4, n, n), in the f columns of a basis (…, n, f). The matrices are
+    in the order of `matrices`. All arrays may be complex."""
     if basis.shape[-1] < basis.shape[-2]:
         forms = _dagger(basis)[..., None, :, :] @ forms @ basis[..., None, :, :]
     mass, damping, gyroscopic, stiffness = np.moveaxis(forms, -3, 0)
@@ -311,9 +292,7 @@ def matrices(c: Coefficients) -> Array:
 
 def bar_rows(c: Coefficients) -> Array:
     """Return the matrix (B, 2N) that takes the tilts u to n . (R_i u_i − R_j u_j) of each bar, which its constraint keeps zero.
-
-    n is the horizontal part of the unit vector along the bar.
-    """
+    n is the horizontal part of the unit vector along the bar."""
     n = (c.feet[c.j] - c.feet[c.i])[:, :2] / c.ell[:, None]
     rows = np.zeros((len(c.i), len(c.R), 2), dtype=c.R.dtype)
     index = np.arange(len(c.i))
@@ -343,18 +322,14 @@ def modes(s: Assembly, inertia: bool = True) -> Modes:
 
 
 def first_largest(sizes: Array) -> Any:
-    """Return the first index, along the last axis, of a size that is the largest up to rounding.
-
-    The index is then the same on every processor.
-    """
+    """Return the first index, along the last axis, of a size that is the largest up to rounding. The index is then the same on
+    every processor."""
     return (sizes > (1 - _ALIKE) * sizes.max(-1, keepdims=True)).argmax(-1)
 
 
 def modes_of(whole: SmallMotion, linear: SmallMotion, components: int = 2) -> Modes:
-    """Return the normal modes of `linear`, which is the system `whole` or its limit without inertia.
-
-    `components` is the number of components of each axis in the shapes, 2 or 3.
-    """
+    """Return the normal modes of `linear`, which is the system `whole` or its limit without inertia. `components` is the number
+    of components of each axis in the shapes, 2 or 3."""
     roots, vectors = linear.waves
     turning = np.flatnonzero(roots.imag > 0)
     real = np.flatnonzero(roots.imag == 0)

@@ -1,7 +1,8 @@
 """A lower bound of the time for which a linearly stable structure stays near upright, from its normal form.
 
 In the coordinates of the normal form through order N, Q = sum_j |z_j|² is the squared distance from upright. Some terms of the
-form conserve Q. The other terms, which are the resonances of degree d = 3 … N and the first terms of degree N + 1 beyond the form, change Q at a rate
+form conserve Q. The other terms, which are the resonances of degree d = 3 … N and the first terms of degree N + 1 beyond the
+form, change Q at a rate
 
     |dQ/dt| ≤ sum_d g_d Q^(d/2),    g_d a bound of |{Q, K_d}| at Q = 1,
 
@@ -33,10 +34,8 @@ _DETUNINGS = (0.0, 1e-3, 1e-2, 0.1)  # relative to the largest rate: the largest
 
 
 def hold_time(s: Assembly, push: float) -> float:
-    """Compute a time (s) within which no push of a size (rad/s) grows by the factor sqrt(2): see `Standing.hold_time`.
-
-    It follows from the first nonzero terms beyond the normal form, and from the displacement by the change of coordinates.
-    """
+    """Compute a time (s) within which no push of a size (rad/s) grows by the factor sqrt(2): see `Standing.hold_time`. It
+    follows from the first nonzero terms beyond the normal form, and from the displacement by the change of coordinates."""
     push, linear = checked_push("hold_time", push), small_motion(s)
     if linear.growth > 0 or linear.drifts:
         return 0.0
@@ -67,10 +66,8 @@ def hold_time(s: Assembly, push: float) -> float:
 
 
 def _times(form: NormalForm, size: float) -> list[float]:
-    """Return lower bounds of the time in which a state grows from `size` to sqrt(2) times `size` in the normal modes.
-
-    There is one bound for each degree with a nonzero remainder, in the unit of time of the normal form.
-    """
+    """Return lower bounds of the time in which a state grows from `size` to sqrt(2) times `size` in the normal modes. There is
+    one bound for each degree with a nonzero remainder, in the unit of time of the normal form."""
     n, times, resonant, shift = len(form.frequencies), list[float](), dict[int, float](), 0.0
     rates, zero = np.real(form.frequencies), _ZERO * float(np.abs(form.series.coefficients).max())
     for degree, generator in enumerate(form.generators, 3):

@@ -47,20 +47,12 @@ Kind = Literal["never", "to first order", "falls at a resonance", "falls over a 
 class Standing(Shown):
     """The stability of the upright position. The truth value is linear stability; `kind` describes the nonlinear motion.
 
-    Attributes
-    ----------
-    stands : bool
-        True if the upright position is linearly stable.
-    growth : float
-        The growth rate of the fastest growing motion, 1/s; 0 if no motion grows.
-    shape : Complex
-        The shape of the fastest growing motion, (N, 2); zeros if no motion grows.
-    critical_spin : float
-        The factor on all spins above which the position is linearly stable; inf if there is none.
-    structure : Assembly
-        The structure.
-    first_order : str
-        The reason for the linear result in words.
+    - `stands`: True if the upright position is linearly stable.
+    - `growth`: the growth rate of the fastest growing motion, 1/s; 0 if no motion grows.
+    - `shape`: the shape of the fastest growing motion, (N, 2); zeros if no motion grows.
+    - `critical_spin`: the factor on all spins above which the position is linearly stable; inf if there is none.
+    - `structure`: the structure.
+    - `first_order`: the reason for the linear result in words.
     """
 
     stands: bool
@@ -78,7 +70,8 @@ class Standing(Shown):
         """The stability beyond the linear motion, for a push of `PUSH` (0.01) times the natural rate.
 
         - "never": linearly unstable; any push grows or drifts.
-        - "falls at a resonance": linearly stable, but such a push in some direction topples it by a resonance: see `largest_push`.
+        - "falls at a resonance": linearly stable, but such a push in some direction topples it by a resonance: see
+          `largest_push`.
         - "falls over a barrier": such a push topples it although no rates are resonant. Near the critical spins the barrier of
           the terms of order 3 and 4 is low.
         - "holds": the energy has a minimum, or no resonance through fourth order topples it from such a push.
@@ -191,9 +184,9 @@ class Standing(Shown):
     def hold_time(self, push: float) -> float:
         """Estimate a time (s) within which no push of a given size (rad/s) grows by a factor sqrt(2) in the normal modes.
 
-        It is inf for rotors without bars and braces, and if the energy has a minimum upright. It is 0 if the structure is linearly
-        unstable or the push exceeds the range of the expansion. Raises InputError with friction, and for more than 8 degrees
-        of freedom.
+        It is inf for rotors without bars and braces, and if the energy has a minimum upright. It is 0 if the structure is
+        linearly unstable or the push exceeds the range of the expansion. Raises InputError with friction, and for more than 8
+        degrees of freedom.
         """
         return hold_time(self.structure, push)
 

@@ -5,10 +5,10 @@ and Floquet multipliers replace modes. Shooting finds the orbit of a state y = (
 
     φ_T(y) = y,    u = tilt,    u' = 0,
 
-where u is the component of an axis that is largest in the mode. It proceeds by Gauss–Newton steps along the family from small tilts (Lyapunov's centre theorem; Meyer & Offin, Introduction to Hamiltonian
-Dynamical Systems, ch. 9). The monodromy matrix comes from differences of the exact flow. Two of its multipliers are 1, along
-the orbit and transverse to the energy; they are removed before the others are computed. The orbit of one top is its steady
-precession, with A Ω² cos θ − G Ω + S g = 0.
+where u is the component of an axis that is largest in the mode. It proceeds by Gauss–Newton steps along the family from small
+tilts (Lyapunov's centre theorem; Meyer & Offin, Introduction to Hamiltonian Dynamical Systems, ch. 9). The monodromy matrix
+comes from differences of the exact flow. Two of its multipliers are 1, along the orbit and transverse to the energy; they are
+removed before the others are computed. The orbit of one top is its steady precession, with A Ω² cos θ − G Ω + S g = 0.
 """
 
 from dataclasses import dataclass
@@ -51,24 +51,14 @@ _ADVICE = {
 class SteadyPrecession(Shown):
     """A periodic orbit of a structure and its Floquet multipliers.
 
-    Attributes
-    ----------
-    tilt : float
-        The largest horizontal component of an axis.
-    period : float
-        The period, s.
-    axes : Array
-        The axes at the moment of largest tilt, (N, 3).
-    rates : Array
-        The rates of the axes at this moment, (N, 3), 1/s.
-    multipliers : Array
-        The Floquet multipliers, (2n,), of which the first two are 1. A multiplier smaller than its error is NaN.
-    errors : Array
-        The estimated error of each multiplier, (2n,). For NaN it is a bound of the modulus.
-    growth : float
-        The logarithm of the largest modulus per turn; 0 if no multiplier leaves the unit circle by more than its error.
-    mismatch : float
-        The largest difference of the state (r, r'/rate) after one period.
+    - `tilt`: the largest horizontal component of an axis.
+    - `period`: the period, s.
+    - `axes`: the axes at the moment of largest tilt, (N, 3).
+    - `rates`: the rates of the axes at this moment, (N, 3), 1/s.
+    - `multipliers`: the Floquet multipliers, (2n,), of which the first two are 1. A multiplier smaller than its error is NaN.
+    - `errors`: the estimated error of each multiplier, (2n,). For NaN it is a bound of the modulus.
+    - `growth`: the logarithm of the largest modulus per turn; 0 if no multiplier leaves the unit circle by more than its error.
+    - `mismatch`: the largest difference of the state (r, r'/rate) after one period.
     """
 
     tilt: float
@@ -102,10 +92,8 @@ class _Shooting:
         return integrate(problem, np.array([duration]), local).end
 
     def slopes(self, y: Array, duration: float, weights: dict[float, Array], local: float) -> Array:
-        """Return derivatives of the start y and of the state after `duration`, (k, 2, 6N, 2n).
-
-        They are differences along 2n directions on the constraints. `weights` maps a step to its weights in k formulas.
-        """
+        """Return derivatives of the start y and of the state after `duration`, (k, 2, 6N, 2n). They are differences along 2n
+        directions on the constraints. `weights` maps a step to its weights in k formulas."""
         tangents = np.kron(np.eye(2), constraint_tangents(self.motion, y[: len(y) // 2].reshape(-1, 3)))
         slopes: Any = 0.0
         for step, weight in weights.items():
@@ -115,10 +103,8 @@ class _Shooting:
         return np.asarray(slopes)
 
     def orbit(self, y: Array, duration: float, tilt: float) -> tuple[Array, float, float]:
-        """Find the periodic orbit of a tilt near y by Newton's method, and return (start, duration, mismatch).
-
-        Raises ConstraintError if the steps do not converge.
-        """
+        """Find the periodic orbit of a tilt near y by Newton's method, and return (start, duration, mismatch). Raises
+        ConstraintError if the steps do not converge."""
         fixed = [self.component, len(y) // 2 + self.component]
         sides = {k * _STEP / 2: np.array([k / _STEP]) for k in (1, -1)}
         for _ in range(_NEWTON):
@@ -183,10 +169,8 @@ def steady_precession(s: Assembly, mode: int = 0, tilt: float = 0.1) -> SteadyPr
 
 
 def precessing_mode(s: Assembly, mode: int, where: str) -> tuple[float, NDArray[np.complex128]]:
-    """Return the rate (rad/s) and the shape (N, 2) of a mode that continues as a steady precession at finite tilt.
-
-    Raises InputError if the mode grows, has no rate or shares its rate, and if friction acts.
-    """
+    """Return the rate (rad/s) and the shape (N, 2) of a mode that continues as a steady precession at finite tilt. Raises
+    InputError if the mode grows, has no rate or shares its rate, and if friction acts."""
     check_upright(s, where)
     linear, c = modes(s), coefficients(s)
     count = len(linear.rates)
@@ -197,7 +181,9 @@ def precessing_mode(s: Assembly, mode: int, where: str) -> tuple[float, NDArray[
     rate, growth = float(linear.rates[mode]), linear.growth[mode]
     if growth or rate == 0:
         why = f"{'grows' if growth > 0 else 'decays'}, {abs(growth):.3g} 1/s" if growth else "has no rate"
-        raise InputError(f"{where}: mode {mode} {why}: only an oscillation continues as a precession; take another mode")
+        raise InputError(
+            f"{where}: mode {mode} {why}: only an oscillation continues as a precession; take another mode"
+        )
     if (np.abs(np.delete(linear.rates, mode) - rate) < _EQUAL * rate).any():
         raise InputError(
             f"{where}: other modes have the rate of mode {mode}, {rate:.6g} rad/s: any sum of them is a mode, and it is not "
@@ -207,10 +193,8 @@ def precessing_mode(s: Assembly, mode: int, where: str) -> tuple[float, NDArray[
 
 
 def _multipliers(shoot: _Shooting, y: Array, duration: float) -> tuple[NDArray[np.complex128], Array]:
-    """Return the Floquet multipliers of an orbit and their errors, (2n,) each.
-
-    The errors come from a comparison of differences with two different steps.
-    """
+    """Return the Floquet multipliers of an orbit and their errors, (2n,) each. The errors come from a comparison of differences
+    with two different steps."""
     shares = {1: (8, 0), 2: (-1, 4), 4: (0, -0.5)}  # weights of differences by one step and by two
     weights = {k * sign * _STEP: sign * np.array(w) / (12 * _STEP) for k, w in shares.items() for sign in (1, -1)}
     slopes = shoot.slopes(y, duration, weights, TIGHTEST)

@@ -328,7 +328,8 @@ class Structure(Assembly):
         Returns
         -------
         tuple
-            Intervals (low, high) of the factor; the last `high` may be inf. The tuple is empty if no factor is known to suffice.
+            Intervals (low, high) of the factor; the last `high` may be inf. The tuple is empty if no factor is known to
+            suffice.
 
         Examples
         --------

@@ -72,10 +72,8 @@ def modes_about(s: Assembly, axes: ArrayLike) -> Modes:
 
 
 def _linear(motion: ExactMotion, r: Array, T: Array) -> tuple[Array, Array, Array, Array]:
-    """Return M, the eigenvalues and eigenvectors of K, and C (damping plus gyroscopic) at an equilibrium.
-
-    Eigenvalues within the error of the differences are set to zero.
-    """
+    """Return M, the eigenvalues and eigenvectors of K, and C (damping plus gyroscopic) at an equilibrium. Eigenvalues within
+    the error of the differences are set to zero."""
     M = np.asarray(T.T @ np.kron(motion.c.inertia, np.eye(3)) @ T)
     K, C = (-M @ slope for slope in _slopes(motion, r, T))
     stiff, vectors = np.linalg.eigh((K + K.T) / 2)

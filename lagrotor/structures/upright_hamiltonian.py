@@ -40,18 +40,11 @@ class LocalHamiltonian:
 
     The unit of inertia is the largest entry of the mass matrix.
 
-    Attributes
-    ----------
-    powers : tuple
-        Three polynomials with H/(inertia rate²) = powers[0] + f powers[1] + f² powers[2], where f multiplies all spins.
-    basis : Array
-        The basis of `small_motion`, (2N, n).
-    mass : Array
-        The mass matrix upright in units of inertia, (n, n).
-    rate : float
-        The unit of rate, rad/s.
-    axes : list
-        The components x, y, z of each axis as polynomials in q.
+    - `powers`: three polynomials with H/(inertia rate²) = powers[0] + f powers[1] + f² powers[2], where f multiplies all spins.
+    - `basis`: the basis of `small_motion`, (2N, n).
+    - `mass`: the mass matrix upright in units of inertia, (n, n).
+    - `rate`: the unit of rate, rad/s.
+    - `axes`: the components x, y, z of each axis as polynomials in q.
     """
 
     powers: tuple[Polynomial, Polynomial, Polynomial]
@@ -122,10 +115,8 @@ def local_hamiltonian(s: Assembly, order: int = 4) -> LocalHamiltonian:
 def on_bars(
     c: Coefficients, free: Row, axes_of: Callable[[Row], list[Row]], closing: Callable[[Row], Row], order: int
 ) -> list[Row]:
-    """Return x, y, z of all axes as polynomials with which the bars keep their lengths through an order.
-
-    The tilts are u = free + rows⁺ s, and an iteration determines s. `axes_of` maps u to the axes, `closing` maps s to rows⁺ s.
-    """
+    """Return x, y, z of all axes as polynomials with which the bars keep their lengths through an order. The tilts are u = free
+    + rows⁺ s, and an iteration determines s. `axes_of` maps u to the axes, `closing` maps s to rows⁺ s."""
     bound, axes = [_none(free[0].variables)] * len(c.i), axes_of(free)
     for _ in range(2, order) if bound else ():
         bound = [f + over_length(c, axes, b, order - 1) for b, f in enumerate(bound)]
@@ -167,10 +158,8 @@ def over_length(c: Coefficients, axes: list[Row], b: int, order: int) -> Polynom
 
 
 def turned(axis: Row, slope: Row, order: int) -> Polynomial:
-    """Return (x ∂y − y ∂x)/(1 + z) of an axis, whose derivatives ∂x, ∂y are in `slope`, through an order.
-
-    The factor 1/(1 + z) = (1 − z)/(x² + y²) is a series in x² + y².
-    """
+    """Return (x ∂y − y ∂x)/(1 + z) of an axis, whose derivatives ∂x, ∂y are in `slope`, through an order. The factor 1/(1 + z)
+    = (1 − z)/(x² + y²) is a series in x² + y²."""
     series = [float(-binom(0.5, k + 1) * (-1) ** (k + 1)) for k in range(order // 2 + 1)]
     around = axis[0].product(slope[1], order) - axis[1].product(slope[0], order)
     return around.product(of_square(axis[:2], series, order), order)
@@ -199,10 +188,8 @@ def _mass(c: Coefficients, J: list[list[Row]], order: int, inertia: float) -> li
 
 
 def potential_of(c: Coefficients, axes: list[Row], order: int) -> Polynomial:
-    """Return the energy of weight, hinges κ θ²/2 with θ = asin sqrt(x² + y²), and braces k (|d| − d₀)²/2.
-
-    The polynomial in q goes through an order. Its value upright is subtracted.
-    """
+    """Return the energy of weight, hinges κ θ²/2 with θ = asin sqrt(x² + y²), and braces k (|d| − d₀)²/2. The polynomial in q
+    goes through an order. Its value upright is subtracted."""
     squares = [0.0] + [4.0**k / (2 * k**2 * comb(2 * k, k)) for k in range(1, order // 2 + 1)]
     terms = [_none(axes[0][0].variables)]
     for i, axis in enumerate(axes):

@@ -1,8 +1,8 @@
 """Stability of the paired precession: the Floquet multipliers of the exact periodic orbit.
 
 Of the six multipliers four are 1. Two of them belong to the energy and the shift of time, two to the momentum and the rotation
-about the joint line. The other two, mu and 1/mu, belong to the slow motion of the mean x and the mean twist; their sum is the trace of the monodromy
-matrix minus four. The orbit is elliptic if |mu + 1/mu| < 2, hyperbolic if mu is real.
+about the joint line. The other two, mu and 1/mu, belong to the slow motion of the mean x and the mean twist; their sum is the
+trace of the monodromy matrix minus four. The orbit is elliptic if |mu + 1/mu| < 2, hyperbolic if mu is real.
 
 A quarter of a turn suffices. The matrix A = diag(1, −1, −1, −1, 1, 1) on (U, chi, alpha, rates) maps the motion to its own
 reversal in time about Phi = 0, and B = diag(−1, 1, −1, 1, −1, 1) does so about Phi = pi/2. Let Q be the derivative of the state
@@ -177,9 +177,7 @@ def floquet_of(orbit: ExactOrbit) -> Floquet:
 
 
 def _error(monodromy: Array, total: float) -> float:
-    """Return a bound of the error of mu + 1/mu by integration and rounding.
-
-    The sum of the products of pairs of multipliers is 4 (mu + 1/mu) + 7. Its deviation measures the rounding.
-    """
+    """Return a bound of the error of mu + 1/mu by integration and rounding. The sum of the products of pairs of multipliers is
+    4 (mu + 1/mu) + 7. Its deviation measures the rounding."""
     pairs = (np.trace(monodromy) ** 2 - np.trace(monodromy @ monodromy)) / 2
     return float(_INTEGRATED * max(1.0, float(np.linalg.norm(monodromy))) + abs(pairs - 4 * total - 7))

@@ -73,10 +73,8 @@ def _summed(powers: Array, waves: _Waves) -> _Waves:
 
 
 def _axes_at(waves: _Waves, phase: float) -> Array:
-    """Return the axes (…, 2, 3) at a phase: Re sum_h waves_h exp(i h Phi) for rotor 1, and its mirror image for rotor 2.
-
-    The mirror image is taken half a period later.
-    """
+    """Return the axes (…, 2, 3) at a phase: Re sum_h waves_h exp(i h Phi) for rotor 1, and its mirror image for rotor 2. The
+    mirror image is taken half a period later."""
     turn = np.exp(1j * phase * np.arange(waves.shape[-2]))
     both = np.stack([turn, turn])
     both[1, 1::2] *= -1
@@ -90,10 +88,8 @@ def _turned(vectors: Any, angle: float) -> Any:
 
 
 def _fit(axes: Array, velocity: Array, unknowns: Array, series: _Series) -> tuple[Array, float]:
-    """Return (r0, phase, azimuth) of the nearest orbit by two Gauss–Newton steps, and its distance from the start.
-
-    The start has the axes `axes` and the rates `velocity` in units of Omega_0, (2, 3) each.
-    """
+    """Return (r0, phase, azimuth) of the nearest orbit by two Gauss–Newton steps, and its distance from the start. The start
+    has the axes `axes` and the rates `velocity` in units of Omega_0, (2, 3) each."""
     n = np.arange(len(series.frequency))
     derivatives = np.array([n**0, 1j * n, -(n**2), n**0, 1j * n])[..., None]  # the waves' derivatives by Phi
     target = np.stack([axes, velocity])
@@ -164,10 +160,8 @@ def _shape(rotor: Rotor, link: Link | None) -> tuple[sp.Rational, sp.Rational]:
 
 
 def _guess(axes: Array, velocity: Array, width: float) -> Array:
-    """Return (r0, phase, azimuth) of the linear orbit x_i = r0 cos Phi, y_1 = −y_2 = width r0 sin Phi through a start.
-
-    Raises DomainError if the start is not near such an orbit.
-    """
+    """Return (r0, phase, azimuth) of the linear orbit x_i = r0 cos Phi, y_1 = −y_2 = width r0 sin Phi through a start. Raises
+    DomainError if the start is not near such an orbit."""
     azimuth = float(np.arctan2(-axes[:, 1], axes[:, 2]).mean())
     first, second = np.stack([_turned(axes, -azimuth), _turned(velocity, -azimuth)], axis=1)
     (x, x_v), (y, y_v) = (first + second)[:, 0] / 2, (first - second)[:, 1] / (2 * width)
@@ -185,9 +179,7 @@ def fourier_motion(
     waves: NDArray[np.complex128], frequency: float, phase: float = 0.0
 ) -> Callable[[Array], tuple[Array, Array]]:
     """Return a function of times (n,) that gives the axes Re sum_h waves_h exp(i h (phase + frequency t)) and their rates.
-
-    `waves` (2, h, 3) are the harmonics of both axes. The results have shape (2, n, 3).
-    """
+    `waves` (2, h, 3) are the harmonics of both axes. The results have shape (2, n, 3)."""
     count = waves.shape[1]
     slopes = 1j * frequency * np.arange(count)[:, None] * waves
     table = np.concatenate([waves, slopes]).transpose(1, 0, 2).reshape(count, 12)

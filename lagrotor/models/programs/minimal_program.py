@@ -126,9 +126,10 @@ def _rotors(stages: _Stages, curve: _Curve, ratio: Ratio, body: int) -> list[_Ro
 def _massless(stages: _Stages, rotors: list[_Rotor], curve: _Curve) -> tuple[sp.Expr, ...]:
     """Return the accelerations for a massless bar.
 
-    With g = G/a, each rotor alone has u'' = tanh u (u'² − alpha'²) + g alpha' and alpha'' = u' (2 alpha' tanh u − g). Its inertia
-    is a sech² u in both coordinates. The force of the bar is normal to its curve, so that chi'' does not change. The force
-    enters the means U'' and alpha'' with half the difference of 1/sech² u_i, where sech² u_1 : sech² u_2 = (1 + exp 2 u_2)² : (1 + exp 2 u_1)² exp(−2 w).
+    With g = G/a, each rotor alone has u'' = tanh u (u'² − alpha'²) + g alpha' and alpha'' = u' (2 alpha' tanh u − g). Its
+    inertia is a sech² u in both coordinates. The force of the bar is normal to its curve, so that chi'' does not change. The
+    force enters the means U'' and alpha'' with half the difference of 1/sech² u_i, where sech² u_1 : sech² u_2 = (1 + exp 2
+    u_2)² : (1 + exp 2 u_1)² exp(−2 w).
     """
     (D1, D2, W1, W2, square), free = curve, []
     for i, (e, t, u_v, al_v, g, force) in enumerate(rotors, start=1):

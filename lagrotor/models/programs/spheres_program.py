@@ -70,10 +70,8 @@ def _slim(bar: bool, body: int) -> tuple[list[Stage], list[sp.Expr]]:
 
 
 def projection(massive: bool, bar: bool) -> Program:
-    """Derive the program of one Newton step towards the constraints g and their rates G v, with S = G M⁻¹ Gᵀ.
-
-    It returns q − M⁻¹ Gᵀ S⁻¹ g and v − M⁻¹ Gᵀ S⁻¹ G v.
-    """
+    """Derive the program of one Newton step towards the constraints g and their rates G v, with S = G M⁻¹ Gᵀ. It returns q −
+    M⁻¹ Gᵀ S⁻¹ g and v − M⁻¹ Gᵀ S⁻¹ G v."""
     system = axes_pair(bar)
     mass = mass_matrix(system.L if massive else system.L.subs(b, 0), AXES)
     G, pull = system.rows, linear_solve(mass, system.rows.T, "the axes' mass matrix")

@@ -21,8 +21,8 @@ def finite_rotation(Omega: Array, dt: float) -> Array:
     """Return the rotation matrices of a constant angular velocity.
 
     dR = 1 + sin(θ) [n]× + (1 − cos θ)(n nᵀ − 1), θ = |Omega| dt, n = Omega/|Omega|. `hypot` avoids under- and overflow of
-    |Omega|. The smallest normal number is added to |Omega|, so that dR = 1 at Omega = 0. It changes other results only if |Omega|
-    is as small.
+    |Omega|. The smallest normal number is added to |Omega|, so that dR = 1 at Omega = 0. It changes other results only if
+    |Omega| is as small.
 
     Parameters
     ----------

@@ -75,7 +75,8 @@ class SpringRun(Run):
 
     @property
     def energy(self) -> Array:
-        """The kinetic energy plus the energy of the springs, (n,), J. Without damping, shock and external force it is conserved."""
+        """The kinetic energy plus the energy of the springs, (n,), J. Without damping, shock and external force it is
+        conserved."""
         return self.paper_energy + self.spring.sum(0)
 
     def quantities(self) -> dict[str, Quantity]:
@@ -191,7 +192,9 @@ def run_steps(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, dt: fl
                     )
                 ending = Ending("stopped", float(k * dt), reason)
                 warnings.warn(
-                    f"run_steps: the run ended early: {ending}; it contains the times that were reached", LagrotorWarning, stacklevel=2
+                    f"run_steps: the run ended early: {ending}; it has the times that were reached",
+                    LagrotorWarning,
+                    stacklevel=2,
                 )
                 break
             states.append(state)
@@ -265,10 +268,8 @@ def run_solver(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, tol: 
 
 
 def step_function(system: RigidBodySystem, shock: Shock | None, dt: float) -> _OfState:
-    """Return a function of `system.state` and the strength of the shock that gives the state a step dt later.
-
-    It applies `compute_forces`, `push` and `step` of the system.
-    """
+    """Return a function of `system.state` and the strength of the shock that gives the state a step dt later. It applies
+    `compute_forces`, `push` and `step` of the system."""
 
     def after(moving: RigidBodySystem) -> Array:
         moving.step(dt)
@@ -278,10 +279,8 @@ def step_function(system: RigidBodySystem, shock: Shock | None, dt: float) -> _O
 
 
 def rate_function(system: RigidBodySystem, shock: Shock | None) -> _OfState:
-    """Return a function of the state y, (18n,), with X, U, L, R of n bodies and the strength of the shock that gives y'.
-
-    It applies `compute_forces` and `push` of the system.
-    """
+    """Return a function of the state y, (18n,), with X, U, L, R of n bodies and the strength of the shock that gives y'. It
+    applies `compute_forces` and `push` of the system."""
 
     def rates(moving: RigidBodySystem) -> Array:
         turning = skew_matrix(moving.Omega) @ moving.R

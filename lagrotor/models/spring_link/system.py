@@ -1,9 +1,9 @@
 """Rung 6: the paper's own simulator, rigid bodies whose vertices are joined by stiff springs of zero length.
 
 All bodies are stepped at once in stacked arrays. The ground is one more body, with zero inverse mass and inverse inertia. One
-matrix B maps the positions of centres and body axes to the gaps of the links, and their velocities to the rates of the gaps. Its
-transpose Bᵀ maps the forces of the links to the bodies. A step costs some forty calls on a few rows each, so that the overhead
-of a call dominates. The module `run` repeats the step in scalar code.
+matrix B maps the positions of centres and body axes to the gaps of the links, and their velocities to the rates of the gaps.
+Its transpose Bᵀ maps the forces of the links to the bodies. A step costs some forty calls on a few rows each, so that the
+overhead of a call dominates. The module `run` repeats the step in scalar code.
 """
 
 from collections.abc import Callable
@@ -65,8 +65,8 @@ class RigidBodySystem:
     """Bodies, links between their vertices, and the paper's step. Bodies and vertices count from 1, as in the paper.
 
     The state has one row per body, and the ground is the last row. X and U, (n + 1, 3), are the positions and velocities of the
-    centres, and R, (n + 1, 3, 3), the rotations. L, (n + 1, 3), are the angular momenta about the centres and Omega, (n + 1, 3),
-    the angular velocities. The L of the ground collects the momentum that it receives from the links.
+    centres, and R, (n + 1, 3, 3), the rotations. L, (n + 1, 3), are the angular momenta about the centres and Omega, (n + 1,
+    3), the angular velocities. The L of the ground collects the momentum that it receives from the links.
 
     Parameters
     ----------
@@ -323,8 +323,9 @@ def paper_bodies(scene: Scene, bar_height: float | None = None) -> list[RigidBod
 
     A rotor has its centre at the middle of the axis, vertices at ∓R/2 along the axis, and the inertia diag(I1, I1, I3). The bar
     has its centre midway between the tips, vertices at ∓ell/2, and the inertia K·1 as in the paper; its axial inertia has no
-    effect. `bar_height` (m) replaces the z of its centre. The paper's z starts at the centres of the rotors, ours at the joints:
-    its correct 0.5 is our 1.0, and its mistaken 1 (section 4.1) is our 1.5. Raises InputError for a bar without mass or inertia.
+    effect. `bar_height` (m) replaces the z of its centre. The paper's z starts at the centres of the rotors, ours at the
+    joints: its correct 0.5 is our 1.0, and its mistaken 1 (section 4.1) is our 1.5. Raises InputError for a bar without mass or
+    inertia.
     """
     rotor, link = scene.rotor, scene.link
     half = (link.length if link else rotor.length) / 2

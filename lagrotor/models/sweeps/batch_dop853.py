@@ -124,10 +124,8 @@ def _march(
 
 
 def _step(rates: Rates, s: Array, y: Array, h: Array, error: Array, room: Array) -> tuple[Array, Array]:
-    """Return the states y (d, n) after a step h (n,) of each problem, and the norm of each error (n,).
-
-    `room` (13, d, n) has the derivative at the start in its first entry, and receives the other stages of the method.
-    """
+    """Return the states y (d, n) after a step h (n,) of each problem, and the norm of each error (n,). `room` (13, d, n) has
+    the derivative at the start in its first entry, and receives the other stages of the method."""
     from scipy.integrate import DOP853
 
     d, n = y.shape
@@ -150,10 +148,8 @@ def _step(rates: Rates, s: Array, y: Array, h: Array, error: Array, room: Array)
 
 
 def _dense_output(rates: Rates, s: Array, y: Array, end: Array, h: Array, room: Array) -> Array:
-    """Return the coefficients (7, d, n) of the interpolation over a step h (n,) from y (d, n) to `end` (d, n).
-
-    `room` (13, d, n) contains the stages of the step.
-    """
+    """Return the coefficients (7, d, n) of the interpolation over a step h (n,) from y (d, n) to `end` (d, n). `room` (13, d,
+    n) contains the stages of the step."""
     from scipy.integrate import DOP853
 
     stages = np.concatenate([room, np.empty((3, *y.shape))])

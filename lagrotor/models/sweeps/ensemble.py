@@ -276,10 +276,8 @@ def kind_of(scene: Scene) -> Kind | None:
 def _by_minimal(
     kind: Kind, members: list[_Member], times: Array, tol: float, engine: str, evaluations: NDArray[np.int64]
 ) -> dict[int, Trajectory]:
-    """Return {number of the scene: its run} for the scenes of one kind whose runs reach the end.
-
-    The evaluations of the other runs are added to `evaluations` (n,).
-    """
+    """Return {number of the scene: its run} for the scenes of one kind whose runs reach the end. The evaluations of the other
+    runs are added to `evaluations` (n,)."""
     runs = dict[int, Trajectory]()
     rows = len(times) + max(65 + len(member.evolution.watch) for member in members)
     together = max(1, _MOST_ROWS // rows)

@@ -38,10 +38,8 @@ def check_closure(s: Assembly) -> None:
 
 
 def close_bars(motion: ExactMotion, r: Array) -> Array:
-    """Find axes (N, 3) that satisfy the constraints, by Newton's steps from the axes r.
-
-    Raises ConstraintError if the steps do not converge.
-    """
+    """Find axes (N, 3) that satisfy the constraints, by Newton's steps from the axes r. Raises ConstraintError if the steps do
+    not converge."""
     y, area = np.concatenate([r.ravel(), np.zeros(r.size)]), float((motion.c.ell**2).max(initial=0.0))
     unit = np.append(np.ones(len(r)), np.full(len(motion.c.ell), area))
     with np.errstate(all="ignore"):
@@ -93,10 +91,8 @@ def _dependent_bar(motion: ExactMotion, r: Array) -> int | None:
 
 
 def start_state(motion: ExactMotion, tilt: ArrayLike | None, rates: ArrayLike | None) -> Array:
-    """Return the initial state y = (r, r'/rate), (6N,), for the arguments `tilt` and `rates` of `Structure.simulate`.
-
-    The state satisfies the constraints and their time derivatives.
-    """
+    """Return the initial state y = (r, r'/rate), (6N,), for the arguments `tilt` and `rates` of `Structure.simulate`. The state
+    satisfies the constraints and their time derivatives."""
     N = len(motion.c.R)
     x = _vectors("tilt", tilt, N)
     if x.shape[1] == 2:

@@ -79,10 +79,8 @@ def eliminate_in_levels(
 
 
 def _level(remaining: set[int], rows: list[dict[int, Terms]], holds: list[set[int]]) -> list[int]:
-    """Return unknowns to eliminate together: no two of them are coupled, and each has few neighbours.
-
-    The limit on the neighbours lets half of a chain with heavy bars go at once. A constraint waits for the unknowns in `holds`.
-    """
+    """Return unknowns to eliminate together: no two of them are coupled, and each has few neighbours. The limit on the
+    neighbours lets half of a chain with heavy bars go at once. A constraint waits for the unknowns in `holds`."""
     ready = [i for i in remaining if not holds[i] & remaining]
     limit = 2 * min(len(rows[i]) for i in ready) + 2
     chosen, neighbours = list[int](), set[int]()
@@ -129,10 +127,8 @@ def right_hand_side(motion: ExactMotion) -> RightHandSide:
 
 
 def _source(c: Coefficients, forced: bool, shaken: bool) -> str:
-    """Return the source of a function (force, ground) → rhs, where rhs(s, y) is the right-hand side.
-
-    Forces on the tips enter if `forced` is True, and the acceleration of the ground if `shaken` is True.
-    """
+    """Return the source of a function (force, ground) → rhs, where rhs(s, y) is the right-hand side. Forces on the tips enter
+    if `forced` is True, and the acceleration of the ground if `shaken` is True."""
     N, rate, tape = len(c.R), c.rate, list[Recorded]()
     states, pushes, shakes = ([f"{x}{k}" for k in range(n)] for x, n in (("y", 6 * N), ("p", 3 * N), ("g", 3)))
     y, p, g = (np.array([Recorded(tape, name) for name in names]) for names in (states, pushes, shakes))
@@ -177,10 +173,8 @@ def integrate_series(
 
 
 def compiled_right_hand_side(s: Assembly, motion: ExactMotion) -> RightHandSide:
-    """Return the right-hand side (s, y) → y' compiled by heyoka.
-
-    Raises InputError if heyoka is not installed, or if the compilation would take more than half a minute.
-    """
+    """Return the right-hand side (s, y) → y' compiled by heyoka. Raises InputError if heyoka is not installed, or if the
+    compilation would take more than half a minute."""
     N = len(motion.c.R)
     if (_WIDE if motion.saddle.band > _RING else _NARROW) < N:
         raise InputError(

@@ -126,10 +126,8 @@ def rates_of_constraints(c: Coefficients, r: Array, v: Array) -> Array:
 
 
 def right_side(c: Coefficients, F: Array, v: Array) -> Array:
-    """Return the right side (F, c) of the linear system of the module, (4N + B,), for torques F (N, 3) and rates v (N, 3).
-
-    The unknowns are the 3N components of r'', then the multipliers of the N axes, then those of the B bars.
-    """
+    """Return the right side (F, c) of the linear system of the module, (4N + B,), for torques F (N, 3) and rates v (N, 3). The
+    unknowns are the 3N components of r'', then the multipliers of the N axes, then those of the B bars."""
     swing = _swing(c, v)
     return np.concatenate([F.ravel(), -(v * v).sum(1), -(swing * swing).sum(1)])
 
@@ -138,20 +136,12 @@ def right_side(c: Coefficients, F: Array, v: Array) -> Array:
 class Saddle:
     """The sparsity pattern and the constant entries of the linear system of the module, with n = 4N + B unknowns.
 
-    Attributes
-    ----------
-    order : Array
-        The row of each unknown, (n,). The unknowns are r'' (3N), the multipliers of the axes (N) and of the bars (B).
-    band : int
-        The half bandwidth.
-    fixed : tuple
-        The rows, columns and values of the constant entries, which are the masses.
-    moving : tuple
-        The rows and columns of the entries r and ∓ R d, which change with the state. Each occurs twice by symmetry.
-    base : Array
-        The constant entries in banded storage; without rows if the band is too wide for it.
-    places : Array
-        The positions of the `moving` entries in the banded storage.
+    - `order`: the row of each unknown, (n,). The unknowns are r'' (3N), the multipliers of the axes (N) and of the bars (B).
+    - `band`: the half bandwidth.
+    - `fixed`: the rows, columns and values of the constant entries, which are the masses.
+    - `moving`: the rows and columns of the entries r and ∓ R d, which change with the state. Each occurs twice by symmetry.
+    - `base`: the constant entries in banded storage; without rows if the band is too wide for it.
+    - `places`: the positions of the `moving` entries in the banded storage.
     """
 
     order: Index
@@ -162,11 +152,8 @@ class Saddle:
     places: Index
 
     def solve(self, r: Array, pulls: tuple[Array, Array], right: Array) -> Array:
-        """Solve the systems of s states with k right sides each, and return the unknowns (s, n, k).
-
-        `r` are the axes (s, N, 3), and `pulls` the vectors that the function `pulls` returns for them. A state with a
-        singular system gets NaN.
-        """
+        """Solve the systems of s states with k right sides each, and return the unknowns (s, n, k). `r` are the axes (s, N, 3),
+        and `pulls` the vectors that the function `pulls` returns for them. A state with a singular system gets NaN."""
         states, n, k = right.shape
         entries = np.concatenate([block.reshape(states, -1) for block in (r, *pulls)], axis=1)
         b = np.empty_like(right)
@@ -243,10 +230,8 @@ def narrow_order(N: int, i: Index, j: Index) -> Index:
 
 
 def in_band(band: int, ab: Array, b: Array) -> Array:
-    """Solve a banded linear system, and return the unknowns; NaN if it is singular.
-
-    Entry (i, j) of the matrix is at ab[j, 2 band + i − j]. The arrays `ab` and `b` are overwritten.
-    """
+    """Solve a banded linear system, and return the unknowns; NaN if it is singular. Entry (i, j) of the matrix is at ab[j, 2
+    band + i − j]. The arrays `ab` and `b` are overwritten."""
     from scipy.linalg.lapack import dgbsv
 
     _, _, x, info = dgbsv(band, band, ab.T, b, overwrite_ab=1, overwrite_b=1)
@@ -277,10 +262,8 @@ class ExactMotion:
         return self.solution(t, r, v)[: r.size].reshape(r.shape)
 
     def solution(self, t: float, r: Array, v: Array) -> Array:
-        """Return the 3N components of r'', then the multipliers of the N axes and those of the B bars, (4N + B,).
-
-        A bar with the multiplier lam exerts the force −lam d on its tip i and lam d on its tip j, in N.
-        """
+        """Return the 3N components of r'', then the multipliers of the N axes and those of the B bars, (4N + B,). A bar with
+        the multiplier lam exerts the force −lam d on its tip i and lam d on its tip j, in N."""
         right = right_side(self.c, self.forces(t, r, v), v)
         return self.saddle.solve(r[None], pulls(self.c, r[None]), right[None, :, None])[0, :, 0]
 
@@ -326,10 +309,8 @@ class ExactMotion:
         return float(np.abs(self.axes_and_rates(first)[1] - self.axes_and_rates(second)[1]).max(initial=0.0))
 
     def defect(self, states: Array, conserved: bool) -> Array:
-        """Return the residuals of the constraints and, if `conserved`, the changes of the energy.
-
-        Each is divided by its sensitivity to the axes, so that it is the error of an axis that would cause it.
-        """
+        """Return the residuals of the constraints and, if `conserved`, the changes of the energy. Each is divided by its
+        sensitivity to the axes, so that it is the error of an axis that would cause it."""
         c = self.c
         r, v = self.axes_and_rates(states) * np.array([1.0, c.rate])[:, None, None, None]
         R = np.maximum(c.R[c.i], c.R[c.j])
@@ -350,10 +331,8 @@ class ExactMotion:
         return float((c.rate * momentum + weight + pull).max())
 
     def project(self, y: Array) -> Array:
-        """Correct a state y, (6N,) or (6N, n), by one Newton step towards the constraints and their time derivatives.
-
-        The correction is the smallest in the metric of the mass matrix.
-        """
+        """Correct a state y, (6N,) or (6N, n), by one Newton step towards the constraints and their time derivatives. The
+        correction is the smallest in the metric of the mass matrix."""
         c, N = self.c, len(self.c.R)
         states = np.atleast_2d(y.T)
         r, v = states.reshape(-1, 2, N, 3).swapaxes(0, 1)
@@ -403,10 +382,8 @@ def bar_in_line(motion: ExactMotion, y: Array) -> str:
 
 @dataclass
 class LineWatch:
-    """A record of the axes during a run that detects when a bar passes the line of both its axes.
-
-    `check` raises StopError if a bar was in line with both its axes between two recorded states.
-    """
+    """A record of the axes during a run that detects when a bar passes the line of both its axes. `check` raises StopError if a
+    bar was in line with both its axes between two recorded states."""
 
     motion: ExactMotion
     states: list[tuple[float, Array]] = field(default_factory=list)

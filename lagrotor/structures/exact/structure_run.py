@@ -276,10 +276,8 @@ def simulate_structure(
 
 
 def _integration(s: Assembly, motion: ExactMotion, engine: Engine) -> Integrate:
-    """Return a function that integrates one segment of a run by the fastest method for the structure.
-
-    Its times are c.rate t, without unit.
-    """
+    """Return a function that integrates one segment of a run by the fastest method for the structure. Its times are c.rate t,
+    without unit."""
     if engine == "fast" and compiled_motion.runs_by_series(motion):
         return lambda start, times, local, companion, _: compiled_motion.integrate_series(
             s, motion, start, times, local, companion
@@ -304,10 +302,8 @@ def _integration(s: Assembly, motion: ExactMotion, engine: Engine) -> Integrate:
 
 @dataclass
 class _CheckedDrive:
-    """A drive of the user, which is tried at the times of the run when it is made.
-
-    A call returns an array of the given shape; NaN if the function fails or returns anything else. `failure` then says why.
-    """
+    """A drive of the user, which is tried at the times of the run when it is made. A call returns an array of the given shape;
+    NaN if the function fails or returns anything else. `failure` then says why."""
 
     function: Drive
     name: str

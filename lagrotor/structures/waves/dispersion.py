@@ -47,19 +47,15 @@ class Bloch:
     inertia: bool = True
 
     def at(self, q: Array) -> tuple[Matrix, Matrix]:
-        """Return the four matrices (…, 4, 2N, 2N) and the constraint rows (…, B, 2N) at wave numbers q (…, d).
-
-        Entries of the rows in which phases cancel up to rounding are set to zero.
-        """
+        """Return the four matrices (…, 4, 2N, 2N) and the constraint rows (…, B, 2N) at wave numbers q (…, d). Entries of the
+        rows in which phases cancel up to rounding are set to zero."""
         rows = _wave_sum(q, self.away, self.rows)
         small = np.abs(rows) < _ZERO * np.abs(self.rows).max(initial=1.0)
         return _wave_sum(q, self.apart, self.blocks), np.where(small, 0, rows)
 
     def motions(self, q: Array) -> Iterator[tuple[NDArray[np.intp], SmallMotion]]:
-        """Yield pairs (places, system), one for each number of degrees of freedom that occurs at the q (n_q, d).
-
-        `places` are the indices of the wave numbers with this number, and the system has them as its leading axis.
-        """
+        """Yield pairs (places, system), one for each number of degrees of freedom that occurs at the q (n_q, d). `places` are
+        the indices of the wave numbers with this number, and the system has them as its leading axis."""
         forms, rows = self.at(q)
         ranks, vectors = left_by(rows)
         for rank in np.unique(ranks):
@@ -90,10 +86,8 @@ def bloch(p: Cell) -> Bloch:
 
 
 def cell_coefficients(p: Cell) -> tuple[Coefficients, float]:
-    """Return the coefficients of one cell and of the joints in other cells that its bars and braces reach, and a rate.
-
-    The joints of the cell come first. The rate (rad/s) is `Coefficients.rate` of all these joints.
-    """
+    """Return the coefficients of one cell and of the joints in other cells that its bars and braces reach, and a rate. The
+    joints of the cell come first. The rate (rad/s) is `Coefficients.rate` of all these joints."""
     N, away = len(p.joints), p.neighbours
     whose = np.array([*range(N), *(j for j, _ in away)])
     number = {(j, shift): N + k for k, (j, shift) in enumerate(away)}
@@ -116,10 +110,8 @@ def cell_coefficients(p: Cell) -> tuple[Coefficients, float]:
 
 
 def _copies(p: Cell, away: tuple[Site, ...], place: Shift) -> Array:
-    """Return the matrix (2n, 2N) that copies the tilts of the N joints, rotated, to the joints in the cell at `place`.
-
-    Its rows are those of `cell_coefficients`, with n joints. Rows of joints in other cells are zero.
-    """
+    """Return the matrix (2n, 2N) that copies the tilts of the N joints, rotated, to the joints in the cell at `place`. Its rows
+    are those of `cell_coefficients`, with n joints. Rows of joints in other cells are zero."""
     N = len(p.joints)
     copies = np.zeros((N + len(away), 2, N, 2))
     c, s = cos(place[0] * p.turn), sin(place[0] * p.turn)

@@ -55,10 +55,8 @@ class _Phases:
 
 @dataclass(frozen=True, eq=False)
 class _Wave:
-    """A linear wave: q (d,), its rate > 0 (rad/s), its shape (2N,), and `slope`, which is g'(rate) of the module.
-
-    The largest tilt of an axis in Re(shape e^{iθ}) is 1.
-    """
+    """A linear wave: q (d,), its rate > 0 (rad/s), its shape (2N,), and `slope`, which is g'(rate) of the module. The largest
+    tilt of an axis in Re(shape e^{iθ}) is 1."""
 
     q: Array
     rate: float
@@ -186,10 +184,8 @@ class NonlinearWave(Shown):
         return self.rate + self.shift * amplitude**2
 
     def state(self, *counts: int, amplitude: float) -> tuple[Array, Array]:
-        """Return the tilts and the rates (1/s) of the n rotors of a piece at t = 0, (n, 2) each, through second order.
-
-        The piece is `pattern.piece(*counts)`.
-        """
+        """Return the tilts and the rates (1/s) of the n rotors of a piece at t = 0, (n, 2) each, through second order. The
+        piece is `pattern.piece(*counts)`."""
         omega = self.rate_at(amplitude)
         point = np.array([1, 1, *self.forced * amplitude / 2]) * amplitude / 2
         cells = np.array(self.pattern.cells(*counts))
@@ -266,7 +262,7 @@ def wave_amplitude(p: Cell, run: StructureRun, counts: Sequence[int], q: ArrayLi
     b = _bloch_without_friction(p)
     wave, cells = _wave(p, b, q, band), np.array(p.cells(*counts))
     if len(run.axes) != len(cells) * len(p.joints):
-        raise InputError(f"wave_amplitude: the run has {len(run.axes)} rotors, but piece{tuple(counts)} has another number: give its counts")
+        raise InputError(f"wave_amplitude: the run has {len(run.axes)} rotors, piece{tuple(counts)} has another number")
     rotation = np.exp(-1j * (p.turn * cells[:, 0]))[:, None, None]
     U, V = (
         np.tensordot(np.exp(-1j * cells @ wave.q), np.stack([x.real, x.imag], -1), 1)
@@ -290,10 +286,8 @@ def _terms_of_phase(tips: tuple[Polynomial, ...], multiples: Array, point: Compl
 
 
 def _forced_terms(L: Polynomial) -> tuple[complex, Complex, Complex]:
-    """Return three kinds of coefficients of the averaged Lagrangian with m forced amplitudes b.
-
-    They are the coefficient of z² z̄², the coefficients (m,) of b times two of z and z̄, and the second derivatives (m, m) by b.
-    """
+    """Return three kinds of coefficients of the averaged Lagrangian with m forced amplitudes b. They are the coefficient of z²
+    z̄², the coefficients (m,) of b times two of z and z̄, and the second derivatives (m, m) by b."""
     m, quartic = L.variables - 2, 0j
     forcing, curvature = np.zeros(m, dtype=complex), np.zeros((m, m), dtype=complex)
     for e, c in L.terms.items():
@@ -330,10 +324,8 @@ class ThreeWaves(Shown):
     shapes: Complex
 
     def growth(self, wave: int, amplitude: float) -> float:
-        """Return the growth rate (1/s) that wave number 0, 1 or 2 of this amplitude gives the two others, which are small.
-
-        It is 0 if they do not grow.
-        """
+        """Return the growth rate (1/s) that wave number 0, 1 or 2 of this amplitude gives the two others, which are small. It
+        is 0 if they do not grow."""
         others = [self.strengths[k] for k in range(3) if k != wave]
         # a₁' = i c₁ a₃ ā₂ and a₂' = i c₂ a₃ ā₁ give a₁'' = c₁ c̄₂ |a₃|² a₁; ā₂' = −i c̄₂ ā₃ a₁, a₃' = i c₃ a₁ a₂: a₃'' = −c₃ c̄₂ …
         fed = (others[0] * others[1].conjugate()).real if wave == 2 else -(others[0] * others[1]).real

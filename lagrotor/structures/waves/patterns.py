@@ -15,8 +15,8 @@ from lagrotor.structures.waves.cell import Cell
 class Pattern(Cell):
     """A cell of N rotors that repeats along one or two steps.
 
-    A single number, rotor or link applies to all joints or bars. Units are SI. With a turn, each cell is the previous one moved by the step and
-    turned about its origin: a ring that closes after 2π/turn cells.
+    A single number, rotor or link applies to all joints or bars. Units are SI. With a turn, each cell is the previous one moved
+    by the step and turned about its origin: a ring that closes after 2π/turn cells.
 
     Attributes
     ----------
