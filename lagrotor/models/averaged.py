@@ -167,8 +167,7 @@ def _linear(scene: Scene, forms: Forms, state: Array) -> Any:
 
 
 def _normal_start(scene: Scene, forms: Forms, order: int, start: Array) -> Any:
-    """Return the normal coordinates (6,) of a state of `minimal` whose azimuth is ignored. Raises DomainError if the iteration
-    for them does not converge."""
+    """Return the normal coordinates (6,) of a state of `minimal` at azimuth 0. Raises DomainError if the iteration fails."""
     maps = _sums(tuple(f.through(order - 1) for f in forms.maps))
     linear = _linear(scene, forms, start)
     y, step = linear, np.inf

@@ -112,8 +112,8 @@ def pair_modes(scene: Scene) -> LinearPair:
 
 
 def _linear_states(scene: Scene, t: Array) -> Array:
-    """Return the states (U, chi, alpha and their rates) of the linear motion at t (n,), (n, 6). Raises DomainError if |U| or
-    |chi| exceeds pi/3."""
+    """Return (U, chi, alpha and their rates) of the linear motion at t (n,), (n, 6). Raises DomainError if |U| or |chi| >
+    pi/3."""
     linear, start = pair_modes(scene), MODEL.start(scene)
     states, shock = linear.free(start[:3], start[3:], t), scene.shock_until(float(t[-1]))
     if shock is not None:
@@ -140,8 +140,7 @@ def _straightened(linear: LinearPair, start: Array, shock: Shock) -> Shock:
 
 
 def _pulsed(scene: Scene, linear: LinearPair, shock: Shock, t: Array) -> tuple[Array, Array]:
-    """Return the response of (q, v) to the pulse at the times t (n + 1,): first at all but the last (n, 6), then at the
-    last."""
+    """Return the response of (q, v) to the pulse at all times but the last, (n, 6), and at the last time, (6,)."""
     from scipy.special import erfc
 
     response = pulse_response(scene, shock)

@@ -1,8 +1,8 @@
 """The slow motion measured on exact runs: mean rates after a shock, the force that cancels a drift, times to a bound.
 
-The functions `*_error` compare the laws of `theory` with these measurements. A mean over a window has the weight exp(−1/(u (1 −
-u))), u from 0 to 1, which reduces an oscillation of n turns to about exp(−sqrt(4 pi n)) of its size. A mean rate also depends
-on the window, because the rate itself changes.
+The functions `*_error` compare the laws of `theory` with these measurements. A mean has the weight exp(−1/(u (1 − u))),
+u from 0 to 1 over the window, which reduces an oscillation of n turns to about exp(−sqrt(4 pi n)) of its size. A mean rate also
+depends on the window, because the rate itself changes.
 """
 
 from dataclasses import replace
@@ -168,9 +168,7 @@ def time_to_wander(scene: Scene, bound: float, longest: float) -> float:
     weight = np.exp(-1 / (u * (1 - u)))
     mean = np.abs(np.convolve(values, weight / weight.sum(), "valid"))
     if mean.max() < bound:
-        raise DomainError(
-            f"time_to_wander: the bound {bound:g} is not reached within {longest:g} s: take a smaller one"
-        )
+        raise DomainError(f"time_to_wander: the bound {bound:g} is not reached within {longest:g} s: take less")
     if (i := int(np.argmax(mean >= bound))) == 0:
         raise DomainError(f"time_to_wander: the bound {bound:g} is reached within the first swings: take a larger one")
     index = i - 1 + (bound - mean[i - 1]) / (mean[i] - mean[i - 1]) + (len(u) - 1) / 2

@@ -259,8 +259,8 @@ class _ScaledScene:
             raise
 
     def by_ladder(self, choice: Choice) -> tuple[str, str, EstimatedRun]:
-        """Return the name, the reason and the run of the first model of the ladder that reaches the end. If none does, the
-        model that reaches the latest time is returned."""
+        """Return name, reason and run of the first model of the ladder that reaches the end, or else of the one that gets
+        furthest."""
         first_model = [model.name for model in LADDER].index(choice.model)
         # If none reaches the end, the first models continue where they are badly conditioned.
         tries = [(model, model is not LADDER[-1]) for model in LADDER[first_model:]]

@@ -1,12 +1,9 @@
 """The exact characteristic polynomial of a small structure, in symbols.
 
-The polynomial contains these symbols, with an index if there are several different values:
-
-- G_i = I3 ω_i is the axial momentum of rotor i, and a is an inertia A_ii;
-- b is the coupling A_ij of a bar, and kappa is a value of g S_i − hinge_i;
-- c is the friction on an axis; k and d are the stiffness and the damping of a brace.
-
-Equal values share a symbol, and the value zero has none. Lengths of axes and directions of bars enter as rational numbers.
+The symbol G_i = I3 ω_i is an axial momentum, a an inertia A_ii, b the coupling A_ij of a bar, and kappa a value of g S_i −
+hinge_i. c is the friction on an axis, k the stiffness and d the damping of a brace. Several different values have indices, as
+a_1 and a_2. Equal values share a symbol, and the value zero has none. Lengths of axes and directions of bars enter as rational
+numbers.
 """
 
 from dataclasses import dataclass, replace
@@ -29,12 +26,8 @@ _MOST = 6  # rotors
 
 @dataclass(frozen=True, repr=False)
 class Characteristic(Shown):
-    """The characteristic polynomial of a structure in symbols.
-
-    - `polynomial`: the polynomial in the symbol `s`, up to a constant factor.
-    - `system`: the mass, damping and stiffness matrices in symbols, on the degrees of freedom that the bars leave.
-    - `values`: the numerical value of each symbol.
-    """
+    """The characteristic polynomial in the symbol `s`, up to a constant factor. `system` has the matrices in symbols on the
+    degrees of freedom that the bars leave, and `values` maps each symbol to its numerical value."""
 
     polynomial: sp.Expr
     system: LinearSystem
@@ -52,9 +45,7 @@ def characteristic(structure: Assembly) -> Characteristic:
     """Derive the characteristic polynomial of a structure: see `Structure.characteristic`."""
     N = len(structure.joints)
     if N > _MOST:
-        raise InputError(
-            f"characteristic: {N} rotors are too many for a polynomial in symbols, at most {_MOST}: use modes()"
-        )
+        raise InputError(f"characteristic: {N} rotors are too many for symbols, at most {_MOST}: use modes()")
     check_upright(structure, "characteristic")
     c, values, exact = coefficients(structure), dict[sp.Symbol, float](), np.vectorize(_exact, otypes=[object])
     G = [sp.Symbol(f"G_{i + 1}", real=True) if g else sp.Integer(0) for i, g in enumerate(c.G)]

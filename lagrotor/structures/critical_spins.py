@@ -133,13 +133,8 @@ def _by_scan(linear: SmallMotion) -> float:
 
 @dataclass(frozen=True)
 class Patterns:
-    """The result of `sign_patterns`.
-
-    - `count`: the number of patterns of signs that were tried.
-    - `standing`: the number of patterns that a finite spin makes stable.
-    - `least`: the smallest critical spin of a pattern, rad/s; inf if no pattern can be stable.
-    - `best`: the signs of the pattern with this critical spin.
-    """
+    """The result of `sign_patterns`: `count` patterns of signs were tried, and a finite spin makes `standing` of them stable.
+    The smallest critical spin is `least` (rad/s, inf if no pattern can be stable), and `best` are the signs of its pattern."""
 
     count: int
     standing: int
@@ -170,9 +165,7 @@ def sign_patterns(s: Assembly) -> Patterns:
     """
     N = len(s.joints)
     if N > _MOST:
-        raise InputError(
-            f"sign_patterns: {N} rotors have 2^{N - 1} patterns, too many to try: give at most {_MOST} rotors"
-        )
+        raise InputError(f"sign_patterns: {N} rotors have 2^{N - 1} patterns: give at most {_MOST} rotors")
     check_upright(s, "sign_patterns")
     linear = small_motion(s)
     I3 = np.array([rotor.I3 for rotor in s.rotor])

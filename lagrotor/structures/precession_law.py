@@ -53,8 +53,7 @@ class PrecessionLaw(Shown):
     - `sign`: the sign of the energy of this mode.
     - `action`: the ratio I_j/a² in the units of `quadratic`.
     - `quadratic`: the terms of the normal form, rad/s, that are of second degree in the coordinates z, z̄ of the other modes.
-    - `structure`: the structure.
-    - `mode`: the number of the mode.
+    - `structure` and `mode`: the structure and the number of the mode.
     """
 
     rate: float
@@ -86,8 +85,8 @@ class PrecessionLaw(Shown):
 
     @property
     def edge(self) -> float:
-        """The smallest tilt at which a multiplier leaves the unit circle; inf if none does so up to `reach`. It is searched
-        among 400 tilts and refined by bisection."""
+        """The smallest tilt, of 400 tilts and refined, at which a multiplier leaves the unit circle; inf if none up to
+        `reach`."""
         tilts = np.linspace(0, self.reach, _TILTS + 1)[1:]
         beyond = next((float(tilt) for tilt in tilts if self.growth_at(tilt)), inf)
         stable = beyond - float(tilts[0])
@@ -147,9 +146,7 @@ def precession_law(s: Assembly, mode: int = 0) -> PrecessionLaw:
     rate, shape = precessing_mode(s, mode, where)
     rates, n = signed_rates(small_motion(s)), small_motion(s).dof
     if n > MOST_DOF:
-        raise InputError(
-            f"{where}: {n} degrees of freedom are too many to expand: at most {MOST_DOF}; take steady_precession"
-        )
+        raise InputError(f"{where}: {n} degrees of freedom are too many to expand: at most {MOST_DOF}")
     if len(rates) < n:
         raise InputError(
             f"{where}: another mode grows or has no rate, and only oscillations are expanded: take steady_precession(mode, tilt)"

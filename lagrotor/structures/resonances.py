@@ -98,8 +98,7 @@ class Resonance(Shown):
         return float(sqrt(_BARRIER[d]) * barrier / self.reach)
 
     def window(self, push: float) -> tuple[float, float]:
-        """Return the factors on all spins (low, high) between which a push (rad/s) may topple the structure. The detuning is
-        extrapolated linearly in the factor."""
+        """Return the factors on all spins (low, high) between which a push (rad/s) may topple it, linearly extrapolated."""
         d, x = self.order, _BARRIER[self.order]
         half = d * d * self.largest / 2 * (self.reach * push / sqrt(x)) ** (d - 2) / abs(self.per_factor)
         return float(self.factor - half), float(self.factor + half)
@@ -133,8 +132,7 @@ class Resonance(Shown):
 
 
 def signed_rates(linear: SmallMotion, factor: float = 1.0) -> Array:
-    """Return the rates ω_j in rad/s, ascending, negative for modes of negative energy. The array is empty if a mode grows or
-    has the rate zero."""
+    """Return the rates ω_j, ascending, rad/s, negative for modes of negative energy; no rates if a mode grows or is neutral."""
     scaled = linear.at_spins(factor)
     roots, vectors = scaled.waves
     if scaled.growth > 0 or not roots.imag.all():
@@ -150,9 +148,7 @@ def resonances(s: Assembly, factor: float = 1.0, orders: Sequence[int] = (3, 4))
     linear = small_motion(s)
     rates = signed_rates(linear, factor)
     if not len(rates):
-        raise InputError(
-            "resonances: a mode grows or has the rate zero, so that no resonance is defined: change the spins"
-        )
+        raise InputError("resonances: a mode grows or has the rate zero, and no resonance is defined: change spins")
     if not (rates[0] < 0 < rates[-1]):
         return ()
     if linear.dof > MOST_DOF:
@@ -189,8 +185,7 @@ def _of_order(s: Assembly, rates: Array, slopes: Array, factor: float, order: in
 
 
 def start_of_push(s: Assembly) -> Array:
-    """Return the states (q, p) after a push of 1 rad/s along each degree of freedom, (2n, n), in units of
-    `LocalHamiltonian`."""
+    """Return (q, p) after a push of 1 rad/s along each degree of freedom, (2n, n), in the units of `LocalHamiltonian`."""
     h = local_hamiltonian(s)
     return np.vstack([np.zeros_like(h.mass), h.mass / h.rate])
 
@@ -301,9 +296,7 @@ def fall_time_along(s: Assembly, rates: ArrayLike, longest: float, detuning: flo
     push = finite_array("fall_time: push", rates)
     residual = push.ravel() - h.basis @ (h.basis.T @ push.ravel())
     if np.abs(residual).max() > _ON_BARS * np.abs(push).max():
-        raise InputError(
-            "fall_time: push: the bars do not allow these rates: give rates with which each bar keeps its length"
-        )
+        raise InputError("fall_time: push: the bars do not allow these rates: each bar must keep its length")
     start = np.linalg.inv(n.vectors) @ (start_of_push(s) @ (h.basis.T @ push.ravel()))
     begin = np.array([f.at(start) for f in _new_coordinates(n, 3)])[:size]
     steps = n.series.exponents[:, :size] - n.series.exponents[:, size:]
@@ -340,13 +333,9 @@ def _new_coordinates(n: NormalForm, order: int) -> list[Polynomial]:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class LargestPush(Shown):
-    """The largest push that does not topple a structure.
-
-    - `value`: the size of the push, rad/s. If no resonance limits it, a larger push tilts an axis by more than 0.1, the range
-      in which the expansion is accurate.
-    - `behind`: the reason for this value in words.
-    - `resonance`: the resonance that needs the smallest push; None if there is none.
-    """
+    """The largest push `value` (rad/s) that does not topple a structure, and `behind`, the reason in words. `resonance` is the
+    resonance that needs the smallest push; None if there is none. If no resonance limits the push, a larger one tilts an axis
+    by more than 0.1, the range in which the expansion is accurate."""
 
     value: float
     behind: str

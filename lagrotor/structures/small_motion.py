@@ -322,8 +322,7 @@ def modes(s: Assembly, inertia: bool = True) -> Modes:
 
 
 def first_largest(sizes: Array) -> Any:
-    """Return the first index, along the last axis, of a size that is the largest up to rounding. The index is then the same on
-    every processor."""
+    """Return the first index, along the last axis, of a size that is the largest up to rounding. All processors agree on it."""
     return (sizes > (1 - _ALIKE) * sizes.max(-1, keepdims=True)).argmax(-1)
 
 

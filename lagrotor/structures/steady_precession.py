@@ -103,8 +103,8 @@ class _Shooting:
         return np.asarray(slopes)
 
     def orbit(self, y: Array, duration: float, tilt: float) -> tuple[Array, float, float]:
-        """Find the periodic orbit of a tilt near y by Newton's method, and return (start, duration, mismatch). Raises
-        ConstraintError if the steps do not converge."""
+        """Find an orbit by Newton's method from y, and return (start, duration, mismatch). Raises ConstraintError if it
+        fails."""
         fixed = [self.component, len(y) // 2 + self.component]
         sides = {k * _STEP / 2: np.array([k / _STEP]) for k in (1, -1)}
         for _ in range(_NEWTON):
@@ -181,9 +181,7 @@ def precessing_mode(s: Assembly, mode: int, where: str) -> tuple[float, NDArray[
     rate, growth = float(linear.rates[mode]), linear.growth[mode]
     if growth or rate == 0:
         why = f"{'grows' if growth > 0 else 'decays'}, {abs(growth):.3g} 1/s" if growth else "has no rate"
-        raise InputError(
-            f"{where}: mode {mode} {why}: only an oscillation continues as a precession; take another mode"
-        )
+        raise InputError(f"{where}: mode {mode} {why}: only oscillations continue as precessions; take another")
     if (np.abs(np.delete(linear.rates, mode) - rate) < _EQUAL * rate).any():
         raise InputError(
             f"{where}: other modes have the rate of mode {mode}, {rate:.6g} rad/s: any sum of them is a mode, and it is not "
@@ -193,8 +191,7 @@ def precessing_mode(s: Assembly, mode: int, where: str) -> tuple[float, NDArray[
 
 
 def _multipliers(shoot: _Shooting, y: Array, duration: float) -> tuple[NDArray[np.complex128], Array]:
-    """Return the Floquet multipliers of an orbit and their errors, (2n,) each. The errors come from a comparison of differences
-    with two different steps."""
+    """Return the Floquet multipliers and their errors, (2n,) each. The errors compare differences with two steps."""
     shares = {1: (8, 0), 2: (-1, 4), 4: (0, -0.5)}  # weights of differences by one step and by two
     weights = {k * sign * _STEP: sign * np.array(w) / (12 * _STEP) for k, w in shares.items() for sign in (1, -1)}
     slopes = shoot.slopes(y, duration, weights, TIGHTEST)

@@ -73,8 +73,8 @@ def _summed(powers: Array, waves: _Waves) -> _Waves:
 
 
 def _axes_at(waves: _Waves, phase: float) -> Array:
-    """Return the axes (…, 2, 3) at a phase: Re sum_h waves_h exp(i h Phi) for rotor 1, and its mirror image for rotor 2. The
-    mirror image is taken half a period later."""
+    """Return the axes (…, 2, 3): Re sum_h waves_h exp(i h Phi) for rotor 1, its mirror image half a period later for rotor
+    2."""
     turn = np.exp(1j * phase * np.arange(waves.shape[-2]))
     both = np.stack([turn, turn])
     both[1, 1::2] *= -1

@@ -54,8 +54,7 @@ class ExactOrbit:
 
 
 class QuarterPeriod:
-    """The equations of the curve of orbits: three conditions a quarter period after the start, for the four unknowns z. The
-    module defines the unknowns and the conditions."""
+    """The equations of the curve of orbits: three conditions a quarter period after the start, for the four unknowns z."""
 
     def __init__(self, scene: Scene) -> None:
         """Raise InputError unless the spins are opposite and there is a bar."""
@@ -91,8 +90,7 @@ class QuarterPeriod:
         return np.array([u, 2 * u * sqrt(self.scene.sigma) / min(self.scene.k, 1.0), 0.0, pi / 2])
 
     def correct(self, z: Array, row: Array, value: float) -> Array:
-        """Find the point of the curve on the plane row . z = value by Newton's method from z. Raises DomainError if the steps
-        do not converge."""
+        """Find the point of the curve on the plane row . z = value by Newton's method. Raises DomainError if it diverges."""
         tol = _COARSE
         for _ in range(9):
             miss, slope = self(z, tol)

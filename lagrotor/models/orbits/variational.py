@@ -43,8 +43,8 @@ class Flow:
 
 
 def flow(scene: Scene) -> Callable[..., Flow]:
-    """Return a function (state, time in s, tol) that gives the `Flow` of a scene from a state (U, chi, alpha, rates). Raises
-    SingularError without a bar."""
+    """Return a function (state, time in s, tol) → `Flow`, with states (U, chi, alpha, rates). Raises SingularError without a
+    bar."""
     (massive, ratio, _), parameters = MODEL.kind(scene, False)
     accelerations = _tangents(massive, ratio)(*parameters)
     plain = MODEL.rate(scene, False)

@@ -75,8 +75,7 @@ class SpringRun(Run):
 
     @property
     def energy(self) -> Array:
-        """The kinetic energy plus the energy of the springs, (n,), J. Without damping, shock and external force it is
-        conserved."""
+        """The kinetic energy plus the energy of the springs, (n,), J. Damping, shock and external forces change it."""
         return self.paper_energy + self.spring.sum(0)
 
     def quantities(self) -> dict[str, Quantity]:

@@ -38,8 +38,7 @@ def check_closure(s: Assembly) -> None:
 
 
 def close_bars(motion: ExactMotion, r: Array) -> Array:
-    """Find axes (N, 3) that satisfy the constraints, by Newton's steps from the axes r. Raises ConstraintError if the steps do
-    not converge."""
+    """Find axes (N, 3) on the constraints by Newton's steps from the axes r. Raises ConstraintError if the steps diverge."""
     y, area = np.concatenate([r.ravel(), np.zeros(r.size)]), float((motion.c.ell**2).max(initial=0.0))
     unit = np.append(np.ones(len(r)), np.full(len(motion.c.ell), area))
     with np.errstate(all="ignore"):

@@ -276,8 +276,7 @@ def simulate_structure(
 
 
 def _integration(s: Assembly, motion: ExactMotion, engine: Engine) -> Integrate:
-    """Return a function that integrates one segment of a run by the fastest method for the structure. Its times are c.rate t,
-    without unit."""
+    """Return a function that integrates a segment of a run by the fastest method. Its times are c.rate t, without unit."""
     if engine == "fast" and compiled_motion.runs_by_series(motion):
         return lambda start, times, local, companion, _: compiled_motion.integrate_series(
             s, motion, start, times, local, companion

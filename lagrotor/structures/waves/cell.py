@@ -47,13 +47,9 @@ class Cell:
                 f"Pattern: {len(self.joints)} joints and {len(self.steps)} steps: give at least one joint, and one or two steps"
             )
         if self.turn and len(self.steps) == 2:
-            raise InputError(
-                f"Pattern: turn = {self.turn:g} rad with two steps: only a row can turn; remove one of them"
-            )
+            raise InputError(f"Pattern: turn = {self.turn:g} rad with two steps: only a row of cells turns; remove one")
         if len(self.steps) == 2 and abs((complex(*self.steps[0]).conjugate() * complex(*self.steps[1])).imag) < 1e-12:
-            raise InputError(
-                f"Pattern: steps = {self.steps} lie along one line: they span no plane; give two directions"
-            )
+            raise InputError(f"Pattern: steps = {self.steps} lie along one line: they span no plane")
         assign(self, "bars", tuple(self._ends("bars", k, bar, bar[2:]) for k, bar in enumerate(self.bars)))
         assign(self, "braces", tuple(self._brace(k, brace) for k, brace in enumerate(self.braces)))
         for name in ("spins", "rotor", "load", "friction", "hinge"):

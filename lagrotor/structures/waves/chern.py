@@ -40,9 +40,7 @@ class Chern:
 def chern_numbers(p: Cell, grid: int = 24) -> Chern:
     """Compute the Chern number of each group of bands: see `Pattern.chern_numbers`."""
     if len(p.steps) != 2:
-        raise InputError(
-            "chern_numbers: the pattern repeats along one step: a Chern number needs two; give a second step"
-        )
+        raise InputError("chern_numbers: the pattern repeats along one step: a Chern number needs two")
     points = 2 * np.pi * np.arange(grid) / grid
     q = np.stack(np.meshgrid(points, points, indexing="ij"), axis=-1).reshape(-1, 2)
     d = dispersion(p, q)
@@ -118,8 +116,8 @@ def _flux(d: Dispersion, first: int, last: int, grid: int) -> Array:
 
 
 def _link(u: Complex, momenta: Complex, axis: int) -> Complex:
-    """Return the determinants of the symplectic products between the waves of neighbouring points, (grid, grid). Each point of
-    the grid is paired with the next point along `axis`."""
+    """Return the determinant of the symplectic products between the waves of each point and the next along an axis, (grid,
+    grid)."""
     next_u, next_momenta = np.roll(u, -1, axis), np.roll(momenta, -1, axis)
     products = np.einsum("abmi,abni->abmn", u.conj(), next_momenta) - np.einsum(
         "abmi,abni->abmn", momenta.conj(), next_u

@@ -184,8 +184,7 @@ class NonlinearWave(Shown):
         return self.rate + self.shift * amplitude**2
 
     def state(self, *counts: int, amplitude: float) -> tuple[Array, Array]:
-        """Return the tilts and the rates (1/s) of the n rotors of a piece at t = 0, (n, 2) each, through second order. The
-        piece is `pattern.piece(*counts)`."""
+        """Return the tilts and rates (1/s) of the rotors of `pattern.piece(*counts)` at t = 0, (n, 2), through second order."""
         omega = self.rate_at(amplitude)
         point = np.array([1, 1, *self.forced * amplitude / 2]) * amplitude / 2
         cells = np.array(self.pattern.cells(*counts))
@@ -324,8 +323,7 @@ class ThreeWaves(Shown):
     shapes: Complex
 
     def growth(self, wave: int, amplitude: float) -> float:
-        """Return the growth rate (1/s) that wave number 0, 1 or 2 of this amplitude gives the two others, which are small. It
-        is 0 if they do not grow."""
+        """Return the growth (1/s) that wave number 0, 1 or 2 of this amplitude gives the two others, small ones; 0 if none."""
         others = [self.strengths[k] for k in range(3) if k != wave]
         # a₁' = i c₁ a₃ ā₂ and a₂' = i c₂ a₃ ā₁ give a₁'' = c₁ c̄₂ |a₃|² a₁; ā₂' = −i c̄₂ ā₃ a₁, a₃' = i c₃ a₁ a₂: a₃'' = −c₃ c̄₂ …
         fed = (others[0] * others[1].conjugate()).real if wave == 2 else -(others[0] * others[1]).real

@@ -102,7 +102,7 @@ class Pattern(Cell):
     def chern_numbers(self, grid: int = 24) -> chern.Chern:
         """Compute the Chern number of each group of bands.
 
-        Its sign is that of the flux of i ⟨u|∇u⟩ with e_1 × e_2 of the steps as positive.
+        Its sign is the sign of the flux of i ⟨u|∇u⟩ with the sense from x to y as positive, whatever the order of the steps.
 
         Parameters
         ----------
