@@ -168,7 +168,7 @@ def time_to_wander(scene: Scene, bound: float, longest: float) -> float:
     weight = np.exp(-1 / (u * (1 - u)))
     mean = np.abs(np.convolve(values, weight / weight.sum(), "valid"))
     if mean.max() < bound:
-        raise DomainError(f"time_to_wander: the bound {bound:g} is not reached within {longest:g} s: take less")
+        raise DomainError(f"time_to_wander: the bound {bound:g} is not reached within {longest:g} s: lower it")
     if (i := int(np.argmax(mean >= bound))) == 0:
         raise DomainError(f"time_to_wander: the bound {bound:g} is reached within the first swings: take a larger one")
     index = i - 1 + (bound - mean[i - 1]) / (mean[i] - mean[i - 1]) + (len(u) - 1) / 2

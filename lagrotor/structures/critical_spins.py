@@ -111,8 +111,8 @@ def _by_branches(linear: SmallMotion) -> float:
 
 
 def _by_scan(linear: SmallMotion) -> float:
-    """Find the largest factor at which growth ends, by a scan and bisection: 0 if no factor grows, inf if the largest one does.
-    The factors of the scan are 6 % apart. Intervals of growth that lie between two of them are missed."""
+    """Find the largest factor at which growth ends, by a scan and bisection: 0 if no motion grows at any factor, inf if one
+    grows at the largest. The factors of the scan are 6 % apart. Intervals of growth between two of them are missed."""
     size = np.abs(linear.gyroscopic).max()
     if size == 0:
         return inf

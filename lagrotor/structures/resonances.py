@@ -98,7 +98,7 @@ class Resonance(Shown):
         return float(sqrt(_BARRIER[d]) * barrier / self.reach)
 
     def window(self, push: float) -> tuple[float, float]:
-        """Return the factors on all spins (low, high) between which a push (rad/s) may topple it, linearly extrapolated."""
+        """Return the factors (low, high) on all spins between which a push (rad/s) may topple the structure, extrapolated."""
         d, x = self.order, _BARRIER[self.order]
         half = d * d * self.largest / 2 * (self.reach * push / sqrt(x)) ** (d - 2) / abs(self.per_factor)
         return float(self.factor - half), float(self.factor + half)
@@ -432,7 +432,7 @@ def spin_intervals(s: Assembly, push: float) -> tuple[tuple[float, float], ...]:
 
 
 def resonant_factors(s: Assembly, orders: Sequence[int] = (3, 4)) -> tuple[tuple[float, Resonance], ...]:
-    """Return the factors on all spins above the critical one at which a resonance makes it unstable.
+    """Return the factors on all spins, above the critical factor, at which a resonance makes the structure unstable.
 
     Parameters
     ----------

@@ -44,8 +44,8 @@ class Modes(Shown):
     - `growth`: the growth rates, (n,), 1/s. A growth below 1e-13 of the fastest root is set to zero.
     - `shapes`: the x and y of each axis, (n, N, 2), with the largest component 1. `modes_about` gives displacements (n, N, 3).
     - `topple`: the number of modes that grow.
-    - `energy_signs`: the sign of ω² ū·M u + ū·K u, (n,): −1 if an oscillation has less energy than the equilibrium, 0 for other
-      modes.
+    - `energy_signs`: the sign of ω² ū·M u + ū·K u, (n,): −1 if an oscillation has less energy than the equilibrium, 1 if it
+      has more, 0 if the mode does not oscillate or grows.
     - `left_out`: in the limit of fast spins, the first-order decrease of each rate by the inertia, (n,), rad/s; negative under
       weight.
     """

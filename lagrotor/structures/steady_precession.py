@@ -103,8 +103,8 @@ class _Shooting:
         return np.asarray(slopes)
 
     def orbit(self, y: Array, duration: float, tilt: float) -> tuple[Array, float, float]:
-        """Find an orbit by Newton's method from y, and return (start, duration, mismatch). Raises ConstraintError if it
-        fails."""
+        """Find the orbit of a tilt by Newton's method from y, and return (start, duration, mismatch). Raises
+        ConstraintError."""
         fixed = [self.component, len(y) // 2 + self.component]
         sides = {k * _STEP / 2: np.array([k / _STEP]) for k in (1, -1)}
         for _ in range(_NEWTON):
