@@ -114,7 +114,7 @@ def _momenta(ratio: Any) -> str:
 
 
 def _momenta_at(scene: Scene, q: Array) -> tuple[Array, Array]:
-    """Return M (n, 3, 3) and g (n, 3) at coordinates (n, 3)."""
+    """Return M (n, 3, 3) and g (n, 3) of the module at n coordinates of `minimal`, (n, 3)."""
     (_, ratio, _), _ = MODEL.kind(scene, False)
     values = _momenta(ratio)(q[:, 0], q[:, 1], *scene.inertias, scene.k, *scene.momenta)
     columns = np.stack([np.broadcast_to(value, len(q)) for value in values], axis=1)

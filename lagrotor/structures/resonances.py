@@ -345,12 +345,12 @@ class LargestPush(Shown):
         return self.value
 
     def summary(self) -> dict[str, str]:
-        """Return the push and the reason."""
+        """Return the largest push and its reason, as rows of a table."""
         return {"largest push": f"{self.value:.4g} rad/s", "behind": self.behind}
 
 
 def largest_push(s: Assembly) -> LargestPush:
-    """Return the largest safe push of a structure: see `Structure.largest_push`."""
+    """Return the largest push that does not topple a structure: see `Structure.largest_push`."""
     check_upright(s, "largest_push")
     if small_motion(s).growth > 0:
         return LargestPush(0.0, "it is linearly unstable", None)

@@ -111,7 +111,7 @@ class SmallMotion:
         return replace(self, gyroscopic=factor * self.gyroscopic)
 
     def with_momenta(self, G: Array) -> "SmallMotion":
-        """Return the system with axial momenta G (N,), kg m²/s."""
+        """Return the system with other axial momenta G (N,), kg m²/s, of the rotors."""
         return replace(self, gyroscopic=self.basis.T @ np.kron(np.diag(G), [[0, 1], [-1, 0]]) @ self.basis)
 
     @cached_property
@@ -242,7 +242,7 @@ def check_upright(s: Assembly, where: str) -> None:
 
 
 def check_rates(s: Assembly, where: str) -> SmallMotion:
-    """Return the linear system. Raises InputError if the fastest rate exceeds 10⁶ times the slowest."""
+    """Return the linear system about upright. Raises InputError if the fastest rate exceeds 10⁶ times the slowest."""
     check_upright(s, where)
     linear = small_motion(s)
     slowest, fastest = linear.extremes

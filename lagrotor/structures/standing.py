@@ -110,7 +110,7 @@ class Standing(Shown):
 
     @property
     def why(self) -> str:
-        """The reason in words."""
+        """The reason for `stands` and `kind` in words."""
         if self.kind == "falls at a resonance" and self.resonance:
             least = self.resonance.push()
             words = (

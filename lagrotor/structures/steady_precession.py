@@ -141,7 +141,7 @@ def steady_precession(s: Assembly, mode: int = 0, tilt: float = 0.1) -> SteadyPr
     zeros = np.zeros((len(shape), 1))
 
     def scaled(y: Array, ratio: float) -> Array:
-        """Scale all tilts and rates, and project the state onto the constraints."""
+        """Return the state y with all tilts and rates multiplied by `ratio`, projected onto the constraints."""
         r, v = y.reshape(2, -1, 3) * ratio
         r[:, 2] = np.sqrt(np.maximum(1 - (r[:, :2] ** 2).sum(1), 1e-3))
         r = close_bars(motion, r / np.linalg.norm(r, axis=1)[:, None])

@@ -342,7 +342,7 @@ class Structure(Assembly):
     def largest_push(self) -> resonances.LargestPush:
         """Return the size below which no push from upright topples the structure.
 
-        The terms through fourth order decide. The value is 0 if the linear motion grows.
+        The terms of the Hamiltonian through fourth order decide. The value is 0 if the linear motion grows.
 
         Returns
         -------

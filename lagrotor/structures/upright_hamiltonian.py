@@ -67,7 +67,7 @@ def local_hamiltonian(s: Assembly, order: int = 4) -> LocalHamiltonian:
     s : Assembly
         The structure, without friction.
     order : int, default 4
-        The order of the polynomial.
+        The highest degree of the polynomial.
 
     Returns
     -------

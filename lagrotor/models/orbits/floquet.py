@@ -70,7 +70,7 @@ class Floquet(Shown):
 
     @property
     def slow_frequency(self) -> complex:
-        """The frequency of motion near the orbit (rad/s), imaginary if it grows. The error is in `exponent_error`."""
+        """The frequency of the slow motion about the orbit (rad/s), imaginary if the motion grows: see `exponent_error`."""
         angle = self.turning or pi * (self.pair_sum < -2)
         return abs(self.frequency) / (2 * pi) * complex(angle, self.growth)
 
@@ -92,7 +92,7 @@ def floquet(scene: Scene, r0: float, momentum: float = 0.0) -> Floquet:
     r0 : float
         The sine of the inclination when the axes are parallel.
     momentum : float, default 0.0
-        Additional momentum about the joint line, kg m²/s. The orbit then closes up to a rotation.
+        Additional momentum about the joint line, kg m²/s. The orbit then closes only after a rotation.
 
     Returns
     -------

@@ -21,8 +21,8 @@ _SAMPLES = (16, 32, 64, 128, 256)  # of a quarter period
 def precession_orbit(scene: Scene, r0: float, tol: float = 1e-9) -> PrecessionOrbit:
     """Return the paired precession of amplitude r0 to a given error.
 
-    The result has the bounds `error` and `frequency_error`, and names its method. Source: 5.21 and 5.22 of the paper,
-    corrected.
+    The result has bounds of its errors, `error` and `frequency_error`, and names its method. It corrects equations 5.21 and
+    5.22 of the paper.
 
     Parameters
     ----------

@@ -109,7 +109,7 @@ class QuarterPeriod:
         return null if null @ side >= 0 else -null
 
     def follow(self, z: Array | None, r0: float) -> Array:
-        """Follow the family from z, or from rest, to r0 > 0. Raises DomainError if it turns or ends before."""
+        """Follow the family from z, or from rest if z is None, to r0 > 0. Raises DomainError if it turns or ends before."""
         goal, row, step = atanh(r0), np.array([1.0, 0.0, 0.0, 0.0]), 0.4
         if z is None:
             u = min(goal, 0.5)
@@ -137,7 +137,7 @@ class QuarterPeriod:
         return z
 
     def orbit(self, z: Array) -> ExactOrbit:
-        """Return the orbit of the unknowns z, as a scene that starts on it."""
+        """Return the orbit with the unknowns z: a scene that starts on it, the frequency, and their errors."""
         frequency = pi / 2 * self.natural / float(z[3])
         # The error at the end of the quarter period, propagated to the unknowns at fixed amplitude and to the axes.
         slope = self._slope(z)
@@ -152,7 +152,7 @@ def exact_orbit(scene: Scene, r0: float) -> ExactOrbit:
     Parameters
     ----------
     scene : Scene
-        The pair; its rotor, bar and spins are used.
+        The pair. Only its rotor, bar and spins are used.
     r0 : float
         The sine of the inclination when the axes are parallel, 0 < |r0| < 1.
 
@@ -345,7 +345,7 @@ def upright_orbit(scene: Scene, r0: float) -> UprightOrbit:
     Parameters
     ----------
     scene : Scene
-        The pair; its rotor, bar and spins are used.
+        The pair. Only its rotor, bar and spins are used.
     r0 : float
         The sine of the inclination when the axes are parallel, 0 < |r0| < 1.
 

@@ -70,7 +70,7 @@ def printed_inertia_transform(R: Array, tensor: Array) -> Array:
 
 
 def rotation_between(u: Array, v: Array) -> Array:
-    """Return the shortest rotation (3, 3) from the basis vector `u` (3,) to the unit vector `v` (3,)."""
+    """Return the shortest rotation (3, 3) that takes the basis vector `u` (3,) to the unit vector `v` (3,)."""
     axis, cosine = np.cross(u, v), float(u @ v)
     sine = float(np.linalg.norm(axis))
     if sine == 0.0:

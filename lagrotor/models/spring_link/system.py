@@ -141,7 +141,7 @@ class RigidBodySystem:
         self._join((i, arm), (len(self.vertices), self.X[i] + self.R[i] @ arm))
 
     def push(self, body: int, vertex: int, force: ArrayLike, strength: float = 1.0) -> None:
-        """Push a vertex during the next step, between `compute_forces` and `step`.
+        """Add a force on a vertex for the next step. This call belongs between `compute_forces` and `step`.
 
         Parameters
         ----------
@@ -357,7 +357,7 @@ def _bar(scene: Scene, link: Link, height: float | None) -> RigidBody:
 def paper_system(
     scene: Scene, stiffness: float, damping: float, bar_height: float | None = None, **laws: Callable[..., Array]
 ) -> RigidBodySystem:
-    """Return the paper's program for a scene: vertex 1 of each rotor grounded, the bar linked to both tips.
+    """Return the paper's program for a scene: vertex 1 of each rotor is grounded, and the bar joins both tips.
 
     Parameters
     ----------

@@ -142,7 +142,7 @@ class EdgeWaves:
 
 
 def edge_waves(p: Cell, rate: float, width: int = 16, points: int = 181) -> EdgeWaves:
-    """Count the waves of a strip in a gap of the bulk: see `Pattern.edge_waves`."""
+    """Count the waves along the borders of a strip at a rate in a band gap: see `Pattern.edge_waves`."""
     d = dispersion(p.strip(width), np.linspace(0, 2 * np.pi, points))
     share = (np.abs(d.shapes) ** 2).sum(-1).reshape(*d.rates.shape, width, -1).sum(-1)
     place = share @ np.arange(width) / share.sum(-1) / max(width - 1, 1)

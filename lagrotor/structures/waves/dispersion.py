@@ -168,7 +168,7 @@ class Dispersion(Shown):
 
     @property
     def falls(self) -> bool:
-        """True if some wave grows."""
+        """True if some wave at these q grows."""
         return bool((self.growth > 0).any())
 
 

@@ -129,7 +129,7 @@ def _averaged(p: Cell, b: Bloch, u: Row, phases: _Phases, order: int) -> tuple[P
 
 
 def _kinetic(c: Coefficients, axes: list[Row], phases: _Phases, order: int) -> Polynomial:
-    """Return ½ sum_ij A_ij r_i'·r_j' − sum_i G_i (x_i y_i' − y_i x_i')/(1 + z_i)."""
+    """Return the kinetic terms ½ sum_ij A_ij r_i'·r_j' − sum_i G_i (x_i y_i' − y_i x_i')/(1 + z_i)."""
     rates = [[phases.slope(f) for f in axis] for axis in axes]
     pairs = [(i, i, A / 2) for i, A in enumerate(c.A)] + list(zip(c.i, c.j, c.coupling, strict=True))
     terms = [

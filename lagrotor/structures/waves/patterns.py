@@ -295,12 +295,12 @@ def square(spring: float | None = None, **settings: Any) -> Pattern:
 
 
 def square_octagon(move: tuple[float, float] = (0.0, 0.0), **settings: Any) -> Pattern:
-    """Return squares joined to octagons, with four rotors per cell.
+    """Return a lattice of squares and octagons, with four rotors per cell.
 
     Parameters
     ----------
     move : tuple, default (0.0, 0.0)
-        The displacement (x, y) of one joint, m.
+        The displacement (x, y) of the first joint of each cell, m.
     **settings : dict
         Further fields of `Pattern`.
 
