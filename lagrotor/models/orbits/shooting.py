@@ -319,7 +319,7 @@ def orbit_family(scene: Scene, amplitudes: NDArray[np.float64] | list[float]) ->
     curve = QuarterPeriod(scene)
     targets = np.asarray(amplitudes, float)
     if targets.ndim != 1 or not len(targets) or targets[0] <= 0 or targets[-1] >= 1 or (np.diff(targets) <= 0).any():
-        raise DomainError("orbit_family: amplitudes must be a row of increasing numbers between 0 and 1")
+        raise DomainError("orbit_family: amplitudes must increase, from above 0 to below 1")
     points: list[Array] = []
     for r0 in targets:
         points.append(curve.follow(points[-1] if points else None, float(r0)))

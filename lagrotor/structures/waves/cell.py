@@ -44,7 +44,7 @@ class Cell:
             assign(self, name, tuple((float(x), float(y)) for x, y in getattr(self, name)))
         if len(self.steps) not in (1, 2) or not self.joints:
             raise InputError(
-                f"Pattern: {len(self.joints)} joints and {len(self.steps)} steps: give at least one joint, and one or two steps"
+                f"Pattern: {len(self.joints)} joints and {len(self.steps)} steps: give a joint at least, and one or two steps"
             )
         if self.turn and len(self.steps) == 2:
             raise InputError(f"Pattern: turn = {self.turn:g} rad with two steps: only a row of cells turns; remove one")
@@ -184,7 +184,7 @@ class Cell:
         """
         if len(self.steps) != 2 or width < 1:
             raise InputError(
-                f"Pattern: strip({width}) of {len(self.steps)} step(s): give a pattern with two, and a width of 1 or more"
+                f"Pattern: strip({width}) of {len(self.steps)} step(s): a strip needs two, and a width of 1 or more"
             )
         N = len(self.joints)
 
