@@ -5,11 +5,11 @@ Hamiltonian in the coordinates q of `minimal`,
 
     H = (p − g)·M⁻¹ (p − g)/2,    M(q) and g(q) of L = q'·M q'/2 + g·q',
 
-has one oscillation, the swing; the rotation about the joint line and the centre of the swing have the rate zero. The normal
-form through an order N is H averaged over the swing. Its action and the momentum about the joint line are constant, and some
-hundred steps follow the slow centre over any time. The forms through N − 2 and N − 4 are truncations of it, and the decrease of
-the differences of their motions estimates the error. Spins that are not opposite let the axes twist apart freely, and no motion
-stays small.
+has one oscillation, the swing. The rotation about the joint line and the displacement of the swing's centre have the rate zero.
+The normal form through an order N is H averaged over the swing. Its action and the momentum about the joint line are constant,
+and some hundred steps follow the slow centre over any time. The forms through N − 2 and N − 4 are truncations of it. The error
+is estimated from the rate at which the differences between these three motions decrease. Spins that are not opposite let the
+axes twist apart freely, and no motion stays small.
 """
 
 from dataclasses import replace
@@ -47,7 +47,9 @@ _AT_ONCE = 256  # times per batch
 
 
 class Forms(NamedTuple):
-    """A normal form about q = (lean, 0, 0), p = momentum. maps: the coordinates of H₂; turning: the index of the azimuth."""
+    """A normal form of the averaged motion about the equilibrium q = (lean, 0, 0), p = momentum. `maps` are the six coordinates
+    that diagonalise the quadratic part H₂, as polynomials in the normal coordinates. `turning` is the index of the azimuth
+    among these coordinates."""
 
     form: "NormalForm"
     maps: tuple[Polynomial, ...]
@@ -57,13 +59,13 @@ class Forms(NamedTuple):
 
 
 class _Sums(NamedTuple):
-    """Several polynomials: their common exponents (m, d), a column of coefficients (m, k) each."""
+    """k polynomials in d variables with the same m terms: exponents (m, d), and one column of coefficients (m, k) for each."""
 
     exponents: Any
     coefficients: Any
 
     def at(self, points: Any) -> Any:
-        """Return their values at points (n, d): (n, k)."""
+        """Return the values (n, k) of the k polynomials at n points (n, d)."""
         powers = points[..., None] ** np.arange(self.exponents.max(initial=0) + 1)
         terms = np.ones((len(points), len(self.exponents)), complex)
         for j, power in enumerate(self.exponents.T):
@@ -82,7 +84,7 @@ def _sums(polynomials: tuple[Polynomial, ...]) -> _Sums:
 
 @lru_cache(maxsize=3)
 def _kinetic(ratio: Any) -> tuple[Any, Any]:
-    """Return M (3, 3) and g (3) as expressions."""
+    """Return M (3, 3) and g (3,) of the module as symbolic expressions, for a kind of length ratio of bar and axes."""
     import sympy as sp
 
     from lagrotor.algebra import hessian
@@ -102,7 +104,7 @@ def _kinetic(ratio: Any) -> tuple[Any, Any]:
 
 @generated((ratio,) for ratio in RATIOS)
 def _momenta(ratio: Any) -> str:
-    """Return the source of (U, chi; a, b, k, G_1, G_2) → M, row by row, and g on arrays."""
+    """Return the source of a function on arrays, (U, chi; a, b, k, G_1, G_2) → the nine entries of M, then three of g."""
     from lagrotor.numerics.codegen import Program
     from lagrotor.numerics.printers import program_source
     from lagrotor.pair.notation import G_1, G_2, MINIMAL, a, b, k
@@ -112,7 +114,7 @@ def _momenta(ratio: Any) -> str:
 
 
 def _momenta_at(scene: Scene, q: Array) -> tuple[Array, Array]:
-    """Return M (n, 3, 3) and g (n, 3) at coordinates (n, 3)."""
+    """Return M (n, 3, 3) and g (n, 3) of the module at n coordinates of `minimal`, (n, 3)."""
     (_, ratio, _), _ = MODEL.kind(scene, False)
     values = _momenta(ratio)(q[:, 0], q[:, 1], *scene.inertias, scene.k, *scene.momenta)
     columns = np.stack([np.broadcast_to(value, len(q)) for value in values], axis=1)
@@ -157,7 +159,7 @@ def _forms_about(scene: Scene, lean: float, order: int) -> Forms:
 
 
 def _linear(scene: Scene, forms: Forms, state: Array) -> Any:
-    """Return the coordinates of H₂ of a state of `minimal` without its azimuth."""
+    """Return the coordinates (6,) that diagonalise H₂, for a state of `minimal` whose azimuth is ignored."""
     M, g = _momenta_at(scene, state[None, :3])
     p = M[0] @ state[3:] + g[0]
     x = np.concatenate([[state[0] - forms.lean, state[1], 0.0], p - forms.momentum])
@@ -165,7 +167,7 @@ def _linear(scene: Scene, forms: Forms, state: Array) -> Any:
 
 
 def _normal_start(scene: Scene, forms: Forms, order: int, start: Array) -> Any:
-    """Return the normal coordinates (6,) of a state of `minimal` without its azimuth. Raises DomainError if it has none."""
+    """Return the normal coordinates (6,) of a state of `minimal` at azimuth 0. Raises DomainError if the iteration fails."""
     maps = _sums(tuple(f.through(order - 1) for f in forms.maps))
     linear = _linear(scene, forms, start)
     y, step = linear, np.inf
@@ -180,7 +182,8 @@ def _normal_start(scene: Scene, forms: Forms, order: int, start: Array) -> Any:
 
 
 def _states(scene: Scene, forms: Forms, order: int, start: Array, t: Array) -> tuple[Array, int]:
-    """Return states of `minimal` (n, 6) at times t (n,) by the normal form, and the evaluations. Raises DomainError."""
+    """Return the states of `minimal` (n, 6) at times t (n,) from the normal form, and the number of evaluations. Raises
+    DomainError if the centre of the swing moves far from the start."""
     from scipy.integrate import solve_ivp
 
     form, swing = forms.form, np.zeros(6, complex)
@@ -208,7 +211,7 @@ def _states(scene: Scene, forms: Forms, order: int, start: Array, t: Array) -> t
 
 
 def _centre(scene: Scene, state: Array) -> float:
-    """Return the lean U of the centre of the swing of a state of `minimal`. Raises DomainError if it is far away."""
+    """Return the lean U at the centre of the swing through a state of `minimal`. Raises DomainError if it is far away."""
     forms = _forms_about(scene, float(state[0]), 2)
     slow = _linear(scene, forms, state)
     slow[[0, 3]] = 0.0
@@ -221,16 +224,15 @@ def _centre(scene: Scene, state: Array) -> float:
 def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) -> ClosedMotion:
     """Return the motion up to t_end (s) by the normal form through order 6, or 8 if `tol` requires it.
 
-    A pulse is integrated, twice. Raises SingularError without a bar, DomainError if the spins are not opposite, the motion is
-    not small, or it ends within the pulse.
+    The motion through a pulse is integrated twice, to estimate its error. Raises SingularError without a bar. Raises
+    DomainError if the spins are not opposite, the motion is not small, or the run ends within the pulse.
     """
     if scene.link is None:
         raise SingularError("averaged: the scene has no bar; use model='closed_form'")
     if scene.spins[0] != -scene.spins[1] or scene.spins[0] == 0:
         raise DomainError(
             f"averaged: spins {scene.spins[0]:g}, {scene.spins[1]:g} rad/s are not opposite: the axes part freely, and no "
-            "motion stays small; use model='minimal', or lagrotor.theory.guiding_centre(scene).path(t) for where the swing's "
-            "centre goes"
+            "motion stays small; use model='minimal', or lagrotor.theory.guiding_centre(scene).path(t) for the swing's centre"
         )
     units = natural_units(replace(scene, shock=scene.shock_until(t_end)))
     natural, end, begin, starts, count = units.scene, t_end * units.rate, 0.0, [MODEL.start(units.scene)], 0
@@ -289,7 +291,8 @@ def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) 
 
 
 def _pulsed(scene: Scene, t: Array, k: int) -> tuple[Array, int]:
-    """Return the states of `minimal` through the pulse by integration k = 0 (more exact) or 1, and the evaluations."""
+    """Return the states of `minimal` at times t through the pulse (n, 6), and the number of evaluations. Integration k = 0 is
+    more exact than integration k = 1, which serves to estimate the error."""
     times = np.unique(np.r_[0.0, t])
     try:
         run = integrate_model(MODEL, scene, times, _PULSE[k], companion=k > 0, budget=_MOST)

@@ -51,7 +51,7 @@ def _still(value: Array, t: Array) -> Array:
 def _tops(
     axes: Array, rates: Array, inertia: float, momenta: tuple[float, float], t_end: float, reason: str
 ) -> ClosedMotion:
-    """Return two free tops: r turns about L = inertia r × r' + G r at |L|/inertia."""
+    """Return the motion of two free tops, whose axes r turn about L = inertia r × r' + G r at the rate |L|/inertia."""
     turns = (inertia * np.cross(axes, rates) + np.array(momenta)[:, None] * axes) / inertia
     speeds = np.linalg.norm(turns, axis=1)
     poles = turns / np.where(speeds > 0, speeds, 1.0)[:, None]
@@ -70,7 +70,8 @@ def _tops(
 
 
 def _parallel(scene: Scene, axes: Array, rates: Array, t_end: float) -> ClosedMotion:
-    """Return equal spins with parallel axes as one rotor of inertia a + b. Axes that are not quite parallel may twist apart."""
+    """Return the motion of equal spins with parallel axes, which turn as one rotor of inertia a + b. Axes that are not exactly
+    parallel may twist apart, which adds to the error. Raises DomainError if they are not parallel."""
     inertia, shared = scene.inertias
     mean, mean_rate = axes.mean(axis=0), rates.mean(axis=0)
     turn = float(np.linalg.norm(np.cross(mean, mean_rate) + scene.momenta[0] / (inertia + shared) * mean))

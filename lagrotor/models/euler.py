@@ -54,7 +54,7 @@ def _axes() -> str:
 
 
 def _kind(scene: Scene, driven: bool) -> tuple[Kind, tuple[float, ...]]:
-    """Return the scene's kind and its parameter values except the force."""
+    """Return the kind of program of the scene, and the values of its parameters except the force of the shock."""
     inertia_a, inertia_b = scene.inertias
     massive = inertia_b != 0
     body = scene.shock.body if driven and scene.shock else 0

@@ -41,7 +41,8 @@ _A_PART, _A_TURN, _MOST = 17, 24, 100_000
 
 @dataclass(frozen=True, eq=False)
 class LinearPair:
-    """The matrices in q = (U, chi, alpha). upright: dq → d(x, y_1, y_2); M; turning: N = M⁻¹ C; frequency: Omega (rad/s)."""
+    """The linear motion of a pair about upright in q = (U, chi, alpha). `upright` is the matrix from small changes of q to x,
+    y_1, y_2. `mass` is M, `turning` is N = M⁻¹ C, `frequency` is Omega."""
 
     upright: Array
     mass: Array
@@ -49,7 +50,7 @@ class LinearPair:
     frequency: float
 
     def free(self, q: Array, v: Array, t: Array) -> Array:
-        """Return exp(A t) (q, v) at times t (n,): (n, 6)."""
+        """Return the free motion exp(A t) (q, v) from the start (q, v) at times t (n,), (n, 6)."""
         Omega, t = self.frequency, t[:, None]
         once, twice = self.turning @ v, self.turning @ self.turning @ v
         if Omega == 0:
@@ -58,7 +59,8 @@ class LinearPair:
         return np.hstack([q + t * v - versed * once + (t - sine) / Omega**2 * twice, v - sine * once + versed * twice])
 
     def answer(self, t: Array, push: Array) -> Array:
-        """Return the change of (q, v) by accelerations `push` (n, 3) at t (n,): ∫ (right half of exp A(t − s)) push ds."""
+        """Return the response (n, 6) of (q, v) to accelerations `push` (n, 3) that act at the times t (n,). It is the integral
+        of exp(A (t − s)) (0, push(s)) over s from the first time to t."""
         Omega, t, once, twice = self.frequency, t[:, None], self.turning.T, (self.turning @ self.turning).T
         received = _integral(t, push)
         drift = t * received - _integral(t, t * push)
@@ -72,14 +74,14 @@ class LinearPair:
 
 
 def _integral(t: Array, values: Array) -> Array:
-    """Return ∫ values dt from the first time to each, by trapezia, (n, 3)."""
+    """Return the integral of the values (n, 3) over time from the first time to each time, by the trapezoidal rule, (n, 3)."""
     steps = np.diff(t, axis=0) * (values[1:] + values[:-1]) / 2
     return np.vstack([np.zeros((1, values.shape[1])), np.cumsum(steps, axis=0)])
 
 
 @generated(((),))
 def _matrices() -> str:
-    """Return the source of (a, b, G_1, G_2) → M and C in (x, y_1, y_2) and Omega, 19 numbers."""
+    """Return the source of a function (a, b, G_1, G_2) → 19 numbers: M and C in (x, y_1, y_2), then Omega."""
     from lagrotor.numerics.codegen import Program
     from lagrotor.numerics.printers import program_source
     from lagrotor.theory.impulse_response import impulse_matrices
@@ -98,7 +100,7 @@ def _toppling_growth() -> str:
 
 
 def pair_modes(scene: Scene) -> LinearPair:
-    """Return the linear pair about upright. Raises SingularError without a bar."""
+    """Return the matrices of the linear motion about upright. Raises SingularError without a bar."""
     if scene.link is None:
         raise SingularError("linear: the scene has no bar; use model='closed_form' or 'spheres'")
     # sin Delta = k sin chi for a bar shorter than the axes; y_i = −alpha_i.
@@ -110,7 +112,8 @@ def pair_modes(scene: Scene) -> LinearPair:
 
 
 def _linear_states(scene: Scene, t: Array) -> Array:
-    """Return (U, chi, alpha, rates) of the linear motion at t (n,): (n, 6). Raises DomainError beyond |U|, |chi| = pi/3."""
+    """Return (U, chi, alpha and their rates) of the linear motion at t (n,), (n, 6). Raises DomainError if |U| or |chi| >
+    pi/3."""
     linear, start = pair_modes(scene), MODEL.start(scene)
     states, shock = linear.free(start[:3], start[3:], t), scene.shock_until(float(t[-1]))
     if shock is not None:
@@ -128,7 +131,7 @@ def _linear_states(scene: Scene, t: Array) -> Array:
 
 
 def _straightened(linear: LinearPair, start: Array, shock: Shock) -> Shock:
-    """Return the shock in the frame of an upright pair, rotated by the azimuth of the axis at the peak of the pulse."""
+    """Return the shock with its force in the frame of the pair, whose azimuth is that of the axis at the peak of the pulse."""
     at = linear.free(start[:3], start[3:], np.array([max(shock.at, 0.0)]))[0]
     angle = -(linear.upright @ at[:3])[shock.body]
     fx, fy, fz = shock.force
@@ -137,7 +140,7 @@ def _straightened(linear: LinearPair, start: Array, shock: Shock) -> Shock:
 
 
 def _pulsed(scene: Scene, linear: LinearPair, shock: Shock, t: Array) -> tuple[Array, Array]:
-    """Return the response to the pulse at all times but the last (n, 6), and at the last (6,)."""
+    """Return the response of (q, v) to the pulse at all times but the last, (n, 6), and at the last time, (6,)."""
     from scipy.special import erfc
 
     response = pulse_response(scene, shock)
@@ -149,12 +152,12 @@ def _pulsed(scene: Scene, linear: LinearPair, shock: Shock, t: Array) -> tuple[A
 
 
 def linear_run(scene: Scene, t: Array) -> Observed:
-    """Return axes and rates of the linear motion at t (n,). Raises DomainError beyond |U|, |chi| = pi/3."""
+    """Return the axes and rates of the linear motion at t (n,). Raises DomainError if |U| or |chi| exceeds pi/3."""
     return MODEL.observe(scene, _linear_states(scene, t))
 
 
 def linear_motion(scene: Scene, t_end: float, tol: float, best: bool = False) -> ClosedMotion:
-    """Return the linear motion with its error up to t_end (s); with `best` an unknown error is NaN."""
+    """Return the linear motion with its error up to t_end (s). With `best` an error that cannot be estimated is NaN."""
     try:
         error = linear_error(scene, t_end)
     except DomainError:
@@ -172,11 +175,11 @@ def linear_motion(scene: Scene, t_end: float, tol: float, best: bool = False) ->
 def linear_error(scene: Scene, t_end: float) -> float:
     """Return the largest error of an axis (tips: in units of R) of the linear motion up to t_end (s).
 
-    The exact equations have a residual of second order along the linear motion, and the response of the linear pair to it is
-    the leading error. The residual of the corrected motion has the next order; the difference of both is added. A rotation
-    far about the joint line mixes the coordinates and may grow exponentially: see `_spread`. The sum is multiplied by
-    LINEAR_MARGIN. The result is 2, the diameter, if it is not small. Raises the errors of `linear_run`, and DomainError for a
-    run of too many turns.
+    Along the linear motion the exact equations have a residual of second order, and the linear response to it is the leading
+    error. The residual of the corrected motion gives the next order, and the difference of both is added. After a large
+    rotation about the joint line the coordinates mix, and an error may grow exponentially: see `_spread`. The sum is multiplied
+    by LINEAR_MARGIN. The result is 2, the largest possible error, if it is not small. Raises the errors of `linear_run`, and
+    DomainError for a run of too many turns.
     """
     linear, shock = pair_modes(scene), scene.shock_until(t_end)
     turns = linear.frequency * t_end / (2 * pi)
@@ -203,8 +206,7 @@ def linear_error(scene: Scene, t_end: float) -> float:
 def shock_response_error(scene: Scene, t_end: float) -> float:
     """Return the error of `shock_response(scene).through` for (x, y) of the axes, in units of R.
 
-    The linear motion keeps lengths in curved coordinates. Its distance from the response is known, and its error is below
-    `linear_error`. Their sum is multiplied by a safety factor.
+    The error is the distance of the response from the linear motion plus `linear_error` of this motion, times a safety factor.
 
     Parameters
     ----------
@@ -225,16 +227,17 @@ def shock_response_error(scene: Scene, t_end: float) -> float:
     error = _SAFETY * (float(np.linalg.norm(difference, axis=-1).max()) + linear_error(scene, t_end))
     if not error <= _FARTHEST_OFF:
         raise DomainError(
-            f"shock_response_error: an error of about {error:.2g} by t = {t_end:g} s, beyond {_FARTHEST_OFF:g}: the response is "
+            f"shock_response_error: the error at t = {t_end:g} s is about {error:.2g}, above {_FARTHEST_OFF:g}: the response is "
             "not small; take a smaller shock or a shorter time, or use model='minimal'"
         )
     return error
 
 
 def _spread(scene: Scene, angle: float, duration: float) -> float:
-    """Return (1 + angle/(2k)) exp(growth duration), the factor on an error by rotation through `angle` (rad) in `duration` (s).
+    """Return the factor by which a rotation through `angle` (rad) about the joint line in `duration` (s) increases an error.
 
-    G U' = −(G nu/k) Delta is the stronger coupling to uniform rotation at nu. The growth is that of opposite spins.
+    The factor is (1 + angle/(2k)) exp(growth duration). The first part comes from the coupling G U' = −(G nu/k) Delta to a
+    uniform rotation at nu. The growth is the growth rate of opposite spins that rotate so.
     """
     assert scene.link is not None
     if angle < _FAR or duration <= 0:
@@ -246,7 +249,7 @@ def _spread(scene: Scene, angle: float, duration: float) -> float:
 
 
 def _defect(scene: Scene, linear: LinearPair, shock: Shock | None, t: Array, states: Array) -> Array:
-    """Return the exact minus the linear acceleration along the linear motion, (n, 3)."""
+    """Return the exact minus the linear accelerations of (U, chi, alpha) at the states (n, 6) and times t (n,), (n, 3)."""
     kind, values = MODEL.kind(replace(scene, shock=shock), True)
     parameters: list[Any] = [*values]
     acceleration = -states[:, 3:] @ linear.turning.T

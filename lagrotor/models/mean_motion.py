@@ -1,8 +1,8 @@
 """The slow motion measured on exact runs: mean rates after a shock, the force that cancels a drift, times to a bound.
 
-`*_error` compare the laws of `theory` with these measurements. Oscillations are averaged out by the weight exp(−1/(u (1 − u)))
-over the window, u from 0 to 1; of an oscillation with n turns about exp(−sqrt(4 pi n)) remains. A mean rate also depends on the
-window, because the rate itself changes.
+The functions `*_error` compare the laws of `theory` with these measurements. A mean has the weight exp(−1/(u (1 − u))),
+u from 0 to 1 over the window, which reduces an oscillation of n turns to about exp(−sqrt(4 pi n)) of its size. A mean rate also
+depends on the window, because the rate itself changes.
 """
 
 from dataclasses import replace
@@ -43,7 +43,7 @@ def mean_over(t: Array, values: Array) -> float:
         The weighted mean.
     """
     if len(t) < 8:
-        raise DomainError(f"mean_over: {len(t)} values are too few for a mean")
+        raise DomainError(f"mean_over: {len(t)} values are too few for a mean: give 8 or more")
     u = (t[1:-1] - t[0]) / (t[-1] - t[0])
     weight = np.exp(-1 / (u * (1 - u)))
     return float((weight * values[1:-1]).sum() / weight.sum())
@@ -102,7 +102,7 @@ def run_after(scene: Scene, turns: float = 24, tol: float = 1e-11) -> Trajectory
     """
     response = shock_response(scene)
     if scene.shock is None or response.frequency == 0:
-        raise InputError("run_after: the scene needs a shock and a spin")
+        raise InputError("run_after: the scene has no shock or no spin: give both")
     begin = scene.shock.end
     t = np.linspace(begin, begin + turns * 2 * np.pi / response.frequency, round(turns * _SAMPLES) + 1)
     return simulate(scene, [0.0, *t], "minimal", tol).after(begin)
@@ -116,7 +116,7 @@ def exact_cancelling_force(scene: Scene, turns: float = 24) -> float:
     scene : Scene
         The pair, with a shock that has a force along x.
     turns : float, default 24
-        The number of swings of the mean, on which the force depends.
+        The mean is taken over this number of swings. The force depends on it.
 
     Returns
     -------
@@ -126,7 +126,7 @@ def exact_cancelling_force(scene: Scene, turns: float = 24) -> float:
     from scipy.optimize import newton
 
     if scene.shock is None:
-        raise InputError("exact_cancelling_force: the scene has no shock")
+        raise InputError("exact_cancelling_force: the scene has no shock: give one with a force along x")
     shock, guess = scene.shock, cancelling_force(scene)
 
     def turning(force: float) -> float:
@@ -143,7 +143,9 @@ def exact_cancelling_force(scene: Scene, turns: float = 24) -> float:
 
 
 def time_to_wander(scene: Scene, bound: float, longest: float) -> float:
-    """Return the time from the peak of the shock until the mean of both x, over six swings, reaches ± `bound`.
+    """Return the time from the peak of the shock until the mean x of both axes reaches `bound` or −`bound`.
+
+    The mean is taken over six swings.
 
     Parameters
     ----------
@@ -152,7 +154,7 @@ def time_to_wander(scene: Scene, bound: float, longest: float) -> float:
     bound : float
         The bound of x, in units of R.
     longest : float
-        The end of the search, s. DomainError says that the bound is not reached by then.
+        The end of the search, s. A DomainError is raised if the bound is not reached by then.
 
     Returns
     -------
@@ -166,22 +168,23 @@ def time_to_wander(scene: Scene, bound: float, longest: float) -> float:
     weight = np.exp(-1 / (u * (1 - u)))
     mean = np.abs(np.convolve(values, weight / weight.sum(), "valid"))
     if mean.max() < bound:
-        raise DomainError(f"the bound {bound:g} is not reached within {longest:g} s")
+        raise DomainError(f"time_to_wander: the bound {bound:g} is not reached within {longest:g} s: lower it")
     if (i := int(np.argmax(mean >= bound))) == 0:
-        raise DomainError(f"the bound {bound:g} is reached within the first swings: take a larger one")
+        raise DomainError(f"time_to_wander: the bound {bound:g} is reached within the first swings: take a larger one")
     index = i - 1 + (bound - mean[i - 1]) / (mean[i] - mean[i - 1]) + (len(u) - 1) / 2
     return float(t[0] + index * (t[1] - t[0]) - shock.at)
 
 
 def toppling_error(scene: Scene, duration: float) -> float:
-    """Return the error of `toppling_after_shock` against the exact mean rate.
+    """Return the difference between the rate of `toppling_after_shock` and the mean rate of an exact run.
 
     Parameters
     ----------
     scene : Scene
         The pair, with a shock.
     duration : float
-        The end of the mean after the peak of the pulse, s: 4 to 10⁴ swings. The mean begins at the end of the pulse.
+        Time from the peak of the pulse to the end of the averaging interval, s: 4 to 10⁴ swings. The interval begins at
+        the end of the pulse.
 
     Returns
     -------
@@ -193,14 +196,14 @@ def toppling_error(scene: Scene, duration: float) -> float:
 
 
 def wander_error(scene: Scene, duration: float) -> float:
-    """Return the error of `wander_after_shock` against the exact mean rate of x.
+    """Return the difference between the rate of `wander_after_shock` and the mean rate of x in an exact run.
 
     Parameters
     ----------
     scene : Scene
         The pair, with a shock.
     duration : float
-        The end of the mean after the peak of the pulse, s.
+        Time from the peak of the pulse to the end of the averaging interval, s.
 
     Returns
     -------
@@ -212,14 +215,14 @@ def wander_error(scene: Scene, duration: float) -> float:
 
 
 def cancelling_force_error(scene: Scene, duration: float) -> float:
-    """Return the error of `cancelling_force` against the force without exact mean rotation.
+    """Return the difference between `cancelling_force` and the force at which the exact mean rotation vanishes.
 
     Parameters
     ----------
     scene : Scene
         The pair, with a shock.
     duration : float
-        The end of the mean after the peak of the pulse, s.
+        Time from the peak of the pulse to the end of the averaging interval, s.
 
     Returns
     -------
@@ -237,14 +240,16 @@ def _turns(scene: Scene, duration: float, where: str) -> float:
     turns = (finite_number(duration, f"{where}: duration", "s") - delay) / turn
     if not _LEAST * (1 - 1e-9) <= turns <= _MOST:
         raise DomainError(
-            f"{where}: duration = {duration:g} s is {turns:.3g} swings after the pulse, over which no mean is known: take "
+            f"{where}: duration = {duration:g} s leaves {turns:.3g} swings after the pulse, too few or too many for a mean: take "
             f"{_LEAST * turn + delay:.3g} to {_MOST * turn + delay:.3g} s after its peak"
         )
     return turns
 
 
 def time_to_reach_error(scene: Scene, x: float) -> float:
-    """Return the error of `time_to_reach` against the time of the exact mean over six swings.
+    """Return the difference between `time_to_reach` and the time at which the mean of an exact run reaches a bound.
+
+    The mean is taken over six swings.
 
     Parameters
     ----------
@@ -256,7 +261,7 @@ def time_to_reach_error(scene: Scene, x: float) -> float:
     Returns
     -------
     float
-        The error plus the sampling step of 1/32 swing, s; inf if the averaged motion does not reach x.
+        The difference plus the sampling step of 1/32 swing, s; inf if the averaged motion does not reach x.
     """
     law, turn = time_to_reach(scene, x), 2 * np.pi / natural_rate(scene)
     if law == np.inf:
@@ -270,7 +275,7 @@ def time_to_reach_error(scene: Scene, x: float) -> float:
 
 
 def guiding_centre_error(scene: Scene, t: ArrayLike) -> Array:
-    """Return the distance of `guiding_centre(scene).path(t)` from the centre of the exact state.
+    """Return the distance of `guiding_centre(scene).path(t)` from the guiding centre of an exact run.
 
     Parameters
     ----------
@@ -282,7 +287,8 @@ def guiding_centre_error(scene: Scene, t: ArrayLike) -> Array:
     Returns
     -------
     Array
-        The largest difference of beta, h and alpha, (n,), rad. The exact centre, of leading order, oscillates slightly.
+        The largest of the differences in beta, h and alpha at each time, (n,), rad. The centre of the exact run is
+        computed to leading order, so that it oscillates slightly.
     """
     centre, turn = guiding_centre(scene), 2 * np.pi / abs(natural_rate(scene))
     times = check_times("guiding_centre_error", t)

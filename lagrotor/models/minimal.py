@@ -1,6 +1,6 @@
-"""Rung 3: the bar eliminated. Three free coordinates (U, chi, alpha), no constraint, hence no drift off a constraint.
+"""Rung 3: three free coordinates (U, chi, alpha). They satisfy the constraint of the bar, so that no run can drift off it.
 
-Exact for any bar and any k = ell / R. Singular only where an axis lies along the joint line.
+The model is exact for every bar and every ratio k = ell / R. It is singular only where an axis lies along the joint line.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ def _rhs(massive: bool, ratio: Ratio, body: int, bounded: bool) -> str:
 
 @generated(_KINDS)
 def rhs_on_arrays(massive: bool, ratio: Ratio, body: int) -> str:
-    """Return the source of one kind's program on arrays that broadcast."""
+    """Return the source of the right-hand side for one kind of scene, on arrays that broadcast."""
     from lagrotor.numerics.printers import program_source
 
     return program_source(program(massive, ratio, body), "numpy")
@@ -64,7 +64,7 @@ def _ratio(scene: Scene) -> tuple[float, Ratio]:
 
 
 def _kind(scene: Scene, driven: bool) -> tuple[Kind, tuple[float, ...]]:
-    """Return the scene's kind and its parameter values except the force."""
+    """Return the kind of program of the scene, and the values of its parameters except the force of the shock."""
     inertia_a, inertia_b = scene.inertias
     value, ratio = _ratio(scene)
     massive = inertia_b != 0
@@ -105,10 +105,10 @@ def _observe(scene: Scene, states: Array) -> Observed:
 
 
 def scenes_from_states(scene: Scene, states: ArrayLike) -> list[Scene]:
-    """Return the scene started from each of the states (n, 6): U, chi, alpha and their rates (1/s)."""
+    """Return a list of n scenes, each with one of the states (n, 6) as its start: U, chi, alpha and their rates (1/s)."""
     table = np.asarray(states, dtype=float)
     if table.ndim != 2 or table.shape[1] != 6 or not np.isfinite(table).all():
-        raise InputError(f"scenes_from_states: states of shape {table.shape} must be finite and of shape (n, 6)")
+        raise InputError(f"scenes_from_states: states of shape {table.shape} must be finite numbers of shape (n, 6)")
     return scenes_of(scene, MODEL.observe(scene, table))
 
 

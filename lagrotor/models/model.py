@@ -33,7 +33,8 @@ PACE = 16.0
 
 @dataclass(frozen=True)
 class NaturalUnits:
-    """`scene` with R = 1, min(a + b, a − b) = 1 and a typical rate of PACE; the units of rate (rad/s) and inertia (kg m²)."""
+    """A scene in units in which R = 1, min(a + b, a − b) = 1 and its typical rate is PACE. `rate` (rad/s) and `inertia` (kg m²)
+    are the units of rate and of inertia."""
 
     scene: Scene
     rate: float
@@ -41,7 +42,7 @@ class NaturalUnits:
 
 
 def natural_units(scene: Scene, rate: float = 0.0) -> NaturalUnits:
-    """Return the scene in natural units; `rate` (rad/s) is the unit of rate, by default the scene's own."""
+    """Return the scene in natural units. `rate` (rad/s) is the unit of rate; 0 takes the typical rate of the scene / PACE."""
     inertia, R = min(_together_and_apart(scene)), scene.rotor.length
     rate = rate or typical_rate(scene) / PACE or 1.0
     rotor, link, shock = scene.rotor, scene.link, scene.shock
@@ -59,7 +60,7 @@ def natural_units(scene: Scene, rate: float = 0.0) -> NaturalUnits:
 
 
 def _together_and_apart(scene: Scene) -> tuple[float, float]:
-    """Return the inertias of the axes' sum, J + m R²/2, and of their difference, J + 2 K R²/ell² (kg m²)."""
+    """Return the inertia J + m R²/2 of axes that move alike, and J + 2 K R²/ell² of axes that move oppositely, kg m²."""
     if scene.link is None:
         return scene.rotor.J, scene.rotor.J
     R, link = scene.rotor.length, scene.link
@@ -67,7 +68,7 @@ def _together_and_apart(scene: Scene) -> tuple[float, float]:
 
 
 def typical_rate(scene: Scene) -> float:
-    """Return a rate (rad/s) that the motion hardly exceeds: (|G_1| + |G_2|)/I + sqrt(2T/I), plus that of the shock.
+    """Return a rate (rad/s) that the motion hardly exceeds: (|G_1| + |G_2|)/I + sqrt(2T/I), plus a rate for the shock.
 
     I is the smaller inertia and T the energy of tilting. A pulse adds its impulse over I, or sqrt(force R / I) if it is so
     broad that the rotor turns during it.
@@ -88,7 +89,7 @@ _BUDGET = 1_000_000.0  # evaluations of one integration, by default
 
 @dataclass(frozen=True)
 class Observed:
-    """Axes and rates (2, n, 3), axial momenta (2, n)."""
+    """The axes and their rates (2, n, 3), and the axial momenta (2, n), of n states of a model."""
 
     axes: Array
     rates: Array
@@ -97,9 +98,13 @@ class Observed:
 
 @dataclass(frozen=True, eq=False)
 class ClosedMotion:
-    """A closed form for one scene. error: the largest error of an axis up to the end of the run (of tips: in units of R).
+    """A closed form of the motion of one scene.
 
-    motion: times (n,) in s → axes and rates, each (2, n, 3). errors: times → the errors up to them, if their growth is known.
+    - `error`: the largest error of an axis up to the end of the run, which is that of a tip in units of R.
+    - `reason`: the reason for the closed form in words.
+    - `motion`: a function of times (n,) in s that returns the axes and their rates, (2, n, 3) each.
+    - `errors`: a function of times that returns the error up to each; None if the growth of the error is not known.
+    - `evaluations`: the number of evaluations that the closed form needed.
     """
 
     error: float
@@ -111,16 +116,21 @@ class ClosedMotion:
 
 @dataclass(frozen=True)
 class Model:
-    """A model that is integrated.
+    """A model that is integrated, with states (d,). Most fields are functions.
 
-    kind: (scene, driven) → the kind of program and its parameter values; in a driven program the torque R F (N m) and the
-    width follow. derive: (*kind) → the program, its first `size` arguments the state. rhs: (*kind, bounded) → the generated
-    function. start: the state (d,) of a scene; raises SingularError if the coordinates cannot represent it. observe: axes
-    from states (n, d). projection: the projection of states onto the constraints. outside: True for a state of a pair with a
-    bar at which the model must not be integrated; time_to_singular: a time of which half is at most the time to such a state.
-    slack: the uncertainty of the constraints at states (n, d), as in `Evolution`. singular: the words for the singular
-    position of axes (2, 3), or none. angles: the states that may grow without bound, their rates being states. progress:
-    called with the time of each evaluation.
+    - `kind`: from (scene, driven) to the kind of program and the values of its parameters. A driven program takes the torque
+      R F (N m) and the width of the pulse as further parameters.
+    - `derive`: from (*kind) to the program, whose first `size` arguments are the state.
+    - `rhs`: from (*kind, bounded) to the generated right-hand side.
+    - `start`: from a scene to its state (d,). It raises SingularError if the coordinates cannot represent the scene.
+    - `observe`: from a scene and states (n, d) to axes, rates and momenta.
+    - `singular`: from axes (2, 3) to a sentence that names their singular position; "" if there is none.
+    - `projection`: from a scene to the projection of a state onto the constraints; None without constraints.
+    - `outside`: True for a state of a pair with a bar at which the model must not be integrated.
+    - `time_to_singular`: from a state to a time; half of it is at most the time until `outside` becomes True.
+    - `slack`: from states (n, d) to the uncertainty of the constraints (n,), in units of rounding.
+    - `angles`: the indices of the states that may grow without bound and whose rates are states.
+    - `progress`: a function that is called with the time of each evaluation.
     """
 
     name: str
@@ -139,22 +149,22 @@ class Model:
     progress: Callable[[float], None] | None = None
 
     def parameters(self, scene: Scene, driven: bool) -> tuple[tuple[Any, ...], tuple[float, ...]]:
-        """Return the scene's kind and parameter values, with torque and width of the pulse if `driven`."""
+        """Return the kind of program of the scene and its parameter values, with torque and width of the pulse if `driven`."""
         kind, values = self.kind(scene, driven)
         if driven and scene.shock:
             values = (*values, *(scene.rotor.length * f for f in scene.shock.force), scene.shock.width)
         return kind, values
 
     def program(self, scene: Scene, driven: bool) -> tuple[Program, tuple[float, ...]]:
-        """Return the scene's program and its parameter values."""
+        """Return the program of the scene and the values of its parameters."""
         kind, values = self.parameters(scene, driven)
         return self.derive(*kind), values
 
     def rate(self, scene: Scene, driven: bool, bounded: bool = False) -> RightHandSide:
         """Return the right-hand side s, y ↦ y' in Python floats, with s the time from the peak of the pulse.
 
-        A state outside the range of the coordinates gives NaN, so that a solver shortens its step. With `bounded`, so does a
-        state at which the program is badly conditioned.
+        A state outside the range of the coordinates gives NaN, so that a solver shortens its step. With `bounded`, a
+        state at which the program is badly conditioned gives NaN, too.
         """
         kind, values = self.parameters(scene, driven)
         rate: RightHandSide = self.rhs(*kind, bounded)(*values)
@@ -168,13 +178,13 @@ class Model:
 
 
 def scenes_of(scene: Scene, observed: Observed | Trajectory) -> list[Scene]:
-    """Return the scene started from each of the observed states (n,)."""
+    """Return a list of n scenes, each with one of the n observed states as its start."""
     axes, rates = (array.swapaxes(0, 1).tolist() for array in (observed.axes, observed.rates))
     return [replace(scene, axes=r, rates=v) for r, v in zip(axes, rates, strict=True)]
 
 
 def constant_momenta(scene: Scene, n: int) -> Array:
-    """Return the axial momenta of a model without spin angles, (2, n)."""
+    """Return the axial momenta of the scene at n times, (2, n), which a model without spin angles keeps constant."""
     return np.repeat(np.array(scene.momenta)[:, None], n, axis=1)
 
 
@@ -182,7 +192,7 @@ def problem_of(
     model: Model, scene: Scene, bounded: bool = False, start: Array | None = None, budget: float = _BUDGET,
     companion: bool = False,
 ) -> Problem:  # fmt: skip
-    """Return the integration problem of a scene from `start`, a state of the model, by default that of the scene."""
+    """Return the integration problem of a scene from the state `start` of the model, by default the start of the scene."""
     shock = scene.shock
     return Problem(
         free=model.rate(scene, False, bounded),
@@ -203,8 +213,9 @@ def integrate_model(
 ) -> Stretch:  # fmt: skip
     """Integrate from t = 0 through increasing `times` (n,) in s with a local error, to the states (n, d).
 
-    companion: take other steps. Raises SingularError if the coordinates cannot represent the start, StopError if the run
-    cannot continue (with `bounded` also where the model is badly conditioned).
+    With `companion` the integration takes other steps, so that a comparison estimates the error. Raises SingularError if the
+    coordinates cannot represent the start, and StopError if the run cannot continue. With `bounded` it also stops where the
+    model is badly conditioned.
     """
     problem = problem_of(model, scene, bounded, start, budget, companion)
     if engine == "core":
@@ -246,7 +257,8 @@ _LOWER[_KEPT] = np.linalg.solve(
 
 @dataclass(frozen=True, eq=False)
 class PulseNodes:
-    """Gauss–Legendre nodes t (n,) and weights (n,) up to `end` (s); lower (n,): weights of lower order, for the error."""
+    """Nodes t (n,) and weights (n,) of a Gauss–Legendre quadrature over a pulse up to `end`. `lower` (n,) are weights of a
+    lower order, whose result differs by about the error."""
 
     t: Array
     weights: Array
@@ -255,7 +267,7 @@ class PulseNodes:
 
 
 def pulse_nodes(scene: Scene, t_end: float) -> PulseNodes | None:
-    """Return nodes for the work of the shock in natural units; None without shock, or for a pulse of too many turns."""
+    """Return the nodes for the work of the shock on a scene in natural units; None without shock, or if it lasts too long."""
     if scene.shock is None:
         return None
     begin, end = max(0.0, scene.shock.begin), min(t_end, scene.shock.end)
@@ -269,7 +281,8 @@ def pulse_nodes(scene: Scene, t_end: float) -> PulseNodes | None:
 
 
 def conservation_defect(scene: Scene, t: Array, observed: Observed, nodes: PulseNodes | None) -> Array:
-    """Return the errors of axes and rates, signed, that explain the violation of the conservation laws in natural units."""
+    """Return the violations of the conservation laws along a run, each as the error of axes and rates that would cause it. The
+    scene is in natural units. The laws are those of the lengths, the energy and the momentum about the joint line."""
     (a, b), (v1, v2) = scene.inertias, observed.rates
     size = float(np.sqrt(((a * v1 + b * v2) ** 2 + (a * v2 + b * v1) ** 2).sum(-1)).max())
     lengths = [np.linalg.norm(observed.axes, axis=-1) - 1]
@@ -300,7 +313,7 @@ def conservation_defect(scene: Scene, t: Array, observed: Observed, nodes: Pulse
 def _received(
     scene: Scene, t: Array, observed: Observed, nodes: PulseNodes
 ) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Return work and angular impulse of the pulse, each with a bound on the error of its quadrature."""
+    """Return two pairs (value, bound of its quadrature error): the work of the pulse, and its angular impulse."""
     assert scene.shock is not None
     at = np.searchsorted(t, nodes.t)
     i = scene.shock.body - 1

@@ -80,7 +80,8 @@ DIRECT: dict[str, Callable[[Scene, float, float, bool], ClosedMotion]] = {
 
 @dataclass(frozen=True)
 class Choice:
-    """The first model of `auto`, its reason, the estimated error of an axis, and the motion if it is not integrated."""
+    """The model that `auto` takes first, the estimated error of an axis, and the reason in words. `motion` is the closed form
+    of the motion; None if the model has to be integrated."""
 
     model: str
     estimate: float
@@ -91,9 +92,9 @@ class Choice:
 def choose(scene: Scene, t_end: float, tol: float, engine: str = "core") -> Choice:
     """Choose the cheapest model whose axes stay within `tol` (tips: in units of R) of the exact ones up to t_end (s).
 
-    The errors of the closed forms and of the linear model are estimated without integration. For a short run with a bar the
-    fast engine costs less than this estimate and integrates at once. An integrated model is checked while it runs: see
-    `lagrotor.numerics.error_estimate`.
+    The errors of the closed forms and of the linear model are estimated without integration. For a short run with a bar,
+    integration by the fast engine costs less than this estimate and is chosen at once. An integrated model is checked while it
+    runs: see `lagrotor.numerics.error_estimate`.
     """
     turns, missed = typical_rate(scene) * t_end / (2 * pi), "a run too short to estimate the cheaper ones' errors"
     names = ["closed_form", "linear"] if engine == "core" or scene.link is None or turns > SHORT.value else []
@@ -123,8 +124,7 @@ def simulate(
 
     A run is integrated twice, at two local errors, and compared with the conservation laws.
 
-    A LagrotorWarning says if `tol` is not kept or the run ends early. The trajectory then contains the times that were
-    reached.
+    A LagrotorWarning is issued if `tol` is not kept or the run ends early. The trajectory contains the times that were reached.
 
     Parameters
     ----------
@@ -139,7 +139,7 @@ def simulate(
     engine : str, default "core"
         "core", or "fast" for heyoka (`pip install lagrotor[fast]`), for "minimal", and for "spheres" without a bar.
     progress : callable or None, optional
-        A function of the time (s), called at each evaluation. Each compared run begins anew.
+        A function of the time (s), called at each evaluation. The times begin anew with each compared run.
 
     Returns
     -------
@@ -189,8 +189,8 @@ def simulate(
         raise InputError(f"simulate: model = {model!r} is not one of {', '.join(names)}{near(model, names)}")
     elif engine == "fast" and not _fast_runs(MODELS[model], scene):
         raise InputError(
-            f"simulate: engine='fast' does not run model={model!r} with this scene: a Taylor step may pass where its "
-            "constraints fail; take minimal, or engine='core'"
+            f"simulate: engine='fast' does not run model={model!r} with this scene: a Taylor step may pass a position where "
+            "its constraints fail; take minimal, or engine='core'"
         )
     # Time counts from the pulse. A distant pulse without effect is dropped, as it would cost digits.
     duration = float(times[-1] - times[0])
@@ -208,7 +208,7 @@ def simulate(
 def trajectory_of(
     scene: Scene, units: NaturalUnits, model: str, why: str, times: Array, run: EstimatedRun
 ) -> Trajectory:
-    """Return the trajectory of a run in natural units, at those of the times (n,) that it reached."""
+    """Return the trajectory in SI units of a run in natural units, at the times that the run reached."""
     observed, n = MODELS[model].observe(units.scene, run.states), len(run.t)
     momenta = observed.momenta - constant_momenta(units.scene, n)
     # In natural units the last time has a rounding error.
@@ -241,7 +241,7 @@ class _ScaledScene:
     progress: Callable[[float], None] | None
 
     def run(self, model: Model, patience: EvaluationBudget, bounded: bool = False) -> EstimatedRun:
-        """Return the run by a model. Raises StopError, in s, if nothing is reached."""
+        """Return the run by a model. Raises StopError, with its time in s, if the run does not reach any time."""
         rate, begin = self.units.rate, float(self.times[0])
         t = (self.times - begin) * rate
         report = self.progress
@@ -259,7 +259,8 @@ class _ScaledScene:
             raise
 
     def by_ladder(self, choice: Choice) -> tuple[str, str, EstimatedRun]:
-        """Return the first model of the ladder that reaches the end, or else the latest time, the reason, and its run."""
+        """Return name, reason and run of the first model of the ladder that reaches the end, or else of the one that gets
+        furthest."""
         first_model = [model.name for model in LADDER].index(choice.model)
         # If none reaches the end, the first models continue where they are badly conditioned.
         tries = [(model, model is not LADDER[-1]) for model in LADDER[first_model:]]
@@ -301,7 +302,8 @@ def evolution_of(
     model: Model, scene: Scene, t_end: float, patience: EvaluationBudget, engine: str = "core", *, bounded: bool = False,
     progress: Callable[[float], None] | None = None,
 ) -> Evolution:  # fmt: skip
-    """Return the evolution of a model in natural units up to t_end; `bounded` as in `integrate_model`."""
+    """Return the motion of a scene in natural units up to t_end by a model, with the measures of its error. With `bounded` the
+    run stops where the model is badly conditioned."""
     engine = engine if _fast_runs(model, scene) else "core"
     nodes = pulse_nodes(scene, t_end)
     start = model.start(scene)
@@ -348,7 +350,7 @@ def evolution_of(
 
 
 def start_error(model: Model, scene: Scene, start: Array) -> float:
-    """Return the error of the model's start (d,), in units of rounding.
+    """Return the error of the initial state (d,) of a model in units of the rounding error, at least 1.
 
     Near the joint line the bar hardly determines an axis, and the coordinates may represent another start than the given one.
     """

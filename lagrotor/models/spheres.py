@@ -1,7 +1,7 @@
-"""Rung 4: two unit vectors with multipliers. Twelve states, exact for any bar or none, no singular coordinate.
+"""Rung 4: two unit vectors with multipliers, twelve states. The model is exact with every bar and without one.
 
-Only the constraints can fail: at r_1 = r_2 = ± e_x bar and axes are in line and the constraints dependent. A run that comes
-within CLEARANCE of this position stops.
+Its coordinates are regular everywhere. Only the constraints can fail: at r_1 = r_2 = ± e_x, the dead point, bar and axes are in
+line and the constraints dependent. A run that comes within CLEARANCE of this position stops.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ def _projected(massive: bool, bar: bool) -> str:
 
 
 def _kind(scene: Scene, driven: bool) -> tuple[_Kind, tuple[float, ...]]:
-    """Return the scene's kind and its parameter values except the force."""
+    """Return the kind of program of the scene, and the values of its parameters except the force of the shock."""
     inertia_a, inertia_b = scene.inertias
     bar, massive = scene.link is not None, inertia_b != 0
     body = scene.shock.body if driven and scene.shock else 0
@@ -66,11 +66,12 @@ def _at_dead_point(y: Array) -> bool:
 
 
 def _time_to_dead_point(y: Array) -> float:
-    """Return a time of which half is at most the time of a state (12,) to r_1 = r_2 = ± e_x; inf if it moves away.
+    """Return twice a lower bound of the time from a state (12,) to the dead point r_1 = r_2 = ± e_x; inf if it moves away.
 
-    The components of the axes transverse to the joint line move on a cone with its apex at this position. A straight motion
-    through it and one around it feel no force, and a step over it would pass undetected. An axis at the angle θ from the line
-    with the rate θ' has tan θ/θ' instead of the remaining time θ/θ'. Half of it is a lower bound up to θ = 1.16.
+    The components of the axes transverse to the joint line move on a cone with its apex at this position. No force
+    distinguishes a straight motion through it from a motion around it, and a step over it would pass undetected. For an axis at
+    the angle θ from the line with the rate θ', the result is tan θ/θ' while the remaining time is θ/θ'. Half of the result is a
+    lower bound up to θ = 1.16.
     """
     if not (min(y[0], y[3]) > _TOWARDS or max(y[0], y[3]) < -_TOWARDS):
         return inf
@@ -79,10 +80,10 @@ def _time_to_dead_point(y: Array) -> float:
 
 
 def slack(states: Array) -> Array:
-    """Return the uncertainty (n,) of states (n, 12) by the constraints, in units of rounding.
+    """Return the uncertainty (n,) of states (n, 12) that follows from the constraints, in units of the rounding error.
 
-    The gradient of the third constraint leaves the plane of the two others by the transverse components of the axes. A
-    projection divides the rounding of the constraints by them.
+    The gradient of the bar's constraint differs from a combination of the two other gradients only by the transverse components
+    of the axes. A projection divides the rounding errors of the constraints by these components.
     """
     transverse = np.linalg.norm(states[:, [1, 2, 4, 5]], axis=1)
     return np.where(states[:, 0] * states[:, 3] > 0.9, 1 / np.clip(transverse, np.finfo(float).tiny, 1.0), 1.0)
@@ -105,8 +106,8 @@ def _start(scene: Scene) -> Array:
     start = np.array([*scene.axes[0], *scene.axes[1], *scene.rates[0], *scene.rates[1]])
     if scene.link and _at_dead_point(start):
         raise SingularError(
-            f"spheres: the axes {scene.axes} start {_across(start):.1e} rad from where bar and axes are in line and the motion "
-            f"is not determined, nearer than {CLEARANCE:g}: tilt an axis"
+            f"spheres: the axes {scene.axes} start {_across(start):.1e} rad from the position where bar and axes are in line and "
+            f"the motion is not determined, nearer than {CLEARANCE:g}: tilt an axis"
         )
     return start
 

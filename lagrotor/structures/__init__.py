@@ -7,8 +7,8 @@
 - `local_hamiltonian` expands the exact Lagrangian about upright. `Resonance`, `PrecessionLaw` and `hold_time` follow from it.
 - `ExactMotion` is the right-hand side of large motion; `Structure.simulate` integrates it to a `StructureRun`.
 
-A new load is a field of `Assembly`, a number in `Coefficients`, and a term in `exact.exact_motion.forces`, in
-`small_motion.matrices` and in `upright_hamiltonian.potential_of`.
+To add a load, give it a field in `Assembly`, an array in `Coefficients`, and a term in each of three functions:
+`exact.exact_motion.forces`, `small_motion.matrices` and `upright_hamiltonian.potential_of`.
 """
 
 from typing import TYPE_CHECKING

@@ -46,7 +46,7 @@ class Brace:
 
 @dataclass(frozen=True)
 class Assembly:
-    """The fields of a structure, checked. `Structure` documents them."""
+    """A structure without methods of analysis. Its fields are checked at construction; `Structure` documents them."""
 
     joints: tuple[tuple[float, float], ...]
     bars: tuple[Bar, ...] = ()
@@ -86,7 +86,7 @@ class Assembly:
             first = first_bar.setdefault(frozenset((i, j)), k)
             if first != k:
                 raise InputError(
-                    f"Structure: bars[{k}] = ({i}, {j}) is bars[{first}] again: dependent constraints; leave one out"
+                    f"Structure: bars[{k}] = ({i}, {j}) joins the same tips as bars[{first}]: dependent constraints; remove one"
                 )
         assign(self, "bars", bars)
         assign(self, "link", _each(self.link, len(bars), "link", Link))
@@ -104,13 +104,14 @@ class Assembly:
         upright = hypot(apart, reach[0] - reach[1])
         length = finite_number(items[2], f"Structure: bars[{k}] length", "m") if len(items) == 3 else upright
         if length <= 0:
-            raise InputError(f"Structure: bars[{k}] = ({i}, {j}) is {length:g} m long: its tips must be apart")
+            raise InputError(
+                f"Structure: bars[{k}] = ({i}, {j}) is {length:g} m long: its tips must be apart; give a length above zero"
+            )
         low, high = apart - sum(reach), apart + sum(reach)
         if not low <= length <= high:
             raise InputError(
-                f"Structure: bars[{k}] = ({i}, {j}), {length:g} m long, cannot close: the tips can be from "
-                f"{max(low, 0):g} to "
-                f"{high:g} m apart"
+                f"Structure: bars[{k}] = ({i}, {j}), {length:g} m long, cannot close: the distance of its "
+                f"tips can be {max(low, 0):g} to {high:g} m; give a length in this range"
             )
         return i, j, length
 
@@ -137,7 +138,7 @@ class Assembly:
             number = -1
         if not 0 <= number < len(self.joints):
             raise InputError(
-                f"Structure: {where}: {value!r} is no rotor: they are numbered 0 to {len(self.joints) - 1}"
+                f"Structure: {where}: {value!r} is no rotor: rotors are numbered 0 to {len(self.joints) - 1}"
             )
         return number
 
@@ -160,7 +161,7 @@ class Assembly:
 
     @property
     def natural(self) -> bool:
-        """True if each bar is as long as the distance of its tips with all axes upright."""
+        """True if the length of each bar equals the distance between its tips when all axes are upright."""
         return all(
             abs(hypot(*(p - q for p, q in zip(self.upright_tip(i), self.upright_tip(j), strict=True))) - length)
             <= 1e-12 * length
@@ -175,7 +176,7 @@ def _row(value: Any) -> list[Any]:
 
 
 def _amounts(value: Any, n: int, where: str, unit: str, signed: bool = False) -> tuple[float, ...]:
-    """Return one number for all or n of them as n numbers. Numbers below zero need `signed`."""
+    """Return a single number or a list of n numbers as n numbers. Raises InputError for negative ones unless `signed`."""
     check = finite_number if signed else not_negative
     items = _row(value) if isinstance(value, Iterable) and not isinstance(value, str) else [value]
     if len(items) not in (1, n):

@@ -1,8 +1,9 @@
 """The exact characteristic polynomial of a small structure, in symbols.
 
-The symbols are G_i = I3 ω_i, a (a_i) for the inertias A_ii, b (b_k) for the couplings A_ij of the bars, kappa (kappa_i) for
-g S_i − hinge_i, c (c_i) for friction, k_j and d_j for stiffness and damping of a brace. Equal values share a symbol; the value
-zero has none. Lengths of axes and directions of bars enter as rational numbers.
+The symbol G_i = I3 ω_i is an axial momentum, a an inertia A_ii, b the coupling A_ij of a bar, and kappa a value of g S_i −
+hinge_i. c is the friction on an axis, k the stiffness and d the damping of a brace. Several different values have indices, as
+a_1 and a_2. Equal values share a symbol, and the value zero has none. Lengths of axes and directions of bars enter as rational
+numbers.
 """
 
 from dataclasses import dataclass, replace
@@ -25,14 +26,15 @@ _MOST = 6  # rotors
 
 @dataclass(frozen=True, repr=False)
 class Characteristic(Shown):
-    """The characteristic polynomial in `s` up to a constant factor, the matrices, and {symbol: its number}."""
+    """The characteristic polynomial in the symbol `s`, up to a constant factor. `system` has the matrices in symbols on the
+    degrees of freedom that the bars leave, and `values` maps each symbol to its numerical value."""
 
     polynomial: sp.Expr
     system: LinearSystem
     values: dict[sp.Symbol, float]
 
     def summary(self) -> dict[str, str]:
-        """Return the polynomial and the numbers of its symbols."""
+        """Return the polynomial and the value of each symbol, as rows of a table."""
         return {
             "polynomial": str(self.polynomial),
             "symbols": ", ".join(f"{symbol} = {value:.6g}" for symbol, value in self.values.items()) or "none",
@@ -43,7 +45,7 @@ def characteristic(structure: Assembly) -> Characteristic:
     """Derive the characteristic polynomial of a structure: see `Structure.characteristic`."""
     N = len(structure.joints)
     if N > _MOST:
-        raise InputError(f"characteristic: {N} rotors are too many for symbols: at most {_MOST}; use modes()")
+        raise InputError(f"characteristic: {N} rotors are too many for symbols, at most {_MOST}: use modes()")
     check_upright(structure, "characteristic")
     c, values, exact = coefficients(structure), dict[sp.Symbol, float](), np.vectorize(_exact, otypes=[object])
     G = [sp.Symbol(f"G_{i + 1}", real=True) if g else sp.Integer(0) for i, g in enumerate(c.G)]
@@ -75,7 +77,8 @@ def characteristic(structure: Assembly) -> Characteristic:
 
 
 def _symbols(name: str, numbers: Array, values: dict[sp.Symbol, float], real: bool = False) -> list[sp.Expr]:
-    """Return a symbol for each distinct value, positive unless `real`, and record its number in `values`."""
+    """Return the symbols of some numbers, one per distinct value, and add {symbol: value} to `values`. The symbols are declared
+    positive, or only real if `real` is True. The number zero stays zero."""
     distinct = [v for v in dict.fromkeys(numbers.tolist()) if v]
     sign = {"real": True} if real else {"positive": True}
     symbols = {v: sp.Symbol(name if len(distinct) == 1 else f"{name}_{k + 1}", **sign) for k, v in enumerate(distinct)}

@@ -5,7 +5,8 @@ With r_i the unit vector of axis i and X_i = p_i + R_i r_i its tip, the kinetic 
     T = 1/2 sum_ij A_ij r_i' . r_j',   A_ii = J_i + load_i R_i² + sum_bars R_i² (m/4 + K/ell²),
                                        A_ij = R_i R_j (m/4 − K/ell²) for a bar between i and j,
 
-and the weight is sum_i g S_i z_i with S_i = M_i R_i/2 + load_i R_i + sum_bars m R_i/2.
+and the potential energy of the weight is sum_i g S_i z_i with S_i = M_i R_i/2 + load_i R_i + sum_bars m R_i/2. J_i is the
+inertia of rotor i about its joint and M_i its mass. The bars have the mass m, the moment of inertia K and the length ell.
 """
 
 from collections.abc import Callable
@@ -27,9 +28,12 @@ Complex = NDArray[np.complex128]
 class Coefficients:
     """The coefficients of a structure in arrays.
 
-    Per rotor (N,): lengths R, inertia A_ii, first moments S (kg m), momenta G = I3 ω, their decay (1/s), friction, hinge. Per
-    bar (B,): ends i, j, length ell, coupling A_ij. feet: the ground joints (N, 3). Per brace: tip, other tip (−1 for the
-    ground), ground point (3,), natural length, stiffness, damping.
+    - For each rotor, shape (N,): R is the length of the axis, A the inertia A_ii, S the first moment (kg m), G = I3 ω the axial
+      momentum and `decay` its rate of decay by spin friction (1/s). `friction` and `hinge` are those of the structure.
+    - `feet` are the ground joints, (N, 3), m.
+    - For each bar, shape (B,): i and j are the rotors at its ends, `ell` its length, and `coupling` is A_ij.
+    - For each brace: `brace_tip` is the rotor at its first end. `brace_to` is the rotor at its second end, or −1 for ground.
+      `brace_point` (3,) is the second end upright, and `brace_length` the unstrained length, m.
     """
 
     R: Array
@@ -54,7 +58,7 @@ class Coefficients:
 
     @property
     def inertia(self) -> Array:
-        """The matrix A, (N, N), kg m²."""
+        """The matrix A_ij of the kinetic energy, (N, N), kg m²."""
         A = np.diag(self.A)
         np.add.at(A, (self.i, self.j), self.coupling)
         np.add.at(A, (self.j, self.i), self.coupling)
@@ -67,7 +71,7 @@ class Coefficients:
 
     @cached_property
     def pull(self) -> float:
-        """The largest rate (rad/s) at which one axis topples or swings without spin."""
+        """The largest rate in rad/s at which an axis alone would topple or swing without spin, by weight, hinge and braces."""
         pull = np.abs(self.gravity) * np.abs(self.S) + self.hinge
         stiff = np.zeros(len(self.R))
         np.add.at(stiff, self.brace_tip, self.stiffness * self.R[self.brace_tip] ** 2)
@@ -77,7 +81,7 @@ class Coefficients:
 
     @cached_property
     def rate(self) -> float:
-        """The largest rate (rad/s) at which one axis precesses, topples or swings; never zero."""
+        """The larger of `pull` and the rates |G|/A of the axes, rad/s; at least 1e-6. It is the unit of rates in a run."""
         return float(max((np.abs(self.G) / self.A).max(), self.pull, 1e-6))
 
 
@@ -89,7 +93,8 @@ def coefficients(s: Assembly) -> Coefficients:
 def coefficients_in(
     s: Assembly, numbers: Callable[[Any], Any], ell: Array, root: Callable[[Array], Array]
 ) -> Coefficients:
-    """Return the coefficients in numbers of any kind, made by `numbers` from floats; hinges stay floats."""
+    """Return the coefficients in numbers of another kind than floats, such as intervals. `numbers` converts floats, `root`
+    takes square roots, and `ell` are the lengths of the bars. Hinges stay floats."""
     M, R, I1, I3 = (numbers([getattr(rotor, name) for rotor in s.rotor]) for name in ("mass", "length", "I1", "I3"))
     load = numbers(s.load)
     A, S = I1 + M * R**2 / 4 + load * R**2, M * R / 2 + load * R

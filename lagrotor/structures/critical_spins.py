@@ -8,11 +8,11 @@ Without friction, with K the stiffness and B the gyroscopic matrix on the n degr
 
       max_k min_ω λ_k(ω),   λ_k the positive roots of det(ω M + |K|/ω − λ i B) = 0.
 
-  Above the minimum of each branch the branch gives two real rates ω, n in all, and there are no more.
-- For M = a 1 and K = −κ 1 (massless bars, equal loads) the factor is 2 sqrt(a κ)/β, with i β the least root of B.
+  At a factor λ above its minimum, each of the n/2 branches λ_k gives two real rates ω. These are all n rates.
+- For M = a 1 and K = −κ 1 (massless bars, equal loads) the factor is 2 sqrt(a κ)/β, with ±i β the smallest eigenvalues of B.
 
 Friction on every axis makes the structure unstable again, however slowly (Kelvin, Tait & Chetaev: Merkin, § 6.5). Friction on
-some axes does so if spins and stiffness couple it to the unstable motion.
+only some axes does so if spins and stiffness couple the damped motion to the unstable one.
 """
 
 from dataclasses import dataclass
@@ -33,13 +33,14 @@ _GRID = np.geomspace(1e-3, 1e4, 281)  # of the natural factor: the scan if K is 
 
 
 def critical_spin(s: Assembly) -> float:
-    """Return the critical factor: see `Structure.critical_spin`. Couplings to friction below 1e-10 count as zero."""
+    """Return the factor on all spins above which the linear motion stays bounded: see `Structure.critical_spin`. A motion that
+    friction reaches only by a relative coupling below 1e-10 counts as undamped."""
     check_upright(s, "critical_spin")
     return spin_threshold(small_motion(s))
 
 
 def spin_threshold(linear: SmallMotion) -> float:
-    """Return the critical factor of a linear system."""
+    """Return the factor on all spins above which a linear system is stable: 0 if it needs no spin, inf if none suffices."""
     K = np.linalg.eigvalsh(stiffness_in_masses(linear))
     falling, factor = int((K < -1e-12).sum()), 0.0
     if falling:
@@ -52,16 +53,16 @@ def spin_threshold(linear: SmallMotion) -> float:
 
 
 def stiffness_in_masses(linear: SmallMotion) -> Array:
-    """Return K in the metric of M and in units of pull², which does not depend on the spins."""
+    """Return L⁻¹ K L⁻ᵀ / pull², (n, n), with M = L Lᵀ. The unit `pull` (rad/s) does not depend on the spins."""
     root = np.linalg.inv(np.linalg.cholesky(linear.mass))
     return np.asarray(root @ linear.stiffness @ root.T / (linear.pull or linear.rate) ** 2)
 
 
 def friction_undoes(linear: SmallMotion) -> bool:
-    """Return True if friction makes the motion unstable at any spins.
+    """Return True if friction makes the motion unstable at every multiple of these spins.
 
-    The theorem of Kelvin, Tait & Chetaev holds on the least subspace that contains the damped motions and is invariant under
-    K and G.
+    The theorem of Kelvin, Tait & Chetaev is applied to the smallest subspace that contains the damped motions and is invariant
+    under K and the gyroscopic matrix. The motion is unstable if K has a negative eigenvalue on this subspace.
     """
     root, K = np.linalg.inv(np.linalg.cholesky(linear.mass)), stiffness_in_masses(linear)
     forms = [f / (np.abs(f).max() or 1.0) for f in (K, root @ linear.gyroscopic @ root.T)]
@@ -81,7 +82,8 @@ def _range(columns: Array) -> Array:
 
 
 def _by_branches(linear: SmallMotion) -> float:
-    """Return the factor for negative K: 1/max over ω of the least positive root h of det(i B − h (ω M + |K|/ω)) = 0."""
+    """Return the critical factor if K is negative definite; inf if the gyroscopic matrix B is singular. The factor is 1/max
+    h(ω), where h is the smallest positive root of det(i B − h (ω M + |K|/ω)) = 0."""
     from scipy.linalg import eigh
     from scipy.optimize import minimize_scalar
 
@@ -109,7 +111,8 @@ def _by_branches(linear: SmallMotion) -> float:
 
 
 def _by_scan(linear: SmallMotion) -> float:
-    """Return the largest factor at which growth ends, by scan and bisection. The scan misses narrower windows."""
+    """Find the largest factor at which growth ends, by a scan and bisection: 0 if no motion grows at any factor, inf if one
+    grows at the largest. The factors of the scan are 6 % apart. Intervals of growth between two of them are missed."""
     size = np.abs(linear.gyroscopic).max()
     if size == 0:
         return inf
@@ -130,7 +133,8 @@ def _by_scan(linear: SmallMotion) -> float:
 
 @dataclass(frozen=True)
 class Patterns:
-    """The numbers of patterns tried and of stable ones, the least critical spin (rad/s, inf if none), and its pattern."""
+    """The result of `sign_patterns`: `count` patterns of signs were tried, and a finite spin makes `standing` of them stable.
+    The smallest critical spin is `least` (rad/s, inf if no pattern can be stable), and `best` are the signs of its pattern."""
 
     count: int
     standing: int
@@ -139,9 +143,9 @@ class Patterns:
 
 
 def sign_patterns(s: Assembly) -> Patterns:
-    """Find the pattern of signs of equal spins with the least critical spin.
+    """Find the signs of spins of equal size for which the critical spin is smallest.
 
-    The first sign is +, since a change of all signs is a reflection.
+    The first sign is always +, because a reversal of all signs only reflects the motion.
 
     Parameters
     ----------
@@ -151,7 +155,7 @@ def sign_patterns(s: Assembly) -> Patterns:
     Returns
     -------
     Patterns
-        The numbers of patterns and the best pattern.
+        The number of patterns tried, the number of stable ones, and the best pattern.
 
     Examples
     --------
@@ -161,7 +165,7 @@ def sign_patterns(s: Assembly) -> Patterns:
     """
     N = len(s.joints)
     if N > _MOST:
-        raise InputError(f"sign_patterns: {N} rotors have 2^{N - 1} patterns: at most {_MOST} rotors")
+        raise InputError(f"sign_patterns: {N} rotors have 2^{N - 1} patterns: give at most {_MOST} rotors")
     check_upright(s, "sign_patterns")
     linear = small_motion(s)
     I3 = np.array([rotor.I3 for rotor in s.rotor])

@@ -1,4 +1,4 @@
-"""The gallery of structures: each has a name, a caption and the duration of its film."""
+"""The gallery of structures. Each entry has a name, a caption and the duration of its film."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ _WEIGHT: dict[str, Any] = {"gravity": 9.81, "load": 2.0}
 
 @dataclass(frozen=True)
 class Example:
-    """A structure of the gallery: the function that makes it, the caption, and the duration of its film in s."""
+    """An entry of the gallery: `make` returns the structure, `says` is its caption, `duration` the length of its film in s."""
 
     make: Callable[[], Structure]
     says: str
@@ -42,37 +42,39 @@ def _grid() -> Structure:
 
 GALLERY = {
     "top": Example(
-        lambda: Structure(joints=[(0, 0)], spins=30, **_WEIGHT), "a loaded rotor alone, which its spin holds", 6
+        lambda: Structure(joints=[(0, 0)], spins=30, **_WEIGHT), "a single loaded rotor, which its spin stabilises", 6
     ),
     "pair": Example(
         lambda: Structure(**_PAIR, spins=[10, -10], link=Link(1, 0.01, 0.1)), "the paper's pair, without weight", 6
     ),
     "loaded-pair": Example(
-        lambda: Structure(**_PAIR, spins=[60, -60], **_WEIGHT), "a pair under load: no spins hold it", 2.5
+        lambda: Structure(**_PAIR, spins=[60, -60], **_WEIGHT), "a pair under load, which no spins stabilise", 2.5
     ),
     "braced-pair": Example(
         lambda: Structure(**_PAIR, spins=40, **_WEIGHT, braces=[Brace(0, (0.0, 1.0, 1.0), 400.0)]),
-        "a brace across the bar at one tip, and the pair stands",
+        "a pair that a brace across the bar at one tip makes stable",
         5,
     ),
     "corner": Example(
         lambda: Structure(joints=[(0, 0), (1, 0), (1, 1)], bars=[(0, 1), (1, 2)], spins=[35, 0, 35], **_WEIGHT),
-        "three rotors, two bars: the smallest jointed structure that stands",
+        "three rotors and two bars, the smallest jointed structure that is stable",
         6,
     ),
-    "row": Example(_row, "a straight row: what the spins do not act on falls", 2.5),
+    "row": Example(_row, "a straight row, which falls in a motion on which no spin acts", 2.5),
     "square": Example(
         lambda: Structure(**_SQUARE, spins=[-35, 35, 35, 35], **_WEIGHT),
-        "four in a square, one spinning the other way",
+        "four rotors in a square, one of which spins the other way",
         6,
     ),
     "plate": Example(
         lambda: Structure(joints=_SQUARE["joints"], bars=[*_SQUARE["bars"], (0, 2)], spins=60, **_WEIGHT),
-        "a rigid plate on four rotors: three degrees of freedom, an odd number, fall",
+        "a rigid plate on four rotors, unstable in an odd number of degrees of freedom, three",
         2.5,
     ),
-    "hexagon": Example(_hexagon, "a ring of six with spins that alternate", 5),
-    "grid": Example(_grid, "nine rotors, the diagonal at half speed the other way: the least spin found for them", 5),
+    "hexagon": Example(_hexagon, "a ring of six rotors with alternating spins", 5),
+    "grid": Example(
+        _grid, "nine rotors, the diagonal turning the other way at half speed, which needs the least spin found", 5
+    ),
 }
 
 
@@ -83,7 +85,7 @@ def example(name: str) -> Structure:
     Parameters
     ----------
     name : str
-        One of the names in `GALLERY`, as "corner".
+        One of the names in `GALLERY`, such as "corner".
 
     Returns
     -------

@@ -5,14 +5,14 @@ mode j alone stays in this mode if no multiple of ω_j is another rate (Lyapunov
 
     Ω = ω_j + A_jj I_j + O(I_j²),    multipliers exp(±2πi (ω_k + A_jk I_j)/Ω).
 
-The axis that moves most tilts by a + b a², where a = 2 |its component of the mode| √I_j and b comes from the terms forced at
-0 and 2Ω. Hence
+The largest tilt of the axis that moves most is a + b a². Here a = 2 |u| √I_j, with u the component of this axis in the mode,
+and b comes from the mean and the second harmonic that the mode forces. Hence
 
     Ω = ω_j + ω_j2 (tilt² − 2 b tilt³) + O(tilt⁴).
 
-If m|ω_j| is near |ω_k + ω_l|, with rates that have the signs of their energies, the terms c z_j^m z̄_k z̄_l, or with z̄_j, are
-kept. They couple the two modes. Multipliers leave the unit circle if |c| I_j^(m/2) (twice this for k = l) exceeds half of the
-detuning of the rates at I_j.
+The rates have the signs of the energies of their modes. If m|ω_j| is near |ω_k + ω_l|, the normal form keeps the terms
+c z_j^m z̄_k z̄_l, or those with z̄_j instead of z_j, which couple the modes k and l. Multipliers leave the unit circle if
+|c| I_j^(m/2), or twice this for k = l, exceeds half of the detuning of the rates at I_j.
 """
 
 from dataclasses import dataclass
@@ -47,9 +47,15 @@ _EXACT = 1e-6  # relative detuning below which a mode is resonant
 class PrecessionLaw(Shown):
     """The precession rate Ω = rate + shift (tilt² − 2 skew tilt³) + O(tilt⁴) of a mode, in rad/s.
 
-    others (n − 1,): the other rates, rad/s, negative for modes of negative energy; sign: the sign of this mode's energy.
-    reach: the largest tilt of the law, 0.5 or less if harmonics drive other modes. action: I_j/a² in the units of
-    `quadratic`. quadratic: the terms in z_j, z̄_j that are of second degree in the other z, z̄, rad/s.
+    - `rate`: the rate of the mode at vanishing tilt, rad/s.
+    - `shift`: the coefficient of tilt², rad/s.
+    - `skew`: the number b of the module.
+    - `others`: the rates of the other modes, (n − 1,), rad/s, negative for modes of negative energy.
+    - `reach`: the largest tilt at which the law is used: 0.5, or less if harmonics drive other modes.
+    - `sign`: the sign of the energy of this mode.
+    - `action`: the ratio I_j/a² in the units of `quadratic`.
+    - `quadratic`: the terms of the normal form, rad/s, that are of second degree in the coordinates z, z̄ of the other modes.
+    - `structure` and `mode`: the structure and the number of the mode.
     """
 
     rate: float
@@ -67,24 +73,25 @@ class PrecessionLaw(Shown):
         __getattr__ = old_attribute
 
     def rate_at(self, tilt: float) -> float:
-        """Return Ω in rad/s at a tilt, which is defined as for `Structure.steady_precession`."""
+        """Return the precession rate Ω in rad/s at a tilt, the largest horizontal component of an axis, at most `reach`."""
         return self.rate + self.shift * self._square(tilt)
 
     def multipliers_at(self, tilt: float) -> NDArray[np.complex128]:
-        """Return the Floquet multipliers (2n − 2,) other than the two that are 1, at a tilt."""
+        """Return the Floquet multipliers at a tilt, (2n − 2,), without the two that are always 1."""
         from scipy.linalg import expm
 
         period, rotation = 2 * pi / self.rate_at(tilt), np.exp(-2 * pi * self._turning)
         return np.asarray(np.linalg.eigvals(rotation[:, None] * expm(self._slopes(self._root(tilt)) * period)))
 
     def growth_at(self, tilt: float) -> float:
-        """Return the logarithm of the largest modulus of a multiplier per turn; 0 if it is below 1e-9."""
+        """Return the growth per turn at a tilt: the logarithm of the largest modulus of a multiplier, or 0 below 1e-9."""
         exponent = float(np.log(np.abs(self.multipliers_at(tilt)).max(initial=1.0)))
         return exponent if exponent > _ROUNDING else 0.0
 
     @property
     def edge(self) -> float:
-        """The least of 400 tilts, refined, at which a multiplier leaves the unit circle; inf if none does within `reach`."""
+        """The smallest tilt, of 400 tilts and refined, at which a multiplier leaves the unit circle; inf if none up to
+        `reach`."""
         tilts = np.linspace(0, self.reach, _TILTS + 1)[1:]
         beyond = next((float(tilt) for tilt in tilts if self.growth_at(tilt)), inf)
         stable = beyond - float(tilts[0])
@@ -95,13 +102,13 @@ class PrecessionLaw(Shown):
 
     @property
     def _turning(self) -> NDArray[np.complex128]:
-        """The values i ν/Ω of ζ and ζ̄ in z_k = ζ_k exp(−iν_k t), where the equations of ζ are autonomous."""
+        """The numbers i ν_k, then −i ν_k, (2n − 2,), of a frame z_k = ζ_k exp(−iν_k t) in which ζ has autonomous equations."""
         nu = self.sign * _frame(self.quadratic)[0]
         return np.asarray(1j * np.append(nu, -nu), complex)
 
     @cached_property
     def _powers(self) -> NDArray[np.complex128]:
-        """The matrices S₀, S₁, S₂ of (ζ, ζ̄)' = (S₀ + r S₁ + r² S₂) (ζ, ζ̄), with r² the action, (3, 2n − 2, 2n − 2)."""
+        """The matrices S₀, S₁, S₂ of (ζ, ζ̄)' = (S₀ + r S₁ + r² S₂) (ζ, ζ̄), (3, 2n − 2, 2n − 2), with r² the action I_j."""
         half = len(self.others)
         Q = np.zeros((3, 2 * half, 2 * half), complex)
         for c, e in zip(self.quadratic.coefficients, self.quadratic.exponents, strict=True):
@@ -128,7 +135,7 @@ class PrecessionLaw(Shown):
         }
 
     def _square(self, tilt: float) -> float:
-        """Return a² at a tilt."""
+        """Return the square of the amplitude a that belongs to a tilt. Raises InputError unless 0 ≤ tilt ≤ `reach`."""
         tilt = finite_number(tilt, "precession_law: tilt", "parts of a unit vector")
         if not 0 <= tilt <= self.reach * (1 + _ROUNDING):
             raise InputError(
@@ -144,7 +151,7 @@ def precession_law(s: Assembly, mode: int = 0) -> PrecessionLaw:
     rate, shape = precessing_mode(s, mode, where)
     rates, n = signed_rates(small_motion(s)), small_motion(s).dof
     if n > MOST_DOF:
-        raise InputError(f"{where}: {n} degrees of freedom: at most {MOST_DOF} are expanded")
+        raise InputError(f"{where}: {n} degrees of freedom are too many to expand: at most {MOST_DOF}")
     if len(rates) < n:
         raise InputError(
             f"{where}: another mode grows or has no rate, and only oscillations are expanded: take steady_precession(mode, tilt)"
@@ -189,13 +196,13 @@ def precession_law(s: Assembly, mode: int = 0) -> PrecessionLaw:
 
 
 def _steps(exponents: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return the powers of the z minus those of the z̄."""
+    """Return the powers of the variables z minus the powers of their conjugates z̄, for each term, (terms, variables)."""
     half = exponents.shape[1] // 2
     return exponents[:, :half] - exponents[:, half:]
 
 
 def _frame(quadratic: Polynomial) -> tuple[Array, float]:
-    """Return the ν_k/Ω in which the terms of mode j and two others are constant, and their remaining rate."""
+    """Return the rates ν_k/Ω of a frame in which the terms of `quadratic` are constant, and the largest rate that remains."""
     steps = _steps(quadratic.exponents[:, 2:]).astype(float)
     steps_of_mode = -_steps(quadratic.exponents[:, :2])[:, 0]
     nu: Array = np.linalg.pinv(steps) @ steps_of_mode

@@ -1,18 +1,19 @@
 """Resonances by which a structure that its spins stabilise is unstable, and the pushes that they need.
 
 A position that spins hold against weight has modes of both signs of energy, H = sum_j ω_j |z_j|² + …, with ω_j < 0 for the
-negative ones. Let k·ω = δ be small for k_j ≥ 0, |k| = d. The terms of degree d of the normal form, 2 Re P with P of degree d in
-z alone, then feed all these modes at once. With N = sum |z_j|² over them and c the largest |P| at N = 1,
+negative ones. Let k·ω = δ be small for integers k_j ≥ 0 with the sum d. The terms of degree d of the normal form, 2 Re P with P
+of degree d in z alone, then feed all modes with k_j > 0 at once. With N = sum |z_j|² over these modes and c the largest |P| at
+N = 1,
 
-    |dN/dt| ≤ 2 d c N^(d/2):   from N₀ = ρ² none topples before  t = 1/(d (d − 2) c ρ^(d−2)),
+    |dN/dt| ≤ 2 d c N^(d/2):   no motion from N = ρ² topples before  t = 1/(d (d − 2) c ρ^(d−2)),
 
-and along the steepest direction it takes this time. Off resonance δ N/d + K_d is conserved, where K_d collects all terms of
-degree d. With κ the largest value of K_d at N = 1, no start below ρ passes the barrier of δ N/d − κ N^(d/2) if
+and a motion along the steepest direction topples at this time. Off resonance δ N/d + K_d is conserved, where K_d collects all
+terms of degree d. With κ the largest value of K_d at N = 1, no start below ρ passes the barrier of δ N/d − κ N^(d/2) if
 
     |δ| > ½ d² κ (ρ²/x)^((d−2)/2),     x + (2/d) x^(d/2) = 1 − 2/d:    |δ| > 18 c ρ for d = 3.
 
 The case d = 3 is that of Cherry, Trans. Camb. Phil. Soc. 23 (1925) 199. For d = 4 the terms in the actions may stop the growth:
-a vector k is unstable if 2 |P| > |K_4 − 2 Re P| along |z_j|² ∝ k_j, in any basis of modes of equal rates.
+a vector k is unstable if 2 |P| > |K_4 − 2 Re P| along |z_j|² ∝ k_j. Modes of equal rates may be combined in any basis.
 """
 
 from collections.abc import Iterator, Sequence
@@ -55,11 +56,18 @@ _TOP = 12.0  # times the critical factor: above, fast rates exceed three slow on
 class Resonance(Shown):
     """A resonance of order 3 or 4 that feeds modes of both signs of energy, or slow modes of nearly zero rate.
 
-    A push is the root of the sum of squares of the rates of all axes at the start, upright, in rad/s. vectors: the integer
-    vectors k, one number per mode, nearest to resonance first. rates (n,): the rates of the modes at the factor `at` on all
-    spins, negative for negative energy, rad/s. detuning: k·rates of the first vector, rad/s; per_factor: its derivative.
-    growth, largest: the coefficients c and κ of the module, 1/s for N = (reach × push)². reach: sqrt(N) per push in the
-    steepest direction, s. falls: True if the terms of the same order do not stop the growth.
+    The size of a push is the root of the sum of squares of the rates of all axes at the start, in rad/s. All axes start upright.
+
+    - `order`: the order, 3 or 4.
+    - `vectors`: the integer vectors k with one number per mode, the vector nearest to resonance first.
+    - `rates`: the rates of the modes, (n,), rad/s, negative for modes of negative energy.
+    - `at`: the factor on all spins at which these rates hold.
+    - `detuning`: the detuning k·rates of the first vector, rad/s.
+    - `per_factor`: the derivative of the detuning with respect to the factor on all spins, rad/s.
+    - `growth`: the coefficient c of the module, 1/s, for N = (reach × push)².
+    - `largest`: the coefficient κ of the module, 1/s.
+    - `reach`: the ratio sqrt(N)/push in the steepest direction, s.
+    - `falls`: True if the terms of the same order do not stop the growth.
     """
 
     order: int
@@ -80,7 +88,7 @@ class Resonance(Shown):
 
     @property
     def resonant(self) -> bool:
-        """True if the detuning is below half of each rate that takes part; otherwise the barrier alone decides."""
+        """True if the detuning is below half of every rate in the resonance. If not, a push topples only over the barrier."""
         return 2 * abs(self.detuning) < np.abs(self.rates[np.array(self.vectors[0]) > 0]).min()
 
     def push(self) -> float:
@@ -90,13 +98,14 @@ class Resonance(Shown):
         return float(sqrt(_BARRIER[d]) * barrier / self.reach)
 
     def window(self, push: float) -> tuple[float, float]:
-        """Return the interval of factors on all spins in which a push (rad/s) may topple it, by linear extrapolation."""
+        """Return the factors (low, high) on all spins between which a push (rad/s) may topple the structure, extrapolated."""
         d, x = self.order, _BARRIER[self.order]
         half = d * d * self.largest / 2 * (self.reach * push / sqrt(x)) ** (d - 2) / abs(self.per_factor)
         return float(self.factor - half), float(self.factor + half)
 
     def least_time(self, push: float) -> float:
-        """Return the time (s) before which no push of a size (rad/s) topples it; at exact resonance some push takes it."""
+        """Return the time (s) before which no push of a given size (rad/s) topples the structure. At exact resonance a push of
+        this size in the steepest direction takes exactly this time."""
         d = self.order
         return 1 / (d * (d - 2) * self.growth * (self.reach * push) ** (d - 2))
 
@@ -123,7 +132,7 @@ class Resonance(Shown):
 
 
 def signed_rates(linear: SmallMotion, factor: float = 1.0) -> Array:
-    """Return the rates ω_j, ascending, negative for modes of negative energy; empty if a mode grows."""
+    """Return the rates ω_j, ascending, rad/s, negative for modes of negative energy; no rates if a mode grows or is neutral."""
     scaled = linear.at_spins(factor)
     roots, vectors = scaled.waves
     if scaled.growth > 0 or not roots.imag.all():
@@ -133,22 +142,22 @@ def signed_rates(linear: SmallMotion, factor: float = 1.0) -> Array:
 
 
 def resonances(s: Assembly, factor: float = 1.0, orders: Sequence[int] = (3, 4)) -> tuple[Resonance, ...]:
-    """Return the resonances near some spins: see `Structure.resonances`."""
+    """Return the resonances near the spins times a factor: see `Structure.resonances`."""
     check_upright(s, "resonances")
     finite_array("resonances: factor", factor, ())
     linear = small_motion(s)
     rates = signed_rates(linear, factor)
     if not len(rates):
-        raise InputError("resonances: a mode grows or has the rate zero, so that no resonance is defined")
+        raise InputError("resonances: a mode grows or has the rate zero, and no resonance is defined: change spins")
     if not (rates[0] < 0 < rates[-1]):
         return ()
     if linear.dof > MOST_DOF:
-        raise InputError(f"resonances: {linear.dof} degrees of freedom: at most {MOST_DOF} are expanded")
+        raise InputError(f"resonances: {linear.dof} degrees of freedom are too many to expand: at most {MOST_DOF}")
     slowest, fastest = np.abs(rates).min(), np.abs(rates).max()
     if fastest > WIDEST * slowest:
         raise SingularError(
             f"resonances: the fastest rate, {fastest:.3g} rad/s, is more than 10⁶ times the slowest, {slowest:.1g} rad/s, which "
-            "is lost in its rounding: take slower spins"
+            "rounding hides: take slower spins"
         )
     slope = _slopes(linear, factor)
     candidates = [r for d in orders for r in _of_order(s, rates, slope, factor, d)]
@@ -161,7 +170,7 @@ def first_resonance(s: Assembly) -> Resonance | None:
 
 
 def _of_order(s: Assembly, rates: Array, slopes: Array, factor: float, order: int) -> Iterator[Resonance]:
-    """Yield the resonances of one order, in groups of vectors with similar detunings."""
+    """Yield the resonances of one order. Each collects the vectors k whose detunings k·rates are similar."""
     h = local_hamiltonian(s)
     pushed = start_of_push(s)
     vectors = sorted(_vectors(rates, order), key=lambda k: abs(np.dot(k, rates)))
@@ -176,13 +185,14 @@ def _of_order(s: Assembly, rates: Array, slopes: Array, factor: float, order: in
 
 
 def start_of_push(s: Assembly) -> Array:
-    """Return (q, p) of a unit push along each degree of freedom, (2n, n), in the units of `LocalHamiltonian`."""
+    """Return (q, p) after a push of 1 rad/s along each degree of freedom, (2n, n), in the units of `LocalHamiltonian`."""
     h = local_hamiltonian(s)
     return np.vstack([np.zeros_like(h.mass), h.mass / h.rate])
 
 
 def _vectors(rates: Array, order: int) -> list[tuple[int, ...]]:
-    """Return the k ≥ 0 with |k| = order and small k·rates. Slow modes alone count, too: they escape by the same law."""
+    """Return the integer vectors k with k_j ≥ 0, the sum `order` and small k·rates. Vectors of slow modes alone are included,
+    because these modes grow by the same law."""
     near, n = _NEAR * np.abs(rates).max(), len(rates)
     combinations = combinations_with_replacement(range(n), order)
     return [tuple(c.count(j) for j in range(n)) for c in combinations if abs(rates[list(c)].sum()) < near]
@@ -191,7 +201,7 @@ def _vectors(rates: Array, order: int) -> list[tuple[int, ...]]:
 def _resonance(
     n: NormalForm, unit: float, pushed: Array, group: list[tuple[int, ...]], rates: Array, slopes: Array, at: float
 ) -> Resonance | None:
-    """Return the resonance of a group of vectors; None if their terms vanish."""
+    """Return the resonance of a group of vectors k; None if the normal form has no terms for these vectors."""
     size, order, place = len(rates), sum(group[0]), np.argsort(np.real(n.frequencies), kind="stable")
     vectors = [tuple(int(k[i]) for i in np.argsort(place)) for k in group]  # in the order of the normal form's modes
     modes = np.any(vectors, axis=0)
@@ -216,9 +226,10 @@ def _resonance(
 
 
 def _outweighs(terms: Polynomial, k: tuple[int, ...], groups: list[list[int]]) -> bool:
-    """Return True if 2 |P| exceeds the other terms somewhere at |z_j|² that sum to k_j over modes of equal rates.
+    """Return True if 2 |P| of the vector k somewhere exceeds the other terms of the same order.
 
-    Modes of equal rates have any basis. The phase of P is free: the condition holds if the sum of all terms takes both signs.
+    The |z_j|² of modes with equal rates have the same sum as their k_j, because these modes may be combined in any basis. The
+    phase of P is free, so the condition holds if the sum of all terms takes both signs.
     """
     n = len(k)
     of = np.array([[j in g for j in range(n)] for g in groups])
@@ -230,7 +241,8 @@ def _outweighs(terms: Polynomial, k: tuple[int, ...], groups: list[list[int]]) -
 
 
 def _least(f: Polynomial, groups: Array, sums: Array) -> float:
-    """Return the least real part of f(z, z̄) at given sums of |z_j|² over groups (rows of a mask), from several starts."""
+    """Return the least real part of f(z, z̄) that minimisations from eight starts find. Each row of `groups` is a mask of modes
+    whose |z_j|² keep the sum in `sums`."""
     from scipy.optimize import minimize
 
     powers, double, sizes = f.exponents, np.hstack([groups, groups]), np.sqrt(sums)  # double: real and imaginary parts
@@ -254,7 +266,7 @@ def _least(f: Polynomial, groups: Array, sums: Array) -> float:
 
 
 def _slopes(linear: SmallMotion, factor: float) -> Array:
-    """Return the derivatives of the rates by the factor on all spins."""
+    """Return the derivatives of the rates with respect to the factor on all spins, (n,), rad/s; NaN if a mode grows nearby."""
     step = 1e-5 * factor
     near = [signed_rates(linear, factor + sign * step) for sign in (-1, 1)]
     if not all(map(len, near)):
@@ -264,7 +276,8 @@ def _slopes(linear: SmallMotion, factor: float) -> Array:
 
 @lru_cache(maxsize=16)
 def normal_form_of(s: Assembly, factor: float = 1.0, detuning: float = 0.0, order: int = 4) -> NormalForm:
-    """Return the normal form about upright in the units of `LocalHamiltonian`, with resonances up to `detuning`."""
+    """Return the normal form about upright through `order`, in the units of `LocalHamiltonian`. It keeps the resonant terms
+    whose detuning is at most `detuning`."""
     check_upright(s, "normal_form_of")
     form = normal_form_of_series(local_hamiltonian(s, order).at_spins(factor), order, detuning)
     if len(signed_rates(small_motion(s), factor)) and 0 in form.frequencies:
@@ -273,7 +286,8 @@ def normal_form_of(s: Assembly, factor: float = 1.0, detuning: float = 0.0, orde
 
 
 def fall_time_along(s: Assembly, rates: ArrayLike, longest: float, detuning: float) -> float:
-    """Return the time (s) at which rates (N, 2) first tilt an axis by the sine 1, inf after `longest`, by the normal form."""
+    """Return the time in s at which the sine of an axis's inclination reaches 1, according to the normal form. The axes start
+    upright with the rates (N, 2) in rad/s. The result is inf if the time exceeds `longest` s."""
     from scipy.integrate import solve_ivp
 
     h = local_hamiltonian(s)
@@ -310,7 +324,7 @@ def fall_time_along(s: Assembly, rates: ArrayLike, longest: float, detuning: flo
 
 
 def _new_coordinates(n: NormalForm, order: int) -> list[Polynomial]:
-    """Return the coordinates of the normal form as polynomials in those of the quadratic part."""
+    """Return the coordinates of the normal form as polynomials in the coordinates that diagonalise the quadratic part."""
     new = [variable(j, 2 * len(n.frequencies)) for j in range(2 * len(n.frequencies))]
     for generator in reversed([g for g in n.generators if len(g.coefficients)]):
         new = [lie_transform(f, generator.times(-1), n.weights, order) for f in new]
@@ -319,7 +333,9 @@ def _new_coordinates(n: NormalForm, order: int) -> list[Polynomial]:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class LargestPush(Shown):
-    """The largest safe push (rad/s), its reason, and the resonance. Without one it tilts an axis by 0.1, the trusted range."""
+    """The largest push `value` (rad/s) that does not topple a structure, and `behind`, the reason in words. `resonance` is the
+    resonance that needs the smallest push; None if there is none. If no resonance limits the push, a larger one tilts an axis
+    by more than 0.1, the range in which the expansion is accurate."""
 
     value: float
     behind: str
@@ -329,12 +345,12 @@ class LargestPush(Shown):
         return self.value
 
     def summary(self) -> dict[str, str]:
-        """Return the push and the reason."""
+        """Return the largest push and its reason, as rows of a table."""
         return {"largest push": f"{self.value:.4g} rad/s", "behind": self.behind}
 
 
 def largest_push(s: Assembly) -> LargestPush:
-    """Return the largest safe push of a structure: see `Structure.largest_push`."""
+    """Return the largest push that does not topple a structure: see `Structure.largest_push`."""
     check_upright(s, "largest_push")
     if small_motion(s).growth > 0:
         return LargestPush(0.0, "it is linearly unstable", None)
@@ -346,7 +362,7 @@ def largest_push(s: Assembly) -> LargestPush:
 
 
 def trusted_push(s: Assembly, factor: float = 1.0) -> float:
-    """Return the push from which no axis tilts by more than 0.1 in the linear motion; 0 if a mode grows or drifts."""
+    """Return a push (rad/s) after which no axis tilts by more than 0.1 in the linear motion; 0 if a mode grows or drifts."""
     if not len(signed_rates(small_motion(s), factor)):
         return 0.0
     scaled, tilts = small_motion(s).at_spins(factor), np.zeros(1)
@@ -364,7 +380,7 @@ def trusted_push(s: Assembly, factor: float = 1.0) -> float:
 
 
 def _of_equal_rates(rates: Array) -> list[list[int]]:
-    """Return the modes in groups of equal rates, whose shapes are an arbitrary basis of a subspace."""
+    """Return the numbers of the modes in groups of equal rates. Modes of a group may be combined in any basis."""
     equal = np.abs(rates[:, None] - rates) < _EQUAL * np.minimum(np.abs(rates[:, None]), np.abs(rates))
     return [list(g) for g in {tuple(np.flatnonzero(row).tolist()) for row in equal}]
 
@@ -377,7 +393,7 @@ def checked_push(where: str, push: Any) -> float:
 
 
 def spin_intervals(s: Assembly, push: float) -> tuple[tuple[float, float], ...]:
-    """Return the intervals of spins that are safe from a push: see `Structure.spin_intervals`."""
+    """Return the factors on all spins at which no push of a size topples the structure: see `Structure.spin_intervals`."""
     check_upright(s, "spin_intervals")
     push, least = checked_push("spin_intervals", push), spin_threshold(small_motion(s))
     if least == 0:
@@ -416,7 +432,7 @@ def spin_intervals(s: Assembly, push: float) -> tuple[tuple[float, float], ...]:
 
 
 def resonant_factors(s: Assembly, orders: Sequence[int] = (3, 4)) -> tuple[tuple[float, Resonance], ...]:
-    """Return the factors on all spins above the critical one at which modes are resonant and unstable.
+    """Return the factors on all spins, above the critical factor, at which a resonance makes the structure unstable.
 
     Parameters
     ----------
@@ -428,7 +444,7 @@ def resonant_factors(s: Assembly, orders: Sequence[int] = (3, 4)) -> tuple[tuple
     Returns
     -------
     tuple
-        Pairs (factor, Resonance), ascending.
+        Pairs (factor, Resonance) in ascending order of the factor.
     """
     from scipy.optimize import brentq
 

@@ -1,16 +1,18 @@
-"""Transfer functions about upright, and the best absorbers of a sway: brace and damper by spins, or a tuned mass.
+"""Transfer functions about upright, and two optimal absorbers of a swaying motion: spins with brace and damper, or a mass.
 
     X = R Z (−ω² M + i ω C + K)⁻¹ Zᵀ f,   f_i = R_i F_i − S_i a_ground,
 
-for F e^(iωt) on the tips and the acceleration a e^(iωt) of the ground, exact for small motion. The spins (g) couple a sway of
-mass M and stiffness K = M Ω² to a motion of inertia m with a brace k_z = m Ω² f² and a damper c = 2 ζ m Ω:
+for forces F e^(iωt) on the tips and the acceleration a e^(iωt) of the ground, exact for small motion. The spins couple a sway
+x, of mass M and stiffness K = M Ω², to a motion z. The coupling is g; the motion z has the inertia m, a brace k_z = m Ω² f² and
+a damper c = 2 ζ m Ω:
 
     M x'' + K x + g z' = F,   m z'' + c z' + k_z z − g x' = 0,   γ² = g²/(M m Ω²).
 
-For the pair under equal or opposite spins ± G, with tips of inertia a: M = m = 2a, g = 2G, γ = G/(a Ω), and z is the mean y or
-the yaw. In the worst case both peaks of |X| have the same height, the least that any brace and damper allow; Den Hartog's fixed
-points (Mechanical Vibrations, 1956, § 3.3) are only a lower bound. Derived in derivations/n2_shaken.py. Tuned mass: Nishihara &
-Asami (J. Vib. Acoust. 124, 576, 2002), Warburton (Earthquake Eng. Struct. Dyn. 10, 1982).
+A pair with tips of inertia a has M = m = 2a, g = 2G and γ = G/(a Ω). There z is the mean y for equal spins and the yaw for
+opposite spins. At the optimum for the worst case both peaks of |X| have the same height, the least that any brace and damper
+allow. Den Hartog's fixed points (Mechanical Vibrations, 1956, § 3.3) are only a lower bound. Derived in
+derivations/n2_shaken.py. Tuned mass: Nishihara & Asami (J. Vib. Acoust. 124, 576, 2002), Warburton (Earthquake Eng. Struct.
+Dyn. 10, 1982).
 """
 
 from dataclasses import dataclass
@@ -56,7 +58,7 @@ def _forces(force: ArrayLike, at: int | None, N: int) -> Complex:
     if at is None:
         return finite_array("response: force", force, (N, 2), complex)
     if isinstance(at, bool) or not isinstance(at, int) or not 0 <= at < N:
-        raise InputError(f"response: at = {at!r} is no rotor: they are numbered 0 to {N - 1}")
+        raise InputError(f"response: at = {at!r} is no rotor: rotors are numbered 0 to {N - 1}")
     amplitudes = np.zeros((N, 2), dtype=complex)
     amplitudes[at] = finite_array("response: force", force, (2,), complex)
     return amplitudes
@@ -64,10 +66,12 @@ def _forces(force: ArrayLike, at: int | None, N: int) -> Complex:
 
 @dataclass(frozen=True, eq=False)
 class Absorber:
-    """The tuning f² of the brace, the damping ratio ζ, and the value: the peak |X K/F| or the mean square.
+    """An optimal absorber.
 
-    The mean square of x K/F under white noise is in units of π S Ω, with S the two-sided spectral density of the force.
-    Without absorber, a sway with the damping ratio ζ has 1/(2ζ).
+    - `tuning`: the tuning f² of the brace, or of the tuned mass.
+    - `damping`: the damping ratio ζ.
+    - `value`: the peak of |X K/F|, or the mean square of x K/F under white noise in units of π S Ω. S is the two-sided spectral
+      density of the force. A sway without absorber and with the damping ratio ζ has the mean square 1/(2ζ).
     """
 
     tuning: Array
@@ -76,13 +80,13 @@ class Absorber:
 
 
 def _worst_case(d: Array) -> tuple[Array, Array]:
-    """Return γ² and 1 − ρ of the best brace and damper, ρ² = 1 − 1/peak², for d = 1 − f²/ρ in (0, 1)."""
+    """Return γ² and 1 − ρ at the optimum for the worst case, for given d = 1 − f²/ρ in (0, 1), with ρ² = 1 − 1/peak²."""
     over = 8 - 8 * d - d**2 + 2 * d**3
     return 2 * d * (2 - d) ** 2 * (4 - 3 * d) / over, d * (8 - 11 * d + 4 * d**2) / over
 
 
 def _d_where(quantity: int, values: Array) -> Array:
-    """Return d at which a quantity of `_worst_case`, which increases with d, has the values."""
+    """Return the d at which result number `quantity` of `_worst_case`, which increases with d, has the given values."""
     from scipy.optimize import brentq
 
     solve = np.vectorize(
@@ -94,8 +98,9 @@ def _d_where(quantity: int, values: Array) -> Array:
 def spins_worst_case(gamma: ArrayLike) -> Absorber:
     """Return the brace and damper that minimise the highest peak of a sway coupled by spins.
 
-    With N = 8 − 8d − d² + 2d³ and 0 < d < 1 from γ² = 2d (2 − d)² (4 − 3d)/N:  1 − ρ = d (8 − 11d + 4d²)/N, f² = (1 − d) ρ,
-    ζ² = (1 − ρ)(3 − 2d)/2, peak² = 1/(1 − ρ²). For small γ: f² = 1 − γ²/2, ζ² = 3γ²/8, peak √2/γ.
+    Let N = 8 − 8d − d² + 2d³, and let d in (0, 1) solve γ² = 2d (2 − d)² (4 − 3d)/N. With 1 − ρ = d (8 − 11d + 4d²)/N the
+    optimum has f² = (1 − d) ρ, ζ² = (1 − ρ)(3 − 2d)/2 and peak² = 1/(1 − ρ²). For small γ these become f² = 1 − γ²/2,
+    ζ² = 3γ²/8 and a peak of √2/γ.
 
     Parameters
     ----------
@@ -120,7 +125,7 @@ def spins_worst_case(gamma: ArrayLike) -> Absorber:
 def spins_white_noise(gamma: ArrayLike) -> Absorber:
     """Return the brace and damper that minimise the mean square of a sway coupled by spins.
 
-    f² = 1 − γ²/2, ζ = γ sqrt(4 − γ²)/4, mean square sqrt(4/γ² − 1).
+    The optimum has f² = 1 − γ²/2, ζ = γ sqrt(4 − γ²)/4 and the mean square sqrt(4/γ² − 1).
 
     Parameters
     ----------
@@ -151,7 +156,7 @@ def mass_worst_case(mu: ArrayLike) -> Absorber:
     Returns
     -------
     Absorber
-        The optimum, with the peak as its value. Den Hartog's fixed points lie at sqrt(1 + 2/μ).
+        The optimum, with the peak as its value. At Den Hartog's fixed points |X K/F| is sqrt(1 + 2/μ).
     """
     m = _in_domain("mu", mu, np.inf)
     s = np.sqrt(4 + 3 * m)
@@ -188,7 +193,8 @@ def spins_win_white_noise(mu: ArrayLike) -> Array:
     Returns
     -------
     Array
-        The coupling γ = 2 sqrt(μ (1 + μ))/(2 + μ). A tuned mass has sqrt((4 + 3μ)/(μ (1 + μ))) (Warburton).
+        The coupling γ = 2 sqrt(μ (1 + μ))/(2 + μ). The mean square of a tuned mass is
+        sqrt((4 + 3μ)/(μ (1 + μ))) (Warburton).
     """
     m = _in_domain("mu", mu, np.inf)
     return np.asarray(2 * np.sqrt(m * (1 + m)) / (2 + m))

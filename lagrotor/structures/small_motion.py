@@ -38,11 +38,16 @@ _DEPENDENT = 1e-10  # relative to the largest singular value: smaller ones are z
 class Modes(Shown):
     """The n normal modes u = Re(shape e^((growth + i rate) t)): rates (n,) in rad/s, growth (n,) in 1/s, shapes (n, N, 2).
 
-    One root of each conjugate pair is kept, with rate > 0, and the larger half of the real roots. `topple` modes grow.
-    energy_signs (n,): the sign of ω² ū·M u + ū·K u; −1 if the oscillation has less energy than the equilibrium, 0 if there is
-    none. left_out (n,): the first-order decrease of each rate by the inertia in the limit of fast spins (rad/s); negative
-    under weight. A growth below 1e-13 of the fastest root is set to zero. Shapes from `modes_about` are displacements of the
-    axes, (n, N, 3).
+    Of each conjugate pair of roots, the one with a positive rate is kept. Of the real roots, the larger half is kept.
+
+    - `rates`: the angular frequencies, (n,), rad/s; 0 for a mode that does not oscillate.
+    - `growth`: the growth rates, (n,), 1/s. A growth below 1e-13 of the fastest root is set to zero.
+    - `shapes`: the x and y of each axis, (n, N, 2), with the largest component 1. `modes_about` gives displacements (n, N, 3).
+    - `topple`: the number of modes that grow.
+    - `energy_signs`: the sign of ω² ū·M u + ū·K u, (n,): −1 if an oscillation has less energy than the equilibrium, 1 if it
+      has more, 0 if the mode does not oscillate or grows.
+    - `left_out`: in the limit of fast spins, the first-order decrease of each rate by the inertia, (n,), rad/s; negative under
+      weight.
     """
 
     rates: Array
@@ -66,10 +71,15 @@ class Modes(Shown):
 
 @dataclass(frozen=True, eq=False)
 class SmallMotion:
-    """The matrices M, C (damping), the antisymmetric gyroscopic matrix and K, (n, n), in q with u = basis q, basis (2 N, n).
+    """The linear system M q'' + (damping + gyroscopic) q' + K q = 0 of n degrees of freedom q.
 
-    pull: `Coefficients.pull`, the scale of rounding of the stiffness; 0 if unknown. For waves at many wave numbers each array
-    has one more leading axis, and so have the roots.
+    For waves at many wave numbers each array has one more leading axis, and so have the roots.
+
+    - `mass`, `damping`, `stiffness`: the symmetric matrices, (n, n).
+    - `gyroscopic`: the antisymmetric matrix of the spins, (n, n).
+    - `basis`: the matrix Z, (2N, n), in the tilts u = Z q.
+    - `rate`: a typical rate, rad/s, in units of which the eigenvalues are computed.
+    - `pull`: `Coefficients.pull`, the scale of rounding of the stiffness; 0 if it is unknown.
     """
 
     mass: Matrix
@@ -87,31 +97,32 @@ class SmallMotion:
 
     @property
     def bands(self) -> int:
-        """The number of roots without their conjugates: dof, or dof // 2 without inertia."""
+        """The number of roots with each conjugate pair counted once: dof, or dof // 2 without inertia."""
         return self.dof if self.mass.any() else self.dof // 2
 
     @property
     def without_inertia(self) -> "SmallMotion":
-        """The limit of fast spins, C u' + K u = 0, whose roots are those that stay finite for M → 0."""
+        """The limit of fast spins, C u' + K u = 0, whose roots are the roots that stay finite for M → 0."""
         unit = np.abs(self.stiffness).max(initial=0) / (np.abs(self.gyroscopic).max(initial=0) or 1.0)
         return replace(self, mass=0 * self.mass, rate=float(unit) or self.rate)
 
     def at_spins(self, factor: float) -> "SmallMotion":
-        """Return the system with all spins multiplied."""
+        """Return the system with all spins multiplied by a factor."""
         return replace(self, gyroscopic=factor * self.gyroscopic)
 
     def with_momenta(self, G: Array) -> "SmallMotion":
-        """Return the system with axial momenta G (N,), kg m²/s."""
+        """Return the system with other axial momenta G (N,), kg m²/s, of the rotors."""
         return replace(self, gyroscopic=self.basis.T @ np.kron(np.diag(G), [[0, 1], [-1, 0]]) @ self.basis)
 
     @cached_property
     def roots(self) -> Complex:
-        """The 2n roots s of det(M s² + C s + K), or n without inertia. Nearly zero roots are set to zero."""
+        """The 2n roots s of det(M s² + C s + K) in 1/s, or n roots without inertia. Nearly zero roots are set to zero."""
         return self.waves[0]
 
     @cached_property
     def waves(self) -> tuple[Complex, Complex]:
-        """The roots and their vectors. Raises SingularError without inertia if no spin acts on some motion."""
+        """The roots (m,) in 1/s and their vectors q as columns, (n, m). Raises SingularError if the inertia is left out and no
+        spin acts on some motion."""
         if not self.mass.any():
             return self._of_first_order
         s, x = np.linalg.eig(self.first_order)
@@ -119,7 +130,7 @@ class SmallMotion:
 
     @property
     def _of_first_order(self) -> tuple[Complex, Complex]:
-        """The roots and vectors of s C + K."""
+        """The roots and vectors of (s C + K) q = 0, the limit without inertia."""
         C, K = (self.gyroscopic + self.damping) * self.rate, self.stiffness + 0j
         sizes = np.linalg.svd(C, compute_uv=False)
         if self.dof and not (sizes[..., -1] > _DEPENDENT * sizes[..., 0]).all():
@@ -131,7 +142,7 @@ class SmallMotion:
         return self._in_seconds(s), vectors
 
     def energy_signs(self, roots: Complex, vectors: Complex) -> NDArray[np.int64]:
-        """Return the signs of ω² ū·M u + ū·K u for roots and their vectors, (m,)."""
+        """Return the signs (m,) of the energies ω² ū·M u + ū·K u, for roots (m,) and vectors u (n, m)."""
         kinetic, elastic = _forms(vectors, self.mass, self.stiffness)
         return np.sign(kinetic * roots.imag**2 + elastic).astype(np.int64)
 
@@ -145,7 +156,7 @@ class SmallMotion:
 
     @property
     def first_order(self) -> Matrix:
-        """The matrix W of (q, q')' in units of the rate, (2n, 2n)."""
+        """The matrix W, (2n, 2n), of the first-order system z' = W z with z = (q, q') in the time rate × t."""
         n, unit = self.dof, self.rate
         below = np.concatenate([self.stiffness / -(unit**2), (self.damping + self.gyroscopic) / -unit], axis=-1)
         W = np.zeros((*below.shape[:-2], 2 * n, 2 * n), dtype=below.dtype)
@@ -173,7 +184,9 @@ class SmallMotion:
 
     @property
     def _neutral(self) -> tuple[int, int, int]:
-        """The dimensions of three nested spaces: K v = 0; no spin acts within it; no friction acts either.
+        """The dimensions of three nested spaces of motions v.
+
+        In the first space K v = 0. In the second no spin acts within the first space. In the third no friction acts either.
 
         Zero is a root once for each dimension of the first space, and once more for each of the third.
         """
@@ -220,7 +233,7 @@ def small_motion(s: Assembly) -> SmallMotion:
 
 
 def check_upright(s: Assembly, where: str) -> None:
-    """Raise InputError in the name of the caller if a bar does not have its upright length."""
+    """Raise InputError, which names the caller `where`, if a bar does not have its upright length."""
     if not s.natural:
         raise InputError(
             f"{where}: a bar does not have its upright length, and this linear motion is about upright axes: take "
@@ -229,27 +242,29 @@ def check_upright(s: Assembly, where: str) -> None:
 
 
 def check_rates(s: Assembly, where: str) -> SmallMotion:
-    """Return the linear system. Raises InputError if the fastest rate exceeds 10⁶ times the slowest."""
+    """Return the linear system about upright. Raises InputError if the fastest rate exceeds 10⁶ times the slowest."""
     check_upright(s, where)
     linear = small_motion(s)
     slowest, fastest = linear.extremes
     if fastest > WIDEST * slowest:
         raise InputError(
             f"{where}: the fastest rate, {fastest:.3g} rad/s, is more than 10⁶ times the slowest, {slowest:.1g} rad/s, which "
-            "is lost in its rounding: take slower spins, stiffer springs, or the limit modes(inertia=False)"
+            "rounding hides: take slower spins, stiffer springs, or the limit modes(inertia=False)"
         )
     return linear
 
 
 def left_by(rows: Matrix) -> tuple[NDArray[np.intp], Matrix]:
-    """Return the rank (…,) of the rows (…, B, n) of the bars, and vectors (…, n, n), from the rank on their null space."""
+    """Return the rank (…,) of the rows (…, B, n) of the bars, and an orthonormal basis (…, n, n). The columns of the basis from
+    number `rank` on span the null space of the rows."""
     _, sizes, vectors = np.linalg.svd(rows)
     ranks = np.asarray((sizes > _DEPENDENT * sizes.max(-1, initial=0.0, keepdims=True)).sum(-1))
     return ranks, _dagger(vectors)
 
 
 def on_basis(forms: Matrix, basis: Matrix, rate: float) -> SmallMotion:
-    """Return the system of `matrices`, (…, 4, n, n), in a basis (…, n, f); all may be complex."""
+    """Return the linear system of four matrices `forms`, (…, 4, n, n), in the f columns of a basis (…, n, f). The matrices are
+    in the order of `matrices`. All arrays may be complex."""
     if basis.shape[-1] < basis.shape[-2]:
         forms = _dagger(basis)[..., None, :, :] @ forms @ basis[..., None, :, :]
     mass, damping, gyroscopic, stiffness = np.moveaxis(forms, -3, 0)
@@ -257,7 +272,7 @@ def on_basis(forms: Matrix, basis: Matrix, rate: float) -> SmallMotion:
 
 
 def _forms(vectors: Complex, *matrices: Matrix) -> list[Array]:
-    """Return ū·A u of vectors (n, m) for each matrix, (m,)."""
+    """Return for each matrix A the real numbers ū·A u, (m,), with u the columns of `vectors` (n, m)."""
     return [(vectors.conj() * (A @ vectors)).sum(0).real for A in matrices]
 
 
@@ -266,7 +281,7 @@ def _dagger(x: Matrix) -> Matrix:
 
 
 def matrices(c: Coefficients) -> Array:
-    """Return mass, damping, gyroscopic and stiffness matrix on u, (4, 2 N, 2 N), without the constraints."""
+    """Return the mass, damping, gyroscopic and stiffness matrices of the tilts u, (4, 2N, 2N), as if there were no bars."""
     identity = np.eye(2, dtype=int)
     C, K = (np.kron(np.diag(d), identity) for d in (c.friction, c.hinge - c.gravity * c.S))
     for k, row in enumerate(_brace_rows(c)):
@@ -276,7 +291,8 @@ def matrices(c: Coefficients) -> Array:
 
 
 def bar_rows(c: Coefficients) -> Array:
-    """Return the rows of the bars on u, (B, 2 N): n . (R_i u_i − R_j u_j), with n the horizontal part of the unit vector."""
+    """Return the matrix (B, 2N) that takes the tilts u to n . (R_i u_i − R_j u_j) of each bar, which its constraint keeps zero.
+    n is the horizontal part of the unit vector along the bar."""
     n = (c.feet[c.j] - c.feet[c.i])[:, :2] / c.ell[:, None]
     rows = np.zeros((len(c.i), len(c.R), 2), dtype=c.R.dtype)
     index = np.arange(len(c.i))
@@ -285,7 +301,7 @@ def bar_rows(c: Coefficients) -> Array:
 
 
 def _brace_rows(c: Coefficients) -> Array:
-    """Return the extension of each brace per u, (braces, 2 N)."""
+    """Return the matrix (braces, 2N) that takes the tilts u to the extensions of the braces in m."""
     tip = c.feet[c.brace_tip] + c.R[c.brace_tip, None] * [0, 0, 1]
     n = ((tip - c.brace_point) / c.brace_length[:, None])[:, :2]
     rows = np.zeros((len(n), len(c.R), 2), dtype=c.R.dtype)
@@ -306,12 +322,13 @@ def modes(s: Assembly, inertia: bool = True) -> Modes:
 
 
 def first_largest(sizes: Array) -> Any:
-    """Return the first index of the largest size up to rounding, so that it is the same on every processor."""
+    """Return the first index, along the last axis, of a size that is the largest up to rounding. All processors agree on it."""
     return (sizes > (1 - _ALIKE) * sizes.max(-1, keepdims=True)).argmax(-1)
 
 
 def modes_of(whole: SmallMotion, linear: SmallMotion, components: int = 2) -> Modes:
-    """Return the normal modes of a linear system, which is the whole one or its limit without inertia."""
+    """Return the normal modes of `linear`, which is the system `whole` or its limit without inertia. `components` is the number
+    of components of each axis in the shapes, 2 or 3."""
     roots, vectors = linear.waves
     turning = np.flatnonzero(roots.imag > 0)
     real = np.flatnonzero(roots.imag == 0)

@@ -1,7 +1,8 @@
 """A lower bound of the time for which a linearly stable structure stays near upright, from its normal form.
 
-In the coordinates of the normal form through order N, the terms that conserve Q = sum_j |z_j|² do not change the distance. The
-other terms, which are the resonances of degree d = 3 … N and the first terms of degree N + 1 beyond the form, change it by
+In the coordinates of the normal form through order N, Q = sum_j |z_j|² is the squared distance from upright. Some terms of the
+form conserve Q. The other terms, which are the resonances of degree d = 3 … N and the first terms of degree N + 1 beyond the
+form, change Q at a rate
 
     |dQ/dt| ≤ sum_d g_d Q^(d/2),    g_d a bound of |{Q, K_d}| at Q = 1,
 
@@ -33,7 +34,8 @@ _DETUNINGS = (0.0, 1e-3, 1e-2, 0.1)  # relative to the largest rate: the largest
 
 
 def hold_time(s: Assembly, push: float) -> float:
-    """Compute `Standing.hold_time` from the first nonzero terms beyond the normal form, and the change of coordinates."""
+    """Compute a time (s) within which no push of a size (rad/s) grows by the factor sqrt(2): see `Standing.hold_time`. It
+    follows from the first nonzero terms beyond the normal form, and from the displacement by the change of coordinates."""
     push, linear = checked_push("hold_time", push), small_motion(s)
     if linear.growth > 0 or linear.drifts:
         return 0.0
@@ -43,7 +45,7 @@ def hold_time(s: Assembly, push: float) -> float:
     if linear.dof > MOST_DOF:
         if least:
             return inf
-        raise InputError(f"hold_time: {linear.dof} degrees of freedom: at most {MOST_DOF} are expanded")
+        raise InputError(f"hold_time: {linear.dof} degrees of freedom are too many to expand: at most {MOST_DOF}")
     h = local_hamiltonian(s)
     if push > trusted_push(s):
         return 0.0
@@ -64,7 +66,8 @@ def hold_time(s: Assembly, push: float) -> float:
 
 
 def _times(form: NormalForm, size: float) -> list[float]:
-    """Return the times to sqrt(2) times the size in the normal modes, one per degree with a remainder, in the form's units."""
+    """Return lower bounds of the time in which a state grows from `size` to sqrt(2) times `size` in the normal modes. There is
+    one bound for each degree with a nonzero remainder, in the unit of time of the normal form."""
     n, times, resonant, shift = len(form.frequencies), list[float](), dict[int, float](), 0.0
     rates, zero = np.real(form.frequencies), _ZERO * float(np.abs(form.series.coefficients).max())
     for degree, generator in enumerate(form.generators, 3):
@@ -81,19 +84,19 @@ def _times(form: NormalForm, size: float) -> list[float]:
 
 
 def _displacement(generator: Polynomial, degree: int, size: float) -> float:
-    """Return a bound of the relative displacement of states of a size by a generator, to first order."""
+    """Return a bound, to first order, of the relative change of states of a given size by a generator's transformation."""
     return degree * _size(generator) * size ** (degree - 2)
 
 
 def _feeding(f: Polynomial) -> float:
-    """Return the largest |{Q, f}| at Q = 1."""
+    """Return a bound of the rate |{Q, f}| at which the terms f change Q, at Q = 1."""
     n = f.variables // 2
     by = f.exponents[:, :n].sum(1) - f.exponents[:, n:].sum(1)
     return _size(Polynomial(f.exponents, f.coefficients * by))
 
 
 def _size(f: Polynomial) -> float:
-    """Return a bound of |f| at sum |z_j|² = 1, w = z̄, for f homogeneous of degree d: 2^(d/2) times Bombieri's norm."""
+    """Return a bound of |f(z, z̄)| at sum |z_j|² = 1 for f homogeneous of degree d: 2^(d/2) times Bombieri's norm."""
     if not len(f.coefficients):
         return 0.0
     d = int(f.exponents[0].sum())
@@ -101,7 +104,7 @@ def _size(f: Polynomial) -> float:
 
 
 def _duration(growth: dict[int, float], begin: float, end: float) -> float:
-    """Return ∫ dQ / sum_d g_d Q^(d/2) from Q = begin² to end²."""
+    """Return ∫ dQ / sum_d g_d Q^(d/2) from Q = begin² to end², with g_d = growth[d]: the least time of this growth."""
     nodes, weights = np.polynomial.legendre.leggauss(12)
     r: Array = begin + (end - begin) * (1 + nodes) / 2
     return float((weights * 2 * r / sum(g * r**d for d, g in growth.items())).sum() * (end - begin) / 2)

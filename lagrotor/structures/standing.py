@@ -45,10 +45,14 @@ Kind = Literal["never", "to first order", "falls at a resonance", "falls over a 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Standing(Shown):
-    """The stability of the upright position. The truth value is linear stability, `stands`.
+    """The stability of the upright position. The truth value is linear stability; `kind` describes the nonlinear motion.
 
-    growth (1/s) and shape (N, 2), complex: those of the fastest growing motion. critical_spin: the factor on all spins above
-    which it is linearly stable, inf if none. `kind` describes the nonlinear motion.
+    - `stands`: True if the upright position is linearly stable.
+    - `growth`: the growth rate of the fastest growing motion, 1/s; 0 if no motion grows.
+    - `shape`: the shape of the fastest growing motion, (N, 2); zeros if no motion grows.
+    - `critical_spin`: the factor on all spins above which the position is linearly stable; inf if there is none.
+    - `structure`: the structure.
+    - `first_order`: the reason for the linear result in words.
     """
 
     stands: bool
@@ -63,11 +67,13 @@ class Standing(Shown):
 
     @cached_property
     def kind(self) -> Kind:
-        """The stability beyond the linear motion. A push is PUSH times the natural rate.
+        """The stability beyond the linear motion, for a push of `PUSH` (0.01) times the natural rate.
 
         - "never": linearly unstable; any push grows or drifts.
-        - "falls at a resonance": linearly stable, but such pushes in some direction topple it: see `largest_push`.
-        - "falls over a barrier": the same without resonant rates; near the critical spins the barrier of order 3 and 4 is low.
+        - "falls at a resonance": linearly stable, but such a push in some direction topples it by a resonance: see
+          `largest_push`.
+        - "falls over a barrier": such a push topples it although no rates are resonant. Near the critical spins the barrier of
+          the terms of order 3 and 4 is low.
         - "holds": the energy has a minimum, or no resonance through fourth order topples it from such a push.
         - "to first order": linearly stable, and no more is known: a motion has no restoring force, friction acts,
           there are more than 8 degrees of freedom, the rates are too far apart, or the push tilts it by more than 0.1.
@@ -90,12 +96,12 @@ class Standing(Shown):
 
     @cached_property
     def resonance(self) -> Resonance | None:
-        """The resonance that needs the smallest push; None if there is none. Raises InputError as `resonances`."""
+        """The resonance that needs the smallest push; None if there is none. Raises the InputErrors of `resonances`."""
         return first_resonance(self.structure)
 
     @cached_property
     def _too_near(self) -> bool:
-        """True if the push is beyond the range of the expansion, as near the critical spins."""
+        """True if the push of `kind` exceeds the range of the expansion, which is small near the critical spins."""
         return trusted_push(self.structure) < self._reference
 
     @property
@@ -104,7 +110,7 @@ class Standing(Shown):
 
     @property
     def why(self) -> str:
-        """The reason in words."""
+        """The reason for `stands` and `kind` in words."""
         if self.kind == "falls at a resonance" and self.resonance:
             least = self.resonance.push()
             words = (
@@ -138,10 +144,10 @@ class Standing(Shown):
     def fall_time(self, push: float | ArrayLike) -> float:
         """Return the time (s) in which a push topples the structure, inf if it does not.
 
-        For a number it is the least time of pushes of this size (rad/s). For rates (N, 2) of the axes it is an estimate for
-        this push by the normal form of fourth order, with an error of a half or more; the search ends after 20 least times.
-        Raises InputError as `resonances`, and if the push exceeds the range of the expansion. `measured_fall` runs the exact
-        motion.
+        If `push` is a number, the result is the shortest time of all pushes of this size (rad/s). If `push` gives the rates
+        (N, 2) of the axes, the normal form of fourth order estimates the time for this push, with an error of a half or more.
+        This search ends after 20 shortest times. Raises the InputErrors of `resonances`, and InputError if the push exceeds
+        the range of the expansion. `measured_fall` measures the time on the exact motion.
         """
         directed = np.ndim(push) > 0
         if directed and np.shape(push) != (shape := (len(self.structure.joints), 2)):
@@ -176,11 +182,11 @@ class Standing(Shown):
         return time
 
     def hold_time(self, push: float) -> float:
-        """Estimate the time (s) in which no push of a size (rad/s) grows to sqrt(2) of it in the normal modes.
+        """Estimate a time (s) within which no push of a given size (rad/s) grows by a factor sqrt(2) in the normal modes.
 
-        It is inf for free tops, without bars and braces, and at a minimum of the energy. It is 0 if the structure is linearly
-        unstable or the push exceeds the range of the expansion. Raises InputError with friction, and for more than 8 degrees
-        of freedom.
+        It is inf for rotors without bars and braces, and if the energy has a minimum upright. It is 0 if the structure is
+        linearly unstable or the push exceeds the range of the expansion. Raises InputError with friction, and for more than 8
+        degrees of freedom.
         """
         return hold_time(self.structure, push)
 
@@ -210,7 +216,7 @@ def stands(s: Assembly) -> Standing:
                 else f"an odd number of degrees of freedom, {falling}, is unstable"
             )
             raise InputError(
-                f"stands: {cause} at any spins (Kelvin, Tait and Chetaev), but at these so slowly that double precision "
+                f"stands: {cause} at any spins (Kelvin, Tait and Chetaev), but at these spins so slowly that double precision "
                 "does not resolve the growth: take slower spins" + (", or more friction" if rubbed else "")
             )
     falls = growth > 0
@@ -250,14 +256,14 @@ def _why(linear: SmallMotion, growth: float, factor: float) -> str:
 
 
 def measured_fall(s: Assembly, push: ArrayLike, longest: float, tol: float = 1e-9) -> float:
-    """Integrate the exact motion until an axis tilts by the sine 0.95.
+    """Measure the time until the sine of an axis's tilt reaches 0.95, by integrating the exact motion.
 
     Parameters
     ----------
     s : Assembly
         The structure.
     push : array_like
-        The rates of the axes (N, 2) from upright, projected onto the bars, rad/s.
+        The rates of the axes at the start, upright, (N, 2), rad/s. They are projected onto the bars.
     longest : float
         The end of the integration, s.
     tol : float, default 1e-9

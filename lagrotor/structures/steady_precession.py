@@ -1,14 +1,14 @@
-"""Steady precessions of a structure and small motion about them: the periodic orbits that its modes become at a finite tilt.
+"""Steady precessions of a structure, the periodic orbits that continue its modes to finite tilts, and small motion about them.
 
 Bars keep their directions while the axes turn. The motion linearised about a precession therefore has periodic coefficients,
 and Floquet multipliers replace modes. Shooting finds the orbit of a state y = (r, r'/rate) and a period T:
 
-    φ_T(y) = y,    u = tilt,    u' = 0,    u the component of an axis that moves most in the mode,
+    φ_T(y) = y,    u = tilt,    u' = 0,
 
-by Gauss–Newton steps along the family from small tilts (Lyapunov's centre theorem; Meyer & Offin, Introduction to Hamiltonian
-Dynamical Systems, ch. 9). The monodromy matrix comes from differences of the exact flow. Two of its multipliers are 1, along
-the orbit and transverse to the energy; they are removed before the others are computed. The orbit of one top is its steady
-precession, with A Ω² cos θ − G Ω + S g = 0.
+where u is the component of an axis that is largest in the mode. It proceeds by Gauss–Newton steps along the family from small
+tilts (Lyapunov's centre theorem; Meyer & Offin, Introduction to Hamiltonian Dynamical Systems, ch. 9). The monodromy matrix
+comes from differences of the exact flow. Two of its multipliers are 1, along the orbit and transverse to the energy; they are
+removed before the others are computed. The orbit of one top is its steady precession, with A Ω² cos θ − G Ω + S g = 0.
 """
 
 from dataclasses import dataclass
@@ -49,12 +49,16 @@ _ADVICE = {
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SteadyPrecession(Shown):
-    """A periodic orbit of period T (s), with axes and rates (N, 3), 1/s, at the moment of largest tilt.
+    """A periodic orbit of a structure and its Floquet multipliers.
 
-    multipliers (2n,): two ones, then those of the return, NaN if one is smaller than its error; errors (2n,): their
-    estimates, or for NaN the bound of the size. growth: the logarithm of the largest modulus per turn, 0 if no multiplier
-    leaves the unit circle by more than its error. mismatch: the difference of the state after one period, of axes and of
-    rates over the structure's rate.
+    - `tilt`: the largest horizontal component of an axis.
+    - `period`: the period, s.
+    - `axes`: the axes at the moment of largest tilt, (N, 3).
+    - `rates`: the rates of the axes at this moment, (N, 3), 1/s.
+    - `multipliers`: the Floquet multipliers, (2n,), of which the first two are 1. A multiplier smaller than its error is NaN.
+    - `errors`: the estimated error of each multiplier, (2n,). For NaN it is a bound of the modulus.
+    - `growth`: the logarithm of the largest modulus per turn; 0 if no multiplier leaves the unit circle by more than its error.
+    - `mismatch`: the largest difference of the state (r, r'/rate) after one period.
     """
 
     tilt: float
@@ -77,7 +81,7 @@ class SteadyPrecession(Shown):
 
 @dataclass(frozen=True, eq=False)
 class _Shooting:
-    """The flow of states y (6N,) in the time c.rate t, and the component u of the axes that is fixed."""
+    """The flow of states y (6N,) in the time c.rate t. The axis component number `component` of y is held at the tilt."""
 
     motion: ExactMotion
     rhs: RightHandSide
@@ -88,7 +92,8 @@ class _Shooting:
         return integrate(problem, np.array([duration]), local).end
 
     def slopes(self, y: Array, duration: float, weights: dict[float, Array], local: float) -> Array:
-        """Return weighted differences of states and their ends by 2n directions on the constraints: (k, 2, 6N, 2n)."""
+        """Return derivatives of the start y and of the state after `duration`, (k, 2, 6N, 2n). They are differences along 2n
+        directions on the constraints. `weights` maps a step to its weights in k formulas."""
         tangents = np.kron(np.eye(2), constraint_tangents(self.motion, y[: len(y) // 2].reshape(-1, 3)))
         slopes: Any = 0.0
         for step, weight in weights.items():
@@ -98,7 +103,8 @@ class _Shooting:
         return np.asarray(slopes)
 
     def orbit(self, y: Array, duration: float, tilt: float) -> tuple[Array, float, float]:
-        """Return (start, duration, mismatch) of the nearest orbit. Raises ConstraintError if none is reached."""
+        """Find the orbit of a tilt by Newton's method from y, and return (start, duration, mismatch). Raises
+        ConstraintError."""
         fixed = [self.component, len(y) // 2 + self.component]
         sides = {k * _STEP / 2: np.array([k / _STEP]) for k in (1, -1)}
         for _ in range(_NEWTON):
@@ -135,7 +141,7 @@ def steady_precession(s: Assembly, mode: int = 0, tilt: float = 0.1) -> SteadyPr
     zeros = np.zeros((len(shape), 1))
 
     def scaled(y: Array, ratio: float) -> Array:
-        """Scale all tilts and rates, and project the state onto the constraints."""
+        """Return the state y with all tilts and rates multiplied by `ratio`, projected onto the constraints."""
         r, v = y.reshape(2, -1, 3) * ratio
         r[:, 2] = np.sqrt(np.maximum(1 - (r[:, :2] ** 2).sum(1), 1e-3))
         r = close_bars(motion, r / np.linalg.norm(r, axis=1)[:, None])
@@ -163,7 +169,8 @@ def steady_precession(s: Assembly, mode: int = 0, tilt: float = 0.1) -> SteadyPr
 
 
 def precessing_mode(s: Assembly, mode: int, where: str) -> tuple[float, NDArray[np.complex128]]:
-    """Return rate and shape of a mode that becomes a precession. Raises InputError for any other mode."""
+    """Return the rate (rad/s) and the shape (N, 2) of a mode that continues as a steady precession at finite tilt. Raises
+    InputError if the mode grows, has no rate or shares its rate, and if friction acts."""
     check_upright(s, where)
     linear, c = modes(s), coefficients(s)
     count = len(linear.rates)
@@ -174,7 +181,7 @@ def precessing_mode(s: Assembly, mode: int, where: str) -> tuple[float, NDArray[
     rate, growth = float(linear.rates[mode]), linear.growth[mode]
     if growth or rate == 0:
         why = f"{'grows' if growth > 0 else 'decays'}, {abs(growth):.3g} 1/s" if growth else "has no rate"
-        raise InputError(f"{where}: mode {mode} {why}: only an oscillation becomes a precession; take another mode")
+        raise InputError(f"{where}: mode {mode} {why}: only oscillations continue as precessions; take another")
     if (np.abs(np.delete(linear.rates, mode) - rate) < _EQUAL * rate).any():
         raise InputError(
             f"{where}: other modes have the rate of mode {mode}, {rate:.6g} rad/s: any sum of them is a mode, and it is not "
@@ -184,7 +191,7 @@ def precessing_mode(s: Assembly, mode: int, where: str) -> tuple[float, NDArray[
 
 
 def _multipliers(shoot: _Shooting, y: Array, duration: float) -> tuple[NDArray[np.complex128], Array]:
-    """Return all multipliers and their errors, (2n,), from differences by one step and by twice this step."""
+    """Return the Floquet multipliers and their errors, (2n,) each. The errors compare differences with two steps."""
     shares = {1: (8, 0), 2: (-1, 4), 4: (0, -0.5)}  # weights of differences by one step and by two
     weights = {k * sign * _STEP: sign * np.array(w) / (12 * _STEP) for k, w in shares.items() for sign in (1, -1)}
     slopes = shoot.slopes(y, duration, weights, TIGHTEST)

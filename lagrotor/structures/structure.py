@@ -38,8 +38,8 @@ class Structure(Assembly):
     """N rotors on ground joints, with bars between their tips, under weight, springs and dampers.
 
     One number, rotor or link applies to all of them. Units are SI. Methods that linearise about upright raise InputError if a
-    bar does not have its upright length. Those beyond the linear motion need a motion without friction, without growth, and
-    with at most 8 degrees of freedom.
+    bar does not have its upright length. Methods that go beyond the linear motion need a structure without friction and without
+    growing modes, with at most 8 degrees of freedom.
 
     Attributes
     ----------
@@ -100,7 +100,7 @@ class Structure(Assembly):
         """Integrate the exact motion from an initial state that holds at t[0].
 
         Tilt and rates are projected onto the bars in the metric of the mass matrix. The error is estimated from two runs, and
-        from the energy where it is conserved. A LagrotorWarning says if the error exceeds `tol` or the run ends early.
+        from the energy where it is conserved. A LagrotorWarning is issued if the error exceeds `tol` or the run ends early.
 
         Parameters
         ----------
@@ -141,12 +141,13 @@ class Structure(Assembly):
         return simulate_structure(self, t, tilt, rates, drive, ground, tol, engine)
 
     def modes(self, inertia: bool = True) -> small_motion.Modes:
-        """Compute the normal modes about upright, the fastest growing first, then by rate.
+        """Compute the normal modes about upright, sorted by growth (largest first) and then by rate.
 
         Parameters
         ----------
         inertia : bool, default True
-            False for the limit of fast spins C u' + K u = 0, slow precessions alone (Nash et al., PNAS 112, 14495 (2015)).
+            False for the limit of fast spins, C u' + K u = 0, which has only the slow precessions (Nash et al., PNAS 112,
+            14495 (2015)).
 
         Returns
         -------
@@ -167,12 +168,13 @@ class Structure(Assembly):
         return small_motion.modes(self, inertia)
 
     def rest_near(self, tilt: ArrayLike) -> Array:
-        """Find the equilibrium to which descending energy leads from a tilt.
+        """Find an equilibrium by descending in energy from given tilts of the axes.
 
         Parameters
         ----------
         tilt : array_like
-            The components x and y of the axes, (N, 2). An equilibrium of any kind at this tilt is returned.
+            The components x and y of the axes at the start, (N, 2). If the structure is in equilibrium there, stable or not,
+            this position is returned.
 
         Returns
         -------
@@ -217,14 +219,14 @@ class Structure(Assembly):
         return tilted_equilibria.modes_about(self, axes)
 
     def steady_precession(self, mode: int = 0, tilt: float = 0.1) -> steady_precession.SteadyPrecession:
-        """Find the periodic orbit that a normal mode becomes at a finite tilt.
+        """Find the periodic orbit that continues a normal mode to a finite tilt.
 
-        Where an integral makes a family of orbits of one tilt, the orbit nearest to the mode is returned.
+        If a conservation law allows a family of orbits of the same tilt, the orbit nearest to the mode is returned.
 
         Parameters
         ----------
         mode : int, default 0
-            The number of the mode in `modes()`, from 0: a simple mode with a rate and no growth.
+            The number of the mode in `modes()`, from 0. The mode must oscillate without growth, and no other may have its rate.
         tilt : float, default 0.1
             The largest horizontal component of an axis in the mode, between 0.001 and 1.
 
@@ -255,7 +257,7 @@ class Structure(Assembly):
         Parameters
         ----------
         mode : int, default 0
-            The number of the mode in `modes()`, from 0: a simple mode with a rate and no growth.
+            The number of the mode in `modes()`, from 0. The mode must oscillate without growth, and no other may have its rate.
 
         Returns
         -------
@@ -296,7 +298,7 @@ class Structure(Assembly):
     def critical_spin(self) -> float:
         """Return the factor on all spins above which the linear motion stays bounded.
 
-        Above it, resonances may amplify a push at single factors: see `spin_intervals`.
+        Above this factor, resonances may still amplify a push at particular factors: see `spin_intervals`.
 
         Returns
         -------
@@ -314,8 +316,9 @@ class Structure(Assembly):
     def spin_intervals(self, push: float) -> tuple[tuple[float, float], ...]:
         """Return the factors on all spins at which no push of a given size topples the structure.
 
-        `largest_push` is evaluated at 16 factors up to 12 critical ones, and at the resonances between them. The ends have an
-        error of 1/32 of their distance from the critical factor. Nothing is known between the samples.
+        The pushes that resonances need are computed at 16 factors up to 12 times the critical factor, and at the resonances
+        between these factors. The ends of the intervals have an error of 1/32 of their distance from the critical factor.
+        Exceptions between the samples may be missed.
 
         Parameters
         ----------
@@ -325,7 +328,8 @@ class Structure(Assembly):
         Returns
         -------
         tuple
-            Intervals (low, high); the last high end may be inf. It is empty if no factor is known to suffice.
+            Intervals (low, high) of the factor; the last `high` may be inf. The tuple is empty if no factor is known to
+            suffice.
 
         Examples
         --------
@@ -338,7 +342,7 @@ class Structure(Assembly):
     def largest_push(self) -> resonances.LargestPush:
         """Return the size below which no push from upright topples the structure.
 
-        The terms through fourth order decide. The value is 0 if the linear motion grows.
+        The terms of the Hamiltonian through fourth order decide. The value is 0 if the linear motion grows.
 
         Returns
         -------
@@ -465,7 +469,7 @@ def read_structure(path: str | Path) -> Structure:
 
 
 def structure_of(entries: dict[str, Any]) -> Structure:
-    """Return the structure of a table with the names of the fields. Raises InputError for other names or values."""
+    """Return the structure that a TOML table describes. Raises InputError unless each key is a field with a valid value."""
     check_fields(entries, Assembly, "a structure")
     if "joints" not in entries:
         raise InputError("joints is missing: give the ground joints, joints = [[0, 0], [1, 0]]")

@@ -4,8 +4,8 @@ On the tangent space of the constraints, r = r₀ + T q with T orthonormal, the 
 
     q'' = Tᵀ ∂a/∂r T q + Tᵀ ∂a/∂r' T q',    K = −M Tᵀ ∂a/∂r T,    C = −M Tᵀ ∂a/∂r' T,    M = Tᵀ A T,
 
-by central differences of fourth order. The equilibrium is found by steps −|K|⁻¹ ∂V/∂q. Near a minimum of the energy they are
-Newton's steps; elsewhere they descend.
+where central differences of fourth order give the derivatives. Steps −|K|⁻¹ ∂V/∂q find the equilibrium. Near a minimum of the
+energy they are Newton's steps; elsewhere they descend in energy.
 """
 
 from collections.abc import Callable
@@ -62,7 +62,7 @@ def modes_about(s: Assembly, axes: ArrayLike) -> Modes:
     )
     if not residual < 10 * _AT_REST:
         raise InputError(
-            f"modes_about: the structure is not at rest at these axes (residual {residual:.1e}): take those of rest_near"
+            f"modes_about: the structure is not at rest at these axes (residual {residual:.1e}): give axes from rest_near"
         )
     T = constraint_tangents(motion, r)
     M, stiff, vectors, C = _linear(motion, r, T)
@@ -72,7 +72,8 @@ def modes_about(s: Assembly, axes: ArrayLike) -> Modes:
 
 
 def _linear(motion: ExactMotion, r: Array, T: Array) -> tuple[Array, Array, Array, Array]:
-    """Return M, the eigenvalues (soft ones zero) and eigenvectors of K, and C at an equilibrium."""
+    """Return M, the eigenvalues and eigenvectors of K, and C (damping plus gyroscopic) at an equilibrium. Eigenvalues within
+    the error of the differences are set to zero."""
     M = np.asarray(T.T @ np.kron(motion.c.inertia, np.eye(3)) @ T)
     K, C = (-M @ slope for slope in _slopes(motion, r, T))
     stiff, vectors = np.linalg.eigh((K + K.T) / 2)
@@ -80,7 +81,7 @@ def _linear(motion: ExactMotion, r: Array, T: Array) -> tuple[Array, Array, Arra
 
 
 def constraint_tangents(motion: ExactMotion, r: Array) -> Array:
-    """Return an orthonormal basis (3N, n) of the tangent space of the constraints."""
+    """Return an orthonormal basis (3N, n) of the tangent space of the constraints at the axes r (N, 3)."""
     c, N = motion.c, len(r)
     rows = np.zeros((N + len(c.i), N, 3))
     rows[np.arange(N), np.arange(N)] = r
@@ -91,7 +92,7 @@ def constraint_tangents(motion: ExactMotion, r: Array) -> Array:
 
 
 def _slopes(motion: ExactMotion, r: Array, T: Array) -> tuple[Array, Array]:
-    """Return Tᵀ ∂a/∂r T and Tᵀ ∂a/∂r' T at an equilibrium, (n, n)."""
+    """Return Tᵀ ∂a/∂r T in 1/s² and Tᵀ ∂a/∂r' T in 1/s for the accelerations a at an equilibrium, (n, n) each."""
     rate, still = motion.c.rate, 0 * r
 
     def differences(at: Callable[[Array], tuple[Array, Array]]) -> Array:

@@ -4,9 +4,9 @@ With u = (x, y) of the axes, z = sqrt(1 − x² − y²), q the degrees of freed
 
     L = ½ sum_ij A_ij r_i'·r_j' − sum_i G_i (x_i y_i' − y_i x_i')/(1 + z_i) − V,       H = ½ (p − a)·m⁻¹ (p − a) + V.
 
-The second sum belongs to the spins; its force is G_i r_i × r_i'. A bar along n_b binds s_b = n_b·(R_i u_i − R_j u_j), which
-follows from its constraint |d|² = ℓ² as a series in q: u = Z q + rows⁺ s(q). The iteration s ← s + (|d|² − ℓ²)/2ℓ gains one
-order per step.
+The second sum belongs to the spins and gives the torque G_i r_i × r_i'. A bar along n_b determines the combination s_b =
+n_b·(R_i u_i − R_j u_j) of tilts: its constraint |d|² = ℓ² gives s_b as a series in q. Then u = Z q + rows⁺ s(q), with the
+pseudo-inverse of the bars' rows. The iteration s ← s + (|d|² − ℓ²)/2ℓ gains one order per step.
 """
 
 from collections.abc import Callable, Sequence
@@ -36,10 +36,15 @@ Row = list[Polynomial]
 
 @dataclass(frozen=True, eq=False)
 class LocalHamiltonian:
-    """The Hamiltonian about upright, H/(inertia rate²) = powers[0] + f powers[1] + f² powers[2] with all spins times f.
+    """The Hamiltonian about upright as a polynomial in q = basisᵀ u and p/(inertia rate).
 
-    The variables are q = basisᵀ u, with the basis (2N, n) of `small_motion`, and p/(inertia rate). mass (n, n): that of p =
-    mass q'/rate upright; rate in rad/s; axes: x, y, z of the axes in q.
+    The unit of inertia is the largest entry of the mass matrix.
+
+    - `powers`: three polynomials with H/(inertia rate²) = powers[0] + f powers[1] + f² powers[2], where f multiplies all spins.
+    - `basis`: the basis of `small_motion`, (2N, n).
+    - `mass`: the mass matrix upright in units of inertia, (n, n).
+    - `rate`: the unit of rate, rad/s.
+    - `axes`: the components x, y, z of each axis as polynomials in q.
     """
 
     powers: tuple[Polynomial, Polynomial, Polynomial]
@@ -49,7 +54,7 @@ class LocalHamiltonian:
     axes: list[Row]
 
     def at_spins(self, factor: float) -> Polynomial:
-        """Return the Hamiltonian with all spins multiplied."""
+        """Return the Hamiltonian with all spins multiplied by a factor."""
         return total([self.powers[0], *(self.powers[k].times(factor**k) for k in (1, 2) if factor)])
 
 
@@ -62,7 +67,7 @@ def local_hamiltonian(s: Assembly, order: int = 4) -> LocalHamiltonian:
     s : Assembly
         The structure, without friction.
     order : int, default 4
-        The order of the polynomial.
+        The highest degree of the polynomial.
 
     Returns
     -------
@@ -110,7 +115,8 @@ def local_hamiltonian(s: Assembly, order: int = 4) -> LocalHamiltonian:
 def on_bars(
     c: Coefficients, free: Row, axes_of: Callable[[Row], list[Row]], closing: Callable[[Row], Row], order: int
 ) -> list[Row]:
-    """Return the axes of u = free + rows⁺ s, with s such that the bars keep their lengths; closing: s → rows⁺ s."""
+    """Return x, y, z of all axes as polynomials with which the bars keep their lengths through an order. The tilts are u = free
+    + rows⁺ s, and an iteration determines s. `axes_of` maps u to the axes, `closing` maps s to rows⁺ s."""
     bound, axes = [_none(free[0].variables)] * len(c.i), axes_of(free)
     for _ in range(2, order) if bound else ():
         bound = [f + over_length(c, axes, b, order - 1) for b, f in enumerate(bound)]
@@ -119,19 +125,19 @@ def on_bars(
 
 
 def combined(numbers: Array | Sequence[float], row: Row) -> Polynomial:
-    """Return the linear combination of polynomials."""
+    """Return the linear combination sum_k numbers_k row_k of polynomials."""
     return total(
         [f.times(number) for number, f in zip(numbers, row, strict=True) if number] or [_none(row[0].variables)]
     )
 
 
 def axis_of(xy: Row, order: int) -> Row:
-    """Return x, y and z = sqrt(1 − x² − y²)."""
+    """Return x, y and z = sqrt(1 − x² − y²) of an axis through an order, from the polynomials x and y."""
     return [*xy, of_square(xy, [float(binom(0.5, k) * (-1) ** k) for k in range(order // 2 + 1)], order)]
 
 
 def of_square(xy: Row, series: list[float], order: int) -> Polynomial:
-    """Return sum_k series_k (x² + y²)^k."""
+    """Return the polynomial sum_k series_k (x² + y²)^k through an order."""
     square = xy[0].product(xy[0], order) + xy[1].product(xy[1], order)
     result = constant(series[-1], square.variables, float)
     for value in reversed(series[:-1]):
@@ -140,7 +146,7 @@ def of_square(xy: Row, series: list[float], order: int) -> Polynomial:
 
 
 def over_length(c: Coefficients, axes: list[Row], b: int, order: int) -> Polynomial:
-    """Return (|d|² − ℓ²)/2ℓ of a bar."""
+    """Return (|d|² − ℓ²)/2ℓ of bar b through an order, in m: to first order the excess of its length."""
     i, j = c.i[b], c.j[b]
     upright = c.feet[j] - c.feet[i]
     d = [
@@ -152,14 +158,15 @@ def over_length(c: Coefficients, axes: list[Row], b: int, order: int) -> Polynom
 
 
 def turned(axis: Row, slope: Row, order: int) -> Polynomial:
-    """Return (x ∂y − y ∂x)/(1 + z), with 1/(1 + z) = (1 − z)/(x² + y²) as a series."""
+    """Return (x ∂y − y ∂x)/(1 + z) of an axis, whose derivatives ∂x, ∂y are in `slope`, through an order. The factor 1/(1 + z)
+    = (1 − z)/(x² + y²) is a series in x² + y²."""
     series = [float(-binom(0.5, k + 1) * (-1) ** (k + 1)) for k in range(order // 2 + 1)]
     around = axis[0].product(slope[1], order) - axis[1].product(slope[0], order)
     return around.product(of_square(axis[:2], series, order), order)
 
 
 def _mass(c: Coefficients, J: list[list[Row]], order: int, inertia: float) -> list[Row]:
-    """Return m_ab = sum_ij A_ij ∂_a r_i·∂_b r_j."""
+    """Return the mass matrix m_ab = sum_ij A_ij ∂_a r_i·∂_b r_j in units of `inertia`, with ∂_b r_i in J[i][b]."""
     n = len(J[0])
     pairs = [(i, i, value) for i, value in enumerate(c.A)]
     pairs += [
@@ -181,7 +188,8 @@ def _mass(c: Coefficients, J: list[list[Row]], order: int, inertia: float) -> li
 
 
 def potential_of(c: Coefficients, axes: list[Row], order: int) -> Polynomial:
-    """Return the energy of weight, hinges κ θ²/2 with θ = asin sqrt(x² + y²), and braces k (|d| − d₀)²/2."""
+    """Return the energy of weight, hinges κ θ²/2 with θ = asin sqrt(x² + y²), and braces k (|d| − d₀)²/2. The polynomial in q
+    goes through an order. Its value upright is subtracted."""
     squares = [0.0] + [4.0**k / (2 * k**2 * comb(2 * k, k)) for k in range(1, order // 2 + 1)]
     terms = [_none(axes[0][0].variables)]
     for i, axis in enumerate(axes):
@@ -213,5 +221,5 @@ def _none(n: int) -> Polynomial:
 
 
 def _lifted(f: Polynomial) -> Polynomial:
-    """Return a polynomial in q as one in q and p."""
+    """Return a polynomial in q as a polynomial in (q, p) that does not depend on p."""
     return Polynomial(np.hstack([f.exponents, np.zeros_like(f.exponents)]), f.coefficients)

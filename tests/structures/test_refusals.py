@@ -162,7 +162,7 @@ REFUSED = [
       for ask in (lambda x=x: EQUAL.spin_intervals(x), lambda x=x: STANDS.fall_time(x))),
     (lambda: Structure([(0, 0)], hinge=60.0, **WEIGHT).spin_intervals(0.1), "stable without spins"),
     (lambda: STANDS.hold_time(-1), "hold_time: push = -1 must be"),
-    (lambda: SIX.stands().hold_time(0.1), "hold_time: 12 degrees of freedom: at most 8"),
+    (lambda: SIX.stands().hold_time(0.1), "hold_time: 12 degrees of freedom are too many to expand: at most 8"),
     # precessions
     (lambda: TOP.steady_precession(2, 0.1), "0 to 1"),
     (lambda: TOP.steady_precession(True, 0.1), "0 to 1"),

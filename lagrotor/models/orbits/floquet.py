@@ -1,12 +1,13 @@
 """Stability of the paired precession: the Floquet multipliers of the exact periodic orbit.
 
-Of the six multipliers four are 1: the energy with the shift of time, the momentum with the rotation about the joint line. The
-other two, mu and 1/mu, belong to the slow motion of the mean x and the mean twist; their sum is the trace of the monodromy
-matrix minus four. The orbit is elliptic if |mu + 1/mu| < 2, hyperbolic if mu is real.
+Of the six multipliers four are 1. Two of them belong to the energy and the shift of time, two to the momentum and the rotation
+about the joint line. The other two, mu and 1/mu, belong to the slow motion of the mean x and the mean twist; their sum is the
+trace of the monodromy matrix minus four. The orbit is elliptic if |mu + 1/mu| < 2, hyperbolic if mu is real.
 
-A quarter of a turn suffices. At Phi = 0 the motion is its own image with time reversed under A = diag(1, −1, −1, −1, 1, 1), at
-Phi = pi/2 under B = diag(−1, 1, −1, 1, −1, 1), in (U, chi, alpha, rates). With Q the derivative of the quarter by the start,
-that of half a turn, mapped back by A B, is A Q⁻¹ B Q, and the monodromy matrix is its square.
+A quarter of a turn suffices. The matrix A = diag(1, −1, −1, −1, 1, 1) on (U, chi, alpha, rates) maps the motion to its own
+reversal in time about Phi = 0, and B = diag(−1, 1, −1, 1, −1, 1) does so about Phi = pi/2. Let Q be the derivative of the state
+after a quarter of a turn by the start. The derivative after half a turn, mapped back by A B, is A Q⁻¹ B Q, and the monodromy
+matrix is the square of this matrix.
 """
 
 from dataclasses import dataclass, replace
@@ -33,12 +34,16 @@ _A, _B = np.array([[1.0, -1, -1, -1, 1, 1], [-1.0, 1, -1, 1, -1, 1]])[..., None]
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Floquet(Shown):
-    """The multipliers of an orbit.
+    """The Floquet multipliers of an orbit.
 
-    multipliers (6,), complex: four ones, mu, 1/mu, NaN if smaller than the error; errors (6,): bounds of their errors.
-    pair_sum: mu + 1/mu. monodromy (6, 6) in (U, chi, alpha, rates). growth: log |mu| per turn, 0 on an elliptic orbit;
-    turning: the angle of mu per turn (rad) on an elliptic orbit. frequency: that of the orbit (rad/s). error: a bound for
-    pair_sum, within which the kind is "unresolved".
+    - `multipliers`: four ones, mu and 1/mu, complex (6,). A multiplier smaller than its error is NaN.
+    - `pair_sum`: the sum mu + 1/mu, and `error` a bound of its error.
+    - `kind`: "elliptic", "hyperbolic", or "unresolved" if the error of the sum does not decide it.
+    - `growth`: log |mu| per turn on a hyperbolic orbit, otherwise 0.
+    - `turning`: the angle of mu per turn (rad) on an elliptic orbit, otherwise 0.
+    - `frequency`: the frequency of the orbit, rad/s.
+    - `monodromy`: the monodromy matrix (6, 6) in (U, chi, alpha, rates).
+    - `errors`: bounds of the errors of the multipliers, (6,).
     """
 
     multipliers: NDArray[np.complex128]
@@ -65,13 +70,13 @@ class Floquet(Shown):
 
     @property
     def slow_frequency(self) -> complex:
-        """The frequency of motion near the orbit (rad/s), imaginary if it grows. The error is in `exponent_error`."""
+        """The frequency of the slow motion about the orbit (rad/s), imaginary if the motion grows: see `exponent_error`."""
         angle = self.turning or pi * (self.pair_sum < -2)
         return abs(self.frequency) / (2 * pi) * complex(angle, self.growth)
 
     @property
     def exponent_error(self) -> float:
-        """A bound of the error of growth and turning, rad per turn, from that of mu + 1/mu."""
+        """A bound of the error of growth and turning per turn, which follows from the bound for mu + 1/mu."""
         apart = sqrt(abs(self.pair_sum**2 - 4))
         root = sqrt(2 * self.error)
         return root if self.kind == "unresolved" or apart <= root else min(2 * self.error / apart, root)
@@ -87,7 +92,7 @@ def floquet(scene: Scene, r0: float, momentum: float = 0.0) -> Floquet:
     r0 : float
         The sine of the inclination when the axes are parallel.
     momentum : float, default 0.0
-        Additional momentum about the joint line, kg m²/s. The orbit then closes up to a rotation.
+        Additional momentum about the joint line, kg m²/s. The orbit then closes only after a rotation.
 
     Returns
     -------
@@ -113,7 +118,7 @@ def floquet(scene: Scene, r0: float, momentum: float = 0.0) -> Floquet:
 
 
 def slow_frequency_error(scene: Scene, r0: float, momentum: float = 0.0) -> float:
-    """Return the error of `slow_frequency` against that of the exact orbit, in the complex plane.
+    """Return the distance in the complex plane between `slow_frequency` and the slow frequency of the exact orbit.
 
     Parameters
     ----------
@@ -127,14 +132,14 @@ def slow_frequency_error(scene: Scene, r0: float, momentum: float = 0.0) -> floa
     Returns
     -------
     float
-        The error, with that of the exact orbit added, rad/s.
+        The distance plus the error of the exact orbit, rad/s.
     """
     law, orbit = slow_frequency(scene, r0, momentum), floquet(scene, r0, momentum)
     return abs(law - orbit.slow_frequency) + orbit.exponent_error * abs(orbit.frequency) / (2 * pi)
 
 
 def _pushed(orbit: ExactOrbit, momentum: float) -> ExactOrbit:
-    """Return the orbit of the same amplitude with more momentum P = 2 (a + b) (1 − x²) alpha' at the start."""
+    """Return the orbit of the same amplitude with an additional momentum P = 2 (a + b) (1 − x²) alpha' at the start."""
     scene, start = orbit.scene, MODEL.start(orbit.scene)
     inertia = 2 * sum(scene.inertias) * (1 - scene.axes[0][0] ** 2)
     start = start + np.array([0, 0, 0, 0, 0, momentum / inertia])
@@ -150,7 +155,7 @@ def _pushed(orbit: ExactOrbit, momentum: float) -> ExactOrbit:
 
 
 def floquet_of(orbit: ExactOrbit) -> Floquet:
-    """Return the multipliers of an orbit."""
+    """Compute the Floquet multipliers of an exact orbit, with the kind of stability and their errors."""
     quarter = flow(orbit.scene)(MODEL.start(orbit.scene), pi / 2 / abs(orbit.frequency)).slope
     half = _A * np.linalg.solve(quarter, _B * quarter)
     slope = half @ half
@@ -172,6 +177,7 @@ def floquet_of(orbit: ExactOrbit) -> Floquet:
 
 
 def _error(monodromy: Array, total: float) -> float:
-    """Return the error of integration plus rounding, by the sum of products of pairs minus 4 (mu + 1/mu) + 7."""
+    """Return a bound of the error of mu + 1/mu by integration and rounding. The sum of the products of pairs of multipliers is
+    4 (mu + 1/mu) + 7. Its deviation measures the rounding."""
     pairs = (np.trace(monodromy) ** 2 - np.trace(monodromy @ monodromy)) / 2
     return float(_INTEGRATED * max(1.0, float(np.linalg.norm(monodromy))) + abs(pairs - 4 * total - 7))

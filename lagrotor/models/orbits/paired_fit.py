@@ -1,4 +1,4 @@
-"""The paired precession through a start: amplitude, phase and azimuth by a fit, and its series to the order for `tol`."""
+"""The motion from a start near a paired precession: a fit of amplitude, phase and azimuth, and the series of the orbit."""
 
 from __future__ import annotations
 
@@ -34,10 +34,11 @@ _MIRRORS = np.array([[1.0, 1.0, 1.0], [-1.0, 1.0, 1.0]])
 
 
 class _Series(NamedTuple):
-    """The series of the orbit to one order.
+    """The power series of the orbit in the amplitude r0, through one order.
 
-    waves[n, h, i]: the real part of r_1 at r0**n exp(i h Phi); frequency[n]: Omega/Omega_0; wave_sizes, frequency_sizes: the
-    size of the terms of each power of r0.
+    `waves[n, h, i]` is the coefficient of r0**n exp(i h Phi) in component i of the axis r_1, which is the real part of the sum.
+    `frequency[n]` is the coefficient of r0**n in Omega/Omega_0. `wave_sizes` and `frequency_sizes` are the sizes of the
+    coefficients of each power.
     """
 
     waves: _Waves
@@ -48,7 +49,7 @@ class _Series(NamedTuple):
 
 @lru_cache(maxsize=64)
 def _series(order: int, shape: sp.Rational, ratio: sp.Rational) -> _Series:
-    """Return the series through r0**order."""
+    """Return the series of the orbit through r0**order, for a pair of the ratios `shape` (of inertias) and `ratio` (k)."""
     from lagrotor.theory.paired_precession.series import paired_series
 
     series = paired_series(next(n for n in _DERIVED if n >= order), shape, ratio)
@@ -66,13 +67,14 @@ def _through(series: FourierSeries, order: int) -> Iterator[tuple[tuple[int, int
 
 
 def _summed(powers: Array, waves: _Waves) -> _Waves:
-    """Return sum_n powers_n waves_n for powers (…, order + 1): the waves (…, order + 1, 3) at one amplitude."""
+    """Return the harmonics sum_n powers_n waves_n, (…, order + 1, 3), for powers r0**n, (…, order + 1), of an amplitude."""
     summed: _Waves = powers @ waves.reshape(len(waves), -1)
     return summed.reshape(*powers.shape, 3)
 
 
 def _axes_at(waves: _Waves, phase: float) -> Array:
-    """Return Re sum_h waves_h exp(i h Phi) for rotor 1 and for its mirror image half a period later: (…, 2, 3)."""
+    """Return the axes (…, 2, 3): Re sum_h waves_h exp(i h Phi) for rotor 1, its mirror image half a period later for rotor
+    2."""
     turn = np.exp(1j * phase * np.arange(waves.shape[-2]))
     both = np.stack([turn, turn])
     both[1, 1::2] *= -1
@@ -86,7 +88,8 @@ def _turned(vectors: Any, angle: float) -> Any:
 
 
 def _fit(axes: Array, velocity: Array, unknowns: Array, series: _Series) -> tuple[Array, float]:
-    """Return (r0, phase, azimuth) of the nearest orbit by two Gauss–Newton steps, and its distance; velocity is r'/Omega_0."""
+    """Return (r0, phase, azimuth) of the nearest orbit by two Gauss–Newton steps, and its distance from the start. The start
+    has the axes `axes` and the rates `velocity` in units of Omega_0, (2, 3) each."""
     n = np.arange(len(series.frequency))
     derivatives = np.array([n**0, 1j * n, -(n**2), n**0, 1j * n])[..., None]  # the waves' derivatives by Phi
     target = np.stack([axes, velocity])
@@ -111,9 +114,9 @@ def _fit(axes: Array, velocity: Array, unknowns: Array, series: _Series) -> tupl
 def paired_answer(scene: Scene, axes: Array, rates: Array, t_end: float, tol: float, best: bool) -> ClosedMotion:
     """Return the motion of opposite spins near their paired precession.
 
-    The error is the distance of the start from the orbit, which grows with the phase, plus the last terms of the series,
-    which exceed the omitted ones. Both grow exponentially on a hyperbolic orbit. Each order costs more than the one before.
-    If the terms decrease too slowly for `tol`, no further order is derived unless `best`.
+    The error has two parts: the distance of the start from the orbit, which grows with the phase, and the last terms of the
+    series, which exceed the omitted terms. Both parts grow exponentially on a hyperbolic orbit. Each order costs more than the
+    order before. If the terms decrease too slowly for `tol`, no further order is derived unless `best` is True.
     """
     width, natural = sqrt(scene.sigma), natural_rate(scene)
     signed = natural if scene.spins[0] > 0 else -natural
@@ -157,7 +160,8 @@ def _shape(rotor: Rotor, link: Link | None) -> tuple[sp.Rational, sp.Rational]:
 
 
 def _guess(axes: Array, velocity: Array, width: float) -> Array:
-    """Return (r0, phase, azimuth) by the linear orbit x_i = r0 cos Phi, y_1 = −y_2 = width r0 sin Phi. Raises DomainError."""
+    """Return (r0, phase, azimuth) of the linear orbit x_i = r0 cos Phi, y_1 = −y_2 = width r0 sin Phi through a start. Raises
+    DomainError if the start is not near such an orbit."""
     azimuth = float(np.arctan2(-axes[:, 1], axes[:, 2]).mean())
     first, second = np.stack([_turned(axes, -azimuth), _turned(velocity, -azimuth)], axis=1)
     (x, x_v), (y, y_v) = (first + second)[:, 0] / 2, (first - second)[:, 1] / (2 * width)
@@ -165,8 +169,8 @@ def _guess(axes: Array, velocity: Array, width: float) -> Array:
     residual = np.hypot(x_v + r0 * np.sin(phase), y_v - r0 * np.cos(phase))
     if not residual <= 2 * (1 + width**2) * r0**2 or r0 > _LARGEST:
         raise DomainError(
-            f"closed_form: the start is not on a paired precession: it is {residual:.2g} of the natural rate from that of "
-            f"amplitude {r0:.2g}; use paired_scene, or model='linear' or 'minimal'"
+            f"closed_form: the start is not on a paired precession: its rates miss the orbit of amplitude {r0:.2g} by "
+            f"{residual:.2g} of the natural rate; use paired_scene, or model='linear' or 'minimal'"
         )
     return np.array([r0, phase, azimuth])
 
@@ -174,7 +178,8 @@ def _guess(axes: Array, velocity: Array, width: float) -> Array:
 def fourier_motion(
     waves: NDArray[np.complex128], frequency: float, phase: float = 0.0
 ) -> Callable[[Array], tuple[Array, Array]]:
-    """Return t ↦ axes and rates: Re sum_h waves_h exp(i h (phase + frequency t)), of both axes (2, h, 3)."""
+    """Return a function of times (n,) that gives the axes Re sum_h waves_h exp(i h (phase + frequency t)) and their rates.
+    `waves` (2, h, 3) are the harmonics of both axes. The results have shape (2, n, 3)."""
     count = waves.shape[1]
     slopes = 1j * frequency * np.arange(count)[:, None] * waves
     table = np.concatenate([waves, slopes]).transpose(1, 0, 2).reshape(count, 12)

@@ -1,4 +1,4 @@
-"""The paired precession to a given error: by its series, or else by the exact periodic orbit."""
+"""The paired precession to a given error, from its series or, if this is not accurate enough, the exact periodic orbit."""
 
 from dataclasses import replace
 from math import copysign, pi
@@ -21,8 +21,8 @@ _SAMPLES = (16, 32, 64, 128, 256)  # of a quarter period
 def precession_orbit(scene: Scene, r0: float, tol: float = 1e-9) -> PrecessionOrbit:
     """Return the paired precession of amplitude r0 to a given error.
 
-    The result has the bounds `error` and `frequency_error`, and names its method. Source: 5.21 and 5.22 of the paper,
-    corrected.
+    The result has bounds of its errors, `error` and `frequency_error`, and names its method. It corrects equations 5.21 and
+    5.22 of the paper.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ def precession_orbit(scene: Scene, r0: float, tol: float = 1e-9) -> PrecessionOr
 
 
 def orbit_harmonics(exact: ExactOrbit, scene: Scene, r0: float) -> PrecessionOrbit:
-    """Return an exact orbit as harmonics, as many as its error requires. Raises DomainError beyond 512."""
+    """Return an exact orbit as harmonics, as many as its error requires. Raises DomainError if it requires more than 512."""
     for n in _SAMPLES:
         harmonics = _harmonics(exact, n)
         remainder = float(np.linalg.norm(np.arange(n, 2 * n)[:, None] * harmonics[n : 2 * n]))
@@ -92,9 +92,9 @@ def orbit_harmonics(exact: ExactOrbit, scene: Scene, r0: float) -> PrecessionOrb
 
 
 def _harmonics(exact: ExactOrbit, n: int) -> Array:
-    """Return the harmonics (2 n + 1, 3) of r_1 from both axes at n + 1 phases from 0 to a quarter period.
+    """Return the harmonics (2n + 1, 3) of r_1, computed from both axes at n + 1 phases from 0 to a quarter period.
 
-    r_2 is r_1 at Phi + pi with x → −x. The other half of the turn follows because x, z are even and y odd in Phi.
+    The axis r_2 is r_1 at Phi + pi with x → −x. The rest of the turn follows because x and z are even and y is odd in Phi.
     """
     still = replace(exact.scene, shock=None)
     times = pi / 2 / abs(exact.frequency) * np.arange(n + 1) / n
@@ -119,7 +119,8 @@ def paired_scene(scene: Scene, r0: float, tol: float = 1e-9) -> Scene:
     r0 : float
         The sine of the inclination when the axes are parallel.
     tol : float, default 1e-9
-        The axes are within 2 tol of the periodic orbit, their rates within 2 tol Omega_0. The bar keeps its length exactly.
+        The axes differ from the periodic orbit by at most 2 tol, their rates by at most 2 tol Omega_0. The bar keeps its
+        length exactly.
 
     Returns
     -------

@@ -42,9 +42,9 @@ FAILURES = (DomainError, IntegrationError, np.linalg.LinAlgError, ValueError)
 
 @dataclass(frozen=True)
 class ExactOrbit:
-    """A scene that starts on the orbit at Phi = 0, and the frequency (rad/s), with the sign of rotor 1's spin.
+    """A scene that starts on a periodic orbit at Phi = 0, and the frequency (rad/s), with the sign of rotor 1's spin.
 
-    error: a bound of the error of the axes at equal phase over a turn; frequency_error: a bound for the frequency, rad/s.
+    `error` bounds the error of the axes at equal phase over a turn, `frequency_error` the error of the frequency in rad/s.
     """
 
     scene: Scene
@@ -54,7 +54,7 @@ class ExactOrbit:
 
 
 class QuarterPeriod:
-    """The three conditions for the four unknowns z and their Jacobian, which define the curve of orbits."""
+    """The equations of the curve of orbits: three conditions a quarter period after the start, for the four unknowns z."""
 
     def __init__(self, scene: Scene) -> None:
         """Raise InputError unless the spins are opposite and there is a bar."""
@@ -66,11 +66,11 @@ class QuarterPeriod:
         self._last = np.full(4, np.nan), np.empty((3, 4))
 
     def state(self, z: Array) -> Array:
-        """Return (U, chi, alpha and their rates) at Phi = 0."""
+        """Return the state (U, chi, alpha and their rates), (6,), at Phi = 0 for the unknowns z (4,)."""
         return np.array([z[0], 0.0, 0.0, 0.0, z[1] * self.natural, z[2] * self.natural])
 
     def __call__(self, z: Array, tol: float = TIGHTEST) -> tuple[Array, Array]:
-        """Return the conditions (3,) and their Jacobian (3, 4), from a flow integrated at `tol`."""
+        """Return the residuals of the conditions (3,) and their Jacobian (3, 4), from a flow integrated at `tol`."""
         scale = self.natural
         now = self._flow(self.state(z), z[3] / abs(scale), tol)
         rows, weights = [0, 2, 4], np.array([1.0, 1.0, 1 / scale])
@@ -81,16 +81,16 @@ class QuarterPeriod:
         return weights * now.end[rows], self._last[1]
 
     def _slope(self, z: Array) -> Array:
-        """Return the Jacobian at z: the last one, if it is no farther than Newton's last step."""
+        """Return the Jacobian (3, 4) at z. The last one is reused if it was computed within 1e-6 of z."""
         near = bool(np.abs(z - self._last[0]).max() < _SAME_SLOPE)
         return self._last[1] if near else self(z)[1]
 
     def linear(self, u: float) -> Array:
-        """Return the orbit of small amplitude: chi' = 2 u sqrt(sigma) Omega_0, times 1/k for a short bar (Delta = k chi)."""
+        """Return the unknowns z of the orbit of small amplitude u: chi' = 2 u sqrt(sigma) Omega_0, divided by k if k < 1."""
         return np.array([u, 2 * u * sqrt(self.scene.sigma) / min(self.scene.k, 1.0), 0.0, pi / 2])
 
     def correct(self, z: Array, row: Array, value: float) -> Array:
-        """Return the point of the curve on the plane row . z = value, by Newton's method. Raises DomainError."""
+        """Find the point of the curve on the plane row . z = value by Newton's method. Raises DomainError if it diverges."""
         tol = _COARSE
         for _ in range(9):
             miss, slope = self(z, tol)
@@ -101,15 +101,15 @@ class QuarterPeriod:
             tol = TIGHTEST if np.abs(error).max() < _NEAR else tol
             if not np.isfinite(z).all() or np.abs(z).max() > 60 or z[3] <= 0:  # a quarter period is positive
                 break
-        raise DomainError("the periodic orbit: Newton's method does not converge")
+        raise DomainError("the periodic orbit: Newton's method does not converge; take a smaller amplitude")
 
     def tangent(self, z: Array, side: Array) -> Array:
-        """Return the unit tangent of the curve at z, on the given side."""
+        """Return the unit tangent (4,) of the curve at z that has a positive product with `side`."""
         null = np.linalg.svd(self._slope(z))[2][-1]
         return null if null @ side >= 0 else -null
 
     def follow(self, z: Array | None, r0: float) -> Array:
-        """Follow the family from z, or from rest, to r0 > 0. Raises DomainError if it turns or ends before."""
+        """Follow the family from z, or from rest if z is None, to r0 > 0. Raises DomainError if it turns or ends before."""
         goal, row, step = atanh(r0), np.array([1.0, 0.0, 0.0, 0.0]), 0.4
         if z is None:
             u = min(goal, 0.5)
@@ -137,7 +137,7 @@ class QuarterPeriod:
         return z
 
     def orbit(self, z: Array) -> ExactOrbit:
-        """Return the orbit of the unknowns z, as a scene that starts on it."""
+        """Return the orbit with the unknowns z: a scene that starts on it, the frequency, and their errors."""
         frequency = pi / 2 * self.natural / float(z[3])
         # The error at the end of the quarter period, propagated to the unknowns at fixed amplitude and to the axes.
         slope = self._slope(z)
@@ -152,7 +152,7 @@ def exact_orbit(scene: Scene, r0: float) -> ExactOrbit:
     Parameters
     ----------
     scene : Scene
-        The pair; its rotor, bar and spins are used.
+        The pair. Only its rotor, bar and spins are used.
     r0 : float
         The sine of the inclination when the axes are parallel, 0 < |r0| < 1.
 
@@ -199,7 +199,7 @@ class OrbitFamily(Shown):
     turns : tuple
         The amplitudes at which the family turns back in r0.
     reason : str
-        The reason for its end.
+        The reason for which the family ends.
     """
 
     curve: QuarterPeriod
@@ -247,10 +247,10 @@ class OrbitFamily(Shown):
 
 
 def trace_family(scene: Scene) -> OrbitFamily:
-    """Follow the family from r0 = 0.05 until it ends, r0 reaches 0.99, or there are 200 orbits.
+    """Follow the family of paired precessions from r0 = 0.05 until it ends, r0 reaches 0.99, or there are 200 orbits.
 
     Steps along the curve grow from 0.1 to 0.5, and are halved if Newton's method fails. The family ends where steps below
-    1e-5 fail: period or speed diverge, or the orbit reaches a singular position.
+    1e-5 fail. There the period or the speed diverges, or the orbit reaches a singular position.
 
     Parameters
     ----------
@@ -289,7 +289,7 @@ def trace_family(scene: Scene) -> OrbitFamily:
 
 
 def orbit_family(scene: Scene, amplitudes: NDArray[np.float64] | list[float]) -> OrbitFamily:
-    """Find the orbits at increasing amplitudes, each from the one before.
+    """Find the orbits of increasing amplitudes, starting Newton's method for each from the orbit before.
 
     Parameters
     ----------
@@ -319,7 +319,7 @@ def orbit_family(scene: Scene, amplitudes: NDArray[np.float64] | list[float]) ->
     curve = QuarterPeriod(scene)
     targets = np.asarray(amplitudes, float)
     if targets.ndim != 1 or not len(targets) or targets[0] <= 0 or targets[-1] >= 1 or (np.diff(targets) <= 0).any():
-        raise DomainError("orbit_family: amplitudes must increase within (0, 1)")
+        raise DomainError("orbit_family: amplitudes must increase, from above 0 to below 1")
     points: list[Array] = []
     for r0 in targets:
         points.append(curve.follow(points[-1] if points else None, float(r0)))
@@ -332,7 +332,7 @@ def _family(curve: QuarterPeriod, points: Array, turns: tuple[float, ...], reaso
 
 @dataclass(frozen=True)
 class UprightOrbit:
-    """A scene that starts on an orbit about upright at Phi = 0, its frequency, and its mean alpha' (rad/s)."""
+    """A scene that starts on an orbit about upright at Phi = 0, its frequency, and `turning`, its mean alpha', in rad/s."""
 
     scene: Scene
     frequency: float
@@ -345,7 +345,7 @@ def upright_orbit(scene: Scene, r0: float) -> UprightOrbit:
     Parameters
     ----------
     scene : Scene
-        The pair; its rotor, bar and spins are used.
+        The pair. Only its rotor, bar and spins are used.
     r0 : float
         The sine of the inclination when the axes are parallel, 0 < |r0| < 1.
 
@@ -357,7 +357,7 @@ def upright_orbit(scene: Scene, r0: float) -> UprightOrbit:
     amplitude, (first, second) = amplitude_of(r0, "upright_orbit"), scene.momenta
     if scene.link is None or first + second == 0:
         raise InputError(
-            f"upright_orbit: needs a bar and spins that are not opposite, not {scene.spins}; see exact_orbit"
+            f"upright_orbit: give a bar and spins that are not opposite, not {scene.spins}; for opposite ones use exact_orbit"
         )
     if amplitude == 0:
         raise DomainError("upright_orbit: r0 = 0 is the pair at rest; take an amplitude above 0")

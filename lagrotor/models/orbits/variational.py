@@ -22,7 +22,8 @@ _LAST_STEP = 1e-8  # of Newton's method, relative: the next is its square
 
 @generated((massive, ratio) for massive in (False, True) for ratio in RATIOS)
 def _tangents(massive: bool, ratio: Ratio) -> str:
-    """Return the source of parameters → accelerations (3,) and their derivatives by the state (3, 6), of time and state."""
+    """Return the source of a function of the parameters, which returns a function of time and state. The latter gives the
+    accelerations (3,), then their derivatives by the state (3, 6)."""
     from lagrotor.numerics.codegen import tangent_program
     from lagrotor.numerics.printers import rhs_source
 
@@ -33,7 +34,8 @@ def _tangents(massive: bool, ratio: Ratio) -> str:
 
 @dataclass(frozen=True)
 class Flow:
-    """The flow of the minimal model from a state: `end` (6,), `slope` (6, 6), its derivative, and `rate` (6,)."""
+    """The flow of the minimal model from a state over a time. `end` (6,) is the final state, `slope` (6, 6) its derivative by
+    the initial state, and `rate` (6,) its time derivative."""
 
     end: Array
     slope: Array
@@ -41,7 +43,8 @@ class Flow:
 
 
 def flow(scene: Scene) -> Callable[..., Flow]:
-    """Return (state (U, chi, alpha, rates), time in s, tol) → Flow of a scene. Raises SingularError without a bar."""
+    """Return a function (state, time in s, tol) → `Flow`, with states (U, chi, alpha, rates). Raises SingularError without a
+    bar."""
     (massive, ratio, _), parameters = MODEL.kind(scene, False)
     accelerations = _tangents(massive, ratio)(*parameters)
     plain = MODEL.rate(scene, False)
@@ -63,7 +66,8 @@ def close_arc(
     through: Callable[..., Flow], start: Array, free: list[int], time: float, rows: list[int], end: Array,
     longest: float,
 ) -> tuple[Array, float]:  # fmt: skip
-    """Return start and time at which rows of the end have given values, by Newton's method; time 0 if there are none."""
+    """Find a start and a time after which the entries `rows` of the final state equal `end`, by Newton's method. The entries
+    `free` of the start may change. Returns (start, time); the time is 0 if the steps do not converge or exceed `longest`."""
     for _ in range(12):
         now = through(start, time)
         slope = np.column_stack([now.slope[np.ix_(rows, free)], now.rate[rows]])

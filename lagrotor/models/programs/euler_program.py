@@ -13,7 +13,7 @@ ORDER = [2, 5, 0, 3, 1, 4]
 
 
 def program(massive: bool, body: int) -> Program:
-    """Derive (theta_1, phi_1, psi_1, theta_2, phi_2, psi_2, rates; a, b, k, I_3[, F]) → rates of the twelve."""
+    """Derive the program (theta_1, phi_1, psi_1, theta_2, phi_2, psi_2, rates; a, b, k, I_3[, F]) → twelve derivatives."""
     system = pair_with_bar()
     lagrangian = system.L if massive else system.L.subs(b, 0)
     mass, G = mass_matrix(lagrangian, PAIR), system.rows
@@ -39,7 +39,7 @@ def program(massive: bool, body: int) -> Program:
 
 
 def projection(massive: bool) -> Program:
-    """Derive one Newton step onto the bar's constraint and its rate, along M⁻¹ Gᵀ."""
+    """Derive the program of one Newton step towards the bar's constraint and its time derivative, along M⁻¹ Gᵀ."""
     system = pair_with_bar()
     lagrangian = system.L if massive else system.L.subs(b, 0)
     mass, G = mass_matrix(lagrangian, PAIR), system.rows
@@ -54,7 +54,7 @@ def projection(massive: bool) -> Program:
 
 
 def observation() -> Program:
-    """Derive (angles, rates) → r_1, r_2, r_1', r_2', twelve numbers."""
+    """Derive the program (angles, rates) → the twelve components of r_1, r_2, r_1', r_2'."""
     q = PAIR.q
     r = [*axis(q[0], q[1]), *axis(q[3], q[4])]
     v = [total_derivative(e, PAIR) for e in r]

@@ -29,7 +29,7 @@ _D1, _D2, _W1, _W2 = sp.symbols("D_1 D_2 w_1 w_2", real=True)
 
 
 class _Curve(NamedTuple):
-    """First and second derivatives of Delta and w by chi, and Delta'² + w'²."""
+    """First and second derivatives D1, D2 of Delta and W1, W2 of w by chi, and `square`, which is Delta'² + w'²."""
 
     D1: sp.Expr
     D2: sp.Expr
@@ -39,7 +39,7 @@ class _Curve(NamedTuple):
 
 
 class _Rotor(NamedTuple):
-    """exp(2 u), tanh u, u', alpha', G/a, and the force over a in the tangent frame (0 without force)."""
+    """The quantities of one rotor: exp(2 u), tanh u, u', alpha', G/a, and the force divided by a in the tangent frame."""
 
     e: sp.Symbol
     t: sp.Symbol
@@ -58,7 +58,7 @@ class _Stages(list[Stage]):
 
 @lru_cache(maxsize=32)
 def program(massive: bool, ratio: Ratio, body: int) -> Program:
-    """Derive (U, chi, alpha, rates; a[, b][, k], G_1, G_2[, F]) → rates of the six; without force for `body` 0."""
+    """Derive the program (U, chi, alpha, rates; a[, b][, k], G_1, G_2[, F]) → six derivatives. `body` 0 has no force F."""
     stages = _Stages()
     curve = _curve(stages, ratio)
     rotors = _rotors(stages, curve, ratio, body)
@@ -70,7 +70,7 @@ def program(massive: bool, ratio: Ratio, body: int) -> Program:
 
 
 def observation(ratio: Ratio) -> Program:
-    """Derive (U, chi, alpha, rates; k) → r_1, r_2, r_1', r_2', twelve numbers."""
+    """Derive the program (U, chi, alpha, rates; k) → the twelve components of r_1, r_2, r_1', r_2'."""
     stages = _Stages()
     rotors = _rotors(stages, _curve(stages, ratio), ratio, 0)
     axes, rates = [], []
@@ -104,7 +104,7 @@ def _curve(stages: _Stages, ratio: Ratio) -> _Curve:
 
 
 def _rotors(stages: _Stages, curve: _Curve, ratio: Ratio, body: int) -> list[_Rotor]:
-    """Return both rotors from U, chi, alpha: u = U ± w/2, alpha_i = alpha ∓ Delta/2."""
+    """Return the quantities of both rotors from U, chi, alpha: u_i = U ± w/2 and alpha_i = alpha ∓ Delta/2."""
     # For ell = R the logarithm also excludes chi above a right angle, where there is no state.
     e_1 = sp.exp(2 * _U - stages.keep("falling", sp.log(_C))) if ratio == "equal" else sp.exp(2 * _U) / _DROP
     e_1 = stages.keep("e_1", e_1)
@@ -126,9 +126,10 @@ def _rotors(stages: _Stages, curve: _Curve, ratio: Ratio, body: int) -> list[_Ro
 def _massless(stages: _Stages, rotors: list[_Rotor], curve: _Curve) -> tuple[sp.Expr, ...]:
     """Return the accelerations for a massless bar.
 
-    Each rotor alone has, with g = G/a, u'' = tanh u (u'² − alpha'²) + g alpha', alpha'' = u' (2 alpha' tanh u − g), and
-    inertia a sech² u in both. The force of the bar is normal to its curve, so that chi'' does not change. The means gain half
-    the difference of 1/sech² u_i, where sech² u_1 : sech² u_2 = (1 + exp 2 u_2)² : (1 + exp 2 u_1)² exp(−2 w).
+    With g = G/a, each rotor alone has u'' = tanh u (u'² − alpha'²) + g alpha' and alpha'' = u' (2 alpha' tanh u − g). Its
+    inertia is a sech² u in both coordinates. The force of the bar is normal to its curve, so that chi'' does not change. The
+    force enters the means U'' and alpha'' with half the difference of 1/sech² u_i, where sech² u_1 : sech² u_2 = (1 + exp 2
+    u_2)² : (1 + exp 2 u_1)² exp(−2 w).
     """
     (D1, D2, W1, W2, square), free = curve, []
     for i, (e, t, u_v, al_v, g, force) in enumerate(rotors, start=1):

@@ -2,7 +2,7 @@
 
     a r_i'' + b r_j'' = G_i r_i × r_i' + F_i + sum_c lam_c grad_i g_c
 
-One multiplier each for the unit lengths and the bar.
+The multipliers lam_c belong to the two unit lengths and the bar, one each.
 """
 
 from dataclasses import replace
@@ -20,7 +20,7 @@ _FORCE = sp.symbols("F_x F_y F_z", real=True)
 
 
 def program(massive: bool, bar: bool, body: int) -> Program:
-    """Derive (r_1, r_2, r_1', r_2'; a, b, k, G_1, G_2[, F]) → rates of the twelve; without force for `body` 0."""
+    """Derive the program (r_1, r_2, r_1', r_2'; a, b, k, G_1, G_2[, F]) → twelve derivatives. `body` 0 has no force F."""
     parameters = (a, *((b,) if massive else ()), *((k,) if bar else ()), G_1, G_2, *(_FORCE if body else ()))
     if not massive:
         stages, accelerations = _slim(bar, body)
@@ -34,12 +34,12 @@ def program(massive: bool, bar: bool, body: int) -> Program:
 
 
 def _slim(bar: bool, body: int) -> tuple[list[Stage], list[sp.Expr]]:
-    """Return stages and accelerations for a massless bar or none.
+    """Return the intermediate results and the accelerations for a massless bar or none.
 
-    Each axis alone is a r'' = Q − (a |r'|² + r . Q) r / r². A massless bar pulls it by lam times the component of n_1 = r_2 +
-    k e_x, n_2 = r_1 − k e_x normal to it: one multiplier, no matrix. Off the constraints, too, the second derivatives of
-    |r_i|² and of the bar's length vanish; only r_i . (r_i × r_i') = 0 is omitted. Omitting more saves 28 operations, but
-    drifts exponentially where the axes are pressed.
+    Each axis alone is a r'' = Q − (a |r'|² + r . Q) r / r². A massless bar adds lam times the component normal to r_i of
+    n_1 = r_2 + k e_x or n_2 = r_1 − k e_x, so that one multiplier suffices and no matrix is solved. The second derivatives of
+    |r_i|² and of the bar's length vanish off the constraints, too; only r_i . (r_i × r_i') = 0 is omitted. To omit more would
+    save 28 operations, but a run would drift exponentially where the bar compresses.
     """
     r, v = ([sp.Matrix(half[:3]), sp.Matrix(half[3:])] for half in (AXES.q, AXES.v))
     pull = [r[1] + sp.Matrix([k, 0, 0]), r[0] - sp.Matrix([k, 0, 0])]
@@ -70,7 +70,8 @@ def _slim(bar: bool, body: int) -> tuple[list[Stage], list[sp.Expr]]:
 
 
 def projection(massive: bool, bar: bool) -> Program:
-    """Derive one Newton step onto the constraints and their rates: q − M⁻¹ Gᵀ S⁻¹ g, v − M⁻¹ Gᵀ S⁻¹ G v."""
+    """Derive the program of one Newton step towards the constraints g and their rates G v, with S = G M⁻¹ Gᵀ. It returns q −
+    M⁻¹ Gᵀ S⁻¹ g and v − M⁻¹ Gᵀ S⁻¹ G v."""
     system = axes_pair(bar)
     mass = mass_matrix(system.L if massive else system.L.subs(b, 0), AXES)
     G, pull = system.rows, linear_solve(mass, system.rows.T, "the axes' mass matrix")

@@ -1,6 +1,7 @@
-"""A rigid body, its rotation in a finite time, and the rotation of its inertia, each with the printed version of the paper.
+"""A rigid body, its rotation in a finite time, and the rotation of its inertia, each also as the paper prints it.
 
-R (3, 3) takes body components to world components, v = R v_body, and grows by R ← dR R. All functions take stacks.
+The rotation R (3, 3) takes body components to world components, v = R v_body. A step changes it by R ← dR R. All functions take
+stacks of n bodies.
 """
 
 from dataclasses import dataclass
@@ -20,8 +21,8 @@ def finite_rotation(Omega: Array, dt: float) -> Array:
     """Return the rotation matrices of a constant angular velocity.
 
     dR = 1 + sin(θ) [n]× + (1 − cos θ)(n nᵀ − 1), θ = |Omega| dt, n = Omega/|Omega|. `hypot` avoids under- and overflow of
-    |Omega|. The least normal number added to it changes only an |Omega| of that size, for which sin θ is as small; at Omega =
-    0 dR = 1.
+    |Omega|. The smallest normal number is added to |Omega|, so that dR = 1 at Omega = 0. It changes other results only if
+    |Omega| is as small.
 
     Parameters
     ----------
@@ -40,10 +41,10 @@ def finite_rotation(Omega: Array, dt: float) -> Array:
 
 
 def printed_rotation(Omega: Array, dt: float) -> Array:
-    """Return dR = P + cos(θ)(1 − P) + sin(θ) [n]× with P = Omegaᵀ Omega / |Omega|², (n, 3) → (n, 3, 3), from 3.15 and 3.16.
+    """Return dR = P + cos(θ)(1 − P) + sin(θ) [n]× with P = Omegaᵀ Omega / |Omega|², from equations 3.15 and 3.16.
 
-    It is that of the paper's program before its repair (section 4.2): P is NaN if |Omega|² underflows to zero. (3.16 as
-    printed lacks the division, and projects only if |Omega| = 1.)
+    Omega is (n, 3) and dR (n, 3, 3). The paper's program had this form before its repair (section 4.2): P is NaN if |Omega|²
+    underflows to zero. Equation 3.16 as printed lacks the division, and is a projection only if |Omega| = 1.
     """
     size = np.hypot(np.hypot(Omega[:, 0], Omega[:, 1]), Omega[:, 2])
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -55,21 +56,21 @@ def printed_rotation(Omega: Array, dt: float) -> Array:
 
 
 def inertia_transform(R: Array, tensor: Array) -> Array:
-    """Return the world components R I₀ Rᵀ of a tensor in the body frame, (n, 3, 3) each; also for I₀⁻¹."""
+    """Return the world components R I₀ Rᵀ of a tensor I₀ given in the body frame, (n, 3, 3). I₀ may also be an inverse."""
     return R @ tensor @ R.swapaxes(-1, -2)
 
 
 def printed_inertia_transform(R: Array, tensor: Array) -> Array:
-    """Return Rᵀ I₀ R, (n, 3, 3) each, as printed in 3.12, 3.17 and 3.18.
+    """Return Rᵀ I₀ R, (n, 3, 3), as printed in 3.12, 3.17 and 3.18.
 
-    It is wrong for R ← dR R (3.15), whose R takes body to world, and right for the inverse. Isotropic bodies, which the paper
-    runs, do not distinguish them.
+    It is wrong for the R of R ← dR R (3.15), which takes body to world components, and right for the inverse of R. For the
+    isotropic bodies that the paper runs, both forms agree.
     """
     return R.swapaxes(-1, -2) @ tensor @ R
 
 
 def rotation_between(u: Array, v: Array) -> Array:
-    """Return the shortest rotation (3, 3) from the basis vector `u` (3,) to the unit vector `v` (3,)."""
+    """Return the shortest rotation (3, 3) that takes the basis vector `u` (3,) to the unit vector `v` (3,)."""
     axis, cosine = np.cross(u, v), float(u @ v)
     sine = float(np.linalg.norm(axis))
     if sine == 0.0:
@@ -119,7 +120,7 @@ class RigidBody:
             raise InputError(f"RigidBody: mass = {self.mass:g} kg must be greater than zero")
         I0, R = self.inertia, self.rotation
         if abs(I0 - I0.T).max() > _CLOSE * abs(I0).max() or np.linalg.eigvalsh(I0)[0] <= 0:
-            raise InputError(f"RigidBody: inertia = {I0.tolist()} must be symmetric, its principal moments above zero")
+            raise InputError(f"RigidBody: inertia = {I0.tolist()} must be symmetric with principal moments above zero")
         if abs(R @ R.T - np.eye(3)).max() > _CLOSE or np.linalg.det(R) < 0:
             raise InputError(f"RigidBody: rotation = {R.tolist()} is no rotation: give R with R Rᵀ = 1 and det R = 1")
 

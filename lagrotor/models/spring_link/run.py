@@ -1,6 +1,6 @@
-"""Runs of bodies on springs: the paper's fixed step, and a stiff solver.
+"""Runs of bodies on springs, by the paper's fixed step or by a stiff solver.
 
-The step, or the rates of the state, of a few bodies is scalar code, because calls of arrays cost more.
+For few bodies the step, or the derivative of the state, is generated scalar code, which is faster than operations on arrays.
 """
 
 import warnings
@@ -42,11 +42,16 @@ LOST = 1e100  # the norm of a diverged state, whose energies are still finite
 class SpringRun(Run):
     """A run of n_b bodies, the first two the rotors, and n_l links, at n times.
 
-    axes, rates, tips, feet (2, n, 3): the unit vectors from vertex 1 to 2 of each rotor, their rates (1/s), vertices 2 and 1
-    (m). spins (2, n): about the axes, rad/s. centres (n_b, n, 3), m; rotations (n_b, n, 3, 3); stretches |X_1 − X_2| (n_l,
-    n), m. momentum (n, 3), kg m/s, and angular_momentum (n, 3) about the origin, kg m²/s: those of all bodies. Energies in J:
-    translation M U²/2 and rotation Omega·L/2 (n_b, n), spring S |X_1 − X_2|²/2 (n_l, n). evaluations: those of the forces.
-    errors: of positions in units of the largest body, and of R; NaN for the paper's step.
+    - `axes` and `rates`: the unit vectors from vertex 1 to vertex 2 of each rotor, and their rates in 1/s, (2, n, 3).
+    - `tips` and `feet`: the positions of vertices 2 and 1 of each rotor, (2, n, 3), m.
+    - `spins`: the angular velocities of the rotors about their axes, (2, n), rad/s.
+    - `centres` and `rotations`: the centres of all bodies, (n_b, n, 3), m, and their rotations, (n_b, n, 3, 3).
+    - `stretches`: the gaps |X_1 − X_2| of the links, (n_l, n), m.
+    - `momentum` and `angular_momentum`: the sums over all bodies, (n, 3), kg m/s, and about the origin in kg m²/s.
+    - `translation` and `rotation`: the energies M U²/2 and Omega·L/2 of each body, (n_b, n), J.
+    - `spring`: the energies S |X_1 − X_2|²/2 of the links, (n_l, n), J.
+    - `evaluations`: the number of evaluations of the forces.
+    - `errors`: the error of positions in units of the largest body, and of R, (n,); NaN for the paper's step.
     """
 
     axes: Array
@@ -65,12 +70,12 @@ class SpringRun(Run):
 
     @property
     def paper_energy(self) -> Array:
-        """The kinetic energy, which the paper records (4.02), without that of the springs, (n,), J."""
+        """The kinetic energy, which the paper records (4.02), without the energy of the springs, (n,), J."""
         return self.translation.sum(0) + self.rotation.sum(0)
 
     @property
     def energy(self) -> Array:
-        """Kinetic energy plus that of the springs, (n,), J: conserved without damping, shock and external force."""
+        """The kinetic energy plus the energy of the springs, (n,), J. Damping, shock and external forces change it."""
         return self.paper_energy + self.spring.sum(0)
 
     def quantities(self) -> dict[str, Quantity]:
@@ -113,7 +118,7 @@ class SpringRun(Run):
                     if sizes.setdefault(axis, size) != size:
                         raise ValueError(f"{name} has shape {array.shape}")
                 if not np.isfinite(array).all():
-                    raise ValueError(f"{name} holds a number that is not finite")
+                    raise ValueError(f"{name} contains a number that is not finite")
         except (KeyError, ValueError) as refusal:
             raise InputError(
                 f"load: {path} is no run of bodies on springs ({refusal}): give a file that `save` wrote"
@@ -134,8 +139,8 @@ _QUANTITIES: dict[str, tuple[tuple[str, ...], str]] = {
 def run_steps(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, dt: float) -> SpringRun:
     """Move a copy of a system by the paper's fixed step, with the shock of step k at the time k dt.
 
-    A step above `step_limit` is run as well, until the state is not a number or exceeds LOST. A LagrotorWarning and the
-    ending then say so. The error is not estimated.
+    A step above `step_limit` is run, too. If the state then is not a number or exceeds LOST, the run ends with a
+    LagrotorWarning. The error is not estimated.
 
     Parameters
     ----------
@@ -163,7 +168,7 @@ def run_steps(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, dt: fl
         raise InputError(f"run_steps: dt = {dt!r} s must be a finite number above zero")
     counts = np.rint(times / dt).astype(int)
     if (abs(counts * dt - times) > 1e-6 * dt * np.maximum(abs(counts), 1)).any():
-        raise InputError(f"run_steps: t holds times between the steps of dt = {dt:g} s: give whole multiples of dt")
+        raise InputError(f"run_steps: t contains times between the steps of dt = {dt:g} s: give whole multiples of dt")
     if shock is not None and dt > shock.width:
         raise InputError(
             f"run_steps: dt = {dt:g} s steps over a shock of width {shock.width:g} s; take dt well below it"
@@ -186,7 +191,9 @@ def run_steps(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, dt: fl
                     )
                 ending = Ending("stopped", float(k * dt), reason)
                 warnings.warn(
-                    f"run_steps: it ended early: {ending}; it holds what was reached", LagrotorWarning, stacklevel=2
+                    f"run_steps: the run ended early: {ending}; it has the times that were reached",
+                    LagrotorWarning,
+                    stacklevel=2,
                 )
                 break
             states.append(state)
@@ -210,8 +217,8 @@ def run_solver(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, tol: 
     t : array_like
         The times (n,), s.
     tol : float, default 1e-8
-        The largest error of the run: of places in units of the largest body, and of R. A LagrotorWarning says if it is not
-        kept.
+        The largest error of the run: of positions in units of the largest body, and of R. A LagrotorWarning is issued if it
+        is exceeded.
 
     Returns
     -------
@@ -260,7 +267,8 @@ def run_solver(system: RigidBodySystem, shock: Shock | None, t: ArrayLike, tol: 
 
 
 def step_function(system: RigidBodySystem, shock: Shock | None, dt: float) -> _OfState:
-    """Return `system.state` → the state dt later, by `compute_forces`, `push` and `step` of the system."""
+    """Return a function of `system.state` and the strength of the shock that gives the state a step dt later. It applies
+    `compute_forces`, `push` and `step` of the system."""
 
     def after(moving: RigidBodySystem) -> Array:
         moving.step(dt)
@@ -270,7 +278,8 @@ def step_function(system: RigidBodySystem, shock: Shock | None, dt: float) -> _O
 
 
 def rate_function(system: RigidBodySystem, shock: Shock | None) -> _OfState:
-    """Return y (18 n,) of X, U, L, R of n bodies → y', by `compute_forces` and `push` of the system."""
+    """Return a function of the state y, (18n,), with X, U, L, R of n bodies and the strength of the shock that gives y'. It
+    applies `compute_forces` and `push` of the system."""
 
     def rates(moving: RigidBodySystem) -> Array:
         turning = skew_matrix(moving.Omega) @ moving.R
@@ -283,9 +292,10 @@ def rate_function(system: RigidBodySystem, shock: Shock | None) -> _OfState:
 def _recorded(
     system: RigidBodySystem, shock: Shock | None, read: Callable[[RigidBodySystem], Array], size: int
 ) -> _OfState:
-    """Return the function that computes the forces on a state, of `size` numbers per body, and then reads a result.
+    """Return a function of a state and the strength of the shock that computes the forces and returns what `read` reads.
 
-    For few bodies and laws without branches it is evaluated once with recording numbers, and the record is compiled.
+    The state has `size` numbers per body. For few bodies and laws without branches, the function is evaluated once with numbers
+    that record their operations, and the record is compiled.
     """
     moving, n = copy(system), len(system.vertices)
 
@@ -308,13 +318,13 @@ def _recorded(
 
 
 def _strength(shock: Shock | None, s: float) -> float:
-    """Return exp(−(s/width)²) at s after the peak (4.04), 0 without a shock."""
+    """Return the strength exp(−(s/width)²) of a shock at s after its peak (4.04); 0 without a shock."""
     ratio = s / shock.width if shock else inf
     return exp(-ratio * ratio)
 
 
 def _run_of(system: RigidBodySystem, states: Array, run_fields: dict[str, Any]) -> SpringRun:
-    """Return a run from states (n, 18 n_b or more) of X, U, L and R; Omega follows from L and R (3.17)."""
+    """Return the run with the states (n, 18 n_b or more), rows of X, U, L and R. Omega follows from L and R (3.17)."""
     if len(system.vertices) < 2 or min(len(vertices) for vertices in system.vertices[:2]) < TIP:
         raise InputError("SpringRun: bodies 1 and 2 must be rotors with two vertices; step other systems by hand")
     n, n_b = len(states), len(system.vertices)

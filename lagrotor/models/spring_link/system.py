@@ -1,9 +1,9 @@
 """Rung 6: the paper's own simulator, rigid bodies whose vertices are joined by stiff springs of zero length.
 
-All bodies are stepped at once in stacked arrays. The ground is one more body, with zero inverse mass and inverse inertia. The
-gaps of the links are one matrix B times the positions of centres and body axes, their rates B times the velocities of these,
-and Bᵀ takes the forces of the links to the bodies. A step costs some forty calls on a few rows each, so that the overhead of a
-call dominates. `run` repeats it in scalar code.
+All bodies are stepped at once in stacked arrays. The ground is one more body, with zero inverse mass and inverse inertia. One
+matrix B maps the positions of centres and body axes to the gaps of the links, and their velocities to the rates of the gaps.
+Its transpose Bᵀ maps the forces of the links to the bodies. A step costs some forty calls on a few rows each, so that the
+overhead of a call dominates. The module `run` repeats the step in scalar code.
 """
 
 from collections.abc import Callable
@@ -29,10 +29,10 @@ _LinkForce = Callable[[Array, Array, float, float], Array]
 
 
 def link_force(gap: Array, rate: Array, S: float, D: float) -> Array:
-    """Return the force on vertex 1 of each link, −S (X_1 − X_2) − D (U_1 − U_2); vertex 2 has the opposite (3.20).
+    """Return the force −S (X_1 − X_2) − D (U_1 − U_2) on vertex 1 of each link. Vertex 2 bears the opposite force (3.20).
 
-    This is the consistent reading of 3.19: linear, smooth at zero gap, where a joint is kept, and with damping of every
-    relative motion. The damper is not central: it exerts the couple D gap × rate, which vanishes with the gap.
+    This is the consistent reading of 3.19. It is linear, smooth at zero gap, where a joint is kept, and damps every relative
+    motion. The damper is not central: it exerts the couple D gap × rate, which vanishes with the gap.
 
     Parameters
     ----------
@@ -52,9 +52,9 @@ def link_force(gap: Array, rate: Array, S: float, D: float) -> Array:
 def printed_link_force(gap: Array, rate: Array, S: float, D: float) -> Array:
     """Return −(S |gap| + D rate · e) e with e = gap/|gap|, (n, 3) in N: 3.19 as printed, with the arguments of `link_force`.
 
-    Only these signs are consistent: F_12 acts from vertex 1 on 2, ê_21 points from 2 to 1, and the spring term lacks its
-    ê_21. The damper acts along the line of separation only. It does not damp a gap that circles, and at gap = 0, where every
-    joint starts, e is 0/0 (here 0: no damping).
+    Only these signs are consistent: F_12 acts from vertex 1 on vertex 2, and ê_21, which the printed spring term lacks, points
+    from 2 to 1. The damper acts along the line of separation only, so that it does not damp a gap that circles. At gap = 0,
+    where every joint starts, e is 0/0; here it is set to 0, which means no damping.
     """
     size = np.linalg.norm(gap, axis=1, keepdims=True)
     e = gap / (size + (size == 0))
@@ -64,8 +64,9 @@ def printed_link_force(gap: Array, rate: Array, S: float, D: float) -> Array:
 class RigidBodySystem:
     """Bodies, links between their vertices, and the paper's step. Bodies and vertices count from 1, as in the paper.
 
-    State, one row per body and the ground as the last: X, U (n + 1, 3) of the centres, R (n + 1, 3, 3), L (n + 1, 3) about
-    the centres, Omega (n + 1, 3). The ground's L collects the momentum from the links.
+    The state has one row per body, and the ground is the last row. X and U, (n + 1, 3), are the positions and velocities of the
+    centres, and R, (n + 1, 3, 3), the rotations. L, (n + 1, 3), are the angular momenta about the centres and Omega, (n + 1,
+    3), the angular velocities. The L of the ground collects the momentum that it receives from the links.
 
     Parameters
     ----------
@@ -87,8 +88,8 @@ class RigidBodySystem:
         self.damping = float(finite_array("RigidBodySystem: damping", damping, ()))
         if self.stiffness <= 0 or self.damping < 0 or not bodies:
             raise InputError(
-                f"RigidBodySystem: S = {self.stiffness:g} N/m must be above zero, D = {self.damping:g} kg/s not below "
-                f"it, and there must be a body ({len(bodies)} given)"
+                f"RigidBodySystem: S = {self.stiffness:g} N/m must be above zero, D = {self.damping:g} kg/s must not "
+                f"be negative, and there must be a body ({len(bodies)} given)"
             )
         self.force, self.rotation, self.transform = force, rotation, transform
         self.vertices = [body.vertices for body in bodies]
@@ -105,7 +106,7 @@ class RigidBodySystem:
         self._incidence = np.empty((0, 4 * len(self.X)))
 
     def add_external(self, body: int, force: ArrayLike) -> None:
-        """Add a constant force at the centre of mass of a body, which no energy contains.
+        """Add a constant force at the centre of mass of a body. The energies of a run do not include its potential.
 
         Parameters
         ----------
@@ -140,7 +141,7 @@ class RigidBodySystem:
         self._join((i, arm), (len(self.vertices), self.X[i] + self.R[i] @ arm))
 
     def push(self, body: int, vertex: int, force: ArrayLike, strength: float = 1.0) -> None:
-        """Push a vertex during the next step, between `compute_forces` and `step`.
+        """Add a force on a vertex for the next step. This call belongs between `compute_forces` and `step`.
 
         Parameters
         ----------
@@ -167,7 +168,7 @@ class RigidBodySystem:
         return (self.transform(self.R, self.inverse_inertia) @ self.L[:, :, None])[:, :, 0]
 
     def compute_forces(self) -> None:
-        """Compute F and tau (n + 1, 3), the sums of external and link forces and of X_r × F (3.02, 3.06)."""
+        """Compute the total force F and torque tau about the centre of each body, (n + 1, 3) each (3.02, 3.06)."""
         gap, rate = self.gaps(self.X, self.R), self.gaps(self.U, skew_matrix(self.Omega) @ self.R)
         pull = self.force(gap, rate, self.stiffness, self.damping)
         # Σ ±F of each body, and Σ ±a_k F of each of its axes e_k, where X_r = Σ a_k e_k.
@@ -176,7 +177,7 @@ class RigidBodySystem:
         self.tau = turning_sum(self.R @ on_bodies[:, 1:])
 
     def step(self, dt: float) -> None:
-        """Take the paper's step (3.13, 3.15), in its order: L, U, then with them Omega, X_cm and R.
+        """Take the paper's step (3.13, 3.15): update L and U first, then Omega, X_cm and R from the new values.
 
         It is semi-implicit: positions change with the new velocities. No matrix is inverted.
 
@@ -204,7 +205,7 @@ class RigidBodySystem:
         Parameters
         ----------
         state : Array
-            The row of `state`, (21 n,), or without Omega, (18 n,), which then follows from L and R.
+            The row of `state`, (21n,), or its first 18n numbers. Omega then follows from L and R.
         """
         n = len(self.vertices)
         X, U, L = state[: 9 * n].reshape(3, n, 3)
@@ -221,7 +222,7 @@ class RigidBodySystem:
         return len(self._incidence)
 
     def joint_mobility(self) -> Array:
-        """Return the accelerations of the gaps by unit forces in the links.
+        """Return the matrix of the accelerations of the gaps that unit forces in the links cause.
 
         W = B M⁻¹ Bᵀ, where the row of B for a vertex at r from its centre is (1, −[r]×): gap rate = B (U, Omega). Its
         diagonal 3 × 3 blocks are the sums over both ends of 1/M − [r]× I⁻¹ [r]×.
@@ -239,7 +240,7 @@ class RigidBodySystem:
         return (pushed - rotational).reshape(3 * n, 3 * n)
 
     def gaps(self, X: Array, R: Array) -> Array:
-        """Return X_1 − X_2 of every link; its rate for velocities U and [Omega]× R in place of X and R.
+        """Return the gap X_1 − X_2 of every link. With the velocities U and [Omega]× R as X and R, its rate is returned.
 
         Parameters
         ----------
@@ -255,7 +256,7 @@ class RigidBodySystem:
         return np.asarray(self._incidence @ centres_and_axes.reshape(*X.shape[:-2], -1, 3))
 
     def _join(self, first: tuple[int, Array], second: tuple[int, Array]) -> None:
-        """Add one row: for the body of each end ± (1, arm), on the positions of its centre and its axes."""
+        """Add a link as one row of the matrix B, with the entries ± (1, arm) for the centre and the axes of each end's body."""
         row = np.zeros((len(self.X), 4))
         for (i, arm), sign in ((first, 1.0), (second, -1.0)):
             row[i] += sign * np.array([1.0, *arm])
@@ -264,7 +265,7 @@ class RigidBodySystem:
     def _body(self, body: int) -> int:
         if isinstance(body, bool) or not isinstance(body, int) or not 1 <= body <= len(self.vertices):
             raise InputError(
-                f"RigidBodySystem: body = {body!r} is not there: they count from 1 to {len(self.vertices)}"
+                f"RigidBodySystem: body = {body!r} is not there: bodies count from 1 to {len(self.vertices)}"
             )
         return body - 1
 
@@ -272,12 +273,12 @@ class RigidBodySystem:
         i = self._body(body)
         n = len(self.vertices[i])
         if isinstance(vertex, bool) or not isinstance(vertex, int) or not 1 <= vertex <= n:
-            raise InputError(f"RigidBodySystem: vertex = {vertex!r} of body {body} is not there: they count 1 to {n}")
+            raise InputError(f"RigidBodySystem: vertex = {vertex!r} of body {body} is not there: give 1 to {n}")
         return i, self.vertices[i][vertex - 1]
 
 
 class StepLimit(NamedTuple):
-    """The longest stable steps, s: of all joints together, and of each joint (n_links,) with the others cut."""
+    """The longest stable step of all joints together, `whole`, and of each joint alone, `joints` (n_links,), in s."""
 
     whole: float
     joints: Array
@@ -320,10 +321,11 @@ TIP = 2  # the vertex of a rotor with the bar and the shock; vertex 1 is grounde
 def paper_bodies(scene: Scene, bar_height: float | None = None) -> list[RigidBody]:
     """Return the bodies of a scene (listings of 4.1 and 5.2.1): the rotors and, if the scene has one, the bar as the third.
 
-    Rotors: centre at the middle of the axis, vertices at ∓R/2 along it, inertia diag(I1, I1, I3). Bar: centre at the middle
-    of the tips, vertices at ∓ell/2, inertia K·1 as in the paper; its axial inertia has no effect. bar_height (m) is another z
-    of its centre. The paper's z starts at the centres of the rotors, ours at the joints: its correct 0.5 is our 1.0, its
-    mistaken 1 (section 4.1) our 1.5. Raises InputError for a bar without mass or inertia.
+    A rotor has its centre at the middle of the axis, vertices at ∓R/2 along the axis, and the inertia diag(I1, I1, I3). The bar
+    has its centre midway between the tips, vertices at ∓ell/2, and the inertia K·1 as in the paper; its axial inertia has no
+    effect. `bar_height` (m) replaces the z of its centre. The paper's z starts at the centres of the rotors, ours at the
+    joints: its correct 0.5 is our 1.0, and its mistaken 1 (section 4.1) is our 1.5. Raises InputError for a bar without mass or
+    inertia.
     """
     rotor, link = scene.rotor, scene.link
     half = (link.length if link else rotor.length) / 2
@@ -355,7 +357,7 @@ def _bar(scene: Scene, link: Link, height: float | None) -> RigidBody:
 def paper_system(
     scene: Scene, stiffness: float, damping: float, bar_height: float | None = None, **laws: Callable[..., Array]
 ) -> RigidBodySystem:
-    """Return the paper's program for a scene: vertex 1 of each rotor grounded, the bar linked to both tips.
+    """Return the paper's program for a scene: vertex 1 of each rotor is grounded, and the bar joins both tips.
 
     Parameters
     ----------

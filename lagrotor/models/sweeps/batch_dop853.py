@@ -26,10 +26,12 @@ _PATIENCE = 5_000  # evaluations before they are compared with the progress in t
 
 @dataclass(frozen=True, eq=False)
 class Swarm:
-    """n problems y' = rates(s, y) with s = t − at.
+    """n problems y' = rates(s, y) with s = t − at, which are integrated together.
 
-    rates: indices of the active problems → their right-hand side; first, rad/s: a rate that bounds the first step. at, width
-    (n,): pulses, at whose edges a step ends and within which no step exceeds the width; width 0 for none.
+    - `rates`: a function of the indices of the active problems that returns their right-hand side.
+    - `first`: a rate, rad/s, that bounds the first step.
+    - `at` and `width`: the time and the width of the pulse of each problem, (n,); the width 0 means none. Steps end at the
+      edges of a pulse, and no step within it exceeds the width.
     """
 
     rates: Callable[[Index], Rates]
@@ -39,10 +41,11 @@ class Swarm:
 
 
 def march_swarm(swarm: Swarm, legs: Mapping[int, Leg]) -> dict[int, Stretch | StopError]:
-    """Integrate the legs of the problems of these numbers, from the first of their times.
+    """Integrate segments of some problems, and return {number of the problem: its states, or the error that stopped it}.
 
-    DOP853 (Hairer, Nørsett & Wanner, II.5) with scipy's error norm for each trajectory, a local error of a twentieth of the
-    leg's, as in `numerics.integrate`, and dense output between the steps.
+    `legs` maps the number of a problem to its segment. The method is DOP853 (Hairer, Nørsett & Wanner, II.5) with scipy's error
+    norm for each trajectory and dense output between the steps. As in `numerics.integrate`, the local error is a twentieth of
+    the local error of the segment.
     """
     requests, n = list(legs.values()), len(legs)
     who, m = np.array(list(legs)), np.array([len(leg.times) for leg in requests])
@@ -121,7 +124,8 @@ def _march(
 
 
 def _step(rates: Rates, s: Array, y: Array, h: Array, error: Array, room: Array) -> tuple[Array, Array]:
-    """Return y (d, n) after a step h (n,) of all, and the norm of the error (n,). room (13, d, n): rates and stages."""
+    """Return the states y (d, n) after a step h (n,) of each problem, and the norm of each error (n,). `room` (13, d, n) has
+    the derivative at the start in its first entry, and receives the other stages of the method."""
     from scipy.integrate import DOP853
 
     d, n = y.shape
@@ -144,7 +148,8 @@ def _step(rates: Rates, s: Array, y: Array, h: Array, error: Array, room: Array)
 
 
 def _dense_output(rates: Rates, s: Array, y: Array, end: Array, h: Array, room: Array) -> Array:
-    """Return coefficients (7, d, n) of the interpolation over a step h (n,) from y (d, n) with stages room (13, d, n)."""
+    """Return the coefficients (7, d, n) of the interpolation over a step h (n,) from y (d, n) to `end` (d, n). `room` (13, d,
+    n) contains the stages of the step."""
     from scipy.integrate import DOP853
 
     stages = np.concatenate([room, np.empty((3, *y.shape))])
@@ -156,7 +161,7 @@ def _dense_output(rates: Rates, s: Array, y: Array, end: Array, h: Array, room: 
 
 
 def _interpolated(dense: Array, x: Array) -> Array:
-    """Return the change (d, n) of the state at the fraction x (n,) of a step."""
+    """Return the change (d, n) of the states from the start of a step to its fraction x (n,)."""
     value = np.zeros(dense.shape[1:])
     for i, coefficient in enumerate(dense[::-1]):
         value = (value + coefficient) * (1 - x if i % 2 else x)

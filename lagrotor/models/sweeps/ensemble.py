@@ -55,9 +55,10 @@ class Ensemble(Shown):
     tol : float
         The tolerance.
     evaluations : Array
-        The evaluations of each run, (n,).
+        The number of evaluations of each run, (n,).
     models : Array
-        Indices into MODELS, (n,). "spheres" ran scenes without a bar or near a singular position; "none" reached nothing.
+        Indices into MODELS, (n,). "spheres" ran scenes without a bar or near a singular position. "none" means that
+        the run reached no time.
     endings : tuple of Ending
         The reason for which each run ended.
     """
@@ -115,7 +116,7 @@ class Ensemble(Shown):
         """
         n = int(np.isfinite(self.errors[i]).sum())
         if not n:
-            raise InputError(f"trajectory: of scene {i} nothing was reached: {self.endings[i]}")
+            raise InputError(f"trajectory: the run of scene {i} reached no time: {self.endings[i]}")
         scene, errors, name = self.scenes[i], self.errors[i, :n], MODELS[self.models[i]]
         return Trajectory(
             scene=scene, model=name, why="one of an ensemble", t=self.t[:n], axes=self.axes[i, :, :n], rates=self.rates[i, :, :n],
@@ -130,7 +131,7 @@ def sweep(
 ) -> Ensemble:  # fmt: skip
     """Integrate every scene from its initial state, which holds at t[0].
 
-    A LagrotorWarning says how many runs do not keep `tol`. `failed` of the result names the runs that ended early.
+    A LagrotorWarning gives the number of runs that do not keep `tol`. `Ensemble.failed` lists the runs that ended early.
 
     Parameters
     ----------
@@ -147,7 +148,7 @@ def sweep(
     engine : str, default "core"
         "core", or "fast" for heyoka (`pip install lagrotor[fast]`), without shocks.
     progress : callable or None, optional
-        A function of the number of finished runs and of all runs, called after each chunk.
+        A function of the number of finished runs and the number of all runs, called after each chunk.
 
     Returns
     -------
@@ -187,7 +188,7 @@ def sweep(
 
 
 def _not_run(scenes: Sequence[Scene], times: Array, tol: float) -> Ensemble:
-    """Return an ensemble in which nothing is reached."""
+    """Return the ensemble of scenes that were not run, with NaN in all arrays."""
     n, m = len(scenes), len(times)
     axes, rates = np.full((2, n, 2, m, 3), np.nan)
     none, evaluations = np.full(n, MODELS.index("none")), np.zeros(n, np.int64)
@@ -207,7 +208,7 @@ def _checked(scenes: Sequence[Scene], chunk: int, engine: str) -> tuple[Scene, .
 
 
 def _run(work: Mapping[int, tuple[Any, ...]], executor: Executor | None) -> Iterator[tuple[int, Ensemble]]:
-    """Yield the chunks with their numbers as they are finished; without an executor in turn."""
+    """Yield (number of the chunk, its ensemble) as the chunks are finished; without an executor they run in turn."""
     if executor is None:
         for number, arguments in work.items():
             yield number, run_chunk(*arguments)
@@ -223,7 +224,7 @@ def _run(work: Mapping[int, tuple[Any, ...]], executor: Executor | None) -> Iter
 
 @dataclass(frozen=True, eq=False)
 class _Member:
-    """A scene of the minimal model, in natural units."""
+    """A scene that the minimal model runs: its number, the scene in SI and in natural units, and its motion."""
 
     number: int
     scene: Scene
@@ -232,7 +233,7 @@ class _Member:
 
 
 def run_chunk(scenes: Sequence[Scene], times: Array, tol: float, engine: str) -> Ensemble:
-    """Run some thousand scenes at once by `minimal`, and by `spheres` those that it cannot represent."""
+    """Run some thousand scenes at once by `minimal`. The scenes that `minimal` cannot represent are run by `spheres`."""
     chunk, begin = _not_run(scenes, times, tol), float(times[0])
     scenes, times, endings = [scene.since(begin) for scene in scenes], times - begin, list(chunk.endings)
     groups: dict[Kind, list[_Member]] = {}
@@ -266,7 +267,7 @@ def run_chunk(scenes: Sequence[Scene], times: Array, tol: float, engine: str) ->
 
 
 def kind_of(scene: Scene) -> Kind | None:
-    """Return the kind of program of the scene; None if the minimal model has no coordinates for it."""
+    """Return the kind of program of the minimal model for a scene; None if the model cannot represent the scene."""
     if scene.link is None or max(abs(r[0]) for r in scene.axes) > 1 - 1e-12:
         return None
     return MODEL.kind(scene, True)[0]
@@ -275,7 +276,8 @@ def kind_of(scene: Scene) -> Kind | None:
 def _by_minimal(
     kind: Kind, members: list[_Member], times: Array, tol: float, engine: str, evaluations: NDArray[np.int64]
 ) -> dict[int, Trajectory]:
-    """Return the finished runs of scenes of one kind, by number, and record the `evaluations` (n,) of the others."""
+    """Return {number of the scene: its run} for the scenes of one kind whose runs reach the end. The evaluations of the other
+    runs are added to `evaluations` (n,)."""
     runs = dict[int, Trajectory]()
     rows = len(times) + max(65 + len(member.evolution.watch) for member in members)
     together = max(1, _MOST_ROWS // rows)
@@ -301,7 +303,7 @@ def _by_minimal(
 
 
 def _swarm(kind: Kind, scenes: list[Scene], columns: Array) -> Swarm:
-    """Return the scenes of one kind, in natural units, as arrays."""
+    """Return the scenes of one kind, which are in natural units, as problems to be integrated together."""
     body, function = kind[2], rhs_on_arrays(*kind)
     at, width, force = np.zeros(len(scenes)), np.zeros(len(scenes)), np.zeros((3, len(scenes)))
     if body:

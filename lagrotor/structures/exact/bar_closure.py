@@ -1,4 +1,4 @@
-"""The closure of the bars, the degrees of freedom that remain, and the initial state of a run."""
+"""Checks that the bars of a structure can close and are independent, and the initial state of a run."""
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,7 +14,7 @@ _DEPENDENT = 1e-9  # relative to the largest singular value or pivot: smaller on
 
 
 def check_closure(s: Assembly) -> None:
-    """Raise InputError if no degree of freedom remains, the bars cannot close, or the constraints are dependent."""
+    """Raise InputError if the bars leave no degree of freedom, cannot close at their lengths, or are dependent."""
     N, B = len(s.joints), len(s.bars)
     if B >= 2 * N:
         raise InputError(
@@ -38,7 +38,7 @@ def check_closure(s: Assembly) -> None:
 
 
 def close_bars(motion: ExactMotion, r: Array) -> Array:
-    """Return the axes (N, 3) on the constraints by Newton steps from r. Raises ConstraintError if none is reached."""
+    """Find axes (N, 3) on the constraints by Newton's steps from the axes r. Raises ConstraintError if the steps diverge."""
     y, area = np.concatenate([r.ravel(), np.zeros(r.size)]), float((motion.c.ell**2).max(initial=0.0))
     unit = np.append(np.ones(len(r)), np.full(len(motion.c.ell), area))
     with np.errstate(all="ignore"):
@@ -53,13 +53,13 @@ def close_bars(motion: ExactMotion, r: Array) -> Array:
                 break
     if not far < 1e-11:
         raise ConstraintError(
-            f"no position of the axes satisfies them (least residual: {far:.2g}, of bars in units of ell² = {area:.3g} m²)"
+            f"no axes near the start satisfy the constraints (residual {far:.2g}, for bars in units of ell² = {area:.3g} m²)"
         )
     return y[: r.size].reshape(r.shape)
 
 
 def _dependent_bar(motion: ExactMotion, r: Array) -> int | None:
-    """Return the first bar whose gradient depends on those of earlier bars; None if all are independent."""
+    """Return the number of the first bar whose constraint depends on earlier bars; None if all are independent."""
     c = motion.c
     N, B = len(c.R), len(c.i)
     if not B:
@@ -90,7 +90,8 @@ def _dependent_bar(motion: ExactMotion, r: Array) -> int | None:
 
 
 def start_state(motion: ExactMotion, tilt: ArrayLike | None, rates: ArrayLike | None) -> Array:
-    """Return the state (r, r'/rate) on the constraints for the tilt and rates of `Structure.simulate`."""
+    """Return the initial state y = (r, r'/rate), (6N,), for the arguments `tilt` and `rates` of `Structure.simulate`. The state
+    satisfies the constraints and their time derivatives."""
     N = len(motion.c.R)
     x = _vectors("tilt", tilt, N)
     if x.shape[1] == 2:
@@ -106,7 +107,7 @@ def start_state(motion: ExactMotion, tilt: ArrayLike | None, rates: ArrayLike | 
     if degenerate.any():
         raise SingularError(
             f"simulate: braces[{int(np.argmax(degenerate))}] starts with both ends at one place, where it has no direction: "
-            "start elsewhere"
+            "start from another tilt"
         )
     v = _vectors("rates", rates, N)
     if v.shape[1] == 2:
@@ -116,7 +117,7 @@ def start_state(motion: ExactMotion, tilt: ArrayLike | None, rates: ArrayLike | 
     start = np.concatenate([r.ravel(), motion.project(y)[3 * N :]])
     if not np.isfinite(start).all():
         raise SingularError(
-            "simulate: the constraints are dependent at this tilt (bar and axes in line): start elsewhere"
+            "simulate: the constraints are dependent at this tilt (a bar is in line with its axes): start from another one"
         )
     return start
 
@@ -126,7 +127,7 @@ def _vectors(name: str, values: ArrayLike | None, N: int) -> Array:
         return np.zeros((N, 2))
     vectors = finite_array(f"simulate: {name}", values)
     if vectors.shape not in ((N, 2), (N, 3)):
-        raise InputError(f"simulate: {name} must be numbers ({N}, 2) or ({N}, 3), not of shape {vectors.shape}")
+        raise InputError(f"simulate: {name} must be an array of shape ({N}, 2) or ({N}, 3), not {vectors.shape}")
     if vectors.size == 3 * N and name == "tilt" and not (np.linalg.norm(vectors, axis=1) > 0).all():
-        raise InputError("simulate: tilt holds a vector of length zero")
+        raise InputError("simulate: tilt contains a vector of length zero, which is no axis: give unit vectors")
     return vectors

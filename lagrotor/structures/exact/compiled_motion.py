@@ -1,11 +1,13 @@
-"""The equations of `exact_motion` in scalars of any kind, as generated code and compiled by heyoka (the fast extra).
+"""The equations of `exact_motion` in scalars instead of arrays, as generated code or compiled by heyoka (extra `fast`).
 
-For few rotors scalar code is the right-hand side, because it costs less than calls of arrays. With the fast extra few rotors
-are integrated by heyoka's Taylor series; for many, heyoka compiles the right-hand side, once per process for any spins.
+For few rotors generated scalar code evaluates the right-hand side, because it is faster than operations on arrays. With the
+extra `fast`, heyoka integrates few rotors by Taylor series. For more rotors heyoka only compiles the right-hand side, once per
+process for all values of the spins.
 
 The linear system is solved in levels. Independent unknowns with the fewest neighbours are eliminated together: in a chain every
 other one, then every other one of the remainder (cyclic reduction: Golub & Van Loan, § 4.5.4). The operations are ∝ N, and the
-longest chain of dependent operations is ∝ log N. A constraint is eliminated after its masses, which make its pivot nonzero.
+longest chain of dependent operations is ∝ log N. A constraint is eliminated after the accelerations that it couples, because
+its own diagonal entry is zero until then.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -41,10 +43,10 @@ def eliminate_in_levels(
     diagonal: Sequence[Any], couplings: Mapping[tuple[int, int], Any], right: Sequence[Any], masses: int,
     add: Callable[[Terms], Any] = sum,
 ) -> list[Any]:  # fmt: skip
-    """Solve a symmetric system by elimination in levels, and return its unknowns.
+    """Solve a symmetric linear system by elimination in levels, and return its unknowns.
 
-    couplings: {(i, j): entry}, each pair once; masses: the number of leading unknowns with a diagonal. The later unknowns are
-    constraints with a zero diagonal. add: the sum of a list.
+    `couplings` maps each pair (i, j) of coupled unknowns to its entry, every pair once. The first `masses` unknowns have the
+    entries of `diagonal`; the later unknowns are multipliers of constraints, whose diagonal is zero. `add` sums a list.
     """
     n = len(diagonal)
     pivots, b = [[entry] for entry in diagonal], [[entry] for entry in right]
@@ -77,7 +79,8 @@ def eliminate_in_levels(
 
 
 def _level(remaining: set[int], rows: list[dict[int, Terms]], holds: list[set[int]]) -> list[int]:
-    """Return independent unknowns with few neighbours (a limit that halves heavy chains), no constraint before its masses."""
+    """Return unknowns to eliminate together: no two of them are coupled, and each has few neighbours. The limit on the
+    neighbours lets half of a chain with heavy bars go at once. A constraint waits for the unknowns in `holds`."""
     ready = [i for i in remaining if not holds[i] & remaining]
     limit = 2 * min(len(rows[i]) for i in ready) + 2
     chosen, neighbours = list[int](), set[int]()
@@ -91,9 +94,10 @@ def _level(remaining: set[int], rows: list[dict[int, Terms]], holds: list[set[in
 def structure_accelerations(
     c: Coefficients, r: Any, v: Any, G: Any, by: Any, add: Callable[[Terms], Any] = sum, external: Any = 0.0
 ) -> list[Any]:
-    """Return r'' (3 N) of axes r and rates v, (N, 3), with axial momenta G (N).
+    """Return the 3N components of r'' (1/s²) for axes r and rates v, both (N, 3), and axial momenta G (N,).
 
-    by: a module with sqrt for these numbers; add: the sum of a list of them; external: further torques on the axes, N m.
+    `by` is a module whose function sqrt takes numbers of this kind, and `add` sums a list of them. `external` are further
+    torques on the axes, (N, 3), N m.
     """
     N, (r, v, G) = len(c.R), (np.array(values, dtype=object) for values in (r, v, G))
     right = right_side(c, forces(c, r, v, G, np.frompyfunc(by.sqrt, 1, 1)) + external, v).tolist()
@@ -109,7 +113,7 @@ def structure_accelerations(
 
 
 def right_hand_side(motion: ExactMotion) -> RightHandSide:
-    """Return the right-hand side (s, y) → y' of an exact motion, in scalars for few rotors."""
+    """Return the right-hand side (s, y) → y' of an exact motion: generated scalar code for few rotors, arrays for more."""
     c = motion.c
     if len(c.R) + len(c.i) > (HEAVY if c.coupling.any() else _MOST):
         return motion.rhs
@@ -123,7 +127,8 @@ def right_hand_side(motion: ExactMotion) -> RightHandSide:
 
 
 def _source(c: Coefficients, forced: bool, shaken: bool) -> str:
-    """Return the source of (force, ground) → rhs(s, y), with forces on the tips or motion of the ground if they act."""
+    """Return the source of a function (force, ground) → rhs, where rhs(s, y) is the right-hand side. Forces on the tips enter
+    if `forced` is True, and the acceleration of the ground if `shaken` is True."""
     N, rate, tape = len(c.R), c.rate, list[Recorded]()
     states, pushes, shakes = ([f"{x}{k}" for k in range(n)] for x, n in (("y", 6 * N), ("p", 3 * N), ("g", 3)))
     y, p, g = (np.array([Recorded(tape, name) for name in names]) for names in (states, pushes, shakes))
@@ -140,7 +145,7 @@ def _source(c: Coefficients, forced: bool, shaken: bool) -> str:
 
 
 def runs_by_series(motion: ExactMotion) -> bool:
-    """Return True if a Taylor series integrates the structure fastest."""
+    """Return True if the structure has so few rotors that heyoka's Taylor series is the fastest method."""
     few = _SERIES if motion.saddle.band > _RING or motion.c.coupling.any() else _SERIES_SLIM
     return len(motion.c.R) <= few
 
@@ -148,7 +153,7 @@ def runs_by_series(motion: ExactMotion) -> bool:
 def integrate_series(
     s: Assembly, motion: ExactMotion, start: Array, times: Array, local: float, companion: bool
 ) -> Stretch:
-    """Integrate the states (n, 6 N) of `motion.rhs` by Taylor series from the start at the first time."""
+    """Integrate `motion.rhs` by heyoka's Taylor series from the state `start` at times[0]. The states are (n, 6N)."""
     order, watch = taylor_order(local, companion), LineWatch(motion)
     solver = _solver(_without_spins(s), order, get_ident())
     solver.pars[:] = _parameters(motion)
@@ -168,7 +173,8 @@ def integrate_series(
 
 
 def compiled_right_hand_side(s: Assembly, motion: ExactMotion) -> RightHandSide:
-    """Return heyoka's (s, y) → y'. Raises InputError without heyoka, and for more rotors than compile in half a minute."""
+    """Return the right-hand side (s, y) → y' compiled by heyoka. Raises InputError if heyoka is not installed, or if the
+    compilation would take more than half a minute."""
     N = len(motion.c.R)
     if (_WIDE if motion.saddle.band > _RING else _NARROW) < N:
         raise InputError(
@@ -190,19 +196,19 @@ def _without_spins(s: Assembly) -> Assembly:
 
 @lru_cache(maxsize=16)
 def _solver(bare: Assembly, order: int, thread: int) -> Any:
-    """Return the integrator of the state (r, r'/rate), with the axial momenta G (N) and the rate as parameters."""
+    """Return heyoka's integrator of the state (r, r'/rate) for one thread. Its parameters are G (N,) and the rate."""
     return compiled_solver(_equations(bare), order)
 
 
 @lru_cache(maxsize=16)
 def _compiled(bare: Assembly) -> Any:
-    """Return heyoka's function of the state, with the axial momenta G (N) and the rate as parameters."""
+    """Return heyoka's compiled derivative of the state (r, r'/rate). Its parameters are the momenta G (N,) and the rate."""
     names, rates = zip(*_equations(bare), strict=True)
     return heyoka_module().cfunc(rates, names, compact_mode=True, fast_math=True)
 
 
 def _equations(bare: Assembly) -> list[tuple[Any, Any]]:
-    """Return (variable, its rate) for the state, in heyoka's expressions."""
+    """Return a pair (variable, derivative in s = rate t) for each component of the state, as heyoka's expressions."""
     heyoka = heyoka_module()
     c, par = coefficients(bare), heyoka.par
     N = len(c.R)

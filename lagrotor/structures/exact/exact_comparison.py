@@ -1,4 +1,4 @@
-"""The linear motion about upright compared with the exact one: growth and boundedness."""
+"""Comparisons of the linear motion about upright with the exact motion: its growth, and whether it stays bounded."""
 
 from dataclasses import replace
 
@@ -21,7 +21,7 @@ def measured_growth(s: Assembly, folds: float = 3.0) -> float:
     s : Assembly
         The structure.
     folds : float, default 3.0
-        The duration in growth times.
+        The duration of the run in units of 1/growth of the mode.
 
     Returns
     -------
@@ -32,7 +32,7 @@ def measured_growth(s: Assembly, folds: float = 3.0) -> float:
     linear, normal = small_motion(s), modes(s)
     root = normal.growth[0] + 1j * normal.rates[0]
     if not root.real > 0:
-        raise InputError("measured_growth: nothing grows about upright")
+        raise InputError("measured_growth: no mode grows about upright: give an unstable structure")
     shape = 1e-5 * normal.shapes[0]  # the tolerance is 10⁻⁵ of this tilt
     run = simulate_structure(s, [0.0, folds / root.real], shape.real, (root * shape).real, tol=1e-10)
     roots, left_vectors = np.linalg.eig(replace(linear, rate=1.0).first_order.T)
@@ -54,7 +54,8 @@ def bounded_motion(s: Assembly, turns: float = 20.0) -> tuple[float, float]:
     Returns
     -------
     tuple
-        The largest tilt and the largest distance from the linear motion, both relative to the start.
+        The largest tilt of the exact run, and its largest distance from the linear motion. Both are divided by the
+        largest tilt at the start.
     """
     from scipy.linalg import expm
 
@@ -74,7 +75,7 @@ def bounded_motion(s: Assembly, turns: float = 20.0) -> tuple[float, float]:
 
 
 def _coordinates(linear: SmallMotion, axes: Array, rates: Array) -> Array:
-    """Return (q, q') of a run, (2n, times)."""
+    """Return the coordinates q of a run on the degrees of freedom, followed by their rates q', (2n, times)."""
     columns = [
         vectors[..., :2].swapaxes(0, 1).reshape(vectors.shape[1], -1) @ linear.basis for vectors in (axes, rates)
     ]

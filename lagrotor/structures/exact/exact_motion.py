@@ -1,23 +1,25 @@
-"""The exact motion of N rotors and B bars: unit vectors with multipliers, large motion, every load and drive.
+"""The exact large motion of N rotors and B bars under all loads and drives, in unit vectors with Lagrange multipliers.
 
     sum_j A_ij r_j'' = G_i r_i × r_i' − S_i (g e_z + a(t)) + R_i f_i(t) + hinge, friction, braces + sum_c lam_c grad_i g_c
 
 with |r_i|² = 1 and |X_j − X_i|² = ell² (X_i = p_i + R_i r_i), f_i the force on tip i and a(t) the acceleration of the ground,
-in whose frame the equations hold. The hinge has the energy kappa theta²/2, friction is −c r_i', and G_i(t) = G_i exp(−c_s t /
-I3).
+in whose frame the equations hold. The hinge has the energy kappa theta²/2, and friction is −c r_i'. The spin friction c_s
+lets the axial momentum decay: G_i(t) = G_i exp(−c_s t / I3).
 
 Every evaluation solves one linear system at linear cost:
 
     [ A⊗1  Gᵀ ] [ r''  ]   [ F ]      G: rows r_i (unit length) and ∓ R d (a bar, d from tip to tip)
     [ G    0  ] [ lam  ] = [ c ]
 
-The rotors have the order of reverse Cuthill and McKee (1969), each with its bars. Chains and rings of any length then have a
-narrow band: LU with pivoting in the band (LAPACK's gbsv). Wide bands (grids) take sparse LU.
+The rotors are sorted in the order of reverse Cuthill and McKee (1969), each with its bars. Chains and rings of any length then
+have a narrow band, and LU with pivoting in the band solves the system (LAPACK's gbsv). Sparse LU solves systems with a wide
+band, such as those of grids.
 
 If a bar is in line with both its axes, the constraints are dependent and the continuation is not unique. An integrator may step
-over this position without notice. The vector d × r of the bar across an axis changes its sign there, at both ends.
+over this position without notice. At such a passage the vectors d × r change their sign for the axes r at both ends of the bar.
 
-r and v (N, 3), 1/s, and G (N,) are arrays of floats or of objects (symbols, recorded numbers), whose square roots `root` takes.
+In the functions below r are the axes and v their rates (1/s), both (N, 3), and G the axial momenta (N,). Their entries are
+floats or objects such as symbols; `root` is the square root for these entries.
 """
 
 from collections.abc import Callable
@@ -71,7 +73,7 @@ def brace_forces(c: Coefficients, r: Array, v: Array, root: Root = np.sqrt) -> A
 
 
 def stretches(c: Coefficients, r: Array, root: Root = np.sqrt) -> tuple[Array, Array]:
-    """Return unit vectors along the braces, (…, braces, 3), and their extensions, m; r (…, N, 3)."""
+    """Return the unit vectors along the braces, (…, braces, 3), and the extensions of the braces in m, for axes r (…, N, 3)."""
     joined = c.brace_to[:, None] >= 0
     foot = np.where(joined, c.feet[c.brace_to], c.brace_point)
     d = c.feet[c.brace_tip] - foot + (c.R[c.brace_tip, None] * r[..., c.brace_tip, :])
@@ -81,10 +83,10 @@ def stretches(c: Coefficients, r: Array, root: Root = np.sqrt) -> tuple[Array, A
 
 
 def _angle_by_sine(r: Array, root: Root) -> Any:
-    """Return theta / sin(theta), which is regular upright.
+    """Return theta / sin(theta), (N,), for the angle theta of each axis from the vertical. It is 1 upright.
 
-    With square roots alone theta = 8 b, and b / sin(b) is the arc sine's series in sin(b)²; sin(8 b) = 8 sin(b) cos(b) cos(2
-    b) cos(4 b).
+    Entries other than floats have square roots only, so theta = 8 b is halved three times. The quotient b / sin(b) is the arc
+    sine's series in sin(b)², and sin(8 b) = 8 sin(b) cos(b) cos(2 b) cos(4 b).
     """
     if root is np.sqrt:
         return 1 / np.sinc(np.arctan2(np.hypot(r[:, 0], r[:, 1]), r[:, 2]) / np.pi)
@@ -97,43 +99,49 @@ def _angle_by_sine(r: Array, root: Root) -> Any:
 
 
 def along_bars(c: Coefficients, r: Array) -> Array:
-    """Return d from tip i to tip j of the bars, m, (…, B, 3); r (…, N, 3)."""
+    """Return the vector d from tip i to tip j of each bar, (…, B, 3), in m, for axes r (…, N, 3)."""
     return c.feet[c.j] - c.feet[c.i] + _swing(c, r)
 
 
 def _swing(c: Coefficients, v: Array) -> Array:
-    """Return d' of the bars."""
+    """Return the derivative d' of the vector d of each bar, (…, B, 3), in m/s, for rates v (…, N, 3)."""
     return c.R[c.j, None] * v[..., c.j, :] - c.R[c.i, None] * v[..., c.i, :]
 
 
 def pulls(c: Coefficients, r: Array) -> tuple[Array, Array]:
-    """Return −R_i d and R_j d of the bars (…, B, 3), half the gradients of |d|²; r (…, N, 3)."""
+    """Return −R_i d and R_j d of each bar, both (…, B, 3): half the gradients of |d|² in its two axes, m²."""
     d = along_bars(c, r)
     return -c.R[c.i, None] * d, c.R[c.j, None] * d
 
 
 def off_constraints(c: Coefficients, r: Array) -> Array:
-    """Return the residuals of the constraints, half of [|r|² − 1 (N), |d|² − ell² (B)], (…, N + B); r (…, N, 3)."""
+    """Return the residuals (|r|² − 1)/2 of the N axes, then (|d|² − ell²)/2 of the B bars in m², (…, N + B)."""
     d = along_bars(c, r)
     return np.concatenate([(r * r).sum(-1) - 1, (d * d).sum(-1) - c.ell**2], axis=-1) / 2
 
 
 def rates_of_constraints(c: Coefficients, r: Array, v: Array) -> Array:
-    """Return their rates, [r · r', d · d'], (…, N + B)."""
+    """Return the time derivatives of `off_constraints`: r · r' of the N axes, then d · d' of the B bars, (…, N + B)."""
     return np.concatenate([(r * v).sum(-1), (along_bars(c, r) * _swing(c, v)).sum(-1)], axis=-1)
 
 
 def right_side(c: Coefficients, F: Array, v: Array) -> Array:
-    """Return the right side for [r'' (3 N), multipliers of axes (N) and bars (B)], with torques F (N, 3) on the axes."""
+    """Return the right side (F, c) of the linear system of the module, (4N + B,), for torques F (N, 3) and rates v (N, 3). The
+    unknowns are the 3N components of r'', then the multipliers of the N axes, then those of the B bars."""
     swing = _swing(c, v)
     return np.concatenate([F.ravel(), -(v * v).sum(1), -(swing * swing).sum(1)])
 
 
 @dataclass(frozen=True, eq=False)
 class Saddle:
-    """The pattern of the linear system. order (n,): from [r'' (3 N), lam (N), bars (B)] to rows; band: half bandwidth.
+    """The sparsity pattern and the constant entries of the linear system of the module, with n = 4N + B unknowns.
 
-    base: the constant entries, at `fixed`; `moving`: the places of r and of R d at both ends, each twice.
+    - `order`: the row of each unknown, (n,). The unknowns are r'' (3N), the multipliers of the axes (N) and of the bars (B).
+    - `band`: the half bandwidth.
+    - `fixed`: the rows, columns and values of the constant entries, which are the masses.
+    - `moving`: the rows and columns of the entries r and ∓ R d, which change with the state. Each occurs twice by symmetry.
+    - `base`: the constant entries in banded storage; without rows if the band is too wide for it.
+    - `places`: the positions of the `moving` entries in the banded storage.
     """
 
     order: Index
@@ -144,7 +152,8 @@ class Saddle:
     places: Index
 
     def solve(self, r: Array, pulls: tuple[Array, Array], right: Array) -> Array:
-        """Return the unknowns (s, n, k) of s states with axes r (s, N, 3); NaN for the states with a singular system."""
+        """Solve the systems of s states with k right sides each, and return the unknowns (s, n, k). `r` are the axes (s, N, 3),
+        and `pulls` the vectors that the function `pulls` returns for them. A state with a singular system gets NaN."""
         states, n, k = right.shape
         entries = np.concatenate([block.reshape(states, -1) for block in (r, *pulls)], axis=1)
         b = np.empty_like(right)
@@ -175,7 +184,7 @@ class Saddle:
 
 @lru_cache(maxsize=64)
 def saddle(s: Assembly) -> Saddle:
-    """Return the pattern of a structure's linear system."""
+    """Return the sparsity pattern and the constant entries of a structure's linear system."""
     c = coefficients(s)
     N, B = len(c.R), len(c.i)
     order = _order(N, c.i, c.j)
@@ -201,7 +210,7 @@ def saddle(s: Assembly) -> Saddle:
 
 
 def _order(N: int, i: Index, j: Index) -> Index:
-    """Return the row of each unknown: rotors in the order of reverse Cuthill–McKee, a bar between its rotors."""
+    """Return the row of each unknown. Rotors are in the order of reverse Cuthill–McKee, and a bar is between its rotors."""
     place = narrow_order(N, i, j)
     key = np.concatenate([np.repeat(place, 3).astype(float), place, (place[i] + place[j]) / 2])
     order = np.empty(len(key), dtype=np.intp)
@@ -210,7 +219,7 @@ def _order(N: int, i: Index, j: Index) -> Index:
 
 
 def narrow_order(N: int, i: Index, j: Index) -> Index:
-    """Return the place of each of N nodes joined by the pairs i, j, in the order of reverse Cuthill and McKee."""
+    """Return the place (N,) of each node in the order of reverse Cuthill and McKee. Edge k joins node i[k] to node j[k]."""
     from scipy.sparse import csr_matrix
     from scipy.sparse.csgraph import reverse_cuthill_mckee
 
@@ -221,7 +230,8 @@ def narrow_order(N: int, i: Index, j: Index) -> Index:
 
 
 def in_band(band: int, ab: Array, b: Array) -> Array:
-    """Solve a banded system with entry (i, j) at ab[j, 2 band + i − j]; NaN if it is singular. Overwrites ab and b."""
+    """Solve a banded linear system, and return the unknowns; NaN if it is singular. Entry (i, j) of the matrix is at ab[j, 2
+    band + i − j]. The arrays `ab` and `b` are overwritten."""
     from scipy.linalg.lapack import dgbsv
 
     _, _, x, info = dgbsv(band, band, ab.T, b, overwrite_ab=1, overwrite_b=1)
@@ -230,9 +240,10 @@ def in_band(band: int, ab: Array, b: Array) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class ExactMotion:
-    """The right-hand side in the state y = (r, r'/rate), (6 N,), and the time s = rate t.
+    """The equations of motion of the state y = (r, r'/rate), (6N,), in the time s = rate t, with the rate of `c` in rad/s.
 
-    force: t → forces (N, 3) on the tips, N; ground: t → acceleration (3,) of the ground, m/s².
+    `force` returns the forces (N, 3) on the tips in N at a time t in s. `ground` returns the acceleration (3,) of the ground in
+    m/s². None means that no such drive acts.
     """
 
     c: Coefficients
@@ -241,27 +252,28 @@ class ExactMotion:
     ground: Drive | None = None
 
     def rhs(self, s: float, y: Array) -> Any:
-        """Return y' at s, both without unit."""
+        """Return the derivative dy/ds, (6N,), at the time s. Neither has a unit."""
         N, rate = len(self.c.R), self.c.rate
         r, v = y[: 3 * N].reshape(N, 3), y[3 * N :].reshape(N, 3) * rate
         return np.concatenate([y[3 * N :], self.accelerations(s / rate, r, v).ravel() / rate**2])
 
     def accelerations(self, t: float, r: Array, v: Array) -> Array:
-        """Return r'' (N, 3) in 1/s² of axes r and rates v (N, 3)."""
+        """Return r'' (N, 3) in 1/s² at t in s, for axes r (N, 3) and rates v (N, 3) in 1/s."""
         return self.solution(t, r, v)[: r.size].reshape(r.shape)
 
     def solution(self, t: float, r: Array, v: Array) -> Array:
-        """Return [r'' (3 N), multipliers of axes (N) and bars (B)]; a bar pulls its tips with −lam d, in N."""
+        """Return the 3N components of r'', then the multipliers of the N axes and those of the B bars, (4N + B,). A bar with
+        the multiplier lam exerts the force −lam d on its tip i and lam d on its tip j, in N."""
         right = right_side(self.c, self.forces(t, r, v), v)
         return self.saddle.solve(r[None], pulls(self.c, r[None]), right[None, :, None])[0, :, 0]
 
     def forces(self, t: float, r: Array, v: Array) -> Array:
-        """Return the torques on the axes without those of the constraints, (N, 3), N m."""
+        """Return the torques of all loads and drives on the axes, (N, 3), N m. The constraints are not included."""
         c = self.c
         return forces(c, r, v, c.G * np.exp(-c.decay * t) if c.decay.any() else c.G) + self.pushes(t)
 
     def pushes(self, t: float) -> Any:
-        """Return the torques of ground and tip forces on the axes, (N, 3) or zero, N m."""
+        """Return the torques of the drives `ground` and `force` on the axes, (N, 3), N m; the number 0 if there are none."""
         F: Any = 0.0
         if self.ground is not None:
             F = -self.c.S[:, None] * np.asarray(self.ground(t), dtype=float)
@@ -270,12 +282,12 @@ class ExactMotion:
         return F
 
     def across(self, r: Array) -> Array:
-        """Return d × r of the bars at both ends, (2, …, B, 3), zero where a bar is in line with an axis; r (…, N, 3)."""
+        """Return d × r in m for the axes r at both ends of each bar, (2, …, B, 3). It is zero if bar and axis are in line."""
         d = along_bars(self.c, r)
         return np.stack([cross_product(d, r[..., end, :]) for end in (self.c.i, self.c.j)])
 
     def energy(self, r: Array, v: Array) -> Array:
-        """Return T + V of states r, v (n, N, 3), (n,), J, without the energy of the spins."""
+        """Return the kinetic plus potential energy of n states r, v (n, N, 3) in J, (n,), without the energy of the spins."""
         c = self.c
         kinetic = (c.A * (v * v).sum(-1)).sum(-1) / 2 + (c.coupling * (v[:, c.i] * v[:, c.j]).sum(-1)).sum(-1)
         theta = np.arctan2(np.hypot(r[..., 0], r[..., 1]), r[..., 2])
@@ -284,20 +296,21 @@ class ExactMotion:
         return np.asarray(kinetic + potential + (c.stiffness * stretch**2).sum(-1) / 2)
 
     def axes_and_rates(self, states: Array) -> Array:
-        """Return r and r'/rate, (2, n, N, 3), of states (n, 6 N)."""
+        """Return the axes r and the scaled rates r'/rate of states (n, 6N) as one array (2, n, N, 3)."""
         return states.reshape(-1, 2, len(self.c.R), 3).swapaxes(0, 1)
 
     def distance(self, first: Array, second: Array) -> Array:
-        """Return the largest difference of an axis between states (n, 6 N), (n,)."""
+        """Return the largest distance between equal axes of two runs with states (n, 6N), at each of the n times."""
         apart = self.axes_and_rates(first)[0] - self.axes_and_rates(second)[0]
         return np.asarray(np.linalg.norm(apart, axis=-1).max(axis=1))
 
     def difference_of_rates(self, first: Array, second: Array) -> float:
-        """Return the largest difference of a component of r'/rate between states (n, 6 N)."""
+        """Return the largest difference in a component of r'/rate between two runs with states (n, 6N)."""
         return float(np.abs(self.axes_and_rates(first)[1] - self.axes_and_rates(second)[1]).max(initial=0.0))
 
     def defect(self, states: Array, conserved: bool) -> Array:
-        """Return the errors of axes that explain the residuals of the constraints and, if conserved, of the energy."""
+        """Return the residuals of the constraints and, if `conserved`, the changes of the energy. Each is divided by its
+        sensitivity to the axes, so that it is the error of an axis that would cause it."""
         c = self.c
         r, v = self.axes_and_rates(states) * np.array([1.0, c.rate])[:, None, None, None]
         R = np.maximum(c.R[c.i], c.R[c.j])
@@ -308,7 +321,7 @@ class ExactMotion:
         return np.append(residual, (energy - energy[0]) / (self.energy_scale(r, v) or 1.0))
 
     def energy_scale(self, r: Array, v: Array) -> float:
-        """Return the largest change of energy (J) by a unit error of axes and v/rate among the states."""
+        """Return the largest change of energy (J), over all states, that a unit error of the axes and of v/rate causes."""
         c = self.c
         speed, theta = np.linalg.norm(v, axis=-1), np.arctan2(np.hypot(r[..., 0], r[..., 1]), r[..., 2])
         momentum = (c.A * speed).sum(-1) + (np.abs(c.coupling) * (speed[:, c.i] + speed[:, c.j])).sum(-1)
@@ -318,7 +331,8 @@ class ExactMotion:
         return float((c.rate * momentum + weight + pull).max())
 
     def project(self, y: Array) -> Array:
-        """Take one Newton step onto the constraints and their rates in the metric of the masses; y (6 N,) or (6 N, n)."""
+        """Correct a state y, (6N,) or (6N, n), by one Newton step towards the constraints and their time derivatives. The
+        correction is the smallest in the metric of the mass matrix."""
         c, N = self.c, len(self.c.R)
         states = np.atleast_2d(y.T)
         r, v = states.reshape(-1, 2, N, 3).swapaxes(0, 1)
@@ -359,7 +373,7 @@ _EVERY = 3  # one of so many evaluations is recorded
 
 
 def bar_in_line(motion: ExactMotion, y: Array) -> str:
-    """Return the words for a bar in line with both its axes at a state where a solver stopped; empty if there is none."""
+    """Return a sentence that names a bar in line with both its axes at the state y; "" if there is none."""
     c = motion.c
     sines = np.linalg.norm(motion.across(motion.axes_and_rates(y[None])[0, 0]), axis=-1) / c.ell
     bars = np.flatnonzero((sines < _IN_LINE).all(axis=0))
@@ -368,14 +382,15 @@ def bar_in_line(motion: ExactMotion, y: Array) -> str:
 
 @dataclass
 class LineWatch:
-    """The states of a run in order. `check` raises StopError if a bar was in line with both its axes between two of them."""
+    """A record of the axes during a run that detects when a bar passes the line of both its axes. `check` raises StopError if a
+    bar was in line with both its axes between two recorded states."""
 
     motion: ExactMotion
     states: list[tuple[float, Array]] = field(default_factory=list)
     passed: tuple[float, int] | None = None  # when, which bar
 
     def keep(self, t: float, y: Array) -> None:
-        """Record the axes of the state y (6 N,) at t. Later records belong to a rejected step and are dropped."""
+        """Record the axes of the state y (6N,) at t. Records of later times belong to a rejected step and are dropped."""
         while self.states and self.states[-1][0] >= t:
             self.states.pop()
         if self.passed and self.passed[0] > t:
@@ -385,7 +400,7 @@ class LineWatch:
             self._look()
 
     def observe(self, rhs: RightHandSide) -> RightHandSide:
-        """Return the right-hand side, which records some states of its evaluations."""
+        """Return a right-hand side with the same values that also records every third state at which it is evaluated."""
         evaluations = 0
 
         def rate(s: float, y: Array) -> list[float]:

@@ -41,7 +41,7 @@ class StructureRun(Run):
     horizon : float
         The time from which the error exceeds the tolerance, s.
     evaluations : int
-        The evaluations of the right-hand side in all integrations.
+        The number of evaluations of the right-hand side in all integrations.
     ending : Ending
         The reason for which the run ended.
     structure : Assembly
@@ -94,7 +94,7 @@ class StructureRun(Run):
 
     @property
     def energy(self) -> Array:
-        """The total energy with that of the spins, (n,), J. It is conserved without friction and drive."""
+        """The total energy, which includes the energy of the spins, (n,), J. It is conserved without friction and drive."""
         I3 = np.array([rotor.I3 for rotor in self.structure.rotor])
         return np.asarray(self.tilt_energy + (self.momenta**2 / (2 * I3[:, None])).sum(0))
 
@@ -123,7 +123,7 @@ class StructureRun(Run):
         }
 
     def _about(self) -> dict[str, Any]:
-        """Return the structure as `save` writes it."""
+        """Return the fields of the structure as a dictionary that `save` writes to the file."""
         return {"structure": asdict(self.structure)}
 
     @staticmethod
@@ -156,7 +156,7 @@ class StructureRun(Run):
         shape = (len(s.joints), len(run_fields["t"]), 3)
         expected = (axes, shape), (rates, shape), (momenta, shape[:2])
         if any(array.shape != size or not np.isfinite(array).all() for array, size in expected):
-            raise InputError(f"load: {path} is no run: its axes and rates are not finite numbers {shape}")
+            raise InputError(f"load: {path} is no run: its axes and rates must be finite and of shape {shape}")
         return StructureRun(structure=s, axes=axes, rates=rates, momenta=momenta, **run_fields)
 
     def plot(self) -> "Figure":
@@ -182,7 +182,7 @@ class StructureRun(Run):
         path : str or Path
             The file, .gif.
         fps : float, default 25.0
-            Frames per second. The film has the speed of the motion.
+            Frames per second. The film runs at the speed of the motion.
 
         Returns
         -------
@@ -212,7 +212,7 @@ class StructureRun(Run):
         return view_lines(times, lines, inks, f"{len(rotors)} rotors, {len(self.structure.bars)} bars", rotors)
 
     def _lines(self, times: Array) -> tuple[list[Array], list[str]]:
-        """Return bars, braces and rotors at the times, each (m, 2, 3) in m, and their colours."""
+        """Return the two ends of each bar, brace and rotor at m times, (m, 2, 3) in m, and the colour of each."""
         from lagrotor.drawing.wheel import BAR, MARK, ROTORS
         from lagrotor.numerics.rotations import between_samples
 
@@ -276,7 +276,7 @@ def simulate_structure(
 
 
 def _integration(s: Assembly, motion: ExactMotion, engine: Engine) -> Integrate:
-    """Return the integration of a segment by the fastest method for the structure, in the time c.rate t."""
+    """Return a function that integrates a segment of a run by the fastest method. Its times are c.rate t, without unit."""
     if engine == "fast" and compiled_motion.runs_by_series(motion):
         return lambda start, times, local, companion, _: compiled_motion.integrate_series(
             s, motion, start, times, local, companion
@@ -301,7 +301,8 @@ def _integration(s: Assembly, motion: ExactMotion, engine: Engine) -> Integrate:
 
 @dataclass
 class _CheckedDrive:
-    """A drive, checked at the times of a run. It gives NaN if the function fails or returns no finite array of its shape."""
+    """A drive of the user, which is tried at the times of the run when it is made. A call returns an array of the given shape;
+    NaN if the function fails or returns anything else. `failure` then says why."""
 
     function: Drive
     name: str

@@ -20,7 +20,7 @@ Site = tuple[int, Shift]  # joint of the cell, and which cell
 
 @dataclass(frozen=True)
 class Cell:
-    """The fields of a pattern, checked, and its finite pieces. `Pattern` documents them."""
+    """A pattern without waves: its checked fields, which `Pattern` documents, and its finite pieces."""
 
     joints: tuple[tuple[float, float], ...]
     steps: tuple[tuple[float, float], ...]
@@ -44,7 +44,7 @@ class Cell:
             assign(self, name, tuple((float(x), float(y)) for x, y in getattr(self, name)))
         if len(self.steps) not in (1, 2) or not self.joints:
             raise InputError(
-                f"Pattern: {len(self.joints)} joints and {len(self.steps)} steps: give a joint and one or two steps at least"
+                f"Pattern: {len(self.joints)} joints and {len(self.steps)} steps: give a joint at least, and one or two steps"
             )
         if self.turn and len(self.steps) == 2:
             raise InputError(f"Pattern: turn = {self.turn:g} rad with two steps: only a row of cells turns; remove one")
@@ -80,7 +80,7 @@ class Cell:
 
     @property
     def neighbours(self) -> tuple[Site, ...]:
-        """The joints of other cells at the ends of bars and braces, each once."""
+        """The joints of other cells at which bars or braces of this cell end, each once, as (joint, shift of its cell)."""
         return tuple(dict.fromkeys((j, shift) for _, j, shift, *_ in (*self.bars, *self.braces) if any(shift)))
 
     def place(self, site: Site) -> tuple[float, float]:
@@ -89,7 +89,7 @@ class Cell:
         Parameters
         ----------
         site : tuple
-            The joint, and the shift of its cell.
+            The number of the joint in its cell, and the shift of this cell in steps.
 
         Returns
         -------
@@ -106,7 +106,7 @@ class Cell:
         return z.real, z.imag
 
     def cells(self, *counts: int) -> list[Shift]:
-        """Return the cells of a piece.
+        """Return the shifts of all cells of a finite piece.
 
         Parameters
         ----------
@@ -184,7 +184,7 @@ class Cell:
         """
         if len(self.steps) != 2 or width < 1:
             raise InputError(
-                f"Pattern: strip({width}) of {len(self.steps)} step(s): it needs two, and a width of 1 or more"
+                f"Pattern: strip({width}) of {len(self.steps)} step(s): a strip needs two, and a width of 1 or more"
             )
         N = len(self.joints)
 

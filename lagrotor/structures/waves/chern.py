@@ -25,10 +25,12 @@ _STARTS = 4  # starts of the search, the wave numbers with the least distances o
 
 @dataclass(frozen=True)
 class Chern:
-    """The Chern numbers of a pattern, `numbers`, for groups of bands, each (first, last), that touch no other band.
+    """The Chern numbers of the groups of bands of a pattern that touch no other band.
 
-    apart: the least distance (rad/s) from each group to the next at one wave number; flux_error: the largest distance of a
-    flux sum from an integer.
+    - `groups`: the first and the last band of each group.
+    - `numbers`: the Chern number of each group.
+    - `apart`: the least distance of each group, except the last, from the next group at the same wave number, rad/s.
+    - `flux_error`: the largest difference between a sum of fluxes, divided by 2π, and an integer.
     """
 
     groups: tuple[tuple[int, int], ...]
@@ -61,7 +63,8 @@ def chern_numbers(p: Cell, grid: int = 24) -> Chern:
 
 
 def _least_distances(d: Dispersion, grid: int) -> Array:
-    """Return the least distance of each band but the last to the next, rad/s, sought from the least on the grid."""
+    """Return the least distance (n − 1,) in rad/s of each band, except the last, from the next band at one wave number.
+    Minimisations start from the wave numbers of the grid with the least distances."""
     from scipy.optimize import minimize
 
     b, n = bloch(d.pattern), d.rates.shape[1]
@@ -106,7 +109,7 @@ def _check(d: Dispersion) -> None:
 
 
 def _flux(d: Dispersion, first: int, last: int, grid: int) -> Array:
-    """Return Berry's phase around each plaquette, (grid, grid), of the bands first to last together."""
+    """Return Berry's phase (rad) of the bands `first` to `last` together around each plaquette of the grid, (grid, grid)."""
     b = bloch(d.pattern)
     u = d.shapes[:, first : last + 1].reshape(len(d.q), last + 1 - first, -1)
     M, _, G, _ = np.moveaxis(b.at(d.q)[0].swapaxes(-1, -2), -3, 0)
@@ -118,7 +121,8 @@ def _flux(d: Dispersion, first: int, last: int, grid: int) -> Array:
 
 
 def _link(u: Complex, momenta: Complex, axis: int) -> Complex:
-    """Return det of the products of the waves at each point with those at the next along an axis, (grid, grid)."""
+    """Return the determinant of the symplectic products between the waves of each point and the next along an axis, (grid,
+    grid)."""
     next_u, next_momenta = np.roll(u, -1, axis), np.roll(momenta, -1, axis)
     products = np.einsum("abmi,abni->abmn", u.conj(), next_momenta) - np.einsum(
         "abmi,abni->abmn", momenta.conj(), next_u
@@ -128,10 +132,12 @@ def _link(u: Complex, momenta: Complex, axis: int) -> Complex:
 
 @dataclass(frozen=True, eq=False)
 class EdgeWaves:
-    """The waves of a strip at one rate: along its first border (the start of the second step) and along its last one.
+    """The numbers of waves along the borders of a strip at one rate. The first border is at the start of the second step.
 
-    first, last: the number of waves along the first step minus that against it; strip: the bands; place (n_q, n_bands): the
-    position of each wave, 0 at the first border and 1 at the last.
+    - `first`: the number of waves along the first step minus the number against it, at the first border.
+    - `last`: the same difference at the last border.
+    - `strip`: the bands of the strip.
+    - `place`: the mean position of each wave, (n_q, n_bands), 0 at the first border and 1 at the last.
     """
 
     first: int
@@ -141,7 +147,7 @@ class EdgeWaves:
 
 
 def edge_waves(p: Cell, rate: float, width: int = 16, points: int = 181) -> EdgeWaves:
-    """Count the waves of a strip in a gap of the bulk: see `Pattern.edge_waves`."""
+    """Count the waves along the borders of a strip at a rate in a band gap: see `Pattern.edge_waves`."""
     d = dispersion(p.strip(width), np.linspace(0, 2 * np.pi, points))
     share = (np.abs(d.shapes) ** 2).sum(-1).reshape(*d.rates.shape, width, -1).sum(-1)
     place = share @ np.arange(width) / share.sum(-1) / max(width - 1, 1)

@@ -1,8 +1,8 @@
 """The bands of a pattern: rates against wave number, growth, gaps, zero bands, and speeds of long waves.
 
 A joint j in the cell n steps away moves as exp(i q . n) times joint j of the cell, rotated by n turns. Mass, damping,
-gyroscopic and stiffness matrices are sums of exp(i q . n) X_n over cells n steps apart. The rows A(q) of the bars are such a
-sum, too, and the motion is on the null space of A(q). Brillouin, Wave Propagation in Periodic Structures (1946).
+gyroscopic and stiffness matrices are sums of exp(i q . n) X_n over cells n steps apart. The constraint rows A(q) of the bars
+are such a sum, too, and the motion lies in the null space of A(q). Brillouin, Wave Propagation in Periodic Structures (1946).
 """
 
 from collections.abc import Iterator
@@ -32,8 +32,11 @@ _ZERO = 1e-12  # relative to the largest entry: the rounding where phases cancel
 class Bloch:
     """The matrices of a pattern's small motion at any wave number.
 
-    blocks (k, 4, 2 N, 2 N): mass, damping, gyroscopic, stiffness between cells `apart` (k, d) steps; rows (m, B, 2 N): the
-    rows of the cell's bars on the cells `away` (m, d) steps.
+    - `blocks`: the mass, damping, gyroscopic and stiffness matrices between two cells, (k, 4, 2N, 2N).
+    - `apart`: the number of steps between these two cells, (k, d).
+    - `rows`: the constraint rows of the cell's bars that act on another cell, (m, B, 2N).
+    - `away`: the number of steps to this other cell, (m, d).
+    - `rate`: the unit of rate, rad/s. `inertia` is False for the limit without inertia.
     """
 
     blocks: Array
@@ -44,13 +47,15 @@ class Bloch:
     inertia: bool = True
 
     def at(self, q: Array) -> tuple[Matrix, Matrix]:
-        """Return the four matrices (…, 4, 2 N, 2 N) and the rows (…, B, 2 N) at q (…, d), zero where phases cancel."""
+        """Return the four matrices (…, 4, 2N, 2N) and the constraint rows (…, B, 2N) at wave numbers q (…, d). Entries of the
+        rows in which phases cancel up to rounding are set to zero."""
         rows = _wave_sum(q, self.away, self.rows)
         small = np.abs(rows) < _ZERO * np.abs(self.rows).max(initial=1.0)
         return _wave_sum(q, self.apart, self.blocks), np.where(small, 0, rows)
 
     def motions(self, q: Array) -> Iterator[tuple[NDArray[np.intp], SmallMotion]]:
-        """Yield the wave numbers of equally many degrees of freedom, by their places in q (n_q, d), with their systems."""
+        """Yield pairs (places, system), one for each number of degrees of freedom that occurs at the q (n_q, d). `places` are
+        the indices of the wave numbers with this number, and the system has them as its leading axis."""
         forms, rows = self.at(q)
         ranks, vectors = left_by(rows)
         for rank in np.unique(ranks):
@@ -60,7 +65,7 @@ class Bloch:
 
 
 def _wave_sum(q: Array, steps: Array, blocks: Array) -> Matrix:
-    """Return the sum of exp(i q . n) X_n."""
+    """Return the sum over k blocks X_n of exp(i q . n) X_n, with the steps n (k, d)."""
     return np.asarray(np.tensordot(np.exp(1j * q @ steps.T), blocks, 1))
 
 
@@ -81,7 +86,8 @@ def bloch(p: Cell) -> Bloch:
 
 
 def cell_coefficients(p: Cell) -> tuple[Coefficients, float]:
-    """Return the coefficients of one cell followed by the joints of its neighbours, and the rate of all."""
+    """Return the coefficients of one cell and of the joints in other cells that its bars and braces reach, and a rate. The
+    joints of the cell come first. The rate (rad/s) is `Coefficients.rate` of all these joints."""
     N, away = len(p.joints), p.neighbours
     whose = np.array([*range(N), *(j for j, _ in away)])
     number = {(j, shift): N + k for k, (j, shift) in enumerate(away)}
@@ -104,7 +110,8 @@ def cell_coefficients(p: Cell) -> tuple[Coefficients, float]:
 
 
 def _copies(p: Cell, away: tuple[Site, ...], place: Shift) -> Array:
-    """Return the joints of the cell at one place as rotated copies of the pattern's, (2 n, 2 N), the others zero."""
+    """Return the matrix (2n, 2N) that copies the tilts of the N joints, rotated, to the joints in the cell at `place`. Its rows
+    are those of `cell_coefficients`, with n joints. Rows of joints in other cells are zero."""
     N = len(p.joints)
     copies = np.zeros((N + len(away), 2, N, 2))
     c, s = cos(place[0] * p.turn), sin(place[0] * p.turn)
@@ -118,10 +125,14 @@ def _copies(p: Cell, away: tuple[Site, ...], place: Shift) -> Array:
 class Dispersion(Shown):
     """The waves u = Re(shape exp(i (q . n − rate t) + growth t)) of cell n, at q (n_q, d) in rad per cell.
 
-    rates (n_q, n_bands) in rad/s, ascending, and growth in 1/s: the half of the roots at q with the larger rates; the others
-    are the conjugate waves of −q. shapes (n_q, n_bands, N, 2). dof (n_q,): the number of bands at q; rows with fewer bands
-    than n_bands end in nan. zero_bands: the number of degrees of freedom without spins, springs and weight, at the q with the
-    fewest degrees of freedom.
+    The half of the roots with the larger rates is kept. The other half are the conjugate waves of −q.
+
+    - `rates`: the rates of the bands, (n_q, n_bands), ascending, rad/s. A row with fewer bands than n_bands ends in nan.
+    - `growth`: the growth rates, (n_q, n_bands), 1/s.
+    - `shapes`: the x and y of each axis, (n_q, n_bands, N, 2), of unit norm.
+    - `dof`: the number of bands at each q, (n_q,).
+    - `zero_bands`: the number of degrees of freedom on which no spin, spring or weight acts. It is counted at the wave
+      numbers with the fewest degrees of freedom.
     """
 
     pattern: Cell
@@ -144,7 +155,7 @@ class Dispersion(Shown):
 
     @property
     def gaps(self) -> tuple[tuple[float, float], ...]:
-        """The intervals (low, high) between zero and the highest rate without a band at these q, rad/s."""
+        """The intervals (low, high) of rates, rad/s, from zero to the highest rate, in which no wave of these q lies."""
         if not self.rates.size:
             return ()
         low, high = np.nanmin(self.rates, axis=0), np.nanmax(self.rates, axis=0)
@@ -157,7 +168,7 @@ class Dispersion(Shown):
 
     @property
     def falls(self) -> bool:
-        """True if some wave grows."""
+        """True if some wave at these q grows."""
         return bool((self.growth > 0).any())
 
 
@@ -187,7 +198,7 @@ def dispersion(p: Cell, q: ArrayLike) -> Dispersion:
 
 
 def _still(motion: SmallMotion) -> int:
-    """Return the number of degrees of freedom without forces, the least of the wave numbers."""
+    """Return the least number, over the wave numbers, of degrees of freedom without stiffness, gyroscopic force and damping."""
     acting = np.concatenate(
         [motion.stiffness / motion.rate**2, (motion.gyroscopic + motion.damping) / motion.rate], axis=-2
     )
@@ -198,7 +209,7 @@ def _still(motion: SmallMotion) -> int:
 
 
 def _faster(s: Complex, shapes: Complex) -> tuple[Array, Array, Complex]:
-    """Return rates, growth (n_q, f) and shapes (n_q, f, 2 N) of the half with the larger rates, ascending."""
+    """Return the half of the waves with the larger rates, ascending: rates and growth (n_q, f), and shapes (n_q, f, 2N)."""
     half = np.lexsort((s.real, -s.imag), axis=-1)[:, s.shape[-1] // 2 :]
     s = np.take_along_axis(s, half, -1)
     return 0.0 - s.imag, s.real, np.take_along_axis(shapes, half[..., None], -2)

@@ -38,24 +38,25 @@ _SAME = 1e-7  # relative to the highest rate: smaller detunings are zero
 
 @dataclass(frozen=True, eq=False)
 class _Phases:
-    """The factor exp(i (q . n − rate t)) of each variable of the polynomials, with q (m, d) and rate (m,)."""
+    """The phases of m variables of polynomials. Each carries a factor exp(i (q . n − rate t)), with q (m, d) and rate (m,)."""
 
     q: Array
     rate: Array
 
     def apart(self, f: Polynomial, shift: tuple[int, ...]) -> Polynomial:
-        """Return the polynomial of the cell `shift` steps away."""
+        """Return the polynomial f as it holds in the cell `shift` steps away, with the phase of each term shifted."""
         return f.times(np.exp(1j * (f.exponents @ self.q @ np.array(shift))))
 
     def slope(self, f: Polynomial) -> Polynomial:
-        """Return the time derivative."""
+        """Return the time derivative of the polynomial f."""
         rates = f.exponents @ self.rate
         return f.where(rates != 0).times(-1j * rates[rates != 0])
 
 
 @dataclass(frozen=True, eq=False)
 class _Wave:
-    """A linear wave: q (d,), rate > 0, shape (2N,) whose largest tilt in Re(shape e^{iθ}) is 1, and g'(rate)."""
+    """A linear wave: q (d,), its rate > 0 (rad/s), its shape (2N,), and `slope`, which is g'(rate) of the module. The largest
+    tilt of an axis in Re(shape e^{iθ}) is 1."""
 
     q: Array
     rate: float
@@ -72,12 +73,12 @@ def _wave(p: Cell, b: Bloch, q: ArrayLike, band: int) -> _Wave:
     rates = np.concatenate([-d.rates[1, n - 1 :: -1], d.rates[0, :n]])
     rate, growth = float(rates[n + band]), float(d.growth[below, -1 - band if below else band])
     if not rate > 0 or growth:
-        hint = f"it is band {-1 - band} of −q" if rate < 0 else "take another"
+        hint = f"it is band {-1 - band} of −q" if rate < 0 else "take another band"
         raise InputError(f"nonlinear waves: {where} has the rate {rate:g} rad/s and grows by {growth:g} 1/s: {hint}")
     degenerate = (np.abs(rates - rate) < _SAME * np.abs(rates).max()).sum()
     if degenerate > 1:
         raise InputError(
-            f"nonlinear waves: {where}: {degenerate} waves have this rate, {rate:g} rad/s, and are not distinguished"
+            f"nonlinear waves: {where}: {degenerate} waves have this rate, {rate:g} rad/s, and are not distinguished; change q"
         )
     s = d.shapes[1, -1 - band].conj() if below else d.shapes[0, band]
     largest = max(np.linalg.svd(np.array([x.real, x.imag]), compute_uv=False)[0] for x in s)
@@ -95,7 +96,7 @@ def _bloch_without_friction(p: Cell) -> Bloch:
 
 
 def _averaged(p: Cell, b: Bloch, u: Row, phases: _Phases, order: int) -> tuple[Polynomial, list[Row]]:
-    """Return the averaged Lagrangian (J per cell) of the field u (2N polynomials), and x, y, z of all axes."""
+    """Return the averaged Lagrangian (J per cell) of the tilts u, 2N polynomials, and x, y, z of all axes, through an order."""
     c, _ = cell_coefficients(p)
 
     def axes_of(tips: Row) -> list[Row]:
@@ -128,7 +129,7 @@ def _averaged(p: Cell, b: Bloch, u: Row, phases: _Phases, order: int) -> tuple[P
 
 
 def _kinetic(c: Coefficients, axes: list[Row], phases: _Phases, order: int) -> Polynomial:
-    """Return ½ sum_ij A_ij r_i'·r_j' − sum_i G_i (x_i y_i' − y_i x_i')/(1 + z_i)."""
+    """Return the kinetic terms ½ sum_ij A_ij r_i'·r_j' − sum_i G_i (x_i y_i' − y_i x_i')/(1 + z_i)."""
     rates = [[phases.slope(f) for f in axis] for axis in axes]
     pairs = [(i, i, A / 2) for i, A in enumerate(c.A)] + list(zip(c.i, c.j, c.coupling, strict=True))
     terms = [
@@ -145,10 +146,14 @@ def _kinetic(c: Coefficients, axes: list[Row], phases: _Phases, order: int) -> P
 class NonlinearWave(Shown):
     """A wave u = Re(a shape e^{iθ}) + a² (mean + Re(harmonic e^{2iθ})) + O(a³), θ = q . n − (rate + shift a²) t.
 
-    a: the largest tilt (its sine) of an axis in the first term. rate, shift in rad/s; the rate has an error O(a⁴). shape,
-    mean, harmonic (N, 2). detuning: the distance of 2 × rate from the nearest wave of 2 q, rad/s, inf if there is none.
-    energy_sign: −1 if the wave has less energy than the equilibrium. tips: x and y of each axis, polynomials in z, z̄ and b
-    with `multiples` of θ; forced: b/z².
+    The amplitude a is the sine of the largest tilt of an axis in the first term. The shifted rate has an error O(a⁴).
+
+    - `rate` and `shift`: the rate of the linear wave and its change divided by a², rad/s.
+    - `shape`, `mean` and `harmonic`: the terms of u above, (N, 2) each.
+    - `detuning`: the distance of twice the rate from the rate of the nearest wave of 2 q, rad/s; inf if there is none.
+    - `energy_sign`: −1 if the wave has less energy than the equilibrium, otherwise 1.
+    - `tips`: x and y of each axis as polynomials in z, z̄ and the forced amplitudes b of the module.
+    - `multiples`: the multiple of θ in the phase of each variable of these polynomials. `forced` is b/z².
     """
 
     pattern: Cell
@@ -166,7 +171,7 @@ class NonlinearWave(Shown):
 
     @property
     def trusted(self) -> float:
-        """The largest amplitude at which mean and harmonic are at most a fifth of the first term, or ⅕."""
+        """The largest amplitude at which mean and harmonic are at most a fifth of the first term; it is at most 0.2."""
         return float(0.2 / max(1.0, np.abs(self.mean).max(), np.abs(self.harmonic).max()))
 
     def rate_at(self, amplitude: float) -> float:
@@ -179,7 +184,7 @@ class NonlinearWave(Shown):
         return self.rate + self.shift * amplitude**2
 
     def state(self, *counts: int, amplitude: float) -> tuple[Array, Array]:
-        """Return tilts and rates (n, 2) at t = 0 of the rotors of `pattern.piece(*counts)`, through second order."""
+        """Return the tilts and rates (1/s) of the rotors of `pattern.piece(*counts)` at t = 0, (n, 2), through second order."""
         omega = self.rate_at(amplitude)
         point = np.array([1, 1, *self.forced * amplitude / 2]) * amplitude / 2
         cells = np.array(self.pattern.cells(*counts))
@@ -246,7 +251,7 @@ def wave_amplitude(p: Cell, run: StructureRun, counts: Sequence[int], q: ArrayLi
     q : array_like
         The wave number (d,), rad per cell.
     band : int
-        The band, as in `Pattern.nonlinear_wave`.
+        The number of the band, with the numbering of `Pattern.nonlinear_wave`.
 
     Returns
     -------
@@ -256,7 +261,7 @@ def wave_amplitude(p: Cell, run: StructureRun, counts: Sequence[int], q: ArrayLi
     b = _bloch_without_friction(p)
     wave, cells = _wave(p, b, q, band), np.array(p.cells(*counts))
     if len(run.axes) != len(cells) * len(p.joints):
-        raise InputError(f"wave_amplitude: the run has {len(run.axes)} rotors, piece{tuple(counts)} another number")
+        raise InputError(f"wave_amplitude: the run has {len(run.axes)} rotors, piece{tuple(counts)} has another number")
     rotation = np.exp(-1j * (p.turn * cells[:, 0]))[:, None, None]
     U, V = (
         np.tensordot(np.exp(-1j * cells @ wave.q), np.stack([x.real, x.imag], -1), 1)
@@ -273,14 +278,15 @@ def wave_amplitude(p: Cell, run: StructureRun, counts: Sequence[int], q: ArrayLi
 
 
 def _terms_of_phase(tips: tuple[Polynomial, ...], multiples: Array, point: Complex, m: int) -> Complex:
-    """Return the terms of second order with the phase m θ, (N, 2)."""
+    """Return the second-order terms of x and y of each axis that have the phase m θ, (N, 2), at the values `point`."""
     order = np.where(np.arange(len(multiples)) < 2, 1, 2)
     values = [f.where((f.exponents @ order == 2) & (f.exponents @ multiples == m)).at(point) for f in tips]
     return np.reshape(values, (-1, 2))
 
 
 def _forced_terms(L: Polynomial) -> tuple[complex, Complex, Complex]:
-    """Return the coefficient of z² z̄², those of b times two of z and z̄, (m,), and the second derivatives by b, (m, m)."""
+    """Return three kinds of coefficients of the averaged Lagrangian with m forced amplitudes b. They are the coefficient of z²
+    z̄², the coefficients (m,) of b times two of z and z̄, and the second derivatives (m, m) by b."""
     m, quartic = L.variables - 2, 0j
     forcing, curvature = np.zeros(m, dtype=complex), np.zeros((m, m), dtype=complex)
     for e, c in L.terms.items():
@@ -298,11 +304,15 @@ def _forced_terms(L: Polynomial) -> tuple[complex, Complex, Complex]:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ThreeWaves(Shown):
-    """Waves of bands (3,) with q₁ + q₂ = q₃ up to full turns and rates ω₁ + ω₂ = ω₃, all positive.
+    """Three waves in resonance: q₁ + q₂ = q₃ modulo 2π, and ω₁ + ω₂ = ω₃ with all rates positive.
 
-    q (3, 1) in rad per cell; rates (3,) in rad/s; shapes (3, N, 2) with the largest tilt 1. strengths (3,), 1/s: for
-    amplitudes a_j e^{−iω_j t} (largest tilts) a₁' = i strengths₁ a₃ ā₂, a₂' = i strengths₂ a₃ ā₁, a₃' = i strengths₃ a₁ a₂;
-    zero without exchange.
+    - `q`: the wave numbers, (3, 1), rad per cell.
+    - `bands`: the numbers of the three bands.
+    - `rates`: the rates ω, (3,), rad/s.
+    - `energy_signs`: −1 for a wave with less energy than the equilibrium, otherwise 1.
+    - `strengths`: the coefficients c (3,), 1/s, of a₁' = i c₁ a₃ ā₂, a₂' = i c₂ a₃ ā₁ and a₃' = i c₃ a₁ a₂. The amplitudes
+      a_j e^{−iω_j t} are the largest tilts. The coefficients are zero if the waves exchange no energy.
+    - `shapes`: the x and y of each axis, (3, N, 2), with the largest tilt 1.
     """
 
     q: Array
@@ -313,7 +323,7 @@ class ThreeWaves(Shown):
     shapes: Complex
 
     def growth(self, wave: int, amplitude: float) -> float:
-        """Return the growth (1/s) of two small waves by the wave 0, 1 or 2 of this amplitude; 0 if there is none."""
+        """Return the growth (1/s) that wave number 0, 1 or 2 of this amplitude gives the two others, small ones; 0 if none."""
         others = [self.strengths[k] for k in range(3) if k != wave]
         # a₁' = i c₁ a₃ ā₂ and a₂' = i c₂ a₃ ā₁ give a₁'' = c₁ c̄₂ |a₃|² a₁; ā₂' = −i c̄₂ ā₃ a₁, a₃' = i c₃ a₁ a₂: a₃'' = −c₃ c̄₂ …
         fed = (others[0] * others[1].conjugate()).real if wave == 2 else -(others[0] * others[1]).real
@@ -321,7 +331,7 @@ class ThreeWaves(Shown):
 
     @property
     def explosive(self) -> bool:
-        """True if all three grow without bound, by the terms of third order: their energies have both signs."""
+        """True if all three waves grow without bound by the terms of third order, at the cost of one another's energy."""
         first, second, third = self.energy_signs
         return first == second != third and bool(np.abs(self.strengths).min())
 
@@ -339,7 +349,7 @@ class ThreeWaves(Shown):
 
 
 def three_waves(p: Cell, q: float) -> tuple[ThreeWaves, ...]:
-    """Find the triads with a wave of q: see `Pattern.three_waves`."""
+    """Find the resonant triads that contain a wave of wave number q: see `Pattern.three_waves`."""
     from scipy.optimize import brentq
 
     if len(p.steps) != 1:
@@ -348,7 +358,7 @@ def three_waves(p: Cell, q: float) -> tuple[ThreeWaves, ...]:
     q = float(finite_array("three_waves: q", q, ()))
 
     def waves(at: Array) -> dict[int, Complex]:
-        """Return rate + i growth of each band."""
+        """Return {number of the band: rate + i growth} at the wave numbers `at` (n,), each value (n,)."""
         d = dispersion(p, np.concatenate([at, -at]))
         forward, opposite = np.split(d.rates + 1j * d.growth, 2)
         return dict(enumerate(forward.T)) | {-1 - k: -f.conj() for k, f in enumerate(opposite.T)}
@@ -371,7 +381,7 @@ def three_waves(p: Cell, q: float) -> tuple[ThreeWaves, ...]:
 
 
 def _is_steady(wave: Any) -> Any:
-    """Return True where the rate is positive and the wave does not grow."""
+    """Return True where the real part (the rate) is positive and the imaginary part (the growth) is zero."""
     return (wave.real > 0) & (wave.imag == 0)
 
 

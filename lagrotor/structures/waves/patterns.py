@@ -15,8 +15,8 @@ from lagrotor.structures.waves.cell import Cell
 class Pattern(Cell):
     """A cell of N rotors that repeats along one or two steps.
 
-    One number, rotor or link applies to all. Units are SI. With a turn, each cell is the previous one moved by the step and
-    turned about its origin: a ring that closes after 2π/turn cells.
+    A single number, rotor or link applies to all joints or bars. Units are SI. With a turn, each cell is the previous one moved
+    by the step and turned about its origin: a ring that closes after 2π/turn cells.
 
     Attributes
     ----------
@@ -56,17 +56,17 @@ class Pattern(Cell):
     """
 
     def long_wave_speeds(self, direction: ArrayLike = (1.0,)) -> Array:
-        """Return the speeds dω/d|k| at q → 0 of the bands that begin there in proportion to q.
+        """Return the speeds dω/d|k| of long waves, q → 0, in the bands whose rate is proportional to q there.
 
         Parameters
         ----------
         direction : array_like, default (1.0,)
-            The direction in q, (d,), with k . step = q.
+            The direction of the wave number q, (d,). The wave vector k in rad/m satisfies k . step = q.
 
         Returns
         -------
         Array
-            The speeds, m/s, by differences of fourth order up to 10⁻³ rad per cell.
+            The speeds, one for each such band, m/s. They are extrapolated from wave numbers of 10⁻³ rad per cell.
 
         Examples
         --------
@@ -102,7 +102,7 @@ class Pattern(Cell):
     def chern_numbers(self, grid: int = 24) -> chern.Chern:
         """Compute the Chern number of each group of bands.
 
-        Its sign is that of the flux of i ⟨u|∇u⟩ with e_1 × e_2 of the steps as positive.
+        Its sign is the sign of the flux of i ⟨u|∇u⟩ with the sense from x to y as positive, whatever the order of the steps.
 
         Parameters
         ----------
@@ -117,7 +117,7 @@ class Pattern(Cell):
         Raises
         ------
         InputError
-            If there is one step, friction, a growing wave or a rate of zero, or the bars leave different numbers of bands.
+            If the pattern has one step or friction, a wave grows or has the rate zero, or the number of bands varies with q.
 
         Examples
         --------
@@ -128,7 +128,7 @@ class Pattern(Cell):
         return chern.chern_numbers(self, grid)
 
     def edge_waves(self, rate: float, width: int = 16, points: int = 181) -> chern.EdgeWaves:
-        """Count the waves along the borders of a strip of a plane pattern, at a rate in a gap of the bulk.
+        """Count the waves along the borders of a strip of a plane pattern, at a rate in a band gap of the whole pattern.
 
         Parameters
         ----------
@@ -142,7 +142,7 @@ class Pattern(Cell):
         Returns
         -------
         EdgeWaves
-            The numbers of waves along both borders.
+            At each border, the number of waves along the first step minus the number against it.
         """
         return chern.edge_waves(self, rate, width, points)
 
@@ -154,7 +154,8 @@ class Pattern(Cell):
         q : array_like
             The wave number (d,), rad per cell.
         band : int
-            The band at q, as in `dispersion`. −1 − k is wave k of −q, if its rate there is negative.
+            The number of the band at q in `dispersion`, from 0. The number −1 − k means band k at −q, if it has a negative
+            rate there.
 
         Returns
         -------
@@ -176,9 +177,10 @@ class Pattern(Cell):
         return nonlinear_waves.nonlinear_wave(self, q, band)
 
     def three_waves(self, q: float) -> tuple[nonlinear_waves.ThreeWaves, ...]:
-        """Find the triads q + q₂ = q₃ with ω + ω₂ = ω₃ of a wave of q, in a pattern with one step.
+        """Find the triads of waves with q + q₂ = q₃ and ω + ω₂ = ω₃, in a pattern with one step.
 
-        Growing waves are omitted. The search takes 181 wave numbers and the sign of ω₁ + ω₂ − ω₃; double roots are missed.
+        Growing waves are omitted. The search finds changes of the sign of ω + ω₂ − ω₃ between 181 values of q₂, so that double
+        roots are missed.
 
         Parameters
         ----------
@@ -260,7 +262,7 @@ def honeycomb(spring: float | None = None, angle: float = 2 * pi / 3, **settings
     spring : float or None, optional
         The stiffness of braces that replace the bars, N/m.
     angle : float, default 2π/3
-        The angle of two bars of a joint to the third, rad: π/2 makes bricks, less makes bow ties.
+        The angle of two bars of a joint to the third bar, rad. π/2 gives the pattern of bricks, a smaller angle bow ties.
     **settings : dict
         Further fields of `Pattern`.
 
@@ -293,12 +295,12 @@ def square(spring: float | None = None, **settings: Any) -> Pattern:
 
 
 def square_octagon(move: tuple[float, float] = (0.0, 0.0), **settings: Any) -> Pattern:
-    """Return squares joined to octagons, with four rotors per cell.
+    """Return a lattice of squares and octagons, with four rotors per cell.
 
     Parameters
     ----------
     move : tuple, default (0.0, 0.0)
-        The displacement (x, y) of one joint, m.
+        The displacement (x, y) of the first joint of each cell, m.
     **settings : dict
         Further fields of `Pattern`.
 
