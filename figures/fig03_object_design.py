@@ -20,9 +20,10 @@ from lagrotor.pictures import arrow, bare
 
 TITLE = "Object design of the rigid-body simulator"
 CAPTION = (
-    "A RigidBodySystem holds rigid bodies, which it copies into stacked arrays, and links between their vertices; the "
-    "ground is one more body, which nothing moves. In bold the paper's methods (constructor, addExternal, link, ground, "
-    "computeForces, step); names and arguments are read off the classes."
+    "A RigidBodySystem holds rigid bodies, which it copies into stacked arrays, and links between their vertices. The "
+    "ground is a "
+    "further body, which does not move. The paper's methods (constructor, addExternal, link, ground, computeForces, step) are in "
+    "bold; all names and arguments are read from the classes."
 )
 ALT = (
     "Four boxes. Above, left, RigidBody with its seven fields; right, RigidBodySystem with its public methods, the paper's "

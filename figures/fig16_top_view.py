@@ -51,9 +51,11 @@ def measure() -> dict[str, float]:
 
 _shadow, _length = measure().values()
 CAPTION = (
-    "The state of figure 15 from above: shadows of the axes, of length R sin theta_i at the azimuths phi_i, and of the bar. "
-    f"The bar is {_length:.3f} m long, its shadow {_shadow:.4f} m: the two differ by the square of the tips' "
-    "difference in height."
+    "This is the state of figure 15 seen from above. The shadows of the axes have the lengths R sin theta_i and the "
+    "azimuths phi_i. "
+    f"The bar is {_length:.3f} m long, and its shadow {_shadow:.4f} m. The squares of the two lengths differ by the "
+    "square of the "
+    "difference in height of the tips."
 )
 
 

@@ -57,10 +57,11 @@ def measure() -> dict[str, float]:
 
 _longest, _distance = measure().values()
 CAPTION = (
-    f"Ansatz: constant inclination with sin theta_0 = r_0 = {R0}, phi_1 = −phi_2. Exact: the periodic orbit of the "
-    f"minimal model found by shooting, opposite spins ±10 rad/s, massless bar, ell = R = 1 m, tolerance {TOL:g}, at "
-    f"the same phase. The ansatz needs a bar of up to {_longest:.4f} m, and its tips lie up to {_distance:.3f} m "
-    "from the exact ones."
+    f"The ansatz has a constant inclination with sin theta_0 = r_0 = {R0} and phi_1 = −phi_2. The exact orbit is the "
+    "periodic orbit "
+    "of the minimal model, found by shooting, with opposite spins of ±10 rad/s, a massless bar, ell = R = 1 m and the tolerance "
+    f"{TOL:g}; it is drawn at the same phase. The ansatz needs a bar of up to {_longest:.4f} m, and its tips are up to "
+    f"{_distance:.3f} m away from the exact ones."
 )
 
 

@@ -41,10 +41,12 @@ def measure() -> dict[str, float]:
 
 
 CAPTION = (
-    "The gallery of `lagrotor structure`, from above, with 2 kg on each tip; the pair has no weight and drifts after a push. "
-    f"{int(data()['stands'].sum())} of {len(GALLERY)} are stable. Under weight, no structure with an odd number of bars and no "
-    "brace is. Least factors on the spins: "
-    + ", ".join(f"{name.removeprefix('least factor, ')} {factor:.3f}" for name, factor in measure().items())
+    "The gallery of `lagrotor structure` is seen from above, with 2 kg on each tip. The pair is not loaded and drifts "
+    "after a push. "
+    f"{int(data()['stands'].sum())} of {len(GALLERY)} structures are stable. Under weight, a structure with an odd "
+    "number of bars "
+    "and no brace is never stable. A stable structure stays stable if its spins are multiplied by a factor not below "
+    + ", ".join(f"{factor:.3f} ({name.removeprefix('least factor, ')})" for name, factor in measure().items())
     + "."
 )
 

@@ -79,10 +79,14 @@ def measure() -> dict[str, float]:
 
 _alone, _corner, _square, _off, _under, _over = measure().values()
 CAPTION = (
-    "Equal rotors, 2 kg on each tip, massless bars. Least spin for stability, in units of √(aκ)/I₃ (a the inertia about the "
-    f"joint, κ the weight's moment): single rotor {_alone:.3f}, corner {_corner:.3f}, square with one spin opposite "
-    f"{_square:.3f}; a pair is never stable. Growth rates of exact runs differ by at most {_off:.0e} √(κ/a). After a push of "
-    f"0.001 /s the corner tilts by {_under:.2f} at 3 % below its threshold, and by {_over:.4f} at 3 % above it."
+    "The rotors are equal, with 2 kg on each tip, and the bars are massless; a is the inertia about the joint and κ "
+    "the moment of "
+    f"the weight. The least spin for stability is {_alone:.3f} √(aκ)/I₃ for a single rotor, {_corner:.3f} √(aκ)/I₃ "
+    "for the corner, "
+    f"and {_square:.3f} √(aκ)/I₃ for the square with one spin opposite. A pair is never stable. The growth rates of exact runs "
+    f"differ from the curves by at most {_off:.0e} √(κ/a). After a push of 0.001 rad/s the corner tilts by "
+    f"{_under:.2f} rad if its "
+    f"spins are 3 % below the threshold, and by {_over:.4f} rad if they are 3 % above it."
 )
 
 

@@ -117,13 +117,14 @@ def measure() -> dict[str, float]:
 
 *_, _top, _held = measure().values()
 CAPTION = (
-    f"Massless bars, rotors of 1 kg and 1 m, spins of {SPIN:g} rad/s; wave numbers per rotor. Curves: bands. Marks: modes of "
-    f"closed polygons and of open zigzags of {ROTORS} rotors at q = πm/{ROTORS}, which lie on the bands to rounding error. The "
-    f"highest rate is G/a = {_top:.0f} rad/s. Staircase of alternating spins: on hinges of {HINGE:g} N m/rad; and "
-    "under its weight "
-    f"with {LOADED:g} rad/s, where waves within {_held:.2f} of q = 0 and of q = π are unstable. Honeycomb of opposite "
-    "spins, from "
-    "q = 0 to K and M; with equal spins its rate is zero."
+    f"The bars are massless, the rotors have 1 kg and 1 m, and the spins are {SPIN:g} rad/s; wave numbers are per "
+    "rotor. The curves "
+    f"are bands. The marks are modes of closed polygons and of open zigzags of {ROTORS} rotors at q = πm/{ROTORS}; "
+    "they lie on the "
+    f"bands to rounding error. The highest rate is G/a = {_top:.0f} rad/s. The staircase of alternating spins is "
+    "shown on hinges of "
+    f"{HINGE:g} N m/rad, and under its weight with {LOADED:g} rad/s; there waves within {_held:.2f} of q = 0 and of q = π are "
+    "unstable. The honeycomb of opposite spins is shown from q = 0 to K and M; with equal spins its rate is zero."
 )
 
 

@@ -79,10 +79,12 @@ def measure() -> dict[str, float]:
 
 _over, _, _wide, *_ = measure().values()
 CAPTION = (
-    f"Hanging gyroscopes of 1 kg, {SPIN:g} rad/s, springs of {SPRING:g} N/m. Left: bands of the limit along a path from q = 0 to "
-    f"K, M and back; the full equations have rates up to {100 * (1 - 1 / _over):.1f} % lower. Right: the gap of the bulk, "
-    f"{_wide:.3f} rad/s wide on the honeycomb. At bond angles of 90° the bands touch, and the Chern number of the lower one "
-    "changes its sign (Nash et al. 2015)."
+    f"Gyroscopes of 1 kg hang with spins of {SPIN:g} rad/s and are joined by springs of {SPRING:g} N/m. Left: the "
+    "bands in the limit "
+    "of fast spins along a path from q = 0 to K, M and back. The rates of the full equations are lower by up to "
+    f"{100 * (1 - 1 / _over):.1f} %. Right: the gap of the bulk, which is {_wide:.3f} rad/s wide on the honeycomb. At "
+    "a bond angle "
+    "of 90° the bands touch, and the Chern number of the lower one changes its sign (Nash et al. 2015)."
 )
 
 
