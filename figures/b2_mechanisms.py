@@ -66,12 +66,14 @@ def measure() -> dict[str, float]:
 
 _BESIDE, _OTHERS = recorded_bodies_and_lagrangians(), recorded_mechanisms()
 CAPTION = (
-    "Processor time, each tool in its own process, its right-hand side equal to the others' to 1e-9. Solid: one run on "
-    f"{_BESIDE['machine']['processor']}. {record_age('bodies_and_lagrangians', _BESIDE['date'], _BESIDE['digest'])} Dotted: "
+    "Processor times of several tools. Each tool runs in its own process, and its right-hand side equals the others' "
+    "to 1e-9. Solid "
+    f"lines are one run on {_BESIDE['machine']['processor']}. "
+    f"{record_age('bodies_and_lagrangians', _BESIDE['date'], _BESIDE['digest'])} Dotted lines are "
     f"another run on {_OTHERS.machine['processor']}. {record_age('mechanisms', _OTHERS.date, _OTHERS.digest)} "
-    f"Between the smallest and the largest mechanism lagrotor's time to be ready grows as n to the power "
+    "Between the smallest and the largest mechanism the time until lagrotor is ready is proportional to n to the power "
     f"{measure()['power of n, ready, rods']:.2f} for rods and {measure()['power of n, ready, gyroscopes']:.2f} for gyroscopes. "
-    "A line ends at the time limit; fast: compiled by heyoka. Engines take their mechanisms as data and derive nothing."
+    "A line ends at the time limit; 'fast' means compiled by heyoka. Engines take their mechanisms as data and derive nothing."
 )
 
 

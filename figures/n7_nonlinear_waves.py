@@ -94,7 +94,7 @@ CAPTION = (
     "wave of one "
     f"turn. That wave starts with the amplitude {PUMPED:g} and the wave of three turns with {SEED:g}. The former decreases to "
     f"{_least:.2f} of its initial amplitude and returns. In 30 s the exact amplitudes differ by at most "
-    f"{100 * _apart:.0f} % of it "
+    f"{100 * _apart:.0f} % of the initial amplitude of that wave "
     "from the law of second order, which neglects the shifts of the rates."
 )
 

@@ -65,10 +65,13 @@ def measure() -> dict[str, float]:
 
 _numbers = list(measure().values())
 CAPTION = (
-    f"Spins {PAIR.spins[0]:g} and {PAIR.spins[1]:g} rad/s; a tilted and twisted initial state, pushed in three ways. In "
-    f"{DURATION:g} s the centre moves by up to {max(_numbers[:3]):.2f} rad, and the law differs by at most "
-    f"{max(_numbers[3:]):.3f} rad from the centres of the exact runs (circles). Thin: lines on which the part G₁x₁ + G₂x₂ of the "
-    "momentum about the joint line is constant. Dotted: the exact motion."
+    f"The spins are {PAIR.spins[0]:g} and {PAIR.spins[1]:g} rad/s. A tilted and twisted initial state is pushed in "
+    "three ways. In "
+    f"{DURATION:g} s the centre moves by up to {max(_numbers[:3]):.2f} rad, and the law differs from the centres of "
+    "the exact runs "
+    f"(circles) by at most {max(_numbers[3:]):.3f} rad. On the thin lines the part G₁x₁ + G₂x₂ of the momentum about "
+    "the joint line "
+    "is constant. The dotted curve is the exact motion."
 )
 
 

@@ -66,9 +66,11 @@ def measure() -> dict[str, float]:
 
 _difference, _power = measure().values()
 CAPTION = (
-    f"Opposite spins ±10 rad/s at rest, bar m = 0.01 kg, K = 0.1 kg m², pulse of {FORCE[0]:g} N along x and "
-    f"{FORCE[1]:g} N along y on tip 1 at {AT:g} s, width {WIDTH:g} s; exact: minimal model, tolerance {TOL:g}. Tips less "
-    f"ground joints, in units of R. Difference up to {_difference:.3f} R; it falls as the force to the {_power:.2f}."
+    "A pair at rest with opposite spins of ±10 rad/s and a bar with m = 0.01 kg, K = 0.1 kg m² receives a pulse of "
+    f"{FORCE[0]:g} N along x and {FORCE[1]:g} N along y on tip 1 at {AT:g} s, with the width {WIDTH:g} s. The exact curve is the "
+    f"minimal model at the tolerance {TOL:g}. The positions are those of the tips relative to the ground joints, in "
+    "units of R. The "
+    f"difference is up to {_difference:.3f} R; it is proportional to the force to the power {_power:.2f}."
 )
 
 

@@ -65,11 +65,14 @@ def measure() -> dict[str, float]:
 
 
 CAPTION = (
-    "Omega over Omega_0; r_0 is the sine of the inclination when the axes are parallel. Paper: 1/cos theta_0, for every "
-    "bar. Exact: the family of periodic orbits, continued from small amplitudes without a fold. It ends at r_0 = 1, "
-    "where the axes lie along the joint line. At r_0 = "
+    "The frequency ratio is Omega divided by Omega_0; r_0 is the sine of the inclination when the axes are parallel. The paper's "
+    "curve is 1/cos theta_0 for every bar. The exact points are the family of periodic orbits, continued from small amplitudes "
+    "without a fold. It ends at r_0 = 1, where the axes lie along the joint line. At r_0 = "
     f"{READ_AT:g} with the massless bar the errors are "
-    + ", ".join(f"{list(measure().values())[i]:+.4f} ({said})" for i, said in ((1, "paper"), (2, "3"), (3, "9")))
+    + ", ".join(
+        f"{list(measure().values())[i]:+.4f} ({said})"
+        for i, said in ((1, "paper"), (2, "series of order 3"), (3, "order 9"))
+    )
     + "."
 )
 
