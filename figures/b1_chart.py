@@ -30,10 +30,10 @@ CLOSED = "closed form"
 
 TITLE = "Error against evaluations, the displaced pair"
 ALT = (
-    "In logarithms, largest error of a tip over ten seconds against evaluations of the right-hand side, a curve for each "
-    "method from the coarsest to the finest tolerance. All fall to the right; Adams in equal steps and the models of simulate "
-    "fall steepest, Runge–Kutta of order 5 least. "
-    "A grey band follows the front; a dashed line is the closed form, which needs no evaluation."
+    "A chart on logarithmic axes shows the largest error of a tip over ten seconds as a function of the number of "
+    "evaluations of the right-hand side. There is one curve for each method, from the coarsest to the finest tolerance. All "
+    "curves fall to the right; Adams in equal steps and the models of simulate fall most steeply, Runge–Kutta of order 5 "
+    "least. A grey band follows the front. A dashed line is the closed form, which needs no evaluation."
 )
 
 

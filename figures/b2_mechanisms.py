@@ -30,9 +30,10 @@ WHAT = {"ready": "time to be ready [s]", "rhs": "a right-hand side [µs]"}
 
 TITLE = "Other tools on growing mechanisms"
 ALT = (
-    "Four panels in logarithms over the number of links: above the time to be ready, below the time of one right-hand side; left "
-    "rods in relative angles, right gyroscopes. The lines of lagrotor lie below those of sympy's methods, which end where their "
-    "time did not suffice; the compiled engines are ready at once. Solid and dotted lines are of two runs, on two machines."
+    "Four panels on logarithmic axes show times as functions of the number of links. The upper ones show the time until a "
+    "tool is ready, the lower ones the time of one right-hand side; rods in relative angles are on the left, gyroscopes on "
+    "the right. The lines of lagrotor lie below those of sympy's methods, which end at the time limit. The compiled engines "
+    "are ready at once. Solid and dotted lines are two runs on two machines."
 )
 
 

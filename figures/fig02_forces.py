@@ -25,9 +25,9 @@ CAPTION = (
     "the same direction, along r × F."
 )
 ALT = (
-    "Two parallel inclined axes, indigo and purple, with spins omega 1 and omega 2, joined by a grey bar. A green force arrow F "
-    "along the bar; below it F A on tip 1 is twice as long as F B on tip 2. Thin black arrows at both tips point into the "
-    "picture, along r cross F."
+    "Two parallel inclined axes, indigo and purple, with spins omega 1 and omega 2, are joined by a grey bar. A green arrow "
+    "along the bar is the force F. Below it the arrow F A on tip 1 is twice as long as the arrow F B on tip 2. Thin black "
+    "arrows at both tips point into the picture, along r cross F."
 )
 
 

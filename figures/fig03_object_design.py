@@ -26,9 +26,10 @@ CAPTION = (
     "bold; all names and arguments are read from the classes."
 )
 ALT = (
-    "Four boxes. Above, left, RigidBody with its seven fields; right, RigidBodySystem with its public methods, the paper's "
-    "in bold. Below, left, the force law and the step limit; right, the functions that set a scene up and run it. Arrows "
-    "lead from the bodies to the system, from the force law to it, and from the system to the runs."
+    "The drawing has four boxes. At the top left is RigidBody with its seven fields, at the top right RigidBodySystem with "
+    "its public methods, the paper's in bold. At the bottom left are the force law and the step limit, at the bottom right "
+    "the functions that set up a scene and run it. Arrows lead from the bodies to the system, from the force law to it, and "
+    "from the system to the runs."
 )
 PAPER = ("RigidBodySystem", "add_external", "link", "ground", "compute_forces", "step")
 

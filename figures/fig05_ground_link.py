@@ -25,9 +25,9 @@ CAPTION = (
     "the link."
 )
 ALT = (
-    "A hatched strip of ground with a vertex G r 1. Above it the lower end of an upright indigo rotor, vertex X r 1, joined "
-    "to the ground vertex by a zigzag spring. A green arrow at the rotor's vertex points back at the ground vertex; an "
-    "equal one at the ground vertex is taken up by the ground."
+    "A hatched strip is the ground, with a vertex G r 1. Above it the lower end of an upright indigo rotor, vertex X r 1, "
+    "is joined to the ground vertex by a zigzag spring. A green arrow at the rotor's vertex points to the ground vertex. An "
+    "equal and opposite force acts on the ground."
 )
 
 

@@ -26,9 +26,9 @@ CAPTION = (
     "is 0.5 m less."
 )
 ALT = (
-    "Two wheels on upright axes, R1 indigo and R2 purple, and above them a grey bar R3. Vertices 1 and 2 of every body are "
-    "numbered, centres of mass marked with their coordinates. Dotted green lines join the bar's ends to the upper vertices "
-    "and the lower vertices to the ground."
+    "Two wheels on upright axes, R1 indigo and R2 purple, have a grey bar R3 above them. Vertices 1 and 2 of every body are "
+    "numbered, and the centres of mass are marked with their coordinates. Dotted green lines join the bar's ends to the "
+    "upper vertices and the lower vertices to the ground."
 )
 
 

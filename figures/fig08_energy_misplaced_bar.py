@@ -20,9 +20,10 @@ BAR_HEIGHT, RIGHT_HEIGHT = 1.5, 1.0  # m above the ground joints; the paper's z 
 TOTAL = OKABE_ITO["orange"]
 TITLE = "Energy with the bar misplaced"
 ALT = (
-    "Three panels of energy over time. The whole run: kinetic energy rises from 100 J to 200 J at once and falls back to "
-    "100 J. The first 0.15 s of it: a peak after a few milliseconds and a decay. On a logarithmic scale above 100 J: "
-    "kinetic and total energy fall along lines that become straight, the total from 2500 J."
+    "Three panels show energy as a function of time. Over the whole run the kinetic energy jumps from 100 J to 200 J and "
+    "falls back to 100 J. In the first 0.15 s it has a peak after a few milliseconds and then decays. On a logarithmic "
+    "scale of the excess over 100 J the kinetic and the total energy fall along curves that become straight; the total "
+    "energy starts at 2500 J."
 )
 
 

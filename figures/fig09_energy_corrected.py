@@ -17,8 +17,9 @@ from lagrotor.paper.rotor_pair.runs import paper_run
 SCENE = SCENES["same-spin"].scene
 TITLE = "Energy with the bar in its place"
 ALT = (
-    "Two panels over 10 s. Above, the energy of the spring-link run, a wide blue line, and of the exact model, dashed black "
-    "upon it, level at 100 J. Below, both less 100 J in billionths of a millijoule: level at zero."
+    "Two panels show 10 s. In the upper one the energy of the spring-link run, a wide blue line, and the energy of the "
+    "exact model, a dashed black line on it, are level at 100 J. The lower one shows their differences from 100 J in "
+    "billionths of a millijoule, which are zero."
 )
 
 

@@ -19,8 +19,9 @@ from lagrotor.paper.rotor_pair.runs import paper_run, pulse
 SCENE = SCENES["same-spin-shock"].scene
 TITLE = "Equal spins, shock along the bar"
 ALT = (
-    "Upper panel: energy over 10 s, level at 100 J, a step to 100.45 J at t = 2 s, then level for the exact model and "
-    "falling by 0.01 J for the spring-link run. Lower panel: the force, a narrow pulse of 50 N at t = 2 s."
+    "The upper panel shows the energy over 10 s. It is level at 100 J and jumps to 100.45 J at t = 2 s. Then it is level in "
+    "the exact model and decreases by 0.01 J in the spring-link run. The lower panel shows the force, a narrow pulse of 50 "
+    "N at t = 2 s."
 )
 
 

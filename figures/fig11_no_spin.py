@@ -18,9 +18,9 @@ from lagrotor.pictures import shock_figure
 SCENE = SCENES["no-spin"].scene
 TITLE = "No spin, shock along the bar"
 ALT = (
-    "Three panels over 10 s. Energy: zero, then 0.45 J from t = 2 s. Force: a pulse of 50 N at 2 s. Centre of rotor 1: x "
-    "and z follow arcs of a circle of 0.5 m about the ground joint, y stays zero; the dashed exact "
-    "curves lie on them and end at 4.8 s."
+    "Three panels show 10 s. The energy is zero, and 0.45 J from t = 2 s on. The force is a pulse of 50 N at 2 s. For the "
+    "centre of rotor 1, x and z follow arcs of a circle of 0.5 m about the ground joint, while y stays zero. The dashed "
+    "exact curves coincide with them and end at 4.8 s."
 )
 
 IN_LINE = 4.8  # s; the exact planar motion is determined until bar and axes are in line, a little later

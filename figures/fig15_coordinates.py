@@ -18,9 +18,9 @@ from lagrotor.pictures import arc, arc_between, arrow, canvas, ground, label, pa
 WISHED = ((0.62, 0.75), (0.62, -0.85))  # theta, phi of the two axes before they are brought onto the bar, rad
 TITLE = "Generalized coordinates of the pair"
 ALT = (
-    "Two inclined axes r 1 (indigo) and r 2 (purple) on ground joints, their tips joined by a grey bar. At each joint a dashed "
-    "upright line and a faint x direction; green arcs mark theta from the upright to the axis, phi from x to the axis's shadow "
-    "on the ground, and psi around the axis."
+    "Two inclined axes r 1 (indigo) and r 2 (purple) stand on ground joints, and a grey bar joins their tips. Each joint "
+    "has a dashed upright line and a faint line along x. Green arcs mark theta from the upright to the axis, phi from x to "
+    "the axis's shadow on the ground, and psi around the axis."
 )
 
 

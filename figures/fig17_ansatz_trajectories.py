@@ -20,9 +20,9 @@ R0, TOL, SHOWN = 0.204, 1e-11, (0, 22, 60, 90)
 
 TITLE = "Trajectories of the pair by the ansatz"
 ALT = (
-    "Top view: two circles of radius 0.204 m round the ground joints, run through in opposite senses, and the exact "
-    "closed orbits, which touch the circles on the x-axis and are a little flatter on the outer side. Four positions "
-    "of the bar are drawn. Below: the length the bar would need rises from 1 m to 1.08 m twice a turn, and the "
+    "The top view shows two circles of radius 0.204 m around the ground joints, with opposite directions of motion, and the "
+    "exact closed orbits, which touch the circles on the x-axis and are slightly flatter on the outer side. Four positions "
+    "of the bar are drawn. Below, the length that the bar would need rises from 1 m to 1.08 m twice a turn, and the "
     "distance from the exact tip rises from 0 to 0.04 m twice a turn."
 )
 

@@ -20,10 +20,11 @@ R0, TOL = 0.204, 1e-11
 
 TITLE = "Swing of the link length"
 ALT = (
-    "Length of the bar against the angle over one turn. At constant inclination it swings between 1 m and 1.08 m with "
-    "period pi. With the paper's correction it stays near 1.08 m. The corrected series and the exact orbit stay at 1 "
-    "m. The lower panel has the distance from 1 m on a logarithmic scale: near 0.08 m for the paper's curves, a few "
-    "millimetres at most for the series of orders 2 and 3, with opposite signs."
+    "The upper panel shows the length of the bar as a function of the angle over one turn. At constant inclination it "
+    "varies between 1 m and 1.08 m with the period pi. With the paper's correction it stays near 1.08 m. The corrected "
+    "series and the exact orbit stay at 1 m. The lower panel shows the difference from 1 m on a logarithmic scale. It is "
+    "near 0.08 m for the paper's curves and at most a few millimetres for the series of orders 2 and 3, with opposite "
+    "signs."
 )
 
 

@@ -20,9 +20,9 @@ R0, TOL = 0.204, 1e-11
 
 TITLE = "Corrected trajectories of the pair"
 ALT = (
-    "Top view: round each ground joint the exact closed orbit with the series of order 3 on top of it, and the "
-    "paper's corrected curve, displaced outwards by about 0.04 m. Below, on a logarithmic scale, the distance from "
-    "the exact tip over one turn: about 0.04 m for the paper, up to several millimetres for order 2, about two "
+    "The top view shows, around each ground joint, the exact closed orbit with the series of order 3 on top of it, and the "
+    "paper's corrected curve, which lies about 0.04 m further out. Below, on a logarithmic scale, the distance from the "
+    "exact tip over one turn is about 0.04 m for the paper, up to several millimetres for order 2, and about two "
     "millimetres for order 3."
 )
 

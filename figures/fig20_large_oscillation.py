@@ -22,10 +22,10 @@ R0, TOL = 0.5, 1e-11
 
 TITLE = "Corrected trajectories at a large oscillation"
 ALT = (
-    "Top view: the exact orbits are egg-shaped closed curves of half-width 0.5 m that meet near the origin; the "
-    "paper's curves lie 0.25 m further out and are nearly straight on the inner side. The series of order 3 leaves "
-    "the exact orbit visibly, that of order 9 covers it. Below, on a logarithmic scale: distances near 0.3 m for the "
-    "paper, some centimetres for order 3, millimetres for order 9."
+    "In the top view the exact orbits are egg-shaped closed curves of half-width 0.5 m that meet near the origin. The "
+    "paper's curves lie 0.25 m further out and are nearly straight on the inner side. The series of order 3 differs visibly "
+    "from the exact orbit, the series of order 9 covers it. Below, on a logarithmic scale, the distances are near 0.3 m for "
+    "the paper, some centimetres for order 3, and millimetres for order 9."
 )
 
 

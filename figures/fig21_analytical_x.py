@@ -18,10 +18,10 @@ R0, TOL = 0.204, 1e-11
 
 TITLE = "Analytical $x_1$ and $x_2$ over time"
 ALT = (
-    "Two panels with x of the right and the left tip over 15 s at rate 1 rad/s: the exact orbit and the corrected "
-    "formula lie on each other, with narrow peaks on the outer side; the paper's curve has the same form but lies "
-    "further out by 0.04 m. The third panel has the residuals: 0.04 m for the paper, a few millimetres for the "
-    "corrected formula."
+    "Two panels show x of the right and the left tip over 15 s at the rate 1 rad/s. The exact orbit and the corrected "
+    "formula coincide, with narrow peaks on the outer side. The paper's curve has the same form but lies further out by "
+    "0.04 m. The third panel shows the residuals, which are 0.04 m for the paper and a few millimetres for the corrected "
+    "formula."
 )
 
 

@@ -18,9 +18,9 @@ SCENE = SCENES["free-precession"].scene
 
 TITLE = "Simulated $x_1$ and $x_2$ over time"
 ALT = (
-    "Two panels over 10 s with x of the right and the left tip: at rest at 0.5 m and −0.5 m until the shock at 2 s, "
-    "then nine oscillations of amplitude 0.2 m, the valleys of the left tip and the peaks of the right one narrower. "
-    "A third panel has the y of both, swinging to opposite sides of zero between 0 and 0.37 m."
+    "Two panels show x of the right and the left tip over 10 s. The tips rest at 0.5 m and −0.5 m until the shock at 2 s "
+    "and then make nine oscillations of amplitude 0.2 m. The valleys of the left tip and the peaks of the right one are "
+    "narrower. A third panel shows y of both tips, which oscillate on opposite sides of zero between 0 and 0.37 m."
 )
 
 

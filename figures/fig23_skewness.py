@@ -20,10 +20,10 @@ SCENE = SCENES["free-precession"].scene
 
 TITLE = "Skewness of the precession centres"
 ALT = (
-    "Top view: the traces of both tips after the shock are rings of radius 0.2 m, the left one above the x-axis, the "
-    "right one below. A straight line through their centres falls from left to right at about 21 degrees to x; the "
-    "line predicted by the linear response nearly coincides. Below, the angle turn by turn changes by 0.1 degree, "
-    "some one degree below the linear prediction."
+    "In the top view the traces of both tips after the shock are rings of radius 0.2 m, the left one above the x-axis, the "
+    "right one below it. A straight line through their centres falls from left to right at about 21 degrees to x; the line "
+    "predicted by the linear response nearly coincides with it. Below, the angle varies by 0.1 degree from turn to turn and "
+    "lies about one degree below the linear prediction."
 )
 
 

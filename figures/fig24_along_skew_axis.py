@@ -20,10 +20,10 @@ SCENE = SCENES["free-precession"].scene
 
 TITLE = "Oscillation along the skew axis, simulated and predicted"
 ALT = (
-    "Two panels with the displacement of the right and the left tip along the skew axis from 2.4 s to 10 s, some nine "
-    "oscillations of amplitude 0.2 m. The corrected series lies on the simulated curve; the paper's formula is "
-    "displaced outwards by 0.04 m. In the residual panel the two tips of the series have the same residual, 0.03 m at "
-    "most, a slow drift of the middle; those of the paper lie 0.07 m apart, to both sides of it."
+    "Two panels show the displacement of the right and the left tip along the skew axis from 2.4 s to 10 s, with nine "
+    "oscillations of amplitude 0.2 m. The corrected series lies on the simulated curve; the paper's formula lies 0.04 m "
+    "further out. In the residual panel both tips of the series have the same residual of at most 0.03 m, which is a slow "
+    "drift of the middle. The residuals of the paper lie 0.07 m apart, on both sides of it."
 )
 
 

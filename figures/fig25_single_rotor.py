@@ -20,10 +20,10 @@ SCENE = Scene(spins=(20, 0), link=None, shock=Shock(force=(40, 0, 0), at=2.0, wi
 
 TITLE = "Single rotor, spin 20, after a shock"
 ALT = (
-    "Four panels. The force is a narrow peak of 40 N at 2 s. x of the tip oscillates after it with amplitude 0.15 m. "
-    "The sine at 16 rad/s starts in step and falls behind, so that its residual grows to 0.2 m; that of the stiff "
-    "springs grows to 0.1 m; the sine at the closed form's rate stays on the curve. In the spectrum the exact peak is "
-    "at 16.2 rad/s, a little above the mark at 16, and that of the springs between the two."
+    "There are four panels. The force is a narrow peak of 40 N at 2 s, after which x of the tip oscillates with the "
+    "amplitude 0.15 m. The sine at 16 rad/s starts in phase and falls behind, so its residual grows to 0.2 m. The residual "
+    "of the stiff springs grows to 0.1 m. The sine at the closed form's rate stays on the curve. In the spectrum the exact "
+    "peak is at 16.2 rad/s, slightly above the mark at 16, and the peak of the springs lies between the two."
 )
 
 

@@ -20,9 +20,9 @@ SCENE = Scene(spins=(20, 20), link=HEAVY_LINK, shock=Shock(force=(40, 0, 0), at=
 
 TITLE = "Pair of equal spins 20 after a shock"
 ALT = (
-    "Three panels over 10 s. The force is a narrow peak of 40 N at 2 s. x of tip 1 rests at −0.5 m until then and "
-    "oscillates afterwards by 0.08 m about it, some fifteen times, by both methods. Their residual is small at first "
-    "and grows with time, as the spring-linked bodies turn a little slower."
+    "Three panels show 10 s. The force is a narrow peak of 40 N at 2 s. Until then x of tip 1 rests at −0.5 m; afterwards "
+    "it makes fifteen oscillations of amplitude 0.08 m about this value by both methods. The difference between the methods "
+    "is small at first and grows with time, because the spring-linked bodies turn slightly more slowly."
 )
 
 

@@ -20,10 +20,10 @@ SCENE = Scene(spins=(20, 20), link=HEAVY_LINK, shock=Shock(force=(40, 0, 0), at=
 
 TITLE = "Equal spins 20, matched to a rate"
 ALT = (
-    "Four panels. The force is a narrow peak of 40 N at 2 s. x of the tip oscillates after it with amplitude 0.08 m. "
-    "The sine at 11.4 rad/s and the stiff springs fall a little behind, with residuals growing to 0.04 and 0.06 m; "
-    "the sine at the closed form's rate stays on the curve. In the spectrum the exact peak is at 11.5 rad/s, just "
-    "above the mark at 11.4, that of the springs just below it."
+    "There are four panels. The force is a narrow peak of 40 N at 2 s, after which x of the tip oscillates with the "
+    "amplitude 0.08 m. The sine at 11.4 rad/s and the stiff springs fall behind, and their residuals grow to 0.04 and 0.06 "
+    "m. The sine at the closed form's rate stays on the curve. In the spectrum the exact peak is at 11.5 rad/s, just above "
+    "the mark at 11.4, and the peak of the springs is just below it."
 )
 
 

@@ -22,11 +22,11 @@ SCENES = {name: Scene(spins=(10, -10), link=bar, shock=SHOCK_PAIRED) for name, b
 
 TITLE = "Opposite spins ±10 in the second mode"
 ALT = (
-    "x of tip 1 from 1.5 s to 10 s for two bars, each with sines at 5.7 rad/s and at the natural rate. The first "
-    "falls out of step within two periods: it is too fast for the heavy bar and too slow for the light one, with a "
-    "phase drift of +7 and −10 rad. The natural rate stays in step with both. The spectra peak near 4.2 rad/s for the "
-    "heavy bar, by the exact model and by the paper's method alike, and at 7.4 rad/s for the light one, on both sides "
-    "of the mark at 5.7."
+    "The panels show x of tip 1 from 1.5 s to 10 s for two bars, each with sines at 5.7 rad/s and at the natural rate. The "
+    "sine at 5.7 rad/s loses phase within two periods: it is too fast for the heavy bar and too slow for the light one, "
+    "with a phase drift of +7 and −10 rad. The sine at the natural rate stays in phase with both. The spectra peak near 4.2 "
+    "rad/s for the heavy bar, in the exact model and by the paper's method, and at 7.4 rad/s for the light one, on both "
+    "sides of the mark at 5.7."
 )
 
 

@@ -10,8 +10,9 @@ from lagrotor.pictures.benchmark_figures import stability_figure
 
 TITLE = "Range of use of the closed forms"
 ALT = (
-    "Three maps, for orders 1, 3 and 5, of the error of the closed form over amplitude from 0.01 to 0.5 and departure from "
-    "opposite spins from one in a million to three tenths; a line bounds the region at lower left in which the form is useful."
+    "Three maps, for orders 1, 3 and 5, show the error of the closed form. The axes are the amplitude from 0.01 to 0.5 and "
+    "the departure from opposite spins from one in a million to three tenths. In each map a line bounds the region at the "
+    "lower left in which the form is useful."
 )
 
 

@@ -13,10 +13,9 @@ from lagrotor.structures import GALLERY, draw_plan, example
 
 TITLE = "Ten structures"
 ALT = (
-    "Ten plans: one rotor, pairs, a corner, a row, a square, a plate, a hexagon, a grid. Indigo rotors spin one "
-    "way, purple ones "
-    "the other, a ring around each shows how fast; over each plan stands whether it stands, and from which multiple of "
-    "its spins on."
+    "The picture has ten plans: one rotor, pairs, a corner, a row, a square, a plate, a hexagon and a grid. Indigo rotors "
+    "spin in one sense and purple ones in the other; a ring around each rotor shows how fast it spins. Above each plan is "
+    "written whether it is stable, and the least multiple of its spins for which it is."
 )
 
 

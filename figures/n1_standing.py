@@ -27,9 +27,10 @@ TRIED = (0.5, 1.2, 1.8, 2.5)  # spins of the exact runs, in sqrt(a κ)/I3
 
 TITLE = "Stability under load"
 ALT = (
-    "Left: growth rate against spin for a loaded rotor alone, a pair, a corner of three and a square; the pair's does not "
-    "depend on the spin, the others end at thresholds. Exact runs lie on the curves. Right: the corner after a push, with "
-    "spins 3 per cent under and over its threshold: the tilt grows without end, or stays bounded."
+    "Left: the growth rate as a function of the spin for a single loaded rotor, a pair, a corner of three and a square. The "
+    "growth rate of the pair does not depend on the spin; the others become zero at thresholds. Exact runs lie on the "
+    "curves. Right: the tilt of the corner after a push, with spins 3 per cent below and above its threshold; it grows "
+    "without end or stays bounded."
 )
 
 

@@ -21,9 +21,10 @@ SHOWN = 0.3
 
 TITLE = "A sway with spins, and with a tuned mass"
 ALT = (
-    "Left: the largest amplification against the ratio of spin to sway rate. The spins' falls as one over the spin and "
-    "crosses the level lines of tuned masses of 1, 2 and 5 per cent; peaks found on structures lie on it. Right: transfer "
-    "functions of the bare sway, a tuned mass of 2 per cent and spins: the bare one has a pole, the others two low peaks."
+    "Left: the largest amplification as a function of the ratio of spin to sway rate. The curve of the spins falls as one "
+    "divided by the spin and crosses the level lines of tuned masses of 1, 2 and 5 per cent. Peaks found on structures lie "
+    "on the curve. Right: transfer functions of the bare sway, of a tuned mass of 2 per cent and of spins. The first has a "
+    "pole, the others have two low peaks."
 )
 
 

@@ -20,12 +20,11 @@ LOADED = 40.0  # rad/s, the spin under weight
 
 TITLE = "Bands of rotors joined by rigid bars"
 ALT = (
-    "Four panels of rate against wave number. Zigzags of alternating spins: a hump for each of three angles, "
-    "steep at zero for "
-    "the straightest. Equal spins: curves that fall from one common height at zero to nothing at the end. Staircase on "
-    "hinges: two curves and a gap; under weight, two rates that meet and a growth where they have met. "
-    "Honeycomb of opposite "
-    "spins from the centre of its zone to a corner and a side. Marks of finite structures lie on the curves."
+    "Four panels show rate as a function of wave number. For zigzags of alternating spins there is a hump for each of three "
+    "angles, steepest at zero for the straightest zigzag. For equal spins the curves fall from a common height at zero to "
+    "zero at the end. The staircase on hinges has two curves and a gap; under weight two rates meet, and growth begins "
+    "where they have met. The honeycomb of opposite spins is shown from the centre of its zone to a corner and a side. "
+    "Marks of finite structures lie on the curves."
 )
 
 

@@ -20,10 +20,10 @@ FAST, SMALL, WEAR, LONG = 40.0, 0.02, 0.1, 6.0
 
 TITLE = "Friction of the paired precession"
 ALT = (
-    "Left: the angle about the joint line over time for three frictions. Each run swings, then comes to rest at an angle, "
-    "which is the larger the smaller the friction, at a dashed level that is G r0 squared over 2 c. Right: the radius of "
-    "the precession in a joint whose friction is the same in every direction, and with the spins kept up: one grows, the "
-    "other shrinks."
+    "Left: the angle about the joint line as a function of time for three values of friction. Each run oscillates and then "
+    "comes to rest at an angle, which is larger for smaller friction. A dashed line marks the predicted angle G r0 squared "
+    "divided by 2 c. Right: the radius of the precession for friction that is the same in every direction, and with "
+    "constant spins; the first grows and the second shrinks."
 )
 
 

@@ -23,10 +23,9 @@ PATTERNS = {
 
 TITLE = "Waves that run one way along a border"
 ALT = (
-    "Rates of a strip's waves against the wave number along it, for a honeycomb of springs and for squares and octagons of "
-    "rigid bars. Two clouds of curves, the waves of the bulk, leave a gap between them; two curves cross it, "
-    "one falling, of "
-    "waves on the first border, and one rising, of waves on the last."
+    "The two panels show the rates of the waves of a strip as functions of the wave number along it, for a honeycomb of "
+    "springs and for squares and octagons of rigid bars. The waves of the bulk form two clouds of curves with a gap between "
+    "them. Two curves cross the gap: a falling one for waves on the first border and a rising one for waves on the last."
 )
 
 

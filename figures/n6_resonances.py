@@ -23,9 +23,10 @@ DIRECTION = np.array(
 
 TITLE = "Resonances: spins, pushes and falls"
 ALT = (
-    "Left: pushes against spins in units of the critical ones; two straight lines rise from a point at 1.0607, and exact runs "
-    "that fell all lie between them, those outside stayed. Right: times to fall against the push on logarithmic axes; exact runs "
-    "lie along a line of slope minus one, above the least time of any direction."
+    "Left: pushes and spins, in units of the critical ones. Two straight lines rise from a point at 1.0607. All exact runs "
+    "that fell lie between the lines, and the runs outside did not fall. Right: the time until the corner falls as a "
+    "function of the push, on logarithmic axes. Exact runs lie along a line of slope minus one, above the least time of any "
+    "direction."
 )
 
 

@@ -25,9 +25,10 @@ PUMPED, SEED = 0.03, 0.003
 
 TITLE = "Nonlinear waves"
 ALT = (
-    "Left: the shift of the rate over the square of the amplitude against the wave number, a curve that is positive for waves of "
-    "one to two turns and negative beyond, with marks of exact runs on it. Right: amplitudes of three waves against time; the "
-    "first falls while two others rise from a tenth of it, and they come back; exact runs lie on the curves."
+    "Left: the shift of the rate divided by the square of the amplitude, as a function of the wave number. The curve is "
+    "positive for waves of one to two turns and negative beyond; marks of exact runs lie on it. Right: the amplitudes of "
+    "three waves as functions of time. The first falls while the two others rise from a tenth of it, and then they return. "
+    "Exact runs lie on the curves."
 )
 
 

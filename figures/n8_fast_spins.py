@@ -22,9 +22,10 @@ ANGLES = np.array([120, 113, 106, 99, 94, 90, 86, 81, 74, 67, 60])  # degrees
 
 TITLE = "The limit of fast spins"
 ALT = (
-    "Left: two bands of rate against a path through the wave numbers, curves of the limit with marks of the whole motion just "
-    "below them, and a gap at the corner of the zone. Right: the edges of the gap against the bond angle from 120 to 60 degrees; "
-    "they meet at 90, below which the marks have another colour, the other sign of the Chern number."
+    "Left: two bands of rates along a path through the wave numbers, with a gap at the corner of the zone. The curves are "
+    "the limit of fast spins; the marks of the full equations lie just below them. Right: the edges of the gap as functions "
+    "of the bond angle from 120 to 60 degrees. They meet at 90 degrees; below this angle the marks have another colour, "
+    "because the Chern number has the other sign."
 )
 
 

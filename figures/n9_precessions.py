@@ -30,9 +30,10 @@ KICK = 2e-3  # of the first axis
 
 TITLE = "Precessions at finite tilt"
 ALT = (
-    "Left: the shift of the rate over the rate upright against the tilt, three parabolas with marks of exact orbits on them. "
-    "Middle: growth per turn against the tilt, zero up to 0.08 and rising like a root beyond; exact marks on it. Right: distance "
-    "from the precession against turns, logarithmic: one run stays level, two rise along straight lines, one to a fall."
+    "Left: the shift of the rate divided by the rate upright, as a function of the tilt. Marks of exact orbits lie on three "
+    "parabolas. Middle: the growth per turn as a function of the tilt. It is zero up to 0.08 and then rises like a square "
+    "root, with exact marks on it. Right: the distance from the precession as a function of turns, on a logarithmic scale. "
+    "One run stays level; two rise along straight lines, and one of these ends in a fall."
 )
 
 

@@ -53,8 +53,9 @@ def measure() -> dict[str, float]:
 _power, _swing, _largest = measure().values()
 _first, *_, _last = data()["A"][0]
 ALT = (
-    "Two panels, one a model, in logarithms: swing over one turn against the amplitude. The paper's A rises as the square "
-    f"of the amplitude, from {_first:.1g} to {_last:.1g} kg m²/s. Energy, momentum about the joint line, axial momentum and "
+    "Two panels, one for each model, show on logarithmic axes the variation over one turn as a function of the amplitude. The "
+    f"paper's A varies as the square of the amplitude, from {_first:.1g} to {_last:.1g} kg m²/s. Energy, momentum "
+    "about the joint line, axial momentum and "
     f"the paper's B stay at the rounding and step errors of the run, all below {_largest:.0e}."
 )
 CAPTION = (

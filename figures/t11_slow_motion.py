@@ -24,10 +24,10 @@ OTHERS = "#999999"  # colour of motions from other starts
 
 TITLE = "The slow motion of opposite spins"
 ALT = (
-    "Left and middle: curves of lean against half the angle between the axes, in units of the swing. With the light bar the "
-    "curve of the shock, in green, runs out to large lean, and an exact run follows it; with the heavy bar it closes beside "
-    "upright. Right: squared slow frequency against the push; exact circles lie near the curve, positive from zero to about 1.2, "
-    "negative outside."
+    "Left and middle: curves of the lean as a function of half the angle between the axes, in units of the oscillation. "
+    "With the light bar the green curve of the shock runs out to large lean, and an exact run follows it. With the heavy "
+    "bar the curve closes near the upright position. Right: the squared slow frequency as a function of the push. It is "
+    "positive from zero to about 1.2 and negative outside; exact circles lie near the curve."
 )
 
 

@@ -23,9 +23,9 @@ R0, TRIED, FINE = 0.06, np.array([-0.7, -0.3, 0.1, 0.5]), np.linspace(-0.999, 1,
 
 TITLE = "Unequal spins: shift of the rate and drift of the azimuth"
 ALT = (
-    "Left: the relative shift of the rate over the square of the amplitude against the ratio of the spins, for two bars; both "
-    "curves end at one half for equal spins. Right: the drift of the azimuth over the fourth power; zero for equal spins, "
-    "negative elsewhere. Exact circles lie on all curves."
+    "Left: the relative shift of the rate divided by the square of the amplitude, as a function of the ratio of the spins, "
+    "for two bars. Both curves end at one half for equal spins. Right: the drift of the azimuth divided by the fourth power "
+    "of the amplitude. It is zero for equal spins and negative elsewhere. Exact circles lie on all curves."
 )
 
 

@@ -86,10 +86,11 @@ def measure() -> dict[str, float]:
 
 _small, _largest, _chaotic, _lined, _wild, _short, _long, _ = measure().values()
 ALT = (
-    "Four panels. A map of amplitude and momentum with an exponent in each cell: small swings are dark, near zero, the middle "
-    "is bright. Two sections of six starts each: on the first the points of each start lie along a curve of its own; on the "
-    "second some do and the others scatter over one area. Below on the left, how long runs are known against their exponents: "
-    "chaotic ones for some twenty turns, the others to the end."
+    "There are four panels. A map of amplitude and momentum shows an exponent in each cell: small oscillations are dark, "
+    "near zero, and the middle is bright. Two sections show six starts each. On the first the points of each start lie "
+    "along a curve of its own; on the second some do, and the others scatter over one area. Below on the left, the time for "
+    "which runs are known is shown against their exponents: some twenty turns for chaotic runs, the whole time for the "
+    "others."
 )
 CAPTION = (
     f"The spins are ±10 rad/s, and the bar has {PAIR.link.mass:g} kg and {PAIR.link.length:g} m. The map shows the "

@@ -24,9 +24,9 @@ DURATION, POINTS, FINE = 75.0, 51, 16  # s; a circle every FINE points of the ex
 
 TITLE = "The guiding centre of two unequal spins"
 ALT = (
-    "Left: half the twist against the lean, three curves along thin lines of constant flux, exact circles on the curves. Right: "
-    "half the twist against time: one curve goes on, the two of pairs that swing turn back; circles, and the exact motion about "
-    "them."
+    "Left: half the twist as a function of the lean. Three curves follow thin lines of constant flux, with exact circles on "
+    "the curves. Right: half the twist as a function of time. One curve continues in one direction; the two others, of "
+    "pairs that oscillate, turn back. Circles lie on the curves, and the exact motion oscillates about them."
 )
 
 

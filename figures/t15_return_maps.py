@@ -24,9 +24,9 @@ INKS = (*CASE_COLOURS, CORRECTION_COLOUR)
 
 TITLE = "The normal form about a periodic orbit"
 ALT = (
-    "Left: five closed curves round a point on the section with dots of exact returns on the inner ones and beside the "
-    "outermost. Middle and right: turns in a return against the action, a straight line of the twist, a curve of sixth order, "
-    "and circles of exact runs that leave the line before they leave the curve."
+    "Left: five closed curves around a point on the section, with dots of exact returns on the inner ones and beside the "
+    "outermost. Middle and right: the turns per return as a function of the action, with a straight line for the twist and "
+    "a curve of sixth order. Circles of exact runs depart from the line earlier than from the curve."
 )
 
 

@@ -20,10 +20,10 @@ SPINS = {"equal": (SPIN, SPIN), "opposite": (SPIN, -SPIN)}
 
 TITLE = "The natural frequency for any bar"
 ALT = (
-    "Two panels of the natural frequency in units of G over J. Against the bar's inertia at mass 1 kg the curve of "
-    "equal spins is level at 0.714 and that of opposite spins falls; they cross at the dumbbell. Against the mass at "
-    "inertia 0.1 kg m² both fall. The paper's constant is a level line that only equal spins with its heavy bar meet. "
-    "Points of the exact model lie on the curves."
+    "Two panels show the natural frequency in units of G over J. As a function of the bar's inertia at a mass of 1 kg the "
+    "curve of equal spins is level at 0.714, and the curve of opposite spins falls; they cross at the dumbbell. As a "
+    "function of the mass at an inertia of 0.1 kg m² both fall. The paper's constant is a level line that only equal spins "
+    "with its heavy bar meet. Points of the exact model lie on the curves."
 )
 
 

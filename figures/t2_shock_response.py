@@ -19,10 +19,10 @@ SIZES = np.array([0.125, 0.25, 0.5, 1.0, 2.0])
 
 TITLE = "The linear response to a shock"
 ALT = (
-    "Above: after a pulse at half a second x swings about zero, y of tip 1 and y of tip 2 swing about two centres on "
-    "opposite sides while both drift slowly; curves of the closed form and of the exact run nearly coincide. Lower left: "
-    "their difference stays within a few hundredths and grows slowly. Lower right: the largest difference against the "
-    "force, on a straight line of slope two in logarithms."
+    "Above: after a pulse at half a second x oscillates about zero, and y of tip 1 and tip 2 oscillate about two centres on "
+    "opposite sides, while both drift slowly. The curves of the closed form and of the exact run nearly coincide. Lower "
+    "left: their difference stays within a few hundredths and grows slowly. Lower right: the largest difference as a "
+    "function of the force lies on a straight line of slope two on logarithmic axes."
 )
 
 

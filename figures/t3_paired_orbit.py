@@ -24,10 +24,10 @@ BOUNDED, AT = (5, 7, 9), AMPLITUDES[:5]  # orders whose own bounds are drawn, at
 
 TITLE = "Error of the series, order by order"
 ALT = (
-    "Left, in logarithms: largest distance between series and exact orbit against the amplitude, nine nearly straight "
-    "lines, one for each order from 1 to 9, ever lower and ever steeper, down to the exact orbit's own error. Right: the "
-    "measured slope of each line against the order; the points lie on the line order plus one. Dashed above the lines of "
-    "order 5, 7 and 9: the error that the series gives for itself."
+    "Left, on logarithmic axes: the largest distance between series and exact orbit as a function of the amplitude. Nine "
+    "nearly straight lines, one for each order from 1 to 9, become lower and steeper, down to the error of the exact orbit "
+    "itself. Dashed lines above the lines of order 5, 7 and 9 are the error bounds of the series. Right: the measured slope "
+    "of each line as a function of the order; the points lie on the line order plus one."
 )
 
 

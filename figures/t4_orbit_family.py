@@ -24,10 +24,10 @@ READ_AT = 0.4
 
 TITLE = "Frequency of the paired precession against its amplitude"
 ALT = (
-    "Three panels, one a bar: frequency over natural frequency against amplitude from 0 to 0.95. The paper's curve rises "
-    "as one over the cosine in all of them. For a massless bar as long as the rotor and for a short one the exact points "
-    "fall, pass a least value and turn up at the end; for a long bar they rise. The series follow them, order 9 further "
-    "than order 3."
+    "Three panels, one for each bar, show the frequency divided by the natural frequency as a function of the amplitude "
+    "from 0 to 0.95. The paper's curve rises as one over the cosine in all of them. For a massless bar as long as the rotor "
+    "and for a short one the exact points fall to a minimum and then rise; for a long bar they rise throughout. The series "
+    "follow them, order 9 further than order 3."
 )
 
 

@@ -27,10 +27,10 @@ LAST = 1.22  # of sigma
 
 TITLE = "Stability of the paired precession"
 ALT = (
-    "Left, in logarithms: growth per turn against the amplitude for two hyperbolic bars, filled marks on lines of slope four "
-    "and three, and the angle per turn of one elliptic bar, open marks on a line of slope three. Right: plane of amplitude "
-    "and sigma; the orbit is hyperbolic below sigma = 1 and to the right of a curve that rises from there, elliptic above "
-    "it; tried points fall on their sides. A grey band about the curve is its error."
+    "Left, on logarithmic axes: the growth per turn as a function of the amplitude for two hyperbolic bars, filled marks on "
+    "lines of slope four and three, and the angle per turn of one elliptic bar, open marks on a line of slope three. Right: "
+    "the plane of amplitude and sigma. The orbit is hyperbolic below sigma = 1 and to the right of a curve that rises from "
+    "there, and elliptic above it. Tested points lie on the expected sides. A grey band about the curve is its error."
 )
 
 

@@ -18,9 +18,10 @@ ALONG, CHOSEN, SWINGS = 40.0, -11.0, 8
 
 TITLE = "The drift after a shock, and the force that cancels it"
 ALT = (
-    "Left: mean turning rate about the joint line against the force along y, from minus 20 to 5 newtons; the closed form "
-    "and the exact points fall together through zero near minus 11 newtons, where a vertical line marks the paper's "
-    "force. Right: closed form less exact, a few hundredths of a radian per second, growing to both sides."
+    "Left: the mean turning rate about the joint line as a function of the force along y, from minus 20 to 5 newtons. The "
+    "closed form and the exact points fall together through zero near minus 11 newtons, where a vertical line marks the "
+    "paper's force. Right: the closed form minus the exact rate, a few hundredths of a radian per second, which grows to "
+    "both sides."
 )
 
 

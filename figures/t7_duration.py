@@ -23,9 +23,10 @@ FOLLOWED = np.array([9.0, 13.0, 18.0])
 
 TITLE = "Time of stability in x after a shock"
 ALT = (
-    "Left, in logarithms: time to lean by half a radian falls as the square, time for the mean x to move by a tenth as the "
-    "cube of the force, from 2 to 20 newtons; exact points lie on both lines. Right: one run at 12 newtons; x swings about "
-    "a mean that moves steadily away along the predicted straight line, while the mean turning angle grows along its own."
+    "Left, on logarithmic axes: from 2 to 20 newtons the time to lean by half a radian falls as the square of the force, "
+    "and the time for the mean x to move by a tenth falls as its cube. Exact points lie on both lines. Right: one run at 12 "
+    "newtons. Here x oscillates about a mean that moves steadily away along the predicted straight line, while the mean "
+    "turning angle grows along its predicted line."
 )
 
 

@@ -24,10 +24,10 @@ TRIED = ((0, 2.0), (0, 6.0), (1, 8.0), (1, -16.0), (2, 20.0))
 
 TITLE = "Stability of toppling, both senses"
 ALT = (
-    "Left: growth rate against the rate of turning from minus 25 to 50 radians per second for three bars. Turning one "
-    "way is stable at any rate for a massless bar; with a bar of large inertia it becomes unstable beyond a threshold, and "
-    "with a heavy bar of no inertia fast turning the other way becomes stable. Exact points lie on the curves. Right: mean "
-    "x after shocks of plus and minus 50 newtons along y; after minus 50 it leaves."
+    "Left: the growth rate as a function of the rate of turning from minus 25 to 50 radians per second for three bars. "
+    "Turning in one sense is stable at any rate for a massless bar. With a bar of large inertia it becomes unstable beyond "
+    "a threshold, and with a heavy bar of no inertia fast turning in the other sense becomes stable. Exact points lie on "
+    "the curves. Right: the mean x after shocks of plus and minus 50 newtons along y; after minus 50 it grows."
 )
 
 

@@ -19,9 +19,10 @@ TRIED = (0.4, 0.7, 1.0)
 
 TITLE = "The twist instability of equal spins"
 ALT = (
-    "Left: growth rate of a small twist against the bar's inertia at mass 1 kg for cones of 0.1 and 0.4 radians: zero up to "
-    "the dumbbell's inertia 0.25, then rising steeply and levelling off; Hill's equation lies above the closed form on the "
-    "wider cone, and the exact points lie on it. Right: difference between closed form and Hill's equation."
+    "Left: the growth rate of a small twist as a function of the bar's inertia at a mass of 1 kg, for cones of 0.1 and 0.4 "
+    "radians. It is zero up to the dumbbell's inertia 0.25, then rises steeply and levels off. Hill's equation lies above "
+    "the closed form on the wider cone, and the exact points lie on Hill's equation. Right: the difference between closed "
+    "form and Hill's equation."
 )
 
 
