@@ -324,7 +324,7 @@ root = i * w + c * g
 prove(
     sp.expand(a * root**2 + (c - i * beta) * root - (beta * w - a * w**2)),
     c**2 * g * (a * g + 1),
-    "what is left of the equation is of second order in the friction",
+    "the remaining terms of the equation are of second order in the friction",
     names="as^2+(c-i\\beta)s-\\kappa",
 )
 

@@ -50,7 +50,7 @@ prove(
 
 # %% [markdown]
 # In a cell $k$ steps away each product of exponentials has the factor $e^{ikqm}$, $m$ its multiple of $\theta$, and a time
-# derivative is $-i\omega m$: $c$, $f$ and $B$ are read off the exact Lagrangian as a polynomial, with the bars' lengths put in
+# derivative is $-i\omega m$: $c$, $f$ and $B$ are read from the exact Lagrangian as a polynomial, with the bars' lengths put in
 # as a series.
 #
 # ## A case in closed form

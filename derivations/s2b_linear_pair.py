@@ -141,7 +141,7 @@ prove(shares, G_1**2 / G_2**2, "the torque on rotor 1 over that on rotor 2", nam
 
 # %%
 def off(ratio: sp.Expr) -> sp.Expr:
-    """Mean drift over the paper's, for a force along a massless bar and omega_2 = ratio omega_1."""
+    """Mean drift divided by the paper's, for a force along a massless bar and omega_2 = ratio omega_1."""
     paper = R / (I3 * (omega_1 + omega_2))
     return sp.cancel((mean_drift[1].diff(F[0]) / paper).subs({b: 0, omega_2: ratio * omega_1}))
 
@@ -150,7 +150,7 @@ rho = sp.Symbol("rho", real=True)
 prove(
     off(rho),
     (1 + rho) ** 2 / (2 * (1 + rho**2)),
-    "the drift of the mean axis over the paper's, ρ = ω₂/ω₁",
+    "the drift of the mean axis divided by the paper's, ρ = ω₂/ω₁",
     names=r"\text{mean} / \text{paper}",
 )
 

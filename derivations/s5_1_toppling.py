@@ -1,7 +1,7 @@
 # %% [markdown]
 # # Why the pair topples across the joint line and not along it (5.1)
 #
-# **Objective.** Section 5.1 argues with force diagrams and prints no equation. Three equations of the linear pair answer the same
+# **Objective.** Section 5.1 argues with force diagrams and prints no equation. Three linearised equations answer the same
 # questions: the effect of a steady force and of a shock on one tip, and the mean displacement of the axes in $x$.
 #
 # **Assumptions.** Small motion about the upright rest state, any bar, opposite spins $G_1 = -G_2 = G$; a shock short against
@@ -29,7 +29,7 @@ F_x, F_y, P_x, P_y = sp.symbols("F_x F_y P_x P_y", real=True)
 # %% [markdown]
 # ## The equations
 #
-# The linear pair moves in the null space of its constraints, $x_1 = x_2 = X$, $z_i$ unchanged. In $(S, X, D)$:
+# The linearised motion lies in the null space of the constraints, $x_1 = x_2 = X$, $z_i$ unchanged. In $(S, X, D)$:
 
 # %%
 pair = linear_pair()

@@ -144,8 +144,8 @@ fed_back = rate.subs(J, I3).subs(level).subs({A: printed_A, B: 2 * I3 * omega})
 prove(fed_back, phi_v, "the formula with the values of the integrals put in")
 
 # %% [markdown]
-# It predicts no rate. The rate comes from the equation of motion that the ansatz leaves out; the linear pair with opposite
-# spins has one oscillation, at
+# It predicts no rate. The rate comes from the equation of motion that the ansatz leaves out; the linearised equations for
+# opposite spins have one oscillation, at
 
 # %%
 natural = natural_frequency().expressions[0].subs({G_1: G, G_2: -G})

@@ -129,7 +129,7 @@ constant = (equal / (I3 * omega / J)).subs(INERTIAS)
 prove(constant, J / (J + m * R**2 / 2), "the constant c of equal spins", names="c")
 
 # %% [markdown]
-# ## What the paper reads off its run
+# ## What the paper reads from its run
 #
 # How much the amplitude changes the rate, by a fraction $\eta$, is measured after the paper's shock, with the bar of section
 # 4.1.

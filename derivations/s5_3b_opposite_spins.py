@@ -52,7 +52,7 @@ with_mass, with_inertia = I1 + M * R**2 / 4 + m * R**2 / 2, I1 + M * R**2 / 4 + 
 # %% [markdown]
 # ## The natural frequency
 #
-# The linear pair has one oscillation, for any spins and any bar:
+# The linearised equations have one oscillation, for any spins and any bar:
 
 # %%
 natural = natural_frequency().expressions[0]

@@ -25,7 +25,8 @@ from lagrotor.theory import linear_pair
 # %% [markdown]
 # ## Degrees of freedom
 #
-# Coordinates less the rank of the constraints: with the spins in Euler angles, without them on two unit spheres.
+# The number of degrees of freedom is the number of coordinates minus the rank of the constraints. With the spins the
+# coordinates are Euler angles, without them unit vectors on two spheres.
 
 # %%
 angles = [sp.Rational(1, 3), sp.Rational(2, 5), 0, sp.Rational(1, 4), sp.Rational(-3, 7), 0]
@@ -120,8 +121,8 @@ verdict(
 # %% [markdown]
 # ## The third degree of freedom
 #
-# For opposite spins, $G_1 = -G_2 = G$, the linear pair keeps two quantities. They say where the centre of the precession
-# rests; both are zero for one about the upright position.
+# For opposite spins, $G_1 = -G_2 = G$, the linearised equations conserve two quantities. They say where the centre of the
+# precession rests; both are zero for one about the upright position.
 
 # %%
 first_v, x_v, second_v, first, x, second = sp.symbols("y_1_dot x_dot y_2_dot y_1 x y_2", real=True)

@@ -23,8 +23,8 @@ from lagrotor.theory import impulse_matrices, shock_displacement, shock_energy
 # %% [markdown]
 # ## From the equation of motion to powers of one matrix
 #
-# The linear pair obeys $M\ddot q + C\dot q = Q(t)$. One integration gives $M\dot q + Cq = p(t)$, with the impulse $p(t)$ up to
-# time $t$. After an impulse $p$ at $s=0$ the equation is $\dot q = M^{-1}p - Nq$. The response is $H(s)p$ with
+# The linearised equations are $M\ddot q + C\dot q = Q(t)$. One integration gives $M\dot q + Cq = p(t)$, with the impulse
+# $p(t)$ up to time $t$. After an impulse $p$ at $s=0$ the equation is $\dot q = M^{-1}p - Nq$. The response is $H(s)p$ with
 # $\dot H = e^{-Ns}M^{-1}$.
 
 # %%

@@ -22,9 +22,9 @@ CAPTION = (
     "rest with a gap between them. The force on vertex 1 is therefore −S (X_1 − X_2), and the force on vertex 2 is its opposite."
 )
 ALT = (
-    "Two bodies drawn as an indigo and a purple bar with their centres of mass marked. From the end of each, vertex 1 and "
-    "vertex 2, a zigzag spring labelled S and a damper labelled D join the two. Green arrows at the vertices point at each "
-    "other: F on 1 and F on 2."
+    "Two bodies are drawn as an indigo and a purple bar with their centres of mass marked. A zigzag spring labelled S "
+    "and a damper "
+    "labelled D join their ends, vertex 1 and vertex 2. Green arrows at the vertices, F on 1 and F on 2, point to each other."
 )
 
 
