@@ -67,20 +67,23 @@ tables = [
             )
             for name in names
         ),
-        f"Processor time of one run on {where}; {versions}; 1001 output times. The closed form is valid on the paired "
+        f"The times are processor times of one run on {where} ({versions}) with 1001 output times. The closed form is "
+        "valid on the paired "
         f"precession, where auto chooses it down to tol = 1e-{reach}; the other methods integrate. {age}",
     ),
     Table(
         "Speed against accuracy: other tools as multiples",
-        ("method", *(f"over {best}, {error}" for best in OURS for error in ERRORS[:2])),
+        ("method", *(f"divided by {best}, {error}" for best in OURS for error in ERRORS[:2])),
         tuple(
             (name, *(multiple(name, error, f"best of {best}") for best in OURS for error in ERRORS[:2]))
             for name in names
             if at_error[ERRORS[0]][name]
         ),
-        "Any model: the fastest method of the core packages, here the closed form, including its fit to the initial state. "
-        "Core and fast: the fastest integration with the core packages and with the fast extra. All times are from the same "
-        f"run. {age}",
+        "Each column gives the time divided by the time of the fastest method of a group, at the stated error in m. "
+        "The group 'any "
+        "model' is all methods of the core packages; its fastest is the closed form, including its fit to the initial state. The "
+        "groups 'core' and 'fast' are the integrations with the core packages and with the fast extra. All times are from the "
+        f"same run. {age}",
     ),
     Table(
         "Throughput",
@@ -88,7 +91,7 @@ tables = [
         tuple(
             (x["what"], f"{x['rate']:.3g} {x['unit']}", f"{x['share']:.2g}", x["against"]) for x in found["throughput"]
         ),
-        f"From the same run on {where}. Ensembles use one process per core; the other rows use one process. {age}",
+        f"The rates are from the same run on {where}. Ensembles use one process per core; the other rows use one process. {age}",
     ),
 ]
 tables[0]

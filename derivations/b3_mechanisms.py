@@ -46,7 +46,8 @@ tables = [
         "Mechanisms: targets and measurements",
         TARGET_HEAD,
         tuple(target_rows(found.measured, found.decided, found.operations, beside["rows"])),
-        "Ratios of processor times, each within one record. The ratios of rods and gyroscopes to sympy and the time to be "
+        "The values are ratios of processor times, each within one record. The ratios of rods and gyroscopes to sympy "
+        "and the time to be "
         "ready are from the table of the comparison with sympy, the others from the tables of tools and of decisions. "
         f"{age_beside} Each additional rod requires {each['rods']} operations, each additional gyroscope "
         f"{each['gyroscopes']}. The first body, on the ground, requires much fewer ({found.operations['gyroscopes'][0]} for a "
@@ -56,7 +57,8 @@ tables = [
         "Mechanisms: processor times of the tools",
         MECHANISM_HEAD,
         tuple(mechanism_rows(found.measured)),
-        f"Processor time on {where}, medians; {versions}. For lagrotor and sympy's methods, ready and rhs are in the table of "
+        f"The processor times are medians on {where} ({versions}). For lagrotor and sympy's methods, ready and rhs "
+        "are in the table of "
         "the comparison with sympy. The run has a length of one second, and its error is the largest at eleven times. The "
         "integrator is the fastest of scipy's DOP853, LSODA and the tool's integrator. symbrim is not included: it has "
         f"bicycles, riders and a rolling disc, but neither of these mechanisms. {age}",
@@ -65,7 +67,8 @@ tables = [
         "Mechanisms: decisions whether two formulations agree",
         DECISION_HEAD,
         tuple(decision_rows(found.decided)),
-        f"The same steps with the exact decision and with sympy's simplify in its place, from a separate run. {age}",
+        f"Both columns make the same steps, with the exact decision or with sympy's simplify in its place, in a "
+        f"separate run. {age}",
     ),
     Table(
         "Mechanisms from bodies and from a Lagrangian, compared with sympy",
@@ -76,8 +79,9 @@ tables = [
         "bicycle lagrotor's energies. sympy's right-hand sides use lambdify with common subexpressions, then numpy's solve. "
         "The column 'rhs differs by' gives the relative difference from lagrotor's right-hand side of bodies. A method was "
         f"stopped after {beside['longest']:g} s, and was not applied to larger mechanisms. The bicycle is the bicycle of "
-        f"sympy's test suite, with its symbols; the arm has six joints. Processor time on {where_beside}, one method after "
-        f"another, with a single measurement of ready, by `python -m benchmarks.bodies_and_lagrangians --record`. {age_beside}",
+        f"sympy's test suite, with its symbols; the arm has six joints. The processor times are on {where_beside}, one method "
+        f"after another, with a single measurement of ready, by `python -m benchmarks.bodies_and_lagrangians "
+        f"--record`. {age_beside}",
     ),
 ]
 tables[0]

@@ -52,7 +52,8 @@ wanted = Table(
         )
         for n in CHAIN_SIZES
     ),
-    "Ratios of processor times at the same error. Pinocchio cannot run 256 rotors on this machine, because its data contain four "
+    "The values are ratios of processor times at the same error. Pinocchio cannot run 256 rotors on this machine, "
+    "because its data contain four "
     f"tensors of size 768³, 14 GB. {age}",
 )
 wanted
@@ -81,7 +82,8 @@ table = Table(
         )
         for x in found
     ),
-    f"Processor time for an error of {CHAIN_ERROR:.0e} m, medians, {machine['processor']}, {machine['cores']} cores, Python "
+    f"The processor times for an error of {CHAIN_ERROR:.0e} m are medians on {machine['processor']}, "
+    f"{machine['cores']} cores, Python "
     f"{machine['Python']}, without compilation. A tool without a time did not reach this error with its smallest step, or "
     f"did not run. {age}",
 )

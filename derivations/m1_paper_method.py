@@ -101,7 +101,7 @@ tables = [
         "The paper's simulated numbers",
         ("quantity", "printed", "paper's method", "exact model", "closed form"),
         rows,
-        "Rates after a shock of 40 N along x on tip 1, fitted over the first 3 s for the paper's method, over 8 s for the "
+        "The rates after a shock of 40 N along x on tip 1 are fitted over the first 3 s for the paper's method, over 8 s for the "
         "exact model, and over 3.3 s for opposite spins. The runs exceed the closed forms because of the finite amplitude.",
     ),
     Table(

@@ -28,7 +28,7 @@ tables = [
         ),
         "The thresholds are measured by bisection or on runs. Over few periods the drift of energy, momentum and phase is "
         "slower than over many. Over many periods the errors of energy and momentum are proportional to time, and the error "
-        "of the phase is v t + c t². Full runs: `lagrotor stability`.",
+        "of the phase is v t + c t². The command `lagrotor stability` makes the full runs.",
     )
 ]
 tables[0]

@@ -253,14 +253,15 @@ assert abs(least[3] - 6) < 1e-9
 assert abs(needs - 4) < 1e-9 and abs(largest - 4) < 1e-9 and len(signs) == 512
 Remark(
     "The signs of the spins that need the least spin",
-    "; ".join(
-        f"{found.standing} of the {found.count} sign patterns of the {L} × {L} grid stand at some spin, the best from "
-        f"{least[L]:.3f} √(aκ) on"
+    " ".join(
+        f"Of the {found.count} sign patterns of the {L} × {L} grid {found.standing} are stable if the spins are large "
+        "enough; the "
+        f"best one requires an axial momentum of {least[L]:.3f} √(aκ) per rotor."
         for L, found in tried.items()
     )
-    + ". Three rotors of the 3 × 3 grid at half speed (−½ on the diagonal, 1 elsewhere) lower what the others "
-    f"need to {needs:.3f} √(aκ); whatever the speeds and senses, the fastest needs {bound:.3f} √(aκ) at least, as no "
-    f"determinant of nine numbers up to 1 exceeds {largest:.0f}.",
+    + " If the three rotors on the diagonal of the 3 × 3 grid spin in the opposite sense at half the speed of the others, the "
+    f"others require only {needs:.3f} √(aκ). For no choice of speeds and senses can the largest momentum be below {bound:.3f} "
+    f"√(aκ), because no 3 × 3 determinant with entries between −1 and 1 exceeds {largest:.0f}.",
 )
 
 # %% [markdown]
@@ -323,7 +324,7 @@ root = i * w + c * g
 prove(
     sp.expand(a * root**2 + (c - i * beta) * root - (beta * w - a * w**2)),
     c**2 * g * (a * g + 1),
-    "what is left of the equation is of second order in the friction",
+    "the remaining terms of the equation are of second order in the friction",
     names="as^2+(c-i\\beta)s-\\kappa",
 )
 
@@ -355,22 +356,21 @@ falling = with_friction.stands()
 assert falling.critical_spin == inf
 Remark(
     "Thresholds on the exact motion",
-    "Exact runs 3 % below and above the least spin: "
-    + "; ".join(
-        f"{name}: from {factor:.5g} times the spins; growth under it measured within {abs(growth):.0e}, motion "
-        "over it bounded and "
-        f"within {off:.0e} of the linear one"
+    "The least spin for stability is compared with exact runs 3 % below and 3 % above it. "
+    + " ".join(
+        f"{name.capitalize()}: the threshold is {factor:.5g} times the given spins. Below it the measured growth rate has a "
+        f"relative error of {abs(growth):.0e}; above it the motion is bounded, and its relative distance from the linear motion "
+        f"is at most {off:.0e}."
         for name, (factor, growth, off) in cases.items()
-    )
-    + ".",
+    ),
 )
 
 # %%
 kappa_over_a = (coefficients(with_friction).gravity * coefficients(with_friction).S / coefficients(with_friction).A)[0]
 Remark(
     "With friction the structure falls slowly",
-    "A corner that is stable with spins of 40 rad/s falls with a friction of 0.5 N m s/rad: its tilt grows by the factor e every "
-    f"{1 / falling.growth:.2f} s, "
-    f"measured on the exact motion every {1 / measured_growth(with_friction, folds=0.2):.2f} s; without spin every "
+    "Without friction a corner with spins of 40 rad/s is stable. With a friction of 0.5 N m s/rad it falls: according to the "
+    f"linearised equations its tilt grows by the factor e every {1 / falling.growth:.2f} s, and in the exact motion every "
+    f"{1 / measured_growth(with_friction, folds=0.2):.2f} s. Without spin it grows by this factor every "
     f"{kappa_over_a**-0.5:.2f} s.",
 )

@@ -292,15 +292,13 @@ even = float(spins_win_worst_case(1 / 50))
 turning = pair(even, spins_worst_case(even)).spins[0]
 Remark(
     "Spins against a tuned mass",
-    f"A tuned mass of the discs' mass (μ = 1/50) brings the peak to {float(mass_worst_case(1 / 50).value):.2f}; "
-    "spinning discs do as well from "
-    f"γ = {even:.4f} on, a spin of {turning:.0f} rad/s for a sway of {2 * np.pi:.2f} rad/s; under white noise from "
-    f"γ = {float(spins_win_white_noise(1 / 50)):.4f}. Peaks of the structure against the least peak: "
-    + ", ".join(
-        f"γ = {ratio}: {one:.4f} against {float(spins_worst_case(ratio).value):.4f}"
-        for ratio, (one, _) in peaks.items()
-    )
-    + ". Equal and opposite spins give the same peaks.",
+    f"An optimal tuned mass as heavy as the discs (μ = 1/50) reduces the largest amplification to "
+    f"{float(mass_worst_case(1 / 50).value):.2f}. Spinning discs reduce it at least as much from γ = {even:.4f} on, which is a "
+    f"spin of {turning:.0f} rad/s for a sway of {2 * np.pi:.2f} rad/s. Under white noise they are at least as good from γ = "
+    f"{float(spins_win_white_noise(1 / 50)):.4f} on. At γ = {', '.join(map(str, peaks))} the largest amplification of the "
+    f"structure is {', '.join(f'{one:.4f}' for one, _ in peaks.values())}; the closed form of the least value gives "
+    f"{', '.join(f'{float(spins_worst_case(ratio).value):.4f}' for ratio in peaks)}. Equal and opposite spins give the same "
+    "values.",
 )
 
 # %% [markdown]
@@ -319,8 +317,9 @@ off = float(np.abs(measured - amplitude).max() / np.abs(amplitude).max())
 assert off < 1e-3
 Remark(
     "The transfer function on the exact motion",
-    f"Shaken at {drive_rate:g} rad/s for 25 s, the exact pair's amplitudes, in sway and yaw, are those of the "
-    f"transfer function within {off:.0e}.",
+    f"The ground is shaken at {drive_rate:g} rad/s. After 25 s the amplitudes of sway and yaw in the exact motion "
+    "differ from the "
+    f"transfer function by a relative error of {off:.0e}.",
 )
 
 # %%
@@ -328,6 +327,6 @@ deaf = pair(0.4, spins_white_noise(0.4)).response(2 * np.pi, ground=(0, 1))[0]
 assert np.abs(deaf[:, 0]).max() < 1e-12 * np.abs(deaf).max()
 Remark(
     "On which motions the spins act",
-    "A ground that shakes across the bar moves both tips across it as it does without spins: opposite spins act on sway along "
-    "the bar and on yaw, not on sway across; equal spins act on both sways, not on yaw.",
+    "A ground that shakes across the bar moves both tips across it, with or without spins. Opposite spins act on sway along the "
+    "bar and on yaw, but not on sway across the bar. Equal spins act on both directions of sway, but not on yaw.",
 )

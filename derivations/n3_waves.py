@@ -179,8 +179,9 @@ off_zigzag = max(heavy_zigzag(turn) for turn in (0.7, pi / 2, 2.2))
 assert off_zigzag < 1e-12
 Remark(
     "The zigzag with heavy bars",
-    f"Bars of {bar.mass:g} kg and {bar.inertia:g} kg m², alternating and equal spins of 10 rad/s, turns of 0.7, π/2 (the "
-    f"staircase) and 2.2: the rates of the pattern are the closed forms' within {off_zigzag:.0e} rad/s.",
+    f"The closed forms are compared with the rates of the pattern for bars of {bar.mass:g} kg and {bar.inertia:g} kg m², for "
+    "alternating and for equal spins of 10 rad/s, and for angles of 0.7, π/2 (the staircase) and 2.2 rad between consecutive "
+    f"bars. They differ by at most {off_zigzag:.0e} rad/s.",
 )
 
 # %% [markdown]
@@ -252,9 +253,8 @@ for angle in (pi / 6, 0.9, pi / 2):
 assert worst < 1e-12
 Remark(
     "Open zigzags",
-    "Of 16, 32 and 64 rotors at 30°, 51.6° and 90°, with equal and with alternating spins, every rate is the closed form's "
-    "within "
-    f"{worst:.0e}.",
+    "The closed form is compared with the rates of open zigzags of 16, 32 and 64 rotors at 30°, 51.6° and 90°, with equal and "
+    f"with alternating spins. The largest relative difference is {worst:.0e}.",
 )
 
 # %% [markdown]
@@ -278,9 +278,11 @@ def orders(link: Link) -> tuple[list[float], list[float]]:
 light, heavy = orders(massless), orders(Link(mass=1.0, inertia=0.1))
 Remark(
     "The lowest mode of a long zigzag",
-    "It approaches 2π over the round trip of a long wave with orders "
-    f"{light[1][0]:.2f} and {light[1][1]:.2f} in 1/N for massless bars (off by {light[0][2]:.1e} at N = 64) and "
-    f"{heavy[1][0]:.2f} and {heavy[1][1]:.2f} for heavy ones ({heavy[0][2]:.1e}).",
+    "The rate of the lowest mode approaches 2π divided by the time in which a long wave travels to the end and back. "
+    "The relative "
+    f"difference decreases as 1/N to the power {light[1][1]:.2f} for massless bars ({light[1][0]:.2f} between the two smaller N) "
+    f"and is {light[0][2]:.1e} at N = 64. For heavy bars the power is {heavy[1][1]:.2f} ({heavy[1][0]:.2f}) and the difference "
+    f"{heavy[0][2]:.1e}.",
 )
 
 # %% [markdown]
@@ -348,8 +350,8 @@ off = float(np.abs(np.abs(opposite.rates[:, 0]) - np.maximum(closed, 0)).max() /
 assert off < 1e-12 and equal.zero_bands == 1 and opposite.zero_bands == 0
 Remark(
     "The honeycomb's band",
-    f"At 200 wave numbers the rates of opposite spins are the closed form's within {off:.0e} of G/a. Equal spins have "
-    f"{equal.zero_bands} zero band, opposite ones {opposite.zero_bands}.",
+    f"At 200 wave numbers the rates for opposite spins differ from the closed form by at most {off:.0e} G/a. With equal spins "
+    f"the honeycomb has {equal.zero_bands} band at the rate zero, with opposite spins {opposite.zero_bands}.",
 )
 
 # %% [markdown]
@@ -364,7 +366,11 @@ grid = np.linspace(0.1, 3.0, 30)
 A, B = Rotor().J + 2 * (1 / 4 + 0.1), 1 / 4 - 0.1
 off_row = float(np.abs(dispersion(row, grid).rates[:, 0] / np.sqrt(50 / (A + 2 * B * np.cos(grid))) - 1).max())
 assert off_row < 1e-12
-Remark("The straight row", f"With hinges and heavy bars its rates are the closed form's within {off_row:.0e}.")
+Remark(
+    "The straight row",
+    "For a row with hinges and heavy bars the closed form differs from the rates of the pattern by a relative error of at most "
+    f"{off_row:.0e}.",
+)
 
 # %% [markdown]
 # The square net has two bars per rotor. It has no degree of freedom except on the lines $q_x=0$ and $q_y=0$, where a row or a
@@ -382,9 +388,10 @@ lines = dispersion(square(spins=10.0), [[0.0, 1.0], [1.0, 0.0], [0.0, 0.0]]).dof
 assert [v.zero_bands for v in counted.values()] == [1, 0, 1, 0, 0] and lines.tolist() == [1, 1, 2]
 Remark(
     "Degrees of freedom per cell, and bands at rate zero",
-    "In this order, "
-    + "; ".join(f"{name}: {v.dof.min()}, {v.zero_bands}" for name, v in counted.items())
-    + f". The square net has {lines[0]} on the lines q_x = 0 and q_y = 0 and {lines[2]} at q = 0.",
+    "The straight row has {} degree of freedom per cell and {} band at the rate zero. These numbers are {} and {} for "
+    "the zigzag, {} and {} for the honeycomb with equal spins, {} and {} for the honeycomb with opposite spins, and {} "
+    "and {} for the square net. On the lines q_x = 0 and q_y = 0 the square net has {} degree of freedom per cell, at "
+    "q = 0 it has {}.".format(*(n for v in counted.values() for n in (v.dof.min(), v.zero_bands)), lines[0], lines[2]),
 )
 
 # %% [markdown]
@@ -421,7 +428,7 @@ growing = falling.growth.max(axis=1) > 0
 assert (growing == (turning**2 < 4 * Rotor().J * weight)).all()
 Remark(
     "An infinite staircase under weight",
-    f"Spins of ±40 rad/s: of {len(fine)} waves {growing.sum()} grow, those and only those with β² < 4a|κ|.",
+    f"With spins of ±40 rad/s {growing.sum()} of {len(fine)} waves grow. These are exactly the waves with β² < 4a|κ|.",
 )
 
 
@@ -437,12 +444,12 @@ for bend, N in ((pi / 2, 3), (pi / 2, 9), (0.9, 9), (0.9, 17)):
     closed_form = 2 * np.sqrt(Rotor().J * weight * (1 - (np.cos(bend) * least) ** 2)) / (np.sin(bend) * least)
     found = odd_zigzag(bend, N).critical_spin() * Rotor().I3
     assert abs(found / closed_form - 1) < 1e-9
-    stands_from.append(f"{N} rotors at {np.degrees(bend):.0f}°: {found:.2f} kg m²/s")
+    stands_from.append(f"{found:.2f} kg m²/s for {N} rotors at {np.degrees(bend):.0f}°")
 assert zigzag(0.9, spins=1.0, gravity=9.81).piece(4).critical_spin() == np.inf
 Remark(
     "Zigzags under weight",
-    f"Least axial momentum of equal spins, massless bars, rotors of 1 kg and 1 m: {'; '.join(stands_from)}. 8 "
-    "rotors: none.",
+    "With equal spins, massless bars, and rotors of 1 kg and 1 m the least axial momentum for stability is "
+    f"{', '.join(stands_from)}. A zigzag of 8 rotors is unstable at any spin.",
 )
 
 # %% [markdown]
@@ -486,10 +493,9 @@ two = zigzag(pi / 2, spins=(12.0, -7.0)).dispersion(np.linspace(0, 2 * pi, 61))
 assert np.allclose(two.gaps, [(0, 5 / 2 / Rotor().J)], rtol=1e-9)
 Remark(
     "Long rows are stable if every second rotor does not spin",
-    "Least spin, in √(a|κ|)/I_3, at which a staircase of N rotors is stable under load, with all spins equal "
-    "and with every second rotor not spinning: "
-    + "; ".join(f"N = {N}: {all_:.2f} and {half:.2f}" for N, (all_, half) in least_spins.items())
-    + ".",
+    f"With all spins equal, a staircase of {', '.join(map(str, least_spins))} rotors is stable under load from a spin of "
+    f"{', '.join(f'{all_:.2f}' for all_, _ in least_spins.values())} √(a|κ|)/I_3 on. If every second rotor does not spin, the "
+    f"others need {max(half for _, half in least_spins.values()):.2f} √(a|κ|)/I_3 at each of these lengths.",
 )
 
 # %% [markdown]
@@ -514,6 +520,7 @@ off_run = float(np.abs(run.axes[..., :2] - wave).max() / tilt)
 assert off_run < 1e-3
 Remark(
     "The bands and the exact model",
-    f"Ring of 12 with heavy bars: all 12 modes at q = 2πm/12 within {off_ring:.0e}. Its wave m = 3 with a tilt of {tilt:g} "
-    f"stays, in an exact run of 3 periods, within {off_run:.0e} of the tilt of the Bloch wave.",
+    "The 12 rates of a closed ring of 12 rotors with heavy bars differ from the band at q = 2πm/12 by at most "
+    f"{off_ring:.0e} of the highest rate. In an exact run over 3 periods the wave m = 3 with a tilt of {tilt:g} differs from the "
+    f"Bloch wave by at most {off_run:.0e} of the tilt.",
 )

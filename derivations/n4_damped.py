@@ -83,9 +83,11 @@ decays = {link.inertia: decayed(link, 0.4) for link in bars}
 assert all(abs(found / closed - 1) < 1e-4 for closed, found in decays.values())
 Remark(
     "The decay on the exact motion",
-    "Rate of decay in 1/s by the law ac/(a² − b²), and of exact runs of amplitude 0.01 with c = 0.4 N m s/rad: "
-    + "; ".join(f"bar of 1 kg and {K:g} kg m²: {closed:.6f}, {found:.6f}" for K, (closed, found) in decays.items())
-    + ".",
+    "The law ac/(a² − b²) of the rate of decay is compared with exact runs of amplitude 0.01 with c = 0.4 N m s/rad. "
+    + " ".join(
+        f"For a bar of 1 kg and {K:g} kg m² the law gives {closed:.6f} 1/s and the exact run {found:.6f} 1/s."
+        for K, (closed, found) in decays.items()
+    ),
 )
 
 # %% [markdown]
@@ -98,7 +100,10 @@ slowing = Structure([(0, 0), (1, 0)], [(0, 1)], [10.0, -10.0], friction=0.2, spi
 lost = slowing.simulate(lasting, large.axes, large.rates, tol=1e-9).tilt_energy
 off = float(np.abs(lost / lost[0] / np.exp(-2 * 0.2 * lasting / slowing.rotor[0].J) - 1).max())
 assert off < 1e-8
-Remark("The decay at a large amplitude", f"From amplitude 0.3 the energy is E_0 e^(−2ct/a) within {off:.0e}.")
+Remark(
+    "The decay at a large amplitude",
+    f"In an exact run from the amplitude 0.3 the energy is E_0 e^(−2ct/a), with a relative error of at most {off:.0e}.",
+)
 
 # %% [markdown]
 # ## Friction topples the pair
@@ -183,13 +188,13 @@ assert all(
 )
 Remark(
     "Friction topples the paired precession",
-    "Angle in rad about the joint line at which exact runs from amplitude 0.1 with spins of ±10 rad/s come to rest, the same by "
-    "ΔP/2c, and by the closed form: "
-    + "; ".join(
-        f"bar of {mass:g} kg, c = {friction:g}: {found:.4f}, {whole:.4f}, {closed:.4f}"
+    "Exact runs start from the amplitude 0.1 with spins of ±10 rad/s and end at rest, rotated about the joint line. "
+    + " ".join(
+        f"For a bar of {mass:g} kg and c = {friction:g} N m s/rad the angle is {found:.4f} rad; ΔP/2c is {whole:.4f} "
+        "rad, and the "
+        f"closed form gives {closed:.4f} rad."
         for (mass, friction), (found, whole, closed) in toppled.items()
-    )
-    + ".",
+    ),
 )
 
 # %% [markdown]
@@ -228,8 +233,9 @@ assert abs(found_radius / expected - 1) < 0.01
 assert found_radius > 1
 Remark(
     "The radius of the precession grows as the rotors spin down",
-    f"Friction {friction:g} N m s/rad in every direction, I_3 = 1 and a = 1.25 kg m²: after {until:g} s the exact paired "
-    f"precession has {found_radius:.4f} of its radius, exp((1/I_3 − 1/a) c t) is {expected:.4f}.",
+    f"The friction is {friction:g} N m s/rad in every direction, I_3 = 1 kg m² and a = 1.25 kg m². After {until:g} s the radius "
+    f"of the exact paired precession is {found_radius:.4f} times its initial value; the law exp((1/I_3 − 1/a) c t) gives "
+    f"{expected:.4f}.",
 )
 
 # %% [markdown]
@@ -277,11 +283,14 @@ halved = {(link.mass, narrow): slowed(link, narrow) for link in (Link(), Link(1,
 assert all(abs(found / closed - 1) < 0.02 and change < 1e-7 for found, closed, change in halved.values())
 Remark(
     "Spin-down topples too",
-    "The mean angle in rad about the joint line, with its sign changed, over the turn in which spins of ±40 rad/s have halved "
-    "(after 3.5 s, c = 0), on exact runs and by the closed form: "
-    + "; ".join(
-        f"bar of {mass:g} kg, amplitude {narrow:g}: {-found:.4f}, {-closed:.4f}"
+    "Spins of ±40 rad/s decrease to half in 3.5 s, without friction of the axes (c = 0). The angle about the joint "
+    "line is averaged "
+    "over the turn at that time. "
+    + " ".join(
+        f"For a bar of {mass:g} kg and the amplitude {narrow:g} its mean is −{-found:.4f} rad in the exact motion; "
+        "the closed form "
+        f"gives −{-closed:.4f} rad."
         for (mass, narrow), (found, closed, _) in halved.items()
     )
-    + f". The energy stays within {max(change for *_, change in halved.values()):.0e}.",
+    + f" The relative change of the energy is at most {max(change for *_, change in halved.values()):.0e}.",
 )

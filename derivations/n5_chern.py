@@ -101,11 +101,11 @@ def sprung(spins: object, second: float = hinge) -> tuple[int, ...]:
 
 
 numbers = {
-    "spins of 30 rad/s": sprung(spin),
-    "of −30 rad/s": sprung(-spin),
-    "the second hinge 3 % below the edge": sprung(spin, hinge + 0.97 * edge),
-    "3 % above": sprung(spin, hinge + 1.03 * edge),
-    "spins of ±30 rad/s and hinges of 200 and 300 N m/rad": sprung((spin, -spin), 300.0),
+    "for spins of 30 rad/s": sprung(spin),
+    "for spins of −30 rad/s": sprung(-spin),
+    "if the second hinge is stiffer than the first by 3 % less than the threshold": sprung(spin, hinge + 0.97 * edge),
+    "if it is stiffer by 3 % more than the threshold": sprung(spin, hinge + 1.03 * edge),
+    "for spins of ±30 rad/s and hinges of 200 and 300 N m/rad": sprung((spin, -spin), 300.0),
 }
 first, reversed_, below, above, opposite = numbers.values()
 assert first == (-1, 1, -1, 1) and reversed_ == (1, -1, 1, -1) and below == (-1, 1, 0, 0)
@@ -114,10 +114,13 @@ touching = chern_numbers(honeycomb(spring=spring, spins=(spin, -spin), hinge=hin
 assert touching == ((0, 1), (2, 3))
 Remark(
     "Chern numbers of gyroscopes on a honeycomb of springs",
-    f"Springs of {spring:g} N/m, hinges of {hinge:g} N m/rad, the two precessions first, then the two nutations: "
-    + "; ".join(f"{name}: {', '.join(map(str, found))}" for name, found in numbers.items())
-    + f". The edge is at a difference of {edge:.3f} N m/rad. On a lattice of coupled gyroscopes Nash et al. (2015) saw a gap "
-    "in the spectrum and waves of the border in it that run one way, which numbers other than zero account for.",
+    f"The stiffness of the springs is {spring:g} N/m, and of the hinges {hinge:g} N m/rad. The Chern numbers of the "
+    "bands, first of "
+    "the two precessions and then of the two nutations, are "
+    + "; ".join(f"{', '.join(map(str, found))} {name}" for name, found in numbers.items())
+    + f". The threshold is a difference of {edge:.3f} N m/rad between the two hinges. On a lattice of coupled gyroscopes Nash et "
+    "al. (2015) observed a gap in the spectrum and, in the gap, waves that run along the border in one direction. Nonzero Chern "
+    "numbers explain such waves.",
 )
 
 # %% [markdown]
@@ -150,9 +153,9 @@ def packet(spins: float) -> tuple[tuple[int, ...], float, float]:
 assert clockwise[0] == -1 and against[0] == 1 and gone < -np.pi < np.pi < back
 Remark(
     "A wave packet on the border",
-    f"32 rotors, springs of 100 N/m, hinges of 100 N m/rad. With spins of 20 rad/s, Chern numbers "
-    f"{', '.join(map(str, clockwise))}, the packet has come round by {gone:.2f} rad after 5 s; with reversed spins by "
-    f"+{back:.2f} rad. The error of the run is {off:.0e}.",
+    "A piece of 32 rotors has springs of 100 N/m and hinges of 100 N m/rad. With spins of 20 rad/s the Chern numbers are "
+    f"{', '.join(map(str, clockwise))}, and in 5 s the packet travels around the middle of the piece by {gone:.2f} rad. With "
+    f"reversed spins it travels by +{back:.2f} rad. The error of the run is {off:.0e}.",
 )
 
 # %% [markdown]
@@ -216,12 +219,10 @@ along = edge_waves(moved, (low + high) / 2, 8, 61)
 assert (along.first, along.last) == (-1, 1)
 Remark(
     "Rigid bars with a Chern number",
-    "Squares and octagons of rigid bars, one joint of four moved by 0.3 m along both axes, spins of 30, 10, "
-    "30, 10 rad/s on "
-    f"hinges of {hinge:g} N m/rad: a gap from {low:.3f} to {high:.3f} rad/s between two bands of Chern numbers "
-    f"{bars.numbers[0]} and {bars.numbers[1]}, reversed with the spins. Along the border of a strip of 8 cells "
-    "one wave runs "
-    "at a rate in the gap, against the first step on one side, along it on the other. The unmoved pattern and "
-    "the honeycomb "
-    "carry a self-stress at q = 0 and have no number; the square net has no bands.",
+    "In a pattern of squares and octagons of rigid bars one joint of four is displaced by 0.3 m along both axes; the spins are "
+    f"30, 10, 30, 10 rad/s, and the hinges have {hinge:g} N m/rad. There is a gap from {low:.3f} to {high:.3f} rad/s between two "
+    f"bands with the Chern numbers {bars.numbers[0]} and {bars.numbers[1]}, which change sign if all spins are reversed. On each "
+    "border of a strip of 8 cells one wave has a rate in the gap. It runs opposite to the first step of the lattice on the first "
+    "border and along it on the last. Chern numbers are not defined for the pattern without displacement and for the honeycomb, "
+    "because their bars have a self-stress at q = 0, and for the square net, which has no bands.",
 )

@@ -163,24 +163,25 @@ slope = float(np.polyfit(np.log(pushes), np.log(seen), 1)[0])
 assert abs(slope + 1) < 0.1 and all(abs(x - y) < 5 for x, y in zip(said, seen, strict=True))
 Remark(
     "At the resonance any push makes the corner fall",
-    f"At {third / critical:.4f} times its critical spins the corner's slow precessions have the rate "
-    f"{-resonance.rates[0] / rate:.4f}, "
-    f"the fast ones {resonance.rates[-1] / rate:.4f} √(κ/a); c = {resonance.growth / rate:.4f}. No push of "
-    f"{pushes[-1]} √(κ/a) makes it fall "
-    f"before {standing.fall_time(pushes[-1] * rate) * rate:.1f}; pushed by {', '.join(map(str, pushes))} in one direction it "
-    f"falls after {', '.join(f'{x:.1f}' for x in seen)} on exact runs, {', '.join(f'{x:.1f}' for x in said)} by the normal form "
-    f"of fourth order, in √(a/κ): slope −{-slope:.3f} against −1.",
+    f"At {third / critical:.4f} times the critical spins the slow precessions of the corner have the rate "
+    f"{-resonance.rates[0] / rate:.4f} √(κ/a), the fast ones {resonance.rates[-1] / rate:.4f} √(κ/a), and the coefficient of "
+    f"third order is c = {resonance.growth / rate:.4f} √(κ/a). No push of {pushes[-1]} √(κ/a) makes the corner fall before "
+    f"{standing.fall_time(pushes[-1] * rate) * rate:.1f} √(a/κ). After pushes of {', '.join(map(str, pushes))} √(κ/a) in one "
+    f"direction it falls after {', '.join(f'{x:.1f}' for x in seen)} √(a/κ) in exact runs and after "
+    f"{', '.join(f'{x:.1f}' for x in said)} √(a/κ) according to the normal form of fourth order. The exact time is proportional "
+    f"to the push to the power −{-slope:.3f} (expected −1).",
 )
 
 # %%
 low, high = resonance.window(0.01 * rate)
 Remark(
     "The width of the resonance",
-    f"A push of 0.01 √(κ/a) may make it fall between {low / critical:.4f} and {high / critical:.4f} times the critical spins, a "
-    "window "
-    "that grows with the push. "
-    f"At {fourth / critical:.4f}, where three slow rates are a fast one, the terms of fourth order do the same more "
-    f"slowly, as one over the square of the push: not before {slower.least_time(0.06 * rate) * rate:.0f} for 0.06.",
+    f"A push of 0.01 √(κ/a) can make the corner fall between {low / critical:.4f} and {high / critical:.4f} times the critical "
+    "spins. This interval is wider for larger pushes. "
+    f"At {fourth / critical:.4f} times the critical spins the sum of three slow rates is a fast one. There the terms of fourth "
+    "order make the corner fall more slowly, in a time proportional to one divided by the square of the push: after a "
+    "push of 0.06 "
+    f"√(κ/a) it does not fall before {slower.least_time(0.06 * rate) * rate:.0f} √(a/κ).",
 )
 
 # %%
@@ -189,8 +190,8 @@ holding = replace(equal, spins=1.0607 * equal.critical_spin()).stands()
 assert holding.kind == "holds"
 Remark(
     "With equal spins the corner does not fall by this resonance",
-    "On the same corner with three equal spins the rates add up at the same factor, but the coefficient vanishes: at 1.0607 "
-    f"times the critical spins no push below {holding.resonance.push() / rate:.2f} √(κ/a) makes it fall.",
+    "If all three spins of the corner are equal, the rates add up at the same factor 1.0607, but the coefficient of third order "
+    f"is zero. At 1.0607 times the critical spins no push below {holding.resonance.push() / rate:.2f} √(κ/a) makes it fall.",
 )
 
 # %% [markdown]
@@ -220,10 +221,10 @@ for push in small:
 assert abs(measured_order(small, times) + 4) < 0.1
 Remark(
     "The time of stability",
-    "With spins as 1 : 0.3 : 1.2 and 1.5 times the critical ones no resonance is near. By the normal form of fifth order no push "
-    "of "
-    + ", ".join(f"{push:g}" for push in small)
-    + " √(κ/a) grows to √2 times its size in "
-    + ", ".join(f"{time:.1e}" for time in times)
-    + f" turns of the fastest mode: slope {measured_order(small, times):.2f} against −4.",
+    "The spins are in the ratio 1 : 0.3 : 1.2 and 1.5 times the critical ones, where no resonance is near. According "
+    "to the normal "
+    f"form of fifth order the motion after a push of {', '.join(f'{push:g}' for push in small)} √(κ/a) stays below √2 times its "
+    f"initial size for at least {', '.join(f'{time:.1e}' for time in times)} turns of the fastest mode. This time is "
+    "proportional "
+    f"to the push to the power −{-measured_order(small, times):.2f} (expected −4).",
 )

@@ -50,7 +50,7 @@ prove(
 
 # %% [markdown]
 # In a cell $k$ steps away each product of exponentials has the factor $e^{ikqm}$, $m$ its multiple of $\theta$, and a time
-# derivative is $-i\omega m$: $c$, $f$ and $B$ are read off the exact Lagrangian as a polynomial, with the bars' lengths put in
+# derivative is $-i\omega m$: $c$, $f$ and $B$ are read from the exact Lagrangian as a polynomial, with the bars' lengths put in
 # as a series.
 #
 # ## A case in closed form
@@ -98,8 +98,8 @@ expanded = np.array([row.nonlinear_wave(0.0, band).shift for band in (1, 0)])
 assert np.abs(expanded / closed - 1).max() < 1e-9
 Remark(
     "A row of heavy tops in phase",
-    f"Shifts of {expanded[0]:.5f} a² and −{-expanded[1]:.5f} a² rad/s by the expansion, those of the closed form but for "
-    f"{np.abs(expanded / closed - 1).max():.0e}.",
+    f"For the two rates the expansion gives the shifts {expanded[0]:.5f} a² and −{-expanded[1]:.5f} a² rad/s. Their relative "
+    f"difference from the closed form is at most {np.abs(expanded / closed - 1).max():.0e}.",
 )
 
 # %% [markdown]
@@ -137,10 +137,12 @@ for name, turns, pattern in ROWS:
     orders[name] = measured_order(sizes, np.abs(rates - wave.rate_at(0) - wave.shift * sizes**2))
     assert abs(orders[name] - 4) < 0.1
     found.append(
-        f"{name}: rate {wave.rate:.4f} rad/s, shift −{-wave.shift:.4f} a² rad/s; on exact runs of "
-        f"amplitudes {', '.join(f'{x:.3f}' for x in sizes)} what it leaves goes as the power {orders[name]:.2f} of a, against 4"
+        f"{name.capitalize()}: the wave has the rate {wave.rate:.4f} rad/s and the shift −{-wave.shift:.4f} a² rad/s; "
+        "in exact runs of "
+        f"amplitudes {', '.join(f'{x:.3f}' for x in sizes)} the remaining error is proportional to a to the power "
+        f"{orders[name]:.2f} (expected 4)."
     )
-Remark("Rings of seven rotors", f"{'; '.join(found).capitalize()}.")
+Remark("Rings of seven rotors", " ".join(found))
 
 # %% [markdown]
 # ## Three waves
@@ -198,10 +200,12 @@ for amplitude in pumped:
 assert max(np.abs(short)) < 0.02
 Remark(
     "A wave that decays into two",
-    f"A hexagon of springs, tuned so that {triad.rates[0]:.4f} + {triad.rates[1]:.4f} = {triad.rates[2]:.4f} rad/s for three, "
-    f"four and one turns of phase: the third of amplitude a feeds the first two at {triad.growth(2, 1.0):.4f} a 1/s. On exact "
-    f"runs with a = {', '.join(map(str, pumped))} the first grows by less by {', '.join(f'{100 * x:.2f} %' for x in short)}: "
-    "shifts of the three rates detune them.",
+    f"A hexagon of springs is tuned so that the waves of three, four and one turns of phase have the rates "
+    f"{triad.rates[0]:.4f} + "
+    f"{triad.rates[1]:.4f} = {triad.rates[2]:.4f} rad/s. The third wave, with the amplitude a, makes the first two grow at the "
+    f"rate {triad.growth(2, 1.0):.4f} a 1/s. In exact runs with a = {', '.join(map(str, pumped))} the first wave grows at a rate "
+    f"that is smaller by {', '.join(f'{100 * x:.2f} %' for x in short)}, because the three rates shift and no longer add up "
+    "exactly.",
 )
 
 # %%
@@ -210,8 +214,8 @@ explosive = [t for m in range(6) for t in heavy.three_waves(np.pi / 3 * m) if t.
 assert explosive and all(t.energy_signs == (-1, -1, 1) for t in explosive)
 Remark(
     "Waves that grow together",
-    "Under weight, near the critical spins, two slow precessions and a fast one whose frequency is their sum "
-    f"grow without bound by the terms of third order: {len(explosive)} such triads in a heavy hexagon of springs with "
-    "one of its own wave numbers, the "
-    f"first at rates {explosive[0].rates[0]:.3f} + {explosive[0].rates[1]:.3f} = {explosive[0].rates[2]:.3f} rad/s.",
+    "Under weight, near the critical spins, two slow precessions and a fast one whose rate is the sum of theirs can grow "
+    f"together without bound, according to the terms of third order. A hexagon of springs under weight has {len(explosive)} such "
+    f"triads at its own wave numbers; the first has the rates {explosive[0].rates[0]:.3f} + {explosive[0].rates[1]:.3f} = "
+    f"{explosive[0].rates[2]:.3f} rad/s.",
 )

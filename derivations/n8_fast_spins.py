@@ -67,10 +67,10 @@ powers = [measured_order(factors, errors) for errors in (off, rest)]
 assert abs(powers[0] + 2) < 0.1 and abs(powers[1] + 4) < 0.1
 Remark(
     "The error of the limit",
-    f"Four hanging gyroscopes joined by five springs, spins as 1 : 1.2 : −0.9 : 1.1 times {', '.join(f'{f:g}' for f in factors)} "
-    f"rad/s: the relative errors of the slow rates in the limit are {', '.join(f'{e:.1e}' for e in off)}, ∝ the power "
-    f"−{-powers[0]:.2f} of the spins; with the second term subtracted they are {', '.join(f'{e:.1e}' for e in rest)}, ∝ the "
-    f"power −{-powers[1]:.2f}.",
+    "Four hanging gyroscopes are joined by five springs; their spins are in the ratio 1 : 1.2 : −0.9 : 1.1. If the first spin is "
+    f"{', '.join(f'{f:g}' for f in factors)} rad/s, the slow rates in the limit have the relative errors "
+    f"{', '.join(f'{e:.1e}' for e in off)}, proportional to the spins to the power −{-powers[0]:.2f}. With the next term the "
+    f"errors are {', '.join(f'{e:.1e}' for e in rest)}, proportional to the power −{-powers[1]:.2f}.",
 )
 
 # %% [markdown]
@@ -140,11 +140,14 @@ assert [found[angle].numbers for angle in (120, 105)] == [(-1, 1)] * 2 and found
 assert [found[angle].numbers for angle in (75, 60)] == [(1, -1)] * 2
 Remark(
     "Hanging gyroscopes on a honeycomb",
-    f"Weight {weight:g} N m, springs of {spring:g} N/m, momenta of {spin:g} kg m²/s: a gap from {low:.4f} to {high:.4f} rad/s, "
-    f"as the closed form has it; with inertia from {with_inertia[0]:.4f} to {with_inertia[1]:.4f}. Chern numbers of the bands: "
-    + "; ".join(
-        f"{angle}°: {', '.join(f'{n:+d}'.replace('-', '−') for n in chern.numbers) if len(chern.groups) > 1 else 'they touch'}"
+    f"The moment of the weight is {weight:g} N m, springs have {spring:g} N/m, and the axial momenta are {spin:g} kg "
+    "m²/s. In the "
+    f"limit of fast spins there is a gap from {low:.4f} to {high:.4f} rad/s, which equals the closed form; with the transverse "
+    f"inertia it is from {with_inertia[0]:.4f} to {with_inertia[1]:.4f} rad/s. The Chern numbers of the two bands are "
+    + ", ".join(
+        f"{' and '.join(f'{n:+d}'.replace('-', '−') for n in chern.numbers)} at a bond angle of {angle}°"
         for angle, chern in found.items()
+        if len(chern.groups) > 1
     )
-    + ". The direction of the waves on the border reverses at right angles, as Nash et al. found.",
+    + ". At 90° the bands touch, and the waves on the border reverse their direction, as Nash et al. found.",
 )

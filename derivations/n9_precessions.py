@@ -108,8 +108,8 @@ for rate_sign, one in zip((-1, 1), laws, strict=True):
 assert max(map(abs, off)) < 1e-4
 Remark(
     "One top",
-    f"The shifts of both its rates, −{-laws[0].shift:.5f} and {laws[1].shift:.5f} rad/s, and of both multipliers are those of "
-    "Routh's closed forms.",
+    f"The shifts of its two rates are −{-laws[0].shift:.5f} τ² and {laws[1].shift:.5f} τ² rad/s. These and the shifts of both "
+    "multipliers equal Routh's closed forms.",
 )
 
 # %% [markdown]
@@ -206,9 +206,10 @@ for name, (structure, mode) in STRUCTURES.items():
     assert np.abs(np.subtract(measured[name], (2, 4, 2, 4))).max() < 0.1, (name, measured[name])
 Remark(
     "Orders",
-    "Measured exponents of the errors in the tilt: of the upright frequency (expected 2), of the law of the "
-    "frequency (4), of the upright multipliers (2), of the law of the multipliers (4): "
-    + "; ".join(f"{', '.join(f'{order:.2f}' for order in orders)} ({name})" for name, orders in measured.items())
+    "The errors of four predictions are proportional to powers of the tilt: of the upright frequency (expected exponent 2), of "
+    "the frequency with its shift (4), of the upright multipliers (2) and of the multipliers with their shifts (4). The measured "
+    "exponents are "
+    + "; ".join(f"{', '.join(f'{order:.2f}' for order in orders)} for {name}" for name, orders in measured.items())
     + ".",
 )
 
@@ -228,7 +229,8 @@ seen = float(np.sqrt(low - first * (high - low) / (last - first)))
 assert abs(seen / said.edge - 1) < 0.05 and near.steady_precession(2, 0.9 * said.edge).growth == 0
 Remark(
     "The edge of stability",
-    f"At {', '.join(f'{rate:.4f}' for rate in near.modes().rates)} rad/s the precession of the fastest is stable up to a tilt "
-    f"of {said.edge:.4f} by the law, {seen:.4f} on exact orbits; at {beyond[1]:.4f} a perturbation grows by "
-    f"{grown[1]:.4f} per turn, {said.growth_at(beyond[1]):.4f} by the law.",
+    f"The triangle has the rates {', '.join(f'{rate:.4f}' for rate in near.modes().rates)} rad/s. Its fastest precession is "
+    f"stable up to a tilt of {said.edge:.4f} according to the law and of {seen:.4f} on exact orbits. At a tilt of "
+    f"{beyond[1]:.4f} the exact growth exponent of a perturbation is {grown[1]:.4f} per turn; the law gives "
+    f"{said.growth_at(beyond[1]):.4f}.",
 )

@@ -74,24 +74,28 @@ twist = equal(growth, t9["unstable"])
 # %%
 curve = t4["curves"]["massless, k = 1"]
 least = "; ".join(f"{value:.4f} at r_0 = {r}" for r, value in zip(t4["amplitudes"], curve, strict=True))
-powers = "; ".join(f"{kind}, power {slope:.2f} ({name})" for name, (kind, slope, *_) in t5["measured"].items())
-tilts = "; ".join(f"{seen:.4f} against {said:.4f} 1/s ({name})" for name, (said, seen) in t8["pairs"].items())
-twists = "; ".join(f"{seen:.4f} against {hill:.4f} 1/s ({x} rad)" for x, (_, hill, seen) in t9["pairs"].items())
-cancelled = ", ".join(f"{force:.2f} N over {turns} swings" for turns, force in t6["by_window"].items())
+powers = "; ".join(f"{kind}, exponent {slope:.2f} ({name})" for name, (kind, slope, *_) in t5["measured"].items())
+tilts = "; ".join(f"{seen:.4f} 1/s, predicted {said:.4f} 1/s ({name})" for name, (said, seen) in t8["pairs"].items())
+twists = "; ".join(
+    f"{seen:.4f} 1/s, by Hill's equation {hill:.4f} 1/s ({x} rad)" for x, (_, hill, seen) in t9["pairs"].items()
+)
+cancelled = ", ".join(f"{force:.2f} N over {turns} oscillations" for turns, force in t6["by_window"].items())
 said, given, seen = t5["edges"][1.2]
 rows = (
     (
         "normal modes",
         "one fitted constant for any bar and any spins",
         ("one oscillation and four zero roots, for any spins and bar, in the limit of small motion:", frequency),
-        f"paper's scene of 5.2.1: {t1['value']:.5f} rad/s; the spectrum lies on it (figure)",
+        f"in the paper's scene of 5.2.1 {t1['value']:.5f} rad/s; the peaks of the spectrum agree (figure)",
         FigureLink("t1"),
     ),
     (
         "response to a shock",
-        "energies read off runs, 100 to 100.45",
+        "energies of 100 and 100.45 J, read from runs",
         ("amplitude, centre, drift and energy in closed form, first order; along x, equal spins:", gained),
-        f"100 + {t2['answer'].energy:.5f} J, exact {t2['exact']:.5f} J; error of order {t2['slope']:.3f} in the shock",
+        f"the closed form gives 100 + {t2['answer'].energy:.5f} J, the exact run {t2['exact']:.5f} J; the error is "
+        "proportional to "
+        f"the shock to the power {t2['slope']:.3f}",
         FigureLink("t2"),
     ),
     (
@@ -120,7 +124,8 @@ rows = (
             "elliptic for b > 0, hyperbolic for b ≤ 0 at small amplitude; growth lambda per radian, leading term:",
             stability,
         ),
-        f"{powers}; edge between the two at sigma = 1.2, k = 1: r_0 = {said:.3f} ± {given:.3f}, exact {seen:.3f}",
+        f"{powers}; the edge between the two at sigma = 1.2, k = 1 is r_0 = {said:.3f} ± {given:.3f} by the law and "
+        f"{seen:.3f} on exact orbits",
         FigureLink("t5"),
     ),
     (
@@ -130,7 +135,7 @@ rows = (
             "a twist carries momentum about the joint line, so the pair rotates, in second order. The impulse that cancels it:",
             cancelling,
         ),
-        f"{t6['tried'][1]:.2f} N to second order; on exact runs {cancelled}",
+        f"the force is {t6['tried'][1]:.2f} N to second order; on exact runs it is {cancelled}",
         FigureLink("t6"),
     ),
     (
@@ -146,21 +151,21 @@ rows = (
         "toppling",
         "opposite spins topple",
         ("uniform rotation is exact at any angle; it is stable if b nu² > G nu/k, with the threshold", edge),
-        f"growth rates {tilts}",
+        f"exact growth rates {tilts}",
         FigureLink("t8"),
     ),
     (
         "equal spins",
         "one rotor, the axes aligned",
         ("exact, but a twist grows if K > m ell²/4, b < 0; first order in the half-angle:", twist),
-        f"growth rates {twists}",
+        f"exact growth rates {twists}",
         FigureLink("t9"),
     ),
     (
         "conserved quantities",
         "A and B",
         ("E, G_1, G_2 and P, and along the paired precession no other; B is conserved, A is not",),
-        f"drift over 3 s at most {max(t10['drift'].values()):.1e}; A oscillates ∝ r_0 to the power {t10['order']:.2f}",
+        f"the drift over 3 s is at most {max(t10['drift'].values()):.1e}; A oscillates ∝ r_0 to the power {t10['order']:.2f}",
         FigureLink("t10"),
     ),
     (
@@ -172,10 +177,10 @@ rows = (
         ),
         "time to x = 0.5: "
         + "; ".join(
-            f"{exact:.2f} s against {said:.2f} s at {force:g} N"
+            f"{exact:.2f} s exact, {said:.2f} s averaged, at {force:g} N"
             for force, said, exact in zip(t11["FORCES"], t11["law"], t11["exact_times"], strict=True)
         )
-        + f"; error of order {t11['time_order']:.2f} in the force",
+        + f"; the relative error is proportional to the force to the power {t11['time_order']:.2f}",
         FigureLink("t11"),
     ),
     (
@@ -188,16 +193,16 @@ rows = (
             t12["law"],
             equal(power**2, t12["growth"]),
         ),
-        "orders of the error, of the shift and of the drift of the azimuth: "
+        "exponents of the errors of the shift and of the drift of the azimuth: "
         + "; ".join(f"{one:.2f} and {two:.2f} ({name})" for name, (one, two) in t12["measured"].items())
-        + "; of the growth: "
+        + "; exponents of the error of the growth: "
         + ", ".join(f"{order:.2f} ({name})" for name, order in t12["grown"].items()),
         FigureLink("t12"),
     ),
     (
         "further integrals",
         "none",
-        "small oscillations conserve the averaged action to every order; larger ones with a heavy bar are chaotic in runs",
+        "small oscillations conserve the averaged action to every order; larger ones with a heavy bar are chaotic in simulations",
         f"the distance of neighbouring motions grows as the power {t13['power']:.2f} of time at r_0 = 0.05, and by the factor "
         f"exp({t13['fast'][40] / 40:.2f}) per turn at 0.3; such a run is reliable for {t13['horizon']:.0f} turns",
         FigureLink("t13"),
@@ -211,7 +216,7 @@ rows = (
             "constant flux, with h half the angle between the axes,",
             t14["flux"],
         ),
-        "orders of the error of its path: "
+        "exponents of the error of its path: "
         + "; ".join(f"{order:.2f} ({name})" for name, order in t14["measured"].items()),
         FigureLink("t14"),
     ),
@@ -224,7 +229,7 @@ rows = (
             "1973); for Hénon's map, with c = cot α/2,",
             equal(turned, t15["twist"]),
         ),
-        "orders of the error with the twist, and through sixth order: "
+        "exponents of the error with the twist, and of the error through sixth order: "
         + "; ".join(f"{one:.2f} and {two:.2f} ({name})" for name, (_, one, two) in t15["measured"].items()),
         FigureLink("t15"),
     ),
@@ -232,12 +237,12 @@ rows = (
         "resonances under load",
         "none",
         (
-            "linearly stable, but unstable to any push if two slow rates add up to a fast one; near this resonance the largest "
-            "push that stays bounded, c the coefficient of third order:",
+            "linearly stable, but unstable to any push if two slow rates add up to a fast one; with c the coefficient of third "
+            "order, the largest push whose motion stays bounded near this resonance is",
             equal(reached, n6["edge"]),
         ),
-        f"a corner of three at {n6['third'] / n6['critical']:.4f} times its critical spins: the time is ∝ the push to the "
-        f"power −{-n6['slope']:.3f}; new for rotors and bars, the mechanism is Cherry's (1925)",
+        f"for a corner of three at {n6['third'] / n6['critical']:.4f} times its critical spins the time is ∝ the push to the "
+        f"power −{-n6['slope']:.3f}; the result is new for rotors and bars, the mechanism is Cherry's (1925)",
         FigureLink("n6"),
     ),
     (
@@ -247,11 +252,11 @@ rows = (
             "the rate of a wave shifts ∝ the square of its amplitude, N = a²/4, including the forced response:",
             equal(shift, n7["moved"]),
         ),
-        "orders of the remaining error: "
+        "exponents of the remaining error: "
         + ", ".join(f"{order:.2f} ({name})" for name, order in n7["orders"].items())
         + f"; with a wave of amplitude {n7['pumped'][0]:g} two others grow {100 * n7['short'][0]:.1f} % more slowly "
         "than predicted; "
-        "new for rotors and bars, the method is Whitham's (1965)",
+        "the result is new for rotors and bars, the method is Whitham's (1965)",
         FigureLink("n7"),
     ),
     (
@@ -264,8 +269,9 @@ rows = (
             equal(n8["omega"], n8["in_limit"]),
             "with the relative error ε",
         ),
-        f"error of the slow rates of four gyroscopes ∝ the power −{-n8['powers'][0]:.2f} of the spins, with the next term "
-        f"−{-n8['powers'][1]:.2f}; the gap of hanging gyroscopes on a honeycomb from {n8['low']:.4f} to {n8['high']:.4f} rad/s, "
+        f"the error of the slow rates of four gyroscopes is ∝ the spins to the power −{-n8['powers'][0]:.2f}, with the next term "
+        f"−{-n8['powers'][1]:.2f}; the gap of hanging gyroscopes on a honeycomb is from {n8['low']:.4f} to "
+        f"{n8['high']:.4f} rad/s, "
         f"with inertia from {n8['with_inertia'][0]:.4f} to {n8['with_inertia'][1]:.4f}",
         FigureLink("n8"),
     ),
@@ -279,9 +285,10 @@ rows = (
             equal(Omega, n9["law"]),
             "and its multipliers, up to the resonance of two modes whose rates nearly add up to it; new for rotors and bars",
         ),
-        "orders of the remaining errors of rate and multipliers: "
+        "exponents of the remaining errors of rate and multipliers: "
         + "; ".join(f"{orders[1]:.2f} and {orders[3]:.2f} ({name})" for name, orders in n9["measured"].items())
-        + f"; the fastest precession of a triangle is stable up to a tilt of {n9['said'].edge:.4f}, exact {n9['seen']:.4f}",
+        + f"; the fastest precession of a triangle is stable up to a tilt of {n9['said'].edge:.4f}, on exact orbits "
+        f"{n9['seen']:.4f}",
         FigureLink("n9"),
     ),
 )

@@ -192,9 +192,9 @@ def torque_written(omega: str) -> Form:
 
 
 slowness = (
-    "A force switched on at once also starts a nutation, whose acceleration J r × r'' is as large as the "
+    "A force switched on suddenly also starts a nutation, whose acceleration J r × r'' is as large as the "
     "torque. The formula then describes only the mean motion.",
-    "The lever is R r. The paper's notation confuses it with the unit vector; the paper has R = 1.",
+    "The lever is R r. The paper uses the same symbol for the unit vector, which is no difference for R = 1.",
 )
 verdict(
     "2.04",

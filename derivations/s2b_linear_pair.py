@@ -141,7 +141,7 @@ prove(shares, G_1**2 / G_2**2, "the torque on rotor 1 over that on rotor 2", nam
 
 # %%
 def off(ratio: sp.Expr) -> sp.Expr:
-    """Mean drift over the paper's, for a force along a massless bar and omega_2 = ratio omega_1."""
+    """Mean drift divided by the paper's, for a force along a massless bar and omega_2 = ratio omega_1."""
     paper = R / (I3 * (omega_1 + omega_2))
     return sp.cancel((mean_drift[1].diff(F[0]) / paper).subs({b: 0, omega_2: ratio * omega_1}))
 
@@ -150,21 +150,25 @@ rho = sp.Symbol("rho", real=True)
 prove(
     off(rho),
     (1 + rho) ** 2 / (2 * (1 + rho**2)),
-    "the drift of the mean axis over the paper's, ρ = ω₂/ω₁",
+    "the drift of the mean axis divided by the paper's, ρ = ω₂/ω₁",
     names=r"\text{mean} / \text{paper}",
 )
 
 # %%
 half, third = sp.Rational(1, 2), sp.Rational(1, 3)
-table = ", ".join(f"{float(off(ratio)):.3g} at {ratio}" for ratio in (sp.S.One, half, third, sp.S.Zero, -half))
+ratios = (sp.S.One, half, third, sp.S.Zero, -half)
+table = (
+    f"{', '.join(f'{float(off(ratio)):.3g}' for ratio in ratios)} for ω₂/ω₁ = {', '.join(map(str, ratios))}"
+).replace("-", "−")
 opposite = [sp.cancel(e[1].diff(F[0]).subs({b: 0, omega_2: -omega_1})) for e in (drift_1, drift_2)]
 apart = sp.cancel(opposite[1] / opposite[0])  # of the drifts of the two axes
 twist_rate = sp.factor((y_drift[0] - y_drift[1]).subs(G_2, G_1))
 Remark(
     "Error of the paper's drift",
-    f"Mean drift of the axes under a steady force along a massless bar, as a multiple of the paper's rate, at each ω₂/ω₁: "
-    f"{table}. For opposite spins the paper's rate is infinite; the axes drift at {opposite[0]} and {opposite[1]} per unit of "
-    f"force. A force across the bar on one tip twists a pair of equal spins: y₁′ − y₂′ grows as {twist_rate}.",
+    "A steady force along a massless bar makes the mean axis drift; the rate, divided by the paper's rate, is "
+    f"{table}. For opposite spins the paper's rate is infinite, while the two axes drift at {opposite[0]} and {opposite[1]} per "
+    "unit of force. A force across the bar on one tip twists a pair of equal spins: y₁′ − y₂′ grows as "
+    f"{twist_rate}.",
 )
 
 # %% [markdown]

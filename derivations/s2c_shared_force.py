@@ -40,7 +40,9 @@ verdict(
     {r"\vec F_A + \vec F_B": shared, r"\vec F_A": F_A, r"\vec F_B": F_B},
     premises=[massless_link],
     uses=["2.01"],
-    evidence=["The scanned source is garbled (F_1 to F_4, a sixth); only the lines that 2.07 uses are judged."],
+    evidence=[
+        "The scanned source is garbled: it prints F_1 to F_4 and a sixth symbol. Only the lines that 2.07 uses are judged."
+    ],
     form={
         r"\vec F_A + \vec F_B": form("F - m*A"),
         r"\vec F_A": form("(F - m*A)/2 + f"),
@@ -152,9 +154,9 @@ verdict(
     (1 + rho) * cross(r, f),
     premises=premises,
     correction=right_8,
-    wrong="The left side has the wrong sign (rho = omega_1/omega_2).",
+    wrong="The left side has the wrong sign; here rho = omega_1/omega_2.",
     uses=["2.07"],
-    evidence=["Collecting 2.07 gives rho r x F/2 - r x F/2, rho = omega_1/omega_2."],
+    evidence=["If 2.07 is solved for r x f, the right side is rho r x F/2 - r x F/2, with rho = omega_1/omega_2."],
     form=right_8,
 )
 
@@ -164,10 +166,11 @@ verdict(
     cross(r, f),
     premises=premises,
     correction=right_9,
-    wrong="Same sign error as in the equation before (5).",
+    wrong="This line has the same sign error as the equation before (5).",
     uses=["2.08"],
     evidence=[
-        "The sign error of 2.08 propagates: the faster rotor takes the larger share of the force, not the smaller."
+        "The sign error of 2.08 is carried over. In the corrected line the faster rotor takes the larger share of the force; the "
+        "printed line gives it the smaller share."
     ],
     form=right_9,
 )
@@ -178,7 +181,7 @@ verdict(
     spinning_1,
     premises=premises,
     correction=form("rho/(1 + rho)*cross(r, F)", rho=rho),
-    wrong="Same sign error as in the equation before (5).",
+    wrong="This line has the same sign error as the equation before (5).",
     uses=["2.09", "2.04"],
     form=form("rho/(1 + rho)*cross(r, F)", rho=rho),
 )
@@ -195,7 +198,7 @@ verdict(
     rate_1,
     premises=premises,
     correction=right_11,
-    wrong="The same sign error gives the factor 2/(1 + rho); the correct one is 2 rho/(1 + rho), rho = omega_1/omega_2.",
+    wrong="The same sign error gives the factor 2/(1 + rho) instead of 2 rho/(1 + rho), with rho = omega_1/omega_2.",
     uses=["2.10"],
     evidence=["(7) follows from the premises: a second sign error between (6) and (7) cancels that of 2.08."],
     form=right_11,
@@ -225,13 +228,15 @@ verdict(
     uses=["2.11", "2.04", "2.05"],
     evidence=[
         f"From rest the axes stay parallel only if {sp.factor(pair['twisting'])} = 0, because the bar exerts a "
-        "force only along itself. A force along the bar leaves them parallel if omega_1 = omega_2, a force across it "
-        "on one tip, from rest, never: for "
-        "equal spins the mean axis still follows (7), while the axes twist apart.",
-        f"Mean drift under a steady force along a massless bar, over the paper's, by omega_2/omega_1: {pair['table']}. The "
-        f"bar shares the force as {pair['shares']}, squares of the spins, not as the spins.",
-        f"After an impulse the pair rings about the drift at Omega^2 = {pair['Omega_squared']}.",
-        f"For omega_2 = -omega_1 the paper's rate has no bound; the axes drift at {pair['opposite'][0]} and "
+        "force only along itself. This holds for a force along the bar if omega_1 = omega_2. It never holds for a "
+        "force across the "
+        "bar on one tip: for equal spins the mean axis still follows (7), while the axes twist apart.",
+        "A steady force along a massless bar makes the mean axis drift; the rate, divided by the paper's rate, is "
+        f"{pair['table']}. The torques on the two rotors have the ratio {pair['shares']}: the bar shares the force in "
+        "the ratio of "
+        "the squares of the spins, not of the spins.",
+        f"After an impulse the axes oscillate about the drift, with Omega^2 = {pair['Omega_squared']}.",
+        f"For omega_2 = -omega_1 the paper's rate is infinite; the two axes drift at {pair['opposite'][0]} and "
         f"{pair['opposite'][1]} per unit of force.",
     ],
     form={r"\dot{\hat r}": form("cross(r, F)/((omega_1 + omega_2)*I_3)"), mean_axis: mean_drift},
@@ -264,7 +269,8 @@ verdict(
     form={name: form(text, F_x=F[0], F_y=F[1]) for name, text in drifts.items()},
     uses=["2.12"],
     evidence=[
-        "Each axis by itself drifts so for a force along the bar, which is shared in halves, whatever the bar. A force "
-        f"across it on one tip twists the pair: y_1' - y_2' grows as {pair['twist_rate']}.",
+        "If the force acts along the bar, each axis drifts at this rate, because each rotor carries half the force, "
+        "for any bar. A "
+        f"force across the bar on one tip twists the pair: y_1' - y_2' grows as {pair['twist_rate']}.",
     ],
 )

@@ -96,7 +96,7 @@ verdict(
     L,
     premises=[turning_rigidly],
     uses=["3.05", "3.09", centre_of_mass],
-    evidence=["1(X)^2 is read as |X|^2 times the unit matrix, (X)(X)^T as the outer product."],
+    evidence=["1(X)^2 is read as |X|^2 times the unit matrix, and (X)(X)^T is read as the outer product."],
     form=form("sum_i(m_i*cross(X_i - X_cm, cross(Omega, X_i - X_cm)))", X_cm=particles["X_cm"]),
 )
 
@@ -184,11 +184,12 @@ verdict(
     wrong="R and its transpose are interchanged.",
     uses=["3.11"],
     evidence=[
-        "With X_r(t) = R X_r(0), as the update X_r -> dR X_r, R -> dR R demands, the tensor is R I_0 R^T. The listing "
-        "X*R' + X_cm says the same of R.",
-        f"Principal inertias (1, 2, 3), a quarter turn about x and then one about z: along the diagonal "
-        f"{tuple(right.diagonal())}, as printed {tuple(wrong.diagonal())}. With equal inertias, as in all the paper's runs, "
-        "both are the same: no run of the paper distinguishes them.",
+        "The update X_r -> dR X_r, R -> dR R requires X_r(t) = R X_r(0); the tensor is then R I_0 R^T. The listing X*R' + X_cm "
+        "defines R in the same way.",
+        "A body with the principal inertias (1, 2, 3) is turned by a quarter turn about x and then by one about z. "
+        "The diagonal of "
+        f"its tensor is then {tuple(right.diagonal())}; the printed formula gives {tuple(wrong.diagonal())}. All bodies in the "
+        "paper's runs have equal inertias, for which both formulas agree, so no run of the paper shows the error.",
     ],
     form=turned,
 )

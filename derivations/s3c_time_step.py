@@ -79,10 +79,12 @@ verdict(
     premises=[small_step, equal_principal],
     uses=["3.07", "3.08", "3.12"],
     evidence=[
-        "All the paper's bodies have equal inertias. For unequal ones Omega, computed with the tensor of the old orientation, "
-        f"is off at order {lag.order} in the step, its x component by {sp.factor(lag.coefficient)}; the program "
-        "propagates L and R, so the step remains a first-order method.",
-        f"X_cm with the old U first differs at order {by_old}, with the new U at order {by_new}.",
+        "All the paper's bodies have equal inertias. For unequal inertias Omega is computed with the tensor of the old "
+        f"orientation, which causes an error of order {lag.order} in the step; the coefficient of its x component is "
+        f"{sp.factor(lag.coefficient)}. The program propagates L and R, so the step remains a first-order method.",
+        f"X_cm first differs from the exact motion at order {by_old} if the step uses the old U, and at order "
+        f"{by_new} if it uses "
+        "the new U.",
     ],
     form={
         r"\vec L(t+\Delta t)": form("I*Omega + Delta_t*tau + Delta_t**2/2*tau_dot", I=tensor, tau_dot=tau_v),

@@ -51,10 +51,9 @@ verdict(
     wrong="The two factors of the cross product are interchanged.",
     uses=["3.09"],
     evidence=[
-        "The sign is opposite to that of 3.09; storing rows instead of columns does not change it. The next "
-        "sentence, (1 + dt Omega_x) X_r, and 3.15 have the right sign. That sentence is also true: 1 + dt Omega_x is "
-        "not a rotation, it "
-        f"stretches by the square root of {stretched} across a spin of {SPIN} rad/s."
+        "The sign is opposite to the sign in 3.09; storing rows instead of columns does not change it. The next sentence of the "
+        "paper, (1 + dt Omega_x) X_r, and 3.15 have the right sign. That sentence is also right that 1 + dt Omega_x is not a "
+        f"rotation: at a spin of {SPIN} rad/s it stretches a vector across the spin by the square root of {stretched}."
     ],
     form=turning_vertex,
 )
@@ -88,11 +87,11 @@ projection = verdict(
     "3.16",
     P,
     correction=projector,
-    wrong="The projection is not divided by |Omega|², and for a column the product is a number.",
+    wrong="The projection is not divided by |Omega|², and for a column vector the printed product is a number, not a matrix.",
     evidence=[
-        "For a column Omega^T Omega is the number |Omega|^2; for a row, as the program stores it, the outer product without "
-        f"its norm: {SPIN**2} times too large at the paper's spin. The paper's remark on NaN shows that the program "
-        "divides by |Omega|^2."
+        "For a column, Omega^T Omega is the number |Omega|^2. For a row, as the program stores it, it is the outer product, not "
+        f"divided by |Omega|^2; at the paper's spin it is {SPIN**2} times too large. The paper's remark on NaN shows that the "
+        "program divides by |Omega|^2."
     ],
     form=projector,
 )
@@ -129,8 +128,8 @@ verdict(
     premises=[bars],
     uses=["3.14", projection],
     evidence=[
-        "As printed the sine is taken of a vector. P is the projector on Omega, not the product printed in 3.16. The matrix is "
-        "the exponential of dt Omega_x: it solves dR' = Omega_x dR from 1."
+        "The printed line takes the sine of a vector. P is read as the projector on Omega, not as the product printed in 3.16. "
+        "The matrix is the exponential of dt Omega_x: it satisfies dR' = Omega_x dR and starts from the unit matrix."
     ],
     form=form(
         "P + cos(Omega_norm*Delta_t)*(one - P) + sin(Omega_norm*Delta_t)*N",
@@ -170,7 +169,9 @@ verdict(
     correction=without_inversion,
     wrong="R and its transpose are interchanged, as in the rotated tensor of section 3.1.",
     uses=["3.12"],
-    evidence=["It follows from 3.12 as printed, which is wrong; with equal inertias the two agree."],
+    evidence=[
+        "The line follows from 3.12 as printed, which is wrong. With equal inertias the printed and the derived line agree."
+    ],
     form=without_inversion,
 )
 
@@ -198,8 +199,9 @@ verdict(
     wrong="R and its transpose are interchanged, as in the rotated tensor of section 3.1.",
     uses=["3.17"],
     evidence=[
-        "The transposition itself is right, with I the stored inverse of the symmetric I_0, and so is X_r*dR'; what is "
-        "transposed is 3.17."
+        "The transposition itself is right, with I the stored inverse of the symmetric I_0, and X_r*dR' is right too. "
+        "The error is "
+        "that the transposed line is 3.17."
     ],
     form={"O": row, r"X_r(t + \Delta t)'": form("transpose(X_r)*transpose(dR)", {"dR": "dR"}, dR=dR)},
 )

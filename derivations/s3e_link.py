@@ -103,11 +103,13 @@ link_force = verdict(
     correction=pull,
     wrong="A number is equated to a vector: the direction of the link is missing.",
     evidence=[
-        "The right side is a number, the left a vector. The number is the tension of the link, S s + D s', if e_21 points "
-        "from 2 to 1; the force on vertex 1 is the tension along -e_21. With e_21 from 1 to 2 the damper would "
-        f"supply power: {fed} W to a link that opens at 1 m/s.",
-        "With the force corrected the link's energy changes by -D ((U_1 - U_2).e)^2, never upwards. The direction is "
-        "undefined at s = 0. The sentence before it calls S the damping and D the spring constant: exchanged.",
+        "The right side is a number, the left side a vector. The number is the tension of the link, S s + D s', if e_21 points "
+        "from 2 to 1; the force on vertex 1 is the tension along -e_21. If e_21 pointed from 1 to 2, the damper would supply a "
+        f"power of {fed} W to a link that opens at 1 m/s.",
+        "With the corrected force the link's energy changes at the rate -D ((U_1 - U_2).e)^2, so it never increases. "
+        "The direction "
+        "is undefined at s = 0. The paper's preceding sentence exchanges the names: it calls S the damping and D the spring "
+        "constant.",
     ],
     form=pull,
 )

@@ -45,8 +45,9 @@ verdict(
     "4.01",
     {"[D]": unit_of_damping},
     evidence=[
-        "S and D are chosen and could not be false. With n a number and omega_s an angular frequency their units are N/m and "
-        "N s/m = kg/s. The paper does not say what n and omega_s are."
+        "S and D are chosen values, which cannot be false. If n is a number and omega_s an angular frequency, their "
+        "units are N/m "
+        "and N s/m = kg/s. The paper does not say what n and omega_s are."
     ],
     form={"[D]": form("kilogram/second", {"kilogram": r"\mathrm{kg}", "second": r"\mathrm{s}"})},
 )
@@ -65,6 +66,6 @@ prove(damping_ratio**2, sp.Rational(125, 4) * M / (n * m_eff), "the square of th
 one_body, two_bodies = (damping_ratio.subs({m_eff: mass, n: 1}) for mass in (M, M / 2))
 Remark(
     "The links are overdamped",
-    f"D/S = {sp.cancel(D / S)}. The damping ratio is {float(one_body):.3g}/√n for a mass M on one link and "
-    f"{float(two_bodies):.3g}/√n for two bodies of mass M: overdamped unless n is large.",
+    f"The ratio D/S is {sp.cancel(D / S)}. The damping ratio is {float(one_body):.3g}/√n for a mass M on one link and "
+    f"{float(two_bodies):.3g}/√n for two bodies of mass M. The links are therefore overdamped unless n is large.",
 )

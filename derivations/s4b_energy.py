@@ -114,10 +114,10 @@ energy_verdict = verdict(
     correction=whole_energy,
     uses=["3.09", "3.11"],
     evidence=[
-        "It is the kinetic energy. The conserved energy also contains S/2 sum s_j^2 of the springs, which the "
+        "The printed E is the kinetic energy. The conserved energy also contains S/2 sum s_j^2 of the springs, which the "
         "correction adds.",
-        f"The paper's first run, with the bar half a metre too high, starts with {first_run} in its springs, "
-        "which this E omits: hence the spike.",
+        "In the paper's first run the bar is half a metre too high, so its springs initially store "
+        f"{first_run}. The printed E omits this energy, which explains the spike.",
     ],
     form=whole_energy,
 )
@@ -140,7 +140,7 @@ verdict(
     "4.03",
     total,
     uses=["4.02"],
-    evidence=[f"{first_rotor} J for each rotor, nothing for the bar; springs unstretched."],
+    evidence=[f"Each rotor has {first_rotor} J and the bar has none; the springs are unstretched."],
     form=whole_energy,
 )
 
@@ -171,9 +171,11 @@ verdict(
     correction=whole_energy,
     uses=["4.02"],
     evidence=[
-        "The program takes R2.M for the third body. It exceeds the kinetic energy by (M_2 - M_3) U_3^2/2: with the light bar, "
-        f"M_3 = {LIGHT} kg, the bar's energy of translation is counted {1 / LIGHT} times. Rows times matrix, (Omega I).Omega, "
-        "is right because I is symmetric.",
+        "The program uses R2.M, the mass of rotor 2, for the third body. Its E exceeds the kinetic energy by (M_2 - "
+        "M_3) U_3^2/2: "
+        f"for the light bar, M_3 = {LIGHT} kg, the energy of the bar's translation is {1 / LIGHT} times too large. "
+        "The product of "
+        "a row and the matrix, (Omega I).Omega, is right because I is symmetric.",
     ],
     form=whole_energy,
 )

@@ -24,7 +24,8 @@ own = {h: sp.Integer(50), w: sp.Rational(1, 50), t_0: sp.Integer(2)}
 verdict(
     "4.04",
     evidence=[
-        f"The force is chosen: its height {own[h]} N at t = {own[t_0]} s is what the text says, its width {own[w]} s."
+        f"The force is a choice, which cannot be wrong. Its height {own[h]} N and its time {own[t_0]} s agree with the text; its "
+        f"width is {own[w]} s."
     ],
 )
 

@@ -1,7 +1,7 @@
 # %% [markdown]
 # # Why the pair topples across the joint line and not along it (5.1)
 #
-# **Objective.** Section 5.1 argues with force diagrams and prints no equation. Three equations of the linear pair answer the same
+# **Objective.** Section 5.1 argues with force diagrams and prints no equation. Three linearised equations answer the same
 # questions: the effect of a steady force and of a shock on one tip, and the mean displacement of the axes in $x$.
 #
 # **Assumptions.** Small motion about the upright rest state, any bar, opposite spins $G_1 = -G_2 = G$; a shock short against
@@ -29,7 +29,7 @@ F_x, F_y, P_x, P_y = sp.symbols("F_x F_y P_x P_y", real=True)
 # %% [markdown]
 # ## The equations
 #
-# The linear pair moves in the null space of its constraints, $x_1 = x_2 = X$, $z_i$ unchanged. In $(S, X, D)$:
+# The linearised motion lies in the null space of the constraints, $x_1 = x_2 = X$, $z_i$ unchanged. In $(S, X, D)$:
 
 # %%
 pair = linear_pair()
@@ -179,15 +179,17 @@ paper_mean, paper_linear
 # %%
 Remark(
     "Across the joint line the pair topples as without spins",
-    "The spins drop out of the equation of S = y₁ + y₂: the gyroscopic forces of the common motion along the bar are equal and "
-    "opposite, and the bar carries them. A steady force across gives S the acceleration RF/(a + b), with spins and without.",
+    "The spins drop out of the equation of S = y₁ + y₂: in the common motion the gyroscopic forces along the bar are equal and "
+    "opposite, and the bar carries them. A steady force F across the bar gives S the acceleration RF/(a + b), with or without "
+    "spins.",
 )
 
 # %%
 Remark(
     "Along the joint line it stays bounded, while the twist is small",
-    "A steady force F along x moves X by RF/((a + b)Ω²) at most; the twist grows at the rate RF/G. Under a "
-    "force across on one tip X is not bounded: it drifts at −RF/(2G).",
+    "A steady force F along x displaces X by at most RF/((a + b)Ω²), while the twist grows at the rate RF/G. Under a "
+    "force across "
+    "the bar on one tip X is not bounded: it drifts at the rate −RF/(2G).",
 )
 
 # %%
@@ -195,24 +197,25 @@ skew = SHOCK_PAIRED.impulse
 skew_twist, skew_x = (float(e.subs({R: 1, G: 10, P_x: skew[0], P_y: skew[1]})) for e in (R * P_x / G, mean_y))
 Remark(
     "The conclusion: on average no displacement in x",
-    "True after an impulse along x, and after equal impulses across. Not true after an impulse P across on one tip: X swings "
-    f"about −RP/(2G). On the exact pair with P = {', '.join(map(str, sizes))} N s the mean of X over a period is "
-    f"{', '.join(f'{mean:.4f}' for mean in means)} of that. With the shock of figure 13 it is {paper_mean:.4f}, by the linear "
-    f"pair {paper_linear:.4f}; the pair then leans {paper_over:.0f} degrees.",
+    "The conclusion is true after an impulse along x, and after equal impulses across the bar on both tips. It is not true after "
+    "an impulse P across the bar on one tip, because X then oscillates about −RP/(2G). On the exact pair with P = "
+    f"{', '.join(map(str, sizes))} N s the mean of X over a period is {', '.join(f'{mean:.4f}' for mean in means)} times this "
+    f"value. With the shock of figure 13 the exact mean is {paper_mean:.4f}, and the linearised equations give "
+    f"{paper_linear:.4f}; the pair then leans by {paper_over:.0f} degrees.",
 )
 
 # %%
 Remark(
     "An impulse along x separates the two centres in y",
-    "D = y₁ − y₂ swings about RP/G: the centres of precession are separated across the joint line. The shock of 5.2.1 "
-    "leaves y₁ − "
-    "y₂ = "
-    f"{skew_twist:.4f} and X = {skew_x:.4f} on average, a skewness such as figure 23 shows.",
+    "After an impulse P along x the difference D = y₁ − y₂ oscillates about RP/G, so the two centres of precession are separated "
+    f"across the joint line. After the shock of 5.2.1 the mean values are y₁ − y₂ = {skew_twist:.4f} and X = {skew_x:.4f}. This "
+    "is a skewness such as figure 23 shows.",
 )
 
 # %%
 Remark(
     "Order of the linear responses",
-    "The largest error of X over a period after an impulse P on tip 1 goes as "
-    f"P to the power {orders['x']:.2f} along x and {orders['y']:.2f} across (exact pair).",
+    "On the exact pair the largest error of the linear response of X over a period after an impulse P on tip 1 is "
+    "proportional to "
+    f"P to the power {orders['x']:.2f} for an impulse along x and {orders['y']:.2f} for one across the bar.",
 )

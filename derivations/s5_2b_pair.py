@@ -122,7 +122,8 @@ prove(
 # %%
 Remark(
     "The shift of the azimuth",
-    "With the zxz angles of the cited book the axis has azimuth φ − π/2; the paper adds π/2. Nothing later uses it.",
+    "With the zxz angles of the cited book the axis has the azimuth φ − π/2, while the paper adds π/2. No later equation depends "
+    "on this difference.",
 )
 
 # %% [markdown]
@@ -161,7 +162,7 @@ verdict(
         r"\text{degrees of freedom}": degrees_of_freedom(system, somewhere),
         r"\text{degrees of freedom without the bar}": len(PAIR.q),
     },
-    evidence=["The length R = 1 is a choice; ℓ = R is the statement of the line, not a premise."],
+    evidence=["The length R = 1 is a choice. ℓ = R is the statement of the line, not a premise."],
 )
 
 # %% [markdown]
@@ -176,7 +177,7 @@ verdict(
     L,
     premises=[ABOUT_JOINT, MASSLESS_BAR, opposite_spin_angles()],
     uses=["5.08"],
-    evidence=["Conserved are ω₁ and ω₂, not ψ₁′ and ψ₂′."],
+    evidence=["The conserved quantities are ω₁ and ω₂, not ψ₁′ and ψ₂′."],
     form=lagrangian_written,
 )
 
@@ -193,7 +194,7 @@ ansatz_case = verdict(
     premises=[ABOUT_JOINT, MASSLESS_BAR, opposite_spin_angles(), opposite_azimuths()],
     uses=["5.10"],
     evidence=[
-        "As algebra the line follows from its premises. Its variation is wrong: this is the Lagrangian of a "
+        "The line follows algebraically from its premises. Equations of motion derived from it are wrong: they describe a "
         "pair without a bar, in which nonexistent constraints keep φ₁ + φ₂ and ψ₁ + ψ₂ constant."
     ],
     form=lagrangian_written,

@@ -136,9 +136,10 @@ integral_A = verdict(
     premises=[ABOUT_JOINT, MASSLESS_BAR, EQUAL_INERTIAS, *ansatz, no_bar_force()],
     uses=["5.11"],
     evidence=[
-        "A is an integral of the ansatz Lagrangian only: on the pair the force of the bar changes it.",
-        f"Its swing goes as r₀ to the power {orbit_order:.2f} on the periodic orbit and as the shock to the power "
-        f"{shock_order:.2f} after the shock of 5.2.1, scaled down (massless bar).",
+        "A is an integral only of the ansatz Lagrangian; on the pair the force of the bar changes it.",
+        "With a massless bar the oscillation of A is proportional to r₀ to the power "
+        f"{orbit_order:.2f} on the periodic orbit. After the shock of 5.2.1, scaled down, it is proportional to the shock to the "
+        f"power {shock_order:.2f}.",
     ],
     form={"A": A_written, r"\dot A": form("0")},
 )
@@ -150,7 +151,9 @@ integral_B = verdict(
     {"B": B, r"\dot B": of_B},
     premises=ansatz,
     uses=["5.11"],
-    evidence=["B = I₃(ω₁ − ω₂) is constant on the exact pair for any bar and any inertias; the I of the paper is I₃."],
+    evidence=[
+        "On the exact pair B = I₃(ω₁ − ω₂) is constant for every bar and all inertias, if I₃ is taken for the paper's I.",
+    ],
     form={
         "B": form("I_3*(psi_1_dot + phi_1_dot*cos(theta_1) - psi_2_dot - phi_2_dot*cos(theta_2))"),
         r"\dot B": form("0"),

@@ -55,11 +55,11 @@ verdict(
     premises=[MASSLESS_BAR, EQUAL_INERTIAS, opposite_azimuths(), opposite_spin_angles(), no_bar_force()],
     uses=[on_pair["5.12"], on_pair["5.13"], "5.14"],
     evidence=[
-        "The rest state θ₁ = θ₂ = 0 is a singular point of the formula: numerator and denominator vanish.",
+        "At the rest state θ₁ = θ₂ = 0 the formula is singular: numerator and denominator are zero.",
         "With the values of A and B (5.16) the formula reduces to φ′ = φ₀′ for any φ₀′, so it does not predict "
         "the rate.",
-        f"The equations of motion fix the rate: {massless:.4g} rad/s for spins ±10 and a massless bar, {heavy:.4g} rad/s "
-        "with the bar of section 4.1.",
+        f"The equations of motion determine the rate: it is {massless:.4g} rad/s for spins of ±10 rad/s and a massless bar, and "
+        f"{heavy:.4g} rad/s with the bar of section 4.1.",
     ],
     form={
         r"\dot\phi": form(
@@ -114,9 +114,11 @@ verdict(
     {"B": value_B, "A": value_A},
     premises=[MASSLESS_BAR, EQUAL_INERTIAS, OPPOSITE_SPINS, opposite_azimuths(), one_inclination],
     correction={"B": form("I_3*(omega_1 - omega_2)")},
-    wrong="B lacks the factor I: it is 2Iω, an angular momentum as A is.",
+    wrong="B lacks the factor I. The correct value is 2Iω, an angular momentum like A.",
     uses=["5.12", "5.13"],
-    evidence=["For opposite spins B = 2I₃ω; the two agree as numbers for the paper's rotor, I₃ = 1 kg m²."],
+    evidence=[
+        "For opposite spins B is 2I₃ω. For the paper's rotor, with I₃ = 1 kg m², the printed value is the same number."
+    ],
     form={
         "B": form("I_3*(omega_1 - omega_2)"),
         "A": form(
@@ -142,8 +144,8 @@ fed_back = rate.subs(J, I3).subs(level).subs({A: printed_A, B: 2 * I3 * omega})
 prove(fed_back, phi_v, "the formula with the values of the integrals put in")
 
 # %% [markdown]
-# It predicts no rate. The rate comes from the equation of motion that the ansatz leaves out; the linear pair with opposite
-# spins has one oscillation, at
+# It predicts no rate. The rate comes from the equation of motion that the ansatz leaves out; the linearised equations for
+# opposite spins have one oscillation, at
 
 # %%
 natural = natural_frequency().expressions[0].subs({G_1: G, G_2: -G})
@@ -152,6 +154,6 @@ prove(natural**2, G**2 / (a**2 - b**2), "the square of the natural frequency, op
 # %%
 Remark(
     "What the formula of the rate (5.15) says",
-    "With the paper's own values of A and B it is φ′ = φ₀′, an identity. The rate of the paired precession is the natural "
-    f"frequency G/√(a² − b²), {massless:.4g} rad/s for spins ±10 and a massless bar.",
+    "With the paper's own values of A and B formula (5.15) is the identity φ′ = φ₀′. The actual rate of the paired precession is "
+    f"the natural frequency G/√(a² − b²), which is {massless:.4g} rad/s for spins of ±10 rad/s and a massless bar.",
 )

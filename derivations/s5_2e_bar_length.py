@@ -99,7 +99,7 @@ verdict(
     {"C^2(0)": C_squared, r"C^2(\pi/2)": C_squared, r"C(\pi/2)": norm(projected), r"C^2(\phi)": C_squared},
     premises=assumed,
     uses=["5.18"],
-    evidence=[f"At r₀ = {PAPER_R0} the bar would have to stretch to {longest:.4f} of its length."],
+    evidence=[f"At r₀ = {PAPER_R0} the bar would have to stretch to {longest:.4f} times its length."],
     form={
         "C^2(0)": form("1"),
         r"C^2(\pi/2)": form("1 + 4*sin(theta_0)**2"),

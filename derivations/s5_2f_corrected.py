@@ -106,12 +106,12 @@ verdict(
     {rf"\sin\theta_{i}": Series(series, theta_0, 2) for i, series in enumerate(sines, 1)},
     premises=[MASSLESS_BAR, BAR_AS_LONG_AS_ROTORS],
     correction=sines_written,
-    wrong="The correction keeps the bar's length nearly constant, but longer than the bar by 2r₀².",
+    wrong="The correction keeps the bar's length nearly constant, but makes it too long by 2r₀².",
     uses=["5.19"],
     evidence=[
-        f"With the printed correction the bar's length goes from {min(lengths):.4f} to {max(lengths):.4f} of what it is, at "
-        f"r₀ = {PAPER_R0}.",
-        "No correction of the inclinations alone can keep the bar (5.11): the azimuths must move too (5.22).",
+        f"At r₀ = {PAPER_R0} the printed correction makes the bar {min(lengths):.4f} to {max(lengths):.4f} times as "
+        "long as it is.",
+        "No correction of the inclinations alone can keep the length of the bar in 5.11; the azimuths must change too (5.22).",
     ],
     form=sines_written,
 )
@@ -255,14 +255,17 @@ verdict(
     },
     premises=[EQUAL_INERTIAS, MASSLESS_BAR, BAR_AS_LONG_AS_ROTORS],
     correction={r"\dot\phi": line_written, r"\dot\phi\text{ (last member)}": form(unchanged), **orbit_written},
-    wrong="The derivatives are multiplied where they should be subtracted.",
+    wrong="The derivatives are multiplied, but they should be subtracted.",
     uses=["5.15", "5.20"],
     evidence=[
-        "The printed product of derivatives should be their difference, which is zero: the last line follows by two errors "
-        "that cancel. What it varies is an identity, not the rate; the orbit's is lower than G/(J cos θ₀), that of the constant "
-        "inclination with which the print compares, by ¾ r₀² (C17), and lower than the natural rate by ¼ r₀².",
-        f"On exact orbits with a massless bar Ω/Ω₀ − 1 = {-changes[0] / amplitudes[0] ** 2:+.4f} r₀², of measured order "
-        f"{rate_slope:.3f}; at r₀ = {PAPER_R0} Ω/Ω₀ is {at_paper:.5f}.",
+        "The printed product of derivatives should be their difference, which is zero; the last line is right because two errors "
+        "cancel. The varied formula is an identity (5.15), so this argument does not give the rate. The rate of the "
+        "orbit is lower "
+        "by ¾ r₀² than G/(J cos θ₀), the rate at constant inclination with which the paper compares (C17), and by ¼ r₀² than the "
+        "natural rate.",
+        "On exact orbits with a massless bar Ω/Ω₀ − 1 is "
+        f"{-changes[0] / amplitudes[0] ** 2:+.4f} r₀², with the measured exponent {rate_slope:.3f}. At r₀ = {PAPER_R0} the ratio "
+        f"Ω/Ω₀ is {at_paper:.5f}.",
     ],
     form={r"\dot\phi": form(unchanged), **orbit_written},
 )
@@ -295,7 +298,7 @@ of_y = "((8*k**2 + 5*k**2*sigma - 13*k**2*sigma**2 - 39*sigma)*sin(Phi) + 3*sigm
 third = {"x_1": of_x, "x_2": of_x}
 third |= {f"y_{i}": f" {sign} r_0**2/(48*k**2)*{of_y}" for i, sign in ((1, "+"), (2, "-"))}
 short = {"k": ell / R, "A_x": R * r0, "A_y": R * width * r0}
-in_words = "; ".join(f"{name}: {x:.2f} in x, {y:.2f} in y" for name, (x, y) in slopes.items())
+in_words = "; ".join(f"{x:.2f} in x and {y:.2f} in y ({name})" for name, (x, y) in slopes.items())
 verdict(
     "5.22",
     {name: Series(e, r0, 3) for name, e in {"x_1": tips[0], "x_2": tips[1], "y_1": R * y_1, "y_2": R * y_2}.items()},
@@ -305,8 +308,8 @@ verdict(
     wrong="A constant of second order in the amplitude is missing: x₁ lacks r₀², x₂ lacks −r₀².",
     uses=["5.20", "5.21"],
     evidence=[
-        "In x the printed second harmonic is right. In y = sin θ sin φ, which the paper does not print, its correction of the "
-        "inclinations would make the second harmonic twice what it is.",
-        f"Orders of the error measured against the exact orbit: {in_words}.",
+        "In x the printed second harmonic is right. The paper does not print y = sin θ sin φ; with its correction of the "
+        "inclinations the second harmonic of y would be twice too large.",
+        f"The errors against the exact orbit are proportional to powers of r₀. The measured exponents are {in_words}.",
     ],
 )

@@ -65,8 +65,9 @@ verdict(
     premises=[Premise("the inclination to the angular momentum is small", small=theta)],
     uses=["5.01"],
     evidence=[
-        f"From zero crossings of x, spin 20: {one_rate:.4f} rad/s after the shock of 40 N, where sin θ = {one_amplitude:.4f} "
-        f"and 16/cos θ = {16 / np.sqrt(1 - one_amplitude**2):.4f}; {one_gentle:.5f} rad/s after one of 0.4 N.",
+        f"For a spin of 20 rad/s the zero crossings of x give {one_rate:.4f} rad/s after the shock of 40 N. There sin θ is "
+        f"{one_amplitude:.4f}, and 16/cos θ is {16 / np.sqrt(1 - one_amplitude**2):.4f}. After a shock of 0.4 N they give "
+        f"{one_gentle:.5f} rad/s.",
     ],
     form=form("I_3*omega/(J*cos(theta))"),
 )
@@ -128,7 +129,7 @@ constant = (equal / (I3 * omega / J)).subs(INERTIAS)
 prove(constant, J / (J + m * R**2 / 2), "the constant c of equal spins", names="c")
 
 # %% [markdown]
-# ## What the paper reads off its run
+# ## What the paper reads from its run
 #
 # How much the amplitude changes the rate, by a fraction $\eta$, is measured after the paper's shock, with the bar of section
 # 4.1.
@@ -160,12 +161,12 @@ verdict(
     premises=[ONE_KILOGRAM_BAR, small_motion],
     uses=["5.23"],
     evidence=[
-        f"It should have been {should_be} = {float(should_be):.5f} rad/s, with any inertia of the bar. That rounds to 11.4, "
+        f"The derived rate is {should_be} = {float(should_be):.5f} rad/s, for any inertia of the bar. It rounds to 11.4, "
         "which stands for 11.35 to 11.45 rad/s.",
-        f"From zero crossings of x on the exact pair: {pair_gentle:.5f} rad/s after a shock of 0.4 N along x, "
-        f"{pair_rate:.4f} after one of 40 N (sin θ = {pair_amplitude:.4f}).",
-        "Why it is no theorem: it was read off the paper's program, whose springs yield. That the exact pair has both rates is "
-        "proved with claim C21: after 0.4 N they round to 11.4, after 40 N not.",
+        f"On the exact pair the zero crossings of x give {pair_gentle:.5f} rad/s after a shock of 0.4 N along x and "
+        f"{pair_rate:.4f} rad/s after a shock of 40 N (sin θ = {pair_amplitude:.4f}).",
+        "The printed value is not a theorem, because it was read from the paper's program, whose springs yield. Claim C21 proves "
+        "that the exact pair has both rates; the rate after 0.4 N rounds to 11.4, the rate after 40 N does not.",
     ],
     form=any_rate,
 )
@@ -184,12 +185,13 @@ verdict(
     correction={r"c\text{ (equal spins)}": form("J/(J + m*R**2/2)")},
     uses=["5.23", "5.24"],
     evidence=[
-        f"The constant should have been {own_constant} = {float(own_constant):.5f}, between 11.35/16 and 11.45/16, for which "
-        f"0.7125 = 11.4/16 stands by the digits of 11.4; 0.7125 itself belongs to a bar of {float(mass_of_c):.4f} kg.",
-        "5.28 prints the same constant for both kinds of pair and is refuted: with opposite spins the bar's inertia K counts "
-        "as well, and neither of the paper's bars has it.",
-        "Why it is no theorem about motion: it is said of every ω. The corrected constant is decided exactly, and at spins of 20 "
-        "claim C21 has the theorem.",
+        f"The derived constant is {own_constant} = {float(own_constant):.5f}. It lies between 11.35/16 and 11.45/16, "
+        "the interval "
+        f"that the digits of 0.7125 = 11.4/16 allow. The value 0.7125 itself belongs to a bar of {float(mass_of_c):.4f} kg.",
+        "5.28 prints the same constant for both kinds of pair and is refuted: with opposite spins the rate also depends on the "
+        "bar's inertia K, and neither of the paper's bars has the K that the constant would require.",
+        "The line holds for every ω, so no theorem about one motion proves it. The corrected constant is decided exactly; for "
+        "spins of 20 rad/s claim C21 has a theorem.",
     ],
     form={r"\dot\phi_{coupled}": any_rate, r"c\text{ (equal spins)}": form("J/(J + m*R**2/2)")},
 )

@@ -52,7 +52,7 @@ with_mass, with_inertia = I1 + M * R**2 / 4 + m * R**2 / 2, I1 + M * R**2 / 4 + 
 # %% [markdown]
 # ## The natural frequency
 #
-# The linear pair has one oscillation, for any spins and any bar:
+# The linearised equations have one oscillation, for any spins and any bar:
 
 # %%
 natural = natural_frequency().expressions[0]
@@ -106,7 +106,7 @@ any_rate = form(
 )
 small_motion = Premise("the motion is so small that the rate does not depend on its amplitude", {eta: 0})
 of_a_kilogram = float(inertia_of_product.subs(m, 1))
-listed = "; ".join(f"{rate:.4f} for {name}" for name, rate in rates.items())
+listed = ", ".join(f"{rate:.4f} rad/s for {name}" for name, rate in rates.items())
 verdict(
     "5.26",
     {
@@ -115,12 +115,12 @@ verdict(
     },
     premises=[HEAVY_BAR, small_motion],
     correction={r"\Omega_0^2\text{ (opposite spins)}": square_written},
-    wrong="The product is 5.7, not 0.57, and no bar that the paper lists has that rate.",
+    wrong="The product is 5.7, not 0.57, and no bar listed in the paper has this rate.",
     uses=["5.25"],
     evidence=[
-        f"Natural frequencies in rad/s: {listed} (the last two mix the listed bars).",
+        f"The natural frequency is {listed}. The last two bars mix the mass and the inertia of the listed bars.",
         f"With a bar of 1 kg the rate is {float(product)} rad/s for K = {of_a_kilogram:.4f} kg m².",
-        "The constant of equal spins does not carry over: opposite spins twist the bar, and its inertia counts.",
+        "The constant of equal spins does not apply, because opposite spins twist the bar, so that its inertia matters.",
     ],
     form={r"\dot\phi": any_rate, r"\Omega_0^2\text{ (opposite spins)}": square_written},
 )
@@ -180,7 +180,9 @@ for name, bar in {"m = K = 1, ℓ = R": heavy, "massless, ℓ = 2R": Link(length
     changes = [exact_orbit(scene, size).frequency / natural_rate(scene) - 1 for size in amplitudes]
     predicted = float(curvature.subs({sigma: (big + coupled) / (big - coupled), k: bar.length}))
     order = measured_order(amplitudes, np.abs(changes))
-    slopes.append(f"{changes[0] / amplitudes[0] ** 2:+.4f} for {predicted:+.4f} ({name}; order {order:.2f})")
+    slopes.append(
+        f"{changes[0] / amplitudes[0] ** 2:+.4f} (derived {predicted:+.4f}) for {name}, with the measured exponent {order:.2f}"
+    )
 slopes
 
 # %% [markdown]
@@ -202,8 +204,8 @@ for bar in list(bars.values())[:3]:
     put = {sigma: (big + coupled) / (big - coupled), k: 1}
     measured, _ = coefficient((10, -10), bar)
     by_average.append(
-        f"{measured:+.4f} for {float(in_average.subs(put)):+.4f} (by θ₀: {float(curvature.subs(put)):+.4f}; "
-        f"m = {bar.mass:g}, K = {bar.inertia:g})"
+        f"{measured:+.4f} (derived {float(in_average.subs(put)):+.4f}; with θ₀ in place of θ it would be "
+        f"{float(curvature.subs(put)):+.4f}) for m = {bar.mass:g}, K = {bar.inertia:g}"
     )
 by_average
 
@@ -239,14 +241,17 @@ verdict(
     f"{average}",
     uses=["5.25", "5.26"],
     evidence=[
-        f"Equal spins: on the exact pair at θ = {tilt} the axes stay within {apart:.0e} of each other and turn at "
-        f"{steady_rate:.6f} rad/s, derived {turning:.6f}.",
-        f"Opposite spins, change of the rate over r₀² on exact orbits: {'; '.join(slopes)}; 1/cos θ would have +0.5.",
-        f"Opposite spins, change of the rate over θ² on exact orbits of r₀ = 0.051: {'; '.join(by_average)}.",
-        f"With the bar of section 4.1 q is {own_mean:.4f}, and the printed rate over the derived one changes by "
+        f"Equal spins: on the exact pair at θ = {tilt} the axes differ by at most {apart:.0e} and turn at "
+        f"{steady_rate:.6f} rad/s; the derived rate is {turning:.6f} rad/s.",
+        f"Opposite spins: on exact orbits the relative change of the rate, divided by r₀², is {'; '.join(slopes)}. "
+        "With 1/cos θ it "
+        "would be +0.5.",
+        "Opposite spins: on exact orbits of r₀ = 0.051 the relative change of the rate, divided by the square of the average "
+        f"inclination θ, is {'; '.join(by_average)}.",
+        f"With the bar of section 4.1 q is {own_mean:.4f}, and the printed rate divided by the derived one changes by "
         f"{own_change:.4f} θ².",
-        "That is the symmetric orbit; after a shock along x from rest the centres of precession are displaced, and the rate "
-        "rises with the shock (claim C23).",
+        "These numbers are for the symmetric orbit. After a shock along x from rest the centres of precession are displaced, and "
+        "the rate increases with the shock (claim C23).",
     ],
     form={
         r"\dot\phi\text{ (equal spins)}": cone_written,
@@ -273,7 +278,7 @@ constants = {
     premise.says: [float(sp.sqrt(premise.on(PAPERS_ROTOR.on(square)))) for square in squares]
     for premise in (HEAVY_BAR, LIGHT_BAR_PREMISE)
 }
-in_words = "; ".join(f"{equal:.4f} and {other:.4f} where {says}" for says, (equal, other) in constants.items())
+in_words = "; ".join(f"{equal:.4f} and {other:.4f} if {says}" for says, (equal, other) in constants.items())
 verdict(
     "5.28",
     {
@@ -295,15 +300,16 @@ verdict(
     wrong="The constant holds for one bar and equal spins only.",
     uses=["5.25", "5.27"],
     evidence=[
-        f"The constant for equal and for opposite spins: {in_words}.",
-        "So 5.25, which is measured with equal spins and a bar of 1 kg, and this line, which prints its constant for opposite "
-        "spins too, come out differently.",
+        f"The constants for equal and for opposite spins are {in_words}.",
+        "5.25 is measured with equal spins and a bar of 1 kg. This line prints the same constant for opposite spins "
+        "too, for which "
+        "it is wrong.",
     ],
 )
 
 # %%
 Remark(
     "One constant for equal and for opposite spins",
-    "The natural frequencies of the two kinds of pair are the same multiple of that of one rotor only if the bar's mass sits "
-    "in its ends, K = mℓ²/4. The paper's bars are not of this kind.",
+    "Divided by the natural frequency of one rotor, the natural frequencies of the two kinds of pair are equal only if the bar's "
+    "mass is concentrated at its ends, K = mℓ²/4. The paper's bars are not of this kind.",
 )

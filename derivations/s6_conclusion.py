@@ -25,7 +25,8 @@ from lagrotor.theory import linear_pair
 # %% [markdown]
 # ## Degrees of freedom
 #
-# Coordinates less the rank of the constraints: with the spins in Euler angles, without them on two unit spheres.
+# The number of degrees of freedom is the number of coordinates minus the rank of the constraints. With the spins the
+# coordinates are Euler angles, without them unit vectors on two spheres.
 
 # %%
 angles = [sp.Rational(1, 3), sp.Rational(2, 5), 0, sp.Rational(1, 4), sp.Rational(-3, 7), 0]
@@ -111,17 +112,17 @@ verdict(
     uses=["5.09"],
     evidence=[
         f"To first order the {without_spins} degrees of freedom without the spins are {oscillations} oscillation, {turnings} "
-        f"steady turning and {resting} displacement that rests. The conclusion's word oscillations fits one of its two modes: "
-        "toppling has no restoring force and comes round only as a full turn. Section 5.2 says only that the turning can be "
-        "thought of as a mode; counted so there are two (claim C24).",
+        f"steady turning and {resting} constant displacement. The paper's conclusion calls both of its modes oscillations. "
+        "Toppling has no restoring force and repeats only after a full turn, so it is not one. Section 5.2 says only that the "
+        "turning can be thought of as a mode; with this meaning there are two modes (claim C24).",
     ],
 )
 
 # %% [markdown]
 # ## The third degree of freedom
 #
-# For opposite spins, $G_1 = -G_2 = G$, the linear pair keeps two quantities. They say where the centre of the precession
-# rests; both are zero for one about the upright position.
+# For opposite spins, $G_1 = -G_2 = G$, the linearised equations conserve two quantities. They say where the centre of the
+# precession rests; both are zero for one about the upright position.
 
 # %%
 first_v, x_v, second_v, first, x, second = sp.symbols("y_1_dot x_dot y_2_dot y_1 x y_2", real=True)
@@ -145,8 +146,8 @@ prove(
 # %%
 Remark(
     "Where the third degree of freedom is",
-    "The precession centre, displaced in x and in y₁ − y₂, stays where a shock leaves it. These are two constants of the linear "
-    "pair; with the two of toppling they are the four zero roots.",
+    "After a shock the precession centre keeps its displacement in x and in y₁ − y₂. These are two constants of the linearised "
+    "equations; together with the two of toppling they are the four zero roots.",
 )
 
 # %% [markdown]
@@ -206,5 +207,5 @@ verdict(
     "θ is the average inclination, as printed. It is q r₀, with r₀ the sine of the inclination when the axes are parallel, and q "
     "the mean of √(cos² Φ + σ sin² Φ) over a turn.",
     uses=["5.27", "5.28"],
-    evidence=["The line is 5.27's, now said of both kinds of pair; what is said there of each holds here."],
+    evidence=["The line repeats 5.27 for both kinds of pair; the evidence of 5.27 applies to each of them."],
 )

@@ -130,9 +130,8 @@ for model in ("minimal", "spheres", "euler"):
 assert max(drift.values()) < 1e-7
 Remark(
     "Conserved quantities",
-    "E, G_1, G_2 and P are conserved by Noether's theorem. Largest change over a run of 3 s at tolerance 1e-11 (J, kg m²/s): "
-    + ", ".join(f"{model} {value:.1e}" for model, value in drift.items())
-    + ".",
+    "E, G_1, G_2 and P are conserved by Noether's theorem. In a run of 3 s at the tolerance 1e-11 their largest change, in J or "
+    "kg m²/s, is " + ", ".join(f"{value:.1e} for the model {model}" for model, value in drift.items()) + ".",
 )
 
 # %% [markdown]
@@ -152,8 +151,8 @@ order = measured_order(amplitudes, swings)
 Remark(
     "The paper's A",
     "B = G_1 − G_2 is conserved exactly. On the paired precession A oscillates by "
-    + ", ".join(f"{value:.4f} at r_0 = {r}" for r, value in zip(amplitudes, swings, strict=True))
-    + f" kg m²/s, proportional to r_0^{order:.2f}.",
+    + ", ".join(f"{value:.4f} kg m²/s at r_0 = {r}" for r, value in zip(amplitudes, swings, strict=True))
+    + f". This is proportional to r_0^{order:.2f}.",
 )
 
 # %% [markdown]

@@ -536,13 +536,15 @@ twin = np.abs(exact_times / initial - 1)
 assert twin.min() > 2 * errors[0]
 Remark(
     "The time to reach a value of x",
-    f"Time until the mean of x is {REACHED:g}: "
-    + "; ".join(
-        f"{time:.2f} s by the averaged motion, {exact_time:.2f} s exact at {F:g} N"
+    f"In exact runs the mean of x reaches {REACHED:g} after "
+    + ", ".join(
+        f"{exact_time:.2f} s at {F:g} N (averaged motion: {time:.2f} s)"
         for F, time, exact_time in zip(FORCES, law, exact_times, strict=True)
     )
-    + f". The relative error is proportional to the power {time_order:.2f} of the force. By the constant initial rate, "
-    f"without the effect of lean and twist, the relative error does not decrease: {twin[0]:.3f} and {twin[-1]:.3f}.",
+    + f". The relative error of the averaged motion is proportional to the force to the power {time_order:.2f}. With "
+    "the constant "
+    "initial rate, without the effect of lean and twist, the relative error does not decrease with the force: it is "
+    f"{twin[0]:.3f} at the smallest and {twin[-1]:.3f} at the largest.",
 )
 
 # %%
@@ -573,9 +575,9 @@ assert failing < 2.5
 Remark(
     "The slow frequency with an excess momentum",
     "The square of the slow frequency is compared with Floquet multipliers of exact orbits, which are periodic up to a "
-    "rotation about the joint line. Measured exponents of the relative error in the amplitude: "
+    "rotation about the joint line. Its relative error is proportional to powers of the amplitude; the measured exponents are "
     + ", ".join(f"{order:.2f} ({name})" for name, order in orders.items())
-    + f"; with a changed coefficient of the next order {failing:.2f}.",
+    + f". If the coefficient of the next order is changed, the exponent is only {failing:.2f}.",
 )
 
 # %%
@@ -591,8 +593,9 @@ assert not light_turns and light_last > 0.99 * light_most > 0.8
 assert heavy_turns and heavy_last < 0.9 * heavy_most < 0.4
 Remark(
     "Return of x beyond the threshold",
-    f"Exact runs at 40 N, means over 10 s: at (σ − 1) k² = 3.6 the mean x grows to {light_most:.2f} in {HEAVY[3.6]} s and "
-    f"does not return. At 5.2 it grows to {heavy_most:.2f} and returns to {heavy_last:.2f} in {HEAVY[5.2]} s. The leading "
-    f"order predicts the maximum {heavy_law:.2f}. Near the threshold the maximum is a ratio of two small differences, and its "
-    "error is large for such a shock.",
+    f"In exact runs at 40 N x is averaged over 10 s. At (σ − 1) k² = 3.6 the mean of x grows to {light_most:.2f} in "
+    f"{HEAVY[3.6]} s "
+    f"and does not return. At 5.2 it grows to {heavy_most:.2f} and returns to {heavy_last:.2f} in {HEAVY[5.2]} s, while the "
+    f"leading order predicts the maximum {heavy_law:.2f}. Near the threshold the maximum is a ratio of two small differences, so "
+    "its error is large for such a shock.",
 )

@@ -333,18 +333,20 @@ assert all(abs(order - 2) < 0.1 for pair in measured.values() for order in pair)
 assert abs(twin) < 1
 Remark(
     "Unequal spins",
-    "The shift of the rate and the drift of the azimuth are compared with exact orbits. Measured exponents of their relative "
-    "errors in the amplitude: "
+    "The shift of the rate and the drift of the azimuth are compared with exact orbits. Their relative errors are "
+    "proportional to "
+    "powers of the amplitude; the measured exponents are "
     + "; ".join(f"{shift:.2f} and {drift:.2f} ({name})" for name, (shift, drift) in measured.items())
-    + f". With c increased by 0.05 the error does not decrease (exponent {twin:.2f}). In the paper's scene with spins 10 and "
-    "−9 rad/s the orbit of r_0 = 0.204 rotates by "
+    + f". With c increased by 0.05 the error does not decrease (exponent {twin:.2f}). In the paper's scene, but with spins of 10 "
+    "and −9 rad/s, the orbit of r_0 = 0.204 rotates by "
     f"{np.degrees(azimuth_drift(Scene((10, -9), link=Link(1, 0.01, 0.1))) * 0.204**4):.4f} degrees per second.",
 )
 
 # %%
 Remark(
     "The growth of a twist",
-    "λ² is compared with the multipliers of exact orbits. Measured exponents of its relative error in the amplitude: "
+    "λ² is compared with the multipliers of exact orbits. Its relative error is proportional to a power of the amplitude; the "
+    "measured exponents are "
     + ", ".join(f"{order:.2f} ({name})" for name, order in grown.items())
     + f". With λ² increased by 5 % the error does not decrease (exponent {control_order:.2f}). The growth rate is of first "
     "order in the amplitude, so oscillations of a heavy bar with unequal spins soon depart from upright.",

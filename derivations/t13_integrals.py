@@ -73,9 +73,11 @@ power = (slow[40] - slow[10]) / np.log(4)
 assert power < 2.2 and fast[40] > 20
 Remark(
     "Regular and chaotic",
-    f"At r_0 = 0.05, P/G = −0.3 the distance of neighbouring motions is proportional to the power {power:.2f} of time. At r_0 "
-    f"= 0.3, P/G = 0.1 it is proportional to exp(λ t) with λ = {fast[40] / 40:.2f} per period. With a further integral this "
-    "would occur only near an unstable orbit. Figure t13 shows both cases over amplitude and momentum.",
+    "At r_0 = 0.05, P/G = −0.3 the distance of neighbouring motions is proportional to the time to the power "
+    f"{power:.2f}. At r_0 = 0.3, P/G = 0.1 it is proportional to exp(λ t) with λ = {fast[40] / 40:.2f} per period. If "
+    "there were a "
+    "further integral, it could grow exponentially only near an unstable orbit. Figure t13 shows both cases over amplitude and "
+    "momentum.",
 )
 
 # %% [markdown]

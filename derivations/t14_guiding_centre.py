@@ -195,8 +195,8 @@ assert abs(twin) < 0.5, twin
 Remark(
     "The guiding centre",
     "The predicted centre differs from the centres of exact runs by an angle proportional to εᵖ, where ε is the amplitude. "
-    "Measured exponents p: "
+    "The measured exponents p are "
     + "; ".join(f"{order:.2f} ({name})" for name, order in measured.items())
-    + ". If the energy of the oscillation is taken as motion along the field, the difference does not decrease (p = "
+    + ". If the energy of the oscillation is wrongly taken as motion along the field, the difference does not decrease (p = "
     f"{twin:z.2f}).",
 )

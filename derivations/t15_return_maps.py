@@ -181,8 +181,9 @@ for name, n in forms.items():
     assert np.abs(np.array(measured[name]) - (2, 4, 6)).max() < 0.1, measured
 Remark(
     "Normal forms about periodic orbits",
-    "The angle of a return of exact runs is compared with the orbit's angle alone, with the twist added, and with the form "
-    "of sixth order. Measured exponents of the three errors in the size: "
+    "The angle of a return of exact runs is compared with three predictions: the orbit's angle alone, the angle with the twist, "
+    "and the normal form of sixth order. Their errors are proportional to powers of the size of the motion. The measured "
+    "exponents are "
     + "; ".join(", ".join(f"{order:.2f}" for order in orders) + f" ({name})" for name, orders in measured.items())
     + ".",
 )

@@ -183,17 +183,19 @@ prove(C * n, sp.zeros(3, 1), "the direction n without gyroscopic force", names=r
 value = natural_rate(Scene((10, -10), link=Link(1, 0.01, 0.1)))
 Remark(
     "The zero mode",
-    "The free direction is n = (0, −G_2, G_1) in (x, y_1, y_2): toppling for opposite spins, twisting for equal spins. It has no "
-    "x component. "
-    "Every position at rest is an equilibrium.",
+    "The free direction in (x, y_1, y_2) is n = (0, −G_2, G_1). This is toppling for opposite spins and twisting for "
+    "equal spins; "
+    "it has no x component. Every position at rest is an equilibrium.",
 )
 
 # %%
 Remark(
     "Normal modes",
-    "One oscillation and four zero roots: det(s² M + s C) = 2 (a + b)(a² − b²) s⁴ (s² + Ω_0²), "
-    "Ω_0² = (a (G_1² + G_2²) − 2 b G_1 G_2)/(2 (a + b)(a² − b²)). Equal spins: G/(a + b); opposite spins: G/√(a² − b²); one "
-    f"spinning rotor with a dumbbell: G/(√2 a). Paper's scene of 5.2.1: {value:.5f} rad/s.",
+    "The pair has one oscillation and four zero roots: det(s² M + s C) = 2 (a + b)(a² − b²) s⁴ (s² + Ω_0²), with "
+    "Ω_0² = (a (G_1² + G_2²) − 2 b G_1 G_2)/(2 (a + b)(a² − b²)). The natural rate Ω_0 is G/(a + b) for equal spins, "
+    "G/√(a² − b²) "
+    "for opposite spins, and G/(√2 a) for one spinning rotor with a dumbbell as the bar. In the paper's scene of 5.2.1 it is "
+    f"{value:.5f} rad/s.",
 )
 
 # %% [markdown]
@@ -231,10 +233,10 @@ slope = measured_order(amplitudes, shifts)
 assert abs(slope - 2) < 0.2 and all(error < bound for error, bound in zip(shifts, bounds, strict=True))
 Remark(
     "Error of the natural rate",
-    "The relative error is of second order in the amplitude. For spins 10 and −4 and a bar of 0.8 R: "
-    + "; ".join(
+    "The relative error is of second order in the amplitude. For spins of 10 and −4 rad/s and a bar of 0.8 R it is "
+    + ", ".join(
         f"{100 * error:.2g} % at r = {r} (bound {100 * bound:.2g} %)"
         for r, error, bound in zip(amplitudes, shifts, bounds, strict=True)
     )
-    + f"; measured exponent {slope:.2f}. Amplitudes beyond r = 0.4, or with a shift that may exceed 0.12, are refused.",
+    + f", with the measured exponent {slope:.2f}. Amplitudes beyond r = 0.4, or with a shift that may exceed 0.12, are refused.",
 )

@@ -23,8 +23,8 @@ from lagrotor.theory import impulse_matrices, shock_displacement, shock_energy
 # %% [markdown]
 # ## From the equation of motion to powers of one matrix
 #
-# The linear pair obeys $M\ddot q + C\dot q = Q(t)$. One integration gives $M\dot q + Cq = p(t)$, with the impulse $p(t)$ up to
-# time $t$. After an impulse $p$ at $s=0$ the equation is $\dot q = M^{-1}p - Nq$. The response is $H(s)p$ with
+# The linearised equations are $M\ddot q + C\dot q = Q(t)$. One integration gives $M\dot q + Cq = p(t)$, with the impulse
+# $p(t)$ up to time $t$. After an impulse $p$ at $s=0$ the equation is $\dot q = M^{-1}p - Nq$. The response is $H(s)p$ with
 # $\dot H = e^{-Ns}M^{-1}$.
 
 # %%
@@ -167,9 +167,11 @@ Formula(equal_x * att**2, "E")
 # %%
 Remark(
     "The energy of the shock, 100 to 100.45 J",
-    "A shock along x adds the energy p_x²/(4 (a + b)) exp(−(Ω_0 w)²/2) J to a pair with equal spins. In the paper's scene "
-    f"this is 100 + {answer.energy:.5f} J; an exact run gives {exact:.5f} J. Without the factor of the width it is 100 + "
-    f"{answer.impulse_energy:.5f} J.",
+    "A shock along x adds the energy p_x²/(4 (a + b)) exp(−(Ω_0 w)²/2) to a pair with equal spins. In the paper's "
+    "scene the energy "
+    f"then is 100 + {answer.energy:.5f} J; an exact run gives {exact:.5f} J. Without the exponential factor, which "
+    "comes from the "
+    f"width w of the pulse, it would be 100 + {answer.impulse_energy:.5f} J.",
 )
 
 # %% [markdown]
@@ -190,15 +192,18 @@ slope = measured_order(sizes, errors)
 assert abs(slope - 2) < 0.1 and all(error < bound for error, bound in zip(errors, estimates, strict=True))
 Remark(
     "Shock response",
-    f"The error of the closed form is of second order in the shock (measured exponent {slope:.3f}), for any spins and any bar, "
-    "also during the pulse: "
-    + "; ".join(f"{error:.2g} R, estimated {bound:.2g}" for error, bound in zip(errors, estimates, strict=True))
-    + f" at {', '.join(f'{50 * size:g}' for size in sizes)} N after 2.5 s. Beyond an estimate of 0.1 R it is refused.",
+    "For any spins and any bar, also during the pulse, the error of the closed form is of second order in the shock (measured "
+    f"exponent {slope:.3f}). After 2.5 s the largest errors are "
+    + ", ".join(
+        f"{error:.2g} R at {50 * size:g} N (estimated {bound:.2g} R)"
+        for size, error, bound in zip(sizes, errors, estimates, strict=True)
+    )
+    + ". If the estimate exceeds 0.1 R, the closed form is refused.",
 )
 
 # %%
 Remark(
     "Displacement after a shock along x",
-    "For opposite spins the displacement is (x, y_1, y_2) = (0, 1, −1) p_x/(2 G): a permanent twist as large as the "
-    "oscillation, and no displacement along x.",
+    "For opposite spins the displacement is (x, y_1, y_2) = (0, 1, −1) p_x/(2 G). It is a permanent twist as large as the "
+    "oscillation, without a displacement along x.",
 )

@@ -356,12 +356,12 @@ assert abs(slopes["frequency"] - 4) < 0.2 and abs(slopes["momentum"] - 6) < 0.3
 assert all(error < bound for name in off for error, bound in zip(off[name], bounds[name], strict=True))
 Remark(
     "Frequency and momentum of the paired precession",
-    f"At σ = {scene.sigma:.4f}, k = {scene.k:g}, r_0 = {amplitudes[-1]} the frequency through r_0³ has the error "
-    f"{off['frequency'][-1]:.1e} (bound {bounds['frequency'][-1]:.1e}), and P/G through r_0⁴ the error "
-    f"{off['momentum'][-1]:.1e} "
-    f"(bound {bounds['momentum'][-1]:.1e}). Measured exponents of the errors: {slopes['frequency']:.2f} and "
-    f"{slopes['momentum']:.2f}. "
-    "A pair at rest has P = 0, so a shock along x alone cannot start this orbit.",
+    f"At σ = {scene.sigma:.4f}, k = {scene.k:g}, r_0 = {amplitudes[-1]} the series of the frequency through r_0³ has the error "
+    f"{off['frequency'][-1]:.1e} (bound {bounds['frequency'][-1]:.1e}), and the series of P/G through r_0⁴ has the error "
+    f"{off['momentum'][-1]:.1e} (bound {bounds['momentum'][-1]:.1e}). The measured exponents of the two errors are "
+    f"{slopes['frequency']:.2f} and {slopes['momentum']:.2f}. A pair at rest has P = 0, so a shock along x alone "
+    "cannot start this "
+    "orbit.",
 )
 
 # %%
@@ -376,7 +376,7 @@ third_order = np.array(corrected_trajectories(3)(0.2, phases, *bar_of)).reshape(
 assert all(error < bound for error, bound in deviations.values())
 Remark(
     "Error of the axes",
-    "Largest distance of an axis from the exact orbit over one period at r_0 = 0.2, and its error bound: "
-    + "; ".join(f"order {order}: {error:.1e}, {bound:.1e}" for order, (error, bound) in deviations.items())
-    + f". Through r_0³ the distance is {np.linalg.norm(third_order - truth, axis=-1).max():.1e}.",
+    "Over one period at r_0 = 0.2 the largest distance of an axis from the exact orbit is "
+    + ", ".join(f"{error:.1e} at order {order} (bound {bound:.1e})" for order, (error, bound) in deviations.items())
+    + f". Through r_0³ it is {np.linalg.norm(third_order - truth, axis=-1).max():.1e}.",
 )

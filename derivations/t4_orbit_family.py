@@ -120,15 +120,15 @@ for name, link in list(BARS.items())[:2]:
     family = orbit_family(scene_of(link), amplitudes)
     curves[name] = family.frequencies / natural_rate(scene_of(link))
     errors.append(family.frequency_errors.max() / natural_rate(scene_of(link)))
-rows = "; ".join(f"{name}: " + ", ".join(f"{v:.5f}" for v in values) for name, values in curves.items())
+rows = " and ".join(f"{', '.join(f'{v:.5f}' for v in values)} ({name})" for name, values in curves.items())
 assert all(values[0] < 1 for values in curves.values())
 assert curves["massless, k = 1"][3] > curves["massless, k = 1"][2]
 Remark(
     "The family of orbits",
-    f"Ω/Ω_0 at r_0 = {', '.join(map(str, amplitudes))}: {rows}; estimated errors at most {max(errors):.1e}. For k = 1 the "
-    "frequency decreases, has a minimum and increases again; with a massless bar longer than √(3/2) R it increases from the "
-    "start (s5_3b). The families have no turning point up to r_0 = 0.99 (ends(), slow). They end at r_0 = 1, where the axes "
-    "lie along the joint line.",
+    f"At r_0 = {', '.join(map(str, amplitudes))} the frequency ratio Ω/Ω_0 is {rows}. The estimated errors are at most "
+    f"{max(errors):.1e}. For k = 1 the frequency decreases, has a minimum and increases again. With a massless bar longer than "
+    "√(3/2) R it increases from the start (s5_3b). The families have no turning point up to r_0 = 0.99. They end at r_0 = 1, "
+    "where the axes lie along the joint line.",
 )
 
 # %% [markdown]
@@ -145,7 +145,7 @@ for name, link in list(BARS.items())[:2]:
 assert all(error < bound for error, bound in deviations.values())
 Remark(
     "The series at r_0 = 0.2",
-    "Difference of the frequency through r_0³ from the exact one, and its error estimate: "
-    + "; ".join(f"{error:.1e}, {bound:.1e} ({name})" for name, (error, bound) in deviations.items())
+    "The frequency through r_0³ differs from the exact frequency by "
+    + " and ".join(f"{error:.1e} (estimated {bound:.1e}; {name})" for name, (error, bound) in deviations.items())
     + ".",
 )

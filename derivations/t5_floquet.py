@@ -311,7 +311,7 @@ prove(
 
 # %%
 BARS = {
-    "massless, k = 1": (Link(1, 0, 0), (0.1, 0.14)),
+    "a massless bar, k = 1": (Link(1, 0, 0), (0.1, 0.14)),
     "m = 0.01, K = 0.1": (Link(1, 0.01, 0.1), (0.06, 0.09)),
     "m = 0.4, K = 0.05, k = 1": (Link(1, 0.4, 0.05), (0.06, 0.09)),
 }
@@ -340,13 +340,14 @@ assert [kind for kind, *_ in measured.values()] == ["hyperbolic", "hyperbolic", 
 paper = floquet(Scene(spins=(10, -10), link=Link(1, 0.01, 0.1)), 0.204)
 Remark(
     "Stability of the paired precession",
-    "At small amplitude the orbit is elliptic for b > 0 and hyperbolic for b ≤ 0. Exact multipliers: "
-    + "; ".join(
-        f"{name}, r_0 = {BARS[name][1][-1]}: {kind}, μ + 1/μ − 2 ∝ r_0^{slope:.2f}, error of the law {100 * abs(error):.1f} %, "
-        f"error bound {100 * abs(bound):.1f} %"
+    "At small amplitude the orbit is elliptic for b > 0 and hyperbolic for b ≤ 0. The exact multipliers confirm this. "
+    + " ".join(
+        f"For {name} the orbit is {kind}, and μ + 1/μ − 2 is proportional to r_0^{slope:.2f}; at r_0 = "
+        f"{BARS[name][1][-1]} the law has a relative error of {100 * abs(error):.1f} %, within the bound "
+        f"{100 * abs(bound):.1f} %."
         for name, (kind, slope, error, bound) in measured.items()
     )
-    + f". In the paper's scene the growth per period at r_0 = 0.204 is {paper.growth:.5f} ± {paper.exponent_error:.0e}.",
+    + f" In the paper's scene the growth per period at r_0 = 0.204 is {paper.growth:.5f} ± {paper.exponent_error:.0e}.",
 )
 
 
@@ -367,8 +368,9 @@ assert all(abs(law - exact) < bound for law, bound, exact in edges.values())
 ratios = [abs(law - exact) / exact for law, _, exact in edges.values()]
 Remark(
     "Boundary between elliptic and hyperbolic",
-    "The boundary at k = 1 by the law, with its error estimate, and on exact orbits: "
-    + "; ".join(f"σ = {value}: {law:.4f} ± {bound:.4f}, {exact:.4f}" for value, (law, bound, exact) in edges.items())
-    + ". The law is asymptotic in σ − 1: its relative error grows from "
-    + f"{100 * ratios[0]:.1f} % to {100 * ratios[-1]:.0f} % here.",
+    "For k = 1 the boundary lies, according to the law, at r_0 = "
+    + ", ".join(f"{law:.4f} ± {bound:.4f} for σ = {value}" for value, (law, bound, _) in edges.items())
+    + f". On exact orbits it lies at {', '.join(f'{exact:.4f}' for *_, exact in edges.values())}. The law is "
+    "asymptotic for small "
+    f"σ − 1; its relative error grows from {100 * ratios[0]:.1f} % to {100 * ratios[-1]:.0f} % here.",
 )

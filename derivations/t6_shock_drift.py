@@ -184,9 +184,10 @@ slope = measured_order(forces, errors)
 assert slope > 3.5
 Remark(
     "The drift after a shock",
-    "⟨y′⟩ = (p_y + G ⟨(y_1 − y_2)²⟩/(2 k))/(2 (a + b)). P is conserved, and a twist of either sign contributes to it because the "
-    f"bar makes the axes lean. The error is of fourth order (measured exponent {slope:.2f}): "
-    + "; ".join(f"{error:.1e} rad/s at {f} N" for f, error in zip(forces, errors, strict=True))
+    "The mean rate of rotation is ⟨y′⟩ = (p_y + G ⟨(y_1 − y_2)²⟩/(2 k))/(2 (a + b)). P is conserved, and a twist of either sign "
+    "contributes to it because the bar makes the axes lean. The error is of fourth order in the shock (measured exponent "
+    f"{slope:.2f}); it is "
+    + " and ".join(f"{error:.1e} rad/s at {f} N" for f, error in zip(forces, errors, strict=True))
     + ". `toppling_error` measures it on an exact run.",
 )
 
@@ -199,11 +200,11 @@ assert abs(at_paper) < abs(at_second) < abs(without) / 10
 Remark(
     "The force −11",
     f"For F_x = 40 N the force along y that cancels the drift is −{-tried[1]:.2f} N to second order. On exact runs it "
-    "depends on the averaging time: "
-    + ", ".join(f"−{-force:.2f} N over {turns} oscillations" for turns, force in by_window.items())
-    + f"; the paper took −11 N. Mean α′ over 8 oscillations: {without:+.4f} rad/s with F_y = 0, {at_second:+.4f} with the "
-    f"second-order force, {at_paper:+.4f} with −11 N. The error of the second-order force is "
-    f"{cancelling_force_error(scene(40), duration(8)):.2f} N for 8 oscillations; for F_x = 10 N and 40 oscillations it is "
+    "depends on the averaging time: it is "
+    + " and ".join(f"−{-force:.2f} N over {turns} oscillations" for turns, force in by_window.items())
+    + f"; the paper took −11 N. The mean of α′ over 8 oscillations is {without:+.4f} rad/s with F_y = 0, {at_second:+.4f} rad/s "
+    f"with the second-order force, and {at_paper:+.4f} rad/s with −11 N. The second-order force has an error of "
+    f"{cancelling_force_error(scene(40), duration(8)):.2f} N for 8 oscillations. For F_x = 10 N and 40 oscillations the error is "
     f"{cancelling_force_error(scene(10), duration(40)):.1e} N.",
 )
 
@@ -337,9 +338,9 @@ orders = measured_order(sizes, without_next), measured_order(sizes, with_next)
 assert abs(orders[0] - 4) < 0.1 and abs(orders[1] - 6) < 0.1, orders
 Remark(
     "The next order of the drift",
-    f"After a short pulse along x with δ = p_x/(2G) the error of the second order is ∝ δ^{orders[0]:.2f}. With the fourth order "
-    f"it is ∝ δ^{orders[1]:.2f}. For other pulses and directions `toppling_error` and `wander_error` measure the error "
-    "on an exact run.",
+    "After a short pulse along x, with δ = p_x/(2G), the error of the second-order rate is proportional to "
+    f"δ^{orders[0]:.2f}. With the terms of fourth order it is proportional to δ^{orders[1]:.2f}. For other pulses and directions "
+    "`toppling_error` and `wander_error` measure the error on an exact run.",
 )
 
 # %% [markdown]

@@ -114,13 +114,13 @@ assert abs(error_order - 2) < 0.1
 Remark(
     "The rate of the mean x",
     "After a shock F along x the pair rotates about the joint line at a rate ∝ F² (measured exponent "
-    f"{slopes[0]:.3f}), and the mean of x changes at a rate ∝ F³ (measured exponent {slopes[1]:.3f}). "
-    "Mean rates over 20 oscillations, measured and by the law: "
-    + "; ".join(
-        f"{F:g} N: {measured:.3e} and {law_rate:.3e} 1/s"
+    f"{slopes[0]:.3f}), and the mean of x changes at a rate ∝ F³ (measured exponent {slopes[1]:.3f}). Over 20 oscillations its "
+    "mean rate is "
+    + ", ".join(
+        f"{measured:.3e} 1/s at {F:g} N (law: {law_rate:.3e} 1/s)"
         for F, measured, law_rate in zip(forces, wander, predicted, strict=True)
     )
-    + f"; for the two larger forces the relative error is ∝ F^{error_order:.2f}.",
+    + f". For the two larger forces the relative error of the law is ∝ F^{error_order:.2f}.",
 )
 
 
@@ -155,23 +155,24 @@ assert single[0] < 0.5 * followed
 assert abs(followed / times[strong][0] - 1) < 2 * times[strong][1]
 Remark(
     "Time of stability in x",
-    f"By the initial rate the mean of x over the oscillation and both axes is below {BOUND:g} for "
-    + "; ".join(
+    f"The mean of x is taken over the oscillation and both axes. According to its initial rate it stays below {BOUND:g} for "
+    + ", ".join(
         f"{time:.3g} s at {force:g} N "
         + ("(not compared)" if error is None else f"(error of the mean rate {100 * error:.0f} %)")
         for force, (time, error) in times.items()
     )
-    + f". On the exact run at {strong:g} N this time is {followed:.2f} s. Because of its oscillation an axis itself passes "
-    f"{BOUND:g} much earlier: x_1 after {single[0]:.2f} s, x_2 after {single[1]:.2f} s from the pulse's peak. By the initial "
-    "rate of rotation the pair leans by "
-    f"{LEAN:g} rad after " + ", ".join(f"{time:.3g} s" for time in lean.values()) + ".",
+    + f". On the exact run at {strong:g} N this time is {followed:.2f} s. A single axis oscillates and passes {BOUND:g} much "
+    f"earlier: x_1 does so {single[0]:.2f} s and x_2 {single[1]:.2f} s after the peak of the pulse. According to the "
+    "initial rate "
+    f"of rotation the pair leans by {LEAN:g} rad after {', '.join(f'{time:.3g} s' for time in lean.values())} at these three "
+    "forces.",
 )
 
 # %%
 spared = wander_after_shock(scene(20, -2.633)) / wander_after_shock(scene(20))
 Remark(
     "Cause of the motion in x",
-    "After the shock the mean twist is Δ = p_x/G. Rotation about the joint line converts it into x, with Ẋ = −α′ Δ/k "
-    "for b = 0, less for b > 0 and more for b < 0. With the force along y that "
-    f"cancels the drift (t6) the rate is {spared:.3f} of this value.",
+    "After the shock the mean twist is Δ = p_x/G. Rotation about the joint line converts this twist into x, at the rate "
+    "Ẋ = −α′ Δ/k for b = 0; the rate is smaller for b > 0 and larger for b < 0. With the force along y that "
+    f"cancels the drift (t6) it is {spared:.3f} of this value.",
 )

@@ -159,11 +159,13 @@ def measured(link: Link, rate: float) -> tuple[float, float]:
 
 
 pairs = {
-    "massless, ν = 2": measured(Link(1, 0, 0), 2.0),
-    "m = 1, K = 1, ν = −15": measured(Link(1, 1, 1), -15.0),
+    "a massless bar, ν = 2 rad/s": measured(Link(1, 0, 0), 2.0),
+    "m = 1 kg, K = 1 kg m², ν = −15 rad/s": measured(Link(1, 1, 1), -15.0),
 }
 assert all(abs(p / q - 1) < 0.01 for p, q in pairs.values())
-rows = "; ".join(f"{name}: predicted {p:.4f}, measured {q:.4f}" for name, (p, q) in pairs.items())
+rows = " ".join(
+    f"For {name} the predicted rate is {p:.4f} 1/s and the measured rate {q:.4f} 1/s." for name, (p, q) in pairs.items()
+)
 Remark(
     "Toppling as an exact solution",
     "Uniform rotation about the joint line solves the equations at any angle and rate if and only if (G_1 + G_2) ν = 0.",
@@ -172,9 +174,10 @@ Remark(
 # %%
 Remark(
     "Stability of toppling",
-    "The rotation is linearly stable for b ν² > G ν/k and unstable for b ν² < G ν/k. For a massless bar only its sense "
-    "matters. The threshold is ν = G/(k b). Slow unstable rotation has s² = 2 (a + b) ν³/(G k). Growth rates (1/s) of "
-    f"infinitesimal perturbations: {rows}.",
+    "The rotation is linearly stable for b ν² > G ν/k and unstable for b ν² < G ν/k. For a massless bar stability "
+    "depends only on "
+    "the sense of the rotation. Otherwise the threshold is ν = G/(k b). A slow unstable rotation has s² = 2 (a + b) ν³/(G k). "
+    f"The growth of infinitesimal perturbations is measured on exact runs. {rows}",
 )
 
 # %% [markdown]
@@ -192,10 +195,9 @@ assert shocks[50][1] == 0 < shocks[-50][1]
 assert shocks[-50][2] > shocks[50][2]
 Remark(
     "+50 N against −50 N along y",
-    "; ".join(
-        f"F_y = {force:+d} N: rate of rotation {rate:+.3f} rad/s (first order), growth rate {growth:.3f} 1/s, range of the exact "
-        f"mean x {width:.3f} R from 2.5 to 20 s"
+    " ".join(
+        f"After F_y = {force:+d} N the pair rotates at {rate:+.3f} rad/s (to first order), and a perturbation grows at "
+        f"{growth:.3f} 1/s; from 2.5 to 20 s the exact mean x varies over a range of {width:.3f} R."
         for force, (rate, growth, width) in shocks.items()
-    )
-    + ".",
+    ),
 )

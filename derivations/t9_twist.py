@@ -199,9 +199,9 @@ widest = max(np.degrees(c) for c in cones if twist_bounded(heavy, c))
 assert widest < min(resonant)
 Remark(
     "Wide cones",
-    "A point mass of 1 kg is in the middle of the bar (K = 0, b > 0), and cones are tested in steps of 5°. By Lyapunov's "
-    f"criterion a small twist is bounded up to {widest:.0f}°. The first cone with growth is {min(resonant):.0f}°, at "
-    f"{resonant[min(resonant)]:.2f} 1/s.",
+    "The bar has a point mass of 1 kg at its middle (K = 0, b > 0), and the half-angle of the cone is increased in steps of 5°. "
+    f"According to Lyapunov's criterion a small twist is bounded up to {widest:.0f}°. The first cone on which it grows has "
+    f"{min(resonant):.0f}°; the growth rate is {resonant[min(resonant)]:.2f} 1/s.",
 )
 
 # %% [markdown]
@@ -241,13 +241,15 @@ Remark(
 # %%
 Remark(
     "The twist instability",
-    "A small twist is bounded on narrow cones for b > 0, that is K < m ℓ²/4. For b < 0 it grows at the rate "
-    "ρ |G| √(−b/(a − b))/(a + b), with ρ the sine of the half-angle; the next term is of third order. Growth rates (1/s) for "
-    "m = K = 1: "
-    + "; ".join(
-        f"{angle} rad: {f:.4f} with an error of at most {errors[angle]:.4f}, Hill's equation {h:.4f}, measured {s:.4f}"
+    "On narrow cones a small twist is bounded for b > 0, that is K < m ℓ²/4. For b < 0 it grows at the rate "
+    "ρ |G| √(−b/(a − b))/(a + b), with ρ the sine of the half-angle; the next term is of third order. For m = 1 kg "
+    "and K = 1 kg m² "
+    "the rates are compared. "
+    + " ".join(
+        f"At a half-angle of {angle} rad the law gives {f:.4f} 1/s with an error of at most {errors[angle]:.4f} 1/s, Hill's "
+        f"equation gives {h:.4f} 1/s, and the exact run {s:.4f} 1/s."
         for angle, (f, h, s) in pairs.items()
     )
-    + f". In the paper's scene of figure 10 (amplitude {size:.4f}) a twist grows at {rate:.3f} 1/s, so its axes are not "
+    + f" In the paper's scene of figure 10 (amplitude {size:.4f}) a twist grows at {rate:.3f} 1/s, so its axes are not "
     "'necessarily aligned at all times'.",
 )

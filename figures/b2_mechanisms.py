@@ -30,9 +30,10 @@ WHAT = {"ready": "time to be ready [s]", "rhs": "a right-hand side [µs]"}
 
 TITLE = "Other tools on growing mechanisms"
 ALT = (
-    "Four panels in logarithms over the number of links: above the time to be ready, below the time of one right-hand side; left "
-    "rods in relative angles, right gyroscopes. The lines of lagrotor lie below those of sympy's methods, which end where their "
-    "time did not suffice; the compiled engines are ready at once. Solid and dotted lines are of two runs, on two machines."
+    "Four panels on logarithmic axes show times as functions of the number of links. The upper ones show the time until a "
+    "tool is ready, the lower ones the time of one right-hand side; rods in relative angles are on the left, gyroscopes on "
+    "the right. The lines of lagrotor lie below those of sympy's methods, which end at the time limit. The compiled engines "
+    "are ready at once. Solid and dotted lines are two runs on two machines."
 )
 
 
@@ -66,12 +67,14 @@ def measure() -> dict[str, float]:
 
 _BESIDE, _OTHERS = recorded_bodies_and_lagrangians(), recorded_mechanisms()
 CAPTION = (
-    "Processor time, each tool in its own process, its right-hand side equal to the others' to 1e-9. Solid: one run on "
-    f"{_BESIDE['machine']['processor']}. {record_age('bodies_and_lagrangians', _BESIDE['date'], _BESIDE['digest'])} Dotted: "
+    "Processor times of several tools. Each tool runs in its own process, and its right-hand side equals the others' "
+    "to 1e-9. Solid "
+    f"lines are one run on {_BESIDE['machine']['processor']}. "
+    f"{record_age('bodies_and_lagrangians', _BESIDE['date'], _BESIDE['digest'])} Dotted lines are "
     f"another run on {_OTHERS.machine['processor']}. {record_age('mechanisms', _OTHERS.date, _OTHERS.digest)} "
-    f"Between the smallest and the largest mechanism lagrotor's time to be ready grows as n to the power "
+    "Between the smallest and the largest mechanism the time until lagrotor is ready is proportional to n to the power "
     f"{measure()['power of n, ready, rods']:.2f} for rods and {measure()['power of n, ready, gyroscopes']:.2f} for gyroscopes. "
-    "A line ends at the time limit; fast: compiled by heyoka. Engines take their mechanisms as data and derive nothing."
+    "A line ends at the time limit; 'fast' means compiled by heyoka. Engines take their mechanisms as data and derive nothing."
 )
 
 

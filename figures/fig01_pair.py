@@ -18,8 +18,10 @@ from lagrotor.pictures import arc, arrow, canvas, draw_wheel, ground, label, pat
 SCENE = Scene(spins=(10.0, -10.0))
 TITLE = "Axially coupled rotor pair"
 CAPTION = (
-    "Two equal rotors stand on ground joints a bar's length ell = 1 m apart; the bar joins their tips. Each turns about "
-    "its axis of length R = 1 m at its own omega_i, here opposite; wheels not drawn to the inertia, one spoke of each marked."
+    "Two equal rotors stand on ground joints that are ell = 1 m apart; a bar of this length joins their tips. Each rotor turns "
+    "about its axis of length R = 1 m with its own spin omega_i; here the spins are opposite. The wheels are not "
+    "drawn to the scale "
+    "of the inertia; one spoke of each is marked."
 )
 ALT = (
     "Two wheels, indigo on the left and purple on the right, on upright axes above two ground joints on the x axis. A grey "

@@ -19,14 +19,15 @@ from lagrotor.pictures import arc, arrow, canvas, ground, label, path_arrow
 ROTOR, ELL, SPINS, INCLINATION, FORCE = Rotor(), 1.0, (12.0, 6.0), 0.28, np.array([0.6, 0.0, 0.0])
 TITLE = "Forces on the rotors and the bar"
 CAPTION = (
-    "Parallel axes r, a massless bar. The force F on the bar reaches the tips as F_A and F_B, in the ratio of the spins, "
-    f"here omega_1 : omega_2 = {SPINS[0]:g} : {SPINS[1]:g}; lengths of the force arrows to scale. Both tips then move the "
-    "same way, along r × F."
+    "The axes r are parallel, and the bar is massless. The force F on the bar reaches the tips as F_A and F_B, in the "
+    "ratio of the "
+    f"spins, here omega_1 : omega_2 = {SPINS[0]:g} : {SPINS[1]:g}. The force arrows are drawn to scale. Both tips then move in "
+    "the same direction, along r × F."
 )
 ALT = (
-    "Two parallel inclined axes, indigo and purple, with spins omega 1 and omega 2, joined by a grey bar. A green force arrow F "
-    "along the bar; below it F A on tip 1 is twice as long as F B on tip 2. Thin black arrows at both tips point into the "
-    "picture, along r cross F."
+    "Two parallel inclined axes, indigo and purple, with spins omega 1 and omega 2, are joined by a grey bar. A green arrow "
+    "along the bar is the force F. Below it the arrow F A on tip 1 is twice as long as the arrow F B on tip 2. Thin black "
+    "arrows at both tips point into the picture, along r cross F."
 )
 
 

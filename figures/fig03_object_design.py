@@ -20,14 +20,16 @@ from lagrotor.pictures import arrow, bare
 
 TITLE = "Object design of the rigid-body simulator"
 CAPTION = (
-    "A RigidBodySystem holds rigid bodies, which it copies into stacked arrays, and links between their vertices; the "
-    "ground is one more body, which nothing moves. In bold the paper's methods (constructor, addExternal, link, ground, "
-    "computeForces, step); names and arguments are read off the classes."
+    "A RigidBodySystem holds rigid bodies, which it copies into stacked arrays, and links between their vertices. The "
+    "ground is a "
+    "further body, which does not move. The paper's methods (constructor, addExternal, link, ground, computeForces, step) are in "
+    "bold; all names and arguments are read from the classes."
 )
 ALT = (
-    "Four boxes. Above, left, RigidBody with its seven fields; right, RigidBodySystem with its public methods, the paper's "
-    "in bold. Below, left, the force law and the step limit; right, the functions that set a scene up and run it. Arrows "
-    "lead from the bodies to the system, from the force law to it, and from the system to the runs."
+    "The drawing has four boxes. At the top left is RigidBody with its seven fields, at the top right RigidBodySystem with "
+    "its public methods, the paper's in bold. At the bottom left are the force law and the step limit, at the bottom right "
+    "the functions that set up a scene and run it. Arrows lead from the bodies to the system, from the force law to it, and "
+    "from the system to the runs."
 )
 PAPER = ("RigidBodySystem", "add_external", "link", "ground", "compute_forces", "step")
 

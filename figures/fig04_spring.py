@@ -18,13 +18,13 @@ from lagrotor.pictures import arrow, canvas, label
 S, D, SCALE = 1.0, 0.2, 0.33  # N/m, kg/s; m drawn for 1 N
 TITLE = "Spring between vertex 1 and vertex 2"
 CAPTION = (
-    "A link glues two vertices by a spring of rest length 0, stiffness S, and a damper D beside it. Here they are a gap "
-    "apart at rest, so that the force on vertex 1 is −S (X_1 − X_2) and that on vertex 2 its opposite."
+    "A link joins two vertices by a spring of rest length 0 and stiffness S with a damper D beside it. Here the vertices are at "
+    "rest with a gap between them. The force on vertex 1 is therefore −S (X_1 − X_2), and the force on vertex 2 is its opposite."
 )
 ALT = (
-    "Two bodies drawn as an indigo and a purple bar with their centres of mass marked. From the end of each, vertex 1 and "
-    "vertex 2, a zigzag spring labelled S and a damper labelled D join the two. Green arrows at the vertices point at each "
-    "other: F on 1 and F on 2."
+    "Two bodies are drawn as an indigo and a purple bar with their centres of mass marked. A zigzag spring labelled S "
+    "and a damper "
+    "labelled D join their ends, vertex 1 and vertex 2. Green arrows at the vertices, F on 1 and F on 2, point to each other."
 )
 
 

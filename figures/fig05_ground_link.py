@@ -19,13 +19,15 @@ from lagrotor.pictures import arrow, canvas, label
 S, D, MOVED = 1.0, 0.2, np.array([0.24, 0.0, 0.18])  # N/m, kg/s; m
 TITLE = "Link between a ground vertex and a body vertex"
 CAPTION = (
-    "The ground G is a body that no force moves. Grounding vertex 1 of a rotor makes the vertex G_r(1) where X_r(1) then "
-    "is, and a link between the two; drawn after the rotor has been moved off by 0.3 m, with the force on it."
+    "The ground G is a body that no force moves. Grounding vertex 1 of a rotor creates the vertex G_r(1) at the position of "
+    "X_r(1), and a link between the two. In the drawing the rotor has then been displaced by 0.3 m; the arrows show "
+    "the forces of "
+    "the link."
 )
 ALT = (
-    "A hatched strip of ground with a vertex G r 1. Above it the lower end of an upright indigo rotor, vertex X r 1, joined "
-    "to the ground vertex by a zigzag spring. A green arrow at the rotor's vertex points back at the ground vertex; an "
-    "equal one at the ground vertex is taken up by the ground."
+    "A hatched strip is the ground, with a vertex G r 1. Above it the lower end of an upright indigo rotor, vertex X r 1, "
+    "is joined to the ground vertex by a zigzag spring. A green arrow at the rotor's vertex points to the ground vertex. An "
+    "equal and opposite force acts on the ground."
 )
 
 

@@ -19,14 +19,16 @@ from lagrotor.pictures import canvas, draw_wheel, ground, label
 APART = np.array([[-0.12, 0, 0], [0.12, 0, 0], [0, 0, 0.24]])  # m, for the drawing only
 TITLE = "Three rigid bodies and four links"
 CAPTION = (
-    "R1 and R2 are the rotors, R3 is the bar; each has two vertices and its centre of mass half way. Dotted: the links "
-    "(1, 3, 2, 1) and (2, 3, 2, 2) of the listing and the two grounds, all of zero length in the run; the bodies are "
-    "pulled apart here. Heights count from the ground joints: the paper's z is 0.5 m less."
+    "R1 and R2 are the rotors, R3 is the bar. Each body has two vertices, and its centre of mass is midway between them. The "
+    "dotted lines are the links (1, 3, 2, 1) and (2, 3, 2, 2) of the listing and the two grounds. In the run all of "
+    "them have zero "
+    "length; in the drawing the bodies are pulled apart. Heights are measured from the ground joints; the paper's z "
+    "is 0.5 m less."
 )
 ALT = (
-    "Two wheels on upright axes, R1 indigo and R2 purple, and above them a grey bar R3. Vertices 1 and 2 of every body are "
-    "numbered, centres of mass marked with their coordinates. Dotted green lines join the bar's ends to the upper vertices "
-    "and the lower vertices to the ground."
+    "Two wheels on upright axes, R1 indigo and R2 purple, have a grey bar R3 above them. Vertices 1 and 2 of every body are "
+    "numbered, and the centres of mass are marked with their coordinates. Dotted green lines join the bar's ends to the "
+    "upper vertices and the lower vertices to the ground."
 )
 
 

@@ -19,9 +19,11 @@ SCENE = SCENES["same-spin"].scene
 T_END, SHOWN = 0.628, (0, 157, 314, 471)  # s; steps of the pictures, a quarter of a turn apart
 TITLE = "Equal spins: the moving bodies"
 CAPTION = (
-    f"Spring-link model (S = {STIFFNESS:g} N/m, D = {DAMPING:g} kg/s, n = 20 and omega_s = 10 rad/s in 4.01), the paper's "
-    f"step of {STEP:g} s, spins 10 and 10 rad/s, bar of 1 kg and 1 kg m². A quarter of a turn lies between the pictures: "
-    "the marked spoke turns, the axes stay upright. Wheels are not drawn to the rotors' inertia."
+    f"Run of the spring-link model with S = {STIFFNESS:g} N/m and D = {DAMPING:g} kg/s (n = 20 and omega_s = 10 rad/s "
+    "in 4.01) and "
+    f"the paper's step of {STEP:g} s. The spins are 10 and 10 rad/s, the bar has 1 kg and 1 kg m². Between consecutive pictures "
+    "the rotors make a quarter of a turn: the marked spoke turns, while the axes stay upright. The wheels are not drawn to the "
+    "scale of the inertia."
 )
 ALT = (
     "Four pictures of the pair at t = 0, 0.157, 0.314 and 0.471 s. The axes stand upright and the bar lies level in all; "

@@ -20,9 +20,10 @@ BAR_HEIGHT, RIGHT_HEIGHT = 1.5, 1.0  # m above the ground joints; the paper's z 
 TOTAL = OKABE_ITO["orange"]
 TITLE = "Energy with the bar misplaced"
 ALT = (
-    "Three panels of energy over time. The whole run: kinetic energy rises from 100 J to 200 J at once and falls back to "
-    "100 J. The first 0.15 s of it: a peak after a few milliseconds and a decay. On a logarithmic scale above 100 J: "
-    "kinetic and total energy fall along lines that become straight, the total from 2500 J."
+    "Three panels show energy as a function of time. Over the whole run the kinetic energy jumps from 100 J to 200 J and "
+    "falls back to 100 J. In the first 0.15 s it has a peak after a few milliseconds and then decays. On a logarithmic "
+    "scale of the excess over 100 J the kinetic and the total energy fall along curves that become straight; the total "
+    "energy starts at 2500 J."
 )
 
 
@@ -67,11 +68,13 @@ def measure() -> dict[str, float]:
 
 _peak, _at, _start, _decay, _predicted, _ = measure().values()
 CAPTION = (
-    f"Spring-link model by the paper's step of {STEP:g} s, S = {STIFFNESS:g} N/m and D = {DAMPING:g} kg/s (n = 20, "
-    "omega_s = 10 rad/s in 4.01, as in figure 10), bar of 1 kg and 1 kg m², spins 10 and 10 rad/s. The bar starts at "
-    f"{BAR_HEIGHT:g} m above the ground joints instead of {RIGHT_HEIGHT:g} m. Kinetic energy, all that the paper plots: up to "
-    f"{_peak:.1f} J after {1000 * _at:.0f} ms, then down, in the end at {_decay:.2f} 1/s (by the mobility of the joints: "
-    f"{_predicted:.2f} 1/s). With the springs' energy the run begins at {_start:.0f} J."
+    f"Run of the spring-link model with the paper's step of {STEP:g} s, S = {STIFFNESS:g} N/m and D = {DAMPING:g} kg/s (n = 20, "
+    "omega_s = 10 rad/s in 4.01, as in figure 10), a bar of 1 kg and 1 kg m², and spins of 10 and 10 rad/s. The bar starts "
+    f"{BAR_HEIGHT:g} m above the ground joints instead of {RIGHT_HEIGHT:g} m. The paper plots only the kinetic "
+    "energy. It rises to "
+    f"{_peak:.1f} J after {1000 * _at:.0f} ms and then decays, in the end at the rate {_decay:.2f} 1/s; the mobility "
+    "of the joints "
+    f"predicts {_predicted:.2f} 1/s. Together with the energy of the springs the run begins at {_start:.0f} J."
 )
 
 

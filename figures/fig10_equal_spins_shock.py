@@ -19,8 +19,9 @@ from lagrotor.paper.rotor_pair.runs import paper_run, pulse
 SCENE = SCENES["same-spin-shock"].scene
 TITLE = "Equal spins, shock along the bar"
 ALT = (
-    "Upper panel: energy over 10 s, level at 100 J, a step to 100.45 J at t = 2 s, then level for the exact model and "
-    "falling by 0.01 J for the spring-link run. Lower panel: the force, a narrow pulse of 50 N at t = 2 s."
+    "The upper panel shows the energy over 10 s. It is level at 100 J and jumps to 100.45 J at t = 2 s. Then it is level in "
+    "the exact model and decreases by 0.01 J in the spring-link run. The lower panel shows the force, a narrow pulse of 50 "
+    "N at t = 2 s."
 )
 
 
@@ -53,11 +54,13 @@ def measure() -> dict[str, float]:
 
 _before, _most, _end, _exact, _limit = measure().values()
 CAPTION = (
-    f"Spring-link model by the paper's step of {STEP:g} s, bar of 1 kg and 1 kg m², spins 10 and 10 rad/s, shock 50 exp(−(50 "
-    f"(t − 2))²) N in x on the tip of rotor 1: {_before:.0f} to {_most:.3f} J, the dampers then take it to {_end:.3f} J by 10 s; "
-    f"exact model {_exact:.3f} J. The paper does not give n and omega_s of 4.01. Found by trying n (claim C08) and taken here "
-    f"and in the other figures: omega_s = 10 rad/s, n = 20, S = {STIFFNESS:g} N/m, D = {DAMPING:g} kg/s, stable up to a step "
-    f"of {1000 * _limit:.2f} ms."
+    f"Run of the spring-link model with the paper's step of {STEP:g} s, a bar of 1 kg and 1 kg m², spins of 10 and 10 rad/s, and "
+    "the shock 50 exp(−(50 (t − 2))²) N along x on the tip of rotor 1. The energy rises from "
+    f"{_before:.0f} to {_most:.3f} J, and the dampers reduce it to {_end:.3f} J at 10 s. In the exact model it is {_exact:.3f} J "
+    "after the shock. The paper does not give n and omega_s of 4.01. This figure and the others use omega_s = 10 "
+    "rad/s and n = 20, "
+    f"found by trying n (claim C08), hence S = {STIFFNESS:g} N/m and D = {DAMPING:g} kg/s. The run is stable up to a step of "
+    f"{1000 * _limit:.2f} ms."
 )
 
 

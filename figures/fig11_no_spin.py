@@ -18,9 +18,9 @@ from lagrotor.pictures import shock_figure
 SCENE = SCENES["no-spin"].scene
 TITLE = "No spin, shock along the bar"
 ALT = (
-    "Three panels over 10 s. Energy: zero, then 0.45 J from t = 2 s. Force: a pulse of 50 N at 2 s. Centre of rotor 1: x "
-    "and z follow arcs of a circle of 0.5 m about the ground joint, y stays zero; the dashed exact "
-    "curves lie on them and end at 4.8 s."
+    "Three panels show 10 s. The energy is zero, and 0.45 J from t = 2 s on. The force is a pulse of 50 N at 2 s. For the "
+    "centre of rotor 1, x and z follow arcs of a circle of 0.5 m about the ground joint, while y stays zero. The dashed "
+    "exact curves coincide with them and end at 4.8 s."
 )
 
 IN_LINE = 4.8  # s; the exact planar motion is determined until bar and axes are in line, a little later
@@ -42,12 +42,12 @@ def measure() -> dict[str, float]:
 
 _energy, _exact, _x, _y, _z, _off = measure().values()
 CAPTION = (
-    f"Spring-link model by the paper's step of {STEP:g} s, S = {STIFFNESS:g} N/m and D = {DAMPING:g} kg/s (n = 20, "
-    "omega_s = 10 rad/s in 4.01, as in figure 10), bar of 1 kg and 1 kg m², spins 0 and 0 rad/s, "
-    "shock 50 exp(−(50 (t − 2))²) N in x on the tip of rotor 1. "
-    f"It takes {_energy:.3f} J (exact: {_exact:.3f} J); y stays at zero. "
-    f"Dashed: the exact model, {1000 * _off:.1f} mm away at {IN_LINE:g} s; soon after, bar and axes are in line, where a rigid "
-    "bar leaves the motion open. The paper's z is 0.5 m less."
+    f"Run of the spring-link model with the paper's step of {STEP:g} s, S = {STIFFNESS:g} N/m and D = {DAMPING:g} kg/s (n = 20, "
+    "omega_s = 10 rad/s in 4.01, as in figure 10), a bar of 1 kg and 1 kg m², no spins, and the shock 50 exp(−(50 (t − 2))²) N "
+    f"along x on the tip of rotor 1. The pair gains {_energy:.3f} J (exact model: {_exact:.3f} J), and y stays zero. The dashed "
+    f"curves are the exact model, which differs by {1000 * _off:.1f} mm at {IN_LINE:g} s. Soon after, the bar and "
+    "both axes lie in "
+    "one line, where the motion with a rigid bar is not determined. The paper's z is 0.5 m less."
 )
 
 

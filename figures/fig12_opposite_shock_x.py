@@ -10,9 +10,9 @@ from lagrotor.pictures import shock_script
 SCENE = SCENES["anti-spin-shock-x"].scene
 TITLE = "Opposite spins, shock along the bar"
 ALT = (
-    "Three panels over 10 s. Energy: 100 J, then 100.44 J from t = 2 s. Force: a pulse of 50 N in x at 2 s. Centre of "
-    "rotor 1: x swings a little about −0.5 m, y grows with the same swing upon it, z falls a little; the dashed exact "
-    "curves lie on them."
+    "Three panels show 10 s. The energy is 100 J, and 100.44 J from t = 2 s on. The force is a pulse of 50 N along x at 2 "
+    "s. For the centre of rotor 1, x oscillates slightly about −0.5 m, y grows with the same oscillation superposed, and z "
+    "decreases slightly. The dashed exact curves coincide with them."
 )
 
 # %%

@@ -10,9 +10,9 @@ from lagrotor.pictures import shock_script
 SCENE = SCENES["anti-spin-shock-y"].scene
 TITLE = "Opposite spins, shock across the bar"
 ALT = (
-    "Three panels over 10 s. Energy: 100 J, then 100.68 J from t = 2 s. Force: a pulse of 50 N in y at 2 s. Centre of "
-    "rotor 1: x swings a little about −0.5 m while y and z go round the ground joint; the dashed exact "
-    "curves run a little ahead in the end."
+    "Three panels show 10 s. The energy is 100 J, and 100.68 J from t = 2 s on. The force is a pulse of 50 N along y at 2 "
+    "s. For the centre of rotor 1, x oscillates slightly about −0.5 m, while y and z go round the ground joint. The dashed "
+    "exact curves are slightly ahead at the end."
 )
 
 # %%

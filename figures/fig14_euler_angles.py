@@ -19,9 +19,10 @@ from lagrotor.pictures import arc_between, arrow, canvas, label, path_arrow
 NODE, THETA, PSI = 1.05, 0.7, 0.75  # the paper's varphi, theta, psi, rad
 TITLE = "Euler angles of one rotor"
 CAPTION = (
-    "The fixed frame e_x, e_y, e_z; the body's frame e_1, e_2, e_3 with e_3 along the rotor's axis. varphi leads from e_x to "
-    "the node line, theta from e_z to e_3, psi from the node line to e_1. Drawn at varphi = 60°, theta = 40°, psi = 43°; the "
-    "axis lies at the azimuth varphi − 90°."
+    "The fixed frame is e_x, e_y, e_z; the body's frame is e_1, e_2, e_3, with e_3 along the rotor's axis. The angle "
+    "varphi leads "
+    "from e_x to the node line, theta from e_z to e_3, and psi from the node line to e_1. The drawing has varphi = 60°, theta = "
+    "40°, psi = 43°. The axis has the azimuth varphi − 90°."
 )
 ALT = (
     "A fixed black frame and a tilted indigo frame with a common origin. A dashed node line lies in the level plane "

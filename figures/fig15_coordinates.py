@@ -18,9 +18,9 @@ from lagrotor.pictures import arc, arc_between, arrow, canvas, ground, label, pa
 WISHED = ((0.62, 0.75), (0.62, -0.85))  # theta, phi of the two axes before they are brought onto the bar, rad
 TITLE = "Generalized coordinates of the pair"
 ALT = (
-    "Two inclined axes r 1 (indigo) and r 2 (purple) on ground joints, their tips joined by a grey bar. At each joint a dashed "
-    "upright line and a faint x direction; green arcs mark theta from the upright to the axis, phi from x to the axis's shadow "
-    "on the ground, and psi around the axis."
+    "Two inclined axes r 1 (indigo) and r 2 (purple) stand on ground joints, and a grey bar joins their tips. Each joint "
+    "has a dashed upright line and a faint line along x. Green arcs mark theta from the upright to the axis, phi from x to "
+    "the axis's shadow on the ground, and psi around the axis."
 )
 
 
@@ -53,9 +53,10 @@ def measure() -> dict[str, float]:
 
 _degrees = np.degrees(np.array([data()["theta"], data()["phi"]]))
 CAPTION = (
-    "Inclination theta_i, azimuth phi_i (the paper's varphi_i shifted by 90°) and spin angle psi_i of both rotors; the bar "
-    f"has its length ell = 1 m in the drawing: theta = {_degrees[0, 0]:.0f}° and {_degrees[0, 1]:.0f}°, "
-    f"phi = {_degrees[1, 0]:.0f}° and −{-_degrees[1, 1]:.0f}°. Six angles, one constraint: five degrees of freedom."
+    "The coordinates of both rotors are the inclination theta_i, the azimuth phi_i (the paper's varphi_i shifted by 90°) and the "
+    "spin angle psi_i. In the drawing the bar has its length ell = 1 m: "
+    f"theta is {_degrees[0, 0]:.0f}° and {_degrees[0, 1]:.0f}°, phi is {_degrees[1, 0]:.0f}° and −{-_degrees[1, 1]:.0f}°. Six "
+    "angles with one constraint leave five degrees of freedom."
 )
 
 

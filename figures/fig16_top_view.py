@@ -19,9 +19,9 @@ from lagrotor.pictures import arc_between, arrow, ground, label, path_arrow
 WISHED = ((0.62, 0.75), (0.62, -0.85))  # as in figure 15
 TITLE = "Top view of the coordinates"
 ALT = (
-    "Plan with x to the right and y up, in metres. From the ground joints at −0.5 and 0.5 m the shadows of the axes r 1 "
-    "(indigo, forward) and r 2 (purple, backward) lead to the tips, joined by the grey bar. Green arcs mark phi 1 and phi 2 from "
-    "the x direction; dotted circles have the radii sin theta 1 and sin theta 2."
+    "The plan has x to the right and y up, in metres. From the ground joints at −0.5 and 0.5 m the shadows of the axes r 1 "
+    "(indigo, forward) and r 2 (purple, backward) lead to the tips, which the grey bar joins. Green arcs mark phi 1 and phi "
+    "2 from the x direction. Dotted circles have the radii sin theta 1 and sin theta 2."
 )
 
 
@@ -51,9 +51,11 @@ def measure() -> dict[str, float]:
 
 _shadow, _length = measure().values()
 CAPTION = (
-    "The state of figure 15 from above: shadows of the axes, of length R sin theta_i at the azimuths phi_i, and of the bar. "
-    f"The bar is {_length:.3f} m long, its shadow {_shadow:.4f} m: the two differ by the square of the tips' "
-    "difference in height."
+    "This is the state of figure 15 seen from above. The shadows of the axes have the lengths R sin theta_i and the "
+    "azimuths phi_i. "
+    f"The bar is {_length:.3f} m long, and its shadow {_shadow:.4f} m. The squares of the two lengths differ by the "
+    "square of the "
+    "difference in height of the tips."
 )
 
 

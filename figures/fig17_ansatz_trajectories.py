@@ -20,9 +20,9 @@ R0, TOL, SHOWN = 0.204, 1e-11, (0, 22, 60, 90)
 
 TITLE = "Trajectories of the pair by the ansatz"
 ALT = (
-    "Top view: two circles of radius 0.204 m round the ground joints, run through in opposite senses, and the exact "
-    "closed orbits, which touch the circles on the x-axis and are a little flatter on the outer side. Four positions "
-    "of the bar are drawn. Below: the length the bar would need rises from 1 m to 1.08 m twice a turn, and the "
+    "The top view shows two circles of radius 0.204 m around the ground joints, with opposite directions of motion, and the "
+    "exact closed orbits, which touch the circles on the x-axis and are slightly flatter on the outer side. Four positions "
+    "of the bar are drawn. Below, the length that the bar would need rises from 1 m to 1.08 m twice a turn, and the "
     "distance from the exact tip rises from 0 to 0.04 m twice a turn."
 )
 
@@ -57,10 +57,11 @@ def measure() -> dict[str, float]:
 
 _longest, _distance = measure().values()
 CAPTION = (
-    f"Ansatz: constant inclination with sin theta_0 = r_0 = {R0}, phi_1 = −phi_2. Exact: the periodic orbit of the "
-    f"minimal model found by shooting, opposite spins ±10 rad/s, massless bar, ell = R = 1 m, tolerance {TOL:g}, at "
-    f"the same phase. The ansatz needs a bar of up to {_longest:.4f} m, and its tips lie up to {_distance:.3f} m "
-    "from the exact ones."
+    f"The ansatz has a constant inclination with sin theta_0 = r_0 = {R0} and phi_1 = −phi_2. The exact orbit is the "
+    "periodic orbit "
+    "of the minimal model, found by shooting, with opposite spins of ±10 rad/s, a massless bar, ell = R = 1 m and the tolerance "
+    f"{TOL:g}; it is drawn at the same phase. The ansatz needs a bar of up to {_longest:.4f} m, and its tips are up to "
+    f"{_distance:.3f} m away from the exact ones."
 )
 
 

@@ -20,10 +20,11 @@ R0, TOL = 0.204, 1e-11
 
 TITLE = "Swing of the link length"
 ALT = (
-    "Length of the bar against the angle over one turn. At constant inclination it swings between 1 m and 1.08 m with "
-    "period pi. With the paper's correction it stays near 1.08 m. The corrected series and the exact orbit stay at 1 "
-    "m. The lower panel has the distance from 1 m on a logarithmic scale: near 0.08 m for the paper's curves, a few "
-    "millimetres at most for the series of orders 2 and 3, with opposite signs."
+    "The upper panel shows the length of the bar as a function of the angle over one turn. At constant inclination it "
+    "varies between 1 m and 1.08 m with the period pi. With the paper's correction it stays near 1.08 m. The corrected "
+    "series and the exact orbit stay at 1 m. The lower panel shows the difference from 1 m on a logarithmic scale. It is "
+    "near 0.08 m for the paper's curves and at most a few millimetres for the series of orders 2 and 3, with opposite "
+    "signs."
 )
 
 
@@ -63,10 +64,14 @@ def measure() -> dict[str, float]:
 
 _constant, _least, _most, _second, _third = measure().values()
 CAPTION = (
-    f"Distance of the tips in space at r_0 = sin theta_0 = {R0}, ell = R = 1 m. Constant inclination: 1 to "
-    f"{_constant:.4f} m; the paper's correction (5.20): {_least:.4f} to {_most:.4f} m, nearly constant but too long. "
-    f"Series of the exact orbit (massless bar): off by {_second:.1e} m (order 2) and {_third:.1e} m (order 3). Exact "
-    f"orbit: minimal model, tolerance {TOL:g}, opposite spins ±10 rad/s."
+    f"The distance between the tips is shown for r_0 = sin theta_0 = {R0}, ell = R = 1 m. At constant inclination it "
+    "varies from 1 "
+    f"to {_constant:.4f} m. With the paper's correction (5.20) it varies from {_least:.4f} to {_most:.4f} m, so it is nearly "
+    f"constant but too long. The series of the exact orbit (massless bar) differs from 1 m by up to {_second:.1e} m "
+    "at order 2 and "
+    f"{_third:.1e} m at order 3. The exact orbit is computed with the minimal model at the tolerance {TOL:g}, with "
+    "opposite spins "
+    "of ±10 rad/s."
 )
 
 

@@ -20,9 +20,9 @@ R0, TOL = 0.204, 1e-11
 
 TITLE = "Corrected trajectories of the pair"
 ALT = (
-    "Top view: round each ground joint the exact closed orbit with the series of order 3 on top of it, and the "
-    "paper's corrected curve, displaced outwards by about 0.04 m. Below, on a logarithmic scale, the distance from "
-    "the exact tip over one turn: about 0.04 m for the paper, up to several millimetres for order 2, about two "
+    "The top view shows, around each ground joint, the exact closed orbit with the series of order 3 on top of it, and the "
+    "paper's corrected curve, which lies about 0.04 m further out. Below, on a logarithmic scale, the distance from the "
+    "exact tip over one turn is about 0.04 m for the paper, up to several millimetres for order 2, and about two "
     "millimetres for order 3."
 )
 
@@ -49,9 +49,10 @@ def measure() -> dict[str, float]:
 
 _paper, _second, _third = measure().values()
 CAPTION = (
-    f"r_0 = {R0}, massless bar, ell = R = 1 m. Exact: periodic orbit of the minimal model, spins ±10 rad/s, tolerance "
-    f"{TOL:g}. Largest distance from the exact tip at the same phase: paper's correction (5.20) {_paper:.3f} m, "
-    f"corrected series of order 2 {_second:.4f} m, of order 3 {_third:.4f} m."
+    f"The amplitude is r_0 = {R0}, the bar is massless, and ell = R = 1 m. The exact curve is the periodic orbit of the minimal "
+    f"model with spins of ±10 rad/s at the tolerance {TOL:g}. The largest distance from the exact tip at the same phase is "
+    f"{_paper:.3f} m for the paper's correction (5.20), {_second:.4f} m for the corrected series of order 2, and {_third:.4f} m "
+    "for order 3."
 )
 
 

@@ -22,10 +22,10 @@ R0, TOL = 0.5, 1e-11
 
 TITLE = "Corrected trajectories at a large oscillation"
 ALT = (
-    "Top view: the exact orbits are egg-shaped closed curves of half-width 0.5 m that meet near the origin; the "
-    "paper's curves lie 0.25 m further out and are nearly straight on the inner side. The series of order 3 leaves "
-    "the exact orbit visibly, that of order 9 covers it. Below, on a logarithmic scale: distances near 0.3 m for the "
-    "paper, some centimetres for order 3, millimetres for order 9."
+    "In the top view the exact orbits are egg-shaped closed curves of half-width 0.5 m that meet near the origin. The "
+    "paper's curves lie 0.25 m further out and are nearly straight on the inner side. The series of order 3 differs visibly "
+    "from the exact orbit, the series of order 9 covers it. Below, on a logarithmic scale, the distances are near 0.3 m for "
+    "the paper, some centimetres for order 3, and millimetres for order 9."
 )
 
 
@@ -62,10 +62,13 @@ def measure() -> dict[str, float]:
 
 _paper, _third, _ninth, _longest, _ratio = measure().values()
 CAPTION = (
-    f"r_0 = {R0} (the paper's value is not printed), massless bar, ell = R = 1 m. Exact: periodic orbit of the minimal "
-    f"model, spins ±10 rad/s, tolerance {TOL:g}; its rate is {_ratio:.4f} of the natural one. Largest distance from "
-    f"the exact tip at the same phase: paper {_paper:.2f} m, with a bar of up to {_longest:.2f} m; series of order 3 "
-    f"{_third:.3f} m, of order 9 {_ninth:.4f} m."
+    f"The amplitude is r_0 = {R0} (the paper does not print its value), the bar is massless, and ell = R = 1 m. The "
+    "exact curve is "
+    f"the periodic orbit of the minimal model with spins of ±10 rad/s at the tolerance {TOL:g}; its rate is "
+    f"{_ratio:.4f} times the "
+    f"natural rate. The largest distance from the exact tip at the same phase is {_paper:.2f} m for the paper's "
+    "correction, which "
+    f"needs a bar of up to {_longest:.2f} m, {_third:.3f} m for the series of order 3, and {_ninth:.4f} m for order 9."
 )
 
 

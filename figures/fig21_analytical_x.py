@@ -18,10 +18,10 @@ R0, TOL = 0.204, 1e-11
 
 TITLE = "Analytical $x_1$ and $x_2$ over time"
 ALT = (
-    "Two panels with x of the right and the left tip over 15 s at rate 1 rad/s: the exact orbit and the corrected "
-    "formula lie on each other, with narrow peaks on the outer side; the paper's curve has the same form but lies "
-    "further out by 0.04 m. The third panel has the residuals: 0.04 m for the paper, a few millimetres for the "
-    "corrected formula."
+    "Two panels show x of the right and the left tip over 15 s at the rate 1 rad/s. The exact orbit and the corrected "
+    "formula coincide, with narrow peaks on the outer side. The paper's curve has the same form but lies further out by "
+    "0.04 m. The third panel shows the residuals, which are 0.04 m for the paper and a few millimetres for the corrected "
+    "formula."
 )
 
 
@@ -56,10 +56,13 @@ def measure() -> dict[str, float]:
 
 _paper, _corrected, _mean, _ = measure().values()
 CAPTION = (
-    f"Rate 1 rad/s, r_0 = {R0}, ell = R = 1 m. Exact: periodic orbit of the minimal model (massless bar, spins ±10 "
-    f"rad/s, tolerance {TOL:g}), its time multiplied by its frequency so that its phase is t. Largest residual: paper "
-    f"(5.22) {_paper:.3f} m, with mean {_mean:.3f} m in x_1, as −r_0² = {-(R0**2):.3f} m is missing from its centre; "
-    f"corrected formula of order 2 {_corrected:.4f} m."
+    f"The rate is 1 rad/s, r_0 = {R0}, and ell = R = 1 m. The exact curve is the periodic orbit of the minimal model "
+    "(massless bar, "
+    f"spins of ±10 rad/s, tolerance {TOL:g}); its time is multiplied by its frequency, so that its phase is t. The "
+    "largest residual "
+    f"of the paper's formula (5.22) is {_paper:.3f} m. Its mean residual in x_1 is {_mean:.3f} m, because −r_0² = "
+    f"{-(R0**2):.3f} m "
+    f"is missing from its centre. The corrected formula of order 2 has a residual of at most {_corrected:.4f} m."
 ).replace(" -", " −")
 
 

@@ -18,9 +18,9 @@ SCENE = SCENES["free-precession"].scene
 
 TITLE = "Simulated $x_1$ and $x_2$ over time"
 ALT = (
-    "Two panels over 10 s with x of the right and the left tip: at rest at 0.5 m and −0.5 m until the shock at 2 s, "
-    "then nine oscillations of amplitude 0.2 m, the valleys of the left tip and the peaks of the right one narrower. "
-    "A third panel has the y of both, swinging to opposite sides of zero between 0 and 0.37 m."
+    "Two panels show x of the right and the left tip over 10 s. The tips rest at 0.5 m and −0.5 m until the shock at 2 s "
+    "and then make nine oscillations of amplitude 0.2 m. The valleys of the left tip and the peaks of the right one are "
+    "narrower. A third panel shows y of both tips, which oscillate on opposite sides of zero between 0 and 0.37 m."
 )
 
 
@@ -53,10 +53,10 @@ def measure() -> dict[str, float]:
 
 _m = measure()
 CAPTION = (
-    "Scene of 5.2.1: spins ±10 rad/s, bar 1 m, 0.01 kg, 0.1 kg m², shock (40, −11, 0) exp(−(20 (t − 2))²) N on tip 1; "
-    f"minimal model, tolerance {TOL:g}. From 2.3 to 10 s x_1 runs from {_m['x_1, least (m)']:.3f} to "
-    f"{_m['x_1, most (m)']:.3f} m and x_2 from {_m['x_2, least (m)']:.3f} to {_m['x_2, most (m)']:.3f} m at "
-    f"{_m['rate (rad/s)']:.3f} rad/s."
+    "The scene of 5.2.1 has spins of ±10 rad/s, a bar of 1 m, 0.01 kg and 0.1 kg m², and the shock (40, −11, 0) exp(−(20 (t − "
+    f"2))²) N on tip 1. It is simulated with the minimal model at the tolerance {TOL:g}. From 2.3 to 10 s x_1 varies from "
+    f"{_m['x_1, least (m)']:.3f} to {_m['x_1, most (m)']:.3f} m and x_2 from {_m['x_2, least (m)']:.3f} to "
+    f"{_m['x_2, most (m)']:.3f} m, at the rate {_m['rate (rad/s)']:.3f} rad/s."
 ).replace(" -", " −")
 
 

@@ -20,10 +20,10 @@ SCENE = SCENES["free-precession"].scene
 
 TITLE = "Skewness of the precession centres"
 ALT = (
-    "Top view: the traces of both tips after the shock are rings of radius 0.2 m, the left one above the x-axis, the "
-    "right one below. A straight line through their centres falls from left to right at about 21 degrees to x; the "
-    "line predicted by the linear response nearly coincides. Below, the angle turn by turn changes by 0.1 degree, "
-    "some one degree below the linear prediction."
+    "In the top view the traces of both tips after the shock are rings of radius 0.2 m, the left one above the x-axis, the "
+    "right one below it. A straight line through their centres falls from left to right at about 21 degrees to x; the line "
+    "predicted by the linear response nearly coincides with it. Below, the angle varies by 0.1 degree from turn to turn and "
+    "lies about one degree below the linear prediction."
 )
 
 
@@ -67,10 +67,12 @@ def measure() -> dict[str, float]:
 
 _m = measure()
 CAPTION = (
-    f"Run of figure 22 (spins ±10 rad/s, bar 0.01 kg, 0.1 kg m², minimal model, tolerance {TOL:g}) after 2.4 s. "
-    f"Centres: mean of each tip over {_m['whole turns']:.0f} whole turns; the line through them is at "
-    f"{_m['skew angle (deg)']:.2f}° to x, within {_m['spread over the turns (deg)']:.2f}° turn by turn. The linear "
-    f"response to the shock has {_m['skew angle by the linear response (deg)']:.2f}°. The paper prints no angle."
+    f"This is the run of figure 22 (spins of ±10 rad/s, a bar of 0.01 kg and 0.1 kg m², minimal model, tolerance {TOL:g}) after "
+    f"2.4 s. Each centre is the mean of a tip over {_m['whole turns']:.0f} whole turns. The line through the centres "
+    "has the angle "
+    f"{_m['skew angle (deg)']:.2f}° to x; from turn to turn the angle varies by {_m['spread over the turns (deg)']:.2f}°. The "
+    f"linear response to the shock gives {_m['skew angle by the linear response (deg)']:.2f}°. The paper does not "
+    "print the angle."
 ).replace(" -", " −")
 
 

@@ -20,10 +20,10 @@ SCENE = SCENES["free-precession"].scene
 
 TITLE = "Oscillation along the skew axis, simulated and predicted"
 ALT = (
-    "Two panels with the displacement of the right and the left tip along the skew axis from 2.4 s to 10 s, some nine "
-    "oscillations of amplitude 0.2 m. The corrected series lies on the simulated curve; the paper's formula is "
-    "displaced outwards by 0.04 m. In the residual panel the two tips of the series have the same residual, 0.03 m at "
-    "most, a slow drift of the middle; those of the paper lie 0.07 m apart, to both sides of it."
+    "Two panels show the displacement of the right and the left tip along the skew axis from 2.4 s to 10 s, with nine "
+    "oscillations of amplitude 0.2 m. The corrected series lies on the simulated curve; the paper's formula lies 0.04 m "
+    "further out. In the residual panel both tips of the series have the same residual of at most 0.03 m, which is a slow "
+    "drift of the middle. The residuals of the paper lie 0.07 m apart, on both sides of it."
 )
 
 
@@ -113,17 +113,20 @@ def measure() -> dict[str, float]:
 
 _m = measure()
 CAPTION = (
-    "Simulated: scene of 5.2.1 (spins ±10 rad/s, bar 0.01 kg and 0.1 kg m², shock (40, −11, 0) N on tip 1 at 2 s), "
-    f"minimal model, tolerance {TOL:g}; displacement along the line through the centres, at "
-    f"{_m['skew angle (deg)']:.2f}° to x. Predicted: r_0 = {_m['predicted r_0']:.4f} from the linear response, rate "
-    f"{_m['predicted rate (rad/s)']:.3f} rad/s from the natural rate and r_0 (measured "
-    f"{_m['measured rate (rad/s)']:.3f}), for both formulas; fitted: the phase. Largest residual: paper "
-    f"{_m['paper, largest residual (m)']:.3f} m, series of order 3 {_m['corrected, largest residual (m)']:.3f} m, "
-    f"mostly a drift of the middle by {_m['drift of the middle along the axis (m)']:.3f} m. Half the distance of the "
-    f"tips is free of it: paper {_m['paper, half distance of the tips, largest residual (m)']:.4f} m, series "
-    f"{_m['corrected, half distance of the tips, largest residual (m)']:.4f} m; centres "
-    f"{_m['distance of the centres (m)']:.4f} m apart, corrected {_m['distance of the centres, 1 − r_0² (m)']:.4f}, "
-    f"paper {_m['distance of the centres, paper, 1 + r_0² (m)']:.4f}."
+    "The scene of 5.2.1 (spins of ±10 rad/s, a bar of 0.01 kg and 0.1 kg m², the shock (40, −11, 0) N on tip 1 at 2 "
+    "s) is simulated "
+    f"at the tolerance {TOL:g}. The curves are displacements along the line through the centres, at "
+    f"{_m['skew angle (deg)']:.2f}° "
+    f"to x. Both formulas use r_0 = {_m['predicted r_0']:.4f} from the linear response and the rate "
+    f"{_m['predicted rate (rad/s)']:.3f} rad/s from the natural rate and r_0 (measured {_m['measured rate (rad/s)']:.3f} rad/s); "
+    f"the phase is fitted. The largest residual is {_m['paper, largest residual (m)']:.3f} m for the paper and "
+    f"{_m['corrected, largest residual (m)']:.3f} m for the series of order 3, mostly because the middle drifts by "
+    f"{_m['drift of the middle along the axis (m)']:.3f} m. Half the distance between the tips is free of this drift; "
+    "its residual "
+    f"is {_m['paper, half distance of the tips, largest residual (m)']:.4f} m and "
+    f"{_m['corrected, half distance of the tips, largest residual (m)']:.4f} m. The centres are "
+    f"{_m['distance of the centres (m)']:.4f} m apart (series {_m['distance of the centres, 1 − r_0² (m)']:.4f} m, paper "
+    f"{_m['distance of the centres, paper, 1 + r_0² (m)']:.4f} m)."
 ).replace(" -", " −")
 
 

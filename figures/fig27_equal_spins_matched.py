@@ -20,10 +20,10 @@ SCENE = Scene(spins=(20, 20), link=HEAVY_LINK, shock=Shock(force=(40, 0, 0), at=
 
 TITLE = "Equal spins 20, matched to a rate"
 ALT = (
-    "Four panels. The force is a narrow peak of 40 N at 2 s. x of the tip oscillates after it with amplitude 0.08 m. "
-    "The sine at 11.4 rad/s and the stiff springs fall a little behind, with residuals growing to 0.04 and 0.06 m; "
-    "the sine at the closed form's rate stays on the curve. In the spectrum the exact peak is at 11.5 rad/s, just "
-    "above the mark at 11.4, that of the springs just below it."
+    "There are four panels. The force is a narrow peak of 40 N at 2 s, after which x of the tip oscillates with the "
+    "amplitude 0.08 m. The sine at 11.4 rad/s and the stiff springs fall behind, and their residuals grow to 0.04 and 0.06 "
+    "m. The sine at the closed form's rate stays on the curve. In the spectrum the exact peak is at 11.5 rad/s, just above "
+    "the mark at 11.4, and the peak of the springs is just below it."
 )
 
 
@@ -42,12 +42,14 @@ def measure() -> dict[str, float]:
 
 _m = measure()
 CAPTION = (
-    f"Spins 20 and 20 rad/s, bar 1 m, 1 kg, 1 kg m², shock as in figure 25. Exact: minimal model, tolerance {TOL:g}; "
-    f"paper's method: springs S = {STIFFNESS:g} N/m, D = {DAMPING:g} kg/s (as in figure 25), step {STEP:g} s. Rate "
-    f"read off the spectrum (Hann window, 2.3 s to 10 s): exact {_m['rate, exact model (rad/s)']:.3f}, paper's method "
-    f"{_m['rate, spring model (rad/s)']:.3f}, closed form (80/7)/cos theta = {_m['rate, closed form (rad/s)']:.3f}, "
-    f"printed {PRINTED:g} rad/s. Largest residual from 2.3 s on: printed rate {_m['printed rate, largest residual (m)']:.3f} m, "
-    f"closed form {_m['closed form, largest residual (m)']:.1e} m."
+    "The spins are 20 and 20 rad/s, the bar has 1 m, 1 kg and 1 kg m², and the shock is as in figure 25. The exact curve is the "
+    f"minimal model at the tolerance {TOL:g}. The paper's method has springs with S = {STIFFNESS:g} N/m and D = {DAMPING:g} kg/s "
+    f"(as in figure 25) and a step of {STEP:g} s. From 2.3 s to 10 s the spectrum (Hann window) gives the rate "
+    f"{_m['rate, exact model (rad/s)']:.3f} rad/s for the exact model and {_m['rate, spring model (rad/s)']:.3f} rad/s for the "
+    f"paper's method. The closed form (80/7)/cos theta is {_m['rate, closed form (rad/s)']:.3f} rad/s; the paper prints "
+    f"{PRINTED:g} rad/s. From 2.3 s on the largest residual is {_m['printed rate, largest residual (m)']:.3f} m at "
+    "the printed rate "
+    f"and {_m['closed form, largest residual (m)']:.1e} m for the closed form."
 )
 
 

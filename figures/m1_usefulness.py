@@ -10,8 +10,9 @@ from lagrotor.pictures.benchmark_figures import stability_figure
 
 TITLE = "Range of use of the closed forms"
 ALT = (
-    "Three maps, for orders 1, 3 and 5, of the error of the closed form over amplitude from 0.01 to 0.5 and departure from "
-    "opposite spins from one in a million to three tenths; a line bounds the region at lower left in which the form is useful."
+    "Three maps, for orders 1, 3 and 5, show the error of the closed form. The axes are the amplitude from 0.01 to 0.5 and "
+    "the departure from opposite spins from one in a million to three tenths. In each map a line bounds the region at the "
+    "lower left in which the form is useful."
 )
 
 
@@ -43,9 +44,10 @@ def caption() -> str:
     reach = ", ".join(f"{edges[key]:.2f} ({key.split(', ')[1]})" for key in edges if key.startswith("amplitude"))
     apart = edges["departure at r0 = 0.01, order 5"]
     return (
-        "Largest distance of an axis from the exact one over the first turn, for a massless bar as long as the axes and a spin "
-        f"of 10 rad/s. The line is an error of {USEFUL:g} of the amplitude. With opposite spins it lies at r0 = {reach}; "
-        f"a departure of {apart:.3f} of the spins does as much at any small amplitude and order."
+        "The error is the largest distance of an axis from the exact axis over the first turn, for a massless bar as long as the "
+        f"axes and a spin of 10 rad/s. On the line it is {USEFUL:g} of the amplitude. With opposite spins the line lies at "
+        f"r0 = {reach}. If the spins depart from opposite ones by a fraction of {apart:.3f}, the error reaches this value at any "
+        "small amplitude and order."
     )
 
 

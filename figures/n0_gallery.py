@@ -13,10 +13,9 @@ from lagrotor.structures import GALLERY, draw_plan, example
 
 TITLE = "Ten structures"
 ALT = (
-    "Ten plans: one rotor, pairs, a corner, a row, a square, a plate, a hexagon, a grid. Indigo rotors spin one "
-    "way, purple ones "
-    "the other, a ring around each shows how fast; over each plan stands whether it stands, and from which multiple of "
-    "its spins on."
+    "The picture has ten plans: one rotor, pairs, a corner, a row, a square, a plate, a hexagon and a grid. Indigo rotors "
+    "spin in one sense and purple ones in the other; a ring around each rotor shows how fast it spins. Above each plan is "
+    "written whether it is stable, and the least multiple of its spins for which it is."
 )
 
 
@@ -41,10 +40,12 @@ def measure() -> dict[str, float]:
 
 
 CAPTION = (
-    "The gallery of `lagrotor structure`, from above, with 2 kg on each tip; the pair has no weight and drifts after a push. "
-    f"{int(data()['stands'].sum())} of {len(GALLERY)} are stable. Under weight, no structure with an odd number of bars and no "
-    "brace is. Least factors on the spins: "
-    + ", ".join(f"{name.removeprefix('least factor, ')} {factor:.3f}" for name, factor in measure().items())
+    "The gallery of `lagrotor structure` is seen from above, with 2 kg on each tip. The pair is not loaded and drifts "
+    "after a push. "
+    f"{int(data()['stands'].sum())} of {len(GALLERY)} structures are stable. Under weight, a structure with an odd "
+    "number of bars "
+    "and no brace is never stable. A stable structure stays stable if its spins are multiplied by a factor not below "
+    + ", ".join(f"{factor:.3f} ({name.removeprefix('least factor, ')})" for name, factor in measure().items())
     + "."
 )
 

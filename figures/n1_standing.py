@@ -27,9 +27,10 @@ TRIED = (0.5, 1.2, 1.8, 2.5)  # spins of the exact runs, in sqrt(a κ)/I3
 
 TITLE = "Stability under load"
 ALT = (
-    "Left: growth rate against spin for a loaded rotor alone, a pair, a corner of three and a square; the pair's does not "
-    "depend on the spin, the others end at thresholds. Exact runs lie on the curves. Right: the corner after a push, with "
-    "spins 3 per cent under and over its threshold: the tilt grows without end, or stays bounded."
+    "Left: the growth rate as a function of the spin for a single loaded rotor, a pair, a corner of three and a square. The "
+    "growth rate of the pair does not depend on the spin; the others become zero at thresholds. Exact runs lie on the "
+    "curves. Right: the tilt of the corner after a push, with spins 3 per cent below and above its threshold; it grows "
+    "without end or stays bounded."
 )
 
 
@@ -79,10 +80,14 @@ def measure() -> dict[str, float]:
 
 _alone, _corner, _square, _off, _under, _over = measure().values()
 CAPTION = (
-    "Equal rotors, 2 kg on each tip, massless bars. Least spin for stability, in units of √(aκ)/I₃ (a the inertia about the "
-    f"joint, κ the weight's moment): single rotor {_alone:.3f}, corner {_corner:.3f}, square with one spin opposite "
-    f"{_square:.3f}; a pair is never stable. Growth rates of exact runs differ by at most {_off:.0e} √(κ/a). After a push of "
-    f"0.001 /s the corner tilts by {_under:.2f} at 3 % below its threshold, and by {_over:.4f} at 3 % above it."
+    "The rotors are equal, with 2 kg on each tip, and the bars are massless; a is the inertia about the joint and κ "
+    "the moment of "
+    f"the weight. The least spin for stability is {_alone:.3f} √(aκ)/I₃ for a single rotor, {_corner:.3f} √(aκ)/I₃ "
+    "for the corner, "
+    f"and {_square:.3f} √(aκ)/I₃ for the square with one spin opposite. A pair is never stable. The growth rates of exact runs "
+    f"differ from the curves by at most {_off:.0e} √(κ/a). After a push of 0.001 rad/s the corner tilts by "
+    f"{_under:.2f} rad if its "
+    f"spins are 3 % below the threshold, and by {_over:.4f} rad if they are 3 % above it."
 )
 
 

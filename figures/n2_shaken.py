@@ -21,9 +21,10 @@ SHOWN = 0.3
 
 TITLE = "A sway with spins, and with a tuned mass"
 ALT = (
-    "Left: the largest amplification against the ratio of spin to sway rate. The spins' falls as one over the spin and "
-    "crosses the level lines of tuned masses of 1, 2 and 5 per cent; peaks found on structures lie on it. Right: transfer "
-    "functions of the bare sway, a tuned mass of 2 per cent and spins: the bare one has a pole, the others two low peaks."
+    "Left: the largest amplification as a function of the ratio of spin to sway rate. The curve of the spins falls as one "
+    "divided by the spin and crosses the level lines of tuned masses of 1, 2 and 5 per cent. Peaks found on structures lie "
+    "on the curve. Right: transfer functions of the bare sway, of a tuned mass of 2 per cent and of spins. The first has a "
+    "pole, the others have two low peaks."
 )
 
 
@@ -86,11 +87,13 @@ def measure() -> dict[str, float]:
 
 _one, _two, _five, _above, _higher, _same, _spun, _tuned = measure().values()
 CAPTION = (
-    "Two discs of 1 kg under 50 kg each, swaying along the bar at 1 Hz. Brace and damper across the bar are optimal; the peak is "
-    f"√2/γ and up to {100 * _higher:.1f} % above it, γ = G/(aΩ). Spins equal a tuned mass of 1, 2 and 5 % at γ = {_one:.3f}, "
-    f"{_two:.3f}, {_five:.3f}. The discs have 2 %, and γ = {_two:.3f} is {_two * INERTIA * SWAY / ROTOR.I3:.0f} rad/s. The peaks "
-    f"of the structures agree within {100 * _above:.3f} %, for equal and for opposite spins. Right: γ = {SHOWN}, peak "
-    f"{_spun:.2f}; tuned mass, {_tuned:.2f}."
+    "Two discs of 1 kg under 50 kg each sway along the bar at 1 Hz. Brace and damper across the bar are optimal. With "
+    f"γ = G/(aΩ) the peak exceeds √2/γ by at most {100 * _higher:.1f} %. Spins are as good as a tuned mass of 1, 2 and 5 % at "
+    f"γ = {_one:.3f}, {_two:.3f}, {_five:.3f}. The discs have 2 % of the mass, and γ = {_two:.3f} is a spin of "
+    f"{_two * INERTIA * SWAY / ROTOR.I3:.0f} rad/s. The peaks found on structures agree with the curve within "
+    f"{100 * _above:.3f} %, "
+    f"for equal and for opposite spins. Right: with spins at γ = {SHOWN} the peak is {_spun:.2f}, with the tuned mass it is "
+    f"{_tuned:.2f}."
 )
 
 

@@ -20,12 +20,11 @@ LOADED = 40.0  # rad/s, the spin under weight
 
 TITLE = "Bands of rotors joined by rigid bars"
 ALT = (
-    "Four panels of rate against wave number. Zigzags of alternating spins: a hump for each of three angles, "
-    "steep at zero for "
-    "the straightest. Equal spins: curves that fall from one common height at zero to nothing at the end. Staircase on "
-    "hinges: two curves and a gap; under weight, two rates that meet and a growth where they have met. "
-    "Honeycomb of opposite "
-    "spins from the centre of its zone to a corner and a side. Marks of finite structures lie on the curves."
+    "Four panels show rate as a function of wave number. For zigzags of alternating spins there is a hump for each of three "
+    "angles, steepest at zero for the straightest zigzag. For equal spins the curves fall from a common height at zero to "
+    "zero at the end. The staircase on hinges has two curves and a gap; under weight two rates meet, and growth begins "
+    "where they have met. The honeycomb of opposite spins is shown from the centre of its zone to a corner and a side. "
+    "Marks of finite structures lie on the curves."
 )
 
 
@@ -117,13 +116,14 @@ def measure() -> dict[str, float]:
 
 *_, _top, _held = measure().values()
 CAPTION = (
-    f"Massless bars, rotors of 1 kg and 1 m, spins of {SPIN:g} rad/s; wave numbers per rotor. Curves: bands. Marks: modes of "
-    f"closed polygons and of open zigzags of {ROTORS} rotors at q = πm/{ROTORS}, which lie on the bands to rounding error. The "
-    f"highest rate is G/a = {_top:.0f} rad/s. Staircase of alternating spins: on hinges of {HINGE:g} N m/rad; and "
-    "under its weight "
-    f"with {LOADED:g} rad/s, where waves within {_held:.2f} of q = 0 and of q = π are unstable. Honeycomb of opposite "
-    "spins, from "
-    "q = 0 to K and M; with equal spins its rate is zero."
+    f"The bars are massless, the rotors have 1 kg and 1 m, and the spins are {SPIN:g} rad/s; wave numbers are per "
+    "rotor. The curves "
+    f"are bands. The marks are modes of closed polygons and of open zigzags of {ROTORS} rotors at q = πm/{ROTORS}; "
+    "they lie on the "
+    f"bands to rounding error. The highest rate is G/a = {_top:.0f} rad/s. The staircase of alternating spins is "
+    "shown on hinges of "
+    f"{HINGE:g} N m/rad, and under its weight with {LOADED:g} rad/s; there waves within {_held:.2f} of q = 0 and of q = π are "
+    "unstable. The honeycomb of opposite spins is shown from q = 0 to K and M; with equal spins its rate is zero."
 )
 
 

@@ -20,10 +20,10 @@ FAST, SMALL, WEAR, LONG = 40.0, 0.02, 0.1, 6.0
 
 TITLE = "Friction of the paired precession"
 ALT = (
-    "Left: the angle about the joint line over time for three frictions. Each run swings, then comes to rest at an angle, "
-    "which is the larger the smaller the friction, at a dashed level that is G r0 squared over 2 c. Right: the radius of "
-    "the precession in a joint whose friction is the same in every direction, and with the spins kept up: one grows, the "
-    "other shrinks."
+    "Left: the angle about the joint line as a function of time for three values of friction. Each run oscillates and then "
+    "comes to rest at an angle, which is larger for smaller friction. A dashed line marks the predicted angle G r0 squared "
+    "divided by 2 c. Right: the radius of the precession for friction that is the same in every direction, and with "
+    "constant spins; the first grows and the second shrinks."
 )
 
 
@@ -77,11 +77,12 @@ def measure() -> dict[str, float]:
 
 _found = list(measure().values())
 CAPTION = (
-    f"Massless bar, spins ± {SPIN:g} rad/s, amplitude {TILT:g}. The pair comes to rest rotated about the joint line by "
-    f"{', '.join(f'{x:.3f}' for x in _found[:3])} of G r0²/2c (dashed) at c = "
-    f"{', '.join(f'{c:g}' for c in FRICTIONS)} N m s/rad. Right: "
-    f"± {FAST:g} rad/s, c = {WEAR:g}. The radius is ∝ exp((1/I₃ − 1/a) c t) if the friction also acts on the spins, and "
-    f"∝ exp(−c t/a) if the spins are constant, within {100 * max(abs(x - 1) for x in _found[3:]):.1f} % after {LONG - 0.25:g} s."
+    f"Left: the bar is massless, the spins are ±{SPIN:g} rad/s, and the amplitude is {TILT:g}. The pair comes to rest "
+    "rotated about "
+    f"the joint line by {', '.join(f'{x:.3f}' for x in _found[:3])} times G r0²/2c (dashed) for c = "
+    f"{', '.join(f'{c:g}' for c in FRICTIONS)} N m s/rad. Right: the spins are ±{FAST:g} rad/s, and c = {WEAR:g} N m s/rad. The "
+    "radius is proportional to exp((1/I₃ − 1/a) c t) if the friction also acts on the spins, and to exp(−c t/a) if the spins are "
+    f"constant. After {LONG - 0.25:g} s it differs from these laws by at most {100 * max(abs(x - 1) for x in _found[3:]):.1f} %."
 )
 
 

@@ -23,10 +23,9 @@ PATTERNS = {
 
 TITLE = "Waves that run one way along a border"
 ALT = (
-    "Rates of a strip's waves against the wave number along it, for a honeycomb of springs and for squares and octagons of "
-    "rigid bars. Two clouds of curves, the waves of the bulk, leave a gap between them; two curves cross it, "
-    "one falling, of "
-    "waves on the first border, and one rising, of waves on the last."
+    "The two panels show the rates of the waves of a strip as functions of the wave number along it, for a honeycomb of "
+    "springs and for squares and octagons of rigid bars. The waves of the bulk form two clouds of curves with a gap between "
+    "them. Two curves cross the gap: a falling one for waves on the first border and a rising one for waves on the last."
 )
 
 
@@ -62,13 +61,13 @@ def signed(number: float) -> str:
 
 _low, _high, _number, _first, _last, _low_2, _high_2, _number_2, *_ = measure().values()
 CAPTION = (
-    f"Strips of {WIDTH} cells, rotors of 1 kg and 1 m on hinges of {HINGE:g} N m/rad. Left: springs of "
-    f"{SPRING:g} N/m, spins of {SPIN:g} rad/s. The bulk has a gap from {_low:.2f} to {_high:.2f} rad/s, and the band "
-    "below it has "
-    f"the Chern number {signed(_number)}. Right: rigid bars, one joint of four displaced by 0.3 m along both axes, alternating "
-    f"spins of {SPIN:g} and {SPIN / 3:g} rad/s; gap from {_low_2:.2f} to {_high_2:.2f} rad/s, Chern number {signed(_number_2)}. "
-    f"Dashed: the gaps. Coloured waves are within {100 * NEAR:.0f} % of the width from a border. The net number of rising curves "
-    f"across the gap is {signed(_first)} at the first border and {signed(_last)} at the last."
+    f"Both strips have {WIDTH} cells and rotors of 1 kg and 1 m on hinges of {HINGE:g} N m/rad. Left: the springs have "
+    f"{SPRING:g} N/m, and the spins are {SPIN:g} rad/s. The bulk has a gap from {_low:.2f} to {_high:.2f} rad/s, and the band "
+    f"below it has the Chern number {signed(_number)}. Right: the bars are rigid, one joint of four is displaced by 0.3 m along "
+    f"both axes, and the spins alternate between {SPIN:g} and {SPIN / 3:g} rad/s. The gap is from {_low_2:.2f} to {_high_2:.2f} "
+    f"rad/s, and the Chern number is {signed(_number_2)}. The dashed lines bound the gaps. Coloured waves are within "
+    f"{100 * NEAR:.0f} % of the width from a border. The net number of rising curves across the gap is {signed(_first)} at the "
+    f"first border and {signed(_last)} at the last."
 )
 
 

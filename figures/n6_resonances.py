@@ -23,9 +23,10 @@ DIRECTION = np.array(
 
 TITLE = "Resonances: spins, pushes and falls"
 ALT = (
-    "Left: pushes against spins in units of the critical ones; two straight lines rise from a point at 1.0607, and exact runs "
-    "that fell all lie between them, those outside stayed. Right: times to fall against the push on logarithmic axes; exact runs "
-    "lie along a line of slope minus one, above the least time of any direction."
+    "Left: pushes and spins, in units of the critical ones. Two straight lines rise from a point at 1.0607. All exact runs "
+    "that fell lie between the lines, and the runs outside did not fall. Right: the time until the corner falls as a "
+    "function of the push, on logarithmic axes. Exact runs lie along a line of slope minus one, above the least time of any "
+    "direction."
 )
 
 
@@ -74,13 +75,15 @@ def measure() -> dict[str, float]:
 
 _centre, _half, _outside, _runs, _, _slope, _off, _over = measure().values()
 CAPTION = (
-    "A corner of three rotors, the middle one without spin, 2 kg on each tip, massless bars. Left: at "
-    f"{_centre:.4f} times the critical spins two slow rates add up to a fast one. Outside the lines, {_half:.4f} to "
-    "each side for "
-    f"a push of 0.01, no motion falls by the terms of third order; {_outside:.0f} of {_runs:.0f} exact runs fell there. Right: "
-    f"times of fall at the resonance, for a push in a steep direction. The exact times (slope −{-_slope:.3f}) differ by at most "
-    f"{_off:.1f} from the normal form of fourth order and are at least {_over:.2f} times the minimum over all directions. Pushes "
-    "in √(κ/a), times in √(a/κ)."
+    "The corner has three rotors, the middle one without spin, 2 kg on each tip, and massless bars. Pushes are in "
+    "√(κ/a), times in "
+    f"√(a/κ). Left: at {_centre:.4f} times the critical spins two slow rates add up to a fast one. The two lines are {_half:.4f} "
+    "to each side for a push of 0.01. Outside them no motion falls according to the terms of third order; "
+    f"{_outside:.0f} of {_runs:.0f} exact runs fell there. Right: the time until the corner falls at the resonance, "
+    "for a push in a "
+    f"direction of fast growth. The exact time is proportional to the push to the power −{-_slope:.3f}. It differs "
+    "from the normal "
+    f"form of fourth order by at most {_off:.1f} √(a/κ), and is at least {_over:.2f} times the minimum over all directions."
 )
 
 

@@ -25,9 +25,10 @@ PUMPED, SEED = 0.03, 0.003
 
 TITLE = "Nonlinear waves"
 ALT = (
-    "Left: the shift of the rate over the square of the amplitude against the wave number, a curve that is positive for waves of "
-    "one to two turns and negative beyond, with marks of exact runs on it. Right: amplitudes of three waves against time; the "
-    "first falls while two others rise from a tenth of it, and they come back; exact runs lie on the curves."
+    "Left: the shift of the rate divided by the square of the amplitude, as a function of the wave number. The curve is "
+    "positive for waves of one to two turns and negative beyond; marks of exact runs lie on it. Right: the amplitudes of "
+    "three waves as functions of time. The first falls while the two others rise from a tenth of it, and then they return. "
+    "Exact runs lie on the curves."
 )
 
 
@@ -85,13 +86,17 @@ def measure() -> dict[str, float]:
 
 _off, _apart, _least = measure().values()
 CAPTION = (
-    f"Left: ring of {CORNERS} rotors with heavy bars, on hinges. Exact runs of amplitude {AMPLITUDE:g} differ from the law by at "
+    f"Left: a ring of {CORNERS} rotors with heavy bars on hinges. Exact runs of amplitude {AMPLITUDE:g} differ from "
+    "the law by at "
     f"most {100 * _off:.1f} % of the largest shift. At the poles the second harmonic is itself a wave. The kink at 2π/{CORNERS} "
-    "comes from the definition of the amplitude, the larger semi-axis of a tip's path: there the paths are circles. Right: a "
-    "hexagon of springs, in which the rates of the waves of three and four turns of phase add up to that of one turn. This wave "
-    f"starts with {PUMPED:g}, the first with {SEED:g}; it decreases to {_least:.2f} of its size and returns. In 30 s the exact "
-    f"amplitudes differ by at most {100 * _apart:.0f} % of it from the law of second order, which neglects the shifts "
-    "of the rates."
+    "comes from the definition of the amplitude, which is the larger semi-axis of a tip's path: there the paths are "
+    "circles. Right: "
+    "a hexagon of springs, in which the rates of the waves of three and four turns of phase add up to the rate of the "
+    "wave of one "
+    f"turn. That wave starts with the amplitude {PUMPED:g} and the wave of three turns with {SEED:g}. The former decreases to "
+    f"{_least:.2f} of its initial amplitude and returns. In 30 s the exact amplitudes differ by at most "
+    f"{100 * _apart:.0f} % of the initial amplitude of that wave "
+    "from the law of second order, which neglects the shifts of the rates."
 )
 
 

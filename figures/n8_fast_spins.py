@@ -22,9 +22,10 @@ ANGLES = np.array([120, 113, 106, 99, 94, 90, 86, 81, 74, 67, 60])  # degrees
 
 TITLE = "The limit of fast spins"
 ALT = (
-    "Left: two bands of rate against a path through the wave numbers, curves of the limit with marks of the whole motion just "
-    "below them, and a gap at the corner of the zone. Right: the edges of the gap against the bond angle from 120 to 60 degrees; "
-    "they meet at 90, below which the marks have another colour, the other sign of the Chern number."
+    "Left: two bands of rates along a path through the wave numbers, with a gap at the corner of the zone. The curves are "
+    "the limit of fast spins; the marks of the full equations lie just below them. Right: the edges of the gap as functions "
+    "of the bond angle from 120 to 60 degrees. They meet at 90 degrees; below this angle the marks have another colour, "
+    "because the Chern number has the other sign."
 )
 
 
@@ -79,10 +80,12 @@ def measure() -> dict[str, float]:
 
 _over, _, _wide, *_ = measure().values()
 CAPTION = (
-    f"Hanging gyroscopes of 1 kg, {SPIN:g} rad/s, springs of {SPRING:g} N/m. Left: bands of the limit along a path from q = 0 to "
-    f"K, M and back; the full equations have rates up to {100 * (1 - 1 / _over):.1f} % lower. Right: the gap of the bulk, "
-    f"{_wide:.3f} rad/s wide on the honeycomb. At bond angles of 90° the bands touch, and the Chern number of the lower one "
-    "changes its sign (Nash et al. 2015)."
+    f"Gyroscopes of 1 kg hang with spins of {SPIN:g} rad/s and are joined by springs of {SPRING:g} N/m. Left: the "
+    "bands in the limit "
+    "of fast spins along a path from q = 0 to K, M and back. The rates of the full equations are lower by up to "
+    f"{100 * (1 - 1 / _over):.1f} %. Right: the gap of the bulk, which is {_wide:.3f} rad/s wide on the honeycomb. At "
+    "a bond angle "
+    "of 90° the bands touch, and the Chern number of the lower one changes its sign (Nash et al. 2015)."
 )
 
 

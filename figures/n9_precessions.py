@@ -30,9 +30,10 @@ KICK = 2e-3  # of the first axis
 
 TITLE = "Precessions at finite tilt"
 ALT = (
-    "Left: the shift of the rate over the rate upright against the tilt, three parabolas with marks of exact orbits on them. "
-    "Middle: growth per turn against the tilt, zero up to 0.08 and rising like a root beyond; exact marks on it. Right: distance "
-    "from the precession against turns, logarithmic: one run stays level, two rise along straight lines, one to a fall."
+    "Left: the shift of the rate divided by the rate upright, as a function of the tilt. Marks of exact orbits lie on three "
+    "parabolas. Middle: the growth per turn as a function of the tilt. It is zero up to 0.08 and then rises like a square "
+    "root, with exact marks on it. Right: the distance from the precession as a function of turns, on a logarithmic scale. "
+    "One run stays level; two rise along straight lines, and one of these ends in a fall."
 )
 
 
@@ -89,17 +90,17 @@ def measure() -> dict[str, float]:
 
 _edge, _share, _least, _, _stays, _run, _most, _ = measure().values()
 CAPTION = (
-    "Left: the rate of three precessions by the normal form of fourth order. The error of the shift against exact orbits "
-    f"(circles) is {100 * _least:.1f} % at the smallest tilts and {100 * _share:.0f} % at the largest. Middle: growth "
-    "per turn of "
-    "a perturbation of the triangle's fastest precession, whose rate is nearly the sum of the two others; it is zero "
-    "up to a tilt "
-    f"of {_edge:.3f}. Right: exact runs that start at the distance {KICK:g} from precessions. At a tilt of 0.07 the "
-    "distance stays "
-    f"below {_stays:.0f} times its initial value. At 0.16 it grows at the rate of the multiplier (dotted) within "
-    f"{100 * abs(_run - 1):.0f} %, and on hinges stops at {_most:.1f}. Under weight slow precessions of negative "
-    "energy grow with "
-    "it, and the corner falls."
+    "Left: the rate of three precessions according to the normal form of fourth order. Against exact orbits (circles) "
+    "the shift has "
+    f"a relative error of {100 * _least:.1f} % at the smallest tilts and {100 * _share:.0f} % at the largest. Middle: "
+    "the growth per "
+    "turn of a perturbation of the triangle's fastest precession, whose rate is nearly the sum of the two others. The "
+    "growth is zero "
+    f"up to a tilt of {_edge:.3f}. Right: exact runs that start at the distance {KICK:g} from precessions. At a tilt of 0.07 the "
+    f"distance stays below {_stays:.0f} times its initial value. At 0.16 it grows at the rate of the multiplier (dotted) within "
+    f"{100 * abs(_run - 1):.0f} %; on hinges it stops growing at {_most:.1f}. Under weight slow precessions of "
+    "negative energy grow "
+    "with the perturbation, and the corner falls."
 )
 
 

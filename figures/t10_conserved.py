@@ -53,14 +53,17 @@ def measure() -> dict[str, float]:
 _power, _swing, _largest = measure().values()
 _first, *_, _last = data()["A"][0]
 ALT = (
-    "Two panels, one a model, in logarithms: swing over one turn against the amplitude. The paper's A rises as the square "
-    f"of the amplitude, from {_first:.1g} to {_last:.1g} kg m²/s. Energy, momentum about the joint line, axial momentum and "
+    "Two panels, one for each model, show on logarithmic axes the variation over one turn as a function of the amplitude. The "
+    f"paper's A varies as the square of the amplitude, from {_first:.1g} to {_last:.1g} kg m²/s. Energy, momentum "
+    "about the joint line, axial momentum and "
     f"the paper's B stay at the rounding and step errors of the run, all below {_largest:.0e}."
 )
 CAPTION = (
-    f"Opposite spins ±10 rad/s, bar m = 0.01 kg, K = 0.1 kg m², one turn of the exact orbit, tolerance 1e-12. Values below "
-    f"{FLOOR:g} are drawn there; the axial momenta are parameters of the reduced models. E, G_1, P and B = G_1 − G_2 vary by at "
-    f"most {_largest:.1e}. The paper's A varies by {_swing:.3f} kg m²/s at r_0 = 0.2, ∝ the amplitude to the power {_power:.2f}."
+    "The spins are ±10 rad/s, the bar has m = 0.01 kg and K = 0.1 kg m². Each point is one turn of the exact orbit at "
+    "the tolerance "
+    f"1e-12. Values below {FLOOR:g} are drawn at this value. The axial momenta are constant parameters of the reduced models. E, "
+    f"G_1, P and B = G_1 − G_2 vary by at most {_largest:.1e} in SI units. The paper's A varies by {_swing:.3f} kg m²/s at r_0 = "
+    f"0.2; its variation is proportional to the amplitude to the power {_power:.2f}."
 )
 
 

@@ -24,10 +24,10 @@ OTHERS = "#999999"  # colour of motions from other starts
 
 TITLE = "The slow motion of opposite spins"
 ALT = (
-    "Left and middle: curves of lean against half the angle between the axes, in units of the swing. With the light bar the "
-    "curve of the shock, in green, runs out to large lean, and an exact run follows it; with the heavy bar it closes beside "
-    "upright. Right: squared slow frequency against the push; exact circles lie near the curve, positive from zero to about 1.2, "
-    "negative outside."
+    "Left and middle: curves of the lean as a function of half the angle between the axes, in units of the oscillation. "
+    "With the light bar the green curve of the shock runs out to large lean, and an exact run follows it. With the heavy "
+    "bar the curve closes near the upright position. Right: the squared slow frequency as a function of the push. It is "
+    "positive from zero to about 1.2 and negative outside; exact circles lie near the curve."
 )
 
 
@@ -85,13 +85,15 @@ def measure() -> dict[str, float]:
 
 _off, _lean, _apart = measure().values()
 CAPTION = (
-    f"Opposite spins ±10 rad/s, {FORCE:g} N along x. Left: bar of 0.01 kg. The exact run, averaged over three "
-    "oscillations, leans "
-    f"to {np.degrees(_lean):.0f}° in {LASTS:g} s; its distance from its curve is at most {_off:.2f} of the initial half-angle. "
-    "Middle: bar of 12 kg, above the threshold at which x turns back; the motion does not reach the curves of the same value at "
-    "large lean. Right: square of the slow frequency near the paired "
-    f"precession of r₀ = {R0}, massless bar, against a push d = k P/G about the joint line, in units of g² s⁶. Exact multipliers "
-    f"differ by at most {1e4 * _apart:.1f}×10⁻⁴ of the largest. Negative values: a perturbation grows."
+    f"The spins are ±10 rad/s, and the shock is {FORCE:g} N along x. Left: with a bar of 0.01 kg the exact run, "
+    "averaged over three "
+    f"oscillations, leans to {np.degrees(_lean):.0f}° in {LASTS:g} s. Its distance from its curve is at most "
+    f"{_off:.2f} times the "
+    "initial half-angle. Middle: with a bar of 12 kg, above the threshold, x turns back; the motion does not reach "
+    "the curves of the "
+    f"same value at large lean. Right: the square of the slow frequency near the paired precession of r₀ = {R0}, with a massless "
+    "bar, as a function of a push d = k P/G about the joint line, in units of g² s⁶. The exact multipliers differ by at most "
+    f"{1e4 * _apart:.1f}×10⁻⁴ of the largest value. Where it is negative, a perturbation grows."
 )
 
 

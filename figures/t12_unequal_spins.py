@@ -23,9 +23,9 @@ R0, TRIED, FINE = 0.06, np.array([-0.7, -0.3, 0.1, 0.5]), np.linspace(-0.999, 1,
 
 TITLE = "Unequal spins: shift of the rate and drift of the azimuth"
 ALT = (
-    "Left: the relative shift of the rate over the square of the amplitude against the ratio of the spins, for two bars; both "
-    "curves end at one half for equal spins. Right: the drift of the azimuth over the fourth power; zero for equal spins, "
-    "negative elsewhere. Exact circles lie on all curves."
+    "Left: the relative shift of the rate divided by the square of the amplitude, as a function of the ratio of the spins, "
+    "for two bars. Both curves end at one half for equal spins. Right: the drift of the azimuth divided by the fourth power "
+    "of the amplitude. It is zero for equal spins and negative elsewhere. Exact circles lie on all curves."
 )
 
 
@@ -65,10 +65,12 @@ def measure() -> dict[str, float]:
 
 _shift, _drift = measure().values()
 CAPTION = (
-    f"The first spin is 10 rad/s, the second a multiple of it. Exact orbits of r₀ = {R0} (circles) differ by at most "
-    f"{100 * _shift:.1f} % and {100 * _drift:.1f} % of the largest value. For opposite spins the paired precession "
-    "closes; the law "
-    "of the drift requires r₀² well below (G₁ + G₂)/(G₁ − G₂)."
+    "The first spin is 10 rad/s; the second is the first multiplied by the ratio on the horizontal axis. For exact "
+    "orbits of r₀ = "
+    f"{R0} (circles) the shift differs from the curve by at most {100 * _shift:.1f} %, and the drift by at most "
+    f"{100 * _drift:.1f} %, of the largest value. For opposite spins the paired precession is a closed orbit. The law "
+    "of the drift "
+    "requires that r₀² is much smaller than (G₁ + G₂)/(G₁ − G₂)."
 )
 
 

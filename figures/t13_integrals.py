@@ -86,21 +86,25 @@ def measure() -> dict[str, float]:
 
 _small, _largest, _chaotic, _lined, _wild, _short, _long, _ = measure().values()
 ALT = (
-    "Four panels. A map of amplitude and momentum with an exponent in each cell: small swings are dark, near zero, the middle "
-    "is bright. Two sections of six starts each: on the first the points of each start lie along a curve of its own; on the "
-    "second some do and the others scatter over one area. Below on the left, how long runs are known against their exponents: "
-    "chaotic ones for some twenty turns, the others to the end."
+    "There are four panels. A map of amplitude and momentum shows an exponent in each cell: small oscillations are dark, "
+    "near zero, and the middle is bright. Two sections show six starts each. On the first the points of each start lie "
+    "along a curve of its own; on the second some do, and the others scatter over one area. Below on the left, the time for "
+    "which runs are known is shown against their exponents: some twenty turns for chaotic runs, the whole time for the "
+    "others."
 )
 CAPTION = (
-    f"Opposite spins ±10 rad/s, a bar of {PAIR.link.mass:g} kg and {PAIR.link.length:g} m. Exponents over {TURNS} turns for "
-    f"amplitudes r_0 and momenta P about the joint line: at most {_small:.2f} per turn at r_0 = 0.05 with P ≤ 0, as for growth "
-    f"by a power of time, and up to {_largest:.1f}. {_chaotic:.0f} of {AMPLITUDES.size * MOMENTA.size} exceed {CHAOTIC:g}; "
-    f"{_lined:.0f} (×) end with bar and axes in line. Sections at the maxima of the mean x, one colour for each start, while the "
-    f"error is below 10⁻⁶. At r_0 = {SECTIONS[0][0]:g}, P/G = {SECTIONS[0][1]:g} each start stays on a curve of "
-    "constant averaged "
-    f"action; at r_0 = {SECTIONS[1][0]:g}, P/G = {SECTIONS[1][1]:g}, {_wild:.0f} of {PHASES.size} are chaotic. The "
-    "error of these "
-    f"stays below 10⁻⁶ for at least {_short:.0f} turns, of the others for all {_long:.0f}. Line: 10⁻¹⁴ grows to tol."
+    f"The spins are ±10 rad/s, and the bar has {PAIR.link.mass:g} kg and {PAIR.link.length:g} m. The map shows the "
+    "exponents over "
+    f"{TURNS} turns for amplitudes r_0 and momenta P about the joint line. At r_0 = 0.05 with P ≤ 0 they are at most "
+    f"{_small:.2f} "
+    f"per turn, as for growth by a power of time; the largest is {_largest:.1f}. {_chaotic:.0f} of "
+    f"{AMPLITUDES.size * MOMENTA.size} exceed {CHAOTIC:g}, and {_lined:.0f} run (×) ends with bar and axes in line. "
+    "The sections are "
+    "taken at the maxima of the mean x while the error is below 10⁻⁶, in one colour per start. At r_0 = "
+    f"{SECTIONS[0][0]:g}, P/G = {SECTIONS[0][1]:g} each start stays on a curve of constant averaged action. At r_0 = "
+    f"{SECTIONS[1][0]:g}, P/G = {SECTIONS[1][1]:g}, {_wild:.0f} of {PHASES.size} starts are chaotic. Their error stays "
+    "below 10⁻⁶ for "
+    f"at least {_short:.0f} turns, the error of the others for all {_long:.0f}. The line is the time in which 10⁻¹⁴ grows to tol."
 ).replace("-", "−")
 
 

@@ -24,9 +24,9 @@ DURATION, POINTS, FINE = 75.0, 51, 16  # s; a circle every FINE points of the ex
 
 TITLE = "The guiding centre of two unequal spins"
 ALT = (
-    "Left: half the twist against the lean, three curves along thin lines of constant flux, exact circles on the curves. Right: "
-    "half the twist against time: one curve goes on, the two of pairs that swing turn back; circles, and the exact motion about "
-    "them."
+    "Left: half the twist as a function of the lean. Three curves follow thin lines of constant flux, with exact circles on "
+    "the curves. Right: half the twist as a function of time. One curve continues in one direction; the two others, of "
+    "pairs that oscillate, turn back. Circles lie on the curves, and the exact motion oscillates about them."
 )
 
 
@@ -65,10 +65,13 @@ def measure() -> dict[str, float]:
 
 _numbers = list(measure().values())
 CAPTION = (
-    f"Spins {PAIR.spins[0]:g} and {PAIR.spins[1]:g} rad/s; a tilted and twisted initial state, pushed in three ways. In "
-    f"{DURATION:g} s the centre moves by up to {max(_numbers[:3]):.2f} rad, and the law differs by at most "
-    f"{max(_numbers[3:]):.3f} rad from the centres of the exact runs (circles). Thin: lines on which the part G₁x₁ + G₂x₂ of the "
-    "momentum about the joint line is constant. Dotted: the exact motion."
+    f"The spins are {PAIR.spins[0]:g} and {PAIR.spins[1]:g} rad/s. A tilted and twisted initial state is pushed in "
+    "three ways. In "
+    f"{DURATION:g} s the centre moves by up to {max(_numbers[:3]):.2f} rad, and the law differs from the centres of "
+    "the exact runs "
+    f"(circles) by at most {max(_numbers[3:]):.3f} rad. On the thin lines the part G₁x₁ + G₂x₂ of the momentum about "
+    "the joint line "
+    "is constant. The dotted curve is the exact motion."
 )
 
 

@@ -24,9 +24,9 @@ INKS = (*CASE_COLOURS, CORRECTION_COLOUR)
 
 TITLE = "The normal form about a periodic orbit"
 ALT = (
-    "Left: five closed curves round a point on the section with dots of exact returns on the inner ones and beside the "
-    "outermost. Middle and right: turns in a return against the action, a straight line of the twist, a curve of sixth order, "
-    "and circles of exact runs that leave the line before they leave the curve."
+    "Left: five closed curves around a point on the section, with dots of exact returns on the inner ones and beside the "
+    "outermost. Middle and right: the turns per return as a function of the action, with a straight line for the twist and "
+    "a curve of sixth order. Circles of exact runs depart from the line earlier than from the curve."
 )
 
 
@@ -70,11 +70,16 @@ def measure() -> dict[str, float]:
 
 _form, _line, _driven_form, _driven_line = measure().values()
 CAPTION = (
-    f"Left and middle: the orbit of Hénon–Heiles along the axis; it crosses y = 0 at {MADE['CASES'][AXIS][1][MADE['y_v']]:g}. "
-    "Left: its section by the form of sixth order (curves) and 120 exact returns of each run (dots). The widest run rotates once "
-    f"in {1 / data()[f'exact, {AXIS}'][-1]:.2f} returns, so its dots form clusters. Middle and right: rotations about the orbit "
-    f"per return. Except for the widest run the error of the form is at most {_form:.5f} and {_driven_form:.4f} turns, that of "
-    f"the linear twist {_line:.5f} and {_driven_line:.4f}. Birkhoff (1927)."
+    "Left and middle: the orbit of Hénon–Heiles along the axis, which crosses y = 0 at "
+    f"{MADE['CASES'][AXIS][1][MADE['y_v']]:g}. Left: the section through its neighbourhood according to the normal form of sixth "
+    "order (curves), and 120 exact returns of each run (dots). The widest run rotates once in "
+    f"{1 / data()[f'exact, {AXIS}'][-1]:.2f} returns, so its dots form clusters. Middle and right: the rotations "
+    "about the orbit per "
+    f"return. Except for the widest run the error of the normal form is at most {_form:.5f} turns (middle) and "
+    f"{_driven_form:.4f} "
+    f"turns (right); the error of the linear twist is at most {_line:.5f} and {_driven_line:.4f} turns. The form is "
+    "due to Birkhoff "
+    "(1927)."
 )
 
 

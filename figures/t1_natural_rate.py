@@ -20,10 +20,10 @@ SPINS = {"equal": (SPIN, SPIN), "opposite": (SPIN, -SPIN)}
 
 TITLE = "The natural frequency for any bar"
 ALT = (
-    "Two panels of the natural frequency in units of G over J. Against the bar's inertia at mass 1 kg the curve of "
-    "equal spins is level at 0.714 and that of opposite spins falls; they cross at the dumbbell. Against the mass at "
-    "inertia 0.1 kg m² both fall. The paper's constant is a level line that only equal spins with its heavy bar meet. "
-    "Points of the exact model lie on the curves."
+    "Two panels show the natural frequency in units of G over J. As a function of the bar's inertia at a mass of 1 kg the "
+    "curve of equal spins is level at 0.714, and the curve of opposite spins falls; they cross at the dumbbell. As a "
+    "function of the mass at an inertia of 0.1 kg m² both fall. The paper's constant is a level line that only equal spins "
+    "with its heavy bar meet. Points of the exact model lie on the curves."
 )
 
 
@@ -68,11 +68,13 @@ def measure() -> dict[str, float]:
 
 _heavy_equal, _, _heavy, _heavy_run, _, _, _light, _light_run, _off = measure().values()
 CAPTION = (
-    f"Omega_0 in units of G/J, J = {Rotor().J:g} kg m², ell = R = 1 m. Left: mass {MASS:g} kg. Right: inertia "
-    f"{INERTIA:g} kg m². The paper's constant {PRINTED} is J/(J + m R²/2) of equal spins with its heavy bar, "
-    f"{_heavy_equal:.5f}; opposite spins have {_heavy:.5f} there, and {_light:.5f} with the light bar of section 5.2.1. "
-    f"Circles: the highest peak of the spectrum of an exact small motion over 12 s, {_heavy_run:.4f} and {_light_run:.4f} "
-    f"there, at most {_off:.1g} from the closed form."
+    f"Omega_0 is in units of G/J, with J = {Rotor().J:g} kg m² and ell = R = 1 m. Left: the bar has a mass of "
+    f"{MASS:g} kg. Right: it "
+    f"has an inertia of {INERTIA:g} kg m². The paper's constant {PRINTED} is J/(J + m R²/2) for equal spins with its heavy bar, "
+    f"{_heavy_equal:.5f}. Opposite spins have {_heavy:.5f} with this bar and {_light:.5f} with the light bar of "
+    "section 5.2.1. The "
+    "circles are the highest peaks of the spectra of exact small motions over 12 s. For opposite spins with these two bars they "
+    f"lie at {_heavy_run:.4f} and {_light_run:.4f}. All circles differ from the closed form by at most {_off:.1g}."
 )
 
 

@@ -19,10 +19,10 @@ SIZES = np.array([0.125, 0.25, 0.5, 1.0, 2.0])
 
 TITLE = "The linear response to a shock"
 ALT = (
-    "Above: after a pulse at half a second x swings about zero, y of tip 1 and y of tip 2 swing about two centres on "
-    "opposite sides while both drift slowly; curves of the closed form and of the exact run nearly coincide. Lower left: "
-    "their difference stays within a few hundredths and grows slowly. Lower right: the largest difference against the "
-    "force, on a straight line of slope two in logarithms."
+    "Above: after a pulse at half a second x oscillates about zero, and y of tip 1 and tip 2 oscillate about two centres on "
+    "opposite sides, while both drift slowly. The curves of the closed form and of the exact run nearly coincide. Lower "
+    "left: their difference stays within a few hundredths and grows slowly. Lower right: the largest difference as a "
+    "function of the force lies on a straight line of slope two on logarithmic axes."
 )
 
 
@@ -66,9 +66,11 @@ def measure() -> dict[str, float]:
 
 _difference, _power = measure().values()
 CAPTION = (
-    f"Opposite spins ±10 rad/s at rest, bar m = 0.01 kg, K = 0.1 kg m², pulse of {FORCE[0]:g} N along x and "
-    f"{FORCE[1]:g} N along y on tip 1 at {AT:g} s, width {WIDTH:g} s; exact: minimal model, tolerance {TOL:g}. Tips less "
-    f"ground joints, in units of R. Difference up to {_difference:.3f} R; it falls as the force to the {_power:.2f}."
+    "A pair at rest with opposite spins of ±10 rad/s and a bar with m = 0.01 kg, K = 0.1 kg m² receives a pulse of "
+    f"{FORCE[0]:g} N along x and {FORCE[1]:g} N along y on tip 1 at {AT:g} s, with the width {WIDTH:g} s. The exact curve is the "
+    f"minimal model at the tolerance {TOL:g}. The positions are those of the tips relative to the ground joints, in "
+    "units of R. The "
+    f"difference is up to {_difference:.3f} R; it is proportional to the force to the power {_power:.2f}."
 )
 
 

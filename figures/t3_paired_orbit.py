@@ -24,10 +24,10 @@ BOUNDED, AT = (5, 7, 9), AMPLITUDES[:5]  # orders whose own bounds are drawn, at
 
 TITLE = "Error of the series, order by order"
 ALT = (
-    "Left, in logarithms: largest distance between series and exact orbit against the amplitude, nine nearly straight "
-    "lines, one for each order from 1 to 9, ever lower and ever steeper, down to the exact orbit's own error. Right: the "
-    "measured slope of each line against the order; the points lie on the line order plus one. Dashed above the lines of "
-    "order 5, 7 and 9: the error that the series gives for itself."
+    "Left, on logarithmic axes: the largest distance between series and exact orbit as a function of the amplitude. Nine "
+    "nearly straight lines, one for each order from 1 to 9, become lower and steeper, down to the error of the exact orbit "
+    "itself. Dashed lines above the lines of order 5, 7 and 9 are the error bounds of the series. Right: the measured slope "
+    "of each line as a function of the order; the points lie on the line order plus one."
 )
 
 
@@ -69,11 +69,13 @@ def measure() -> dict[str, float]:
 
 
 CAPTION = (
-    f"Bar ell = 1.3 R, m = 0.35 kg, K = 0.11 kg m², not used in the derivation; spins ±10 rad/s. Largest distance of the tip, in "
-    f"units of R, at equal phase from the periodic orbit found by shooting. The error of order n should be ∝ r_0 to the power "
-    f"n + 1; measured slopes differ by at most {np.abs(slopes() - np.array(ORDERS) - 1).max():.2f}. Dashed: bounds "
-    "from the terms "
-    f"of the series; the errors are at most {100 * measure()['largest error over its bound']:.0f} % of them."
+    "The bar has ell = 1.3 R, m = 0.35 kg and K = 0.11 kg m², which the derivation does not use; the spins are ±10 "
+    "rad/s. The error "
+    "is the largest distance of the tip, in units of R, from the periodic orbit found by shooting, at equal phase. The error of "
+    "order n should be proportional to r_0 to the power n + 1; the measured slopes differ from n + 1 by at most "
+    f"{np.abs(slopes() - np.array(ORDERS) - 1).max():.2f}. The dashed lines are bounds from the terms of the series; "
+    "the errors are "
+    f"at most {100 * measure()['largest error over its bound']:.0f} % of them."
 )
 
 

@@ -24,10 +24,10 @@ READ_AT = 0.4
 
 TITLE = "Frequency of the paired precession against its amplitude"
 ALT = (
-    "Three panels, one a bar: frequency over natural frequency against amplitude from 0 to 0.95. The paper's curve rises "
-    "as one over the cosine in all of them. For a massless bar as long as the rotor and for a short one the exact points "
-    "fall, pass a least value and turn up at the end; for a long bar they rise. The series follow them, order 9 further "
-    "than order 3."
+    "Three panels, one for each bar, show the frequency divided by the natural frequency as a function of the amplitude "
+    "from 0 to 0.95. The paper's curve rises as one over the cosine in all of them. For a massless bar as long as the rotor "
+    "and for a short one the exact points fall to a minimum and then rise; for a long bar they rise throughout. The series "
+    "follow them, order 9 further than order 3."
 )
 
 
@@ -65,11 +65,14 @@ def measure() -> dict[str, float]:
 
 
 CAPTION = (
-    "Omega over Omega_0; r_0 is the sine of the inclination when the axes are parallel. Paper: 1/cos theta_0, for every "
-    "bar. Exact: the family of periodic orbits, continued from small amplitudes without a fold. It ends at r_0 = 1, "
-    "where the axes lie along the joint line. At r_0 = "
+    "The frequency ratio is Omega divided by Omega_0; r_0 is the sine of the inclination when the axes are parallel. The paper's "
+    "curve is 1/cos theta_0 for every bar. The exact points are the family of periodic orbits, continued from small amplitudes "
+    "without a fold. It ends at r_0 = 1, where the axes lie along the joint line. At r_0 = "
     f"{READ_AT:g} with the massless bar the errors are "
-    + ", ".join(f"{list(measure().values())[i]:+.4f} ({said})" for i, said in ((1, "paper"), (2, "3"), (3, "9")))
+    + ", ".join(
+        f"{list(measure().values())[i]:+.4f} ({said})"
+        for i, said in ((1, "paper"), (2, "series of order 3"), (3, "order 9"))
+    )
     + "."
 )
 

@@ -27,10 +27,10 @@ LAST = 1.22  # of sigma
 
 TITLE = "Stability of the paired precession"
 ALT = (
-    "Left, in logarithms: growth per turn against the amplitude for two hyperbolic bars, filled marks on lines of slope four "
-    "and three, and the angle per turn of one elliptic bar, open marks on a line of slope three. Right: plane of amplitude "
-    "and sigma; the orbit is hyperbolic below sigma = 1 and to the right of a curve that rises from there, elliptic above "
-    "it; tried points fall on their sides. A grey band about the curve is its error."
+    "Left, on logarithmic axes: the growth per turn as a function of the amplitude for two hyperbolic bars, filled marks on "
+    "lines of slope four and three, and the angle per turn of one elliptic bar, open marks on a line of slope three. Right: "
+    "the plane of amplitude and sigma. The orbit is hyperbolic below sigma = 1 and to the right of a curve that rises from "
+    "there, and elliptic above it. Tested points lie on the expected sides. A grey band about the curve is its error."
 )
 
 
@@ -84,11 +84,12 @@ def measure() -> dict[str, float]:
 
 _none, _less, _more, _error = measure().values()
 CAPTION = (
-    "Exact Floquet multipliers mu, 1/mu of the orbit, spins ±10 rad/s, ell = R. Filled: log|mu| per turn (hyperbolic); open: "
-    f"angle of mu per turn (elliptic). Lines: leading terms. Powers between the two smallest amplitudes: {_none:.2f} for "
-    f"b = 0, {_less:.2f} for b < 0, {_more:.2f} for b > 0. Right: sigma = (a + b)/(a − b), K = 0; the line is the derived "
-    "edge, right to first order in sigma − 1 (r_0² → (2/3) (sigma − 1) for small ones), the grey band its error, "
-    f"{100 * _error:.0f} % of r_0 at sigma = {LAST:g}."
+    "Exact Floquet multipliers mu, 1/mu of the orbit for spins of ±10 rad/s and ell = R. Filled marks are log|mu| per turn "
+    "(hyperbolic), open marks the angle of mu per turn (elliptic), and lines the leading terms. Between the two "
+    "smallest amplitudes "
+    f"they are proportional to r_0 to the power {_none:.2f} for b = 0, {_less:.2f} for b < 0, and {_more:.2f} for b > 0. Right: "
+    "sigma = (a + b)/(a − b) for K = 0. The line is the derived edge, which is right to first order in sigma − 1, where r_0² is "
+    f"(2/3) (sigma − 1). The grey band is its error, {100 * _error:.0f} % of r_0 at sigma = {LAST:g}."
 )
 
 

@@ -18,9 +18,10 @@ ALONG, CHOSEN, SWINGS = 40.0, -11.0, 8
 
 TITLE = "The drift after a shock, and the force that cancels it"
 ALT = (
-    "Left: mean turning rate about the joint line against the force along y, from minus 20 to 5 newtons; the closed form "
-    "and the exact points fall together through zero near minus 11 newtons, where a vertical line marks the paper's "
-    "force. Right: closed form less exact, a few hundredths of a radian per second, growing to both sides."
+    "Left: the mean turning rate about the joint line as a function of the force along y, from minus 20 to 5 newtons. The "
+    "closed form and the exact points fall together through zero near minus 11 newtons, where a vertical line marks the "
+    "paper's force. Right: the closed form minus the exact rate, a few hundredths of a radian per second, which grows to "
+    "both sides."
 )
 
 
@@ -59,9 +60,11 @@ def measure() -> dict[str, float]:
 
 _second, _exact, _without, _chosen = measure().values()
 CAPTION = (
-    f"Opposite spins ±10 rad/s, bar m = 0.01 kg, K = 0.1 kg m², F_x = {ALONG:g} N for 1/20 s. Mean of alpha' over "
-    f"{SWINGS} oscillations. It vanishes at F_y = −{-_second:.2f} N to second order in the shock and at −{-_exact:.2f} N in the "
-    f"exact motion. With the paper's −{-CHOSEN:g} N it is {_chosen:+.4f} rad/s, without F_y −{-_without:.4f} rad/s."
+    "The spins are ±10 rad/s, the bar has m = 0.01 kg and K = 0.1 kg m², and the shock has F_x = "
+    f"{ALONG:g} N for 1/20 s. The mean of alpha' over {SWINGS} oscillations vanishes at F_y = −{-_second:.2f} N to "
+    "second order in "
+    f"the shock, and at −{-_exact:.2f} N in the exact motion. With the paper's −{-CHOSEN:g} N it is {_chosen:+.4f} rad/s, and "
+    f"without F_y it is −{-_without:.4f} rad/s."
 )
 
 

@@ -23,9 +23,10 @@ FOLLOWED = np.array([9.0, 13.0, 18.0])
 
 TITLE = "Time of stability in x after a shock"
 ALT = (
-    "Left, in logarithms: time to lean by half a radian falls as the square, time for the mean x to move by a tenth as the "
-    "cube of the force, from 2 to 20 newtons; exact points lie on both lines. Right: one run at 12 newtons; x swings about "
-    "a mean that moves steadily away along the predicted straight line, while the mean turning angle grows along its own."
+    "Left, on logarithmic axes: from 2 to 20 newtons the time to lean by half a radian falls as the square of the force, "
+    "and the time for the mean x to move by a tenth falls as its cube. Exact points lie on both lines. Right: one run at 12 "
+    "newtons. Here x oscillates about a mean that moves steadily away along the predicted straight line, while the mean "
+    "turning angle grows along its predicted line."
 )
 
 
@@ -76,11 +77,14 @@ def measure() -> dict[str, float]:
 
 _lean, _leave, *_ratios = measure().values()
 CAPTION = (
-    f"Opposite spins ±10 rad/s at rest, bar m = 0.01 kg, K = 0.1 kg m². Left: time until the lean is {LEAN:g} rad, and until the "
-    f"mean of x is {BOUND:g} R, at the initial rates; measured exponents of the force −{-_lean:.3f} and −{-_leave:.3f}. "
-    f"Circles: from the mean rate of exact runs of 16 oscillations. Crosses: exact times, "
-    f"{min(_ratios):.2f} to {max(_ratios):.2f} of the law's. "
-    f"Right: {SHOWN:g} N. The shock leaves a twist p_x/G; leaning about the joint line rotates it into x."
+    "A pair at rest has opposite spins of ±10 rad/s and a bar with m = 0.01 kg, K = 0.1 kg m². Left: the time until the lean is "
+    f"{LEAN:g} rad, and until the mean of x is {BOUND:g} R, according to the initial rates. The measured exponents of "
+    "the force are "
+    f"−{-_lean:.3f} and −{-_leave:.3f}. Circles use the mean rate of exact runs over 16 oscillations. Crosses are "
+    "exact times; they "
+    f"are {min(_ratios):.2f} to {max(_ratios):.2f} times the times of the law. Right: a run at {SHOWN:g} N. The shock "
+    "leaves a twist "
+    "p_x/G, and leaning about the joint line converts it into x."
 )
 
 

@@ -24,10 +24,10 @@ TRIED = ((0, 2.0), (0, 6.0), (1, 8.0), (1, -16.0), (2, 20.0))
 
 TITLE = "Stability of toppling, both senses"
 ALT = (
-    "Left: growth rate against the rate of turning from minus 25 to 50 radians per second for three bars. Turning one "
-    "way is stable at any rate for a massless bar; with a bar of large inertia it becomes unstable beyond a threshold, and "
-    "with a heavy bar of no inertia fast turning the other way becomes stable. Exact points lie on the curves. Right: mean "
-    "x after shocks of plus and minus 50 newtons along y; after minus 50 it leaves."
+    "Left: the growth rate as a function of the rate of turning from minus 25 to 50 radians per second for three bars. "
+    "Turning in one sense is stable at any rate for a massless bar. With a bar of large inertia it becomes unstable beyond "
+    "a threshold, and with a heavy bar of no inertia fast turning in the other sense becomes stable. Exact points lie on "
+    "the curves. Right: the mean x after shocks of plus and minus 50 newtons along y; after minus 50 it grows."
 )
 
 
@@ -85,14 +85,15 @@ def measure() -> dict[str, float]:
 
 _threshold, _other, _plus, _wide, _minus, _wider, _off = measure().values()
 CAPTION = (
-    f"G = {SPIN:g} kg m²/s, ell = R = 1 m; nu = alpha' in the sense of G positive. Unstable if b nu² < G nu/k: with b = 0 "
-    f"only the sense matters; thresholds G/(k b): −{-_threshold:.2f} and {_other:.2f} rad/s. Exact: a tilt of 1e-9, "
-    "fitted from 8 "
-    f"to 12 growth times, differs by at most {100 * _off:.2f} %. After a shock of +{FORCE:g} N along y the pair "
-    "rotates stably at "
-    f"−{-_plus:.3f} rad/s, mean x within {_wide:.2f} R up to 20 s; after −{FORCE:g} N it rotates at {_minus:+.3f} "
-    "rad/s, unstably, "
-    f"mean x up to {_wider:.2f} R."
+    f"G = {SPIN:g} kg m²/s, ell = R = 1 m, and nu = alpha' is positive in the sense of G. The rotation is unstable if b nu² < G "
+    "nu/k. With b = 0 only its sense matters; otherwise the threshold is G/(k b), here "
+    f"−{-_threshold:.2f} and {_other:.2f} rad/s. The exact growth rate of a tilt of 1e-9, fitted from 8 to 12 growth "
+    "times, differs "
+    f"by at most {100 * _off:.2f} %. After a shock of +{FORCE:g} N along y the pair rotates stably at −{-_plus:.3f} "
+    "rad/s, and the "
+    f"mean x varies by {_wide:.2f} R up to 20 s. After −{FORCE:g} N it rotates at {_minus:+.3f} rad/s, which is "
+    "unstable, and the "
+    f"mean x varies by {_wider:.2f} R."
 )
 
 

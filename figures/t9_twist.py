@@ -19,9 +19,10 @@ TRIED = (0.4, 0.7, 1.0)
 
 TITLE = "The twist instability of equal spins"
 ALT = (
-    "Left: growth rate of a small twist against the bar's inertia at mass 1 kg for cones of 0.1 and 0.4 radians: zero up to "
-    "the dumbbell's inertia 0.25, then rising steeply and levelling off; Hill's equation lies above the closed form on the "
-    "wider cone, and the exact points lie on it. Right: difference between closed form and Hill's equation."
+    "Left: the growth rate of a small twist as a function of the bar's inertia at a mass of 1 kg, for cones of 0.1 and 0.4 "
+    "radians. It is zero up to the dumbbell's inertia 0.25, then rises steeply and levels off. Hill's equation lies above "
+    "the closed form on the wider cone, and the exact points lie on Hill's equation. Right: the difference between closed "
+    "form and Hill's equation."
 )
 
 
@@ -70,12 +71,14 @@ def measure() -> dict[str, float]:
 
 _edge, _narrow, _wide, _off = measure().values()
 CAPTION = (
-    f"Equal spins of {SPIN:g} rad/s on a common cone, bar of mass {MASS:g} kg. A twist grows above K = m ell²/4 = "
-    f"{_edge:g} kg m² "
-    "and stays small below it. Closed form: first order in the half-angle. Hill's equation: exact in the half-angle. "
-    "Exact motion: "
-    f"a twist rate of 1e-7 rad/s, at most {100 * _off:.1g} % from Hill's equation; at K = {TRIED[-1]:g} kg m² it grows at "
-    f"{_narrow:.3f} and {_wide:.3f} per second."
+    f"The spins are equal, {SPIN:g} rad/s, the axes lie on a common cone, and the bar has a mass of {MASS:g} kg. A "
+    "twist grows for "
+    f"K above m ell²/4 = {_edge:g} kg m² and stays small for K below it. The closed form is of first order in the "
+    "half-angle; Hill's "
+    "equation is exact in the half-angle. The exact motion starts with a twist rate of 1e-7 rad/s; its growth rate differs from "
+    f"Hill's equation by at most {100 * _off:.1g} %. At K = {TRIED[-1]:g} kg m² the twist grows at {_narrow:.3f} 1/s "
+    "on the narrow "
+    f"cone and {_wide:.3f} 1/s on the wide one."
 )
 
 

@@ -22,8 +22,8 @@ def test_the_tables_are_the_record(made):
     assert all(len(row) == len(times.head) for row in times.rows)
     told = {row[0]: dict(zip(multiples.head, row, strict=True)) for row in multiples.rows}
     for best in OURS:  # each is one of itself
-        assert told[f"best of {best}"][f"over {best}, 1e-06"] == "1"
-    assert told["minimal"]["over core, 1e-06"] == "1" != told["minimal"]["over any model, 1e-06"]
+        assert told[f"best of {best}"][f"divided by {best}, 1e-06"] == "1"
+    assert told["minimal"]["divided by core, 1e-06"] == "1" != told["minimal"]["divided by any model, 1e-06"]
     assert len(rates.rows) == len(found["throughput"])
 
 

@@ -1,7 +1,7 @@
 # %% [markdown]
 # # Steady precession, nutation, sleep
 #
-# **Objective.** At which rates the top precesses steadily, how it nutates about that, and when it stands upright.
+# **Objective.** At which rates the top precesses steadily, how it nutates about that, and when the upright position is stable.
 #
 # **Assumptions.** Those of the first section. Gravity is weak, $mgl \ll I_3^2\omega_3^2/I_1$, only where the print says so:
 # this is a premise, put in by $g \to \varepsilon g$.
