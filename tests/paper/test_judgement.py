@@ -75,7 +75,7 @@ def test_the_domain_has_what_cancels_while_the_text_is_read(equation: str, given
         ("2*x = 1", ["y"], "one relation each"),
         ("2*x = f(x)", [], r"write f\*"),
         ("2*x = __import__('os')", [], "__import__"),
-        (r"\ln x^2 = 3", [], "write brackets"),
+        (r"\ln x^2 = 3", [], "write the argument in brackets"),
         ("exp(x) = e^x", [], r"write exp\(…\)"),
         ("cosh(x) = (e^x + e^(-x))/2", [], r"write exp\(…\)"),
         ("exp(i*x) = cos(x) + i*sin(x)", [], "write 1j"),

@@ -1,7 +1,4 @@
-"""A formula as printed: LaTeX is split into a row of boxes such as symbols, numbers, fractions and brackets.
-
-A box carries its subscript and superscript. Nothing is interpreted here: `grammar` gives the boxes their meaning.
-"""
+"""A formula as printed, without interpretation: a row of boxes such as symbols, fractions and brackets, with scripts."""
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -441,10 +438,7 @@ class _Reader:
 
 
 def _without_spaces(row: list[Box]) -> list[Box]:
-    """Return a row without its thin spaces; the box after a thin space becomes `spaced`.
-
-    Three or more consecutive thin spaces separate two formulas and become one wide space.
-    """
+    """Return a row without thin spaces; the box after one becomes `spaced`. Three in succession become one wide space."""
     result, after_thin = list[Box](), False
     for thin, run in groupby(row, key=lambda box: box.kind == "thin"):
         boxes = list(run)

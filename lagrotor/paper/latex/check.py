@@ -118,10 +118,7 @@ class Check:
 
 
 def check_source(source: Source, declared: Notation = ALL_REAL) -> Check:
-    """Check the displayed equations of a source.
-
-    `declared` gives the kinds of its symbols (function, vector, …). For other symbols the formulas suggest a kind.
-    """
+    """Check the displayed equations of a source. The formulas suggest the kinds of symbols that are not in `declared`."""
     notation = with_proposals(declared, propose([*(equation.latex for equation in source.equations), *source.inline]))
     readings = [(equation, read_formula(equation.latex, notation, equation.lead)) for equation in source.equations]
     faults = [
@@ -182,10 +179,7 @@ class _Checker:
                 yield self._finding(display, step, (lhs, rhs), verdict, why)
 
     def _join_row(self, equation: Displayed, statement: PrintedStatement) -> PrintedStatement:
-        """Return the statement of a row that continues the previous row, with the last member of that row inserted.
-
-        Any other statement is returned unchanged.
-        """
+        """Return a statement. If its row continues the previous row, the last member of that row is inserted."""
         previous = self.readings[self.place - 1][1] if equation.lead and self.place else None
         if previous is None or not previous.whole or previous.statements[-1].kind != "equation":
             return statement
@@ -252,10 +246,7 @@ class _Checker:
         return expression_of(node, self.opaque)
 
     def _has_relation(self, letters: set[str]) -> bool:
-        """Return True if an earlier equation, or a formula in the text, relates only these symbols to each other.
-
-        Members that differ as printed may agree by such a relation.
-        """
+        """Return True if an earlier equation or a formula in the text relates only these symbols, so that members may agree."""
         stems = {letter.split("_")[0] for letter in letters}
         for latex, reading in (*((equation.latex, r) for equation, r in self.readings[: self.place]), *self._text):
             if not reading.whole and (names := letters_printed(latex)) and names <= stems:
@@ -338,9 +329,6 @@ def _difference(a: Any, b: Any) -> str:
 
 
 def _comparable(a: Any, b: Any) -> bool:
-    """Return True if two members are of one kind (vector or number) and contain the same non-explicit terms.
-
-    A non-explicit term is a derivative, an integral or a function that has no formula here.
-    """
+    """Return True if both members are vectors or both numbers, with the same derivatives, integrals and functions."""
     hidden = [{symbol for symbol in side.free_symbols if has_opaque(symbol)} for side in (a, b)]
     return hidden[0] == hidden[1] and isinstance(a, sp.MatrixBase) == isinstance(b, sp.MatrixBase)

@@ -1,7 +1,4 @@
-"""The equality of two printed sides. A test in floating point comes first; then the equality is decided exactly.
-
-The work of a decision is bounded: beyond a number of function calls the question remains open.
-"""
+"""The equality of two printed sides: first a test in floating point, then an exact decision with bounded work."""
 
 from collections.abc import Callable
 from random import Random
@@ -50,10 +47,7 @@ def expression_of(node: Node, opaque: Opaque) -> Any:
 
 
 def value_at(side: Any, point: dict[sp.Symbol, sp.Rational]) -> Any:
-    """Return the numerical value of a side at a point, for a matrix the value of its first nonzero entry.
-
-    The value is nan if it cannot be computed or exceeds LARGEST.
-    """
+    """Return the numerical value of a side at a point (of a matrix, its first nonzero entry); nan if that fails."""
     entry = next((e for e in side if e != 0), sp.S.Zero) if isinstance(side, sp.MatrixBase) else side
     try:
         value = count_calls(sp.N, entry.xreplace(point), 15)
@@ -71,10 +65,7 @@ def nearly_equal(a: Any, b: Any) -> bool:
 
 
 def may_agree(a: Any, b: Any) -> bool:
-    """Return False if two expressions are real at a test point and differ there; this makes an exact decision needless.
-
-    True means that they agree there, or that no test point was found.
-    """
+    """Return False if two expressions are real at a test point and differ there; no exact decision is then needed."""
     if isinstance(a, sp.MatrixBase) or isinstance(b, sp.MatrixBase):
         return True
     symbols = sorted(a.free_symbols | b.free_symbols, key=str)
@@ -133,10 +124,7 @@ def _scalar_equality(a: Any, b: Any) -> str:
 
 
 def radicands(*sides: Any) -> set[Any]:
-    """Return the expressions under the roots of some sides. Sides are compared only where all of them are positive.
-
-    Without this condition √(x/y) = 1/√(y/x) would fail at x = −1.
-    """
+    """Return the expressions under roots. Sides are compared where these are positive: √(x/y) = 1/√(y/x) fails at x = −1."""
     roots = (root for side in sides for root in side.atoms(sp.Pow) if root.exp.is_Rational and not root.exp.is_Integer)
     return {root.base for root in roots if root.free_symbols}
 

@@ -84,10 +84,7 @@ class Source:
 
 @dataclass
 class _Row:
-    """One row of a display while it is read.
-
-    numbered: True if the row shall have a number. stepped: True if the display has already advanced the counter.
-    """
+    """One row of a display. numbered: it shall have a number. stepped: the display has already advanced the counter."""
 
     numbered: bool
     stepped: bool
@@ -390,10 +387,7 @@ class _Walker:
             lead = self._add(group, kind, token, lead)
 
     def _add(self, group: list[_Row], kind: str, token: Token, lead: str) -> str:
-        """Store the equation that a group of rows forms, and return its left side for the next equation.
-
-        `lead` is the left side of the previous equation; it is stored if this equation begins with a relation sign.
-        """
+        """Store the equation of a group of rows; `lead` is the left side that it may continue. Return the next `lead`."""
         number = next((row.number for row in group if row.number), "")
         label = next((label for row in group for label in row.labels), "")
         latex = _without_columns(group[0].tokens, kind)

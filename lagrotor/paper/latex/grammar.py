@@ -265,10 +265,7 @@ class Grammar:
         return self.power(node, box), place + 1
 
     def _special_symbol(self, row: list[Box], place: int, right: Box | None) -> tuple[Node, int] | None:
-        """Read e, i, π, d or Δ if it has its special meaning here; return None if it is an ordinary symbol.
-
-        `right` is the box after the symbol, None at the end of the row.
-        """
+        """Read e, i, π, d or Δ with its special meaning; return None for an ordinary symbol. `right` is the next box or None."""
         box, name, number_ = row[place], row[place].name, self._kind(row[place], "numbers")
         settled, kind = self._kind(box, *_SETTLED), right.kind if right else ""
         if name == "e" and (number_ or box.upright):
@@ -304,10 +301,7 @@ class Grammar:
         return self.power(replace(letter, name=f"{box.name}_{letter.name}"), right), place + 2
 
     def _application(self, box: Box, bracket: Box) -> Node | None:
-        """Read a symbol as a function whose argument is the bracket after it; return None if the bracket is a factor.
-
-        A coordinate x(t) is read as x.
-        """
+        """Read a symbol as a function of the bracket after it, x(t) as x; return None if the bracket is a factor."""
         content, name = bracket.contents[0], stem_of(box)
         if name in ("O", "Ocal") and not (box.sub or box.sup):
             return Call("order", (self.expression(content),))
@@ -696,10 +690,7 @@ def _check_sums(terms: list[list[Box]]) -> None:
 
 
 def _check_neighbours(row: list[Box], place: int, previous: Box | None) -> None:
-    """Raise FormulaError if the box at a position may not stand there.
-
-    Refused are a number after a factor, a mixed number, dots among factors, and symbols that together form a word.
-    """
+    """Raise FormulaError for a number after a factor, a mixed number, dots among factors, or symbols that form a word."""
     box = row[place]
     if box.kind == "dots" and len(row) > 1:
         raise FormulaError("dots stand for factors", "write the factors, or a product sign")

@@ -1,6 +1,4 @@
-"""The folder of a new paper. It holds one worked example, or the equations of a LaTeX source.
-
-The folder can be updated when the source changes.
+"""The folder of a new paper. It holds one worked example, or the equations of a source, and follows its changes.
 
 An update keeps the id, title, confirmation and comments of an equation with the same label or LaTeX. An equation whose
 LaTeX has changed is marked, and its reading must be confirmed again.
@@ -184,10 +182,7 @@ def _match_rows(equations: list[Displayed], old: list[dict[str, Any]]) -> dict[i
 
 
 def _row(equation: Displayed, print_: Print, prior: Mapping[str, Any] | None, changed: list[str]) -> dict[str, Any]:
-    """Return the row of an equation; it keeps the author's entries in its old row `prior`, None for a new equation.
-
-    If the LaTeX differs from the old one, the id is appended to `changed`.
-    """
+    """Return the row of an equation with the author's entries in its old row `prior`; add its id to `changed` for new LaTeX."""
     row: dict[str, Any] = {"id": equation.id, "number": equation.number, "section": equation.section}
     title = equation.label or f"displayed equation {equation.id}"
     row |= {"title": title, "label": equation.label, "latex": equation.latex}
@@ -284,8 +279,7 @@ def confirm(folder: Path, ids: Iterable[str]) -> list[str]:
             known = ", ".join(list(rows)[:8])
             raise InputError(f"{file}: there is no equation {identifier!r}: give one of its ids, {known} …")
         if row.get("read") == "gone":
-            why = "it cannot be confirmed; leave it out"
-            raise InputError(f"equation {identifier} is no longer in the source: {why}")
+            raise InputError(f"equation {identifier} is no longer in the source: leave it out of --confirm")
         if not row.get("line"):
             why = f"`lagrotor readings {folder}` shows where its reading stopped, or which statements are not compared"
             raise InputError(f"equation {identifier} has no line to confirm: {why}")

@@ -147,10 +147,7 @@ class Expander(TokenStream):
         return False
 
     def _body(self, macro: Macro, token: Token) -> list[Token]:
-        """Consume the arguments of a macro and return its body with these arguments inserted.
-
-        The tokens of the body get the position of `token`, which called the macro.
-        """
+        """Consume the arguments of a macro; return its body with them inserted, at the position of the calling `token`."""
         values: list[Iterable[Token]] = []
         for kind, marks, default in macro.head:
             value: list[Token] | None = None

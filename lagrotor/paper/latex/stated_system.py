@@ -201,10 +201,7 @@ class StatedSystem:
         return line.members[0] + self._along(lhs - line.members[0]) if moving else self._along(lhs)
 
     def _left_side(self, identifier: str) -> sp.Expr | None:
-        """Return the left side of an equation as an expression.
-
-        None means that it has symbols outside the system, or consists of several sides that are not equal.
-        """
+        """Return the left side of an equation; None if it has symbols outside the system, or several sides that differ."""
 
         def partial(f: sp.Expr, by: sp.Symbol, order: int = 1) -> sp.Expr:
             if by == t:
@@ -236,7 +233,8 @@ class StatedSystem:
         modes = system.linearise(self._point(point)).modes()
         squares = sorted({sp.factor(-(mode.rate**2)) for mode in modes if mode.rate != 0}, key=sp.default_sort_key)
         if not 0 < which <= len(squares):
-            raise self._error(f"there is no {form} {which}: write a number from 1 to {len(squares)}")
+            helps = "correct the number, or remove the equation here"
+            raise self._error(f"there is no {form} {which}: the system has {len(squares)}: {helps}")
         square = squares[which - 1]
         if form == "frequency^2":
             return square

@@ -94,8 +94,7 @@ def _continues(previous: list[Box], line: list[Box]) -> bool:
         return False
     starts = first.kind == "relation" or (first.kind == "operator" and first.name in ("+", "-", "cdot", "times", "/"))
     if starts and _is_related(line) and first.kind != "relation":
-        way = "write a comma between two statements"
-        raise FormulaError("it is unclear whether a row continues the row before", way)
+        raise FormulaError("it is unclear whether a row continues the row before", "write a comma between statements")
     if starts and any(box.kind in ("text", "wide", "comma") for box in strip(previous)):
         raise FormulaError("a row continues one of several statements", "write each statement in rows of its own")
     if not starts and not _is_related(line):

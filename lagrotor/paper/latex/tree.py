@@ -144,10 +144,7 @@ def is_matrix(node: Node) -> bool:
 
 
 def divisors(node: Node) -> Iterator[Node]:
-    """Yield the nodes that must not be zero: divisors, bases of negative powers and arguments of logarithms.
-
-    Those inside a sum, a product, a derivative or an integral are left out.
-    """
+    """Yield the nodes that must not vanish, outside sums and integrals: divisors, bases of negative powers, arguments of log."""
     if isinstance(node, Call) and node.name not in BINDING:
         if node.name == "quotient":
             yield node.args[1]
@@ -158,10 +155,7 @@ def divisors(node: Node) -> Iterator[Node]:
 
 
 def put_for(node: Node, values: Mapping[Node, Node]) -> Node:
-    """Return a node in which each key of `values` is replaced by its value.
-
-    The variable of a derivative, an integral or a sum is not replaced inside it.
-    """
+    """Return a node with each key of `values` replaced, except the variable of a derivative, integral or sum inside it."""
     if node in values:
         return values[node]
     if not isinstance(node, Call) or not values:
@@ -278,10 +272,7 @@ def sympy_expression(node: Node, opaque: Opaque) -> Any:
 
 
 def _value(node: Call, opaque: Opaque) -> Any:
-    """Return the value of a call of arithmetic, of a function in KNOWN, or of vectors and explicit matrices.
-
-    None means that the call has no explicit value.
-    """
+    """Return the value of arithmetic, of a function in KNOWN, of vectors or explicit matrices; None for any other call."""
     if node.name == "matrix":
         rows = (row.args for row in node.args if isinstance(row, Call))
         return sp.Matrix([[sympy_expression(arg, opaque) for arg in row] for row in rows])
@@ -322,10 +313,7 @@ def has_opaque(*values: Any) -> bool:
 
 
 def rates_of(nodes: Iterable[Node]) -> dict[sp.Symbol, sp.Symbol]:
-    """Return a map from x to x_dot, and from x_dot to x_ddot, for each symbol that the nodes print with these dots.
-
-    A vector has one entry for each of its three components.
-    """
+    """Return a map from x to x_dot, and x_dot to x_ddot, for each symbol that has these dots; components for a vector."""
     rates: dict[sp.Symbol, sp.Symbol] = {}
     for letter in {inner for node in nodes for inner in walk(node)}:
         if isinstance(letter, Letter) and (dotted := _DOTTED.fullmatch(letter.name)):
@@ -336,10 +324,7 @@ def rates_of(nodes: Iterable[Node]) -> dict[sp.Symbol, sp.Symbol]:
 
 
 def _bound(node: Call, opaque: Opaque) -> Any:
-    """Return the value of a call that binds a variable: a sum, product, derivative, integral or point of evaluation.
-
-    None means that the call has no explicit value.
-    """
+    """Return the value of a call that binds a variable, such as a sum or a derivative; None if it has no explicit value."""
     inner = sympy_expression(node.args[0], opaque)
     if node.name == "rate":
         return None if isinstance(node.args[0], Letter) or opaque.rates is None else _rate(inner, opaque)
@@ -368,10 +353,7 @@ def _bound(node: Call, opaque: Opaque) -> Any:
 
 
 def _series(node: Call, inner: Any, variable: sp.Symbol, ends: list[Any], opaque: Opaque) -> Any:
-    """Return a sum or product of at most _MOST_ADDED + 1 terms, added or multiplied term by term.
-
-    A longer sum without indexed symbols stays a sympy sum if `opaque.refuses`; None for any other.
-    """
+    """Return a sum or product of few terms, evaluated; with `opaque.refuses` a long sum unevaluated; None for any other."""
     name = variable.name
     if len(ends) != 2 or ends[0].is_Integer is not True:
         return None

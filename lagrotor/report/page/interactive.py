@@ -1,8 +1,8 @@
-"""The interactive model of the report: the pair with sliders, its formulas generated as JavaScript.
+"""The interactive model of the report: a rotor pair with sliders, whose formulas are generated as JavaScript.
 
-The browser evaluates the same expressions that Python compiles: the minimal model's rates and axes, the periodic series for any
-bar, and the paper's formula. The stepper, drawing and controls (interactive_*.js), the style (interactive.css) and the markup
-(interactive.html) are written by hand.
+The browser evaluates the same expressions that Python compiles: rates and axes of the minimal model, the periodic series for
+any bar, and the paper's formula. Integration, drawing and controls (interactive_*.js), the style (interactive.css) and the
+markup (interactive.html) are written by hand.
 """
 
 from collections.abc import Iterator
@@ -67,7 +67,7 @@ def _part(file: str) -> str:
 
 @cache
 def javascript_formulas() -> str:
-    """Return the generated part of the script: the series' order, and one function per program."""
+    """Return the generated part of the script: the order of the series, and one JavaScript function per program."""
     lines = [f"const ORDER = {PAGE_ORDER};", *(javascript(program, name) for name, program in page_programs().items())]
     return "\n".join(lines)
 
@@ -113,7 +113,7 @@ def _rate(ratio: Ratio) -> Program:
 
 
 def _pair_at(ratio: Ratio) -> sp.Matrix:
-    """Return r_1 and r_2, stacked, in the coordinates of the minimal model."""
+    """Return the axes r_1 and r_2, one below the other, shape (6, 1), as functions of the minimal model's coordinates."""
     curve = bar_curve(ratio)
     embedding = minimal_embedding(curve.twist, curve.latitude)
     first, second = (mercator_axis(*MERCATOR.q[i : i + 2]).subs(embedding) for i in (0, 2))
@@ -130,7 +130,10 @@ def _start(ratio: Ratio) -> Program:
 
 
 def _small_motion() -> Program:
-    """Return the rates of M q'' + C q' = 0 about the mean, M q' = −C q, at parallel axes with y_1 = y_2 = 0."""
+    """Return the program for the initial rates y_1', y_2' of the pair's one small oscillation, from parallel axes.
+
+    They follow from the linear equations M q'' + C q' = 0, integrated about the mean of q to M q' = −C q.
+    """
     linear = linear_pair()
     parallel = linear.basis[0, :].T * amplitude
     rates = -linear.basis * linear.mass.LUsolve(linear.gyroscopic * parallel)
@@ -138,7 +141,10 @@ def _small_motion() -> Program:
 
 
 def _series() -> Program:
-    """Return the series; symbols r_n stand for r_0**n and are 0 beyond the order, so one function serves every order."""
+    """Return the program for the coefficients of the series in r_0.
+
+    Its arguments r_n stand for r_0**n and are 0 beyond the wanted order, so that one function serves every order.
+    """
     orbit, cosine = paired_series(PAGE_ORDER), sp.Symbol("c", real=True)
     powers = [sp.Integer(1), *(sp.Symbol(f"r_{n}", real=True) for n in range(1, PAGE_ORDER + 1))]
     stages: list[Stage] = []
