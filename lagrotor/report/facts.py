@@ -47,7 +47,7 @@ def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:
         agree = f"the printed and the derived expression agree through order {verdict.order} in"
         yield Fact("Order", (agree,), formulas=(verdict.small,))
     if verdict.domain:
-        yield Fact("Domain", formulas=verdict.domain)
+        yield Fact("Domain", ("both sides are defined and real only where",), formulas=verdict.domain)
     if sentences := dimension_texts(verdict):
         yield Fact("Dimensions", tuple(f"{text}." for text in sentences))
     evidence = verdict.evidence
