@@ -21,7 +21,7 @@ from lagrotor.renamed import accept_old_keywords
 
 @dataclass(frozen=True)
 class Formula:
-    """An expression, a matrix or an equation that a derivation shows.
+    r"""An expression, a matrix or an equation that a derivation shows.
 
     Attributes
     ----------
@@ -34,8 +34,8 @@ class Formula:
     --------
     >>> from sympy import symbols
     >>> G, J = symbols("G J")
-    >>> Formula(G / J, r"\\Omega").tex
-    '\\\\Omega = \\\\frac{G}{J}'
+    >>> Formula(G / J, r"\Omega").tex
+    '\\Omega = \\frac{G}{J}'
     """
 
     expression: Any
@@ -134,7 +134,7 @@ def prove(
     names: str | Sequence[str] = (),
     equations: str | Sequence[str] = (),
 ) -> Step:
-    """Decide lhs = rhs exactly, or through small**order; matrices and rows of expressions entry by entry.
+    r"""Decide lhs = rhs exactly, or through small**order; matrices and rows of expressions entry by entry.
 
     Parameters
     ----------
@@ -168,7 +168,7 @@ def prove(
     >>> from sympy import cos, sin, symbols
     >>> x = symbols("x", real=True)
     >>> prove(sin(x) ** 2, 1 - cos(x) ** 2, "Pythagoras").tex
-    '\\\\begin{aligned} \\\\sin^{2} x &= 1 - \\\\cos^{2} x \\\\end{aligned}'
+    '\\begin{aligned} \\sin^{2} x &= 1 - \\cos^{2} x \\end{aligned}'
     """
     pairs = _pairs(lhs, rhs)
     check_names(f"prove: {says or 'this step'}", pairs, small)
@@ -222,11 +222,11 @@ _CONSTANTS = ("pi", "sqrt", "sin", "cos", "tan", "exp", "Integer", "Rational", "
 
 @dataclass(frozen=True)
 class Form:
-    """A formula as text, from which both its LaTeX (`tex`) and its components (`value`) are read.
+    r"""A formula as text, from which both its LaTeX (`tex`) and its components (`value`) are read.
 
     The text may call the functions of `grammar.FUNCTIONS`, transpose(A), and sum_i(…), the sum over i = 1 … `bodies`, in
     which X_i is X_1, X_2, …. `letters` are components of symbols that the section lacks; `names` is the LaTeX of symbols,
-    as {"n": r"\\hat\\Omega"}. `remainder` is the first omitted power in LaTeX.
+    as {"n": r"\hat\Omega"}. `remainder` is the first omitted power in LaTeX.
     """
 
     text: str
