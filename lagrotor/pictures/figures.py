@@ -43,7 +43,7 @@ class Picture:
 
 
 def stems(scripts: Scripts) -> dict[str, str]:
-    """Return a map from the key of each figure to the stem of its script: the paper's by number, then "b1", "t1" …"""
+    """Return a map from the key of each figure to the stem of its script: first the paper's by number, then others."""
     matches = [(re.match(r"(?:fig0*)?([a-z]?\d+)_", stem), stem) for stem in scripts.names("figures")]
     return dict(sorted(((match[1], stem) for match, stem in matches if match), key=lambda row: not row[0].isdigit()))
 

@@ -108,9 +108,9 @@ def read_source(file: Path) -> Source:
 
 
 def read_latex(text: str, file: Path | None = None, title: str = "") -> Source:
-    """Read the displayed equations of a LaTeX text; `file` is its path, from which included files are found.
+    r"""Read the displayed equations of a LaTeX text; `file` is its path, from which included files are found.
 
-    `title` is used if the text has no \\title. Raises InputError for a macro that expands without end.
+    `title` is used if the text has no \title. Raises InputError for a macro that expands without end.
     """
     walker = _Walker(text, file, title)
     try:
@@ -438,7 +438,7 @@ def _left_side(source: str) -> str:
 
 
 def _without_columns(tokens: list[Token], kind: str) -> str:
-    """Return a row as LaTeX without alignment signs &. In align every second & separates two equations: a \\quad."""
+    """Return a row as LaTeX without alignment signs; every second & of align becomes a space between equations."""
     depth = columns = 0
     row: list[Token] = []
     for token in tokens:

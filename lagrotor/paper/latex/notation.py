@@ -77,7 +77,7 @@ def declared_notation(table: Mapping[str, Any], where: str = "paper.toml") -> No
 
 
 def _name(word: str) -> str:
-    """Return the name by which readings call a symbol: \\theta gives theta, lambda gives lamda."""
+    r"""Return the name by which readings call a symbol: \theta gives theta, lambda gives lamda."""
     word = word.removeprefix("\\")
     return "lamda" if word == "lambda" else word
 

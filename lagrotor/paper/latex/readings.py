@@ -70,7 +70,7 @@ def _line(statement: PrintedStatement) -> dict[str, Any] | None:
 
 
 def _latex(side: Side) -> str:
-    """Return a side in LaTeX, without the signs & and \\\\ that divide its display into columns and rows."""
+    r"""Return a side in LaTeX, without the signs & and \\ that divide its display into columns and rows."""
     tokens, depth = list[Token](), 0
     for token in tokenize(side.latex):
         depth += NESTING.get(token.text, 0)
