@@ -188,7 +188,7 @@ def _claim(result: Result, report: Report) -> Iterator[Block]:
     yield Verbatim(entry.text, quoted=True)
     yield [finding.explanation]
     if finding.condition:
-        yield [Bold("If:"), finding.condition]
+        yield [Bold("Condition:"), finding.condition]
     yield from _facts(linked_facts(result, report))
     yield _numbers(f"Measured ({result.test.model})", result.measured)
 

@@ -162,7 +162,7 @@ def _merge(
 def _match_rows(equations: list[Displayed], old: list[dict[str, Any]]) -> dict[int, int]:
     """Return a map from the place of an equation to the place of its old row.
 
-    Equal label and LaTeX decide first, then an equal label, then equal LaTeX if the old label is gone.
+    Equal label and LaTeX decide first, then an equal label, then equal LaTeX of an equation whose label is new.
     """
     matches: dict[int, int] = {}
     rows = [(str(row.get("label", "")), str(row.get("latex"))) for row in old]

@@ -114,7 +114,7 @@ class Expander(TokenStream):
             yield token
 
     def expand(self, tokens: Iterable[Token]) -> list[Token]:
-        """Return the expansion of these tokens; definitions made by them end with them."""
+        """Return the expansion of these tokens; groups that they leave open are closed."""
         waiting, self.waiting = self.waiting, [iter(list(tokens))]
         depth = len(self.scopes)
         try:

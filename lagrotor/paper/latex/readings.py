@@ -91,10 +91,10 @@ def statement_text(statement: PrintedStatement) -> str:
 class EquationReading:
     """The reading of one equation; `print` is its LaTeX.
 
-    status: confirmed, unconfirmed, by hand, changed (the LaTeX has changed), gone (no longer in the source), aside (read,
-    but no statement can be compared), unread so far (it can now be read, init must run again), not read. lines: its
-    printed lines, and the statements that are not compared, as text. stopped, helps: the reason why the reading stopped,
-    and the remedy. number: the printed number if it differs from the id, else "".
+    status: confirmed, unconfirmed, by hand or not read; changed if the LaTeX has changed; gone if the source lacks the
+    equation; aside if no statement of it can be compared; unread so far if [notation] has changed and init must run again.
+    lines: its printed lines and the statements that are not compared, as text. stopped, helps: the reason why the reading
+    stopped, and the remedy. number: the printed number if it differs from the id, else "".
     """
 
     id: str

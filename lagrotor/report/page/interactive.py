@@ -74,17 +74,21 @@ def javascript_formulas() -> str:
 
 @cache
 def page_programs() -> dict[str, Program]:
-    """Return the programs that the script calls, by name. Units SI; the rotors are the paper's, M = R = I_1 = I_3 = 1.
+    """Return the programs that the script calls, by name. Units are SI; the rotors are the paper's, M = R = I_1 = I_3 = 1.
 
-    constants     (m, K, ell, omega_1, omega_2) → a, b, k, sigma, G_1, G_2, Omega_0, the paper's rate (5.28)
-    rate_, axes_  for a bar shorter than, as long as, longer than an axis: of the minimal model; axes r_1, r_2
-    start_        (r_0, y_1', y_2', k) → its state with both axes at (r_0, 0, sqrt(1 − r_0²)) and these rates
+    Each row gives the arguments and, after the arrow, the outputs. A name that ends with _ is completed by short, equal or
+    long: a program for a bar that is shorter than an axis, as long, or longer. U, chi, alpha are the minimal model's coordinates.
+
+    constants     (m, K, ell, omega_1, omega_2) → a, b, k, sigma, G_1, G_2, Omega_0, and the paper's rate (5.28)
+    rate_         (coordinates, velocities, a, b, k, G_1, G_2) → the rates of change of the minimal model
+    axes_         (U, chi, alpha, k) → the axes r_1, r_2
+    start_        (r_0, y_1', y_2', k) → the state with both axes at (r_0, 0, sqrt(1 − r_0²)) and these rates
     slopes_       (U, chi, alpha, k) → the derivatives of r_1, r_2 by the coordinates, 6 rows of 3
-    small_motion  (r_0, a, b, G_1, G_2) → y_1', y_2' of the pair's one oscillation, linear in r_0, any spins
-    series        (powers of r_0, sigma, k) → coefficients of c⁰ … in x, y / s, z, and Omega / Omega_0
-    orbit         (c, s, coefficients) → r_1, r_2
-    paper         (r_0, Phi) → r_1, r_2 as printed: 5.20, 5.22
-    bar_length    (r_1, r_2, ell) → m
+    small_motion  (r_0, a, b, G_1, G_2) → y_1', y_2' of the pair's one small oscillation, for any spins
+    series        (powers of r_0, sigma, k) → the coefficients of c⁰, c¹ … in x, y / s and z, and Omega / Omega_0
+    orbit         (c, s, coefficients) → the axes r_1, r_2, with c = cos Phi and s = sin Phi
+    paper         (r_0, Phi) → the axes r_1, r_2 as equations 5.20 and 5.22 print them
+    bar_length    (r_1, r_2, ell) → the distance of the tips in m
     """
     result = {"constants": _constants(), "small_motion": _small_motion(), "paper": _paper(), "bar_length": _length()}
     result |= {"series": _series(), "orbit": horner.horner_program(PAGE_ORDER)}

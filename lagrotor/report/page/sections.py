@@ -107,7 +107,7 @@ def _beside(heading_a: str, printed: str, heading_b: str, derived: str) -> str:
 def claim_entry(result: Result, report: Report) -> str:
     """Return the HTML entry of a claim: the paper's words, its outcome with reasons, and the measured numbers."""
     entry, finding = report.paper.claims[result.test.id], result.finding
-    condition = f"<p><b>If:</b> {prose(finding.condition)}</p>" if finding.condition else ""
+    condition = f"<p><b>Condition:</b> {prose(finding.condition)}</p>" if finding.condition else ""
     place = anchor(entry.id)
     return (
         f'<article id="{place}">{heading(place, entry.id, f"section {entry.section}", finding.outcome)}'
