@@ -1,4 +1,4 @@
-"""Tables of the measurements on mechanisms, also against the targets."""
+"""Tables of the measurements on mechanisms, and of the targets with the measured values."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -18,12 +18,12 @@ _AGREE = {"zero": "yes", "nonzero": "no"}  # the difference of two formulations 
 
 
 def mechanism_name(kind: MechanismKind, n: int) -> str:
-    """Return "24 rods" or "1 gyroscope"."""
+    """Return the name of a mechanism with n links, for example "24 rods" or "1 gyroscope"."""
     return f"{n} {kind if n > 1 else kind.removesuffix('s')}"
 
 
 def mechanism_rows(measured: Sequence[Measured]) -> list[_Row]:
-    """Return one row for each tool and mechanism; a tool that was not run has its reason."""
+    """Return one row for each tool and mechanism; if a tool was not run, its row says why."""
     return [
         (
             mechanism_name(x.kind, x.n),
@@ -37,7 +37,8 @@ def mechanism_rows(measured: Sequence[Measured]) -> list[_Row]:
 
 
 def comparison_rows(rows: Sequence[dict[str, Any]], longest: float) -> list[_Row]:
-    """Return one row for each mechanism and source, with sympy's method; `longest` is its limit in s of processor time."""
+    """Return one row for each mechanism and source of its equations, compared with sympy's method. The processor time of sympy
+    was limited to `longest` seconds."""
     table, by_tool = list[_Row](), {(row["mechanism"], row["tool"]): row for row in rows}
     for name in dict.fromkeys(row["mechanism"] for row in rows):
         for source, method in zip(("bodies", "Lagrangian"), _METHODS, strict=True):
@@ -77,9 +78,10 @@ def target_rows(
     operations: dict[MechanismKind, list[int]],
     records: Sequence[dict[str, Any]],
 ) -> list[_Row]:
-    """Return the targets with the measured values; — without a tool.
+    """Return the targets with the measured values; — stands for a tool that was not measured.
 
-    operations: of one evaluation, for each of LINKS; records: the rows of the record of bodies and Lagrangians.
+    `operations` are the numbers of operations of one evaluation, for each size in LINKS. `records` are the rows of the record
+    of bodies and Lagrangians.
     """
     by_tool = {(x.kind, x.n, x.tool): x for x in measured}
     recorded, none = {(x["mechanism"], x["tool"]): x for x in records}, {"ready": None, "rhs": None}

@@ -41,9 +41,20 @@ Record = TypeVar("Record")
 
 @dataclass(frozen=True)
 class Measured:
-    """One tool on one mechanism, processor times in s; `reason` says why a value is missing.
+    """The measurements of one tool on one mechanism, with processor times in s; a missing value is None.
 
-    difference: relative, of its right-hand side from lagrotor's; by: the solver that reached the error.
+    Attributes
+    ----------
+    kind, n, tool : MechanismKind, int, str
+        The mechanism, its number of links, and the tool.
+    ready, rhs, run : float or None
+        Times until the equations can be evaluated, of one evaluation, and of a run with the error MECHANISM_ERROR.
+    difference : float or None
+        Relative difference of the tool's right-hand side from lagrotor's.
+    by : str
+        The solver that reached the error.
+    reason : str
+        The reason why a value is missing.
     """
 
     kind: MechanismKind
@@ -59,7 +70,8 @@ class Measured:
 
 @dataclass(frozen=True)
 class Decided:
-    """Processor times in s of same_as (ours) and simplify (theirs), and their answers; the time limit if simplify did not end."""
+    """The processor times in s of same_as (`ours`) and simplify (`theirs`) for a pair of formulations, and their answers. If
+    simplify did not end, its answer says so and its time is the limit."""
 
     pair: str
     ours: float
@@ -74,7 +86,7 @@ class Decided:
 
 @dataclass(frozen=True)
 class Comparison:
-    """A record of mechanisms; operations: of one evaluation, for each of LINKS."""
+    """A record of mechanisms. `operations` are the numbers of operations of one evaluation, for each size in LINKS."""
 
     date: str
     digest: str | None
@@ -87,10 +99,11 @@ class Comparison:
 
 @dataclass(frozen=True)
 class Timed:
-    """A tool on a chain of n rotors: setting, error in m, processor times in s of a run and of the first run with compilation.
+    """The measurement of one tool on a chain of n rotors.
 
-    seconds: None if no setting reaches CHAIN_ERROR in time; then error is the smallest reached, infinite (null on record)
-    if the tool refused the chain, and reason says why.
+    The setting reached the largest error `error` in m. `seconds` and `first` are the processor times in s of a run and of the
+    first run, which may compile. If no setting reaches CHAIN_ERROR in time, `seconds` is None and `error` the smallest one
+    reached. If the tool refused the chain, the error is infinite (null on record), and `reason` says why.
     """
 
     n: int
@@ -104,7 +117,7 @@ class Timed:
 
 @cache
 def code_digest(name: RecordName) -> str:
-    """Return the SHA-256 of the code that a record measures, without comments, docstrings and line numbers."""
+    """Return the SHA-256 digest of the code that a record measures. Comments, docstrings and line numbers do not change it."""
     digest = sha256()
     for folder in (Path(package.__path__[0]) for package in MEASURED_PACKAGES[name]):
         for file in sorted(folder.rglob("*.py")):
@@ -114,7 +127,8 @@ def code_digest(name: RecordName) -> str:
 
 
 def _code(node: object) -> object:
-    """Return the syntax tree as tuples. Empty fields are omitted, since Python versions differ in these."""
+    """Return a syntax tree as nested tuples, without docstrings. Empty fields are omitted, because they differ between Python
+    versions."""
     if isinstance(node, ast.AST):
         text = isinstance(node, ast.Expr) and isinstance(getattr(node.value, "value", None), str)  # a docstring
         fields = ((name, _code(value)) for name, value in ast.iter_fields(node) if value not in (None, []))
@@ -123,12 +137,12 @@ def _code(node: object) -> object:
 
 
 def stamp(name: RecordName) -> dict[str, str]:
-    """Return date and digest of a record that is measured today."""
+    """Return the date of today and the digest of the present code, for a record that is measured now."""
     return {"date": datetime.now(UTC).date().isoformat(), "digest": code_digest(name)}
 
 
 def record_age(name: RecordName, date: str, digest: str | None) -> str:
-    """Return a sentence with the date of a record; it says if the measured code has changed since."""
+    """Return a sentence with the date of a record, which also says if the measured code has changed since."""
     if digest == code_digest(name):
         return f"The measurement is of {date}, with the present code."
     packages = ", ".join(package.__name__.removeprefix("lagrotor.") for package in MEASURED_PACKAGES[name])
@@ -136,14 +150,13 @@ def record_age(name: RecordName, date: str, digest: str | None) -> str:
 
 
 def recorded_speed() -> dict[str, Any]:
-    """Return date, digest, machine, versions, at_error (error → method → s), set_up (method → s), throughput. Raises
-    LagrotorError.
-    """
+    """Return the record of speed: date, digest, machine, versions, throughput, at_error (error → method → time in s) and set_up
+    (method → time in s). Raise LagrotorError if it is unreadable."""
     return _read(SPEED, dict)
 
 
 def recorded_multiple(record: dict[str, Any], name: str, error: str, of: str) -> float | None:
-    """Return the ratio of two methods' times at an error; None if one does not reach it."""
+    """Return the time of method `name` divided by that of method `of`, both at an error; None if one does not reach the error."""
     seconds = record["at_error"][error]
     return None if None in (seconds[name], seconds[of]) else float(seconds[name] / seconds[of])
 
@@ -159,7 +172,7 @@ def _comparison(data: dict[str, Any]) -> Comparison:
 
 
 def recorded_structures() -> tuple[dict[str, Any], list[Timed]]:
-    """Return the record of chains and its rows. Raises LagrotorError if it is unreadable."""
+    """Return the record of chains, and its rows as `Timed`. Raises LagrotorError if it is unreadable."""
     return _read(STRUCTURES, lambda data: (data, list(map(_timed, data["rows"]))))
 
 

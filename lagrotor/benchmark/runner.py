@@ -1,6 +1,5 @@
-"""Benchmarks of one scene: each method at every setting against the reference, with its points, failures, and the Pareto
-front.
-"""
+"""Benchmarks of one scene: each method is run at every setting and compared with the reference. The results are points, failures
+and the Pareto front."""
 
 import time
 from collections.abc import Callable, Iterable
@@ -27,19 +26,19 @@ Family = Literal["closed", "core", "fast", "scipy", "springs", "candidate", "pee
 TOLERANCES = tuple(10.0**-n for n in range(3, 14))
 LONGEST_RUN = Calibrated(
     2.0,
-    "s of one run, after which a method is not run at a finer setting; up to a tenth of it runs are repeated",
+    "s: after a longer run a method is not run at a finer setting; runs of up to a tenth of it are repeated",
     "all methods on four scenes: the slowest, implicit ones take minutes at 1e-13",
     "test_runner.py::test_a_method_that_takes_long_is_not_run_at_finer_settings",
 )
 LONGEST_QUICK_RUN = Calibrated(
     0.2,
-    "the same of `lagrotor chart --quick`",
+    "s: after a longer run of `lagrotor chart --quick` a method is not run at a finer setting",
     "all methods on four scenes: the whole then takes about half a minute",
     "test_scenes_and_methods.py::test_what_is_left_out_is_listed",
 )
 SAMPLE = Calibrated(
     0.01,
-    "s for which a run is repeated to time it: one of a millisecond by itself depends on what ran before it",
+    "s for which a run is repeated to time it, since a single run of a millisecond depends on earlier runs",
     "the minimal model, whose runs take 3 to 30 ms: ten samples of it agree to 5 %",
     "test_runner.py::test_a_short_run_is_repeated_until_a_sample_is_full_and_a_long_one_is_not",
 )
@@ -54,9 +53,8 @@ LSODA_LEAST = Calibrated(
 def check_work(
     run: str, evaluations: float, states: Any, error: float = 0.0, bound: float = inf, least: float = 1.0
 ) -> None:
-    """Raise LagrotorError if a run has fewer evaluations than `least`, no motion along axis 1 of `states`, or an error above
-    `bound`.
-    """
+    """Raise LagrotorError unless a run has at least `least` evaluations, a motion along axis 1 of `states`, and an error of at
+    most `bound`."""
     motion = float((states.max(axis=1) - states.min(axis=1)).max())
     if not (evaluations >= least and motion > 0 and error <= bound):
         raise LagrotorError(
@@ -69,8 +67,9 @@ def check_work(
 class Method:
     """A benchmarked method: its family, its settings, and the package that pip installs for it.
 
-    prepare(scene, t_eval) → runner(setting) → tips (2, n, 3) in m, and nfev. A setting is a tolerance or, for a method with
-    equal steps, one of `steps` in s.
+    The function `prepare` takes a scene and output times (n,) in s. It returns a function that takes a setting and returns the
+    tips (2, n, 3) in m and the number of evaluations. A setting is a tolerance, or one of `steps` in s if the method has equal
+    steps.
     """
 
     family: Family
@@ -80,14 +79,15 @@ class Method:
 
 
 def tips(scene: Scene, axes: Array) -> Array:
-    """Return the tips (2, n, 3) in m of axes (2, n, 3)."""
+    """Return the positions of the tips in m, shape (2, n, 3), of unit axes (2, n, 3)."""
     half = (scene.link.length if scene.link else scene.rotor.length) / 2
     return np.array([[[-half, 0, 0]], [[half, 0, 0]]]) + scene.rotor.length * axes
 
 
 @dataclass(frozen=True)
 class Case:
-    """A scene, its output times (n,) in s, the number of samples of each run after the first, and a sentence."""
+    """A scene to benchmark: its output times (n,) in s, how often a run is repeated after the first, and a description in
+    words."""
 
     scene: Scene
     t_eval: Array
@@ -105,17 +105,19 @@ _FLOOR = 1e-6  # m, the largest difference of the reference's two formulations
 
 @dataclass(frozen=True)
 class Reference:
-    """The tips (2, n, 3) in m, and `floor`, the largest distance in m between two formulations, which is their rounding error."""
+    """The reference solution: its tips (2, n, 3) in m. `floor` is the largest distance in m between two formulations, which is
+    their rounding error."""
 
     tips: Array
     floor: float
 
 
 def reference(scene: Scene, t_eval: Array) -> Reference:
-    """Return the reference by the minimal model (six states) and the spheres model (twelve), both at 1e-13.
+    """Compute a scene with the minimal model (six states) and the spheres model (twelve), both at the tolerance 1e-13.
 
-    tests/benchmark/reference.json has 10 s of the displaced pair to thirty digits, by extrapolation, for comparison. Raises
-    LagrotorError if the pair does not move, or if the two differ by more than _FLOOR.
+    The result holds the tips of the minimal model, and the largest distance of the two. For comparison,
+    tests/benchmark/reference.json has 10 s of the displaced pair to thirty digits, by extrapolation. Raises LagrotorError if
+    the pair does not move, or if the two models differ by more than _FLOOR.
     """
     runs = [(model, integrate_model(model, scene, t_eval, TIGHTEST)) for model in (minimal.MODEL, spheres.MODEL)]
     first, second = (tips(scene, model.observe(scene, run.states).axes) for model, run in runs)
@@ -128,8 +130,9 @@ def reference(scene: Scene, t_eval: Array) -> Reference:
 class ChartPoint:
     """One method at one setting, a tolerance or a step in s.
 
-    error: the largest of a tip in m, at least that of the reference; nfev: evaluations of the right-hand side; seconds:
-    processor time of a run, the median of its samples; first: that of the first run, which may compile.
+    `error` is the largest error of a tip in m, at least that of the reference. `nfev` counts evaluations of the right-hand
+    side. `seconds` is the processor time of a run, the median of its samples; `first` is that of the first run, which may
+    compile.
     """
 
     method: str
@@ -143,7 +146,7 @@ class ChartPoint:
 
 @dataclass(frozen=True)
 class Failure:
-    """A method without a point at some settings, or at all (no settings), and the reason."""
+    """The settings at which a method has no point, and the reason. If there are no settings, the method has no point at all."""
 
     method: str
     settings: tuple[float, ...]
@@ -156,7 +159,8 @@ class Failure:
 
 @dataclass(frozen=True)
 class Benchmark:
-    """The points and failures of a scene, the set-up time of each method in s, and the error of the reference in m."""
+    """The points and failures of all methods on a scene, the set-up time of each method in s, and the error of the reference in
+    m."""
 
     scene: str
     says: str
@@ -175,8 +179,8 @@ def benchmark(
 ) -> Benchmark:
     """Run every method at every setting, from coarse to fine.
 
-    After a run of more than `longest` s, a method is not run at finer settings. Raises LagrotorError for a reference or a
-    method that integrates nothing.
+    After a run that takes more than `longest` seconds, a method is not run at finer settings. Raises LagrotorError if the
+    reference or a method did no work.
     """
     truth, points, failures, setup = reference(case.scene, case.t_eval), list[ChartPoint](), list[Failure](), {}
     tolerances = tuple(tolerances)
@@ -212,7 +216,7 @@ def _points(
     truth: Reference,
     longest: float,
 ) -> tuple[list[ChartPoint], dict[float, str]]:
-    """Return the points of a method, and the reasons of the settings without one."""
+    """Return the points of a method, and for each setting without a point the reason."""
     points, reasons, slow = list[ChartPoint](), dict[float, str](), ""
     for setting in settings:
         if slow:
@@ -242,7 +246,7 @@ def _points(
 
 
 def _sample(runner: Runner, setting: float) -> float:
-    """Return the seconds of a run, averaged over SAMPLE seconds, at least one run."""
+    """Return the processor time of a run in s, averaged over as many runs as take SAMPLE seconds, at least one."""
     began, runs, elapsed = _CLOCK(), 0, 0.0
     while elapsed < SAMPLE.value:
         runner(setting)
@@ -251,7 +255,7 @@ def _sample(runner: Runner, setting: float) -> float:
 
 
 def failure_sentences(failures: Iterable[Failure]) -> list[str]:
-    """Return one sentence for all methods with the same settings and reason."""
+    """Return one sentence for each group of methods that fail at the same settings for the same reason."""
     shared: dict[tuple[tuple[float, ...], str], list[str]] = {}
     for failure in failures:
         shared.setdefault((failure.settings, failure.reason), []).append(failure.method)
@@ -259,7 +263,7 @@ def failure_sentences(failures: Iterable[Failure]) -> list[str]:
 
 
 def front(points: Iterable[ChartPoint], work: Work = "seconds") -> list[ChartPoint]:
-    """Return the Pareto front in error and work, from the cheapest to the most accurate point, without traps."""
+    """Return the Pareto front in error and work, from the cheapest to the most accurate point, without the family "trap"."""
     best: list[ChartPoint] = []
     for point in sorted(points, key=lambda p: (getattr(p, work), p.error)):
         if point.family != "trap" and (not best or point.error < best[-1].error):
@@ -268,7 +272,8 @@ def front(points: Iterable[ChartPoint], work: Work = "seconds") -> list[ChartPoi
 
 
 def work_at(points: Iterable[ChartPoint], error: float, work: Work = "seconds") -> float | None:
-    """Return the work for an error in m, by logarithmic interpolation on the front; None if no point reaches it."""
+    """Return the work (time in s or evaluations) for an error in m, by logarithmic interpolation on the front. Return None if no
+    point reaches the error."""
     best = front(points, work)
     if not best or best[-1].error > error:
         return None

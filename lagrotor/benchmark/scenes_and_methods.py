@@ -1,4 +1,4 @@
-"""The benchmark's scenes and methods: every model, solver and tolerance against the same reference."""
+"""The benchmark's scenes and methods: every model and solver runs at every tolerance and is compared with the same reference."""
 
 import warnings
 from collections.abc import Callable, Iterable
@@ -75,7 +75,7 @@ def _model(model: str, engine: str = "core") -> Prepare:
 
 
 def _springs(stiffer: float) -> Prepare:
-    """Return the paper's own method with springs `stiffer` times as stiff, at the same damping ratio."""
+    """Return the paper's own method with springs that are `stiffer` times as stiff and have the same damping ratio."""
 
     def prepare(scene: Scene, t_eval: Array) -> Runner:
         system = paper_system(scene, stiffer * STIFFNESS, stiffer**0.5 * DAMPING)
@@ -125,7 +125,8 @@ _LEFT_OUT = {
 
 
 def benchmarks(quick: bool = False, step: Callable[[str], None] = lambda name: None) -> list[Benchmark]:
-    """Run all four cases, and the plain solver calls on the shock; `step` is called with each name."""
+    """Run the methods on all four cases, and on the shock also the plain solver calls of TRAPS. The function `step` is called
+    with the name of each case."""
     longest = (LONGEST_QUICK_RUN if quick else LONGEST_RUN).value
     charts = []
     for name, case in CASES.items():
@@ -148,7 +149,8 @@ OURS: dict[str, tuple[Family, ...]] = {"any model": ("closed", "core"), "core": 
 
 
 def ratios(chart: Benchmark, errors: Iterable[float] = (1e-6, 1e-8, 1e-10, 1e-12, 1e-13)) -> dict[str, dict[str, Any]]:
-    """Return error → time in s of the best of OURS, and the ratio of core to fast; None if one does not reach the error."""
+    """Return, for each error in m, the time in s of the best method of each group of OURS, and the ratio of core to fast. A value
+    is None if no method reaches the error."""
     points = {name: [p for p in chart.points if p.family in families] for name, families in OURS.items()}
     table = {}
     for error in errors:

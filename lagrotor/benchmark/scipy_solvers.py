@@ -1,4 +1,4 @@
-"""scipy's solvers by name, for studies of a solver, and as engines for the minimal right-hand side."""
+"""scipy's solvers by name, for studies of a single solver, and as benchmarked methods on the minimal right-hand side."""
 
 from collections.abc import Callable
 from typing import Any
@@ -29,9 +29,9 @@ IVP = ("RK45", "Radau", "BDF", "LSODA")
 def run_by(
     solver: str, rhs: RightHandSide, start: Array, t_eval: Array, tol: float, longest: float = np.inf
 ) -> tuple[Array, int]:
-    """Return the states (n, d) at increasing times t_eval (n,) by one of SOLVERS, and nfev.
+    """Integrate by one of SOLVERS; return the states (n, d) at increasing times t_eval (n,) in s, and the number of evaluations.
 
-    tol: the solver's relative and absolute local error. Raises IntegrationError if the solver stops.
+    The relative and the absolute local error are `tol`. Raises IntegrationError if the solver stops.
     """
     from scipy.integrate import ode
 
@@ -56,7 +56,8 @@ def run_by(
 
 
 def ode_engine(solver: str) -> Solver:
-    """Return one of SOLVERS as an engine. It is called for every output time: a one-step method starts anew each time."""
+    """Return one of SOLVERS as a function that solves a segment. The solver is called for every output time, so that a one-step
+    method starts anew each time."""
 
     def run(segment: Segment, error: float) -> Stretch:
         t_eval = np.union1d([segment.begin], segment.t_eval)
@@ -67,7 +68,8 @@ def ode_engine(solver: str) -> Solver:
 
 
 def ivp_engine(method: str) -> Solver:
-    """Return a method of `solve_ivp` as an engine: one call over the segment. The evaluations for a Jacobian are counted too."""
+    """Return a method of `solve_ivp` as a function that solves a segment in one call. The evaluations for a Jacobian are counted
+    too."""
 
     def run(segment: Segment, error: float) -> Stretch:
         from scipy.integrate import solve_ivp
@@ -95,9 +97,9 @@ def ivp_engine(method: str) -> Solver:
 
 
 def on_minimal(engine: Solver, sees_shock: bool = True) -> Prepare:
-    """Return the benchmark of an engine on the minimal right-hand side with the pulse, in one call over the whole run.
+    """Return the benchmark of a solver on the minimal right-hand side with the pulse, in one call over the whole run.
 
-    sees_shock: the width of the pulse limits the steps; without it, the solver may step over the pulse.
+    If `sees_shock` is true, the width of the pulse limits the steps; otherwise the solver may step over the pulse.
     """
 
     def prepare(scene: Scene, t_eval: Array) -> Runner:

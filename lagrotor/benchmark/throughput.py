@@ -1,4 +1,4 @@
-"""Trajectories per second of ensembles."""
+"""The number of trajectories that an ensemble computes per second."""
 
 import time
 from concurrent.futures import Executor
@@ -20,7 +20,7 @@ _RUN = 10.0  # s
 
 @dataclass(frozen=True)
 class Throughput:
-    """A measured rate: the task, the rate in `unit`, and its ratio to the row `against`."""
+    """A measured rate: the task in words, the rate in `unit`, and its ratio `share` to the rate of the row `against`."""
 
     what: str
     unit: str
@@ -30,16 +30,17 @@ class Throughput:
 
 
 def displaced_family(n: int) -> list[Scene]:
-    """Return n opposite pairs that start at 0.25 to 1.5 times the start of the paired precession with r₀ = 0.204."""
+    """Return n pairs with opposite spins. Their initial states are 0.25 to 1.5 times that of the paired precession with r₀ =
+    0.204."""
     scene = Scene((10.0, -10.0))
     return scenes_from_states(scene, np.linspace(0.25, 1.5, n)[:, None] * MODEL.start(exact_orbit(scene, 0.204).scene))
 
 
 def throughput(n: int = 4096, executor: Executor | None = None) -> list[Throughput]:
-    """Return the rates of an ensemble of n at 1e-6 and 1e-10, each the better of two runs, in `executor` or in this process.
+    """Measure the rates of an ensemble of n scenes at the tolerances 1e-6 and 1e-10, each as the better of two runs.
 
-    The fast extra with heyoka adds two rows. Raises LagrotorError if evaluations, motion or error of a run are not as
-    reported.
+    The runs take place in `executor`, or in this process if it is None. If heyoka is installed, the engine "fast" adds two
+    rows. Raises LagrotorError if the evaluations, the motion or the error of a run are not as reported.
     """
     scenes = displaced_family(n)
     rows: list[Throughput] = []
@@ -64,7 +65,7 @@ def throughput(n: int = 4096, executor: Executor | None = None) -> list[Throughp
 
 
 def _check_ensemble(ensemble: Ensemble) -> None:
-    """Check evaluations, errors, and the last axes of three runs against `spheres`."""
+    """Check the evaluations and errors of an ensemble, and compare the last axes of three runs with the model `spheres`."""
     ends, errors = ensemble.axes[:, :, -1], [float(ensemble.error.max())]
     for i in (0, len(ends) // 2, len(ends) - 1):
         run = simulate(ensemble.scenes[i], [0.0, _RUN], "spheres", 1e-11)

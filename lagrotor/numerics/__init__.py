@@ -4,9 +4,8 @@ Data passes through the modules in this order:
 
 - `codegen.Program` is a straight-line program of sympy expressions; `printers` writes it as Python or JavaScript, and
   `source_cache` keeps functions as source.
-- `integrate.Problem` is an initial value problem. `integrate.integrate` cuts it at the windows of `pulse`, in which a force
-acts
-  briefly, and solves each `segment.Segment` by one of the `solvers`, or by `taylor` for engine = "fast".
+- `integrate.Problem` is an initial value problem. `integrate.integrate` cuts it at the windows of `pulse`, in which a
+  force acts briefly. It solves each `segment.Segment` by one of the `solvers`, or by `taylor` for engine = "fast".
 - `error_estimate.Evolution` is a motion to be run. `estimate_run` integrates it at two local errors and returns an
   `EstimatedRun`: states, errors, horizon and ending.
 - `run.Run` is the base class of every simulated motion: its errors, files and tables.

@@ -13,7 +13,8 @@ Array = NDArray[np.float64]
 def finite_array(
     where: str, values: ArrayLike, shape: tuple[int, ...] | None = None, kind: type = float
 ) -> NDArray[Any]:
-    """Return a copy as an array of finite numbers, checked against a shape (−1: any length but zero)."""
+    """Return a copy of the values as an array of finite numbers, or raise InputError. If a shape is given, the array must have
+    it; −1 in a shape stands for every length but zero."""
     try:
         if kind is not complex and np.iscomplexobj(values):
             raise TypeError
@@ -31,7 +32,7 @@ def finite_array(
 
 
 def real_array(values: ArrayLike) -> Array | None:
-    """Return real numbers as an array; None for texts, dates, complex numbers and truth values."""
+    """Return the values as an array of real numbers; None if they are texts, dates, complex numbers or truth values."""
     try:
         plain = np.asarray(values)
         listed = values if isinstance(values, list | tuple) else plain.flat if plain.dtype.kind == "O" else ()
@@ -43,7 +44,8 @@ def real_array(values: ArrayLike) -> Array | None:
 
 
 def increasing_array(where: str, values: ArrayLike, what: str = "numbers") -> Array:
-    """Return increasing finite numbers, shape (n,), n > 0, or raise InputError."""
+    """Return increasing finite numbers as an array (n,), n > 0, or raise InputError. The message uses `what` as the name of the
+    numbers."""
     numbers, text = real_array(values), repr(values)
     text = text if len(text) < 60 else f"{text[:57]}…"
     if numbers is None:

@@ -1,7 +1,7 @@
 """Straight-line programs: common subexpressions, number of operations, derivatives; `printers` writes them as code.
 
-A `Program` is a list of named stages and the outputs made of them. A stage keeps a quantity of the derivation (a matrix
-element, a pivot) from being multiplied out; common subexpressions are sought after that.
+A `Program` is a list of named stages and the outputs made of them. A stage names a quantity of the derivation, for
+example a matrix element or a pivot, so that its products are not expanded. Common subexpressions are extracted afterwards.
 """
 
 from collections.abc import Mapping, Sequence
@@ -21,8 +21,8 @@ Stage = tuple[sp.Symbol, sp.Expr]
 
 @dataclass(frozen=True)
 class Program:
-    """A straight-line program, arguments → stages → outputs; a stage may use the arguments and the stages before it. `shared`
-    says that the stages already share their common parts, so that only equal subexpressions are sought, in linear time. The
+    """A straight-line program, arguments → stages → outputs. A stage may use the arguments and the stages before it. If `shared`
+    is true, the stages already share their common parts; then only equal subexpressions are sought, in linear time. The
     expressions in `positive` are positive where the program is well conditioned."""
 
     arguments: tuple[sp.Symbol, ...]
@@ -38,14 +38,15 @@ class Program:
             if missing := expression.free_symbols - defined:
                 check_names("Program", self.arguments, tuple(missing))
                 raise SingularError(
-                    f"Program: {sorted(map(str, missing))} used before it is defined; add it to arguments"
+                    f"Program: {sorted(map(str, missing))} is used before it is defined: add it to the arguments"
                 )
             defined |= {name} if name else set()
 
 
 @lru_cache(maxsize=16)
 def reduce_common(program: Program) -> tuple[Sequence[Stage], Sequence[sp.Expr]]:
-    """Return the stages, common subexpressions extracted and in an executable order, and the reduced outputs."""
+    """Extract the common subexpressions of a program. Return the stages in an order in which they can be executed, and the
+    outputs in terms of them."""
     stages, outputs = list(program.stages), list(program.outputs)
     if program.shared:
         stages = _ordered(dict(stages), outputs)
@@ -62,7 +63,8 @@ def reduce_common(program: Program) -> tuple[Sequence[Stage], Sequence[sp.Expr]]
 
 
 def _ordered(body: Mapping[sp.Symbol, sp.Expr], outputs: Sequence[sp.Expr]) -> list[Stage]:
-    """Return the stages that an output needs, each after the stages that it uses (depth first)."""
+    """Return the stages that an output needs, each after the stages that it uses. `body` maps the name of each stage to its
+    expression."""
     order: dict[sp.Symbol, None] = {}
     queue = [(s, False) for e in reversed(outputs) for s in _named(e, body)]
     while queue:
@@ -93,7 +95,7 @@ def _named(expression: sp.Expr, body: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Sy
 
 
 def operations(program: Program) -> int:
-    """Count the arithmetic operations and function calls of one evaluation, common subexpressions once.
+    """Count the arithmetic operations and function calls of one evaluation; each common subexpression counts once.
 
     Parameters
     ----------
@@ -110,7 +112,8 @@ def operations(program: Program) -> int:
 
 
 def _count(expression: sp.Expr) -> int:
-    """Count as `sympy.count_ops` does, without its search for a fraction in products that have none."""
+    """Count the operations of an expression as `sympy.count_ops` does, without its search for a fraction in products that have
+    none."""
     stack, count = [expression], 0
     while stack:
         e = stack.pop()
@@ -132,7 +135,7 @@ def _count(expression: sp.Expr) -> int:
 def tangent_program(
     program: Program, slopes: Mapping[sp.Symbol, Sequence[sp.Expr]], arguments: tuple[sp.Symbol, ...]
 ) -> Program:
-    """Return the program of the outputs and, for each output, of its derivatives along k directions. `slopes` gives the k
+    """Return the program of the outputs, followed by k derivatives of each output along k directions. `slopes` gives the k
     derivatives of each argument that changes. Forward differentiation takes at most about k + 1 times the operations."""
     stages, outputs = reduce_common(program)
     derivatives, count = {s: list(row) for s, row in slopes.items()}, len(next(iter(slopes.values())))
@@ -154,8 +157,8 @@ def tangent_program(
 
 
 def solve_symmetric(matrix: sp.Matrix, right: sp.Matrix, prefix: str) -> tuple[list[Stage], sp.Matrix]:
-    """Return the stages of L D Lᵀ without pivoting for matrix · x = right, and x, shape (n, r). The matrix must be positive
-    definite. Golub & Van Loan, Matrix Computations, 4.1."""
+    """Solve matrix · x = right by L D Lᵀ without pivoting, for a positive definite matrix. Return the stages of the solution,
+    whose names begin with `prefix`, and x, shape (n, r). Golub & Van Loan, Matrix Computations, 4.1."""
     n, columns = right.shape
     stages: list[Stage] = []
 

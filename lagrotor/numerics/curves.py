@@ -42,7 +42,7 @@ def swing(values: Array) -> float:
 
 
 def spectrum(t: Array, x: Array) -> tuple[Array, Array]:
-    """Compute the amplitude spectrum of x minus its mean, with a Hann window padded eightfold.
+    """Compute the amplitude spectrum of x minus its mean, in a Hann window that zeros extend to eight times its length.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def spectrum(t: Array, x: Array) -> tuple[Array, Array]:
 
 
 def peak(rate: Array, amplitude: Array) -> float:
-    """Find the rate of the highest peak, the top of the parabola through the logarithms of three amplitudes.
+    """Find the rate of the highest peak, by a parabola through the logarithms of its three largest amplitudes.
 
     Parameters
     ----------
@@ -82,7 +82,8 @@ def peak(rate: Array, amplitude: Array) -> float:
 
 
 def mean_between(t: Array, x: Array, start: float, end: float) -> Array:
-    """Return the mean of x, shape (n,) or (n, k), from time `start` to time `end`, by linear interpolation."""
+    """Return the mean of x from time `start` to time `end`, by linear interpolation. For x of shape (n,) it is a number, for (n,
+    k) its shape is (k,)."""
     times = np.linspace(start, end, 400, endpoint=False)
     columns = x.reshape(len(t), -1).T
     return np.array([np.interp(times, t, column).mean() for column in columns]).reshape(x.shape[1:])
@@ -103,7 +104,7 @@ def first_passage(t: Array, x: Array, level: float) -> float:
     Returns
     -------
     float
-        The time in s; infinity where x stays below the level.
+        The time in s; infinity if x stays below the level.
     """
     from scipy.interpolate import CubicSpline
 
@@ -113,7 +114,9 @@ def first_passage(t: Array, x: Array, level: float) -> float:
 
 
 def turn_means(t: Array, tips: Array) -> tuple[Array, Array]:
-    """Compute the means of the tips over each turn, from one rise of y₁ − y₂ through mid-range to the next.
+    """Compute the mean positions of both tips over each turn.
+
+    A turn lasts from one upward passage of y₁ − y₂ through the middle of its range to the next.
 
     Parameters
     ----------
@@ -139,8 +142,9 @@ def turn_means(t: Array, tips: Array) -> tuple[Array, Array]:
 
 @dataclass(frozen=True, eq=False)
 class Harmonics:
-    """A fit x(t) ≈ constant + slope (t − t̄) + Re Σ waves_n exp(i n rate (t − t_0)), each (k,) for k columns of x. `waves`
-    (count, k) are the complex amplitudes of the harmonics 1, 2, …, `residual` (n, k) the samples minus the fit."""
+    """A fit x(t) ≈ constant + slope (t − t̄) + Re Σ waves_n exp(i n rate (t − t_0)) of k columns of samples. The rate is in
+    rad/s; `constant` and `slope` have the shape (k,). The complex amplitudes of the harmonics 1, 2, … are `waves`, shape (count,
+    k). The samples minus the fit are `residual`, shape (n, k)."""
 
     rate: float
     constant: Array
@@ -155,7 +159,8 @@ class Harmonics:
 
 
 def harmonics_at(t: Array, x: Array, rate: float, count: int = 2) -> Harmonics:
-    """Fit `count` harmonics of a rate in rad/s to samples x, shape (n,) or (n, k), at times t in s."""
+    """Fit a constant, a slope and `count` harmonics of a rate in rad/s to samples x, shape (n,) or (n, k), at the times t in
+    s."""
     s, columns = t - t[0], x.reshape(len(t), -1)
     waves = [wave(n * rate * s) for n in range(1, count + 1) for wave in (np.cos, np.sin)]
     table = np.column_stack([np.ones_like(s), s - s.mean(), *waves])
@@ -164,8 +169,9 @@ def harmonics_at(t: Array, x: Array, rate: float, count: int = 2) -> Harmonics:
 
 
 def best_harmonics(t: Array, x: Array, guess: float, low: float = 0.8, high: float = 1.3) -> Harmonics:
-    """Fit two harmonics at the rate, from low · guess to high · guess in rad/s, that has the least residual. The rate is
-    sought on a grid, five cells to a turn of the phase over the whole run, then within the best cell and its neighbours."""
+    """Fit two harmonics of the rate, between low · guess and high · guess in rad/s, that leaves the least residual. The rate is
+    first sought on a grid; each cell changes the phase over the whole run by a fifth of a turn. Then it is refined near the best
+    grid point."""
     from scipy.optimize import minimize_scalar
 
     def misfit(rate: float) -> float:

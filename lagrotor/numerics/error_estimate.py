@@ -1,13 +1,13 @@
 """Error estimate of every run: the motion is integrated at two local errors, and their difference shows the error.
 
-SAFETY times the difference of the two runs is taken for the error of the better one. It is also the distance by which
-neighbouring motions separate. From the time at which it exceeds `tol` the run is beyond its horizon; from the time at which it
-exceeds LOST nothing is known. Conserved quantities must be conserved within 100 times the estimate.
+The error of the better run is estimated as SAFETY times the difference of the two runs, which also shows how far neighbouring
+motions separate. From the time at which the estimate exceeds `tol`, the run is beyond its horizon. From the time at which it
+exceeds LOST, the states count as unknown. Conserved quantities must not change by more than 100 times the estimate.
 
-Where errors are proportional to the local error, the difference is APART − 1 times the error of the better run, and the
-estimate is SAFETY (APART − 1) times that error. An error that both runs share is not seen, which is why their local errors
-differ by the factor APART. The estimate is not a bound: one of 360 random systems, a chaotic one, exceeds it by 1.6 times, and
-warns that `tol` is not kept.
+Where errors are proportional to the local error, the difference is APART − 1 times the error of the better run. The estimate is
+then SAFETY (APART − 1) times that error. An error that both runs share is not seen, which is why their local errors
+differ by the factor APART. The estimate is not a bound. Of 360 random systems, one chaotic system has 1.6 times the estimated
+error; its run warns that `tol` is not kept.
 """
 
 import warnings
@@ -50,7 +50,7 @@ _SAMPLES = 65  # times at which two runs are compared besides the requested time
 
 
 class EvaluationBudget(NamedTuple):
-    """The number of evaluations that an integration may take: `base`, and `per_turn` for each turn of the motion."""
+    """The number of evaluations that an integration may take: `base`, plus `per_turn` for each period of the motion."""
 
     base: float
     per_turn: float
@@ -58,7 +58,7 @@ class EvaluationBudget(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Evolution:
-    """A motion to be run: its initial state (d,), its integration, and the measures of its error."""
+    """A motion to be run: its initial state (d,), a function that integrates it, and functions that measure its error."""
 
     start: Array
     # Start (d,), times (n,), local error, companion, most evaluations → the motion from times[0]. A companion uses another order
@@ -82,7 +82,7 @@ class Evolution:
 
 
 class Leg(NamedTuple):
-    """The arguments of one call of `Evolution.integrate`."""
+    """The arguments of one call of `Evolution.integrate`. The flag `companion` marks the run that only serves for comparison."""
 
     start: Array
     times: Array
@@ -93,8 +93,9 @@ class Leg(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class EstimatedRun:
-    """States (n, d) at the times (n,) that were reached, the largest error up to each time (n,), and the ending. The horizon is
-    the time in s from which the errors exceed tol, `local` the local error of the better run."""
+    """A run with its estimated errors: states (n, d) and the largest error up to each time (n,), at the times (n,) in s that were
+    reached. The horizon is the time in s from which the errors exceed tol. The ending says why the run ended, and `local` is the
+    local error of the better of two integrations."""
 
     t: Array
     states: Array
@@ -106,11 +107,11 @@ class EstimatedRun:
 
     @property
     def run_fields(self) -> dict[str, Any]:
-        """The fields of a `Run`, by name."""
+        """The values of the fields of a `Run`, by the name of the field."""
         return {name: getattr(self, name) for name in ("t", "errors", "horizon", "evaluations", "ending")}
 
     def by_clock(self, begin: float, unit: float) -> "EstimatedRun":
-        """Return the run on another clock, which shows `begin` (s) at time 0 and has the unit of time `unit` (s)."""
+        """Return the run with begin + unit · t, in s, in place of each time t."""
 
         def at(time: float) -> float:
             return begin + unit * time
@@ -120,7 +121,8 @@ class EstimatedRun:
         return replace(self, ending=ending, **changes)
 
     def warn_unless_kept(self, name: str, tol: float, stacklevel: int = 2, hint: str = "") -> None:
-        """Warn where `tol` is not kept or the run ended early; `hint` adds a possible cause and the way out."""
+        """Warn if the error exceeds `tol` or the run ended early. The run is called `name`, and `hint` adds a possible cause and
+        a remedy."""
         sentences, error = [], float(self.errors[-1])
         if error > tol:
             apart = error / self.local
@@ -142,7 +144,7 @@ class EstimatedRun:
 
 @dataclass(frozen=True, eq=False)
 class _Integration:
-    """An integration at one local error: its states up to its end or to the stop."""
+    """An integration at one local error: its states up to the end, or up to the stop if a solver stopped."""
 
     local: float
     companion: bool
@@ -152,8 +154,9 @@ class _Integration:
 
 @dataclass(frozen=True, eq=False)
 class _Pair:
-    """Two integrations compared: errors (m,) up to each common time, and the time `lost` from which they exceed LOST.
-    `refusal` is the reason why the better integration is not the motion up to its last time."""
+    """Two integrations that are compared, the looser and the tighter one. The largest errors up to each common time are `errors`
+    (m,). From the time `lost` on they exceed LOST, and the states are unknown. A `refusal` says why the tighter integration is
+    not the motion up to its last time."""
 
     loose: _Integration
     tight: _Integration
@@ -167,13 +170,15 @@ class _Pair:
 
     @property
     def merit(self) -> tuple[bool, float, float, int, float]:
-        """A sort key, smallest for the best pair: not refused, small error, lost late, many times, small error up to a stop."""
+        """A sort key for pairs of runs, smallest for the best. A better pair, in order of priority, is not refused, has the
+        smaller error, is lost later, has more common times, or the smaller error up to a stop."""
         estimate = float(np.max(self.errors, initial=0.0))
         return self.refusal is not None, self.error, -self.lost, -len(self.errors), estimate
 
 
 class _Course:
-    """A motion, its times t, its integrations by (local error, companion), and all evaluations so far."""
+    """The state of an error estimate: the motion, the times t (m,) of comparison, the integrations so far by (local error,
+    companion), and the number of all evaluations."""
 
     def __init__(self, evolution: Evolution, times: Array) -> None:
         begin, end = float(times[0]), float(times[-1])
@@ -186,7 +191,8 @@ class _Course:
         self.integrations: dict[tuple[float, bool], _Integration] = {}
 
     def integration(self, local: float, companion: bool) -> Generator[Leg, Stretch, _Integration]:
-        """Return the integration at a local error, from memory where it exists; a companion starts from a perturbed state."""
+        """Return the integration at a local error, computed only once. A companion, which only serves for comparison, starts from
+        a perturbed state."""
         evolution = self.evolution
         if run := self.integrations.get((local, companion)):
             return run
@@ -215,14 +221,15 @@ class _Course:
 
 
 def perturbed_state(y0: Array, epsilons: float = 1.0) -> Array:
-    """Perturb an initial state (…, d) by a multiple of the rounding error, in no special direction."""
+    """Multiply each component of a state (…, d) by 1 and at most `epsilons` machine epsilons more or less, in no special
+    direction."""
     return y0 * (1 + epsilons * np.finfo(float).eps * np.cos(np.arange(1, y0.shape[-1] + 1)))
 
 
 def estimate_run(evolution: Evolution, times: Array, tol: float) -> EstimatedRun:
-    """Integrate a motion at increasing times (n,) with an estimated error below `tol`, or as small as possible. Raises
-    IntegrationError where conserved quantities change, no time is reached, or the rounding of so many turns exceeds the
-    states."""
+    """Integrate a motion at increasing times (n,) with an estimated error below `tol`, or as small as possible. Raise
+    IntegrationError if conserved quantities change, no time is reached, or rounding errors exceed the states over so many
+    turns."""
 
     def alone(legs: Mapping[int, Leg]) -> dict[int, Stretch | StopError]:
         try:
@@ -242,8 +249,9 @@ def estimate_runs(
     tol: float,
     integrate: Callable[[Mapping[int, Leg]], Mapping[int, Stretch | StopError]],
 ) -> list[EstimatedRun | IntegrationError]:
-    """Estimate many motions together; an IntegrationError takes the place of a refused run. `integrate` maps {number: leg} to
-    {number: stretch or stop}."""
+    """Integrate many motions together, each with an estimated error, and return a run or an IntegrationError for each. The
+    function `integrate` takes the arguments of the next integration of each motion, a `Leg`, by the motion's number. It returns
+    the stretch or the StopError of each."""
     requests = [_requests(evolution, t, tol) for evolution, t in zip(evolutions, times, strict=True)]
     ended: dict[int, EstimatedRun | IntegrationError] = {}
     answers: Mapping[int, Stretch | StopError | None] = dict.fromkeys(range(len(requests)))
@@ -262,9 +270,9 @@ def estimate_runs(
 
 
 def _requests(evolution: Evolution, times: Array, tol: float) -> Generator[Leg, Stretch, EstimatedRun]:
-    """Yield integrations in pairs until a pair keeps `tol`, then return the run. The first pair has the largest useful local
-    error, the next the one that the error requires. Local errors add up to less in a short run, so its first one is larger.
-    After a refusal looser pairs follow up to GIVEN_UP."""
+    """Yield the integrations of pairs until a pair keeps `tol`, then return the run. The first pair has the largest useful local
+    error, and the next pair the local error that the estimate requires. In a short run local errors add up to less, so the first
+    one is larger. After a refusal looser pairs follow, up to the local error GIVEN_UP."""
     course = _Course(evolution, times)
     turns = float(course.turns[-1])
     unavoidable = ROUNDING.value * (START.value + turns)
@@ -307,7 +315,8 @@ def _at_singular(refusal: IntegrationError) -> bool:
 
 
 def _compare(course: _Course, local: float, companion: bool) -> Generator[Leg, Stretch, _Pair]:
-    """Compare the integrations at a local error and at 1/APART of it; refuse the better one if conserved quantities change."""
+    """Return the pair of the integrations at the given local error and at 1/APART of it, with its errors. The tighter integration
+    is refused if its conserved quantities change by far more than the estimated error explains."""
     evolution = course.evolution
     loose = yield from course.integration(local, companion)
     # Another model or a looser pair is tried next, so the tighter integration is not needed.
@@ -353,8 +362,9 @@ def _compare(course: _Course, local: float, companion: bool) -> Generator[Leg, S
 
 
 def _shared_error_factor(defects: Sequence[Array], rounding: float) -> float:
-    """Return the factor, at least 1, by which two runs share an error that their difference hides. The conserved quantities
-    measure it, unless their change is mostly rounding. SAFETY allows an error of the better run up to half the difference."""
+    """Return the factor, at least 1, by which the estimate must grow because both runs share an error that their difference
+    hides. It follows from the conserved quantities of both runs, unless their change is mostly rounding. SAFETY covers an error
+    of the better run up to half the difference."""
     if not defects or _largest(defects[1]) < 10 * rounding:
         return 1.0
     return max(1.0, 2 * _largest(defects[1]) / max(_largest(defects[1] - defects[0]), rounding))
@@ -365,10 +375,10 @@ def _largest(values: Array) -> float:
 
 
 def errors_up_to(t: Array, errors: Array, turn: float, sudden: bool = False) -> Array:
-    """Return the largest errors (n,) up to each time t (n,), for a motion with the typical period `turn`. Two runs that
-    separate cross each other, so the maximum extends to the end of a swing. Errors grow by a power of the time or by e^(λt),
-    so the logarithm is concave, although two runs may be close by chance. The estimate is the least concave curve above the
-    logarithm, unless motions separate suddenly."""
+    """Return the largest error up to each time t (n,), shape (n,), for a motion with the typical period `turn` in s. Two runs
+    that separate may cross, so the maximum extends to SWING periods later. Errors grow as a power of time or as e^(λt),
+    so their logarithm is concave, although two runs may be close by chance. The result is therefore the least concave curve above
+    the logarithm, unless motions separate suddenly."""
     grown = np.maximum.accumulate(errors)
     grown[1:] = grown[np.searchsorted(t, t[1:] + SWING.value * turn, side="right") - 1]
     if sudden or not (grown[0] > 0 and np.isfinite(grown).all()):
@@ -386,7 +396,7 @@ def errors_up_to(t: Array, errors: Array, turn: float, sudden: bool = False) -> 
 
 
 def _estimated(course: _Course, best: _Pair, tol: float) -> EstimatedRun:
-    """Return the better integration with its errors and its ending, at the requested times."""
+    """Return the tighter integration of a pair at the requested times, with its errors and its ending."""
     states, stop, singular = best.tight.stretch.states, best.tight.stop, course.evolution.singular
     t = course.t[: len(states)]
     errors = np.full(len(t), UNKNOWN)
@@ -402,14 +412,14 @@ def _estimated(course: _Course, best: _Pair, tol: float) -> EstimatedRun:
 
 
 def first_time(t: Array, where: NDArray[np.bool_]) -> float:
-    """Return the first of the times (n,) at which the condition holds; inf if it never does."""
+    """Return the first of the times (n,) at which `where` is true; inf if there is none."""
     return float(t[np.argmax(where)]) if where.any() else inf
 
 
 def _hopeless(course: _Course, pair: _Pair) -> bool:
     """Return True if two integrations separated so fast that no tolerance keeps the error below LOST to the end. The difference
-    grew as e^(λt) or as a power of t, to LOST at `lost` and half the way in logarithms at `early`. A tighter tolerance reaches
-    at most the later of the two extrapolated times."""
+    grew as e^(λt) or as a power of t. It reached LOST at the time `lost`, and half of that growth in logarithms at `early`. The
+    tightest tolerance moves `lost` at most to the later of the two times that these laws predict."""
     local, begin = pair.loose.local, float(course.times[0])
     grown, tighter = log(LOST.value / local), log(local / TIGHTEST)
     if pair.lost == inf or grown <= 0:

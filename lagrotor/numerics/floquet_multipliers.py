@@ -18,9 +18,9 @@ _APART = 1e-12  # entry of a direction below which two blocks count as separated
 
 
 def product_eigenvalues(factors: Sequence[Array], error: float) -> tuple[NDArray[np.complex128], Array]:
-    """Return the eigenvalues (n,) of a product of matrices (n, n), the first factor acting first, and their errors (n,).
-    Orthogonal iteration makes the factors upper triangular in blocks, each of eigenvalues of nearly equal size, so that no
-    larger one hides them. `error` is the error of each factor relative to its norm, absolute where the norm is below one."""
+    """Return the eigenvalues (n,) of a product of matrices (n, n), and their errors (n,); the first factor acts first. Orthogonal
+    iteration makes the factors block triangular. A block has eigenvalues of nearly equal modulus, so that no larger one hides
+    them. `error` is the relative error of each factor, or its absolute error if its norm is below one."""
     start, n = np.eye(len(factors[0])), len(factors[0])
     for _ in range(_SWEEPS):
         basis, triangles = start, list[tuple[Array, float]]()
@@ -45,13 +45,14 @@ def product_eigenvalues(factors: Sequence[Array], error: float) -> tuple[NDArray
 
 
 def resolved_multipliers(values: NDArray[np.complex128], errors: Array) -> tuple[NDArray[np.complex128], Array]:
-    """Return the multipliers, NaN where one is below its error, and the errors; for NaN a bound of the multiplier's size."""
+    """Return the multipliers and their errors. A multiplier below its error becomes NaN, and its error an upper bound of its
+    modulus."""
     below = ~(np.abs(values) > errors)
     return np.where(below, complex(np.nan, np.nan), values), np.where(below, np.abs(values) + errors, errors)
 
 
 def multiplier_rows(values: NDArray[np.complex128], errors: Array) -> dict[str, str]:
-    """Return multipliers and their errors in words, by name; a conjugate pair is one row."""
+    """Describe each multiplier and its error in words, by name; a complex conjugate pair has one entry."""
     rows = list[str]()
     for value, error in zip(values.tolist(), errors.tolist(), strict=True):
         if value != value:

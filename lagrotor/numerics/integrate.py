@@ -28,7 +28,8 @@ Engine = Literal["core", "fast"]
 
 @dataclass(frozen=True)
 class Problem:
-    """The initial value problem y' = free(s, y), or driven(s, y) within the windows; y = start at t = `begin`, s = t − at."""
+    """The initial value problem y' = free(s, y) with s = t − at, and y = start at t = `begin`. Within the windows, driven(s, y)
+    takes the place of free(s, y)."""
 
     free: RightHandSide
     start: Array
@@ -62,9 +63,9 @@ def check_progress(progress: object) -> None:
 
 
 def integrate(problem: Problem, times: Array, tol: float, solver: SegmentSolver | None = None) -> Stretch:
-    """Integrate from `begin` through increasing times (n,) with a local error `tol`, by the given solver or the fastest of the
-    core. In the time s = t − at, a pulse far shorter than the spacing of doubles near `at` is resolved. The run is cut at the
-    edges of its windows, so no tolerance can miss a brief force. StopError holds the states up to the stop."""
+    """Integrate from `begin` through increasing times (n,) in s with the local error `tol`, by the given solver or the fastest
+    one of the core. In the time s = t − at, a pulse far shorter than the spacing of doubles near `at` is resolved. The run is cut
+    at the edges of its windows, so that no tolerance can miss a brief force. A StopError holds the states up to the stop."""
     t_eval = times - problem.at
     begin, end = problem.begin - problem.at, float(t_eval[-1])
     y, evaluations = problem.start, 0
@@ -97,16 +98,18 @@ def integrate(problem: Problem, times: Array, tol: float, solver: SegmentSolver 
 
 
 class _Progress:
-    """The states of a segment so far, and the segment from there on."""
+    """The part of a segment that is solved so far, and in `segment` the part that remains."""
 
     def __init__(self, segment: Segment) -> None:
         self.segment, self.evaluations, self.pieces = segment, 0, [np.empty((0, len(segment.start)))]
 
     def remaining(self, until: float) -> Segment:
-        """Return the segment up to the time `until`, or raise StopError if its budget is spent."""
+        """Return the rest of the segment up to the time `until`, or raise StopError if its budget is spent."""
         segment = self.segment
         if self.evaluations > segment.budget:
-            raise self.stopped(StopError(segment.begin, f"{self.evaluations} evaluations spent", cause="budget"))
+            raise self.stopped(
+                StopError(segment.begin, f"the run did not end within {self.evaluations} evaluations", cause="budget")
+            )
         inside = segment.t_eval <= until
         return replace(segment, until=until, t_eval=segment.t_eval[inside], budget=segment.budget - self.evaluations)
 
@@ -121,7 +124,7 @@ class _Progress:
         return Stretch(np.concatenate(self.pieces), self.segment.start, self.evaluations)
 
     def stopped(self, stop: StopError) -> StopError:
-        """Return the stop with all states and evaluations of the segment."""
+        """Return a StopError with all states and evaluations of the segment, for a stop in its last part."""
         self.evaluations += stop.evaluations
         if stop.reached:
             self.add(stop.at, stop.reached)
@@ -130,9 +133,9 @@ class _Progress:
 
 
 def by_fastest(segment: Segment, pulsed: bool, tol: float) -> Stretch:
-    """Solve a segment by the fastest solver at this tolerance, or by DOP853 for a while where that solver stops. The fast
-    solver is tried again when DOP853 has taken as many evaluations as the last trial lost. All trials but the last together
-    lose no more evaluations than DOP853 takes."""
+    """Solve a segment by the fastest solver at this tolerance; if that solver stops, DOP853 continues for a while. The fast
+    solver is tried again when DOP853 has taken as many evaluations as the last trial lost. So all trials but the last lose
+    together no more evaluations than DOP853 takes."""
     # From a rate that is not finite a solver makes a step that is not finite, and repeats it for ever.
     by_dop853, progress = pulsed and tol < CROSSOVER.value, _Progress(segment)
     progress.evaluations = 1

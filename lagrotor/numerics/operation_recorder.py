@@ -15,8 +15,8 @@ _LONGEST = 160  # characters from which an expression gets a name
 
 @dataclass(eq=False)
 class Recorded:
-    """The result of a recorded operation: "+", "-", "*", "/", "neg" or a function of its operands; without operands, a name.
-    The tape holds all numbers of one record in the order of their computation."""
+    """The result of a recorded operation. Its kind is "+", "-", "*", "/", "neg" or the name of a function of the operands;
+    without operands it is the name of an argument. The tape holds all results of one record in the order of their computation."""
 
     tape: list[Recorded] = field(repr=False)
     kind: str
@@ -73,7 +73,7 @@ sqrt = Recorded.sqrt
 
 
 def lines(outputs: Iterable[Term], tape: list[Recorded]) -> tuple[list[str], list[str]]:
-    """Return assignments for the numbers that are used more than once, and the text of each output."""
+    """Return source lines that give a name to each number that is used more than once, and the text of each output."""
     terms, used = list(outputs), dict[Recorded, int]()
     for x in terms:
         _count(x, used)

@@ -1,7 +1,7 @@
 """Printed programs: Python functions of numbers or arrays, the right-hand side for a solver, JavaScript.
 
-A right-hand side takes one state at a time. Stages of parameters alone are evaluated once, and squares are printed as products:
-this takes three quarters of the time of a function with a wrapper.
+A right-hand side takes one state at a time. Stages that contain only parameters are evaluated once, and squares are printed as
+products. Such a function takes three quarters of the time of a compiled function in a wrapper.
 """
 
 from collections.abc import Callable, Sequence
@@ -44,7 +44,7 @@ class _Printer(AbstractPythonCodePrinter):  # type: ignore[misc]
         return f"{expr.func}({', '.join(map(self._print, expr.args))})"
 
     def _print_sech(self, expr: sp.sech) -> str:
-        """Print without cosh, which overflows from 711 on, where sech is zero."""
+        """Print sech without cosh, which overflows for arguments above 711, where sech is zero."""
         small = sp.exp(-sp.Abs(expr.args[0]))
         return f"({self._print(2 * small)}/({self._print(1 + small**2)}))"
 
@@ -55,7 +55,8 @@ class _Printer(AbstractPythonCodePrinter):  # type: ignore[misc]
 
 
 class _Scalars(_Printer, PythonCodePrinter):  # type: ignore[misc]
-    """For floats: a small power of a symbol is a product, and a sum begins with a positive term if it has one."""
+    """A printer for floats. It prints a small power of a symbol as a product, and begins a sum with a positive term if there is
+    one."""
 
     module = "math"
 
@@ -69,7 +70,7 @@ class _Scalars(_Printer, PythonCodePrinter):  # type: ignore[misc]
 
 
 class _Arrays(_Printer, SciPyPrinter):  # type: ignore[misc]
-    """For arrays."""
+    """A printer for arrays of numpy."""
 
     module = "numpy"
 
@@ -80,13 +81,13 @@ class _Arrays(_Printer, SciPyPrinter):  # type: ignore[misc]
         return self._of_two("minimum", expr)
 
     def _of_two(self, name: str, expr: sp.Expr) -> str:
-        """Nest a function of two arguments: sympy 1.13.0 stacks the arguments, which fails for a number with an array."""
+        """Nest calls of a function of two arguments. sympy 1.13.0 stacks the arguments, which fails for a number and an array."""
         name = self._module_format(f"numpy.{name}")
         return reduce(lambda a, b: f"{name}({a}, {b})", map(self._print, expr.args))
 
 
 class _Digits(_Printer, MpmathPrinter):  # type: ignore[misc]
-    """For numbers of mpmath."""
+    """A printer for numbers of mpmath."""
 
     module = "mpmath"
     _print_Float = MpmathPrinter._print_Float
@@ -114,7 +115,8 @@ def _factor(e: sp.Expr, show: _Printer) -> str:
 
 
 def _assignments(stages: Sequence[Stage], outputs: Sequence[sp.Expr], show: _Printer, quick: bool) -> list[str]:
-    """Print the stages with as few names as are in use at once: beyond 255 local names Python runs many times slower."""
+    """Print the stages as assignments that reuse a name when its value is no longer needed. With more than 255 local names Python
+    runs many times slower."""
     used_in = [e.free_symbols for _, e in stages]
     last = {s: i for i, symbols in enumerate(used_in) for s in symbols}
     passing = {name for name, _ in stages}.difference(*(e.free_symbols for e in outputs))
@@ -130,7 +132,7 @@ def _assignments(stages: Sequence[Stage], outputs: Sequence[sp.Expr], show: _Pri
 
 
 def program_source(program: Program, module: str = "math") -> str:
-    """Return the source of a function of the arguments that returns the list of outputs."""
+    """Return the source of a function that takes the program's arguments and returns the list of its outputs."""
     stages, outputs = reduce_common(program)
     show = _PRINTERS[module]()
     lines = _assignments(stages, outputs, show, program.shared)
@@ -151,11 +153,11 @@ def compile_program(program: Program, module: str = "math", doc: str = "") -> Ca
 def rhs_source(
     program: Program, states: int, driven: bool = False, bounded: bool = False, clock: int | None = None
 ) -> str:
-    """Return the source of parameters → rhs(s, y), for a program whose first `states` arguments are the state. driven: the
-    last three parameters are the components of a force exp(−(s/width)²), and width follows them. bounded: OutsideError is
-    raised where one of the program's `positive` is not positive. clock: index of the time in the state; with the last
-    parameter begin, the time is begin + s instead. Outside the coordinates' range rhs gives NaN, which makes a solver shorten
-    its step; `rhs.bare` raises one of LOST instead."""
+    """Return the source of a function that takes parameters and returns a right-hand side rhs(s, y). The state is the program's
+    first `states` arguments. If `driven` is true, the last three parameters are the peaks of a force exp(−(s/width)²), and
+    `width` follows them. If `bounded` is true, OutsideError is raised where one of the program's `positive` expressions is not
+    positive. If the time is number `clock` of the state, its value is begin + s, and `begin` is the last parameter. Outside the
+    coordinates' range rhs returns NaN, which makes a solver shorten its step; `rhs.bare` raises one of the errors LOST."""
     expressions = (*program.outputs, *(program.positive if bounded else ()))
     stages, reduced = reduce_common(replace(program, outputs=expressions))
     outputs, bounds = reduced[: len(program.outputs)], reduced[len(program.outputs) :]
@@ -185,7 +187,8 @@ def rhs_source(
 
 
 def rhs_text(body: list[str], fixed: list[str], names: list[str], outputs: int) -> str:
-    """Return the source of a function of parameters that returns rhs(s, y); the lines `fixed` are evaluated once."""
+    """Return the source of a function that takes the parameters `names` and returns rhs(s, y). It evaluates the lines `fixed`
+    once, and the lines `body` at each call of rhs."""
     source = [
         "from math import *",
         "from lagrotor.numerics.segment import LOST, OutsideError",
@@ -205,7 +208,8 @@ def rhs_text(body: list[str], fixed: list[str], names: list[str], outputs: int) 
 
 
 def in_blocks(function: Callable[..., Any], arguments: Sequence[float | Array], outputs: int, n: int) -> Array:
-    """Evaluate a numpy program, shape (outputs, n), some thousands of values at a time, so that they stay in the cache."""
+    """Evaluate a numpy program at n places, and return its outputs, shape (outputs, n). It takes some thousands of places at
+    once, whose values fit into the cache."""
     table = np.empty((outputs, n))
     for i in range(0, n, _BLOCK):
         rows = function(*(v if isinstance(v, float) else v[i : i + _BLOCK] for v in arguments))
@@ -215,7 +219,7 @@ def in_blocks(function: Callable[..., Any], arguments: Sequence[float | Array], 
 
 
 def javascript(program: Program, name: str) -> str:
-    """Return the program as a JavaScript function that returns an array."""
+    """Return the program as the source of a JavaScript function that returns an array of the outputs."""
     stages, outputs = reduce_common(program)
     lines = [f"  const {s} = {sp.jscode(e)};" for s, e in stages]
     values = ", ".join(sp.jscode(e) for e in outputs)

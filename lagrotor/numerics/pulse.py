@@ -1,4 +1,5 @@
-"""Windows of a run, in which a force of t changes fast; a run is cut at their edges and its steps are bounded in them."""
+"""Windows of a run, in which a force that depends on t changes fast. A run is cut at the edges of its windows, and its steps are
+bounded in them. A companion is a second run, with which the first one is compared."""
 
 from __future__ import annotations
 
@@ -12,7 +13,7 @@ if TYPE_CHECKING:
 
 # Beyond |s| = 6.5 widths a pulse exp(−(s/width)²) is below the last bit of its peak: exp(−6.5²) = 4e-19.
 PULSE_REACH = 6.5
-# Longest step in a window, over that of the run, of its companion: were it 1, both might take the same steps and agree.
+# Longest step of a companion in a window, divided by that of its run. With 1 both might take the same steps and agree.
 COMPANION_STEP = 0.8
 _LOOKS = 2**14  # intervals of a run, at whose ends forces of t are sampled
 _CELL = 8  # intervals of the smallest cell
@@ -32,13 +33,14 @@ class Window(NamedTuple):
 
 
 def pulse_windows(width: float, companion: bool = False) -> tuple[Window, ...]:
-    """Return the window of a pulse exp(−(s/width)²), in which steps are no longer than its width."""
+    """Return the window of a pulse exp(−(s/width)²), in which steps are at most as long as its width, and shorter for a
+    companion."""
     reach = PULSE_REACH * width
     return windows_since(0.0, (Window(-reach, reach, width),), companion)
 
 
 def windows_since(begin: float, windows: Sequence[Window], companion: bool = False) -> tuple[Window, ...]:
-    """Return the windows on a clock that shows 0 at the time `begin`; a companion's steps are shorter."""
+    """Return the windows with times that count from `begin` in s. In the windows of a companion the steps are shorter."""
     share = COMPANION_STEP if companion else 1.0
     return tuple(Window(a - begin, b - begin, share * longest) for a, b, longest in windows)
 
@@ -58,10 +60,11 @@ def segments(begin: float, end: float, windows: Sequence[Window]) -> Iterator[Wi
 
 
 def brief_windows(functions: Callable[[Array], Array], begin: float, end: float) -> tuple[Window, ...]:
-    """Find the windows in which functions of t, times (n,) → values (k, n), change faster than in most of the run. A cell is
-    smooth if a polynomial of degree 4 fits the function to 10⁻⁶ of its range. Cells are doubled as long as most are smooth;
-    each other cell is a window. Its longest step is its length, or in the smallest cells the time of the fastest change.
-    Changes inside a window are removed before cells are doubled, or all larger cells would contain them."""
+    """Find the windows of time in which functions of t, times (n,) → values (k, n), change faster than in most of the run. A cell
+    of the run is smooth if a polynomial of degree 4 fits the function to 10⁻⁶ of its range. The cells are doubled as long as most
+    of them are smooth; each other cell becomes a window. The longest step in a window is its length, or in the smallest cells the
+    time of the fastest change. Changes inside a window are removed before cells are doubled, because all larger cells would
+    contain them."""
     import numpy as np  # imported late: a scene needs only the reach of a pulse
 
     if not begin < end:
@@ -83,7 +86,7 @@ def brief_windows(functions: Callable[[Array], Array], begin: float, end: float)
 
 
 def _merged(first: Window, second: Window) -> Window | None:
-    """Merge two windows where that takes fewer steps than restarting a solver; None otherwise."""
+    """Return the union of two windows if it takes fewer steps than a restart of the solver between them; None otherwise."""
     merged = Window(first.begin, second.end, min(first.longest, second.longest))
     extra_steps = (merged.end - merged.begin) / merged.longest - sum(
         (b - a) / longest for a, b, longest in (first, second)
@@ -92,7 +95,8 @@ def _merged(first: Window, second: Window) -> Window | None:
 
 
 def _longest_steps(values: Array) -> Array:
-    """Return the longest step in each interval for one function, in intervals, shape (_LOOKS,); inf where it is smooth."""
+    """Return the longest step in each interval for one function, shape (_LOOKS,), in units of an interval; inf where the function
+    is smooth."""
     import numpy as np
 
     longest, finite = np.full(_LOOKS, np.inf), np.flatnonzero(np.isfinite(values))

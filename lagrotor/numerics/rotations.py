@@ -14,7 +14,7 @@ _LEVI_CIVITA = np.array(
 
 def turn_between(u: Array, v: Array) -> Array:
     """Return the shortest rotations P with P u = v, shape (…, 3, 3): P = (u·v) 1 + [n]× + n nᵀ/(1 + u·v), n = u × v. Raises
-    InputError where v is opposite to u, since no rotation is the shortest."""
+    InputError if v is opposite to u, since then no rotation is the shortest."""
     n, c = np.cross(u, v), (u * v).sum(-1)[..., None, None]
     if (1 + c < 1e-12).any():
         raise InputError("turn_between: an axis reverses between two samples; take more samples")
@@ -25,11 +25,11 @@ def turn_between(u: Array, v: Array) -> Array:
 def body_rotations(t: Array, axes: Array, rates: Array, spins: Array) -> Array:
     """Compute the rotation of each body, body to world, from Q' = [Omega]× Q, Omega = r × r' + omega r.
 
-    At t[0] the body is turned the shortest way from e_z to r (by way of ±e_x where r hangs down). From sample to sample r is
-    carried along the great circle, Q → P(r_0 → r_1) exp([r_0]× (omega h + area)) Q, with the area between the path and that
-    circle. Its rate is p·(u × u')/(1 + p·u) about the pole p = r_0, to first order zero at p. The area is a third of h times
-    the rate at the other end, averaged over both poles. Its error is O(h⁵) a step: r is exact to rounding, the angle about r
-    to O(h⁴).
+    At t[0] the body is turned the shortest way from e_z to r (by way of ±e_x if r hangs down). From sample to sample r is
+    carried along the great circle, Q → P(r_0 → r_1) exp([r_0]× (omega h + area)) Q. The area lies between the path u(t) of r
+    and that circle. About the pole p = r_0 it grows at the rate p·(u × u')/(1 + p·u), which is zero to first order at p. So
+    the area is h/3 times this rate at the other end, averaged over both poles. Its error in a step is O(h⁵). The axis r is
+    exact to rounding, and the angle about r has an error of O(h⁴).
 
     Parameters
     ----------

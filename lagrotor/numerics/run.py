@@ -28,7 +28,7 @@ _SAYS = {
 
 @dataclass(frozen=True)
 class Ending:
-    """The ending of a run: its kind (see _SAYS), the time `at` in s if it differs from the last time, and a reason."""
+    """The ending of a run: its kind, one of _SAYS, the time `at` in s if it differs from the last time, and a reason in words."""
 
     kind: Literal["end", "lost", "budget", "singular", "event", "stopped"] = "end"
     at: float = inf
@@ -52,7 +52,7 @@ class Ending:
 
 
 class Quantity(NamedTuple):
-    """A quantity of a run at each of its times: values, the name of each axis ("t" among them), and the unit."""
+    """A quantity of a run: its values, the name of each axis of their array, one of them "t", and its unit."""
 
     values: Array
     axes: tuple[str, ...]
@@ -61,9 +61,21 @@ class Quantity(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Run(Shown):
-    """A simulated motion at the times t (n,) in s that were reached; the initial state holds at t[0]. `errors` (n,) are the
-    estimated largest errors up to each time, relative to the size of the state, NaN where not known. `horizon` is the time in
-    s from which they exceed the tolerance. `evaluations` counts those of all integrations."""
+    """A simulated motion at the times that were reached.
+
+    Attributes
+    ----------
+    t : Array
+        Times in s, shape (n,); the initial state holds at t[0].
+    errors : Array
+        Estimated largest error up to each time, relative to the size of the state, shape (n,); NaN if it is not known.
+    horizon : float
+        The time in s from which the errors exceed the tolerance; inf if they never do.
+    evaluations : int
+        Evaluations of the right-hand side in all integrations.
+    ending : Ending
+        The reason why the run ended where it did.
+    """
 
     t: Array
     errors: Array
@@ -79,7 +91,7 @@ class Run(Shown):
     @property
     @abstractmethod
     def energy(self) -> Array:
-        """The kinetic and potential energy, including the spins', in J, shape (n,)."""
+        """The sum of kinetic and potential energy in J, shape (n,). The kinetic energy includes that of the spins."""
 
     @abstractmethod
     def quantities(self) -> Mapping[str, Quantity]:
@@ -91,7 +103,7 @@ class Run(Shown):
 
     @abstractmethod
     def animate(self, path: str | Path, fps: float = 25.0) -> Path:
-        """Write the run as a film, a .gif."""
+        """Write the run as a film to a .gif file, and return its path."""
 
     def summary(self) -> dict[str, str]:
         """Summarise the number of times, the evaluations, the error and the ending in words, by name."""
@@ -158,7 +170,7 @@ class Run(Shown):
         Returns
         -------
         pandas.DataFrame
-            Indexed by t in s; pandas must be installed.
+            The table, indexed by t in s; pandas must be installed.
         """
         pandas = optional_package("pandas")
         return pandas.DataFrame(
@@ -171,7 +183,7 @@ class Run(Shown):
         Returns
         -------
         xarray.Dataset
-            Over t in s and the other axes of the quantities; xarray must be installed.
+            The variables over t in s and the other axes of the quantities; xarray must be installed.
         """
         xarray, quantities = optional_package("xarray"), self.quantities()
         places: dict[str, Any] = {"t": ("t", self.t, {"units": "s"})}
@@ -185,8 +197,9 @@ class Run(Shown):
     def save(self, path: str | Path) -> Path:
         """Write the run to a file; the ending of its name chooses the format.
 
-        .npz: times, errors, every quantity, and a description as JSON with a digest, which `load` of the same class reads back.
-        .csv: a column for each component. .png, .svg, .pdf: `plot`. .gif: `animate`.
+        A .npz file holds the times, the errors, every quantity, and a description as JSON with a digest; `load` of the same
+        class reads it back. A .csv file has a column for each component. A .png, .svg or .pdf file holds the figure of `plot`,
+        and a .gif file the film of `animate`.
 
         Parameters
         ----------
@@ -201,7 +214,7 @@ class Run(Shown):
         Raises
         ------
         InputError
-            For another ending of the name.
+            If the name has another ending.
 
         Examples
         --------
@@ -230,11 +243,14 @@ class Run(Shown):
 def check_nonempty(where: str, t: Array) -> None:
     """Raise InputError for a run without times."""
     if not len(t):
-        raise InputError(f"{where}: the run has no times, as for a section that is never crossed")
+        raise InputError(
+            f"{where}: the run has no times, for example because no section is crossed: take a run with times"
+        )
 
 
 class Saved(NamedTuple):
-    """The contents of a file of `Run.save`: the entries and arrays of the class, and the fields of `Run`."""
+    """The contents of a file that `Run.save` wrote. The entries `about` and the arrays belong to the class of the run; `fields`
+    are those of `Run`."""
 
     about: dict[str, Any]
     arrays: dict[str, Array]
@@ -242,8 +258,8 @@ class Saved(NamedTuple):
 
 
 def read_run(path: str | Path) -> Saved:
-    """Read a run that was saved as .npz, and check the fields of `Run`. Raises InputError for any other file, an incomplete
-    one, decreasing times, or invalid errors, evaluations or ending."""
+    """Read a run from an .npz file that `save` wrote, and check the fields of `Run`. Raise InputError if it is another file or
+    incomplete, its times decrease, or its errors, evaluations or ending are invalid."""
     about, arrays = read_arrays(path_of("load: path", path))
     try:
         t, errors = arrays.pop("t"), arrays.pop("errors")
@@ -257,9 +273,9 @@ def read_run(path: str | Path) -> Saved:
     elif not np.isfinite(t).all() or (np.diff(t) < 0).any():  # crossings on an impact's gap have two states at one time
         wrong = "its times decrease"
     elif type(evaluations) is not int or evaluations < 0:
-        wrong = "its number of evaluations is none"
+        wrong = "its number of evaluations is no count"
     elif type(horizon) is not float or (errors < 0).any():
-        wrong = "its errors or its horizon is none"
+        wrong = "its errors are negative, or its horizon is no number"
     if wrong:
         raise InputError(f"load: {path} is no run: {wrong}: give a file that `save` wrote")
     return Saved(
@@ -268,7 +284,7 @@ def read_run(path: str | Path) -> Saved:
 
 
 def _labels(axis: str, size: int) -> list[Any]:
-    """Label components x, y, z, and number any other axis from 1."""
+    """Return the labels of the components along an axis: x, y, z for the axis "component", otherwise numbers from 1 on."""
     return list("xyz"[:size]) if axis == "component" else list(range(1, size + 1))
 
 

@@ -1,4 +1,4 @@
-"""A segment of a run without an edge of a pulse inside: the input of a solver, and the states that it returns."""
+"""A segment of a run, inside which no window of a pulse begins or ends: the input of a solver, and the states that it returns."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -17,9 +17,10 @@ LOST = ValueError, ZeroDivisionError, OverflowError  # raised by arithmetic outs
 
 @dataclass(frozen=True)
 class Segment:
-    """The problem y' = rhs(s, y) from the state `start` at the time `begin` to `until`, with states at `t_eval`. No step is
-    longer than `longest`, or than half the time from its first state to a singular position. `project` brings a state (d,), or
-    states (d, n), back onto the constraints. The solver stops after `budget` evaluations."""
+    """The problem y' = rhs(s, y) from the state `start` at the time `begin` to `until`, with states at the times `t_eval`. No
+    step is longer than `longest`, or than half the time from its first state to a singular position. The function `project`
+    brings a state (d,), or states (d, n), back onto the constraints. The solver stops after `budget` evaluations. The typical
+    rate in rad/s bounds the first step."""
 
     rhs: RightHandSide
     start: Array
@@ -34,18 +35,18 @@ class Segment:
 
     @property
     def relative_speed(self) -> float:
-        """The largest component of y' over 1 + the largest of y at the start, in 1/s."""
+        """The rate of change of the state at the start in 1/s, max |y'| / (1 + max |y|)."""
         return float(np.abs(self.rhs(self.begin, self.start)).max() / (1 + np.abs(self.start).max()))
 
     def clear(self, y: Array) -> float:
-        """Return the longest step from a state that does not pass a singular position."""
+        """Return the longest step in s from a state y that cannot pass a singular position; inf if there is none."""
         return self.time_to_singular(y) / 2 if self.time_to_singular else np.inf
 
 
 @dataclass(frozen=True, eq=False)
 class Stretch:
-    """States (n, d) at the first n times of a motion (all times if it reached its end), the last state, and the evaluations.
-    An event changed the state at the times `jumps`."""
+    """A motion computed by a solver: states (n, d) at the first n of the requested times, the last state (d,) and the number of
+    evaluations. All times are reached unless the solver stopped. At the times `jumps` an event changed the state."""
 
     states: Array
     end: Array
@@ -68,7 +69,7 @@ _WAYS_OUT = {
 
 
 def reporting(rate: RightHandSide, progress: Callable[[float], None] | None, at: float) -> RightHandSide:
-    """Return the right-hand side that calls `progress` with the time `at` + s of each evaluation."""
+    """Return a right-hand side that also calls `progress` with the time at + s of each evaluation."""
     if progress is None:
         return rate
 
@@ -82,7 +83,7 @@ def reporting(rate: RightHandSide, progress: Callable[[float], None] | None, at:
 
 
 def in_units(segment: Segment, scale: Array) -> Segment:
-    """Return the segment for the state z = y / scale."""
+    """Return the segment for the state z = y / scale, with a scale (d,) for each component."""
     project = segment.project
     onto = None if project is None else lambda z: (project((z.T * scale).T).T / scale).T
     return replace(segment, rhs=_scaled_rhs(segment.rhs, scale), start=segment.start / scale, project=onto)
@@ -102,7 +103,7 @@ def _scaled_rhs(bare: RightHandSide, scale: Array) -> RightHandSide:
 
 
 def by_units(solve: SegmentSolver, scale: Array) -> SegmentSolver:
-    """Return the solver for states in units of `scale` (d,)."""
+    """Return a solver that solves a segment in units of `scale` (d,) and returns its states in the original units."""
 
     def to_units(stretch: Stretch) -> Stretch:
         return replace(stretch, states=stretch.states * scale, end=stretch.end * scale)
@@ -118,14 +119,14 @@ def by_units(solve: SegmentSolver, scale: Array) -> SegmentSolver:
 
 
 def states_on_constraints(project: Projection | None, states: Array) -> Array:
-    """Bring states (n, d) back onto their constraints."""
+    """Return the states (n, d) projected back onto their constraints; without a projection return them unchanged."""
     return project(states.T).T if project and len(states) else states
 
 
 class StopError(IntegrationError):
-    """A solver stopped at the time `at` (in a solver: the segment's own time). Causes: the evaluations are spent (budget), a
-    singular position was measured, an event ends the run, or the solver cannot continue and gives only its reason (stopped).
-    `reached` is the motion up to the stop, with its last state."""
+    """A solver stopped at the time `at` in s; within a solver this is the segment's own time. There are four causes: budget (the
+    evaluations are spent), singular (a singular position was measured), event (an event ends the run), and stopped. In the last
+    case the solver cannot continue and gives only its reason. `reached` is the motion up to the stop, with its last state."""
 
     def __init__(
         self,
@@ -141,7 +142,7 @@ class StopError(IntegrationError):
 
 
 class OutsideError(StopError):
-    """The run left the range in which its right-hand side is well conditioned."""
+    """The state left the range in which the right-hand side is well conditioned."""
 
     def __init__(self, at: float) -> None:
         super().__init__(at, "the coordinates become singular", cause="singular")

@@ -7,8 +7,8 @@ Value = TypeVar("Value", float, tuple[float, ...])
 
 
 class Calibrated(NamedTuple, Generic[Value]):
-    """A number, or factors c_1, c_2, …, with its meaning (`of`), its calibration (`on`) and the test that refuses wrong
-    values."""
+    """A number, or factors c_1, c_2, …, that was found by trial. `of` is its meaning, `on` the runs on which it was found, and
+    `test` the test that fails for wrong values."""
 
     value: Value
     of: str
@@ -26,13 +26,13 @@ CROSSOVER = Calibrated(
 )
 LSODA_SAFETY = Calibrated(
     200.0,
-    "tolerance of a run over the local error of LSODA",
+    "tolerance of a run divided by the local error of LSODA",
     "10 s of the displaced pair at tolerances 1e-3 to 1e-10",
     "test_scenes_and_methods.py::test_errors_and_evaluations_stay_under_their_ceilings",
 )
 DETOUR = Calibrated(
     4 * pi,
-    "angle (rad, of the typical rate) over which DOP853 first continues where another solver stops",
+    "typical rate times the time (rad) for which DOP853 first continues when another solver stops",
     "the 1,000 wide scenes: those of more than 500 turns beside a dead point",
     "test_cost.py::test_no_run_takes_ten_times_as_long_as_the_best_rung",
 )
@@ -49,19 +49,19 @@ APART = Calibrated(
 )
 FIRST = Calibrated(
     1 / 3,
-    "local error of the first companion over the tolerance of the run",
+    "local error of the first companion divided by the tolerance of the run",
     f"{_WIDE}: 19 of 20 need no second pair",
     _TRIAL,
 )
 SHORTEST = Calibrated(
     400.0,
-    "ratio of ten turns to the turns of a run up to which the local error of the first companion is proportional to it",
+    "the local error of the first companion is proportional to 10 / (turns of the run), up to this ratio",
     "554 wide scenes of up to 11 turns: in nine of ten the sum of local errors grows more slowly than the time",
     _COST,
 )
 SAFETY = Calibrated(
     2.5,
-    "error of the better of two runs over their difference; its square where the difference may be mostly rounding",
+    "estimated error of the better of two runs divided by their difference; squared where that may be mostly rounding",
     "the 300 wide systems: the estimate is 20 times the true error in the median",
     "test_wide_systems.py::test_an_error_is_known_at_many_times_and_would_be_missed_if_it_were_not",
 )
@@ -73,7 +73,7 @@ RESOLVED = Calibrated(
 )
 LEAST = Calibrated(
     1e-3,
-    "least error over the local error: two short runs may take the same few steps and agree",
+    "least estimated error divided by the local error, since two short runs may take the same few steps and agree",
     "3,881 scenes of up to 20 turns, apart from the recorded ones",
     "test_estimated.py::test_runs_that_take_the_same_steps_are_not_known_to_be_right",
 )
@@ -85,7 +85,10 @@ LOOSEST = Calibrated(
 )
 GIVEN_UP = Calibrated(1e-5, "local error beyond which no looser run is tried", _WIDE, _TRIAL)
 LOST = Calibrated(
-    0.1, "error at which a state is unknown; where no tolerance keeps below it, none is tried", _WIDE, _TRIAL
+    0.1,
+    "error from which a state counts as unknown; if no tolerance keeps the error below it, none is tried",
+    _WIDE,
+    _TRIAL,
 )
 ROUNDING = Calibrated(2e-15, "error per turn that no tolerance avoids", _WIDE, _TRIAL)
 START = Calibrated(
@@ -96,15 +99,14 @@ START = Calibrated(
 )
 SWING = Calibrated(
     0.5,
-    "turns within which two runs that separate cross each other: the error at a time is the largest difference up to then and so "
-    "much later",
+    "turns within which two runs that separate may cross: the error at a time includes differences up to this many turns later",
     "without it seed 1209 of the wide systems and one of seeds 2004 to 2099 exceed the estimate; with it three of seeds 3000 to "
     "3119, one by 3.8 times",
     "test_wide_systems.py::test_one_of_each_kind_keeps_its_promise",
 )
 KEPT = Calibrated(
     100.0,
-    "largest error of conserved quantities over the error estimate",
+    "largest error of conserved quantities divided by the error estimate",
     f"{_WIDE}: 99 of 100 runs stay below twice the estimate",
     "test_estimated.py::test_a_run_that_does_not_conserve_is_refused",
 )

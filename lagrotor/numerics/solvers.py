@@ -48,7 +48,8 @@ _IN_VAIN = 3  # times that a step is shortened at one place without a smaller er
 
 
 def dop853_steps(segment: Segment, error: float) -> Iterator[Any]:
-    """Yield scipy's solver after each step at a local error `error`, relative and absolute; the state is then projected."""
+    """Yield scipy's solver DOP853 after each step; after that the state is projected onto the constraints. The local error,
+    relative and absolute, is `error`."""
     from scipy.integrate import DOP853
 
     project = segment.project
@@ -79,7 +80,7 @@ def dop853_steps(segment: Segment, error: float) -> Iterator[Any]:
         share = (solver.t - segment.begin) / (segment.until - segment.begin)
         if solver.status == "running" and solver.nfev > min(segment.budget, _PATIENCE + share * segment.budget):
             reached = Stretch(np.empty((0, len(y))), solver.y, solver.nfev)
-            raise StopError(solver.t, f"{solver.nfev} evaluations spent", reached, cause="budget")
+            raise StopError(solver.t, f"the run did not end within {solver.nfev} evaluations", reached, cause="budget")
         if project is not None:
             solver.y = project(solver.y)
             solver.f = np.asarray(segment.rhs(solver.t, solver.y))
@@ -87,7 +88,7 @@ def dop853_steps(segment: Segment, error: float) -> Iterator[Any]:
 
 
 def dop853(segment: Segment, error: float) -> Stretch:
-    """Solve the segment by DOP853 at a local error `error`, relative and absolute."""
+    """Solve the segment by DOP853, with `error` as relative and absolute local error."""
     t_eval = segment.t_eval
     states, count, solver = np.empty((len(t_eval), len(segment.start))), 0, None
     try:
@@ -105,9 +106,9 @@ def dop853(segment: Segment, error: float) -> Stretch:
 
 
 def lsoda(segment: Segment, error: float) -> Stretch:
-    """Solve the segment by LSODA at a local error `error`, relative and absolute. The first step does not depend on the first
-    output time, so outputs do not change the run. With constraints the run is cut about once a turn and projected, since
-    their error grows exponentially where the axes are pressed."""
+    """Solve the segment by LSODA, with `error` as relative and absolute local error. The first step does not depend on the first
+    output time, so that outputs do not change the run. With constraints the run is interrupted about once a turn and the state
+    projected. Otherwise the violation of the constraints may grow exponentially, as it does if the bar is under pressure."""
     if segment.project is None:
         return _lsoda(segment, error)
     now, y, evaluations, longest_cut = segment.begin, segment.start, 0, np.inf
@@ -118,7 +119,7 @@ def lsoda(segment: Segment, error: float) -> Stretch:
 
     while now < segment.until:
         if evaluations > segment.budget:
-            raise stopped(f"{evaluations} evaluations spent", "budget")
+            raise stopped(f"the run did not end within {evaluations} evaluations", "budget")
         cut = min(5 / (replace(segment, begin=now, start=y).relative_speed + 1e-300), longest_cut, segment.clear(y))
         if cut < _LEAST_CUT * (segment.until - segment.begin):
             raise stopped("the next step might pass a singular position")
@@ -156,7 +157,7 @@ def _on_constraints(segment: Segment, blocks: list[Array], y: Array, evaluations
 
 
 def _up_to_singular(segment: Segment, budget: float, error: float) -> tuple[Segment, Stretch]:
-    """Return the part of a segment before its steps might pass a singular position, and its states."""
+    """Solve the part of a segment before its steps might pass a singular position. Return this part and its states."""
     times = segment.t_eval[(segment.t_eval > segment.begin) & (segment.t_eval <= segment.until)]
     if segment.time_to_singular is None:
         return segment, _lsoda(replace(segment, t_eval=times, budget=budget), error)
@@ -171,7 +172,7 @@ def _up_to_singular(segment: Segment, budget: float, error: float) -> tuple[Segm
 
 
 def _lsoda(segment: Segment, error: float) -> Stretch:
-    """Solve the segment up to a state whose next step might pass a singular position."""
+    """Solve the segment without projection, up to its end or to a state whose next step might pass a singular position."""
     begin, right, evaluations, lost, near, stopped = segment.begin, segment.until, 0, False, False, False
     at = accepted = begin  # times of the last evaluation and of the last accepted step
     zero_rate = [0.0] * len(segment.start)
@@ -221,7 +222,7 @@ def _lsoda(segment: Segment, error: float) -> Stretch:
         reasons = {
             "the right-hand side is not finite": lost,
             "the next step might pass a singular position": near,
-            f"{evaluations} evaluations spent": stopped,
+            f"the run did not end within {evaluations} evaluations": stopped,
             log["message"]: True,
         }
         until = float(segment.t_eval[len(states) - 1]) if reached else begin
@@ -231,7 +232,8 @@ def _lsoda(segment: Segment, error: float) -> Stretch:
 
 
 def _odeint(segment: Segment, rhs: RightHandSide, error: float, first: float) -> tuple[Array, dict[str, Any]]:
-    """Return the states at the segment's ends and the times between them, and scipy's log."""
+    """Solve a segment by scipy's odeint. Return the states at its beginning, at the output times and at its end, and scipy's
+    log."""
     from scipy.integrate import odeint
 
     with warnings.catch_warnings():
@@ -256,16 +258,18 @@ def _successful(states: Array, log: dict[str, Any]) -> bool:
 
 
 def adams_order(error: float) -> int:
-    """Return the order of the pair: a higher order needs fewer steps for accuracy, but shorter ones for stability."""
+    """Return the order of the Adams pair for a local error. A higher order needs fewer steps for accuracy, but shorter ones for
+    stability."""
     return 10 if error >= 1e-10 else 12
 
 
 @lru_cache(maxsize=8)
 def adams_weights(q: int) -> tuple[Array, Array, Array, Array]:
-    """Return the weights A, B, S, P of an Adams pair of q nodes, from the Lagrange polynomials l_j, exact before rounding. A:
-    integrals over the step after the last node (Adams–Bashforth); B: over the step before it (Adams–Moulton). Both are (2, q),
-    the rounded weights and their rounding error, which else all steps of all runs would share. S (q, q): from the first node to
-    each; P (q, q + 1): the integral of l_j from node q // 2 as a polynomial in steps."""
+    """Return the weights A, B, S, P of an Adams pair of q nodes, computed exactly from the Lagrange polynomials l_j and then
+    rounded. A are integrals over the step after the last node (Adams–Bashforth), B over the step before it (Adams–Moulton). Both
+    have the shape (2, q): the rounded weights, and their rounding error, which all steps of all runs would otherwise share. S (q,
+    q) are the integrals from the first node to each node. P (q, q + 1) are the coefficients of the integral of l_j from node q //
+    2, as a polynomial in the number of steps."""
     middle, last = q // 2, q - 1 - q // 2
     nodes = [i - middle for i in range(q)]
     rows = []
@@ -291,7 +295,8 @@ def adams_weights(q: int) -> tuple[Array, Array, Array, Array]:
 
 @dataclass(frozen=True)
 class _Piece:
-    """Equal steps h from t by the pair of order q: states and rates y' (n + 1, d), evaluations, the factor for the next h."""
+    """A run of n equal steps h from the time t, by the Adams pair of order q. `states` and their rates y' in `velocities` have
+    the shape (n + 1, d). The next step is `change` times as long."""
 
     q: int
     t: float
@@ -302,7 +307,7 @@ class _Piece:
     change: float
 
     def read(self, times: Array) -> Array:
-        """Return states (m, d) at times within the piece, by the polynomial of the pair."""
+        """Return the states (m, d) at times (m,) within the piece, by the interpolating polynomial of the Adams pair."""
         q = self.q
         P = adams_weights(q)[3]
         steps = (times - self.t) / self.h
@@ -313,8 +318,9 @@ class _Piece:
 
 
 def _piece(segment: Segment, q: int, y: Array, t: float, h: float, steps: int, limit: float) -> _Piece:
-    """Take steps h until `steps` are made, or h proves too long (change < 1) or needlessly short (change > 1). Predict,
-    evaluate, correct, evaluate; (corrector − predictor)/h is kept under `limit` (Hairer, Nørsett & Wanner, III.1)."""
+    """Take equal steps h until `steps` are made, or until h proves too long (change < 1) or needlessly short (change > 1). A step
+    predicts, evaluates, corrects and evaluates. It keeps (corrector − predictor)/h below `limit` (Hairer, Nørsett & Wanner,
+    III.1)."""
     rhs = segment.rhs
     A, B, _, _ = adams_weights(q)
     states, velocities, differences = np.empty((3, steps + 1, len(y)))
@@ -357,7 +363,8 @@ def _piece(segment: Segment, q: int, y: Array, t: float, h: float, steps: int, l
 def _first_nodes(
     segment: Segment, q: int, y: Array, t: float, h: float, states: Array, velocities: Array
 ) -> tuple[int, bool]:
-    """Solve the integral equation of the first q nodes by sweeps; return the evaluations, and True if they converged."""
+    """Compute the first q states and rates by iterating the integral equation of the motion. Return the number of evaluations,
+    and True if the iteration converged."""
     S, size = h * adams_weights(q)[2], 1 + np.abs(y).max()
     states[:], velocities[:] = y, segment.rhs(t, y)
     evaluations = 1
@@ -374,9 +381,9 @@ def _first_nodes(
 
 
 def adams(segment: Segment, error: float) -> Stretch:
-    """Solve the segment by Adams predictor and corrector in equal steps, whose length changes with their difference. StopError
-    says that the cost far exceeds the completed share of the budget, or that shorter steps have no smaller error. Then the
-    right-hand side is not accurate enough."""
+    """Solve the segment by the Adams predictor and corrector in equal steps, whose length follows from the difference of the two.
+    Raise StopError if the cost far exceeds the completed share of the budget, or if shorter steps have no smaller error. In the
+    latter case the right-hand side is not accurate enough."""
     t_eval, right, y, t, longest = segment.t_eval, segment.until, segment.start, segment.begin, segment.longest
     q, limit = adams_order(error), min(100 * error, 1e-3)  # at order 10, steps with a larger difference are unstable
     h = min(
@@ -407,7 +414,7 @@ def adams(segment: Segment, error: float) -> Stretch:
         exhausted = evaluations > min(segment.budget, _PATIENCE + share * segment.budget)
         if t < right and (exhausted or in_vain == _IN_VAIN or t + h == t):
             reason = f"steps of {h:.1e} have no smaller error than longer ones"
-            reason = f"{evaluations} evaluations spent" if exhausted else reason
+            reason = f"the run did not end within {evaluations} evaluations" if exhausted else reason
             reached = Stretch(states_on_constraints(segment.project, states[:count]), y, evaluations)
             raise StopError(t, reason, reached, cause="budget" if exhausted else "stopped")
     if not (np.isfinite(end).all() and np.isfinite(states).all()):

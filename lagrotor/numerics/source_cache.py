@@ -21,7 +21,8 @@ _MOST = 64  # functions of one kind in the memory of a process
 
 @dataclass(frozen=True, eq=False)
 class GeneratedFunction:
-    """A function whose source `derive` returns, as its last definition; the sources for `cases` are stored."""
+    """A function whose source is returned by `derive`, as the last definition of the text. For the arguments in `cases` the text
+    is stored in a file."""
 
     derive: Callable[..., str]
     cases: tuple[tuple[Any, ...], ...]
@@ -35,7 +36,7 @@ class GeneratedFunction:
         return self._functions(*arguments)
 
     def source(self, *arguments: Any) -> str:
-        """Return the source, stored or derived."""
+        """Return the source for these arguments: the stored text, or else the derived one."""
         return _blocks(self.file).get(self.name(*arguments)) or self.derive(*arguments)
 
     def name(self, *arguments: Any) -> str:
@@ -44,12 +45,12 @@ class GeneratedFunction:
 
     @property
     def file(self) -> Path:
-        """The file with the sources of the module's folder."""
+        """The file that stores the sources of all modules in the folder."""
         return Path(str(sys.modules[self.derive.__module__].__file__)).with_name("generated.txt")
 
 
 def generated(cases: Iterable[tuple[Any, ...]]) -> Callable[[Callable[..., str]], GeneratedFunction]:
-    """Mark a function that returns the source of another; the sources for the arguments `cases` are stored."""
+    """Mark a function that returns the source of another function. The sources for the arguments in `cases` are stored."""
     return lambda derive: GeneratedFunction(derive, tuple(cases))
 
 
@@ -63,7 +64,7 @@ def function_of(source: str) -> Callable[..., Any]:
 
 @cache
 def _blocks(file: Path) -> dict[str, str]:
-    """Return heading → source of each block of a file; an empty dictionary where there is no file."""
+    """Return the blocks of a file by their headings; an empty dictionary if there is no file."""
     try:
         _, *blocks = _HEAD.split(file.read_text(encoding="utf-8"))
     except FileNotFoundError:

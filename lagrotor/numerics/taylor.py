@@ -5,8 +5,8 @@ scaled so small that they are never the largest. Compiling takes one or two seco
 keeps the result in memory, heyoka on disk. States at any time are as exact as the run.
 
 heyoka chooses its order by the tolerance for which it is compiled. Its error of a step is that tolerance times the largest
-component of the state. The last component is a constant whose size is set for each run. It decouples the step size from the
-order, so that three orders serve every tolerance.
+component of the state. The state therefore gets one more component, a constant whose size sets the tolerance of each run. It
+decouples the step size from the order, so that three orders serve every tolerance.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -49,7 +49,7 @@ def heyoka_module() -> Any:
 
 
 def heyoka_sum(terms: Sequence[Any]) -> Any:
-    """Return the sum of expressions and numbers."""
+    """Return heyoka's sum of its expressions and of numbers."""
     heyoka = heyoka_module()
     return heyoka.sum([heyoka.expression(x) if isinstance(x, float) else x for x in terms])
 
@@ -111,10 +111,11 @@ def _compiled_function(program: Program) -> Any:
 def taylor_solver(
     generated: Generated, order: int, longest_between: float = np.inf, angles: tuple[int, ...] = ()
 ) -> SegmentSolver:
-    """Return the solver of a segment by heyoka; steps times order count as evaluations. `generated` maps True (in a pulse) or
-    False to the program and the values of its parameters. In a pulse the last three are the peak of a force exp(−(s/width)²),
-    with `width` after them. States are projected at least every `longest_between`. The states `angles` may grow without end
-    like the cyclic ones; the error of their rates, which are states too, bounds theirs."""
+    """Return a solver of segments by heyoka. Its number of evaluations is steps times order. The function `generated` takes True
+    in a pulse, otherwise False, and returns the program and the values of its parameters. In a pulse the last three parameters
+    are the peaks of a force exp(−(s/width)²), and the value of `width` follows them. States are projected at least every
+    `longest_between` seconds. The states with the indices `angles`, like cyclic ones, may grow without end; since their rates are
+    states too, the error of the rates bounds that of the angles."""
     heyoka_module()
 
     def solve(segment: Segment, pulsed: bool, tol: float) -> Stretch:
@@ -141,7 +142,8 @@ def taylor_solver(
 
 
 def march_lanes(program: Program, parameters: Array, legs: Mapping[int, Leg]) -> dict[int, Stretch | StopError]:
-    """Integrate the legs of an autonomous motion with parameters (p, n), by number, eight at a time, each with its own step."""
+    """Integrate the legs of an autonomous motion, each with its own column of the parameters (p, n). Eight legs are integrated at
+    once, each with its own steps. Return the motion or the StopError of each leg by its number."""
     answers: dict[int, Stretch | StopError] = {}
     orders: dict[int, list[int]] = {}
     for i, leg in legs.items():
@@ -173,13 +175,14 @@ def march_lanes(program: Program, parameters: Array, legs: Mapping[int, Leg]) ->
                 n = len(read) if whole.all() else int(np.argmin(whole))
                 stretch = Stretch(read[:n].copy(), read[max(n, 1) - 1].copy(), evaluations)
                 stopped = n < len(read) or "time_limit" not in str(outcome)
-                reason = "the Taylor series has no step"
+                reason = "the Taylor series gives no further step"
                 answers[i] = StopError(float(legs[i].times[max(n, 1) - 1]), reason, stretch) if stopped else stretch
     return answers
 
 
 def _carried(program: Program, states: int, angles: tuple[int, ...]) -> Array:
-    """Return the factor of each state during the integration."""
+    """Return the factor of each state during the integration, shape (states,); it is small for states that may grow without
+    end."""
     scale = np.ones(states)
     scale[[*_cyclic(program, states), *angles]] = _CARRIED
     return scale
@@ -187,7 +190,7 @@ def _carried(program: Program, states: int, angles: tuple[int, ...]) -> Array:
 
 @lru_cache(maxsize=64)
 def _cyclic(program: Program, states: int) -> list[int]:
-    """Return the indices of the states on which no rate depends."""
+    """Return the indices of the cyclic states, on which no rate depends."""
     stages, outputs = reduce_common(program)
     used = {s for e in (*(e for _, e in stages), *outputs) for s in e.free_symbols}
     return [i for i, s in enumerate(program.arguments[:states]) if s not in used]
@@ -197,7 +200,7 @@ def _cyclic(program: Program, states: int) -> list[int]:
 def _solver(
     program: Program, states: int, driven: bool, order: int, lanes: int, thread: int, angles: tuple[int, ...] = ()
 ) -> Any:
-    """Compile the integrator of a program whose first `states` arguments are the state; each thread has its own."""
+    """Compile the integrator of a program whose first `states` arguments are the state. Each thread has its own integrator."""
     heyoka = heyoka_module()
     names, parameters = program.arguments[:states], program.arguments[states:]
     variables, scale = [heyoka.make_vars(str(s)) for s in names], _carried(program, states, angles)
@@ -213,15 +216,15 @@ def _solver(
 
 
 def taylor_order(tol: float, companion: bool = False) -> int:
-    """Return the cheapest order for a local error, of 7 to 19 tried with the displaced pair; code of higher orders outgrows a
-    cache. A companion has another order, since equal states may give equal steps. At the tightest errors both are even: the
-    error of an even order turns a phase and grows like t, for an odd order like t²."""
+    """Return the order that is cheapest for a local error. Orders from 7 to 19 were tried with the displaced pair; the code of
+    higher orders does not fit a cache. A companion has another order, since equal states may give equal steps. At the tightest
+    errors both orders are even: the phase error of an even order grows as t, that of an odd order as t²."""
     return (10 if tol >= 1e-7 else 14) - companion if tol >= 1e-11 else 16 + 2 * companion
 
 
 def compiled_solver(equations: Sequence[tuple[Any, Any]], order: int, lanes: int = 1, compact: bool = True) -> Any:
-    """Compile the integrator of (variable, rate) pairs; its state has one constant component more. Compact code keeps its
-    loops: it compiles many times faster and runs a little slower."""
+    """Compile the integrator of (variable, rate) pairs; its state has one more component, a constant. Compact code keeps its
+    loops, so that it compiles many times faster and runs a little slower."""
     heyoka = heyoka_module()
     equations = [*equations, (heyoka.make_vars("size"), heyoka.expression(0.0))]
     settings = {"tol": _compiled_for(order), "fast_math": True}
@@ -232,7 +235,7 @@ def compiled_solver(equations: Sequence[tuple[Any, Any]], order: int, lanes: int
 
 
 def dummy_size(tol: float, order: int) -> float:
-    """Return the size of the constant component with which the error of a step of this order is a tenth of `tol`."""
+    """Return the size of the constant component for which the error of a step of this order is a tenth of `tol`."""
     return tol / 10 / _compiled_for(order)
 
 
@@ -247,9 +250,10 @@ def taylor_march(
     longest: float = np.inf,
     after_step: Callable[[Any], bool] | None = None,
 ) -> Stretch:
-    """Return states (n, d) at the times within the span from y (d,); steps times order count as evaluations. `size` is that
-    of the constant component, `longest` the longest step. A state is projected at least every `longest_between`. `after_step`
-    is called with the solver after each step; False stops the run."""
+    """Integrate from the state y (d,), and return the states (n, d) at the times within the span. The number of evaluations is
+    steps times order. The constant component has the value `size`, and no step is longer than `longest`. The state is projected
+    at least every `longest_between` seconds. After each step `after_step` is called with the solver; the run stops if it returns
+    False."""
     (now, end), pieces, steps = span, [np.empty((0, len(y)))], 0
     options: dict[str, Any] = {"max_delta_t": longest, "max_steps": _MOST_STEPS}
     options |= {} if after_step is None else {"callback": after_step}
@@ -268,7 +272,7 @@ def taylor_march(
         if whole < len(grid) or "time_limit" not in str(outcome):
             at, y = _last_step(solver, float(grid[max(whole, 1) - 1]), y, size)
             reached = Stretch(np.concatenate(pieces), y, steps * solver.order)
-            raise StopError(at, "the Taylor series has no step; engine='core' may go on", reached)
+            raise StopError(at, "the Taylor series gives no further step; engine='core' may continue", reached)
         try:
             y, now = (y if project is None else project(y)), until
         except StopError as stop:
@@ -279,12 +283,13 @@ def taylor_march(
 
 
 def _compiled_for(order: int) -> float:
-    """Return the tolerance from which heyoka chooses this order, the least whole number not under 1 − ln(tol)/2."""
+    """Return the tolerance for which heyoka chooses this order, the least whole number not below 1 − ln(tol)/2."""
     return exp(-2 * (order - 1)) * (1 + 1e-9)
 
 
 def _last_step(solver: Any, at: float, y: Array, size: float) -> tuple[float, Array]:
-    """Return the time and the state (d,) after the last step that a solver can take from y."""
+    """Return the time and the state (d,) after the last step that the solver can take, starting from the state y at the time
+    `at`."""
     solver.time, solver.state[:-1], solver.state[-1] = at, y, size
     for _ in range(_LAST_STEPS):
         outcome, _ = solver.step()

@@ -27,8 +27,19 @@ Functions = Callable[[Array], Array]  # times (m,) → values (k, m)
 
 @dataclass(frozen=True)
 class Zeros:
-    """Zeros t (n,) in increasing order, the index of the function of each, and its direction: 1 upward, −1 downward, 0 touched.
-    `hidden` is an interval in which a function is not resolved and zeros may be missing; None if all zeros are known."""
+    """The zeros of k functions on an interval.
+
+    Attributes
+    ----------
+    t : Array
+        The zeros in increasing order, shape (n,).
+    index : Array
+        The index of the function of each zero, shape (n,).
+    direction : Array
+        1 for an upward crossing, −1 for a downward one, 0 for a zero that is touched, shape (n,).
+    hidden : tuple of float or None
+        An interval in which a function is not resolved and zeros may be missing; None if all zeros are known.
+    """
 
     t: Array
     index: Array
@@ -39,8 +50,8 @@ class Zeros:
 def zeros_between(
     functions: Functions, lower: float, upper: float, touch: Array | float = 0.0, noise: Array | float = 0.0
 ) -> Zeros:
-    """Find the zeros of k functions in an interval. A turning point within `touch` of zero, (k,) or a number, counts as a
-    zero. `noise` is the rounding of the values, which no halving resolves."""
+    """Find the zeros of k functions in an interval. A turning point within `touch` of zero, a number or shape (k,), counts as a
+    zero. The values have the rounding error `noise`, which no halving of the interval resolves."""
     roots: list[tuple[float, int, int]] = []
     hidden = _search(functions, lower, upper, touch, noise, roots, _HALVINGS)
     roots = _distinct(sorted(roots), _SLACK * (upper - lower))
@@ -49,18 +60,20 @@ def zeros_between(
 
 
 def chebyshev_nodes(edges: Array) -> Array:
-    """Return Chebyshev's nodes of each interval between increasing edges (p + 1,), ends among them, shape (p, m)."""
+    """Return Chebyshev's nodes in each interval between increasing edges (p + 1,), including both ends, shape (p, m)."""
     return edges[:-1, None] + np.diff(edges)[:, None] * (1 + _NODES) / 2
 
 
 def may_vanish(values: Array, touch: Array | float = 0.0, noise: Array | float = 0.0) -> NDArray[np.bool_]:
-    """Return True for each series through values (k, m) at the nodes that may have a zero without being zero everywhere."""
+    """Return an array (k,) for k functions with values (k, m) at the nodes. An element is True if the function's Chebyshev series
+    may have a zero and is not zero everywhere."""
     size = np.abs(values @ _SERIES.T)
     return (size[:, 0] <= size[:, 1:].sum(1) + touch) & (np.abs(values).max(1) > touch + noise)
 
 
 def interpolant(length: float, values: Array) -> tuple[Callable[[Array], Array], Array]:
-    """Return the polynomial through values (m, d) at the nodes of [0, length], and the size of its last coefficients (d,)."""
+    """Return the polynomial through values (m, d) at the nodes of [0, length]. Return also the size of its last coefficients
+    (d,), which is small if the polynomial resolves the curve."""
     series = _SERIES @ values
 
     def curve(times: Array) -> Array:
@@ -100,7 +113,7 @@ def _search(
 
 
 def _zeros_of(series: Array, touch: float) -> list[tuple[float, int]]:
-    """Return (place in [−1, 1], direction) of the zeros of a Chebyshev series."""
+    """Return the zeros of a Chebyshev series as pairs (place in [−1, 1], direction); the direction 0 marks a touched zero."""
     series = np.where(np.abs(series) > 1e-15 * np.abs(series).max(), series, 0.0)
     slope: Array = np.asarray(chebyshev.chebder(series), float)
     if _keeps_its_sign(slope):
@@ -118,7 +131,8 @@ def _zeros_of(series: Array, touch: float) -> list[tuple[float, int]]:
 
 
 def _keeps_its_sign(series: Array) -> bool:
-    """Return True if the constant outweighs all other terms where |T_k| ≤ cosh(k √(2 · 10⁻⁶)), slightly beyond [−1, 1]."""
+    """Return True if the constant term outweighs all others, so that there is no zero in [−1, 1] or slightly beyond. There |T_k|
+    ≤ cosh(k √(2 · 10⁻⁶))."""
     return bool(abs(series[0]) > 1.001 * np.abs(series[1:]).sum())
 
 
@@ -132,7 +146,7 @@ def _real_roots(series: Array) -> list[float]:
 
 
 def _distinct(roots: list[tuple[float, int, int]], near: float) -> list[tuple[float, int, int]]:
-    """Remove the second of two zeros that neighbouring intervals share."""
+    """Remove the second of two equal zeros, which neighbouring intervals both found at their common end."""
     unique: list[tuple[float, int, int]] = []
     for t, i, way in roots:
         if not any(j == i and d == way and t - s <= near for s, j, d in unique[-4:]):

@@ -7,7 +7,7 @@ import inspect
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
@@ -16,7 +16,7 @@ from lagrotor.algebra.name_clashes import check_names
 from lagrotor.errors import InputError, ProofError
 from lagrotor.mechanics.glossary import latex, light
 from lagrotor.paper.grammar import Letters, parsed, read
-from lagrotor.renamed import accept_old_keywords
+from lagrotor.renamed import accept_old_keywords, old_attribute
 
 
 @dataclass(frozen=True)
@@ -108,6 +108,9 @@ class Step:
     small: sp.Symbol | None = None
     order: int | None = None
     equations: tuple[str, ...] = ()
+
+    if not TYPE_CHECKING:
+        __getattr__ = old_attribute
 
     @property
     def tex(self) -> str:

@@ -39,7 +39,7 @@ from lagrotor.numerics.solvers import dop853
 def test_threshold_halves_in_the_logarithm():
     assert threshold(lambda x: x > 3e-7, 1e-12, 1.0, 1e-6) == pytest.approx(3e-7, rel=1e-6)
     assert threshold(lambda x: x < 3e-7, 1e-12, 1.0, 1e-6) == pytest.approx(3e-7, rel=1e-6)
-    with pytest.raises(ValueError, match="no change"):
+    with pytest.raises(ValueError, match="the result is the same"):
         threshold(lambda x: x > 2, 0.1, 1.0)
 
 

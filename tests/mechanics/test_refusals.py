@@ -339,7 +339,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "y moves there and enters": lambda: System(P, FLAT - x**2 + sp.cos(y)).linearise({x: 0, y: 0, w: 1}),
         "x = nan is not finite": lambda: point.linearise({x: np.nan}, {m: 1}),
         "{theta: k} must be numbers": lambda: pendulum.linearise({q: k}, VALUES),
-        "phi in the point": lambda: pendulum.linearise({q: 0, "phi": 0}, VALUES),
+        "the point has phi": lambda: pendulum.linearise({q: 0, "phi": 0}, VALUES),
         r"give it coordinates and velocities \(p, q, r\)": lambda: ball_top().linearise(UPRIGHT | {"q0_dot": 1}, BODY),
         "W in the point": lambda: ball_top().linearise(UPRIGHT | {"W": 1}),
         r"linearise: m = \[1\] must be a real": lambda: pendulum.linearise({q: 0}, VALUES | {m: [1]}),

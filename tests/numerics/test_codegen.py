@@ -42,7 +42,7 @@ def by_substitution(program: Program, at: dict[sp.Symbol, float]) -> list[float]
     ],
 )
 def test_what_is_used_before_it_is_defined_is_refused(build: Callable[[], Program]) -> None:
-    with pytest.raises(SingularError, match="used before it is defined; add it to arguments"):
+    with pytest.raises(SingularError, match="is used before it is defined: add it to the arguments"):
         build()
 
 

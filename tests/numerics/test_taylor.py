@@ -89,7 +89,7 @@ def test_an_azimuth_of_many_turns_costs_no_digit(heyoka) -> None:
 
 def test_what_reaches_the_joint_line_stops_and_says_so(heyoka) -> None:
     falling = Scene((0.0, 0.0), axes=((0, 0, 1),) * 2, rates=((1, 0, 0),) * 2)
-    with pytest.warns(LagrotorWarning, match="engine='core' may go on|axis 1 lies along the joint line"):
+    with pytest.warns(LagrotorWarning, match="engine='core' may continue|axis 1 lies along the joint line"):
         run = simulate(falling, [0.0, 1.0, 20.0], "minimal", 1e-9, "fast")
     assert run.ending.early and 1 < run.ending.at < 20 and run.t.tolist() == [0, 1]
 

@@ -209,7 +209,7 @@ def spoiled(change: Callable[[dict[str, Any], dict[str, Any]], object], run: Tra
         (lambda about, held: about.update(model=None), "its model"),
         (lambda about, held: held.update(errors=-held["errors"]), "its errors"),
         (lambda about, held: about["ending"].update(kind="late"), "Ending: 'late' at"),
-        (lambda about, held: about.update(horizon="late"), "its horizon is none"),
+        (lambda about, held: about.update(horizon="late"), "its horizon is no number"),
         (lambda about, held: held.pop("errors"), "no run saved"),
         (lambda about, held: about["scene"]["rotor"].update(mass="heavy"), "no run saved"),
     ],

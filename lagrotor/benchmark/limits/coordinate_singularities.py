@@ -1,4 +1,4 @@
-"""Digits lost to coordinates and formulas: Euler angles at the pole, the joint line, the printed projection."""
+"""Digits that coordinates and formulas lose: Euler angles at the pole, bar and axes in line, the printed projection."""
 
 from functools import cache
 from math import cos, sin, sqrt
@@ -25,9 +25,10 @@ _LEAN, _PASS = 0.5, 1.0
 
 
 def passing(miss: float) -> Scene:
-    """Return a pair without spins whose parallel axes move on a great circle past the pole, at `miss` rad after 0.5 s.
+    """Return a pair without spins whose parallel axes move on a great circle past the pole, at a distance of `miss` rad after 0.5
+    s.
 
-    No force acts, since the bar only translates: both axes turn uniformly by 1 rad/s, and the motion is known exactly.
+    No force acts, since the bar only translates. Both axes turn uniformly by 1 rad/s, so that the motion is known exactly.
     """
     start, slope = (r[0] for r in _great_circle(miss, np.array([0.0])))
     axis, rate = tuple(map(float, start)), tuple(map(float, slope))
@@ -35,7 +36,8 @@ def passing(miss: float) -> Scene:
 
 
 def _great_circle(miss: float, t: Array) -> tuple[Array, Array]:
-    """Return r, r' (n, 3) on the circle through (0, sin miss, cos miss) at t = 0.5 s, towards +x."""
+    """Return the axis r and its rate r' in 1/s at the times t (n,), shape (n, 3) each. The axis moves on a great circle towards
+    +x and is at (0, sin miss, cos miss) at t = 0.5 s."""
     nearest, ahead = np.array([0.0, sin(miss), cos(miss)]), np.array([1.0, 0.0, 0.0])
     phase = (t - _LEAN)[:, None]
     return np.cos(phase) * nearest + np.sin(phase) * ahead, np.cos(phase) * ahead - np.sin(phase) * nearest
@@ -43,9 +45,8 @@ def _great_circle(miss: float, t: Array) -> tuple[Array, Array]:
 
 @cache
 def past_the_pole(miss: float, tol: float, model: Model = euler.MODEL) -> tuple[float, int]:
-    """Return the error of the axes in rad after the pole, which they pass at `miss` rad, and nfev, by DOP853 with local error
-    tol.
-    """
+    """Return the error in rad of axes that have passed the pole at a distance of `miss` rad, and the number of evaluations. The
+    solver is DOP853 with the local error `tol`."""
     scene = passing(miss)
     states, nfev = run_by("DOP853", model.rate(scene, False), model.start(scene), np.array([0.0, _PASS]), tol)
     axes = model.observe(scene, states).axes
@@ -55,7 +56,7 @@ def past_the_pole(miss: float, tol: float, model: Model = euler.MODEL) -> tuple[
 
 
 def euler_limits(quick: bool) -> list[Limit]:
-    """Return cost and accuracy of the Euler angles on paths near theta = 0."""
+    """Return the limits of the Euler angles on paths near theta = 0, one of cost and one of accuracy."""
     tol, target = 1e-12, 1e-10
     far, near, nearest = 1e-2, 1e-3, 1e-5
     nfev = {miss: past_the_pole(miss, tol)[1] for miss in (far, near, nearest)}
@@ -88,30 +89,30 @@ def euler_limits(quick: bool) -> list[Limit]:
 
 
 def joint_line_limits(quick: bool) -> list[Limit]:
-    """Return the limits of a bar that folds over, and of bar and axes in line."""
+    """Return the limits of a bar that folds over, and of a bar in line with the axes."""
     tol = 1e-10
     return [
         Limit(
             "a bar shorter than the axes, folding over (chi past pi/2)",
-            "difference between minimal and spheres through the fold (R)",
-            "none: chi is regular there; no more than the tolerance",
+            "largest difference between minimal and spheres during the fold (R)",
+            "chi is regular there, so the difference is at most the tolerance",
             tol,
             fold_difference(tol),
             "nothing needs to be done",
         ),
         Limit(
             "the constraints where bar and axes are in line",
-            "how far from it (rad) a swinging pair must pass for spheres to go on",
-            f"{CLEARANCE:g}/sqrt(2), both axes counted: within it the three gradients are as good as dependent",
+            "least distance (rad) at which spheres continues past that position",
+            f"{CLEARANCE:g}/sqrt(2), since both axes count: within it the three gradients are nearly dependent",
             CLEARANCE / sqrt(2),
             threshold(lambda miss: not passes(miss), CLEARANCE / 10, 10 * CLEARANCE, 0.1 if quick else 0.01),
-            "spheres stops, and says where; closed_form refuses",
+            "spheres stops and names the position; closed_form refuses the scene",
         ),
     ]
 
 
 def passes(miss: float) -> bool:
-    """Return True if spheres integrates a pair without spins past r_1 = r_2 = e_x at a distance of `miss` rad."""
+    """Return True if the spheres model integrates a pair without spins past r_1 = r_2 = e_x at a distance of `miss` rad."""
     swing = Scene((0.0, 0.0), rates=((cos(miss), sin(miss), 0.0),) * 2)  # 1 rad/s: a quarter turn to e_x
     times, turn = np.array([0.0, 2.0]), np.array([cos(miss) * sin(2), sin(miss) * sin(2), cos(2)])
     try:
@@ -124,7 +125,8 @@ def passes(miss: float) -> bool:
 
 
 def fold_difference(tol: float) -> float:
-    """Return the largest difference of the axes between minimal and spheres while a bar of 0.6 R folds over."""
+    """Return the largest difference, in units of R, of the axes between the minimal and the spheres model while a bar of 0.6 R
+    folds over."""
     scene = scenes_from_states(Scene((3.0, -3.0), link=Link(0.6)), [[0.0, 0.3, 0.0, 0.2, 3.0, 0.1]])[0]
     first, second = (simulate(scene, np.linspace(0, 1, 51), model, tol) for model in ("minimal", "spheres"))
     difference = float(np.abs(first.axes - second.axes).max())
@@ -133,7 +135,7 @@ def fold_difference(tol: float) -> float:
 
 
 def projection_limits(quick: bool) -> list[Limit]:
-    """Return the limit of the printed projection Omegaᵀ Omega / |Omega|² (3.16), whose square underflows."""
+    """Return the limit of the printed projection Omegaᵀ Omega / |Omega|² (3.16): |Omega|² underflows for a tiny Omega."""
     return [
         Limit(
             "the printed projection at tiny angular velocity",

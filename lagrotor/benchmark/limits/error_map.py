@@ -1,4 +1,4 @@
-"""The error of the closed forms of the paired orbit over amplitude and spin ratio, against one exact ensemble."""
+"""The errors of the closed forms of the paired orbit for many amplitudes and spin ratios, compared with one exact ensemble."""
 
 from dataclasses import dataclass, replace
 from math import pi
@@ -20,10 +20,11 @@ _TIMES = 12
 
 @dataclass(frozen=True, eq=False)
 class Usefulness:
-    """Amplitudes r0 (n,), departures 1 + omega_2/omega_1 (m,) from opposite spins, orders, and errors (orders, m, n) in R.
+    """The errors of the series for opposite spins, for each order, departure and amplitude.
 
-    error: the largest distance over the first turn between the axes of the series for opposite spins and of the exact pair
-    from the same start.
+    The amplitudes are r0 (n,), the departures from opposite spins 1 + omega_2/omega_1 (m,). The errors in units of R have the
+    shape (orders, m, n). An error is the largest distance over the first turn between the axes of the series and of the exact
+    pair from the same start.
     """
 
     amplitudes: Array
@@ -35,7 +36,7 @@ class Usefulness:
 def usefulness(
     amplitudes: Array, departures: Array, orders: tuple[int, ...] = (1, 3, 5), spin: float = 10.0, tol: float = 1e-10
 ) -> Usefulness:
-    """Compare each series, with its own frequency, to the exact run of every scene of the grid over one turn.
+    """Compare each series, at its own frequency, with the exact run of every scene of the grid over one turn.
 
     Raises InputError if amplitudes or departures are not rows of numbers.
     """

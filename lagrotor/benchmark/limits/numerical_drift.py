@@ -1,4 +1,5 @@
-"""Errors that grow with time: index-reduced constraints, energy and phase over thousands of turns."""
+"""Errors that grow with time: the violation of index-reduced constraints, and the drift of energy and phase over thousands of
+turns."""
 
 from dataclasses import dataclass
 from math import pi
@@ -23,10 +24,10 @@ STEADY = Scene((10.0, -10.0), link=Link(1.0, 0.3, 0.02))
 
 
 def constraint_drift(scene: Scene, step: float, count: int, every: int, projected: bool = False) -> Array:
-    """Return the constraint residual of `spheres` after every `every` of `count` classical Runge–Kutta steps, shape (count //
-    every,).
+    """Return the violation of the constraints of `spheres` after each `every` steps of `count` in all, shape (count // every,).
 
-    It is the largest of | |r_i| − 1 | and the bar's |length − ell|, in units of R.
+    The steps of `step` seconds are classical Runge–Kutta steps; if `projected` is true, each state is projected onto the
+    constraints. The violation is the largest of | |r_i| − 1 | and the bar's |length − ell|, in units of R.
     """
     rate, y = spheres.MODEL.rate(scene, False), spheres.MODEL.start(scene)
     assert scene.link is not None and spheres.MODEL.projection is not None
@@ -49,7 +50,8 @@ def constraint_drift(scene: Scene, step: float, count: int, every: int, projecte
 
 
 def drift_limits(quick: bool) -> list[Limit]:
-    """Return the drift of `spheres`, which sets the second derivatives of the constraints to zero, in time and step."""
+    """Return the limits of the drift of `spheres` as powers of time and step. The model sets only the second derivatives of the
+    constraints to zero."""
     step, end, allowed = 0.005, 16.0, 1e-6
     steps = np.array([4, 2, 1]) * step
     ends = np.array([constraint_drift(DRIFTING, h, round(end / h), round(end / h))[0] for h in steps])
@@ -67,14 +69,14 @@ def drift_limits(quick: bool) -> list[Limit]:
         Limit(
             regime,
             f"time (s) to {allowed:g} R with steps of {1e3 * step:g} ms",
-            f"the same, from steps of {1e3 * steps[0]:g} ms over {end:g} s",
+            f"g ~ t² h⁴, its factor from steps of {1e3 * steps[0]:g} ms over {end:g} s",
             float(np.sqrt(allowed / (leading * step**4))),
             float(np.exp(crossing)),
             tool,
         ),
         Limit(
             regime,
-            "most that is left after each projection (R)",
+            "largest violation after a projection (R)",
             "rounding: eps",
             float(np.finfo(float).eps),
             float(residual),
@@ -85,7 +87,8 @@ def drift_limits(quick: bool) -> list[Limit]:
 
 @dataclass(frozen=True)
 class LongRun:
-    """Drift after `turns` of the energy (relative), the momentum P (relative to G) and the phase (rad, signed, while small)."""
+    """The drift after each number of turns in `turns`: of the energy (relative), of the momentum P (relative to G), and of the
+    phase (rad, with its sign, while it is small)."""
 
     turns: Array
     energy: Array
@@ -95,9 +98,9 @@ class LongRun:
 
 
 def long_run(turns: int, solver: str, tol: float) -> LongRun:
-    """Return the paired precession of STEADY at r0 = 0.2 by "simulate" or one of SOLVERS, at a hundred whole turns.
+    """Compute the paired precession of STEADY at r0 = 0.2 by "simulate" or one of SOLVERS, at a hundred whole numbers of turns.
 
-    The orbit is periodic and elliptic: every turn ends at its start, and each difference is an error of the method.
+    The orbit is periodic and elliptic. Every turn ends at its start, so that each difference is an error of the method.
     """
     orbit = exact_orbit(STEADY, 0.2)
     times = 2 * pi / abs(orbit.frequency) * np.linspace(0, turns, 101)
@@ -124,21 +127,21 @@ _PHASE_LAW = "v t + c t², fitted to the first tenth: steps are off in phase, an
 
 
 def _phase_from_a_tenth(run: LongRun) -> float:
-    """Return |v t + c t²| at the end, v and c fitted to the first tenth."""
+    """Return |v t + c t²| in rad at the end of the run, with v and c fitted to the first tenth."""
     share = run.turns / run.turns[-1]
     fitted = np.linalg.lstsq(np.stack([share, share**2], axis=1)[:11], run.phase[:11], rcond=None)[0]
     return float(abs(fitted.sum()))
 
 
 def long_limits(quick: bool) -> list[Limit]:
-    """Return the drift after 10,000 turns (200 if quick) against the extrapolation of the first tenth."""
+    """Return the drift after 10,000 turns (200 if quick), compared with the extrapolation of the drift in the first tenth."""
     turns = 200 if quick else 10_000
     runs = [("simulate", 1e-9), ("DOP853", 1e-8)]
     runs += [] if quick else [("Adams (VODE)", 1e-8), ("Dormand–Prince 5", 1e-7)]
     rows = []
     for solver, tol in runs:
         run = long_run(turns, solver, tol)
-        steady = "ten times that after a tenth: it grows as t"
+        steady = "ten times the drift in the first tenth, since it grows as t"
         for name, values, predicted, law in (
             ("energy, relative", run.energy, 10 * run.energy[:11].max(), steady),
             ("momentum P / G", run.momentum, 10 * run.momentum[:11].max(), steady),

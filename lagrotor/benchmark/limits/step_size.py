@@ -1,4 +1,4 @@
-"""Limits of methods: each threshold is predicted by a formula, and measured."""
+"""The limits of all methods: a formula predicts each one, and a measurement confirms it. Here: the longest stable step."""
 
 import warnings
 from collections.abc import Callable
@@ -20,7 +20,8 @@ from lagrotor.pair.scene import Link, Scene
 
 
 def step_grows(system: RigidBodySystem, dt: float) -> bool:
-    """Return True if a perturbation of 1e-9 m of the bodies opens a joint by more than 1e-5 m within 1,000 steps of dt."""
+    """Return True if steps of `dt` are unstable: a perturbation of 1e-9 m opens a joint by more than 1e-5 m within 1,000
+    steps."""
     moving = deepcopy(system)
     moving.X[:-1] += 1e-9 * np.random.default_rng(1).normal(size=moving.X[:-1].shape)
     with warnings.catch_warnings():
@@ -32,7 +33,8 @@ def step_grows(system: RigidBodySystem, dt: float) -> bool:
 
 
 def step_limit_by_bisection(system: RigidBodySystem, halvings: int = 7) -> float:
-    """Return the longest stable step in s by bisection within 20 % of the predicted one, to 0.4 / 2**halvings of it."""
+    """Return the longest stable step in s, by bisection within 20 % of the predicted one. Its accuracy is 0.4 / 2**halvings of
+    the predicted step."""
     predicted = step_limit(system).whole
     low, high = 0.8 * predicted, 1.2 * predicted
     for _ in range(halvings):
@@ -42,7 +44,7 @@ def step_limit_by_bisection(system: RigidBodySystem, halvings: int = 7) -> float
 
 
 def _bar_on_rotor(bar: Link) -> RigidBodySystem:
-    """Return a rotor whose tip joint holds the bar, without the other joints."""
+    """Return a rotor and the bar, connected by one tip joint and without other joints."""
     zero, identity, x, z = np.zeros(3), np.eye(3), np.array([0.5, 0.0, 0.0]), np.array([0.0, 0.0, 0.5])
     rotor = RigidBody(z, np.array([-z, z]), identity, identity, 1.0, zero, zero)
     link = RigidBody(2 * z + x, np.array([-x, x]), bar.inertia * identity, identity, bar.mass, zero, zero)
@@ -52,7 +54,7 @@ def _bar_on_rotor(bar: Link) -> RigidBodySystem:
 
 
 def step_limits(quick: bool) -> list[Limit]:
-    """Return the longest stable step of the paper's method, for each kind of joint alone and for all together."""
+    """Return the longest stable steps of the paper's method, for each kind of joint alone and for all joints together."""
     systems = {
         "a ground joint alone": paper_system(Scene((0.0, 0.0), link=None), STIFFNESS, DAMPING),
         "a tip joint alone, bar of 1 kg": _bar_on_rotor(HEAVY_LINK),
@@ -84,7 +86,8 @@ LIMITS: dict[str, Callable[[bool], list[Limit]]] = {
 
 
 def limits(quick: bool = False, step: Callable[[str], None] = lambda name: None) -> list[Limit]:
-    """Return every limit, with shorter runs and coarser thresholds if `quick`; `step` is called with the name of each regime."""
+    """Return every limit. If `quick` is true, runs are shorter and thresholds coarser. The function `step` is called with the
+    name of each regime."""
     rows = []
     for name, measure in LIMITS.items():
         step(name)

@@ -7,7 +7,8 @@ from math import exp, log
 
 @dataclass(frozen=True)
 class Limit:
-    """One row: regime, quantity with its unit, formula, predicted and measured value, and lagrotor's way out."""
+    """One row of the table of limits: the regime, the quantity with its unit, the formula of its prediction, the predicted and
+    the measured value, and lagrotor's way out."""
 
     regime: str
     what: str
@@ -22,13 +23,13 @@ class Limit:
 
 
 def threshold(fails: Callable[[float], bool], low: float, high: float, share: float = 0.01) -> float:
-    """Return the positive x between low and high at which `fails` changes, to a relative `share`, by bisection in log x.
+    """Return the positive x between low and high at which `fails` changes its value, with the relative accuracy `share`.
 
-    Raises ValueError if it does not change between them.
+    It is found by bisection in log x. Raises ValueError if `fails` has the same value at both ends.
     """
     below = fails(low)
     if fails(high) == below:
-        raise ValueError(f"threshold: no change between {low:g} and {high:g}")
+        raise ValueError(f"threshold: the result is the same at {low:g} and {high:g}: widen the interval")
     lower, upper = log(low), log(high)
     while upper - lower > share:
         middle = (lower + upper) / 2

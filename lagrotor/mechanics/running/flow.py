@@ -24,7 +24,8 @@ _LIKE = 8.0  # ratio of a component to one up to which no component is scaled
 
 
 def rhs(system: Equations, values: Values, engine: Engine = "core") -> Rhs:
-    """Return the right-hand side (t, y) → (v, u') for `System.rhs`; the state y = (q, u) has shape (N + m,)."""
+    """Return the right-hand side for `System.rhs`, a function of the time t and the state y = (q, u) that returns (v, u'). Both
+    arrays have shape (N + m,)."""
     check_engine(engine)
     program = motion_program(system)
     parameters = parameter_values(program, values, "rhs")
@@ -47,8 +48,8 @@ def rhs(system: Equations, values: Values, engine: Engine = "core") -> Rhs:
 
 
 def projection_of(system: Equations, values: Values) -> Callable[[Array], Array]:
-    """Return the projection of a state (d,), or states (d, n), onto the constraints: two steps of Newton's method along M⁻¹
-    Gᵀ. Components that are followed with the motion do not change."""
+    """Return a function that projects a state (d,), or states (d, n), onto the constraints, by two steps of Newton's method along
+    M⁻¹ Gᵀ. It does not change components beyond q, u and t, which are integrated along with the motion."""
     program = projection_program(system)
     function, parameters, d = program.function, parameter_values(program, values), len(program.states)
 
@@ -63,7 +64,8 @@ def projection_of(system: Equations, values: Values) -> Callable[[Array], Array]
 
 
 def powers_of_two(sizes: Array) -> Array:
-    """Return the sizes as powers of two, which round nothing; ones where all sizes are near one."""
+    """Round the sizes to powers of two, since scaling by these causes no rounding error. Return ones if all sizes lie between 1/8
+    and 8."""
     scale = np.exp2(np.rint(np.log2(sizes)))
     return scale if scale.max() > _LIKE or scale.min() < 1 / _LIKE else np.ones(len(sizes))
 
@@ -81,9 +83,10 @@ def smooth_motion(
     solver: SegmentSolver | None = None,
     stiff: bool = False,
 ) -> Integrate:
-    """Return the integration (start, times, local error, companion, budget) → motion of a system without events. The solver
-    takes each component in units of its size. `turn` is the typical period, `start` a regular state, `followed` the narrow
-    terms integrated with the motion. For a stiff motion a stiff method may be chosen."""
+    """Return a function of the type `Integrate` that integrates a system without events. The solver measures each component in
+    units of its size. The typical period in s is `turn`, and the mass matrix is regular at `start`. The narrow terms in
+    `followed` are integrated along with the motion. If `stiff` is true, the companion run is integrated at a far tighter
+    tolerance."""
     program, size = motion_program(system, followed), len(sizes)
     parameters, d = parameter_values(program, values), len(program.states) - len(followed)
     project = projection_of(system, values) if system.multipliers else None
@@ -127,7 +130,8 @@ def _as_in_pulse(segment: Segment, pulsed: bool, tol: float) -> Stretch:
 
 
 def _tighter(solver: SegmentSolver) -> SegmentSolver:
-    """Return the solver at a hundredth of its tolerance: two runs of a stiff motion at similar tolerances share their error."""
+    """Return the solver with a hundredth of its tolerance, for the companion of a stiff run. At similar tolerances, the two runs
+    that are compared would share their error."""
 
     def solve(segment: Segment, pulsed: bool, tol: float) -> Stretch:
         return solver(segment, pulsed, max(tol / 100, min(tol, CROSSOVER.value)))

@@ -1,7 +1,8 @@
 """Values of unknown functions in a Lagrangian, a force or a constraint: U(r), a support y_s(t), a control u(t).
 
-A value is an expression, substituted before anything else; a callable with the derivatives that the equations need; or a table
-or a spline of scipy. A table is interpolated by a cubic spline (de Boor, A Practical Guide to Splines, ch. IV).
+A value may be an expression, which is substituted before the equations are derived. It may be a callable, or a tuple of
+callables for the function and its derivatives. It may also be a table (x, y) or a spline of scipy. A table is interpolated by a
+cubic spline (de Boor, A Practical Guide to Splines, ch. IV).
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -25,14 +26,25 @@ Kind = TypeVar("Kind", bound=Equations)
 
 @dataclass(frozen=True, eq=False)
 class FunctionValue:
-    """A function in numbers: its known derivatives by orders, or a spline of scipy, NaN beyond its knots."""
+    """The numerical value of an unknown function.
+
+    Attributes
+    ----------
+    name : str
+        Name of the function.
+    derivatives : Mapping
+        The known derivatives as callables, by their orders, one order for each argument.
+    spline : object or None
+        A spline of scipy that takes the place of the derivatives; its value is NaN beyond its knots.
+    """
 
     name: str
     derivatives: Mapping[Orders, Callable[..., Any]]
     spline: Any = None
 
     def jet(self, where: str, orders: Orders) -> Callable[..., Any]:
-        """Return a derivative as a function of numbers or arrays, also with small imaginary parts (a complex step)."""
+        """Return the derivative of these orders as a function of numbers or arrays. It also takes small imaginary parts, so that
+        a complex step can differentiate it."""
         f = self._known(where, orders)
 
         def one(*at: float) -> float:
@@ -40,7 +52,9 @@ class FunctionValue:
                 return float(f(*at))
             except TypeError:
                 text = f"{jet_name(self.name, orders)}({', '.join(map(str, at))})"
-                raise IntegrationError(f"{where}: {text} gives {f(*at)!r}, which is no number: correct it") from None
+                raise IntegrationError(
+                    f"{where}: {text} gives {f(*at)!r}, which is not a number: correct the function"
+                ) from None
 
         def call(*at: Any) -> Any:
             if all(np.ndim(x) == 0 and not isinstance(x, complex | np.complexfloating) for x in at):
@@ -72,15 +86,15 @@ class FunctionValue:
 
 
 def jet_name(name: str, orders: Orders) -> str:
-    """Return U, U', U''; U^(1,0) for several arguments."""
+    """Return the name of a derivative: U, U' or U'' for one argument, U^(1,0) for several."""
     if len(orders) == 1:
         return name + "'" * orders[0]
     return f"{name}^({','.join(map(str, orders))})" if any(orders) else name
 
 
 def put_functions(where: str, system: Kind, values: Any, others: Sequence[sp.Expr] = ()) -> tuple[Kind, Any]:
-    """Substitute those values of functions that are expressions into the system. Return it with all values: numbers, and a
-    `Lambda` or `FunctionValue` for each function. `others` are further expressions that may contain functions."""
+    """Substitute the functions whose values are expressions into the system. Return the system and all values: a number for each
+    symbol, a `Lambda` or `FunctionValue` for each function. `others` are further expressions that may contain functions."""
     energy = system.L if system.bodies else system.lagrangian
     expressions = [energy, *system.acting, *(e for _, e in system.velocities), *others]
     applied = unknown_functions(expressions)
@@ -91,6 +105,8 @@ def put_functions(where: str, system: Kind, values: Any, others: Sequence[sp.Exp
     if len(by_function) < len(values):
         raise InputError(f"{where}: a function has two values, as U and as U(x): give one")
     values = by_function
+    if len({str(key) for key in values}) < len(values):
+        raise InputError(f"{where}: values = {values}: a symbol and its name have two values: give one")
     if not (functions or any(isinstance(key, UndefinedFunction) for key in values)):
         return system, values
     named = {
@@ -98,9 +114,6 @@ def put_functions(where: str, system: Kind, values: Any, others: Sequence[sp.Exp
     }
     if letters := sorted(functions.keys() & {str(s) for e in expressions for s in e.free_symbols}):
         raise InputError(f"{where}: {letters[0]} is a symbol of the system and a function in it: rename one")
-    names = [str(key) for key in values]
-    if twice := sorted(name for name in named if names.count(name) > 1):
-        raise InputError(f"{where}: {twice[0]} with two values, of the function and of its name: give one")
     if strangers := sorted(named.keys() - functions.keys()):
         raise InputError(
             f"{where}: values name the function {strangers[0]}, which the system does not have{near(strangers[0], functions)}"
@@ -127,7 +140,8 @@ def put_functions(where: str, system: Kind, values: Any, others: Sequence[sp.Exp
 
 
 def _by_function(where: str, key: Any, value: Any) -> tuple[Any, Any]:
-    """Return U and Lambda(x, value) of a value that is named U(x); any other pair as it is."""
+    """Split an entry U(x): value into U and Lambda(x, value), or into U and the value if it is no expression. Return an entry
+    with any other key unchanged."""
     if not isinstance(key, AppliedUndef):
         return key, value
     if not all(a.is_Symbol for a in key.args) or len({*key.args}) < len(key.args):
@@ -137,7 +151,7 @@ def _by_function(where: str, key: Any, value: Any) -> tuple[Any, Any]:
 
 
 def _with_expressions(system: Kind, lambdas: Mapping[str, sp.Lambda]) -> Kind:
-    """Substitute expressions for functions in the system."""
+    """Return the system with expressions in place of the functions, which are given by name."""
 
     def put(e: sp.Expr) -> sp.Expr:
         return with_values(e, lambdas)
@@ -161,7 +175,7 @@ def _with_expressions(system: Kind, lambdas: Mapping[str, sp.Lambda]) -> Kind:
 
 
 def with_values(e: sp.Expr, values: Mapping[Any, Any]) -> sp.Expr:
-    """Substitute the functions whose values are expressions."""
+    """Substitute, in one expression, the functions whose values are expressions, and their derivatives."""
 
     def made(name: str, orders: Orders, arguments: tuple[sp.Expr, ...]) -> sp.Expr | None:
         form = values.get(name)
@@ -176,14 +190,15 @@ def with_values(e: sp.Expr, values: Mapping[Any, Any]) -> sp.Expr:
 
 
 def _value(where: str, name: str, places: set[tuple[sp.Expr, ...]], value: Any) -> sp.Lambda | FunctionValue:
-    """Return a value as an expression of its arguments or as a function of numbers."""
+    """Convert the value of a function to a `Lambda` if it is an expression, or to a `FunctionValue` if it is numerical. `places`
+    are the arguments with which the function occurs in the system."""
     count = len(next(iter(places)))
     if isinstance(value, FunctionValue):
         return value
     if isinstance(value, sp.Lambda):
         if len(value.variables) != count:
             raise InputError(
-                f"{where}: {name} = {value} has {len(value.variables)} arguments, where the system has {count}"
+                f"{where}: {name} = {value} has {len(value.variables)} arguments, but {count} in the system: give as many"
             )
         form = sp.Lambda(value.variables, expression(f"{where}: {name}", value.expr))
         return _alone(where, name, form)
@@ -225,7 +240,7 @@ def _alone(where: str, name: str, form: sp.Lambda) -> sp.Lambda:
 
 
 def _spline_of(where: str, name: str, value: Any) -> FunctionValue | None:
-    """Return the spline of a table, or of scipy; None for other values."""
+    """Return the `FunctionValue` of a table (x, y) or of a spline of scipy; None for any other value."""
     from scipy.interpolate import BSpline, CubicSpline, PPoly
 
     if isinstance(value, BSpline | PPoly):
@@ -242,10 +257,10 @@ def _spline_of(where: str, name: str, value: Any) -> FunctionValue | None:
         raise InputError(f"{where}: {name} = {value!r}: a table is two arrays of numbers, (x, y)") from None
     if len(x) != len(y) or len(x) < 2 or not (np.isfinite(x).all() and np.isfinite(y).all()):
         raise InputError(
-            f"{where}: {name}: a table (x, y) has as many finite y as x, at least two: these are {len(x)} and {len(y)}"
+            f"{where}: {name}: a table (x, y) needs equally many finite x and y, at least two, not {len(x)} and {len(y)}"
         )
     if (np.diff(x) <= 0).any():
-        raise InputError(f"{where}: {name}: the x of a table increase, each greater than the one before: sort it")
+        raise InputError(f"{where}: {name}: the x of a table must increase strictly: sort the table")
     return FunctionValue(name, {}, CubicSpline(x, y, extrapolate=False))
 
 

@@ -1,7 +1,7 @@
 """The initial state of a run: checks of values, positions and velocities, and the nearest state on the constraints.
 
-Values belong to symbols of the system and have their declared signs. Bodies must have possible masses, friction must dissipate
-energy, and the mass matrix, with the constraints, must give one acceleration.
+Each value must belong to a symbol of the system and have the sign with which the symbol was declared. Bodies must have possible
+masses, and friction must dissipate energy. The mass matrix and the constraints must determine the accelerations.
 """
 
 from collections.abc import Iterable, Mapping
@@ -31,18 +31,18 @@ from lagrotor.mechanics.running.singular_positions import mass_at, rows_at
 from lagrotor.mechanics.steady_motions import no_turn
 from lagrotor.numerics.arrays import finite_array, real_array
 
-_POLE = 1e-13  # of a factor of det [A; G], below which it is zero
+_POLE = 1e-13  # a factor of det [A; G] counts as zero below this number
 _RANK = 1e-11  # eigenvalue over the largest, below which a direction has no mass
 _OFF = 1e-7  # distance from the constraints over 1 + the largest number of a start
 _SMALL = 1e-5  # distance from the constraints over the size of a small component
 _SLOW = 1e-3  # least size of a position over the distance that the velocities cover
 _LEAST = 1e-8  # least size of a position, which may be rounding of parameters of size one
-_LEAST_NORM = 1e-3  # of a quaternion, from which the nearest of norm 1 is reached
+_LEAST_NORM = 1e-3  # least norm of a quaternion that can be scaled to norm 1
 
 
 def check_values(where: str, system: Equations, values: Values, others: Iterable[sp.Expr] = ()) -> None:
-    """Raise InputError for unknown names, a value of the wrong sign, or an impossible body or friction. A symbol of another
-    system, in a table shared by several systems, is ignored."""
+    """Raise InputError for an unknown name, a value of the wrong sign, or an impossible body or friction. A key that is a symbol
+    of another system is ignored, so that several systems can share one dictionary."""
     if not isinstance(values, Mapping):
         raise InputError(f"{where}: values = {values!r} must be {{symbol: number, …}}, a dictionary")
     moving = {*system.c.q, *system.c.v, *system.c.a, *system.speeds, time}
@@ -91,7 +91,7 @@ def _number(where: str, name: Any, value: Any) -> float:
 
 
 def check_pole(where: str, system: Equations, values: Values, state: Array) -> None:
-    """Raise SingularError where the quasi-velocities u do not give v at a state."""
+    """Raise SingularError if the quasi-velocities u do not determine the velocities v at the state."""
     kinematics = system.kinematics
     if kinematics is None:
         return
@@ -111,7 +111,8 @@ def check_pole(where: str, system: Equations, values: Values, state: Array) -> N
 
 
 def check_inertia(where: str, system: Equations, values: Values, state: Array) -> None:
-    """Raise SingularError where M, with the constraints, does not give one acceleration; warn of negative kinetic energy."""
+    """Raise SingularError if the mass matrix M and the constraints do not determine the accelerations at the state. Warn if the
+    kinetic energy of some velocities is negative."""
     M = mass_at(system, values, state)
     G = rows_at(system, values, state)
     size = np.sqrt(np.abs(np.diag(M)))
@@ -147,8 +148,8 @@ def check_inertia(where: str, system: Equations, values: Values, state: Array) -
 def consistent(
     where: str, system: Equations, values: Values, q0: ArrayLike, v0: ArrayLike, t: float = 0.0
 ) -> tuple[Array, Array]:
-    """Return the state (q, u) on the constraints nearest to q0, v0 in the mass metric, at the time t, for
-    `System.consistent`. Quasi-velocities are measured in the metric of their numbers."""
+    """Return the state on the constraints, q (N,) and u (m,), that is nearest to q0, v0 at the time t in s, for
+    `System.consistent`. Distances are measured by the mass matrix; for quasi-velocities they are Euclidean."""
     n, m, h = len(system.c.q), len(system.speeds), len(system.constraints)
     q, v = state_vector(where, "q0", q0, n), state_vector(where, "v0", v0, m, system)
     for joint in system.ball_joints:
@@ -159,7 +160,7 @@ def consistent(
     ends = np.cumsum([m * m, h, h * n, len(system.left) * m])
 
     def matrices(at: ArrayLike, rates: ArrayLike) -> tuple[Array, Array, Array, Array, Array]:
-        """Return M, g, ∂g/∂q, G and G u + b."""
+        """Return M, g, ∂g/∂q, G and the residual G u + b at a state."""
         with np.errstate(all="ignore"):
             numbers = np.array(program.function(*np.concatenate([at, rates, arguments])), float)
         M, g, slope, G, residual = np.split(numbers, ends)
@@ -182,10 +183,10 @@ def consistent(
 
 
 def rounding_of_start(system: Equations, values: Values, start: Array, t: float, duration: float = 1.0) -> Array:
-    """Return the distance from the constraints that each component of a start (q, u), shape (N + m,), may have. It is 10⁻⁷ (1
-    + max |start|), or 10⁻⁵ of the component's size where that is less. The size of x_k is max_j √M_jj |x_j| / √M_kk, since
-    the mass metric compares metres with radians; for quasi-velocities the metric is 1. Velocities are at least the lengths
-    over the duration, or over one second where that is shorter."""
+    """Return, for each component of an initial state (q, u), the distance from the constraints that counts as rounding, shape (N
+    + m,). It is 10⁻⁷ (1 + max |start|), or 10⁻⁵ of the component's size if that is less. The size of a coordinate x_k is max_j
+    √M_jj |x_j| / √M_kk, since the mass metric makes metres and radians comparable. For quasi-velocities M is replaced by 1. The
+    size of a velocity is at least the size of its coordinate divided by the duration, or by one second if the run is longer."""
     n, m, program, weight = len(system.c.q), len(system.speeds), start_program(system), np.ones(1)
     if system.kinematics is None:
         with np.errstate(all="ignore"):
@@ -201,14 +202,15 @@ def rounding_of_start(system: Equations, values: Values, start: Array, t: float,
 
 
 def metric(mass: Array, slope: Array) -> Array:
-    """Return M, or where it is singular M + Gᵀ W G with the W of `programs.inertia`."""
+    """Return a regular metric for projections: M if it is regular, else M + Gᵀ W G with the weights W of `programs.inertia`. The
+    rows G of the constraints are `slope`."""
     if not len(slope) or np.linalg.matrix_rank(mass, hermitian=True) == len(mass):
         return mass
     return np.asarray(mass + slope.T / np.square(slope).sum(1) @ slope * np.trace(mass) / len(mass))
 
 
 def state_vector(where: str, name: str, numbers: ArrayLike, n: int, system: Equations | None = None) -> Array:
-    """Return n finite numbers, of velocities where a system is given."""
+    """Check that `numbers` are n finite numbers, and return them, shape (n,). If a system is given, they are its velocities."""
     vector = real_array(numbers)
     if vector is None:
         raise InputError(f"{where}: {name} = {numbers!r} must be {n} numbers")

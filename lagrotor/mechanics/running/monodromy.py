@@ -1,11 +1,11 @@
-"""Small displacements: Floquet multipliers of a periodic motion, the Lyapunov exponent of any motion.
+"""Small displacements: Floquet multipliers of a periodic motion, the Lyapunov exponent of a motion.
 
-With s' = f(s, t) of period T, δs(T) = Φ δs(0), Φ' = (∂f/∂s) Φ, Φ(0) = 1; under constraints in their tangent space, as in
-`state_space`. The multipliers are the eigenvalues of Φ: displacements grow where one is larger than 1 in size. Without explicit
-time one is 1, by the shift along the orbit. Nayfeh & Mook, Nonlinear Oscillations, 5.2. Rounding of Φ hides multipliers below
-10⁻¹² of the largest. Then the period is cut, and the periodic Schur form of the factors of Φ resolves each multiplier
-(Bojanczyk, Golub & Van Dooren 1992). Lyapunov's exponent is from the motion linearised along a run (Benettin, Galgani,
-Giorgilli & Strelcyn 1980).
+For s' = f(s, t) of period T, δs(T) = Φ δs(0) with Φ' = (∂f/∂s) Φ and Φ(0) = 1. Under constraints, displacements lie in their
+tangent space (see `state_space`). The Floquet multipliers are the eigenvalues of Φ; displacements grow if the modulus of one
+exceeds 1. If the time does not enter explicitly, one multiplier is 1, and belongs to a shift along the orbit. Nayfeh & Mook,
+Nonlinear Oscillations, 5.2. Rounding of Φ hides multipliers below 10⁻¹² of the largest. The period is then cut into pieces, and
+the periodic Schur form of their matrices resolves each multiplier (Bojanczyk, Golub & Van Dooren 1992). The Lyapunov exponent
+is computed from the motion linearised along a run (Benettin, Galgani, Giorgilli & Strelcyn 1980).
 """
 
 from collections.abc import Mapping
@@ -54,11 +54,11 @@ class MonodromyMatrix(Shown):
     matrix : Array
         Φ, shape (n, n).
     error : float
-        Difference of two integrations of Φ, relative to it.
+        Largest difference between two integrations of Φ, relative to its largest element (at least 1).
     multipliers : NDArray[complex128]
-        The largest first, shape (n,); NaN where one is smaller than its error.
+        The eigenvalues of Φ, the largest modulus first, shape (n,). One that is smaller than its error is NaN.
     errors : Array
-        Absolute error of each multiplier, shape (n,); for NaN a bound of its size.
+        Absolute error of each multiplier, shape (n,). For a NaN it is an upper bound of the modulus.
 
     Examples
     --------
@@ -82,7 +82,7 @@ class MonodromyMatrix(Shown):
         Returns
         -------
         dict
-            Name → words.
+            Words, by the name of the row.
         """
         head = {"states": ", ".join(map(str, self.states)), "error of the matrix": scientific(self.error, 1)}
         return head | multiplier_rows(self.multipliers, self.errors)
@@ -117,7 +117,8 @@ def monodromy_matrix(system: Equations, at: Mapping[Any, Any], values: Values, p
     windows = windows_since(begin, clock_windows(system, values, begin + np.array([0.0, duration])))
 
     def factors(pieces: int, local: float) -> list[Array]:
-        """Return Φ as a product of pieces of the period in orthonormal directions; the first factor acts first."""
+        """Return matrices whose product is Φ, the first acting first: one for each of `pieces` parts of the period, and two at
+        its ends. Between them displacements are given in orthonormal directions."""
         (basis, upper), y = np.linalg.qr(P @ T), start
         triangles = [upper]
         for a, b in pairwise(np.linspace(0, duration, pieces + 1)):
@@ -153,7 +154,7 @@ def _at(slope: tuple[Array, Array, Array], size: int) -> tuple[Array, Array]:
 
 
 def _number(value: Any) -> float:
-    """Return a float, NaN for an object that is none."""
+    """Convert an object to a float; return NaN if it is not a number."""
     try:
         return np.nan if isinstance(value, str | bool) else float(value)
     except (TypeError, ValueError):
@@ -162,8 +163,19 @@ def _number(value: Any) -> float:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Lyapunov(Shown):
-    """The largest Lyapunov exponent in 1/s, the mean growth rate of the distance of neighbouring motions. `error` is the
-    standard error of that mean, from ten parts of the run; `history` (m,) is the mean up to the times t (m,)."""
+    """The largest Lyapunov exponent of a run, the mean growth rate of the distance of neighbouring motions.
+
+    Attributes
+    ----------
+    exponent : float
+        The exponent in 1/s.
+    error : float
+        Its standard error in 1/s, from ten parts of the run.
+    t : Array
+        Times in s after the start of the run, shape (m,).
+    history : Array
+        The mean growth rate in 1/s from the start up to each time, shape (m,).
+    """
 
     exponent: float
     error: float
@@ -183,7 +195,8 @@ def lyapunov_exponent(run: SampledMotion) -> Lyapunov:
         raise InputError("lyapunov: a run of one sample has no duration: simulate to a later time")
     if not run.switched.smooth:
         raise InputError(
-            "lyapunov: the motion has events or forces that jump: its linearised motion jumps, too, and is not computed"
+            "lyapunov: the motion has events or forces that jump, and its linearised motion, which jumps too, is not "
+            "computed: use forces without jumps"
         )
     program, n = tangent_motion(motion_program(run.system)), run.q.shape[1] + run.u.shape[1]
     parameters, d = parameter_values(program, run.values), len(program.states) // 2

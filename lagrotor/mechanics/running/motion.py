@@ -44,7 +44,7 @@ class SampledMotion(Run):
 
     @property
     def q(self) -> Array:
-        """The coordinates, shape (n, N).
+        """The N coordinates at the n times, shape (n, N).
 
         Examples
         --------
@@ -58,7 +58,7 @@ class SampledMotion(Run):
 
     @cached_property
     def v(self) -> Array:
-        """The velocities of the coordinates, shape (n, N).
+        """The velocities of the N coordinates at the n times, shape (n, N).
 
         Examples
         --------
@@ -71,7 +71,7 @@ class SampledMotion(Run):
 
     @property
     def u(self) -> Array:
-        """The quasi-velocities of the system, or v where it has none, shape (n, m).
+        """The m quasi-velocities at the n times, shape (n, m); the velocities v if the system has none.
 
         Examples
         --------
@@ -91,7 +91,7 @@ class SampledMotion(Run):
         Returns
         -------
         dict
-            Name → words.
+            Words, by the name of the row.
 
         Examples
         --------
@@ -150,13 +150,13 @@ class SampledMotion(Run):
     def evaluate(self, expression: sp.Expr) -> Array:
         """Evaluate an expression along the run.
 
-        Where dry friction sticks, sign(w) is the friction force over its bound, between −1 and 1.
+        Where dry friction sticks, sign(w) is the friction force divided by its bound, between −1 and 1.
 
         Parameters
         ----------
         expression : Expr
-            In q, v, t, the parameters, the accelerations c.a, and the multipliers λ of `system.multipliers`, with which Gᵀ λ is
-            the generalised force of the constraints.
+            A function of q, v, t, the parameters, the accelerations c.a and the multipliers λ of `system.multipliers`. The
+            generalised force of the constraints is Gᵀ λ.
 
         Returns
         -------
@@ -184,7 +184,7 @@ class SampledMotion(Run):
         return function_program(self.system, *expressions).along(self.values, "evaluate")(self.states, self.t)
 
     def at(self, times: ArrayLike) -> Self:
-        """Return the motion at other times within the run, as exact as the run, integrated from the sample before each.
+        """Return the motion at other times within the run, integrated from the sample before each as accurately as the run.
 
         Parameters
         ----------
@@ -247,7 +247,8 @@ class SampledMotion(Run):
         return table
 
     def _about(self) -> dict[str, Any]:
-        """Describe the run for `save` without an equation, which would have to be read as one."""
+        """Return the entries that `save` writes. They hold a digest in place of the equations, which a file would not give
+        back."""
         return {
             "coordinates": [str(q) for q in self.system.c.q],
             "equations": digest_of(self.system),
@@ -266,7 +267,7 @@ class SampledMotion(Run):
 
 
 def with_states(run: Kind, times: Array, states: Array) -> Kind:
-    """Return the run at other times, with its states there."""
+    """Return the run with other times (m,) in s and the states (m, d) at these times."""
     errors = run.errors[np.minimum(np.searchsorted(run.t, times), len(run.t) - 1)]
     return replace(run, t=times, errors=errors, states=states)
 
@@ -293,7 +294,8 @@ def integration_of(
     start: Array,
     progress: Callable[[float], None] | None = None,
 ) -> Integrate:
-    """Return the integration of the motion; `progress` is called with the times of its evaluations."""
+    """Return a function of the type `Integrate` that integrates the motion. It calls `progress` with the times in s that it
+    reaches."""
     if h.smooth and scales:
         return smooth_motion(
             system,

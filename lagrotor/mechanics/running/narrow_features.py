@@ -1,10 +1,10 @@
-"""Narrow terms of a system, which change within a small part of the motion: bumps, steps and walls of coordinates and
-velocities.
+"""Narrow terms of a system, which change within a small part of the motion: bumps, steps and walls.
 
-A solver whose step is longer than such a term misses it. The argument g of exp(g), tanh(g) or another function is followed with
-the motion as ψ = asinh(g). ψ' is proportional to 1/distance from g = 0, so that steps shrink before it. For a power Dᵖ or
-log(D), a Lorentzian, ψ = log|D|. A term is narrow if ψ changes by more than MOST where one component moves through its swing at
-the rate there. Newton's method seeks that place, from states of the motion, at zeros and turning points of g.
+A solver whose step is longer than such a term misses it. Therefore an auxiliary variable ψ is integrated along with the motion.
+For a term exp(g), tanh(g) or another function of g, it is ψ = asinh(g). Then ψ' is proportional to 1/distance from g = 0, so
+that the solver shortens its steps before that place. For a power Dᵖ, log(D) or a Lorentzian, ψ = log|D|. At some place the rate
+of ψ with respect to a component of the state is largest. A term is narrow if at this rate ψ would change by more than MOST over
+the range of the component. Newton's method seeks the place at zeros and turning points of g, from states of the motion.
 """
 
 from collections.abc import Mapping, Sequence
@@ -37,7 +37,8 @@ _WIDE = (sp.sin, sp.cos, sp.tan, sp.cot, sp.Abs, sp.sign, sp.Heaviside, sp.asin,
 
 
 class NarrowPart(NamedTuple):
-    """The argument g of a term f(g) of a system's expressions, the factor with which ψ' = factor · g', and the term."""
+    """A term f(g) that may be narrow. A solver's steps are shortened near it by a variable ψ with ψ' = factor · g'; the argument
+    is g."""
 
     argument: sp.Expr
     factor: sp.Expr
@@ -46,7 +47,8 @@ class NarrowPart(NamedTuple):
 
 @lru_cache(maxsize=64)
 def _parts(system: Equations, section: sp.Expr | None) -> tuple[NarrowPart, ...]:
-    """Return the terms of a section, or of the energy and forces, that may be narrow, one for each argument."""
+    """Return the terms that may be narrow, one for each argument g. They are sought in the section, or in the energy and the
+    forces if it is None."""
     energy = getattr(system.lagrangian, "remainder", system.lagrangian)
     states = {*system.c.q, *system.c.v, *system.speeds}
     narrow: dict[sp.Expr, NarrowPart] = {}
@@ -75,7 +77,8 @@ def _parts(system: Equations, section: sp.Expr | None) -> tuple[NarrowPart, ...]
 
 
 def with_followed(scale: Array, followed: Sequence[NarrowPart], local: float, companion: bool = False) -> Array:
-    """Return the units of a solver with those of the followed terms, whose error may be larger."""
+    """Append, to the solver's error scales (d,), one for each narrow term in `followed` whose ψ is integrated along with the
+    state. The error of ψ may be larger than that of the state."""
     unit = FOLLOWED * (COMPANION_STEP if companion else 1.0) * _LOOSELY * local**0.25 / local
     return np.append(scale, np.full(len(followed), unit))
 
@@ -83,13 +86,15 @@ def with_followed(scale: Array, followed: Sequence[NarrowPart], local: float, co
 def narrow_parts(
     system: Equations, values: Mapping[Any, Any], states: Array, section: sp.Expr | None = None
 ) -> tuple[NarrowPart, ...]:
-    """Return the terms of the system, or of a section, that are narrow for states (n, d) = (q, u), or (q, u, t)."""
+    """Return the terms of the system, or of a section if one is given, that are narrow along the states (n, d). A state is (q, u)
+    or (q, u, t)."""
     candidates = (_with_edge(system, values, candidate, states) for candidate in _parts(system, section))
     return tuple(candidate for candidate in candidates if _narrowness(system, values, candidate, states) > MOST)
 
 
 def _with_edge(system: Equations, values: Mapping[Any, Any], feature: NarrowPart, states: Array) -> NarrowPart:
-    """Give a condition of a Piecewise the width EDGE of the swing of g: ψ = asinh(g/width)."""
+    """For a condition of a Piecewise, set ψ = asinh(g/width) with a width of about EDGE times the range of g. Return any other
+    term unchanged."""
     if not isinstance(feature.term, Relational):
         return feature
     swing = np.ptp(function_program(system, feature.argument).along(values)(states, np.zeros(len(states))))
@@ -100,7 +105,8 @@ def _with_edge(system: Equations, values: Mapping[Any, Any], feature: NarrowPart
 def narrowest_words(
     system: Equations, values: Mapping[Any, Any], narrow: Sequence[NarrowPart], run: EstimatedRun
 ) -> str:
-    """Name the narrowest term, the time of its first passage, and the way out; "" if tol was not kept before that time."""
+    """Return a sentence that names the narrowest term, the time in s of its first passage, and a remedy. Return "" if the run did
+    not keep tol up to that time."""
     if not narrow or len(run.t) < 2:
         return ""
     narrowness = [_narrowness(system, values, feature, run.states) for feature in narrow]
@@ -116,7 +122,8 @@ def narrowest_words(
 
 
 def _narrowness(system: Equations, values: Mapping[Any, Any], feature: NarrowPart, states: Array) -> float:
-    """Return the largest change of ψ over the swing of a component at its fastest rate; 0 where D is zero."""
+    """Return the largest change of ψ when one component of the state moves through its whole range at the fastest rate of ψ.
+    Return 0 if ψ = log|D| and D reaches zero."""
     every, g = (*system.c.q, *system.speeds), feature.argument
     moving = [i for i, s in enumerate(every) if s in g.free_symbols and np.ptp(states[:, i]) > 0]
     if not moving:

@@ -1,8 +1,8 @@
 """A motion in phases, each smooth: between them velocities jump, gaps close and open, dry friction sticks and slips.
 
-In a phase every sign is constant, sticking friction is a rolling constraint, and a closed gap is a holonomic one. The phase
-ends with one of its conditions: a gap or a sliding velocity reaches zero, a reaction its bound. These times are sought on the
-solver's own steps, as zeros of smooth functions, so none depends on the sample times of the run.
+In a phase every sign is constant, sticking friction is a rolling constraint, and a closed gap is a holonomic constraint. The
+phase ends when one of its conditions fails: a gap or a sliding velocity reaches zero, or a reaction reaches its bound. These
+times are zeros of smooth functions on the solver's own steps, so none depends on the sample times of the run.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -45,8 +45,17 @@ SAFETY = 20.0  # local error of a run over the local error of the steps on which
 
 
 class ContactMode(NamedTuple):
-    """The contacts of a motion: the sign of each surface (0: it sticks), 1 for each closed gap, and the ending. `ended` is 0,
-    or the number from 1 of the ending that froze the motion. These follow q, v and t in the state of a run."""
+    """The state of all contacts of a motion. Its numbers follow q, v and t in the state of a run.
+
+    Attributes
+    ----------
+    signs : tuple of int
+        The sign of the argument of each surface, 1 or −1; 0 if the surface sticks.
+    closed : tuple of int
+        1 for each closed gap, 0 for each open one.
+    ended : int
+        0 while the motion goes on, otherwise the number, from 1 on, of the ending that stopped it.
+    """
 
     signs: tuple[int, ...]
     closed: tuple[int, ...]
@@ -61,7 +70,7 @@ class ContactMode(NamedTuple):
 
 
 class Moment(NamedTuple):
-    """A state (q, v, …), its time, and the mode of its contacts."""
+    """A state y = (q, v, …) at the time t in s, and the mode of its contacts."""
 
     y: Array
     t: float
@@ -69,7 +78,8 @@ class Moment(NamedTuple):
 
 
 class Hit(NamedTuple):
-    """The end of a phase: the time since its start, and kind and index of the condition that ended."""
+    """The end of a phase: the time in s since the start of the phase, and the condition that failed. The condition is given by
+    its kind, for example gap or event, and by the index i of its surface, impact or event."""
 
     since: float
     kind: str
@@ -78,7 +88,15 @@ class Hit(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Phase:
-    """A smooth system with sticking surfaces and closed gaps as constraints; conditions: (kind, index, expression > 0)."""
+    """The motion while no contact changes its state.
+
+    Attributes
+    ----------
+    system : Equations
+        The smooth equations, with sticking surfaces and closed gaps as constraints.
+    conditions : tuple
+        Tuples (kind, index, expression). The phase lasts until an expression reaches zero; all but an event's are positive.
+    """
 
     system: Equations
     conditions: tuple[tuple[str, int, sp.Expr], ...]
@@ -97,9 +115,27 @@ Observer = Callable[[float, float, float, Callable[[Array], Array]], None]
 
 @dataclass(frozen=True, eq=False)
 class Switched:
-    """A system with events: its smooth part, parameter values, surfaces of jumps and events. `scale` and `sizes` (N + m,)
-    belong to the components; sizes are zero before they are measured. A run adds its phases, its endings, the times between
-    which a step may hide an event, and accumulations of impacts."""
+    """A system with events and forces that jump. The smooth part is `system`; a symbol replaces each sign that jumps, and
+    `surfaces` says where. A run adds to the last four fields.
+
+    Attributes
+    ----------
+    scale, sizes : Array
+        Scale of the solver for each component of (q, u) and its size, shape (N + m,); sizes are zero before they are
+        measured.
+    windows : tuple of Window
+        Times in which a force changes fast.
+    narrow : tuple of NarrowPart
+        Narrow terms that are integrated along with the motion.
+    phases : dict
+        The phases so far, by their sticking surfaces and closed gaps.
+    endings : list of Ending
+        The endings so far, to which `ContactMode.ended` refers.
+    hidden : list of tuple
+        Intervals of time in s in which a step may hide an event.
+    accumulations : dict
+        Times in s at which infinitely many impacts accumulate, by the index of the impact.
+    """
 
     system: Equations
     values: Mapping[Any, Any]
@@ -125,7 +161,7 @@ class Switched:
 
     @property
     def smooth(self) -> bool:
-        """True if nothing switches."""
+        """True if the system has no events and no force that jumps."""
         return not (self.surfaces or self.events)
 
     @property
@@ -142,7 +178,7 @@ class Switched:
         return ContactMode(numbers[:signs], numbers[signs:-1], numbers[-1])
 
     def state(self, y: Array, time: float, mode: ContactMode) -> Array:
-        """Return (q, v, t, mode), the state that a run passes from stage to stage."""
+        """Return (q, v, t, mode) in one array, from which a run can be continued."""
         return np.concatenate([y[: self.size], [time], mode.signs, mode.closed, [mode.ended]])
 
     def evaluate(self, system: Equations, expressions: Sequence[sp.Expr], at: Moment) -> Array:
@@ -150,7 +186,8 @@ class Switched:
         return program.along(self.numbers(at.mode))(at.y[None], np.array([at.t]))[:, 0]
 
     def sizes_of(self, system: Equations, expressions: Sequence[sp.Expr], at: Moment) -> Array:
-        """Return the sizes (k,) of the terms of expressions at one moment, Σ |∂e/∂y| times the size of y."""
+        """Return the size of each of k expressions at one moment, shape (k,). It is the sum over all components y_j of |∂e/∂y_j|
+        times the size of y_j."""
         y = at.y[: self.size]
         steps = np.diag(_STEP * np.maximum(np.abs(y), self.sizes))
         values = function_program(system, *expressions).along(self.numbers(at.mode))(
@@ -161,14 +198,15 @@ class Switched:
         return np.asarray(np.nan_to_num(sizes, posinf=0.0))
 
     def numbers(self, mode: ContactMode) -> dict[str, Any]:
-        """Return the values of the parameters, and of the signs in this mode."""
+        """Return the values of the parameters, and of the signs of all surfaces in this mode, by name."""
         if not isinstance(self.values, Mapping):
             return self.values  # `parameter_values` will refuse it
         signs = zip(self.surfaces, mode.signs, strict=True)
         return {str(k): v for k, v in self.values.items()} | {str(s.sign): float(sign) for s, sign in signs}
 
     def phase(self, mode: ContactMode) -> Phase:
-        """Return the phase of a mode. The sign of a slipping surface is a parameter, so it does not change the equations."""
+        """Return the phase in which every contact stays in the state that the mode gives. Slip to either side has the same
+        equations, since the sign of a slipping surface is a parameter."""
         sticking = tuple(i for i, s in enumerate(mode.signs) if s == 0)
         key = (sticking, mode.closed)
         if key not in self.phases:
@@ -214,14 +252,15 @@ class Switched:
 
 
 def with_events(system: Equations, values: Mapping[Any, Any], events: tuple[Event | Impact, ...] = ()) -> Switched:
-    """Return the system with its events and the surfaces of its jumps."""
+    """Return the system with its events. A sign symbol and a surface replace each jump of its forces."""
     smooth, surfaces = without_jumps(system)
     size = len(system.c.q) + len(system.speeds)
     return Switched(smooth, values, surfaces, events, np.ones(size), np.zeros(size))
 
 
 def begin(h: Switched, q: Array, v: Array, time: float) -> Array:
-    """Return the initial state (q, v, t, mode): signs of the velocities, and all gaps open except those at rest on zero."""
+    """Return the initial state (q, v, t, mode). Each surface has the sign of its velocity, and all gaps are open except those at
+    rest on zero."""
     start = Moment(np.concatenate([q, v]), time, h.slipping)
     try:
         mode = _settle(h, start)
@@ -239,10 +278,11 @@ def march(
     observe: Observer | None = None,
     companion: bool = False,
 ) -> Stretch:
-    """Return the states (q, v, t, mode) at the times, from `start` at the first of them, and the times of jumps. Time counts
-    from the start, since far from zero the clock would round each event. After an event that ends the motion, the state with
-    its time stays constant. `observe` is called with the time of the phase's start, and the ends and dense output of each
-    step. A companion takes other steps in narrow terms and brief windows."""
+    """Integrate from `start`, the state (q, v, t, mode) at times[0]. Return the states at the times, and the times of jumps. Time
+    is counted from the start, since far from zero the clock would round the time of each event. After an event that ends the
+    motion, its state and time are repeated. For each step, `observe` is called with the time at which its phase began. It also
+    gets the beginning and the end of the step, counted from then, and the dense output. A companion is the second run of an error
+    estimate; it takes other steps in narrow terms and brief windows."""
     clock, since = float(start[h.size]), times - times[0]
     end, y, now, mode, evaluations = float(since[-1]), start[: h.size], 0.0, h.mode(start), 0
     if mode.ended:
@@ -290,7 +330,7 @@ def march(
 
 
 def _end(h: Switched, mode: ContactMode, ending: Ending) -> ContactMode:
-    """Return the mode of a motion that has ended; endings with the same reason share one entry."""
+    """Record an ending and return the mode that refers to it. Endings of the same kind and reason share one entry."""
     same = [i for i, earlier in enumerate(h.endings) if (earlier.kind, earlier.reason) == (ending.kind, ending.reason)]
     if not same:
         h.endings.append(ending)
@@ -309,7 +349,8 @@ def _smooth(
     habit: float,
     companion: bool,
 ) -> tuple[Stretch, Hit | None]:
-    """Integrate one phase to its first condition that ends; `habit` is the time between the last two events of a kind."""
+    """Integrate one phase until its first condition fails, or to the last time. Return the motion, and the `Hit` or None. `habit`
+    is the time in s between the last two events of the same kind."""
     phase, numbers = h.phase(mode), h.numbers(mode)
     system, scale = phase.system, h.scale
     if depends_on_time(system):
@@ -358,7 +399,8 @@ def _smooth(
 
 
 def _steps(segment: Segment, windows: Sequence[Window], error: float) -> Iterator[Any]:
-    """Yield the steps of `dop853_steps`, bounded in windows; `nfev` counts all evaluations of the segment."""
+    """Yield the solver after each step of DOP853, whose steps are bounded in the windows. Its `nfev` counts all evaluations of
+    the segment so far."""
     y, nfev = segment.start, 0
     for begin, until, longest in segments(segment.begin, segment.until, windows):
         piece = replace(segment, start=y, begin=begin, until=until, longest=longest, budget=segment.budget - nfev)
@@ -377,8 +419,8 @@ def _steps(segment: Segment, windows: Sequence[Window], error: float) -> Iterato
 def _first(
     h: Switched, phase: Phase, conditions: Any, lower: float, upper: float, habit: float, noise: Array
 ) -> tuple[Hit | None, list[tuple[float, float]]]:
-    """Return the first condition of a phase that ends in a step, and the intervals that may hide one. Times count from the
-    start of the phase; `noise` is the rounding error of each condition."""
+    """Return the first condition of a phase that fails within a step, or None, and the intervals in which one may be hidden.
+    Times count from the start of the phase. The rounding error of each condition is `noise` (k,)."""
     begun = lower > 0
     # The next of accumulating impacts is near to the start of a step, whose size the motion between them determines.
     soon = 4 * habit if not begun and 0 < 4 * habit < upper else lower
@@ -405,7 +447,7 @@ def _first(
 
 
 def polish(functions: Any, k: int, t: float, lower: float, upper: float) -> float:
-    """Improve a zero by the secant method to the last digit of the dense output."""
+    """Refine the zero t of function number k by the secant method, to the last digit of the dense output."""
     second = min(t + 1e-5 * (upper - lower), upper) if t < upper else t - 1e-5 * (upper - lower)
     f, g = functions(np.array([t, second]))[k]
     for _ in range(4):
@@ -420,7 +462,8 @@ def polish(functions: Any, k: int, t: float, lower: float, upper: float) -> floa
 
 
 def _switch(h: Switched, at: Moment, hit: Hit, gone: float | None) -> Moment:
-    """Return state and mode after an event. `gone` is the time after which infinitely many events are over, or None."""
+    """Return the state and the mode after an event. `gone` is the time in s after which infinitely many such events are over;
+    None if they do not accumulate."""
     kind, i = hit.kind, hit.i
     mode, v = at.mode, at.y[h.n : h.size]
     if kind == "surface" and h.surfaces[i].argument.free_symbols & {*h.system.multipliers}:
@@ -459,7 +502,8 @@ def _switch(h: Switched, at: Moment, hit: Hit, gone: float | None) -> Moment:
 
 
 def _rebound(h: Switched, at: Moment, i: int, e: float) -> tuple[Array, bool]:
-    """Return the velocities after an impact, M Δv = Gᵀ Λ, with −e times the velocity of approach, and True if that was zero."""
+    """Return the velocities (m,) after impact i, and True if the velocity of approach was zero. The impulse Λ obeys M Δv = Gᵀ Λ,
+    and the gap opens with e times the velocity of approach."""
     mode = at.mode.with_value("closed", i, True)
     n, system = h.n, h.phase(mode._replace(signs=tuple(s or 1 for s in mode.signs))).system
     numbers, state = h.numbers(mode), np.append(at.y[: h.size], at.t)
@@ -474,7 +518,8 @@ def _rebound(h: Switched, at: Moment, i: int, e: float) -> tuple[Array, bool]:
 
 
 def _sign_beyond(h: Switched, at: Moment, i: int) -> int:
-    """Return the sign of w after w = 0, by the rates of w on both sides (Filippov); 0 where both lead to w = 0."""
+    """Return the sign of the argument w of surface i after w = 0, from the rates of w on both sides (Filippov). Return 0 if both
+    rates lead back to w = 0, so that the surface sticks."""
     argument = h.surfaces[i].argument
     above, below = _rates_beside(h, at, i, 1)
     if not argument.free_symbols & {*h.system.c.v} and max(abs(above), abs(below)) <= _NOISE * float(
@@ -498,7 +543,7 @@ def _sign_beyond(h: Switched, at: Moment, i: int) -> int:
 
 
 def _rates_beside(h: Switched, at: Moment, i: int, order: int) -> tuple[float, float]:
-    """Return the first or second rate of w above and below its surface."""
+    """Return the first or second time derivative of the argument w of surface i, above and below the surface."""
 
     def rate(sign: int) -> float:
         mode, e = at.mode.with_value("signs", i, sign), h.surfaces[i].argument
@@ -511,7 +556,8 @@ def _rates_beside(h: Switched, at: Moment, i: int, order: int) -> tuple[float, f
 
 
 def _settle(h: Switched, at: Moment, fixed: bool = False) -> ContactMode:
-    """Find a mode that agrees with the state and its reactions; `fixed` keeps the signs that an event decided."""
+    """Find a contact mode that agrees with the state and its reactions. If `fixed` is true, an event has decided the signs, and
+    they are not taken from the velocities."""
     mode = at.mode
     if h.surfaces and not fixed:
         arguments = [s.argument for s in h.surfaces]
@@ -538,8 +584,9 @@ def _settle(h: Switched, at: Moment, fixed: bool = False) -> ContactMode:
 
 
 def _accumulating(history: Mapping[Any, list[float]], past: list[float], span: float, clock: float) -> float | None:
-    """Return the time to the accumulation of events if it is negligible, None otherwise; the intervals shrink by a constant
-    factor. `clock` is the time at the start. Raises StopError for too many events."""
+    """Return the time in s until infinitely many events are over, if it is negligible beside the duration `span`; None otherwise.
+    It follows from intervals that shrink by a constant factor. The time at the start is `clock`. Raise StopError for too many
+    events."""
     now = past[-1]
     if len(past) > _HABIT:
         intervals = np.diff(past[-_HABIT - 1 :])
@@ -550,13 +597,13 @@ def _accumulating(history: Mapping[Any, list[float]], past: list[float], span: f
     if len(past) > _AT_ONCE and now - past[-_AT_ONCE] <= 1e-13 * now:
         raise StopError(clock + now, "events follow each other without time between them")
     if sum(map(len, history.values())) > MOST_EVENTS.value:
-        raise StopError(clock + now, f"{MOST_EVENTS.value:,} events", cause="budget")
+        raise StopError(clock + now, f"the run did not end within {MOST_EVENTS.value:,} events", cause="budget")
     return None
 
 
 def evaluate(h: Switched, expression: sp.Expr, times: Array, states: Array) -> Array:
-    """Evaluate an expression along a motion in phases, shape (n,), with the accelerations and multipliers of each phase. The
-    sign of a sticking surface is its friction force over the bound."""
+    """Evaluate an expression along a motion in phases, shape (n,). Its accelerations and multipliers are those of each phase. The
+    sign of a sticking surface is its friction force divided by the bound."""
     c, values = len(h.system.constraints), np.empty(len(times))
     modes = [h.mode(state) for state in states]
     for mode in dict.fromkeys(modes):

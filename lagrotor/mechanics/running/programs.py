@@ -1,7 +1,8 @@
-"""The equations of motion as generated programs: state → its derivative, in stages that never multiply out.
+"""The equations of motion as generated programs: state → its derivative, in stages, so that no product is expanded.
 
-The state is (q, u), u the quasi-velocities or v, with t as a last component where time enters explicitly. The mass matrix is
-factored by L D Lᵀ, the constraints by that of their Schur complement S = G M⁻¹ Gᵀ, element by element as stages.
+The state is (q, u), u the quasi-velocities or v, with t as a last component if time enters explicitly. A stage is a named
+intermediate result. The mass matrix, and the Schur complement S = G M⁻¹ Gᵀ of the constraints, are factored as L D Lᵀ; each
+element of the factors is a stage.
 """
 
 import math
@@ -43,7 +44,8 @@ MANY = 100  # stages from which common parts of their sums and products are not 
 
 @dataclass(frozen=True)
 class Jet:
-    """An unknown function in a program, or a derivative of one; `orders` counts the derivatives by each argument."""
+    """An unknown function in a program, or a derivative of one. `orders` says how often it is differentiated with respect to each
+    argument."""
 
     name: str
     orders: tuple[int, ...]
@@ -54,8 +56,9 @@ class Jet:
 
 @dataclass(frozen=True, eq=False)
 class Generated:
-    """The program of a system's motion, (state, parameters) → d(state)/dt, with names that any language accepts. `states` are
-    q, v and, where time enters, t. `parameters` are the other symbols by name, then the functions that are called."""
+    """A program (state, parameters) → outputs, for example d(state)/dt, with names that every language accepts. The components of
+    the state are `states`: q, u and, if time enters, t. The parameters are the other symbols by name, then the functions that are
+    called."""
 
     program: Program
     states: tuple[sp.Symbol, ...]
@@ -68,21 +71,23 @@ class Generated:
 
     @cached_property
     def rhs(self) -> Callable[..., Any]:
-        """The function parameters → rhs(t, y)."""
+        """The function that takes the parameters and returns the right-hand side rhs(t, y)."""
         clock = self.states.index(t) if t in self.states else None
         return function_of(rhs_source(self.program, len(self.states), clock=clock))
 
     def rate(self, parameters: Sequence[Any], begin: float) -> Callable[..., Any]:
-        """Return rhs(s, y) at the time begin + s: as a state, the time would accumulate the rounding of all steps."""
+        """Return the right-hand side rhs(s, y) at the time t = begin + s. If t were integrated as a state, it would accumulate
+        the rounding errors of all steps."""
         return self.rhs(*parameters, begin) if t in self.states else self.rhs(*parameters)
 
     @cached_property
     def function(self) -> Callable[..., Any]:
-        """The function (*arguments) → outputs, for numbers and arrays."""
+        """The function that takes the arguments, as numbers or arrays, and returns the list of outputs."""
         return compile_program(self.program, "numpy")
 
     def along(self, values: Mapping[Any, Any], where: str = "simulate") -> Callable[[Array, Array], Array]:
-        """Return a function of states (n, ≥ N + m), q and u first, and times (n,) that returns the outputs (k, n)."""
+        """Return a function that evaluates the k outputs along a run. It takes states (n, ≥ N + m), which begin with q and u, and
+        times (n,), and returns an array (k, n)."""
         function, parameters, d = self.function, parameter_values(self, values, where), len(self.states) - 1
 
         def outputs(states: Array, times: Array) -> Array:
@@ -105,7 +110,7 @@ def motion_program(system: Equations, followed: tuple[Any, ...] = ()) -> Generat
     system : Equations
         The system.
     followed : tuple of NarrowPart, default ()
-        Each gives a ψ with ψ' = factor · g'; FOLLOWED ψ is integrated with the motion.
+        Narrow terms. For each of them FOLLOWED · ψ is integrated along with the motion, with ψ' = factor · g'.
 
     Returns
     -------
@@ -123,15 +128,16 @@ def motion_program(system: Equations, followed: tuple[Any, ...] = ()) -> Generat
 
 
 def state_symbols(system: Equations) -> tuple[sp.Symbol, ...]:
-    """Return the state of a motion: q, u and, where the time enters, t."""
+    """Return the symbols of a motion's state: q, u and, if time enters explicitly, t."""
     return (*system.c.q, *system.speeds, *((t,) if depends_on_time(system) else ()))
 
 
 def _program(
     states: tuple[sp.Symbol, ...], stages: Sequence[Stage], outputs: Sequence[sp.Expr], moving: bool = False
 ) -> Generated:
-    """Return a program of a state and parameters, in which symbols get new names that any language accepts. In the program of a
-    motion, which is evaluated often, common parts of sums and products are sought."""
+    """Return the program of a state and parameters whose symbols have new names that every language accepts. The program of a
+    motion (`moving`) is evaluated often, so common parts of its sums and products are sought, unless it has more than MANY
+    stages."""
     stages, outputs, functions = _with_calls(stages, outputs)
     names = dict.fromkeys(name for name, _ in stages)
     used = set().union(*(e.free_symbols for _, e in stages), *(e.free_symbols for e in outputs)) - names.keys()
@@ -166,8 +172,8 @@ def _program(
 def _with_calls(
     stages: Sequence[Stage], outputs: Sequence[sp.Expr], calls: Mapping[sp.Symbol, Jet] | None = None
 ) -> tuple[list[Stage], list[sp.Expr], dict[sp.Symbol, Jet]]:
-    """Replace unknown functions and their derivatives by calls; return stages, outputs, and the functions by name of
-    argument. `calls` are the functions that are called already."""
+    """Replace unknown functions and their derivatives by calls. Return the stages, the outputs, and the `Jet` of each symbol that
+    is called. `calls` are the functions that are called already."""
     jets = {str(name): jet for name, jet in (calls or {}).items()}
     symbols = {jet: name for name, jet in (calls or {}).items()}
 
@@ -183,7 +189,7 @@ def _with_calls(
 
 
 def velocities_along(system: Equations, values: Mapping[Any, Any], states: Array, times: Array) -> Array:
-    """Return v (n, N) at states (n, ≥ N + m), q and u first."""
+    """Return the velocities v, shape (n, N), at states (n, ≥ N + m) that begin with q and u."""
     if system.kinematics is None:
         return states[:, len(system.c.q) : 2 * len(system.c.q)]
     return function_program(system, *system.c.v).along(values)(states, times).T
@@ -191,21 +197,22 @@ def velocities_along(system: Equations, values: Mapping[Any, Any], states: Array
 
 @lru_cache(maxsize=64)
 def rows_program(system: Equations) -> Generated:
-    """Generate (q, u, t) → G for u', the rows of the constraints that multipliers keep, one after another."""
+    """Generate (q, u, t) → the elements of G, row by row. These are the coefficients of u' in the constraints that multipliers
+    enforce."""
     return function_program(system, *rows_left(system)[0])
 
 
 @lru_cache(maxsize=64)
 def mass_program(system: Equations) -> Generated:
-    """Generate (q, u, t) → the mass matrix of u', one row after another."""
+    """Generate (q, u, t) → the elements of the mass matrix of u', row by row."""
     stages, M, _ = equations_of_speeds(system)
     return _program((*system.c.q, *system.speeds, t), stages, [*M])
 
 
 @lru_cache(maxsize=64)
 def start_program(system: Equations) -> Generated:
-    """Generate (q, u, t) → M, g, ∂g/∂q, and rows for u' and residuals of the constraints that multipliers keep. M is the mass
-    matrix of the velocities v, and the unit matrix for quasi-velocities."""
+    """Generate (q, u, t) → M, g and ∂g/∂q, then the coefficients of u' and the residuals of the constraints that multipliers
+    enforce. M is the mass matrix of the velocities v; for quasi-velocities it is the unit matrix."""
     h, M = len(system.constraints), system.mass_matrix if system.kinematics is None else sp.eye(len(system.speeds))
     residual = [system.residual[i] for i in system.left]
     return function_program(system, *M, *system.constraints, *system.rows[:h, :], *rows_left(system)[0], *residual)
@@ -228,7 +235,7 @@ def function_program(system: Equations, *expressions: sp.Expr) -> Generated:
 
 
 def velocity_stages(system: Equations) -> list[Stage]:
-    """Return stages of v from quasi-velocities."""
+    """Return the stages that compute v from the quasi-velocities; an empty list if the system has none."""
     kinematics = system.kinematics
     if kinematics is None:
         return []
@@ -238,7 +245,8 @@ def velocity_stages(system: Equations) -> list[Stage]:
 
 @lru_cache(maxsize=64)
 def clock_program(system: Equations) -> Generated | None:
-    """Generate (t) → the largest terms of the equations of motion in t and parameters alone; None without such terms."""
+    """Generate (t) → the largest parts of the equations of motion that contain only t and parameters. Return None if there are
+    none."""
     if not depends_on_time(system):
         return None
     stages, rates, _ = motion_of_speeds(system)
@@ -248,7 +256,7 @@ def clock_program(system: Equations) -> Generated | None:
 
 @lru_cache(maxsize=64)
 def energy_program(system: Equations) -> Generated:
-    """Generate (q, u, t) → the Jacobi integral."""
+    """Generate (q, u, t) → the Jacobi integral v·∂L/∂v − L."""
     tree = tree_of(system) if len(system.c.q) >= LEAST_TREE else None
     if tree is None and _is_long(system):
         swept, energy = swept_energy(system)
@@ -278,8 +286,9 @@ def depends_on_time(system: Equations) -> bool:
 
 
 def constrained_motion(system: Equations, every: bool = True) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
-    """Return stages, accelerations and multipliers, of all constraints or of those not kept by quasi-velocities. The
-    multipliers of constraints that quasi-velocities keep follow from M α + h = Q + Gᵀ λ, by [A; G]⁻ᵀ."""
+    """Return the stages, the accelerations and the multipliers of a motion under constraints. If `every` is true, the multipliers
+    include those of constraints that the quasi-velocities satisfy by themselves. They follow from M α + h = Q + Gᵀ λ, by the
+    inverse of the joint matrix [A; G] of quasi-velocities and constraints."""
     stages, rates, lam = motion_of_speeds(system)
     kinematics = system.kinematics
     if kinematics is None:
@@ -295,7 +304,8 @@ def constrained_motion(system: Equations, every: bool = True) -> tuple[list[Stag
 
 
 def motion_of_speeds(system: Equations) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
-    """Return stages, u' and the independent multipliers, by the recursion of a tree of bodies or from the mass matrix."""
+    """Return the stages, the accelerations u' and the independent multipliers. They are computed by the recursion of a tree of
+    bodies, or else from the mass matrix."""
     G, gamma = rows_left(system)
     friction = bool(system.generalised_forces.free_symbols & {*system.multipliers})
     if (by_tree := tree_motion(system)) is not None:
@@ -313,8 +323,9 @@ def _is_long(system: Equations) -> bool:
 
 @lru_cache(maxsize=64)
 def equations_of_speeds(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matrix]:
-    """Return stages, M and Q − h of M u' = Q − h + Gᵀ λ, with v in them. A long Lagrangian takes sweeps; a short one with
-    quasi-velocities the equations of Boltzmann and Hamel, or their projection where the quasi-velocities have stages."""
+    """Return the stages, M and Q − h of the equations M u' = Q − h + Gᵀ λ, in which v may occur. A long Lagrangian is
+    differentiated by sweeps. A short one with quasi-velocities gives the Boltzmann–Hamel equations, or their projection if the
+    quasi-velocities have stages."""
     if _is_long(system):
         return swept_equations(system)
     kinematics, first = system.kinematics, velocity_stages(system)
@@ -329,8 +340,8 @@ def equations_of_speeds(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.M
 
 
 def tree_motion(system: Equations) -> tuple[list[Stage], sp.Matrix] | None:
-    """Return stages, and M⁻¹ (Q − h) and M⁻¹ Gᵀ in columns, by the recursion of a tree of bodies. None for any other system,
-    and where constraints bind a direction without mass."""
+    """Return the stages, and a matrix with the columns M⁻¹ (Q − h) and M⁻¹ Gᵀ, by the recursion of a tree of bodies. Return None
+    for any other system, or if constraints bind a direction without mass."""
     tree = tree_of(system) if len(system.c.q) >= LEAST_TREE else None
     if tree is None:
         return None
@@ -349,10 +360,10 @@ def tree_motion(system: Equations) -> tuple[list[Stage], sp.Matrix] | None:
 
 @lru_cache(maxsize=64)
 def inertia(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matrix]:
-    """Return stages of W, then W and M + Gᵀ W G; W = 0 where M is regular. Constraints may bind a massless direction, as the
-    length of a quaternion. Then (M + Gᵀ W G) a = Q − h − Gᵀ W γ + Gᵀ λ has the same solutions and a positive definite matrix. W
-    is the mean mass over the squared length of each row. Random states decide; SingularError if no constraint binds the
-    direction."""
+    """Return the stages of W, the diagonal matrix W, and M + Gᵀ W G. If M is regular, W = 0. Otherwise constraints may bind the
+    direction without mass, for example the length of a quaternion. Then (M + Gᵀ W G) a = Q − h − Gᵀ W γ + Gᵀ λ has the same
+    solutions and a positive definite matrix. The weight of each row of G is the mean mass divided by the row's squared length.
+    Ranks are measured at random states. Raise SingularError if no constraint binds the direction."""
     (stages, M, _), (G, _) = equations_of_speeds(system), rows_left(system)
     if _regular(system, stages, M):
         return [], sp.zeros(G.rows, G.rows), M
@@ -365,7 +376,8 @@ def inertia(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matrix]:
 
 
 def _regular(system: Equations, stages: Sequence[Stage], matrix: sp.Matrix) -> bool:
-    """Return True if a symmetric matrix made of stages has full rank, or no value, at random states on the constraints."""
+    """Return True if a symmetric matrix that the stages compute has full rank at one of several random states on the constraints.
+    Return True also if it has a finite value at none of them."""
     bound = (*system.constraints, *jacobian(system.constraints, system.c.q))
     program = _program((*system.c.q, *system.speeds, t), stages, [*matrix, *bound])
     letters = (*system.c.q, *system.speeds, t, *(p for p in program.parameters if not isinstance(p, Jet)))
@@ -394,7 +406,8 @@ def _regular(system: Equations, stages: Sequence[Stage], matrix: sp.Matrix) -> b
 def under_constraints(
     stages: list[Stage], solved: sp.Matrix, G: sp.Matrix, gamma: sp.Matrix, friction: bool = False
 ) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
-    """Return stages, accelerations and multipliers under the constraints; `solved` is M⁻¹ (Q − h, Gᵀ + ∂Q/∂λ)."""
+    """Return the stages, accelerations and multipliers under the constraints G a + γ = 0. The columns of `solved` are M⁻¹ (Q − h)
+    and M⁻¹ (Gᵀ + ∂Q/∂λ)."""
     free, W = solved[:, :1], solved[:, 1:]
     if not G.rows:
         return stages, list(free), []
@@ -406,7 +419,7 @@ def under_constraints(
 
 
 def constraint_solve(S: sp.Matrix, right: sp.Matrix, prefix: str) -> tuple[list[Stage], sp.Matrix]:
-    """Return stages that solve S x = right for the Schur complement S, and x."""
+    """Return the stages that solve S x = right for the Schur complement S, and the solution x."""
     try:
         return solve_symmetric(S, right, prefix)
     except SingularError:
@@ -416,7 +429,7 @@ def constraint_solve(S: sp.Matrix, right: sp.Matrix, prefix: str) -> tuple[list[
 @lru_cache(maxsize=64)
 def projection_program(system: Equations) -> Generated:
     """Generate one Newton step onto the constraints, along M⁻¹ Gᵀ: q − M⁻¹ Gᵀ S⁻¹ g, v − M⁻¹ Gᵀ S⁻¹ (G v + b). Rolling
-    constraints bind velocities alone. For quasi-velocities the step is along Gᵀ: M = 1."""
+    constraints change only velocities. For quasi-velocities the step is along Gᵀ, as if M were 1."""
     G, n, h = system.rows, len(system.c.q), len(system.constraints)
     if system.kinematics is None:
         added, _, M = inertia(system)
@@ -438,7 +451,7 @@ def projection_program(system: Equations) -> Generated:
 
 
 def tangent_motion(motion: Generated) -> Generated:
-    """Return the motion with its linearisation, (y, δ; parameters) → (f, (∂f/∂y) δ)."""
+    """Return the program of the motion together with its linearisation, (y, δ; parameters) → (f, (∂f/∂y) δ)."""
     d, arguments = len(motion.states), motion.program.arguments
     names = [sp.Symbol(f"d{i}_", real=True) for i in range(d)]
     slopes = {y: [name] for y, name in zip(arguments, names, strict=False)}
@@ -451,17 +464,20 @@ def tangent_motion(motion: Generated) -> Generated:
 
 
 def parameter_values(program: Generated, values: Mapping[Any, Any], where: str = "simulate") -> tuple[Any, ...]:
-    """Return the parameters' values in the program's order, numbers and callables; keys are symbols or their names."""
+    """Return the values of the program's parameters in its order: numbers, then callables. The keys of `values` are symbols or
+    their names."""
     if not isinstance(values, Mapping):
         raise InputError(f"{where}: values = {values!r} must be {{symbol: number, …}}, a dictionary")
     by_name = {str(key): value for key, value in values.items()}
     if len(by_name) < len(values):
         names = [str(key) for key in values]
         twice = sorted({name for name in names if names.count(name) > 1})
-        raise InputError(f"{where}: {', '.join(twice)} with two values, of the symbol and of its name: give one")
+        raise InputError(
+            f"{where}: values give {', '.join(twice)} twice, under the symbol and under its name: give one"
+        )
     if moving := [str(s) for s in program.states if str(s) in by_name]:
         raise InputError(
-            f"{where}: values give {', '.join(moving)} a value, which varies in time: give a start as q0 and v0, a time as t"
+            f"{where}: values give {', '.join(moving)} a value, which varies in time: give its start by q0 and v0, a time by t"
         )
     if missing := [name for name in program.letters if name not in by_name]:
         misspelt = near(missing[0], by_name.keys() - {str(p) for p in program.parameters})

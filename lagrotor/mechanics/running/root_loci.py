@@ -33,12 +33,12 @@ class RootLocus:
     letter : Symbol
         The parameter.
     numbers : Array
-        Its values, with the boundaries among them, shape (m,).
+        Increasing values of the parameter, the boundaries among them, shape (m,).
     rates : NDArray[complex128]
-        In 1/s, each continued from one value to the next, shape (m, n).
+        The n rates in 1/s at each value, shape (m, n); a column follows one rate from value to value.
     boundaries : tuple of float
-        Values between which the motion becomes stable or unstable, at most one between two given numbers. There the largest
-        real part is a millionth of the largest rate: equal rates are known only to the root of rounding.
+        Values at which the motion becomes stable or unstable, at most one between two given numbers. There the largest real
+        part is a millionth of the largest rate, since rounding changes equal rates by its square root.
 
     Examples
     --------
@@ -57,11 +57,11 @@ class RootLocus:
 
     @property
     def growth(self) -> Array:
-        """The largest real part in 1/s, shape (m,)."""
+        """The largest real part of the rates at each value, in 1/s, shape (m,)."""
         return np.asarray(self.rates.real.max(1))
 
     def plot(self) -> "RunFigure":
-        """Draw real and imaginary parts over the parameter, with the boundaries as lines.
+        """Draw the real and imaginary parts of the rates over the parameter; lines mark the boundaries.
 
         Returns
         -------
@@ -95,7 +95,7 @@ class StabilityChart:
     letters : tuple of Symbol
         The two parameters.
     numbers : tuple of Array
-        Their values, shape (m,) and (n,).
+        Values of the first parameter, shape (m,), and of the second, shape (n,).
     growth : Array
         The largest real part of the rates in 1/s, shape (n, m).
     boundaries : Array
@@ -108,7 +108,7 @@ class StabilityChart:
     boundaries: Array
 
     def plot(self) -> "RunFigure":
-        """Draw the growth as shades, with the boundaries.
+        """Draw the growth over both parameters as shades, with the boundaries.
 
         Returns
         -------
@@ -141,8 +141,8 @@ def stability_chart(
 def _rates(
     where: str, system: Equations, at: Mapping[Any, Any], values: Values, names: Sequence[str], period: Any = None
 ) -> Callable[..., NDArray[np.complex128]]:
-    """Return a function of one number for each parameter with the rates there; with a period T, ln(μ)/T of the multipliers
-    μ."""
+    """Return a function that takes one number for each named parameter and returns the rates of small motion in 1/s. If a period
+    T is given, these are ln(μ)/T of the Floquet multipliers μ."""
     if not isinstance(values, Mapping) or {*names} & {*map(str, values)}:
         raise InputError(
             f"{where}: values = {values!r} must be a dictionary without {', '.join(names)}, which takes the numbers"
@@ -161,7 +161,7 @@ def _rates(
         - {str(s) for e in (*places.values(), sp.sympify(turn or 0, strict=True)) for s in e.free_symbols}
     ):
         raise InputError(
-            f"{where}: {min(strangers)} is no symbol of the system, nor of the motion: nothing changes with it"
+            f"{where}: {min(strangers)} is no symbol of the system, nor of the motion: give a parameter of these"
         )
 
     def rates(*numbers: float) -> NDArray[np.complex128]:
@@ -189,7 +189,8 @@ def _boundaries(
     rates_on_grid: Sequence[NDArray[np.complex128]],
     halvings: int,
 ) -> list[float]:
-    """Find by bisection the numbers at which the motion becomes stable or unstable."""
+    """Find by bisection the numbers at which the motion becomes stable or unstable, at most one between two numbers of the
+    grid."""
 
     def grows(rates: NDArray[np.complex128]) -> bool:
         return bool(rates.real.max() > _GROWS * np.abs(rates).max())
@@ -207,7 +208,7 @@ def _boundaries(
 
 
 def _followed(rates: Sequence[NDArray[np.complex128]]) -> NDArray[np.complex128]:
-    """Order the rates at each number so that they continue those before."""
+    """Order the rates at each number so that column by column they continue the rates at the number before, shape (m, n)."""
     from scipy.optimize import linear_sum_assignment
 
     rows = [rates[0]]

@@ -41,7 +41,7 @@ def plot(run: SampledMotion, *quantities: Any) -> "RunFigure":
 
 
 def _curve(run: SampledMotion, what: Any) -> tuple[str, Array]:
-    """Return the label and the values of a quantity."""
+    """Return the label of a quantity, with formulas in TeX, and its values along the run, shape (n,)."""
     c, name = run.system.c, str(what)
     letters = (*c.q, *c.v, *run.system.speeds)
     moving = dict(zip(map(str, letters), (*run.q.T, *run.v.T, *run.u.T), strict=True))
@@ -65,7 +65,7 @@ def _curve(run: SampledMotion, what: Any) -> tuple[str, Array]:
 
 
 def view(run: SampledMotion, lines: Sequence[Sequence[Point]] = ()) -> "View":
-    """Return a view of the bodies with their frames and of the lines."""
+    """Return a three-dimensional view of the bodies with their frames, and of the given lines."""
     from lagrotor.drawing.view import view_lines, view_times
     from lagrotor.drawing.wheel import ROTORS
 
@@ -84,7 +84,7 @@ def view(run: SampledMotion, lines: Sequence[Sequence[Point]] = ()) -> "View":
 
 
 def animate(run: SampledMotion, path: str | Path, fps: float = 25.0, lines: Sequence[Sequence[Point]] = ()) -> Path:
-    """Write a film of the lines, or of the bodies where there are none."""
+    """Write a film of the given lines, or of the bodies if no lines are given."""
     from lagrotor.drawing.film import animate_lines, check_film, frame_times
 
     check_nonempty("animate", run.t)
@@ -97,7 +97,7 @@ def animate(run: SampledMotion, path: str | Path, fps: float = 25.0, lines: Sequ
 
 
 def _drawn(where: str, frames: SampledMotion, lines: Sequence[Sequence[Point]]) -> list[Array]:
-    """Evaluate the lines along the run, shape (m, p, 3) each."""
+    """Evaluate the points of the lines along the run. Each line with p points gives an array (m, p, 3) for m times."""
     for item in (*([lines] if lines else ()), *lines):
         if not isinstance(item, Sequence) or not item:
             raise InputError(
@@ -108,7 +108,7 @@ def _drawn(where: str, frames: SampledMotion, lines: Sequence[Sequence[Point]]) 
 
 
 def _outline(frames: SampledMotion, body: Body) -> list[Array]:
-    """Evaluate the lines of a body along the run, shape (m, p, 3) each."""
+    """Evaluate the outline of a body along the run. Each line with p points gives an array (m, p, 3) for m times."""
     origin = _vectors(frames, body.frame.place())
     axes = [_vectors(frames, body.frame.place(e) - body.frame.place()) for e in np.eye(3, dtype=int).tolist()]
     lines = [np.stack([_vectors(frames, point)[0] for point in line]) for line in body.outline]

@@ -1,7 +1,7 @@
 """The scales of a motion and its conserved quantities, by which errors of a run are measured in any units.
 
 Jacobi's integral and the momenta of cyclic coordinates are checked while a motion is run. A run that does not conserve them
-within its error estimate is refused. Projection keeps the constraints.
+within its error estimate is refused. Constraints need no such check, since each state is projected onto them.
 """
 
 from collections.abc import Callable
@@ -48,9 +48,10 @@ _STEP = 1e-5  # of a size, by which a component is varied for the slope of an in
 
 @dataclass(frozen=True, eq=False)
 class Scales:
-    """The typical period `turn` in s and the size of each coordinate and velocity, shape (N + m,), of a motion. A size is the
-    largest value, at least the value that a thousandth of the kinetic velocity gives. In a stiff motion neighbouring motions
-    approach each other so fast that a stiff method may be used. `survey` (m, d) are the states that were measured."""
+    """The typical period `turn` in s and the size of each component of (q, u), shape (N + m,), of a motion. A size is the largest
+    value, or the value that a thousandth of the velocity with all kinetic energy would give, if that is larger. In a stiff motion
+    neighbouring motions approach each other so fast that a stiff method may be used. The states that were measured are `survey`
+    (m, d). In the windows a force changes fast."""
 
     turn: float
     sizes: Array
@@ -60,14 +61,15 @@ class Scales:
     survey: Array = field(default_factory=lambda: np.empty((0, 0)))
 
     def distance(self, first: Array, second: Array) -> Array:
-        """Return the largest difference of a component over its size between two runs (n, d) at each time, shape (n,)."""
+        """Return the distance of two runs, states (n, d) each, at each time, shape (n,). It is the largest difference of a
+        component divided by the component's size, at most 2."""
         size = len(self.sizes)
         sizes = np.maximum(self.sizes, np.abs(second[:, :size]))
         return np.asarray(np.minimum((np.abs(first[:, :size] - second[:, :size]) / sizes).max(1), 2.0))
 
 
 def clock_windows(system: Equations, values: Values, times: Array) -> tuple[Window, ...]:
-    """Find the windows in which terms of the time alone change faster than in most of the run."""
+    """Find the windows of time in which terms that depend on t alone change faster than in most of the run."""
     program = clock_program(system)
     if program is None:
         return ()
@@ -90,8 +92,9 @@ def motion_scales(
     windows: tuple[Window, ...] = (),
     followed: tuple[NarrowPart, ...] = (),
 ) -> Scales:
-    """Measure the scales of a motion by a coarse integration over the times, or over the part that a small budget reaches.
-    `motion` is the integration of a motion that is not smooth, `followed` the narrow terms integrated with it."""
+    """Measure the scales of a motion by a coarse integration over the times. If its small budget is spent before the end, only
+    the part up to there is measured. A motion with events needs its own integration as `motion`. The narrow terms in `followed`
+    are integrated along with the motion."""
     span = float(times[-1] - times[0])
     if span == 0:
         return Scales(1.0, _sizes(system, values, start[None], 1.0), 0, survey=start[None])
@@ -128,8 +131,8 @@ def motion_scales(
 
 
 def _without_peaks(states: Array) -> Array:
-    """Remove states in which a component is far above its median. A motion to infinity has large values at its end, by which
-    earlier errors must not be measured. A component that was at rest has no such bound."""
+    """Remove the states in which a component exceeds _PEAK times its median. A motion to infinity has large values at its end;
+    errors before must not be measured by these. A component that is at rest most of the time is not tested."""
     mostly, largest = np.median(np.abs(states), 0), np.abs(states).max(0)
     return np.asarray(states[(np.abs(states) <= np.where(mostly > _AT_REST * largest, _PEAK * mostly, np.inf)).all(1)])
 
@@ -155,7 +158,8 @@ def _coarse_motion(
 
 
 def first_sizes(bare: Rhs, start: Array, span: float, n: int, m: int) -> Array:
-    """Guess the sizes from the state, its derivative and the fastest rate of the linear motion about it."""
+    """Guess the size of each component, shape (n + m,), from the state, its derivative and the fastest rate of the motion
+    linearised there."""
     rates = np.nan_to_num(np.asarray(bare(0.0, start), float)[: n + m], posinf=0.0, neginf=0.0)
     q, u, v, a = start[:n], start[n : n + m], rates[:n], rates[n:]
     rate = max(float(np.abs(_rates(bare, start, n, n + m)).max()), 1 / span)
@@ -166,7 +170,7 @@ def first_sizes(bare: Rhs, start: Array, span: float, n: int, m: int) -> Array:
 
 
 def _rates(bare: Rhs, state: Array, n: int, size: int) -> NDArray[np.complex128]:
-    """Return the eigenvalues of the linear motion about a state in 1/s; zero where it is not finite."""
+    """Return the eigenvalues in 1/s of the motion linearised about a state; one zero if the linearised motion is not finite."""
     value, slope = np.asarray(bare(0.0, state), float)[:size], np.zeros((size, size))
     for j in range(size):
         step = 1e-6 * (np.abs(state[:n] if j < n else state[n:size]).max() or 1.0)
@@ -177,7 +181,7 @@ def _rates(bare: Rhs, state: Array, n: int, size: int) -> NDArray[np.complex128]
 
 
 def _sizes(system: Equations, values: Values, states: Array, turn: float) -> Array:
-    """Return the size of each component of states (m, d)."""
+    """Return the size of each component of states (m, d), shape (N + m,). The typical period in s is `turn`."""
     n, m, jacobi = len(system.c.q), len(system.speeds), energy_program(system).along(values)
     q, u = states[:, :n], states[:, n : n + m]
     times = states[:, n + m] if states.shape[1] > n + m else np.zeros(len(states))
@@ -214,14 +218,15 @@ def _sizes(system: Equations, values: Values, states: Array, turn: float) -> Arr
 
 
 def _positive(sizes: Array, least: float = 0.0) -> Array:
-    """Replace sizes that are not finite, or at most `least` of the largest, by the largest."""
+    """Replace each size that is not finite, or at most `least` times the largest size, by the largest size."""
     largest = float(np.nanmax(sizes, initial=0.0)) or 1.0
     return np.where(np.isfinite(sizes) & (sizes > least * largest), sizes, largest)
 
 
 @lru_cache(maxsize=64)
 def integrals(system: Equations) -> tuple[Generated, ...]:
-    """Return the programs of conserved quantities that follow from the form of the equations."""
+    """Return a program for each conserved quantity that the form of the equations shows: the Jacobi integral and the momenta of
+    cyclic coordinates."""
     is_expression = isinstance(system.lagrangian, sp.Expr)
     programs = []
     if not (depends_on_time(system) or system.forces or system.dissipation != 0):
@@ -235,8 +240,9 @@ def integrals(system: Equations) -> tuple[Generated, ...]:
 
 
 def conservation_error_of(system: Equations, values: Values, sizes: Array) -> Callable[[Array, Array], Array] | None:
-    """Return a function (times (n,), states (n, d)) → signed relative state errors that would explain the change of the
-    integrals."""
+    """Return a function that measures how well a run keeps its conserved quantities, or None if there are none. It takes times
+    (n,) and states (n, d). For each quantity in turn, it returns the n signed relative state errors that would explain its
+    change."""
     conserved = [program.along(values) for program in integrals(system)]
     n = len(system.c.q) + len(system.speeds)
 

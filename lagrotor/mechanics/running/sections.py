@@ -1,9 +1,10 @@
 """Crossings of sections on the steps of the run, independent of its sample times.
 
-A smooth motion is integrated again from sample to sample, by the solver and the local error of the run, in stages that begin at
-samples. A first pass records the times of the evaluations; a second one reads the states at Chebyshev's nodes of panels of
-_STEPS such times. A panel is a polynomial, resolved to the local error or halved. The sizes of its coefficients exclude a zero
-of the section in most panels. So the search costs two integrations, where a run is two or more.
+A smooth motion is integrated again from sample to sample, by the solver and the local error of the run. A stage is a part of
+the run that begins and ends at samples. In each stage a first integration records the times of the evaluations. A second one
+reads the states at Chebyshev's nodes of panels; a panel spans _STEPS of these times. The polynomial through a panel's nodes is
+resolved to the local error, or the panel is halved. The sizes of its coefficients exclude a zero of the section in most panels.
+So the search costs two integrations; a run costs two or more.
 """
 
 import warnings
@@ -42,8 +43,9 @@ Values = Callable[[Array, Array], Array]  # states (m, d) and times (m,) → the
 
 @dataclass
 class _Search:
-    """The crossings (time, direction, state) from the time `begin` on, in steps in the order of time. `near_zero` collects
-    consecutive short steps in which the section stays within `touch` of zero."""
+    """The search for crossings after the time `begin`, step by step in the order of time. The section is the function `value` of
+    the state. The crossings so far are `passages`, each (time, direction, state); `hidden` are intervals of time that may hide
+    one. The list `near_zero` collects consecutive short steps in which the section stays within `touch` of zero."""
 
     value: Values
     begin: float
@@ -64,7 +66,7 @@ class _Search:
         self._search(begun, lower, upper, curve, self.touch)
 
     def leave(self) -> None:
-        """Search the steps within `touch` of zero if the section has changed its sign there."""
+        """Search the steps in `near_zero` if the section has changed its sign over them, then empty the list."""
         signs = [
             [bool(self.value(curve(np.array([s])), np.array([begun + s]))[0, 0] > 0) for s in (lower, upper)]
             for begun, lower, upper, curve in self.near_zero
@@ -135,7 +137,8 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
 
 
 def _stages(run: SampledMotion) -> Iterator[tuple[int, int]]:
-    """Yield the first and the last sample of each stage; of several samples at one time the last begins a stage."""
+    """Yield the first and the last sample of each stage, which lasts at most _TURNS periods or one interval. If several samples
+    have one time, the last of them begins a stage."""
     i, n = 0, len(run.t)
     while (i := int(np.searchsorted(run.t, run.t[i], side="right")) - 1) < n - 1:
         j = int(np.searchsorted(run.t, run.t[i] + _TURNS * run.scales.turn, side="right")) - 1
@@ -144,7 +147,8 @@ def _stages(run: SampledMotion) -> Iterator[tuple[int, int]]:
 
 
 def _stage(run: SampledMotion, i: int, j: int, value: Values, touch: float, observe: Observer) -> tuple[Array, int]:
-    """Observe the motion from sample i to sample j where the section may be zero; return its last state and the evaluations."""
+    """Integrate from sample i to sample j, and call `observe` with each step in which the section may be zero. Return the last
+    state and the number of evaluations."""
     begin, end = run.t[[i, j]]
     # Below CROSSOVER no stiff method is chosen, and the others take too many steps.
     local = max(run.local, CROSSOVER.value) if run.scales.stiff else run.local
@@ -189,7 +193,7 @@ def _stage(run: SampledMotion, i: int, j: int, value: Values, touch: float, obse
 
 
 def _change(run: SampledMotion, section: sp.Expr) -> float:
-    """Return the largest change of a section when each component of the state changes by its size."""
+    """Return the largest change of a section along the run if each component of the state changes by its size."""
     symbols, sizes = (*run.system.c.q, *run.system.speeds), run.scales.sizes
     if not section.free_symbols & {*symbols, *run.system.c.v, *run.system.c.a, *run.system.multipliers, t}:
         raise InputError(f"crossings: section = {section} does not change: give q, v or t in it")

@@ -54,8 +54,8 @@ _BETWEEN = 8  # intervals between two samples in which dependent constraints are
 class SystemRun(SampledMotion):
     """A simulated motion of a system, returned by `System.simulate`.
 
-    The error of a coordinate or velocity is relative to its largest value over the run, or to a thousandth of the value that
-    all kinetic energy would give, if that is larger.
+    The error of a coordinate or velocity is relative to its size, the largest value over the run. The size is at least a
+    thousandth of the value that all kinetic energy would give.
 
     Attributes
     ----------
@@ -72,17 +72,17 @@ class SystemRun(SampledMotion):
     system : Equations
         The system, with expressions in place of unknown functions.
     values : Mapping
-        The values of its parameters.
+        The values of its parameters and functions.
     tol : float
-        The tolerance.
+        The error that was asked for.
     engine : {"core", "fast"}
-        The solvers.
+        The solvers: those of the core, or heyoka for "fast".
     scales : Scales
         Typical period and sizes of the motion.
     states : Array
         States of the integration: q, u and, where they enter, time and contact modes, shape (n, d).
     local : float
-        The local error of the better of two integrations.
+        The local error of the better of the two integrations that were compared.
     switched : Switched
         The system with its events.
 
@@ -118,7 +118,7 @@ class SystemRun(SampledMotion):
         Raises
         ------
         InputError
-            For any other file, or a run of another system.
+            If `save` did not write the file, or it holds a run of another system.
 
         Examples
         --------
@@ -131,7 +131,7 @@ class SystemRun(SampledMotion):
         array([[0., 1.]])
         """
         if not isinstance(system, Equations):
-            raise InputError(f"load: system = {system!r} must be the System that it is a run of")
+            raise InputError(f"load: system = {system!r} must be the System of the saved run")
         events = check_events(system, events)
         expressions = [e for event in events for e in event.expressions]
         system, callables = put_functions("load", system, functions or {}, expressions)
@@ -141,7 +141,7 @@ class SystemRun(SampledMotion):
         try:
             if about["coordinates"] != [str(q) for q in c.q] or about["equations"] != digest_of(system):
                 raise InputError(
-                    f"load: {path} is a run of another system, in {', '.join(about['coordinates'])}: give its own"
+                    f"load: {path} is a run of another system, in {', '.join(about['coordinates'])}: give that system"
                 )
             q, u = (np.stack([arrays[str(s)] for s in names], 1) for names in (c.q, system.speeds))
             states = np.hstack([q, u, np.array(about["modes"], float).reshape(len(q), -1)])
@@ -172,14 +172,14 @@ class SystemRun(SampledMotion):
         """Find the states where section(q, v, t) = 0 is crossed, in the order of time; there may be none.
 
         Times and states are as exact as the run. Every zero of the polynomials through the solver's steps is a crossing, also
-        two in one step. A section that turns round within tol of zero is touched: two crossings there may be one or none. The
-        search takes at most twice the evaluations of the run, by the engine "core", and more only for a narrow section. A
-        LagrotorWarning says where the section changes faster than the polynomials can follow.
+        two in one step. If the section turns round within tol of zero, it touches zero, and two crossings there may count as
+        one or none. The search takes at most twice the evaluations of the run, by the engine "core", and more only for a
+        narrow section. A LagrotorWarning says where the section changes faster than the polynomials can follow.
 
         Parameters
         ----------
         section : Expr
-            In q, v and t.
+            An expression in q, v and t.
         direction : {0, 1, -1}, default 0
             Upward crossings (1), downward ones (−1), or both and states where the section is touched (0).
 
@@ -191,7 +191,7 @@ class SystemRun(SampledMotion):
         Raises
         ------
         InputError
-            For another direction, a section that does not change, and a run of one sample.
+            If the direction is not 0, 1 or −1, the section does not change, or the run has one sample.
 
         Examples
         --------
@@ -209,9 +209,9 @@ class SystemRun(SampledMotion):
         Parameters
         ----------
         section : Expr
-            In q, v and t.
+            An expression in q, v and t.
         of : sequence of Expr
-            The k expressions.
+            The k expressions to evaluate.
         direction : {1, -1, 0}, default 1
             Upward crossings (1), downward ones (−1) or both (0).
 
@@ -233,7 +233,7 @@ class SystemRun(SampledMotion):
         return np.stack([crossings.evaluate(e) for e in expressions], axis=1)
 
     def lyapunov(self) -> Lyapunov:
-        """Compute the largest Lyapunov exponent over the time of the run, ∝ log(t)/t for a regular motion.
+        """Compute the largest Lyapunov exponent over the run; for a regular motion it falls as log(t)/t.
 
         Returns
         -------
@@ -243,9 +243,9 @@ class SystemRun(SampledMotion):
         Raises
         ------
         InputError
-            For a run of one sample, and a motion with events or forces that jump.
+            If the run has one sample, or the motion has events or forces that jump.
         IntegrationError
-            If a neighbouring motion cannot continue, as at a singular position.
+            If a neighbouring motion cannot continue, for example at a singular position.
 
         Examples
         --------
@@ -263,8 +263,8 @@ class SystemRun(SampledMotion):
         Parameters
         ----------
         *quantities : str or Expr
-            Coordinates, velocities, "E" for the energy, names of constraints for their reactions, or expressions; Eq(F,
-            expression) names a long one F.
+            Coordinates, velocities, "E" for the energy, names of constraints for their reactions, or expressions. Give
+            Eq(F, expression) to label the curve of a long expression by F.
 
         Returns
         -------
@@ -359,7 +359,7 @@ def simulate_system(
         at_start = program.along(h.numbers(h.slipping))(np.concatenate([q, v])[None], times[:1])[:, 0]
         if isinstance(event, Impact) and not 0 <= at_start[1] <= 1:
             raise InputError(
-                f"simulate: the restitution {event.restitution} is {at_start[1]:.6g}: it lies between 0 and 1"
+                f"simulate: the restitution {event.restitution} is {at_start[1]:.6g}: it must lie between 0 and 1"
             )
     if system.multipliers:
         q, v = _on_constraints(system, values, np.concatenate([q, v]), times)
@@ -414,7 +414,8 @@ def simulate_system(
 
 
 def _uncertainty(system: Equations, values: Values, sizes: Array) -> Callable[[Array], Array]:
-    """Return a function of states (n, d): errors (n,) along nearly dependent constraints, in machine epsilons of the sizes."""
+    """Return a function that takes states (n, d) and returns the error of each along nearly dependent constraints, shape (n,).
+    The unit of the error is the machine epsilon times the size of a component."""
     unit = sizes[: len(system.c.q)] if system.kinematics is None else sizes[len(system.c.q) :]
 
     def uncertainty(states: Array) -> Array:
@@ -438,7 +439,7 @@ def _check_gaps(h: Switched, at: Moment) -> None:
 
 
 def _cut_at_event(run: SystemRun) -> SystemRun:
-    """Cut the run where an event ended it; the state there is the last."""
+    """Cut the run at the event that ended it, so that the state of the event is the last one."""
     h = run.switched
     if h.hidden:
         a, b = h.hidden[0]
@@ -466,7 +467,8 @@ def _cut_at_event(run: SystemRun) -> SystemRun:
 
 
 def _on_constraints(system: Equations, values: Values, start: Array, times: Array) -> tuple[Array, Array]:
-    """Return the initial state on the constraints, or raise ConstraintError if it is further from them than rounding."""
+    """Return the initial state on the constraints. Raise ConstraintError if it is further from the given state than rounding
+    explains."""
     n = len(system.c.q)
     q, v = consistent("simulate", system, values, start[:n], start[n:], times[0])
     distance = np.abs(np.concatenate([q, v]) - start)
@@ -479,9 +481,9 @@ def _on_constraints(system: Equations, values: Values, start: Array, times: Arra
 
 
 def _warn_of_dependence(run: SystemRun) -> None:
-    """Warn with the time where the constraints of a run become dependent between two samples. There the product of the rows
-    of G, g₁ ∧ … ∧ g_k, is zero. At a simple zero it changes its sign, and det(G(t) G(t')ᵀ) < 0 for times before and after.
-    Samples between which a row may turn by a right angle are ignored."""
+    """Warn if the constraints of a run become dependent between two samples, and name the time. At such a time the product g₁ ∧ …
+    ∧ g_k of the rows of G is zero. At a simple zero it changes its sign, so that det(G(t) G(t')ᵀ) < 0 for t before and t' after
+    it. Samples between which a row may turn by a right angle are ignored."""
     rows = run.system.rows
     if len(run.t) < 2 or not run.system.left or not rows.free_symbols & {*run.system.c.q, time}:
         return

@@ -19,7 +19,8 @@ _TAKES_PART = 0.2  # component of a direction from which on a coordinate is name
 def singular_position(
     system: Equations, values: Mapping[Any, Any], start: Array, sizes: Array
 ) -> Callable[[Array], str]:
-    """Return a function of a state with the words for a singular position, "" where it is regular; `start` is regular."""
+    """Return a function that takes a state and returns a sentence about its singular position, or "" if it is regular. Each state
+    is compared with the regular state `start`."""
     lengths = np.sqrt(np.abs(np.diag(mass_at(system, values, start))))
     scale = np.where(lengths > 0, lengths, 1.0)
 
@@ -44,8 +45,8 @@ def singular_position(
 
 
 def unbounded_force(system: Equations, values: Mapping[Any, Any], start: Array, state: Array, sizes: Array) -> str:
-    """Return the words for a force that grows without bound, as at a collision; "" for any other. Its acceleration has grown
-    since the start, and would change a velocity by its size in 10⁻⁸ of the typical time."""
+    """Return a sentence if a force grows without bound, for example at a collision, and "" if none does. Its acceleration has
+    grown a thousandfold since the start, and would change a velocity by its size in 10⁻⁸ of the typical time."""
     n, program = len(system.c.q), function_program(system, *system.c.a)
     first, change = (_at(program, system, values, y)[:, 0] for y in (start, state))
     i, typical = int(np.argmax(np.abs(change))), float(np.max(sizes[n:]) / np.max(sizes[:n]))
@@ -58,7 +59,8 @@ def unbounded_force(system: Equations, values: Mapping[Any, Any], start: Array, 
 
 
 def mass_at(system: Equations, values: Mapping[Any, Any], state: Array) -> Array:
-    """Return M of u' at a state, shape (m, m); for a tree of bodies from its energy, which is quadratic in the velocities."""
+    """Return the mass matrix M of u' at a state, shape (m, m). For a tree of bodies it follows from the energy, which is
+    quadratic in the velocities."""
     n, m = len(system.c.q), len(system.speeds)
     if not system.bodies:
         return _at(mass_program(system), system, values, state).reshape(m, m)
@@ -73,7 +75,7 @@ def mass_at(system: Equations, values: Mapping[Any, Any], state: Array) -> Array
 
 
 def rows_at(system: Equations, values: Mapping[Any, Any], state: Array) -> Array:
-    """Return the rows for u' of the constraints that multipliers keep, at a state, shape (k, m)."""
+    """Return the coefficients of u', at a state, in the constraints that multipliers enforce, shape (k, m)."""
     rows = _at(rows_program(system), system, values, state) if system.left else np.zeros(0)
     return rows.reshape(len(system.left), len(system.speeds))
 
@@ -95,8 +97,8 @@ def _least(matrix: Array) -> tuple[float, Array]:
 
 
 def independence(system: Equations, values: Mapping[Any, Any], states: Array, sizes: Array | float = 1.0) -> Array:
-    """Return the least singular value of the rows of G at states (n, d), shape (n,), each row of length one in units of the
-    sizes. It is zero where a row is not finite or vanishes."""
+    """Return the least singular value of the rows of G at each of the states (n, d), shape (n,). Each row is given in units of
+    the sizes and scaled to length one. The value is zero if a row is zero or not finite."""
     times = np.array([_time(state, system) for state in states])
     G = rows_program(system).along(values)(states, times).T.reshape(len(states), len(system.left), -1) * sizes
     lengths, least = np.linalg.norm(G, axis=2, keepdims=True), np.zeros(len(states))

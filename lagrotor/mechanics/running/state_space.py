@@ -2,7 +2,8 @@
 
 The motion is s' = f(s, u) with the state s = (q, v) under the constraints Φ(s) = (g, G v + b) = 0. Small displacements are
 δs = T x. The columns of T span the null space of ∂Φ/∂s; its rows at the independent states x are the unit matrix. Then
-A = ∂f/∂s T and B = ∂f/∂u, in the rows of x. Derivatives are by a complex step, which rounds no difference (Squire & Trapp 1998).
+A = ∂f/∂s T and B = ∂f/∂u, in the rows of x. Derivatives are taken by a complex step, which needs no difference of close numbers
+(Squire & Trapp 1998).
 
 Rolling: Schwab & Meijaard, Linearized dynamics of nonholonomic systems (2003).
 """
@@ -40,7 +41,8 @@ _NOT_ANALYTIC = (sp.Abs, sp.sign, sp.Max, sp.Min, sp.Heaviside, sp.atan2, sp.flo
 
 
 class Slope(Protocol):
-    """A function of the state: outputs (k,), and by a complex step their derivatives by the state (k, d) and inputs (k, p)."""
+    """A function of the state (d,) that returns k outputs (k,), and their derivatives with respect to the state (k, d) and to p
+    inputs (k, p). The derivatives are taken by a complex step."""
 
     def __call__(self, state: Array, step: float = _STEP) -> tuple[Array, Array, Array]: ...
 
@@ -49,20 +51,21 @@ class Slope(Protocol):
 class StateSpace:
     """The linear system x' = A x + B u, y = C x + D u for small displacements x from a steady motion.
 
-    The state turn_p is the small turn of a ball joint about the axis of p, in its turned axes.
+    For a ball joint, the state turn_p is a small rotation angle. Its axis is the one of the turned frame to which the angular
+    velocity component p belongs.
 
     Attributes
     ----------
     states : tuple of Symbol
         The coordinates and velocities that x displaces, n symbols.
     A : Array
-        Shape (n, n).
+        Matrix of the states in x', shape (n, n).
     B : Array
-        Shape (n, p) for p inputs.
+        Matrix of the p inputs in x', shape (n, p).
     C : Array
-        Shape (k, n) for k outputs.
+        Matrix of the states in the k outputs y, shape (k, n).
     D : Array
-        Shape (k, p).
+        Matrix of the inputs in y, shape (k, p).
 
     Examples
     --------
@@ -83,7 +86,9 @@ class StateSpace:
 
     @property
     def rates(self) -> NDArray[np.complex128]:
-        """The eigenvalues of A in 1/s, the largest real part first, shape (n,); zero for coordinates on which nothing depends.
+        """The eigenvalues of A in 1/s, the largest real part first, shape (n,).
+
+        A coordinate on which nothing depends gives the eigenvalue zero.
 
         Examples
         --------
@@ -151,7 +156,8 @@ def state_space(
 
 
 def local_slope(system: Equations, state: Array, rate: Array, J: Array) -> tuple[Array, Array, Array]:
-    """Return P⁻ (J P − P'), P and P⁻ of `small_turns` at a state (q, u), with its rate (q', u') and J = ∂f/∂(q, u)."""
+    """Return the matrix P⁻ (J P − P') of the linear motion at a state (q, u), and P and P⁻. The matrix P of `small_turns` maps
+    small displacements to changes of (q, u). The rate of the state is (q', u'), and J = ∂f/∂(q, u)."""
     P, inverse = (np.array(e, np.float64) for e in small_turns(system, state))
     change_of_P = np.array(small_turns(system, rate)[0], np.float64) - np.array(
         small_turns(system, 0 * rate)[0], np.float64
@@ -160,17 +166,18 @@ def local_slope(system: Equations, state: Array, rate: Array, J: Array) -> tuple
 
 
 def point_state(where: str, system: Equations, at: Mapping[Any, Any], values: Values, time: float = 0.0) -> Array:
-    """Return the state of a point, with zeros for omitted coordinates on which the motion does not depend."""
+    """Return the state (q, u) at a point. Coordinates that the point omits are zero if the motion does not depend on them,
+    otherwise InputError is raised."""
     c = system.c
     point = by_symbol(f"{where}: at", at, (*c.q, *system.speeds))
     used, _ = _parts(motion_program(system))
     moving = dict(zip(c.q, motion_program(system).program.arguments, strict=False))  # a program may rename symbols
     if missing := [str(q) for q in c.q if q not in point and moving[q] in used]:
-        raise InputError(f"{where}: {', '.join(missing)} without a value: the point needs each coordinate's")
+        raise InputError(f"{where}: {', '.join(missing)} without a value: the point needs a value of each coordinate")
     if strangers := [str(s) for s in point if s not in {*c.q, *system.speeds}]:
         names = "" if system.kinematics is None else f" ({', '.join(map(str, system.speeds))})"
         raise InputError(
-            f"{where}: {', '.join(strangers)} in the point: give it coordinates and velocities{names}, other symbols in values"
+            f"{where}: the point has {', '.join(strangers)}: give it coordinates and velocities{names}, other symbols in values"
         )
     entries = [expression(f"{where}: {s}", point.get(s, 0)) for s in (*c.q, *system.speeds)]
     inside = {s for e in entries for s in e.free_symbols}
@@ -196,14 +203,15 @@ def point_state(where: str, system: Equations, at: Mapping[Any, Any], values: Va
 
 @lru_cache(maxsize=64)
 def _parts(program: Generated) -> tuple[set[sp.Basic], set[sp.Basic]]:
-    """Return the symbols of a program, and its terms that lack a derivative somewhere."""
+    """Return the symbols of a program, and those of its terms that are not differentiable everywhere."""
     expressions = [*(e for _, e in program.program.stages), *program.program.outputs]
     symbols = set().union(*(e.free_symbols for e in expressions))
     return symbols, set().union(*(e.atoms(*_NOT_ANALYTIC) for e in expressions))
 
 
 def motion_slope(where: str, program: Generated, values: Values, inputs: Sequence[sp.Symbol] = ()) -> Slope:
-    """Return the function of the state with the outputs of a program and their derivatives by the state and the inputs."""
+    """Return a function that takes a state and returns the outputs of a program with their derivatives with respect to the state
+    and the inputs."""
     _, jumping = _parts(program)
     if jumping:
         raise InputError(
@@ -229,7 +237,8 @@ def motion_slope(where: str, program: Generated, values: Values, inputs: Sequenc
 
 
 def check_smooth(where: str, slope: Slope, state: Array, names: Sequence[Any], at: Mapping[Any, Any]) -> None:
-    """Raise SingularError where an output has no value or no derivative, as √x at zero, so that it depends on the step."""
+    """Raise SingularError if an output has no value or no derivative at the state, as √x at zero. Its derivative then depends on
+    the complex step."""
     first, second = (np.column_stack(slope(state, h))[: len(names)] for h in (_STEP, _OTHER * _STEP))
     with np.errstate(invalid="ignore"):
         smooth = np.abs(first - second) <= _SAME * np.abs(first) + _ROUNDING * (1 + np.abs(first).max(initial=0))
@@ -243,7 +252,8 @@ def check_smooth(where: str, slope: Slope, state: Array, names: Sequence[Any], a
 def tangent_space(
     where: str, system: Equations, values: Values, state: Array, time: float = 0.0
 ) -> tuple[NDArray[np.bool_], Array]:
-    """Return a mask of the independent states y of `small_turns`, and T, which gives all states from these."""
+    """Return a mask of the independent small displacements (d,), and the matrix T, which maps these to all d displacements of
+    `small_turns`."""
     P = np.array(small_turns(system, state)[0], np.float64)
     d = P.shape[1]
     n = d - len(system.speeds)

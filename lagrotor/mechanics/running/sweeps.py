@@ -1,7 +1,8 @@
 """The equations of a long Lagrangian by sweeps through its stages: backward for a gradient, forward along a direction.
 
-With p = ∂L/∂v, M b = dp along v' = b and M α + h = dp/dt − ∂L/∂q at v' = α. A gradient costs about three times L for any number
-of coordinates, a derivative along a direction about twice its expression.
+With the momenta p = ∂L/∂v, the product M b is the derivative of p when v changes at the rate b. M α + h is dp/dt − ∂L/∂q for v'
+= α. A gradient costs about three times as much as L for any number of coordinates. A derivative along a direction costs about
+twice as much as its expression.
 
 Griewank & Walther, Evaluating Derivatives, 2nd ed., ch. 3.
 """
@@ -23,7 +24,8 @@ from lagrotor.numerics.codegen import Stage
 
 
 def swept_equations(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matrix]:
-    """Return stages, M and Q − h of M u' = Q − h + Gᵀ λ; for quasi-velocities Bᵀ M B and Bᵀ (Q − M α − h)."""
+    """Return the stages, M and Q − h of the equations M u' = Q − h + Gᵀ λ. For quasi-velocities these are Bᵀ M B and Bᵀ (Q − M α
+    − h)."""
     keep, c, kinematics = Stages(), system.c, system.kinematics
     n, m = len(c.q), len(system.speeds)
     B, alpha, first, place = sp.eye(n), sp.zeros(n, 1), list[Stage](), 0
@@ -55,14 +57,15 @@ def swept_equations(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matri
 
 
 def swept_energy(system: Equations) -> tuple[list[Stage], sp.Expr]:
-    """Return stages and the Jacobi integral v·∂L/∂v − L."""
+    """Return the stages, and in terms of these the Jacobi integral v·∂L/∂v − L."""
     keep, v = Stages(), system.c.v
     L = expression_stages(keep, system.L)
     return keep.made, sp.Add(-L, *(a * p for a, p in zip(v, backward_sweep(keep, L, v), strict=True)))
 
 
 def expression_stages(keep: Stages, e: sp.Expr) -> sp.Expr:
-    """Return an expression as a stage after those of all its subexpressions; a sum uses a shorter one that it contains."""
+    """Add a stage for each subexpression of an expression, and return the name of the last one. A sum is built on a shorter sum
+    that it contains."""
     sums = sorted((s for s in subexpressions(e) if s.is_Add), key=lambda s: len(s.args))
     terms = {s: {*s.args} for s in sums if len({*s.args}) == len(s.args)}  # left unevaluated, one may have a term twice
     stages = dict[sp.Expr, sp.Expr]()
@@ -88,7 +91,8 @@ def expression_stages(keep: Stages, e: sp.Expr) -> sp.Expr:
 
 
 def backward_sweep(keep: Stages, output: sp.Expr, symbols: Sequence[sp.Symbol]) -> list[sp.Expr]:
-    """Return ∂output/∂s for each symbol, backward from a stage or a multiple of one."""
+    """Return ∂output/∂s for each of the symbols, by a sweep backward through the stages. The output is a stage or a multiple of
+    one."""
     shares: dict[sp.Expr, list[sp.Expr]] = defaultdict(list)
     for s, slope in _slopes(output):
         shares[s].append(slope)
@@ -100,7 +104,7 @@ def backward_sweep(keep: Stages, output: sp.Expr, symbols: Sequence[sp.Symbol]) 
 
 
 def forward_sweep(keep: Stages, outputs: Sequence[sp.Expr], direction: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Expr]:
-    """Return the derivatives of stages where the symbols change at the rates `direction`."""
+    """Return the derivatives of the outputs when the symbols change at the rates in `direction`."""
     rates = {s: rate for s, rate in direction.items() if rate != 0}
 
     def rate(e: sp.Expr) -> sp.Expr:
@@ -113,7 +117,7 @@ def forward_sweep(keep: Stages, outputs: Sequence[sp.Expr], direction: Mapping[s
 
 
 def _below(keep: Stages, outputs: Sequence[sp.Expr]) -> list[Stage]:
-    """Return the stages that the outputs need, in order."""
+    """Return the stages on which the outputs depend, in the order of their computation."""
     body, needed = dict(keep.made), set[sp.Symbol]()
     queue = [s for e in outputs for s in e.free_symbols]
     while queue:

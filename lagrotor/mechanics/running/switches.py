@@ -29,7 +29,7 @@ class Event:
     Attributes
     ----------
     section : Expr
-        In q, v and t; the event is where it is zero.
+        An expression in q, v and t. The event happens where it crosses zero.
     velocities : tuple of Expr or None, optional
         The velocities after the event, as functions of the state before it; without them the run ends.
     direction : {0, 1, -1}, default 0
@@ -65,7 +65,7 @@ class Event:
 
     @property
     def expressions(self) -> tuple[sp.Expr, ...]:
-        """The expressions of the event, which have a value along a motion."""
+        """All expressions of the event: its section, and the velocities after it."""
         return self.section, *(self.velocities or ())
 
 
@@ -78,7 +78,7 @@ class Impact:
     Attributes
     ----------
     gap : Expr
-        In q and t; it does not become negative.
+        An expression in q and t, which does not become negative.
     restitution : Expr, default 1
         A number from 0 to 1 or a parameter.
 
@@ -102,13 +102,14 @@ class Impact:
 
     @property
     def expressions(self) -> tuple[sp.Expr, ...]:
-        """The expressions of the impact, which have a value along a motion."""
+        """Both expressions of the impact: its gap and its restitution."""
         return self.gap, self.restitution
 
 
 @dataclass(frozen=True)
 class Surface:
-    """A surface w(q, v, t) = 0 on which a force jumps; `sign` replaces sign(w), `bound` is F of dry friction or None."""
+    """A surface w(q, v, t) = 0 on which a force jumps; w is its argument. The symbol `sign` replaces sign(w). If the force is dry
+    friction, `bound` is its bound F, otherwise None."""
 
     argument: sp.Expr
     sign: sp.Symbol
@@ -124,23 +125,24 @@ def check_events(system: Equations, events: Any) -> tuple[Event | Impact, ...]:
     for event in event_tuple:
         if isinstance(event, Impact):
             if wrong := event.gap.free_symbols & {*c.v, *c.a}:
-                raise InputError(f"Impact: the gap {event.gap} contains {_names(wrong)}: it depends on q and t alone")
+                raise InputError(f"Impact: the gap {event.gap} contains {_names(wrong)}: it may depend only on q and t")
             if not event.gap.free_symbols & {*c.q}:
                 raise InputError(f"Impact: the gap {event.gap} contains no coordinate: no impact changes it")
         elif event.velocities is not None and len(event.velocities) != n:
             raise InputError(
-                f"Event: {len(event.velocities)} velocities after it, for {n} of the system: give one for each"
+                f"Event: velocities has {len(event.velocities)} entries, but the system has {n} velocities: give one for each"
             )
         if isinstance(event, Event) and (wrong := event.section.free_symbols & {*c.a}):
             raise InputError(
-                f"Event: the section {event.section} contains {_names(wrong)}: it depends on q, v, t and reactions alone"
+                f"Event: the section {event.section} contains {_names(wrong)}: it may depend only on q, v, t and reactions"
             )
     return tuple(event_tuple)
 
 
 def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
-    """Return the system with a symbol σ for each sign that jumps where the state passes a surface, and these surfaces. sign(w)
-    → σ, |w| → σ w, Heaviside(w) → (1 + σ)/2, Max(a, b) → (a + b + σ (a − b))/2, Min(a, b) with −σ."""
+    """Replace each sign that jumps where the state passes a surface by a symbol σ. Return the smooth system and a `Surface` for
+    each symbol. The replacements are sign(w) → σ, |w| → σ w, Heaviside(w) → (1 + σ)/2, Max(a, b) → (a + b + σ (a − b))/2, and
+    Min(a, b) with −σ in place of σ."""
     moving = {*system.c.q, *system.c.v, *system.reactions, t}
     L = getattr(system.lagrangian, "remainder", system.lagrangian)  # for bodies, the terms added to their energy
     places = [*system.forces, system.dissipation, L]
@@ -187,8 +189,9 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
 
 
 def _is_a_jump(step: sp.DiracDelta, slope: sp.Expr, moving: Sequence[sp.Symbol]) -> bool:
-    """Return True if the factor of δ(w) in a slope differs from zero at a root of w, found by Newton's method. The lengths of a
-    rope with and without a drum are equal where it touches, by an identity that sympy does not see."""
+    """Return True if the Lagrangian jumps where w = 0: in its derivative `slope` the factor of δ(w) is not zero at a root of w.
+    The root is found by Newton's method, because sympy does not see every identity. For example, a rope has the same length with
+    and without a drum when it touches the drum."""
     mark, w = sp.Dummy(), step.args[0]
     factor = derivative(slope.xreplace({step: mark}), mark)
     letters = sorted((factor.free_symbols | w.free_symbols), key=str)
@@ -212,7 +215,8 @@ _JUMPING = (sp.sign, sp.Abs, sp.Heaviside, sp.Max, sp.Min)
 
 
 def _jumps_at_zero(push: sp.Matrix, e: sp.Expr, v: Sequence[sp.Symbol]) -> bool:
-    """Return True if a force with √e, e quadratic in several velocities, jumps at rest or at the least value of e."""
+    """Return True if a force with √e jumps at rest or at the least value of e. The expression e is quadratic in several
+    velocities."""
     speeds = [s for s in v if s in e.free_symbols]
     still = dict.fromkeys(speeds, sp.S.Zero)
     value_at_rest, slope = e.xreplace(still), gradient(e, speeds).xreplace(still)
@@ -244,7 +248,7 @@ def _smooth(atom: sp.Expr, w: sp.Expr, s: sp.Symbol) -> sp.Expr:
 
 
 def _friction(system: Equations, w: sp.Expr, s: sp.Symbol) -> sp.Expr | None:
-    """Return F if the force that jumps with the sign s of w is −F s ∂w/∂v; None for any other force."""
+    """Return the bound F if the force that jumps with the sign s of w is dry friction −F s ∂w/∂v; None for any other force."""
     c = system.c
     slope = gradient(w, c.v)
     lagrangian = s in system.lagrangian.free_symbols

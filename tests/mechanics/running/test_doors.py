@@ -35,7 +35,7 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
     "text": (lambda: run(values={m: 1, length: "1"}), "length = '1' must be a number"),
     "truth": (lambda: run(values={m: True, length: 1}), "m = True must be a number"),
     "coordinate": (lambda: run(values={m: 1, length: 1, x: 3}), "theta a value, which varies in time"),
-    "twice": (lambda: run(values={m: 1, length: 1, "m": 3}), "m with two values"),
+    "twice": (lambda: run(values={m: 1, length: 1, "m": 3}), "values give m twice"),
     "strangers": (
         lambda: run(values={m: 1, length: 1, "b": 1, "a": 1}),
         "values name a, b, which .* its symbols are length, m: leave them out",
@@ -51,11 +51,11 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
     "no section": (lambda: Event(sp.S.One), "which nothing crosses"),
     "velocities": (lambda: Event(x, -v), "must be a tuple"),  # type: ignore[arg-type]
     "no event": (lambda: run(events=x), "must be Event"),
-    "gap of a velocity": (lambda: run(events=Impact(v)), "depends on q and t alone"),
+    "gap of a velocity": (lambda: run(events=Impact(v)), "may depend only on q and t"),
     "gap of the time": (lambda: run(events=Impact(t)), "contains no coordinate"),
     "restitution of 2": (lambda: Impact(x, 2), "must lie between 0"),
     "direction": (lambda: Event(x, direction=2), "direction"),
-    "velocities after": (lambda: run(events=Event(x, (v, v))), "velocities after it"),
+    "velocities after": (lambda: run(events=Event(x, (v, v))), "has 2 entries, but the system has 1"),
     "fast events": (lambda: run(engine="fast", events=Event(x)), "takes no events"),
     "letter of an event": (lambda: run(events=Impact(x, e)), "e without a value"),
     "neighbours of impacts": (lambda: run(events=Impact(x)).lyapunov(), "jump"),
