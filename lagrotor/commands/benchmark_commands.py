@@ -1,4 +1,4 @@
-"""The benchmark commands: chart (speed against accuracy) and stability (limits of methods, throughput)."""
+"""The benchmark commands: `chart` measures speed against accuracy, `stability` the limits of methods and throughput."""
 
 import argparse
 import json
@@ -19,10 +19,10 @@ THROUGHPUT_HEAD = ("quantity", "per second", "share", "of")
 
 
 def add_benchmark_commands(command: Command) -> None:
-    """Add chart and stability."""
+    """Add the commands chart and stability to the parser."""
     added = command("chart", chart_command, "measure speed against accuracy", "lagrotor chart --quick --out .")
     added.add_argument(
-        "--quick", action="store_true", help="fewer methods, tolerances and repeats: seconds for minutes"
+        "--quick", action="store_true", help="fewer methods, tolerances, repeats: seconds instead of minutes"
     )
     add_json(added, "the points as a JSON object")
     added.add_argument("--out", type=Path, default=Path(), metavar="DIR", help="existing folder (default: this one)")
@@ -38,7 +38,7 @@ def add_benchmark_commands(command: Command) -> None:
 
 
 def chart_command(options: argparse.Namespace) -> int:
-    """Run the charts; write chart-SCENE.svg, .png and chart.json; print the tables and the files."""
+    """Run all benchmarks, write chart.json and chart-SCENE.svg and .png, and print the tables and the files' names."""
     from lagrotor.benchmark.scenes_and_methods import benchmarks
     from lagrotor.drawing.style import paper_style
     from lagrotor.files import write_beside, write_text
@@ -64,14 +64,17 @@ def chart_command(options: argparse.Namespace) -> int:
 
 
 def chart_data(charts: "list[Benchmark]") -> dict[str, Any]:
-    """Return the benchmarks and the ratios of the displaced scene as JSON data."""
+    """Return as JSON data the benchmarks, and the ratios of times at equal error in the first scene, the displaced one."""
     from lagrotor.benchmark.scenes_and_methods import ratios
 
     return {"charts": [asdict(chart) for chart in charts], "ratios": ratios(charts[0])}
 
 
 def chart_tables(charts: "list[Benchmark]") -> str:
-    """Return tables of each scene's front, set-up times and failures, and of the ratios."""
+    """Return a text with one table per scene: methods that none beats in time and error, set-up times, failures.
+
+    The last table has the ratios of computing times at equal error.
+    """
     from lagrotor.benchmark.runner import failure_sentences, front
     from lagrotor.benchmark.scenes_and_methods import OURS, ratios
 
@@ -81,7 +84,7 @@ def chart_tables(charts: "list[Benchmark]") -> str:
             (p.method, f"{p.setting:g}", f"{p.error:.1e}", f"{p.nfev}", f"{1e3 * p.seconds:.3g}")
             for p in front(chart.points)
         ]
-        blocks += [f"{chart.scene}: {chart.says}; the reference's two formulations agree to {chart.floor:.1e} m"]
+        blocks += [f"{chart.scene}: {chart.says}; the two reference solutions agree to {chart.floor:.1e} m"]
         blocks += [table(("front", "tol or step", "error (m)", "nfev", "ms"), rows)]
         slow = sorted(((s, name) for name, s in chart.setup.items() if s > 0.2), reverse=True)
         blocks += [f"  set-up: {', '.join(f'{name} {s:.2g} s' for s, name in slow)}"] if slow else []
@@ -118,7 +121,7 @@ def stability_command(options: argparse.Namespace) -> int:
 
 
 def _throughput(measure: Any, quick: bool) -> "list[Throughput]":
-    """Measure the throughput with one process per core; the quick measurement uses this process only."""
+    """Return what the function `measure` measures with one process per core, or in this process only if `quick`."""
     if quick:
         return list(measure(256))
     from concurrent.futures import ProcessPoolExecutor

@@ -24,7 +24,7 @@ _CLOSED_PIPE = 141  # exit status in a shell after SIGPIPE
 
 
 class _Terminated(BaseException):
-    """The signal SIGTERM. It ends a run as an interrupt does: unfinished files are removed."""
+    """The exception raised by the signal SIGTERM. It ends a run as an interrupt does: unfinished files are removed."""
 
 
 def _raise_terminated(number: int, frame: Any) -> None:

@@ -1,7 +1,7 @@
 """The commands about a paper: judge, init, notation, readings, derive, check, reproduce, audit, certify, claims, figure.
 
-The exit status is 1 if a verdict differs from the recorded one, or if a check finds an error. Without --paper, a command
-uses the paper for which lagrotor was written.
+The exit status is 1 if a verdict differs from the recorded one, or if an error is found. Without --paper, a command uses
+the paper on the rotor pair.
 """
 
 import argparse
@@ -24,7 +24,7 @@ def add_paper_commands(command: Command) -> None:
 
 
 def _add_reading_commands(command: Command) -> None:
-    """Add judge, init, notation, readings, derive and check."""
+    """Add the commands that read a paper: judge, init, notation, readings, derive and check."""
     added = command(
         "judge", judge_command, "decide whether one equation holds", 'lagrotor judge "sqrt(x**2) = x" --given "x >= 0"'
     )
@@ -81,7 +81,7 @@ def _add_reading_commands(command: Command) -> None:
 
 
 def _add_testing_commands(command: Command) -> None:
-    """Add reproduce, audit, certify, claims and figure."""
+    """Add the commands that test a paper: reproduce, audit, certify, claims and figure."""
     added = command(
         "reproduce",
         reproduce_command,
@@ -163,7 +163,7 @@ def init_command(options: argparse.Namespace) -> int:
     for note in paper.notes:
         print(f"  {note}")
     if paper.changed:
-        print(f"changed, confirm again: {', '.join(paper.changed)}")
+        print(f"the LaTeX has changed, confirm the reading again: {', '.join(paper.changed)}")
     if paper.gone:
         print(f"no longer in the source: {', '.join(paper.gone)}")
     if options.source:
@@ -182,7 +182,7 @@ def notation_command(options: argparse.Namespace) -> int:
     proposals = {row.symbol: row.kind for row in rows if not row.declared}
     if unknown := [name for name in options.confirm if name not in proposals]:
         raise InputError(
-            f"notation: nothing is proposed for {unknown[0]}: the proposals are for {', '.join(proposals) or 'no symbol'}"
+            f"notation: nothing is proposed for {unknown[0]}: there are proposals for {', '.join(proposals) or 'no symbol'}"
         )
     if options.confirm or options.real:
         kinds = {name: proposals[name] for name in options.confirm} | dict.fromkeys(options.real, "real")
@@ -277,7 +277,7 @@ def check_command(options: argparse.Namespace) -> int:
         say(f"{_plural(displayed, 'displayed equation')}; steps: {counts}", 0)
         if whole.reasons:
             reasons = "; ".join(f"{reason} ({count})" for reason, count in whole.reasons.items())
-            say(f"not judged because {reasons}{'' if options.all else '; all of them: --all'}", 0)
+            say(f"not judged because {reasons}{'' if options.all else '; --all lists these steps'}", 0)
     return 1 if any(finding.verdict in WRONG for _, finding in rows) else 0
 
 
@@ -302,7 +302,7 @@ def reproduce_command(options: argparse.Namespace) -> int:
     if result.claims:
         print(f"{_plural(sum(result.claims.values()), 'claim')} tested: {count_list(result.claims)}")
     if result.reused == ["report"]:
-        print("all taken from the last run (same inputs); to write it again, delete the folder")
+        print("all taken from the last run (same inputs); to compute it again, delete the folder")
     elif result.reused:
         kinds = Counter(name.split()[0] for name in result.reused)
         reused = ", ".join(_plural(count, kind) for kind, count in kinds.items())
@@ -394,7 +394,7 @@ def claims_command(options: argparse.Namespace) -> int:
 
     paper = _paper(options)
     if not paper.claims:
-        return say(f"{paper.title} has no claims.toml: there is nothing to test", 0)
+        return say(f"{paper.title} has no claims.toml, so there are no claims to test", 0)
     identifiers = frozenset(known_id(identifier, paper.claims) for identifier in options.ids) or frozenset(paper.claims)
     with progress(len(identifiers)) as step:
         results = paper.evaluate(step, identifiers)

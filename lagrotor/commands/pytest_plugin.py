@@ -1,4 +1,4 @@
-"""A pytest plugin: `pytest my-paper --lagrotor my-paper` makes a test of each recorded verdict and outcome."""
+"""A pytest plugin: `pytest my-paper --lagrotor my-paper` tests that each verdict and outcome equals the recorded one."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -19,14 +19,14 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_collection_modifyitems(session: pytest.Session, items: list[pytest.Item]) -> None:
-    """Append a test for each verdict of each paper."""
+    """Append to the tests of a session one test for each verdict of each paper that --lagrotor names."""
     for folder in session.config.getoption("--lagrotor"):
         items += _OnePaper.from_parent(session, name=str(folder), path=Path(folder).resolve()).collect()
 
 
 class _OnePaper(pytest.Collector):
     def collect(self) -> Iterator["RecordedAnswer"]:
-        """Yield the equations and claims that are judged or recorded."""
+        """Yield one test for each equation and claim that is judged or has a recorded verdict."""
         from lagrotor.errors import LagrotorError
         from lagrotor.paper.papers import opened
 
@@ -41,23 +41,24 @@ class _OnePaper(pytest.Collector):
 
 
 class RecordedAnswer(pytest.Item):
-    """One verdict, or the outcome of one claim, compared with the record."""
+    """The test that the verdict on one equation, or the outcome of one claim, equals the recorded one."""
 
     def __init__(self, *, paper: "Paper", **settings: Any) -> None:
         super().__init__(**settings)
         self.paper = paper
 
     def runtest(self) -> None:
-        """Judge the equation or test the claim, and compare with the record."""
+        """Judge the equation, or test the claim. Raise ChangedError if the result differs from the record."""
         answer, why = self._answer()
         changes = self.paper.changes([answer] if answer else [], [self.name])
         if not self.paper.recorded:
-            changes = [f"{self.name}: nothing is on record: lagrotor audit --record and lagrotor claims --record"]
+            helps = "run lagrotor audit --record and lagrotor claims --record"
+            changes = [f"{self.name}: no verdict is on record: {helps}"]
         if changes:
             raise ChangedError("\n".join([*changes, why]))
 
     def _answer(self) -> "tuple[Verdict | Result | None, str]":
-        """Return the present answer and its reason."""
+        """Return the present verdict or outcome, None if nothing decides it, and the reason in words."""
         from lagrotor.paper.audit import in_words
 
         if self.name in self.paper.scripts.stating:
@@ -66,10 +67,10 @@ class RecordedAnswer(pytest.Item):
         if self.name in self.paper.claim_tests:
             result = self.paper.measured(self.name)
             return result, result.finding.explanation
-        return None, "no derivation and no claim's test gives a verdict on it"
+        return None, "neither a derivation nor the test of a claim decides it"
 
     def repr_failure(self, excinfo: Any, style: Any = None) -> Any:
-        """Return the reason, or the message of an error of the package."""
+        """Return the text that pytest prints for a failure; for an error of lagrotor it is the message alone."""
         from lagrotor.errors import LagrotorError
 
         if isinstance(excinfo.value, ChangedError | LagrotorError):
@@ -77,9 +78,9 @@ class RecordedAnswer(pytest.Item):
         return super().repr_failure(excinfo, style)
 
     def reportinfo(self) -> tuple[Path, int | None, str]:
-        """Return the file and name under which pytest lists the test."""
+        """Return the file, the line (None) and the name under which pytest lists the test."""
         return self.paper.folder / "equations.toml", None, f"{self.paper.folder.name} {self.name}"
 
 
 class ChangedError(AssertionError):
-    """A verdict that differs from the recorded one."""
+    """The error of a test whose verdict differs from the recorded one, or has no record."""

@@ -1,4 +1,7 @@
-"""The commands for a scene (simulate, sweep, animate, rate) or a structure; bad input is refused before work starts."""
+"""The commands for a scene (simulate, sweep, animate, rate) and for a structure.
+
+Bad input is refused before any computation.
+"""
 
 import argparse
 import math
@@ -15,7 +18,7 @@ from lagrotor.pair.scene import Link, Scene, Shock
 
 
 def add_scene(parser: argparse.ArgumentParser) -> None:
-    """Add the options of spins and bar; a scene file has all other data."""
+    """Add the options that state a scene: spins, mass and inertia of the bar, or a scene file with all data."""
     group = parser.add_argument_group("scene")
     group.add_argument("--spins", nargs=2, type=float, metavar=("W1", "W2"), help="axial angular velocities, rad/s")
     group.add_argument("--link-mass", type=float, metavar="KG", help=f"mass of the bar (default: {Link.mass:g})")
@@ -33,7 +36,7 @@ def add_shock(parser: argparse.ArgumentParser) -> None:
 
 
 def scene_from_options(options: argparse.Namespace) -> Scene:
-    """Return the scene of the options or of the scene file. Raises InputError for contradictory options."""
+    """Return the scene that the options state, or that of the scene file. Raises InputError if both are given."""
     shock = _shock(options) if "shock" in options else None  # rate takes none
     link = {name: value for name in ("mass", "inertia") if (value := vars(options)[f"link_{name}"]) is not None}
     if options.scene:
@@ -49,18 +52,18 @@ def scene_from_options(options: argparse.Namespace) -> Scene:
 
 
 def _shock(options: argparse.Namespace) -> Shock | None:
-    """Return the shock of the options, or None. Raises InputError if one of its options is missing."""
+    """Return the shock that the options state, None if no option does. Raises InputError if only some are given."""
     values = {"--shock": options.shock, "--shock-time": options.shock_time, "--shock-width": options.shock_width}
     missing = [name for name, value in values.items() if value is None]
     if len(missing) == len(values):
         return None
     if missing:
-        raise InputError(f"a shock needs {' and '.join(missing)}")
+        raise InputError(f"a shock needs {' and '.join(missing)} too: give its force, its time and its width")
     return Shock(tuple(options.shock), options.shock_time, options.shock_width)
 
 
 def check_file(path: Path) -> None:
-    """Raise InputError unless a run can be written to the path."""
+    """Raise InputError unless a run can be written to the path: its ending must be known, its folder writable."""
     endings = (".npz", ".csv", *PICTURES, *FILMS)
     if path.suffix not in endings:
         raise InputError(f"--out {path}: the name must end in {', '.join(endings)}")
@@ -76,7 +79,7 @@ _Change = Callable[[Scene, float], Scene]
 def _bar_field(field: str) -> _Change:
     def change(scene: Scene, value: float) -> Scene:
         if scene.link is None:
-            raise InputError(f"--vary link-{field}: a pair without a bar has none")
+            raise InputError(f"--vary link-{field}: a pair without a bar has none: vary paired, spin1 or spin2")
         return replace(scene, link=replace(scene.link, **{field: value}))
 
     return change
@@ -101,7 +104,7 @@ _TOLERANCE = "target for the estimated largest error of an axis over the run"
 
 
 def add_sweep(added: argparse.ArgumentParser) -> None:
-    """Add the options of a sweep."""
+    """Add the options of the command sweep."""
     add_scene(added)
     add_shock(added)
     says = "; ".join(f"{name}: {what}" for name, (what, _) in _VARIED.items())
@@ -120,12 +123,12 @@ def _values(options: argparse.Namespace) -> list[float]:
     except ValueError:
         raise InputError(f"--between {' '.join(options.between)}: give two numbers and a count") from None
     if not (math.isfinite(first) and math.isfinite(last) and 1 <= count <= _MOST):
-        raise InputError(f"--between {' '.join(options.between)}: two finite numbers and a count from 1 to {_MOST}")
+        raise InputError(f"--between {' '.join(options.between)}: give finite numbers and a count from 1 to {_MOST}")
     return [first + (last - first) * i / max(count - 1, 1) for i in range(count)]
 
 
 def sweep_command(options: argparse.Namespace) -> int:
-    """Run the family of scenes and print one line per run."""
+    """Simulate the scene for each value of the varied parameter, and print one line per run."""
     if not (math.isfinite(options.t_end) and options.t_end > 0):
         raise InputError(f"--t-end {options.t_end:g} must be above zero")
     values, scene, change = _values(options), scene_from_options(options), _VARIED[options.vary][1]
@@ -160,7 +163,7 @@ _FPS = 25.0  # frames per second
 
 
 def add_scene_commands(command: Command) -> None:
-    """Add simulate, sweep, animate and rate."""
+    """Add the commands for scenes: simulate, sweep, animate and rate."""
     _add_simulate(
         command(
             "simulate",
@@ -282,7 +285,10 @@ def simulate_command(options: argparse.Namespace) -> int:
 
 
 def _scene_with_start(scene: Scene, options: argparse.Namespace) -> Scene:
-    """Return the scene, on its paired precession with `--paired`; write it with `--write-scene`."""
+    """Return the scene to simulate. With `--paired` it starts on the paired precession of this amplitude.
+
+    With `--write-scene` the scene is also written to a file.
+    """
     if options.paired is not None:
         from lagrotor.models.orbits.precession import paired_scene
 
@@ -335,7 +341,7 @@ _ENDINGS = (*PICTURES, *FILMS, ".toml")
 
 
 def add_structure_commands(command: Command) -> None:
-    """Add structure."""
+    """Add the command structure."""
     added = command(
         "structure",
         structure_command,
@@ -393,7 +399,7 @@ def _summary(s: Any) -> dict[str, Any]:
     rotors, bars = len(s.joints), len(s.bars)
     summary: dict[str, Any] = {"rotors": rotors, "bars": bars, "degrees_of_freedom": 2 * rotors - bars}
     if not s.natural:
-        why = "upright, a bar is not as long as its tips are apart; a film shows how it moves (--out FILE.gif)"
+        why = "upright, a bar is not as long as the distance of its tips; a film shows the motion (--out FILE.gif)"
         return summary | {"stands": None, "why": why}
     standing, modes = s.stands(), s.modes()
     return summary | {
@@ -417,12 +423,12 @@ def _table(summary: dict[str, Any]) -> str:
     if summary["stands"] is None:
         return table(("structure", ""), [*rows, ("degrees of freedom", count)])
     factor = summary["critical_spin"]
-    least = "no spin suffices" if factor is None else f"{factor:.6g} times its spins" if factor else "none needed"
+    least = "no spin suffices" if factor is None else f"{factor:.6g} times the given spins" if factor else "zero"
     modes = enumerate(summary["modes"], 1)
     kind = "never at these spins" if summary["kind"] == "never" and factor else summary["kind"]
     rows.insert(0, ("stability", kind))
     rows += [
-        ("least spin, to first order", least),
+        ("least spins for linear stability", least),
         ("degrees of freedom", f"{count}; modes that grow: {summary['topple']}"),
     ]
     energies = {1: "", 0: "", -1: ", of negative energy"}

@@ -1,4 +1,4 @@
-"""The terminal: a parser with errors in one line, tables as wide as the terminal, and progress."""
+"""The terminal: a parser that reports errors in one line, tables that fit the terminal, and the display of progress."""
 
 import argparse
 import json
@@ -20,7 +20,7 @@ Command = Callable[[str, Callable[[argparse.Namespace], int], str, str], argpars
 
 
 class Parser(argparse.ArgumentParser):
-    """An argparse parser that raises InputError, and reads -1e-3 and -inf as numbers rather than options."""
+    """An argparse parser that raises InputError for bad usage, and reads -1e-3 and -inf as numbers, not as options."""
 
     def __init__(self, **settings: Any) -> None:
         super().__init__(formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False, **settings)
@@ -55,7 +55,7 @@ _NARROWEST, _WIDTH = 20, 100  # columns: least width of wrapped text, width with
 
 
 def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """Return rows under a head; the last column wraps at the terminal's edge, or not at all without a terminal."""
+    """Return a text table. On a terminal the last column wraps at its edge; elsewhere no line wraps."""
     widths = [max(len(row[i]) for row in (head, *rows)) for i in range(len(head) - 1)]
     indent = sum(widths) + 2 * len(widths)
     room = max(shutil.get_terminal_size().columns - indent, _NARROWEST) if sys.stdout.isatty() else sys.maxsize
@@ -68,13 +68,16 @@ def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 
 
 def wrap(text: str, indent: int) -> str:
-    """Return text wrapped to the terminal's width, or to 100 characters; all lines but the first are indented."""
+    """Return a text wrapped to the terminal's width, without one to 100 characters.
+
+    All lines but the first are indented by `indent` spaces.
+    """
     width = shutil.get_terminal_size().columns if sys.stdout.isatty() else _WIDTH
     return textwrap.fill(text, max(width, indent + _NARROWEST), subsequent_indent=" " * indent)
 
 
 def say(message: str, status: int) -> int:
-    """Print one line on stderr and return the exit status."""
+    """Print a message in one line on stderr and return the exit status `status`."""
     print("lagrotor:", " ".join(message.split()), file=sys.stderr)
     return status
 
@@ -85,9 +88,9 @@ def _clear_line() -> None:
 
 @contextmanager
 def progress(total: int) -> Iterator[Callable[[str], None]]:
-    """Yield a function to call with the name of each of `total` steps at its begin.
+    """Yield a function that shows the progress of a work of `total` steps; it is called with a step's name at its begin.
 
-    A terminal shows the steps in one line; any other stderr gets one line per step.
+    A terminal shows all steps in the same line; any other stderr gets one line per step.
     """
     count, start, live = 0, time.perf_counter(), sys.stderr.isatty()
 

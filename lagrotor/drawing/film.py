@@ -49,7 +49,7 @@ def frame_times(begin: float, end: float, fps: float) -> Array:
 
 
 class Film(type(Path())):  # type: ignore[misc]
-    """The file of a film; a notebook displays it."""
+    """The path of a film's file; a notebook displays the film."""
 
     def _repr_html_(self) -> str:
         from base64 import b64encode
@@ -70,7 +70,7 @@ def _announce_seconds(
 
 
 def _write_gif(file: IO[bytes], frames: Iterator[Pixels], count: int, fps: float) -> None:
-    """Write the frames with one palette, so that nothing flickers; rounded durations add up to the exact total."""
+    """Write frames as a GIF with one palette, so that nothing flickers. The durations, rounded, add up to the total."""
     from PIL import Image
 
     palette = Image.new("P", (1, 1))
@@ -84,14 +84,14 @@ def _write_gif(file: IO[bytes], frames: Iterator[Pixels], count: int, fps: float
 
 
 def _palette() -> Pixels:
-    """Return the palette (96, 3): every ink in steps from white, because anti-aliasing mixes inks with white only."""
+    """Return the palette, shape (96, 3). It has each ink in 24 steps from white, as anti-aliasing mixes it with white."""
     inks = np.array([to_rgb(ink) for ink in (INK, *ROTORS, MARK)])
     share = np.append(0, np.linspace(0.08, 1, 23))[:, None, None]
     return np.rint(255 * (1 + share * (inks - 1))).astype(np.uint8).reshape(-1, 3)
 
 
 def _frames(count: int, stage: Stage) -> Iterator[Pixels]:
-    """Yield the frames (height, width, 3). The static background is drawn once; only data of the artists change."""
+    """Yield `count` frames, each an array of pixels (height, width, 3); the background is drawn only once."""
     with paper_style():
         figure = Figure(figsize=(SIZE[0] / _DPI, SIZE[1] / _DPI), dpi=_DPI)
         canvas = FigureCanvasAgg(figure)
@@ -111,9 +111,10 @@ def _line(axes: Axes, colour: str, width: float) -> Line2D:
 
 @dataclass(frozen=True, eq=False)
 class FilmedMotion:
-    """The motion of N rotors at the times t (m,) in s, for a film.
+    """The motion of N rotors at the times t, shape (m,) in s, for a film.
 
-    rotations (N, m, 3, 3); tips, centres (N, m, 3), joints (N, 3), in m; length of an axis in m; joined: draw the bar.
+    rotations: shape (N, m, 3, 3). tips, centres: shape (N, m, 3) in m. joints: the ground joints, shape (N, 3) in m.
+    length: of an axis, in m. joined: True if a bar through all tips is drawn.
     """
 
     t: Array
@@ -125,7 +126,7 @@ class FilmedMotion:
     joined: bool
 
     def lines(self) -> tuple[list[Array], list[str], list[int]]:
-        """Return lines (m, p, 3) in m, their colours, and the indices of traced lines.
+        """Return the lines, each of shape (m, p, 3) in m, their colours, and the indices of those that leave a trace.
 
         The lines are wheels with one marked spoke, axes, bar and ground. The wheels do not show the inertia to scale.
         """
@@ -164,15 +165,15 @@ def animate_lines(
     t : Array
         Times of the frames, (m,), in s.
     lines : sequence
-        Each (m, p, 3), in m.
+        The lines, each of shape (m, p, 3) in m: p points at m times.
     fps : float
         Frames per second.
     inks : sequence, default ROTORS
         Colours of the lines; they repeat if there are fewer colours than lines.
     traced : Sequence[int] or None, optional
-        Indices of the lines whose last point leaves a trace; the default is all.
+        Indices of the lines whose last point leaves a trace; None means all lines.
     step : callable, default lambda name: None
-        Called at the begin of each second of the film.
+        A function that is called with "second n" at the begin of each second of the film.
 
     Raises
     ------
@@ -205,7 +206,7 @@ def animate_lines(
 
 
 def _flat(lines: Sequence[Array]) -> int | None:
-    """Return the direction (preferably 1, then 2, then 0) without extent of the lines, or None."""
+    """Return the direction along which the lines have no extent: 1 (y), else 2 (z), else 0 (x); None if there is none."""
     extent = np.ptp(np.concatenate([line.reshape(-1, 3) for line in lines]), axis=0)
     return next((i for i in (1, 2, 0) if extent[i] <= 1e-9 * extent.max()), None)
 

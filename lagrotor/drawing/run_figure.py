@@ -1,4 +1,4 @@
-"""Figures of a run over time: tips, their paths and the energy of a pair; coordinates and energy of any system."""
+"""Figures of a run over time: the tips and the energy of rotors, or the coordinates and the energy of any system."""
 
 from collections.abc import Collection, Mapping, Sequence
 from io import BytesIO
@@ -15,7 +15,7 @@ _CONSTANT = 1e-7  # relative variation of a curve that counts as constant
 
 
 class RunFigure(Figure):
-    """A figure that a notebook displays without pyplot."""
+    """A matplotlib figure that a notebook displays although it is made without pyplot."""
 
     def _repr_png_(self) -> bytes:
         with BytesIO() as file:
@@ -31,9 +31,10 @@ def run_figure(
     inks: Sequence[str] = ROTORS,
     bars: Sequence[tuple[int, int]] = (),
 ) -> RunFigure:
-    """Draw the displacements of tips (N, n, 3) in m over t (n,) in s, their top view, and the energy change (n,) in J.
+    """Draw the displacements of the tips over time, the paths of the tips seen from above, and the change of the energy.
 
-    inks: colours of the rotors, repeated if necessary. bars: pairs of tips joined by a line.
+    t: shape (n,) in s. tips: shape (N, n, 3) in m. energy: shape (n,) in J. inks: colours of the rotors, repeated if
+    there are more rotors. bars: pairs of indices of tips that a line joins in the view from above.
     """
     with paper_style():
         figure = RunFigure(figsize=(9.0, 6.0))
@@ -63,13 +64,16 @@ def run_figure(
 
 
 def coordinates_figure(t: Array, coordinates: Mapping[str, Array], energy: Array, drift: Array) -> RunFigure:
-    """Draw coordinates {label: (n,)} over t (n,) in s, the energy change, and the constraint violation if not zero."""
+    """Draw coordinates and the change of the energy over the time t, shape (n,) in s, one panel each.
+
+    coordinates: label → values (n,). drift: violation of the constraints, (n,); it is drawn unless all of it is zero.
+    """
     below = {"E − E(0)": energy - energy[0]} | ({"largest |g|": drift} if drift.any() else {})
     return curves_figure(t, {**coordinates, **below}, below)
 
 
 def curves_figure(t: Array, curves: Mapping[str, Array], others: Collection[str] = ()) -> RunFigure:
-    """Draw curves {label: (n,)} over t (n,) in s, one panel each; `others` are labels in a second colour."""
+    """Draw curves, label → values (n,), over t (n,) in s, one panel each; `others` are the labels with a second colour."""
     with paper_style():
         figure = RunFigure(figsize=(7.0, max(3.0, 1.4 * len(curves))))
         axes = figure.subplots(len(curves), 1, sharex=True, squeeze=False)[:, 0]
@@ -84,7 +88,10 @@ def curves_figure(t: Array, curves: Mapping[str, Array], others: Collection[str]
 
 
 def rates_figure(letter: str, numbers: Array, rates: NDArray[np.complex128], marks: Sequence[float]) -> RunFigure:
-    """Draw real and imaginary parts of rates (m, n), 1/s, over the values (m,) of a symbol, with marked values."""
+    """Draw the real and imaginary parts of rates, shape (m, n) in 1/s, over the values `numbers` (m,) of a symbol.
+
+    letter: the label of the symbol. marks: values of the symbol that get a vertical line.
+    """
     with paper_style():
         figure = RunFigure(figsize=(7.0, 5.0))
         above, below = figure.subplots(2, 1, sharex=True)
@@ -102,7 +109,10 @@ def rates_figure(letter: str, numbers: Array, rates: NDArray[np.complex128], mar
 
 
 def chart_figure(names: tuple[str, str], numbers: tuple[Array, Array], growth: Array, edges: Array) -> RunFigure:
-    """Draw growth rates (n, m), 1/s, over the values (m,) and (n,) of two symbols, with boundary points (k, 2)."""
+    """Draw growth rates, shape (n, m) in 1/s, in colour over the values, (m,) and (n,), of two symbols.
+
+    edges: points (k, 2) of the boundary between stable and unstable values, drawn as dots.
+    """
     with paper_style():
         figure = RunFigure(figsize=(7.0, 5.0))
         panel = figure.subplots()

@@ -1,4 +1,4 @@
-"""One style for every figure: colours with a fixed meaning, distinguishable by the colour-blind (Okabe & Ito)."""
+"""One style for every figure. Its colours have fixed meanings and are those of Okabe & Ito, distinct for the colour-blind."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -86,8 +86,8 @@ def paper_style() -> Iterator[None]:
 def laid_out(figure: Figure, dpi: float = _STYLE["savefig.dpi"]) -> Iterator[Figure]:
     """Yield the figure with its panels placed once for all files written inside the `with` block.
 
-    dpi: pixels per inch; one density for layout and files measures the text only once. The layout engine is removed,
-    because with any engine, even an idle one, matplotlib draws each file twice.
+    dpi: pixels per inch, the same for the layout and all files, so that the text is measured only once. The layout engine
+    of the figure is removed, because with an engine matplotlib draws each file twice.
     """
     FigureCanvasAgg(figure)
     figure.set_dpi(dpi)
@@ -100,6 +100,6 @@ def laid_out(figure: Figure, dpi: float = _STYLE["savefig.dpi"]) -> Iterator[Fig
 
 
 def with_residual(figure: Figure) -> tuple[Axes, Axes]:
-    """Create a panel for curves and a lower panel for their residual, with a common time axis."""
+    """Create a panel for curves and a lower panel for their residual, with a common time axis; return both."""
     main, residual = figure.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": (3, 1)})
     return main, residual

@@ -28,7 +28,7 @@ class View:
     Attributes
     ----------
     motion : dict
-        Times in s, and the lines as encoded points.
+        The times `t` in s, and the lines, whose points are encoded as 16-bit integers.
     title : str
         A line above the motion.
     """
@@ -56,7 +56,7 @@ class View:
         Returns
         -------
         anywidget.AnyWidget
-            Its `time` (s) and `playing` may be set, observed and linked to another widget's.
+            The widget. Its traits `time` (s) and `playing` may be set, observed, and linked to those of other widgets.
 
         Raises
         ------
@@ -96,7 +96,7 @@ class View:
         Raises
         ------
         InputError
-            For another ending.
+            If the name has another ending, or the file cannot be written.
         """
         if Path(path).suffix != ".html":
             raise InputError(f"view: {path}: the name must end in .html")
@@ -111,7 +111,7 @@ class View:
 
 
 def view_times(begin: float, end: float) -> Array:
-    """Return the times (m,) in s of the frames of a view: FPS per second, at most FRAMES, with both ends."""
+    """Return the times of the frames of a view, shape (m,) in s, from `begin` to `end`: FPS per s, at most FRAMES."""
     return np.linspace(begin, end, int(min(FRAMES, max(2, (end - begin) * FPS + 1))))
 
 
@@ -122,14 +122,16 @@ def view_lines(
     title: str = "",
     traced: Sequence[int] | None = None,
 ) -> View:
-    """Return a view of moving lines, each (m, p, 3) in m at the times t (m,) in s; a fixed line is (1, p, 3).
+    """Return a view of moving lines at the times t, shape (m,) in s.
 
-    inks: colours, repeated if necessary. traced: indices of the lines whose last point leaves a trace; the default is all.
+    lines: each of shape (m, p, 3) in m, or (1, p, 3) if it does not move. inks: colours, repeated if there are more lines.
+    title: a line above the motion. traced: indices of the lines whose last point leaves a trace; None means all lines.
     Raises InputError for an empty or non-finite motion.
     """
     arrays = [np.asarray(line, float) for line in lines]
     if not arrays or len(t) < 2 or not all(line.size and np.isfinite(line).all() for line in arrays):
-        raise InputError(f"view: {len(arrays)} lines at {len(t)} times: nothing moves, or a coordinate is not finite")
+        why = "nothing moves, or a coordinate is not finite: give lines and at least 2 times, all finite"
+        raise InputError(f"view: {len(arrays)} lines at {len(t)} times: {why}")
     corners = np.array([[line.reshape(-1, 3).min(0), line.reshape(-1, 3).max(0)] for line in arrays])
     low, high = corners[:, 0].min(0), corners[:, 1].max(0)
     middle, unit = (low + high) / 2, float((high - low).max() or 1.0) / 2 / _LARGEST

@@ -1,4 +1,4 @@
-"""The wheels of section 3.4 and the camera: a wireframe moved by each body's rotation and centre."""
+"""The wheels of section 3.4 of the paper, drawn as wireframes, and the camera that projects them onto the picture."""
 
 from dataclasses import dataclass
 from math import cos, pi, radians, sin
@@ -17,11 +17,12 @@ ROTORS = ("#332288", "#a0568a")  # indigo and purple as on the page, used for ro
 
 
 def wheel(radius: float, axle: float, n: int, arcs: int = 1) -> tuple[Array, NDArray[np.intp]]:
-    """Return the wireframe of a wheel about e_z: points (n arcs + 2, 3) in m, segments (n arcs + 2 n + 1, 2) of indices.
+    """Return the wireframe of a wheel about e_z: its points, and its segments as pairs of indices of points.
 
-    The n joints on the rim are at radius (cos 2πk/n, sin 2πk/n, 0). Two spokes join each to the ends (0, 0, ∓axle/2) of
-    the axle, the last two points. The segments are the rim (`arcs` chords between joints, 1 as in the paper), the spokes
-    and the axle. Raises InputError unless lengths are positive, n is at least 3 and arcs at least 1.
+    The points have the shape (n arcs + 2, 3) in m, the segments (n arcs + 2 n + 1, 2). The n joints on the rim are at radius
+    (cos 2πk/n, sin 2πk/n, 0). Two spokes join each joint to the ends (0, 0, ∓axle/2) of the axle, the last two points. The
+    segments are the rim, with `arcs` chords between neighbouring joints (1 in the paper), the spokes and the axle. Raises
+    InputError unless the lengths are positive, n is at least 3 and arcs at least 1.
     """
     if not (radius > 0 and axle > 0 and n >= 3 and arcs >= 1):
         raise InputError(
@@ -38,7 +39,10 @@ def wheel(radius: float, axle: float, n: int, arcs: int = 1) -> tuple[Array, NDA
 
 
 def place_points(points: Array, rotation: Array, centre: Array) -> Array:
-    """Return Xn = X Rᵀ + X_cm (the paper's listing): points (p, 3), R (…, 3, 3), X_cm (…, 3) → (…, p, 3), in m."""
+    """Return the points of a body in space, Xn = X Rᵀ + X_cm as in the paper's listing, shape (…, p, 3) in m.
+
+    points: X, shape (p, 3) in m. rotation: R, shape (…, 3, 3). centre: X_cm, shape (…, 3) in m.
+    """
     placed: Array = points @ np.swapaxes(rotation, -1, -2) + centre[..., None, :]
     return placed
 
@@ -66,11 +70,11 @@ class Camera:
         return np.array([right, np.cross(towards, right), towards])
 
     def __call__(self, points: Array) -> Array:
-        """Project points (…, 3) onto the picture (…, 2), in m."""
+        """Return the projections of points, shape (…, 3), onto the picture, shape (…, 2), in m."""
         picture: Array = points @ self.frame[:2].T
         return picture
 
     def depth(self, points: Array) -> Array:
-        """Return the distances (…) of points (…, 3) towards the viewer, in m."""
+        """Return how far points, shape (…, 3), are in front of the origin, towards the viewer; shape (…) in m."""
         depths: Array = points @ self.frame[2]
         return depths

@@ -1,4 +1,4 @@
-"""Parts of the paper's figures: bodies, arrows, arcs and panels."""
+"""Parts from which the paper's figures are drawn: bodies, arrows, arcs and panels."""
 
 from typing import TYPE_CHECKING
 

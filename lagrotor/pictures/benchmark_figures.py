@@ -1,4 +1,4 @@
-"""The figures of `lagrotor chart` (error against work), and the figure of the error over amplitude and spins."""
+"""The figures of `lagrotor chart`, error against work, and the figure of the error of the series over its parameters."""
 
 import textwrap
 from typing import Any
@@ -32,7 +32,10 @@ _ACROSS: dict[Work, str] = {
 
 
 def speed_chart(chart: Benchmark) -> Figure:
-    """Draw error against seconds and evaluations, with the front, a colour per family and a list of failures."""
+    """Draw the error of all methods against computing time and against evaluations, in two panels.
+
+    Each family of methods has a colour. The front joins the points that none beats in both; failed methods are listed.
+    """
     failures = [
         line
         for failure in failure_sentences(chart.failures)
@@ -60,7 +63,7 @@ def speed_chart(chart: Benchmark) -> Figure:
 
 
 def _panel(axes: Axes, chart: Benchmark, work: Work) -> list[tuple[Line2D, bool]]:
-    """Draw one panel; return its legend lines, each with True for the heading of a family."""
+    """Draw one panel; return the lines of its legend, each with True if it is the heading of a family of methods."""
     best = [p for p in front(chart.points, work) if getattr(p, work) > 0]
     grey: dict[str, Any] = {"color": "#bbbbbb", "linewidth": 6, "alpha": 0.5}
     axes.step([getattr(p, work) for p in best], [p.error for p in best], where="post", label="front", **grey)
@@ -87,7 +90,7 @@ def _panel(axes: Axes, chart: Benchmark, work: Work) -> list[tuple[Line2D, bool]
 
 
 def _curve(axes: Axes, points: list[ChartPoint], work: Work, number: int, look: dict[str, Any]) -> Line2D:
-    """Draw one method's curve, with its number at the most accurate point."""
+    """Draw the curve of one method, with the method's number at its most accurate point; return the curve."""
     costs, errors = [getattr(p, work) for p in points], [p.error for p in points]
     (line,) = axes.loglog(costs, errors, markersize=4, linewidth=0.9, **look)
     if points:
@@ -98,7 +101,10 @@ def _curve(axes: Axes, points: list[ChartPoint], work: Work, number: int, look: 
 
 
 def stability_figure(useful: Usefulness) -> Figure:
-    """Draw the error of each order over amplitude and departure from opposite spins, and the limit of use."""
+    """Draw the error of the series of each order in colour, over the amplitude and the departure from opposite spins.
+
+    A line marks where the error exceeds USEFUL times the amplitude.
+    """
     figure = Figure(figsize=(7.4, 3.9))
     panels = figure.subplots(1, len(useful.orders), sharey=True, squeeze=False)[0]
     levels = np.arange(-8, 1)

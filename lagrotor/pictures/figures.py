@@ -25,9 +25,11 @@ _PNG: dict[str, Any] = {"metadata": {"Software": None}, "pil_kwargs": {"compress
 
 @dataclass(frozen=True)
 class Picture:
-    """A saved figure: texts of its script, the files `svg` and `png`, and numbers `measured` by the script.
+    """A saved figure with the texts of its script.
 
-    key: the paper's number, such as "17", or the name of another figure, such as "t6". stem: name of script and files.
+    stem: the name of the script and of the files. key: the paper's number, such as "17", or the name of another figure,
+    such as "t6". alt: a description for those who do not see it. svg, png: its files. measured: the numbers that its
+    script reads off.
     """
 
     stem: str
@@ -41,24 +43,24 @@ class Picture:
 
 
 def stems(scripts: Scripts) -> dict[str, str]:
-    """Return key → stem of the scripts that draw figures: the paper's by number, then others such as "b1", "t1"."""
+    """Return a map from the key of each figure to the stem of its script: first the paper's by number, then others."""
     matches = [(re.match(r"(?:fig0*)?([a-z]?\d+)_", stem), stem) for stem in scripts.names("figures")]
     return dict(sorted(((match[1], stem) for match, stem in matches if match), key=lambda row: not row[0].isdigit()))
 
 
 def check_keys(keys: Iterable[str], scripts: Scripts) -> list[str]:
-    """Return the keys without repetition, 07 as 7. Raises InputError for a key without a script."""
+    """Return the keys without repetition and leading zeros. Raises InputError for a key to which no script belongs."""
     drawn = stems(scripts)
     unique = list(dict.fromkeys(key.lstrip("0") or key for key in keys))
     for key in unique:
         if key not in drawn:
             listed = ", ".join(drawn) or "none"
-            raise InputError(f"figure {key!r} has no script: those drawn are {listed}{near(key, drawn)}")
+            raise InputError(f"figure {key!r} has no script: give one of {listed}{near(key, drawn)}")
     return unique
 
 
 def draw_figure(key: str, folder: Path, scripts: Scripts) -> Picture:
-    """Draw one figure and write `<stem>.svg` and `<stem>.png` into `folder`, reproducibly to the byte.
+    """Draw one figure and write `<stem>.svg` and `<stem>.png` into `folder`; the same script gives the same bytes.
 
     Raises InputError if the folder is not writable or the script lacks a definition, ScriptError if the script fails.
     """
@@ -68,7 +70,7 @@ def draw_figure(key: str, folder: Path, scripts: Scripts) -> Picture:
     with paper_style():
         script = scripts.run("figures", stem)
         if lacking := [name for name in ("TITLE", "CAPTION", "ALT", "figure") if name not in script]:
-            raise InputError(f"{scripts.path('figures', stem)}: it does not define {lacking[0]}")
+            raise InputError(f"{scripts.path('figures', stem)} does not define {lacking[0]}: define it there")
         with laid_out(scripts.called("figures", stem, "figure")) as figure:
             drawn = StringIO()
             figure.savefig(drawn, format="svg", metadata={"Date": None})
@@ -92,7 +94,7 @@ _DECIMALS = 2
 
 
 def lean_svg(source: str) -> str:
-    """Return the same drawing in fewer characters: no metadata, short ids, rounded and relative coordinates."""
+    """Return an SVG with fewer characters that draws the same: no metadata, short ids, rounded relative coordinates."""
     text = re.sub(r"<\?xml.*?\?>|<!DOCTYPE.*?>|<!--.*?-->|<metadata>.*?</metadata>", "", source, flags=re.DOTALL)
     text = re.sub(r">\s+<", "><", text.strip())
     used = set(re.findall(r'(?:href="#|url\(#)([^")]+)', text))
@@ -107,7 +109,7 @@ def lean_svg(source: str) -> str:
 
 
 def _with_classes(text: str) -> str:
-    """Replace each repeated style by a class: hundreds of markers and grid lines share one style."""
+    """Replace each repeated style in an SVG by a class, because hundreds of markers and grid lines share one style."""
     counts = Counter(re.findall(r' style="([^"]*)"', text))
     names = {style: f"_{i:x}" for i, (style, n) in enumerate(counts.most_common()) if n > 1}
     rules = "".join(f".{name}{{{style}}}" for style, name in names.items())
@@ -134,7 +136,7 @@ def _short(value: float) -> str:
 
 
 def _relative(path: str) -> str:
-    """Return a path of M, L, Q, C and z in relative coordinates, without accumulation of rounding errors."""
+    """Return an SVG path of M, L, Q, C and z in relative coordinates; its rounding errors do not accumulate."""
     pieces, at, start, last = [], (0.0, 0.0), (0.0, 0.0), ""
     for letter, coordinates in re.findall(r"([MLQCz])([^MLQCz]*)", path):
         numbers = [float(number) for number in coordinates.split()]

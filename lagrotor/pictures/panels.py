@@ -1,4 +1,4 @@
-"""Parts of the paper's figures: bodies, arrows, arcs; runs after a shock (11 to 13, 25, 27); orbits (17 to 20)."""
+"""Parts of the paper's figures: bodies, arrows and arcs; figures of a shock (11 to 13, 25, 27) and of orbits (17 to 20)."""
 
 from collections.abc import Callable, Sequence
 from functools import cache
@@ -23,7 +23,7 @@ from lagrotor.renamed import accept_old_keywords
 
 @accept_old_keywords
 def canvas(figure: Figure, points: Array, room: float = 0.12) -> Axes:
-    """Create the figure's only panel, without axes, around points (…, 2) with a margin `room` (m)."""
+    """Create the only panel of a figure, without axes; it fits points, shape (…, 2), with a margin `room`, in m."""
     axes = figure.subplots()
     bare(axes, points, room)
     return axes
@@ -31,7 +31,7 @@ def canvas(figure: Figure, points: Array, room: float = 0.12) -> Axes:
 
 @accept_old_keywords
 def bare(axes: Axes, points: Array, room: float = 0.12) -> None:
-    """Remove the frame of a panel and fit it around points (…, 2), with a margin `room` (m)."""
+    """Remove the frame and the axes of a panel and fit it to points, shape (…, 2), with a margin `room`, in m."""
     low, high = points.reshape(-1, 2).min(0) - room, points.reshape(-1, 2).max(0) + room
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal")
     axes.axis("off")
@@ -57,20 +57,23 @@ def path_arrow(axes: Axes, points: Array, colour: str = INK, width: float = 1.6)
 def label(
     axes: Axes, at: ArrayLike, text: str, colour: str = INK, shift: tuple[float, float] = (0, 0), **settings: Any
 ) -> None:
-    """Write text near `at` (2,), displaced by `shift` points, with a white rim that hides lines below."""
+    """Write text at the point `at`, shape (2,), displaced by `shift` in typographic points, with a white rim."""
     x, y = np.asarray(at, dtype=float)
     style: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 11, "color": colour, "zorder": 6} | settings
     axes.annotate(text, (x, y), xytext=shift, textcoords="offset points", path_effects=HALO, **style)
 
 
 def arc(centre: ArrayLike, u: Array, v: Array, radius: float, begin: float, end: float, n: int = 41) -> Array:
-    """Return points (n, 3) of centre + radius (u cos a + v sin a), a from `begin` to `end` (rad); u, v orthonormal."""
+    """Return n points, shape (n, 3), of an arc: centre + radius (u cos a + v sin a), with a from `begin` to `end` in rad.
+
+    u, v: orthonormal vectors, shape (3,).
+    """
     a = np.linspace(begin, end, n)[:, None]
     return np.asarray(centre, dtype=float) + radius * (np.cos(a) * u + np.sin(a) * v)
 
 
 def arc_between(u: Array, v: Array, radius: float, centre: ArrayLike = (0.0, 0.0, 0.0)) -> Array:
-    """Return points (31, 3) of the arc of `radius` (m) about `centre` from unit vector u to unit vector v."""
+    """Return 31 points, shape (31, 3), of the arc about `centre` from the direction u to v; both are unit vectors."""
     angle = float(np.arccos(np.clip(u @ v, -1, 1)))
     normal = v - (u @ v) * u
     return arc(centre, u, normal / np.linalg.norm(normal), radius, 0.0, angle, 31)
@@ -79,7 +82,7 @@ def arc_between(u: Array, v: Array, radius: float, centre: ArrayLike = (0.0, 0.0
 def draw_wheel(
     axes: Axes, camera: Camera, rotation: Array, centre: Array, size: tuple[float, float], colour: str
 ) -> None:
-    """Draw a wheel of eight spokes, one marked, with `size` (radius, axle) in m, at a body's rotation and centre."""
+    """Draw a wheel with one marked spoke at a rotation (3, 3) and a centre (3,); `size` is (radius, axle) in m."""
     points, segments = wheel(*size, 8, 8)
     placed = place_points(points, rotation, centre)
     ends = camera(placed)[segments]
@@ -92,16 +95,16 @@ def draw_wheel(
 
 
 def ground(axes: Axes, at: Sequence[ArrayLike], size: float = 9) -> None:
-    """Mark ground joints at points (2,)."""
+    """Draw a triangle for each ground joint at the points `at`, each of shape (2,)."""
     for x, y in np.asarray(at, dtype=float):
         axes.plot([x], [y], "^", color=INK, markersize=size, zorder=5)
 
 
 def shock_figure(data: dict[str, Array], letter: str) -> Figure:
-    """Draw energy, force and centre of rotor 1 over time, as in figures 11 to 13; the exact model is dashed.
+    """Draw the energy, the force and the centre of rotor 1 over time, as in figures 11 to 13; the exact model is dashed.
 
-    data: t (n,) in s; energy (n,) in J; force (n,) in N along `letter`; centre (n, 3) in m; exact_energy, exact_centre;
-    exact_t (m,) if the exact model ends before the run.
+    data: t (n,) in s; energy (n,) in J; force (n,) in N along the direction `letter`; centre (n, 3) in m; exact_energy and
+    exact_centre, the same of the exact model; exact_t (m,), its times in s, if it ends before the run.
     """
     figure = Figure(figsize=(7.0, 7.0))
     upper, middle, lower = figure.subplots(3, 1, sharex=True, height_ratios=(1, 0.7, 1.6))
@@ -131,7 +134,10 @@ def shock_figure(data: dict[str, Array], letter: str) -> Figure:
 
 
 def shock_script(scene: Scene, letter: str) -> tuple[Callable[[], Any], Callable[[], Any], str, Callable[[], Figure]]:
-    """Return data, measure, caption and figure of a pair after a shock of 50 N along `letter` (figures 12, 13)."""
+    """Return the parts of a script for figure 12 or 13: a pair after a shock of 50 N along the direction `letter`.
+
+    They are the functions data and measure, the caption, and the function figure.
+    """
 
     @cache
     def data() -> dict[str, Array]:
@@ -160,11 +166,11 @@ _FIRST, _LAST = (1.9, 4.0), (8.5, 10.0)
 
 
 def rate_figure(data: dict[str, Array], printed: float) -> Figure:
-    """Draw the first and last swings of tip 1 along x, its residual and spectrum, as in figures 25 and 27.
+    """Draw x of tip 1 in its first and last oscillations, the residual of x and its spectrum, as in figures 25 and 27.
 
-    printed: the paper's rate, rad/s. data: t (n,) in s; force (n,) in N; exact, springs, printed, corrected (n,): x of tip 1
-    from its start in m; rate, exact_amplitude, springs_amplitude: the spectra; closed_form_rate (1,) in rad/s. The sines
-    start with the shock; their residual is shown from its end on.
+    printed: the paper's rate, rad/s. data: t (n,) in s; force (n,) in N; exact, springs, printed, corrected (n,), the change
+    of x of tip 1 in m by each method; rate in rad/s with exact_amplitude and springs_amplitude in m, the spectra;
+    closed_form_rate (1,) in rad/s. The sine curves start with the shock; the residual is shown from the end of the shock.
     """
     figure = Figure(figsize=(7.0, 8.4))
     panels = figure.subplot_mosaic(
@@ -203,20 +209,20 @@ def rate_figure(data: dict[str, Array], printed: float) -> Figure:
 
 
 def orbits_from_above(panel: Axes, wide: float, high: float) -> None:
-    """Prepare a top view of both tips: ground joints at ∓0.5 m, x within ±`wide` and y within ±`high` (m)."""
+    """Prepare a panel for both tips seen from above: the ground joints at x = ∓0.5 m, and limits ±wide, ±high in m."""
     panel.plot([-0.5, 0.5], [0, 0], "s", color="#222222", ms=6, label="ground joints")
     panel.set(xlabel="x [m]", ylabel="y [m]", title="Top view", xlim=(-wide, wide), ylim=(-high, high))
     panel.set_aspect("equal")
 
 
 def over_one_turn(panel: Axes) -> None:
-    """Set quarter turns as ticks on the axis of the phase."""
+    """Put ticks at quarter turns, 0 to 2π, on the horizontal axis of a panel, which shows the phase."""
     panel.set_xticks(np.arange(5) * np.pi / 2, ["0", "π/2", "π", "3π/2", "2π"])
 
 
 @accept_old_keywords
 def distance_over_one_turn(panel: Axes, least: float, greatest: float) -> None:
-    """Prepare a panel for the distance (m) of tip 1 from the exact one over the phase."""
+    """Prepare a panel for the distance, in m, of tip 1 from the exact tip over the phase; its limits are given in m."""
     panel.set(xlabel="phase [rad]", ylabel="distance [m]", title="Residual: distance of tip 1 from the exact one")
     panel.set_ylim(least, greatest)
     over_one_turn(panel)

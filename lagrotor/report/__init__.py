@@ -2,7 +2,8 @@
 
 The modules in the order in which `lagrotor reproduce` uses them:
 
-- `job.steps`: a `JobStep` is one derivation, claim or figure; `job.dependencies` gives the digest of all its inputs.
+- `job.steps` lists the `JobStep`s: each runs one derivation, tests one claim or draws one figure.
+- `job.dependencies` computes the digest of all inputs of a step.
 - `job.processes` runs the steps on all cores; `job.cache` stores numbers and figures for later runs.
 - `content.Report` holds all results of one run. `facts` writes its sentences, `errata` its refuted equations.
 - `page` writes the report as HTML, `text_forms` as Markdown and LaTeX, with `formulas` and `latex` for the formulas.

@@ -33,26 +33,29 @@ BESIDE = {
 
 MEANINGS = {
     "holds": "the printed expression equals the derived one; this is decided exactly",
-    "holds-if": "they are equal under the stated condition",
-    "holds-to-order": "they agree up to and including the stated order",
-    "refuted": "they differ; the same procedure decides whether the correction holds",
-    "proved": "a printed number; every value in the interval that a theorem proves rounds to it",
-    "measured": "a number that the paper read from a simulation; the derived value rounds to it",
+    "holds-if": "the two expressions are equal under the stated condition",
+    "holds-to-order": "the two expressions agree up to and including the stated order",
+    "refuted": "the two expressions differ; the same procedure decides whether the correction holds",
+    "proved": "a theorem encloses the exact value in an interval, and all of it rounds to the printed number",
+    "measured": "the paper read this number from a simulation; the derived value rounds to it",
     "definition": "the line only introduces a name",
-    "undecided": "not decidable by the exact procedure; numerical evidence is given",
-    NOT_YET: "no derivation treats it yet",
+    "undecided": "the exact procedure cannot decide the equation; numerical evidence is given",
+    NOT_YET: "no derivation treats this equation yet",
 }
 CLAIM_MEANINGS = {
     "proved": "every part of the claim follows from a theorem",
-    "confirmed": "simulations agree with it; their errors are estimated, not proved",
-    "confirmed-if": "it holds under the stated condition",
-    "refuted": "a simulation or a theorem contradicts it",
+    "confirmed": "simulations agree with the claim; their errors are estimated, not proved",
+    "confirmed-if": "the claim holds under the stated condition",
+    "refuted": "a simulation or a theorem contradicts the claim",
 }
 
 
 @dataclass(frozen=True)
 class ResultSection:
-    """A section of the report besides equations and claims: tables, findings (title, text), and figures."""
+    """A section of the report besides equations and claims.
+
+    tables: its tables. remarks: findings, each as (title, text). pictures: its figures.
+    """
 
     name: str
     heading: str
@@ -65,9 +68,10 @@ class ResultSection:
 class Report:
     """All results of one run on a paper.
 
-    `claims` are the tested claims; `changes` has a sentence for each verdict that differs from the recorded one.
-    `derivations` holds (stem, title, HTML), `model` the HTML of the interactive model, `versions` (software, version), `inputs`
-    (input, SHA-256). `certificates` maps an equation's id to its Coq file in the report's folder.
+    verdicts: those on the judged equations. pictures: the drawn figures. changes: a sentence for each verdict that differs
+    from the recorded one. claims: the results of the tested claims. derivations: (stem, title, HTML) of each derivation.
+    model: the HTML of the interactive model, "" without one. versions: (software, version). inputs: (input, SHA-256).
+    certificates: id of an equation → its Coq file in the report's folder.
     """
 
     paper: Paper
@@ -89,7 +93,7 @@ class Report:
 
     @property
     def how_to_read(self) -> str:
-        """The sentences that say how equations, claims and figures were examined and how they are numbered."""
+        """The introduction of the report: how equations, claims and figures were examined, and how they are cited."""
         equations, claims = list(self.paper.equations)[:1], list(self.paper.claims)[:1]
         text = "Each equation of the paper is read as printed and derived anew; an exact decision procedure compares the two. "
         text += "Each claim made in words is tested by a simulation or a theorem. " if claims else ""
@@ -106,7 +110,7 @@ class Report:
 
     @property
     def sections(self) -> dict[str, list[Verdict]]:
-        """The verdicts by section of the paper."""
+        """A map from each section of the paper to the verdicts on its equations."""
         verdicts_of: dict[str, list[Verdict]] = {}
         for verdict in self.verdicts:
             verdicts_of.setdefault(self.paper.equation(verdict.id).section, []).append(verdict)
@@ -126,7 +130,7 @@ class Report:
         return {answer: counted[answer] for answer in CLAIM_MEANINGS if counted[answer]}
 
     def result_section(self, name: str) -> ResultSection:
-        """Return the section of this name."""
+        """Return the section of the report that has this name, such as "figures"."""
         return next(section for section in self.result_sections if section.name == name)
 
     def users(self, identifier: str) -> tuple[str, ...]:
@@ -151,7 +155,7 @@ def anchor(identifier: str) -> str:
 
 
 def contents(report: Report) -> list[tuple[str, str]]:
-    """Return (anchor, heading) of the nonempty sections of a report in their order."""
+    """Return the anchor and the heading of each section of a report, in their order; empty sections are left out."""
     paper = [(f"section-{name}", f"{name} {report.paper.about.sections[name]}", True) for name in report.sections]
     listed = [
         ("model", "The pair in motion", bool(report.model)),
@@ -171,7 +175,10 @@ def contents(report: Report) -> list[tuple[str, str]]:
 
 
 def notation(report: Report) -> list[tuple[sp.Symbol, str, str]]:
-    """Return (symbol, meaning, unit) of each symbol, those of `letters` in `paper.toml` first, without time derivatives."""
+    """Return each symbol of the paper with its meaning and its unit.
+
+    The symbols listed under `letters` in `paper.toml` come first; time derivatives are left out.
+    """
     first = report.paper.about.letters
     entries = [entry for symbol, entry in report.paper.glossary.items() if not symbol.name.endswith("dot")]
     entries.sort(key=lambda entry: first.index(entry.symbol.name) if entry.symbol.name in first else len(first))
@@ -179,33 +186,33 @@ def notation(report: Report) -> list[tuple[sp.Symbol, str, str]]:
 
 
 def word(answer: str) -> str:
-    """Return a verdict in words."""
+    """Return a verdict or an outcome in words: "holds if" for "holds-if"."""
     return answer.replace("-", " ")
 
 
 def count_list(counts: dict[str, int]) -> str:
-    """Return counts in words: 9 confirmed, 3 refuted."""
+    """Return the number of each verdict or outcome in words, such as "9 confirmed, 3 refuted"."""
     return ", ".join(f"{count} {word(answer)}" for answer, count in counts.items())
 
 
 def derived_lines(relations: Iterable[Relation]) -> tuple[str, ...]:
-    """Return the distinct derived lines quantity = expression in LaTeX."""
+    """Return the derived lines of an equation in LaTeX, quantity = expression, each only once."""
     lines = (f"{r.quantity} = {r.written or latex(r.derived)}" for r in relations)
     return tuple(dict.fromkeys(line.removeprefix(" = ") for line in lines))
 
 
 def derived_heading(relations: Iterable[Relation]) -> str:
-    """Return the heading of the derived lines, which tells if the premises are substituted."""
+    """Return the heading of the derived lines; it says whether premises are substituted in them."""
     return "As derived, under the premises" if any(r.granted for r in relations) else "As derived"
 
 
 def as_read(entry: Equation) -> tuple[str, ...]:
-    """Return the printed lines as sympy reads them, quantity = member = member …."""
+    """Return each printed line as sympy reads it, in the form quantity = member = …."""
     return tuple(" = ".join([from_latex(row["quantity"]), *row.get("members", ())]) for row in entry.line)
 
 
 def citation() -> tuple[list[str], str]:
-    """Return the sentences on how to cite, with the references, and a BibTeX entry."""
+    """Return two things: the sentences on how to cite lagrotor, one for each reference, and a BibTeX entry."""
     head, _, listed = scripts.beside("CITATION.cff").read_text(encoding="utf-8").partition("references:")
     field = dict(re.findall(r"^(\w+): *(.+)$", head, re.MULTILINE))
     title, authors = field["title"].strip('"'), " and ".join(_names(head))
@@ -220,7 +227,7 @@ def citation() -> tuple[list[str], str]:
 
 
 def _names(block: str) -> list[str]:
-    """Return the authors of a block, first name before family name."""
+    """Return the authors that a block of CITATION.cff lists, each with the first name before the family name."""
     whole = re.findall(r"^ +- name: *(.+)$", block, re.MULTILINE)
     persons = re.findall(r"family-names: *(.+)\n +given-names: *(.+)", block)
     return [*whole, *(f"{first_name} {family}" for family, first_name in persons)]

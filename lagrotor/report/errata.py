@@ -21,10 +21,12 @@ _CORRECTED = {
 
 @dataclass(frozen=True)
 class Erratum:
-    """One refuted equation; `cited` is its place in the paper, `printed` and `corrected` are LaTeX, `wrong` describes the error.
+    """One refuted equation.
 
-    `used_by` holds ids of equations that use it, `survives` is True if no result depends on the error, and `conditions` holds the
-    premises with a label that tells where they apply.
+    cited: its place in the paper. printed, corrected: its LaTeX as printed, and the corrected lines. wrong: the error in
+    words. verdict_of_correction: the verdict on the correction in words. used_by: ids of the equations that use it.
+    survives: True if no result of the paper depends on the error. letters: names of the symbols in the correction.
+    conditions: premises, each list with a label that says whether the error or the correction needs them.
     """
 
     id: str
@@ -48,7 +50,7 @@ class Erratum:
 
 
 def errata(verdicts: Iterable[Verdict], paper: Paper) -> Iterator[Erratum]:
-    """Yield the refuted equations of an audit in its order."""
+    """Yield an erratum for each refuted equation of an audit, in the order of the verdicts."""
     listed = list(verdicts)
     for verdict in listed:
         if verdict.verdict == "refuted":
@@ -69,7 +71,10 @@ def errata(verdicts: Iterable[Verdict], paper: Paper) -> Iterator[Erratum]:
 
 
 def _conditions(verdict: Verdict) -> Iterator[tuple[str, tuple[Premise, ...]]]:
-    """Yield the premises of the error and of its correction, as one row if the first include the second."""
+    """Yield rows (label, premises): one for the error and one for its correction.
+
+    They become one row if the error has all premises of the correction; a row without premises is left out.
+    """
     premises, required = verdict.refuted_under, verdict.premises
     rows = [("Premises of the error", premises), ("Premises of the correction", required)]
     if required and all(premise in premises for premise in required):
@@ -78,12 +83,15 @@ def _conditions(verdict: Verdict) -> Iterator[tuple[str, tuple[Premise, ...]]]:
 
 
 def premise_formulas(premises: Iterable[Premise]) -> tuple[str, ...]:
-    """Return the equations of each premise in LaTeX, a line for each premise that has any."""
+    """Return the equations of the premises in LaTeX, one line for each premise that has equations."""
     return tuple(r",\quad ".join(premise.tex) for premise in premises if premise.tex)
 
 
 def correction_lines(verdict: Verdict) -> tuple[str, ...]:
-    """Return the correct lines in LaTeX: corrections that hold, and derived lines that have no correction."""
+    """Return the corrected lines of an equation in LaTeX.
+
+    These are the stated corrections that hold, and the derived lines for which no correction is stated.
+    """
     right = (line.relation for line in verdict.correction_lines if line.verdict in AGREES)
     lines = [_line(relation, relation.printed) for relation in right]
     return tuple(dict.fromkeys([*lines, *(_line(relation, relation.derived) for relation in uncorrected(verdict))]))
@@ -99,7 +107,7 @@ def _line(relation: Relation, side: Any) -> str:
 
 
 def latex_document(verdicts: Iterable[Verdict], paper: Paper) -> str:
-    """Return the sheet as an ASCII LaTeX document that needs amsmath, graphicx and hyperref."""
+    """Return the errata sheet as a LaTeX document in ASCII, which needs amsmath, graphicx and hyperref."""
     listed = list(verdicts)
     errors = list(errata(listed, paper))
     title = rf"\section*{{Errata to \emph{{{latex_prose(paper.title)}}}}}"
@@ -119,9 +127,9 @@ def _summary(verdicts: list[Verdict], errors: list[Erratum], paper: Paper) -> It
     """Yield the sentences above the items of the sheet."""
     differ = "1 differs" if len(errors) == 1 else f"{len(errors)} differ"
     yield (
-        f"{len(verdicts)} equations were read as printed and derived anew; {differ} from the derivation. Each is listed by its "
-        "number or section, as printed and as it should read. The same exact procedure decided the printed and the corrected "
-        "equations."
+        f"{len(verdicts)} equations were read as printed and derived anew; {differ} from the derivation. Each differing equation "
+        "is listed by its number or section, as printed and as it should read. One exact procedure decided the printed as well "
+        "as the corrected equations."
     )
     used = {letter for e in errors for letter in e.letters}
     meanings = {entry.symbol.name: entry.meaning for entry in paper.glossary.values()}
@@ -131,12 +139,12 @@ def _summary(verdicts: list[Verdict], errors: list[Erratum], paper: Paper) -> It
     if letters:
         yield f"Symbols in the corrections: {letters}."
     if reaching := sum(not e.survives for e in errors):
-        yield f"{reaching} of them change a result of the paper; no result depends on the other {len(errors) - reaching}."
+        yield f"{reaching} of the errors change a result of the paper; no result depends on the other {len(errors) - reaching}."
 
 
 def latex_item(e: Erratum, listed: list[Premise]) -> str:
-    """Return the item of one error; it cites premises by their number in the list."""
-    reach = "" if e.survives else " This changes a result."
+    """Return one erratum as an item of the LaTeX list; it cites a premise by its number in the list `listed`."""
+    reach = "" if e.survives else " This error changes a result of the paper."
     right = r";\quad ".join(line.strip() for line in e.corrected)
     granted = "".join(
         f" {label}: {', '.join(f'({listed.index(p) + 1})' for p in conditions)}." for label, conditions in e.conditions

@@ -1,4 +1,4 @@
-"""Sentences of a report: facts of equations, claims and figures, the count of verdicts, and the headlines of `paper.toml`."""
+"""The sentences of a report: facts about equations, claims and figures, counts of verdicts, and the main results."""
 
 import re
 from collections.abc import Iterator, Mapping
@@ -22,7 +22,11 @@ from lagrotor.report.errata import correction_lines, premise_formulas
 
 @dataclass(frozen=True)
 class Fact:
-    """A labelled line of sentences, linked ids, formulas (a single symbol ends the sentence) and formulas in LaTeX."""
+    """A labelled line below an equation, a claim or a figure.
+
+    texts: sentences. ids: what the line links to. formulas: expressions; a single symbol completes the sentence before it.
+    sources: formulas in LaTeX.
+    """
 
     label: str
     texts: tuple[str, ...] = ()
@@ -32,7 +36,7 @@ class Fact:
 
 
 def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:
-    """Yield the facts of a verdict that stand below its two formulas."""
+    """Yield the facts about a verdict, which the report shows below the printed and the derived formula."""
     statement = verdict.statement
     is_refuted = verdict.verdict == "refuted"
     if verdict.refuted_under:
@@ -40,9 +44,10 @@ def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:
     if verdict.premises:
         yield _condition("Premises of the correction" if is_refuted else "Condition", verdict.premises)
     if verdict.order is not None and verdict.small is not None:
-        yield Fact("Order", (f"agrees through order {verdict.order} in",), formulas=(verdict.small,))
+        agree = f"the printed and the derived expression agree through order {verdict.order} in"
+        yield Fact("Order", (agree,), formulas=(verdict.small,))
     if verdict.domain:
-        yield Fact("Domain", formulas=verdict.domain)
+        yield Fact("Domain", ("both sides are defined and real only where",), formulas=verdict.domain)
     if sentences := dimension_texts(verdict):
         yield Fact("Dimensions", tuple(f"{text}." for text in sentences))
     evidence = verdict.evidence
@@ -52,7 +57,8 @@ def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:
         yield Fact("Lines", sentences, sources=points)
         evidence = tuple(item for item in evidence if not any(item in line for line in sentences))
     if statement.correction:
-        answer = f"decided by the same procedure: {word(verdict.correction_verdict or 'undecided')}"
+        answer = word(verdict.correction_verdict or "undecided")
+        answer = f"the verdict on the corrected equation, by the same procedure, is: {answer}"
         yield Fact("Correction", (answer,), sources=correction_lines(verdict))
     if verdict.reaches_result is not None:
         yield Fact("Effect on results", (_EFFECTS[verdict.reaches_result],))
@@ -101,7 +107,10 @@ def figure_facts(picture: Picture, report: Report) -> Iterator[Fact]:
 
 
 def note(verdict: Verdict) -> str:
-    """Return the note of a verdict in a table: the reason of a refutation, or the order and the conditions."""
+    """Return the text for the column "Reason or condition" of a table of verdicts.
+
+    It is the error of a refuted equation, the evidence on an undecided one, otherwise order and conditions; "" if none.
+    """
     if verdict.verdict == "refuted":
         points = (point_text(line) for line in verdict.lines if line.verdict == "refuted")
         return verdict.statement.wrong or next(filter(None, points), "")
@@ -109,7 +118,7 @@ def note(verdict: Verdict) -> str:
         return verdict.evidence[0].partition(";")[0]
     clauses = list(dict.fromkeys(premise.says for premise in verdict.premises))
     if verdict.order is not None and verdict.small is not None:
-        clauses.insert(0, f"agrees through order {verdict.order} in {verdict.small}")
+        clauses.insert(0, f"the two sides agree through order {verdict.order} in {verdict.small}")
     broken = any(premise.broken for premise in verdict.premises)
     return "; ".join(clauses) + (". The paper's own scene does not satisfy this." if broken else "")
 
@@ -119,7 +128,10 @@ _FIELD = re.compile(r"([^\[\]]+)(?:\[(.+)\])?")
 
 @dataclass(frozen=True)
 class Headline:
-    """A main result: title, sentence with its numbers, linked ids, a formula in LaTeX, and a figure."""
+    """A main result of the paper: its title, a sentence with numbers, and the ids that it links to.
+
+    formula: LaTeX, "" without one. figure: such as "figure 19", "" without one.
+    """
 
     title: str
     text: str
@@ -129,13 +141,13 @@ class Headline:
 
 
 def opening(report: Report) -> list[tuple[str, str]]:
-    """Return (label, sentence) of the opening lines of the report."""
+    """Return the label and the sentence of each opening line of `paper.toml`, with the numbers filled in."""
     numbers = _Numbers(report)
     return [(line.label, numbers.format(line.text)) for line in report.paper.about.opening]
 
 
 def balance(report: Report) -> str:
-    """Return the sentences that count equations that hold, refuted ones and corrected ones."""
+    """Return the sentences that count the equations of each verdict, and the refuted ones with a correction."""
     if not report.verdicts:
         return f"None of {len(report.waiting)} equations is judged yet."
     counts = report.counts
@@ -164,13 +176,16 @@ def balance(report: Report) -> str:
 
 
 def headlines(report: Report) -> list[Headline]:
-    """Return the headlines of `paper.toml` whose equations, claims and figures are in the report."""
+    """Return those headlines of `paper.toml` whose equations, claims and figures are all in the report."""
     numbers = _Numbers(report)
     return [numbers.headline(entry) for entry in report.paper.about.headline if numbers.has(entry)]
 
 
 class _Numbers(Formatter):
-    """The formatter of {C02[rate]:.3f}, {figure 3[period (s)]:.2f}, {2.1} and {2.1[correction]} in `paper.toml`."""
+    """The formatter that fills numbers and verdicts into the sentences of `paper.toml`.
+
+    Fields are {C02[rate]:.3f}, {figure 3[period (s)]:.2f}, {2.1} (a verdict), {2.1[correction]} and {refuted} (a count).
+    """
 
     def __init__(self, report: Report) -> None:
         self.verdicts = {verdict.id: verdict for verdict in report.verdicts}
@@ -185,7 +200,7 @@ class _Numbers(Formatter):
         self.measured |= {f"figure {picture.key}": picture.measured for picture in report.pictures}
 
     def has(self, entry: catalogue.HeadlineEntry) -> bool:
-        """Return True if the report has every number and formula of the headline."""
+        """Return True if the report has every number, verdict and formula that a headline names."""
         fields = (match for _, name, _, _ in self.parse(entry.text) if (match := _FIELD.fullmatch(name or "")))
         needed = {match[1] for match in fields} | ({entry.formula} if entry.formula else set())
         return needed <= self.verdicts.keys() | self.measured.keys()
@@ -196,7 +211,7 @@ class _Numbers(Formatter):
         return Headline(entry.title, self.format(entry.text), ids, self._formula(entry), entry.figure)
 
     def get_field(self, field_name: str, args: Any, kwargs: Any) -> tuple[Any, str]:
-        """Return the value of a field; raise InputError for a number that no test measures."""
+        """Return the value of a field, and the id in it. Raises InputError for an unknown id or number."""
         if field_name in self.counts:
             return self.counts[field_name], field_name
         match = _FIELD.fullmatch(field_name)
@@ -206,14 +221,16 @@ class _Numbers(Formatter):
             answer = verdict.correction_verdict if name == "correction" else verdict.verdict
             return word(answer or "undecided"), identifier
         if identifier not in self.measured:
-            raise InputError(f"paper.toml: {{{field_name}}} is no equation, claim or figure of the report")
+            helps = "write the id of one, such as 2.1, C02 or figure 3"
+            raise InputError(f"paper.toml: {{{field_name}}} is no equation, claim or figure of the report: {helps}")
         measured = self.measured[identifier]
         if name not in measured:
-            raise InputError(f"paper.toml: headline: {identifier} does not measure {name!r}: {', '.join(measured)}")
+            helps = f"write one of {', '.join(measured)}"
+            raise InputError(f"paper.toml: headline: {identifier} does not measure {name!r}: {helps}")
         return measured[name], identifier
 
     def _formula(self, entry: catalogue.HeadlineEntry) -> str:
-        """Return the corrected, otherwise the derived, form of the named quantity or of the first one."""
+        """Return the corrected line of a headline's equation in LaTeX, else the derived one; "" if it names no equation."""
         if not entry.formula:
             return ""
         statement = self.verdicts[entry.formula].statement
@@ -222,4 +239,5 @@ class _Numbers(Formatter):
         for quantity, line in corrected or derived:
             if entry.quantity in ("", quantity):
                 return f"{quantity} = {line}"
-        raise InputError(f"paper.toml: headline: {entry.formula} has no quantity {entry.quantity!r}")
+        helps = f"write one of {', '.join(quantity for quantity, _ in corrected or derived)}"
+        raise InputError(f"paper.toml: headline: {entry.formula} has no quantity {entry.quantity!r}: {helps}")

@@ -1,4 +1,4 @@
-"""Elements of the report's LaTeX files: head, text and formulas in ASCII, tables, line breaks of long formulas."""
+"""Elements of the report's LaTeX files: the head, text and formulas in ASCII, tables, and breaks in long formulas."""
 
 import re
 import unicodedata
@@ -63,13 +63,13 @@ _LONGEST = 2_500
 
 
 def head(title: str, preamble: str = "") -> str:
-    """Return the head of a document, with the packages of the paper's formulas and an ASCII title."""
+    """Return the head of a LaTeX document with this title; `preamble` loads the packages of the paper's formulas."""
     about = rf"\hypersetup{{pdftitle={{{latex_prose(title)}}},pdfauthor={{The lagrotor developers}}}}"
     return f"{_HEAD}{preamble and preamble.strip() + chr(10)}{about}\n\\begin{{document}}\n"
 
 
 def latex_prose(text: str) -> str:
-    """Return plain text for LaTeX: readable formulas, escaped special characters, breakable long words."""
+    """Return plain text as LaTeX: formulas become readable, special characters are escaped, long words may break."""
     return " ".join(_word(word) for word in readable(text).split(" "))
 
 
@@ -105,7 +105,7 @@ def _letter(match: re.Match[str]) -> str:
 
 
 def displayed_formula(source: str) -> str:
-    """Return a formula on its own line, broken if it is too wide."""
+    """Return LaTeX that sets a formula on its own line, and breaks it if it is too wide."""
     clean = tidy(source)
     return rf"\fit{{{clean}}}{{\broken{{{_loose(clean)}}}}}"
 
@@ -118,10 +118,13 @@ def tidy(source: str) -> str:
 
 
 def displayed_expression(expression: sp.Basic) -> str:
-    """Return an expression on its own line; a too wide matrix as its elements, the longest ones only by their length."""
+    """Return LaTeX that sets an expression on its own line.
+
+    A matrix that is too wide is listed by its elements; of a very long expression only the length is given.
+    """
     source = latex(expression)
     if len(source) > _LONGEST:
-        return f"An expression of {len(source)} characters: see verdicts.json."
+        return f"This expression has {len(source)} characters; it is in verdicts.json."
     if not isinstance(expression, sp.MatrixBase):
         return displayed_formula(source)
     rows, columns = expression.shape
@@ -140,7 +143,10 @@ def latex_inline(expression: sp.Basic) -> str:
 
 
 def _loose(source: str) -> str:
-    """Return a formula that TeX may break anywhere outside braces: brackets of fixed size, and a break after each space."""
+    """Return a formula that TeX may break anywhere outside braces.
+
+    Its brackets get a fixed size, and each wide space allows a break.
+    """
     pieces: list[str] = []
     opened: list[int] = []
     for piece in (token.text for token in tokenize(source)):
@@ -163,7 +169,7 @@ def _length(cell: str) -> int:
 
 
 def latex_table(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
-    """Return a table of LaTeX cells that may span pages, with column widths proportional to their content."""
+    """Return a table of LaTeX cells. It may span pages; the widths of its columns follow the length of their cells."""
     lines = list(rows)
     widest = 130 // len(head)
     need = [6 + min(widest, max(map(_length, column))) for column in zip(head, *lines, strict=True)]

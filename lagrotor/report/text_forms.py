@@ -47,21 +47,21 @@ from lagrotor.report.latex import (
 
 @dataclass(frozen=True)
 class Bold:
-    """A label, or a title without an anchor."""
+    """Bold text: a label, or a title to which no link leads."""
 
     text: str
 
 
 @dataclass(frozen=True)
 class Links:
-    """Links to equations, claims or figures."""
+    """Links to the equations, claims or figures with these ids."""
 
     ids: tuple[str, ...]
 
 
 @dataclass(frozen=True)
 class File:
-    """A file of the report's folder."""
+    """A link to a file of the report's folder: its relative address and the name to show."""
 
     address: str
     name: str
@@ -73,7 +73,7 @@ Line: TypeAlias = list[Span]  # joined by spaces
 
 @dataclass(frozen=True)
 class Heading:
-    """The heading of a section, or of an entry with a name and a title."""
+    """The heading of a section, or of an entry if it has a `name` such as "5.07"; `place` is its anchor."""
 
     place: str
     title: str
@@ -114,7 +114,7 @@ def opening_blocks(report: Report) -> Iterator[Block]:
 
 
 def section_blocks(report: Report) -> Iterator[Block]:
-    """Yield every section under its heading."""
+    """Yield the blocks of every section, each section after its heading."""
     for name, heading in contents(report):
         yield Heading(name, heading)
         if name in _PARTS:
@@ -149,13 +149,13 @@ def _verdicts(report: Report) -> Iterator[Block]:
 
 
 def errata_blocks(report: Report) -> Iterator[Block]:
-    """Yield the errata sheet; empty if no equation is refuted."""
+    """Yield the blocks of the errata sheet; none if no equation is refuted."""
     for e in errata(report.verdicts, report.paper):
         yield Heading(f"erratum-{e.id}", e.title, f"Erratum {e.id}:")
         yield [e.wrong]
         yield [Bold("Printed.")]
         yield Display(e.printed)
-        yield [Bold(f"Corrected ({e.verdict_of_correction}).")]
+        yield [Bold(f"Corrected equation ({e.verdict_of_correction}).")]
         yield from map(Display, e.corrected)
         for label, premises in e.conditions:
             yield [Bold(f"{label}:"), "; ".join(p.sentence for p in premises)]
@@ -188,7 +188,7 @@ def _claim(result: Result, report: Report) -> Iterator[Block]:
     yield Verbatim(entry.text, quoted=True)
     yield [finding.explanation]
     if finding.condition:
-        yield [Bold("If:"), finding.condition]
+        yield [Bold("Condition:"), finding.condition]
     yield from _facts(linked_facts(result, report))
     yield _numbers(f"Measured ({result.test.model})", result.measured)
 
@@ -256,14 +256,14 @@ _PARTS: dict[str, Callable[[Report], Iterator[Block]]] = {
 
 
 def markdown(report: Report) -> str:
-    """Return the whole report; figures are linked as `figures/<stem>.svg`."""
+    """Return the whole report as Markdown; it links figures as `figures/<stem>.svg`."""
     listed = "\n".join(f"- [{heading}](#{name})" for name, heading in contents(report))
     blocks = [f"# {report.title}", f"{SUBTITLE}.", *map(_block, opening_blocks(report)), listed]
     return "\n\n".join(filter(None, [*blocks, *map(_block, section_blocks(report))])) + "\n"
 
 
 def errata_sheet(report: Report) -> str:
-    """Return the errata sheet as Markdown with links to the report."""
+    """Return the errata sheet as Markdown; its links lead into report.md."""
     blocks = map(partial(_block, target="report.md"), errata_blocks(report))
     return "\n\n".join(["# Errata", *blocks]) + "\n"
 
@@ -303,7 +303,7 @@ def _span(span: Span, target: str = "") -> str:
 
 
 def _prose(text: str) -> str:
-    """Return text on one line with all Markdown, HTML and table characters escaped."""
+    """Return text on one line, in which characters with a meaning in Markdown, HTML or tables are escaped."""
     return re.sub(r"([\\`*_\[\]<>|#$~])", r"\\\1", " ".join(readable(text).split()))
 
 
@@ -358,5 +358,5 @@ def _latex_span(span: Span) -> str:
 
 
 def _latex_cell(span: Span) -> str:
-    """Return a cell; a formula longer than one symbol may be wider than its column."""
+    """Return a cell in LaTeX. A formula longer than one symbol is set so that it may break, to fit its column."""
     return displayed_expression(span) if isinstance(span, sp.Basic) and not span.is_Symbol else _latex_span(span)

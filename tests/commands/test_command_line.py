@@ -129,7 +129,7 @@ BAD: dict[str, tuple[list[str], str]] = {
     "unknown equation": (["audit", "9.99"], "9.99"),
     "equation not judged": (["audit", "5.15"], "not yet judged"),
     "figure no number": (["figure", "seventeen"], "'seventeen' has no script"),
-    "figure without a script": (["figure", "1"], "those drawn are 17"),
+    "figure without a script": (["figure", "1"], "give one of 17"),
     "figure folder missing": (["figure", "17", "--out", "missing"], "no folder missing"),
     "report below a missing folder": (["reproduce", "--out", "missing/report"], "is missing"),
     "spin NaN": (["simulate", "--spins", "nan", "10"], "not a finite number"),
@@ -410,7 +410,7 @@ def test_figure_past_the_paper(changed_paper: Paper, work: Path, capsys: pytest.
     assert main(["figure", "t6", "017"]) == 0
     assert {path.stem for path in work.iterdir()} == {"t6_stub", "fig17_stub"}
     assert main(["figure", "6"]) == 2
-    assert "those drawn are 17, t6" in capsys.readouterr().err
+    assert "give one of 17, t6" in capsys.readouterr().err
 
 
 def test_report_is_complete(work: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -75,7 +75,7 @@ def test_the_domain_has_what_cancels_while_the_text_is_read(equation: str, given
         ("2*x = 1", ["y"], "one relation each"),
         ("2*x = f(x)", [], r"write f\*"),
         ("2*x = __import__('os')", [], "__import__"),
-        (r"\ln x^2 = 3", [], "write brackets"),
+        (r"\ln x^2 = 3", [], "write the argument in brackets"),
         ("exp(x) = e^x", [], r"write exp\(…\)"),
         ("cosh(x) = (e^x + e^(-x))/2", [], r"write exp\(…\)"),
         ("exp(i*x) = cos(x) + i*sin(x)", [], "write 1j"),
@@ -194,7 +194,7 @@ def test_a_premise_is_put_in_for_what_is_differentiated() -> None:
 @pytest.mark.parametrize(
     ("equation", "words"),
     [
-        (r"\lim_{x\to 0}\frac{\sin x}{x} = 1", "limits are not decided"),
+        (r"\lim_{x\to 0}\frac{\sin x}{x} = 1", "write the value of the limit"),
         (r"\int x\,dx = x^2/2", "between two limits"),
         (r"d(uv) = u\,dv + v\,du", "d precedes a symbol"),
         (r"\sum_{i=1}^n m_i = M + 1", "the first and the last index as numbers"),
@@ -202,7 +202,7 @@ def test_a_premise_is_put_in_for_what_is_differentiated() -> None:
         (r"\nabla\cdot\vec E = 0", "write its components"),
         (r"\mathbf A\mathbf B\mathbf x = 0", "write the entries of the matrices"),
         (r"x = \pm a", "write two statements"),
-        (r"|a\rangle = b", "has no opening bracket"),
+        (r"|a\rangle = b", "closes no bracket"),
         (r"\begin{pmatrix} 1 & 0\\ 0 & 1\end{pmatrix} = 1", "a vector is equal to a number"),
         (r"\frac{d}{dx}(x V) = V(x)", "has an argument in one place and none in another"),
         (r"y = i\omega", 'numbers = "i"'),

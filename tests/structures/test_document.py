@@ -79,7 +79,7 @@ def test_where_a_bar_keeps_it_from_being_upright_the_command_says_what_can_be_do
     path, picture = tmp_path / "long.toml", tmp_path / "long.png"
     path.write_text("joints = [[0, 0], [1, 0]]\nbars = [[0, 1, 1.5]]")
     assert main(["structure", str(path), "--out", str(picture)]) == 0 and picture.exists()
-    assert "not judged: upright, a bar is not as long as its tips are apart" in capsys.readouterr().out
+    assert "not judged: upright, a bar is not as long as the distance of its tips" in capsys.readouterr().out
     assert main(["structure", str(path), "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["stands"] is None
     panels = [[text.get_text() for text in s.plot().axes[1].texts] for s in (read_structure(path), example("corner"))]

@@ -1,4 +1,4 @@
-"""A formula as printed: a row of boxes (symbols, numbers, fractions, brackets) with their scripts; no interpretation."""
+"""A formula as printed, without interpretation: a row of boxes such as symbols, fractions and brackets, with scripts."""
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -75,7 +75,7 @@ _MOST = 200  # nested brackets
 
 
 class FormulaError(Exception):
-    """The reason for which a formula is not read, and the remedy."""
+    """A formula that cannot be read. `what` says why, `help` says what the author should write instead."""
 
     def __init__(self, what: str, help_: str) -> None:
         super().__init__(what)
@@ -84,12 +84,13 @@ class FormulaError(Exception):
 
 @dataclass(slots=True)
 class Box:
-    """One printed object, from position `at` to `end` in the LaTeX.
+    """One printed object; in the LaTeX it begins at the character `at` and ends before the character `end`.
 
     kind: letter (any symbol), number, operator, relation, bracket, fraction, binomial, root, function, big, matrix, cases,
     rows, accent, text, wide, comma, dots, arrow, bar, group, partial, nabla, infinity.
-    name: the symbol or the command. style, marks, upright: the font and the accents of a symbol. contents: the rows of
-    boxes inside, such as numerator and denominator. closing: the closing bracket. spaced: True after a thin space.
+    name: the symbol or the command. style: the font of a symbol, "" for italic. marks: its accents. upright: True for
+    an upright symbol. contents: the rows of boxes inside, such as numerator and denominator. sub, sup: the boxes of the
+    subscript and the superscript, None without one. closing: the closing bracket. spaced: True after a thin space.
     """
 
     kind: str
@@ -108,11 +109,11 @@ class Box:
 
 
 def boxes(latex: str) -> list[Box]:
-    """Return the boxes of a formula. Raises FormulaError at a token that is not allowed in its position."""
+    """Split a formula in LaTeX into its row of boxes. Raises FormulaError at a token that is not allowed there."""
     reader = _Reader(latex)
     row = reader.sequence(())
     if reader.ahead:
-        raise FormulaError(f"{reader.ahead} has no opening bracket", "write the opening bracket")
+        raise FormulaError(f"{reader.ahead} closes no bracket", "write the opening bracket")
     return row
 
 
@@ -142,18 +143,18 @@ class _Reader:
 
     @property
     def end(self) -> int:
-        """The position after the last consumed token."""
+        """The position in the LaTeX that follows the last consumed token."""
         last = self.items[self.place - 1]
         return last.at + len(last.text)
 
     def box(self, kind: str, name: str, item: Token, *contents: list[Box], **fields: Any) -> Box:
-        """Return a box that ends with the last consumed token."""
+        """Return a box that begins at the token `item` and ends with the last consumed token."""
         return Box(kind, name, item.at, self.end, list(contents), **fields)
 
     def argument(self, style: str = "") -> list[Box]:
-        """Read the boxes in braces, or the next single object."""
+        """Read the argument of a command: all boxes in braces, or the single object that follows the command."""
         if not self.ahead:
-            raise FormulaError(f"{self.items[self.place - 1].text} has no argument", "write the argument in braces")
+            raise FormulaError(f"{self.items[self.place - 1].text} has no argument", "write its argument in braces")
         if self.opens:
             return self.group(style)
         if not self.ahead.isdecimal():
@@ -172,15 +173,15 @@ class _Reader:
         return row
 
     def plain(self) -> str:
-        """Consume an argument in braces and return its text."""
+        """Consume an argument in braces, or a single token, and return its text."""
         return self.enclosed("}") if self.opens else self.take().text
 
     def bracketed(self) -> str:
-        """Consume an optional argument and return its text."""
+        """Consume an optional argument in square brackets and return its text; "" if there is none."""
         return self.enclosed("]") if self.ahead == "[" else ""
 
     def enclosed(self, closing: str) -> str:
-        """Consume and return the text between the next sign and its closing sign."""
+        """Consume the text from the next opening sign to the matching `closing` sign; return the text between them."""
         start, depth = self.take().at + 1, 0
         while self.ahead:
             item = self.take()
@@ -190,7 +191,7 @@ class _Reader:
         return self.latex[start:]
 
     def sequence(self, ends: tuple[str, ...], style: str = "") -> list[Box]:
-        """Read boxes until one of the ends comes next."""
+        """Read boxes up to the first token that is in `ends`; this token is not consumed."""
         self.depth += 1
         if self.depth > _MOST:
             raise FormulaError(f"{self.ahead} is nested too deeply", "write fewer nested brackets")
@@ -217,7 +218,7 @@ class _Reader:
         return _without_spaces(row)
 
     def extend(self, row: list[Box], style: str) -> None:
-        """Append the next object to a row; several boxes with a common script form a group."""
+        """Read the next object and append it to a row. If a script follows several boxes in braces, they form a group."""
         braced, new = self.opens, self.single(style)
         if row and len(new) == 1 and row[-1].end == new[0].at and _joins(row[-1], new[0], style):
             row[-1].name += new[0].name
@@ -246,7 +247,7 @@ class _Reader:
     def script(self, row: list[Box]) -> None:
         item, target = self.take(), row[-1] if row else None
         if target is None or target.kind in ("operator", "relation", "comma", "wide", "text", "thin", "arrow"):
-            raise FormulaError(f"{item.text} has nothing before it", "write the symbol that the script belongs to")
+            raise FormulaError(f"{item.text} has nothing before it", "write the symbol before its index or power")
         content = self.argument()
         if item.text == "^" and content and all(b.kind == "letter" and b.name == "prime" for b in content):
             self.prime(row, len(content))
@@ -259,7 +260,7 @@ class _Reader:
         target.end = self.end
 
     def single(self, style: str) -> list[Box]:
-        """Read the next object without its scripts; a group in braces gives all its boxes."""
+        """Read the next object without its scripts. Return one box, or all boxes of a group in braces."""
         if self.opens:
             return self.group(style)
         item = self.take()
@@ -325,7 +326,7 @@ class _Reader:
         return only
 
     def styled(self, name: str, item: Token) -> list[Box]:
-        r"""Read \mathbf{r}, \mathrm{kin} and \text{and}: single symbols, or a word."""
+        r"""Read the argument of a font command: symbols, as in \mathbf{r}, or one word, as in \mathrm{kin}."""
         style, start = STYLES[name], self.place
         worded = self.opens and name in (*_TEXT, "mathrm", "operatorname", "mathit", "mathsf", "mathtt")
         word = self.plain().strip() if worded else "-"
@@ -333,7 +334,7 @@ class _Reader:
             return [self.box("function", word, item)]
         if worded and name in _TEXT and word != "d":
             if "$" in word:
-                raise FormulaError("words contain a formula", "write the formula between the words")
+                raise FormulaError("the argument of a text command contains a formula", "write it outside the words")
             return [self.box("text" if word else "thin", word, item)]
         if len(word) == 2 and word[0] == "d" and word.isalpha() and name == "mathrm":
             return [self.box("letter", letter, item, upright=letter == "d") for letter in word]
@@ -399,7 +400,7 @@ class _Reader:
             raise FormulaError(rf"\begin{{{name}}} is unknown", "write the formula without this environment")
         self.bracketed()
         if name in ("array", "alignedat") and "|" in self.plain():
-            raise FormulaError("the matrix contains a line", "write its blocks separately")
+            raise FormulaError("a vertical line divides the matrix", "write each block as a matrix of its own")
         rows: list[list[list[Box]]] = [[[]]]
         sign = ""
         while sign != r"\end":
@@ -431,13 +432,13 @@ class _Reader:
         return [self.box("thin", "", item)] if item.text == r"\hspace" else []
 
     def _line_end(self, item: Token, style: str) -> list[Box]:
-        """Read a line break in a display of one line."""
+        """Read a line break outside any environment; it separates formulas as a wide space does."""
         self.bracketed()
         return [self.box("wide", "", item)]
 
 
 def _without_spaces(row: list[Box]) -> list[Box]:
-    """Remove thin spaces, and mark the box after each as spaced; three in a row separate formulas."""
+    """Return a row without thin spaces; the box after one becomes `spaced`. Three in succession become one wide space."""
     result, after_thin = list[Box](), False
     for thin, run in groupby(row, key=lambda box: box.kind == "thin"):
         boxes = list(run)
@@ -451,7 +452,7 @@ def _without_spaces(row: list[Box]) -> list[Box]:
 
 
 def _joins(word: Box, letter: Box, style: str) -> bool:
-    """Return True if an upright symbol continues the word before it."""
+    """Return True if an upright symbol is the next letter of the upright word before it."""
     letters = word.kind == letter.kind == "letter" and word.upright and letter.upright and len(letter.name) == 1
     return style == "upright" and letters and word.sub is None and word.sup is None and not word.marks
 
@@ -503,7 +504,7 @@ def is_printed_as_vector(box: Box) -> bool:
 
 
 def strip(row: list[Box]) -> list[Box]:
-    """Return a row without spaces and punctuation at its ends."""
+    """Return a row without wide spaces at its ends and without punctuation at its right end."""
     start, end = 0, len(row)
     while start < end and row[start].kind == "wide":
         start += 1
@@ -513,13 +514,13 @@ def strip(row: list[Box]) -> list[Box]:
 
 
 def split_at(row: list[Box], *kinds: str) -> list[list[Box]]:
-    """Split a row at the boxes of these kinds; a full stop is no separator."""
+    """Return the parts of a row between the boxes of the given kinds. A full stop does not separate parts."""
     ends = [-1, *(k for k, box in enumerate(row) if box.kind in kinds and box.name != "."), len(row)]
     return [row[first + 1 : last] for first, last in pairwise(ends)]
 
 
 def all_boxes(row: Iterable[Box]) -> Iterator[Box]:
-    """Yield the boxes of a row and all boxes inside them."""
+    """Yield each box of a row, followed by the boxes in its contents and its scripts."""
     for box in row:
         yield box
         for inner in (*box.contents, box.sub or (), box.sup or ()):
@@ -527,14 +528,14 @@ def all_boxes(row: Iterable[Box]) -> Iterator[Box]:
 
 
 def is_mark(box: Box, mark: str) -> bool:
-    """Return True for the d or the ∂ of a derivative."""
+    """Return True if a box is the sign of a derivative: the letter `mark`, or ∂ if `mark` is "partial"."""
     if mark == "partial":
         return box.kind == "partial" and box.sub is None
     return box.kind == "letter" and box.name == mark and not (box.marks or box.sub or box.primes or box.style)
 
 
 def is_derivative(box: Box) -> str:
-    """Return 'd' or 'partial' for a fraction that is a derivative, '' for any other box."""
+    """Return 'd' or 'partial' if a box is a fraction that prints a derivative, '' if it is not."""
     if box.kind == "fraction":
         over, under = box.contents
         for mark in ("d", "partial") if over and len(under) > 1 and under[1].kind == "letter" else ():
@@ -547,7 +548,7 @@ def is_derivative(box: Box) -> str:
 
 
 def stem_of(box: Box) -> str:
-    """Return the name of a symbol with its font and marks, without index, dots and primes."""
+    """Return the name of a symbol with its font and its accents; the index, the dots and the primes are left out."""
     return {"lambda": "lamda"}.get(box.name, box.name) + box.style + "".join(_marks(box))
 
 
@@ -556,7 +557,10 @@ def _marks(box: Box) -> list[str]:
 
 
 def name_of(box: Box, index: Iterable[str] = (), raised: Iterable[str] = ()) -> str:
-    r"""Return the Python name of a symbol: theta_1_dot for \dot\theta_1, rvec_1 for \vec r_1, T__max for T^{\max}."""
+    r"""Return the Python name of a symbol: theta_1_dot for \dot\theta_1, rvec_1 for \vec r_1, T__max for T^{\max}.
+
+    index: the words of its subscript. raised: the words of a superscript that is not a power.
+    """
     rates = sum(len(mark) - len("ot") for mark in box.marks if mark.endswith("dot"))
     name = stem_of(box) + "prime" * box.primes + "".join(f"__{word}" for word in raised)
     name += "".join(f"_{word}" for word in index) + (f"_{'d' * rates}ot" if rates else "")
@@ -565,7 +569,10 @@ def name_of(box: Box, index: Iterable[str] = (), raised: Iterable[str] = ()) -> 
 
 
 def index_of(box: Box) -> list[str]:
-    """Return the words of an index, such as ["1"], ["cm"] or ["i", "j"]. Raises FormulaError for other signs."""
+    """Return the words of a symbol's subscript, such as ["1"], ["cm"] or ["i", "j"]; [] if it has none.
+
+    Raises FormulaError for a subscript that contains signs other than letters and numbers.
+    """
     words: list[str] = []
     alone = True  # a comma or a Greek letter ends a word
     for entry in box.sub or ():
@@ -583,7 +590,7 @@ def index_of(box: Box) -> list[str]:
 
 
 def _index(entry: Box) -> list[str]:
-    """Return the words of one box of an index."""
+    """Return the words that one box of a subscript contributes to the name of the symbol."""
     if entry.kind == "letter" and entry.sup is None:
         return [entry.name + entry.style + "prime" * entry.primes + "".join(entry.marks), *index_of(entry)]
     plain = entry.sup is None and entry.sub is None
@@ -596,7 +603,7 @@ def _index(entry: Box) -> list[str]:
         return [_INDEX_SIGNS[entry.name]]
     if entry.kind in ("group", "fraction") and plain:  # i + 1/2
         return ["over".join("".join(word for inner in row for word in _index(inner)) for row in entry.contents)]
-    raise FormulaError("an index has signs other than letters and numbers", "give the symbol another index")
+    raise FormulaError("an index has signs other than letters and numbers", "give the symbol a simpler index")
 
 
 _INDEX_SIGNS = {"+": "plus", "-": "minus", "*": "star", "/": "over", "infty": "inf", "=": "eq", "->": "to"}

@@ -1,4 +1,6 @@
-"""The check of a source without derivations: steps of chains, claimed orders, indices of sums.
+"""The check of a source without derivations. It examines the steps of chains, claimed orders and indices of sums.
+
+A chain a = b = c has one step for each equality sign; the expressions on both sides are the members of the step.
 
 A step holds if its two members are proved equal, as printed or after evaluation of derivatives and integrals. It is
 refuted if the members differ, no earlier equation relates their symbols, and one small change makes them equal. The
@@ -61,12 +63,12 @@ INDEX, FAULT = "index outside its sum", "no LaTeX"
 WRONG = (REFUTED, INDEX, FAULT)
 # Reasons not to judge a step.
 NOT_READ = "the display is not read"
-UNCOMPARABLE = "a member has no value for a comparison"
+UNCOMPARABLE = "a member cannot be evaluated as an expression"
 OUTSIDE = "the exact decision does not cover the difference"
-FUNCTIONS = "derivatives, integrals or functions may be related"
+FUNCTIONS = "the members have derivatives, integrals or functions that may be related"
 LETTERS = "the right member has symbols that the left member lacks"
 BEFORE = "an earlier equation relates its symbols"
-MAYBE = "the step may be a condition"
+MAYBE = "the step may state a condition"
 ROUNDED = "a decimal number may be rounded"
 ALL_REAL = Notation()
 _VERDICT = tuple[str, str]
@@ -76,9 +78,11 @@ _BOUNDS = frozenset(("<", ">", "<=", ">=", "!="))
 
 @dataclass(frozen=True)
 class StepFinding:
-    """One finding. `step` counts the relations of a chain from 1; 0 means the whole equation.
+    """One finding of the check. `step` is the number of the step in its chain, from 1; 0 stands for the whole equation.
 
-    equation: its id, '' for a LaTeX error. members: the two sides of a step as read.
+    equation: the id of the equation, '' for a LaTeX error. line: its line in the file. verdict: HOLDS, REFUTED,
+    NOT_JUDGED, INDEX or FAULT. why: the reason in words. members: both sides of the step as they were read. file: the
+    included file that contains the line, '' for the main file.
     """
 
     equation: str
@@ -90,31 +94,31 @@ class StepFinding:
     file: str = ""
 
     def as_data(self) -> dict[str, Any]:
-        """Return the finding as a JSON object without empty fields."""
+        """Return the finding as a dictionary for JSON; empty fields other than `equation` are left out."""
         return {key: value for key, value in asdict(self).items() if value not in ("", ()) or key == "equation"}
 
 
 @dataclass(frozen=True)
 class Check:
-    """The findings on a source."""
+    """All findings of the check of one source."""
 
     findings: tuple[StepFinding, ...]
 
     @property
     def counts(self) -> dict[str, int]:
-        """The numbers of steps that hold, are refuted, and are not judged."""
+        """The number of findings with each of the verdicts HOLDS, REFUTED and NOT_JUDGED."""
         counts = Counter(finding.verdict for finding in self.findings)
         return {verdict: counts[verdict] for verdict in (HOLDS, REFUTED, NOT_JUDGED)}
 
     @property
     def reasons(self) -> dict[str, int]:
-        """The three most frequent reasons for steps that are not judged, with their numbers."""
+        """The three most frequent reasons why steps are not judged, each with the number of these steps."""
         reasons = Counter(finding.why.partition(": ")[0] for finding in self.findings if finding.verdict == NOT_JUDGED)
         return dict(reasons.most_common(3))
 
 
 def check_source(source: Source, declared: Notation = ALL_REAL) -> Check:
-    """Check the displayed equations of a source; one sweep proposes the kinds of symbols that are not declared."""
+    """Check the displayed equations of a source. The formulas suggest the kinds of symbols that are not in `declared`."""
     notation = with_proposals(declared, propose([*(equation.latex for equation in source.equations), *source.inline]))
     readings = [(equation, read_formula(equation.latex, notation, equation.lead)) for equation in source.equations]
     faults = [
@@ -154,7 +158,10 @@ class _Checker:
     def _steps(
         self, display: Displayed, printed: PrintedStatement, statement: PrintedStatement
     ) -> Iterator[StepFinding]:
-        """Yield the steps of a chain, the first only if it is an identity; `printed` omits the previous row."""
+        """Yield the findings on the steps of a chain. The first step is reported only if it is an identity.
+
+        `printed` is the statement without the member that `statement` takes from the previous row.
+        """
         order_before = None if statement is printed else self.readings[self.place - 1][1].statements[-1].order
         steps = enumerate(zip(statement.sides, statement.sides[1:], statement.relations, strict=False), 1)
         for step, (lhs, rhs, relation) in steps:
@@ -172,7 +179,7 @@ class _Checker:
                 yield self._finding(display, step, (lhs, rhs), verdict, why)
 
     def _join_row(self, equation: Displayed, statement: PrintedStatement) -> PrintedStatement:
-        """Return a continuing row with the last side of the previous row inserted."""
+        """Return a statement. If its row continues the previous row, the last member of that row is inserted."""
         previous = self.readings[self.place - 1][1] if equation.lead and self.place else None
         if previous is None or not previous.whole or previous.statements[-1].kind != "equation":
             return statement
@@ -182,7 +189,7 @@ class _Checker:
         return replace(statement, sides=(first, last, *shifted), relations=("=", *statement.relations))
 
     def _step(self, lhs: Node, rhs: Node) -> _VERDICT:
-        """Return the verdict on a step and the reason."""
+        """Return the verdict on a step, and the reason for it in words."""
         a, b = self._value(lhs), self._value(rhs)
         if a is None or b is None:
             return NOT_JUDGED, UNCOMPARABLE
@@ -203,7 +210,7 @@ class _Checker:
         return REFUTED, why
 
     def _with_derivatives_taken(self, lhs: Node, rhs: Node, values: tuple[Any, Any]) -> str:
-        """Return the assumptions under which the members agree after evaluation of derivatives, or ""."""
+        """Evaluate the derivatives in both members. Return the assumption of it in words if they then agree, else ""."""
         self.moving.fixing = False
         a, b = (expression_of(node, self.moving) for node in (lhs, rhs))
         if a is None or b is None or (a, b) == values or is_large(a, b) or not agree(a, b):
@@ -212,7 +219,10 @@ class _Checker:
         return f"with {fixed if self.moving.fixing else 'derivatives taken'}"
 
     def _refuted(self, lhs: Node, rhs: Node, a: Any, b: Any) -> tuple[str, str]:
-        """Return the reason not to refute unequal members and "", or "" and how they differ."""
+        """Decide whether unequal members refute their step; `a` and `b` are the values of `lhs` and `rhs`.
+
+        Return two sentences: the reason not to refute the step ("" if it is refuted), and how the members differ.
+        """
         letters, others = set(letters_of(lhs)), set(letters_of(rhs))
         if not _comparable(a, b):
             return FUNCTIONS, ""
@@ -236,7 +246,7 @@ class _Checker:
         return expression_of(node, self.opaque)
 
     def _has_relation(self, letters: set[str]) -> bool:
-        """Return True if an earlier equation or the text relates only these symbols: the members may then agree."""
+        """Return True if an earlier equation or a formula in the text relates only these symbols, so that members may agree."""
         stems = {letter.split("_")[0] for letter in letters}
         for latex, reading in (*((equation.latex, r) for equation, r in self.readings[: self.place]), *self._text):
             if not reading.whole and (names := letters_printed(latex)) and names <= stems:
@@ -246,7 +256,7 @@ class _Checker:
         return False
 
     def _explains(self, statement: PrintedStatement, letters: set[str]) -> bool:
-        """Return True if a statement relates only these symbols and is no bound and no identity."""
+        """Return True if a statement relates only these symbols. An inequality and an identity do not count."""
         nodes = [side.node for side in statement.sides]
         if not {name for node in nodes for name in letters_of(node)} <= letters or {*statement.relations} <= _BOUNDS:
             return False
@@ -255,12 +265,12 @@ class _Checker:
 
     @cached_property
     def _text(self) -> list[tuple[str, Reading]]:
-        """The relations in the text, with their readings."""
+        """The formulas in the text that contain a relation sign, in LaTeX, each with its reading."""
         formulas = (latex for latex in self.source.inline if _RELATION.search(latex))
         return [(latex, read_formula(latex, self.notation)) for latex in formulas]
 
     def _order(self, lhs: Node, rhs: Node, order: tuple[str, int]) -> _VERDICT:
-        """Return the verdict on a step claimed up to an order in a small symbol."""
+        """Return the verdict on a step that claims agreement up to O(x^n); `order` is (x, n). Also return the reason."""
         name, power = order
         small = sp.Symbol(name, real=True)
         try:
@@ -288,10 +298,10 @@ def _may_be_identity(lhs: Node, rhs: Node) -> bool:
 
 
 def _open_indices(statement: PrintedStatement) -> Iterator[str]:
-    """Yield sentences on indices that occur outside their sum on one side of a statement, but not on another.
+    """Yield a sentence for each index that occurs outside its sum on one side of a statement, but not on all sides.
 
     An index is the symbol itself, or a subscript that also occurs inside the sum. In E_k = Σ_k v_k the k of E_k is a
-    label. Products and integrals also bind it.
+    label. A product or an integral over the index binds it as a sum does.
     """
     sums = [n for side in statement.sides for n in _calls(side.node) if n.name == "Sum"]
     for index in dict.fromkeys(n.args[1].name for n in sums if isinstance(n.args[1], Letter)):
@@ -299,7 +309,7 @@ def _open_indices(statement: PrintedStatement) -> Iterator[str]:
         names = {name for name in inside if index in name.split("_")[1:]} | {index}
         outside = [names & set(letters_of(_without_bound(side.node, index))) for side in statement.sides]
         if not all(outside) and (side := next((s for s, n in zip(statement.sides, outside, strict=True) if n), None)):
-            yield f"{index} is outside the sum over it in {text_of(side.node)}"
+            yield f"{index} occurs outside the sum over {index} in {text_of(side.node)}"
 
 
 def _calls(node: Node) -> Iterator[Call]:
@@ -307,7 +317,7 @@ def _calls(node: Node) -> Iterator[Call]:
 
 
 def _without_bound(node: Node, index: str) -> Node:
-    """Return a node with zero for its sums, products and integrals over an index."""
+    """Return a node in which every sum, product and integral over an index is replaced by zero."""
     calls = (call for call in _calls(node) if call.name in BINDING)
     return put_for(node, {call: number(0) for call in calls if any(index in letters_of(e) for e in call.args[1:])})
 
@@ -319,6 +329,6 @@ def _difference(a: Any, b: Any) -> str:
 
 
 def _comparable(a: Any, b: Any) -> bool:
-    """Return True if both members have the same non-explicit terms and are both vectors or both numbers."""
+    """Return True if both members are vectors or both numbers, with the same derivatives, integrals and functions."""
     hidden = [{symbol for symbol in side.free_symbols if has_opaque(symbol)} for side in (a, b)]
     return hidden[0] == hidden[1] and isinstance(a, sp.MatrixBase) == isinstance(b, sp.MatrixBase)

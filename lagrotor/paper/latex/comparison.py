@@ -1,4 +1,4 @@
-"""The equality of two printed sides: tested at points in floating point, then decided exactly with bounded work."""
+"""The equality of two printed sides: first a test in floating point, then an exact decision with bounded work."""
 
 from collections.abc import Callable
 from random import Random
@@ -22,7 +22,7 @@ _step: Calls | None = None  # remaining calls of the current step
 
 
 def bound_work(work: Callable[..., Any], *arguments: Any, too_large: Any = None) -> Any:
-    """Return work(*arguments), or `too_large` if the work exceeds the bound for one step."""
+    """Return work(*arguments), or the value `too_large` if the work needs more than MOST_CALLS function calls."""
     global _step
     previous, _step = _step, Calls(MOST_CALLS)
     try:
@@ -34,12 +34,12 @@ def bound_work(work: Callable[..., Any], *arguments: Any, too_large: Any = None)
 
 
 def count_calls(work: Callable[..., Any], *arguments: Any) -> Any:
-    """Return work(*arguments); its calls count for the current step."""
+    """Return work(*arguments). Inside `bound_work` the function calls count against its bound: WorkError beyond it."""
     return work(*arguments) if _step is None else at_most(_step, work, *arguments)
 
 
 def expression_of(node: Node, opaque: Opaque) -> Any:
-    """Return the node as a sympy expression, or None."""
+    """Return the node as a sympy expression; None if sympy cannot form it."""
     try:
         return count_calls(sympy_expression, node, opaque)
     except (TypeError, ValueError, ArithmeticError, AttributeError):
@@ -47,7 +47,7 @@ def expression_of(node: Node, opaque: Opaque) -> Any:
 
 
 def value_at(side: Any, point: dict[sp.Symbol, sp.Rational]) -> Any:
-    """Return the value at a point; nan outside the range of floats."""
+    """Return the numerical value of a side at a point (of a matrix, its first nonzero entry); nan if that fails."""
     entry = next((e for e in side if e != 0), sp.S.Zero) if isinstance(side, sp.MatrixBase) else side
     try:
         value = count_calls(sp.N, entry.xreplace(point), 15)
@@ -57,7 +57,7 @@ def value_at(side: Any, point: dict[sp.Symbol, sp.Rational]) -> Any:
 
 
 def nearly_equal(a: Any, b: Any) -> bool:
-    """Return True if two numbers agree to 1e-9 relative to their size."""
+    """Return True if two numbers differ by at most 1e-9 of the sum of their magnitudes."""
     try:
         return bool(abs(a - b) <= 1e-9 * (abs(a) + abs(b)))
     except TypeError:
@@ -65,7 +65,7 @@ def nearly_equal(a: Any, b: Any) -> bool:
 
 
 def may_agree(a: Any, b: Any) -> bool:
-    """Return False if two expressions are real and differ at a test point; the exact decision is then not needed."""
+    """Return False if two expressions are real at a test point and differ there; no exact decision is then needed."""
     if isinstance(a, sp.MatrixBase) or isinstance(b, sp.MatrixBase):
         return True
     symbols = sorted(a.free_symbols | b.free_symbols, key=str)
@@ -81,7 +81,7 @@ def may_agree(a: Any, b: Any) -> bool:
 
 
 def is_large(*sides: Any) -> bool:
-    """Return True if a degree is too large to multiply out."""
+    """Return True if the degree of an expression exceeds _MOST_DEGREE, so that it cannot be multiplied out."""
     entries = (e for side in sides for e in (side if isinstance(side, sp.MatrixBase) else [side]))
     return any(degree(e) > _MOST_DEGREE for e in entries)
 
@@ -92,7 +92,10 @@ def agree(a: Any, b: Any) -> bool:
 
 
 def equality(a: Any, b: Any) -> str:
-    """Return 'zero', 'nonzero' or 'undecided' for a − b; 'shape' for a vector and a number."""
+    """Decide whether a − b is zero. Return 'zero', 'nonzero' or 'undecided', or 'shape' if the shapes differ.
+
+    A matrix and the number zero are compared entry by entry.
+    """
     matrices = isinstance(a, sp.MatrixBase), isinstance(b, sp.MatrixBase)
     if all(matrices):
         return _matrix_equality(a - b) if a.shape == b.shape else "shape"
@@ -121,13 +124,13 @@ def _scalar_equality(a: Any, b: Any) -> str:
 
 
 def radicands(*sides: Any) -> set[Any]:
-    """Return the bases of roots. Sides are compared where these are positive: √(x/y) = 1/√(y/x) fails at x = −1."""
+    """Return the expressions under roots. Sides are compared where these are positive: √(x/y) = 1/√(y/x) fails at x = −1."""
     roots = (root for side in sides for root in side.atoms(sp.Pow) if root.exp.is_Rational and not root.exp.is_Integer)
     return {root.base for root in roots if root.free_symbols}
 
 
 def agree_for_positive(a: Any, b: Any) -> bool:
-    """Return True if two sides with roots or magnitudes, such as √(x²) = x, agree for positive symbols."""
+    """Return True if two sides with a root or a magnitude are equal when all symbols are positive, such as √(x²) = x."""
     if isinstance(a, sp.MatrixBase) or isinstance(b, sp.MatrixBase) or not (radicands(a, b) or (a - b).has(sp.Abs)):
         return False
     positive = {symbol: sp.Symbol(symbol.name, positive=True) for symbol in a.free_symbols | b.free_symbols}

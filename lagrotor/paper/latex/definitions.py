@@ -9,7 +9,7 @@ DISPLAYS = ("equation", "align", "gather", "multline", "eqnarray", "flalign", "a
 
 
 def _define(expander: Expander, name: str, macro: Macro, token: Token) -> None:
-    """Define a name, unless its meaning is fixed: headings, definitions, counters and files."""
+    """Define a name as a macro. A heading, or a command that defines, counts or includes, keeps its standard meaning."""
     if name in expander.primitives and name not in _REPLACEABLE:
         expander.notes.append(f"{expander.place(token.at)}: {name} is redefined: its standard meaning is used")
     elif name.startswith("\\") and name not in HEADINGS:
@@ -24,7 +24,7 @@ def _newcommand(expander: Expander, token: Token) -> None:
 
 
 def _head(expander: Expander) -> tuple[Parameter, ...]:
-    """Consume [number of arguments][default of the first]."""
+    """Consume the optional [number of arguments] and [default of the first]; return the arguments of the macro."""
     digits = latex_of(expander.optional() or ()).strip()
     head = [Parameter("m")] * (int(digits) if digits.isdecimal() and int(digits) < 10 else 0)
     if head and (default := expander.optional()) is not None:
@@ -65,7 +65,7 @@ def _let(expander: Expander, token: Token) -> None:
 
 
 def _next_name(expander: Expander) -> Token:
-    """Consume the next token and the space before it."""
+    """Consume white space and the next token; return this token, an empty one at the end of the source."""
     expander.skip_spaces()
     return expander.next() or Token("text", "", 0)
 
@@ -77,13 +77,13 @@ def _operator(expander: Expander, token: Token) -> None:
 
 
 def _pair(expander: Expander, token: Token) -> None:
-    r"""Define \abs by \DeclarePairedDelimiter{\abs}{|}{|}; * and [\big] may precede the argument."""
+    r"""Define \abs from \DeclarePairedDelimiter{\abs}{|}{|}. A call of \abs may have * or [\big] before its argument."""
     name, opening, closing = expander.name(), expander.name(), expander.name()
     _define(expander, name, Macro.of(rf"\left{opening}#3\right{closing}", "som"), token)
 
 
 def _new_environment(expander: Expander, token: Token) -> None:
-    r"""Define \x and \endx for \newenvironment{x}, as LaTeX does."""
+    r"""Define the macros \x and \endx from \newenvironment{x}, as LaTeX does."""
     expander.star()
     name, head = expander.name(), _head(expander)
     begin, end = expander.argument(), expander.argument()
@@ -92,7 +92,7 @@ def _new_environment(expander: Expander, token: Token) -> None:
 
 
 def _new_theorem(expander: Expander, token: Token) -> None:
-    r"""Note that \newtheorem{name}[equation]{Title} shares the counter of equations: such numbers are not followed."""
+    r"""Consume \newtheorem. If its theorems share the counter of equations, record that equation numbers may be wrong."""
     expander.star()
     expander.name()
     if latex_of(expander.optional() or ()).strip() == "equation":
@@ -136,7 +136,7 @@ def _else(expander: Expander, token: Token) -> bool:
 
 
 def _if_value(expander: Expander, token: Token) -> None:
-    r"""Choose a branch of \IfValueTF, \IfNoValueT or \IfBooleanTF by an argument of \NewDocumentCommand."""
+    r"""Choose a branch of \IfValueTF, \IfNoValueT or \IfBooleanTF; the tested value is an argument of a macro."""
     tested = expander.name()
     holds = tested == "*" if "Boolean" in token.text else (tested == r"\NoValue") == ("NoValue" in token.text)
     ending = "TF" if token.text.endswith("TF") else token.text[-1]
@@ -145,7 +145,7 @@ def _if_value(expander: Expander, token: Token) -> None:
 
 
 def _text(expander: Expander, token: Token) -> bool:
-    r"""Replace \mbox{…} and \textrm{…} by \text{…}."""
+    r"""Replace \mbox{…} and \textrm{…} by \text{…}; return False if no brace follows, and leave the command."""
     if not expander.begins("{"):
         return False
     inside = expander.argument()
@@ -155,7 +155,7 @@ def _text(expander: Expander, token: Token) -> bool:
 
 
 def _use(expander: Expander, token: Token) -> None:
-    r"""Load the known packages of \usepackage. A package file in the source's folder is not read."""
+    r"""Define the commands of those packages of \usepackage that are known. A .sty file beside the source is not read."""
     expander.optional()
     for name in map(str.strip, expander.name().split(",")):
         expander.load(name)
@@ -177,12 +177,12 @@ def _end_input(expander: Expander, token: Token) -> None:
 
 
 def _skip_name(expander: Expander, token: Token) -> None:
-    r"""Skip the name of a condition in \newif\ifx, which is not decided."""
+    r"""Skip the name in \newif\ifx. The condition \ifx is not followed, and both branches of it are skipped."""
     expander.argument()
 
 
 def _skip_argument(expander: Expander, token: Token) -> None:
-    r"""Skip the argument of a command such as \titleformat or \tikzset."""
+    r"""Skip the argument of a command that does not concern formulas, such as \titleformat or \tikzset."""
     expander.star()
     expander.argument()
 

@@ -44,9 +44,11 @@ _NEEDED = "mathrsfs dsfont bbm bbold esint stmaryrd cancel euscript wasysym text
 
 @dataclass(frozen=True, slots=True)
 class Displayed:
-    """One displayed equation; `number` is the printed one or ''; `latex` is expanded, without labels and numbers.
+    """One displayed equation. `latex` is its text after the expansion of macros, without labels and numbers.
 
-    lead: the left side of the previous row, if this row continues it. place: file and line. rows: the line of each row.
+    id: the printed number, or a number of its own with a letter. section: the number of its section. number: the printed
+    number, '' without one. label: its first label, or ''. lead: the left side of the previous row if this row continues
+    it, else ''. place: file and line. rows: the line of each row.
     """
 
     id: str
@@ -61,10 +63,11 @@ class Displayed:
 
 @dataclass
 class Source:
-    """The displayed equations of a source; section number → heading; inline formula → section; label → number.
+    """The content of a LaTeX source, as far as it concerns equations.
 
-    notes: sentences about doubtful readings. faults: (file, line, error at which TeX would stop). preamble: packages for
-    the formulas.
+    sections: number of a section → its heading. inline: formula in the text → number of its section. labels: label →
+    number of its equation. notes: sentences about doubtful readings. faults: (file, line, sentence) of each error at
+    which TeX would stop. preamble: the lines that load the packages of the formulas. file: the name of the main file.
     """
 
     title: str
@@ -81,7 +84,7 @@ class Source:
 
 @dataclass
 class _Row:
-    """One row of a display; `stepped` is True if the counter was stepped at the begin of the display."""
+    """One row of a display. numbered: it shall have a number. stepped: the display has already advanced the counter."""
 
     numbered: bool
     stepped: bool
@@ -93,11 +96,11 @@ class _Row:
 
 
 def read_source(file: Path) -> Source:
-    """Read the displayed equations of a .tex file. Raises InputError for any other file."""
+    """Read the displayed equations of a .tex file. Raises InputError for a file that is not a LaTeX source."""
     if file.suffix.lower() not in _SUFFIXES:
-        raise InputError(f"{file}: give a .tex file")
+        raise InputError(f"{file}: the name does not end in .tex: give a .tex file")
     if file.is_file() and (size := file.stat().st_size / 1e6) > _LARGEST:
-        raise InputError(f"{file} has {size:.0f} MB, more than {_LARGEST}: give its parts one by one")
+        raise InputError(f"{file} has {size:.0f} MB, more than the limit of {_LARGEST} MB: give its parts one by one")
     text = read_text(file, "latin-1")
     if text.startswith("%PDF") or 20 * sum(map(text.count, _CONTROLS)) > len(text):
         raise InputError(f"{file} is not text: give its LaTeX source")
@@ -105,7 +108,10 @@ def read_source(file: Path) -> Source:
 
 
 def read_latex(text: str, file: Path | None = None, title: str = "") -> Source:
-    """Read the displayed equations of a LaTeX text. Raises InputError for an endless macro."""
+    r"""Read the displayed equations of a LaTeX text; `file` is its path, from which included files are found.
+
+    `title` is used if the text has no \title. Raises InputError for a macro that expands without end.
+    """
     walker = _Walker(text, file, title)
     try:
         walker.read()
@@ -115,7 +121,7 @@ def read_latex(text: str, file: Path | None = None, title: str = "") -> Source:
 
 
 class _Walker:
-    """A reader of the expanded tokens that counts as LaTeX does."""
+    """The reader of a whole source. It collects equations and headings, and counts them as LaTeX does."""
 
     def __init__(self, text: str, file: Path | None, title: str) -> None:
         self.source = Source(title, file=file.name if file is not None else "")
@@ -144,7 +150,7 @@ class _Walker:
             source.notes.append(f"{name} has no label {missing[0]}: run LaTeX again, which writes the numbers there")
         elif expander.doubt and name and not self.aux and any(equation.number for equation in source.equations):
             helps = f"put {name}, which LaTeX writes, next to the source"
-            source.notes.append(f"{expander.doubt}, and the equation numbers may differ: {helps}")
+            source.notes.append(f"{expander.doubt}, and the equation numbers may differ from the printed ones: {helps}")
 
     def _take(self, token: Token) -> None:
         if token.text == r"\[":
@@ -168,19 +174,19 @@ class _Walker:
             self._unmatched(token, f"{token.text} has no matching opening")
         elif token.text == "^" and self.body:
             inside = next((name for name, _ in self.expander.scopes[::-1] if name != "{"), "")
-            where = rf"in \begin{{{inside}}}, which is unknown: define it"
+            where = rf"in \begin{{{inside}}}, which is unknown: define this environment in the source"
             if not inside.startswith("tikz"):
                 alone = "outside any environment: define the command that begins it"
                 self._note(token.at, f"a formula is {where if inside else alone}")
 
     def _note(self, at: int, sentence: str) -> None:
-        """Note a formula that is not read; each sentence appears once."""
+        """Add a note that a formula at a position is not read, unless an earlier note contains the same sentence."""
         if not any(sentence in note for note in self.expander.notes):
             self.expander.notes.append(f"{self.expander.place(at)}: {sentence}")
             self.expander.doubt = self.expander.doubt or "a part of the source is skipped"
 
     def _unmatched(self, token: Token, fault: str) -> None:
-        """Record a fault, unless the token is the late end of a display that was closed with a fault."""
+        """Record a fault, unless the token is the late end of a display for which a fault is already recorded."""
         if token.text != self.ended:
             self.expander.fault(token.at, fault)
         self.ended = ""
@@ -231,7 +237,7 @@ class _Walker:
             self._note(token.at, rf"\begin{{{name}}} is not read: write equation or align")
 
     def _begin_subequations(self) -> None:
-        """Start numbering by letters within the next number."""
+        """Begin subequations: they share the next equation number and add the letters a, b, … to it."""
         counters, expander = self.counters, self.expander
         counters.step("equation")
         number = counters.printed(expander, "equation")
@@ -275,7 +281,7 @@ class _Walker:
             self.source.inline.setdefault(latex, self.section)
 
     def _display(self, kind: str, token: Token, end: str, starred: bool = False) -> None:
-        """Read a display row by row; each row gets its number at its end."""
+        """Read a display up to its `end`, row by row, and store its equations. A row gets its number at its end."""
         by_rows = kind in _ROWS
         numbered = not starred and kind != "displaymath"
         rows = [_Row(numbered, numbered and not by_rows)]
@@ -301,7 +307,7 @@ class _Walker:
         self._store(rows, kind, token)
 
     def _inside(self, begin: Token, end: str) -> Iterator[Token]:
-        """Yield the tokens of a display. A missing end is assumed where TeX would stop, with a fault."""
+        """Yield the tokens of a display. If its end is missing, record a fault and stop where TeX would stop."""
         depth = braces = 0
         may_nest = begin.text.startswith(r"\begin{gather")  # align within gather
         for token in self.expander:
@@ -325,14 +331,14 @@ class _Walker:
         return self.expander.fault(begin.at, f"{begin.text} is not {'ended' if begin.kind == 'begin' else 'closed'}")
 
     def _skip_row_end(self, token: Token) -> None:
-        r"""Consume the star and the space argument after \\."""
+        r"""Consume the optional star and the optional length that may follow \\."""
         self.expander.star()
         space = latex_of(self.expander.optional() or ()) if self.expander.begins("[") else ""
         if space and not re.search(r"\d|\\", space):  # not a length: it begins the next row
             self.expander.push(plain(f"[{space}]", token.at))
 
     def _sets_number(self, token: Token, row: _Row) -> bool:
-        """Consume a command that concerns the number of a row; return False for any other command."""
+        """Execute a command that sets or removes the number of a row; return False for any other command."""
         name, expander = token.text, self.expander
         if name == r"\tag" or name in _NO_NUMBER:
             self.counters.values["equation"] -= row.stepped
@@ -352,7 +358,7 @@ class _Walker:
         return self.source.labels.get(label[1], "")
 
     def _finish(self, row: _Row) -> None:
-        """Set the number of a complete row."""
+        """Set the number of a row that is complete: the tag, the next number of the counter, or ''."""
         if row.numbered and not row.tag:
             if not row.stepped:
                 self.counters.step("equation")
@@ -363,7 +369,7 @@ class _Walker:
     # ---- equations
 
     def _store(self, rows: list[_Row], kind: str, token: Token) -> None:
-        """Store the equations of a display; a row that continues the previous one is joined to it."""
+        """Store the equations of a display. A row that continues the equation of the previous row is joined to it."""
         groups: list[list[_Row]] = []
         for row, following in pairwise(rows):
             if kind in (*_PAIRS, "gather") and not row.number:  # amsmath moves a label to the next numbered row
@@ -381,7 +387,7 @@ class _Walker:
             lead = self._add(group, kind, token, lead)
 
     def _add(self, group: list[_Row], kind: str, token: Token, lead: str) -> str:
-        """Store one equation; `lead` is the left side that its first row may continue. Return its left side."""
+        """Store the equation of a group of rows; `lead` is the left side that it may continue. Return the next `lead`."""
         number = next((row.number for row in group if row.number), "")
         label = next((label for row in group for label in row.labels), "")
         latex = _without_columns(group[0].tokens, kind)
@@ -426,13 +432,13 @@ def _continues(group: list[_Row], row: _Row) -> bool:
 
 
 def _left_side(source: str) -> str:
-    """Return the part of a row before its first relation."""
+    """Return the part of a row before its first relation sign; '' if the row has none."""
     match = _RELATIONS.search(source)
     return source[: match.start()].replace("&", " ").strip() if match else ""
 
 
 def _without_columns(tokens: list[Token], kind: str) -> str:
-    """Return a row as LaTeX without its own &; every second & of align separates two equations."""
+    """Return a row as LaTeX without alignment signs; every second & of align becomes a space between equations."""
     depth = columns = 0
     row: list[Token] = []
     for token in tokens:

@@ -1,4 +1,4 @@
-"""The reading of a formula: every token is used, or the reading names the token where it stopped and the remedy."""
+"""The reading of a formula. A reading uses every token, or it says where it stopped and what to write instead."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -15,7 +15,10 @@ _NOTHING = Notation()
 
 @dataclass(frozen=True)
 class Reading:
-    """The statements of a formula, empty if it is not read; `stop` is (token, remedy) where the reading stopped."""
+    """The statements of a formula. A formula that is not read has none.
+
+    stop: (reason, remedy) of a reading that stopped, None for a complete reading.
+    """
 
     statements: tuple[PrintedStatement, ...] = ()
     stop: tuple[str, str] | None = None
@@ -27,7 +30,7 @@ class Reading:
 
 
 def read_formula(latex: str, notation: Notation = _NOTHING, lead: str = "") -> Reading:
-    """Read a displayed formula after macro expansion; `lead` is the left side of the row that it continues."""
+    """Read a displayed formula whose macros are expanded. If it continues a row, `lead` is the left side of that row."""
     source = f"{lead} {latex}" if lead else latex
     try:
         row = boxes(source)
@@ -44,7 +47,7 @@ def read_formula(latex: str, notation: Notation = _NOTHING, lead: str = "") -> R
 
 
 def _alone(row: Iterable[Box]) -> Iterator[str]:
-    """Yield the symbols that are in no index, and a Δ that no symbol follows."""
+    """Yield the names of the symbols outside subscripts and superscripts, except a Δ or δ before another symbol."""
     for box, following in pairwise([*row, None]):
         if (
             box is not None
@@ -58,7 +61,7 @@ def _alone(row: Iterable[Box]) -> Iterator[str]:
 
 @lru_cache(maxsize=10_000)
 def letters_printed(latex: str) -> frozenset[str]:
-    """Return the symbols of a formula, read or not; the set is empty if the formula cannot be split into boxes."""
+    """Return the names of all symbols in a formula, even if its reading stops; none if it cannot be split into boxes."""
     try:
         return frozenset(stem_of(box) for box in all_boxes(boxes(latex)) if box.kind == "letter")
     except (FormulaError, RecursionError):

@@ -65,7 +65,8 @@ _SETTLED = ("functions", "vectors", "matrices", "indices", "positive", "real")
 class Grammar:
     """The reader of one formula in the notation of its paper.
 
-    bound: indices of the open sums. alone: names of symbols outside indices. indices: names of symbols inside indices.
+    source: the LaTeX of the formula. alone: names of the symbols that occur outside subscripts and superscripts.
+    indices: names of the symbols that occur in subscripts. bound: indices of the sums that are being read.
     """
 
     def __init__(self, source: str, notation: Notation, alone: frozenset[str], indices: frozenset[str]) -> None:
@@ -73,7 +74,10 @@ class Grammar:
         self.bound: list[str] = []
 
     def _unclear(self, box: Box, what: str, *kinds: str, way: str = r"write \cdot for a product") -> FormulaError:
-        """Return the error for an ambiguous symbol, with the entries of [notation] that would decide its kind."""
+        """Return the error for an ambiguous symbol. `what` completes the sentence "it is unclear whether …".
+
+        The remedy is an entry of [notation] that declares one of these kinds; without kinds it is the sentence `way`.
+        """
         entries = " or ".join(f'{kind} = "{stem_of(box)}"' for kind in kinds)
         way = f"write in paper.toml [notation] {entries}" if kinds else way
         return FormulaError(f"it is unclear whether {what}", way)
@@ -86,7 +90,7 @@ class Grammar:
         return any(has_kind(self.notation, kind, box) for kind in kinds)
 
     def _expressions(self, row: list[Box]) -> tuple[Node, ...]:
-        """Read the expressions between the commas of a row."""
+        """Read the expressions that commas separate in a row."""
         return tuple(map(self.expression, split_at(row, "comma")))
 
     # ---- sums and products
@@ -117,7 +121,7 @@ class Grammar:
         return Call("sum", tuple(values))
 
     def term(self, row: list[Box]) -> Node:
-        """Read a row of boxes as a product of groups joined by signs."""
+        """Read a row of boxes as one product: groups of adjacent factors, joined by ·, ×, / or *."""
         row = strip(row)
         groups: list[tuple[str, list[Node], list[Box]]] = [("", [], [])]
         place = 0
@@ -141,14 +145,15 @@ class Grammar:
         product: Node | None = None
         for sign, factors, content in groups:
             if len(factors) > 1 and any(isinstance(factor, Call) and factor.name == "order" for factor in factors):
-                raise FormulaError("it is unclear whether O(…) next to a factor is an order", r"write \cdot if not")
+                way = r"write \cdot for a product, or '+ O(…)' for the order of omitted terms"
+                raise FormulaError("it is unclear whether O(…) next to a factor is an order", way)
             right = _product(factors)
             product = right if product is None else self._join(product, sign, right, content[0])
         assert product is not None
         return product
 
     def _join(self, product: Node, sign: str, right: Node, first: Box) -> Node:
-        """Return two factors joined by a sign; `first` is the box after the sign."""
+        """Return the product or quotient of `product` and `right`, which a sign joins; `first` is the box after it."""
         text = self.source[: first.at].rstrip()
         if sign == "/":
             return self._divide(product, right, text)
@@ -169,7 +174,7 @@ class Grammar:
             raise FormulaError(f"it is unclear whether {cofactor.name} is a vector", "remove the dot")
         if sign == "times" and not (_is_numeric(product) or _is_numeric(right)):
             way = r"declare the vectors in [notation], or write \cdot"
-            raise FormulaError("it is unclear whether × is of vectors or of numbers", way)
+            raise FormulaError("it is unclear whether × multiplies vectors or numbers", way)
         return product_of([product, right])
 
     def _divide(self, dividend: Node, divisor: Node, text: str) -> Node:
@@ -182,7 +187,7 @@ class Grammar:
         return Call("quotient", (dividend, divisor))
 
     def factor(self, row: list[Box], place: int) -> tuple[Node, int]:
-        """Read one factor; return it and the position after it."""
+        """Read the factor that begins at a position of a row; return it and the position after it."""
         box = row[place]
         named = box.kind == "letter" and box.upright and len(box.name) > 1 and box.name in FUNCTIONS and not box.marks
         read = Grammar._function if named else _FACTORS.get(box.kind)
@@ -196,19 +201,20 @@ class Grammar:
             raise FormulaError(f"{self._text(box)} cannot be read", _HELPS.get(box.kind, "write what it means"))
         if behind < len(row) and row[behind].name == "!":
             if box.kind == "function" or [b.name for b in row[behind + 1 : behind + 2]] == ["!"]:
-                raise FormulaError("it is unclear what ! belongs to", "write brackets, or the product")
+                raise FormulaError("it is unclear what ! belongs to", "write brackets around n!, or write the product")
             node, behind = Call("factorial", (node,)), behind + 1
         return node, behind
 
     # ---- letters
 
     def letter(self, box: Box) -> Letter:
-        """Read a symbol without its power. Raises FormulaError if its kind is not declared."""
+        """Read a symbol without its power. Raises FormulaError if [notation] must declare its kind and does not."""
         if self._kind(box, "operators"):
-            raise FormulaError(f"{stem_of(box)} is an operator", "products with operators are not read")
+            way = "products with operators are not read: write the result as an expression"
+            raise FormulaError(f"{stem_of(box)} is an operator", way)
         dots = [mark.endswith("dot") for mark in box.marks]
         if dots != sorted(dots):
-            raise FormulaError(f"a mark is above the dot of {box.name}", "give the rate a symbol")
+            raise FormulaError(f"an accent is above the dot of {box.name}", "give the rate a symbol of its own")
         if "hat" in box.marks and box.name.isupper() and not self._kind(box, *_SETTLED):
             raise self._unclear(box, f"{stem_of(box)} is an operator or a symbol", "operators", "vectors", "real")
         matrix = self._kind(box, "matrices")
@@ -218,7 +224,7 @@ class Grammar:
         return Letter(name_of(box, index_of(box), self._label(box)), vector, matrix)
 
     def _label(self, box: Box) -> list[str]:
-        """Return the words that a superscript adds to the name of a symbol; a power adds none."""
+        """Return the words that a superscript adds to the name of a symbol, such as max for T^max; [] for a power."""
         if not box.sup or len(box.sup) > 1 or box.kind != "letter":
             return []
         only = box.sup[0]
@@ -259,7 +265,7 @@ class Grammar:
         return self.power(node, box), place + 1
 
     def _special_symbol(self, row: list[Box], place: int, right: Box | None) -> tuple[Node, int] | None:
-        """Read the special symbols e, i, π, d and Δ; return None for an ordinary symbol."""
+        """Read e, i, π, d or Δ with its special meaning; return None for an ordinary symbol. `right` is the next box or None."""
         box, name, number_ = row[place], row[place].name, self._kind(row[place], "numbers")
         settled, kind = self._kind(box, *_SETTLED), right.kind if right else ""
         if name == "e" and (number_ or box.upright):
@@ -285,7 +291,7 @@ class Grammar:
         return None
 
     def _difference(self, row: list[Box], place: int) -> tuple[Node, int]:
-        r"""Read \Delta x as one symbol."""
+        r"""Read \Delta x as one symbol, Delta_x; return it and the position after it."""
         box, right = row[place : place + 2]
         if right.kind != "letter" or box.name == "delta" or stem_of(box) in self.alone:
             raise self._unclear(box, f"\\{box.name} is a factor or an operator", "functions", "real")
@@ -295,7 +301,7 @@ class Grammar:
         return self.power(replace(letter, name=f"{box.name}_{letter.name}"), right), place + 2
 
     def _application(self, box: Box, bracket: Box) -> Node | None:
-        """Read a symbol as a function of the next bracket, x for x(t); return None if it is a factor."""
+        """Read a symbol as a function of the bracket after it, x(t) as x; return None if the bracket is a factor."""
         content, name = bracket.contents[0], stem_of(box)
         if name in ("O", "Ocal") and not (box.sub or box.sup):
             return Call("order", (self.expression(content),))
@@ -322,7 +328,7 @@ class Grammar:
         raise self._unclear(box, what, "functions", "real")
 
     def _call(self, box: Box, bracket: Box) -> Node:
-        """Read a declared function with its arguments, and V'(r) as its derivative."""
+        """Read a declared function with its arguments; V'(r) is read as the derivative of V by r."""
         content, above = bracket.contents[0], box.sup or []
         derived = any(b.kind == "partial" or is_derivative(b) for b in content) or any(map(self._is_rate, content[1:]))
         itself = len(content) > 1 and any(b.kind == "letter" and stem_of(b) == stem_of(box) for b in content)
@@ -330,7 +336,7 @@ class Grammar:
             raise self._unclear(box, f"{stem_of(box)} is a factor here")
         if [b.name for b in above] == ["-", "1"] or any(b.kind in ("bracket", "letter") for b in above):
             way = "write brackets around the base, or use another symbol"
-            raise self._unclear(box, f"{self._text(box)} has a power", way=way)
+            raise self._unclear(box, f"the superscript of {self._text(box)} is a power", way=way)
         if bracket.sub:
             raise FormulaError("a bracket has an index", "write the index on a symbol")
         named, arguments = self.letter(replace(box, primes=0)), self._expressions(content)
@@ -345,7 +351,7 @@ class Grammar:
     # ---- powers
 
     def power(self, node: Node, box: Box) -> Node:
-        """Return the node raised to the superscript of its box."""
+        """Return the node raised to the power in the superscript of its box; the node itself without a power."""
         if box.sup is None or self._label(box):
             return node
         if not box.sup:
@@ -374,9 +380,10 @@ class Grammar:
         text, letters = self._text(row[0], row[-1]), [b for b in row if b.kind == "letter"]
         text = text[1:-1] if text[0] == "{" else text
         if any(b.kind in ("text", "relation", "comma") or b.primes or b.name in ("dagger", "prime", "*") for b in row):
-            raise FormulaError(f"{text} is in the place of a power", "write it as an index")
+            raise FormulaError(f"the superscript {text} is not a power", "write it as an index")
         if row[0].kind == "bracket" and len(row) == 1:
-            raise FormulaError("it is unclear whether a number in brackets is a power", "write a power without them")
+            way = "write a power without brackets"
+            raise FormulaError("it is unclear whether a superscript in brackets is a power", way)
         if box.kind != "letter":
             return
         if [b.name for b in row] in (["0"], ["e"]):
@@ -425,7 +432,8 @@ class Grammar:
         if above == ["-", "1"] and name in _INVERSE:
             return Call(_INVERSE[name], inner), behind
         if above == ["-", "1"] or (above and (box.name not in FUNCTIONS or (box.sup or [box])[0].kind == "bracket")):
-            raise self._unclear(box, f"{box.name} has a mark or a power", way="write brackets around the base")
+            what = f"the superscript of {box.name} is a mark or a power"
+            raise self._unclear(box, what, way="write brackets around the base")
         value = Call(name.lower() if name == "Tr" else name, inner)
         if name == "log10" or (name == "log" and box.sub):
             base = self.expression(box.sub) if box.sub else number(10)
@@ -438,7 +446,8 @@ class Grammar:
         first = row[start] if start < len(row) else box
         if first is box or first.kind in ("operator", "comma", "big"):
             raise FormulaError(f"{box.name} has no argument", "write the argument in brackets")
-        raised = FormulaError("it is unclear whether the power is of the argument or of the function", "write brackets")
+        what = "it is unclear whether the power belongs to the argument or to the function"
+        raised = FormulaError(what, "write the argument in brackets")
         if first.kind == "bracket" and _plain(first.name) in _ROUND:
             if first.sub or first.sup:
                 raise raised
@@ -457,7 +466,7 @@ class Grammar:
         return (self.term(row[start:end]),), end
 
     def _argument_end(self, row: list[Box], start: int) -> int:
-        """Return the end of a function's argument without brackets: 2θ, ωt, kx, nπ, one symbol."""
+        """Return the position after a function's argument that has no brackets, such as 2θ, ωt, kx, nπ or one symbol."""
         end, kinds = start, ("number", "letter", "fraction", "root", "group")
         while end < len(row) and row[end].kind in kinds and not self._is_rate(row[end]):
             end += 1
@@ -478,7 +487,7 @@ class Grammar:
         raise FormulaError(f"it is unclear where the argument of {function} ends", "write the argument in brackets")
 
     def _is_rate(self, box: Box) -> bool:
-        """Return True for a velocity or a vector, which ends the argument of a function."""
+        """Return True if a box is a time derivative or a vector; it then ends the argument of a function."""
         dotted = any(mark.endswith("dot") for mark in box.marks)
         return bool(is_derivative(box)) or (box.kind == "letter" and (dotted or self._kind(box, "vectors")))
 
@@ -500,21 +509,21 @@ class Grammar:
             raise FormulaError("a relation is inside brackets", "write the relation separately")
         pieces = split_at(content, "comma")
         if pair not in (("(", ")"), ("[", "]"), (r"\{", r"\}"), (".", ".")) or (len(pieces) > 1 and box.name != "("):
-            way = "means, kets, commutators, Poisson brackets and intervals are not read"
+            way = "write out means, kets, commutators, Poisson brackets and intervals"
             raise FormulaError(f"{box.name} … {box.closing} is not read", way)
         return self.expression(content) if len(pieces) == 1 else Call("column", self._expressions(content))
 
     def _evaluation(self, box: Box, content: list[Box]) -> Node:
-        """Read an expression evaluated at a point, |_{x = 0}."""
+        """Read an expression that a bar with an index evaluates at a point: |_{x = 0}."""
         where = split_at(box.sub or [], "relation")
         if len(where) != 2 or not all(where) or box.sup:
-            raise FormulaError("the point of evaluation is not an equation", "write |_{x = 0}")
+            raise FormulaError("the index of the evaluation bar is not an equation", "write |_{x = 0}")
         return Call("at", (self.expression(content), *map(self.expression, where)))
 
     def _group(self, box: Box) -> Node:
         """Read a group in braces that has a script, or a group with a brace above or below."""
         if any(b.kind == "operator" and b.name in ("+", "-") for b in box.contents[0][1:]):
-            raise FormulaError("it is unclear whether brackets enclose the sum", "write brackets")
+            raise FormulaError("it is unclear whether brackets enclose the sum", "write the sum in brackets")
         return self.expression(box.contents[0])
 
     def _root(self, box: Box) -> Node:
@@ -553,7 +562,8 @@ class Grammar:
                 raise FormulaError("the variable of the derivative is not clear", r"write \frac{d f}{d x}")
             variables.append((self.letter(replace(target, sup=None)), _order(target)))
         if sum(times for _, times in variables) != order:
-            raise FormulaError("the orders of the derivative differ", "write the same order above and below")
+            way = "write the same order above and below the fraction bar"
+            raise FormulaError("the orders of the derivative differ", way)
         in_time = mark == "d" and variables == [(Letter("t"), order)]
         if not over[1:]:
             node, behind = self._operand(row, behind)
@@ -563,16 +573,17 @@ class Grammar:
             if in_time and [(b.name, b.sub) for b in content] == [("t", None)]:
                 behind += 1  # \frac{dx}{dt}(t)
             elif content and not any(b.kind == "operator" for b in content[1:]):
-                raise self._unclear(box, "a derivative is taken there or multiplied", way=r"write |_{t = 0} or \cdot")
+                what = "the bracket after a derivative is the point of evaluation or a factor"
+                raise self._unclear(box, what, way=r"write |_{t = 0} or \cdot")
         value = _rate(node, order) if in_time else node
         for variable, times in variables if not in_time else ():
             value = _derivative_of(value, variable, times)
         return (self.power(value, box) if over[1:] else value), behind
 
     def _operand(self, row: list[Box], place: int) -> tuple[Node, int]:
-        """Read the operand of a derivative: the last factor of a term, or a bracket."""
+        """Read the operand after d/dx, which is the last factor of a term or a bracket; return it and the next position."""
         if place >= len(row) or row[place].kind == "operator":
-            raise FormulaError("the derivative has nothing to act on", "operators by themselves are not read")
+            raise FormulaError("the derivative has nothing to act on", "write the differentiated expression after it")
         node, behind = self.factor(row, place)
         if behind < len(row) and row[place].kind != "bracket":
             raise FormulaError("it is unclear how far the derivative reaches", "write brackets around its operand")
@@ -585,7 +596,7 @@ class Grammar:
         if BIG[box.name] == "Integral":
             return self._integral(row, place)
         if BIG[box.name] == "limit":
-            raise FormulaError("\\lim is not read", "limits are not decided")
+            raise FormulaError("\\lim is not read", "write the value of the limit")
         if not terms:
             raise FormulaError(f"\\{box.name} has no terms", "write the terms")
         ends = [*map(self.expression, (below[2:], box.sup))] if below[2:] and box.sup else []
@@ -599,7 +610,7 @@ class Grammar:
             self.bound.pop()
 
     def _integral(self, row: list[Box], place: int) -> tuple[Node, int]:
-        """Read an integral from its sign to its differential."""
+        """Read an integral from its sign to its differential; return it and the position after it."""
         box, at, depth = row[place], place, 1
         while depth:
             at += 1
@@ -614,7 +625,8 @@ class Grammar:
             variables.append(self._variable(over[start:]))
             numerator = over[:start] or [Box("number", "1", row[at].at, row[at].at)]
             if any(b.kind == "operator" for b in inner):
-                raise FormulaError("only one term has a differential", "write the differential at the end")
+                way = "write the differential at the end of the integrand"
+                raise FormulaError("only one term of the integrand has a differential", way)
             inner = [*inner, replace(row[at], contents=[numerator, row[at].contents[1]]), *row[at + 1 : end]]
         else:
             variables.append(self._variable(row[end : end + 2]))
@@ -624,11 +636,12 @@ class Grammar:
                 raise self._unclear(box, "the factors after the differential are integrated", way=way)
         limits = [self.expression(limit) for limit in (box.sub, box.sup) if limit]
         if len(limits) == 1 or box.name != "int" or (inner and inner[-1].kind == "operator"):
-            raise FormulaError("the integral is over a line or a region", "write one variable and two limits")
+            what = "the integral is not over one variable between two limits"
+            raise FormulaError(what, "write one variable and two limits")
         return Call("Integral", (self.expression(inner) if inner else number(1), variables[0], *limits)), end
 
     def _variable(self, marks: list[Box]) -> Letter:
-        """Read the variable of an integral from its d and the symbol after it."""
+        """Read the variable of an integral from two boxes: the sign d and the symbol after it."""
         if len(marks) != 2 or marks[1].kind != "letter" or marks[1].sup or marks[0].sup:
             raise FormulaError("the differential of the integral is not clear", "write d and the variable")
         letter = self.letter(marks[1])
@@ -657,7 +670,7 @@ def _plain(bracket: str) -> str:
 
 
 def _product(factors: list[Node]) -> Node:
-    """Return the product of adjacent factors. Raises FormulaError for two vectors."""
+    """Return the product of adjacent factors. Raises FormulaError if two of them are vectors and none is a matrix."""
     vectors = [factor for factor in factors if is_vector(factor)]
     if len(vectors) > 1 and not all(map(is_matrix, vectors[:-1])):
         way = 'write \\cdot or \\times, or declare matrices = "…" in [notation]'
@@ -666,7 +679,7 @@ def _product(factors: list[Node]) -> Node:
 
 
 def _check_sums(terms: list[list[Box]]) -> None:
-    """Raise FormulaError if a term after a sum contains the index of that sum."""
+    """Raise FormulaError if a term after a term with Σ uses the index of that Σ: the end of Σ is then unclear."""
     indices: set[str] = set()
     for term in terms:
         letters = {inner.name for box in term for inner in all_boxes(box.sub or ()) if inner.kind == "letter"}
@@ -677,10 +690,10 @@ def _check_sums(terms: list[list[Box]]) -> None:
 
 
 def _check_neighbours(row: list[Box], place: int, previous: Box | None) -> None:
-    """Raise FormulaError for a number after a factor, a mixed number, dots, and symbols that form a word."""
+    """Raise FormulaError for a number after a factor, a mixed number, dots among factors, or symbols that form a word."""
     box = row[place]
     if box.kind == "dots" and len(row) > 1:
-        raise FormulaError("dots replace factors", "write the factors, or a product sign")
+        raise FormulaError("dots stand for factors", "write the factors, or a product sign")
     if previous is not None and box.kind == "number" and (previous.kind == "number" or not box.spaced):
         raise FormulaError(f"the number {box.name} follows a factor", r"write \cdot, or braces around the power")
     numeric = box.kind == "fraction" and all(b.kind == "number" for content in box.contents for b in content)
@@ -701,7 +714,7 @@ def _is_numeric(node: Node) -> bool:
 
 
 def _is_any_kind(node: Node) -> bool:
-    """Return True for a term that may be a number or a vector: 0, dots and O(…)."""
+    """Return True if a term may be a number as well as a vector: it is 0, dots or O(…)."""
     return is_printed_zero(node) or (isinstance(node, Call) and node.name in ("dots", "order"))
 
 
@@ -710,7 +723,7 @@ def _derivative_of(node: Node, variable: Letter, times: int) -> Call:
 
 
 def _rate(node: Node, order: int) -> Node:
-    r"""Return dx/dt as \dot x, and d/dt of any other expression as `rate`."""
+    r"""Return the time derivative of some order: x with dots for a symbol x, the call `rate` for any other expression."""
     dots = re.search(r"_(d*)dot$", node.name) if isinstance(node, Letter) else None
     total = order + (len(dots[1]) + 1 if dots else 0)
     if isinstance(node, Letter) and total <= 4:
@@ -721,7 +734,7 @@ def _rate(node: Node, order: int) -> Node:
 
 
 def _order(box: Box) -> int:
-    """Return the order of a derivative from the superscript of its sign."""
+    """Return the order of a derivative, which is the superscript of its sign d or ∂; 1 without a superscript."""
     if not box.sup:
         return 1
     if len(box.sup) == 1 and box.sup[0].kind == "number" and box.sup[0].name in "123456789":
@@ -734,7 +747,7 @@ def _opens_integral(box: Box) -> bool:
 
 
 def _closes_integral(row: list[Box], place: int) -> bool:
-    """Return True if a differential begins at this position: d before a symbol, or above a fraction bar."""
+    """Return True if a differential begins at this position: d before a symbol, or a fraction with d in its numerator."""
     box = row[place]
     if box.kind == "fraction":
         return any(is_mark(b, "d") for b in box.contents[0]) and not is_derivative(box)
@@ -743,7 +756,7 @@ def _closes_integral(row: list[Box], place: int) -> bool:
 
 
 def _pair_bars(row: list[Box]) -> list[Box]:
-    """Return a row in which each pair of bars is one bracket."""
+    """Return a row in which each pair of bars | … | has become one bracket."""
     places = [k for k, box in enumerate(row) if box.kind == "bar"]
     if len(places) % 2:
         raise FormulaError("a bar has no partner", r"write \left| and \right|")

@@ -1,4 +1,4 @@
-"""Titles, headings and names of authors as plain text: accented letters, formulas in Unicode, no notes."""
+"""Titles, headings and names of authors as plain text. Accents and formulas become Unicode; footnotes are removed."""
 
 import re
 import unicodedata
@@ -27,7 +27,7 @@ _LETTERS = {
 
 
 def plain_heading(text: str) -> str:
-    r"""Return plain text: Jos\'e~\surname{Garc{\'\i}a}\thanks{…} becomes José García, $E=mc^2$ becomes E=mc²."""
+    r"""Return LaTeX as plain text: Jos\'e~\surname{Garc{\'\i}a}\thanks{…} gives José García, $E=mc^2$ gives E=mc²."""
     text = re.sub(r"``|''", '"', _LATTER.sub(" ", _NOTES.sub("", text)))
     text = _ACCENT.sub(_accented, re.sub(r"(?<!\\)\\[,;:!/ ]", " ", text))
     text = _FORMULA.sub(lambda match: from_latex(next(filter(None, match.groups()), "")), text)
@@ -43,7 +43,7 @@ def _accented(match: re.Match[str]) -> str:
 
 
 def names_of_authors(text: str) -> tuple[str, ...]:
-    r"""Return the names in the argument of \author, separated by \and or commas; only the first line of each."""
+    r"""Return the names in the argument of \author. They are separated by \and or commas; lines after the first are cut."""
     blocks = re.split(r"\\and\b", _NOTES.sub("", re.sub(r"(?<!\\)\\[,;:!/ ]", " ", text)))
     firsts = (re.split(r"\\\\", block)[0] for block in blocks)
     names = (plain_heading(name) for first in firsts for name in re.split(r",|(?<=[\s~])and(?=[\s~])", first))

@@ -1,4 +1,4 @@
-"""A new paper: a folder with one worked example, or a folder made from a source and updated when the source changes.
+"""The folder of a new paper. It holds one worked example, or the equations of a source, and follows its changes.
 
 An update keeps the id, title, confirmation and comments of an equation with the same label or LaTeX. An equation whose
 LaTeX has changed is marked, and its reading must be confirmed again.
@@ -44,9 +44,10 @@ _HEAD = (
 
 @dataclass(frozen=True)
 class NewPaper:
-    """The folder of a new paper, the number of its equations, and the number that were read.
+    """The result of `begin_paper`: the folder, the number of its equations, and the number of those that were read.
 
-    notes: sentences on the source. changed: ids of equations with changed LaTeX. gone: ids missing from the source.
+    notes: sentences about doubtful places of the source. changed: ids of equations whose LaTeX has changed since the
+    last update. gone: ids of equations that are no longer in the source.
     """
 
     folder: Path
@@ -131,7 +132,7 @@ def _from_source(folder: Path, path: Path, again: bool) -> NewPaper:
 
 
 def _judged_ids(folder: Path) -> set[str]:
-    """Return the ids for which a derivation gives a verdict."""
+    """Return the ids of the equations for which a derivation in the folder gives a verdict."""
     scripts = (folder / "derivations").glob("*.py")
     return {i for script in scripts for i in re.findall(r"verdict\(\s*[\"']([^\"']+)[\"']", read_text(script))}
 
@@ -139,7 +140,10 @@ def _judged_ids(folder: Path) -> set[str]:
 def _merge(
     equations: list[Displayed], prints: list[Print], old: list[dict[str, Any]], derived: set[str]
 ) -> tuple[list[dict[str, Any]], list[str], list[str]]:
-    """Return the rows of equations.toml, updated from the old rows, and the ids of changed and of missing equations."""
+    """Return the new rows of equations.toml, the ids of changed equations, and the ids that the source lacks.
+
+    A missing equation keeps its row if it is confirmed or if its id is in `derived`; it is marked as gone.
+    """
     matches, ids = _match_rows(equations, old), {row["id"] for row in old}
     new_ids: set[str] = set()
     rows: list[dict[str, Any]] = []
@@ -156,7 +160,10 @@ def _merge(
 
 
 def _match_rows(equations: list[Displayed], old: list[dict[str, Any]]) -> dict[int, int]:
-    """Match equations to old rows by label and LaTeX, by label, or by LaTeX with a new label; return place → place."""
+    """Return a map from the place of an equation to the place of its old row.
+
+    Equal label and LaTeX decide first, then an equal label, then equal LaTeX of an equation whose label is new.
+    """
     matches: dict[int, int] = {}
     rows = [(str(row.get("label", "")), str(row.get("latex"))) for row in old]
     labels = {equation.label for equation in equations} & {label for label, _ in rows} - {""}
@@ -175,7 +182,7 @@ def _match_rows(equations: list[Displayed], old: list[dict[str, Any]]) -> dict[i
 
 
 def _row(equation: Displayed, print_: Print, prior: Mapping[str, Any] | None, changed: list[str]) -> dict[str, Any]:
-    """Return the row of an equation with the entries of its old row; append its id to `changed` for new LaTeX."""
+    """Return the row of an equation with the author's entries in its old row `prior`; add its id to `changed` for new LaTeX."""
     row: dict[str, Any] = {"id": equation.id, "number": equation.number, "section": equation.section}
     title = equation.label or f"displayed equation {equation.id}"
     row |= {"title": title, "label": equation.label, "latex": equation.latex}
@@ -201,7 +208,7 @@ def _row(equation: Displayed, print_: Print, prior: Mapping[str, Any] | None, ch
 def _vectors(
     equations: list[Displayed], prints: list[Print], old: Mapping[str, Mapping[str, str]]
 ) -> dict[str, dict[str, str]]:
-    """Return the tables [letters.SECTION] with the names of vectors."""
+    """Return the tables [letters.SECTION] of equations.toml, extended by the vectors in the equations of each section."""
     letters = {section: dict(rows) for section, rows in old.items()}
     for equation, print_ in zip(equations, prints, strict=True):
         if print_.vectors:
@@ -211,7 +218,7 @@ def _vectors(
 
 
 def _comments(text: str) -> dict[str, list[str]]:
-    """Return id → the comments above and inside its equation; "" → the comments at the top of the file."""
+    """Return a map from an id to the comments above and inside its equation; "" has the comments that open the file."""
     ids = iter(row["id"] for row in tomllib.loads(text).get("equation", ()))
     lines = text.splitlines()
     head = list(takewhile(lambda line: line.startswith("#"), lines))
@@ -230,7 +237,7 @@ def _comments(text: str) -> dict[str, list[str]]:
 def _catalogue(
     rows: list[dict[str, Any]], letters: Mapping[str, Mapping[str, str]], comments: Mapping[str, list[str]]
 ) -> str:
-    """Return the text of equations.toml."""
+    """Return the text of equations.toml: the tables of letters and the equations, each below its comments."""
     blocks = [comments.get("", [])]
     blocks += [
         [f"[letters.{_text(section)}]", *(f"{kind} = {_text(names)}" for kind, names in kinds.items())]
@@ -258,9 +265,9 @@ def _value(key: str, value: Any) -> str:
 
 
 def confirm(folder: Path, ids: Iterable[str]) -> list[str]:
-    """Write `read = "confirmed"` and a hash of the LaTeX for these equations; return their ids.
+    """Confirm the readings of these equations in equations.toml, each with a hash of its LaTeX; return their ids.
 
-    Raises InputError for an equation without a reading.
+    Raises InputError for an unknown id, and for an equation that has no reading or is no longer in the source.
     """
     file = folder / "equations.toml"
     data = toml(file)
@@ -269,9 +276,10 @@ def confirm(folder: Path, ids: Iterable[str]) -> list[str]:
     for identifier in identifiers:
         row = rows.get(identifier)
         if row is None:
-            raise InputError(f"{file}: there is no equation {identifier!r}: its ids are {', '.join(list(rows)[:8])} …")
+            known = ", ".join(list(rows)[:8])
+            raise InputError(f"{file}: there is no equation {identifier!r}: give one of its ids, {known} …")
         if row.get("read") == "gone":
-            raise InputError(f"equation {identifier} is no longer in the source: it cannot be confirmed")
+            raise InputError(f"equation {identifier} is no longer in the source: leave it out of --confirm")
         if not row.get("line"):
             why = f"`lagrotor readings {folder}` shows where its reading stopped, or which statements are not compared"
             raise InputError(f"equation {identifier} has no line to confirm: {why}")
@@ -286,7 +294,10 @@ def confirm(folder: Path, ids: Iterable[str]) -> list[str]:
 
 
 def declare(folder: Path, kinds: Mapping[str, str]) -> None:
-    """Write symbol → kind into [notation] of paper.toml. Raises InputError for kinds that exclude each other."""
+    """Declare the kinds of symbols in [notation] of paper.toml; `kinds` maps a symbol to its kind.
+
+    Raises InputError if a symbol would have two kinds that exclude each other.
+    """
     file = folder / "paper.toml"
     table = dict(toml(file).get("notation", {}))
     for letter, kind in kinds.items():
@@ -305,7 +316,7 @@ def _write_table(file: Path, name: str, rows: list[str]) -> None:
 
 
 def _write_about(folder: Path, source: Source, again: bool) -> None:
-    """Write paper.toml; an update changes its sections only."""
+    """Write paper.toml. If it exists (`again`), only its table of sections is replaced."""
     file = folder / "paper.toml"
     sections = [f"{_text(number)} = {_text(title)}" for number, title in source.sections.items()]
     if again:
@@ -321,7 +332,7 @@ def _write_about(folder: Path, source: Source, again: bool) -> None:
 
 
 def _write_symbols(folder: Path, prints: Iterable[Print]) -> None:
-    """Write symbols.py, or append the new symbols of the equations to it."""
+    """Write symbols.py with a declaration for each symbol of the equations; an existing file gets the new symbols only."""
     file = folder / "symbols.py"
     text = read_text(file) if file.is_file() else _SYMBOLS
     names = {name for call in re.findall(r"\(\s*[\"']([^\"']*)[\"']", text) for name in call.split()}
@@ -339,5 +350,5 @@ def _text(value: str | float) -> str:
 
 
 def _latex(value: str) -> str:
-    """Return a TOML string that keeps backslashes."""
+    """Return LaTeX as a literal TOML string, in which backslashes need no escape."""
     return f"'''{value}'''" if "'''" not in value and not value.endswith("'") else _text(value)

@@ -1,7 +1,8 @@
-r"""A source after macro expansion, without the parts that \iffalse hides.
+r"""The expansion of the macros in a source; the parts that \iffalse hides are removed.
 
-Nothing is executed. A definition is a list of tokens, and the number of expansions is bounded. No condition other than
-\iftrue and \iffalse is decided: a note names its lines, both branches are skipped, names defined there are unknown.
+Nothing is executed. A definition is a list of tokens, and the number of expansions is bounded. Only the conditions
+\iftrue and \iffalse are decided. For any other condition both branches are skipped, the names that they define become
+unknown, and a note gives the line.
 """
 
 import re
@@ -37,7 +38,11 @@ _ARGUMENT = re.compile(r"([msg])|([oO]|[dD]\s*(\S)(\S))\s*(?:\{([^{}]*)\})?")
 
 
 class Parameter(NamedTuple):
-    r"""One argument of a macro: `kind` as in \NewDocumentCommand; `marks` are the signs around an optional one."""
+    r"""One argument of a macro.
+
+    kind: its letter in \NewDocumentCommand, m (mandatory), o (optional), g (optional in braces) or s (star). marks: the
+    two signs around an optional argument. default: the tokens that replace a missing argument.
+    """
 
     kind: str
     marks: str = "[]"
@@ -45,19 +50,19 @@ class Parameter(NamedTuple):
 
 
 class Macro(NamedTuple):
-    """A definition: the tokens that replace a name, with the arguments as #1, #2 …."""
+    """A definition: the tokens that replace a name. The tokens #1, #2, … stand for the arguments that `head` lists."""
 
     body: tuple[Token, ...]
     head: tuple[Parameter, ...] = ()
 
     @staticmethod
     def of(text: str, spec: str = "") -> "Macro":
-        r"""Return a macro from its LaTeX, with an argument specification as in \NewDocumentCommand."""
+        r"""Return the macro with the body `text` in LaTeX; `spec` lists its arguments as in \NewDocumentCommand."""
         return Macro(tuple(tokenize(text)), head_of(spec))
 
 
 def head_of(spec: str) -> tuple[Parameter, ...]:
-    r"""Return the arguments that a specification of \NewDocumentCommand lists."""
+    r"""Return the arguments that a specification lists in the letters of \NewDocumentCommand, such as "som"."""
     head = []
     for letter, optional, opening, closing, default in _ARGUMENT.findall(spec):
         value = tuple(tokenize(default)) if optional[:1] in ("O", "D") else _NO_VALUE
@@ -72,8 +77,8 @@ Primitive = Callable[["Expander", Token], bool | None]
 class Expander(TokenStream):
     """An iterator over the expanded tokens of a source.
 
-    `macros` are the definitions valid at this position. In a formula (`in_formula`) an undecided condition remains as a
-    token, so that no reader of formulas accepts it.
+    `macros` holds the definitions that are valid at the present position. Inside a formula (`in_formula`) an undecided
+    condition remains as a token, so that the reader of formulas refuses it.
     """
 
     def __init__(self, text: str, file: Path | None, primitives: Mapping[str, Primitive]) -> None:
@@ -109,7 +114,7 @@ class Expander(TokenStream):
             yield token
 
     def expand(self, tokens: Iterable[Token]) -> list[Token]:
-        """Return these tokens after expansion."""
+        """Return the expansion of these tokens; groups that they leave open are closed."""
         waiting, self.waiting = self.waiting, [iter(list(tokens))]
         depth = len(self.scopes)
         try:
@@ -126,7 +131,7 @@ class Expander(TokenStream):
             self._expansions[token.at] += 1
             self._output_size += len(body)
             if self._expansions[token.at] > _MOST_EXPANSIONS or self._output_size > _MOST_TOKENS + 10 * self.length:
-                sentence = f"{name} expands without end: a macro that calls itself cannot be expanded"
+                sentence = f"{name} expands without end: define it without a call of itself"
                 raise InputError(f"{self.place(token.at)}: {sentence}")
             self.push(body)
             return True
@@ -142,7 +147,7 @@ class Expander(TokenStream):
         return False
 
     def _body(self, macro: Macro, token: Token) -> list[Token]:
-        """Return the body of a macro with its arguments; the tokens of the body get the position of the macro."""
+        """Consume the arguments of a macro; return its body with them inserted, at the position of the calling `token`."""
         values: list[Iterable[Token]] = []
         for kind, marks, default in macro.head:
             value: list[Token] | None = None
@@ -166,7 +171,7 @@ class Expander(TokenStream):
     # ---- definitions
 
     def define(self, name: str, macro: Macro | None, everywhere: bool = False) -> None:
-        """Define a name in the open group, or in all groups; a macro of None makes the name undefined."""
+        """Define a name in the innermost group, or in all groups (`everywhere`); None makes the name undefined."""
         if everywhere:
             for _, hidden in self.scopes:
                 hidden.pop(name, None)
@@ -182,7 +187,7 @@ class Expander(TokenStream):
         self.scopes.append((mark, {}))
 
     def end_group(self, mark: str) -> None:
-        """End the innermost group with this mark, and the groups inside it."""
+        """End the innermost group that has this mark, and all groups inside it; their definitions end too."""
         for place in range(len(self.scopes) - 1, -1, -1):
             if self.scopes[place][0] == mark:
                 return self._close_to(place)
@@ -196,7 +201,7 @@ class Expander(TokenStream):
                     self.macros[name] = macro
 
     def load(self, package: str) -> None:
-        """Define the commands of a package from the table of known packages."""
+        """Record that a package is loaded, and define its commands if it is in the table of known packages."""
         self.loaded.add(package)
         for line in packages.TABLE.get(package, "").splitlines():
             names, _, definition = line.strip().partition(" ")
@@ -211,7 +216,7 @@ class Expander(TokenStream):
     def skip_condition(self, condition: Token) -> None:
         """Skip the branches of an undecided condition; the names that they define become undefined.
 
-        A note names branches that contain equations, headings, counters or files.
+        A note is added if the branches contain equations, headings, counters or included files.
         """
         passed: list[Token] = []
         if not self.begins("{"):
@@ -222,12 +227,15 @@ class Expander(TokenStream):
             if name in (r"\let", r"\DeclareMathOperator") or "def" in name or "newcommand" in name:
                 self.define(following, None, everywhere=True)
         if any(token.text in _MATTER or token.text.endswith("counter") for token in passed):
-            helps = r"both branches are skipped; write \iftrue or \iffalse"
+            helps = r"both branches are skipped; write \iftrue or \iffalse instead"
             self.notes.append(f"{self.place(condition.at)}: {condition.text} is not decided: {helps}")
             self.doubt = self.doubt or "a part of the source is skipped"
 
     def skip(self, ends: tuple[str, ...], condition: Token, passed: list[Token] | None = None) -> str:
-        r"""Skip tokens up to the \else or \fi of a condition, and return that token's text."""
+        r"""Skip the tokens of a branch up to one of `ends` (\else, \fi) at its level; return the text of that token.
+
+        The skipped tokens are appended to `passed`. Return "" with a fault if the end is missing.
+        """
         depth = 0
         while (token := self.next()) is not None:
             if depth == 0 and token.text in ends:
@@ -239,5 +247,5 @@ class Expander(TokenStream):
         return ""
 
     def is_condition(self, token: Token) -> bool:
-        r"""Return True for a command that needs a \fi; a command with arguments in braces does not."""
+        r"""Return True if a command begins a condition that \fi ends. A command whose arguments are in braces does not."""
         return token.text.startswith(r"\if") and token.text != r"\iff" and not self.begins("{")

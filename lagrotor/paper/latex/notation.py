@@ -1,4 +1,4 @@
-r"""The notation of a paper: the kinds that its author declares for symbols, and one sweep that proposes them.
+r"""The notation of a paper: the kinds that its author declares for symbols, and the kinds that its formulas suggest.
 
 Every symbol outside the table is a real number. A name is written as in a reading, without its index: `theta` for
 \theta, `rbold` for \mathbf r, `rvec` for \vec r; the name `r` alone covers all three.
@@ -15,10 +15,11 @@ from lagrotor.paper.latex.boxes import Box, FormulaError, all_boxes, boxes, is_p
 
 @dataclass(frozen=True)
 class Notation:
-    """The declared kinds of a paper's symbols; every other symbol is a real number.
+    """The symbols of a paper by their kind; every symbol outside these sets is a real number.
 
-    numbers: e as Euler's number, i and j as the imaginary unit. real: real numbers in spite of a proposal. proposed:
-    functions that the sweep proposes and the author has not declared; only an evident argument is accepted.
+    numbers: those of e, i and j that stand for Euler's number and the imaginary unit. real: symbols that the author
+    declares as real numbers although the formulas suggest another kind. proposed: symbols that only the formulas suggest
+    as functions; a bracket after one is its argument only if that is evident. decimal_comma: True if 1{,}234 is decimal.
     """
 
     functions: frozenset[str] = frozenset()
@@ -76,14 +77,14 @@ def declared_notation(table: Mapping[str, Any], where: str = "paper.toml") -> No
 
 
 def _name(word: str) -> str:
-    """Return the name of a symbol as in readings."""
+    r"""Return the name by which readings call a symbol: \theta gives theta, lambda gives lamda."""
     word = word.removeprefix("\\")
     return "lamda" if word == "lambda" else word
 
 
 @dataclass(frozen=True)
 class Proposal:
-    """The kind that a formula (`evidence`) suggests for a symbol."""
+    """The kind that a formula suggests for a symbol; `evidence` is this formula in LaTeX."""
 
     kind: str
     symbol: str
@@ -91,7 +92,7 @@ class Proposal:
 
 
 def with_proposals(notation: Notation, proposals: Iterable[Proposal]) -> Notation:
-    """Return the notation with the proposals for those symbols that the author has not declared."""
+    """Return the notation, extended by the proposals for symbols that the author has not declared."""
     declared = {kind: getattr(notation, kind) for kind in KINDS}
     settled = frozenset[str]().union(*declared.values())
     free = [p for p in proposals if p.symbol not in settled]
@@ -100,7 +101,7 @@ def with_proposals(notation: Notation, proposals: Iterable[Proposal]) -> Notatio
 
 
 def propose(formulas: Iterable[str]) -> tuple[Proposal, ...]:
-    """Return the kinds that the formulas of a source suggest for its symbols, each with its first evidence.
+    """Return the kinds that formulas in LaTeX suggest for their symbols, each with the first formula that suggests it.
 
     A symbol before an argument in brackets is a function. A symbol in bold or with an arrow is a vector, or a matrix if it
     multiplies another or is transposed. The symbol below a sum is an index. An e whose power has symbols is Euler's number,
@@ -128,13 +129,13 @@ def propose(formulas: Iterable[str]) -> tuple[Proposal, ...]:
 
 
 def has_kind(notation: Notation, kind: str, box: Box) -> bool:
-    """Return True if the notation declares this kind for a symbol, with or without its font and marks."""
+    """Return True if the notation gives a symbol this kind, under its name with or without font and accents."""
     names = getattr(notation, kind)
     return bool(names) and (stem_of(box) in names or _name(box.name) in names)
 
 
 def _evidence(row: list[Box]) -> Iterator[tuple[str, str]]:
-    """Yield (kind, symbol) pairs that a row of boxes and the boxes inside suggest."""
+    """Yield a pair (kind, symbol) for each kind that a row of boxes, or a box inside it, suggests for a symbol."""
     for place, (box, following) in enumerate(pairwise([*row, Box("thin", "", 0, 0)])):
         if box.kind == "letter":
             yield from _of_letter(box, following)
@@ -150,7 +151,7 @@ def _evidence(row: list[Box]) -> Iterator[tuple[str, str]]:
 
 
 def _of_value(row: list[Box], place: int) -> Iterator[tuple[str, str]]:
-    """Yield the kind of a symbol that equals a matrix or a column."""
+    """Yield (kind, symbol) if the symbol at a place of a row is equated to a printed matrix or column."""
     following = [item for item in row[place + 1 : place + 3] if item.kind != "align"]
     if len(following) == 2 and following[0].name in ("=", ":=") and row[place].kind == "letter":
         closed = following[1].kind == "bracket" and following[1].closing != "."
@@ -161,7 +162,7 @@ def _of_value(row: list[Box], place: int) -> Iterator[tuple[str, str]]:
 
 
 def _of_letter(box: Box, following: Box) -> Iterator[tuple[str, str]]:
-    """Yield the kinds that a symbol and the box after it suggest."""
+    """Yield a pair (kind, symbol) for each kind that the print of a symbol and the box after it suggest."""
     power = box.sup or []
     if box.name in ("e", "i", "j") and not (box.marks or box.style or box.primes or box.sub):
         letters = {inner.name for inner in all_boxes(power) if inner.kind == "letter"}
@@ -181,9 +182,9 @@ def _of_letter(box: Box, following: Box) -> Iterator[tuple[str, str]]:
 
 
 def is_evident_argument(box: Box, bracket: Box) -> bool:
-    """Return True if the bracket after a symbol is an argument, not a factor: one symbol other than t, or a list.
+    """Return True if the bracket after a symbol must be the argument of a function and cannot be a factor.
 
-    A power of the symbol or of the bracket makes a product.
+    This is so if the bracket holds one symbol other than t, or a list, and neither it nor the symbol has a power.
     """
     if bracket.kind != "bracket" or bracket.name != "(" or bracket.sup or (box.sup and box.sup[0].kind == "number"):
         return False

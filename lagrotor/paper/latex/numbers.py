@@ -1,6 +1,6 @@
-r"""Equation numbers: from the .aux file next to the source; otherwise from the counters of the standard classes.
+r"""Equation numbers, read from the .aux file next to the source, otherwise counted as the standard classes count.
 
-A number is printed by \theequation, a macro as in LaTeX, which a source may redefine.
+The macro \theequation prints a number, as in LaTeX; a source may redefine it.
 """
 
 import re
@@ -39,7 +39,7 @@ STYLES: dict[str, Callable[[int], str]] = {
 
 
 class Counters:
-    """LaTeX's counters: their values, and which counter resets which."""
+    """The counters of LaTeX: `values` has the value of each, `parents` the counter that resets it to zero."""
 
     def __init__(self) -> None:
         self.values = dict.fromkeys(("part", "chapter", *_ARTICLE), 0)
@@ -47,7 +47,7 @@ class Counters:
         self.document_class = ""
 
     def begin(self, expander: Expander, document_class: str) -> None:
-        """Define the printed form of the counters of a document class."""
+        """Define how a document class prints its counters; an unknown class prints them as article does."""
         formats = _CLASSES.get(document_class, _ARTICLE)
         if document_class not in _CLASSES:
             expander.doubt = f"the class {document_class} is unknown"
@@ -57,7 +57,7 @@ class Counters:
             expander.define(rf"\the{name}", Macro.of(text), everywhere=True)
 
     def step(self, name: str, by: int = 1) -> None:
-        """Add one to a counter, and reset the counters numbered within it."""
+        """Add `by` to a counter, and set the counters that are numbered within it to zero."""
         self.values[name] = self.values.get(name, 0) + by
         for inner in [counter for counter, parent in self.parents.items() if parent == name]:
             self.values[inner] = 0
@@ -67,13 +67,13 @@ class Counters:
         return plain_number(latex_of(expander.expand((Token("command", rf"\the{name}", 0),))))
 
     def begin_appendix(self, expander: Expander) -> None:
-        r"""Start numbering chapters or sections by letters, as after \appendix."""
+        r"""Begin to number the chapters, without chapters the sections, by letters from A, as \appendix does."""
         top, below = ("chapter", "section") if r"\thechapter" in expander.macros else ("section", "subsection")
         self.values |= {top: 0, below: 0}
         expander.define(rf"\the{top}", Macro.of(rf"\Alph{{{top}}}"), everywhere=True)
 
     def primitives(self) -> dict[str, Primitive]:
-        """Return the commands that set and print counters."""
+        """Return the LaTeX commands that set and print counters, each with the method that executes it."""
         setting = (r"\setcounter", r"\addtocounter", r"\stepcounter", r"\refstepcounter")
         nesting = (r"\@addtoreset", r"\numberwithin", r"\counterwithin", r"\counterwithout")
         printing = [rf"\{style}" for style in STYLES]
@@ -114,7 +114,7 @@ class Counters:
         expander.push(plain(STYLES[token.text[1:]](value), token.at))
 
     def _chapter(self, expander: Expander, token: Token) -> None:
-        """Print the chapter number before an equation number, if there is one."""
+        """Print the chapter number and a full stop before an equation number; nothing before the first chapter."""
         expander.push(tokenize(r"\thechapter.", token.at) if self.values["chapter"] else ())
 
 
@@ -125,7 +125,7 @@ _MARKS = {r"\ast": "*", r"\star": "*", r"\ddagger": "‡", r"\dagger": "†", r"
 
 
 def plain_number(text: str) -> str:
-    r"""Return a number without fonts, dollar signs, braces and brackets: 2.1 for \textbf{2.1}, 3' for $3'$."""
+    r"""Return a printed number as plain text, without fonts, $, braces and outer brackets: 2.1 for (\textbf{2.1})."""
     text = _FONTS.sub("", text)
     for mark, sign in _MARKS.items():
         text = text.replace(mark, sign)
@@ -141,7 +141,10 @@ def _roman(value: int) -> str:
 
 
 def aux_numbers(source: Path) -> dict[str, str]:
-    """Return label → number from the .aux file, without repeated labels; the result is empty without the file."""
+    """Return a map from the labels in the .aux file of a source to their numbers; it is empty without the file.
+
+    A label that occurs twice is left out.
+    """
     file = source.with_suffix(".aux")
     text = file.read_text(encoding="utf-8", errors="replace") if file.is_file() else ""
     for name in re.findall(r"\\@input\{([^{}]*)\}", text):

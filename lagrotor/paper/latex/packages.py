@@ -1,4 +1,4 @@
-r"""The commands of common packages as macros, each with its argument specification as in \NewDocumentCommand."""
+r"""The commands of common packages as macros; their arguments are listed by the letters of \NewDocumentCommand."""
 
 # Each line: commands, argument specification, definition. The commands under "" need no package.
 TABLE = {

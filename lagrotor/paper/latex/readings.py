@@ -1,4 +1,4 @@
-"""The readings of a paper's equations, for comparison with the source, and the kinds of its symbols."""
+"""The readings of a paper's equations, which an author compares with the source, and the kinds of its symbols."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -16,10 +16,10 @@ from lagrotor.paper.latex.tree import Letter, Number, in_catalogue, is_constant,
 
 @dataclass(frozen=True)
 class Print:
-    """The reading of an equation as data.
+    """The reading of an equation as data for the catalogue equations.toml.
 
-    lines: rows of the catalogue. aside: statements that no row can hold, as text. letters, vectors: names of scalars and of
-    vectors. stop: (token, remedy) if the equation is not read.
+    lines: its rows, each with quantity and members. aside: statements that no row can express, as text. letters,
+    vectors: the names of its scalars and of its vectors. stop: (reason, remedy) if the equation is not read, else None.
     """
 
     lines: tuple[Mapping[str, Any], ...] = ()
@@ -30,12 +30,15 @@ class Print:
 
 
 def paper_notation(formulas: Iterable[str], table: Mapping[str, Any], where: str = "paper.toml") -> Notation:
-    """Return the kinds of a paper's symbols: those declared in its [notation], and the proposals of one sweep."""
+    """Return the kinds of a paper's symbols: those declared in `table`, and those that its formulas suggest for others.
+
+    `table` is [notation] in paper.toml; `where` names this file in messages.
+    """
     return with_proposals(declared_notation(table, where), propose(formulas))
 
 
 def read_print(latex: str, notation: Notation, lead: str = "") -> Print:
-    """Return the printed lines of an equation as data."""
+    """Read an equation and return its reading as data; `lead` is the left side of the row that it continues, or ""."""
     reading = read_formula(latex, notation, lead)
     if not reading.whole:
         return Print(stop=reading.stop)
@@ -52,7 +55,7 @@ def read_print(latex: str, notation: Notation, lead: str = "") -> Print:
 
 
 def _line(statement: PrintedStatement) -> dict[str, Any] | None:
-    """Return a row with quantity, members and claimed order; None if no row of the catalogue can hold the statement."""
+    """Return a statement as a row with quantity, members and claimed order; None if a row cannot express it."""
     sides = statement.sides
     allowed = [in_catalogue(side.node) for side in sides]
     first = next((place for place, fits in enumerate(allowed) if place and fits), 0)
@@ -67,7 +70,7 @@ def _line(statement: PrintedStatement) -> dict[str, Any] | None:
 
 
 def _latex(side: Side) -> str:
-    """Return a side in LaTeX without the columns and rows of its display."""
+    r"""Return a side in LaTeX, without the signs & and \\ that divide its display into columns and rows."""
     tokens, depth = list[Token](), 0
     for token in tokenize(side.latex):
         depth += NESTING.get(token.text, 0)
@@ -77,7 +80,7 @@ def _latex(side: Side) -> str:
 
 
 def statement_text(statement: PrintedStatement) -> str:
-    """Return a statement as one line of text."""
+    """Return a statement as one line of text with Python names, such as x_dot = v + O(v**2)."""
     first, *others = (text_of(side.node) for side in statement.sides)
     order = "" if statement.order is None else f" + O({statement.order[0]}**{statement.order[1]})"
     tail = (f" {relation} {text}" for relation, text in zip(statement.relations, others, strict=False))
@@ -86,11 +89,12 @@ def statement_text(statement: PrintedStatement) -> str:
 
 @dataclass(frozen=True)
 class EquationReading:
-    """The reading of one equation.
+    """The reading of one equation; `print` is its LaTeX.
 
-    status: confirmed, unconfirmed, by hand, changed (new LaTeX), gone (no longer in the source), aside (read, but no
-    statement can be compared), not read. lines: its printed lines and uncompared statements, as text. stopped, helps: the
-    token at which a reading stopped, and the remedy. number: the printed number, if it is not the id.
+    status: confirmed, unconfirmed, by hand or not read; changed if the LaTeX has changed; gone if the source lacks the
+    equation; aside if no statement of it can be compared; unread so far if [notation] has changed and init must run again.
+    lines: its printed lines and the statements that are not compared, as text. stopped, helps: the reason why the reading
+    stopped, and the remedy. number: the printed number if it differs from the id, else "".
     """
 
     id: str
@@ -104,7 +108,7 @@ class EquationReading:
 
 
 def readings(paper: Catalogue) -> Iterator[EquationReading]:
-    """Read every equation in the paper's order. Raises InputError if the table [notation] cannot be read."""
+    """Yield the reading of every equation in the paper's order. Raises InputError for an error in [notation]."""
     equations = list(paper.equations.values())
     notation = paper_notation((e.latex for e in equations), paper.about.notation, str(paper.folder / "paper.toml"))
     for entry in equations:
@@ -130,7 +134,7 @@ def _reading(entry: Equation, notation: Notation) -> EquationReading:
 
 @dataclass(frozen=True)
 class SymbolKind:
-    """The kind of one symbol: declared in [notation], or proposed by the formula `evidence`."""
+    """The kind of one symbol. The author has declared it in [notation], or the formula `evidence` suggests it."""
 
     symbol: str
     kind: str
@@ -139,7 +143,7 @@ class SymbolKind:
 
 
 def symbol_kinds(paper: Catalogue) -> list[SymbolKind]:
-    """Return the symbols of a paper that are not plain real numbers, the declared ones first."""
+    """Return the symbols of a paper that are not plain real numbers: first the declared, then the proposed ones."""
     table = declared_notation(paper.about.notation, str(paper.folder / "paper.toml"))
     kinds = [SymbolKind(name, kind, True) for kind in KINDS for name in sorted(getattr(table, kind))]
     declared = {kind.symbol for kind in kinds}
@@ -148,14 +152,14 @@ def symbol_kinds(paper: Catalogue) -> list[SymbolKind]:
 
 
 def _line_texts(lines: Iterable[Mapping[str, Any]]) -> tuple[str, ...]:
-    """Return printed lines as text, each with its claimed order."""
+    """Return rows of the catalogue as text, quantity = member = …, each with the order O(…) that it claims."""
     claimed = (f" + O({row['small']}**{row.get('order', 0) + 1})" if row.get("small") else "" for row in lines)
     texts = (" = ".join([row["quantity"], *map(str, row.get("members", ()))]) for row in lines)
     return tuple(map("".join, zip(texts, claimed, strict=True)))
 
 
 def typeset_lines(paper: Catalogue, identifier: str) -> tuple[str, ...]:
-    """Return the judged lines of an equation in LaTeX; the tuple is empty if a symbol is not declared."""
+    """Return the lines of an equation, as they are judged, in LaTeX; none if a symbol is not declared."""
     try:
         lines = paper.lines(identifier)
     except InputError:

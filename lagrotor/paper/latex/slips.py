@@ -1,4 +1,4 @@
-"""Typical slips of an author: one sign, factor, power or function whose change makes two sides equal."""
+"""Typical slips of an author. One sign, factor, power or function is changed, and two sides become equal."""
 
 from collections.abc import Callable, Iterator
 from fractions import Fraction
@@ -23,9 +23,9 @@ _MOST_PARTS = 100  # largest denominator of a factor
 
 
 def change_to_agree(fixed: Any, changing: Node, value: Callable[[Node], Any]) -> str:
-    """Return the one change that makes a side equal to a fixed one, in words; "" if there is none.
+    """Return in words the single change of the side `changing` that makes it equal to the expression `fixed`.
 
-    `value` maps a changed side to its expression, or to None.
+    "" means that no such change was found. `value` returns the expression of a side, None if there is none.
     """
     expression = value(changing)
     point = point_of(fixed, expression)
@@ -41,7 +41,10 @@ def change_to_agree(fixed: Any, changing: Node, value: Callable[[Node], Any]) ->
 
 
 def _slips(node: Node, embed: Callable[[Node], Node] = lambda new: new) -> Iterator[tuple[Node, str]]:
-    """Yield a side with one node changed, and the change in words; `embed` puts the changed node into the side."""
+    """Yield pairs of a side with one changed part, and this change in words.
+
+    `node` is the part that is changed, with the parts below it; `embed` returns the side with a new part in its place.
+    """
     yield from ((embed(changed), change) for changed, change in _changes(node))
     if isinstance(node, Call):
         for place, argument in enumerate(node.args):
@@ -57,14 +60,17 @@ def _with_argument(node: Call, place: int, argument: Node) -> Call:
 
 
 def _changes(node: Node) -> Iterator[tuple[Node, str]]:
-    """Yield the node with another power, function or argument, or with a factor on one term."""
+    """Yield pairs of a changed node and the change in words: another power, function or argument, or a factor of a term.
+
+    The parts of the node stay unchanged otherwise.
+    """
     base, power, steps = _powers(node)
     for exponent in (power + difference for difference in steps):
         if exponent:  # not 0: cos² nπ = 1 for integer n is no slip
             yield Call("power", (base, Number(exponent))), f"the power {exponent} of {text_of(base)}"
     if isinstance(node, Call) and node.name in KNOWN:
         if function := _TAKEN_FOR.get(node.name):
-            yield Call(function, node.args), f"{function} for {node.name}"
+            yield Call(function, node.args), f"{function} in place of {node.name}"
         for factor, words in _FACTORS:
             changed = _with_argument(node, 0, _times(factor, node.args[0]))
             yield changed, words.format(f"the argument of {text_of(node)}")
@@ -75,7 +81,7 @@ def _changes(node: Node) -> Iterator[tuple[Node, str]]:
 
 
 def _powers(node: Node) -> tuple[Node, Fraction, tuple[Fraction | int, ...]]:
-    """Return the base and the exponent of a node, and the changes of the exponent to try."""
+    """Return the base and the exponent of a node, and the numbers that may be added to this exponent."""
     if isinstance(node, Call) and node.name == "power" and (power := rational_value(node.args[1])) is not None:
         return node.args[0], power, (1, -1, 2, -2)
     if isinstance(node, Call) and node.name == "sqrt":
@@ -89,7 +95,7 @@ def _times(factor: Fraction, node: Node) -> Node:
 
 
 def _ratio(a: Any, b: Any) -> Fraction | None:
-    """Return a/b as a fraction with a small denominator, or None."""
+    """Return a/b as a fraction with a denominator of at most _MOST_PARTS; None if it is not such a fraction."""
     if not (a.is_real and b.is_real and b and abs(a / b) < LARGEST):
         return None
     fraction = Fraction(float(a / b)).limit_denominator(_MOST_PARTS)
@@ -97,13 +103,13 @@ def _ratio(a: Any, b: Any) -> Fraction | None:
 
 
 def constant_value(a: Any) -> sp.Rational | None:
-    """Return the value of an expression that is constant in its symbols, or None."""
+    """Return the rational value of an expression if it does not depend on its symbols, else None."""
     ratio = None if isinstance(a, sp.MatrixBase) else _ratio(value_at(a, point_of(a)), sp.S.One)
     constant = None if ratio is None else sp.Rational(str(ratio))
     return constant if constant is not None and equality(a, constant) == "zero" else None
 
 
 def point_of(*sides: Any) -> dict[sp.Symbol, sp.Rational]:
-    """Return a rational value for each symbol of some sides."""
+    """Return a test point: a map from each symbol of some sides to a rational value between 1/2 and 1."""
     symbols = sorted(set().union(*(side.free_symbols for side in sides)), key=str)
     return {symbol: sp.Rational(2 * place + 3, 2 * place + 5) for place, symbol in enumerate(symbols)}

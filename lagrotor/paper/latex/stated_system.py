@@ -1,4 +1,4 @@
-"""A derivation stated as text: coordinates, a Lagrangian and constraints in `paper.toml`, and the role of each equation.
+"""A derivation without Python: `paper.toml` states coordinates, a Lagrangian, constraints and the role of each equation.
 
     [system]
     coordinates = "theta"
@@ -67,7 +67,11 @@ _LAGRANGIANS = ("L", "Lcal", "Lscr")  # printed names of L, unless the system ha
 
 @dataclass(frozen=True)
 class StatedSystem:
-    """The system in a paper's `paper.toml`; `system["2"]` is the derived expression for equation 2."""
+    """The system that a paper's `paper.toml` states; `system["2"]` is the expression that it gives for equation 2.
+
+    c: the coordinates. L: the Lagrangian. constraints: expressions that are zero. forces: one per coordinate. where:
+    symbol → its definition. derives: id → role of the equation. names: name → symbol. place: the file, for messages.
+    """
 
     c: Coordinates
     L: sp.Expr
@@ -80,7 +84,7 @@ class StatedSystem:
     paper: Catalogue
 
     def __getitem__(self, identifier: str) -> sp.Expr:
-        """Return the derived expression for the printed members of an equation.
+        """Return the expression that the system gives for the quantity of an equation, to be compared with its members.
 
         Raises
         ------
@@ -88,10 +92,11 @@ class StatedSystem:
             If the equation has no role, or this system cannot decide it.
         """
         if identifier not in self.derives:
-            raise self._error(f"equation {identifier} has no role: {', '.join(self.derives)} have one")
+            helps = f"give it a role in [system.derives], where {', '.join(self.derives) or 'none'} have one"
+            raise self._error(f"equation {identifier} has no role: {helps}")
         role = _ROLE.fullmatch(_one_line(self.derives[identifier]))
         if role is None:
-            raise self._error(f"{self.derives[identifier]!r} is unknown: write {_ROLES}")
+            raise self._error(f"the role {self.derives[identifier]!r} is unknown: write {_ROLES}")
         self._check_letters(identifier)
         words = role.groupdict(default="")
         if words["form"]:
@@ -102,7 +107,8 @@ class StatedSystem:
             return self.L if words["whole"] == "L" else shortest(energy(self.L, self.c))
         names = [q.name for q in self.c.q]
         if words["name"] not in names:
-            raise self._error(f"{words['kind']} {words['name'] or '?'}: the coordinates are {', '.join(names)}")
+            helps = f"write one of the coordinates {', '.join(names)}"
+            raise self._error(f"{words['kind']} {words['name'] or '?'} names no coordinate: {helps}")
         if words["kind"] == "motion":
             return shortest(self._motion_equation(identifier))
         rows = momenta(self.L, self.c) if words["kind"] == "momentum" else self.accelerations
@@ -110,7 +116,7 @@ class StatedSystem:
 
     @cached_property
     def premises(self) -> tuple[Premise, ...]:
-        """The premises of every equation: the constraints with their rates, and the definitions of symbols."""
+        """The premises of every equation: the constraints and their rates are zero, and the definitions hold."""
         rates = [sp.Eq(e, 0) for g in self.constraints for e in (g, total_derivative(g, self.c))]
         definitions = (sp.Eq(letter, value, evaluate=False) for letter, value in self.where.items())
         return (
@@ -120,7 +126,7 @@ class StatedSystem:
 
     @cached_property
     def accelerations(self) -> sp.Matrix:
-        """The accelerations a of M a + h = Gᵀ λ and the constraints differentiated twice, the multipliers λ eliminated."""
+        """The accelerations a, which solve M a + h = Gᵀ λ and the twice differentiated constraints; λ is eliminated."""
         multipliers = sp.symbols(f"multiplier_1:{len(self.constraints) + 1}")
         rows = euler_lagrange(self.L, self.c) - sp.Matrix(self.forces)
         for multiplier, constraint in zip(multipliers, self.constraints, strict=True):
@@ -136,12 +142,12 @@ class StatedSystem:
 
     @cached_property
     def _known(self) -> set[sp.Basic]:
-        """The symbols of the system, the coordinates with their rates, the definitions, and the time."""
+        """The symbols that an equation may contain: those of the system and its definitions, coordinates, rates, time."""
         expressions = (self.L, *self.constraints, *self.forces, *self.where.values(), *self.where)
         return {t, *self.c.q, *self.c.v, *self.c.a}.union(*(e.free_symbols for e in expressions))
 
     def _check_letters(self, identifier: str) -> None:
-        """Raise InputError if an equation has no line, or a member has a symbol outside the system."""
+        """Raise InputError if an equation has no printed line, or if the system does not define one of its symbols."""
         if not self.paper.equation(identifier).line:
             says = "has no printed line: write it as an [[equation.line]] in equations.toml, or remove it here"
             raise self._error(f"equation {identifier} {says}")
@@ -154,7 +160,7 @@ class StatedSystem:
                 raise self._error(f"equation {identifier} {says}, or remove the equation here")
 
     def _point(self, text: str) -> dict[sp.Symbol, sp.Expr]:
-        """Return the coordinates of `theta = 0, x = a`; those without a value are zero."""
+        """Return the point that a text such as "theta = 0, x = a" states; a coordinate that it leaves out is zero."""
         values = dict.fromkeys(self.c.q, sp.S.Zero)
         for assignment in filter(None, (piece.strip() for piece in text.split(","))):
             name, _, value = assignment.partition("=")
@@ -162,15 +168,15 @@ class StatedSystem:
         return values
 
     def _along(self, e: sp.Expr) -> sp.Expr:
-        """Substitute the accelerations of the motion."""
+        """Return an expression in which the accelerations are replaced by those of the equations of motion."""
         return shortest(e.xreplace(dict(zip(self.c.a, self.accelerations, strict=True))) if e.has(*self.c.a) else e)
 
     def _rate(self, e: sp.Expr) -> sp.Expr:
-        """Return de/dt along the motion."""
+        """Return the time derivative of an expression along the motion."""
         return self._along(total_derivative(self._along(e), self.c))
 
     def _integral(self, identifier: str) -> sp.Expr:
-        """Return F − τ dF/dt along the motion; it equals the printed F if F is conserved."""
+        """Return F − τ dF/dt along the motion, where F is the printed member; it equals F if F is conserved."""
         F = self.paper.lines(identifier)[0].members[0]
         if not F.has(*self.c.q, *self.c.v):
             says = f"has the expression {F}, which depends on no coordinate or velocity: remove the equation here"
@@ -179,19 +185,23 @@ class StatedSystem:
         return F - sp.Symbol(time, positive=True) * self._rate(F)
 
     def _motion_equation(self, identifier: str) -> sp.Expr:
-        """Return the right side of a printed equation of motion, plus left − right along the motion."""
+        """Return the expression with which the right side of a printed equation of motion is compared.
+
+        It is right + (left − right), with the derived accelerations in the difference. If no member has an acceleration,
+        it is the left side with the derived accelerations.
+        """
         (line, *further), lhs = self.paper.lines(identifier), self._left_side(identifier)
         moving = any(member.has(*self.c.a) for member in line.members)
         if lhs is None or further or (moving and len(line.members) > 1):
             says = (
-                "has no single left side in the coordinates and the symbols of the system, or accelerations in a chain"
+                "has no single left side in the symbols of the system, or it has accelerations in a chain of equations"
             )
             helps = "print one equation, define its symbols in where, or remove it here"
             raise self._error(f"equation {identifier} {says}: {helps}")
         return line.members[0] + self._along(lhs - line.members[0]) if moving else self._along(lhs)
 
     def _left_side(self, identifier: str) -> sp.Expr | None:
-        """Return the side before the first member; None if it has unknown symbols, or parts that differ."""
+        """Return the left side of an equation; None if it has symbols outside the system, or several sides that differ."""
 
         def partial(f: sp.Expr, by: sp.Symbol, order: int = 1) -> sp.Expr:
             if by == t:
@@ -213,14 +223,18 @@ class StatedSystem:
         return lhs if same and lhs.free_symbols <= self._known else None
 
     def _frequency(self, form: str, which: int, point: str) -> sp.Expr:
-        """Return ω, ω² or the period of a small oscillation about an equilibrium; a mode's rate is i ω."""
+        """Return ω, ω² or the period 2π/ω of a small oscillation about the equilibrium that `point` states.
+
+        form: "frequency", "frequency^2" or "period". which: the number of the oscillation, from 1, in the order of ω².
+        """
         if any(force.has(*self.c.v) for force in self.forces):
             raise self._error("a system with friction has no frequency of small oscillations: remove the equation here")
         system = System(self.c, self.L, constraints=self.constraints, forces=self.forces)
         modes = system.linearise(self._point(point)).modes()
         squares = sorted({sp.factor(-(mode.rate**2)) for mode in modes if mode.rate != 0}, key=sp.default_sort_key)
         if not 0 < which <= len(squares):
-            raise self._error(f"there is no {form} {which}: the system has {len(squares)}")
+            helps = "correct the number, or remove the equation here"
+            raise self._error(f"there is no {form} {which}: the system has {len(squares)}: {helps}")
         square = squares[which - 1]
         if form == "frequency^2":
             return square
@@ -237,7 +251,7 @@ def stated_system(paper: Catalogue) -> StatedSystem:
     Raises
     ------
     InputError
-        If there is no system, or a key, an expression or a definition cannot be read.
+        If `paper.toml` states no system, or if a key, an expression or a definition in it cannot be read.
     """
     table, where = paper.about.system, f"{paper.folder / 'paper.toml'}: system"
     if unknown := sorted(table.keys() - set(_KEYS)):
@@ -256,7 +270,7 @@ def stated_system(paper: Catalogue) -> StatedSystem:
     forces = tuple(read(text, names, f"{where}: forces") for text in table.get("forces", ())) or (sp.S.Zero,) * len(c.q)
     if len(forces) != len(c.q):
         raise InputError(
-            f'{where}: forces: {len(forces)} for {len(c.q)} coordinates: write one each, "0" where none acts'
+            f'{where}: forces: {len(forces)} for {len(c.q)} coordinates: write one for each, "0" where none acts'
         )
     L = read(table["L"], names, f"{where}: L")
     constraints = tuple(read(text, names, f"{where}: constraints") for text in table.get("constraints", ()))
@@ -268,7 +282,10 @@ def stated_system(paper: Catalogue) -> StatedSystem:
 def _definitions(
     rows: tuple[str, ...], names: Mapping[str, Any], fixed: set[sp.Basic], c: Coordinates, where: str
 ) -> dict[sp.Symbol, sp.Expr]:
-    """Return symbol → expression in constants. Raises InputError for a symbol of L or a repeated definition."""
+    """Return a map from each symbol that a row defines to its definition in constants.
+
+    Raises InputError if a row redefines a symbol, defines one of the system (`fixed`), or uses a coordinate.
+    """
     definitions: dict[sp.Symbol, sp.Expr] = {}
     for row in rows:
         name, equals, text = str(row).partition("=")
@@ -334,7 +351,7 @@ def write_derivation(paper: Catalogue) -> tuple[Path, dict[str, str]]:
     Returns
     -------
     tuple of Path and dict
-        The script, and id → reason for the equations left out.
+        The script, and a map from the id of each equation left out to the reason.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""The statements of a formula: joined rows, parts between commas and words, sides and relations."""
+"""The statements of a formula. Rows are joined, split at commas and words, and read as sides with relations."""
 
 import re
 from dataclasses import dataclass, replace
@@ -19,7 +19,7 @@ _PARTING = ("wide", "arrow", "text")
 
 @dataclass(frozen=True)
 class Side:
-    """One side of a relation: its expression, its LaTeX and its place in the formula."""
+    """One side of a relation: its expression as a tree, its LaTeX, and its position `at` in the formula."""
 
     node: Node
     latex: str
@@ -28,9 +28,10 @@ class Side:
 
 @dataclass(frozen=True)
 class PrintedStatement:
-    """Sides and the relations between them; `order` is (small symbol, power) of a term O(…) of the last side.
+    """One statement: its sides, and the signs of the relations between them.
 
-    kind: equation, approximation, inequality, condition, expression or other.
+    kind: equation, approximation, inequality, condition, expression or other. order: (x, n) if the last side ends with
+    + O(x^n), which is then not a part of that side; None without such a term.
     """
 
     sides: tuple[Side, ...]
@@ -40,7 +41,7 @@ class PrintedStatement:
 
 
 def read_statements(reader: Grammar, row: list[Box]) -> list[PrintedStatement]:
-    """Return the statements of a formula; rows that continue each other are joined."""
+    """Return the statements of a formula; a row that continues the row before is joined to it."""
     statements: list[PrintedStatement] = []
     for piece in _pieces(strip(row)):
         statements += _statements(reader, piece)
@@ -52,7 +53,10 @@ def _is_related(row: list[Box]) -> bool:
 
 
 def _pieces(row: list[Box]) -> list[list[Box]]:
-    """Return the rows of a display, each with the rows that continue it; boxes after the rows are a last piece."""
+    """Return the pieces of a display: each row joined with the rows that continue it.
+
+    Boxes after the rows, such as a condition, form the last piece. A formula without rows is one piece.
+    """
     lines = _system(row[0]) if row else None
     remainder = strip(row[1:])
     if lines is None or (remainder and row[1].kind not in ("wide", "comma", "text")):
@@ -73,7 +77,7 @@ def _pieces(row: list[Box]) -> list[list[Box]]:
 
 
 def _system(box: Box) -> list[list[Box]] | None:
-    """Return the lines of rows, possibly inside a brace; None for any other box."""
+    """Return the lines of a box that holds several rows, perhaps behind one brace; None for any other box."""
     if box.sub is not None or box.sup is not None:
         return None
     if box.kind == "bracket" and box.name in (r"\{", ".", r"\lbrace") and "." in (box.closing, box.name):
@@ -92,24 +96,27 @@ def _continues(previous: list[Box], line: list[Box]) -> bool:
     if starts and _is_related(line) and first.kind != "relation":
         raise FormulaError("it is unclear whether a row continues the row before", "write a comma between statements")
     if starts and any(box.kind in ("text", "wide", "comma") for box in strip(previous)):
-        raise FormulaError("a row continues one of several statements", "write each statement in its rows")
+        raise FormulaError("a row continues one of several statements", "write each statement in rows of its own")
     if not starts and not _is_related(line):
         raise FormulaError("a row has no relation", "begin the row with the sign that joins it to the row before")
     return starts
 
 
 def _segments(reader: Grammar, row: list[Box]) -> list[tuple[str, list[Box]]]:
-    """Split a piece at wide spaces, words, arrows and commas into pairs of separator and boxes."""
+    """Split a piece at wide spaces, words, arrows and commas.
+
+    Return pairs (separator, boxes after it). The separator is "" at the beginning, "condition" after a word such as if.
+    """
     segments: list[tuple[str, list[Box]]] = [("", [])]
     for place, box in enumerate(row):
         following = next((b for b in row[place + 1 :] if b.kind != "wide"), None)
         if box.kind in ("arrow", "text"):
             if box.kind == "text" and _DENYING.search(box.name):
-                raise FormulaError(f"{box.name}: the words negate a statement", "write each statement separately")
+                raise FormulaError(f"the words {box.name} negate a statement", "write the statements that hold")
             behind = row[place - 1].kind if place else "wide"
             if box.kind == "text" and behind in ("number", "relation", "operator") and not _JOINING.match(box.name):
                 raise FormulaError(
-                    f"the words {box.name} are a unit or a side", "write a symbol, or numbers without units"
+                    f"the words {box.name} are a unit or a side of a relation", "write a symbol, or omit the unit"
                 )
             condition = box.name == "forall" or (box.kind == "text" and _CONDITION.match(box.name))
             segments.append(("condition" if condition else box.kind, []))
@@ -130,7 +137,7 @@ def _segments(reader: Grammar, row: list[Box]) -> list[tuple[str, list[Box]]]:
 
 
 def _statements(reader: Grammar, row: list[Box]) -> list[PrintedStatement]:
-    """Return the statements of one piece."""
+    """Return the statements of one piece, which commas, words or wide spaces may separate."""
     statements: list[PrintedStatement] = []
     segments = _segments(reader, row)
     for sign, segment in segments:
@@ -150,7 +157,7 @@ def _statements(reader: Grammar, row: list[Box]) -> list[PrintedStatement]:
 
 
 def read_statement(reader: Grammar, row: list[Box]) -> PrintedStatement:
-    """Read one statement. Raises FormulaError if a side is missing, or a vector equals a number."""
+    """Read a row of boxes as one statement. Raises FormulaError if a side is missing, or if a vector equals a number."""
     sides = [strip(side) for side in split_at(row, "relation")]
     relations = [box.name for box in row if box.kind == "relation"]
     if len(sides) > 2 and [b.kind for b in sides[-1]] == ["dots"]:
@@ -178,7 +185,7 @@ def read_statement(reader: Grammar, row: list[Box]) -> PrintedStatement:
 
 
 def _indices(node: Node) -> set[str]:
-    """Return those of i, j, k, μ and ν that are indices of symbols in a node and not bound by a sum."""
+    """Return the letters i, j, k, μ and ν that occur as subscripts in a node and that no sum over them binds."""
     if isinstance(node, Call):
         bound = set(letters_of(Call("", node.args[1:]))) if node.name in ("Sum", "Product") else set[str]()
         return set[str]().union(*map(_indices, node.args)) - bound
@@ -189,7 +196,7 @@ def _indices(node: Node) -> set[str]:
 
 
 def _repeated(node: Node) -> set[str]:
-    """Return the unbound indices that two factors of a product share: a summation convention is possible."""
+    """Return the indices without Σ that two factors of a product share; the author may mean a sum over them."""
     if not isinstance(node, Call):
         return set()
     shared = [_indices(argument) for argument in node.args] if node.name in ("product", "dot") else []
@@ -213,7 +220,7 @@ def _kind(relations: list[str]) -> str:
 
 
 def without_order(node: Node) -> tuple[tuple[str, int] | None, Node]:
-    """Split a sum into the (symbol, power) of its last term O(x^n), None without one, and the remaining sum."""
+    """Split off the last term O(x^n) of a sum. Return (x, n) and the remaining sum, or None and the whole node."""
     last = node.args[-1] if isinstance(node, Call) and node.name == "sum" else None
     if not (isinstance(node, Call) and isinstance(last, Call) and last.name == "order"):
         return None, node

@@ -1,4 +1,4 @@
-"""The tokens of a source and of the files that it includes, in order, and the arguments read from them."""
+"""The tokens of a source and of the files that it includes, in their order, and the reading of arguments from them."""
 
 import re
 from bisect import bisect_left, bisect_right
@@ -17,9 +17,10 @@ _NO_ARGUMENT = (r"\left", r"\right", r"\begin", r"\end")
 
 
 class TokenStream:
-    """A stream of tokens without expansion: `next()` returns the next one, `push()` puts tokens before it.
+    """A stream of tokens without expansion: `next()` returns the next token, `push()` puts tokens back before it.
 
-    `notes` are sentences about doubtful readings. `faults` are (position, sentence) of errors at which TeX would stop.
+    `notes` holds sentences about doubtful readings. The keys (position, sentence) of `faults` are errors at which TeX
+    would stop.
     """
 
     def __init__(self, text: str, file: Path | None = None) -> None:
@@ -35,7 +36,7 @@ class TokenStream:
     # ---- files
 
     def take_in(self, text: str, file: Path) -> None:
-        """Read this text next. Raises InputError if the file is open already, or after too many files."""
+        """Read the text of a file next. Raises InputError if the file includes itself, or after _MOST_FILES files."""
         text = text.translate(_CONTROL)
         if file in (path for path, _ in self._open_files()):
             raise InputError(f"{file} includes itself, directly or through another file: remove one \\input")
@@ -51,9 +52,9 @@ class TokenStream:
         self.length += len(text) + 1
 
     def _included_file(self, name: str) -> Path | None:
-        """Return the path of an included file from the folder of the source or of the including file; None if missing.
+        """Return the path of an included file; None if it is missing or lies outside the folder of the source.
 
-        A file outside the source's folder is not read, and a note says so.
+        It is sought in the folder of the source and in that of the including file; a note names a file outside.
         """
         if self.file is None or len(name) > _LONGEST_NAME:
             return None
@@ -76,7 +77,7 @@ class TokenStream:
             )
 
     def end_file(self, at: int) -> bool:
-        r"""Stop reading an included file at its \end{document}; return False for the main file."""
+        r"""Stop reading the included file that contains a position; return False if this is the main file."""
         if self._file_of(at) == 0 or len(reading := self._open_files()) < 2:
             return False
         while self.waiting.pop() is not reading[-1][1]:
@@ -84,19 +85,19 @@ class TokenStream:
         return True
 
     def _open_files(self) -> list[tuple[Path, Iterator[Token]]]:
-        """Return the files that are not yet read to their end, the innermost last."""
+        """Return the files that are not yet read to their end, each with its tokens; the innermost is the last."""
         return [row for row in self._reading if row[1] in self.waiting]
 
     def _file_of(self, at: int) -> int:
         return max(bisect_right(self._starts, at, key=lambda start: start[0]) - 1, 0)
 
     def line(self, at: int) -> tuple[str, int]:
-        """Return the file and the line number of a position."""
+        """Return the name of the file that contains a position, and the number of the line there, from 1."""
         start, name, ends = self._starts[self._file_of(at)]
         return name, bisect_left(ends, at - start) + 1
 
     def place(self, at: int) -> str:
-        """Return the file and line of a position in the form that opens a message."""
+        """Return the file and line of a position as a message begins with them: paper.tex:12, or line 12."""
         name, line = self.line(at)
         return f"{name}:{line}" if name else f"line {line}"
 
@@ -129,7 +130,7 @@ class TokenStream:
         return token is not None and token.text.startswith(sign)
 
     def take(self, prefix: str) -> None:
-        """Consume the next token; of a run of characters consume only this prefix."""
+        """Consume the next token. If it is a run of characters that begins with `prefix`, consume the prefix only."""
         token = self.next()
         if token is not None and token.kind == "text" and token.text.startswith(prefix):
             self.push(plain(token.text[len(prefix) :], token.at + len(prefix)))
@@ -148,7 +149,7 @@ class TokenStream:
     # ---- arguments
 
     def argument(self) -> list[Token]:
-        """Consume the next argument: the tokens in braces, or one character or command."""
+        """Consume the next argument and return its tokens: those in braces, or one character or command; [] if none."""
         self.skip_spaces()
         token = self.next()
         if token is None or token.kind in ("close", "math") or token.text in _NO_ARGUMENT:
@@ -165,7 +166,7 @@ class TokenStream:
         return latex_of(self.argument()).strip()
 
     def group(self, at: int) -> list[Token]:
-        """Consume the tokens up to the brace that closes the group opened at a position."""
+        """Consume the tokens up to the brace that closes the group opened at position `at`; return those before it."""
         inside: list[Token] = []
         depth = 1
         while (token := self.next()) is not None:
@@ -177,7 +178,10 @@ class TokenStream:
         return inside
 
     def _until(self, opening: str, closing: str, at: int) -> list[Token]:
-        """Consume the tokens up to the matching closing sign, and the sign; pairs of signs may be nested."""
+        """Consume the tokens up to the matching closing sign, and this sign; return those before it.
+
+        Pairs of the two signs may be nested. `at` is the position of the opening sign.
+        """
         inside: list[Token] = []
         braces, depth = 0, 1
         while (token := self.next()) is not None:
@@ -192,11 +196,11 @@ class TokenStream:
                 self.push((token,))
                 break
             inside.append(token)
-        self.fault(at, f"the argument has no end, {closing}, in its paragraph")
+        self.fault(at, f"the argument has no closing {closing} in its paragraph")
         return inside
 
     def delimited(self, opening: str, closing: str) -> list[Token] | None:
-        """Consume the tokens between two characters; return None if the first does not come next."""
+        """Consume an argument between two characters and return its tokens; None if the first does not come next."""
         spaces, first = self.skip_spaces(), self.peek()
         if first is None or first.kind != "text" or not first.text.startswith(opening):
             self.push(plain(spaces, first.at - len(spaces) if first else 0))
@@ -205,7 +209,7 @@ class TokenStream:
         return self._until(opening, closing, first.at)
 
     def optional(self) -> list[Token] | None:
-        """Consume an optional argument [..]; return None if there is none."""
+        """Consume an optional argument in square brackets and return its tokens; None if there is none."""
         return self.delimited("[", "]")
 
     def star(self) -> bool:

@@ -1,4 +1,4 @@
-"""LaTeX text as a list of TeX tokens (commands, braces, scripts, runs of characters), and tokens as LaTeX."""
+"""The conversion of LaTeX text to tokens (commands, braces, scripts, runs of characters), and of tokens to text."""
 
 import re
 from collections.abc import Iterable, Iterator

@@ -24,7 +24,10 @@ class Number:
 
 @dataclass(frozen=True)
 class Letter:
-    r"""A printed symbol with index, marks and dots: theta_1_dot for \dot\theta_1. Every matrix is also a vector."""
+    r"""A printed symbol; its name contains index, accents and dots, such as theta_1_dot for \dot\theta_1.
+
+    `vector` is True for a vector and for a matrix, `matrix` for a matrix only.
+    """
 
     name: str
     vector: bool = False
@@ -74,7 +77,7 @@ def number(value: int | str) -> Number:
 
 
 def rational_value(node: Node) -> Fraction | None:
-    """Return the number that a node prints, such as 2, -1 or 3/2, or None."""
+    """Return the value of a node that is a printed number, such as 2, -1 or 3/2; None for any other node."""
     if isinstance(node, Number):
         return node.value
     values = [rational_value(arg) for arg in node.args] if isinstance(node, Call) else []
@@ -129,7 +132,7 @@ def product_of(factors: list[Node]) -> Node:
 
 
 def is_matrix(node: Node) -> bool:
-    """Return True for a declared or explicit matrix, a transpose, and a product with one."""
+    """Return True if the value is a matrix: a declared or printed matrix, a transpose, or a product with a matrix."""
     if not isinstance(node, Call):
         return isinstance(node, Letter) and node.matrix
     if node.name in ("sum", "negative", "quotient", "power", "rate", "Derivative", "Sum"):
@@ -141,7 +144,7 @@ def is_matrix(node: Node) -> bool:
 
 
 def divisors(node: Node) -> Iterator[Node]:
-    """Yield divisors and arguments of logarithms, except inside sums and integrals."""
+    """Yield the nodes that must not vanish, outside sums and integrals: divisors, bases of negative powers, arguments of log."""
     if isinstance(node, Call) and node.name not in BINDING:
         if node.name == "quotient":
             yield node.args[1]
@@ -152,7 +155,7 @@ def divisors(node: Node) -> Iterator[Node]:
 
 
 def put_for(node: Node, values: Mapping[Node, Node]) -> Node:
-    """Substitute nodes, except the variable of a derivative or an integral inside that derivative or integral."""
+    """Return a node with each key of `values` replaced, except the variable of a derivative, integral or sum inside it."""
     if node in values:
         return values[node]
     if not isinstance(node, Call) or not values:
@@ -165,14 +168,14 @@ def put_for(node: Node, values: Mapping[Node, Node]) -> Node:
 
 
 def in_catalogue(node: Node) -> bool:
-    """Return True if a line of the catalogue can contain the node: arithmetic and functions with the same meaning."""
+    """Return True if a line of equations.toml can express the node by arithmetic and by functions of equal meaning."""
     nodes = list(walk(node))
     names = {call.name for call in nodes if isinstance(call, Call)}
     return names <= {*_ARITHMETIC, *_CALLED} and Letter("imaginary_unit") not in nodes
 
 
 def text_of(node: Node) -> str:
-    """Return the node as text in printed order: 1/2*m*x_dot**2."""
+    """Return the node as text with Python names in printed order, such as 1/2*m*x_dot**2."""
     return _text(node, 0)
 
 
@@ -204,11 +207,12 @@ def _text(node: Node, above: int) -> str:
 
 @dataclass
 class Opaque:
-    """The symbols that replace non-explicit terms in a sympy expression: derivatives, integrals, unknown functions.
+    """The symbols that stand for terms without an explicit formula: derivatives, integrals and unknown functions.
 
-    rates: symbols and components → their rates. With them, derivatives and integrals of explicit expressions are evaluated;
-    the other symbols are constant, and `fixing` becomes True if there were any. refuses: raise InputError for a
-    non-explicit term; f(x) is then a sympy function, and sums remain unevaluated. letters: symbols with other assumptions.
+    names: text of a term → its symbol. rates: symbol → its time derivative. If rates are given, derivatives and integrals
+    of explicit expressions are evaluated with all other symbols constant; `fixing` becomes True if there are such symbols.
+    refuses: True if a term without a formula raises InputError; f(x) is then a sympy function, and sums stay unevaluated.
+    letters: name → symbol, for symbols that are not merely real.
     """
 
     names: dict[str, sp.Symbol] = field(default_factory=dict)
@@ -218,14 +222,18 @@ class Opaque:
     letters: Mapping[str, sp.Symbol] = field(default_factory=dict)
 
     def symbol(self, node: Node) -> Any:
-        """Return the symbol of a non-explicit term; of a vector, its components. Raises InputError with `refuses`."""
+        """Return the symbol that stands for a term without an explicit formula, or the components of a vector (3, 1).
+
+        If `refuses` is True, return the sympy function of a call f(x), and raise InputError for any other term.
+        """
         text = text_of(node)
         if self.refuses and isinstance(node, Call):
             if isinstance(getattr(sp, node.name, None), sp.FunctionClass) and node.name not in _GREEK:
-                raise InputError(f"{text} is not decided: judge has no rules for the function {node.name}")
+                why = f"judge has no rules for the function {node.name}; write it by other functions"
+                raise InputError(f"{text} cannot be decided: {why}")
             if node.name not in _UNDECIDED and not any(map(is_vector, (node, *node.args))):
                 return sp.Function(node.name, real=True)(*(sympy_expression(arg, self) for arg in node.args))
-            raise InputError(f"{text} is not decided: {_UNDECIDED.get(node.name, 'write its components')}")
+            raise InputError(f"{text} cannot be decided: {_UNDECIDED.get(node.name, 'write its components')}")
         if is_vector(node) and not is_matrix(node):
             return sp.Matrix(sp.symbols([f"[{text}]_{k}" for k in (1, 2, 3)], real=True))
         return self.names.setdefault(text, sp.Symbol(f"[{text}]", real=True))
@@ -245,12 +253,12 @@ _UNDECIDED = {
     "arg": "write it with real symbols", "Re": "write it with real symbols", "Im": "write it with real symbols",
     "max": "write one of the arguments", "min": "write one of the arguments",
     **dict.fromkeys(("sum", "product", "quotient", "power", "cross", "dot", "norm", "column", "matrix", "row"),
-                    "its arguments are a vector and a number, of different sizes, or too large"),
+                    "write arguments of one kind and size, and smaller numbers"),
 }  # fmt: skip
 
 
 def sympy_expression(node: Node, opaque: Opaque) -> Any:
-    """Return the node as a sympy expression of real symbols; a non-explicit term becomes a symbol."""
+    """Return the node as a sympy expression of real symbols; a term without an explicit formula becomes one symbol."""
     if isinstance(node, Number):
         return sp.Rational(node.value.numerator, node.value.denominator)
     if isinstance(node, Letter):
@@ -264,7 +272,7 @@ def sympy_expression(node: Node, opaque: Opaque) -> Any:
 
 
 def _value(node: Call, opaque: Opaque) -> Any:
-    """Return the value of arithmetic, a known function, vectors or explicit matrices; None for any other call."""
+    """Return the value of arithmetic, of a function in KNOWN, of vectors or explicit matrices; None for any other call."""
     if node.name == "matrix":
         rows = (row.args for row in node.args if isinstance(row, Call))
         return sp.Matrix([[sympy_expression(arg, opaque) for arg in row] for row in rows])
@@ -282,7 +290,7 @@ def _value(node: Call, opaque: Opaque) -> Any:
 
 
 def _fits(name: str, sizes: list[tuple[int, ...]]) -> bool:
-    """Return True if an operation is defined for arguments of these shapes; () is the shape of a number."""
+    """Return True if the operation `name` is defined for arguments of these shapes; () is the shape of a number."""
     if name == "sum":
         return len(set(sizes)) == 1
     if name == "product":
@@ -300,12 +308,12 @@ def _fits(name: str, sizes: list[tuple[int, ...]]) -> bool:
 
 
 def has_opaque(*values: Any) -> bool:
-    """Return True if an expression contains a symbol for a non-explicit term."""
+    """Return True if an expression contains a symbol that stands for a term without an explicit formula."""
     return any(symbol.name.startswith("[") for value in values for symbol in value.free_symbols)
 
 
 def rates_of(nodes: Iterable[Node]) -> dict[sp.Symbol, sp.Symbol]:
-    """Return the map from symbols with dots, and components of vectors, to their rates."""
+    """Return a map from x to x_dot, and x_dot to x_ddot, for each symbol that has these dots; components for a vector."""
     rates: dict[sp.Symbol, sp.Symbol] = {}
     for letter in {inner for node in nodes for inner in walk(node)}:
         if isinstance(letter, Letter) and (dotted := _DOTTED.fullmatch(letter.name)):
@@ -316,7 +324,7 @@ def rates_of(nodes: Iterable[Node]) -> dict[sp.Symbol, sp.Symbol]:
 
 
 def _bound(node: Call, opaque: Opaque) -> Any:
-    """Return the value of a short sum, or of the derivative or integral of an explicit expression; else None."""
+    """Return the value of a call that binds a variable, such as a sum or a derivative; None if it has no explicit value."""
     inner = sympy_expression(node.args[0], opaque)
     if node.name == "rate":
         return None if isinstance(node.args[0], Letter) or opaque.rates is None else _rate(inner, opaque)
@@ -345,7 +353,7 @@ def _bound(node: Call, opaque: Opaque) -> Any:
 
 
 def _series(node: Call, inner: Any, variable: sp.Symbol, ends: list[Any], opaque: Opaque) -> Any:
-    """Return a short sum or product term by term; for a decision, a sum of any length without indexed symbols."""
+    """Return a sum or product of few terms, evaluated; with `opaque.refuses` a long sum unevaluated; None for any other."""
     name = variable.name
     if len(ends) != 2 or ends[0].is_Integer is not True:
         return None
@@ -358,7 +366,7 @@ def _series(node: Call, inner: Any, variable: sp.Symbol, ends: list[Any], opaque
 
 
 def _with_index(node: Node, name: str, k: int) -> Node:
-    """Return the k-th term of a sum: the index and the symbols with it are replaced, x_i by x_2."""
+    """Return the term of a sum in which its index `name` has the value k; for k = 2, i becomes 2 and x_i becomes x_2."""
     if isinstance(node, Letter):
         stem, *index = node.name.split("_")
         named = replace(node, name="_".join((stem, *(str(k) if word == name else word for word in index))))
@@ -367,7 +375,7 @@ def _with_index(node: Node, name: str, k: int) -> Node:
 
 
 def _rate(inner: Any, opaque: Opaque) -> Any:
-    """Return the time derivative along the rates of the symbols, others constant; None if no symbol has a rate."""
+    """Return the time derivative by the rates in `opaque`, with all other symbols constant; None if none has a rate."""
     time = sp.Symbol("t", real=True)
     rates = {**(opaque.rates or {}), time: sp.S.One}
     moving = sorted(inner.free_symbols & rates.keys(), key=str)
@@ -400,14 +408,14 @@ _VALUES: dict[str, Any] = {
 
 
 def _power(base: Any, exponent: Any) -> Any:
-    """Return a power; the root of a function remains unevaluated."""
+    """Return a power; a fractional power of an expression with an unknown function is left unevaluated."""
     if isinstance(base, sp.Expr) and base.has(sp.Function) and not exponent.is_Integer:
         return sp.Pow(base, exponent, evaluate=False)
     return base**exponent
 
 
 def _too_large(node: Call, values: list[Any]) -> bool:
-    """Return True if the value has too many digits: 9**9**9, 99999!."""
+    """Return True if the value of a power, a factorial or a binomial would have too many digits, such as 9**9**9."""
     if node.name == "power" and all(isinstance(value, sp.Rational) for value in values):
         base, exponent = values
         return bool(abs(exponent) * max(base.p.bit_length(), base.q.bit_length()) > _MOST_BITS)

@@ -1,4 +1,4 @@
-"""Formulas of the page: LaTeX converted by latex2mathml to the elements and attributes of MathML Core."""
+"""Formulas of the pages: latex2mathml converts LaTeX to MathML, which is then reduced to MathML Core for browsers."""
 
 import re
 import unicodedata
@@ -23,7 +23,7 @@ _THIN = "0.167em"
 
 
 def converter() -> str:
-    """Return the version of latex2mathml; empty if it is not installed."""
+    """Return the version of latex2mathml; "" if it is not installed."""
     try:
         return version("latex2mathml")
     except PackageNotFoundError:
@@ -31,7 +31,10 @@ def converter() -> str:
 
 
 def mathml(source: str, display: bool = True) -> str | None:
-    """Return LaTeX as `<math>`, displayed lines broken at wide spaces; None if latex2mathml is missing or fails."""
+    """Return LaTeX as `<math>` elements; None if latex2mathml is missing or fails.
+
+    A displayed formula becomes one element per line; wide spaces separate its lines.
+    """
     try:
         return _convert(source, display)
     except Exception:  # not installed, or unknown LaTeX, for which it raises errors of many kinds
@@ -103,7 +106,10 @@ def _tidy(element: Element) -> None:
 
 
 def _keep_readable(element: Element, depth: int, compact: bool) -> None:
-    """Draw scripts of scripts as large as scripts. depth, compact: script level and style of MathML Core."""
+    """Let browsers draw the scripts of scripts as large as scripts. The element is changed in place.
+
+    depth: the script level of the element, at most 1. compact: True if it is not in display style.
+    """
     for place, child in enumerate(element):
         fraction = element.tag == "mfrac"
         script = element.tag in _SCRIPTS and not fraction and place > 0 and "accent" not in element.attrib
@@ -139,7 +145,7 @@ def _leaf(child: Element, text: str, previous: Element | None) -> None:
 
 
 def _raise_prime(child: Element) -> None:
-    """Set a prime without raising it twice, and a power over an accent as high as over a letter."""
+    """Keep a prime from being raised twice, and set a power of an accented letter as high as that of a plain one."""
     if child.tag == "msup" and (child[1].text or "x") in _PRIMES:
         child.tag, child[1].attrib = "mrow", {"form": "postfix", "lspace": "0", "rspace": "0"}
     elif child[0].tag == "mover":
@@ -158,7 +164,7 @@ def _accent(child: Element) -> None:
 
 
 def _is_function_name(element: Element) -> bool:
-    """Return True for the name of a function, perhaps with a power."""
+    """Return True if an element is the name of a function such as sin, perhaps with a power or an index."""
     core = element[0] if element.tag in ("msup", "msub") and len(element) else element
     return core.tag in ("mi", "mo") and (core.text or "").strip() in _NAMES
 
@@ -174,7 +180,7 @@ def _space(parent: Element, child: Element) -> None:
 
 
 def _styled_letter(character: str, style: str) -> str:
-    """Return a bold or double-struck character: MathML Core has no `mathvariant` except normal."""
+    """Return the bold or double-struck form of a character, because MathML Core has no attribute for these styles."""
     name = unicodedata.name(character, "").replace("LATIN ", "").replace("GREEK ", "").replace(" LETTER", "")
     try:
         return unicodedata.lookup(f"MATHEMATICAL {style} {name}")

@@ -1,8 +1,8 @@
-"""Products of earlier runs in the user's cache folder, reused if their inputs have not changed.
+"""The cache: results of earlier runs in the user's cache folder, which are reused if their inputs have not changed.
 
-A product that JSON can represent (a claim's numbers, a figure with its two files, the interactive model, the outcome of a run)
-is stored in one file with the digest of its inputs. A derivation gives expressions and runs again unless the whole report is
-unchanged. A missing, damaged or outdated product is computed again.
+The product of a step is its result: the numbers of a claim, a figure with its files, the interactive model. A product that
+JSON can represent is stored with the digest of its inputs. A derivation gives expressions and runs again unless the whole
+report is unchanged. A missing, damaged or outdated product is computed again.
 """
 
 import json
@@ -34,7 +34,10 @@ class Cache:
     paper: Paper
 
     def take(self, name: str, made_from: str) -> Any:
-        """Return a product as JSON if it is undamaged and has the same inputs, else None."""
+        """Return the stored product `name` as JSON data; None if it is missing or damaged, or if its inputs differ.
+
+        `made_from` is the digest of the present inputs.
+        """
         with suppress(OSError, RuntimeError, ValueError, TypeError, KeyError):  # RuntimeError: the user has no home
             entry = json.loads(self._file(name).read_text(encoding="utf-8"))
             if entry["digest"] == digest(made_from, json.dumps(entry["product"])):
@@ -42,7 +45,7 @@ class Cache:
         return None
 
     def keep(self, name: str, made_from: str, product: Any) -> None:
-        """Store a product for later runs, if JSON can represent it and the folder is writable."""
+        """Store a product for later runs if JSON can represent it and the folder is writable; else do nothing."""
         with suppress(OSError, RuntimeError, InputError, TypeError):
             text = json.dumps(product)
             self._file(name).parent.mkdir(parents=True, exist_ok=True)
@@ -54,13 +57,13 @@ class Cache:
 
 
 def picture_as_json(picture: Picture) -> dict[str, Any]:
-    """Return a picture with the contents of its files."""
+    """Return a picture as a dictionary for JSON that contains the contents of its two files."""
     contents = {"svg": picture.svg.read_text(encoding="utf-8"), "png": b64encode(picture.png.read_bytes()).decode()}
     return asdict(picture) | contents
 
 
 def picture_from_json(data: Mapping[str, Any], folder: Path) -> Picture:
-    """Write the files of a picture into `folder` and return it."""
+    """Write the two files of a stored picture into `folder` and return the picture."""
     stem = folder / Path(data["stem"]).name
     svg, png = stem.with_suffix(".svg"), stem.with_suffix(".png")
     svg.write_text(data["svg"], encoding="utf-8")

@@ -1,6 +1,6 @@
-"""The inputs of a script's product: the script, the scripts that it runs, the paper's folder, and the package.
+"""The inputs on which the result of a script depends: the script, the scripts it runs, the paper's folder, the package.
 
-A product of an earlier run is reused if the digest of these inputs and of the tools' versions is the same.
+The result of an earlier run is reused if the digest of these inputs and of the versions of Python and libraries is the same.
 """
 
 import hashlib
@@ -23,7 +23,7 @@ _WORD = re.compile(r"""["'](\w+)["']""")
 
 
 def digest(*items: bytes | str) -> str:
-    """Return the SHA-256 of several items, each with its length, so that different lists have different digests."""
+    """Return the SHA-256 of a list of items. The length of each is included, so that no two lists share their bytes."""
     hash_ = hashlib.sha256()
     for item in items:
         data = item.encode() if isinstance(item, str) else item
@@ -43,7 +43,7 @@ def _text(path: Path) -> str:
 
 
 def _texts(path: Path) -> frozenset[str]:
-    """Return all one-word strings of a script."""
+    """Return the contents of all string literals of a script that are one word."""
     return frozenset(_WORD.findall(_text(path)))
 
 
@@ -54,19 +54,19 @@ def _stems(paper: Paper) -> frozenset[str]:
 
 @cache
 def scripts_named(path: Path, paper: Paper) -> tuple[str, ...]:
-    """Return the stems of the derivations that a script names and may therefore run."""
+    """Return the stems of the derivations that a script names in a string, and whose values it may import."""
     stems = _texts(path) & _stems(paper)
     return tuple(sorted(stem for stem in stems if paper.scripts.path("derivations", stem) != path))
 
 
 def values_taken(stem: str, paper: Paper) -> frozenset[str]:
-    """Return the names that other scripts may import from a derivation: the strings of scripts that name it."""
+    """Return the names that other scripts may import from a derivation: all strings in the scripts that name it."""
     others = (path for kind in ("derivations", "figures") for path in (paper.scripts.base / kind).glob("*.py"))
     return frozenset(text for path in others if stem in scripts_named(path, paper) for text in _texts(path))
 
 
 def source_digest(path: Path, paper: Paper) -> str:
-    """Return the digest of all inputs of a script's product, including the whole package."""
+    """Return the digest of all inputs on which the result of a script depends, including the whole package."""
     reached, stack = {path}, [path]
     while stack:
         new = {paper.scripts.path("derivations", stem) for stem in scripts_named(stack.pop(), paper)} - reached
@@ -77,7 +77,7 @@ def source_digest(path: Path, paper: Paper) -> str:
 
 @cache
 def _shared(paper: Paper) -> str:
-    """Return the digest of the inputs of every product: package, catalogue, data files, versions, machine."""
+    """Return the digest of the inputs that all scripts share: package, catalogue, data files, versions, machine."""
     data = [
         f
         for kind in ("derivations", "figures")
@@ -90,14 +90,14 @@ def _shared(paper: Paper) -> str:
 
 
 def _digest_of(files: Iterable[Path], paper: Paper) -> str:
-    """Return the digest of files by their relative paths and contents."""
+    """Return the digest of the relative paths and the contents of some files."""
     rows = sorted((_place(file, paper), digest(file.read_bytes())) for file in files)
     return digest(*(item for row in rows for item in row))
 
 
 @cache
 def _place(file: Path, paper: Paper) -> str:
-    """Return a file's relative path, the same in a checkout and in an installed package."""
+    """Return the relative path of a file; it is the same in a checkout and in an installed package."""
     for kind in ("derivations", "figures"):
         if file.parent == paper.scripts.base / kind:
             return f"{kind}/{file.name}"
@@ -108,7 +108,7 @@ def _place(file: Path, paper: Paper) -> str:
 
 
 def inputs(paper: Paper) -> dict[str, str]:
-    """Return the SHA-256 of each kind of input of a whole run, by name."""
+    """Return a map from each kind of input of a whole run, such as "package" or "figures", to its SHA-256."""
     package = {f for f in _PACKAGE.rglob("*") if f.is_file() and "__pycache__" not in f.parts}
     package -= {f for kind in ("derivations", "figures", "papers") for f in (_PACKAGE / kind).rglob("*")}
     catalogue = {f for f in paper.folder.iterdir() if f.is_file()}

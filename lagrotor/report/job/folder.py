@@ -1,4 +1,4 @@
-"""The folder of a report: its allowed contents, and its replacement by a new report once that is complete."""
+"""The folder of a report: which files it may contain, and its replacement once a new report is complete."""
 
 import os
 import shutil
@@ -20,7 +20,10 @@ _COMPILED = {
 
 
 def check_target(target: Path) -> Path:
-    """Return the resolved folder; raise InputError unless it can be created, is empty, or is a report."""
+    """Return the absolute path of the folder for a report.
+
+    Raises InputError if the folder cannot be created, or if it has contents other than a report.
+    """
     folder = target.resolve()
     if folder.exists() and not folder.is_dir():
         raise InputError(f"{target} is a file: choose a folder")
@@ -37,7 +40,7 @@ def check_target(target: Path) -> Path:
 
 
 def _alive(process: str) -> bool:
-    """Return True if a process with this number is running."""
+    """Return True if a process with this number is running; False if the text is no number."""
     try:
         os.kill(int(process), 0)
     except (ValueError, OverflowError, ProcessLookupError):
@@ -49,7 +52,7 @@ def _alive(process: str) -> bool:
 
 @contextmanager
 def _alone(target: Path) -> Iterator[None]:
-    """Lock `target`; raise InputError if another run has locked it."""
+    """Lock the folder `target` inside the `with` block. Raises InputError if another run has locked it."""
     lock = target.with_name(f".{target.name}.lock")
     while True:
         try:
@@ -74,7 +77,10 @@ def _alone(target: Path) -> Iterator[None]:
 
 @contextmanager
 def replacement(target: Path) -> Iterator[Path]:
-    """Yield a new folder that replaces `target` if the block succeeds; raise InputError if another run writes there."""
+    """Yield a new folder, which replaces the folder `target` if the `with` block succeeds.
+
+    Raises InputError if another run is writing there.
+    """
     target = check_target(target)
     with _alone(target):
         yield from _rename_over(target)

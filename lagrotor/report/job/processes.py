@@ -1,4 +1,4 @@
-"""Steps in parallel processes: results in order of completion, and no process remains when the run is stopped."""
+"""Tasks in parallel processes. Results come in the order of completion; no process remains when the run is stopped."""
 
 import multiprocessing
 import os
@@ -34,9 +34,10 @@ def results(
     begins: Callable[[Task], None],
     inputs: Callable[[Task], Any] = lambda task: (),
 ) -> Iterator[tuple[Task, Any]]:
-    """Yield (task, run(task, *inputs(task))) in order of completion; with jobs = 1 in this process.
+    """Run tasks in `jobs` processes, and yield each task with its result in the order of completion.
 
-    `begins` is called with a task before it runs. `inputs` returns its inputs from other results, None while they are missing.
+    The result is run(task, *inputs(task)). `inputs` returns None while a task must wait for the results of other tasks. With
+    jobs = 1 the tasks run in this process. `begins` is called with each task before it runs.
     """
     waiting, running = list(tasks), dict[Future[Any], Task]()
     if jobs == 1:
@@ -58,7 +59,7 @@ def results(
 
 
 def values(names: dict[str, Any], exported: Collection[str]) -> dict[str, Any]:
-    """Return the values of the exported names that can be pickled."""
+    """Return the values of those names in `exported` that are defined and whose values can be sent to a process."""
     result = {}
     for name in names.keys() & set(exported):
         with suppress(pickle.PicklingError, TypeError, AttributeError):
@@ -68,16 +69,16 @@ def values(names: dict[str, Any], exported: Collection[str]) -> dict[str, Any]:
 
 
 def _next(waiting: list[Task], inputs: Callable[[Task], Any]) -> tuple[Task, Any]:
-    """Remove the first task whose inputs are complete; return it with its inputs."""
+    """Remove the first task whose inputs are complete from `waiting`; return the task and its inputs."""
     for i, task in enumerate(waiting):
         if (arguments := inputs(task)) is not None:
             return waiting.pop(i), arguments
-    raise RuntimeError(f"each of {waiting} waits for another")
+    raise RuntimeError(f"none of {waiting} can begin: each waits for the result of another")
 
 
 @contextmanager
 def _interrupts_wait() -> Iterator[None]:
-    """Delay an interrupt to the end of the block: the pool cannot yet end a process that is starting."""
+    """Delay an interrupt to the end of the `with` block, because the pool cannot end a process that is starting."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
@@ -95,7 +96,7 @@ def _begin() -> None:
 
 @contextmanager
 def _pool(jobs: int) -> Iterator[ProcessPoolExecutor]:
-    """Yield processes that ignore interrupts and end with their parent."""
+    """Yield a pool of `jobs` processes, which ignore interrupts and end when the `with` block fails."""
     methods = multiprocessing.get_all_start_methods()
     context = multiprocessing.get_context("forkserver" if "forkserver" in methods else "spawn")
     if hasattr(context, "set_forkserver_preload"):

@@ -38,9 +38,10 @@ StepProgress = Callable[[int], AbstractContextManager[Callable[[str], None]]]
 
 @dataclass(frozen=True)
 class JobOutcome:
-    """The outcome of a run: counts of verdicts and outcomes, and a sentence for each change.
+    """The outcome of a run: how many equations and claims have each verdict, and how many equations are not judged.
 
-    `reused` names the steps whose product is from an earlier run; it is ["report"] if the whole report is.
+    changes: a sentence for each verdict that differs from the recorded one. reused: names of the steps whose results were
+    taken from an earlier run, ["report"] if the whole report was. seconds: the duration of the run.
     """
 
     equations: dict[str, int]
@@ -55,10 +56,12 @@ class JobOutcome:
 def reproduce(
     paper: Paper, target: Path, progress: StepProgress, jobs: int | None = None, certificates: bool = False
 ) -> JobOutcome:
-    """Compute or reuse every product and write the report into the folder `target`; the old report stays until this is complete.
+    """Compute or reuse the result of every step, and write the report into the folder `target`.
+
+    An old report stays there until the new one is complete.
 
     jobs: number of processes; None: one per core, one in a debugger. certificates: True to write Coq proofs of exact verdicts.
-    `progress(total)` returns the function that is called with the name of each step as it begins. Raise InputError if `target`
+    `progress(total)` returns the function that is called with the name of each step as it begins. Raises InputError if `target`
     cannot be written, is not a report, or is being written by another run.
     """
     began, on_record, old = time.perf_counter(), paper.recorded, check_target(target)
@@ -93,7 +96,7 @@ def reproduce(
 
 
 def _digests(folder: Path) -> dict[str, str]:
-    """Return the digest of each file of a report, except the computing times, by its relative path."""
+    """Return a map from the relative path of each file of a report, except the computing times, to its digest."""
     files = {path.relative_to(folder).as_posix(): path for path in folder.rglob("*") if path.is_file()}
     return {name: digest(path.read_bytes()) for name, path in files.items() if name != TIMES}
 
@@ -101,7 +104,10 @@ def _digests(folder: Path) -> dict[str, str]:
 def _make(
     cache: Cache, all_steps: list[JobStep], folder: Path, progress: StepProgress, jobs: int, old: Path
 ) -> tuple[dict[str, Any], dict[str, float], list[str]]:
-    """Return the products by name, the computing time in s of each computed one, and the names of the reused ones."""
+    """Run all steps whose results are not in the cache; `folder` is for figures, `old` the folder of the last report.
+
+    Return step → result, step → computing time in s of those that ran, and the names of the steps that did not run.
+    """
     products: dict[str, Any] = dict.fromkeys(step.name for step in all_steps)
     for step in all_steps:
         if step.run is not derive and (product := cache.take(step.name, step.made_from)) is not None:
@@ -128,7 +134,7 @@ def _make(
 
 
 def _run_timed(step: JobStep, imported: dict[str, dict[str, Any]], folder: Path) -> tuple[Any, float]:
-    """Return the step's product and its computing time; `imported` holds values of other derivations."""
+    """Run a step; return its result and its computing time in s. `imported` holds values of other derivations."""
     began = time.perf_counter()
     with step.paper.scripts.remote_values(imported):
         product = step.run(step.paper, step.key, folder)
@@ -136,7 +142,7 @@ def _run_timed(step: JobStep, imported: dict[str, dict[str, Any]], folder: Path)
 
 
 def _longest_first(old: Path) -> Callable[[JobStep], float]:
-    """Return a sort key by decreasing computing time of the last run."""
+    """Return a sort key that puts the steps with the longest computing time in the last report `old` first."""
     try:
         took = json.loads((old / TIMES).read_text(encoding="utf-8"))["seconds"]
     except (OSError, ValueError, KeyError, TypeError):
@@ -165,7 +171,7 @@ def _report(paper: Paper, products: dict[str, Any]) -> Report:
 
 
 def _result_section(entry: ReportPart, derived: list[Derived], pictures: list[Picture]) -> ResultSection:
-    """Return the tables, findings and figures of a section of the report."""
+    """Return a section of the report with the tables, findings and figures that `entry` of paper.toml selects."""
     return ResultSection(
         entry.name,
         entry.heading,
@@ -176,7 +182,10 @@ def _result_section(entry: ReportPart, derived: list[Derived], pictures: list[Pi
 
 
 def _claim_results(paper: Paper, products: dict[str, Any]) -> list[Result]:
-    """Return every claim decided by its measured numbers, with theorems on record (`lagrotor claims` proves them again)."""
+    """Return the result of every claim, decided by its measured numbers and by recorded theorems.
+
+    The theorems are not proved again here; `lagrotor claims` does this.
+    """
     results = [Result(test, m := products[f"claim {i}"], test.decide(m), 0.0) for i, test in paper.claim_tests.items()]
     return [with_theorems_on_record(paper, result) for result in results]
 
@@ -198,7 +207,7 @@ def _write(folder: Path, report: Report) -> None:
 
 
 def _timeless(record: dict[str, Any]) -> dict[str, Any]:
-    """Return a record without its duration, which differs between runs."""
+    """Return a record without its entry `seconds`, the duration, which differs between runs."""
     return {name: value for name, value in record.items() if name != "seconds"}
 
 

@@ -1,4 +1,4 @@
-"""The steps of the job, one per derivation, claim and figure, and the whole audit in parallel processes."""
+"""The steps of the job, one for each derivation, claim and figure; and the audit of all equations in parallel processes."""
 
 import warnings
 from collections.abc import Callable, Iterator
@@ -22,7 +22,11 @@ from lagrotor.report.page.html_elements import derivation_html, title
 
 @dataclass(frozen=True)
 class Derived:
-    """The result of a derivation: verdicts, findings, tables, HTML, and the values that other scripts import by name."""
+    """The result of running a derivation.
+
+    verdicts: those on its equations. remarks: its findings, (title, text). tables: its tables. html: the derivation as
+    HTML. values: name → value that other scripts import.
+    """
 
     stem: str
     title: str
@@ -35,7 +39,10 @@ class Derived:
 
 @dataclass(frozen=True)
 class JobStep:
-    """One step: `run(paper, key, folder)` makes its product and writes its files into the folder of the figures."""
+    """One step of the job. `run(paper, key, folder)` returns its result and writes its files into the folder of figures.
+
+    name: such as "claim C08". key: the stem, id or key in the name. source: the script that the step runs.
+    """
 
     name: str
     run: Callable[[Paper, str, Path], Any]
@@ -50,12 +57,12 @@ class JobStep:
 
     @property
     def made_from(self) -> str:
-        """The digest of all inputs of the product."""
+        """The digest of all inputs on which the result of the step depends."""
         return source_digest(self.source, self.paper)
 
 
 def derive(paper: Paper, stem: str, folder: Path) -> Derived:
-    """Run a derivation and decide its equations; warnings of its simulations appear on its page."""
+    """Run a derivation, decide its equations, and return the result; warnings of its simulations appear in its HTML."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", LagrotorWarning)
         verdicts = judge_script(paper, stem)
@@ -68,7 +75,7 @@ def derive(paper: Paper, stem: str, folder: Path) -> Derived:
 
 
 def measure(paper: Paper, identifier: str, folder: Path) -> dict[str, float]:
-    """Return the numbers of one claim's test."""
+    """Return the numbers that the test of one claim measures, by name."""
     return dict(paper.measured(identifier).measured)
 
 
@@ -83,7 +90,7 @@ def model(paper: Paper, module: str, folder: Path) -> str:
 
 
 def steps(paper: Paper) -> Iterator[JobStep]:
-    """Yield every step of the job."""
+    """Yield every step of the job: derivations, claims, figures and, if the paper has one, the interactive model."""
     scripts = paper.scripts
     for stem in scripts.names("derivations"):
         yield JobStep(f"derivation {stem}", derive, paper, stem, scripts.path("derivations", stem))
@@ -101,7 +108,10 @@ _FEW = 8  # fewer scripts run faster in one process
 
 
 def audit_in_processes(paper: Paper, progress: Progress, jobs: int | None = None) -> Audit:
-    """Decide every equation in `jobs` processes (None: one per core); `progress` is called with each script's name."""
+    """Decide every equation of a paper in `jobs` processes and return the audit.
+
+    None means one process per core, or a single one for few scripts. `progress` is called with the name of each script.
+    """
     stems = paper.stating_scripts
     jobs = (1 if len(stems) < _FEW else cores()) if jobs is None else jobs
     if jobs == 1:
@@ -121,7 +131,7 @@ def audit_in_processes(paper: Paper, progress: Progress, jobs: int | None = None
 
 
 def _judge_script(paper: Paper, stem: str, imported: dict[str, dict[str, Any]]) -> tuple[list[Verdict], dict[str, Any]]:
-    """Return the verdicts of one script, and the values that other scripts import from it."""
+    """Return the verdicts of one script, and the values that other scripts import from it, by name."""
     with paper.scripts.remote_values(imported):
         verdicts = judge_script(paper, stem)
         return verdicts, values(paper.scripts.executed("derivations", stem).names, values_taken(stem, paper))

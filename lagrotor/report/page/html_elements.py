@@ -1,4 +1,4 @@
-"""HTML elements of the page: tables, formulas, links, badges, and a derivation cell by cell."""
+"""HTML elements of the pages: tables, formulas, links, coloured verdicts, and the cells of a derivation."""
 
 import re
 from base64 import b64encode
@@ -32,7 +32,7 @@ _CODE = re.compile(r"(?<![\w&.])([A-Za-z][A-Za-z0-9]+(?:_\w+)+)")
 
 
 def prose(text: str) -> str:
-    """Return plain text as HTML with readable formulas; LaTeX between dollars is typeset."""
+    """Return plain text as HTML: its formulas become readable, and LaTeX between dollar signs is typeset."""
     plain, *segments = text.split("$")
     pieces = [_plain(plain)]
     for n, piece in enumerate(segments):
@@ -57,19 +57,19 @@ def html_table(head: tuple[str, ...], lines: Iterable[tuple[str, ...]], kind: st
 
 
 def _under(head: str, cell: str) -> str:
-    """Return a cell with its column's heading, which a narrow screen shows before it."""
+    """Return a table cell that carries the heading of its column; a narrow screen shows it before the cell."""
     return f'<td data-head="{head}">{cell}</td>' if head else f"<td>{cell}</td>"
 
 
 def number_list(what: str, measured: Iterable[tuple[str, float]]) -> str:
-    """Return a table of measured numbers by name, with six digits."""
+    """Return an HTML table of measured numbers with six digits; `what` is the heading of the column of names."""
     return html_table(
         (what, "Value"), ((prose(name.replace("_", " ")), prose(f"{value:.6g}")) for name, value in measured)
     )
 
 
 def side_by_side(table: Table, report: Report) -> str:
-    """Return a table of a derivation with its title and note."""
+    """Return the HTML of a table from a derivation, with its title above and its note below."""
     lines = [tuple(_cell(cell, report) for cell in row) for row in table.rows]
     note = f"<p><small>{prose(table.note)}</small></p>" if table.note else ""
     return f'<div class="table"><h3>{prose(table.title)}</h3>{html_table(table.head, lines)}{note}</div>'
@@ -85,7 +85,7 @@ def _cell(cell: Cell, report: Report) -> str:
 
 
 def fact_list(facts: Iterable[Fact]) -> str:
-    """Return facts as a description list; empty for no facts."""
+    """Return facts as an HTML description list; "" if there are none."""
     items = "".join(map(_fact, facts))
     return f"<dl>{items}</dl>" if items else ""
 
@@ -100,13 +100,13 @@ def _fact(fact: Fact) -> str:
 
 
 def inline(expression: sp.Basic) -> str:
-    """Return an expression in a line of text; its LaTeX if the converter is not installed."""
+    """Return an expression as a formula within a line of text, or as LaTeX if the converter is not installed."""
     source = latex(expression)
     return mathml(source, display=False) or f"<code>{escape(source)}</code>"
 
 
 def typeset(source: str) -> str:
-    """Return LaTeX as a formula; its source with a note if the converter is not installed or fails."""
+    """Return LaTeX as a formula on its own line. If the converter is missing or fails, return the source with a note."""
     formula = mathml(source)
     if formula is None:
         why = "latex2mathml cannot convert this" if converter() else "install latex2mathml to have it typeset"
@@ -115,27 +115,27 @@ def typeset(source: str) -> str:
 
 
 def code(source: str) -> str:
-    """Return source text in breakable lines."""
+    """Return source text as an HTML element whose lines may break."""
     return f"<pre><code>{escape(source)}</code></pre>"
 
 
 def fold(summary: str, inside: str, kind: str = "fold") -> str:
-    """Return content that the reader can unfold."""
+    """Return HTML that shows `summary` only, until the reader unfolds the content."""
     return f'<details class="{kind}"><summary>{escape(summary)}</summary>{inside}</details>'
 
 
 def badge(answer: str) -> str:
-    """Return a verdict or an outcome in its colour."""
+    """Return the HTML of a verdict or an outcome on a field of its colour."""
     return f'<span class="badge {answer}">{escape(word(answer))}</span>'
 
 
 def link(identifier: str) -> str:
-    """Return a link to an equation, a claim or a figure."""
+    """Return a link to the equation, claim or figure with this id."""
     return f'<a href="#{anchor(identifier)}">{escape(identifier)}</a>'
 
 
 def file_link(name: str) -> str:
-    """Return a link to a file of the page's folder."""
+    """Return a link to a file in the folder of the page."""
     return f'<a href="{name}">{name}</a>'
 
 
@@ -144,13 +144,13 @@ def links(identifiers: Iterable[str]) -> str:
 
 
 def heading(identifier: str, name: str, title: str, answer: str = "") -> str:
-    """Return the heading of an entry: its name with a permanent link, its title and its verdict."""
+    """Return the heading of an entry: its name, which links to its anchor `identifier`, its title and its verdict."""
     mark = f" {badge(answer)}" if answer else ""
     return f'<h3><a class="permalink" href="#{identifier}">{escape(name)}</a> {prose(title)}{mark}</h3>'
 
 
 def derivation_html(script: Script, answers: Mapping[str, str]) -> str:
-    """Return one derivation, cell by cell, without its title; `answers` holds the verdicts by equation."""
+    """Return the HTML of a derivation, cell by cell, without its title; `answers` maps an equation to its verdict."""
     html = ""
     for cell in script.cells:
         html += markdown_html(re.sub(r"\A# .*\n?", "", cell.text) if cell.kind == "prose" else "")
@@ -160,13 +160,13 @@ def derivation_html(script: Script, answers: Mapping[str, str]) -> str:
 
 
 def title(script: Script, stem: str) -> str:
-    """Return the first heading of a derivation, or its stem."""
+    """Return the first line of text of a derivation, which is its title; its stem if it has no text."""
     text = next((cell.text for cell in script.cells if cell.kind == "prose"), stem)
     return text.splitlines()[0].lstrip("# ")
 
 
 def markdown_html(text: str) -> str:
-    """Return Markdown with formulas between dollars as HTML; unchanged if markdown-it is not installed."""
+    """Return Markdown, with formulas between dollar signs, as HTML; its source if markdown-it is not installed."""
     try:
         renderer = _renderer()
     except ModuleNotFoundError:
@@ -225,7 +225,7 @@ def _value_html(value: Any, answers: Mapping[str, str]) -> str:
 
 
 def _png(figure: "RunFigure") -> str:
-    """Return the figure as a data address, at low resolution in 64 colours, since a page has many of them."""
+    """Return a figure as a `data:` address, at low resolution and in 64 colours, because a page has many figures."""
     from PIL import Image
 
     from lagrotor.drawing.style import laid_out
@@ -245,7 +245,7 @@ def _derived_cell(cell: Any) -> str:
 
 
 def link_to_derivation(identifier: str, report: Report) -> str:
-    """Return a link to the derivation of an equation; empty if it is not in the report."""
+    """Return a link to the derivation of an equation; "" if the report does not contain this derivation."""
     stem, _ = report.paper.scripts.stating.get(identifier, ("", 0))
     is_listed = any(stem == derived for derived, _, _ in report.derivations)
     return f'<p><a href="#derivation-{stem}">The derivation</a> of {link(identifier)}</p>' if is_listed else ""
@@ -256,7 +256,7 @@ _ESCAPED = {"%": "%25", "#": "%23", "<": "%3C", ">": "%3E", "&": "%26", '"': "'"
 
 
 def data_address(picture: Picture) -> str:
-    """Return a picture as a `data:` address."""
+    """Return the SVG of a picture as a `data:` address, which a page can contain."""
     source = picture.svg.read_text(encoding="utf-8")
     for character, escaped in _ESCAPED.items():
         source = source.replace(character, escaped)

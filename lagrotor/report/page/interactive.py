@@ -1,8 +1,8 @@
-"""The interactive model of the report: the pair with sliders, its formulas generated as JavaScript.
+"""The interactive model of the report: a rotor pair with sliders, whose formulas are generated as JavaScript.
 
-The browser evaluates the same expressions that Python compiles: the minimal model's rates and axes, the periodic series for any
-bar, and the paper's formula. The stepper, drawing and controls (interactive_*.js), the style (interactive.css) and the markup
-(interactive.html) are written by hand.
+The browser evaluates the same expressions that Python compiles: rates and axes of the minimal model, the periodic series for
+any bar, and the paper's formula. Integration, drawing and controls (interactive_*.js), the style (interactive.css) and the
+markup (interactive.html) are written by hand.
 """
 
 from collections.abc import Iterator
@@ -67,24 +67,28 @@ def _part(file: str) -> str:
 
 @cache
 def javascript_formulas() -> str:
-    """Return the generated part of the script: the series' order, and one function per program."""
+    """Return the generated part of the script: the order of the series, and one JavaScript function per program."""
     lines = [f"const ORDER = {PAGE_ORDER};", *(javascript(program, name) for name, program in page_programs().items())]
     return "\n".join(lines)
 
 
 @cache
 def page_programs() -> dict[str, Program]:
-    """Return the programs that the script calls, by name. Units SI; the rotors are the paper's, M = R = I_1 = I_3 = 1.
+    """Return the programs that the script calls, by name. Units are SI; the rotors are the paper's, M = R = I_1 = I_3 = 1.
 
-    constants     (m, K, ell, omega_1, omega_2) → a, b, k, sigma, G_1, G_2, Omega_0, the paper's rate (5.28)
-    rate_, axes_  for a bar shorter than, as long as, longer than an axis: of the minimal model; axes r_1, r_2
-    start_        (r_0, y_1', y_2', k) → its state with both axes at (r_0, 0, sqrt(1 − r_0²)) and these rates
+    Each row gives the arguments and, after the arrow, the outputs. A name that ends with _ is completed by short, equal or
+    long: a program for a bar that is shorter than an axis, as long, or longer. U, chi, alpha are the minimal model's coordinates.
+
+    constants     (m, K, ell, omega_1, omega_2) → a, b, k, sigma, G_1, G_2, Omega_0, and the paper's rate (5.28)
+    rate_         (coordinates, velocities, a, b, k, G_1, G_2) → the rates of change of the minimal model
+    axes_         (U, chi, alpha, k) → the axes r_1, r_2
+    start_        (r_0, y_1', y_2', k) → the state with both axes at (r_0, 0, sqrt(1 − r_0²)) and these rates
     slopes_       (U, chi, alpha, k) → the derivatives of r_1, r_2 by the coordinates, 6 rows of 3
-    small_motion  (r_0, a, b, G_1, G_2) → y_1', y_2' of the pair's one oscillation, linear in r_0, any spins
-    series        (powers of r_0, sigma, k) → coefficients of c⁰ … in x, y / s, z, and Omega / Omega_0
-    orbit         (c, s, coefficients) → r_1, r_2
-    paper         (r_0, Phi) → r_1, r_2 as printed: 5.20, 5.22
-    bar_length    (r_1, r_2, ell) → m
+    small_motion  (r_0, a, b, G_1, G_2) → y_1', y_2' of the pair's one small oscillation, for any spins
+    series        (powers of r_0, sigma, k) → the coefficients of c⁰, c¹ … in x, y / s and z, and Omega / Omega_0
+    orbit         (c, s, coefficients) → the axes r_1, r_2, with c = cos Phi and s = sin Phi
+    paper         (r_0, Phi) → the axes r_1, r_2 as equations 5.20 and 5.22 print them
+    bar_length    (r_1, r_2, ell) → the distance of the tips in m
     """
     result = {"constants": _constants(), "small_motion": _small_motion(), "paper": _paper(), "bar_length": _length()}
     result |= {"series": _series(), "orbit": horner.horner_program(PAGE_ORDER)}
@@ -113,7 +117,7 @@ def _rate(ratio: Ratio) -> Program:
 
 
 def _pair_at(ratio: Ratio) -> sp.Matrix:
-    """Return r_1 and r_2, stacked, in the coordinates of the minimal model."""
+    """Return the axes r_1 and r_2, one below the other, shape (6, 1), as functions of the minimal model's coordinates."""
     curve = bar_curve(ratio)
     embedding = minimal_embedding(curve.twist, curve.latitude)
     first, second = (mercator_axis(*MERCATOR.q[i : i + 2]).subs(embedding) for i in (0, 2))
@@ -130,7 +134,10 @@ def _start(ratio: Ratio) -> Program:
 
 
 def _small_motion() -> Program:
-    """Return the rates of M q'' + C q' = 0 about the mean, M q' = −C q, at parallel axes with y_1 = y_2 = 0."""
+    """Return the program for the initial rates y_1', y_2' of the pair's one small oscillation, from parallel axes.
+
+    They follow from the linear equations M q'' + C q' = 0, integrated about the mean of q to M q' = −C q.
+    """
     linear = linear_pair()
     parallel = linear.basis[0, :].T * amplitude
     rates = -linear.basis * linear.mass.LUsolve(linear.gyroscopic * parallel)
@@ -138,7 +145,10 @@ def _small_motion() -> Program:
 
 
 def _series() -> Program:
-    """Return the series; symbols r_n stand for r_0**n and are 0 beyond the order, so one function serves every order."""
+    """Return the program for the coefficients of the series in r_0.
+
+    Its arguments r_n stand for r_0**n and are 0 beyond the wanted order, so that one function serves every order.
+    """
     orbit, cosine = paired_series(PAGE_ORDER), sp.Symbol("c", real=True)
     powers = [sp.Integer(1), *(sp.Symbol(f"r_{n}", real=True) for n in range(1, PAGE_ORDER + 1))]
     stages: list[Stage] = []

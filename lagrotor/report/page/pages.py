@@ -1,7 +1,7 @@
 """The report as pages (a front page, one page per section of the paper and per derivation), and as one self-contained file.
 
-Both consist of the same sections. A link in a section is an anchor, `#eq-5.07`, or a file of the report's folder. In the pages
-the page's address is put before an anchor; in the single file the figures are embedded.
+Both consist of the same sections. A section links to an anchor such as `#eq-5.07`, or to a file of the report's folder. In
+the pages the address of the anchor's page is put before it; in the single file the figures are embedded.
 """
 
 import json
@@ -39,7 +39,7 @@ _UNREAD = re.compile(r"<(script|style)\b.*?</\1>", re.DOTALL)
 
 @dataclass(frozen=True)
 class Page:
-    """One file of the report: its address relative to the front page, its name in the contents, its sections."""
+    """One HTML file: its address, its name in the table of contents, its sections. listed: False if the contents omit it."""
 
     file: str
     name: str
@@ -48,12 +48,12 @@ class Page:
 
     @property
     def body(self) -> str:
-        """The HTML of all sections."""
+        """The HTML of all sections of the page, joined."""
         return "\n".join(section.html for section in self.sections)
 
 
 def whole_page(report: Report) -> str:
-    """Return the whole report as one page with style, script, font, formulas and figures inside."""
+    """Return the whole report as one HTML page that contains its style, script, font, formulas and figures."""
     everything = sections(report)
     body = "\n".join(section.html for section in everything)
     for picture in report.pictures:
@@ -63,7 +63,7 @@ def whole_page(report: Report) -> str:
 
 
 def pages(report: Report) -> dict[str, str]:
-    """Return the files of the report as pages by address: HTML, the style, the script, and the words of the search."""
+    """Return a map from the address of each file to its text: the pages, their style and script, the words to search."""
     all_pages = _pages(report)
     places = {place: page.file for page in all_pages for place in _PLACE.findall(page.body)}
     words = [row for page in all_pages for row in _words(page.file, page.sections)]
@@ -73,7 +73,7 @@ def pages(report: Report) -> dict[str, str]:
 
 
 def _pages(report: Report) -> list[Page]:
-    """Return the pages in the order of the contents; figures and derivations belong to the section that they illustrate."""
+    """Return the pages in the order of the contents; figures and derivations are put into the sections they belong to."""
     remaining = {section.anchor: section for section in sections(report)}
     figures = remaining.pop("figures", None)
     derivations = remaining.pop("derivations", None)
@@ -98,7 +98,7 @@ def _pages(report: Report) -> list[Page]:
 
 
 def _in_short(section: ResultSection, report: Report) -> Section:
-    """Return the tables of a section, with a link to the rest of it."""
+    """Return a section with the tables of another section and a link to that one, which also has the figures."""
     tables = "".join(side_by_side(table, report) for table in section.tables)
     return Section(
         f"{section.name}-in-short", section.heading, f'{tables}<p><a href="#{section.name}">More, with figures</a></p>'
@@ -106,7 +106,7 @@ def _in_short(section: ResultSection, report: Report) -> Section:
 
 
 def _figures(remaining: Mapping[str, Section], figures: Section, report: Report) -> dict[str, Section]:
-    """Return the sections of the paper with their figures, and the figures that belong to no such section."""
+    """Return, by anchor, the sections with their figures appended; figures without a section are appended to `figures`."""
     of: dict[str, list[str]] = {}
     numbered = {str(number): entry.section for number, entry in report.paper.figures.items()}
     for picture in report.result_section("figures").pictures:
@@ -121,7 +121,7 @@ def _figures(remaining: Mapping[str, Section], figures: Section, report: Report)
 
 
 def _derivation_lists(remaining: Mapping[str, Section], report: Report) -> dict[str, Section]:
-    """Return the sections with links to their derivations; the other derivations have their own section."""
+    """Return, by anchor, the sections with links to their derivations appended; a new section has the other derivations."""
     of: dict[str, list[str]] = {}
     for stem, name, _ in report.derivations:
         owner = _owner(stem, report)
@@ -134,7 +134,7 @@ def _derivation_lists(remaining: Mapping[str, Section], report: Report) -> dict[
 
 
 def _owner(stem: str, report: Report) -> str:
-    """Return the section that shows the equations, tests or tables of a derivation."""
+    """Return the name of the section that shows the equations, tests or tables of a derivation; "" if none does."""
     about = report.paper.about
     for identifier, (stating, _) in report.paper.scripts.stating.items():
         if stating == stem:
@@ -150,7 +150,10 @@ def _owner(stem: str, report: Report) -> str:
 
 
 def _page(page: Page, all_pages: list[Page], places: Mapping[str, str], report: Report) -> str:
-    """Return a page with links and images relative to its own address."""
+    """Return the HTML document of a page; its links and images are relative to its own address.
+
+    places: anchor → address of the page that contains it.
+    """
     folder = dirname(page.file) or "."
 
     def address(match: re.Match[str]) -> str:
@@ -172,7 +175,7 @@ def _page(page: Page, all_pages: list[Page], places: Mapping[str, str], report: 
 def _document(
     report: Report, body: str, contents: Iterable[tuple[str, str]], style: str, script: str, name: str = ""
 ) -> str:
-    """Return a whole HTML document; the title of a page with a name links to the front page."""
+    """Return a whole HTML document; `name` is "" for the front page, and the title of any other page links to it."""
     listed = "".join(
         f'<li><a href="{address}"{_CURRENT if address == "#content" else ""}>{prose(heading)}</a></li>'
         for address, heading in contents
@@ -202,7 +205,7 @@ def _document(
 
 
 def _words(file: str, listed: Iterable[Section]) -> list[tuple[str, str, str, str]]:
-    """Return the search entries (address, number or name, heading, words) of each entry and then of the section."""
+    """Return the rows of the search: (address, anchor, heading, words) of each entry and then of each section."""
     rows = []
     for section in listed:
         text = section.html
@@ -220,7 +223,7 @@ def _text(html: str) -> str:
 
 
 def _data(rows: list[tuple[str, str, str, str]]) -> str:
-    """Return the words of the search as a script that any page can load, also from a disk."""
+    """Return the rows of the search as a script that any page can load, even if it is opened from a disk."""
     return f"const WORDS = {json.dumps(rows, ensure_ascii=False, separators=(',', ':'))};\n".replace("<", "\\u003c")
 
 

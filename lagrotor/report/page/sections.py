@@ -1,6 +1,6 @@
-"""The sections of the report as HTML, and their entries: an equation, an erratum, a claim, a figure, a result.
+"""The sections of the report as HTML, and their entries: equations, errata, claims, figures and main results.
 
-Links lead to anchors of the report and to files beside its front page.
+Their links lead to anchors of the report and to files beside its front page.
 """
 
 from collections.abc import Callable
@@ -52,14 +52,15 @@ _WIDEST = 2_000
 
 
 def equation_entry(verdict: Verdict, report: Report) -> str:
-    """Return an equation as printed beside the derived one, its facts, and its source."""
+    """Return the HTML entry of an equation: as printed beside as derived, the facts about it, and its LaTeX source."""
     entry, statement = report.paper.equation(verdict.id), verdict.statement
     printed = typeset(entry.latex)
     derived = (
-        "".join(map(typeset, derived_lines(statement.relations))) or "<p>A definition; there is nothing to derive.</p>"
+        "".join(map(typeset, derived_lines(statement.relations)))
+        or "<p>This is a definition and needs no derivation.</p>"
     )
     read = code("\n".join(as_read(entry)))
-    how = f"<p>Reading of the print: {prose(entry.reading)}.</p>" if entry.reading else ""
+    how = f"<p>The print is read as follows: {prose(entry.reading)}.</p>" if entry.reading else ""
     how += reading_of(entry, report)
     source = code(entry.latex) + how + (f"<p>As sympy reads it:</p>{read}" if entry.line else "")
     number = f" <small>({entry.number} in the paper)</small>" if entry.number else ""
@@ -74,7 +75,7 @@ def equation_entry(verdict: Verdict, report: Report) -> str:
 
 
 def reading_of(entry: Equation, report: Report) -> str:
-    """Return the typeset reading of a source's equation and its confirmation; empty for other lines."""
+    """Return the reading of an equation from a LaTeX source, typeset, and whether it is confirmed; else ""."""
     if not entry.read:
         return ""
     lines = "".join(map(typeset, typeset_lines(report.paper, entry.id)))
@@ -82,21 +83,21 @@ def reading_of(entry: Equation, report: Report) -> str:
 
 
 def erratum_entry(e: Erratum) -> str:
-    """Return the printed and the corrected equation, the error and its effect."""
+    """Return the HTML entry of an erratum: printed and corrected equation, the error, and its effect on results."""
     correct = "".join(map(typeset, e.corrected))
     for label, premises in e.conditions:
         formulas = "".join(map(typeset, premise_formulas(premises)))
         correct += f"<p>{label}: {prose('; '.join(p.sentence for p in premises))}.</p>{formulas}"
     return (
         f'<article id="erratum-{e.id}">{heading(f"erratum-{e.id}", e.id, e.title)}<p>{prose(e.wrong)}</p>'
-        f"{_beside('Printed', typeset(e.printed), f'Corrected ({escape(e.verdict_of_correction)})', correct)}"
+        f"{_beside('Printed', typeset(e.printed), f'Corrected equation ({escape(e.verdict_of_correction)})', correct)}"
         f"<p><small>{escape(e.reach.capitalize())}. Derived in {link(e.id)}. Used by: {links(e.used_by) or 'none'}"
         "</small></p></article>"
     )
 
 
 def _beside(heading_a: str, printed: str, heading_b: str, derived: str) -> str:
-    """Return two formulas under their headings, stacked if one is wide."""
+    """Return two formulas side by side under their headings; they stand below each other if one is wide."""
     layout = "pair" if max(len(printed), len(derived)) < _WIDEST else "stack"
     return (
         f'<div class="{layout}"><div><h4>{heading_a}</h4>{printed}</div><div><h4>{heading_b}</h4>{derived}</div></div>'
@@ -104,9 +105,9 @@ def _beside(heading_a: str, printed: str, heading_b: str, derived: str) -> str:
 
 
 def claim_entry(result: Result, report: Report) -> str:
-    """Return the claim in the paper's words, its outcome, and the measured numbers."""
+    """Return the HTML entry of a claim: the paper's words, its outcome with reasons, and the measured numbers."""
     entry, finding = report.paper.claims[result.test.id], result.finding
-    condition = f"<p><b>If:</b> {prose(finding.condition)}</p>" if finding.condition else ""
+    condition = f"<p><b>Condition:</b> {prose(finding.condition)}</p>" if finding.condition else ""
     place = anchor(entry.id)
     return (
         f'<article id="{place}">{heading(place, entry.id, f"section {entry.section}", finding.outcome)}'
@@ -117,7 +118,7 @@ def claim_entry(result: Result, report: Report) -> str:
 
 
 def picture_entry(picture: Picture, report: Report) -> str:
-    """Return the figure with its caption, its equations and claims, and its numbers."""
+    """Return the HTML entry of a figure: the drawing, its caption, its equations and claims, and measured numbers."""
     place = anchor(f"figure {picture.key}")
     measured = fold("Measured", number_list("Quantity", picture.measured.items())) if picture.measured else ""
     return (
@@ -128,14 +129,14 @@ def picture_entry(picture: Picture, report: Report) -> str:
 
 
 def _image(picture: Picture) -> str:
-    """Return the drawing, loaded when it is scrolled to; a click enlarges it (page.js)."""
+    """Return the HTML element of a drawing. It is loaded when it is scrolled to, and a click enlarges it (page.js)."""
     width, height = size(picture)
     source = f'src="figures/{picture.svg.name}" width="{width}" height="{height}"'
     return f'<img {source} loading="lazy" alt="{escape(picture.alt)}">'
 
 
 def headline_entry(headline: Headline, report: Report) -> str:
-    """Return a main result with its figure."""
+    """Return the HTML entry of a main result: title, sentence, formula, figure and links."""
     formula = typeset(headline.formula) if headline.formula else ""
     drawn = next((p for p in report.pictures if f"figure {p.key}" == headline.figure), None)
     formula += _image(drawn) if drawn else ""
@@ -144,7 +145,7 @@ def headline_entry(headline: Headline, report: Report) -> str:
 
 
 def count_entry(answer: str, count: int, meaning: str) -> str:
-    """Return the number of equations with a verdict, and the meaning of the verdict."""
+    """Return the HTML entry that states how many equations or claims have an answer, and what this answer means."""
     return f"<li><b>{count}</b> {badge(answer)} <span>{escape(meaning)}</span></li>"
 
 
@@ -166,12 +167,12 @@ class Section:
 
 
 def sections(report: Report) -> list[Section]:
-    """Return every section of the report in the order of its contents."""
+    """Return every section of the report, in the order of the table of contents."""
     return [Section(anchor, heading, _inside(anchor, report)) for anchor, heading in contents(report)]
 
 
 def introduction(report: Report) -> str:
-    """Return the opening lines of `paper.toml`, which stand above the sections."""
+    """Return the opening lines of `paper.toml` as an HTML list, which stands above the sections; "" without any."""
     lines = "".join(f"<li><b>{escape(label)}</b> {prose(text)}</li>" for label, text in opening(report))
     return f'<ul class="opening">{lines}</ul>' if lines else ""
 

@@ -128,7 +128,9 @@ def test_standard_classes_number_as_latex_does(document_class: str, body: str, n
 
 ARTICLE = r"\documentclass{article}\begin{document}"
 AUX = r"\relax\newlabel{a}{{4.2}{7}}\newlabel{b}{{$3^\prime $}{7}{Title}{equation.3}{}}"
-MAY_BE_OTHERS = "and the equation numbers may differ: put paper.aux, which LaTeX writes, next to the source"
+MAY_BE_OTHERS = (
+    "and the equation numbers may differ from the printed ones: put paper.aux, which LaTeX writes, next to the source"
+)
 COUNTS = r"\begin{equation}\label{a} a = b \end{equation}\begin{equation}\label{b} c = d \end{equation}"
 
 

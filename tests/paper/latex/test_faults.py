@@ -32,7 +32,7 @@ FAULTS = {
     "\\verb|a": (2, r"\verb is not closed on its line", ["x = y"]),
     "\\iffalse hidden": (2, r"\iffalse has no \fi: the text up to the end is skipped", []),
     "\\newcommand{\\q}{a": (2, "{ is not closed: the text up to the end becomes the argument", []),
-    "\\newcommand{\\q}[1][a]{#1} \\q[0, 1)": (2, "the argument has no end, ], in its paragraph", ["x = y"]),
+    "\\newcommand{\\q}[1][a]{#1} \\q[0, 1)": (2, "the argument has no closing ] in its paragraph", ["x = y"]),
 }
 
 
@@ -90,7 +90,7 @@ def test_a_fault_is_a_finding_and_a_note(tmp_path: Path, capsys: pytest.CaptureF
             b"\\[ a = b \\] \\input{b}",
             r"includes itself, directly or through another file: remove one \\input",
         ),
-        ("a.tex", b"%" * 21_000_000, "has 21 MB, more than 20: give its parts"),
+        ("a.tex", b"%" * 21_000_000, "has 21 MB, more than the limit of 20 MB: give its parts"),
     ],
 )
 def test_what_is_no_source_is_refused(name: str, content: bytes, said: str, tmp_path: Path) -> None:
@@ -124,7 +124,7 @@ def test_a_part_that_could_stand_by_itself_does_not_end_the_source(tmp_path: Pat
 @pytest.mark.parametrize(
     ("body", "said"),
     [
-        (r"\begin{seq} x^2 = y+1 \end{seq}", r"a formula is in \begin{seq}, which is unknown: define it"),
+        (r"\begin{seq} x^2 = y+1 \end{seq}", r"a formula is in \begin{seq}, which is unknown: define this environment"),
         (r"\def\bq{\begin{seq}}\def\eq{\end{seq}} \bq \alpha^2 \text{ for all} \eq", r"a formula is in \begin{seq}"),
         (r"\begin{numcases}{f =} a = b \end{numcases}", r"\begin{numcases} is not read: write equation or align"),
         (r"\begin{box}Words. \begin{seq} x^2 \end{seq}\end{box}", r"a formula is in \begin{seq}"),

@@ -234,14 +234,14 @@ def test_a_left_side_that_is_no_expression_is_no_equation_of_motion(folder: Path
     edit(folder / "paper.toml", '"1" = "L"', '"1" = "motion theta"')
     text = (folder / "equations.toml").read_text(encoding="utf-8")
     (folder / "equations.toml").write_text(text.replace('members = ["0", ', 'members = ["0"] # ', 1), encoding="utf-8")
-    assert "no single left side in the coordinates" in " ".join(refusals(folder))
+    assert "no single left side in the symbols" in " ".join(refusals(folder))
 
 
 @pytest.mark.parametrize(
     ("old", "new", "says"),
     [
         ('coordinates = "theta"', 'coordinate = "theta"', "'coordinate' is not a key"),
-        ('"acceleration theta"', '"acceleration phi"', "the coordinates are theta"),
+        ('"acceleration theta"', '"acceleration phi"', "names no coordinate: write one of the coordinates theta"),
         ('"energy"', '"action"', "'action' is unknown"),
         ("coordinates =", 'where = ["g"]\ncoordinates =', "defines no symbol"),
         ("coordinates =", 'where = ["g = R"]\ncoordinates =', "g is a symbol of the system"),

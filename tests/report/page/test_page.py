@@ -204,11 +204,11 @@ def test_nothing_is_left_out(write: Callable[[Report], str], report: Report) -> 
         assert identifier in text
     for verdict in report.verdicts:
         assert f'id="eq-{verdict.id}"' in text
-    for part in ("sympy", "Python", "holds if", "refuted", "decided by the same procedure: holds", "0a", "version = {"):
+    for part in ("sympy", "Python", "holds if", "refuted", "by the same procedure, is: holds", "0a", "version = {"):
         assert part in text
     assert "Effect on results" in text
     assert "Used by" in text
-    assert "agrees through order 0 in" in text
+    assert "agree through order 0 in" in text
 
 
 @pytest.mark.parametrize("write", [whole_page, markdown])
