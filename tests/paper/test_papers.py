@@ -142,7 +142,12 @@ LETTER = r"s1_motion\.py:\d+: .*equations\.toml: 1\.1: .*'L' is not defined"
 FAILURES = {
     "fails": (MOTION, "(acceleration,) =", "(a, b) =", rf"s1_motion\.py:{SOLVED}: ValueError"),
     "no Python": (MOTION, "(acceleration,) =", "(acceleration,) = =", rf"s1_motion\.py:{SOLVED}: invalid syntax"),
-    "wrong proof": (MOTION, "theta_a + m", "theta_a - m", r"s1_motion\.py:\d+: prove: Lagrange's equation is nonzero"),
+    "wrong proof": (
+        MOTION,
+        "theta_a + m",
+        "theta_a - m",
+        r"s1_motion\.py:\d+: prove: Lagrange's equation: left − right is nonzero",
+    ),
     "unknown equation": (
         MOTION,
         'verdict("1.1"',
