@@ -197,7 +197,7 @@ class Paper(Catalogue):
     def _audit_one(self, identifier: str, progress: Progress | None) -> Verdict:
         self.equation(identifier)
         if identifier not in self.scripts.stating:
-            raise InputError(f"equation {identifier} is not yet judged: no derivation states it")
+            raise InputError(f"equation {identifier} is not yet judged: state it in a derivation by `verdict`")
         stem, _ = self.scripts.stating[identifier]
         if progress:
             progress(stem)
