@@ -131,7 +131,7 @@ def _not_derived(relations: Iterable[Relation]) -> list[str]:
 
 
 def _undefined_symbol_text(name: str) -> str:
-    return f'{readable(name)} is printed, but not derived: if the text of the paper defines it, write letters = {{ {name} = "…" }}'
+    return f'{readable(name)} is printed, but not derived: if the paper defines it, write letters = {{ {name} = "…" }}'
 
 
 def _printed(entry: Equation) -> list[str]:

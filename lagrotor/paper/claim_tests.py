@@ -141,7 +141,7 @@ class ClaimTest:
     id : str
         The claim's id in `claims.toml`.
     case : Any
-        The claim's own case: the argument of `measure`, such as spins or a scene.
+        The claim's own case, the argument of `measure`: parameters or initial values of the simulation.
     foreign : Mapping[str, Any]
         Part of the sentence → a case that contradicts it, so that the decision on this part must differ.
     model : str
