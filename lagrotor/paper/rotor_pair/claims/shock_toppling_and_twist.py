@@ -493,7 +493,7 @@ def decide_c13(m: Mapping[str, float]) -> Finding:
         "The means are taken over four periods of the natural rate. After 20 N along x the means of x₁ and x₂ are "
         f"{m['shock_along_x_20_N_mean_x_1']:+.4f} and {m['shock_along_x_20_N_mean_x_2']:+.4f}. Half their sum is proportional "
         f"to F to the power {m['power_of_shock_along_x_in_common_mean']:.2f}, half their difference to F to the power "
-        f"{m['power_of_shock_along_x_in_half_difference']:.2f}. After 5 N along y the mean is "
+        f"{m['power_of_shock_along_x_in_half_difference']:.2f}. After 5 N along y the mean of x is "
         f"{m['shock_along_y_5_N_mean_x']:+.5f} (−PR/(2G), with the impulse P, gives {m['shock_along_y_5_N_predicted']:+.5f}). "
         f"It is proportional to F to the power {m['power_of_shock_along_y_in_common_mean']:.2f}. After the paper's 50 N the "
         f"mean of x is {m['shock_along_x_50_N_mean_x']:+.3f} for a force along x and {m['shock_along_y_50_N_mean_x']:+.3f} for "
@@ -508,7 +508,7 @@ C12 = ClaimTest(
     {**dict.fromkeys((FAILS, TWISTS, PARTS), Twistable(1000.0)), CAUSE: Twistable(stiffer=(0.1, 0.2, 0.5))},
     "exact pair (spheres), bar m = 1 kg, K = 1 to 1000 kg m²", measure_c12, decide_c12,
     lambda case: axes_part(PARTS, Link(mass=1, inertia=case.K)) if case == Twistable() else (),
-    "the other parts compare simulations with bars of several inertias, to one part in ten",
+    "they compare simulations with bars of several inertias, to one part in ten",
 )  # fmt: skip
 C13 = ClaimTest(
     "C13", 4.0, {NO_MEAN: 0.25}, "exact pair (spheres), bar m = 1 kg, K = 1 kg m²", measure_c13, decide_c13,

@@ -536,8 +536,8 @@ def decide_c09(m: Mapping[str, float]) -> Finding:
         f"{scientific(about_middle)} m about the midpoint of the grounds. It varies by {scientific(about_line)} m about the "
         "line through the grounds, which exert no moment about this line. Without grounds the same bodies conserve the "
         f"momentum to {scientific(m['momentum_swing_without_grounds'])} and the angular momentum to "
-        f"{scientific(m['angular_momentum_swing_without_grounds'])} m, in the same units. The paper's run has parallel axes, so "
-        "that its angular momentum about the midpoint is conserved, which could have served as a check.",
+        f"{scientific(m['angular_momentum_swing_without_grounds'])} m, also divided by the impulse. The paper's run has "
+        "parallel axes, so that its angular momentum about the midpoint is conserved, which could have served as a check.",
     )
 
 
