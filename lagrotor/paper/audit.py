@@ -79,10 +79,7 @@ _LONGEST = 120  # characters; a longer difference is replaced by the reason
 
 
 def in_words(verdict: Verdict, paper: Any) -> str:
-    """Return a verdict as text for a terminal.
-
-    Its lines give the print, the error, the correction, the premises, the domain and the derivation.
-    """
+    """Return a verdict as text for a terminal: print, error, correction, premises, domain and derivation."""
     statement, entry = verdict.statement, paper.equation(verdict.id)
     order = (
         f" through order {verdict.order} in {readable(str(verdict.small))}"
@@ -143,7 +140,7 @@ def line_text(line: LineVerdict) -> str:
     """Return the verdict on one member of a line in plain text, with the difference of the sides or the reason."""
     text = f"{from_latex(line.relation.quantity)}: {line.verdict}".removeprefix(": ")
     difference = "" if line.difference is None or line.reason else readable(str(line.difference))
-    reason = f"differs by {difference}" if 0 < len(difference) <= _LONGEST else line.reason
+    reason = f"the sides differ by {difference}" if 0 < len(difference) <= _LONGEST else line.reason
     return f"{text}: {reason}" if reason else text
 
 
@@ -156,7 +153,7 @@ def dimension_texts(verdict: Verdict) -> tuple[str, ...]:
             alike[dimensions.says] = None
         elif dimensions:
             apart[f"{quantity}: {dimensions.answer}: {dimensions.says}"] = None
-    return (*([f"equal on both sides: {'; '.join(alike)}"] if alike else []), *apart)
+    return (*([f"the dimensions of both sides are equal: {'; '.join(alike)}"] if alike else []), *apart)
 
 
 def uncorrected(verdict: Verdict) -> list[Relation]:
@@ -167,10 +164,7 @@ def uncorrected(verdict: Verdict) -> list[Relation]:
 
 
 def _lines(relations: Iterable[Relation], side: str = "printed") -> list[str]:
-    """Return the text `quantity = expression` of each relation, without repetition.
-
-    `side` selects the printed or the derived side.
-    """
+    """Return the lines `quantity = expression` of the printed or the derived side of relations, each line once."""
     lines = []
     for relation in relations:
         small, order = relation.known or (relation.small, relation.claimed)

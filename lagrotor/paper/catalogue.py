@@ -223,10 +223,7 @@ class Claim:
 
 @dataclass(frozen=True)
 class Figure:
-    """One figure of the paper. `kind` is diagram, simulated, analytical or both;
-
-    `equations` are the ids of the equations that it shows.
-    """
+    """One figure; its `kind` is diagram, simulated, analytical or both, its `equations` are the ids of those shown."""
 
     number: int
     kind: str
@@ -252,10 +249,7 @@ def is_claim(identifier: str) -> bool:
 
 
 def known_id(identifier: str, ids: Collection[str]) -> str:
-    """Return the id if the paper has it.
-
-    Raise InputError otherwise, which names similar ids: for 5.1 these are 5.01 and 5.10.
-    """
+    """Return the id if the paper has it; otherwise raise InputError, which names similar ids such as 5.01 for 5.1."""
     if identifier in ids:
         return identifier
     if not ids:
@@ -421,10 +415,7 @@ class Catalogue:
 
     @property
     def written_out(self) -> Mapping[Any, Any]:
-        """The symbols that abbreviate expressions, with these expressions.
-
-        They are expanded before a scene's values are substituted.
-        """
+        """Abbreviating symbols and their expressions. They are expanded before a scene's values are substituted."""
         return getattr(self._symbols, "WRITTEN_OUT", {})
 
     def letters(self, section: str) -> Letters:

@@ -115,10 +115,7 @@ class Finding:
         return tuple((part, theorem) for part in self.parts for theorem in part.theorems)
 
     def _with_theorems(self, proved: Iterable[Part], where: str) -> "Finding":
-        """Add the theorems in `proved` to the parts of the same name.
-
-        Raise ProofError if a part is unknown, or if a theorem contradicts the simulation.
-        """
+        """Add theorems to the parts that they decide; raise ProofError if one contradicts the simulation."""
         parts = {part.says: part for part in self.parts}
         for part in proved:
             if part.says not in parts or not part.theorems:

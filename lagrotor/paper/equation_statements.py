@@ -169,10 +169,7 @@ def statement(assertion: Stated, catalogue: Catalogue) -> Statement:
 
 
 def _theorems(entry: Equation, assertion: Stated) -> tuple[dict[str, Theorem], list[str]]:
-    """Return quantity → the theorem that bounds it, and a sentence for each proof that failed.
-
-    Without python-flint the theorems are empty.
-    """
+    """Return quantity → its theorem, and a sentence for each failed proof. Theorems are empty without python-flint."""
     theorems: dict[str, Theorem] = {}
     refusals: list[str] = []
     for name, prove in _by_quantity(assertion.prove, entry).items():
@@ -280,10 +277,7 @@ def _corrections(
 def _forms(
     entry: Equation, lines: tuple[Line, ...], quantities: Mapping[str, Side], assertion: Stated, letters: Letters
 ) -> dict[str, dict[str, Any]]:
-    """Return quantity → the form's LaTeX and whether it needs the premises.
-
-    Raise ProofError if a form is not equal to the derived side.
-    """
+    """Return quantity → the form's LaTeX and if it needs premises; raise ProofError if it is not the derived side."""
     forms: dict[str, dict[str, Any]] = {}
     for name, form in _by_quantity(assertion.form, entry).items():
         if name not in quantities:

@@ -235,10 +235,7 @@ def norm(u: sp.Matrix) -> sp.Expr:
 
 
 def rate(expression: Any, moving: Iterable[Any], velocities: Iterable[Any]) -> Any:
-    """Return the time derivative of an expression or a matrix.
-
-    `velocities` gives the rates of the symbols or vectors in `moving`, in the same order.
-    """
+    """Return the time derivative of an expression or a matrix; `velocities` are the rates of `moving`, in its order."""
     flow = components(moving), components(velocities)
     if isinstance(expression, sp.MatrixBase):
         return expression.applyfunc(lambda entry: along(entry, *flow))
@@ -280,20 +277,14 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
 
 @dataclass(frozen=True)
 class Letters:
-    """The symbols of a section: `names` maps names to symbols, vectors or functions.
-
-    `latex` maps names to LaTeX, where it differs from the name.
-    """
+    """The symbols of a section: name → symbol, vector or function, and name → LaTeX if that is not the name."""
 
     names: Mapping[str, Any] = field(default_factory=dict)
     latex: Mapping[str, str] = field(default_factory=dict)
 
 
 def declared(letters: Mapping[str, str]) -> dict[str, Any]:
-    """Return name → symbol.
-
-    `letters` maps each kind to names; the kinds are 'vector', 'symmetric', 'real', 'positive' and 'nonnegative'.
-    """
+    """Return name → symbol from kind → names. Kinds are 'vector', 'symmetric', 'real', 'positive' and 'nonnegative'."""
     symbols: dict[str, Any] = {}
     for kind, names in letters.items():
         for name in names.split():
@@ -311,10 +302,7 @@ def declared(letters: Mapping[str, str]) -> dict[str, Any]:
 
 
 def read(text: str, letters: Mapping[str, Any], where: str) -> Any:
-    """Read an expression in the given symbols and in `FUNCTIONS`.
-
-    Raise InputError for unreadable text and undeclared symbols.
-    """
+    """Read an expression in the given symbols; raise InputError for unreadable text and undeclared symbols."""
     return parsed(text, {**FUNCTIONS, **letters}, where)
 
 

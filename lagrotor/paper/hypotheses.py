@@ -65,10 +65,7 @@ class Hypotheses:
 
     @cached_property
     def signed(self) -> "Hypotheses":
-        """The same set, in which inequalities become assumptions of symbols.
-
-        This is done where they are linear in a free symbol.
-        """
+        """The same set, with inequalities that are linear in a free symbol turned into assumptions of symbols."""
         values, equations, meaning = dict(self.values), self.equations, dict[sp.Symbol, sp.Expr]()
         order = canonical_order((sp.S.Zero, *self.region, *equations))
         for relation in sorted(self.region, key=lambda r: not (r.lhs.is_Symbol and r.rhs == 0)):
@@ -158,10 +155,7 @@ def _without_inverse(e: sp.Expr) -> tuple[sp.Expr, tuple[Relational, ...]]:
 
 
 class _Wishes(NamedTuple):
-    """The symbols to be eliminated first and last, and the order of the others.
-
-    The choice affects only how readable results are.
-    """
+    """The symbols to be eliminated first and last. The choice affects only how readable results are."""
 
     first: frozenset[sp.Symbol] = frozenset()
     last: sp.Symbol | None = None
@@ -289,10 +283,7 @@ def _plain_steps(e: sp.Expr, small: tuple[sp.Symbol, ...]) -> tuple[_Step, ...]:
 
 @lru_cache(maxsize=2048)
 def _steps(e: sp.Expr, small: tuple[sp.Symbol, ...], domain: _Known) -> tuple[_Step, ...]:
-    """Return the steps that solve an equation for a symbol.
-
-    The equation is linear in the symbol, or in one function of it, with a coefficient that does not vanish.
-    """
+    """Return the steps that solve an equation, linear in a symbol or in one function of it, for the symbol."""
     steps = []
     for letter in e.free_symbols - set(small):
         kernel = _kernel(e, letter)
@@ -317,11 +308,7 @@ def _steps(e: sp.Expr, small: tuple[sp.Symbol, ...], domain: _Known) -> tuple[_S
 
 
 def _kernel(e: sp.Expr, letter: sp.Symbol) -> sp.Expr | None:
-    """Return the expression in which an equation may be linear.
-
-    It is the symbol itself, if it occurs in sums and products only, else the single function or power that contains it; None if
-    there are several.
-    """
+    """Return a symbol or its single function or power in an equation, in which this may be linear; None if several."""
     inside = {node for node in sp.preorder_traversal(e) if letter in node.args and not (node.is_Add or node.is_Mul)}
     if not inside:
         return letter
@@ -331,10 +318,7 @@ def _kernel(e: sp.Expr, letter: sp.Symbol) -> sp.Expr | None:
 
 
 def _step(letter: sp.Symbol, value: sp.Expr, conditions: tuple[Relational, ...] = ()) -> _Step:
-    """Return the elimination of a symbol by its value, with its rank.
-
-    Numbers rank first, then values that add no condition, then short values.
-    """
+    """Return an elimination step. Numbers rank first, then values that add no condition, then short values."""
     lossy = len(_implied_conditions(letter, value)) + len(conditions)
     return _Step((not value.is_number, lossy, sp.count_ops(value)), letter, value, conditions)
 
@@ -492,10 +476,7 @@ def _in_one_ring(
 def _in_small_ring(
     targets: list[PolyElement], relations: list[PolyElement]
 ) -> tuple[PolyRing, list[PolyElement], list[PolyElement]] | None:
-    """Return the ring of the generators that matter, with all polynomials in it.
-
-    Return None if these are too many or too large for a Gröbner basis.
-    """
+    """Return a ring of the generators that matter and the polynomials in it; None if these are too many or large."""
     everything = [*targets, *relations]
     # A generator that is only a common factor of a target, as m in m (…), decides nothing.
     powers = [[{m[i] for m in p.itermonoms()} for p in everything] for i in range(targets[0].ring.ngens)]
@@ -522,10 +503,7 @@ _POINTS, _CHECKED = 40, 2
 
 @dataclass(frozen=True)
 class Witness:
-    """A counterexample: a point, and bounds there of the difference and of both sides.
-
-    The bounds of a side that is not real are None.
-    """
+    """A counterexample: a point, and bounds there of the difference and of each side (None if that is not real)."""
 
     point: Values
     enclosure: Bounds
@@ -569,10 +547,7 @@ def _separating_point(
 
 
 def contradicted(printed: Any, derived: Any, under: Hypotheses) -> Values | None:
-    """Look for a point at which two sides differ that were proved to be equal.
-
-    Return it, or None; such a point would reveal a bug. The sides are evaluated without eliminating symbols.
-    """
+    """Return a point at which two sides differ that were proved to be equal; None unless there is such a bug."""
     signed = under.signed
     for a, b in zip(*(side if isinstance(side, sp.MatrixBase) else [side] for side in (printed, derived)), strict=True):
         for values in islice(_points([signed.on(a), signed.on(b)], signed), _CHECKED):

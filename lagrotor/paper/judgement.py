@@ -73,10 +73,7 @@ class Judgement:
 
 @dataclass(frozen=True)
 class _Text:
-    """A relation as text: its sides and the signs between them.
-
-    `order` is (symbol, power) of its O(…) or None, `nodes` the sides as LaTeX trees.
-    """
+    """A relation as text: its sides and signs, (symbol, power) of its O(…) or None, and the sides as LaTeX trees."""
 
     sides: tuple[str, ...]
     signs: tuple[str, ...]

@@ -97,10 +97,7 @@ def judge(
 
 
 def decide(statement: Statement, glossary: Glossary | None = None) -> Verdict:
-    """Return the verdict on a statement and, by the same rules, on its correction.
-
-    `glossary` gives the units of the symbols, from which the dimensions are computed.
-    """
+    """Return the verdict on a statement and its correction; `glossary` gives the units for the dimensional analysis."""
     began = time.perf_counter()
     meanings = Glossary() if glossary is None else glossary
     lines, right = (
@@ -286,10 +283,7 @@ def _branch(relation: Relation, assumed: tuple[Premise, ...]) -> tuple[Premise, 
 
 
 def _has_room(condition: Relational, assumed: tuple[Premise, ...]) -> bool:
-    """Return True if a point of the premises satisfies a condition strictly.
-
-    The edge of the condition, where a root is 0, proves nothing.
-    """
+    """Return True if a point of the premises satisfies a condition strictly, not only at its edge, where a root is 0."""
     inside = sp.StrictGreaterThan(condition.gts, condition.lts)
     return not isinstance(inside, Relational) or bool(
         witness((sp.S.One, sp.S.Zero), hypotheses((*assumed, Premise("inside", where=(inside,)))))
@@ -503,10 +497,7 @@ def _read_off_series(relation: Relation, ratio: sp.Expr, small: sp.Symbol, order
 
 
 def _constant(ratio: sp.Expr, under: Hypotheses) -> sp.Expr | None:
-    """Return a ratio of rates as a number, which may contain roots.
-
-    Return None if the ratio or its sign depends on a symbol.
-    """
+    """Return a ratio of rates as a number, which may contain roots; None if its value or sign depends on a symbol."""
     square = sp.cancel(ratio**2)
     if not square.is_number:
         return None
@@ -551,10 +542,7 @@ def _to_order(
 
 
 def _first_term(side: sp.Expr, small: sp.Symbol, through: int, under: Hypotheses) -> LeadingTerm:
-    """Return the leading term of a series.
-
-    Terms are skipped whose coefficient vanishes wherever the unsolved equations hold.
-    """
+    """Return the leading term of a series, skipping coefficients that vanish wherever the unsolved equations hold."""
     sign, letter = under.signed.on(small).as_coeff_Mul()  # a condition may fix the sign of the small quantity
     if any(letter in e.free_symbols for e in under.signed.equations):
         raise NotExactError(f"a premise that is not linear fixes {small}, so that there is no series in {small}")

@@ -222,10 +222,7 @@ class Paper(Catalogue):
         return replace(verdict, verdict="undecided", correction_verdict=None, evidence=(reason, *verdict.evidence))
 
     def _set_reach(self, verdict: Verdict, answers: Mapping[str, str], uses: Mapping[str, Iterable[str]]) -> Verdict:
-        """Set `reaches_result` of the verdict if the equation is refuted.
-
-        `answers` and `uses` hold, by id, the verdicts and the equations used.
-        """
+        """Set `reaches_result` if the equation is refuted, from the verdicts and the used equations by id."""
         if verdict.verdict != "refuted":
             return verdict
         reaches = record.reaches_result(verdict.id, self.about.results, answers, uses)
@@ -365,10 +362,7 @@ def audit_of(paper: Paper, verdicts: Iterable[Verdict]) -> Audit:
 
 
 def check_scripts(paper: Paper) -> None:
-    """Check symbols and ids of a paper's scripts before they run.
-
-    Raise InputError, with file and line, if symbols cannot be read, or if an equation is unknown or stated twice.
-    """
+    """Raise InputError, with file and line, if symbols cannot be read, or an equation is unknown or stated twice."""
     _ = paper.glossary
     for identifier, (stem, line) in paper.scripts.stating.items():
         if identifier not in paper.equations:

@@ -191,10 +191,7 @@ Assumptions: TypeAlias = (
 
 
 def premises_of(assumptions: Assumptions) -> tuple[Premise, ...]:
-    """Return the assumptions as premises: one for each relation, row of a substitution and Premise.
-
-    Raise InputError for anything else.
-    """
+    """Return one premise for each relation, row of a substitution and Premise; raise InputError for anything else."""
     if isinstance(assumptions, Premise):
         return (assumptions,)
     if isinstance(assumptions, Mapping):

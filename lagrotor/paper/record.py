@@ -166,10 +166,7 @@ def _as_text(value: Any) -> str:
 def reaches_result(
     identifier: str, results: Iterable[str], verdicts: Mapping[str, str], uses: Mapping[str, Iterable[str]]
 ) -> bool:
-    """Return True if a refuted main result (`results`) of the paper is the given equation or depends on it.
-
-    `uses` has the ids that each equation uses.
-    """
+    """Return True if a refuted main result is this equation or depends on it; `uses` has the equations that each uses."""
     ends = set(results)
     visited, stack = {identifier}, [identifier]
     while stack:

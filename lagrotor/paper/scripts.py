@@ -30,10 +30,7 @@ def beside(name: str) -> Path:
 
 @dataclass(frozen=True)
 class ScriptCell:
-    """One cell of a script: prose in Markdown, or code.
-
-    For code, `values` are the shown values and `warned` the package's warnings, each once.
-    """
+    """One cell of a script: prose, or code with the values that it shows and the package's warnings, each once."""
 
     kind: Literal["prose", "code"]
     text: str

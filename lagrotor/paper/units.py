@@ -42,10 +42,7 @@ _UNCLEAR = re.compile(r"/[^()]*\*(?!\*)")
 
 @cache
 def dimension_of(unit: str) -> sp.Expr:
-    """Return the dimension of a unit written as kg m²/s, kg m^2 s^-1, N/(rad s) or 1.
-
-    Raise InputError for an unknown or ambiguous unit.
-    """
+    """Return the dimension of a unit such as kg m²/s or kg m^2 s^-1; raise InputError if it is unknown or ambiguous."""
     text = (
         re.sub(r"[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+", lambda dimension: f"^{dimension[0].translate(_RAISED)}", unit)
         .replace("°", "deg")
@@ -103,10 +100,7 @@ class Dimensions:
 
 
 def dimensions(printed: Any, derived: Any, glossary: Glossary, values: Mapping[Any, Any]) -> Dimensions:
-    """Compare the dimensions of two sides, matrices entry by entry.
-
-    `values` gives the numbers that premises substitute for symbols.
-    """
+    """Compare the dimensions of two sides; `values` gives the numbers that premises substitute for symbols."""
     units: dict[sp.Symbol, sp.Expr] = {}
     unread: dict[str, str] = {}
     for symbol, entry in glossary.items():
@@ -227,10 +221,7 @@ class _Reader:
         return named[0]
 
     def _common(self, terms: Iterable[Any]) -> sp.Expr | None:
-        """Return the dimension that all terms of a sum share; None if all are zero.
-
-        Terms that differ are reported even if the dimension of another is not known.
-        """
+        """Return the dimension that all terms share; terms that differ are reported even if others are unknown."""
         first: tuple[Any, sp.Expr] | None = None
         unknown: _UnknownError | None = None
         for term in terms:

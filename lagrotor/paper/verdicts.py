@@ -320,13 +320,14 @@ def verdict_table(verdicts: Iterable[Verdict]) -> Table:
 
 def _row(v: Verdict) -> tuple[str, tuple[str, ...], tuple[str, ...]]:
     order = f"through order {v.order} in {readable(str(v.small))}" if v.verdict == "holds-to-order" else ""
-    corrected = f"the correction: {v.correction_verdict}" if v.verdict == "refuted" and v.correction_verdict else ""
+    is_corrected = v.verdict == "refuted" and v.correction_verdict
+    corrected = f"the verdict on the correction is {v.correction_verdict}" if is_corrected else ""
     where = f"where {', '.join(map(relation_text, v.domain))}" if v.domain and v.verdict in AGREES else ""
     # Of an equation outside a paper the user has given the premises.
     judge_premises = () if v.id else v.statement.premises
     premises = v.premises if v.verdict in AGREES or v.id else judge_premises
-    under = (f"as stated if {readable(p.with_formula)}" for p in v.refuted_under if v.id)
-    prefix = "corrected if " if corrected else ""
+    under = (f"refuted under the premise {readable(p.with_formula)}" for p in v.refuted_under if v.id)
+    prefix = "the correction holds if " if corrected else ""
     ifs = (("under the given premise " if p in judge_premises else prefix) + readable(p.with_formula) for p in premises)
     decided = (v.verdict, *under, *(() if corrected else ifs), order, where, corrected, *(ifs if corrected else ()))
     named = f"{v.id}: {v.statement.title}" if v.id else v.statement.title or _equation(v.statement)

@@ -39,10 +39,7 @@ AMPLITUDES = (0.051, 0.102, PAPER_R0)
 def shocked_scene(
     spins: tuple[float, float], force: Vector, bar: Link | None = HEAVY_LINK, width: float = 1 / 50
 ) -> Scene:
-    """Return a scene in which the pair rests until a shock on rotor 1.
-
-    The shock has the given force (N) and width (s) and its peak at ten widths.
-    """
+    """Return a pair at rest before a shock on rotor 1 of this force (N) and width (s), with its peak at ten widths."""
     return Scene(spins, link=bar, shock=Shock(force, 10 * width, width))
 
 
@@ -55,10 +52,7 @@ def after_shock(scene: Scene, seconds: float, tol: float = 1e-9) -> Trajectory:
 
 
 def angle_between(axes: Array) -> Array:
-    """Return the angle (n,) in rad between two axes (2, n, 3).
-
-    It is computed from their difference, so that small angles are accurate.
-    """
+    """Return the angle (n,) in rad between two axes (2, n, 3), computed so that small angles are accurate."""
     return 2 * np.arcsin(np.linalg.norm(axes[1] - axes[0], axis=-1) / 2)
 
 
@@ -145,10 +139,7 @@ def rate_runs(exact: Trajectory, printed: float) -> dict[str, Array]:
 
 
 def rate_numbers(runs: dict[str, Array]) -> dict[str, float]:
-    """Return numbers of `rate_runs`: the amplitude (m), the rates (rad/s) and the largest residuals (m).
-
-    The rates are those of the exact model, of the springs and of the closed form.
-    """
+    """Return amplitude (m), rates (rad/s) and largest residuals (m) of the models and of the closed form."""
     t, exact, springs, rate = runs["t"], runs["exact"], runs["springs"], runs["closed_form_rate"][0]
     is_after = t > SPECTRUM_FROM
     early = is_after & (t < SPECTRUM_FROM + 3)

@@ -42,10 +42,7 @@ def _no_crossing(scene: Scene, event: sp.Expr, until: str, says: str = "") -> Th
 
 
 def _means(system: Any, spans: Spans, says: str = "", start: Any = (None, None)) -> tuple[tuple[Any, ...], Theorem]:
-    """Prove bounds of means over time spans.
-
-    `spans` has rows (expression, begin, end); return the bounds of each mean and the theorem.
-    """
+    """Return proved bounds of means, with the theorem; each row of `spans` is (expression, begin, end)."""
     from lagrotor.proofs import means
 
     proof = means(system, None, start[0], start[1], spans, _TOL)

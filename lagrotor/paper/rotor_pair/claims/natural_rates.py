@@ -53,10 +53,7 @@ def _scene(spins: Spins, bar: Link | None, force: float) -> Scene:
 
 
 def rate_of_run(spins: Spins, bar: Link | None, force: float, seconds: float = PAPER_RUN) -> tuple[float, float]:
-    """Simulate the exact pair after a shock along x.
-
-    Return the rate (rad/s) fitted to x_1 over `seconds`, and the largest |x_1|.
-    """
+    """Return the rate (rad/s) fitted to x_1 of the exact pair for `seconds` after a shock, and the largest |x_1|."""
     scene = _scene(spins, bar, force)
     start = shock_of(scene).at + 0.33
     run = simulate(scene, [0.0, *np.linspace(start, start + seconds, 400)], "spheres", 1e-9).after(start)
@@ -101,10 +98,7 @@ def decide_c20(m: Mapping[str, float]) -> Finding:
 
 
 def measure_c21(spins: Spins) -> dict[str, float]:
-    """Measure the rate of the pair with springs of four n and in the exact model, after the paper's shock and a small one.
-
-    Divide it by the rate of one rotor.
-    """
+    """Measure the pair's rate with four springs and exactly, after two shocks, and its ratio to one rotor's rate."""
     rate, _ = rate_of_run(spins, HEAVY_LINK, _PAPER)
     single, half = natural_rate(Scene(spins, link=None)), (spins[0] / 2, spins[1] / 2)
     natural = {name: rate_of_run(spins, bar, _SMALL)[0] for name, bar in BARS.items()}
@@ -139,10 +133,7 @@ def _constant(m: Mapping[str, float]) -> Part:
 
 
 def decide_c21(m: Mapping[str, float]) -> Finding:
-    """Decide by comparing three rates with 11.4 rad/s: with springs, exactly, and after a small shock.
-
-    Compare their ratio to one rotor's rate with 11.4/16.
-    """
+    """Decide by comparing three rates with 11.4 rad/s, and their ratio to the rate of one rotor with 11.4/16."""
     ways = ("springs_n_20_over_3_s", "after_small_shock", "exact_over_8_s")
     springs, small, exact = (m[f"rate_{way}_rad_per_s"] for way in ways)
     at_11_4 = [COUPLED.is_matched(rate) for rate in (springs, small, exact)]
@@ -228,10 +219,7 @@ C22 = ClaimTest(
 
 
 def coefficient(spins: Spins, bar: Link) -> tuple[float, float]:
-    """Return c of rate/natural rate = 1 + c θ̄² at the least amplitude, and the power of θ̄ in the change.
-
-    θ̄ is the mean inclination.
-    """
+    """Return c of rate/natural rate = 1 + c θ̄² at small amplitude, θ̄ the mean inclination, and the measured power."""
     sizes, changes = [], []
     natural = natural_rate(Scene(spins, link=bar))
     for r0 in AMPLITUDES:
@@ -271,10 +259,7 @@ def measure_c23(spins: Spins) -> dict[str, float]:
 
 
 def decide_c23(m: Mapping[str, float]) -> Finding:
-    """Decide by comparing c with its value for 1/cos θ, for every bar.
-
-    If equal spins have this value, they are the condition.
-    """
+    """Decide by comparing c with its value for 1/cos θ, for every bar; as a condition, for equal spins."""
     on_orbits = [m[f"coefficient_{name}"] for name in ("massless", *BARS)]
     shock = [m[f"coefficient_over_3_cycles_after_shock_{name}"] for name in BARS]
     equal = m["coefficient_equal_spins_m_1_K_1"]

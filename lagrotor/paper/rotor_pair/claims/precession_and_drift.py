@@ -57,10 +57,7 @@ def _constraints(r1: ArrayLike, r2: ArrayLike, link: Link | None) -> Array:
 
 
 def measure_c14(link: Link | None) -> dict[str, float]:
-    """Count the degrees of freedom along a shocked run.
-
-    They are the velocities, six of the axes and two axial spins, minus the rank of the constraints.
-    """
+    """Count the degrees of freedom along a run: eight velocities, minus the rank of the constraints."""
     scene = Scene(OPPOSITE, link=link, shock=Shock((40, -11, 0), 0.5, 1 / 20))
     run = simulate(scene, np.linspace(0, 2.4, 25), "spheres", 1e-8)
     gradients = [_constraints(r1, r2, link) for r1, r2 in zip(*run.axes, strict=True)]
@@ -95,10 +92,7 @@ def decide_c14(m: Mapping[str, float]) -> Finding:
 
 
 def _count_roots(scene: Scene) -> dict[str, float]:
-    """Count the roots of the linear pair.
-
-    Pairs of imaginary roots are oscillations, zero roots without a displacement of their own are steady turnings.
-    """
+    """Count the oscillations (pairs of imaginary roots) and steady turnings (double zero roots) of the linear pair."""
     values = dict(zip((a, b, G_1, G_2), (*scene.inertias, *scene.momenta), strict=True)) | {k: 1}
     pair = linear_pair()
     M, C = (np.array(matrix.subs(values), dtype=float) for matrix in (pair.mass, pair.gyroscopic))
@@ -124,10 +118,7 @@ class _SmallMotion:
 
 
 def measure_c24(case: _SmallMotion) -> dict[str, float]:
-    """Count the roots of the linear pair.
-
-    Fit a run after a small shock by a constant, a slope and one oscillation at the natural rate.
-    """
+    """Count the roots, and fit a run after a small shock by a constant, a slope and one natural oscillation."""
     scene = Scene(case.spins, link=HEAVY_LINK, shock=Shock(case.force, 0.2, 1 / 50))
     run = simulate(scene, [0.0, *np.linspace(0.4, 8, 200)], "spheres", 1e-11).after(0.4)
     x_y = np.concatenate(list(run.axes[..., :2]), axis=1)
@@ -317,10 +308,7 @@ def _length(phi: Array, s1: Array, s2: Array) -> Array:
 
 
 def _lengths(run: Trajectory, r0: float, sign: int) -> tuple[Array, Array]:
-    """Return two lengths of the link (m) along a run: with θ constant, and with θ corrected.
-
-    Both use half the difference of the exact azimuths as phi.
-    """
+    """Return the link's length (m) along a run, with θ constant and corrected; phi is half the azimuths' difference."""
     phi = (run.azimuths[0] - run.azimuths[1]) / 2
     change = sign * r0**2 * np.cos(phi)
     return _length(phi, r0 + 0 * phi, r0 + 0 * phi), _length(phi, r0 - change, r0 + change)
@@ -366,10 +354,7 @@ def decide_c16(m: Mapping[str, float]) -> Finding:
 
 
 def measure_c17(spins: Spins) -> dict[str, float]:
-    """Measure the exact rate divided by G/(J cos θ_0), the rate at constant inclination, at three amplitudes.
-
-    The bar is massless.
-    """
+    """Measure the exact rate divided by the rate at constant inclination, G/(J cos θ_0), for a massless bar."""
     measured, changes = {}, []
     for r0 in AMPLITUDES:
         scene, rate = precession_scene(spins, r0, MASSLESS)
@@ -391,7 +376,7 @@ def decide_c17(m: Mapping[str, float]) -> Finding:
     return Finding(
         (Part(SAME_RATE, abs(m["change_over_r0_squared"]) < UNCHANGED),),
         f"The rate counts as unchanged if it changes by less than {UNCHANGED} r₀². The exact rate is the rate at constant "
-        f"inclination times 1 {m['change_over_r0_squared']:+.3f} r₀² (the change is proportional to r₀ to the power "
+        f"inclination multiplied by 1 {m['change_over_r0_squared']:+.3f} r₀² (the change is proportional to r₀ to the power "
         f"{m['order_of_change']:.2f}). At r₀ = {PAPER_R0} it is {m[f'rate_over_constant_inclination_r0_{PAPER_R0}']:.4f} times "
         f"the rate at constant inclination and {m[f'rate_over_natural_r0_{PAPER_R0}']:.4f} times the natural rate.",
     )
@@ -431,10 +416,7 @@ def shocked_run(spins: Spins, force: Vector, bar: Link = LIGHT) -> Trajectory:
 
 
 def harmonics(run: Trajectory) -> Harmonics:
-    """Fit x and y of axis 1, then of axis 2, by harmonics of one rate.
-
-    The rate lies within a tenth of the natural rate and fits both x best.
-    """
+    """Fit x and y of axis 1, then of axis 2, at the rate near the natural rate that fits both x best."""
     x_y = np.concatenate(list(run.axes[..., :2]), axis=1)
     rate = best_harmonics(run.t, x_y[:, ::2], natural_rate(run.scene), 0.9, 1.1).rate
     return harmonics_at(run.t, x_y, rate)

@@ -185,10 +185,7 @@ def _tilt(axes: Array) -> float:
 
 
 def measure_c10(spins: Spins) -> dict[str, float]:
-    """Measure the tilt after a shock along and across the bar.
-
-    If the pair topples along it, also measure the motion past the dead point.
-    """
+    """Measure the tilt after shocks along and across the bar and, if the pair topples, what follows the dead point."""
     scene = shocked_scene(spins, (50, 0, 0))
     run_x, run_y = after_shock(scene, 2.7), after_shock(shocked_scene(spins, (0, 50, 0)), 6.0)
     in_xz = np.unwrap(np.arctan2(run_x.axes[..., 0], run_x.axes[..., 2]))
@@ -210,10 +207,7 @@ def measure_c10(spins: Spins) -> dict[str, float]:
 
 
 def _past_dead_point(dead: float) -> dict[str, float]:
-    """Measure the angle between the axes within 2 s after the dead point, which is reached after `dead` s.
-
-    A side force of 1 N acts besides the 50 N.
-    """
+    """Measure the angle between the axes up to 2 s after the dead point, with a side force of 1 N beside the 50 N."""
     scene = shocked_scene((0, 0), (50, SIDE, 0))
     exact = after_shock(scene, PAPER_RUN)
     t = np.linspace(exact.t[0], shock_of(scene).at + dead + 2, 101)
@@ -295,10 +289,7 @@ def _fall_of_springs(spins: Spins, force: Vector, seconds: float) -> float:
 
 
 def measure_c11(spins: Spins) -> dict[str, float]:
-    """Measure the largest |x|, the angle turned about the joint line and the time of the fall after the paper's four shocks.
-
-    Fit powers of the force for other shocks.
-    """
+    """Measure the largest |x|, the turning and the time of the fall after four shocks; fit powers of the force."""
     measured: dict[str, float] = {}
     falls = {name: fall(spins, force, WATCHED) for name, force in PAPER_SHOCKS.items()}
     for name, force in PAPER_SHOCKS.items():
@@ -321,10 +312,7 @@ def measure_c11(spins: Spins) -> dict[str, float]:
 
 
 def _powers_in_times(spins: Spins, plus_x: float, minus_y: float) -> dict[str, float]:
-    """Fit the times of falling and the toppling rate by powers of the force.
-
-    `plus_x` and `minus_y` are the times (s) for 50 N along +x and −y.
-    """
+    """Fit the times of falling, known for 50 N along +x and −y, and the toppling rate by powers of the force."""
     times_x = [plus_x, *(fall(spins, (f, 0, 0), WATCHED) for f in ALONG)]
     times_y = [minus_y, *(fall(spins, (0, -f, 0), WATCHED) for f in ACROSS)]
     rates = []
@@ -452,10 +440,7 @@ def _mean_x(cycles: float, force: Vector) -> Array:
 
 
 def _powers_in_means(means: list[Array], name: str) -> dict[str, float]:
-    """Fit half the sum and half the difference of the means of x_1 and x_2 by powers of the force.
-
-    `means` has one pair per force.
-    """
+    """Fit half the sum and half the difference of the means (one pair per force) by powers of the force."""
     both = np.array(means)
     components = {"common_mean": both.mean(1), "half_difference": (both[:, 0] - both[:, 1]) / 2}
     return {

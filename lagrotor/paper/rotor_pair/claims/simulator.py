@@ -53,10 +53,7 @@ def _stretch(step: Array) -> float:
 
 
 def undivided_rotation(Omega: Array, dt: float) -> Array:
-    """Return the rotation (n, 3, 3) over dt for Ω (n, 3), with P = Ω Ωᵀ as printed in (3.16).
-
-    It is wrong, because P must be divided by |Ω|².
-    """
+    """Return a rotation (n, 3, 3) over dt with P = Ω Ωᵀ as printed in (3.16), wrongly not divided by |Ω|²."""
     size = np.linalg.norm(Omega, axis=1)[:, None, None]
     P = Omega[:, :, None] * Omega[:, None, :]
     rotation: Array = P + np.cos(size * dt) * (np.eye(3) - P) + np.sin(size * dt) * skew_matrix(Omega) / size
@@ -107,10 +104,7 @@ def inverted_each_time(R: Array, inverse_inertia: Array) -> Array:
 
 
 def measure_c04(transform: Callable[[Array, Array], Array]) -> dict[str, float]:
-    """Count the matrix inversions in 100 steps of the paper's bodies and 100 of a free body.
-
-    Measure the error of the free body's Ω; its three moments of inertia differ.
-    """
+    """Count inversions in 100 steps of the paper's bodies and of a free body, and measure the error of its Ω."""
     inertia = np.diag([1.0, 2.0, 2.5])
     start = np.array([0.3, 0.5, 1.0]) * EQUAL[0]
     body = RigidBody(np.zeros(3), [[0, 0, 1]], inertia, np.eye(3), 1.0, start, np.zeros(3))  # type: ignore[arg-type]
@@ -307,10 +301,7 @@ class Underflow:
 
 
 def measure_c07(case: Underflow) -> dict[str, float]:
-    """Find by bisection the largest |Ω| at which the rotation is NaN.
-
-    Run the paper's scene with this rotation and with the correct one.
-    """
+    """Find by bisection the largest |Ω| that gives NaN; run the paper's scene with this and the correct rotation."""
     low, high = -200.0, -100.0  # powers of ten: NaN at the first, none at the second
     while high - low > 0.01:
         middle = (low + high) / 2
@@ -384,10 +375,7 @@ BY_GROUNDS = "the cause is what the grounds exert: without them both are conserv
 
 
 def _spring_energy(scene: Scene, n: int, times: Array) -> Array | None:
-    """Return the kinetic energy (J) at the times by the paper's program, for ω_s = 10 rad/s and a given n.
-
-    Return None if its step of 1 ms is unstable.
-    """
+    """Return the kinetic energy (J) in the paper's program with springs of n; None if a step of 1 ms is unstable."""
     system = paper_system(scene, 2000 / n * OMEGA_S**2, 500 / n * OMEGA_S)
     if step_limit(system).whole <= STEP:
         return None
@@ -414,10 +402,7 @@ class ShockAlongX:
 
 
 def measure_c08(case: ShockAlongX) -> dict[str, float]:
-    """Measure the energies before and after a shock with springs, in the exact model and in closed form.
-
-    Find the n for which the springs give the printed energy.
-    """
+    """Measure the energies before and after a shock with three models, and the n that give the printed energy."""
     scene, light = (shocked_scene(case.spins, (case.force, 0, 0), bar, case.width) for bar in (HEAVY_LINK, LIGHT))
     at = shock_of(scene).at
     first = np.round(at + np.arange(0.14, 0.25, 0.02), 3)  # the shock ends seven widths after the peak
@@ -461,7 +446,7 @@ def decide_c08(m: Mapping[str, float]) -> Finding:
         f"{PRINTED['before'].rule} J, {PRINTED['after'].rule} J. The energy rises from {m['before_J']:.2f} to "
         f"{m['highest_springs_J']:.4f} J with springs and to {m['after_exact_J']:.4f} J in the exact model. The closed form "
         f"P²R²/(4(a + b)), with the width of the pulse, gives {m['after_closed_form_J']:.4f} J. The exact pair then conserves "
-        f"it to {scientific(m['swing_in_8_s_exact_J'])} J, while the dampers of the springs dissipate "
+        f"the energy to {scientific(m['swing_in_8_s_exact_J'])} J, while the dampers of the springs dissipate "
         f"{m['lost_in_8_s_springs_J']:.4f} J in 8 s. S = {m['stiffness_N_per_m']:.0f} N/m and D = {m['damping_kg_per_s']:.0f} "
         f"kg/s (n = {N}, ω_s = {OMEGA_S:.0f} rad/s) are stable up to a step of {m['step_limit_ms']:.2f} ms. With this ω_s, the "
         f"tested n from {least:.0f} to {greatest:.0f} give the printed energy. The light bar of 5.2.1 would give "
