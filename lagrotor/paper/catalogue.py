@@ -388,7 +388,7 @@ class Catalogue:
         return self.equations[known_id(identifier, self.equations)]
 
     def importable(self) -> AbstractContextManager[None]:
-        """Open a context in which the modules of the paper's folder can be imported by name.
+        """Return a context in which the modules of the paper's folder can be imported by name.
 
         Returns
         -------

@@ -248,7 +248,7 @@ def components(row: Iterable[Any]) -> list[Any]:
 
 
 def inverse(matrix: sp.Matrix) -> sp.Matrix:
-    """Return the inverse of a square matrix as adjugate over determinant."""
+    """Return the inverse of a square matrix, computed as its adjugate divided by its determinant."""
     return matrix.adjugate() / matrix.det()
 
 
@@ -284,7 +284,7 @@ class Letters:
 
 
 def declared(letters: Mapping[str, str]) -> dict[str, Any]:
-    """Return name → symbol from kind → names. Kinds are 'vector', 'symmetric', 'real', 'positive' and 'nonnegative'."""
+    """Return name → symbol. `letters` has the names of each kind: vector, symmetric, real, positive or nonnegative."""
     symbols: dict[str, Any] = {}
     for kind, names in letters.items():
         for name in names.split():

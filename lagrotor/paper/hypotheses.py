@@ -221,7 +221,7 @@ class _Known(NamedTuple):
     where: Region
 
     def nonzero(self, e: sp.Expr) -> bool:
-        """Return True if e is known not to vanish."""
+        """Return True if the conditions prove that e does not vanish."""
         if e in self.units or sp.expand(e) in self.units:
             return True
         sign_set = signs(e, self.where)
@@ -308,7 +308,7 @@ def _steps(e: sp.Expr, small: tuple[sp.Symbol, ...], domain: _Known) -> tuple[_S
 
 
 def _kernel(e: sp.Expr, letter: sp.Symbol) -> sp.Expr | None:
-    """Return a symbol or its single function or power in an equation, in which this may be linear; None if several."""
+    """Return the expression in which an equation may be linear: the symbol or its only function or power; else None."""
     inside = {node for node in sp.preorder_traversal(e) if letter in node.args and not (node.is_Add or node.is_Mul)}
     if not inside:
         return letter

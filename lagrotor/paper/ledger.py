@@ -1,9 +1,9 @@
-"""The ledger, which compares printed lines with derived sides and decides.
+"""The ledger, which compares printed lines with derived sides and decides whether they agree.
 
-A derivation never says that an equation is right; it states the derived side by `equation_statements.verdict`. Each member of
-a printed line is decided under all premises at once (`hypotheses`): by exact identity, by the ideal of the premises' equations,
+A derivation never says that an equation is right; it states the derived side by `equation_statements.verdict`. Each member of a
+printed line is decided under all premises at once (`hypotheses`): by exact identity, by the ideal of the premises' equations,
 or by the order of the first term that differs. Premises that are not needed are then omitted. A refuted line has a certified
-counterexample, or an order at which the sides differ; any other line is undecided. `judge` does the same without a paper.
+counterexample, or an order at which the sides differ; every other line is undecided. `judge` does the same without a paper.
 """
 
 import time

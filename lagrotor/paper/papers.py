@@ -355,7 +355,7 @@ def opened(folder: Path, scripts_in: Path | None = None) -> Paper:
 
 
 def audit_of(paper: Paper, verdicts: Iterable[Verdict]) -> Audit:
-    """Collect verdicts as the audit of a paper; equations without a verdict are `waiting`."""
+    """Return the audit of a paper with the given verdicts; equations without a verdict are its `waiting` ones."""
     in_order = tuple(with_reach(paper, verdicts))
     judged = {verdict.id for verdict in in_order}
     return Audit(in_order, tuple(i for i in paper.equations if i not in judged))
@@ -370,7 +370,7 @@ def check_scripts(paper: Paper) -> None:
 
 
 def judge_script(paper: Paper, stem: str, progress: Progress | None = None) -> list[Verdict]:
-    """Judge the equations of one derivation; `seconds` of each verdict includes an equal share of the script's time."""
+    """Return the verdicts on the equations of one derivation. Their `seconds` include equal shares of the script's time."""
     if progress:
         progress(stem)
     began = time.perf_counter()

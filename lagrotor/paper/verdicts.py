@@ -233,7 +233,7 @@ def _number(value: Any) -> str:
 
 @dataclass(frozen=True)
 class Verdict:
-    """The verdict on one equation, the weakest of the verdicts on its lines.
+    """The verdict on one equation: the weakest of the verdicts on its lines.
 
     Attributes
     ----------
@@ -296,7 +296,7 @@ class Verdict:
 
     @property
     def refuted_under(self) -> tuple[Premise, ...]:
-        """The premises under which the differences of refuted lines are stated."""
+        """The premises under which the refuted lines were compared."""
         assumed = [premise for line in self.lines if line.verdict == "refuted" for premise in line.premises]
         return tuple(premise for i, premise in enumerate(assumed) if premise not in assumed[:i])
 

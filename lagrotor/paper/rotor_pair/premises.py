@@ -25,7 +25,7 @@ def about_parameters(says: str, substitution: Mapping[sp.Symbol, Any]) -> Premis
 
 
 def massless_bar() -> Premise:
-    """Return the premise that the bar has no mass and no inertia: a = J, b = 0, sigma = 1."""
+    """Return the premise that the bar has neither mass nor inertia, so that a = J, b = 0 and sigma = 1."""
     values = ", ".join(f"{sp.pretty(s)} = {float(PAPERS_OWN[s]):g} or {float(LIGHT_BAR[s]):g}" for s in (m, K))
     return Premise("the bar is massless, m = K = 0", {a: J, b: 0, sigma: 1, m: 0, K: 0}, broken=values)
 

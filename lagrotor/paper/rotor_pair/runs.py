@@ -39,7 +39,7 @@ AMPLITUDES = (0.051, 0.102, PAPER_R0)
 def shocked_scene(
     spins: tuple[float, float], force: Vector, bar: Link | None = HEAVY_LINK, width: float = 1 / 50
 ) -> Scene:
-    """Return a pair at rest before a shock on rotor 1 of this force (N) and width (s), with its peak at ten widths."""
+    """Return a scene of the pair at rest; rotor 1 gets a shock of this force (N) and width (s) at ten widths."""
     return Scene(spins, link=bar, shock=Shock(force, 10 * width, width))
 
 
@@ -139,7 +139,7 @@ def rate_runs(exact: Trajectory, printed: float) -> dict[str, Array]:
 
 
 def rate_numbers(runs: dict[str, Array]) -> dict[str, float]:
-    """Return amplitude (m), rates (rad/s) and largest residuals (m) of the models and of the closed form."""
+    """Return amplitude (m), rates (rad/s) and largest residuals (m) of the curves in `rate_runs`."""
     t, exact, springs, rate = runs["t"], runs["exact"], runs["springs"], runs["closed_form_rate"][0]
     is_after = t > SPECTRUM_FROM
     early = is_after & (t < SPECTRUM_FROM + 3)

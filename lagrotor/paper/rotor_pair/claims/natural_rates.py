@@ -1,5 +1,5 @@
-"""Claims of section 5.3: the rates that the paper matched by eye, for one rotor, equal and opposite spins (C20 to C22), and the
-dependence of the rate on the inclination (C23)."""
+"""Tests of the claims of section 5.3. C20 to C22 are about rates that the paper matched by eye: of one rotor, of equal spins and
+of opposite spins. C23 is about the dependence of the rate on the inclination."""
 
 from collections.abc import Mapping
 from math import pi
@@ -98,7 +98,7 @@ def decide_c20(m: Mapping[str, float]) -> Finding:
 
 
 def measure_c21(spins: Spins) -> dict[str, float]:
-    """Measure the pair's rate with four springs and exactly, after two shocks, and its ratio to one rotor's rate."""
+    """Measure the pair's rate with four choices of springs and exactly, and its ratio to the rate of one rotor."""
     rate, _ = rate_of_run(spins, HEAVY_LINK, _PAPER)
     single, half = natural_rate(Scene(spins, link=None)), (spins[0] / 2, spins[1] / 2)
     natural = {name: rate_of_run(spins, bar, _SMALL)[0] for name, bar in BARS.items()}
@@ -259,7 +259,7 @@ def measure_c23(spins: Spins) -> dict[str, float]:
 
 
 def decide_c23(m: Mapping[str, float]) -> Finding:
-    """Decide by comparing c with its value for 1/cos θ, for every bar; as a condition, for equal spins."""
+    """Decide by whether c has its value for 1/cos θ with every bar, or at least if the spins are equal."""
     on_orbits = [m[f"coefficient_{name}"] for name in ("massless", *BARS)]
     shock = [m[f"coefficient_over_3_cycles_after_shock_{name}"] for name in BARS]
     equal = m["coefficient_equal_spins_m_1_K_1"]

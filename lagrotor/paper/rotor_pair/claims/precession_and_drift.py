@@ -1,5 +1,5 @@
-"""Claims of sections 5.2 and 6: degrees of freedom and modes (C14, C24), the ansatz, its integrals, its correction and the
-corrected rate (C15 to C17), the comparison of the formula with the simulation (C18, C19)."""
+"""Tests of the claims of sections 5.2 and 6. C14 and C24 count degrees of freedom and modes. C15 to C17 are about the ansatz, its
+integrals, its correction and the corrected rate. C18 and C19 compare the formula with the simulation."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

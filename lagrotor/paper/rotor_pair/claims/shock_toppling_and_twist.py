@@ -1,5 +1,5 @@
-"""Claims of sections 2, 5 and 5.1 on the pair after a shock: one gyroscope (C01, C02), toppling (C10, C11), the failure of (7) at
-opposite spins and the mean displacement in x (C12, C13)."""
+"""Tests of the claims of sections 2, 5 and 5.1 on the pair after a shock. C01 and C02 compare it with one gyroscope; C10 and C11
+are about toppling. C12 is about the failure of (7) for opposite spins, C13 about the mean displacement in x."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -1,5 +1,5 @@
-"""Claims of sections 3 and 4: the paper's program (C03 to C05), the misplaced bar and the NaN (C06, C07), the energy and the
-momenta after the shock (C08, C09)."""
+"""Tests of the claims of sections 3 and 4. C03 to C05 are about the paper's program, C06 is about a misplaced bar, and C07 about
+a NaN. C08 and C09 are about the energy and the momenta after the shock."""
 
 import warnings
 from bisect import bisect_left
