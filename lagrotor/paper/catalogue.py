@@ -322,7 +322,7 @@ class Catalogue:
             where = f"{file}: {key} {entry.get('id', entry.get('number', '?')) if isinstance(entry, dict) else '?'}"
             read: Row = row(kind, entry, where)
             if read.id in rows:
-                raise InputError(f"{where}: the id is given twice")
+                raise InputError(f"{where}: the id is given twice: change one of the two")
             rows[read.id] = read
         return rows
 

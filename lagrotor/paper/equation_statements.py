@@ -186,7 +186,9 @@ def _theorems(entry: Equation, assertion: Stated) -> tuple[dict[str, Theorem], l
             refusals.append(f"The proof failed: {refusal}")
             continue
         if theorem.bounds is None:
-            raise InputError(f"verdict: {entry.id}: the theorem about {name} has no bounds to compare the number with")
+            raise InputError(
+                f"verdict: {entry.id}: the theorem about {name} has no bounds: name its quantity in `Theorem.of`"
+            )
         verify([theorem], entry.id)
         theorems[name] = theorem
     return theorems, refusals
@@ -261,7 +263,9 @@ def _corrections(
     by_name = {line.quantity: line for line in lines}
     for name, value in correction.items():
         if name not in quantities:
-            raise InputError(f"verdict: {entry.id}: the correction gives {name}, which was not derived")
+            raise InputError(
+                f"verdict: {entry.id}: the correction gives {name}, which was not derived: add it to `derived`"
+            )
         line = by_name.get(name) or next((line for line in lines if line.small is not None), None)
         small, order = (line.small, line.order) if line else (None, 0)
         if name in known_orders and small is None:
@@ -281,7 +285,9 @@ def _forms(
     forms: dict[str, dict[str, Any]] = {}
     for name, form in _by_quantity(assertion.form, entry).items():
         if name not in quantities:
-            raise InputError(f"verdict: {entry.id}: a form is given for {name}, which was not derived")
+            raise InputError(
+                f"verdict: {entry.id}: a form is given for {name}, which was not derived: add it to `derived`"
+            )
         scene = next((line.scene for line in lines if line.quantity == name), {})
         granted = needs_premises(
             sp.sympify(form.value(letters), strict=True), quantities[name], assertion.premises, scene

@@ -98,7 +98,7 @@ class _Reader:
         if type(node.value) not in (int, float) or not text.replace("_", "").isascii():
             raise self._refusal(node)
         if len(text) > _MOST_DIGITS or (type(node.value) is float and not 1e-300 < abs(node.value or 1) < 1e300):
-            raise _RefusalError(f"the number {text[:20]}… has too many digits")
+            raise _RefusalError(f"the number {text[:20]}… has too many digits: use a symbol for it")
         return sp.Integer(node.value) if type(node.value) is int else sp.Rational(text.replace("_", ""))
 
     def _lookup(self, name: str) -> Any:
@@ -190,13 +190,13 @@ def _check_power(base: Any, exponent: Any) -> None:
     if isinstance(exponent, sp.Expr) and exponent.is_number and (not whole or abs(exponent) > _MOST_POWER):
         size = abs(sp.N(exponent, 5)) if not whole else abs(exponent)
         if not bool(size <= _MOST_POWER):
-            raise _RefusalError(f"the power {exponent} is larger than {_MOST_POWER}")
+            raise _RefusalError(f"the exponent {exponent} exceeds {_MOST_POWER}: use a symbol for it")
     if (
         isinstance(base, sp.Rational)
         and whole
         and abs(exponent) * max(abs(base.p), base.q).bit_length() > 4 * _MOST_POWER
     ):
-        raise _RefusalError(f"{base}**{exponent} has too many digits")
+        raise _RefusalError(f"{base}**{exponent} has too many digits: use a symbol for it")
 
 
 def vector(name: str) -> sp.Matrix:

@@ -545,7 +545,7 @@ def _first_term(side: sp.Expr, small: sp.Symbol, through: int, under: Hypotheses
     """Return the leading term of a series, skipping coefficients that vanish wherever the unsolved equations hold."""
     sign, letter = under.signed.on(small).as_coeff_Mul()  # a condition may fix the sign of the small quantity
     if any(letter in e.free_symbols for e in under.signed.equations):
-        raise NotExactError(f"a premise that is not linear fixes {small}, so that there is no series in {small}")
+        raise NotExactError(f"a premise that is not linear determines {small}, so that there is no series in {small}")
     while True:
         term = leading_term(side, letter, through)
         if term.order is None:

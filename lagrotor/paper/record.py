@@ -107,7 +107,7 @@ def recorded(file: Path) -> dict[str, OnRecord]:
     except FileNotFoundError:
         return {}
     except (ValueError, TypeError, KeyError, AttributeError) as error:
-        raise LagrotorError(f"{file} cannot be read ({error}): restore the file from version control") from None
+        raise LagrotorError(f"{file} cannot be read ({error}): restore it from version control") from None
 
 
 def record_text(rows: Mapping[str, OnRecord]) -> str:
