@@ -122,7 +122,7 @@ def reference() -> dict[str, str]:
         name = f"lagrotor.{part}".rstrip(".")
         names = names_of_face(package / part / "__init__.py")
         entries = [f"::: {module}.{public}" for public, module in sorted(names.items()) if defines(module, public)]
-        how = f"`from {name} import {min(names)}` and likewise:" if names else ""
+        how = f"Import each name from the package: `from {name} import {min(names)}`." if names else ""
         # A name that is searched for is found here before the pages that only mention it.
         head = f"---\nsearch:\n  boost: 4\n---\n\n# {name}"
         pages[f"reference/{part or 'lagrotor'}.md"] = "\n\n".join([head, how, *entries]) + "\n"

@@ -13,6 +13,15 @@ from warnings import warn
 # Old module → new module. A row of a package also covers the modules in it.
 RENAMED = {
     "lagrotor.proved": "lagrotor.proofs",
+    "lagrotor.proved.carried_sets": "lagrotor.proofs.lohner_frames",
+    "lagrotor.proved.checking": "lagrotor.proofs.checker.checking",
+    "lagrotor.proved.closed_orbits": "lagrotor.proofs.orbits.closed_orbits",
+    "lagrotor.proved.crossings": "lagrotor.proofs.orbits.crossings",
+    "lagrotor.proved.enclosure": "lagrotor.proofs.orbits.enclosure",
+    "lagrotor.proved.paired_orbits": "lagrotor.proofs.orbits.paired_orbits",
+    "lagrotor.proved.steady": "lagrotor.proofs.orbits.equilibria",
+    "lagrotor.proved.stepping": "lagrotor.proofs.taylor_step",
+    "lagrotor.proved.tails": "lagrotor.proofs.truncated_series",
 }
 
 # Old name of a package → where it is defined now.
@@ -51,12 +60,18 @@ NAMES = {
 
 # Class → {old attribute: new attribute}. The class takes `old_attribute` as its `__getattr__`.
 ATTRIBUTES = {
+    "AveragedMotion": {"letters": "amplitudes"},
+    "Chern": {"off": "flux_error"},
     "Decision": {"at": "points", "seen": "residual"},
     "Equations": {"mass": "mass_matrix", "push": "generalised_forces"},
+    "PrecessionLaw": {"beside": "quadratic"},
+    "Stated": {"written": "form"},
+    "Step": {"written": "equations"},
 }
 
 # Function or method, by its qualified name → {old keyword: new keyword}.
 KEYWORDS: dict[str, dict[str, str]] = {
+    "System.from_sympy": {"given": "source"},
     "judge": {"given": "premises"},
     "judge_text": {"given": "premises"},
     "parameter_premise": {"put": "substitution", "own": "scene_values"},
@@ -104,9 +119,11 @@ def old_name(package: str, name: str) -> Any:
     """Return the object that a package had under an old name; None where it had none."""
     if (new := NAMES.get(f"{package}.{name}")) is None:
         return None
-    warn(f"{package}.{name} is now {new}: import that instead", DeprecationWarning, stacklevel=4)
     module, attribute = new.rsplit(".", 1)
-    return getattr(import_module(module), attribute)
+    value = getattr(import_module(module), attribute)
+    # After the import, which may reset the registry of warnings that were shown: `from package import name` asks twice.
+    warn(f"{package}.{name} is now {new}: import that instead", DeprecationWarning, stacklevel=3)
+    return value
 
 
 def old_attribute(instance: Any, name: str) -> Any:

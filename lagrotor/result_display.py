@@ -12,7 +12,20 @@ def superscript(power: int) -> str:
 
 
 def scientific(value: float, digits: int = 0) -> str:
-    """Return a number in powers of ten with `digits` after the point: 3e-14 as 3×10⁻¹⁴, 2 as 2."""
+    """Return a number in powers of ten: 3e-14 as 3×10⁻¹⁴, 2 as 2.
+
+    Parameters
+    ----------
+    value : float
+        The number.
+    digits : int, default 0
+        The number of digits after the point.
+
+    Returns
+    -------
+    str
+        The printed number.
+    """
     if value == 0:
         return "0"
     mantissa, _, power = f"{value:.{digits}e}".partition("e")

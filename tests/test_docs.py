@@ -38,6 +38,8 @@ def test_the_reference_has_every_public_name(hooks: ModuleType) -> None:
         assert classes and all(entry in shown for entry in classes)
     assert "::: lagrotor.models.simulate.simulate\n" in pages["reference/lagrotor.md"]
     assert not hooks.defines("lagrotor.models.simulate", "no_such_name")
+    # A class shows the methods of its bases: System those of Equations.
+    assert "inherited_members: true" in (ROOT / "mkdocs.yml").read_text(encoding="utf-8")
 
 
 def test_the_second_paper_is_shown_with_its_verdicts(hooks: ModuleType) -> None:

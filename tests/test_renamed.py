@@ -1,9 +1,12 @@
 """Names of earlier releases: the same object under its old name, with a warning that names the new one."""
 
+import re
+import subprocess
 import sys
 import warnings
 from importlib import import_module
 from importlib.util import find_spec
+from pathlib import Path
 
 import pytest
 
@@ -23,10 +26,13 @@ def forgotten(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_an_old_name_is_the_new_module_and_warns(old: str) -> None:
     new = RENAMED[old]
     spec = import_module(new).__spec__
-    with pytest.warns(DeprecationWarning, match=f"{old} is now {new}: import that instead") as warned:
+    with warnings.catch_warnings(record=True) as warned:
+        warnings.simplefilter("always")
         module = import_module(old)
     assert module is import_module(new) and module.__name__ == new and module.__spec__ is spec
-    assert len(warned) == 1 and new_name(new) is None
+    packages = [row for row in RENAMED if old.startswith(f"{row}.")]  # importing a module imports its package
+    said = [f"{name} is now {RENAMED[name]}: import that instead" for name in (*packages, old)]
+    assert [str(each.message) for each in warned] == said and new_name(new) is None
 
 
 @pytest.mark.usefixtures("forgotten")
@@ -79,3 +85,11 @@ def test_an_old_keyword_is_the_new_one_and_warns(monkeypatch: pytest.MonkeyPatch
         scale(2, times=3, factor=3)  # type: ignore[call-arg]
     with pytest.raises(TypeError, match="timez"):
         scale(2, timez=3)  # type: ignore[call-arg]
+
+
+def test_the_warning_of_an_old_name_points_at_the_import(tmp_path: Path) -> None:
+    script = tmp_path / "user.py"
+    script.write_text("from lagrotor.mechanics import bias\nimport lagrotor.mechanics as M\nM.project_position\n")
+    ran = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, check=True)
+    places = re.findall(r"user\.py:(\d): DeprecationWarning: lagrotor\.mechanics\.(\w+) is now", ran.stderr)
+    assert places == [("1", "bias"), ("3", "project_position")]

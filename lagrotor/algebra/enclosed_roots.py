@@ -1,4 +1,6 @@
-"""Enclosures of the roots of equations. Krawczyk's test proves that a small box X contains exactly one root:
+"""Enclosures of the roots of equations.
+
+Krawczyk's test proves that a small box X contains exactly one root:
 
     K(X) = x − Y F(x) + (1 − Y F'(X)) (X − x),    Y ≈ F'(x)⁻¹,    K(X) inside X ⇒ one root in X.
 

@@ -27,7 +27,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 from itertools import product
 from math import inf
 from typing import TYPE_CHECKING, Any, Literal
@@ -178,7 +178,7 @@ def _decide(expression: sp.Expr, where: Region) -> Decision:
         reason=numbering.text(decision.reason),
         residual=residual,
         points=places and tuple({numbering.to_input(s): value for s, value in point.items()} for point in places),
-        conditions=lambda: map(numbering.to_input, decision.branch),
+        conditions=partial(_branch_of, decision, numbering),
     )
 
 
@@ -231,18 +231,34 @@ def _by_analysis(expression: sp.Expr, where: Region, exact: Decision) -> Decisio
             return Decision("zero", proof.divisors, proof.how)
         return replace(exact, reason="No point is known at which it is defined.")
     if exact.answer == "nonzero":
-        return replace(exact, conditions=lambda: _inside(branch_of_zero(plain, where, proof.missing)[0], exact.domain))
+        return replace(exact, conditions=partial(_branch_inside, plain, where, proof.missing, exact.domain))
     branch, branch_proof = branch_of_zero(plain, where, proof.missing)
     inside = _inside(branch, branch_proof.divisors)
     if witness is None:
         if branch_proof.how is not None and set(branch) <= set(simplify_conditions(conditions(plain), where)):
-            return Decision("zero", branch_proof.divisors, branch_proof.how or "", conditions=lambda: branch)
-        return replace(exact, reason=reason, conditions=lambda: inside)
+            return Decision("zero", branch_proof.divisors, branch_proof.how or "", conditions=partial(tuple, branch))
+        return replace(exact, reason=reason, conditions=partial(tuple, inside))
     if not (branch or witness.real or has_principal_values(plain, (), where)):
         return replace(exact, reason="It is not zero where it is not real, and no proof is known where it is real.")
     return Decision(
-        "nonzero", branch_proof.divisors, _EXCLUDED, bool(branch), plain, (witness.point,), conditions=lambda: inside
+        "nonzero",
+        branch_proof.divisors,
+        _EXCLUDED,
+        bool(branch),
+        plain,
+        (witness.point,),
+        conditions=partial(tuple, inside),
     )
+
+
+def _branch_of(decision: Decision, numbering: Numbering) -> list[sp.Basic]:
+    """Return the branch of a decision about numbered symbols in the symbols of the input."""
+    return [numbering.to_input(condition) for condition in decision.branch]
+
+
+def _branch_inside(plain: sp.Expr, where: Region, missing: Any, domain: tuple[sp.Expr, ...]) -> tuple[sp.Basic, ...]:
+    """Return the conditions on which an expression vanishes, as far as they meet its domain."""
+    return _inside(branch_of_zero(plain, where, missing)[0], domain)
 
 
 def _inside(branch: tuple[sp.Basic, ...], domain: tuple[sp.Expr, ...]) -> tuple[sp.Basic, ...]:

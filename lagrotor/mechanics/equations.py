@@ -23,7 +23,7 @@ from lagrotor.algebra import decide_zero, derivative
 from lagrotor.algebra.evidence import points
 from lagrotor.algebra.name_clashes import check_names
 from lagrotor.algebra.subexpressions import free_letters
-from lagrotor.errors import InputError
+from lagrotor.errors import InputError, SingularError
 from lagrotor.mechanics import lagrangian as free
 from lagrotor.mechanics.expressions import expression, no_coordinate, put_in, shortest
 from lagrotor.mechanics.lagrangian import (
@@ -265,16 +265,19 @@ class Equations:
     @cached_property
     def mass_matrix(self) -> sp.Matrix:
         """The mass matrix M = ∂²L/∂v∂v, shape (n, n): M a = forcing, with constraints M a = forcing + Gᵀ λ."""
-        return free.mass_matrix(self.L, self.c)
+        return free.mass_matrix(self.L, self.c).as_immutable()
 
     @cached_property
     def bias(self) -> sp.Matrix:
         """The bias h = (∂²L/∂v∂q) v + ∂²L/∂v∂t − ∂L/∂q, shape (n, 1)."""
-        return free.bias(self.L, self.c)
+        return free.bias(self.L, self.c).as_immutable()
 
     @property
     def forcing(self) -> sp.Matrix:
-        """The column Q − h, shape (n, 1), without the multipliers: M a = forcing + Gᵀ λ along a motion."""
+        """The column Q − h, shape (n, 1): M a = forcing + Gᵀ λ along a motion.
+
+        It contains the multipliers only as far as `forces` contain reactions. It is in q, v and t, also with quasi-velocities.
+        """
         return self.generalised_forces - self.bias
 
     @cached_property
@@ -284,7 +287,7 @@ class Equations:
         For small systems: the adjugate of M grows fast with n. `rhs` has them in numbers. SingularError is raised where
         det M vanishes identically, or the constraints are dependent.
         """
-        return constrained_accelerations(self)[0]
+        return constrained_accelerations(self)[0].as_immutable()
 
     @property
     def generalised_forces(self) -> sp.Matrix:
@@ -295,12 +298,12 @@ class Equations:
     def residual(self) -> sp.Matrix:
         """The constraints on velocities G v + b, shape (k, 1): holonomic ones differentiated, then rolling ones."""
         rows = [*(total_derivative(g, self.c) for g in self.constraints), *self.rolling]
-        return sp.Matrix(len(rows), 1, rows)
+        return sp.ImmutableMatrix(len(rows), 1, rows)
 
     @cached_property
     def rows(self) -> sp.Matrix:
         """The Jacobian G of the constraints, shape (k, n)."""
-        return jacobian(self.residual, self.c.v)
+        return jacobian(self.residual, self.c.v).as_immutable()
 
     @cached_property
     def gamma(self) -> sp.Matrix:
@@ -330,7 +333,7 @@ class Equations:
     def motion(self) -> sp.Matrix:
         """The equations of motion M a + h − Q − Gᵀ λ, shape (n, 1), zero along a motion."""
         lam = sp.Matrix(len(self.multipliers), 1, self.multipliers)
-        return free.euler_lagrange(self.L, self.c) - self.generalised_forces - self.rows.T * lam
+        return (free.euler_lagrange(self.L, self.c) - self.generalised_forces - self.rows.T * lam).as_immutable()
 
     @cached_property
     def hamel(self) -> sp.Matrix:
@@ -438,6 +441,11 @@ def constrained_accelerations(system: Equations) -> tuple[sp.Matrix, sp.Matrix]:
     Matrix([[-4, -4]])
     """
     M, G = system.mass_matrix, system.rows
+    if system.ball_joints:
+        raise SingularError(
+            "accelerations: the mass matrix is singular along the length of a quaternion (det M = 0): "
+            "take the rates of the quasi-velocities from rhs(values)"
+        )
     push, by_reaction = push_left(replace(system, velocities=()), system.generalised_forces)
     # M⁻¹ (Q − h) and W = M⁻¹ Gᵀ side by side, so that M is inverted once.
     right = (push - system.bias).row_join(G.T + by_reaction)

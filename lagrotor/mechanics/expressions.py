@@ -116,6 +116,8 @@ def _with_sines(e: sp.Expr) -> sp.Expr:
 
 def vector_of(where: str, components: Any, n: int) -> tuple[sp.Expr, ...]:
     """Return n expressions; raise InputError for anything else."""
+    if hasattr(components, "tolist") and not isinstance(components, sp.MatrixBase):
+        components = components.tolist()  # an array of numpy
     if not isinstance(components, Sequence | sp.MatrixBase) or isinstance(components, str) or len(components) != n:
         raise InputError(f"{where} = {components!r} must be {n} expressions")
     return tuple(expression(f"{where}[{i}]", e) for i, e in enumerate(components))
@@ -128,7 +130,10 @@ def by_symbol(where: str, values: Mapping[Any, Any], symbols: Iterable[sp.Symbol
     if text := next((f"{key} = {value!r}" for key, value in values.items() if isinstance(value, str)), ""):
         raise InputError(f"{where}: {text} is text: give a number or an expression")
     names = {str(s): s for s in symbols}
-    return {names.get(str(key), key): value for key, value in values.items()}
+    by_key = {names.get(str(key), key): value for key, value in values.items()}
+    if len(by_key) < len(values):
+        raise InputError(f"{where} = {values}: a symbol and its name have two values: give one")
+    return by_key
 
 
 def in_order(where: str, numbers: Any, symbols: Sequence[sp.Symbol]) -> Any:

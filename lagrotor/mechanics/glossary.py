@@ -37,7 +37,7 @@ class Glossary(dict[sp.Symbol, Entry]):
         ----------
         name, meaning, unit : str
             The name, the meaning in words, and the unit: "kg m^2", "1" for a number.
-        assumptions : bool
+        **assumptions : bool
             The assumptions of sympy, such as positive=True.
 
         Returns
@@ -50,7 +50,20 @@ class Glossary(dict[sp.Symbol, Entry]):
         return symbol
 
     def moving(self, c: Coordinates, *rows: tuple[str, str]) -> Coordinates:
-        """Enter coordinates with their velocities and accelerations by (meaning, unit) of each coordinate."""
+        """Enter coordinates with their velocities and accelerations.
+
+        Parameters
+        ----------
+        c : Coordinates
+            The coordinates.
+        *rows : tuple of str
+            (meaning, unit) of each coordinate, in their order.
+
+        Returns
+        -------
+        Coordinates
+            The same coordinates.
+        """
         for q, v, acc, (meaning, unit) in zip(c.q, c.v, c.a, rows, strict=True):
             self[q] = Entry(q, meaning, unit)
             self[v] = Entry(v, f"rate of {q.name}", f"{unit}/s")
@@ -58,7 +71,18 @@ class Glossary(dict[sp.Symbol, Entry]):
         return c
 
     def meaning(self, symbol: sp.Symbol) -> str:
-        """Return the meaning of a symbol in a few words; "parameter" if it is not in the glossary."""
+        """Return the meaning of a symbol in a few words.
+
+        Parameters
+        ----------
+        symbol : Symbol
+            A symbol.
+
+        Returns
+        -------
+        str
+            Its meaning; "parameter" if the glossary lacks it.
+        """
         return self[symbol].meaning.split(":")[0] if symbol in self else "parameter"
 
 

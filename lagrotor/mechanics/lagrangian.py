@@ -16,6 +16,8 @@ import re
 from collections.abc import Iterable, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
+from typing import ClassVar
+from unicodedata import normalize
 
 import sympy as sp
 
@@ -62,10 +64,12 @@ class Coordinates:
         if repeated := sorted({str(s) for s in symbols if symbols.count(s) > 1}):
             raise InputError(f"Coordinates: {', '.join(repeated)} repeated: the symbols are independent; rename one")
 
+    __iter__: ClassVar[None] = None  # the symbols are c.q, c.v and c.a
+
     def __getitem__(self, name: str) -> sp.Symbol:
         """Return the coordinate, velocity or acceleration of a name."""
         symbols = {str(s): s for s in (*self.q, *self.v, *self.a)}
-        if name not in symbols:
+        if not isinstance(name, str) or name not in symbols:
             meant = near(name, symbols) or ": the symbols of a configuration are found by their names"
             raise InputError(f"Coordinates: {name!r} is none of {', '.join(symbols)}{meant}")
         return symbols[name]
@@ -74,10 +78,18 @@ class Coordinates:
         """Return the symbol of a name that is no attribute."""
         if name.startswith("_") or "a" not in vars(self):
             raise AttributeError(name)
+        # Python reads c.ϕ as c.φ: it normalizes the letters of identifiers.
+        normal = {normalize("NFKC", str(s)): s for s in (*self.q, *self.v, *self.a)}
+        if name in normal:
+            return normal[name]
         try:
             return self[name]
         except InputError as refusal:
             raise AttributeError(str(refusal), name=name, obj=self) from None
+
+    def __dir__(self) -> list[str]:
+        """Return the names of attributes and symbols."""
+        return [*object.__dir__(self), *map(str, (*self.q, *self.v, *self.a))]
 
 
 def coordinates(names: str | Sequence[str]) -> Coordinates:
@@ -104,7 +116,7 @@ def coordinates(names: str | Sequence[str]) -> Coordinates:
     stems = names.replace(",", " ").split() if isinstance(names, str) else list(names)
     if strange := [stem for stem in stems if not isinstance(stem, str)]:
         raise InputError(f"coordinates: {strange[0]!r} must be a name: coordinates('phi theta psi')")
-    if odd := [e for e in stems if not re.fullmatch(r"\\?[^\W\d_]\S*", e) or e.count("{") != e.count("}")]:
+    if odd := [e for e in stems if not re.fullmatch(r"\\?[^\W\d_][\w{}^'\\]*", e) or e.count("{") != e.count("}")]:
         raise InputError(
             f"coordinates: {odd[0]!r} would be read otherwise in a formula: a name begins with a letter, has no blanks, and "
             "closes its braces"

@@ -167,7 +167,7 @@ def state_equations(
 
 
 def linearise(system: Equations, at: Mapping[Any, Any] | Equilibrium) -> LinearSystem:
-    """The linear system about an equilibrium, in a basis of the null space of the constraints.
+    """Return the linear system about an equilibrium, in a basis of the null space of the constraints.
 
     at: values of the coordinates on which the motion depends; velocities are zero unless given (a steady motion in a
     coordinate on which nothing depends), and a parameter may be given too. Where the equations are 0/0 there, they are

@@ -15,6 +15,7 @@ from lagrotor.mechanics.equilibria import Equilibrium
 from lagrotor.mechanics.expressions import in_order
 from lagrotor.mechanics.from_sympy import parts_from_sympy
 from lagrotor.mechanics.lagrangian import Coordinates
+from lagrotor.renamed import accept_old_keywords
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -75,6 +76,7 @@ class System(Equations):
     """
 
     @staticmethod
+    @accept_old_keywords
     def from_sympy(source: Any, q: Sequence[Any] = ()) -> "System":
         """Return the system of an object of sympy.physics.mechanics.
 

@@ -29,7 +29,7 @@ from dataclasses import dataclass
 from functools import reduce
 from math import lcm
 from operator import mul
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 from sympy.polys.domains.domain import Domain
@@ -41,7 +41,7 @@ from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import by_symbol, expression, no_letter, shortest
 from lagrotor.mechanics.fourier import Coefficient, FourierSeries, Series, Waves, constant_series, forget
 from lagrotor.mechanics.lagrangian import t
-from lagrotor.renamed import accept_old_keywords
+from lagrotor.renamed import accept_old_keywords, old_attribute
 
 Residual = Callable[[Sequence[Series], Series], list[Series]]
 Column = dict[tuple[int, int], Coefficient]  # (equation, harmonic): value
@@ -551,6 +551,9 @@ class AveragedMotion:
     frequency: sp.Expr
     small: sp.Symbol
     order: int
+
+    if not TYPE_CHECKING:
+        __getattr__ = old_attribute
 
     @property
     def polar(self) -> tuple[sp.Expr, sp.Expr]:

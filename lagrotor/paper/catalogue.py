@@ -444,7 +444,7 @@ class Catalogue:
         return Letters(names, getattr(self._symbols, "LATEX", {}))
 
     def lines(self, identifier: str) -> tuple[Line, ...]:
-        """Read the printed lines of an equation.
+        r"""Read the printed lines of an equation.
 
         Parameters
         ----------
@@ -465,7 +465,7 @@ class Catalogue:
         --------
         >>> from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
         >>> PAPER.lines("5.24")[0].quantity
-        '\\\\dot\\\\phi'
+        '\\dot\\phi'
         """
         entry = self.equation(identifier)
         names, where = dict(self.letters(entry.section).names), f"{self.folder / 'equations.toml'}: {identifier}"

@@ -5,7 +5,7 @@ The printed lines are read from the catalogue when the statement is judged, so t
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import sympy as sp
 
@@ -18,7 +18,7 @@ from lagrotor.paper.premises import Premise, with_meanings
 from lagrotor.paper.proof import Form, Formula, left_out
 from lagrotor.paper.theorems import Theorem, can_prove, verify
 from lagrotor.paper.verdicts import Relation, Series, Side, Statement
-from lagrotor.renamed import accept_old_keywords
+from lagrotor.renamed import accept_old_keywords, old_attribute
 
 Proof: TypeAlias = Callable[[], Theorem]
 
@@ -58,6 +58,9 @@ class Stated:
     evidence: tuple[str, ...]
     form: "Form | Mapping[str, Form] | None" = None
     prove: "Proof | Mapping[str, Proof] | None" = None
+
+    if not TYPE_CHECKING:
+        __getattr__ = old_attribute
 
     @property
     def depends_on(self) -> tuple[str, ...]:

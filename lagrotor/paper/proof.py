@@ -7,7 +7,7 @@ import inspect
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
@@ -16,12 +16,12 @@ from lagrotor.algebra.name_clashes import check_names
 from lagrotor.errors import InputError, ProofError
 from lagrotor.mechanics.glossary import latex, light
 from lagrotor.paper.grammar import Letters, parsed, read
-from lagrotor.renamed import accept_old_keywords
+from lagrotor.renamed import accept_old_keywords, old_attribute
 
 
 @dataclass(frozen=True)
 class Formula:
-    """An expression, a matrix or an equation that a derivation shows.
+    r"""An expression, a matrix or an equation that a derivation shows.
 
     Attributes
     ----------
@@ -34,8 +34,8 @@ class Formula:
     --------
     >>> from sympy import symbols
     >>> G, J = symbols("G J")
-    >>> Formula(G / J, r"\\Omega").tex
-    '\\\\Omega = \\\\frac{G}{J}'
+    >>> Formula(G / J, r"\Omega").tex
+    '\\Omega = \\frac{G}{J}'
     """
 
     expression: Any
@@ -109,6 +109,9 @@ class Step:
     order: int | None = None
     equations: tuple[str, ...] = ()
 
+    if not TYPE_CHECKING:
+        __getattr__ = old_attribute
+
     @property
     def tex(self) -> str:
         """The equations in LaTeX, one below the other."""
@@ -134,7 +137,7 @@ def prove(
     names: str | Sequence[str] = (),
     equations: str | Sequence[str] = (),
 ) -> Step:
-    """Decide whether lhs = rhs, exactly or through small**order. Matrices and sequences are compared entry by entry.
+    r"""Decide whether lhs = rhs, exactly or through small**order. Matrices and sequences are compared entry by entry.
 
     Parameters
     ----------
@@ -168,7 +171,7 @@ def prove(
     >>> from sympy import cos, sin, symbols
     >>> x = symbols("x", real=True)
     >>> prove(sin(x) ** 2, 1 - cos(x) ** 2, "Pythagoras").tex
-    '\\\\begin{aligned} \\\\sin^{2} x &= 1 - \\\\cos^{2} x \\\\end{aligned}'
+    '\\begin{aligned} \\sin^{2} x &= 1 - \\cos^{2} x \\end{aligned}'
     """
     pairs = _pairs(lhs, rhs)
     check_names(f"prove: {says or 'this step'}", pairs, small)
@@ -225,11 +228,11 @@ _CONSTANTS = ("pi", "sqrt", "sin", "cos", "tan", "exp", "Integer", "Rational", "
 
 @dataclass(frozen=True)
 class Form:
-    """A formula as text, from which both its LaTeX (`tex`) and its components (`value`) are computed.
+    r"""A formula as text, from which both its LaTeX (`tex`) and its components (`value`) are computed.
 
     The text may call the functions of `grammar.FUNCTIONS`, transpose(A) and sum_i(…). The last is a sum over i = 1 … `bodies`,
     in which X_i stands for X_1, X_2, …. `letters` gives the components of symbols that the section does not declare. `names`
-    maps names to LaTeX, as {"n": r"\\hat\\Omega"}. `remainder` is the first omitted power of a series, in LaTeX.
+    maps names to LaTeX, as {"n": r"\hat\Omega"}. `remainder` is the first omitted power of a series, in LaTeX.
     """
 
     text: str

@@ -220,6 +220,8 @@ def _numbers(name: str, values: Any, n: int) -> tuple[Ball, ...]:
 
 def _values(parameters: Sequence[sp.Symbol], values: Values) -> dict[sp.Symbol, Ball]:
     by_name = {str(key): value for key, value in values.items()}
+    if len(by_name) < len(values):
+        raise InputError(f"proofs: values = {values}: a symbol and its name have two values: give one")
     if missing := [str(p) for p in parameters if str(p) not in by_name]:
         raise InputError(f"proofs: {', '.join(missing)} has no value: give values = {{symbol: number, …}}")
     return {p: ball(by_name[str(p)], str(p)) for p in parameters}

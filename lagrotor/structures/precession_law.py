@@ -18,6 +18,7 @@ detuning of the rates at I_j.
 from dataclasses import dataclass
 from functools import cached_property
 from math import inf, pi
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +26,7 @@ from numpy.typing import NDArray
 from lagrotor.errors import InputError
 from lagrotor.mechanics.canonical.polynomials import Polynomial, lie_transform, linear_form
 from lagrotor.pair.quantities import finite_number
+from lagrotor.renamed import old_attribute
 from lagrotor.result_display import Shown
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
@@ -60,6 +62,9 @@ class PrecessionLaw(Shown):
     quadratic: Polynomial
     structure: Assembly
     mode: int
+
+    if not TYPE_CHECKING:
+        __getattr__ = old_attribute
 
     def rate_at(self, tilt: float) -> float:
         """Return Ω in rad/s at a tilt, which is defined as for `Structure.steady_precession`."""

@@ -230,8 +230,7 @@ def torque(frame: MovingFrame, moment: Vector, against: MovingFrame | None, axes
     """Return the generalised forces of a torque: `Frame.torque`."""
     T, w = sp.Matrix(vector_of("torque: moment", moment, 3)), frame.angular_velocity
     if against is not None:
-        if not isinstance(against, MovingFrame):
-            raise InputError(f"torque: against = {against!r} must be a Frame")
+        _check("torque: against", frame, against)
         w = w - in_ground(frame)[0].T * in_ground(against)[1]
     if axes is not None:
         T = in_ground(frame)[0].T * _rotation("torque", frame, axes) * T
@@ -240,9 +239,15 @@ def torque(frame: MovingFrame, moment: Vector, against: MovingFrame | None, axes
 
 def _rotation(where: str, frame: MovingFrame, axes: MovingFrame | None) -> sp.Matrix:
     """Return the rotation into the ground's axes from those of a frame, or of another one."""
-    if axes is not None and (not isinstance(axes, MovingFrame) or axes.c != frame.c):
-        raise InputError(f"{where}: axes = {axes!r} must be a Frame with the same coordinates; Frame(c) is the ground")
+    if axes is not None:
+        _check(f"{where}: axes", frame, axes)
     return in_ground(frame if axes is None else axes)[0]
+
+
+def _check(where: str, frame: MovingFrame, other: Any) -> None:
+    """Raise InputError unless another frame has the coordinates of this one."""
+    if not isinstance(other, MovingFrame) or other.c != frame.c:
+        raise InputError(f"{where} = {other!r} must be a Frame with the same coordinates; Frame(c) is the ground")
 
 
 def _points(*points: Vector) -> list[sp.Matrix]:

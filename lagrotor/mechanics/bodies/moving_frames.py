@@ -196,9 +196,9 @@ class MovingFrame:
         >>> Frame(coordinates("theta")).pin("theta").place((1, 0, 0)).T
         Matrix([[cos(theta), sin(theta), 0]])
         """
-        position = sp.Matrix(list(point))
-        step: MovingFrame = self
-        while step is not frame and step.parent is not None:
+        position = sp.Matrix(vector_of("place: point", point, 3))
+        step, end = self, None if frame is None else self._step("place", frame)
+        while step is not end and step.parent is not None:
             position = (step.rotation * position + step.shift).applyfunc(with_shared_parts)
             step = step.parent
         return position
@@ -225,15 +225,22 @@ class MovingFrame:
         >>> Frame(coordinates("theta")).pin("theta").velocity((1, 0, 0)).T
         Matrix([[0, theta_dot, 0]])
         """
-        at, axes = sp.Matrix(list(point)), frame or self
+        at, axes = sp.Matrix(vector_of("velocity: point", point, 3)), self._step("velocity", frame or self)
         _, spin, origin, drift = self._relative(axes)
         return axes.origin_velocity + axes.angular_velocity.cross(at) + drift + spin.cross(at - origin)
+
+    def _step(self, where: str, frame: Any) -> "MovingFrame":
+        """Return one of the frames from this one to the ground; Frame(c) is the ground."""
+        steps = self.to_the_ground
+        if isinstance(frame, MovingFrame) and frame.parent is None and frame.c == self.c:
+            return steps[-1]
+        if frame not in steps:
+            raise InputError(f"{where}: frame = {frame!r} must be a frame from which this one was turned or moved")
+        return next(step for step in steps if step is frame)
 
     def _relative(self, frame: "MovingFrame") -> tuple[sp.Matrix, sp.Matrix, sp.Matrix, sp.Matrix]:
         """Return the rotation, ω, the origin and its velocity relative to a frame, in the axes of that frame."""
         steps = self.to_the_ground
-        if frame not in steps:
-            raise InputError("velocity: `frame` must be a frame from which this one was turned or moved")
         R, spin, origin, drift = sp.eye(3), sp.zeros(3, 1), sp.zeros(3, 1), sp.zeros(3, 1)
         for step in reversed(steps[: steps.index(frame)]):
             drift += spin.cross(R * step.shift) + R * step.shift.applyfunc(lambda e: total_derivative(e, self.c))

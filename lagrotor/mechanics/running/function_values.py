@@ -91,6 +91,8 @@ def put_functions(where: str, system: Kind, values: Any, others: Sequence[sp.Exp
     if len(by_function) < len(values):
         raise InputError(f"{where}: a function has two values, as U and as U(x): give one")
     values = by_function
+    if len({str(key) for key in values}) < len(values):
+        raise InputError(f"{where}: values = {values}: a symbol and its name have two values: give one")
     if not (functions or any(isinstance(key, UndefinedFunction) for key in values)):
         return system, values
     named = {
@@ -98,9 +100,6 @@ def put_functions(where: str, system: Kind, values: Any, others: Sequence[sp.Exp
     }
     if letters := sorted(functions.keys() & {str(s) for e in expressions for s in e.free_symbols}):
         raise InputError(f"{where}: {letters[0]} is a symbol of the system and a function in it: rename one")
-    names = [str(key) for key in values]
-    if twice := sorted(name for name in named if names.count(name) > 1):
-        raise InputError(f"{where}: {twice[0]} with two values, of the function and of its name: give one")
     if strangers := sorted(named.keys() - functions.keys()):
         raise InputError(
             f"{where}: values name the function {strangers[0]}, which the system does not have{near(strangers[0], functions)}"

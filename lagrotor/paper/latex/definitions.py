@@ -182,7 +182,7 @@ def _skip_name(expander: Expander, token: Token) -> None:
 
 
 def _skip_argument(expander: Expander, token: Token) -> None:
-    r"""Skip the argument of \titleformat, \tikzset …"""
+    r"""Skip the argument of a command such as \titleformat or \tikzset."""
     expander.star()
     expander.argument()
 

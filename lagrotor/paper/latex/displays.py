@@ -231,7 +231,7 @@ class _Walker:
             self._note(token.at, rf"\begin{{{name}}} is not read: write equation or align")
 
     def _begin_subequations(self) -> None:
-        """Number by letters within the next number."""
+        """Start numbering by letters within the next number."""
         counters, expander = self.counters, self.expander
         counters.step("equation")
         number = counters.printed(expander, "equation")

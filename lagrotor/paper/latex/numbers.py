@@ -67,7 +67,7 @@ class Counters:
         return plain_number(latex_of(expander.expand((Token("command", rf"\the{name}", 0),))))
 
     def begin_appendix(self, expander: Expander) -> None:
-        r"""Number chapters or sections by letters, as after \appendix."""
+        r"""Start numbering chapters or sections by letters, as after \appendix."""
         top, below = ("chapter", "section") if r"\thechapter" in expander.macros else ("section", "subsection")
         self.values |= {top: 0, below: 0}
         expander.define(rf"\the{top}", Macro.of(rf"\Alph{{{top}}}"), everywhere=True)

@@ -9,10 +9,12 @@ bands below the gap (Hatsugai, Phys. Rev. Lett. 71, 3697 (1993)).
 """
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from lagrotor.errors import InputError
+from lagrotor.renamed import old_attribute
 from lagrotor.structures.coefficients import Array, Complex
 from lagrotor.structures.waves.cell import Cell
 from lagrotor.structures.waves.dispersion import Dispersion, bloch, dispersion
@@ -33,6 +35,9 @@ class Chern:
     numbers: tuple[int, ...]
     apart: tuple[float, ...]
     flux_error: float
+
+    if not TYPE_CHECKING:
+        __getattr__ = old_attribute
 
 
 def chern_numbers(p: Cell, grid: int = 24) -> Chern:

@@ -106,7 +106,7 @@ def _axes(series: PairedSeries, values: _Values) -> Array:
 
 @cache
 def paired_momentum(order: int = 4) -> ClosedForm:
-    """Derive P/G of the paired precession through r_0**order: sigma r_0²/k + …
+    """Derive P/G of the paired precession, sigma r_0²/k + …, through r_0**order.
 
     P = sum_i (y_i p_zi − z_i p_yi) + G (x_1 − x_2), p_i = a r_i' + b r_j', is the momentum about the joint line, constant on
     the orbit and even in r_0.

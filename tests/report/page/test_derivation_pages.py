@@ -16,7 +16,7 @@ def test_a_script_of_the_gallery_is_a_page_with_its_picture() -> None:
     script = PAPER.scripts.executed("derivations", "g07_wilberforce")
     html = derivation_html(script, {})
     assert title(script, "g07") == "Wilberforce's pendulum"
-    assert "<p><small>Decided exactly: the split.</small></p>" in html
+    assert "<p><small>Decided exactly: the splitting of the frequencies.</small></p>" in html
     ((data, labels),) = re.findall(PICTURE, html)
     assert b64decode(data).startswith(b"\x89PNG") and len(data) < 80_000
     assert labels.startswith("z, \\vartheta")
