@@ -4,8 +4,8 @@ Data pass through these types in this order. A `Paper` is a folder: a `Catalogue
 scripts and a record. `grammar` reads a printed line as sympy objects. A derivation shows formulas, forms and steps (`proof`:
 `Formula`, `Form`, `prove`), and states an equation by `verdict` (`equation_statements`). `statement` combines it with the print,
 as a `Statement` of `Relation`s under `Premise`s. `hypotheses` combines the premises into one set. The `ledger` decides each
-line and returns a `Verdict` of `LineVerdict`s; a `Theorem` decides in its place, if there is one. An `Audit` is the verdicts of
-a paper. A `ClaimTest` simulates a claim that is made in words. `record` compares verdicts and claims with those on record.
+line and returns a `Verdict` of `LineVerdict`s; if there is a `Theorem`, it decides instead. An `Audit` has the verdicts of a
+paper. A `ClaimTest` simulates a claim that is made in words. `record` compares verdicts and claims with those on record.
 
 `judge` and `judge_text` need no paper. `latex` reads LaTeX. To add a paper, write its folder (`lagrotor init`); to add a
 function that every printed line may call, add it to `grammar.FUNCTIONS`.

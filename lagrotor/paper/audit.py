@@ -1,4 +1,4 @@
-"""The result of an audit: the verdicts of a paper in its order, in words for a terminal and as data for machines."""
+"""The result of an audit: the verdicts of a paper in its order, as text for a terminal and as JSON."""
 
 import json
 from collections import Counter
@@ -24,7 +24,7 @@ class Audit:
     Attributes
     ----------
     verdicts : tuple[Verdict, ...]
-        One for each equation that a derivation states.
+        One verdict for each equation that a derivation states.
     waiting : tuple[str, ...], default ()
         Ids of the equations that no derivation states.
 
@@ -44,8 +44,8 @@ class Audit:
             if verdict.id == identifier:
                 return verdict
         if identifier in self.waiting:
-            raise InputError(f"equation {identifier} is not yet judged: no derivation states it")
-        raise InputError(f"equation {identifier!r} is not in the paper: {', '.join(self.ids)}")
+            raise InputError(f"equation {identifier} is not yet judged: state it in a derivation by `verdict`")
+        raise InputError(f"equation {identifier!r} is not in the paper: its equations are {', '.join(self.ids)}")
 
     def __iter__(self) -> Iterator[Verdict]:
         return iter(self.verdicts)
@@ -55,12 +55,12 @@ class Audit:
 
     @property
     def ids(self) -> tuple[str, ...]:
-        """The ids of the equations, first of those that are judged."""
+        """The ids of the equations: first those that are judged, then those that are waiting."""
         return (*(verdict.id for verdict in self.verdicts), *self.waiting)
 
     @property
     def counts(self) -> dict[str, int]:
-        """The number of equations by verdict, the most frequent first, `not-yet-judged` last."""
+        """The number of equations with each verdict. The most frequent verdict is first, `not-yet-judged` last."""
         counts = dict(Counter[str](verdict.verdict for verdict in self.verdicts).most_common())
         return counts | ({NOT_YET: len(self.waiting)} if self.waiting else {})
 
@@ -79,7 +79,7 @@ _LONGEST = 120  # characters; a longer difference is replaced by the reason
 
 
 def in_words(verdict: Verdict, paper: Any) -> str:
-    """Return a verdict as text for a terminal: print, error, correction, premises, domain, script of the derivation."""
+    """Return a verdict as text for a terminal: print, error, correction, premises, domain and derivation."""
     statement, entry = verdict.statement, paper.equation(verdict.id)
     order = (
         f" through order {verdict.order} in {readable(str(verdict.small))}"
@@ -119,7 +119,7 @@ def _derivation(paper: Any, identifier: str) -> str | None:
 
 
 def _not_derived(relations: Iterable[Relation]) -> list[str]:
-    """Return the names of symbols that a printed side has and its derived side lacks."""
+    """Return the names of symbols that a printed side contains and the derived side lacks."""
 
     def names(side: Any) -> set[str]:
         return {str(s) for s in getattr(side, "expression", side).free_symbols}
@@ -128,24 +128,24 @@ def _not_derived(relations: Iterable[Relation]) -> list[str]:
 
 
 def _undefined_symbol_text(name: str) -> str:
-    return f'{readable(name)} is printed, but not derived: if the text defines it, write letters = {{ {name} = "…" }}'
+    return f'{readable(name)} is printed, but not derived: if the paper defines it, write letters = {{ {name} = "…" }}'
 
 
 def _printed(entry: Equation) -> list[str]:
-    """Return the printed lines of an equation, quantity = member = …, in plain text."""
+    """Return the printed lines of an equation in plain text, each as quantity = member = …."""
     return [" = ".join([from_latex(row["quantity"]), *map(readable, row.get("members", ()))]) for row in entry.line]
 
 
 def line_text(line: LineVerdict) -> str:
-    """Return the verdict on one member of a line and its reason in plain text."""
+    """Return the verdict on one member of a line in plain text, with the difference of the sides or the reason."""
     text = f"{from_latex(line.relation.quantity)}: {line.verdict}".removeprefix(": ")
     difference = "" if line.difference is None or line.reason else readable(str(line.difference))
-    reason = f"differs by {difference}" if 0 < len(difference) <= _LONGEST else line.reason
+    reason = f"the sides differ by {difference}" if 0 < len(difference) <= _LONGEST else line.reason
     return f"{text}: {reason}" if reason else text
 
 
 def dimension_texts(verdict: Verdict) -> tuple[str, ...]:
-    """Return the result of the dimensional analysis: one sentence for all consistent lines, one for each other line."""
+    """Return the dimensional analysis in sentences: one for all consistent lines together, and one for each other line."""
     alike, apart = dict[str, None](), dict[str, None]()
     for line in verdict.lines:
         dimensions, quantity = line.dimensions, from_latex(line.relation.quantity)
@@ -153,18 +153,18 @@ def dimension_texts(verdict: Verdict) -> tuple[str, ...]:
             alike[dimensions.says] = None
         elif dimensions:
             apart[f"{quantity}: {dimensions.answer}: {dimensions.says}"] = None
-    return (*([f"equal on both sides: {'; '.join(alike)}"] if alike else []), *apart)
+    return (*([f"the dimensions of both sides are equal: {'; '.join(alike)}"] if alike else []), *apart)
 
 
 def uncorrected(verdict: Verdict) -> list[Relation]:
-    """Return the refuted lines that have no correction; their derived sides are shown instead."""
+    """Return the refuted relations for which no correction is given; the report shows their derived sides instead."""
     right = {relation.quantity for relation in verdict.statement.correction}
     refuted = (line.relation for line in verdict.lines if line.verdict == "refuted")
     return [relation for relation in refuted if relation.quantity not in right]
 
 
 def _lines(relations: Iterable[Relation], side: str = "printed") -> list[str]:
-    """Return `quantity = expression` for each relation, in plain text."""
+    """Return the lines `quantity = expression` of the printed or the derived side of relations, each line once."""
     lines = []
     for relation in relations:
         small, order = relation.known or (relation.small, relation.claimed)
@@ -183,7 +183,7 @@ def _sides(relations: tuple[Relation, ...], side: str) -> str | None:
 
 
 def verdict_data(verdict: Verdict, paper: Any) -> dict[str, Any]:
-    """Return one verdict as the JSON object of `lagrotor audit --json`."""
+    """Return one verdict as the JSON object that `lagrotor audit --json` prints."""
     statement, entry = verdict.statement, paper.equation(verdict.id)
     return {
         "id": entry.id,
@@ -224,7 +224,7 @@ def premise_data(premise: Premise) -> dict[str, Any]:
 
 
 def line_data(line: LineVerdict) -> dict[str, Any]:
-    """Return the verdict on one member as a JSON object; its `witness` has each symbol's exact value or two bounds."""
+    """Return the verdict on one member as a JSON object. Its `witness` gives each symbol an exact value or two bounds."""
     ends = line.enclosure
     return {
         "quantity": line.relation.quantity,
@@ -248,12 +248,12 @@ def _exact(value: Any) -> Any:
 
 
 def waiting(entry: Equation) -> dict[str, Any]:
-    """Return an equation that is not yet judged as a JSON object."""
+    """Return the JSON object of an equation that is not yet judged."""
     printed = {"id": entry.id, "section": entry.section, "title": entry.title, "printed": entry.latex}
     return {**printed, "verdict": NOT_YET}
 
 
 def verdicts_json(verdicts: Iterable[Verdict], paper: Any, not_yet: Iterable[str] = ()) -> str:
-    """Return verdicts, then the equations that are not yet judged, as a JSON list."""
+    """Return the text of a JSON list: first the verdicts, then the equations that are not yet judged."""
     rows = [verdict_data(verdict, paper) for verdict in verdicts] + [waiting(paper.equation(i)) for i in not_yet]
     return json.dumps(rows, indent=1, ensure_ascii=False)

@@ -26,9 +26,10 @@ from lagrotor.paper.scripts import importable
 class HeadlineEntry:
     """A result at the beginning of the report; `text` contains computed numbers in braces.
 
-    {C02[rate]:.3f} is a number of a claim's test, {figure 3[period (s)]:.2f} one of a figure, {2.1} the verdict on an equation,
-    {2.1[correction]} the verdict on its correction. `ids` are the sources; `formula` is the equation whose derived side is
-    shown, for its line `quantity` (LaTeX); `figure` is shown beside the text, "figure 19".
+    {C02[rate]:.3f} is a number of a claim's test, and {figure 3[period (s)]:.2f} a number of a figure. {2.1} is the verdict on
+    an equation, and {2.1[correction]} the verdict on its correction. `ids` are the equations and claims of the result.
+    `formula` is the id of an equation whose derived side is shown, in its line for `quantity` (LaTeX). `figure`, such as
+    "figure 19", is shown beside the text.
     """
 
     title: str
@@ -51,8 +52,8 @@ class Opening:
 class ReportPart:
     """A part of the report.
 
-    `remarks` and `tables` are prefixes of the names of derivations, `figures` the letters before the numbers of figures. `front`
-    puts the part on the report's first page.
+    `remarks` and `tables` are prefixes of the names of derivations whose remarks or tables the part shows. `figures` are the
+    letters before the numbers of its figures. If `front` is True, the part stands on the report's first page.
     """
 
     name: str
@@ -74,10 +75,11 @@ USUAL_PARTS = (
 class TitlePage:
     """The content of `paper.toml`.
 
-    `sections` are number → heading; `results` the ids of the paper's main equations. `equations_in` and `claims_in` are prefixes
-    of the names of the derivations that state equations and test claims. `model` is a module whose `interactive() -> str` gives
-    a section of the page in HTML. `letters` are the first symbols of the notation; `notation` declares how ambiguous formulas are
-    read; `preamble` is LaTeX besides amsmath. `system` is a derivation as text (`lagrotor.paper.latex.stated_system`).
+    `sections` maps numbers to headings; `results` are the ids of the paper's main equations. `equations_in` and `claims_in` are
+    the prefixes of the names of derivations that state equations and test claims. `model` is a module whose `interactive() ->
+    str` gives a section of the page in HTML. `letters` are the first symbols of the notation. `notation` declares how ambiguous
+    formulas are read, `preamble` has LaTeX besides amsmath, and `system` describes a derivation
+    (`lagrotor.paper.latex.stated_system`).
     """
 
     title: str
@@ -97,25 +99,25 @@ class TitlePage:
 
 
 def toml(file: Path) -> dict[str, Any]:
-    """Read a TOML file; raise InputError, with the line, if it cannot be read."""
+    """Return the content of a TOML file; raise InputError, with the line, if it cannot be read."""
     try:
         with file.open("rb") as opened:
             return tomllib.load(opened)
     except OSError as error:
-        raise InputError(f"{file}: {error.strerror or error}: every paper has this file") from None
+        raise InputError(f"{file}: {error.strerror or error}: every paper needs this file") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise InputError(f"{file}: {error}") from None
 
 
 def row(kind: type, table: Any, where: str) -> Any:
-    """Return a table of a TOML file as a dataclass; raise InputError that names a missing or unknown key."""
+    """Convert a table of a TOML file to a dataclass of type `kind`. Raise InputError that names a missing or unknown key."""
     columns = {entry.name: entry for entry in fields(kind)}
     if not isinstance(table, dict):
         raise InputError(
-            f"{where}: {table!r} is no table: write {kind.__name__.lower()} as [[{kind.__name__.lower()}]]"
+            f"{where}: {table!r} is not a table: write {kind.__name__.lower()} as [[{kind.__name__.lower()}]]"
         )
     if unknown := sorted(table.keys() - columns.keys()):
-        raise InputError(f"{where}: {unknown[0]!r} means nothing here: the keys are {', '.join(columns)}")
+        raise InputError(f"{where}: {unknown[0]!r} is not a key: the keys are {', '.join(columns)}")
     values = {name: tuple(value) if isinstance(value, list) else value for name, value in table.items()}
     try:
         return kind(**values)
@@ -125,7 +127,7 @@ def row(kind: type, table: Any, where: str) -> Any:
 
 
 def title_page(folder: Path) -> TitlePage:
-    """Read `paper.toml`; raise InputError if it is missing or has an unknown key."""
+    """Read `paper.toml` in a folder; raise InputError if it is missing or has an unknown key."""
     file = folder / "paper.toml"
     if not file.is_file():
         if folder.is_file():
@@ -133,7 +135,7 @@ def title_page(folder: Path) -> TitlePage:
                 f"{folder} is a file: give a paper's folder; `lagrotor init my-paper --from {folder.name}` makes one"
             )
         raise InputError(
-            f"{folder} is no paper: it has no paper.toml; `lagrotor init {folder.name or 'my-paper'}` makes one"
+            f"{folder} is not a paper: it has no paper.toml; `lagrotor init {folder.name or 'my-paper'}` makes one"
         )
     page = toml(file)
     for key, kind in (("opening", Opening), ("headline", HeadlineEntry), ("part", ReportPart)):
@@ -148,7 +150,7 @@ def _check_braces(entry: Any, where: str) -> Any:
         list(Formatter().parse(getattr(entry, "text", "")))
     except ValueError as error:
         raise InputError(
-            f"{where}: text: {error}: numbers go in braces, {{C01[name]:.3f}}; a brace alone is {{{{"
+            f"{where}: text: {error}: write a number as {{C01[name]:.3f}} and a single brace as {{{{"
         ) from None
     return entry
 
@@ -163,13 +165,14 @@ _LINE = ("quantity", "members", "order", "small", "read_off", "scene", "names")
 class Equation:
     """One printed equation; `latex` is its source, `number` its number in the paper.
 
-    `line` has the printed lines as the catalogue writes them; `reading` is a remark on their reading. `letters` are meanings that
-    the text around the equation gives its symbols; `refers` is symbol → id of the equation that defines it. `measured` marks a
-    number read off a simulation. `place` is the heading in the paper, if `section` is wider.
+    `line` has the printed lines as the catalogue writes them; `reading` is a remark on how they were read. `letters` are
+    meanings that the text around the equation gives to symbols. `refers` maps a symbol to the id of the equation that defines
+    it. `measured` is True for a number read off a simulation. `place` is the heading in the paper, if `section` comprises more
+    than this heading.
 
-    For lines read from LaTeX, `read` is "unconfirmed", "confirmed" or, if the source no longer has the equation, "gone"; `print`
-    is a hash of the confirmed lines. `label` is the name in the source, `lead` the left side of the row that the equation
-    continues, `aside` the statements that are not compared, `changed` the print before the source changed.
+    Lines read from LaTeX have `read` "unconfirmed", "confirmed" or, if the source no longer has the equation, "gone"; `print`
+    is a hash of the confirmed lines. `label` is the equation's name in the source, `lead` the left side of the row that it
+    continues. `aside` has statements that are not compared, `changed` the print before the source changed.
     """
 
     id: str
@@ -192,19 +195,19 @@ class Equation:
 
     @property
     def is_confirmed(self) -> bool:
-        """True if the author wrote its lines or confirmed their present form."""
+        """True if the author wrote the equation's lines, or confirmed the lines in their present form."""
         return not self.read or (self.read == "confirmed" and self.print == reading_digest(self.latex, self.line))
 
     @property
     def cited(self) -> str:
-        """The citation: its number and section, or its section."""
+        """The citation of the equation: its number and section, or its section if it has no number."""
         where = f"section {self.place or self.section}"
         return f"({self.number}), {where}" if self.number else where
 
 
 @dataclass(frozen=True)
 class Claim:
-    """A statement of the paper in words; `equations` are the ids of the equations that it concerns."""
+    """A statement that the paper makes in words; `equations` are the ids of the equations that it concerns."""
 
     id: str
     section: str
@@ -213,14 +216,14 @@ class Claim:
 
     @property
     def figures(self) -> tuple[str, ...]:
-        """The numbers of the figures in the text."""
+        """The numbers of the figures that the claim's text names."""
         named = re.findall(r"figures? (\d+(?:, \d+)*)", self.text)
         return tuple(number for group in named for number in group.split(", "))
 
 
 @dataclass(frozen=True)
 class Figure:
-    """One figure; `kind` is diagram, simulated, analytical or both; `equations` are the ids of those that it shows."""
+    """One figure; its `kind` is diagram, simulated, analytical or both, its `equations` are the ids of those shown."""
 
     number: int
     kind: str
@@ -230,40 +233,40 @@ class Figure:
 
     @property
     def id(self) -> int:
-        """Its number."""
+        """The number of the figure."""
         return self.number
 
 
 def reading_digest(latex: str, lines: Iterable[Mapping[str, Any]]) -> str:
-    """Return a hash of a print and its lines, which identifies the confirmed reading."""
+    """Return a hash of an equation's LaTeX and its lines, by which a confirmed reading is recognised."""
     text = json.dumps([latex, [dict(line) for line in lines]], sort_keys=True, default=str)
     return sha256(text.encode()).hexdigest()[:16]
 
 
 def is_claim(identifier: str) -> bool:
-    """Return True if an id is that of a claim, C and a number."""
+    """Return True if an id is the id of a claim: C and a number."""
     return _CLAIM.fullmatch(identifier) is not None
 
 
 def known_id(identifier: str, ids: Collection[str]) -> str:
-    """Return an id of the paper; raise InputError that names similar ids for any other: 5.1 may be 5.01 or 5.10."""
+    """Return the id if the paper has it; otherwise raise InputError, which names similar ids such as 5.01 for 5.1."""
     if identifier in ids:
         return identifier
     if not ids:
-        raise InputError(f"{identifier!r} is not in the catalogue: it is empty")
+        raise InputError(f"{identifier!r} is not in the catalogue, which is empty")
     section, _, place = str(identifier).rpartition(".")
     near_ones = [i for i in (f"{section}.0{place}", f"{section}.{place}0", f"C{place.lstrip('Cc'):0>2}") if i in ids]
     first, last = next(iter(ids)), list(ids)[-1]
-    hint = f"{' or '.join(near_ones)}?" if near_ones else f"ids run from {first} to {last}"
+    hint = f"{' or '.join(near_ones)}?" if near_ones else f"its ids run from {first} to {last}"
     raise InputError(f"{identifier!r} is not in the catalogue: {hint}")
 
 
 @dataclass(frozen=True)
 class Catalogue:
-    """The data of a paper's folder: `paper.toml`, `equations.toml` and, if present, claims, figures and symbols.
+    """The data in a paper's folder: `paper.toml`, `equations.toml` and, if present, claims, figures and symbols.
 
-    Raises InputError, with the file and the id, for a folder without `paper.toml`, a duplicate id, an unknown section or
-    equation, and an unknown key. The printed lines are read when they are used.
+    Raises InputError, with the file and the id, if `paper.toml` is missing, an id is given twice, or a section, an equation or
+    a key is unknown. The printed lines are read when they are first used.
     """
 
     folder: Path
@@ -313,18 +316,18 @@ class Catalogue:
         file = self.folder / f"{name}.toml"
         content = self._equations_toml if name == "equations" else toml(file)
         if unknown := sorted(content.keys() - {key, "letters", "units"}):
-            raise InputError(f"{file}: {unknown[0]!r} means nothing here: write [[{key}]]")
+            raise InputError(f"{file}: {unknown[0]!r} is not a key: write [[{key}]]")
         rows: dict[Any, Row] = {}
         for entry in content.get(key, []):
             where = f"{file}: {key} {entry.get('id', entry.get('number', '?')) if isinstance(entry, dict) else '?'}"
             read: Row = row(kind, entry, where)
             if read.id in rows:
-                raise InputError(f"{where}: the id is given twice")
+                raise InputError(f"{where}: the id is given twice: change one of the two")
             rows[read.id] = read
         return rows
 
     def _problems(self) -> Iterator[str]:
-        """Yield a sentence for each inconsistency of the files."""
+        """Yield one sentence for each inconsistency between the paper's files."""
         file, sections = self.folder / "paper.toml", self.about.sections
         yield from self._problems_of_lines(self.folder / "equations.toml")
         for name, rows in (("equations", self.equations), ("claims", self.claims), ("figures", self.figures)):
@@ -344,16 +347,16 @@ class Catalogue:
         model = self.about.model
         is_local = model.isidentifier() and (self.folder / f"{model}.py").is_file()
         if model and not (is_local or model.startswith("lagrotor.report.")):
-            yield f"{file}: model: {model!r} is no module of this folder"
+            yield f"{file}: model: {model!r} is not a module of this folder"
 
     def _problems_of_lines(self, file: Path) -> Iterator[str]:
-        """Yield a sentence for each inconsistency of the printed lines and of the symbols of sections."""
+        """Yield one sentence for each inconsistency in the printed lines and in the sections' symbols and units."""
         for equation in self.equations.values():
             for line in equation.line:
                 for key in sorted(line.keys() - set(_LINE)):
-                    yield f"{file}: {equation.id}: a line has no {key!r}: its keys are {', '.join(_LINE)}"
+                    yield f"{file}: {equation.id}: {key!r} is not a key of a line: the keys are {', '.join(_LINE)}"
                 if "quantity" not in line:
-                    yield f"{file}: {equation.id}: a line has no quantity: say in LaTeX what it is about"
+                    yield f"{file}: {equation.id}: a line has no quantity: name in LaTeX the quantity that it gives"
         for key in ("letters", "units"):
             for section in self._equations_toml.get(key, {}).keys() - self.about.sections.keys():
                 yield f"{file}: {key}: section {section!r} is not among the sections of paper.toml"
@@ -369,7 +372,7 @@ class Catalogue:
         Returns
         -------
         Equation
-            With its LaTeX and its printed lines.
+            The equation with its LaTeX and its printed lines.
 
         Raises
         ------
@@ -385,18 +388,18 @@ class Catalogue:
         return self.equations[known_id(identifier, self.equations)]
 
     def importable(self) -> AbstractContextManager[None]:
-        """Open a context in which the modules of the paper's folder can be imported by name.
+        """Return a context in which the modules of the paper's folder can be imported by name.
 
         Returns
         -------
         AbstractContextManager[None]
-            Two papers may have modules of the same name.
+            The context; in it two papers may have modules of the same name.
         """
         return importable(self.folder, self.modules)
 
     @cached_property
     def _symbols(self) -> ModuleType | None:
-        """The module `symbols` of the folder, with GLOSSARY and, optionally, FUNCTIONS, LATEX, WRITTEN_OUT."""
+        """The module `symbols` of the folder, or None. It defines GLOSSARY and optionally FUNCTIONS, LATEX and WRITTEN_OUT."""
         if not (self.folder / "symbols.py").is_file():
             return None
         with self.importable():
@@ -407,12 +410,12 @@ class Catalogue:
 
     @property
     def glossary(self) -> Glossary:
-        """The paper's symbols with meanings and units."""
+        """The paper's symbols with their meanings and units."""
         return getattr(self._symbols, "GLOSSARY", None) or Glossary()
 
     @property
     def written_out(self) -> Mapping[Any, Any]:
-        """The symbols that abbreviate expressions; they are expanded before the values of a scene are substituted."""
+        """Abbreviating symbols and their expressions. They are expanded before a scene's values are substituted."""
         return getattr(self._symbols, "WRITTEN_OUT", {})
 
     def letters(self, section: str) -> Letters:
@@ -426,7 +429,7 @@ class Catalogue:
         Returns
         -------
         Letters
-            Besides `grammar.FUNCTIONS`, which every paper may call.
+            The symbols and functions, without `grammar.FUNCTIONS`, which every paper may call.
 
         Examples
         --------
@@ -451,7 +454,7 @@ class Catalogue:
         Returns
         -------
         tuple[Line, ...]
-            The members of each line as sympy expressions.
+            The printed lines, with their members as sympy expressions.
 
         Raises
         ------
@@ -472,7 +475,7 @@ class Catalogue:
 
 
 def section_glossary(catalogue: Catalogue, section: str) -> Glossary:
-    """Return the glossary with the units of a section in `equations.toml`; raise InputError for an unknown symbol."""
+    """Return the glossary with the units that `equations.toml` gives for a section. Raise InputError for an unknown symbol."""
     names, glossary = catalogue.letters(section).names, Glossary(catalogue.glossary)
     for unit, letters in catalogue._equations_toml.get("units", {}).get(section, {}).items():
         for name in letters.split():

@@ -1,7 +1,7 @@
 """Tests of claims that a paper makes in words: a simulation measures numbers, and a rule decides by these numbers alone.
 
-A `ClaimTest` separates the simulation from the decision. The same rule must decide otherwise for a case that contradicts the
-claim. If a theorem encloses the motion, it decides in place of the simulation.
+A `ClaimTest` separates the simulation from the decision. For a case that contradicts the claim, the same rule must decide
+otherwise. If a theorem encloses the motion, it decides in place of the simulation.
 """
 
 import json
@@ -20,33 +20,33 @@ Outcome = Literal["proved", "confirmed", "confirmed-if", "refuted"]
 
 
 class PrintedNumber(float):
-    """A printed number. It represents every number that rounds to it, half a unit of the last digit either way."""
+    """A number as printed. It stands for every number that rounds to it: up to half a unit of its last digit above or below."""
 
     def __init__(self, digits: str) -> None:
         self.digits, self.half_unit = digits, 0.5 / 10 ** len(digits.partition(".")[2])
 
     def is_matched(self, number: float) -> bool:
-        """Return True if a number rounds to the printed one."""
+        """Return True if the number rounds to the printed one."""
         return abs(number - self) < self.half_unit
 
     @property
     def rule(self) -> str:
-        """The represented interval, in words."""
+        """The interval of the numbers that the printed one stands for, in words."""
         return f"{self.digits} as printed means {self - self.half_unit:.8g} to {self + self.half_unit:.8g}"
 
 
 @dataclass(frozen=True)
 class Part:
-    """One part of a claim's sentence and whether it holds.
+    """One part of a claim's sentence, and whether it holds.
 
     Attributes
     ----------
     says : str
         The part in words.
     holds : bool
-        True if the numbers confirm it.
+        True if the numbers confirm the part without any condition.
     only_if : str, default ''
-        The condition under which a part holds that does not hold in general; empty without one.
+        For a part that does not hold in general, the condition under which it holds; empty if there is none.
     theorems : tuple[Theorem, ...], default ()
         The theorems that decide the part; without any, simulations decide.
 
@@ -63,7 +63,7 @@ class Part:
 
     @property
     def outcome(self) -> str:
-        """The decision in words."""
+        """The decision on the part in words: 'holds', 'does not hold' or 'holds only if: …'."""
         if self.holds or not self.only_if:
             words = "holds" if self.holds else "does not hold"
             return f"{words}, proved" if self.theorems else words
@@ -82,7 +82,7 @@ class Finding:
     parts : tuple[Part, ...]
         The parts of the sentence.
     explanation : str
-        Sentences with the numbers.
+        The reason for the decision, in sentences with the measured numbers.
 
     Examples
     --------
@@ -96,7 +96,7 @@ class Finding:
 
     @property
     def outcome(self) -> Outcome:
-        """The decision on the whole claim."""
+        """The decision on the whole claim: 'proved', 'confirmed', 'confirmed-if' or 'refuted'."""
         if any(not part.holds and not part.only_if for part in self.parts):
             return "refuted"
         if not all(part.holds for part in self.parts):
@@ -111,11 +111,11 @@ class Finding:
 
     @property
     def theorems(self) -> tuple[tuple[Part, Theorem], ...]:
-        """Each part with each theorem that decides it."""
+        """All pairs of a part and a theorem that decides it."""
         return tuple((part, theorem) for part in self.parts for theorem in part.theorems)
 
     def _with_theorems(self, proved: Iterable[Part], where: str) -> "Finding":
-        """Replace parts by those with theorems; raise ProofError if one is unknown or contradicts the simulation."""
+        """Add theorems to the parts that they decide; raise ProofError if one contradicts the simulation."""
         parts = {part.says: part for part in self.parts}
         for part in proved:
             if part.says not in parts or not part.theorems:
@@ -123,7 +123,7 @@ class Finding:
                 raise ProofError(f"{where}: {part.says!r} {wrong}")
             if part.holds != parts[part.says].holds:
                 raise ProofError(
-                    f"{where}: {part.says}: the run says that it {parts[part.says].outcome}, and a theorem that it {part.outcome}"
+                    f"{where}: {part.says}: by the simulation it {parts[part.says].outcome}, by a theorem it {part.outcome}"
                 )
             parts[part.says] = replace(parts[part.says], theorems=part.theorems)
         return replace(self, parts=tuple(parts.values()))
@@ -138,19 +138,19 @@ class ClaimTest:
     id : str
         The claim's id in `claims.toml`.
     case : Any
-        The argument of `measure` for the claim's own case.
+        The claim's own case, the argument of `measure`: parameters or initial values of the simulation.
     foreign : Mapping[str, Any]
-        Part of the sentence → a case for which the decision on that part must differ.
+        Part of the sentence → a case that contradicts it, so that the decision on this part must differ.
     model : str
         The simulated models, in words.
     measure : Callable
-        Case → numbers by name.
+        Function of a case that simulates it and returns numbers by name.
     decide : Callable
-        Numbers → `Finding`.
+        Function of these numbers that returns a `Finding`.
     prove : Callable or None, optional
-        Case → parts with the theorems that decide them.
+        Function of a case that returns the parts that theorems decide, with these theorems.
     unproved : str, default ''
-        The reason why no theorem decides the other parts.
+        The reason why no theorem decides the remaining parts.
 
     Examples
     --------
@@ -170,7 +170,7 @@ class ClaimTest:
     unproved: str = ""
 
     def evaluated(self, case: Any) -> "Result":
-        """Measure and decide a case.
+        """Measure the numbers of a case and decide by them.
 
         Parameters
         ----------
@@ -180,7 +180,7 @@ class ClaimTest:
         Returns
         -------
         Result
-            The numbers and the finding.
+            The measured numbers and the finding.
 
         Raises
         ------
@@ -191,21 +191,22 @@ class ClaimTest:
         measured = {name: float(value) for name, value in self.measure(case).items()}
         finding = self.decide(measured)
         if self.unproved:
-            what = "the rest" if self.prove else "it"
-            finding = replace(finding, explanation=f"{finding.explanation} Why {what} is no theorem: {self.unproved}.")
+            what = "the other parts" if self.prove else "the claim"
+            why = f"No theorem decides {what}: {self.unproved}."
+            finding = replace(finding, explanation=f"{finding.explanation} {why}")
         if self.prove is not None and can_prove():
             parts: list[Part] = []
             try:
                 parts += self.prove(case)
             except NotProved as refusal:
-                finding = replace(finding, explanation=f"{finding.explanation} Not proved: {refusal}.")
+                finding = replace(finding, explanation=f"{finding.explanation} The proof failed: {refusal}.")
             finding = finding._with_theorems(parts, self.id)
             verify({id(theorem): theorem for _, theorem in finding.theorems}.values(), self.id)
         return Result(self, measured, finding, time.perf_counter() - began)
 
     @cached_property
     def result(self) -> "Result":
-        """The result of the claim's own case; the first access runs the simulations, which take up to seconds."""
+        """The result of the claim's own case. The first access runs the simulations, which take some seconds."""
         return self.evaluated(self.case)
 
     def _repr_html_(self) -> str:
@@ -221,13 +222,13 @@ class Result:
     Attributes
     ----------
     test : ClaimTest
-        The test.
+        The test of the claim.
     measured : Mapping[str, float]
-        The numbers by name; each name ends in the unit.
+        The measured numbers by name; each name ends in the unit.
     finding : Finding
-        The decision.
+        The decision with its reasons.
     seconds : float
-        Computing time.
+        Computing time in s.
     """
 
     test: ClaimTest
@@ -237,7 +238,7 @@ class Result:
 
 
 def claim_data(result: Result, entry: Claim) -> dict[str, Any]:
-    """Return one claim as the JSON object of `lagrotor claims --json`."""
+    """Return one claim as the JSON object that `lagrotor claims --json` prints."""
     return {
         "id": entry.id,
         "section": entry.section,
@@ -261,5 +262,5 @@ def claim_data(result: Result, entry: Claim) -> dict[str, Any]:
 
 
 def claims_json(results: Iterable[Result], claims: Mapping[str, Claim]) -> str:
-    """Return claims as a JSON list."""
+    """Return the claims as the text of a JSON list."""
     return json.dumps([claim_data(r, claims[r.test.id]) for r in results], indent=1, ensure_ascii=False)

@@ -1,6 +1,6 @@
-"""Statements of equations by a derivation, and their combination with the printed lines.
+"""Statements that a derivation makes about equations, and their combination with the printed lines.
 
-The printed lines come from the catalogue when the statement is judged, so that a script cannot change them.
+The printed lines are read from the catalogue when the statement is judged, so that a script cannot change them.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -25,18 +25,18 @@ Proof: TypeAlias = Callable[[], Theorem]
 
 @dataclass(frozen=True)
 class Stated:
-    """The statement of a derivation about an equation, as returned by `verdict`, before it is compared with the print.
+    """The statement of a derivation about an equation. `verdict` returns it; it is compared with the print later.
 
     Attributes
     ----------
     id : str
         The equation's id.
     derived : Any
-        The derived side; for several quantities a mapping, quantity in LaTeX → side.
+        The derived side. If the equation gives several quantities, a mapping: quantity in LaTeX → side.
     premises : tuple[Premise, ...]
         The premises that the line needs.
     correction : Any
-        The side that should be printed, or a mapping.
+        The side that should be printed, or a mapping: quantity in LaTeX → side.
     wrong : str
         The error of the printed line in one sentence.
     uses : tuple[str or Stated, ...]
@@ -46,7 +46,7 @@ class Stated:
     form : Form or Mapping[str, Form] or None, optional
         The derived side as a physicist writes it.
     prove : Callable or Mapping[str, Callable] or None, optional
-        A function that proves bounds of a number read off a simulation.
+        A function that proves bounds of a number that the paper read off a simulation.
     """
 
     id: str
@@ -64,7 +64,7 @@ class Stated:
 
     @property
     def depends_on(self) -> tuple[str, ...]:
-        """Ids of the equations that this one uses."""
+        """The ids of the equations that this one uses."""
         return tuple(used if isinstance(used, str) else used.id for used in self.uses)
 
     def _repr_latex_(self) -> str:
@@ -74,7 +74,7 @@ class Stated:
 
 
 def _remainder(side: Side) -> str:
-    """Return the remainder of a series in LaTeX."""
+    """Return the LaTeX of a series' omitted terms, + O(…); empty if the side is not a series."""
     return left_out(side.small, side.order) if isinstance(side, Series) else ""
 
 
@@ -90,35 +90,35 @@ def verdict(
     form: "Form | Mapping[str, Form] | None" = None,
     prove: "Proof | Mapping[str, Proof] | None" = None,
 ) -> Stated:
-    """State the derived side of an equation; the ledger later compares it with the printed line.
+    """State the derived side of an equation. The ledger later compares it with the printed line.
 
     Parameters
     ----------
     identifier : str
         The equation's id in the catalogue.
     derived : Side or Mapping[str, Side], optional
-        The derived side, without any premise substituted. Several quantities are a mapping, quantity in LaTeX → side. A
-        side that is known through some order only is a `Series`.
+        The derived side, in which no premise is substituted. For several quantities, a mapping: quantity in LaTeX →
+        side. A side that is known through some order only is a `Series`.
     premises : Iterable[Premise], default ()
         The premises that the line needs.
     correction : Side or Mapping[str, Side], optional
-        The side that should be printed, also as a `Form`; it is judged against `derived`.
+        The side that should be printed, as an expression or a `Form`; it is judged against `derived`.
     wrong : str, default ''
         The error of the printed line in one sentence.
     uses : Iterable[str or Stated], default ()
-        Ids or statements of the equations that this one uses. A statement gives the symbols that are defined there their
-        derived meaning.
+        Ids or statements of the equations that this one uses. If such an equation defines a symbol, its statement gives
+        the symbol's derived meaning.
     evidence : Iterable[str], default ()
         Sentences shown beside the verdict.
     form : Form or Mapping[str, Form] or None, optional
         The derived side as a physicist writes it; the ledger checks that it is equal to `derived`.
     prove : Callable or Mapping[str, Callable] or None, optional
-        For a number read off a simulation, a function that proves its bounds; the theorem then decides.
+        For a number read off a simulation, a function that proves bounds of it and returns the theorem, which decides.
 
     Returns
     -------
     Stated
-        The last expression of a cell in the derivation.
+        The statement; a derivation shows it as the last expression of a cell.
 
     Examples
     --------
@@ -129,7 +129,7 @@ def verdict(
 
 
 def statement(assertion: Stated, catalogue: Catalogue) -> Statement:
-    """Combine the printed lines of the catalogue with the derived sides; raise an error if they do not fit."""
+    """Combine the derived sides of an equation with its printed lines in the catalogue; raise an error if they do not fit."""
     entry = catalogue.equation(assertion.id)
     for used in assertion.depends_on:
         catalogue.equation(used)
@@ -137,7 +137,9 @@ def statement(assertion: Stated, catalogue: Catalogue) -> Statement:
     derived, letters = _expressions(assertion.derived, entry), catalogue.letters(entry.section)
     names = bool(lines) and all(line.names for line in lines)
     if names and derived:
-        raise InputError(f"verdict: {assertion.id} only introduces a symbol, so that there is nothing to compare")
+        raise InputError(
+            f"verdict: {assertion.id} only introduces a symbol, so that there is nothing to compare: omit `derived`"
+        )
     if not lines:
         raise InputError(f"verdict: {assertion.id} has no printed line to be judged: write it as an [[equation.line]]")
     meanings = _referred_meanings(entry, assertion, catalogue)
@@ -170,13 +172,13 @@ def statement(assertion: Stated, catalogue: Catalogue) -> Statement:
 
 
 def _theorems(entry: Equation, assertion: Stated) -> tuple[dict[str, Theorem], list[str]]:
-    """Return quantity → the theorem that bounds it (an empty one without python-flint), and the refusals of proofs."""
+    """Return quantity → its theorem, and a sentence for each failed proof. Theorems are empty without python-flint."""
     theorems: dict[str, Theorem] = {}
     refusals: list[str] = []
     for name, prove in _by_quantity(assertion.prove, entry).items():
         if not any(line["quantity"] == name and "read_off" in line for line in entry.line):
             raise InputError(
-                f"verdict: {entry.id}: a theorem is given for {name}, which has no number that is read off"
+                f"verdict: {entry.id}: a theorem is given for {name}, which has no number that is read off: omit `prove`"
             )
         if not can_prove():
             theorems[name] = Theorem("")
@@ -184,17 +186,19 @@ def _theorems(entry: Equation, assertion: Stated) -> tuple[dict[str, Theorem], l
         try:
             theorem = prove()
         except NotProved as refusal:
-            refusals.append(f"Not proved: {refusal}")
+            refusals.append(f"The proof failed: {refusal}")
             continue
         if theorem.bounds is None:
-            raise InputError(f"verdict: {entry.id}: the theorem about {name} has no bounds to compare the number with")
+            raise InputError(
+                f"verdict: {entry.id}: the theorem about {name} has no bounds: name its quantity in `Theorem.of`"
+            )
         verify([theorem], entry.id)
         theorems[name] = theorem
     return theorems, refusals
 
 
 def _referred_meanings(entry: Equation, assertion: Stated, catalogue: Catalogue) -> dict[sp.Symbol, Side]:
-    """Return symbol → derived side, for symbols that another equation defines; vectors by components."""
+    """Return symbol → derived side, for the symbols that another equation defines. Vectors are given by their components."""
     if not entry.refers:
         return {}
     used = {source.id: source for source in assertion.uses if isinstance(source, Stated)}
@@ -219,13 +223,13 @@ def _expression(side: Side) -> Side:
 
 
 def _known_orders(derived: Side | Mapping[str, Side], entry: Equation) -> dict[str, tuple[sp.Symbol, int]]:
-    """Return quantity → (variable, highest known order) for the sides that are series."""
+    """Return quantity → (variable, highest known order), for the derived sides that are series."""
     sides = _by_quantity(derived, entry).items()
     return {name: (side.small, side.order) for name, side in sides if isinstance(side, Series)}
 
 
 def _by_quantity(value: Any, entry: Equation) -> dict[str, Any]:
-    """Return a mapping by quantity; a single value belongs to the first line."""
+    """Return a mapping of quantities to values. A single value belongs to the quantity of the first line."""
     if value is None:
         return {}
     return dict(value) if isinstance(value, Mapping) else {entry.line[0]["quantity"] if entry.line else "": value}
@@ -240,7 +244,7 @@ def _relations(
 ) -> Iterator[Relation]:
     if line.quantity not in quantities:
         raise InputError(
-            f"verdict: {identifier} prints {line.quantity}: derive it ({', '.join(quantities) or 'nothing is'})"
+            f"verdict: {identifier} prints {line.quantity}: derive it, besides {', '.join(quantities) or 'nothing'}"
         )
     derived = quantities[line.quantity]
     if line.scene:
@@ -262,7 +266,9 @@ def _corrections(
     by_name = {line.quantity: line for line in lines}
     for name, value in correction.items():
         if name not in quantities:
-            raise InputError(f"verdict: {entry.id}: the correction gives {name}, which was not derived")
+            raise InputError(
+                f"verdict: {entry.id}: the correction gives {name}, which was not derived: add it to `derived`"
+            )
         line = by_name.get(name) or next((line for line in lines if line.small is not None), None)
         small, order = (line.small, line.order) if line else (None, 0)
         if name in known_orders and small is None:
@@ -278,31 +284,33 @@ def _corrections(
 def _forms(
     entry: Equation, lines: tuple[Line, ...], quantities: Mapping[str, Side], assertion: Stated, letters: Letters
 ) -> dict[str, dict[str, Any]]:
-    """Return quantity → LaTeX of its form, after deciding that the form is equal to the derived side."""
+    """Return quantity → the form's LaTeX and if it needs premises; raise ProofError if it is not the derived side."""
     forms: dict[str, dict[str, Any]] = {}
     for name, form in _by_quantity(assertion.form, entry).items():
         if name not in quantities:
-            raise InputError(f"verdict: {entry.id}: a form is given for {name}, which was not derived")
+            raise InputError(
+                f"verdict: {entry.id}: a form is given for {name}, which was not derived: add it to `derived`"
+            )
         scene = next((line.scene for line in lines if line.quantity == name), {})
         granted = needs_premises(
             sp.sympify(form.value(letters), strict=True), quantities[name], assertion.premises, scene
         )
         if granted is None:
-            raise ProofError(f"verdict: {entry.id}: {name} = {form.text} is not what was derived")
+            raise ProofError(f"verdict: {entry.id}: the form {name} = {form.text} is not what was derived")
         tex = _tex(form, name, _known_orders(assertion.derived, entry), letters)
         forms[name] = {"written": tex, "granted": granted}
     return forms
 
 
 def _tex(form: Form, name: str, known_orders: Mapping[str, tuple[sp.Symbol, int]], letters: Letters) -> str:
-    """Return a form as LaTeX, with the remainder if the derived side is a series."""
+    """Return a form as LaTeX. If the derived side is a series, + O(…) is appended."""
     return form.tex(letters) + (left_out(*known_orders[name]) if name in known_orders and not form.remainder else "")
 
 
 def needs_premises(
     value: Side, derived: Side, premises: tuple[Premise, ...], scene: Mapping[sp.Symbol, sp.Expr]
 ) -> bool | None:
-    """Return True if a form is equal to the derived side only under the premises; None if it is not equal."""
+    """Return False if a form is equal to the derived side, True if it is so only under the premises, and None otherwise."""
     if decide_equal(value, derived).answer == "zero":
         return False
     under = hypotheses((*premises, Premise("the values that the text gives", scene)) if scene else premises)

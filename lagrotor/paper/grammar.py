@@ -1,8 +1,9 @@
-"""The reader of expressions, which converts text to sympy objects by a grammar of known nodes and names. No text is executed.
+"""The reader of expressions. It converts text to sympy objects by a grammar of known nodes and names, and executes no text.
 
 The text is Python: numbers (1j is the imaginary unit), names, + - * / **, calls of known functions with tuples as arguments,
 `.T` of a matrix and `.subs(symbol, value)`. Strings, other attributes and unknown names are refused before any object is built.
-`FUNCTIONS` are the functions that every paper may call, `declared` the symbols of a section; `read_line` reads a printed line.
+`FUNCTIONS` are the functions that every paper may call. `declared` makes the symbols of a section, `read_line` reads a printed
+line.
 """
 
 import ast
@@ -27,13 +28,15 @@ _SIZED = {sp.eye, sp.zeros}
 
 
 def parsed(text: str, names: Mapping[str, Any], where: str, as_written: bool = False) -> Any:
-    """Return the object of a text in `names`, name → symbol, matrix or function; decimals become exact rationals.
+    """Convert a text to a sympy object.
 
-    With `as_written`, sums, products and functions stay unevaluated. Raises InputError, which begins with `where`, for text
-    outside the grammar and for an unknown name.
+    `names` maps each name to a symbol, matrix or function; decimals become exact rationals.
+
+    If `as_written` is True, sums, products and functions stay unevaluated. Raises InputError for an unknown name and for text
+    outside the grammar; its message begins with `where`.
     """
     if not isinstance(text, str):
-        raise InputError(f"{where}: {text!r} is no text: write the expression between quotes")
+        raise InputError(f"{where}: {text!r} is not a text: write the expression between quotes")
     line = " ".join(text.split())
     if len(line) > _MOST_CHARACTERS:
         raise InputError(f"{where}: an expression of {len(line)} characters is too long: give names to its parts")
@@ -46,7 +49,7 @@ def parsed(text: str, names: Mapping[str, Any], where: str, as_written: bool = F
     try:
         value = _Reader(line.encode(), names, as_written).value(tree.body)
         if callable(value) and not isinstance(value, sp.Basic | sp.MatrixBase):
-            raise _RefusalError("it is a function: give it its argument, in brackets")
+            raise _RefusalError("it is a function without an argument: write the argument in brackets")
         return value
     except _RefusalError as refusal:
         raise InputError(f"{where}: {text!r}: {refusal}") from None
@@ -55,7 +58,7 @@ def parsed(text: str, names: Mapping[str, Any], where: str, as_written: bool = F
 
 
 class _RefusalError(Exception):
-    """Text outside the grammar."""
+    """The error that a text lies outside the grammar."""
 
 
 @dataclass(frozen=True)
@@ -65,7 +68,7 @@ class _Reader:
     as_written: bool
 
     def value(self, node: ast.expr) -> Any:
-        """Return the object of a node."""
+        """Return the sympy object of a node of the syntax tree."""
         if isinstance(node, ast.Constant):
             return self._number(node)
         if isinstance(node, ast.Name):
@@ -95,7 +98,7 @@ class _Reader:
         if type(node.value) not in (int, float) or not text.replace("_", "").isascii():
             raise self._refusal(node)
         if len(text) > _MOST_DIGITS or (type(node.value) is float and not 1e-300 < abs(node.value or 1) < 1e300):
-            raise _RefusalError(f"the number {text[:20]}… has too many digits")
+            raise _RefusalError(f"the number {text[:20]}… has too many digits: use a symbol for it")
         return sp.Integer(node.value) if type(node.value) is int else sp.Rational(text.replace("_", ""))
 
     def _lookup(self, name: str) -> Any:
@@ -113,7 +116,7 @@ class _Reader:
     def _matrix(self, node: ast.expr) -> Any:
         value = self._operand(node)
         if not isinstance(value, sp.MatrixBase):
-            raise _RefusalError(f"{self.source[node.col_offset : node.end_col_offset].decode()!r} is no matrix")
+            raise _RefusalError(f"{self.source[node.col_offset : node.end_col_offset].decode()!r} is not a matrix")
         return value
 
     def _call(self, node: ast.Call) -> Any:
@@ -148,7 +151,7 @@ class _Reader:
         return _OPERATIONS[sign](lhs, rhs)
 
     def _unevaluated(self, node: ast.BinOp, sign: str) -> Any:
-        """Return an unevaluated sum, product or power; nested sums and nested products are flattened."""
+        """Return a sum, product or power as an unevaluated object, in which nested sums and products are flattened."""
         lhs, rhs = self._operand(node.left), self._operand(node.right)
         if sign == "**":
             _check_power(lhs, rhs)
@@ -175,25 +178,25 @@ _OPERATIONS: dict[str, Callable[[Any, Any], Any]] = {
 
 
 def _holds_function(*arguments: Any) -> bool:
-    """Return True if an argument contains a function; operations on it stay unevaluated."""
+    """Return True if an argument contains a function; operations on such arguments stay unevaluated."""
     return any(isinstance(argument, sp.Expr) and argument.has(sp.Function) for argument in arguments)
 
 
 def _check_power(base: Any, exponent: Any) -> None:
-    """Raise _RefusalError for a power with too many digits and for a matrix in the exponent."""
+    """Raise _RefusalError if a power has too many digits, or if its exponent is a matrix."""
     if isinstance(exponent, sp.MatrixBase):
-        raise _RefusalError("a matrix is no exponent")
+        raise _RefusalError("an exponent cannot be a matrix")
     whole = isinstance(exponent, sp.Integer)
     if isinstance(exponent, sp.Expr) and exponent.is_number and (not whole or abs(exponent) > _MOST_POWER):
         size = abs(sp.N(exponent, 5)) if not whole else abs(exponent)
         if not bool(size <= _MOST_POWER):
-            raise _RefusalError(f"the power {exponent} is larger than {_MOST_POWER}")
+            raise _RefusalError(f"the exponent {exponent} exceeds {_MOST_POWER}: use a symbol for it")
     if (
         isinstance(base, sp.Rational)
         and whole
         and abs(exponent) * max(abs(base.p), base.q).bit_length() > 4 * _MOST_POWER
     ):
-        raise _RefusalError(f"{base}**{exponent} has too many digits")
+        raise _RefusalError(f"{base}**{exponent} has too many digits: use a symbol for it")
 
 
 def vector(name: str) -> sp.Matrix:
@@ -217,7 +220,7 @@ def cross(u: sp.Matrix, v: sp.Matrix) -> sp.Matrix:
 
 
 def cross_matrix(v: sp.Matrix) -> sp.Matrix:
-    """Return the matrix of v ×, shape (3, 3)."""
+    """Return the matrix, shape (3, 3), that multiplies a vector u to give v × u."""
     return sp.Matrix([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
 
 
@@ -232,7 +235,7 @@ def norm(u: sp.Matrix) -> sp.Expr:
 
 
 def rate(expression: Any, moving: Iterable[Any], velocities: Iterable[Any]) -> Any:
-    """Return d/dt of an expression or a matrix, from symbols or vectors (`moving`) and their rates in the same order."""
+    """Return the time derivative of an expression or a matrix; `velocities` are the rates of `moving`, in its order."""
     flow = components(moving), components(velocities)
     if isinstance(expression, sp.MatrixBase):
         return expression.applyfunc(lambda entry: along(entry, *flow))
@@ -240,22 +243,22 @@ def rate(expression: Any, moving: Iterable[Any], velocities: Iterable[Any]) -> A
 
 
 def components(row: Iterable[Any]) -> list[Any]:
-    """Return symbols and the components of vectors as one list."""
+    """Return one list of expressions: symbols as they are, vectors by their components."""
     return [entry for item in row for entry in (item if isinstance(item, sp.MatrixBase) else [item])]
 
 
 def inverse(matrix: sp.Matrix) -> sp.Matrix:
-    """Return the inverse of a square matrix as adjugate over determinant."""
+    """Return the inverse of a square matrix, computed as its adjugate divided by its determinant."""
     return matrix.adjugate() / matrix.det()
 
 
 def column(*entries: sp.Expr) -> sp.Matrix:
-    """Return a vector of components."""
+    """Return a column vector of the given components."""
     return sp.Matrix(entries)
 
 
 def integral(body: sp.Expr, *limits: Any) -> sp.Expr:
-    """Return ∫ body: an unevaluated integral between limits, because sympy ignores poles, else an antiderivative."""
+    """Return an unevaluated integral if limits are given, because sympy ignores poles; otherwise return an antiderivative."""
     definite = bool(limits) and all(isinstance(limit, tuple | list | sp.Tuple) and len(limit) == 3 for limit in limits)
     return sp.Integral(body, *limits) if definite else sp.integrate(body, *limits)
 
@@ -274,14 +277,14 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
 
 @dataclass(frozen=True)
 class Letters:
-    """The symbols of a section: name → symbol, vector or function, and name → LaTeX where it differs from the name."""
+    """The symbols of a section: name → symbol, vector or function, and name → LaTeX if that is not the name."""
 
     names: Mapping[str, Any] = field(default_factory=dict)
     latex: Mapping[str, str] = field(default_factory=dict)
 
 
 def declared(letters: Mapping[str, str]) -> dict[str, Any]:
-    """Return the symbols of kind → names; the kinds are "vector", "symmetric", "real", "positive" and "nonnegative"."""
+    """Return name → symbol. `letters` has the names of each kind: vector, symmetric, real, positive or nonnegative."""
     symbols: dict[str, Any] = {}
     for kind, names in letters.items():
         for name in names.split():
@@ -292,31 +295,36 @@ def declared(letters: Mapping[str, str]) -> dict[str, Any]:
             elif kind in ("real", "positive", "nonnegative"):
                 symbols[name] = sp.Symbol(name, **{kind: True})
             else:
-                raise InputError(f"letters: {kind!r} is not a kind of symbol: vector, symmetric, real, positive")
+                raise InputError(
+                    f"letters: {kind!r} is not a kind of symbol: write vector, symmetric, real, positive or nonnegative"
+                )
     return symbols
 
 
 def read(text: str, letters: Mapping[str, Any], where: str) -> Any:
-    """Read an expression in these symbols; raise InputError for unreadable text and undeclared symbols."""
+    """Read an expression in the given symbols; raise InputError for unreadable text and undeclared symbols."""
     return parsed(text, {**FUNCTIONS, **letters}, where)
 
 
 def read_side(text: str, letters: Mapping[str, Any], where: str) -> tuple[Any, Any]:
-    """Return a printed side, evaluated and unevaluated; raise LagrotorError if the two differ at a random point."""
+    """Return a printed side twice, evaluated and unevaluated. Raise LagrotorError if the two differ at a random point."""
     value, unevaluated = (parsed(text, {**FUNCTIONS, **letters}, where, as_written) for as_written in (False, True))
     for lhs, rhs in zip(*(components([side]) for side in (value, unevaluated)), strict=True):
         for point in points(lhs.free_symbols | rhs.free_symbols, 2):
             if are_apart(lhs, rhs, point):
-                raise LagrotorError(f"{where}: {text!r} is not {value}, as it was read: report this error of lagrotor")
+                raise LagrotorError(
+                    f"{where}: {text!r} was read as {value}, which differs: report this error of lagrotor"
+                )
     return value, unevaluated
 
 
 @dataclass(frozen=True)
 class Line:
-    """One printed line `quantity = member = member …`; the quantity is LaTeX, each member an expression.
+    """One printed line `quantity = member = member …`, in which the quantity is LaTeX and each member an expression.
 
-    An approximate line is claimed through small**order. For a number read off a simulation, `within` is half a unit of the last
-    digit, relative. `scene` has values that the text gives for this line; `names` marks a line that only introduces a symbol.
+    An approximate line is claimed through small**order. For a number read off a simulation, `within` is the relative error that
+    its digits allow, half a unit of the last digit. `scene` has the values that the text gives for this line. `names` is True
+    if the line only introduces a symbol.
     """
 
     quantity: str
@@ -329,7 +337,7 @@ class Line:
 
 
 def read_line(table: Mapping[str, Any], names: Mapping[str, Any], where: str) -> Line:
-    """Read a printed line from its table in the catalogue."""
+    """Return the printed line that a table `[[equation.line]]` of the catalogue describes."""
 
     def read_off(digits: str) -> Any:
         number = read(digits, {}, where)

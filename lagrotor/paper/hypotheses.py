@@ -1,13 +1,14 @@
-"""Premises as one set of hypotheses: equations solved for symbols where they are linear, and the ideal of the others.
+"""The premises of an equation as one set of hypotheses.
 
-A decision does not depend on the order or the form of the premises, because the symbols are eliminated in a fixed order. Every
-step is an equivalence for real symbols and divisors that do not vanish. The set is therefore contradictory exactly if the
-remaining equations and conditions are, and a point of these satisfies the whole set.
+Equations that are linear in a symbol are solved for it; the other equations generate an ideal of polynomials. A decision does
+not depend on the order or the form of the premises, because the symbols are eliminated in a fixed order. Every step is an
+equivalence for real symbols and divisors that do not vanish. The set is therefore contradictory exactly if the remaining
+equations and conditions are. A point that satisfies these satisfies the whole set.
 
 `vanishes_on` decides membership in the ideal of the unsolved equations, or in its radical. All numerators lie in one ring of
-generators g, with the relations g² = square among the equations. The radical needs one more variable t and the equation
-1 = t N D (Rabinowitsch), which also excludes the zeros of a denominator D: Cox, Little & O'Shea, Ideals, Varieties, and
-Algorithms, chs. 2, 4. `witness` refutes by a point of the hypotheses at which enclosures separate the two sides.
+generators g; if g is a root, g² = square is among the equations. The radical needs one more variable t and the equation 1 = t N
+D (Rabinowitsch), which also excludes the zeros of a denominator D: Cox, Little & O'Shea, Ideals, Varieties, and Algorithms,
+chs. 2, 4. `witness` refutes by a point of the hypotheses at which enclosures separate the two sides.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -44,11 +45,11 @@ _KINDS = ("positive", "negative", "nonnegative", "nonpositive", "nonzero")
 
 @dataclass(frozen=True)
 class Hypotheses:
-    """The premises as one set.
+    """The premises of an equation, combined into one set.
 
-    `values` are the eliminated symbols in the remaining ones, `equations` expressions that are zero, `region` conditions that
-    hold, `small` the small quantities. `contradiction` is the reason why no point satisfies the set, or empty. `meaning` gives
-    the new symbols of `signed`.
+    `values` gives each eliminated symbol in terms of the remaining ones. `equations` are the remaining expressions that are
+    zero, `region` the conditions that hold, `small` the small quantities. `contradiction` says in words why no point satisfies
+    the set; it is empty otherwise. `meaning` gives the new symbols that `signed` introduces in terms of the old ones.
     """
 
     values: Mapping[sp.Symbol, sp.Expr]
@@ -59,12 +60,12 @@ class Hypotheses:
     meaning: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
 
     def on(self, side: Any) -> Any:
-        """Return a side in the remaining symbols."""
+        """Return a side of an equation in terms of the remaining symbols."""
         return replaced(sp.sympify(side, strict=True), self.values)
 
     @cached_property
     def signed(self) -> "Hypotheses":
-        """The set with inequalities turned into assumptions of symbols, where they are linear in a free symbol."""
+        """The same set, with inequalities that are linear in a free symbol turned into assumptions of symbols."""
         values, equations, meaning = dict(self.values), self.equations, dict[sp.Symbol, sp.Expr]()
         order = canonical_order((sp.S.Zero, *self.region, *equations))
         for relation in sorted(self.region, key=lambda r: not (r.lhs.is_Symbol and r.rhs == 0)):
@@ -87,18 +88,18 @@ class Hypotheses:
 
     @property
     def inside(self) -> tuple[Relational, ...]:
-        """The inequalities, without ≠."""
+        """The conditions with <, ≤, > or ≥, without those of the form a ≠ b."""
         return tuple(r for r in self.region if not isinstance(r, sp.Ne))
 
 
 def replaced(e: Any, values: Mapping[sp.Symbol, sp.Expr]) -> Any:
-    """Replace symbols by their values, except symbols bound by a derivative, a sum or an integral."""
+    """Replace symbols by their values; symbols bound by a derivative, a sum or an integral stay."""
     bound = values and e.has(sp.Derivative, ExprWithLimits)
     return e.subs(list(values.items()), simultaneous=True) if bound else e.xreplace(values)
 
 
 def hypotheses(premises: Iterable[Premise], last: sp.Symbol | None = None) -> Hypotheses:
-    """Combine premises into one set; the symbol `last` is eliminated only if no other can be."""
+    """Combine premises into one set. The symbol `last` is eliminated only if no other symbol can be."""
     listed = list(premises)
     small = tuple(sorted({p.small for p in listed if p.small is not None}, key=sp.default_sort_key))
     equations, region = _collected(listed, small)
@@ -108,20 +109,22 @@ def hypotheses(premises: Iterable[Premise], last: sp.Symbol | None = None) -> Hy
 
 
 class _ContradictionError(Exception):
-    """No values of the symbols satisfy the premises."""
+    """The error that no values of the symbols satisfy the premises; its message says why."""
 
 
 def _collected(
     premises: list[Premise], small: tuple[sp.Symbol, ...]
 ) -> tuple[frozenset[sp.Expr], frozenset[Relational]]:
-    """Return the equations as expressions that are zero, and the conditions."""
+    """Return the equations of all premises, as expressions that are zero, and their conditions."""
     equations: set[sp.Expr] = set()
     region: set[Relational] = set()
     for premise in premises:
         for lhs, rhs in premise.equations:
             a, b = sp.sympify(lhs, strict=True), sp.sympify(rhs, strict=True)
             if not isinstance(a, sp.Expr) or not isinstance(b, sp.Expr):
-                raise InputError(f"premise {premise.says!r}: {lhs!r} = {rhs!r} is no equation of two expressions")
+                raise InputError(
+                    f"premise {premise.says!r}: {lhs!r} = {rhs!r} does not equate two expressions: write each component"
+                )
             if premise.small is not None and a.is_Symbol and a in b.free_symbols:
                 b = b.xreplace({a: _scaled(a, premise.small)})
             e, conditions = _without_inverse(a - b)
@@ -132,12 +135,15 @@ def _collected(
 
 
 def _scaled(letter: sp.Symbol, small: sp.Symbol) -> sp.Symbol:
-    """Return the symbol for letter/small, the scaled value of a small symbol."""
+    """Return a symbol that stands for letter/small, the ratio of a small symbol to the small quantity."""
     return sp.Symbol(f"({letter.name}/{small.name})", **letter.assumptions0)
 
 
 def _without_inverse(e: sp.Expr) -> tuple[sp.Expr, tuple[Relational, ...]]:
-    """Return s − acos(g) as g − cos(s) with 0 ≤ s ≤ π, and other equations unchanged."""
+    """Turn an equation s = acos(g), or one with asin or atan, into g = cos(s) with a range of s, here 0 ≤ s ≤ π.
+
+    Return it as an expression that is zero, with the conditions on the range. Other equations are returned unchanged.
+    """
     for sign in (1, -1):
         terms = sp.Add.make_args(sp.expand(sign * e))
         calls = [t for t in terms if (-t).func in INVERSES]
@@ -149,14 +155,14 @@ def _without_inverse(e: sp.Expr) -> tuple[sp.Expr, tuple[Relational, ...]]:
 
 
 class _Wishes(NamedTuple):
-    """The symbols that are eliminated first and last; the choice affects only the readability of results."""
+    """The symbols to be eliminated first and last. The choice affects only how readable results are."""
 
     first: frozenset[sp.Symbol] = frozenset()
     last: sp.Symbol | None = None
     order: tuple[sp.Symbol, ...] = ()
 
     def rank(self, step: "_Step") -> tuple[Any, ...]:
-        """Return the sort key; the lowest step is taken."""
+        """Return the sort key of an elimination step; the step with the lowest key is taken."""
         number, lossy, operations = step.rank
         place = self.order.index(step.letter)
         return step.letter == self.last, number, lossy, step.letter not in self.first, operations, place
@@ -209,13 +215,13 @@ def _denominator(e: sp.Expr) -> sp.Expr:
 
 
 class _Known(NamedTuple):
-    """Expressions that do not vanish, with their opposites, and the region in which all conditions hold."""
+    """The knowledge about signs: expressions that do not vanish, with their opposites, and the region of the conditions."""
 
     units: frozenset[sp.Expr]
     where: Region
 
     def nonzero(self, e: sp.Expr) -> bool:
-        """Return True if e is known not to vanish."""
+        """Return True if the conditions prove that e does not vanish."""
         if e in self.units or sp.expand(e) in self.units:
             return True
         sign_set = signs(e, self.where)
@@ -232,9 +238,9 @@ def _known(units: Iterable[sp.Expr], conditions: Iterable[Relational], values: M
 
 @lru_cache(maxsize=2048)
 def _reduced(e: sp.Expr, domain: _Known) -> sp.Expr | None:
-    """Divide an equation by factors that do not vanish; return None if it holds identically."""
+    """Divide an equation by its factors that do not vanish. Return None if it holds identically; raise if it cannot hold."""
     if e.has(sp.nan, sp.zoo, sp.oo, -sp.oo):
-        raise _ContradictionError("a denominator becomes 0")
+        raise _ContradictionError("they make a denominator 0")
     factors: dict[sp.Expr, None] = {}
     for factor, _ in _factor_list(sp.together(e).as_numer_denom()[0]):
         if not domain.nonzero(factor):
@@ -256,7 +262,7 @@ def _factor_list(e: sp.Expr) -> list[tuple[sp.Expr, int]]:
 
 
 class _Step(NamedTuple):
-    """A symbol that an equation determines, and its value; the step of the lowest rank is taken."""
+    """An elimination step: a symbol that an equation determines, its value, and the conditions on which the value is right."""
 
     rank: tuple[Any, ...]
     letter: sp.Symbol
@@ -266,7 +272,7 @@ class _Step(NamedTuple):
 
 @lru_cache(maxsize=2048)
 def _plain_steps(e: sp.Expr, small: tuple[sp.Symbol, ...]) -> tuple[_Step, ...]:
-    """Return the steps for symbols that occur once, as a term with a numeric factor."""
+    """Return a step for each symbol that occurs in one term of the equation only, multiplied by a number."""
     terms, steps = sp.Add.make_args(e), []
     for term in terms:
         number, letter = term.as_coeff_Mul()
@@ -277,7 +283,7 @@ def _plain_steps(e: sp.Expr, small: tuple[sp.Symbol, ...]) -> tuple[_Step, ...]:
 
 @lru_cache(maxsize=2048)
 def _steps(e: sp.Expr, small: tuple[sp.Symbol, ...], domain: _Known) -> tuple[_Step, ...]:
-    """Return the steps that solve the equation for a symbol, or one function of it, linear with a nonzero coefficient."""
+    """Return the steps that solve an equation, linear in a symbol or in one function of it, for the symbol."""
     steps = []
     for letter in e.free_symbols - set(small):
         kernel = _kernel(e, letter)
@@ -302,7 +308,7 @@ def _steps(e: sp.Expr, small: tuple[sp.Symbol, ...], domain: _Known) -> tuple[_S
 
 
 def _kernel(e: sp.Expr, letter: sp.Symbol) -> sp.Expr | None:
-    """Return the symbol, if it occurs only in sums and products; else its only function or power in the equation."""
+    """Return the expression in which an equation may be linear: the symbol or its only function or power; else None."""
     inside = {node for node in sp.preorder_traversal(e) if letter in node.args and not (node.is_Add or node.is_Mul)}
     if not inside:
         return letter
@@ -312,13 +318,13 @@ def _kernel(e: sp.Expr, letter: sp.Symbol) -> sp.Expr | None:
 
 
 def _step(letter: sp.Symbol, value: sp.Expr, conditions: tuple[Relational, ...] = ()) -> _Step:
-    """Rank a step: numbers first, then values with the signs that the symbol was declared with, then short values."""
+    """Return an elimination step. Numbers rank first, then values that add no condition, then short values."""
     lossy = len(_implied_conditions(letter, value)) + len(conditions)
     return _Step((not value.is_number, lossy, sp.count_ops(value)), letter, value, conditions)
 
 
 def _implied_conditions(letter: sp.Symbol, value: sp.Expr) -> list[Relational]:
-    """Return the conditions that the symbol's assumptions add to its value; raise if they exclude the value."""
+    """Return the conditions on `value` that follow from the assumptions of `letter`; raise if the value violates them."""
     relations: list[Relational] = []
     tests = {
         "positive": (letter.is_positive, value.is_positive, lambda v: v > 0),
@@ -345,7 +351,7 @@ def _consistent_conditions(
     equations: list[sp.Expr],
     small: tuple[sp.Symbol, ...],
 ) -> Iterator[Relational]:
-    """Yield the conditions in the remaining symbols, each once; raise if they contradict the remaining equations."""
+    """Yield the conditions in the remaining symbols, without repetition. Raise if they contradict the remaining equations."""
     reduced: dict[Relational, None] = {}
     for relation in relations:
         try:
@@ -369,7 +375,10 @@ def _consistent_conditions(
 def _as_assumption(
     relation: Any, small: tuple[sp.Symbol, ...], order: list[sp.Symbol]
 ) -> tuple[sp.Symbol, sp.Expr] | None:
-    """Return a symbol and its value by a new symbol whose assumption is the condition: x ≥ 1 is x = 1 + u, u ≥ 0."""
+    """Turn a condition into an assumption: return a symbol and its value in a new symbol.
+
+    For x ≥ 1 the value is x = 1 + u with the assumption u ≥ 0. Return None if the condition is not linear in a symbol.
+    """
     if not isinstance(relation, sp.Ge | sp.Gt | sp.Le | sp.Lt):
         return None
     e = sp.expand(relation.gts - relation.lts)
@@ -395,7 +404,7 @@ def _as_assumption(
 
 
 def _declared(s: sp.Symbol) -> int:
-    """Return the number of signs that the symbol was declared with; symbols without any are taken first."""
+    """Return how many assumptions on its sign a symbol has; symbols without any are taken first."""
     return sum(bool(getattr(s, f"is_{kind}")) for kind in _KINDS)
 
 
@@ -407,10 +416,10 @@ Answer = Literal["zero", "nonzero", "nowhere", "undecided"]
 
 
 def vanishes_on(difference: sp.Expr, equations: Sequence[sp.Expr], apart: Sequence[sp.Expr] = ()) -> Answer:
-    """Decide if the difference vanishes on the zeros of the equations, without zeros of denominators and of `apart`.
+    """Decide whether the difference vanishes wherever the equations hold and denominators and `apart` do not vanish.
 
-    "nowhere" means that there are no such points, even over the complex numbers. "nonzero" means that the difference is not in
-    the radical over the complex numbers, which refutes nothing for real symbols.
+    Return "zero" if it vanishes at all these points, and "nowhere" if there are none, even over the complex numbers. Return
+    "nonzero" if it does not vanish at a complex point; real symbols may still make it vanish.
     """
     try:
         numerator, relations, units = _in_one_ring(difference, list(equations), list(apart))
@@ -425,12 +434,12 @@ def vanishes_on(difference: sp.Expr, equations: Sequence[sp.Expr], apart: Sequen
     one_more = PolyRing([*sp.symbols(f"g:{ring.ngens}"), sp.Symbol("t")], ring.domain, grevlex)
 
     def empty(factors: list[PolyElement]) -> bool:
-        """Return True if a factor vanishes at every point of the equations."""
+        """Return True if the product of the factors vanishes at every point of the equations."""
         product = one_more.gens[-1]
         for p in factors:
             product *= p.set_ring(order).set_ring(one_more)
             if len(product) > 4 * _MOST_TERMS:
-                raise NotExactError("The denominators are too large.")
+                raise NotExactError("The product of the denominators has too many terms.")
         return bool(groebner([*(p.set_ring(one_more) for p in basis), product - 1], one_more) == [one_more.one])
 
     try:
@@ -444,7 +453,11 @@ def vanishes_on(difference: sp.Expr, equations: Sequence[sp.Expr], apart: Sequen
 def _in_one_ring(
     difference: sp.Expr, equations: list[sp.Expr], apart: list[sp.Expr]
 ) -> tuple[PolyElement, list[PolyElement], list[PolyElement]]:
-    """Return the numerators of the difference and of the equations with the relations, and the nonzero polynomials."""
+    """Write all expressions as polynomials in common generators.
+
+    Return the numerator of the difference, the polynomials that are zero, and those that are not. The second are the numerators
+    of the equations and the squares of roots, the third the denominators and the numerators of `apart`.
+    """
     together = [difference, *equations, *apart]
     generators = survey(sp.Add(*(sp.Dummy() * e for e in together)))
     roots = find_roots(generators)
@@ -463,7 +476,7 @@ def _in_one_ring(
 def _in_small_ring(
     targets: list[PolyElement], relations: list[PolyElement]
 ) -> tuple[PolyRing, list[PolyElement], list[PolyElement]] | None:
-    """Return all polynomials in the ring of the generators that matter; None if they are too many or too large."""
+    """Return a ring of the generators that matter and the polynomials in it; None if these are too many or large."""
     everything = [*targets, *relations]
     # A generator that is only a common factor of a target, as m in m (…), decides nothing.
     powers = [[{m[i] for m in p.itermonoms()} for p in everything] for i in range(targets[0].ring.ngens)]
@@ -490,7 +503,7 @@ _POINTS, _CHECKED = 40, 2
 
 @dataclass(frozen=True)
 class Witness:
-    """A counterexample: a point, and enclosures of the difference and of both sides there (None for a side that is not real)."""
+    """A counterexample: a point, and bounds there of the difference and of each side (None if that is not real)."""
 
     point: Values
     enclosure: Bounds
@@ -500,9 +513,9 @@ class Witness:
 def witness(
     sides: tuple[sp.Expr, sp.Expr], under: Hypotheses, beyond: sp.Expr = sp.S.Zero, principal: bool = False
 ) -> Witness | None:
-    """Return a point of the hypotheses at which both sides are real and |left − right| > beyond ≥ 0; None without one.
+    """Return a point of the hypotheses at which both sides are real and |left − right| > beyond ≥ 0; None if none is found.
 
-    With `principal`, principal values count for complex sides; the absolute value of the difference is then enclosed.
+    If `principal` is True, a side may be complex: its principal value is then used, and |left − right| is enclosed.
     """
     substituted = sp.Tuple(*map(under.on, sides))
     real = replace(under, region=tuple(dict.fromkeys((*under.region, *conditions(substituted)))))
@@ -515,7 +528,7 @@ def witness(
 def _separating_point(
     sides: tuple[sp.Expr, sp.Expr], under: Hypotheses, beyond: sp.Expr, principal: bool
 ) -> Witness | None:
-    """Return a point of the hypotheses at which enclosures separate the sides."""
+    """Return a point of the hypotheses at which enclosures prove that the sides differ; None if none is found."""
     signed = under.signed
     both = tuple(signed.on(side) for side in sides)
     difference = sides[0] - sides[1]
@@ -534,7 +547,7 @@ def _separating_point(
 
 
 def contradicted(printed: Any, derived: Any, under: Hypotheses) -> Values | None:
-    """Return a point that separates two sides proved to be equal, without substitution; any such point is a bug."""
+    """Return a point at which two sides differ that were proved to be equal; None unless there is such a bug."""
     signed = under.signed
     for a, b in zip(*(side if isinstance(side, sp.MatrixBase) else [side] for side in (printed, derived)), strict=True):
         for values in islice(_points([signed.on(a), signed.on(b)], signed), _CHECKED):
@@ -544,7 +557,10 @@ def contradicted(printed: Any, derived: Any, under: Hypotheses) -> Values | None
 
 
 def _says_more(e: sp.Expr, signed: Hypotheses) -> bool:
-    """Return True if a remaining equation contains a function, or may determine a derivative in e."""
+    """Return True if a point is no counterexample because the premises concern functions.
+
+    This is so if a remaining equation contains a function, or if a premise may determine a derivative in `e`.
+    """
     premises = sp.Tuple(*signed.equations, *signed.values.values())
     new = e.atoms(sp.Derivative) - premises.atoms(sp.Derivative)
     functions = premises.atoms(AppliedUndef)
@@ -552,7 +568,7 @@ def _says_more(e: sp.Expr, signed: Hypotheses) -> bool:
 
 
 def _points(compared: Sequence[sp.Expr], signed: Hypotheses) -> Iterator[Values]:
-    """Yield points of the remaining symbols that satisfy all hypotheses."""
+    """Yield points, as values of the remaining symbols, that satisfy all hypotheses."""
     conditions = *signed.equations, *signed.region
     order = canonical_order((without_number(compared[0])[1], *compared[1:], *conditions))
     letters = [s for s in order if any(s in x.free_symbols for x in (*compared, *conditions))]
@@ -569,7 +585,7 @@ def _points(compared: Sequence[sp.Expr], signed: Hypotheses) -> Iterator[Values]
 
 
 def _unknowns(signed: Hypotheses, order: list[sp.Symbol]) -> list[sp.Symbol]:
-    """Return a symbol for each remaining equation, to be solved for; empty if there are too few."""
+    """Choose one symbol for each remaining equation, to be solved for. Return an empty list if there are too few symbols."""
     unknowns: list[sp.Symbol] = []
     for e in sorted(signed.equations, key=lambda e: len(e.free_symbols)):
         free = sorted(e.free_symbols - set(unknowns) - set(signed.small), key=order.index)
@@ -580,7 +596,7 @@ def _unknowns(signed: Hypotheses, order: list[sp.Symbol]) -> list[sp.Symbol]:
 
 
 def _as_declared(values: Values) -> bool:
-    """Return True if the solved symbols have the signs that they were declared with."""
+    """Return True if the values of the solved symbols have the signs that the symbols were declared with."""
     return all(
         not ((s.is_extended_nonnegative and v[0] <= 0) or (s.is_extended_nonpositive and v[1] >= 0) or s.is_integer)
         for s, v in values.items()
@@ -589,7 +605,7 @@ def _as_declared(values: Values) -> bool:
 
 
 def _satisfied(relation: Relational, values: Values) -> bool:
-    """Return True if a condition is proved to hold at a point."""
+    """Return True if enclosures prove that a condition holds at a point."""
     between = enclosure(sp.sympify(relation.lhs - relation.rhs, strict=True), values)
     if between is None:
         return False
@@ -602,7 +618,7 @@ def _satisfied(relation: Relational, values: Values) -> bool:
 
 
 def _point_in_symbols(difference: sp.Expr, under: Hypotheses, signed: Hypotheses, values: Values) -> Values:
-    """Return the point in the symbols of the statement, the eliminated ones included."""
+    """Return a point in the symbols of the statement: the values of the eliminated symbols are added."""
     exact = {s: v for s, v in values.items() if not isinstance(v, tuple)}
     point: Values = {}
     for letter in sorted(difference.free_symbols | set(under.values), key=sp.default_sort_key):

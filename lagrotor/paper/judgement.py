@@ -1,7 +1,7 @@
-"""The judgement of an equation and premises that are text, for the shell and the page in a browser. No text is executed.
+"""The judgement of an equation that is given as text, with its premises, for the shell and for the page in a browser.
 
-Text with a backslash, a brace or a ^ is read as LaTeX, other text as Python. Every symbol is real; those in `positive` are
-positive.
+Text with a backslash, a brace or a ^ is read as LaTeX, other text as Python; no text is executed. Every symbol is real, and
+those named in `positive` are positive.
 """
 
 import ast
@@ -40,9 +40,12 @@ _SIGN = re.compile(r"(==|>=|<=|!=|[=<>≥≤≠])")
 _OPEN = (
     (
         re.compile(r"(?<![\w\\])e\s*\*\*\s*(?:-?\s*[A-Za-z]|\([^()]*[A-Za-z])"),
-        "e is Euler's number is open: write exp(…)",
+        "e may be Euler's number or a symbol: write exp(…), or another letter for the symbol",
     ),
-    (re.compile(r"\bexp\([^()]*\b[iI]\b"), "i is the imaginary unit is open: write 1j"),
+    (
+        re.compile(r"\bexp\([^()]*\b[iI]\b"),
+        "i may be the imaginary unit or a symbol: write 1j, or another letter for the symbol",
+    ),
 )
 # Operations that act on an expression and not on the symbol that abbreviates it.
 _ACTING = ("Derivative", "rate", "Integral", "Sum")
@@ -51,12 +54,12 @@ _TYPED = {"==": "=", "≥": ">=", "≤": "<=", "≠": "!="}
 
 @dataclass(frozen=True)
 class Judgement:
-    """The verdict on an equation that was judged as text.
+    """The verdict on an equation that was given as text.
 
     Attributes
     ----------
     verdict : Verdict
-        The verdict.
+        The verdict on the equation.
     readings : tuple[str, ...]
         The equation and the premises as they were read, in plain text.
     """
@@ -70,7 +73,7 @@ class Judgement:
 
 @dataclass(frozen=True)
 class _Text:
-    """The sides of a relation and the signs between them; `order` is (symbol, power) of its O(…), `nodes` the LaTeX trees."""
+    """A relation as text: its sides and signs, (symbol, power) of its O(…) or None, and the sides as LaTeX trees."""
 
     sides: tuple[str, ...]
     signs: tuple[str, ...]
@@ -88,25 +91,25 @@ class _Text:
 def judge_text(
     equation: str, premises: Iterable[str] = (), positive: Iterable[str] = (), small: str = "", order: int = 0
 ) -> Judgement:
-    """Judge an equation in text; in a chain, each member is compared with the last.
+    """Judge an equation that is given as text. In a chain a = b = c, each member is compared with the last.
 
     Parameters
     ----------
     equation : str
-        lhs = rhs, or a chain of several, as Python or LaTeX.
+        An equation lhs = rhs or a chain a = b = c, written as Python or LaTeX.
     premises : Iterable[str], default ()
-        One relation each: `J = I_3`, `x >= 0`, `a != b`.
+        The premises as text, with one relation each: `J = I_3`, `x >= 0`, `a != b`.
     positive : Iterable[str], default ()
         Names of the symbols that are positive; the others are real.
     small : str, default ''
-        The symbol in which the equation is claimed through small**order only.
+        The variable of the series, if the equation is claimed through small**order only.
     order : int, default 0
-        That order. An O(…) in the equation sets both.
+        The order in `small` that is claimed. An O(…) in the equation sets both.
 
     Returns
     -------
     Judgement
-        The verdict and the readings.
+        The verdict, and the equation and premises as they were read.
 
     Raises
     ------
@@ -121,10 +124,12 @@ def judge_text(
     """
     texts = tuple(_statements(equation, "judge"))
     if not all(set(text.signs) == {"="} for text in texts):
-        raise InputError(f"judge: {equation!r} is no equation: write left = right")
+        raise InputError(f"judge: {equation!r} is not an equation: write left = right")
     assumed = tuple(statement for line in premises for statement in _statements(line, "premises"))
     if wrong := next((text for text in assumed if len(text.signs) != 1), None):
-        raise InputError(f"premises: {str(wrong)!r} is no premise: write one relation each, x >= 0 or J = I_3")
+        raise InputError(
+            f"premises: {str(wrong)!r} is not a premise: write one relation in each, such as x >= 0 or J = I_3"
+        )
     for text in texts:
         _check_says_something(text, (*texts, *assumed))
     small, order = next(((text.order[0], text.order[1] - 1) for text in texts if text.order), (small, order))
@@ -164,14 +169,14 @@ def judge_text(
 
 
 def _lengths(node: Node) -> Iterator[str]:
-    """Yield the symbols that are the last index of a sum."""
+    """Yield the names of symbols that are the last index of a sum."""
     for call in walk(node):
         if isinstance(call, Call) and call.name == "Sum" and isinstance(call.args[-1], Letter) and len(call.args) == 4:
             yield call.args[-1].name
 
 
 def _values(text: _Text, letters: Mapping[str, Any], opaque: Opaque) -> list[tuple[Any, Any]]:
-    """Return each side, evaluated and unevaluated; LaTeX is converted from its tree, without text."""
+    """Return each side as a pair of an evaluated and an unevaluated object. LaTeX is converted directly from its tree."""
     if not text.nodes:
         return [read_side(side, letters, "judge") for side in text.sides]
     subtrees = [subtree for node in text.nodes for subtree in walk(node)]
@@ -184,7 +189,7 @@ def _values(text: _Text, letters: Mapping[str, Any], opaque: Opaque) -> list[tup
     shapes = [value.shape for value in values if isinstance(value, sp.MatrixBase)]
     values = [sp.zeros(*shapes[0]) if shapes and value == 0 else value for value in values]
     if len({getattr(value, "shape", ()) for value in values}) > 1:
-        raise InputError(f"judge: {text}: the sides are a number and a vector, or of different sizes")
+        raise InputError(f"judge: {text}: the sides must both be numbers, or vectors or matrices of the same shape")
     inverses = ([sp.Pow(_value(d, opaque), -1, evaluate=False) for d in divisors(n)] for n in text.nodes)
     return [(value, sp.Tuple(*factors)) for value, factors in zip(values, inverses, strict=True)]
 
@@ -200,13 +205,13 @@ def _value(node: Node, opaque: Opaque) -> Any:
 
 
 def _definitions(assumed: Iterable[_Text]) -> dict[Node, Node]:
-    """Return symbol or function → its value in a LaTeX premise."""
+    """Return symbol or function → its value, from the LaTeX premises that are equations for it."""
     pairs = (text.nodes for text in assumed if text.signs == ("=",) and text.nodes)
     return {a: b for a, b in pairs if isinstance(a, Letter) or (isinstance(a, Call) and text_of(a).isidentifier())}
 
 
 def _substitute_premises(text: _Text, assumed: Iterable[_Text]) -> _Text:
-    """Substitute the premises for symbols that the equation differentiates or integrates."""
+    """Substitute the premises into an equation for the symbols that it differentiates or integrates."""
     acting = [n.args[0] for node in text.nodes for n in walk(node) if isinstance(n, Call) and n.name in _ACTING]
     operands = {subtree for node in acting for subtree in walk(node)}
     substitution = {subtree: value for subtree, value in _definitions(assumed).items() if subtree in operands}
@@ -217,7 +222,7 @@ def _substitute_premises(text: _Text, assumed: Iterable[_Text]) -> _Text:
 
 
 def _is_substituted(text: _Text, assumed: Iterable[_Text], texts: Iterable[_Text]) -> bool:
-    """Return True if a premise was substituted, so that no equation contains its symbol any more."""
+    """Return True if a premise need not be assumed: it was substituted, so that no equation contains its symbol any more."""
     first = text.nodes[0] if text.nodes else None
     return first in _definitions(assumed) and not any(
         first in walk(node) for equation in texts for node in equation.nodes
@@ -225,7 +230,7 @@ def _is_substituted(text: _Text, assumed: Iterable[_Text], texts: Iterable[_Text
 
 
 def _poles(e: Any) -> set[sp.Expr]:
-    """Return the divisors and the arguments of logarithms that may vanish."""
+    """Return the expressions that must not vanish: divisors and arguments of logarithms that are not known to be nonzero."""
     if isinstance(e, sp.MatrixBase):
         return set().union(*map(_poles, e))
     bases = {power.base for power in e.atoms(sp.Pow) if power.exp.could_extract_minus_sign()}
@@ -242,7 +247,7 @@ def _poles(e: Any) -> set[sp.Expr]:
 
 
 def _strict(premises: Iterable[Premise]) -> Iterator[tuple[sp.Expr, sp.Expr]]:
-    """Yield the sides of a > b, a < b and a ≠ b among the premises."""
+    """Yield (a, b) for each premise a > b, a < b or a ≠ b."""
     conditions = (relation for premise in premises for relation in premise.conditions)
     yield from (r.args for r in conditions if isinstance(r, sp.StrictGreaterThan | sp.StrictLessThan | sp.Unequality))
 
@@ -263,7 +268,7 @@ def _statements(text: str, where: str) -> Iterator[_Text]:
     if not latex and "^" not in text:
         for pattern, what in _OPEN:
             if pattern.search(text):
-                raise InputError(f"{where}: {text!r}: whether {what}, or another symbol")
+                raise InputError(f"{where}: {text!r}: {what}")
         sides = [side.strip() for side in _SIGN.split(text)]
         yield _Text(tuple(sides[::2]), tuple(_TYPED.get(sign, sign) for sign in sides[1::2]))
         return
@@ -278,7 +283,7 @@ def _statements(text: str, where: str) -> Iterator[_Text]:
 
 
 def _text_of_statement(statement: PrintedStatement) -> _Text:
-    """Return a statement with the lowest O(…) of its sides."""
+    """Convert a statement read from LaTeX. If several sides have an O(…), the one of lowest order counts."""
     orders, nodes = zip(*(without_order(side.node) for side in statement.sides), strict=True)
     powers = [order for order in (*orders, statement.order) if order is not None]
     lowest = min(powers, key=lambda order: order[1], default=None)
@@ -286,7 +291,7 @@ def _text_of_statement(statement: PrintedStatement) -> _Text:
 
 
 def _check_says_something(text: _Text, texts: Iterable[_Text]) -> None:
-    """Raise InputError if the first side is a symbol that occurs nowhere else, so that the equation only defines it."""
+    """Raise InputError if the first side is a symbol that occurs nowhere else, because the equation then only defines it."""
     name, *members = text.sides
     others = (*members, *(side for equation in texts if equation is not text for side in equation.sides))
     if (
@@ -296,13 +301,16 @@ def _check_says_something(text: _Text, texts: Iterable[_Text]) -> None:
         and not any(re.search(rf"\b{name}\b", side) for side in others)
     ):
         raise InputError(
-            f"judge: {text} defines {name}, of which nothing else is known: write the other expression in its place, or "
-            f"say what {name} is by a premise, --given '{name} = …'"
+            f"judge: {text} only defines {name}, which occurs nowhere else: write an expression in place of {name}, or "
+            f"give its value by a premise, --given '{name} = …'"
         )
 
 
 def letters_in(sides: Iterable[str], positive: Iterable[str] = ()) -> dict[str, sp.Symbol]:
-    """Return name → symbol for the names in the texts that are no functions; raise InputError for an unused positive one."""
+    """Return name → real symbol, for the names in the texts that are not functions.
+
+    Those in `positive` are positive; raise InputError if one of them occurs in no text.
+    """
     names = set[str]()
     for side in sides:
         try:
@@ -312,7 +320,9 @@ def letters_in(sides: Iterable[str], positive: Iterable[str] = ()) -> dict[str, 
     letters = {name: sp.Symbol(name, real=True) for name in sorted(names - FUNCTIONS.keys())}
     for name in positive:
         if name not in letters:
-            raise InputError(f"positive: {name!r} is none of the symbols {', '.join(letters)}")
+            raise InputError(
+                f"positive: {name!r} is not a symbol of the equation or the premises: {', '.join(letters)}"
+            )
         letters[name] = sp.Symbol(name, positive=True)
     return letters
 
@@ -320,8 +330,8 @@ def letters_in(sides: Iterable[str], positive: Iterable[str] = ()) -> dict[str, 
 def _relation(text: _Text, letters: Mapping[str, Any], opaque: Opaque) -> Any:
     (lhs, _), (rhs, _) = _values(text, letters, opaque)
     if isinstance(lhs, sp.MatrixBase):
-        raise InputError(f"premises: {text} is of vectors: write it for each component")
+        raise InputError(f"premises: {text} relates vectors: write one premise for each component")
     relation = _RELATIONS[text.signs[0]](lhs, rhs)
     if relation is sp.true:
-        raise InputError(f"premises: {text} says nothing: it is always true")
+        raise InputError(f"premises: {text} is always true: omit it")
     return {lhs: rhs} if text.signs[0] == "=" else relation

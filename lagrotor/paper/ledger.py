@@ -1,9 +1,9 @@
-"""The ledger, which compares printed lines with derived sides and decides.
+"""The ledger, which compares printed lines with derived sides and decides whether they agree.
 
-A derivation never says that an equation is right; it states the derived side by `equation_statements.verdict`. Each member of
-a printed line is decided under all premises at once (`hypotheses`): by exact identity, by the ideal of the premises' equations,
+A derivation never says that an equation is right; it states the derived side by `equation_statements.verdict`. Each member of a
+printed line is decided under all premises at once (`hypotheses`): by exact identity, by the ideal of the premises' equations,
 or by the order of the first term that differs. Premises that are not needed are then omitted. A refuted line has a certified
-counterexample, or an order at which the sides differ; any other line is undecided. `judge` does the same without a paper.
+counterexample, or an order at which the sides differ; every other line is undecided. `judge` does the same without a paper.
 """
 
 import time
@@ -52,19 +52,19 @@ def judge(
     premises : Relational, Mapping, Premise or Iterable, default ()
         The assumptions in any order and form: Eq(a, b), x >= 0, Ne(a, b), {J: I_3}, a Premise, or several of these.
     small : Symbol or None, optional
-        The symbol in which equality is claimed through small**order only.
+        The variable of the series, if equality is claimed through small**order only.
     order : int, default 0
-        That order.
+        The order in `small` through which equality is claimed.
 
     Returns
     -------
     Verdict
-        With the premises that are needed, or a counterexample.
+        The verdict, with the premises that are needed or a counterexample.
 
     Raises
     ------
     InputError
-        If the text cannot be read, or if a premise is not one of the above.
+        If the text cannot be read, or if a premise is none of these types.
 
     Examples
     --------
@@ -79,7 +79,7 @@ def judge(
     """
     right, premise_list = derived if isinstance(derived, Series) else sympified(derived, "judge"), premises_of(premises)
     if small is not None and not isinstance(small, sp.Symbol):
-        raise InputError(f"judge: small = {small!r} must be a symbol of the expressions")
+        raise InputError(f"judge: small = {small!r} must be a symbol that occurs in the expressions")
     if not isinstance(order, int | sp.Integer) or order < 0:
         raise InputError(f"judge: order = {order!r} must be a whole number from 0 on")
     side = right.expression if isinstance(right, Series) else right
@@ -97,7 +97,7 @@ def judge(
 
 
 def decide(statement: Statement, glossary: Glossary | None = None) -> Verdict:
-    """Decide a statement and, by the same rules, its correction; `glossary` has the units for the dimensional analysis."""
+    """Return the verdict on a statement and its correction; `glossary` gives the units for the dimensional analysis."""
     began = time.perf_counter()
     meanings = Glossary() if glossary is None else glossary
     lines, right = (
@@ -134,7 +134,7 @@ def decide(statement: Statement, glossary: Glossary | None = None) -> Verdict:
 
 
 def _dimensions(relation: Relation, statement: Statement, glossary: Glossary) -> Dimensions | None:
-    """Return the dimensional analysis of a line; None without units."""
+    """Return the dimensional analysis of a line; None if the glossary is empty."""
     assumed = (*statement.premises, *relation.scene_premises)
     values = {
         sp.sympify(old, strict=True): sp.sympify(new, strict=True)
@@ -150,7 +150,7 @@ def _weakest(lines: Sequence[LineVerdict]) -> LineVerdict:
 
 
 def _union(lines: Iterable[LineVerdict], offered: tuple[Premise, ...]) -> tuple[Premise, ...]:
-    """Return the premises of all lines, each once, the offered ones first and in their order."""
+    """Return the premises that the lines need, without repetition: first the offered ones, in the order of `offered`."""
     needed = [premise for line in lines for premise in line.premises]
     union: list[Premise] = [premise for premise in offered if premise in needed]
     for premise in needed:
@@ -160,7 +160,7 @@ def _union(lines: Iterable[LineVerdict], offered: tuple[Premise, ...]) -> tuple[
 
 
 def _line(relation: Relation, offered: tuple[Premise, ...], glossary: Glossary) -> LineVerdict:
-    """Decide one member of a printed line under as few premises as possible."""
+    """Return the verdict on one member of a printed line, under as few of the offered premises as possible."""
     if relation.theorem is not None and relation.theorem.bounds is not None:
         return _verdict(relation, _enclosed(relation, *relation.theorem.bounds), (), glossary)
     assumed = (*offered, *relation.scene_premises)
@@ -208,7 +208,10 @@ def _verdict(relation: Relation, finding: "_Finding", used: tuple[Premise, ...],
 
 @dataclass(frozen=True)
 class _Finding:
-    """The decision under some premises; `trivial` if both sides become 0, `may_branch` if the sign of a root decides."""
+    """The decision on a relation under given premises.
+
+    `trivial` is True if both sides become 0, `may_branch` if the sign of a root may decide.
+    """
 
     answer: Answer
     order: int | None = None
@@ -223,7 +226,7 @@ class _Finding:
 
 
 def _needed(relation: Relation, assumed: tuple[Premise, ...], whole: _Finding) -> tuple[tuple[Premise, ...], _Finding]:
-    """Return a set of premises none of which can be omitted, and the decision under it."""
+    """Return a minimal set of premises, from which none can be omitted, and the decision under it."""
     # The result must not depend on the order in which the premises are given.
     ordered = sorted(assumed, key=lambda p: (len(p.equations), p.says, p.formula))
     # A set under which both sides are 0 is the last choice.
@@ -244,7 +247,7 @@ def _needed(relation: Relation, assumed: tuple[Premise, ...], whole: _Finding) -
 
 
 def _is_conclusion(relation: Relation, premise: Premise) -> bool:
-    """Return True if the line is an equation of the premise, so that their differences are multiples of each other."""
+    """Return True if the premise is the line itself: their differences, left − right, are multiples of each other."""
     gap = relation.printed - relation.derived
     entries = [e for e in (gap if isinstance(gap, sp.MatrixBase) else [gap]) if sp.expand(e) != 0]
     equations = [
@@ -259,7 +262,7 @@ def _is_conclusion(relation: Relation, premise: Premise) -> bool:
 
 
 def _are_multiples(a: sp.Expr, b: sp.Expr) -> bool:
-    """Return True if a, without symbols in its denominator, is a rational multiple of the numerator of b."""
+    """Return True if a is a rational multiple of the numerator of b; the denominator of a must be a number."""
     above, below = sp.together(a).as_numer_denom()
     if a.free_symbols != b.free_symbols or below.free_symbols:
         return False
@@ -270,7 +273,7 @@ def _are_multiples(a: sp.Expr, b: sp.Expr) -> bool:
 
 
 def _branch(relation: Relation, assumed: tuple[Premise, ...]) -> tuple[Premise, ...]:
-    """Return the conditions of the branch on which a line is proved under the premises."""
+    """Return as premises the conditions on the sign of a root under which the line is proved; empty if there are none."""
     under = hypotheses(assumed)
     exact = decide_equal(under.on(relation.printed), under.on(relation.derived), under.inside)
     branch = tuple(Premise(relation_text(condition), where=(condition,)) for condition in exact.branch)
@@ -280,7 +283,7 @@ def _branch(relation: Relation, assumed: tuple[Premise, ...]) -> tuple[Premise, 
 
 
 def _has_room(condition: Relational, assumed: tuple[Premise, ...]) -> bool:
-    """Return True if a point of the premises lies inside a branch; its edge alone, where a root is 0, proves nothing."""
+    """Return True if a point of the premises satisfies a condition strictly, not only at its edge, where a root is 0."""
     inside = sp.StrictGreaterThan(condition.gts, condition.lts)
     return not isinstance(inside, Relational) or bool(
         witness((sp.S.One, sp.S.Zero), hypotheses((*assumed, Premise("inside", where=(inside,)))))
@@ -288,7 +291,7 @@ def _has_room(condition: Relational, assumed: tuple[Premise, ...]) -> bool:
 
 
 def _under(relation: Relation, premises: Iterable[Premise]) -> _Finding:
-    """Decide a relation under all of these premises."""
+    """Decide a relation under all the given premises."""
     under = hypotheses(premises, relation.small)
     if under.signed.contradiction:
         reason = f"the premises contradict each other or the assumptions of their symbols: {under.signed.contradiction}"
@@ -298,11 +301,11 @@ def _under(relation: Relation, premises: Iterable[Premise]) -> _Finding:
         return _Finding("refuted", reasons=("the left side is {}, the printed right side {}".format(*kinds),))
     printed, derived = (under.signed.on(side) for side in (relation.printed, relation.derived))
     if printed.has(sp.Limit) or derived.has(sp.Limit):
-        return _Finding("undecided", reasons=("limits are not decided",))
+        return _Finding("undecided", reasons=("a side contains a limit, and limits are not decided",))
     if _is_singular(relation.printed) or _is_singular(relation.derived):
-        return _Finding("undecided", reasons=("a side is not finite",))
+        return _Finding("undecided", reasons=("a side contains an infinite or undefined value",))
     if _is_singular(printed) or _is_singular(derived):
-        return _Finding("undecided", reasons=("the premises contradict the domain: a denominator becomes 0",))
+        return _Finding("undecided", reasons=("the premises contradict the domain: they make a denominator 0",))
     if relation.within is not None and relation.known is not None:
         return _read_off_series(relation, printed / derived, *relation.known, under)
     if relation.within is not None:
@@ -320,17 +323,17 @@ def _compared(relation: Relation, printed: Any, derived: Any, under: Hypotheses)
     small = _small(relation, printed, derived, under)
     on_equations = _in_ideal(printed, derived, under)
     if on_equations == "nowhere":
-        return _Finding("undecided", reasons=("the premises contradict each other or the domain",))
+        return _Finding("undecided", reasons=("the premises contradict each other or the domain of the sides",))
     if exact.answer == "zero" or on_equations == "zero":
         if (at := contradicted(relation.printed, relation.derived, under)) is not None:
             both = f"{relation.printed} and {relation.derived}"
-            raise LagrotorError(f"{both} were decided to be equal and differ at {at}: report this error of lagrotor")
+            raise LagrotorError(f"{both} were decided to be equal, but differ at {at}: report this error of lagrotor")
         trivial = _is_trivial(relation, under.signed)
         if relation.known is not None:
             return _Finding("holds-to-order", relation.known[1], relation.known[0], domain, trivial=trivial)
         return _Finding("holds", domain=domain, trivial=trivial)
     if "denominator vanishes" in exact.reason:
-        return _Finding("undecided", reasons=("the premises contradict the domain: a denominator becomes 0",))
+        return _Finding("undecided", reasons=("the premises contradict the domain: they make a denominator 0",))
     if small is not None:
         return _to_order(relation, printed, derived, small, domain, under)
     place, sides = _where_apart(relation, under)
@@ -338,13 +341,13 @@ def _compared(relation: Relation, printed: Any, derived: Any, under: Hypotheses)
     counterexample = witness(sides, under, principal=exact.answer == "nonzero") if sides else None
     if counterexample is not None:
         return _Finding("refuted", None, None, domain, (), gap, place, counterexample, may_branch=exact.partly)
-    value = "no value found" if exact.evidence is None else f"largest value {exact.evidence:.3g}"
-    reason = f"{exact.reason} ({value})" if exact.answer == "undecided" else "no counterexample was certified"
+    value = "" if exact.evidence is None else f" (at random points left − right is at most {exact.evidence:.3g})"
+    reason = f"{exact.reason}{value}" if exact.answer == "undecided" else "no counterexample could be certified"
     return _Finding("undecided", None, None, domain, (reason,), gap, place, may_branch=True)
 
 
 def _in_printed_symbols(relation: Relational, signed: Hypotheses) -> Relational:
-    """Return a relation in the symbols of the print, in place of the new symbols of `Hypotheses.signed`."""
+    """Return a relation in the printed symbols, which replace the new symbols of `Hypotheses.signed`."""
     substituted = relation.xreplace(signed.meaning)
     if substituted == relation or isinstance(substituted, sp.Ne):
         return substituted
@@ -354,7 +357,7 @@ def _in_printed_symbols(relation: Relational, signed: Hypotheses) -> Relational:
 
 
 def _shortest(difference: sp.Expr) -> sp.Expr:
-    """Return the shorter of a difference and its normal form."""
+    """Return a difference or its normal form, whichever is shorter as text."""
     if len(difference.free_symbols) > _MOST_LETTERS:
         return difference
     try:
@@ -364,7 +367,7 @@ def _shortest(difference: sp.Expr) -> sp.Expr:
 
 
 def _text(difference: sp.Expr) -> str:
-    """Return a difference as text, with numbers in four digits if one is no short fraction."""
+    """Return a difference as text. If a number in it is not a short fraction, all numbers get four digits."""
     e = _shortest(difference)
     is_long = any(n.is_Rational and n.q > _LARGEST_DENOMINATOR for n in e.atoms(sp.Number)) or any(
         node.is_number and not node.is_Rational for node in sp.preorder_traversal(e)
@@ -373,7 +376,7 @@ def _text(difference: sp.Expr) -> str:
 
 
 def _small(relation: Relation, printed: Any, derived: Any, under: Hypotheses) -> sp.Symbol | None:
-    """Return the small quantity of the comparison, from a premise or from the line."""
+    """Return the symbol in which the sides are compared as series, from a premise or from the line; None if there is none."""
     letters = printed.free_symbols | derived.free_symbols
     series_symbol = relation.known[0] if relation.known else None
     candidates = (*under.small, relation.small, series_symbol)
@@ -381,7 +384,7 @@ def _small(relation: Relation, printed: Any, derived: Any, under: Hypotheses) ->
 
 
 def _is_singular(side: Any) -> bool:
-    """Return True if a subexpression has no finite value; the limits of sums and integrals may be infinite."""
+    """Return True if a part of the side has no finite value; the limits of sums and integrals may be infinite."""
     if isinstance(side, sp.MatrixBase):
         return any(map(_is_singular, side))
     if isinstance(side, sp.Sum | sp.Integral):
@@ -394,7 +397,7 @@ def _is_zero(side: Any) -> bool:
 
 
 def _is_trivial(relation: Relation, signed: Hypotheses) -> bool:
-    """Return True if the premises make each term of both sides zero; an equation Q = 0 is never trivial."""
+    """Return True if the premises make every term of both sides zero. This is never so for an equation Q = 0."""
     sides = [relation.printed, relation.derived]
     entries = (e for side in sides for e in (side if isinstance(side, sp.MatrixBase) else [side]))
     return not any(map(_is_zero, sides)) and all(
@@ -403,7 +406,7 @@ def _is_trivial(relation: Relation, signed: Hypotheses) -> bool:
 
 
 def _in_ideal(printed: Any, derived: Any, under: Hypotheses) -> str:
-    """Decide with `vanishes_on` if the difference vanishes wherever the unsolved equations hold."""
+    """Return the answer of `vanishes_on`: whether printed − derived vanishes wherever the unsolved equations hold."""
     signed = under.signed
     if not signed.equations:
         return "undecided"
@@ -416,7 +419,10 @@ def _in_ideal(printed: Any, derived: Any, under: Hypotheses) -> str:
 def _where_apart(
     relation: Relation, under: Hypotheses
 ) -> tuple[tuple[int, int] | None, tuple[sp.Expr, sp.Expr] | None]:
-    """Return the first entry that is not proved to be equal, and both sides there in the symbols of the statement."""
+    """Find the first entry of two matrices that is not proved to be equal.
+
+    Return its row and column, and both sides there in the symbols of the statement. For scalars the place is None.
+    """
     printed, derived = under.on(relation.printed), under.on(relation.derived)
     if not isinstance(printed, sp.MatrixBase):
         return None, (printed, derived)
@@ -429,45 +435,45 @@ def _where_apart(
 
 
 def _enclosed(relation: Relation, low: sp.Rational, high: sp.Rational) -> _Finding:
-    """Decide a printed number by the bounds of a theorem, to the accuracy of its digits."""
+    """Decide a printed number by the bounds `low` and `high` of a theorem, to the accuracy of the printed digits."""
     tolerance = relation.within or sp.S.Zero
     printed = sp.Rational(str(relation.printed)) if relation.printed.is_Float else relation.printed
     if not printed.is_Rational or low > high or low * high <= 0:
-        return _Finding("undecided", reasons=("a theorem bounds numbers of one sign, and a number must be printed",))
+        return _Finding(
+            "undecided", reasons=("a theorem decides only a printed number, by two bounds of the same sign",)
+        )
     errors = [printed / end - 1 for end in (low, high)]
     if all(abs(error) <= tolerance for error in errors):
         return _Finding("proved")
     where = f"between {sp.N(low, 12)} and {sp.N(high, 12)}"
     if min(errors) > tolerance or max(errors) < -tolerance:
         return _Finding("refuted", reasons=(f"a theorem encloses it {where}",), difference=printed - (low + high) / 2)
-    return _Finding("undecided", reasons=(f"a theorem encloses it {where}, which does not decide the digits",))
+    return _Finding("undecided", reasons=(f"a theorem encloses it {where}, which is too wide to decide the digits",))
 
 
 def _read_off(relation: Relation, printed: Any, derived: Any, under: Hypotheses) -> _Finding:
-    """Decide a number read off a simulation, to the accuracy of its digits."""
+    """Decide a number that the paper read off a simulation, to the accuracy of its digits."""
     tolerance = relation.within if relation.within is not None else sp.S.Zero
     ratio = _constant(printed / derived, under)
     if ratio is not None:
         error = abs(ratio - 1)
         near = bool(error <= tolerance)
-        reason = (
-            f"the printed value is {sp.N(ratio, 6)} of the derived one; its digits allow {sp.N(100 * tolerance, 2)} %"
-        )
+        reason = f"the printed value is {sp.N(ratio, 6)} times the derived one; its digits allow {sp.N(100 * tolerance, 2)} %"
         gap = None if near else printed - derived
         return _Finding("holds" if near else "refuted", reasons=() if near else (reason,), difference=gap)
     gap = under.on(relation.printed) / under.on(relation.derived) - 1
     counterexample = witness((gap, sp.S.Zero), under, tolerance)
     if counterexample is None:
         return _Finding(
-            "undecided", reasons=("the ratio of the sides depends on symbols, and no counterexample was certified",)
+            "undecided", reasons=("printed/derived depends on symbols, and no counterexample could be certified",)
         )
     return _Finding(
-        "refuted", reasons=("the ratio of the sides is no constant",), difference=gap, counterexample=counterexample
+        "refuted", reasons=("printed/derived is not constant",), difference=gap, counterexample=counterexample
     )
 
 
 def _read_off_series(relation: Relation, ratio: sp.Expr, small: sp.Symbol, order: int, under: Hypotheses) -> _Finding:
-    """Decide a printed rate by a derived series; the ratio of the sides must be constant through the known order."""
+    """Decide a printed rate against a derived series: the ratio of the sides must be constant through the known order."""
     tolerance = relation.within if relation.within is not None else sp.S.Zero
     try:
         terms = truncated_series(ratio, small, order)
@@ -477,19 +483,21 @@ def _read_off_series(relation: Relation, ratio: sp.Expr, small: sp.Symbol, order
     first, constant = leading_term(changing, small, order), _constant(fixed, under)
     if first.order is not None:
         by = _text(first.coefficient)
-        reason = f"the ratio of the sides changes at order {first.order} in {readable(str(small))}, by {by}"
+        reason = (
+            f"printed/derived is not constant: order {first.order} in {readable(str(small))} has the coefficient {by}"
+        )
         return _Finding("refuted", first.vanishes_through, small, reasons=(reason,), difference=first.coefficient)
     if constant is None:
-        return _Finding("undecided", reasons=("the ratio of the sides depends on symbols",))
+        return _Finding("undecided", reasons=("printed/derived depends on symbols",))
     near = bool(abs(constant - 1) <= tolerance)
     reason = (
-        f"the printed value is {sp.N(constant, 6)} of the derived one; its digits allow {sp.N(100 * tolerance, 2)} %"
+        f"the printed value is {sp.N(constant, 6)} times the derived one; its digits allow {sp.N(100 * tolerance, 2)} %"
     )
     return _Finding("holds-to-order" if near else "refuted", order, small, reasons=() if near else (reason,))
 
 
 def _constant(ratio: sp.Expr, under: Hypotheses) -> sp.Expr | None:
-    """Return a quotient of rates as a number, possibly with roots; None if it or its sign depends on a symbol."""
+    """Return a ratio of rates as a number, which may contain roots; None if its value or sign depends on a symbol."""
     square = sp.cancel(ratio**2)
     if not square.is_number:
         return None
@@ -504,7 +512,7 @@ def _constant(ratio: sp.Expr, under: Hypotheses) -> sp.Expr | None:
 def _to_order(
     relation: Relation, printed: Any, derived: Any, small: sp.Symbol, domain: tuple[Relational, ...], under: Hypotheses
 ) -> _Finding:
-    """Decide through which order two series agree; of vectors, the component that differs first decides."""
+    """Decide through which order two series agree. For vectors the component that differs at the lowest order decides."""
     pairs = list(zip(printed, derived, strict=True)) if isinstance(printed, sp.MatrixBase) else [(printed, derived)]
     name, known_order = readable(str(small)), relation.known[1] if relation.known else None
     furthest = relation.claimed + BEYOND if known_order is None else min(relation.claimed + BEYOND, known_order)
@@ -516,28 +524,28 @@ def _to_order(
     except NotExactError as refusal:
         return _Finding("undecided", reasons=(str(refusal),))
     if lead is None:
-        reason = f"both sides vanish through order {furthest} in {name}: nothing was compared"
+        reason = f"both sides vanish through order {furthest} in {name}, so that nothing was compared"
         return _Finding("undecided", None, small, domain, (reason,))
     if reached >= relation.claimed and (first.order is None or first.order > lead):
         return _Finding("holds-to-order", reached, small, domain)
     if first.order is None:
-        reason = f"the derived side is known through order {furthest} in {name} only, but order {relation.claimed} is claimed"
+        reason = f"the derived side is known through order {furthest} in {name}, but the line claims order {relation.claimed}"
         return _Finding("undecided", reached, small, domain, (reason,))
-    reason = f"first differs at order {first.order} in {name}, by {_text(first.coefficient)}"
+    reason = f"the sides first differ at order {first.order} in {name}; the coefficient is {_text(first.coefficient)}"
     if lead > relation.claimed:
         reason = f"both sides vanish through order {ceil(lead) - 1} in {name}; {reason}"
     at = divmod(place, printed.cols) if isinstance(printed, sp.MatrixBase) else None
     if (under.signed.equations or under.signed.region) and witness((first.coefficient, sp.S.Zero), under) is None:
-        reason = f"no counterexample was certified at order {first.order} in {name}"
+        reason = f"no counterexample could be certified at order {first.order} in {name}"
         return _Finding("undecided", None, small, domain, (reason,), first.coefficient, at)
     return _Finding("refuted", reached, small, domain, (reason,), first.coefficient, at)
 
 
 def _first_term(side: sp.Expr, small: sp.Symbol, through: int, under: Hypotheses) -> LeadingTerm:
-    """Return the first term whose coefficient does not vanish wherever the unsolved equations hold."""
+    """Return the leading term of a series, skipping coefficients that vanish wherever the unsolved equations hold."""
     sign, letter = under.signed.on(small).as_coeff_Mul()  # a condition may fix the sign of the small quantity
     if any(letter in e.free_symbols for e in under.signed.equations):
-        raise NotExactError(f"a premise that is not linear fixes {small}: there is no series in it")
+        raise NotExactError(f"a premise that is not linear determines {small}, so that there is no series in {small}")
     while True:
         term = leading_term(side, letter, through)
         if term.order is None:
@@ -550,7 +558,7 @@ def _first_term(side: sp.Expr, small: sp.Symbol, through: int, under: Hypotheses
 def _leading_order(
     pairs: list[tuple[Any, Any]], small: sp.Symbol, through: int, under: Hypotheses
 ) -> int | sp.Rational | None:
-    """Return the lowest order at which a side has a term; None without one."""
+    """Return the lowest order at which one of the sides has a term; None if all vanish through order `through`."""
     for limit in (0, through):
         orders = [_first_term(side, small, limit, under).order for pair in pairs for side in pair]
         if known_orders := [order for order in orders if order is not None]:

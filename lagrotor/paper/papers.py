@@ -1,6 +1,6 @@
-"""A paper as a folder with catalogue, scripts and record, and its audit.
+"""A paper as a folder with a catalogue, scripts and a record of verdicts, and the audit of the paper.
 
-`Paper("my-paper").audit()["3.2"]` is one verdict; `Paper("my-paper").evaluate()` tests the claims.
+`Paper("my-paper").audit()["3.2"]` is the verdict on one equation; `Paper("my-paper").evaluate()` tests the claims.
 """
 
 import time
@@ -38,9 +38,9 @@ class Paper(Catalogue):
     folder : Path
         The folder.
     modules : dict[str, ModuleType], default {}
-        The modules of the folder that were imported.
+        The modules of the folder that have been imported so far.
     scripts_in : Path or None, optional
-        The folder with `derivations/` and `figures/`, if it is another one.
+        The folder with `derivations/` and `figures/`, if these are not in `folder`.
 
     Raises
     ------
@@ -73,7 +73,7 @@ class Paper(Catalogue):
 
     @property
     def recorded(self) -> dict[str, record.OnRecord]:
-        """The verdicts on record by id; empty without a record."""
+        """The verdicts on record by id; an empty dictionary if there is no record."""
         return record.recorded(self.record_file)
 
     @overload
@@ -81,9 +81,10 @@ class Paper(Catalogue):
     @overload
     def audit(self, identifier: None = None, progress: Progress | None = None) -> Audit: ...
     def audit(self, identifier: str | None = None, progress: Progress | None = None) -> Audit | Verdict:
-        """Judge every equation, or one.
+        """Judge every equation of the paper, or the one with the given id.
 
-        For one equation only its own derivation runs; `reaches_result` then rests on the record of the last whole audit.
+        If one equation is judged, only its own derivation runs. `reaches_result` is then computed from the record of the last
+        whole audit.
 
         Parameters
         ----------
@@ -122,7 +123,7 @@ class Paper(Catalogue):
         return self.scripts.names("derivations", self.about.equations_in)
 
     def stated(self, stem: str) -> list[Stated]:
-        """Return the statements of one derivation about the paper's equations.
+        """Return the equations that one derivation states, as it returned them from `verdict`.
 
         Parameters
         ----------
@@ -132,12 +133,12 @@ class Paper(Catalogue):
         Returns
         -------
         list[Stated]
-            In the order of the derivation.
+            The statements in the order of the derivation.
         """
         return self.scripts.executed("derivations", stem).values_of(Stated)
 
     def statements(self, stem: str) -> list[Statement]:
-        """Return the statements of one derivation, combined with the print.
+        """Return the equations that one derivation states, each combined with its printed lines.
 
         Parameters
         ----------
@@ -147,12 +148,12 @@ class Paper(Catalogue):
         Returns
         -------
         list[Statement]
-            In the order of the derivation.
+            The statements in the order of the derivation.
 
         Raises
         ------
         InputError
-            If a statement does not fit the paper; with file and line.
+            If a statement does not fit the paper; the message names file and line.
         """
         statements = []
         for stated_equation in self.stated(stem):
@@ -164,19 +165,19 @@ class Paper(Catalogue):
         return statements
 
     def _decide(self, statement: Statement) -> Verdict:
-        """Decide a statement; raise ProofError, with file and line, if its correction does not hold."""
+        """Return the verdict on a statement; raise ProofError, with file and line, if its correction does not hold."""
         verdict = decide(statement, section_glossary(self, self.equation(statement.id).section))
         if verdict.correction_verdict in ("refuted", "undecided"):
             stem, line = self.scripts.stating.get(statement.id, ("", 1))
             wrong = next(member for member in verdict.correction_lines if member.verdict == verdict.correction_verdict)
             raise ProofError(
                 f"{self.scripts.path('derivations', stem)}:{line}: {statement.id}: its correction is "
-                f"{verdict.correction_verdict}: {wrong.relation.quantity}: {wrong.reason or wrong.difference}"
+                f"{verdict.correction_verdict} for {wrong.relation.quantity}: {wrong.reason or wrong.difference}"
             )
         return self._with_recorded_theorems(verdict)
 
     def _with_recorded_theorems(self, verdict: Verdict) -> Verdict:
-        """Replace theorems by those on record if python-flint is missing."""
+        """Return the verdict; if python-flint is missing, replace its theorems by those on record."""
         if can_prove() or not any(line.relation.theorem for line in verdict.lines):
             return verdict
         row, lines = self.recorded.get(verdict.id), list(verdict.lines)
@@ -196,7 +197,7 @@ class Paper(Catalogue):
     def _audit_one(self, identifier: str, progress: Progress | None) -> Verdict:
         self.equation(identifier)
         if identifier not in self.scripts.stating:
-            raise InputError(f"equation {identifier} is not yet judged: no derivation states it")
+            raise InputError(f"equation {identifier} is not yet judged: state it in a derivation by `verdict`")
         stem, _ = self.scripts.stating[identifier]
         if progress:
             progress(stem)
@@ -206,22 +207,22 @@ class Paper(Catalogue):
         return self._set_reach(verdict, answers, {i: row.uses or () for i, row in on_record.items()})
 
     def _unless_unconfirmed(self, verdict: Verdict) -> Verdict:
-        """Return the verdict; if the reading is not confirmed, 'undecided' with the verdict among the evidence."""
+        """Return the verdict; if the equation's reading is not confirmed, return 'undecided' with the verdict as evidence."""
         entry = self.equation(verdict.id)
         if verdict.verdict == "definition" or entry.is_confirmed:
             return verdict
         if entry.read == "gone":
-            reason = "its source no longer has it"
+            reason = "the source of the paper no longer has this equation"
         else:
             holding = {"holds": "hold", "holds-if": "hold under its premises", "holds-to-order": "hold to its order"}
             reason = (
-                f"it would {holding.get(verdict.verdict, f'be {verdict.verdict}')}: its reading is not confirmed; when you have "
-                f"compared it with the print: lagrotor readings {self.folder.name} --confirm {verdict.id}"
+                f"it would {holding.get(verdict.verdict, f'be {verdict.verdict}')}, but its reading is not confirmed: compare it "
+                f"with the print, then confirm it by `lagrotor readings {self.folder.name} --confirm {verdict.id}`"
             )
         return replace(verdict, verdict="undecided", correction_verdict=None, evidence=(reason, *verdict.evidence))
 
     def _set_reach(self, verdict: Verdict, answers: Mapping[str, str], uses: Mapping[str, Iterable[str]]) -> Verdict:
-        """Set `reaches_result` of the verdict on a refuted equation."""
+        """Set `reaches_result` if the equation is refuted, from the verdicts and the used equations by id."""
         if verdict.verdict != "refuted":
             return verdict
         reaches = record.reaches_result(verdict.id, self.about.results, answers, uses)
@@ -258,7 +259,7 @@ class Paper(Catalogue):
         Returns
         -------
         Result
-            Without python-flint, with the theorems on record.
+            The result; without python-flint it has the theorems on record.
 
         Examples
         --------
@@ -272,19 +273,19 @@ class Paper(Catalogue):
 
     @accept_old_keywords
     def evaluate(self, progress: Progress | None = None, ids: Collection[str] | None = None) -> list[Result]:
-        """Test the claims.
+        """Test all claims, or those with the given ids.
 
         Parameters
         ----------
         progress : Callable[[str], None] or None, optional
             Called with the id of each claim before its test.
         ids : Collection[str] or None, optional
-            The claims to be tested; by default all.
+            Ids of the claims to be tested; by default all are tested.
 
         Returns
         -------
         list[Result]
-            In the paper's order.
+            The results in the paper's order.
 
         Examples
         --------
@@ -302,19 +303,19 @@ class Paper(Catalogue):
 
     @accept_old_keywords
     def changes(self, results: Iterable[Verdict | Result], only: Iterable[str] = ()) -> list[str]:
-        """Compare results with the record.
+        """Compare verdicts and results with those on record.
 
         Parameters
         ----------
         results : Iterable[Verdict or Result]
             Verdicts on equations and results of claims.
         only : Iterable[str], default ()
-            The ids that are compared; by default all of the paper.
+            The ids that are compared; by default all ids of the paper.
 
         Returns
         -------
         list[str]
-            A sentence for each difference; empty without a record.
+            One sentence for each difference; an empty list if there is no record.
 
         Examples
         --------
@@ -330,7 +331,7 @@ class Paper(Catalogue):
 
     @accept_old_keywords
     def renew_record(self, results: Iterable[Verdict | Result]) -> Path:
-        """Write results into the record; other ids of the paper keep their rows.
+        """Write verdicts and results into the record. The rows of the paper's other ids stay as they are.
 
         Parameters
         ----------
@@ -349,12 +350,12 @@ class Paper(Catalogue):
 
 @cache
 def opened(folder: Path, scripts_in: Path | None = None) -> Paper:
-    """Return the paper of a folder, the same object within a process, so that each script runs once."""
+    """Return the paper of a folder, always the same object within a process, so that each script runs once."""
     return Paper(folder, scripts_in=scripts_in)
 
 
 def audit_of(paper: Paper, verdicts: Iterable[Verdict]) -> Audit:
-    """Collect verdicts as the audit of a paper; equations without a verdict are `waiting`."""
+    """Return the audit of a paper with the given verdicts; equations without a verdict are its `waiting` ones."""
     in_order = tuple(with_reach(paper, verdicts))
     judged = {verdict.id for verdict in in_order}
     return Audit(in_order, tuple(i for i in paper.equations if i not in judged))
@@ -369,7 +370,7 @@ def check_scripts(paper: Paper) -> None:
 
 
 def judge_script(paper: Paper, stem: str, progress: Progress | None = None) -> list[Verdict]:
-    """Judge the equations of one derivation; `seconds` of each verdict includes an equal share of the script's time."""
+    """Return the verdicts on the equations of one derivation. Their `seconds` include equal shares of the script's time."""
     if progress:
         progress(stem)
     began = time.perf_counter()
@@ -380,7 +381,7 @@ def judge_script(paper: Paper, stem: str, progress: Progress | None = None) -> l
 
 
 def with_reach(paper: Paper, verdicts: Iterable[Verdict]) -> list[Verdict]:
-    """Return verdicts in the paper's order, with `reaches_result` of the refuted ones; raise InputError for a duplicate."""
+    """Sort verdicts into the paper's order and set `reaches_result` of the refuted ones; raise InputError for a duplicate."""
     by_id: dict[str, Verdict] = {}
     for verdict in verdicts:
         if verdict.id in by_id:
@@ -392,7 +393,7 @@ def with_reach(paper: Paper, verdicts: Iterable[Verdict]) -> list[Verdict]:
 
 
 def with_theorems_on_record(paper: Paper, result: Result) -> Result:
-    """Add the theorems on record to a result that was computed without python-flint."""
+    """Add the theorems on record to the result of a claim's test that ran without python-flint."""
     row = paper.recorded.get(result.test.id)
     if result.test.prove is None or row is None:
         return result

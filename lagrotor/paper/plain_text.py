@@ -25,7 +25,7 @@ _MINUS = re.compile(
 
 
 def readable(text: str) -> str:
-    """Return a text with Greek letters, dots, primes, indices, raised powers, signs and powers of ten."""
+    """Return a typed text with Greek letters, dots, primes, indices, raised powers, minus signs and powers of ten."""
     for typed, read in _RULES:
         text = typed.sub(read, text)
     for arrow, sign in _ARROWS.items():
@@ -44,7 +44,7 @@ def _in_powers_of_ten(match: re.Match[str]) -> str:
 
 
 def from_latex(source: str) -> str:
-    r"""Return LaTeX in plain text: \dot\varphi_1 is φ̇₁, \Omega_0^2\ \text{(any rate)} is Ω₀² (any rate)."""
+    r"""Return LaTeX as plain text: \dot\varphi_1 becomes φ̇₁, \Omega_0^2\ \text{(any rate)} becomes Ω₀² (any rate)."""
     tokens = (Token(t.kind, c, t.at) for t in tokenize(source) for c in (t.text if t.kind == "text" else (t.text,)))
     text = re.sub(r"(?<=[²³])(?=[A-Za-zΑ-ω])", " ", _line(deque(tokens)))
     text = " ".join(text.split()).replace("( ", "(").replace(" )", ")").replace("⟨ ", "⟨").replace(" ⟩", "⟩")
@@ -52,7 +52,7 @@ def from_latex(source: str) -> str:
 
 
 def _line(tokens: deque[Token]) -> str:
-    """Convert the tokens up to the closing brace or the end."""
+    """Convert tokens of LaTeX to text, up to the closing brace or the end."""
     text = ""
     while tokens and (token := tokens.popleft()).kind != "close":
         text = f"{text.rstrip() if token.kind == 'script' else text}{_piece(token, tokens)}"
@@ -108,7 +108,7 @@ def _command(name: str, tokens: deque[Token]) -> str:
 
 
 def _matrix(tokens: deque[Token]) -> str:
-    r"""Convert a matrix up to its end, as [a, b; c, d]."""
+    r"""Convert the tokens of a matrix, up to its end, to the text [a, b; c, d]."""
     inner, depth = list[Token](), 1
     while tokens and depth:
         token = tokens.popleft()
@@ -124,7 +124,7 @@ def _matrix(tokens: deque[Token]) -> str:
 
 
 def _factor(text: str) -> str:
-    """Put a text in brackets unless it is one symbol or number, with index or power."""
+    """Put a text in brackets, unless it is a single symbol or number with an optional index or power."""
     alone = re.fullmatch(r"\s*(?:[\w.∂\u0307\u0308]+|\([^()]*\))(?:_\w+)?(?:\^\w)?\s*", text)
     return text.strip() if alone else f"({text.strip()})"
 

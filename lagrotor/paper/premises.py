@@ -28,14 +28,14 @@ class Premise:
     put : Mapping[Basic, Any], default {}
         The equations of the assumption as a substitution, old → new.
     small : Symbol or None, optional
-        For an approximation, the quantity in which only the leading terms are compared. `put` introduces it; a symbol on
-        both sides of a row means on the right the symbol divided by `small`.
+        For an approximation, the small quantity; only leading terms in it are compared. `put` introduces it. In a row
+        x → small·x, the x on the right stands for x/small.
     broken : str, default ''
         How far the paper's own scene violates the assumption, in words; empty if the scene satisfies it.
     where : tuple[Relational, ...], default ()
         Further relations: Eq, Ne, Ge, Gt, Le, Lt.
     defines : bool, default False
-        The premise only defines a printed symbol. An equation that repeats such a premise is not circular.
+        True if the premise only defines a printed symbol. An equation that repeats such a premise is not circular.
 
     Examples
     --------
@@ -59,12 +59,12 @@ class Premise:
         for relation in self.where:
             if not isinstance(relation, Relational):
                 raise InputError(
-                    f"premise {self.says!r}: {relation!r} is no relation: write Eq(a, b), Ne(a, b) or a >= b"
+                    f"premise {self.says!r}: {relation!r} is not a relation: write Eq(a, b), Ne(a, b) or a >= b"
                 )
 
     @property
     def sentence(self) -> str:
-        """The assumption in words, and by how much the paper's own scene violates it."""
+        """The assumption in words, followed by how far the paper's own scene violates it."""
         return self.says + self._breach
 
     @property
@@ -73,29 +73,29 @@ class Premise:
 
     @property
     def equations(self) -> tuple[tuple[sp.Basic, Any], ...]:
-        """The left and the right side of each equation."""
+        """The left and right sides of the equations in `put` and `where`."""
         return (*self.put.items(), *((r.lhs, r.rhs) for r in self.where if isinstance(r, sp.Eq)))
 
     @property
     def conditions(self) -> tuple[Relational, ...]:
-        """The inequalities."""
+        """The relations in `where` that are not equations."""
         return tuple(r for r in self.where if not isinstance(r, sp.Eq))
 
     @property
     def formula(self) -> str:
-        """The equations and conditions as text: J = I₃, x ≥ 0; empty if the premise only names a small quantity."""
+        """The equations and conditions as text, J = I₃, x ≥ 0; empty if the premise only names a small quantity."""
         return ", ".join((*(_equated(a, b) for a, b in self.put.items()), *map(relation_text, self.where)))
 
     @property
     def with_formula(self) -> str:
-        """The `sentence`, with the formula after the words unless the words contain it."""
+        """The `sentence`; if the words do not contain the formula, it follows them."""
         formula = self.formula if len(self.formula) <= _LONGEST else f"{len(self.equations)} equations"
         is_shown = formula and _letters_of(self.formula) not in _letters_of(self.says)
         return self.says + (f": {formula}" if is_shown else "") + self._breach
 
     @property
     def tex(self) -> tuple[str, ...]:
-        """The equations and conditions in LaTeX; empty if they are too long to be read."""
+        """The equations and conditions in LaTeX, one string each; an empty tuple if they are too long to be read."""
         if len(self.formula) > _LONGEST:
             return ()
         sides = [
@@ -104,7 +104,7 @@ class Premise:
         return (*sides, *map(latex, self.where))
 
     def on(self, side: Any) -> Any:
-        """Substitute all rows of `put` into an expression at once.
+        """Substitute all rows of `put` into an expression, simultaneously.
 
         Parameters
         ----------
@@ -114,7 +114,7 @@ class Premise:
         Returns
         -------
         Expr or Matrix
-            The side under the premise.
+            The side after the substitution.
         """
         if all(isinstance(old, sp.Symbol) for old in self.put):
             return side.xreplace({old: sp.sympify(new, strict=True) for old, new in self.put.items()})
@@ -130,7 +130,7 @@ def _equated(lhs: Any, rhs: Any) -> str:
 
 
 def relation_text(relation: Relational) -> str:
-    """Return a relation as plain text."""
+    """Return a relation as plain text, such as x ≥ 0."""
     return f"{readable(str(relation.lhs))} {_SIGNS[relation.func]} {readable(str(relation.rhs))}"
 
 
@@ -141,7 +141,7 @@ def parameter_premise(
     scene_values: Mapping[sp.Symbol, Any],
     meanings: Mapping[sp.Symbol, sp.Expr] | None = None,
 ) -> Premise:
-    """Return a premise about parameters; `broken` is computed from the values of the paper's scene.
+    """Return a premise about parameters whose `broken` compares it with the values of the paper's scene.
 
     Parameters
     ----------
@@ -152,12 +152,12 @@ def parameter_premise(
     scene_values : Mapping[Symbol, Any]
         Parameter → its value in the paper's own scene.
     meanings : Mapping[Symbol, Expr] or None, optional
-        Symbols that abbreviate expressions in other symbols.
+        Symbol → the expression that it abbreviates.
 
     Returns
     -------
     Premise
-        With the violated values in `broken`.
+        The premise; if the scene violates it, `broken` has the values of its parameters.
 
     Examples
     --------
@@ -179,7 +179,7 @@ def parameter_premise(
 
 
 def with_meanings(expression: Any, meanings: Mapping[sp.Symbol, sp.Expr]) -> Any:
-    """Replace each symbol by its meaning, one after the other; a meaning may contain later symbols."""
+    """Replace each symbol by its meaning, in the order of `meanings`; a meaning may contain symbols that come later."""
     for letter, meaning in meanings.items():
         expression = expression.xreplace({letter: sp.sympify(meaning, strict=True)})
     return expression
@@ -191,7 +191,7 @@ Assumptions: TypeAlias = (
 
 
 def premises_of(assumptions: Assumptions) -> tuple[Premise, ...]:
-    """Return one premise for each Premise, relation and row of a substitution; raise InputError for anything else."""
+    """Return one premise for each relation, row of a substitution and Premise; raise InputError for anything else."""
     if isinstance(assumptions, Premise):
         return (assumptions,)
     if isinstance(assumptions, Mapping):
@@ -200,7 +200,7 @@ def premises_of(assumptions: Assumptions) -> tuple[Premise, ...]:
         return _premises_of_relation(assumptions)
     if isinstance(assumptions, sp.Basic | str) or not isinstance(assumptions, Iterable):
         raise InputError(
-            f"premises: {assumptions!r} is no premise: give Eq(a, b), a >= b, Ne(a, b), {{old: new}} or a Premise"
+            f"premises: {assumptions!r} is not a premise: give Eq(a, b), a >= b, Ne(a, b), {{old: new}} or a Premise"
         )
     return tuple(premise for assumption in assumptions for premise in premises_of(assumption))
 
@@ -225,5 +225,5 @@ def _premises_of_relation(relation: Any) -> tuple[Premise, ...]:
     if isinstance(relation, sp.And):
         return tuple(premise for conjunct in relation.args for premise in _premises_of_relation(conjunct))
     if not isinstance(relation, Relational):
-        raise InputError(f"premises: {relation} is no single relation: give Eq, Ne, Ge, Gt, Le or Lt, one at a time")
+        raise InputError(f"premises: {relation} is not a single relation: give Eq, Ne, Ge, Gt, Le or Lt, one at a time")
     return (Premise(relation_text(relation), where=(relation,)),)

@@ -52,20 +52,20 @@ class Formula:
 
 
 def left_out(small: sp.Symbol, order: int) -> str:
-    """Return + O(small**(order + 1)) in LaTeX."""
+    """Return the LaTeX of the omitted terms of a series, + O(small**(order + 1))."""
     return rf" + O\left({latex(small ** (order + 1))}\right)"
 
 
 @dataclass(frozen=True)
 class Remark:
-    """A result of a derivation besides the judged equations.
+    """A result that a derivation states in words, besides the equations that are judged.
 
     Attributes
     ----------
     title : str
-        Its heading.
+        Heading of the remark.
     text : str
-        Sentences with the numbers.
+        The result in sentences, with its numbers.
     """
 
     title: str
@@ -81,7 +81,7 @@ _LONGEST = 240
 
 @dataclass(frozen=True)
 class Step:
-    """The equations of one step of a derivation, which `prove` has decided.
+    """One step of a derivation: equations that `prove` has decided to hold.
 
     Attributes
     ----------
@@ -90,13 +90,13 @@ class Step:
     says : str
         The step in words.
     domain : tuple[Expr, ...]
-        Factors that must not vanish.
+        Factors that the proof divides by, so that they must not vanish.
     names : tuple[str, ...], default ()
         LaTeX of the left sides.
     small : Symbol or None, optional
         The variable of the series, if the sides agree through an order only.
     order : int or None, optional
-        That order.
+        The order in `small` through which the sides agree.
     equations : tuple[str, ...], default ()
         LaTeX of whole equations, shown instead of the compared components.
     """
@@ -114,7 +114,7 @@ class Step:
 
     @property
     def tex(self) -> str:
-        """The equations below each other in LaTeX."""
+        """The equations in LaTeX, one below the other."""
         end = left_out(self.small, self.order or 0) if self.small is not None else ""
         lines = [f"{line}{end}" for line in self.equations] or [
             f"{name} &= {latex(right)}{end}" for name, (_, right) in zip(self.names, self.pairs, strict=True)
@@ -137,7 +137,7 @@ def prove(
     names: str | Sequence[str] = (),
     equations: str | Sequence[str] = (),
 ) -> Step:
-    r"""Decide lhs = rhs exactly, or through small**order; matrices and rows of expressions entry by entry.
+    r"""Decide whether lhs = rhs, exactly or through small**order. Matrices and sequences are compared entry by entry.
 
     Parameters
     ----------
@@ -148,9 +148,9 @@ def prove(
     says : str, default ''
         The step in words.
     small : Symbol or None, optional
-        The variable of the series, if the sides agree through an order only.
+        The variable of the series, if the sides are compared as series; without it they are compared exactly.
     order : int or None, optional
-        That order.
+        The order in `small` through which the sides are compared.
     names : str or Sequence[str], default ()
         LaTeX shown for the left sides.
     equations : str or Sequence[str], default ()
@@ -159,7 +159,7 @@ def prove(
     Returns
     -------
     Step
-        Displayed as mathematics in the derivation.
+        The decided equations, which the derivation displays as mathematics.
 
     Raises
     ------
@@ -178,12 +178,12 @@ def prove(
     named, equations_tex = ((texts,) if isinstance(texts, str) else tuple(texts) for texts in (names, equations))
     for texts, what in ((named, "names"), (equations_tex, "equations are written")):
         if texts and len(texts) != len(pairs):
-            raise ProofError(f"prove: {len(texts)} {what} for {len(pairs)} equations")
+            raise ProofError(f"prove: {len(texts)} {what} for {len(pairs)} equations: give one for each equation")
     if not (named or equations_tex):
         named = tuple(latex(side) for side, _ in pairs)
         if any(len(name) > _LONGEST for name in named):
             raise ProofError(
-                f"prove: {says or 'this step'}: a left side is too long to be read; give `names` or `equations`"
+                f"prove: {says or 'this step'}: a left side has more than {_LONGEST} characters: give `names` or `equations`"
             )
     domain: dict[sp.Expr, None] = {}
     for a, b in pairs:
@@ -192,18 +192,20 @@ def prove(
             continue
         decision = decide_equal(a, b)
         if decision.answer != "zero":
-            raise ProofError(f"prove: {says or 'this step'} is {decision.answer}: {a} against {b}: {decision.reason}")
+            raise ProofError(
+                f"prove: {says or 'this step'}: left − right is {decision.answer}: left = {a}, right = {b}: {decision.reason}"
+            )
         domain |= dict.fromkeys(f for f in decision.domain if not (f.is_positive or f.is_number))
     return Step(pairs, says, tuple(domain), named, small, order, equations_tex)
 
 
 def _pairs(lhs: Any, rhs: Any) -> tuple[tuple[Any, Any], ...]:
     if isinstance(lhs, sp.Equality) and not isinstance(rhs, Sequence):
-        raise ProofError("prove: give the two sides, not an equation")
+        raise ProofError("prove: the left side is an equation: give the two sides, prove(lhs, rhs)")
     if isinstance(lhs, Sequence) or isinstance(rhs, Sequence):
         rows = list(lhs), list(rhs)
         if len(rows[0]) != len(rows[1]):
-            raise ProofError(f"prove: {len(rows[0])} left sides and {len(rows[1])} right sides")
+            raise ProofError(f"prove: {len(rows[0])} left sides and {len(rows[1])} right sides: give as many of each")
         return tuple((sp.sympify(a, strict=True), sp.sympify(b, strict=True)) for a, b in zip(*rows, strict=True))
     return ((sp.sympify(lhs, strict=True), sp.sympify(rhs, strict=True)),)
 
@@ -214,7 +216,8 @@ def _through(a: Any, b: Any, small: sp.Symbol, order: int, says: str) -> None:
         first = agreement_order(p, q, small, order)
         if first.order is not None:
             raise ProofError(
-                f"prove: {says or 'this step'} fails at order {first.order} in {small}, by {first.coefficient}: {p} against {q}"
+                f"prove: {says or 'this step'}: the sides first differ at order {first.order} in {small}; left − right has the "
+                f"coefficient {first.coefficient}: left = {p}, right = {q}"
             )
 
 
@@ -225,11 +228,11 @@ _CONSTANTS = ("pi", "sqrt", "sin", "cos", "tan", "exp", "Integer", "Rational", "
 
 @dataclass(frozen=True)
 class Form:
-    r"""A formula as text, from which both its LaTeX (`tex`) and its components (`value`) are read.
+    r"""A formula as text, from which both its LaTeX (`tex`) and its components (`value`) are computed.
 
-    The text may call the functions of `grammar.FUNCTIONS`, transpose(A), and sum_i(…), the sum over i = 1 … `bodies`, in
-    which X_i is X_1, X_2, …. `letters` are components of symbols that the section lacks; `names` is the LaTeX of symbols,
-    as {"n": r"\hat\Omega"}. `remainder` is the first omitted power in LaTeX.
+    The text may call the functions of `grammar.FUNCTIONS`, transpose(A) and sum_i(…). The last is a sum over i = 1 … `bodies`,
+    in which X_i stands for X_1, X_2, …. `letters` gives the components of symbols that the section does not declare. `names`
+    maps names to LaTeX, as {"n": r"\hat\Omega"}. `remainder` is the first omitted power of a series, in LaTeX.
     """
 
     text: str
@@ -239,12 +242,12 @@ class Form:
     remainder: str = ""
 
     def value(self, section: Letters) -> Any:
-        """Return the components in the section's symbols; raise InputError if the text cannot be read."""
+        """Return the formula in the section's symbols, vectors as components; raise InputError if the text cannot be read."""
         calls = {"transpose": lambda A: A.T}
         return read(_expanded(self.text, self.bodies), {**section.names, **calls, **self.letters}, "form")
 
     def tex(self, section: Letters) -> str:
-        """Return the text as LaTeX: vectors with arrows, sums as sums, terms in the order of the text."""
+        """Return the text as LaTeX, with arrows on vectors, sums as Σ, and the terms in the order of the text."""
         values, texs = {**section.names, **self.letters}, {**section.latex, **self.names}
         unary = {name for name, value in values.items() if name in texs and inspect.isfunction(value)}
         local: dict[str, Any] = _CALLS | {name: _named_function(name, texs[name]) for name in unary}
@@ -262,17 +265,17 @@ class Form:
 def form(
     text: str, names: Mapping[str, str] | None = None, bodies: int = _MANY, remainder: str = "", **letters: Any
 ) -> Form:
-    """Return a `Form`; `letters` are the components of symbols that the section lacks."""
+    """Return a `Form`; the keyword arguments `letters` are the components of symbols that the section does not declare."""
     return Form(text, letters, names or {}, bodies, remainder)
 
 
 def _expanded(text: str, bodies: int) -> str:
-    """Expand each sum_i(…)."""
+    """Write each sum_i(…) in a text as an explicit sum over i = 1 … `bodies`."""
     while (start := text.find("sum_i(")) >= 0:
         depth, end = 1, start + len("sum_i(")
         while depth:
             if end == len(text):
-                raise InputError(f"form: {text!r}: a bracket is not closed")
+                raise InputError(f"form: {text!r}: a bracket of sum_i(…) is not closed")
             depth += {"(": 1, ")": -1}.get(text[end], 0)
             end += 1
         inside = text[start + len("sum_i(") : end - 1]
@@ -282,7 +285,7 @@ def _expanded(text: str, bodies: int) -> str:
 
 
 def _name(name: str, kind: Any) -> str:
-    """Return the LaTeX of a symbol: an arrow on a vector, a hat on hat_r, a dot on r_dot."""
+    """Return the LaTeX of a symbol; a vector gets an arrow, hat_r a hat, and r_dot a dot."""
     if isinstance(kind, sp.Symbol) and kind.name == name and not name.startswith("Delta_"):
         return latex(kind)
     if name.startswith("Delta_"):
@@ -290,7 +293,7 @@ def _name(name: str, kind: Any) -> str:
     stem, hat = (name[4:], True) if name.startswith("hat_") else (name, False)
     match = re.fullmatch(r"([A-Za-z]+)((?:_[A-Za-z0-9]+)*?)(_d?dot)?", stem)
     if match is None:
-        raise InputError(f"form: {name!r} is not a symbol with an index")
+        raise InputError(f"form: {name!r} is not a symbol with an index: write it as omega_1 or r_1_dot")
     letter = sp.latex(sp.Symbol(match[1]))
     if hat or (isinstance(kind, sp.MatrixBase) and kind.shape == (3, 1)):
         letter = rf"\{'hat' if hat else 'vec'}{{{letter}}}"
@@ -322,7 +325,7 @@ class _Norm(sp.Function):  # type: ignore[misc]
 
 
 def _named_function(name: str, tex: str) -> Any:
-    """Return a function whose values print as one symbol, such as the unit vector of an axis."""
+    """Return a sympy function whose calls print as `tex`, whatever their argument, such as the unit vector of an axis."""
     return type(name, (sp.Function,), {"_latex": lambda self, printer, exp=None: tex})
 
 

@@ -1,4 +1,4 @@
-"""The record of verdicts, `recorded.toml`: one block for each equation and claim, one line for each item.
+"""The record of verdicts, `recorded.toml`. Each equation and each claim has one block, and each list has one line per item.
 
 The blocks are sorted by id, so that authors who judge different equations change different places of the file.
 """
@@ -21,10 +21,11 @@ from lagrotor.paper.verdicts import LineVerdict, Verdict
 
 @dataclass(frozen=True)
 class OnRecord:
-    """The record of an equation or a claim; an item that is not on record is None.
+    """The record of an equation or of a claim; None stands for an item that the record does not have.
 
-    `printed` is a digest of the print, `uses` the ids of the used equations. `lines` and `correction` have verdict, order and
-    premises of each member, `dimensions` the lines that are not consistent, `parts` the outcomes of a claim's parts.
+    `printed` is a hash of the print, `uses` the ids of the equations that this one uses. `lines` and `correction` give verdict,
+    order and premises of each member. `dimensions` lists the lines whose sides differ in dimension, `parts` the outcomes of a
+    claim's parts.
     """
 
     verdict: str
@@ -39,13 +40,13 @@ class OnRecord:
     theorems: tuple[str, ...] | None = None
 
     def theorems_of(self, what: str) -> tuple[Theorem, ...]:
-        """Return the theorems on record of a part or a line."""
+        """Return the recorded theorems about a part of a claim or about a quantity, which `what` names."""
         texts = (text.removeprefix(f"{what}: ") for text in self.theorems or () if text.startswith(f"{what}: "))
         return tuple(Theorem(text) for text in texts)
 
 
 def row_of(result: Verdict | Result, equations: Mapping[str, Equation]) -> OnRecord:
-    """Return the record of a verdict, or of a claim after its test."""
+    """Return the record of a verdict on an equation, or of the result of a claim's test."""
     if isinstance(result, Result):
         finding = result.finding
         proved = tuple(f"{part.says}: {' '.join(filter(None, (t.says, t.encloses)))}" for part, t in finding.theorems)
@@ -66,7 +67,7 @@ def row_of(result: Verdict | Result, equations: Mapping[str, Equation]) -> OnRec
 
 
 def printed_digest(entry: Equation) -> str:
-    """Return a digest of the print in the catalogue."""
+    """Return a hash of an equation's print in the catalogue, which changes if its LaTeX, lines or symbols change."""
     rows = [{key: row[key] for key in sorted(row)} for row in entry.line]
     text = json.dumps([entry.latex, rows, dict(entry.letters), dict(entry.refers)], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:16]
@@ -92,25 +93,25 @@ def _dimensions(lines: Iterable[LineVerdict]) -> Iterator[str]:
 
 
 def recorded(file: Path) -> dict[str, OnRecord]:
-    """Read the record by id; empty without a file. Raises LagrotorError for a broken file."""
+    """Read a record as id → its row; empty if there is no file. Raises LagrotorError if the file cannot be read."""
     columns = {field.name for field in fields(OnRecord)}
     try:
         rows = tomllib.loads(file.read_text(encoding="utf-8"))
         records = {}
         for identifier, row in rows.items():
             if unknown := row.keys() - columns:
-                raise ValueError(f"{identifier}: {min(unknown)!r} means nothing here")
+                raise ValueError(f"{identifier}: {min(unknown)!r} is not a key of a record")
             read: dict[str, Any] = {k: tuple(map(str, v)) if isinstance(v, list) else str(v) for k, v in row.items()}
             records[identifier] = OnRecord(**read)
         return records
     except FileNotFoundError:
         return {}
     except (ValueError, TypeError, KeyError, AttributeError) as error:
-        raise LagrotorError(f"{file} cannot be read ({error}): restore it") from None
+        raise LagrotorError(f"{file} cannot be read ({error}): restore it from version control") from None
 
 
 def record_text(rows: Mapping[str, OnRecord]) -> str:
-    """Return a record as TOML."""
+    """Return a record as the text of its TOML file."""
     blocks = []
     for identifier in sorted(rows, key=by_numbers):
         row, lines = rows[identifier], [f"[{_quoted(identifier)}]"]
@@ -131,7 +132,7 @@ def _quoted(text: str) -> str:
 
 
 def changes(current: Mapping[str, OnRecord], on_record: Mapping[str, OnRecord], ids: Iterable[str]) -> list[str]:
-    """Return a sentence for each difference from the record of these ids; empty without a record."""
+    """Return one sentence for each difference between current and recorded rows of these ids; none if there is no record."""
     if not on_record:
         return []
     return [sentence for i in ids for sentence in _changes_of(i, current.get(i), on_record.get(i))]
@@ -153,7 +154,7 @@ def _changes_of(identifier: str, now: OnRecord | None, recorded_row: OnRecord | 
 
 
 _WORDS = {
-    "printed": "the print has changed (its digest)",
+    "printed": "the print has changed (hash)",
     "uses": "the equations that it uses",
 }  # else the field's name
 
@@ -165,7 +166,7 @@ def _as_text(value: Any) -> str:
 def reaches_result(
     identifier: str, results: Iterable[str], verdicts: Mapping[str, str], uses: Mapping[str, Iterable[str]]
 ) -> bool:
-    """Return True if a refuted result of the paper is, or depends on, the refuted equation."""
+    """Return True if a refuted main result is this equation or depends on it; `uses` has the equations that each uses."""
     ends = set(results)
     visited, stack = {identifier}, [identifier]
     while stack:

@@ -21,16 +21,16 @@ Kind = Literal["derivations", "figures"]
 
 
 def beside(name: str) -> Path:
-    """Return a file or folder beside the package in a checkout, inside the package when installed."""
+    """Return the path of a file or folder that lies beside the package in a checkout, and inside it once installed."""
     for base in (_PACKAGE, _PACKAGE.parent):
         if (base / name).exists():
             return base / name
-    raise LagrotorError(f"{name} is missing beside {_PACKAGE}: install lagrotor again")
+    raise LagrotorError(f"{name} is neither in nor beside {_PACKAGE}: install lagrotor again")
 
 
 @dataclass(frozen=True)
 class ScriptCell:
-    """One cell of a script: prose in Markdown, or code with its shown values and the package's warnings, once each."""
+    """One cell of a script: prose, or code with the values that it shows and the package's warnings, each once."""
 
     kind: Literal["prose", "code"]
     text: str
@@ -40,13 +40,13 @@ class ScriptCell:
 
 @dataclass(frozen=True)
 class Script:
-    """A script after its run: the cells in order and the names that it defines."""
+    """A script that has run: its cells in order, and the names that it defines."""
 
     cells: tuple[ScriptCell, ...]
     names: dict[str, Any]
 
     def values_of(self, kind: type) -> list[Any]:
-        """Return the values of one type that the cells show, in order; tuples and lists are flattened."""
+        """Return the values of one type that the cells show, in order; those in tuples and lists count, too."""
         matches = []
         for cell in self.cells:
             for value in cell.values:
@@ -56,7 +56,7 @@ class Script:
 
 @dataclass(frozen=True)
 class Scripts:
-    """The folders `derivations/` and `figures/` in `base`; a script runs once, in the context `importable`."""
+    """The scripts in `derivations/` and `figures/` under `base`. Each runs once, inside the context that `importable` opens."""
 
     base: Path
     importable: Callable[[], AbstractContextManager[None]] = nullcontext
@@ -64,16 +64,16 @@ class Scripts:
     remote_names: dict[Path, dict[str, Any]] = field(default_factory=dict, repr=False, compare=False)
 
     def path(self, kind: Kind, stem: str) -> Path:
-        """Return the file of a script."""
+        """Return the path of a script, given its folder and its name without `.py`."""
         return self.base / kind / f"{stem}.py"
 
     def names(self, kind: Kind, prefix: str = "") -> list[str]:
-        """Return the names of scripts in a folder that begin with `prefix`, t2 before t10."""
+        """Return the names of the scripts in a folder that begin with `prefix`, with t2 before t10."""
         stems = (path.stem for path in (self.base / kind).glob(f"{prefix}*.py") if not path.stem.startswith("_"))
         return sorted(stems, key=by_numbers)
 
     def executed(self, kind: Kind, stem: str) -> Script:
-        """Run a script unless it has run already; raise ScriptError with file and line if it fails."""
+        """Return a script after its run; it runs at the first call only. Raise ScriptError with file and line if it fails."""
         path = self.path(kind, stem)
         if path not in self.ran:
             with self._within(path):
@@ -81,13 +81,13 @@ class Scripts:
         return self.ran[path]
 
     def run(self, kind: Kind, stem: str) -> dict[str, Any]:
-        """Return the names that a script defines."""
+        """Return the names that a script defines, with their values; it runs if it has not run yet."""
         path = self.path(kind, stem)
         return self.remote_names[path] if path in self.remote_names else self.executed(kind, stem).names
 
     @contextmanager
     def remote_values(self, values: Mapping[str, Mapping[str, Any]]) -> Iterator[None]:
-        """Let `run` return these values (script → name → value) within the block; a missing name still runs its script."""
+        """Let `run` return the given values (script → name → value) within the block. If a name is missing, its script runs."""
         self.remote_names.update(
             {self.path("derivations", stem): _RemoteNames(self, stem, v) for stem, v in values.items()}
         )
@@ -97,7 +97,7 @@ class Scripts:
             self.remote_names.clear()
 
     def called(self, kind: Kind, stem: str, name: str) -> Any:
-        """Call a function of a script; raise ScriptError with file and line if it fails."""
+        """Return the result of a function that a script defines; raise ScriptError with file and line if it fails."""
         function = self.run(kind, stem)[name]
         with self._within(self.path(kind, stem)):
             return function()
@@ -112,24 +112,26 @@ class Scripts:
 
     @cached_property
     def stating(self) -> dict[str, tuple[str, int]]:
-        """The derivation and the line of each verdict by equation id, found without running the scripts."""
+        """For each equation id, the derivation and the line of its verdict, found without running the scripts."""
         places: dict[str, tuple[str, int]] = {}
         for stem in self.names("derivations"):
             for identifier, line in verdicts_in(self.path("derivations", stem)):
                 if identifier in places:
                     first = "{}.py:{}".format(*places[identifier])
-                    raise InputError(f"{stem}.py:{line}: a verdict on {identifier} is in {first} already")
+                    raise InputError(
+                        f"{stem}.py:{line}: a verdict on {identifier} is in {first} already: keep one of them"
+                    )
                 places[identifier] = stem, line
         return places
 
 
 def by_numbers(name: str) -> list[tuple[int, str]]:
-    """Return the sort key of a name, with t2 before t10 and 3.2 before 3.10."""
+    """Return a sort key of a name that puts t2 before t10 and 3.2 before 3.10."""
     return [(int(number or 0), text) for number, text in re.findall(r"(\d*)(\D*)", name)]
 
 
 class _RemoteNames(dict[str, Any]):
-    """The names of a derivation that ran in another process; a missing name runs the script in this process."""
+    """The names that a derivation defined in another process. If a name is missing, the script runs in this process."""
 
     def __init__(self, scripts: Scripts, stem: str, values: Mapping[str, Any]) -> None:
         super().__init__(values)
@@ -140,7 +142,7 @@ class _RemoteNames(dict[str, Any]):
 
 
 def verdicts_in(path: Path) -> list[tuple[str, int]]:
-    """Return (equation id, line) of each verdict in a derivation; raise ScriptError for invalid Python."""
+    """Return the equation id and the line of each call of `verdict` in a derivation; raise ScriptError for invalid Python."""
     calls = []
     tree = _tree(path) if "verdict(" in path.read_text(encoding="utf-8") else ast.Module([], [])
     for node in ast.walk(tree):
@@ -159,7 +161,7 @@ def _tree(path: Path) -> ast.Module:
 
 
 def _failure(path: Path, error: Exception) -> str:
-    """Return `file:line: error`, with the line of the script itself."""
+    """Return the text `file:line: error` of an error, with the last line of the script itself in the traceback."""
     if isinstance(error, SyntaxError):
         return f"{path}:{error.lineno}: {error.msg}"
     lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(path)]
@@ -168,7 +170,7 @@ def _failure(path: Path, error: Exception) -> str:
 
 
 def run_file(path: Path) -> Script:
-    """Run a script in the percent format: `# %%` begins a cell, `# %% [markdown]` one of prose."""
+    """Run a script in the percent format, in which `# %%` begins a cell of code and `# %% [markdown]` one of prose."""
     source = path.read_text(encoding="utf-8")
     defined: dict[str, Any] = {"__name__": path.stem, "__file__": str(path)}
     starts = [match.start() for match in _CELL.finditer(source)] or [0]
@@ -195,7 +197,7 @@ def run_file(path: Path) -> Script:
 
 
 def _execute(statement: ast.stmt, path: Path, defined: dict[str, Any]) -> list[Any]:
-    """Execute a statement and return the value of a bare expression, if it has one."""
+    """Execute a statement. Return its value in a list if it is an expression with a value, else an empty list."""
     if not isinstance(statement, ast.Expr):
         exec(compile(ast.Module([statement], []), str(path), "exec"), defined)
         return []
@@ -205,7 +207,7 @@ def _execute(statement: ast.stmt, path: Path, defined: dict[str, Any]) -> list[A
 
 @contextmanager
 def importable(folder: Path, modules: dict[str, ModuleType]) -> Iterator[None]:
-    """Let `import name` find `folder/name.py` within the block; `modules` keeps the imported modules of the folder."""
+    """Let `import name` find `folder/name.py` within the block. `modules` keeps the imported modules for the next block."""
     imported = dict(sys.modules)
     sys.modules.update(modules)
     sys.path.insert(0, str(folder))

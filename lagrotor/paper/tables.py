@@ -10,12 +10,12 @@ import sympy as sp
 
 @dataclass(frozen=True)
 class FigureLink:
-    """A cell with a link to a figure.
+    """A cell of a table that links to a figure of the report.
 
     Attributes
     ----------
     key : str
-        Number of the figure, as "19".
+        Number of the figure as text, such as "19".
     """
 
     key: str
@@ -30,16 +30,17 @@ _DOTTED = re.compile(r"<mi>\\dot\{(\w+)\}</mi>")
 
 @dataclass(frozen=True)
 class Table:
-    """A table, shown in the report and, as HTML, in notebooks.
+    """A table for the report; notebooks show it as HTML.
 
     Attributes
     ----------
     title : str
-        Its caption.
+        Caption of the table.
     head : tuple[str, ...]
         Names of the columns.
     rows : tuple[tuple[Cell, ...], ...]
-        Each as long as `head`; a cell is text, a sympy object, a `FigureLink`, or a tuple of these below each other.
+        The rows, each as long as `head`. A cell is text, a sympy object, a `FigureLink`, or a tuple of these that is shown
+        as one below the other.
     note : str, default ''
         A sentence below the table on how the values were obtained.
 

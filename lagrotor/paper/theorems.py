@@ -1,7 +1,7 @@
-"""Theorems about motions, which decide a part of a claim or a printed number.
+"""Theorems about motions. A theorem decides a part of a claim or a printed number.
 
-`lagrotor.proofs` proves them and its `check` verifies their certificates; both need python-flint. Without python-flint the
-theorems on record are used, and the report says that they were not proved again.
+`lagrotor.proofs` proves the theorems, and its `check` verifies their certificates; both need python-flint. Without python-flint
+the theorems on record are used, and the report says that they were not proved again.
 """
 
 import json
@@ -24,14 +24,14 @@ class Theorem:
     Attributes
     ----------
     says : str
-        The theorem in the words of `lagrotor.proofs.check`.
+        The theorem, worded as `lagrotor.proofs.check` returns it.
     encloses : str, default ''
-        The enclosure of its numbers, in words.
+        A sentence on the numbers that the theorem encloses.
     certificate : dict[str, Any] or None, optional
         Plain data that `check` verifies; None for a theorem that is only on record.
     quantity : str, default ''
-        Name in the certificate of the quantity that a printed number is compared with: a state, an expression whose
-        mean is enclosed, `time`, `period` or `frequency`.
+        The quantity that a printed number is compared with, by its name in the certificate. It is a state, an expression
+        whose mean is enclosed, `time`, `period` or `frequency`.
 
     Examples
     --------
@@ -46,21 +46,21 @@ class Theorem:
 
     @classmethod
     def of(cls, proved: Any, encloses: str = "", quantity: str = "") -> "Theorem":
-        """Return the theorem of a proof from `lagrotor.proofs`, which needs python-flint.
+        """Make a theorem from a proof of `lagrotor.proofs`, which needs python-flint.
 
         Parameters
         ----------
         proved : Any
-            An orbit, a crossing, an enclosure or an equilibrium.
+            A proved orbit, crossing, enclosure or equilibrium.
         encloses : str, default ''
-            Its enclosure in words.
+            A sentence on the numbers that the theorem encloses.
         quantity : str, default ''
             Name of the quantity that a printed number is compared with.
 
         Returns
         -------
         Theorem
-            With the proof's certificate.
+            The theorem with the proof's certificate.
 
         Raises
         ------
@@ -70,12 +70,12 @@ class Theorem:
         from lagrotor.proofs.statements import quantities, theorem_of
 
         if quantity and quantity not in (names := quantities(proved.certificate)):
-            raise InputError(f"Theorem: it has no quantity {quantity!r}; it has {', '.join(names) or 'none'}")
+            raise InputError(f"Theorem: it has no quantity {quantity!r}; it has {', '.join(names) or 'no quantity'}")
         return cls(theorem_of(proved.certificate), encloses, proved.certificate, quantity)
 
     @property
     def bounds(self) -> tuple[sp.Rational, sp.Rational] | None:
-        """The lower and the upper bound of the quantity in the certificate; None without a quantity."""
+        """The lower and the upper bound of the `quantity`, from the certificate; None if no quantity is named."""
         if self.certificate is None or not self.quantity:
             return None
         from lagrotor.proofs.statements import quantities
@@ -87,7 +87,7 @@ class Theorem:
 
     @property
     def text(self) -> str:
-        """The words and the enclosure; of a theorem on record, with a note that it was not proved again."""
+        """The theorem in words and its enclosure. For a theorem on record, a note says that it was not proved again."""
         return " ".join(filter(None, (self.says, self.encloses, f"({NOT_AGAIN})" if self.certificate is None else "")))
 
 
@@ -97,7 +97,7 @@ def can_prove() -> bool:
 
 
 def verify(theorems: Iterable[Theorem], where: str) -> None:
-    """Check each theorem's certificate after a round trip through JSON; raise ProofError if it is missing or rejected."""
+    """Check the certificate of each theorem after a round trip through JSON. Raise ProofError if one is missing or rejected."""
     from lagrotor.proofs.checker.checking import check
 
     for theorem in theorems:
@@ -109,5 +109,5 @@ def verify(theorems: Iterable[Theorem], where: str) -> None:
             raise ProofError(f"{where}: the certificate of a theorem is rejected: {refusal}") from None
         if verified != theorem.says:
             raise ProofError(
-                f"{where}: the certificate proves something else: {verified} It is said to be: {theorem.says}"
+                f"{where}: the certificate proves another theorem: {verified} The claimed theorem is: {theorem.says}"
             )

@@ -42,7 +42,7 @@ _UNCLEAR = re.compile(r"/[^()]*\*(?!\*)")
 
 @cache
 def dimension_of(unit: str) -> sp.Expr:
-    """Return the dimension of kg m²/s, kg m^2 s^-1, N/(rad s) or 1; raise InputError for an unknown or ambiguous unit."""
+    """Return the dimension of a unit such as kg m²/s or kg m^2 s^-1; raise InputError if it is unknown or ambiguous."""
     text = (
         re.sub(r"[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+", lambda dimension: f"^{dimension[0].translate(_RAISED)}", unit)
         .replace("°", "deg")
@@ -50,16 +50,16 @@ def dimension_of(unit: str) -> sp.Expr:
     )
     text = re.sub(r"\s*[·*]\s*|(?<=[\w)])\s+(?=[\w(])", "*", text).replace("Ω", "Ohm")
     if _UNCLEAR.search(text):
-        raise InputError(f"unit {unit!r} can be read in two ways: put what is below the line in brackets")
+        raise InputError(f"unit {unit!r} can be read in two ways: put the denominator in brackets, J/(kg K)")
     text = re.sub(r"\^\(?(-?\d+(?:/\d+)?)\)?", r"**(\1)", text)
     dimension = parsed(text, {**_PREFIXED, **_UNITS}, f"unit {unit!r}")
     if not _is_monomial(dimension):
-        raise InputError(f"unit {unit!r} is no product of units: write it as kg m²/s")
+        raise InputError(f"unit {unit!r} is not a product of powers of units: write it as kg m²/s")
     return dimension
 
 
 def _letter_text(name: str) -> str:
-    """Return the name of a symbol in plain text; for the component Omega_2_z, z of Ω₂."""
+    """Return the name of a symbol in plain text; the component Omega_2_z becomes 'z of Ω₂'."""
     whole, _, axes = name.rpartition("_")
     return f"{axes} of {readable(whole)}" if whole and re.fullmatch("[xyz]{1,2}", axes) else readable(name)
 
@@ -71,7 +71,7 @@ def _is_monomial(dimension: Any) -> bool:
 
 
 def unit_text(dimension: sp.Expr) -> str:
-    """Return a dimension as a unit: kg m²/s."""
+    """Return a dimension as the text of a unit, such as kg m²/s."""
     powers = {str(base): power for base, power in dimension.as_powers_dict().items() if base != 1}
     ordered = [(name, powers[name]) for name in _BASES if name in powers]
     above = [(name, power) for name, power in ordered if power > 0]
@@ -90,14 +90,17 @@ def _powers(rows: Iterable[tuple[str, Any]]) -> str:
 
 @dataclass(frozen=True)
 class Dimensions:
-    """The dimensional analysis of a line; "in units" if the sides agree up to symbols to which premises give numbers."""
+    """The dimensional analysis of a line.
+
+    The answer 'in units' means that the sides agree once premises such as R = 1 make quantities numbers.
+    """
 
     answer: Literal["consistent", "in units", "inconsistent", "not known"]
     says: str
 
 
 def dimensions(printed: Any, derived: Any, glossary: Glossary, values: Mapping[Any, Any]) -> Dimensions:
-    """Compare the dimensions of two sides, of matrices by entry; `values` are the numbers that premises give to symbols."""
+    """Compare the dimensions of two sides; `values` gives the numbers that premises substitute for symbols."""
     units: dict[sp.Symbol, sp.Expr] = {}
     unread: dict[str, str] = {}
     for symbol, entry in glossary.items():
@@ -151,23 +154,27 @@ def _compared(printed: Any, derived: Any, reader: "_Reader") -> Dimensions:
 
 
 class _UnknownError(Exception):
-    """A dimension that does not follow from the units."""
+    """The error that a dimension does not follow from the units of the symbols."""
 
 
 class _InconsistentError(Exception):
-    """Terms of different dimensions, or a quantity in place of a number."""
+    """The error that terms of a sum differ in dimension, or that a quantity stands where a number must."""
 
 
 @dataclass(frozen=True)
 class _Reader:
-    """The reader of dimensions; a product of powers of `numbers` counts as a number."""
+    """The computation of dimensions from the units of symbols.
+
+    `unread` has the symbols whose unit could not be read, with the reason. Products of powers of the dimensions `numbers` count
+    as numbers.
+    """
 
     units: Mapping[sp.Symbol, sp.Expr]
     unread: Mapping[str, str]
     numbers: tuple[sp.Expr, ...]
 
     def alike(self, a: sp.Expr, b: sp.Expr) -> bool:
-        """Return True if two dimensions are equal up to powers of `numbers`."""
+        """Return True if the ratio of two dimensions is a product of powers of `numbers`."""
         if a == b:
             return True
         rows = [
@@ -177,7 +184,7 @@ class _Reader:
         return bool(sp.Matrix(rows).rank() == sp.Matrix(rows[:-1]).rank()) if self.numbers else False
 
     def of(self, e: Any) -> sp.Expr | None:
-        """Return the dimension of an expression; None for zero, which has every dimension."""
+        """Return the dimension of an expression; None for zero, which fits every dimension."""
         if e.is_number:
             return None if e == 0 else _ONE
         if e.is_Symbol or isinstance(e, AppliedUndef):
@@ -202,7 +209,7 @@ class _Reader:
             for argument in e.args:
                 self._number(argument, f"the argument of {e.func.__name__}")
             return _ONE
-        raise _UnknownError(f"the dimension is not known of {readable(str(e))}")
+        raise _UnknownError(f"the dimension of {readable(str(e))} is not known")
 
     def _letter(self, e: Any) -> sp.Expr:
         if e in self.units:
@@ -214,7 +221,7 @@ class _Reader:
         return named[0]
 
     def _common(self, terms: Iterable[Any]) -> sp.Expr | None:
-        """Return the common dimension of the terms of a sum; differing terms are reported even if others are unknown."""
+        """Return the dimension that all terms share; terms that differ are reported even if others are unknown."""
         first: tuple[Any, sp.Expr] | None = None
         unknown: _UnknownError | None = None
         for term in terms:

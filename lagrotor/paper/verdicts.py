@@ -1,4 +1,4 @@
-"""Relations between printed and derived sides, statements of equations, and the verdicts on them."""
+"""Relations between a printed and a derived side, statements that collect them for one equation, and the verdicts."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
@@ -25,7 +25,7 @@ AGREES: tuple[Answer, ...] = ("holds", "holds-if", "holds-to-order", "proved")
 
 @dataclass(frozen=True)
 class Series:
-    """A side of which only the terms through small**order are known.
+    """A derived side that is a series, of which only the terms through small**order are known.
 
     Attributes
     ----------
@@ -34,7 +34,7 @@ class Series:
     small : Symbol
         The variable of the series.
     order : int
-        The highest known order. A line that is compared with the series holds to this order at most.
+        The highest known order. A line that is compared with the series can hold to this order at most.
 
     Examples
     --------
@@ -52,12 +52,13 @@ class Series:
 
 @dataclass(frozen=True)
 class Relation:
-    """A printed side and the derived side to which it should be equal, through small**claimed if `small` is a symbol.
+    """A printed side and the derived side to which it should be equal, exactly, or through small**claimed if `small` is given.
 
-    `quantity` is the quantity of both sides in LaTeX, `scene` the values that the text gives for this line (a premise). For a
-    number read off a simulation, `within` is the relative error that its digits allow, and `theorem` decides in place of
-    `derived`. `known` is (variable, highest known order) of a derived series. `written` is LaTeX as a physicist writes it, of
-    the derived side or, in a correction, of the printed side; `granted` marks a form that is equal under the premises only.
+    `quantity` is the LaTeX of the quantity that both sides give. `scene` holds the values that the text gives for this line;
+    they count as a premise. For a number read off a simulation, `within` is the relative error that its digits allow, and
+    `theorem` decides in place of `derived`. `known` is (variable, highest known order) of a derived series. `written` is the
+    derived side, or in a correction the printed one, in a physicist's LaTeX; `granted` is True if this form is equal under the
+    premises only.
     """
 
     printed: Side
@@ -74,18 +75,18 @@ class Relation:
 
     @property
     def scene_premises(self) -> tuple[Premise, ...]:
-        """The values of `scene` as a premise; empty without values."""
+        """The values of `scene` as one premise; an empty tuple if there are none."""
         return (Premise("the values that the text gives", self.scene),) if self.scene else ()
 
     def under(self, premises: Iterable[Premise]) -> "Relation":
-        """Substitute premises into both sides; an approximation makes the relation one between leading terms."""
+        """Substitute premises into both sides. If a premise is an approximation, the result compares leading terms only."""
         under = hypotheses(premises)
         small = under.small[0] if under.small else self.small
         return replace(self, printed=under.on(self.printed), derived=under.on(self.derived), small=small)
 
 
 def chain(derived: Side, *printed: Side, small: sp.Symbol | None = None, claimed: int = 0) -> tuple[Relation, ...]:
-    """Return one relation for each member of a line `p_1 = p_2 = …`, each compared with the derived expression."""
+    """Return one relation for each member of a line `p_1 = p_2 = …`; each member is compared with the derived expression."""
     return tuple(
         Relation(sp.sympify(p, strict=True), sp.sympify(derived, strict=True), small, claimed) for p in printed
     )
@@ -93,11 +94,11 @@ def chain(derived: Side, *printed: Side, small: sp.Symbol | None = None, claimed
 
 @dataclass(frozen=True)
 class Statement:
-    """One equation of a paper, printed beside derived; `id` is empty for an equation that belongs to no paper.
+    """One equation of a paper with its printed and derived sides; `id` is empty for an equation that belongs to no paper.
 
-    `relations` has one row for each member of each printed line, `correction` the lines that should be printed. `wrong` is the
-    error in one sentence; `depends_on` are the ids of the used equations. `names` marks a line that only introduces a symbol,
-    `measured` a number read off a simulation.
+    `relations` has one row for each member of each printed line, and `correction` has the lines that should be printed. `wrong`
+    is the error in one sentence, `depends_on` the ids of the equations that this one uses. `names` is True if the line only
+    introduces a symbol, `measured` if the line gives a number read off a simulation.
     """
 
     id: str
@@ -113,14 +114,14 @@ class Statement:
 
     def __post_init__(self) -> None:
         if not self.relations and not self.names:
-            raise InputError(f"verdict: {self.id}: nothing is compared: give what was derived")
+            raise InputError(f"verdict: {self.id}: there is nothing to compare: give the derived side")
         where = f"verdict: {self.id}" if self.id else "judge"
         sides = [(r.printed, r.derived, r.small, r.scene) for r in (*self.relations, *self.correction)]
         check_names(where, sides, [(premise.put, premise.where, premise.small) for premise in self.premises])
 
 
 def unconnected(sides: Any, premises: Iterable[Premise]) -> list[Premise]:
-    """Return the premises that share no symbol with the sides, not even through other premises."""
+    """Return the premises that share no symbol with the sides, neither directly nor through other premises."""
     connected, waiting = set(symbols_in(sides)), [(p, set(symbols_in((p.put, p.where, p.small)))) for p in premises]
     while near := [letters for _, letters in waiting if letters & connected or not letters]:
         connected.update(*near)
@@ -130,7 +131,9 @@ def unconnected(sides: Any, premises: Iterable[Premise]) -> list[Premise]:
 
 def check_premises(sides: Any, premises: Iterable[Premise]) -> None:
     for premise in unconnected(sides, premises):
-        raise InputError(f"judge: no symbol of the premise {premise.with_formula} is in the equation: name it alike")
+        raise InputError(
+            f"judge: no symbol of the premise {premise.with_formula} is in the equation: use the same symbols in both"
+        )
 
 
 @dataclass(frozen=True)
@@ -142,9 +145,9 @@ class LineVerdict:
     relation : Relation
         The compared sides.
     verdict : str
-        The verdict.
+        One of the words in `Verdict.verdict`, except 'definition' and 'measured'.
     premises : tuple[Premise, ...], default ()
-        The premises that the line needs; of a refuted line, all premises under which `difference` is stated.
+        The premises that the line needs; if it is refuted, all premises under which `difference` is stated.
     order : int or None, optional
         For a series, the order through which the sides agree.
     small : Symbol or None, optional
@@ -152,18 +155,18 @@ class LineVerdict:
     domain : tuple[Relational, ...], default ()
         Relations that hold wherever both sides are defined and real.
     difference : Expr or None, optional
-        Of a refuted line, printed less derived under the premises: of matrices the entry `place`, of series the
-        coefficient of the first term.
+        For a refuted line, printed − derived under the premises. If the sides are matrices it is the entry `place`; if they
+        are series it is the coefficient of the first term that differs.
     place : tuple[int, int] or None, optional
-        Row and column of the entry of a matrix that differs.
+        Row and column (from 0) of the matrix entry that differs; None if the sides are no matrices.
     witness : Mapping[Symbol, Any] or None, optional
         A counterexample: the value of each symbol at a point that satisfies the premises.
     enclosure : tuple[Rational, Rational] or None, optional
         Two rationals of one sign that enclose the difference at the witness.
     sides : tuple or None, optional
-        Enclosures of the printed and the derived side there; None for a side that is not real.
+        Enclosures of the printed and the derived side at the witness; None in place of a side that is not real.
     reason : str, default ''
-        The reason why the line does not hold, in words.
+        The reason in words why the line does not hold or is undecided; empty if it holds.
     dimensions : Dimensions or None, optional
         The dimensional analysis; no verdict depends on it.
     """
@@ -184,7 +187,7 @@ class LineVerdict:
 
 
 def point_text(line: LineVerdict, sides: tuple[str, str] = ("printed", "derived")) -> str:
-    """Return the counterexample of a refuted line with the values there; empty without one."""
+    """Return the counterexample of a refuted line in words, with the difference and the sides there; empty without one."""
     if line.difference is None or line.enclosure is None or line.relation.within is not None:
         return ""
     point = ", ".join(f"{readable(str(s))} = {_signed(value)}" for s, value in _point(line).items())
@@ -203,7 +206,7 @@ def _signed(number: str) -> str:
 
 
 def point_tex(line: LineVerdict) -> str:
-    """Return the counterexample of a refuted line in LaTeX; empty without one."""
+    """Return the counterexample of a refuted line in LaTeX; an empty string if it has none."""
     at = _point(line)
     place = rf"_{{{line.place[0] + 1},{line.place[1] + 1}}}" if line.place else ""
     values = ", ".join(f"{latex(s)} = {value}" for s, value in at.items())
@@ -212,7 +215,7 @@ def point_tex(line: LineVerdict) -> str:
 
 
 def _point(line: LineVerdict) -> dict[Any, str]:
-    """Return the values of the symbols in the difference, in five digits."""
+    """Return, for each symbol in the difference of a refuted line, its value at the counterexample, in five digits."""
     if line.witness is None or line.difference is None or line.relation.within is not None:
         return {}
     free = line.difference.free_symbols
@@ -220,7 +223,7 @@ def _point(line: LineVerdict) -> dict[Any, str]:
 
 
 def _number(value: Any) -> str:
-    """Return a number or an enclosure as text, in five digits or as many as are certain."""
+    """Return a number, or the middle of two bounds, as text in five digits, or in as many as the bounds make certain."""
     low, high = value if isinstance(value, tuple) else (value, value)
     middle, width = (low + high) / 2, high - low
     certain = 5 if width == 0 or middle == 0 else min(5, max(1, floor(log10(abs(middle / width)))))
@@ -230,7 +233,7 @@ def _number(value: Any) -> str:
 
 @dataclass(frozen=True)
 class Verdict:
-    """The verdict on one equation, the weakest of the verdicts on its lines.
+    """The verdict on one equation: the weakest of the verdicts on its lines.
 
     Attributes
     ----------
@@ -239,7 +242,7 @@ class Verdict:
     verdict : str
         'holds', 'holds-if', 'holds-to-order', 'proved', 'refuted', 'measured', 'definition' or 'undecided'.
     premises : tuple[Premise, ...]
-        The premises under which the equation holds; of a refuted one, those under which the correction holds.
+        The premises under which the equation holds; if it is refuted, those under which its correction holds.
     order : int or None
         For a series, the order through which the sides agree.
     small : Symbol or None
@@ -247,15 +250,15 @@ class Verdict:
     domain : tuple[Relational, ...]
         Relations that hold wherever both sides are defined and real.
     correction_verdict : str or None
-        The verdict on the correction; None without one.
+        The verdict on the correction; None if there is no correction.
     evidence : tuple[str, ...]
         Sentences with computed numbers and reasons.
     seconds : float
-        Computing time.
+        Computing time in s.
     reaches_result : bool or None, optional
-        For a refuted equation, True if a result of the paper depends on it; None for any other.
+        For a refuted equation, True if a result of the paper depends on it; None if the equation is not refuted.
     lines : tuple[LineVerdict, ...], default ()
-        The verdicts on the members of its lines.
+        The verdicts on the members of the equation's lines.
     correction_lines : tuple[LineVerdict, ...], default ()
         The verdicts on the lines of the correction.
 
@@ -287,19 +290,19 @@ class Verdict:
 
     @property
     def theorems(self) -> tuple[Theorem, ...]:
-        """The theorems that decide lines, each once."""
+        """The theorems that decide lines of the equation, without repetition."""
         theorems = [line.relation.theorem for line in self.lines if line.relation.theorem]
         return tuple(theorem for i, theorem in enumerate(theorems) if theorem not in theorems[:i])
 
     @property
     def refuted_under(self) -> tuple[Premise, ...]:
-        """The premises under which the differences of refuted lines are stated."""
+        """The premises under which the refuted lines were compared."""
         assumed = [premise for line in self.lines if line.verdict == "refuted" for premise in line.premises]
         return tuple(premise for i, premise in enumerate(assumed) if premise not in assumed[:i])
 
     @property
     def condition(self) -> str | None:
-        """The premises as one sentence; None without premises."""
+        """The premises as one sentence; None if there are no premises."""
         return "; ".join(premise.sentence for premise in self.premises) or None
 
     def __repr__(self) -> str:
@@ -311,19 +314,20 @@ class Verdict:
 
 
 def verdict_table(verdicts: Iterable[Verdict]) -> Table:
-    """Return verdicts as a table, each with premises or order, error and evidence."""
+    """Return a table with one row for each verdict: the equation, the verdict with premises and order, error and evidence."""
     return Table("Verdicts", ("equation", "verdict", "why"), tuple(map(_row, verdicts)))
 
 
 def _row(v: Verdict) -> tuple[str, tuple[str, ...], tuple[str, ...]]:
     order = f"through order {v.order} in {readable(str(v.small))}" if v.verdict == "holds-to-order" else ""
-    corrected = f"the correction: {v.correction_verdict}" if v.verdict == "refuted" and v.correction_verdict else ""
+    is_corrected = v.verdict == "refuted" and v.correction_verdict
+    corrected = f"the verdict on the correction is {v.correction_verdict}" if is_corrected else ""
     where = f"where {', '.join(map(relation_text, v.domain))}" if v.domain and v.verdict in AGREES else ""
     # Of an equation outside a paper the user has given the premises.
     judge_premises = () if v.id else v.statement.premises
     premises = v.premises if v.verdict in AGREES or v.id else judge_premises
-    under = (f"as stated if {readable(p.with_formula)}" for p in v.refuted_under if v.id)
-    prefix = "corrected if " if corrected else ""
+    under = (f"refuted under the premise {readable(p.with_formula)}" for p in v.refuted_under if v.id)
+    prefix = "the correction holds if " if corrected else ""
     ifs = (("under the given premise " if p in judge_premises else prefix) + readable(p.with_formula) for p in premises)
     decided = (v.verdict, *under, *(() if corrected else ifs), order, where, corrected, *(ifs if corrected else ()))
     named = f"{v.id}: {v.statement.title}" if v.id else v.statement.title or _equation(v.statement)
@@ -334,6 +338,6 @@ def _row(v: Verdict) -> tuple[str, tuple[str, ...], tuple[str, ...]]:
 
 
 def _equation(statement: Statement) -> str:
-    """Return the members of the first chain of an equation in plain text."""
+    """Return the first chain of an equation as plain text: the printed members, then the derived side."""
     last = statement.relations[0].derived
     return readable(" = ".join(map(str, (*(r.printed for r in statement.relations if r.derived == last), last))))

@@ -340,7 +340,7 @@ def test_what_is_wrong_and_right_is_said(monkeypatch: pytest.MonkeyPatch, capsys
     out = capsys.readouterr().out
     assert "refuted" in out
     assert "wrong      It is another." in out
-    assert "line       φ̇: refuted: differs by M − R: printed − derived is" in out
+    assert "line       φ̇: refuted: the sides differ by M − R: printed − derived is" in out
     assert "right      φ̇ = M + R" in out
     assert "correction holds" in out
 

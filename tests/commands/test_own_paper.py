@@ -100,7 +100,7 @@ def test_each_verdict_on_record_is_a_test_with_the_reason_when_it_changes(
     status, out = plugged_in("--lagrotor", "my-paper")
     assert status == 1 and "1 failed, 1 passed" in out
     assert "1.1: recorded holds-to-order, found refuted" in out
-    assert "first differs at order 1 in θ" in out and "Traceback" not in out
+    assert "the sides first differ at order 1 in θ" in out and "Traceback" not in out
     assert plugged_in("--lagrotor", "nowhere")[0] == 4
 
 

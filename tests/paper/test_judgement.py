@@ -70,9 +70,9 @@ def test_the_domain_has_what_cancels_while_the_text_is_read(equation: str, given
     [
         ("x", [], "write left = right"),
         ("x > 1", [], "write left = right"),
-        ("T = 2*pi*sqrt(l/g)", [], "of which nothing else is known"),
+        ("T = 2*pi*sqrt(l/g)", [], "which occurs nowhere else"),
         ("x + 1 = (", [], "was never closed"),
-        ("2*x = 1", ["y"], "one relation each"),
+        ("2*x = 1", ["y"], "one relation in each"),
         ("2*x = f(x)", [], r"write f\*"),
         ("2*x = __import__('os')", [], "__import__"),
         (r"\ln x^2 = 3", [], "write the argument in brackets"),

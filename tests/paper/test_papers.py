@@ -92,24 +92,24 @@ def harmed(folder: Path, file: str, old: str, new: str) -> None:
 TWICE = '[[equation]]\nid = "1.1"\nsection = "1"\ntitle = ""\nlatex = ""\n[[equation]]'
 # What is changed in which file, and what is said then.
 DOORS = {
-    "no paper.toml": ("paper.toml", "", "", r"is no paper: it has no paper\.toml"),
-    "no equations": ("equations.toml", "", "", r"equations\.toml: .*every paper has this file"),
+    "no paper.toml": ("paper.toml", "", "", r"is not a paper: it has no paper\.toml"),
+    "no equations": ("equations.toml", "", "", r"equations\.toml: .*every paper needs this file"),
     "no TOML": ("paper.toml", "results =", "results", r"paper\.toml: .*line \d"),
     "no title": ("paper.toml", 'title = "The simple pendulum"', "", r"paper\.toml: .*'title' is missing"),
-    "brace": ("paper.toml", "{1.1}", "{1.1", r"headline: text: .*numbers go in braces"),
-    "unknown key": ("equations.toml", "title =", "titel =", r"equation 1\.1: 'titel' means nothing here"),
+    "brace": ("paper.toml", "{1.1}", "{1.1", r"headline: text: .*write a number as"),
+    "unknown key": ("equations.toml", "title =", "titel =", r"equation 1\.1: 'titel' is not a key"),
     "unknown section": ("equations.toml", 'section = "1"', 'section = "7"', r"1\.1: section '7' is not"),
     "unknown table": (
         "equations.toml",
         "[[equation]]",
         "[[equations]]",
-        r"'equations' means nothing here: write \[\[equation",
+        r"'equations' is not a key: write \[\[equation",
     ),
     "key of a line": (
         "equations.toml",
         "small =",
         "smal =",
-        r"1\.1: a line has no 'smal': its keys are quantity, members",
+        r"1\.1: 'smal' is not a key of a line: the keys are quantity, members",
     ),
     "no quantity": ("equations.toml", "quantity =", "names =", r"1\.1: a line has no quantity"),
     "letters of no section": (
@@ -142,7 +142,12 @@ LETTER = r"s1_motion\.py:\d+: .*equations\.toml: 1\.1: .*'L' is not defined"
 FAILURES = {
     "fails": (MOTION, "(acceleration,) =", "(a, b) =", rf"s1_motion\.py:{SOLVED}: ValueError"),
     "no Python": (MOTION, "(acceleration,) =", "(acceleration,) = =", rf"s1_motion\.py:{SOLVED}: invalid syntax"),
-    "wrong proof": (MOTION, "theta_a + m", "theta_a - m", r"s1_motion\.py:\d+: prove: Lagrange's equation is nonzero"),
+    "wrong proof": (
+        MOTION,
+        "theta_a + m",
+        "theta_a - m",
+        r"s1_motion\.py:\d+: prove: Lagrange's equation: left − right is nonzero",
+    ),
     "unknown equation": (
         MOTION,
         'verdict("1.1"',

@@ -37,7 +37,7 @@ def test_what_does_not_hold_or_is_not_decided_is_refused(left, right) -> None:
 def test_a_series_is_held_to_its_order() -> None:
     step = prove(sp.cos(theta_0), 1 - theta_0**2 / 2, "the cosine", small=theta_0, order=3)
     assert r"O\left(\theta_0^{4}\right)" in step.tex
-    with pytest.raises(ProofError, match="fails at order 4"):
+    with pytest.raises(ProofError, match="first differ at order 4"):
         prove(sp.cos(theta_0), 1 - theta_0**2 / 2, "the cosine", small=theta_0, order=4)
 
 

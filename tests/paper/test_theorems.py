@@ -69,12 +69,12 @@ def mutated(theorem: Theorem) -> Theorem:
     [
         (
             lambda: Part(RATE, False, theorems=(swing(),)),
-            "the run says that it holds, and a theorem that it does not hold",
+            "by the simulation it holds, by a theorem it does not hold",
         ),
         (lambda: Part(RATE, True), "has no theorem"),
         (lambda: Part("another", True, theorems=(swing(),)), "is not a part of the claim"),
         (lambda: Part(RATE, True, theorems=(mutated(swing()),)), "the certificate of a theorem is rejected"),
-        (lambda: Part(RATE, True, theorems=(replace(swing(), says="All is well."),)), "proves something else"),
+        (lambda: Part(RATE, True, theorems=(replace(swing(), says="All is well."),)), "proves another theorem"),
         (lambda: Part(RATE, True, theorems=(Theorem("All is well."),)), "has no certificate"),
         (lambda: Part(RATE, True, theorems=(replace(swing(), certificate={"kind": "x"}),)), "is rejected"),
         (lambda: Part(RATE, True, theorems=(replace(swing(), certificate={"a": sp.S.One}),)), "is rejected"),
@@ -182,7 +182,7 @@ def test_an_equation_is_proved_recorded_and_stands_without_flint(folder: Path, m
 
 def test_a_number_that_is_not_proved_is_measured_and_says_so(folder: Path) -> None:
     found = number(folder, READ_OFF, "refuse").audit("1.2")
-    assert found.verdict == "measured" and "Not proved: it came to t = 0.5" in found.evidence
+    assert found.verdict == "measured" and "The proof failed: it came to t = 0.5" in found.evidence
 
 
 def test_theorems_of_equations_are_refused_in_words(folder: Path) -> None:

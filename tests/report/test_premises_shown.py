@@ -74,7 +74,7 @@ def test_differences_are_in_their_normal_form_and_numbers_in_digits(report: Repo
     lines = {v.id: [line for line in v.lines if line.verdict == "refuted"] for v in report.verdicts}
     assert [str(line.difference) for line in lines["5.22"]] == ["-1", "1"]
     assert [line.reason.rpartition(" ")[2] for line in lines["5.22"]] == ["−1", "1"]
-    assert lines["5.27"][0].reason.endswith("at order 2 in θ, by 0.6797 + 0.09853/q²")
+    assert lines["5.27"][0].reason.endswith("order 2 in θ has the coefficient 0.6797 + 0.09853/q²")
     verdict = next(v for v in report.verdicts if v.id == "5.27")
     assert any("changes by 0.8093 θ²" in text for text in verdict.evidence)
     assert "its digits allow 0.44 %" in lines["5.28"][0].reason

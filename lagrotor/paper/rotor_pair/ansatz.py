@@ -1,6 +1,7 @@
-"""The ansatz of section 5.2 as premises, with the amount by which the paper's own motion violates each.
+"""The ansatz of section 5.2 as premises. Each says by how much the exact motion of the paper's pair violates it.
 
-Claim C15 uses the same numbers, from the exact paired precession of figure 21, with a massless bar and the bar of section 5.2.1.
+The exact motion is the paired precession of figure 21, with a massless bar and with the bar of section 5.2.1. Claim C15 uses
+the same numbers.
 """
 
 from lagrotor.pair.lagrangians import pair_with_bar
@@ -12,7 +13,7 @@ from lagrotor.paper.premises import Premise
 
 
 def breach() -> dict[str, tuple[float, float]]:
-    """Return the violation of each premise as a fraction, with a massless bar and with the bar of section 5.2.1."""
+    """Return, for each premise, the relative violation with a massless bar and with the bar of section 5.2.1."""
     import numpy as np  # not at the top, because most derivations need only the premises
 
     from lagrotor.paper.rotor_pair.runs import MASSLESS, OPPOSITE, PAPER_BAR, PAPER_R0, deviations, once_round
@@ -31,7 +32,7 @@ def _reaches(premise: str, of: str) -> str:
 
 
 def opposite_azimuths() -> Premise:
-    """Return the premise phi_1 = −phi_2 = phi, at every time."""
+    """Return the premise that phi_1 = −phi_2 = phi at every time."""
     (_, phi_1, _, _, phi_2, _), (_, phi_1_v, _, _, phi_2_v, _) = PAIR.q, PAIR.v
     phi, phi_v = ANSATZ.q[2], ANSATZ.v[2]
     substitution = {phi_1: phi, phi_2: -phi, phi_1_v: phi_v, phi_2_v: -phi_v}
@@ -40,7 +41,7 @@ def opposite_azimuths() -> Premise:
 
 
 def opposite_spin_angles() -> Premise:
-    """Return the premise psi_1 = −psi_2 = psi, at every time."""
+    """Return the premise that psi_1 = −psi_2 = psi at every time."""
     (_, _, psi_1, _, _, psi_2), (_, _, psi_1_v, _, _, psi_2_v) = PAIR.q, PAIR.v
     psi, psi_v = ANSATZ.q[3], ANSATZ.v[3]
     substitution = {psi_1: psi, psi_2: -psi, psi_1_v: psi_v, psi_2_v: -psi_v}
@@ -49,7 +50,7 @@ def opposite_spin_angles() -> Premise:
 
 
 def one_inclination() -> Premise:
-    """Return the premise theta_1 = theta_2 = theta_0, constant."""
+    """Return the premise that theta_1 = theta_2 = theta_0 is constant."""
     theta_1, theta_2 = ANSATZ.q[:2]
     broken = f"the swing of sin θ reaches {_reaches('inclinations', 'its mean')}"
     return Premise(
@@ -58,6 +59,6 @@ def one_inclination() -> Premise:
 
 
 def no_bar_force() -> Premise:
-    """Return the premise that the bar exerts no force, lambda = 0."""
+    """Return the premise that the bar exerts no force: lambda = 0."""
     broken = f"the swing of A reaches {_reaches('A', 'the part of A that the motion makes')}"
     return Premise("the bar exerts no force, λ = 0", {BAR_FORCE: 0}, broken=broken)

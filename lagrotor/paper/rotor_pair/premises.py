@@ -1,4 +1,4 @@
-"""Premises that several derivations share, with the amount by which the paper's own rotor and bar violate them."""
+"""Premises that several derivations share. Each says by how much the paper's own rotor and bar violate it."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -15,17 +15,17 @@ LIGHT_BAR: Mapping[sp.Symbol, sp.Expr] = {m: sp.Rational(1, 100), K: sp.Rational
 
 
 def in_parameters(expression: Any) -> Any:
-    """Express a, b, k and J by the parameters of the rotor and the bar."""
+    """Replace a, b, k and J by their expressions in the parameters of the rotor and the bar."""
     return with_meanings(expression, WRITTEN_OUT)
 
 
 def about_parameters(says: str, substitution: Mapping[sp.Symbol, Any]) -> Premise:
-    """Return a premise about parameters, such as J = I_3, with its violation by the paper's values."""
+    """Return a premise about parameters, such as J = I_3, with the paper's own values if these violate it."""
     return parameter_premise(says, substitution, PAPERS_OWN, WRITTEN_OUT)
 
 
 def massless_bar() -> Premise:
-    """Return the premise that the bar has no mass and no inertia: a = J, b = 0, sigma = 1."""
+    """Return the premise that the bar has neither mass nor inertia, so that a = J, b = 0 and sigma = 1."""
     values = ", ".join(f"{sp.pretty(s)} = {float(PAPERS_OWN[s]):g} or {float(LIGHT_BAR[s]):g}" for s in (m, K))
     return Premise("the bar is massless, m = K = 0", {a: J, b: 0, sigma: 1, m: 0, K: 0}, broken=values)
 

@@ -1,7 +1,7 @@
 """The paper *Dynamics of Axially Coupled Rotor Pairs*, the default of `audit` and of the command line.
 
-The derivations by prefix: s sections, c claims, m tables, t theory beyond the paper, p its table, n structures of rotors, b speed
-against accuracy, g textbook systems.
+The prefix of a derivation's name tells its subject: s a section, c claims, m tables, t theory beyond the paper, p the table of
+this theory, n structures of rotors, b speed against accuracy, g textbook systems.
 """
 
 from pathlib import Path

@@ -1,7 +1,8 @@
-"""Simulations that claims and figures share, and numbers from them.
+"""Simulations that several claims and figures share, and the numbers computed from them.
 
-They are the pair after a shock, by the paper's program and exactly (figures 7, 9 to 13 and 25 to 28); the precession of an
-amplitude; and the paired precession by the ansatz, the paper's correction and the series, beside the exact orbit.
+There are three kinds of simulation. The pair after a shock is simulated exactly and by the paper's program (figures 7, 9 to 13
+and 25 to 28). The paired precession of a given amplitude is simulated over one period. The paired precession by the ansatz, by
+the paper's correction and by the series is compared with the exact orbit.
 """
 
 from functools import cache
@@ -25,8 +26,8 @@ from lagrotor.pair.trajectory import Trajectory, ansatz_A
 from lagrotor.theory.natural_frequency import free_precession_rate
 from lagrotor.theory.paired_precession.closed_forms import corrected_trajectories
 
-# s. The paper's shocks have their peak at 2 s and end before the first time, from which energies are read; the wider shocks of
-# section 5 end before the second, from which spectra are computed.
+# s. The paper's shocks have their peak at 2 s. They end before the first time, at which energies are read; the wider shocks of
+# section 5 end before the second, at which spectra begin.
 ENERGY_FROM, SPECTRUM_FROM = 2.2, 2.3
 PAPER_RUN = 8.0  # s that the paper's runs last after the shock
 OPPOSITE, EQUAL = (10.0, -10.0), (10.0, 10.0)
@@ -38,12 +39,12 @@ AMPLITUDES = (0.051, 0.102, PAPER_R0)
 def shocked_scene(
     spins: tuple[float, float], force: Vector, bar: Link | None = HEAVY_LINK, width: float = 1 / 50
 ) -> Scene:
-    """Return a pair at rest with a shock on rotor 1, `force` (N), ten widths (s) after t = 0."""
+    """Return a scene of the pair at rest; rotor 1 gets a shock of this force (N) and width (s) at ten widths."""
     return Scene(spins, link=bar, shock=Shock(force, 10 * width, width))
 
 
 def after_shock(scene: Scene, seconds: float, tol: float = 1e-9) -> Trajectory:
-    """Simulate the exact pair from the end of its shock until `seconds` after the peak, with 40 samples per second."""
+    """Simulate the exact pair and return the run from the end of the shock to `seconds` after its peak, 40 samples per s."""
     shock = shock_of(scene)
     first, last = shock.at + PULSE_REACH * shock.width, shock.at + seconds
     times = np.linspace(first, last, round(40 * seconds) + 1)
@@ -51,23 +52,23 @@ def after_shock(scene: Scene, seconds: float, tol: float = 1e-9) -> Trajectory:
 
 
 def angle_between(axes: Array) -> Array:
-    """Return the angle (n,) in rad between two axes (2, n, 3), from their difference, which is accurate at small angles."""
+    """Return the angle (n,) in rad between two axes (2, n, 3), computed so that small angles are accurate."""
     return 2 * np.arcsin(np.linalg.norm(axes[1] - axes[0], axis=-1) / 2)
 
 
 def turned_about_joint_line(axes: Array) -> Array:
-    """Return the mean angle (n,) in rad of two axes (2, n, 3) about the line through the ground joints."""
+    """Return the angle (n,) in rad by which the axes (2, n, 3) have turned about the line through the joints, their mean."""
     angle: Array = np.unwrap(np.arctan2(-axes[..., 1], axes[..., 2])).mean(0)
     return angle
 
 
 def paper_run(scene: Scene, t: Array) -> SpringRun:
-    """Simulate a scene by the paper's program, sampled at t (n,) in s, multiples of the step."""
+    """Simulate a scene by the paper's program. The sample times t (n,) in s must be multiples of its step."""
     return run_steps(paper_system(scene, STIFFNESS, DAMPING), scene.shock, t, STEP)
 
 
 def shock_of(scene: Scene) -> Shock:
-    """Return the scene's shock; raise InputError without one."""
+    """Return the scene's shock; raise InputError if it has none."""
     if scene.shock is None:
         raise InputError(
             "the scene has no shock: give it one, as Scene(shock=Shock(force=(50, 0, 0), at=2, width=1 / 50))"
@@ -76,13 +77,13 @@ def shock_of(scene: Scene) -> Shock:
 
 
 def pulse(scene: Scene, t: Array) -> Array:
-    """Return the size of the shock's force at t (n,), in N; raise InputError without a shock."""
+    """Return the magnitude (n,) in N of the shock's force at the times t (n,); raise InputError if the scene has no shock."""
     shock = shock_of(scene)
     return np.linalg.norm(shock.force) * np.exp(-(((t - shock.at) / shock.width) ** 2))
 
 
 def centre_runs(t: Array, exact: Trajectory) -> dict[str, Array]:
-    """Return energy (J), force (N) and centre (m) of rotor 1 by the paper's method at t (n,) in s, and the exact ones."""
+    """Return energy (J), shock force (N) and centre of rotor 1 (m) at t (n,) in s, by the paper's program and exactly."""
     run = paper_run(exact.scene, t)
     return {
         "t": t,
@@ -95,7 +96,7 @@ def centre_runs(t: Array, exact: Trajectory) -> dict[str, Array]:
 
 
 def centre_numbers(runs: dict[str, Array]) -> dict[str, float]:
-    """Return the energies after the shock (J) and the ranges of the centre's coordinates (m) in `centre_runs`."""
+    """Return, from `centre_runs`, both energies after the shock (J) and the range of each coordinate of the centre (m)."""
     ranges = {f"{letter} of the centre, range (m)": np.ptp(runs["centre"][:, k]) for k, letter in enumerate("xyz")}
     return {
         "energy after the shock (J)": runs["energy"][runs["t"] >= ENERGY_FROM][0],
@@ -105,13 +106,16 @@ def centre_numbers(runs: dict[str, Array]) -> dict[str, float]:
 
 
 def centre_off(runs: dict[str, Array]) -> float:
-    """Return the distance (m) between the centre by the paper's method and the exact one, at the end of the exact run."""
+    """Return the distance (m) of rotor 1's centre in the paper's program from the exact one, at the end of the exact run."""
     end = len(runs["exact_centre"]) - 1
     return float(np.linalg.norm(runs["centre"][end] - runs["exact_centre"][end]))
 
 
 def rate_runs(exact: Trajectory, printed: float) -> dict[str, Array]:
-    """Return x of tip 1 (m) and its spectrum by both methods, and sines at the printed and the closed-form rate (rad/s)."""
+    """Return x of tip 1 (m) over time and its spectrum, exactly and with the paper's springs.
+
+    Also return two sines: one with the printed rate (rad/s), one with the closed-form rate.
+    """
     scene, t = exact.scene, exact.t
     start, is_after, s = exact.joints[0, 0], t > SPECTRUM_FROM, t - shock_of(scene).at
     x = exact.tips[0, :, 0] - start
@@ -135,7 +139,7 @@ def rate_runs(exact: Trajectory, printed: float) -> dict[str, Array]:
 
 
 def rate_numbers(runs: dict[str, Array]) -> dict[str, float]:
-    """Return the amplitude (m), the rates of the spectra and of the closed form (rad/s) and largest residuals (m)."""
+    """Return amplitude (m), rates (rad/s) and largest residuals (m) of the curves in `rate_runs`."""
     t, exact, springs, rate = runs["t"], runs["exact"], runs["springs"], runs["closed_form_rate"][0]
     is_after = t > SPECTRUM_FROM
     early = is_after & (t < SPECTRUM_FROM + 3)
@@ -153,7 +157,10 @@ def rate_numbers(runs: dict[str, Array]) -> dict[str, float]:
 
 @cache
 def precession_scene(spins: Spins, r0: float, bar: Link) -> tuple[Scene, float]:
-    """Return a scene and its precession rate (rad/s): the exact orbit for opposite spins, else both axes on a cone."""
+    """Return a scene that precesses with amplitude r0, and its rate (rad/s).
+
+    Opposite spins give the exact paired precession, other spins a start with both axes on one cone.
+    """
     scene = Scene(spins, link=bar)
     if spins[0] == -spins[1] != 0:
         orbit = exact_orbit(scene, r0)
@@ -166,13 +173,17 @@ def precession_scene(spins: Spins, r0: float, bar: Link) -> tuple[Scene, float]:
 
 @cache
 def once_round(spins: Spins, r0: float, bar: Link) -> Trajectory:
-    """Simulate one period of the precession, at 361 times."""
+    """Simulate one period of the precession with amplitude r0 and return 361 samples."""
     scene, rate = precession_scene(spins, r0, bar)
     return simulate(scene, np.linspace(0, 2 * np.pi / rate, 361), "minimal", 1e-11)
 
 
 def deviations(run: Trajectory) -> tuple[float, float, float]:
-    """Return max |φ₁′ + φ₂′| over the mean |φ′|, max |ψ₁′ + ψ₂′| over the spin, and the range of A over its varying part."""
+    """Return three relative deviations of a run from the ansatz.
+
+    They are the largest |φ₁′ + φ₂′| divided by the mean |φ′|, the largest |ψ₁′ + ψ₂′| divided by the spin, and the range of A
+    divided by the difference of the mean A from its value at rest.
+    """
     (x, y, z), (vx, vy, _) = np.moveaxis(run.axes, -1, 0), np.moveaxis(run.rates, -1, 0)
     phi = (x * vy - y * vx) / (x**2 + y**2)
     psi = run.momenta / run.scene.rotor.I3 - phi * z
@@ -185,25 +196,35 @@ def deviations(run: Trajectory) -> tuple[float, float, float]:
 
 
 def ansatz_axes(sines: ArrayLike, phase: Array) -> Array:
-    """Return the axes (2, n, 3) of the ansatz phi_1 = −phi_2 = phase (n,), with inclinations of sines (2,) or (2, n)."""
+    """Return the axes (2, n, 3) of the ansatz phi_1 = −phi_2 = phase (n,).
+
+    `sines` (2,) or (2, n) are the sines of the inclinations.
+    """
     size = np.broadcast_to(np.asarray(sines, dtype=float).reshape(2, -1), (2, len(phase)))
     azimuths = np.array([phase, -phase])
     return np.stack([size * np.cos(azimuths), size * np.sin(azimuths), np.sqrt(1 - size**2)], -1)
 
 
 def paper_axes(r0: float, phase: Array) -> Array:
-    """Return the axes (2, n, 3) by the paper's correction (5.20), with inclinations of sine r_0 ∓ r_0² cos(phase)."""
+    """Return the axes (2, n, 3) that equation (5.20) of the paper gives.
+
+    The sines of the inclinations are r_0 ∓ r_0² cos(phase).
+    """
     change = r0**2 * np.cos(phase)
     return ansatz_axes(np.array([r0 - change, r0 + change]), phase)
 
 
 def series_axes(order: int, r0: float, phase: Array) -> Array:
-    """Return the axes (2, n, 3) by the corrected series of an order in r_0, for a massless bar and ell = R."""
+    """Return the axes (2, n, 3) by the corrected series through an order in r_0, for a massless bar and ell = R."""
     return np.array(corrected_trajectories(order)(r0, phase, 1, 1)).reshape(2, 3, -1).swapaxes(1, 2)
 
 
 def against_orbit(orbit: ExactOrbit, phase: Array, curves: dict[str, Array], tol: float) -> dict[str, Array]:
-    """Return the tips (2, n, 3) in m of `curves` (axes by name) and of the exact orbit, and the distances of tip 1 (n,)."""
+    """Compare approximate axes with the exact orbit at the phases (n,). `curves` maps names to axes (2, n, 3).
+
+    Return the tips (2, n, 3) in m of each curve and of the orbit, and the distances (n,) in m of each curve's tip 1 from the
+    orbit's.
+    """
     run = simulate(orbit.scene, phase / orbit.frequency, "minimal", tol)
     tips = {name: run.joints[:, None] + run.scene.rotor.length * axes for name, axes in curves.items()}
     away = {f"{name}_distance": np.linalg.norm(curve[0] - run.tips[0], axis=-1) for name, curve in tips.items()}

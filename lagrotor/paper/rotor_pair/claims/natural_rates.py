@@ -1,5 +1,5 @@
-"""Claims of section 5.3: the rates that the paper matched by eye, for one rotor, equal and opposite spins (C20 to C22), and the
-dependence of the rate on the inclination (C23)."""
+"""Tests of the claims of section 5.3. C20 to C22 are about rates that the paper matched by eye: of one rotor, of equal spins and
+of opposite spins. C23 is about the dependence of the rate on the inclination."""
 
 from collections.abc import Mapping
 from math import pi
@@ -53,7 +53,7 @@ def _scene(spins: Spins, bar: Link | None, force: float) -> Scene:
 
 
 def rate_of_run(spins: Spins, bar: Link | None, force: float, seconds: float = PAPER_RUN) -> tuple[float, float]:
-    """Return the rate (rad/s) fitted to x_1 of the exact pair over `seconds` after the shock, and the largest |x_1|."""
+    """Return the rate (rad/s) fitted to x_1 of the exact pair for `seconds` after a shock, and the largest |x_1|."""
     scene = _scene(spins, bar, force)
     start = shock_of(scene).at + 0.33
     run = simulate(scene, [0.0, *np.linspace(start, start + seconds, 400)], "spheres", 1e-9).after(start)
@@ -62,7 +62,7 @@ def rate_of_run(spins: Spins, bar: Link | None, force: float, seconds: float = P
 
 
 def _rate_of_springs(spins: Spins, bar: Link | None, n: int = 20) -> float:
-    """Return the rate (rad/s) fitted over the first seconds of the paper's program."""
+    """Return the rate (rad/s) fitted to x_1 over the first 3 s after the shock in the paper's program, with springs of n."""
     scene = _scene(spins, bar, _PAPER)
     t = np.round(shock_of(scene).at + np.arange(17, round(50 * SPRINGS_SECONDS) + 1) * 0.02, 3)
     run = run_steps(paper_system(scene, 2e5 / n, 5e3 / n), scene.shock, np.append(0, t), STEP)
@@ -70,7 +70,7 @@ def _rate_of_springs(spins: Spins, bar: Link | None, n: int = 20) -> float:
 
 
 def measure_c20(spins: Spins) -> dict[str, float]:
-    """Measure the rate of one rotor after the paper's shock, exactly and with springs, and after a small shock."""
+    """Measure the rate of one rotor: after the paper's shock, in the exact model and with springs, and after a small shock."""
     rate, farthest = rate_of_run(spins, None, _PAPER)
     return {
         "rate_exact_over_8_s_rad_per_s": rate,
@@ -83,7 +83,7 @@ def measure_c20(spins: Spins) -> dict[str, float]:
 
 
 def decide_c20(m: Mapping[str, float]) -> Finding:
-    """Compare the three rates with 16 rad/s."""
+    """Decide by comparing the three rates with the printed 16 rad/s."""
     exact, springs, small = (
         m[f"rate_{way}_rad_per_s"] for way in ("exact_over_8_s", "springs_over_3_s", "after_small_shock")
     )
@@ -91,14 +91,14 @@ def decide_c20(m: Mapping[str, float]) -> Finding:
         (Part(AT_16, all(map(SINGLE.is_matched, (exact, springs, small)))),),
         f"{SINGLE.rule} rad/s. The fitted rates are {exact:.3f} rad/s in the exact model over 8 s, {exact / SINGLE - 1:.1%} "
         f"above 16; {springs:.3f} with springs over the first {SPRINGS_SECONDS:.0f} s; and {small:.4f} after a small shock. "
-        "(With springs the rate decreases later, figure 25, because the dampers reduce the amplitude.) The excess is due to "
-        f"the amplitude: G/(J cos θ) = {m['rate_by_G_over_J_cos_rad_per_s']:.3f} rad/s at sin θ = {m['amplitude']:.3f}. At "
-        f"the end of the 8 s sin 16(t − 2) lags by {m['cycles_off_16_at_the_end_of_8_s']:.2f} of a cycle.",
+        "(With springs the rate decreases later, figure 25, because the dampers reduce the amplitude.) The excess over 16 is "
+        f"due to the amplitude: G/(J cos θ) = {m['rate_by_G_over_J_cos_rad_per_s']:.3f} rad/s at sin θ = {m['amplitude']:.3f}. "
+        f"At the end of the 8 s sin 16(t − 2) lags by {m['cycles_off_16_at_the_end_of_8_s']:.2f} of a cycle.",
     )
 
 
 def measure_c21(spins: Spins) -> dict[str, float]:
-    """Measure the rate of the pair with four choices of springs, exactly, and after a small shock; and the constant."""
+    """Measure the pair's rate with four choices of springs and exactly, and its ratio to the rate of one rotor."""
     rate, _ = rate_of_run(spins, HEAVY_LINK, _PAPER)
     single, half = natural_rate(Scene(spins, link=None)), (spins[0] / 2, spins[1] / 2)
     natural = {name: rate_of_run(spins, bar, _SMALL)[0] for name, bar in BARS.items()}
@@ -123,7 +123,7 @@ def measure_c21(spins: Spins) -> dict[str, float]:
 
 
 def _constant(m: Mapping[str, float]) -> Part:
-    """Decide by the constant at these spins, at half of them, and with other bars."""
+    """Decide whether 11.4/16 is a constant, by the ratio of the rates at these spins, at half of them, and with other bars."""
     constants = m["constant"], m["constant_at_half_the_spins"]
     tolerance = COUPLED.half_unit / SINGLE
     same = all(abs(constant - CONSTANT) < tolerance for constant in constants)
@@ -133,7 +133,7 @@ def _constant(m: Mapping[str, float]) -> Part:
 
 
 def decide_c21(m: Mapping[str, float]) -> Finding:
-    """Compare the rates with springs, exactly and after a small shock with 11.4, and the constant with 11.4/16."""
+    """Decide by comparing three rates with 11.4 rad/s, and their ratio to the rate of one rotor with 11.4/16."""
     ways = ("springs_n_20_over_3_s", "after_small_shock", "exact_over_8_s")
     springs, small, exact = (m[f"rate_{way}_rad_per_s"] for way in ways)
     at_11_4 = [COUPLED.is_matched(rate) for rate in (springs, small, exact)]
@@ -144,21 +144,22 @@ def decide_c21(m: Mapping[str, float]) -> Finding:
     by_n = [m[f"rate_springs_n_{n}_over_3_s_rad_per_s"] for n in OF_SPRINGS]
     return Finding(
         (Part(AT_11_4, all(at_11_4), needs if all(at_11_4[:2]) else ""), _constant(m)),
-        f"{COUPLED.rule} rad/s, and 0.7125 is 11.4 over 16. The fitted rates are {springs:.3f} rad/s with springs over the "
-        f"first {SPRINGS_SECONDS:.0f} s, {small:.3f} in the exact model after a small shock, but {exact:.3f} over 8 s after "
-        f"the paper's {_PAPER:.0f} N, {exact / COUPLED - 1:.1%} above 11.4. The finite amplitude adds {exact - small:.3f}, "
-        f"and the soft springs subtract {exact - springs:.3f}. One rotor has {m['rate_of_one_rotor_rad_per_s']:.3f} rad/s. "
-        f"The constant is {m['constant']:.4f} at these spins and {m['constant_at_half_the_spins']:.4f} at half of them; J/(J "
-        f"+ m R²/2) = {m['J_over_J_plus_half_m']:.4f}. It depends on the mass of the bar, but not on its inertia "
-        f"({m['constant_bar_K_0.1']:.4f} with K = 0.1 kg m²), and is {m['constant_light_bar']:.4f} for the light bar. 11.4 "
-        f"requires a mass from {m['least_mass_that_gives_11.4_kg']:.3f} to {m['greatest_mass_that_gives_11.4_kg']:.3f} kg. "
-        f"With springs of n = 10, 20, 40, 80 (C08) the rate is {by_n[0]:.2f}, {by_n[1]:.2f}, {by_n[2]:.2f}, {by_n[3]:.2f} "
-        f"rad/s: 11.4 together with 100.45 J and 16 requires n of at most {m['largest_n_that_gives_11.4']:.0f}.",
+        f"{COUPLED.rule} rad/s, and 11.4/16 = 0.7125. The fitted rates are {springs:.3f} rad/s with springs over the first "
+        f"{SPRINGS_SECONDS:.0f} s, {small:.3f} in the exact model after a small shock, but {exact:.3f} in the exact model over "
+        f"8 s after the paper's {_PAPER:.0f} N, {exact / COUPLED - 1:.1%} above 11.4. The finite amplitude adds "
+        f"{exact - small:.3f}, and the soft springs subtract {exact - springs:.3f}. The rate of one rotor is "
+        f"{m['rate_of_one_rotor_rad_per_s']:.3f} rad/s. The ratio of the rates is {m['constant']:.4f} at these spins and "
+        f"{m['constant_at_half_the_spins']:.4f} at half of them; J/(J + m R²/2) = {m['J_over_J_plus_half_m']:.4f}. The ratio "
+        f"depends on the mass of the bar, but not on its inertia ({m['constant_bar_K_0.1']:.4f} with K = 0.1 kg m²). It is "
+        f"{m['constant_light_bar']:.4f} for the light bar. A rate of 11.4 rad/s requires a mass from "
+        f"{m['least_mass_that_gives_11.4_kg']:.3f} to {m['greatest_mass_that_gives_11.4_kg']:.3f} kg. With springs of n = 10, "
+        f"20, 40, 80 (C08) the rate is {by_n[0]:.2f}, {by_n[1]:.2f}, {by_n[2]:.2f}, {by_n[3]:.2f} rad/s. The printed 11.4 "
+        f"rad/s, 100.45 J and 16 rad/s together require n of at most {m['largest_n_that_gives_11.4']:.0f}.",
     )
 
 
 def measure_c22(spins: Spins) -> dict[str, float]:
-    """Measure the rate for each bar, and the number of cycles for which a wave of 5.7 rad/s stays within a quarter cycle."""
+    """Measure the rate of opposite spins with each bar, and for how many cycles a sine of 5.7 rad/s stays within a quarter."""
     measured = {}
     for name, bar in BARS.items():
         for shock, force in (("40_N", _PAPER), ("small_shock", _SMALL)):
@@ -175,7 +176,7 @@ def measure_c22(spins: Spins) -> dict[str, float]:
 
 
 def decide_c22(m: Mapping[str, float]) -> Finding:
-    """Decide by the number of cycles for which the wave stays within a quarter cycle, with a listed bar and both shocks."""
+    """Decide by the number of cycles for which the sine stays within a quarter cycle, with each bar and after both shocks."""
     small, large, cycles, cycles_small = (
         [m[f"{key}_{name}"] for name in BARS]
         for key in (
@@ -189,15 +190,15 @@ def decide_c22(m: Mapping[str, float]) -> Finding:
     bar = "the bar m = K = 1" if first else "the bar m = 0.01 kg, K = 0.1 kg m²" if second else ""
     return Finding(
         (Part(FOLLOWS, all(follows), bar),),
-        f"The rates after a small shock are {small[0]:.3f}, {small[1]:.3f}, {small[2]:.3f} rad/s for m, K = 1, 1; 0.01, 0.1; 1, "
-        f"0.1. After 40 N they change in time; fitted over the first {FEW} cycles of the wave, "
-        f"{FEW * 2 * pi / OPPOSITE_RATE:.1f} s, they are {large[0]:.2f} ({m['rate_springs_over_3_s_m_1_K_1']:.2f} with springs "
-        f"over {SPRINGS_SECONDS:.0f} s), {large[1]:.2f}, {large[2]:.2f} rad/s. A sine of {OPPOSITE_RATE:.1f} rad/s stays within "
-        f"a quarter of a cycle for {cycles[0]:.1f}, {cycles[1]:.1f}, {cycles[2]:.1f} cycles (after a small shock "
-        f"{cycles_small[0]:.1f}, {cycles_small[1]:.1f}, {cycles_small[2]:.1f}), while the first few would be at least {FEW}. The "
-        "third bar, with the mass of the first and the inertia of the second, is in no listing. With m = 1 kg the constant would "
-        f"require K = {m['inertia_that_mass_1_needs_kg_m2']:.3f} kg m², a bar that the paper does not list; equal spins of "
-        f"10 rad/s have {m['rate_of_equal_spins_m_1']:.3f} rad/s.",
+        f"The rates after a small shock are {small[0]:.3f}, {small[1]:.3f} and {small[2]:.3f} rad/s for bars with (m, K) = (1, "
+        f"1), (0.01, 0.1) and (1, 0.1) in kg and kg m². After 40 N the rates change in time. Fitted over the first {FEW} cycles "
+        f"of the wave, {FEW * 2 * pi / OPPOSITE_RATE:.1f} s, they are {large[0]:.2f} ({m['rate_springs_over_3_s_m_1_K_1']:.2f} "
+        f"with springs over {SPRINGS_SECONDS:.0f} s), {large[1]:.2f}, {large[2]:.2f} rad/s. A sine of {OPPOSITE_RATE:.1f} rad/s "
+        f"stays within a quarter of a cycle of x₁ for {cycles[0]:.1f}, {cycles[1]:.1f} and {cycles[2]:.1f} cycles (after a "
+        f"small shock for {cycles_small[0]:.1f}, {cycles_small[1]:.1f} and {cycles_small[2]:.1f}). “The first few cycles” means "
+        f"at least {FEW}. The third bar, with the mass of the first and the inertia of the second, is in no listing. With m = 1 "
+        f"kg the constant would require K = {m['inertia_that_mass_1_needs_kg_m2']:.3f} kg m², a bar that the paper does not "
+        f"list. Equal spins of 10 rad/s oscillate at {m['rate_of_equal_spins_m_1']:.3f} rad/s.",
     )
 
 
@@ -209,7 +210,7 @@ C20 = ClaimTest(
 C21 = ClaimTest(
     "C21", (20, 20), {AT_11_4: (20, -20), OF_COUPLING: (20, -20)}, _EXACT, measure_c21, decide_c21,
     lambda spins: coupled_rates(AT_11_4, spins, HEAVY_LINK, COUPLED),
-    "that the ratio is a constant is said of every spin and bar",
+    "the claim that the ratio is a constant is about every spin and bar",
 )  # fmt: skip
 C22 = ClaimTest(
     "C22", (10, -10), {FOLLOWS: (10, 10)}, _EXACT, measure_c22, decide_c22,
@@ -218,7 +219,7 @@ C22 = ClaimTest(
 
 
 def coefficient(spins: Spins, bar: Link) -> tuple[float, float]:
-    """Return c of rate/natural rate = 1 + c θ̄² at the least amplitude, and the power of θ̄ in the change."""
+    """Return c of rate/natural rate = 1 + c θ̄² at small amplitude, θ̄ the mean inclination, and the measured power."""
     sizes, changes = [], []
     natural = natural_rate(Scene(spins, link=bar))
     for r0 in AMPLITUDES:
@@ -237,7 +238,7 @@ def coefficient(spins: Spins, bar: Link) -> tuple[float, float]:
 
 
 def _after_shock(spins: Spins, bar: Link) -> float:
-    """Return c over three cycles after a weak shock along x from rest; θ̄ is the amplitude of x."""
+    """Return c of rate/natural rate = 1 + c θ̄², over three cycles after a weak shock along x. θ̄ is the amplitude of x."""
     scene = shocked_scene(spins, (WEAK, 0, 0), bar, 1 / 20)
     natural, start = natural_rate(scene), shock_of(scene).at + 0.33
     times = start + np.linspace(0, FEW * 2 * np.pi / natural, 201)
@@ -247,7 +248,7 @@ def _after_shock(spins: Spins, bar: Link) -> float:
 
 
 def measure_c23(spins: Spins) -> dict[str, float]:
-    """Measure c for four bars on orbits, for three after a shock, and for equal spins."""
+    """Measure c of rate/natural rate = 1 + c θ̄²: with four bars on orbits, with three after a shock, and for equal spins."""
     measured = {f"coefficient_over_3_cycles_after_shock_{name}": _after_shock(spins, bar) for name, bar in BARS.items()}
     for name, bar in ({"massless": MASSLESS} | BARS).items():
         measured[f"coefficient_{name}"], measured[f"order_{name}"] = coefficient(spins, bar)
@@ -258,7 +259,7 @@ def measure_c23(spins: Spins) -> dict[str, float]:
 
 
 def decide_c23(m: Mapping[str, float]) -> Finding:
-    """Compare c with that of 1/cos θ, for every bar and for equal spins."""
+    """Decide by whether c has its value for 1/cos θ with every bar, or at least if the spins are equal."""
     on_orbits = [m[f"coefficient_{name}"] for name in ("massless", *BARS)]
     shock = [m[f"coefficient_over_3_cycles_after_shock_{name}"] for name in BARS]
     equal = m["coefficient_equal_spins_m_1_K_1"]
@@ -266,11 +267,11 @@ def decide_c23(m: Mapping[str, float]) -> Finding:
     return Finding(
         (Part(_COSINE, all(map(OVER_COSINE.is_matched, on_orbits)), needs),),
         "The rate is the natural rate times 1 + c θ², with θ the average inclination; 1/cos θ has c = +0.5, and c from 0.45 to "
-        f"0.55 counts as equal. The measured c is {on_orbits[0]:+.3f} for a massless bar, and {on_orbits[1]:+.3f}, "
-        f"{on_orbits[2]:+.3f}, {on_orbits[3]:+.3f} for m, K = 1, 1; 0.01, 0.1; 1, 0.1 (the change is proportional to θ to the "
-        f"power {m['order_massless']:.2f}). For equal spins with parallel axes it is {equal:+.3f}. A shock along x from rest "
-        f"twists the centres of precession; c over the first {FEW} cycles is then {shock[0]:+.2f}, {shock[1]:+.2f}, "
-        f"{shock[2]:+.2f}, so that its sign depends on the twist.",
+        f"0.55 counts as equal. The measured c is {on_orbits[0]:+.3f} for a massless bar. It is {on_orbits[1]:+.3f}, "
+        f"{on_orbits[2]:+.3f} and {on_orbits[3]:+.3f} for bars with (m, K) = (1, 1), (0.01, 0.1) and (1, 0.1) in kg and kg m². "
+        f"(The change of the rate is proportional to θ to the power {m['order_massless']:.2f}.) For equal spins with parallel "
+        f"axes it is {equal:+.3f}. A shock along x from rest twists the centres of precession; c over the first {FEW} cycles is "
+        f"then {shock[0]:+.2f}, {shock[1]:+.2f} and {shock[2]:+.2f} for these bars, so that its sign depends on the twist.",
     )
 
 

@@ -1,5 +1,5 @@
-"""Claims of sections 5.2 and 6: degrees of freedom and modes (C14, C24), the ansatz, its integrals, its correction and the
-corrected rate (C15 to C17), the comparison of the formula with the simulation (C18, C19)."""
+"""Tests of the claims of sections 5.2 and 6. C14 and C24 count degrees of freedom and modes. C15 to C17 are about the ansatz, its
+integrals, its correction and the corrected rate. C18 and C19 compare the formula with the simulation."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -49,7 +49,7 @@ TWO = "these 2 are its modes"
 
 
 def _constraints(r1: ArrayLike, r2: ArrayLike, link: Link | None) -> Array:
-    """Return the gradients of the constraints as rows: the unit lengths and, if there is one, the bar (ℓ = R)."""
+    """Return the gradients of the constraints as rows: of both axes' unit length and, with a bar, of its length (for ℓ = R)."""
     r1, r2 = np.asarray(r1, dtype=float), np.asarray(r2, dtype=float)
     d, none = np.array([1.0, 0, 0]) + r2 - r1, np.zeros(3)
     rows = [[*r1, *none], [*none, *r2], *([[*-d, *d]] if link else [])]
@@ -57,7 +57,7 @@ def _constraints(r1: ArrayLike, r2: ArrayLike, link: Link | None) -> Array:
 
 
 def measure_c14(link: Link | None) -> dict[str, float]:
-    """Count the velocities (six of the axes, two axial spins) minus the rank of the constraints, along a shocked run."""
+    """Count the degrees of freedom along a run: eight velocities, minus the rank of the constraints."""
     scene = Scene(OPPOSITE, link=link, shock=Shock((40, -11, 0), 0.5, 1 / 20))
     run = simulate(scene, np.linspace(0, 2.4, 25), "spheres", 1e-8)
     gradients = [_constraints(r1, r2, link) for r1, r2 in zip(*run.axes, strict=True)]
@@ -76,7 +76,7 @@ def measure_c14(link: Link | None) -> dict[str, float]:
 
 
 def decide_c14(m: Mapping[str, float]) -> Finding:
-    """Decide by both counts, if the rank is constant along the run."""
+    """Decide by the degrees of freedom with and without spins; the rank must be constant along the run."""
     same = m["rank_of_constraints_least"] == m["rank_of_constraints_most"]
     return Finding(
         (
@@ -92,7 +92,7 @@ def decide_c14(m: Mapping[str, float]) -> Finding:
 
 
 def _count_roots(scene: Scene) -> dict[str, float]:
-    """Count the oscillations (pairs of imaginary roots) and the steady turnings (excess zero roots) of the linear pair."""
+    """Count the oscillations (pairs of imaginary roots) and steady turnings (double zero roots) of the linear pair."""
     values = dict(zip((a, b, G_1, G_2), (*scene.inertias, *scene.momenta), strict=True)) | {k: 1}
     pair = linear_pair()
     M, C = (np.array(matrix.subs(values), dtype=float) for matrix in (pair.mass, pair.gyroscopic))
@@ -111,14 +111,14 @@ def _count_roots(scene: Scene) -> dict[str, float]:
 
 @dataclass(frozen=True)
 class _SmallMotion:
-    """Spins (rad/s), and the shock (N) of a small motion."""
+    """The case of C24: the spins (rad/s), and the force (N) of a small shock."""
 
     spins: Spins = OPPOSITE
     force: Vector = (0.5, 0.3, 0)
 
 
 def measure_c24(case: _SmallMotion) -> dict[str, float]:
-    """Count the roots, and fit a run after the shock by a constant, a slope and the natural rate."""
+    """Count the roots, and fit a run after a small shock by a constant, a slope and one natural oscillation."""
     scene = Scene(case.spins, link=HEAVY_LINK, shock=Shock(case.force, 0.2, 1 / 50))
     run = simulate(scene, [0.0, *np.linspace(0.4, 8, 200)], "spheres", 1e-11).after(0.4)
     x_y = np.concatenate(list(run.axes[..., :2]), axis=1)
@@ -136,7 +136,10 @@ def measure_c24(case: _SmallMotion) -> dict[str, float]:
 
 
 def decide_c24(m: Mapping[str, float]) -> Finding:
-    """Decide by one steady turning, equal in y_1 and y_2 and zero in x, and one oscillation, equal in x and opposite in y."""
+    """Decide by the number and the shapes of the modes.
+
+    A steady turning must be equal in y_1 and y_2 and zero in x; an oscillation must be equal in x_1 and x_2 and opposite in y.
+    """
     slopes = m["slope_ratio_y_2_to_y_1"] - 1, m["slope_x_over_slope_y"]
     waves = m["wave_ratio_x_2_to_x_1"] - 1, m["wave_ratio_y_2_to_y_1"] + 1
     one_each = m["steady_turnings"] == 1 and m["oscillations"] == 1
@@ -154,8 +157,8 @@ def decide_c24(m: Mapping[str, float]) -> Finding:
         f"turning, along y₂ : y₁ = {m['slope_ratio_y_2_to_y_1']:+.4f}. These motions fit a run of 8 s with a relative "
         f"residual of {scientific(m['left_by_one_line_and_a_slope_relative'])}. To first order the pair thus has three "
         "degrees of freedom: the paired precession, which oscillates; steady turning about the joint line; and the "
-        "displacement of the precession centre (in x and in the twist), which is constant after a shock, here x = "
-        f"{m['centre_x_1']:+.5f}. Of the two modes of the paper one oscillates.",
+        "displacement of the precession centre (in x and in the twist), which is constant after a shock. Here it is x = "
+        f"{m['centre_x_1']:+.5f}. Only one of the two modes of the paper oscillates.",
     )
 
 
@@ -163,13 +166,13 @@ def decide_c24(m: Mapping[str, float]) -> Finding:
 # pair has 6 and 4. C24: after ten times the shock, the motion is not linear any more.
 C14 = ClaimTest(
     "C14", HEAVY_LINK, {FIVE: None, THREE: None}, "exact pair (spheres), bar m = 1 kg, K = 1 kg m²", measure_c14,
-    decide_c14, unproved="it is a count, of a rank along a run; equation 5.09 has the constraint",
+    decide_c14, unproved="it is the count of a rank along a run; equation 5.09 has the constraint",
 )  # fmt: skip
 C24 = ClaimTest(
     "C24", _SmallMotion(),
     {TOPPLING: _SmallMotion(EQUAL), PRECESSION: _SmallMotion(EQUAL), TWO: _SmallMotion(force=(5, 3, 0))},
     "linear pair; exact pair (spheres), bar m = 1 kg, K = 1 kg m²", measure_c24, decide_c24,
-    unproved="it is a count of roots, and of what a small motion shows",
+    unproved="it counts roots of the linear pair and motions in a simulation",
 )  # fmt: skip
 
 
@@ -188,7 +191,7 @@ SAME_RATE = "the precession rate is unchanged by the correction"
 
 @dataclass(frozen=True)
 class Ansatz:
-    """Spins (rad/s), the bar of the theory, and the ratio of the transverse inertias of rotor 1 (1 if it is symmetric)."""
+    """The case of C15: spins (rad/s), the bar of the theory, and the ratio of the transverse moments of inertia of rotor 1."""
 
     spins: Spins = OPPOSITE
     bar: Link = MASSLESS
@@ -196,7 +199,7 @@ class Ansatz:
 
 
 def _drift_of_b(spins: Spins, I2_over_I1: float) -> float:
-    """Return the range of B = G_1 − G_2 over |G_1| + |G_2| in the paper's program, which does not presume conservation."""
+    """Return the range of B = G_1 − G_2 divided by |G_1| + |G_2| in the paper's program, which can violate conservation."""
     scene, _ = precession_scene(spins, PAPER_R0, HEAVY_LINK)
     system = paper_system(scene, STIFFNESS, DAMPING)
     system.inverse_inertia[0, 1, 1] /= I2_over_I1
@@ -209,7 +212,7 @@ def _drift_of_b(spins: Spins, I2_over_I1: float) -> float:
 
 
 def measure_c15(case: Ansatz) -> dict[str, float]:
-    """Measure the deviations from the ansatz and the oscillation of A at three amplitudes, and the drift of B."""
+    """Measure how far the exact motion deviates from the ansatz and how A oscillates, at three amplitudes, and how B drifts."""
     measured: dict[str, float] = {}
     quantities = ("azimuth_rates_sum", "spin_rates_sum", "swing_of_A")
     for name, bar in (("massless", case.bar), ("light_bar", PAPER_BAR)):
@@ -230,7 +233,10 @@ def measure_c15(case: Ansatz) -> dict[str, float]:
 
 
 def _small(m: Mapping[str, float], quantity: str) -> Part:
-    """Decide one half of the ansatz, at the paper's amplitude or below the amplitude at which the azimuths are WITHIN."""
+    """Decide on one of the relations φ₁′ = −φ₂′ and ψ₁′ = −ψ₂′.
+
+    It may hold at the paper's amplitude or, as a condition, below the amplitude at which φ₁′ + φ₂′ is 5 % of φ′.
+    """
     key = f"{quantity}_rates_sum_relative"
     values = [m[f"{key}_r0_{PAPER_R0}_{name}"] for name in ("massless", "light_bar")]
     vanishes = all(m[f"order_of_{key}_{name}"] > VANISHES for name in ("massless", "light_bar"))
@@ -244,7 +250,7 @@ def _small(m: Mapping[str, float], quantity: str) -> Part:
 
 
 def decide_c15(m: Mapping[str, float]) -> Finding:
-    """Decide by both sums and the oscillation of A, with their powers in r₀ and for both bars, and by the drift of B."""
+    """Decide by φ₁′ + φ₂′, ψ₁′ + ψ₂′ and the oscillation of A, with two bars, and by the drift of B."""
     massless, light = (m[f"swing_of_A_relative_r0_{PAPER_R0}_{name}"] for name in ("massless", "light_bar"))
     needs = (
         f"for A a massless bar: within {massless:.1%} at r₀ = {PAPER_R0}, where with the paper's light bar it swings by "
@@ -258,21 +264,21 @@ def decide_c15(m: Mapping[str, float]) -> Finding:
     )
     how = (
         f"At r₀ = {PAPER_R0} φ₁′ + φ₂′ reaches {m[f'azimuth_rates_sum_relative_r0_{PAPER_R0}_massless']:.0%} of φ′ "
-        f"({m[f'azimuth_rates_sum_relative_r0_{PAPER_R0}_light_bar']:.0%} with the light bar) and ψ₁′ + ψ₂′ "
-        f"{m[f'spin_rates_sum_relative_r0_{PAPER_R0}_massless']:.0%} of the spin. They are proportional to r₀ to the powers "
-        f"{m['order_of_azimuth_rates_sum_relative_massless']:.2f} and {m['order_of_spin_rates_sum_relative_massless']:.2f}. "
-        f"A oscillates by {massless:.1%} of its varying part, proportional to r₀ to the power "
-        f"{m['order_of_swing_of_A_relative_massless']:.2f}. With the light bar it oscillates by {light:.0%}, proportional to r₀ "
-        f"to the power {m['order_of_swing_of_A_relative_light_bar']:.2f}, hence at any amplitude. The relative drift of B is "
-        f"{scientific(m['drift_of_B_relative'])}."
+        f"({m[f'azimuth_rates_sum_relative_r0_{PAPER_R0}_light_bar']:.0%} with the light bar), and ψ₁′ + ψ₂′ reaches "
+        f"{m[f'spin_rates_sum_relative_r0_{PAPER_R0}_massless']:.0%} of the spin. These fractions are proportional to r₀ to the "
+        f"powers {m['order_of_azimuth_rates_sum_relative_massless']:.2f} and "
+        f"{m['order_of_spin_rates_sum_relative_massless']:.2f}. A oscillates by {massless:.1%} of its varying part, "
+        f"proportional to r₀ to the power {m['order_of_swing_of_A_relative_massless']:.2f}. With the light bar it oscillates by "
+        f"{light:.0%}, proportional to r₀ to the power {m['order_of_swing_of_A_relative_light_bar']:.2f}, that is, by as much "
+        f"at every amplitude. The relative drift of B is {scientific(m['drift_of_B_relative'])}."
     )
     if "r0_at_which_the_azimuth_sum_is_5_percent_light_bar" not in m:
         return Finding(parts, how)
     r0, light_r0 = (m[f"r0_at_which_the_azimuth_sum_is_5_percent_{name}"] for name in ("massless", "light_bar"))
     return Finding(
         parts,
-        f"{how} At r₀ = {r0:.3f} ({light_r0:.3f} with the light bar) φ₁′ + φ₂′ is {WITHIN:.0%} of φ′, ψ₁′ + ψ₂′ "
-        f"{m['spin_rates_sum_relative_there_massless']:.1%} of the spin, and A oscillates by "
+        f"{how} At r₀ = {r0:.3f} ({light_r0:.3f} with the light bar) φ₁′ + φ₂′ is {WITHIN:.0%} of φ′ and ψ₁′ + ψ₂′ is "
+        f"{m['spin_rates_sum_relative_there_massless']:.1%} of the spin. There A oscillates by "
         f"{m['swing_of_A_relative_there_massless']:.2%} of its varying part "
         f"({m['swing_of_A_relative_there_light_bar']:.0%} with the light bar).",
     )
@@ -284,32 +290,32 @@ C15 = ClaimTest(
     "C15", Ansatz(),
     {AZIMUTHS: Ansatz(EQUAL), SPIN_ANGLES: Ansatz(EQUAL), A_CONSTANT: Ansatz(bar=PAPER_BAR), B_CONSTANT: Ansatz(I2_over_I1=1.1)},
     "exact orbits; the paper's program for B", measure_c15, decide_c15,
-    unproved="it is a likeness to what is observed; equations 5.11 to 5.13 are decided exactly",
+    unproved="it compares an ansatz with observed motion; equations 5.11 to 5.13 are decided exactly",
 )  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Correction:
-    """Spins (rad/s), and the sign of the correction: +1 as printed in 5.20, −1 reversed."""
+    """The case of C16: the spins (rad/s), and the sign of the correction, +1 as printed in (5.20) or −1 if reversed."""
 
     spins: Spins = OPPOSITE
     sign: int = 1
 
 
 def _length(phi: Array, s1: Array, s2: Array) -> Array:
-    """Return the distance of the tips (m) at azimuths ±phi and inclinations of sines s1, s2, for ℓ = R = 1 m."""
+    """Return the distance (m) of the tips at azimuths ±phi, if s1 and s2 are the sines of the inclinations and ℓ = R = 1 m."""
     return np.hypot(1 + np.cos(phi) * (s2 - s1), np.sin(phi) * (s1 + s2))
 
 
 def _lengths(run: Trajectory, r0: float, sign: int) -> tuple[Array, Array]:
-    """Return the link's length over a run, with θ constant and corrected; phi is half the difference of the azimuths."""
+    """Return the link's length (m) along a run, with θ constant and corrected; phi is half the azimuths' difference."""
     phi = (run.azimuths[0] - run.azimuths[1]) / 2
     change = sign * r0**2 * np.cos(phi)
     return _length(phi, r0 + 0 * phi, r0 + 0 * phi), _length(phi, r0 - change, r0 + change)
 
 
 def measure_c16(case: Correction) -> dict[str, float]:
-    """Measure the link's length that follows from the ansatz on the exact orbit, and its exact length."""
+    """Measure the length of the link that the ansatz gives along the exact orbit, and compare it with the exact length."""
     run = once_round(case.spins, PAPER_R0, MASSLESS)
     constant, corrected = _lengths(run, PAPER_R0, case.sign)
     swings = [np.ptp(_lengths(once_round(case.spins, r0, MASSLESS), r0, case.sign)[1]) for r0 in AMPLITUDES]
@@ -326,7 +332,7 @@ def measure_c16(case: Correction) -> dict[str, float]:
 
 
 def decide_c16(m: Mapping[str, float]) -> Finding:
-    """Decide by both ends of the printed oscillation, and by the corrected oscillation and its power in r₀."""
+    """Decide by both ends of the printed oscillation, and by the oscillation after the correction and its power in r₀."""
     swing = m["constant_theta_longest"] - m["constant_theta_shortest"]
     remaining = m["corrected_longest"] - m["corrected_shortest"]
     ends = (m["constant_theta_shortest"] - 1, m["constant_theta_longest"] - m["printed_longest"])
@@ -338,17 +344,17 @@ def decide_c16(m: Mapping[str, float]) -> Finding:
             Part(REMOVED, remaining < AS_PRINTED, needs if m["order_of_the_swing_left"] > HIGHER else ""),
         ),
         f"With θ constant and φ₁ = −φ₂ the length of the link varies from {m['constant_theta_shortest']:.4f} to "
-        f"{m['constant_theta_longest']:.4f} m (printed {m['printed_longest']:.4f}), corrected from {m['corrected_shortest']:.4f} "
-        f"to {m['corrected_longest']:.4f} m. The correction thus reduces the oscillation from {swing:.4f} to {remaining:.4f} m, "
-        f"which is proportional to r₀ to the power {m['order_of_the_swing_left']:.2f}. On the exact orbit the length is always "
-        f"{m['exact_orbit_longest']:.4f} m. The corrected length is always {least:.1%} to {greatest:.1%} too large, while the "
-        "uncorrected one is right twice in a cycle. The correction makes the length constant, but at a wrong value, so that it "
-        "does not satisfy the constraint.",
+        f"{m['constant_theta_longest']:.4f} m (printed {m['printed_longest']:.4f}). With the correction it varies from "
+        f"{m['corrected_shortest']:.4f} to {m['corrected_longest']:.4f} m. The correction thus reduces the oscillation from "
+        f"{swing:.4f} to {remaining:.4f} m, which is proportional to r₀ to the power {m['order_of_the_swing_left']:.2f}. On the "
+        f"exact orbit the length is always {m['exact_orbit_longest']:.4f} m. The corrected length is always {least:.1%} to "
+        f"{greatest:.1%} too large, while the uncorrected one is right twice in a cycle. The correction makes the length "
+        "constant, but at a wrong value, so that it does not satisfy the constraint.",
     )
 
 
 def measure_c17(spins: Spins) -> dict[str, float]:
-    """Measure the exact rate over G/(J cos θ_0), the rate at constant inclination, at three amplitudes, massless bar."""
+    """Measure the exact rate divided by the rate at constant inclination, G/(J cos θ_0), for a massless bar."""
     measured, changes = {}, []
     for r0 in AMPLITUDES:
         scene, rate = precession_scene(spins, r0, MASSLESS)
@@ -366,13 +372,13 @@ def measure_c17(spins: Spins) -> dict[str, float]:
 
 
 def decide_c17(m: Mapping[str, float]) -> Finding:
-    """Decide by the change of the rate over r₀²."""
+    """Decide by the relative change of the rate divided by r₀²."""
     return Finding(
         (Part(SAME_RATE, abs(m["change_over_r0_squared"]) < UNCHANGED),),
-        f"Unchanged means within {UNCHANGED} r₀². The exact rate is the rate at constant inclination times 1 "
-        f"{m['change_over_r0_squared']:+.3f} r₀² (the change is proportional to r₀ to the power {m['order_of_change']:.2f}). At "
-        f"r₀ = {PAPER_R0} it is {m[f'rate_over_constant_inclination_r0_{PAPER_R0}']:.4f} times the rate at constant inclination "
-        f"and {m[f'rate_over_natural_r0_{PAPER_R0}']:.4f} times the natural rate.",
+        f"The rate counts as unchanged if it changes by less than {UNCHANGED} r₀². The exact rate is the rate at constant "
+        f"inclination multiplied by 1 {m['change_over_r0_squared']:+.3f} r₀² (the change is proportional to r₀ to the power "
+        f"{m['order_of_change']:.2f}). At r₀ = {PAPER_R0} it is {m[f'rate_over_constant_inclination_r0_{PAPER_R0}']:.4f} times "
+        f"the rate at constant inclination and {m[f'rate_over_natural_r0_{PAPER_R0}']:.4f} times the natural rate.",
     )
 
 
@@ -402,7 +408,7 @@ SKEW, AGREE = (
 
 
 def shocked_run(spins: Spins, force: Vector, bar: Link = LIGHT) -> Trajectory:
-    """Simulate the exact pair after a shock of the width in 5.2.1, from the end of the shock on."""
+    """Simulate the exact pair after a shock with the width of section 5.2.1, and return the run from the end of the shock."""
     scene = shocked_scene(spins, force, bar, 1 / 20)
     at = shock_of(scene).at
     times = np.linspace(at + 0.33, at + PAPER_RUN, 400)
@@ -410,7 +416,7 @@ def shocked_run(spins: Spins, force: Vector, bar: Link = LIGHT) -> Trajectory:
 
 
 def harmonics(run: Trajectory) -> Harmonics:
-    """Fit x and y of axis 1, then of axis 2, at the rate within a tenth of the natural rate that fits both x best."""
+    """Fit x and y of axis 1, then of axis 2, at the rate near the natural rate that fits both x best."""
     x_y = np.concatenate(list(run.axes[..., :2]), axis=1)
     rate = best_harmonics(run.t, x_y[:, ::2], natural_rate(run.scene), 0.9, 1.1).rate
     return harmonics_at(run.t, x_y, rate)
@@ -418,7 +424,7 @@ def harmonics(run: Trajectory) -> Harmonics:
 
 @dataclass(frozen=True)
 class Pinched:
-    """Spins (rad/s), shock (N) and bar of the simulation that is compared with the formula."""
+    """The case of C18: spins (rad/s), shock (N) and bar of the simulation that is compared with the formula."""
 
     spins: Spins = OPPOSITE
     force: Vector = SHOCK
@@ -426,10 +432,11 @@ class Pinched:
 
 
 def measure_c18(case: Pinched) -> dict[str, float]:
-    """Measure the second harmonic of both x over the first, in phase; the formula (5.22) has −r_0/2 in x_1, +r_0/2 in x_2.
+    """Measure the second harmonic of x_1 and x_2 divided by the first, in phase with it.
 
-    Only the term in phase pinches the curve; the term out of phase slants it. cos Φ + ε cos 2Φ is above its middle for
-    π − 2ε of its phase, to first order. Its peaks are thus narrower by 4ε/π of half a period.
+    The formula (5.22) gives the ratios −r_0/2 and +r_0/2. Only the term in phase pinches the curve; the term out of phase
+    slants it. To first order in ε, cos Φ + ε cos 2Φ is above its middle for π − 2ε of its phase. The peaks are thus narrower
+    than the valleys by 4ε/π of half a period.
     """
     run = shocked_run(case.spins, case.force, case.bar)
     fit = harmonics(run)
@@ -452,7 +459,7 @@ def measure_c18(case: Pinched) -> dict[str, float]:
 
 
 def decide_c18(m: Mapping[str, float]) -> Finding:
-    """Decide by each pinch: within half of the formula's, and visible."""
+    """Decide on each curve by its pinch: it must be visible, and within half of the formula's pinch."""
     formula = m["second_over_first_formula"]
     ratios = (-m["second_over_first_x_1"] / formula, m["second_over_first_x_2"] / formula)
     narrower = m["valleys_of_x_1_narrower_by"], m["peaks_of_x_2_narrower_by"]
@@ -460,31 +467,31 @@ def decide_c18(m: Mapping[str, float]) -> Finding:
     shared = [near and by > VISIBLE for near, by in zip(alike, narrower, strict=True)]
     return Finding(
         (Part(VALLEYS, shared[0]), Part(PEAKS, shared[1])),
-        f"The second harmonic over the first, in phase and fitted over the 8 s, is {m['second_over_first_x_1']:+.4f} in x₁ "
-        f"and {m['second_over_first_x_2']:+.4f} in x₂. The formula has ∓{formula:.4f} at r₀ = {m['amplitude_r0']:.3f}. The "
-        f"signs {'agree' if min(ratios) > 0 else 'do not agree'}; the sizes are {ratios[0]:.2f} and {ratios[1]:.2f} times the "
-        f"formula's, {'' if all(alike) else 'not both '}nearer to it than to a plain sine, which has no second harmonic. The "
-        f"valleys of x₁ are narrower than its peaks by {narrower[0]:.1%} of half a period, the peaks of x₂ than its valleys "
-        f"by {narrower[1]:.1%}; a difference is visible from {VISIBLE:.0%} on. The −11 N along y keeps the pair upright: for "
-        f"8 s it oscillates about the joint line between {m['least_lean_about_joint_line_rad']:+.3f} and "
-        f"{m['largest_lean_about_joint_line_rad']:+.3f} rad. Without this force it turns by "
-        f"{m['turned_about_joint_line_without_y_shock_rad']:.2f} rad in 8 s.",
+        f"The ratio of the second harmonic to the first, in phase and fitted over the 8 s, is {m['second_over_first_x_1']:+.4f} "
+        f"in x₁ and {m['second_over_first_x_2']:+.4f} in x₂. The formula gives ∓{formula:.4f} at r₀ = {m['amplitude_r0']:.3f}. "
+        f"The signs {'agree' if min(ratios) > 0 else 'do not agree'}; the sizes are {ratios[0]:.2f} and {ratios[1]:.2f} times "
+        f"the formula's. They are {'' if all(alike) else 'not both '}nearer to the formula than to a sine without second "
+        f"harmonic. The valleys of x₁ are narrower than its peaks by {narrower[0]:.1%} of half a period, and the peaks of x₂ "
+        f"are narrower than its valleys by {narrower[1]:.1%}; a difference counts as visible from {VISIBLE:.0%} on. The −11 N "
+        "along y keeps the pair upright: for 8 s it oscillates about the joint line between "
+        f"{m['least_lean_about_joint_line_rad']:+.3f} and {m['largest_lean_about_joint_line_rad']:+.3f} rad. Without this force "
+        f"it turns by {m['turned_about_joint_line_without_y_shock_rad']:.2f} rad in 8 s.",
     )
 
 
 @dataclass(frozen=True)
 class Fit:
-    """The rms residual of a formula for both components over the amplitude, and the amplitude."""
+    """The fit of a formula to both components: the rms residual divided by the amplitude, and the amplitude."""
 
     residual: float
     size: float
 
 
 def fitted(components: Array, t: Array, rate: float, r0: float, offset: float | None, second: int = 1) -> Fit:
-    """Fit x_1 and x_2 of (5.22) to components (2, n) in m by amplitude, rate, phase and a common shift.
+    """Fit x_1 and x_2 of (5.22) to `components` (2, n) in m by an amplitude, a rate, a phase and a common shift.
 
-    ± `offset` r_0² is added to the centres: 0 as printed, 1 as corrected, None for free centres. `second` = 0 omits the second
-    harmonic, for a plain sine.
+    The centres are displaced by ± `offset` r_0²: 0 is the printed formula, 1 the corrected one; None lets both centres free. If
+    `second` is 0, the second harmonic is omitted, which leaves a sine.
     """
     from scipy.optimize import least_squares
 
@@ -505,7 +512,10 @@ def fitted(components: Array, t: Array, rate: float, r0: float, offset: float | 
 
 
 def measure_c19(case: tuple[Spins, Vector]) -> dict[str, float]:
-    """Measure the angle of the line through both centres and the residuals of the formula, for spins (rad/s) and shock (N)."""
+    """Measure the angle of the line through both centres, and how well the formula fits x before and after projection on it.
+
+    `case` has the spins (rad/s) and the shock (N).
+    """
     run = shocked_run(*case)
     fit, tips = harmonics(run), run.tips[..., :2]
     line = fit.constant[2:] - fit.constant[:2] + np.array([1.0, 0.0])
@@ -526,7 +536,7 @@ def measure_c19(case: tuple[Spins, Vector]) -> dict[str, float]:
 
 
 def decide_c19(m: Mapping[str, float]) -> Finding:
-    """Decide by the angle, and by the residual of the formula after projection against that of a plain sine."""
+    """Decide by the angle, and by whether the formula fits the projected motion better than a sine does."""
     printed, corrected, shape, plain = (
         m[f"left_projected_{way}"] for way in ("printed", "corrected", "shape", "plain_sine")
     )
@@ -544,8 +554,8 @@ def decide_c19(m: Mapping[str, float]) -> Finding:
         f"calls a small angle. (An angle counts as small up to {SMALL_ANGLE:.0f}°, where sin α = α to one part in a hundred.) "
         f"After the projection, y contributes {m['share_of_y_in_x']:.0%} of x. The residual of the printed formula is "
         f"{m['left_unprojected_printed']:.1%} of the amplitude before and {printed:.1%} after the projection on that line; "
-        f"with the missing ± r₀² it is {corrected:.1%}. With free centres, which compares the shapes, it is "
-        f"{m['left_unprojected_shape']:.1%} before and {shape:.1%} after the projection, and {plain:.1%} for a plain sine. "
+        f"with the missing ± r₀² it is {corrected:.1%}. If both centres are free, so that only the shapes are compared, it is "
+        f"{m['left_unprojected_shape']:.1%} before and {shape:.1%} after the projection, and {plain:.1%} for a sine. "
         f"The second harmonic thus explains {1 - (shape / plain) ** 2:.0%} of the squared residual of the sine. The amplitude "
         f"along the line is {m['amplitude_along_the_skew_axis']:.3f}; figure 21 has {PAPER_R0}.",
     )
@@ -555,10 +565,10 @@ _EXACT = "exact pair (spheres), bar m = 0.01 kg, K = 0.1 kg m²"
 # With a bar of K = 2 kg m² the signs are right, but the pinch is a third of the formula's.
 C18 = ClaimTest(
     "C18", Pinched(), {VALLEYS: Pinched(bar=Link(1, 1, 2)), PEAKS: Pinched(bar=Link(1, 1, 2))}, _EXACT, measure_c18,
-    decide_c18, unproved="it is a likeness of shapes, by fits to runs",
+    decide_c18, unproved="it compares shapes of curves, by fits to simulations",
 )  # fmt: skip
 # The angle is proportional to the shock; a quarter of the shock leaves a small angle.
 C19 = ClaimTest(
     "C19", (OPPOSITE, SHOCK), {SKEW: (OPPOSITE, (SHOCK[0] / 4, SHOCK[1] / 4, 0.0)), AGREE: (EQUAL, SHOCK)}, _EXACT,
-    measure_c19, decide_c19, unproved="it is a likeness of shapes, by fits to runs",
+    measure_c19, decide_c19, unproved="it compares shapes of curves, by fits to simulations",
 )  # fmt: skip

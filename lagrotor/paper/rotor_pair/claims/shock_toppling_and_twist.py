@@ -1,5 +1,5 @@
-"""Claims of sections 2, 5 and 5.1 on the pair after a shock: one gyroscope (C01, C02), toppling (C10, C11), the failure of (7) at
-opposite spins and the mean displacement in x (C12, C13)."""
+"""Tests of the claims of sections 2, 5 and 5.1 on the pair after a shock. C01 and C02 compare it with one gyroscope; C10 and C11
+are about toppling. C12 is about the failure of (7) for opposite spins, C13 about the mean displacement in x."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -57,13 +57,13 @@ def _shocked(spins: Spins, force: Vector, seconds: float, bar: Link = HEAVY_LINK
 
 
 def _centre(run: Trajectory, start: float) -> NDArray[np.float64]:
-    """Return the mean axes (2, 3) over CYCLES periods of the natural rate, from `start` (s) after the first sample."""
+    """Return the mean of each axis, shape (2, 3), over five natural periods, from `start` (s) after the first sample."""
     begin, turn = run.t[0] + start, 2 * pi / natural_rate(run.scene)
     return np.array([mean_between(run.t, axis, begin, begin + CYCLES * turn) for axis in run.axes])
 
 
 def measure_c01(spins: Spins) -> dict[str, float]:
-    """Measure the mean precession rates, the mean axes in the first and last cycles, and the angle between the axes."""
+    """Measure the mean precession rates, the mean positions in the first and last cycles, and the angle between the axes."""
     run = _shocked(spins, _ALONG, 12.0)
     end = run.t[-1] - run.t[0] - CYCLES * 2 * pi / natural_rate(run.scene)
     first, last = _centre(run, 0.0), _centre(run, end)
@@ -90,7 +90,7 @@ def measure_c01(spins: Spins) -> dict[str, float]:
 
 
 def decide_c01(m: Mapping[str, float]) -> Finding:
-    """Decide by the senses of both precessions, and by the final against the initial displacements."""
+    """Decide by the signs of both precession rates, and by whether the displacements stay the same and are visible."""
     last = [m[f"displacement_{i}_last_cycles"] for i in (1, 2)]
     stays = [abs(last[i] / m[f"displacement_{i + 1}_first_cycles"] - 1) < _STEADY for i in (0, 1)]
     is_visible = [abs(last[i]) > DISPLACED * m[f"swing_{i + 1}_about_the_displaced_position"] for i in (0, 1)]
@@ -100,23 +100,24 @@ def decide_c01(m: Mapping[str, float]) -> Finding:
             Part(REMAINS, all(stays) and all(is_visible)),
         ),
         f"In 12 s the axes precess at {m['precession_1_rad_per_s']:+.2f} and {m['precession_2_rad_per_s']:+.2f} rad/s. Their "
-        f"mean positions are displaced across the shock, in the last {CYCLES} cycles by {last[0]:+.4f} and {last[1]:+.4f}, in "
-        f"the first {CYCLES} by {m['displacement_1_first_cycles']:+.4f} and {m['displacement_2_first_cycles']:+.4f}; (7) gives "
-        f"{m['displacement_by_equation_7']:.4f}. For this shock along the bar the axes are parallel at all times (section 5), "
-        f"to {scientific(m['angle_of_axes_shock_along_bar_rad'])} rad. After the same shock across the bar on one tip, the "
-        f"angle between them reaches {_PARTED} rad {m['seconds_until_axes_part_by_0.1_shock_across_bar']:.3f} s after the peak, "
-        f"and at most {m['angle_of_axes_shock_across_bar_rad']:.2f} rad within 12 s: equal spins do not keep the axes parallel.",
+        f"mean positions are displaced across the shock, in the last {CYCLES} cycles by {last[0]:+.4f} and {last[1]:+.4f}, and "
+        f"in the first {CYCLES} by {m['displacement_1_first_cycles']:+.4f} and {m['displacement_2_first_cycles']:+.4f}; (7) "
+        f"gives {m['displacement_by_equation_7']:.4f}. After this shock along the bar the axes are parallel at all times "
+        f"(section 5), to within {scientific(m['angle_of_axes_shock_along_bar_rad'])} rad. After the same shock across the bar "
+        f"on one tip, the angle between them reaches {_PARTED} rad {m['seconds_until_axes_part_by_0.1_shock_across_bar']:.3f} s "
+        f"after the peak. Within 12 s it reaches {m['angle_of_axes_shock_across_bar_rad']:.2f} rad: equal spins do not keep the "
+        "axes parallel.",
     )
 
 
 def _drift_over_7(spins: Spins, bar: Link) -> float:
-    """Return the ratio of the mean displacement to (7), after a shock so weak that squares of the amplitude vanish."""
+    """Return the mean displacement divided by its value from (7), after a shock so weak that its square is negligible."""
     run = _shocked(spins, _WEAK, 8.0, bar)
     return float(_centre(run, 0.0)[:, 1].mean() * sum(spins) / shock_of(run.scene).impulse[0])
 
 
 def measure_c02(bar: Link) -> dict[str, float]:
-    """Measure displacements relative to (7), and responses of opposite spins relative to those without spins."""
+    """Measure the displacement relative to (7), and the response of opposite spins relative to the response without spins."""
     farthest, unspun = (abs(_shocked(s, _ALONG, 2.4, bar).axes[..., 0]).max() for s in ((10, -10), (0, 0)))
     angle, free_angle = (
         abs(turned_about_joint_line(_shocked(s, _ACROSS, 2.4, bar).axes)[-1]) for s in ((10, -10), (0, 0))
@@ -132,7 +133,7 @@ def measure_c02(bar: Link) -> dict[str, float]:
 
 
 def decide_c02(m: Mapping[str, float]) -> Finding:
-    """Decide by the displacements relative to (7), and by both relative responses of opposite spins."""
+    """Decide by the displacement relative to (7), and by two responses of opposite spins relative to those without spins."""
     drifts = [m[f"drift_over_equation_7_spins_{pair}"] for pair in ("10_10", "10_5")]
     responses = m["ratio_in_x"], m["ratio_of_turning_about_joint_line_shock_along_y"]
     return Finding(
@@ -142,9 +143,9 @@ def decide_c02(m: Mapping[str, float]) -> Finding:
         ),
         f"After a weak shock the mean displacement over {CYCLES} cycles is {drifts[0]:.3f} times (7) for spins 10 and 10 rad/s, "
         f"and {drifts[1]:.3f} times (7) for 10 and 5. With spins 10 and −10, however, the axes reach x = {m['largest_x']:.3f} "
-        f"within 2.4 s of a shock along x, and {m['largest_x_without_spins']:.3f} without spins, a ratio of {responses[0]:.2f}. "
-        f"Only the turning about the joint line within 2.4 s of a shock along y is the same (ratio {responses[1]:.2f}; equal "
-        "means within a tenth).",
+        f"within 2.4 s of a shock along x; without spins they reach {m['largest_x_without_spins']:.3f}. The ratio is "
+        f"{responses[0]:.2f}. Only the angle turned about the joint line within 2.4 s of a shock along y is the same, with a "
+        f"ratio of {responses[1]:.2f}. (Responses count as the same if they differ by less than a tenth.)",
     )
 
 
@@ -157,7 +158,7 @@ C01 = ClaimTest(
 C02 = ClaimTest(
     "C02", HEAVY_LINK, {ONE_GYROSCOPE: Link(mass=10, inertia=0), AS_WITHOUT_SPIN: Link(mass=1, inertia=1000)}, _EXACT,
     measure_c02, decide_c02, lambda bar: not_without_spin(AS_WITHOUT_SPIN, bar) if bar == HEAVY_LINK else (),
-    "that the pair is one gyroscope is a likeness to one part in ten, of means over five cycles",
+    "the claim that the pair is one gyroscope compares means over five cycles, to one part in ten",
 )  # fmt: skip
 
 
@@ -174,8 +175,8 @@ ALONG, ACROSS, _SMALL = (60.0, 72.0, 86.0), (25.0, 35.0, 70.0), (12.0, 24.0, 48.
 TOPPLES, TURNS = "the pair topples after the shock", "it turns around the line through the two grounds"
 STABLE, TOPPLES_YZ, SLOWLY = "it stays stable in x", "it topples in the Y-Z plane", "it topples slowly"
 THRESHOLDS = (
-    f"Stable in x means |x| below {FALLEN}, 30° from upright. Toppling means turning about the joint line by more than {SEEN} "
-    f"rad in 8 s; slow toppling means by less than {SLOW:.0f} rad in a period of the natural rate."
+    f"The pair counts as stable in x while |x| is below {FALLEN}, 30° from upright. It topples if it turns about the joint line "
+    f"by more than {SEEN} rad in 8 s, and slowly if it turns by less than {SLOW:.0f} rad in a period of the natural rate."
 )
 
 
@@ -184,7 +185,7 @@ def _tilt(axes: Array) -> float:
 
 
 def measure_c10(spins: Spins) -> dict[str, float]:
-    """Measure the tilt after a shock along and across the bar; if the pair topples, also the motion past the dead point."""
+    """Measure the tilt after shocks along and across the bar and, if the pair topples, what follows the dead point."""
     scene = shocked_scene(spins, (50, 0, 0))
     run_x, run_y = after_shock(scene, 2.7), after_shock(shocked_scene(spins, (0, 50, 0)), 6.0)
     in_xz = np.unwrap(np.arctan2(run_x.axes[..., 0], run_x.axes[..., 2]))
@@ -206,7 +207,7 @@ def measure_c10(spins: Spins) -> dict[str, float]:
 
 
 def _past_dead_point(dead: float) -> dict[str, float]:
-    """Measure the angle between the axes within 2 s after the dead point, with a side force of 1 N beside the 50 N."""
+    """Measure the angle between the axes up to 2 s after the dead point, with a side force of 1 N beside the 50 N."""
     scene = shocked_scene((0, 0), (50, SIDE, 0))
     exact = after_shock(scene, PAPER_RUN)
     t = np.linspace(exact.t[0], shock_of(scene).at + dead + 2, 101)
@@ -225,7 +226,7 @@ def _past_dead_point(dead: float) -> dict[str, float]:
 
 
 def decide_c10(m: Mapping[str, float]) -> Finding:
-    """Decide by the tilts and the turning about the joint line after both shocks."""
+    """Decide by the tilt after both shocks, and by the angle turned about the joint line."""
     tilt, angle = m["shock_along_x_tilt_after_2.7_s_deg"], m["shock_along_y_turned_about_joint_line_rad"]
     topples, turns = tilt > TILTED and m["shock_along_y_tilt_deg"] > FLAT, angle > pi / 2
     if not topples:
@@ -248,8 +249,8 @@ def decide_c10(m: Mapping[str, float]) -> Finding:
         "turns about its own ground and not about the line through both, since |y| is at most "
         f"{scientific(m['shock_along_x_largest_y'])}. After a shock along y the pair turns about this line, by {angle:.2f} "
         f"rad within 6 s. Along x it reaches a dead point {m['dead_point_after_s']:.1f} s after the shock, where the bar and "
-        "both axes lie in one line and the constraint of the bar loses its rank. The further motion depends on the smallest "
-        f"side force and on the softness of the springs. With {SIDE:.0f} N along y beside the 50 N the exact pair tilts by at "
+        "both axes lie in one line and the constraint of the bar loses its rank. The further motion depends on arbitrarily small "
+        f"side forces and on the softness of the springs. With {SIDE:.0f} N along y beside the 50 N the exact pair tilts by at "
         f"most {m['side_1_N_tilt_deg']:.1f}° in 8 s; the angle between its axes reaches {m['side_1_N_axes_part_by_deg']:.0f}° "
         f"within 2 s after the dead point and {m['side_1_N_axes_part_by_deg_after_8_s']:.1f}° at the end. With springs of S = "
         f"10⁴, 10⁵, 10⁶ N/m it passes the dead point, to tilts of {tilts[0]:.0f}°, {tilts[1]:.0f}°, {tilts[2]:.0f}°; the "
@@ -259,12 +260,12 @@ def decide_c10(m: Mapping[str, float]) -> Finding:
 
 
 def _passage(t: Array, axes: Array) -> float:
-    """Return the time at which |x| of either axis first reaches FALLEN; infinity if it does not."""
+    """Return the first time at which |x| of either axis reaches 0.5; inf if it does not."""
     return min(first_passage(t, sign * x, FALLEN) for x in axes[..., 0] for sign in (1, -1))
 
 
 def fall(spins: Spins, force: Vector, seconds: float) -> float:
-    """Return the time in s after the shock's peak at which |x| first reaches FALLEN; infinity if later than `seconds`."""
+    """Return the time in s from the shock's peak until |x| first reaches 0.5; inf if that is later than `seconds`."""
     scene = shocked_scene(spins, force)
     at = shock_of(scene).at
     # Without spins, steps of two seconds end before the dead point at 90°.
@@ -281,14 +282,14 @@ def fall(spins: Spins, force: Vector, seconds: float) -> float:
 
 
 def _fall_of_springs(spins: Spins, force: Vector, seconds: float) -> float:
-    """Return the time of the fall, as `fall` does, with the paper's program."""
+    """Return the time in s from the shock's peak until |x| first reaches 0.5 in the paper's program; inf if it does not."""
     scene = shocked_scene(spins, force)
     t = np.round(np.arange(15, round(50 * (shock_of(scene).at + seconds))) * 0.02, 3)
     return _passage(t, paper_run(scene, np.append(0, t)).axes[:, 1:]) - shock_of(scene).at
 
 
 def measure_c11(spins: Spins) -> dict[str, float]:
-    """Measure the largest x, the turning and the time of the fall for the paper's shocks, and powers for other shocks."""
+    """Measure the largest |x|, the turning and the time of the fall after four shocks; fit powers of the force."""
     measured: dict[str, float] = {}
     falls = {name: fall(spins, force, WATCHED) for name, force in PAPER_SHOCKS.items()}
     for name, force in PAPER_SHOCKS.items():
@@ -311,7 +312,7 @@ def measure_c11(spins: Spins) -> dict[str, float]:
 
 
 def _powers_in_times(spins: Spins, plus_x: float, minus_y: float) -> dict[str, float]:
-    """Fit the powers of the shock in the times of falling and in the toppling rate."""
+    """Fit the times of falling, known for 50 N along +x and −y, and the toppling rate by powers of the force."""
     times_x = [plus_x, *(fall(spins, (f, 0, 0), WATCHED) for f in ALONG)]
     times_y = [minus_y, *(fall(spins, (0, -f, 0), WATCHED) for f in ACROSS)]
     rates = []
@@ -328,13 +329,13 @@ def _powers_in_times(spins: Spins, plus_x: float, minus_y: float) -> dict[str, f
 
 
 def _when(m: Mapping[str, float], name: str) -> str:
-    """Return the time of the fall after one of the paper's shocks in words."""
+    """Return in words when |x| passes 0.5 after one of the paper's shocks."""
     key = f"fallen_in_x_after_s_{name}"
     return f"after {m[key]:.2f} s" if key in m else f"not within {m[f'not_fallen_within_s_{name}']:.0f} s"
 
 
 def decide_c11(m: Mapping[str, float]) -> Finding:
-    """Decide by the time for which x stays below FALLEN, and by the turning and its rate after each of the four shocks."""
+    """Decide by how long |x| stays below 0.5, and by the angle and the rate of turning after each of the four shocks."""
     first = min((value for key, value in m.items() if key.startswith("fallen_in_x")), default=inf)
     x, angles = ([m[f"{key}_{name}"] for name in PAPER_SHOCKS] for key in ("largest_x", "turned_about_joint_line_rad"))
     rates = [abs(m[f"mean_turning_rate_rad_per_s_{name}"]) for name in PAPER_SHOCKS]
@@ -348,16 +349,16 @@ def decide_c11(m: Mapping[str, float]) -> Finding:
         Part(SLOWLY, max(per_turn) < SLOW),
     )
     how = (
-        f"{THRESHOLDS} In the 8 s of the paper's runs |x| reaches {x[0]:.2f}, {x[1]:.2f}, {x[2]:.2f}, {x[3]:.2f} for 50 N along "
-        f"+x, −x, +y, −y, while the pair turns about the joint line by {angles[0]:.2f}, {angles[1]:.2f}, {angles[2]:.2f}, "
+        f"{THRESHOLDS} In the 8 s of the paper's runs |x| reaches {x[0]:.2f}, {x[1]:.2f}, {x[2]:.2f} and {x[3]:.2f} for 50 N "
+        f"along +x, −x, +y and −y. The pair turns about the joint line by {angles[0]:.2f}, {angles[1]:.2f}, {angles[2]:.2f} and "
         f"{angles[3]:.2f} rad, at a mean rate of {min(per_turn):.2f} to {max(per_turn):.2f} rad per period of the natural rate."
     )
     if "power_of_shock_in_time_x" not in m:
         return Finding(parts, f"{how} x passes {FALLEN} {_when(m, '+x')} (+x) and {_when(m, '-y')} (−y).")
     return Finding(
         parts,
-        f"{how} After ±x it turns to the same side, at a rate proportional to F to the power "
-        f"{m['power_of_shock_in_toppling_rate_x']:.2f}. But x grows slowly: it passes {FALLEN} {_when(m, '+x')} (+x), "
+        f"{how} After shocks along +x and −x it turns to the same side, at a rate proportional to F to the power "
+        f"{m['power_of_shock_in_toppling_rate_x']:.2f}. But x grows slowly. It passes {FALLEN} {_when(m, '+x')} (+x), "
         f"{_when(m, '-x')} (−x), {_when(m, '-y')} (−y; with springs after {m['fallen_in_x_after_s_-y_springs']:.2f} s) and "
         f"{_when(m, '+y')} (+y). These times are proportional to F to the power {m['power_of_shock_in_time_x']:.1f} along x and "
         f"{m['power_of_shock_in_time_minus_y']:.1f} along −y.",
@@ -386,14 +387,14 @@ NO_MEAN = "r₁ and r₂ have on average no displacement in x"
 
 @dataclass(frozen=True)
 class Twistable:
-    """Inertia K (kg m²) of the bar, and of three bars that should prevent the twist."""
+    """The case of C12: the moment of inertia K (kg m²) of the bar, and those of three bars that should prevent the twist."""
 
     K: float = HEAVY_LINK.inertia
     stiffer: tuple[float, float, float] = STIFFER
 
 
 def measure_c12(case: Twistable) -> dict[str, float]:
-    """Measure x over its value without spins, the twist and the angle between the axes of opposite spins, with four bars."""
+    """Measure x relative to its value without spins, the twist and the angle between the axes, with four bars."""
     unspun = abs(after_shock(shocked_scene((0, 0), (50, 0, 0)), 2.4).axes[..., 0]).max()
     measured = {f"inertia_kg_m2_stiffer_{i}": K for i, K in enumerate(case.stiffer, 1)}
     for name, inertia in (("own", case.K), *((f"stiffer_{i}", K) for i, K in enumerate(case.stiffer, 1))):
@@ -410,7 +411,7 @@ def measure_c12(case: Twistable) -> dict[str, float]:
 
 
 def decide_c12(m: Mapping[str, float]) -> Finding:
-    """Decide by x relative to (7), the twist of the bar and the angle between the axes, also with the stiffest bar."""
+    """Decide by x relative to (7), the twist of the bar and the angle between the axes, with this bar and with the stiffest."""
     x, *ratios = (m[f"largest_x_over_unspun_{bar}"] for bar in ("own", "stiffer_1", "stiffer_2", "stiffer_3"))
     bars = [m[f"inertia_kg_m2_stiffer_{i}"] for i in (1, 2, 3)]
     untwisted = m["largest_twist_of_bar_rad_stiffer_3"] < _PARTED
@@ -421,24 +422,25 @@ def decide_c12(m: Mapping[str, float]) -> Finding:
             Part(PARTS, m["largest_angle_of_axes_rad_own"] > _PARTED),
             Part(CAUSE, untwisted and abs(ratios[-1] - 1) < _ALIKE),
         ),
-        f"Not parallel means by more than {_PARTED} rad, and equal means within a tenth. With this bar the link twists by "
-        f"{m['largest_twist_of_bar_rad_own']:.2f} rad within 2.4 s. The angle between the axes reaches "
-        f"{m['largest_angle_of_axes_rad_own']:.2f} rad ({m['largest_angle_of_axes_rad_8_s']:.2f} within 8 s), and x reaches "
-        f"{x:.2f} of its value without spins, which (7) predicts. With K = {bars[0]:g}, {bars[1]:g}, {bars[2]:g} kg m² against "
-        f"the twist it reaches {ratios[0]:.2f}, {ratios[1]:.2f}, {ratios[2]:.2f} of that value; the angle decreases to "
-        f"{m['largest_angle_of_axes_rad_stiffer_3']:.3f} rad. With ℓ = R the angle between the axes equals the twist of the bar.",
+        f"Axes count as parallel up to an angle of {_PARTED} rad, and values as equal if they differ by less than a tenth. With "
+        f"this bar the link twists by {m['largest_twist_of_bar_rad_own']:.2f} rad within 2.4 s. The angle between the axes "
+        f"reaches {m['largest_angle_of_axes_rad_own']:.2f} rad ({m['largest_angle_of_axes_rad_8_s']:.2f} within 8 s), and x "
+        f"reaches {x:.2f} of its value without spins, which (7) predicts. With moments of inertia K = {bars[0]:g}, {bars[1]:g}, "
+        f"{bars[2]:g} kg m², which resist the twist, x reaches {ratios[0]:.2f}, {ratios[1]:.2f}, {ratios[2]:.2f} of that value, "
+        f"and the angle decreases to {m['largest_angle_of_axes_rad_stiffer_3']:.3f} rad with the last. With ℓ = R the angle "
+        "between the axes equals the twist of the bar.",
     )
 
 
 def _mean_x(cycles: float, force: Vector) -> Array:
-    """Return the means (2,) of x_1 and x_2 over some periods of the natural rate, from the end of the shock."""
+    """Return the means (2,) of x_1 and x_2 over a number of periods of the natural rate, from the end of the shock."""
     run = after_shock(shocked_scene(OPPOSITE, force), 6.5)
     seconds = cycles * 2 * pi / natural_rate(run.scene)
     return mean_between(run.t, run.axes[..., 0].T, run.t[0], run.t[0] + seconds)
 
 
 def _powers_in_means(means: list[Array], name: str) -> dict[str, float]:
-    """Fit the powers of the shock in half the sum and half the difference of the means of x_1 and x_2."""
+    """Fit half the sum and half the difference of the means (one pair per force) by powers of the force."""
     both = np.array(means)
     components = {"common_mean": both.mean(1), "half_difference": (both[:, 0] - both[:, 1]) / 2}
     return {
@@ -448,7 +450,7 @@ def _powers_in_means(means: list[Array], name: str) -> dict[str, float]:
 
 
 def measure_c13(cycles: float) -> dict[str, float]:
-    """Measure the means of x_1 and x_2 after small shocks along x and y, their powers, and the means after 50 N."""
+    """Measure the means of x_1 and x_2 after small shocks along x and y, with their powers of the force, and after 50 N."""
     means_x, means_y = [_mean_x(cycles, (f, 0, 0)) for f in FORCES], [_mean_x(cycles, (0, f, 0)) for f in FORCES]
     scene = shocked_scene(OPPOSITE, (0, FORCES[0], 0))
     return {
@@ -464,7 +466,7 @@ def measure_c13(cycles: float) -> dict[str, float]:
 
 
 def decide_c13(m: Mapping[str, float]) -> Finding:
-    """Decide by the means of x_1 and x_2: zero, or of higher order in the shock, along and across the bar."""
+    """Decide by whether the means of x_1 and x_2 vanish, exactly or to first order in the shock, along and across the bar."""
     none = max(abs(value) for name, value in m.items() if "_mean_x" in name) < NONE
     vanishes_x, vanishes_y = (
         min(m[f"power_of_shock_{way}_in_{component}"] for component in ("common_mean", "half_difference")) > FASTER
@@ -473,13 +475,14 @@ def decide_c13(m: Mapping[str, float]) -> Finding:
     needs = "to first order in the shock" if vanishes_y else "the shock is along x, and to first order in it"
     return Finding(
         (Part(NO_MEAN, none, needs if vanishes_x else ""),),
-        "Means are over four periods of the natural rate. After 20 N along x the means of x₁ and x₂ are "
-        f"{m['shock_along_x_20_N_mean_x_1']:+.4f} and {m['shock_along_x_20_N_mean_x_2']:+.4f}. Half their sum is proportional to "
-        f"F to the power {m['power_of_shock_along_x_in_common_mean']:.2f}, half their difference to F to the power "
-        f"{m['power_of_shock_along_x_in_half_difference']:.2f}. After 5 N along y the mean is "
-        f"{m['shock_along_y_5_N_mean_x']:+.5f} (−PR/(2G), with P the impulse, gives {m['shock_along_y_5_N_predicted']:+.5f}), "
-        f"proportional to F to the power {m['power_of_shock_along_y_in_common_mean']:.2f}. After the paper's 50 N it is "
-        f"{m['shock_along_x_50_N_mean_x']:+.3f} along x and {m['shock_along_y_50_N_mean_x']:+.3f} along y.",
+        "The means are taken over four periods of the natural rate. After 20 N along x the means of x₁ and x₂ are "
+        f"{m['shock_along_x_20_N_mean_x_1']:+.4f} and {m['shock_along_x_20_N_mean_x_2']:+.4f}. Half their sum is proportional "
+        f"to F to the power {m['power_of_shock_along_x_in_common_mean']:.2f}, half their difference to F to the power "
+        f"{m['power_of_shock_along_x_in_half_difference']:.2f}. After 5 N along y the mean of x is "
+        f"{m['shock_along_y_5_N_mean_x']:+.5f} (−PR/(2G), with the impulse P, gives {m['shock_along_y_5_N_predicted']:+.5f}). "
+        f"It is proportional to F to the power {m['power_of_shock_along_y_in_common_mean']:.2f}. After the paper's 50 N the "
+        f"mean of x is {m['shock_along_x_50_N_mean_x']:+.3f} for a force along x and {m['shock_along_y_50_N_mean_x']:+.3f} for "
+        "one along y.",
     )
 
 
@@ -490,7 +493,7 @@ C12 = ClaimTest(
     {**dict.fromkeys((FAILS, TWISTS, PARTS), Twistable(1000.0)), CAUSE: Twistable(stiffer=(0.1, 0.2, 0.5))},
     "exact pair (spheres), bar m = 1 kg, K = 1 to 1000 kg m²", measure_c12, decide_c12,
     lambda case: axes_part(PARTS, Link(mass=1, inertia=case.K)) if case == Twistable() else (),
-    "the other parts compare runs with bars of several inertias, to one part in ten",
+    "they compare simulations with bars of several inertias, to one part in ten",
 )  # fmt: skip
 C13 = ClaimTest(
     "C13", 4.0, {NO_MEAN: 0.25}, "exact pair (spheres), bar m = 1 kg, K = 1 kg m²", measure_c13, decide_c13,
