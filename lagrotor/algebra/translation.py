@@ -481,7 +481,7 @@ class Translation:
         return symbol
 
     def _are_real(self, factors: list[tuple[sp.Expr, int]]) -> bool:
-        """Return True if each factor is known to be real. (A product can be real although its factors are not.)"""
+        """Return True if each factor is known to be real. A product can be real although its factors are not."""
         return all(is_real(self.restore(p), self.where) for p, _ in factors)
 
     def factors(self, u: sp.Expr) -> tuple[sp.Rational, list[tuple[sp.Expr, int]]]:

@@ -126,6 +126,12 @@ def vector_of(where: str, components: Any, n: int) -> tuple[sp.Expr, ...]:
     return tuple(expression(f"{where}[{i}]", e) for i, e in enumerate(components))
 
 
+def repeated_name(values: Mapping[Any, Any]) -> str:
+    """Return a name that two keys of a mapping have, for example a symbol and its name; "" if there is none."""
+    names = [str(key) for key in values]
+    return next((name for name in names if names.count(name) > 1), "")
+
+
 def by_symbol(where: str, values: Mapping[Any, Any], symbols: Iterable[sp.Symbol]) -> dict[Any, Any]:
     """Return {symbol: value} from a mapping by symbol or name; raise InputError for no mapping, or if a value is text."""
     if not isinstance(values, Mapping):
@@ -134,8 +140,8 @@ def by_symbol(where: str, values: Mapping[Any, Any], symbols: Iterable[sp.Symbol
         raise InputError(f"{where}: {text} is text: give a number or an expression")
     names = {str(s): s for s in symbols}
     by_key = {names.get(str(key), key): value for key, value in values.items()}
-    if len(by_key) < len(values):
-        raise InputError(f"{where} = {values}: a symbol and its name have two values: give one")
+    if twice := repeated_name(values):
+        raise InputError(f"{where}: {twice} is given twice, as a symbol and as a name: give one")
     return by_key
 
 

@@ -116,7 +116,7 @@ def coordinates(names: str | Sequence[str]) -> Coordinates:
     stems = names.replace(",", " ").split() if isinstance(names, str) else list(names)
     if strange := [stem for stem in stems if not isinstance(stem, str)]:
         raise InputError(f"coordinates: {strange[0]!r} must be a name: coordinates('phi theta psi')")
-    if odd := [e for e in stems if not re.fullmatch(r"\\?[^\W\d_][\w{}^'\\]*", e) or e.count("{") != e.count("}")]:
+    if odd := [e for e in stems if not re.fullmatch(r"\\?[^\W\d_]\S*", e) or e.count("{") != e.count("}")]:
         raise InputError(
             f"coordinates: {odd[0]!r} would be another symbol in a formula: a name begins with a letter, has no blanks, and "
             "closes its braces"

@@ -17,7 +17,7 @@ import sympy as sp
 
 from lagrotor.errors import ConstraintError, InputError, SingularError
 from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.expressions import in_order
+from lagrotor.mechanics.expressions import in_order, repeated_name
 from lagrotor.mechanics.lagrangian import Coordinates, coordinates, t
 from lagrotor.mechanics.running.programs import constrained_motion, depends_on_time
 from lagrotor.models.programs.minimal_program import FORCE, observation, program
@@ -223,8 +223,8 @@ def _numbers(name: str, values: Any, n: int) -> tuple[Ball, ...]:
 
 def _values(parameters: Sequence[sp.Symbol], values: Values) -> dict[sp.Symbol, Ball]:
     by_name = {str(key): value for key, value in values.items()}
-    if len(by_name) < len(values):
-        raise InputError(f"proofs: values = {values}: a symbol and its name have two values: give one")
+    if twice := repeated_name(values):
+        raise InputError(f"proofs: values give {twice} twice, as a symbol and as a name: give one")
     if missing := [str(p) for p in parameters if str(p) not in by_name]:
         raise InputError(f"proofs: {', '.join(missing)} has no value: give values = {{symbol: number, …}}")
     return {p: ball(by_name[str(p)], str(p)) for p in parameters}

@@ -317,7 +317,9 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "or give linearise a point": lambda: System(P, FLAT - sp.sqrt(x**2 + y**2)).equilibria(),
         "all coordinates are unknown": lambda: pendulum.equilibria("theta", box={q: (0, 1)}),
         r"equilibria: values = \[1, 2\]": lambda: boxed(values=[1, 2]),
-        "equilibria: g = inf must be a finite": lambda: boxed(values=VALUES | {"g": np.inf}),
+        "equilibria: g = inf must be a finite": lambda: boxed(
+            values={str(s): x for s, x in VALUES.items()} | {"g": np.inf}
+        ),
         "values name z": lambda: boxed(values=VALUES | {"z": 1}),
         "g without a value: in a box": lambda: boxed(values={m: 1, l: 1}),
         "box = {} must be": lambda: boxed(box={}),

@@ -15,7 +15,7 @@ from sympy.core.function import AppliedUndef, UndefinedFunction
 
 from lagrotor.errors import InputError, IntegrationError, near
 from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.expressions import expression, unknown_functions, with_jets
+from lagrotor.mechanics.expressions import expression, repeated_name, unknown_functions, with_jets
 from lagrotor.mechanics.lagrangian import t
 from lagrotor.mechanics.running.switches import Event, Impact
 from lagrotor.numerics.arrays import Array as Array
@@ -105,15 +105,15 @@ def put_functions(where: str, system: Kind, values: Any, others: Sequence[sp.Exp
     if len(by_function) < len(values):
         raise InputError(f"{where}: a function has two values, as U and as U(x): give one")
     values = by_function
-    if len({str(key) for key in values}) < len(values):
-        raise InputError(f"{where}: values = {values}: a symbol and its name have two values: give one")
+    if letters := sorted(functions.keys() & {str(s) for e in expressions for s in e.free_symbols}):
+        raise InputError(f"{where}: {letters[0]} is a symbol of the system and a function in it: rename one")
+    if twice := repeated_name(values):
+        raise InputError(f"{where}: values give {twice} twice, under its symbol and under its name: give one")
     if not (functions or any(isinstance(key, UndefinedFunction) for key in values)):
         return system, values
     named = {
         str(key): value for key, value in values.items() if isinstance(key, UndefinedFunction) or str(key) in functions
     }
-    if letters := sorted(functions.keys() & {str(s) for e in expressions for s in e.free_symbols}):
-        raise InputError(f"{where}: {letters[0]} is a symbol of the system and a function in it: rename one")
     if strangers := sorted(named.keys() - functions.keys()):
         raise InputError(
             f"{where}: values name the function {strangers[0]}, which the system does not have{near(strangers[0], functions)}"
