@@ -118,7 +118,8 @@ verdict(
     wrong="The product is 5.7, not 0.57, and no bar listed in the paper has this rate.",
     uses=["5.25"],
     evidence=[
-        f"The natural frequency is {listed}. The last two bars mix the mass and the inertia of the listed bars.",
+        f"The natural frequency is {listed}. Each of the last two bars has the mass of one listed bar and the inertia "
+        "of the other.",
         f"With a bar of 1 kg the rate is {float(product)} rad/s for K = {of_a_kilogram:.4f} kg m².",
         "The constant of equal spins does not apply, because opposite spins twist the bar, so that its inertia matters.",
     ],

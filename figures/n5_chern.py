@@ -65,8 +65,9 @@ CAPTION = (
     f"{SPRING:g} N/m, and the spins are {SPIN:g} rad/s. The bulk has a gap from {_low:.2f} to {_high:.2f} rad/s, and the band "
     f"below it has the Chern number {signed(_number)}. Right: the bars are rigid, one joint of four is displaced by 0.3 m along "
     f"both axes, and the spins alternate between {SPIN:g} and {SPIN / 3:g} rad/s. The gap is from {_low_2:.2f} to {_high_2:.2f} "
-    f"rad/s, and the Chern number is {signed(_number_2)}. The dashed lines bound the gaps. Coloured waves are within "
-    f"{100 * NEAR:.0f} % of the width from a border. The net number of rising curves across the gap is {signed(_first)} at the "
+    f"rad/s, and the Chern number is {signed(_number_2)}. The dashed lines bound the gaps. Colour marks the waves whose "
+    f"mean position is closer to a border than {100 * NEAR:.0f} % of the width. "
+    f"The net number of rising curves across the gap is {signed(_first)} at the "
     f"first border and {signed(_last)} at the last."
 )
 

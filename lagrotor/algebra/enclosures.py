@@ -426,7 +426,10 @@ def enclosures(expressions: Iterable[sp.Expr], point: Mapping[sp.Symbol, Any]) -
 
 
 def _evalf(e: sp.Expr, precision: int, options: Any) -> tuple[Any, ...]:
-    """Return (re, im, bits of re, bits of im), as sympy's `evalf_table` requires; without an enclosure sympy evaluates."""
+    """Return (re, im, bits of re, bits of im), as sympy's `evalf_table` requires.
+
+    If there is no enclosure, the value of sympy is used.
+    """
     sides = None
     for number in (precision, 2 * precision + 60, 4 * precision + 600):
         with working_digits(number), suppress(NotExactError, RecursionError):

@@ -204,7 +204,7 @@ class Equations:
 
     @property
     def _letters(self) -> tuple[Any, ...]:
-        """The groups of symbols and expressions of the system, in which no two symbols may have the same name."""
+        """The symbols and expressions of the system, in groups; across all of them a name belongs to one symbol."""
         moving = self.c.q, self.c.v, self.c.a, t
         return *moving, self.acting, self.velocities, self.letters if self.bodies else ()
 

@@ -466,8 +466,8 @@ def oscillation(
     K, M = _stiffness_and_mass(terms, f"{system.c.q[0]} = {equilibrium}")
     if inside and any(sum(powers) > 1 and n == 0 for n, *powers in terms):
         raise InputError(
-            f"lindstedt_poincare: the equation is not linear where {small} = 0: take the amplitude for the small quantity, "
-            "with a symbol that the system does not have"
+            f"lindstedt_poincare: the equation is not linear where {small} = 0: to expand in the amplitude instead, "
+            "give a symbol that the system does not contain as the small quantity"
         )
     field, convert = _field([*terms.values(), *([A] if inside else [])])
     coefficients = [((n, i, j // 2, k), convert(e / K)) for (n, i, j, k), e in terms.items()]

@@ -54,7 +54,7 @@ def _axes() -> str:
 
 
 def _kind(scene: Scene, driven: bool) -> tuple[Kind, tuple[float, ...]]:
-    """Return the kind of program of the scene, and the values of its parameters except the force of the shock."""
+    """Return which generated program runs the scene, and the values of its parameters without the force of the shock."""
     inertia_a, inertia_b = scene.inertias
     massive = inertia_b != 0
     body = scene.shock.body if driven and scene.shock else 0

@@ -382,7 +382,7 @@ def _first_nodes(
 
 def adams(segment: Segment, error: float) -> Stretch:
     """Solve the segment by the Adams predictor and corrector in equal steps, whose length follows from the difference of the two.
-    Raise StopError if the cost far exceeds the completed share of the budget, or if shorter steps have no smaller error. In the
+    Raise StopError if the evaluations so far imply far more than the budget, or if shorter steps have no smaller error. In the
     latter case the right-hand side is not accurate enough."""
     t_eval, right, y, t, longest = segment.t_eval, segment.until, segment.start, segment.begin, segment.longest
     q, limit = adams_order(error), min(100 * error, 1e-3)  # at order 10, steps with a larger difference are unstable

@@ -308,7 +308,10 @@ def _steps(e: sp.Expr, small: tuple[sp.Symbol, ...], domain: _Known) -> tuple[_S
 
 
 def _kernel(e: sp.Expr, letter: sp.Symbol) -> sp.Expr | None:
-    """Return the expression in which an equation may be linear: the symbol or its only function or power; else None."""
+    """Return the expression in which an equation may be linear, None if there is none.
+
+    This is the symbol x, or its function or power, such as sin x or x², if x occurs nowhere else.
+    """
     inside = {node for node in sp.preorder_traversal(e) if letter in node.args and not (node.is_Add or node.is_Mul)}
     if not inside:
         return letter

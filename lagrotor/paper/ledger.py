@@ -160,7 +160,7 @@ def _union(lines: Iterable[LineVerdict], offered: tuple[Premise, ...]) -> tuple[
 
 
 def _line(relation: Relation, offered: tuple[Premise, ...], glossary: Glossary) -> LineVerdict:
-    """Return the verdict on one member of a printed line, under as few of the offered premises as possible."""
+    """Return the verdict on one equation of a printed line; of the offered premises it assumes only those that it needs."""
     if relation.theorem is not None and relation.theorem.bounds is not None:
         return _verdict(relation, _enclosed(relation, *relation.theorem.bounds), (), glossary)
     assumed = (*offered, *relation.scene_premises)

@@ -135,7 +135,8 @@ class Accuracy:
 def step_of(
     motion: Motion, node: Node, w: Balls, h: Ball, accuracy: Accuracy, rows: Sequence[Balls] | None = None
 ) -> LohnerStep:
-    """Return the step of length h. Raises RemainderError if its remainder is not bounded, or far above the tolerance.
+    """Return the step of length h. Raises RemainderError if no bound of its remainder is known, or if the bound is
+    far above the tolerance.
 
     A pulse that begins within the step does not appear in the Taylor terms at its start, but the remainder bound includes it.
     """

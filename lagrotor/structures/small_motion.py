@@ -156,7 +156,8 @@ class SmallMotion:
 
     @property
     def first_order(self) -> Matrix:
-        """The matrix W, (2n, 2n), of the first-order system z' = W z with z = (q, q') in the time rate × t."""
+        """The matrix W, (2n, 2n), of the first-order system z' = W z with z = (q, q'), where the prime is the derivative by the
+        dimensionless time rate · t."""
         n, unit = self.dof, self.rate
         below = np.concatenate([self.stiffness / -(unit**2), (self.damping + self.gyroscopic) / -unit], axis=-1)
         W = np.zeros((*below.shape[:-2], 2 * n, 2 * n), dtype=below.dtype)
@@ -186,7 +187,8 @@ class SmallMotion:
     def _neutral(self) -> tuple[int, int, int]:
         """The dimensions of three nested spaces of motions v.
 
-        In the first space K v = 0. In the second no spin acts within the first space. In the third no friction acts either.
+        The first space has K v = 0. The second has those v of it for which the gyroscopic matrix, restricted to the first
+        space, vanishes. The third has those v of the second for which the restricted friction matrix vanishes, too.
 
         Zero is a root once for each dimension of the first space, and once more for each of the third.
         """

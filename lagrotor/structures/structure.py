@@ -407,7 +407,7 @@ class Structure(Assembly):
         rates : array_like
             The angular frequencies (n,), rad/s.
         force : array_like or None, optional
-            The amplitude (x, y) on the tip `at`, or (N, 2) on all tips, N. It may be complex.
+            The amplitude in newtons: (x, y) on the tip `at`, or one row for each tip, shape (N, 2). It may be complex.
         at : int or None, optional
             The rotor whose tip bears the force.
         ground : array_like or None, optional

@@ -50,8 +50,10 @@ def constraint_drift(scene: Scene, step: float, count: int, every: int, projecte
 
 
 def drift_limits(quick: bool) -> list[Limit]:
-    """Return the limits of the drift of `spheres` as powers of time and step. The model sets only the second derivatives of the
-    constraints to zero."""
+    """Return how the constraint residual of `spheres` grows: its exponents in time and step size, and the limits that follow.
+
+    It grows because the model sets only the second derivatives of the constraints to zero.
+    """
     step, end, allowed = 0.005, 16.0, 1e-6
     steps = np.array([4, 2, 1]) * step
     ends = np.array([constraint_drift(DRIFTING, h, round(end / h), round(end / h))[0] for h in steps])

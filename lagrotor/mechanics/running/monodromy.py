@@ -117,8 +117,11 @@ def monodromy_matrix(system: Equations, at: Mapping[Any, Any], values: Values, p
     windows = windows_since(begin, clock_windows(system, values, begin + np.array([0.0, duration])))
 
     def factors(pieces: int, local: float) -> list[Array]:
-        """Return matrices whose product is Φ, the first acting first: one for each of `pieces` parts of the period, and two at
-        its ends. Between them displacements are given in orthonormal directions."""
+        """Return matrices whose product is Φ, the first acting first.
+
+        The first changes to an orthonormal basis, one follows for each of `pieces` parts of the period, and the last
+        changes back.
+        """
         (basis, upper), y = np.linalg.qr(P @ T), start
         triangles = [upper]
         for a, b in pairwise(np.linspace(0, duration, pieces + 1)):

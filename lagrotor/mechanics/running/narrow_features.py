@@ -86,8 +86,10 @@ def with_followed(scale: Array, followed: Sequence[NarrowPart], local: float, co
 def narrow_parts(
     system: Equations, values: Mapping[Any, Any], states: Array, section: sp.Expr | None = None
 ) -> tuple[NarrowPart, ...]:
-    """Return the terms of the system, or of a section if one is given, that are narrow along the states (n, d). A state is (q, u)
-    or (q, u, t)."""
+    """Return the terms that change sharply between neighbouring states of a run, which have the shape (n, d).
+
+    They are terms of the system, or of the function `section` if it is given. A state is (q, u) or (q, u, t).
+    """
     candidates = (_with_edge(system, values, candidate, states) for candidate in _parts(system, section))
     return tuple(candidate for candidate in candidates if _narrowness(system, values, candidate, states) > MOST)
 

@@ -602,7 +602,7 @@ class Grammar:
         ends = [*map(self.expression, (below[2:], box.sup))] if below[2:] and box.sup else []
         signs = [b.name for b in below[1:2]]
         if not below or below[0].kind != "letter" or signs != ["="] * len(ends[:1]) or bool(box.sup) != bool(ends):
-            raise FormulaError("the range of the sum is not clear", r"write \sum_{i=1}^{n}")
+            raise FormulaError("the limits of the sum are not clear", r"write \sum_{i=1}^{n}")
         self.bound.append(below[0].name)
         try:
             return Call(BIG[box.name], (self.term(terms), self.letter(below[0]), *ends)), len(row)

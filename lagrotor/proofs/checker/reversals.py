@@ -182,7 +182,10 @@ class Residues:
         return self._variable(value, degree)
 
     def _exponential(self, terms: Terms) -> Residue:
-        """Return e^Σ of a linear form Σ: e^(x a) is a power of e^(a/5040), e^(x log a) of a, as far as x allows."""
+        """Return e^Σ of a linear form Σ. A term x a gives the power 5040 x of e^(a/5040), a term x log a the power x of a.
+
+        A fractional rest of the exponent is a variable of its own.
+        """
         product = self._number(Fraction(1))
         for variable, x in terms.items():
             of_log = variable in self._arguments

@@ -186,7 +186,7 @@ class LagrangianOfWords:
         return rows
 
     def energy(self) -> int:
-        """Return the place of the energy v·∂L/∂v − L."""
+        """Return the index on the tape of the energy v·∂L/∂v − L."""
         words, total = self.words, self.words.keep("subtract", self.words.keep("number", "0"), self.L)
         for v, p in zip(self.v, self.by(self.L, self.v), strict=True):
             total = words.keep("add", total, words.keep("multiply", v, p))

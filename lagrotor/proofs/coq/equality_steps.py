@@ -389,7 +389,7 @@ class Sides:
         return numerator.div([ring.from_expr(sp.expand(r.zero)) for r in self.relations])
 
     def _equal(self, lhs: sp.Expr, rhs: sp.Expr) -> str:
-        """Return the tactics that close a goal between two values in generators. Raises NotExactError if they differ."""
+        """Return the tactics that prove lhs = rhs, both in the generators. Raises NotExactError if they differ."""
         difference = self._fraction(lhs - rhs)
         if not difference.numerator:
             return "same."

@@ -75,7 +75,10 @@ def equation_entry(verdict: Verdict, report: Report) -> str:
 
 
 def reading_of(entry: Equation, report: Report) -> str:
-    """Return the reading of an equation from a LaTeX source, typeset, and whether it is confirmed; else ""."""
+    """Return as HTML how the LaTeX of an equation was read, and whether the author has confirmed it.
+
+    The text is empty for an equation without LaTeX.
+    """
     if not entry.read:
         return ""
     lines = "".join(map(typeset, typeset_lines(report.paper, entry.id)))

@@ -54,8 +54,10 @@ class Bloch:
         return _wave_sum(q, self.apart, self.blocks), np.where(small, 0, rows)
 
     def motions(self, q: Array) -> Iterator[tuple[NDArray[np.intp], SmallMotion]]:
-        """Yield pairs (places, system), one for each number of degrees of freedom that occurs at the q (n_q, d). `places` are
-        the indices of the wave numbers with this number, and the system has them as its leading axis."""
+        """Group the wave vectors q, shape (n_q, d), by their number of degrees of freedom.
+
+        Each group gives (places, system): the indices of its wave vectors, and the system at these, along its leading axis.
+        """
         forms, rows = self.at(q)
         ranks, vectors = left_by(rows)
         for rank in np.unique(ranks):

@@ -44,7 +44,7 @@ class _Phases:
     rate: Array
 
     def apart(self, f: Polynomial, shift: tuple[int, ...]) -> Polynomial:
-        """Return the polynomial f as it holds in the cell `shift` steps away, with the phase of each term shifted."""
+        """Translate the polynomial f by `shift` cells: each term gets the phase that its wave gains over this distance."""
         return f.times(np.exp(1j * (f.exponents @ self.q @ np.array(shift))))
 
     def slope(self, f: Polynomial) -> Polynomial:

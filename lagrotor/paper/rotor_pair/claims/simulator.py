@@ -445,7 +445,8 @@ def decide_c08(m: Mapping[str, float]) -> Finding:
         ),
         f"{PRINTED['before'].rule} J, {PRINTED['after'].rule} J. The energy rises from {m['before_J']:.2f} to "
         f"{m['highest_springs_J']:.4f} J with springs and to {m['after_exact_J']:.4f} J in the exact model. The closed form "
-        f"P²R²/(4(a + b)), with the width of the pulse, gives {m['after_closed_form_J']:.4f} J. The exact pair then conserves "
+        f"P²R²/(4(a + b)), corrected for the width of the pulse, gives {m['after_closed_form_J']:.4f} J. The exact "
+        "pair then conserves "
         f"the energy to {scientific(m['swing_in_8_s_exact_J'])} J, while the dampers of the springs dissipate "
         f"{m['lost_in_8_s_springs_J']:.4f} J in 8 s. S = {m['stiffness_N_per_m']:.0f} N/m and D = {m['damping_kg_per_s']:.0f} "
         f"kg/s (n = {N}, ω_s = {OMEGA_S:.0f} rad/s) are stable up to a step of {m['step_limit_ms']:.2f} ms. With this ω_s, the "
