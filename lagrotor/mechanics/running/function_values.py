@@ -105,7 +105,8 @@ def put_functions(where: str, system: Kind, values: Any, others: Sequence[sp.Exp
     if len(by_function) < len(values):
         raise InputError(f"{where}: a function has two values, as U and as U(x): give one")
     values = by_function
-    if letters := sorted(functions.keys() & {str(s) for e in expressions for s in e.free_symbols}):
+    # A long Lagrangian shares its subexpressions: its symbols are not counted where no function needs them.
+    if letters := functions and sorted(functions.keys() & {str(s) for e in expressions for s in e.free_symbols}):
         raise InputError(f"{where}: {letters[0]} is a symbol of the system and a function in it: rename one")
     if twice := repeated_name(values):
         raise InputError(f"{where}: values give {twice} twice, under its symbol and under its name: give one")
