@@ -272,7 +272,10 @@ class Equations:
 
     @cached_property
     def mass_matrix(self) -> sp.Matrix:
-        """The mass matrix M = ∂²L/∂v∂v, shape (n, n): M a = forcing, with constraints M a = forcing + Gᵀ λ."""
+        """The mass matrix M = ∂²L/∂v∂v, shape (n, n): M a = forcing + Gᵀ λ.
+
+        It belongs to the velocities v, also in a system with quasi-velocities.
+        """
         return free.mass_matrix(self.L, self.c).as_immutable()
 
     @cached_property

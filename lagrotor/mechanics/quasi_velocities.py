@@ -182,8 +182,8 @@ def inverse_of(
             solving, normal = solve_symmetric(gram, sp.eye(len(rows)), f"{prefix}{number}")
             stages += solving
             block_inverse = block.T * normal
-        known = K.extract(rows, solved) * inverse.extract(solved, list(range(n)))
-        right = sp.eye(n).extract(rows, list(range(n))) - known
+        substituted = K.extract(rows, solved) * inverse.extract(solved, list(range(n)))
+        right = sp.eye(n).extract(rows, list(range(n))) - substituted
         for i, line in enumerate((block_inverse * right).tolist()):
             inverse[columns[i], :] = sp.Matrix([[short(e) for e in line]])
         solved += columns

@@ -320,7 +320,7 @@ class System(Equations):
             Names of the symbols to solve for; the coordinates by default. In a system from `routh` a momentum may be unknown:
             solving for p_phi gives the momentum of the steady motion at every inclination.
         values : mapping or None, optional
-            {symbol: number} for all parameters.
+            {symbol or name: number} for all parameters.
         box : mapping or None, optional
             {coordinate: (lowest, highest)} for each coordinate.
 
@@ -407,8 +407,8 @@ class System(Equations):
         >>> from lagrotor.mechanics import coordinates
         >>> c, polar = coordinates("x y"), coordinates("theta")
         >>> plane = System(c, (c.x_dot**2 + c.y_dot**2) / 2 + 9 * c.x, constraints=(c.x**2 + c.y**2 - 1,))
-        >>> plane.in_coordinates(polar, {c.x: cos(polar.theta), c.y: sin(polar.theta)}).motion[0].simplify()
-        theta_ddot + 9*sin(theta)
+        >>> plane.in_coordinates(polar, {c.x: cos(polar.theta), c.y: sin(polar.theta)}).equilibria()[0].at
+        {theta: 0}
         """
         return symmetry.in_coordinates(self, c, where)
 
@@ -526,7 +526,7 @@ class System(Equations):
         at : mapping or Equilibrium
             {coordinate or velocity: value}; velocities that are not named are zero.
         values : mapping or None, optional
-            {symbol: number} for all parameters.
+            {symbol or name: number} for all parameters.
         inputs : sequence, default ()
             Parameters u of the system. They are zero at the point unless `at` or `values` names them.
         outputs : sequence, default ()
@@ -589,7 +589,7 @@ class System(Equations):
             {coordinate or velocity: value} at t = 0, or at the time that `at` gives for t. Rest in a driven system is a
             periodic motion, too.
         values : mapping
-            {symbol: number} for all parameters.
+            {symbol or name: number} for all parameters.
         period : float
             The period of the motion in s; for a state of rest, the period of the drive.
 
@@ -629,7 +629,7 @@ class System(Equations):
         at : mapping
             {coordinate or velocity: value}, which may be expressions in the symbol.
         values : mapping
-            {symbol: number} for the other parameters.
+            {symbol or name: number} for the other parameters.
         symbol : Symbol or str
             The parameter that changes.
         numbers : array_like
@@ -666,7 +666,7 @@ class System(Equations):
         at : mapping
             {coordinate or velocity: value}, which may be expressions in the symbols.
         values : mapping
-            {symbol: number} for the other parameters.
+            {symbol or name: number} for the other parameters.
         numbers : mapping
             {symbol: increasing numbers} of two symbols.
         period : optional
@@ -699,16 +699,16 @@ class System(Equations):
         Parameters
         ----------
         values : mapping
-            {symbol: number} for all parameters.
+            {symbol or name: number} for all parameters.
         q0, v0 : array_like or mapping
-            Coordinates and velocities, shape (n,), or {symbol or name: number} for each.
+            Coordinates, shape (n,), and velocities (n,) or quasi-velocities (m,), or {symbol or name: number} for each.
         t : float, default 0.0
             The time in s.
 
         Returns
         -------
         tuple of ndarray
-            q and v, each of shape (n,).
+            q, shape (n,), and v (n,), or the quasi-velocities u (m,).
 
         Raises
         ------
@@ -738,14 +738,14 @@ class System(Equations):
         Parameters
         ----------
         values : mapping
-            {symbol: number} for all parameters.
+            {symbol or name: number} for all parameters.
         engine : Engine, default 'core'
             "core", or "fast" with heyoka.
 
         Returns
         -------
         callable
-            (t, y) → y' for the state y = (q, v), 2 n numbers each.
+            (t, y) → y' for the state y = (q, v), 2 n numbers, or (q, u), n + m numbers, with m quasi-velocities u.
 
         Examples
         --------
@@ -792,9 +792,9 @@ class System(Equations):
         t : array_like
             Increasing times in s, shape (k,).
         tol : float, default 1e-09
-            The largest error of the whole run, relative to the sizes of coordinates and velocities. The error is estimated in
-            `run.error` and `run.errors`, and it is below `tol` until the time `run.horizon`. If that is before the end, a
-            LagrotorWarning is given.
+            The largest error of the whole run, from 1e-13 to 0.1, relative to the sizes of coordinates and velocities.
+            `run.error` and `run.errors` estimate it. It is below `tol` until the time `run.horizon`; a LagrotorWarning says so
+            if that is before the end.
         engine : Engine, default 'core'
             "core", or "fast" with heyoka.
         events : Event, Impact or sequence, default ()
@@ -809,6 +809,8 @@ class System(Equations):
 
         Raises
         ------
+        InputError
+            For a missing or impossible value, start, time, tolerance or event.
         ConstraintError
             For a start off the constraints.
         SingularError

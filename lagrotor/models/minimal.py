@@ -87,7 +87,7 @@ def _start(scene: Scene) -> Array:
     twist = (alpha[1] - alpha[0] + np.pi) % (2 * np.pi) - np.pi
     w, twist_v, w_v = u[0] - u[1], alpha_v[1] - alpha_v[0], u_v[0] - u_v[1]
     if ratio == "short":
-        # Where the bar begins to fold over, Delta has an extremum, but chi and w continue: take the rate from both.
+        # Delta has an extremum where the bar begins to fold over, but chi and w continue: take the rate from both.
         rho, c, s = value * cosh(w) - sinh(w), np.cos(twist), sin(twist)
         chi = atan2(s, rho)
         chi_v = (rho / c * twist_v + s / c * w_v) / ((rho**2 + s**2) / c**2)

@@ -276,8 +276,8 @@ def confirm(folder: Path, ids: Iterable[str]) -> list[str]:
     for identifier in identifiers:
         row = rows.get(identifier)
         if row is None:
-            known = ", ".join(list(rows)[:8])
-            raise InputError(f"{file}: there is no equation {identifier!r}: give one of its ids, {known} …")
+            first_ids = ", ".join(list(rows)[:8])
+            raise InputError(f"{file}: there is no equation {identifier!r}: give one of its ids, {first_ids} …")
         if row.get("read") == "gone":
             raise InputError(f"equation {identifier} is no longer in the source: leave it out of --confirm")
         if not row.get("line"):
