@@ -10,7 +10,7 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, replace
 from pathlib import Path
 
-from benchmarks.compiled_solvers import CANDIDATES
+from benchmarks.compiled_solvers import COMPILED
 from benchmarks.machine import machine, versions
 from benchmarks.peers import PEERS
 from lagrotor.benchmark.records import SPEED, stamp
@@ -22,7 +22,7 @@ from lagrotor.files import write_beside, write_text
 from lagrotor.pictures.benchmark_figures import speed_chart
 from lagrotor.process_settings import begin_process
 
-ALL_METHODS: dict[str, Method] = METHODS | CANDIDATES | PEERS
+ALL_METHODS: dict[str, Method] = METHODS | COMPILED | PEERS
 _SAMPLES = 7
 _ERRORS = (1e-6, 1e-8, 1e-10, 1e-12, 1e-13)
 
