@@ -67,61 +67,76 @@ def cyrk(scene: Scene, t_eval: Array) -> Runner:
     return run
 
 
+def _stages(rhs: Callable[..., Any]) -> tuple[Callable[..., Any], Callable[..., Any]]:
+    """The weighted sum of the rows of an array (n, 6), and the function that fills rows of it with stages, both compiled."""
+    import numba
+    from scipy.integrate import DOP853
+
+    A = np.zeros((16, 16))  # row 12 ends the step, and the last three are for dense output
+    A[:12, :12], A[12, :12], A[13:] = DOP853.A[:12, :12], DOP853.B, DOP853.A_EXTRA
+
+    @numba.njit
+    def weighted(K, weights):  # type: ignore[no-untyped-def]
+        total = np.zeros(6)
+        for i in range(len(weights)):  # a loop, since a matrix product of this size is slower
+            if weights[i] != 0:
+                for j in range(6):
+                    total[j] += weights[i] * K[i, j]
+        return total
+
+    @numba.njit
+    def fill(K, y, h, first, last):  # type: ignore[no-untyped-def]
+        for i in range(first, last):
+            place = y + h * weighted(K, A[i, :i])
+            K[i] = np.array(rhs(place))
+        return place
+
+    return weighted, fill
+
+
 def numba_dop853(scene: Scene, t_eval: Array) -> Runner:
     """DOP853 with scipy's coefficients and error norm, its loop compiled by numba. Local error: a tenth of tol."""
     import numba
     from scipy.integrate import DOP853
 
     rhs, start = _compiled(scene), minimal.MODEL.start(scene)
-    A = np.zeros((16, 16))  # of the stages; row 12 ends the step, and the last three are for dense output
-    A[:12, :12], A[12, :12], A[13:] = DOP853.A[:12, :12], DOP853.B, DOP853.A_EXTRA
+    weighted, fill = _stages(rhs)
     E3, E5, D = DOP853.E3, DOP853.E5, DOP853.D
 
     @numba.njit
-    def weighted(K, weights):  # type: ignore[no-untyped-def]
-        total = np.zeros(6)  # a loop: a product of so small matrices is slower
-        for weight, row in zip(weights, K):  # noqa: B905 -- numba's zip is not strict
-            if weight != 0:
-                for j in range(6):
-                    total[j] += weight * row[j]
-        return total
-
-    @numba.njit
-    def stages(K, y, h, first, last):  # type: ignore[no-untyped-def]
-        for i in range(first, last):
-            K[i] = np.array(rhs(y + h * weighted(K, A[i, :i])))
+    def read(K, y, end, h, x, states):  # type: ignore[no-untyped-def]
+        F = np.empty((7, 6))
+        F[0], F[1], F[2] = end - y, h * K[0] - (end - y), 2 * (end - y) - h * (K[12] + K[0])
+        for i in range(4):
+            F[3 + i] = h * weighted(K, D[i])
+        for k in range(len(x)):
+            value = np.zeros(6)
+            for i in range(6, -1, -1):
+                value = (value + F[i]) * (x[k] if i % 2 == 0 else 1 - x[k])
+            states[k] = y + value
 
     @numba.njit
     def solve(y, times, tol):  # type: ignore[no-untyped-def]
-        states, K, F = np.empty((len(times), 6)), np.empty((16, 6)), np.empty((7, 6))
-        read, t, end, used = 0, times[0], times[-1], 1
+        states, K = np.empty((len(times), 6)), np.empty((16, 6))
+        first, t, end, used = 0, times[0], times[-1], 1
         K[0] = np.array(rhs(y))
         h, least = 0.5 * tol**0.125 / np.abs(K[0]).max(), 1e-14 * (end - t)
-        while read < len(times) and h > least:
-            h = min(h, end - t) if t < end else h
-            stages(K, y, h, 1, 13)
-            later, after = y + h * weighted(K, A[12, :12]), end if h == end - t else t + h
-            used += 12
+        while first < len(times) and h > least:
+            after = min(t + h, end)
+            h = after - t
+            later, used = fill(K, y, h, 1, 13), used + 12
             scale = tol * (1 + np.maximum(np.abs(y), np.abs(later)))
             fifth, third = ((weighted(K, E5) / scale) ** 2).sum(), ((weighted(K, E3) / scale) ** 2).sum()
-            size = h * fifth / np.sqrt((fifth + 0.01 * third) * 6) if fifth > 0 else 0.0
+            size = h * fifth / np.sqrt((fifth + 0.01 * third) * 6) if fifth > 0 else 1e-10
             if size < 1:
-                if times[read] <= after:
-                    stages(K, y, h, 13, 16)
-                    used += 3
-                    change = later - y
-                    F[0], F[1], F[2] = change, h * K[0] - change, 2 * change - h * (K[12] + K[0])
-                    for i in range(4):
-                        F[3 + i] = h * weighted(K, D[i])
-                while read < len(times) and times[read] <= after:
-                    x, value = (times[read] - t) / h, np.zeros(6)
-                    for i in range(6, -1, -1):
-                        value = (value + F[i]) * (x if i % 2 == 0 else 1 - x)
-                    states[read] = y + value
-                    read += 1
+                last = np.searchsorted(times, after, side="right")
+                if last > first:
+                    fill(K, y, h, 13, 16)
+                    read(K, y, later, h, (times[first:last] - t) / h, states[first:last])
+                    first, used = last, used + 3
                 t, y, K[0] = after, later, K[12]
-            h *= min(10.0, max(0.2, 0.9 * size**-0.125)) if size > 0 else 10.0
-        return states[:read], used
+            h *= min(10.0, max(0.2, 0.9 * size**-0.125))
+        return states[:first], used
 
     def run(tol: float) -> tuple[Array, int]:
         states, evaluations = solve(start, t_eval, tol / 10)

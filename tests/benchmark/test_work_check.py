@@ -67,7 +67,7 @@ RUNS: dict[str, tuple[Any, str, int, Callable[[], object]]] = {
 @pytest.mark.parametrize("name", RUNS)
 def test_a_limit_of_a_run_without_length_is_not_reported(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     module, run, place, work = RUNS[name]
-    monkeypatch.setattr(throughput, "_RUN", 0.1)
+    monkeypatch.setattr(throughput, "DURATION", 0.1)
     work()
     monkeypatch.setattr(module, run, _only_start(getattr(module, run), place))
     if name == "pole":
