@@ -1,12 +1,14 @@
 """Rows of runs in this process: single runs and sweeps beside heyoka alone, sweeps beside an older checkout, `auto` beside the
-model that it chooses."""
+model that it chooses, and chains of rotors beside shorter ones."""
 
 import json
 import subprocess
 import sys
 import warnings
 from collections.abc import Callable
+from contextlib import suppress
 from functools import partial
+from importlib.util import find_spec
 from itertools import count
 from pathlib import Path
 from typing import Any
@@ -17,6 +19,7 @@ from numpy.typing import NDArray
 from benchmarks.full_equations import heyoka_alone, heyoka_lanes
 from benchmarks.ratios.pairs import Pairs, Row, at_equal_error, seconds
 from benchmarks.scenes import SCENES
+from benchmarks.structure_comparison import staircase
 from lagrotor.benchmark.runner import check_work, reference
 from lagrotor.benchmark.scenes_and_methods import CASES
 from lagrotor.benchmark.throughput import DURATION, ENSEMBLE_ERRORS, displaced_family
@@ -24,7 +27,10 @@ from lagrotor.errors import LagrotorError, LagrotorWarning
 from lagrotor.models.model import integrate_model
 from lagrotor.models.simulate import MODELS, simulate
 from lagrotor.models.sweeps.ensemble import sweep
-from lagrotor.numerics.integrate import TIGHTEST
+from lagrotor.numerics.integrate import TIGHTEST, Engine
+from lagrotor.pair.scene import Link
+from lagrotor.structures import exact_motion
+from lagrotor.structures.exact.compiled_motion import compiled_right_hand_side
 from lagrotor.theory.natural_rate import natural_rate
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -109,7 +115,8 @@ def sweep_and_older(n: int, tol: float, old: Path) -> Pairs:
             yield sides[0](tol)[0], sides[1](tol)[0]
     finally:
         for side in sides:
-            side(None)
+            with suppress(LagrotorError):
+                side(None)
 
 
 def _sweeping(folder: Path, scenes: Any) -> Callable[[float | None], Any]:
@@ -119,15 +126,17 @@ def _sweeping(folder: Path, scenes: Any) -> Callable[[float | None], Any]:
     )
     assert process.stdin and process.stdout
     into, out = process.stdin, process.stdout
-    into.write(json.dumps([(s.spins, s.axes, s.rates) for s in scenes]) + "\n")
+    said = json.dumps([(s.spins, s.axes, s.rates) for s in scenes])
 
     def run(tol: float | None) -> Any:
-        if tol is None:
-            into.close()
-            process.wait()
-            return None
-        into.write(f"{tol!r}\n")
-        into.flush()
+        nonlocal said
+        with suppress(BrokenPipeError):  # a process that ended answers nothing
+            if tol is None:
+                into.close()
+                return process.wait()
+            into.write(f"{said}\n{tol!r}\n" if said else f"{tol!r}\n")
+            into.flush()
+            said = ""
         if answer := out.readline():
             return json.loads(answer)
         raise LagrotorError(f"the sweep in {folder} ended with {process.wait()}")
@@ -148,6 +157,27 @@ def auto_and_chosen(kind: str, engine: str) -> Pairs:
 
     while True:
         yield taken("auto"), taken(run.model)
+
+
+def doubled_chain(n: int, link: Link, engine: Engine) -> Pairs:
+    """An evaluation of the accelerations of a chain of 2 n rotors, and of n."""
+    calls = []
+    for s in (staircase(2 * n, link), staircase(n, link)):
+        motion = exact_motion(s)
+        rhs = compiled_right_hand_side(s, motion) if engine == "fast" else motion.rhs
+        y = np.concatenate([motion.c.upright.ravel(), np.zeros(3 * len(s.joints))])
+        moving = y + np.linspace(0, 1e-3, len(y))
+        right = np.array(motion.rhs(0.0, moving))
+        check_work(
+            f"{len(s.joints)} rotors, {engine}",
+            1,
+            right[None],
+            float(np.abs(np.array(rhs(0.0, moving)) - right).max()),
+            1e-9,
+        )
+        calls.append(partial(rhs, 0.0, moving))
+    while True:
+        yield seconds(calls[0]), seconds(calls[1])
 
 
 def rows(old: Path | None) -> list[Row]:
@@ -177,4 +207,10 @@ def rows(old: Path | None) -> list[Row]:
         for kind in SCENES
         if kind not in left_out
     ]
-    return [*lanes, *older, *single, *auto]
+    engines: tuple[Engine, ...] = ("core", "fast") if find_spec("heyoka") else ("core",)
+    chains = [
+        Row(f"evaluation of 256 rotors, {bars}, {engine}", "128 rotors", 2.3, partial(doubled_chain, 128, link, engine))
+        for bars, link in {"massless bars": Link(), "heavy bars": Link(1, 0.3, 0.1)}.items()
+        for engine in engines
+    ]
+    return [*lanes, *older, *single, *auto, *chains]
