@@ -82,19 +82,20 @@ def _checked_sweep(name: str, ensemble: Any, truth: NDArray[np.float64]) -> floa
     """The largest true error of an axis at the end. Raises LagrotorError if a run misses the end or its tolerance."""
     error = float(np.abs(_ends(ensemble) - truth).max())
     moved = np.stack([_starts(ensemble.scenes), _ends(ensemble)], 1)
-    check_work(name, int(ensemble.evaluations.min()), moved, max(error, float(ensemble.error.max())), ensemble.tol, 100)
+    check_work(name, int(ensemble.evaluations.min()), moved, max(error, float(ensemble.error.max())), ensemble.tol, 20)
     return error
 
 
-# Reads scenes, then a tolerance a line, and answers with the processor time of a sweep and where it ends.
+# Reads the last time and scenes, then a tolerance a line, and answers with the processor time of a sweep and where it ends.
 _SWEEPING = """
 import json, sys, time, warnings
 from lagrotor import Scene, sweep
 warnings.simplefilter("ignore")
-scenes = [Scene(spins=s, axes=a, rates=v) for s, a, v in json.loads(sys.stdin.readline())]
+t_end, given = json.loads(sys.stdin.readline())
+scenes = [Scene(spins=s, axes=a, rates=v) for s, a, v in given]
 for line in sys.stdin:
     began = time.process_time()
-    ensemble = sweep(scenes, [0.0, 10.0], float(line))
+    ensemble = sweep(scenes, [0.0, t_end], float(line))
     taken = time.process_time() - began
     print(json.dumps([taken, int(ensemble.evaluations.min()), ensemble.axes[:, :, -1].tolist()]), flush=True)
 """
@@ -110,7 +111,7 @@ def sweep_and_older(n: int, tol: float, old: Path) -> Pairs:
             _, evaluations, axes = side(tol)
             ends = np.reshape(axes, (n, 6))
             moved = np.stack([_starts(scenes), ends], 1)
-            check_work("sweep, core", evaluations, moved, float(np.abs(ends - truth).max()), bound, 100)
+            check_work("sweep, core", evaluations, moved, float(np.abs(ends - truth).max()), bound, 20)
         while True:
             yield sides[0](tol)[0], sides[1](tol)[0]
     finally:
@@ -126,7 +127,7 @@ def _sweeping(folder: Path, scenes: Any) -> Callable[[float | None], Any]:
     )
     assert process.stdin and process.stdout
     into, out = process.stdin, process.stdout
-    said = json.dumps([(s.spins, s.axes, s.rates) for s in scenes])
+    said = json.dumps([DURATION, [(s.spins, s.axes, s.rates) for s in scenes]])
 
     def run(tol: float | None) -> Any:
         nonlocal said
