@@ -8,11 +8,10 @@ import pytest
 
 from benchmarks import full_equations
 from benchmarks.compiled_solvers import COMPILED
-from lagrotor import Scene, simulate
+from lagrotor import Link, Rotor, Scene, simulate
 from lagrotor.benchmark.scenes_and_methods import CASES
 from lagrotor.errors import InputError
 from lagrotor.models import spheres
-from lagrotor.pair.scene import Link, Rotor
 
 TIMES = np.linspace(0, 2, 21)
 NEEDS = {
