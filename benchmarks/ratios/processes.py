@@ -94,16 +94,20 @@ def reproduce(old: Path) -> Pairs:
     while True:
         with copied(ROOT) as ours, copied(old) as theirs:
             times = [run_python(_REPRODUCE, each, cache=each / "cache").wall for each in (ours, theirs)]
-            pages, older = (_pages(each) for each in (ours, theirs))
-            if lost := sorted(older - pages):
-                raise LagrotorError(f"the report has no {', '.join(lost)}, which that in {old} has")
+            for folder in (ours, theirs):
+                check_report(folder)
         yield times[0], times[1]
 
 
-def _pages(folder: Path) -> set[str]:
-    """The derivations and figures of a report."""
-    pages = {page.stem for page in (folder / "report" / "pages").glob("derivation-*.html")}
-    return pages | {figure.stem for figure in (folder / "report" / "figures").glob("*.png")}
+def check_report(folder: Path) -> None:
+    """Raise LagrotorError unless the report of a checkout shows each of its derivations and figures."""
+    pages = "".join(page.read_text(encoding="utf-8") for page in (folder / "report").rglob("*.html"))
+    shown = {*re.findall(r"derivation-(\w+)", pages), *(file.stem for file in (folder / "report").rglob("figures/*"))}
+    scripts = {script.stem for kind in ("derivations", "figures") for script in (folder / kind).glob("*.py")}
+    if not scripts or (lost := scripts - shown):
+        raise LagrotorError(
+            f"the report of {folder} does not show {', '.join(sorted(lost)) if scripts else 'anything'}"
+        )
 
 
 def one_change() -> Pairs:
@@ -119,14 +123,15 @@ def one_change() -> Pairs:
             page.unlink()
             change_derivation(script, i)
             taken = run_python(_REPRODUCE, folder, cache=folder / "cache").wall
-            if f"changed = {i}" not in page.read_text(encoding="utf-8"):
+            if f"Change number {i}." not in page.read_text(encoding="utf-8"):
                 raise LagrotorError(f"{page} does not have the changed line of {script}")
             yield taken, 1.0
 
 
 def change_derivation(script: Path, i: int) -> None:
-    """Write a line that computes nothing at the end of a script."""
-    script.write_text(f"{script.read_text(encoding='utf-8')}\nchanged = {i}\n", encoding="utf-8")
+    """Write a line of code and a sentence of the page at the end of a script."""
+    added = f"\n# %%\nchanged = {i}\n\n# %% [markdown]\n# Change number {i}.\n"
+    script.write_text(script.read_text(encoding="utf-8") + added, encoding="utf-8")
 
 
 def tests() -> Pairs:
