@@ -145,7 +145,7 @@ def test_crossings_of_a_run_that_is_lost_are_sought_as_it_went_on() -> None:
     (a, b), (a_v, b_v) = c.q, c.v
     double = System(c, a_v**2 + b_v**2 / 2 + a_v * b_v * sp.cos(a - b) + 2 * sp.cos(a) + sp.cos(b))
     with pytest.warns(LagrotorWarning, match="motions separate"):
-        run = double.simulate({}, (2, 2.5), (0, 0), np.linspace(0, 400, 401), 1e-9)
+        run = double.simulate({}, (2, 2.5), (0, 0), np.linspace(0, 250, 251), 1e-9)
     assert run.ending.kind == "lost"
     there = run.crossings(b_v)
     assert there.evaluations <= 3 * run.evaluations
