@@ -17,6 +17,7 @@ from sympy.core.relational import Relational
 
 from lagrotor.algebra import LeadingTerm, decide_equal, leading_term, normal_form, truncated_series
 from lagrotor.algebra.branches import sided
+from lagrotor.algebra.identity import differ
 from lagrotor.algebra.scalar import sympified
 from lagrotor.algebra.signs import is_positive
 from lagrotor.errors import InputError, LagrotorError, NotExactError
@@ -164,7 +165,7 @@ def _line(relation: Relation, offered: tuple[Premise, ...], glossary: Glossary) 
     if relation.theorem is not None and relation.theorem.bounds is not None:
         return _verdict(relation, _enclosed(relation, *relation.theorem.bounds), (), glossary)
     assumed = (*offered, *relation.scene_premises)
-    alone = _under(relation, ())
+    alone = _under(relation, (), refute=False)
     if alone.answer == "holds":
         return _verdict(relation, alone, (), glossary)
     whole = _under(relation, assumed)
@@ -235,15 +236,16 @@ def _needed(relation: Relation, assumed: tuple[Premise, ...], whole: _Finding) -
         needed, finding = list(assumed), whole
         for premise in row:
             remaining = [p for p in needed if p is not premise]
-            without = _under(relation, remaining)
+            without = _under(relation, remaining, refute=False)
             if without.answer in AGREES and _RANK.index(without.answer) <= _RANK.index(finding.answer):
                 if without.trivial and not finding.trivial:
                     continue
                 needed, finding = remaining, without
         minimal_sets.append((tuple(needed), finding))
-    return min(
+    used, _ = min(
         minimal_sets, key=lambda candidate: (candidate[1].trivial, len(candidate[0]), candidate[1].answer != "holds")
     )
+    return used, whole if len(used) == len(assumed) else _under(relation, used)
 
 
 def _is_conclusion(relation: Relation, premise: Premise) -> bool:
@@ -263,8 +265,10 @@ def _is_conclusion(relation: Relation, premise: Premise) -> bool:
 
 def _are_multiples(a: sp.Expr, b: sp.Expr) -> bool:
     """Return True if a is a rational multiple of the numerator of b; the denominator of a must be a number."""
+    if a.free_symbols != b.free_symbols:
+        return False
     above, below = sp.together(a).as_numer_denom()
-    if a.free_symbols != b.free_symbols or below.free_symbols:
+    if below.free_symbols:
         return False
     primitive_a, primitive_b = (
         sp.expand(e).as_content_primitive()[1] for e in (above, sp.together(b).as_numer_denom()[0])
@@ -290,8 +294,11 @@ def _has_room(condition: Relational, assumed: tuple[Premise, ...]) -> bool:
     )
 
 
-def _under(relation: Relation, premises: Iterable[Premise]) -> _Finding:
-    """Decide a relation under all the given premises."""
+def _under(relation: Relation, premises: Iterable[Premise], refute: bool = True) -> _Finding:
+    """Decide a relation under all the given premises.
+
+    If `refute` is False, only the answers of lines that agree are certain, and a series has no domain.
+    """
     under = hypotheses(premises, relation.small)
     if under.signed.contradiction:
         reason = f"the premises contradict each other or the assumptions of their symbols: {under.signed.contradiction}"
@@ -310,17 +317,21 @@ def _under(relation: Relation, premises: Iterable[Premise]) -> _Finding:
         return _read_off_series(relation, printed / derived, *relation.known, under)
     if relation.within is not None:
         return _read_off(relation, printed, derived, under)
-    return _compared(relation, printed, derived, under)
+    small = _small(relation, printed, derived, under)
+    if not refute and not under.signed.equations and differ(printed, derived, under.signed.inside):
+        return _Finding("undecided") if small is None else _to_order(relation, printed, derived, small, (), under)
+    return _compared(relation, printed, derived, small, under)
 
 
-def _compared(relation: Relation, printed: Any, derived: Any, under: Hypotheses) -> _Finding:
+def _compared(
+    relation: Relation, printed: Any, derived: Any, small: sp.Symbol | None, under: Hypotheses
+) -> _Finding:
     exact = decide_equal(printed, derived, under.signed.inside)
     factors = (f for f in exact.domain if not (is_positive(f) or f.is_number))
     domain = tuple(sp.Ne(factor, 0, evaluate=False) for factor in factors)
     if exact.answer == "zero":
         domain += exact.branch
     domain = tuple(_in_printed_symbols(relation, under.signed) for relation in domain)
-    small = _small(relation, printed, derived, under)
     on_equations = _in_ideal(printed, derived, under)
     if on_equations == "nowhere":
         return _Finding("undecided", reasons=("the premises contradict each other or the domain of the sides",))

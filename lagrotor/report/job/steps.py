@@ -76,7 +76,8 @@ def derive(paper: Paper, stem: str, folder: Path) -> Derived:
 
 def measure(paper: Paper, identifier: str, folder: Path) -> dict[str, float]:
     """Return the numbers that the test of one claim measures, by name."""
-    return dict(paper.measured(identifier).measured)
+    with paper.importable():
+        return paper.claim_tests[identifier].measured
 
 
 def draw_step(paper: Paper, key: str, folder: Path) -> figures.Picture:
