@@ -323,9 +323,7 @@ def _under(relation: Relation, premises: Iterable[Premise], refute: bool = True)
     return _compared(relation, printed, derived, small, under)
 
 
-def _compared(
-    relation: Relation, printed: Any, derived: Any, small: sp.Symbol | None, under: Hypotheses
-) -> _Finding:
+def _compared(relation: Relation, printed: Any, derived: Any, small: sp.Symbol | None, under: Hypotheses) -> _Finding:
     exact = decide_equal(printed, derived, under.signed.inside)
     factors = (f for f in exact.domain if not (is_positive(f) or f.is_number))
     domain = tuple(sp.Ne(factor, 0, evaluate=False) for factor in factors)
