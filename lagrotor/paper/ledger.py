@@ -256,7 +256,7 @@ def _is_conclusion(relation: Relation, premise: Premise) -> bool:
     ]
     gap = relation.printed - relation.derived
     is_multiple = False
-    for entry in (gap if isinstance(gap, sp.MatrixBase) else [gap]):
+    for entry in gap if isinstance(gap, sp.MatrixBase) else [gap]:
         if any(_are_multiples(entry, e) for e in equations):
             is_multiple = True
         elif not equations or sp.expand(entry) != 0:
