@@ -15,7 +15,7 @@ from lagrotor.models import paper_system, step_limit
 from lagrotor.paper import Table
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
-claims = {i: PAPER.claim_tests[i].result.measured for i in ("C06", "C07", "C08", "C20", "C21", "C22")}
+claims = {i: PAPER.claim_tests[i].measured for i in ("C06", "C07", "C08", "C20", "C21", "C22")}
 BAR, LIGHT = Link(1, 1, 1), Link(1, 0.01, 0.1)
 
 # %% [markdown]

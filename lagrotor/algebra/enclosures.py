@@ -28,6 +28,7 @@ Point: TypeAlias = dict[sp.Expr, sp.Expr]
 DIGITS = 120
 _MOST_TERMS, _PIECES = 3000, 32  # terms of a sum, pieces of an integral
 _LARGEST = 1e6  # argument of a function: larger ones need too many digits
+_UNBOUNDED = frozenset({libmp.finf, libmp.fninf, libmp.fnan})  # ends of an interval that is not bounded
 _CONSTANTS = {sp.pi: lambda: iv.pi, sp.E: lambda: iv.e, sp.EulerGamma: lambda: iv.euler, sp.I: lambda: iv.mpc(0, 1)}
 
 
@@ -107,7 +108,7 @@ class PointEnclosure:
     def of(self, e: sp.Expr) -> Any:
         if e not in self.known:
             value = self._sought(e)
-            if not all(side.a > -iv.inf and side.b < iv.inf for side in (value.real, value.imag)):
+            if not all(map(_UNBOUNDED.isdisjoint, value._mpci_ if _is_complex(value) else (value._mpi_,))):
                 raise NotExactError(f"{e} is not enclosed: it is not bounded.")
             self.known[e] = value
         return self.known[e]

@@ -25,7 +25,7 @@ a complex symbol, or is real at no inner point.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache, partial
 from itertools import product
@@ -45,7 +45,7 @@ from lagrotor.algebra.name_clashes import check_names
 from lagrotor.algebra.numbering import Numbering, without_number
 from lagrotor.algebra.quotients import Ring
 from lagrotor.algebra.reading import Roots, find_roots, reader
-from lagrotor.algebra.refutation import find_witness
+from lagrotor.algebra.refutation import find_witness, is_refuted
 from lagrotor.algebra.scalar import node_count, scalar, sympified
 from lagrotor.algebra.signs import BRANCHED, Region, conditions, region
 from lagrotor.algebra.work_budget import bounded_cache
@@ -361,6 +361,21 @@ def _decide_difference(lhs: sp.Expr, rhs: sp.Expr, where: Region) -> Decision:
         return Decision("undecided", (), str(refusal))
     check_names("decide_equal", lhs, rhs)
     return _decide(lhs - rhs, where)
+
+
+def differ(lhs: sp.Expr | sp.MatrixBase, rhs: sp.Expr | sp.MatrixBase, assumptions: Iterable[Any] = ()) -> bool:
+    """Return True if enclosures separate two real sides of one shape at a point; this takes less time than a decision."""
+    where = region(assumptions)
+    pairs = zip(lhs, rhs, strict=True) if isinstance(lhs, sp.MatrixBase) else [(lhs, rhs)]
+    try:
+        return any(is_refuted(scalar(a - b, "differ"), where) for a, b in pairs)
+    except NotExactError:
+        return False
+
+
+def are_equal(lhs: sp.Expr | sp.MatrixBase, rhs: sp.Expr | sp.MatrixBase, assumptions: Sequence[Any] = ()) -> bool:
+    """Return True if two sides of one shape are proved to be equal."""
+    return not differ(lhs, rhs, assumptions) and decide_equal(lhs, rhs, assumptions).answer == "zero"
 
 
 def normal_form(expression: sp.Expr) -> sp.Expr:

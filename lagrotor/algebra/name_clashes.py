@@ -10,9 +10,12 @@ from lagrotor.errors import InputError
 
 def check_names(where: str, *values: Any) -> None:
     """Raise InputError, whose text begins with `where`, if different symbols in the values share a name (except dummies)."""
+    symbols = {symbol for symbol in symbols_in(values) if type(symbol) is sp.Symbol}
+    if len(symbols) == len({symbol.name for symbol in symbols}):
+        return
     first_of_name: dict[str, sp.Symbol] = {}
-    for symbol in symbols_in(values):
-        if type(symbol) is sp.Symbol and (namesake := first_of_name.setdefault(symbol.name, symbol)) != symbol:
+    for symbol in sorted(symbols, key=lambda s: (s.name, s.sort_key())):
+        if (namesake := first_of_name.setdefault(symbol.name, symbol)) != symbol:
             kinds = " and ".join(sorted({_kind(symbol), _kind(namesake)}))
             raise InputError(
                 f"{where}: two different symbols are called {symbol.name!r}, one declared {kinds.replace(' and ', ', one ')}: "
@@ -23,7 +26,7 @@ def check_names(where: str, *values: Any) -> None:
 def symbols_in(value: Any) -> Iterable[sp.Symbol]:
     """Yield the symbols of expressions, relations, rows and mappings of them, each as often as it occurs."""
     if isinstance(value, sp.Basic | sp.MatrixBase):
-        yield from sorted(value.free_symbols, key=lambda s: (str(s), s.sort_key()))
+        yield from value.free_symbols
     elif isinstance(value, Mapping):
         for pair in value.items():
             yield from symbols_in(pair)

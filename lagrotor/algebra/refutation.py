@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import islice
 from typing import NamedTuple
 
 import sympy as sp
@@ -13,6 +14,7 @@ from lagrotor.algebra.scalar import node_count
 from lagrotor.algebra.signs import Region
 from lagrotor.errors import NotExactError
 
+_FIRST = 2  # points that are tried before a proof
 _LARGE = 2000  # nodes beyond which an expression is evaluated at four points only
 _SIZES = ((sp.S.One, 6), (sp.Rational(1, 8), 3), (sp.Integer(5), 4))  # (scale of the symbols, number of points)
 
@@ -45,6 +47,13 @@ def find_witness(expression: sp.Expr, where: Region) -> Sample:
             return Sample(witness, enclosed)
         complex_witness = complex_witness or witness
     return Sample(complex_witness, enclosed)
+
+
+def is_refuted(expression: sp.Expr, where: Region) -> bool:
+    """Return True if one of the first points shows that a real expression is not zero everywhere in the region."""
+    symbols = expression.free_symbols | set().union(*(e.free_symbols for e, _ in where.above))
+    witnesses = (_at(expression, point)[0] for point in islice(_points(symbols, where), _FIRST))
+    return any(witness is not None and witness.real for witness in witnesses)
 
 
 def _points(symbols: set[sp.Symbol], where: Region) -> Iterator[Point]:

@@ -96,6 +96,7 @@ class _Signs:
     def __init__(self, where: Region) -> None:
         self.where = where = Region((*where.above, *(end for fact in where.above for end in _ends(fact))))
         self.facts = [(*_primitive(e), strict) for e, strict in where.above]
+        self.bounded = set[sp.Symbol]().union(*(e.free_symbols for e, _ in where.above))
         self.known: dict[sp.Expr, Signs | None] = {}
         self.open: set[sp.Expr] = set()
         self.circles = 0
@@ -162,6 +163,8 @@ class _Signs:
         term_signs = [self.of(term) for term in e.args]
         if None in term_signs:
             return None
+        if self._is_free(e):
+            return ANY
         union = frozenset().union(*term_signs)  # type: ignore[arg-type]
         for sign in (1, -1):
             if union <= {0, sign}:
@@ -227,6 +230,8 @@ class _Signs:
 
     def _circular(self, e: sp.Expr, u: sp.Expr) -> Signs:
         """Return the signs of a sine or similar function from the range of u: sin u has the sign (−1)ᵏ for kπ < u < (k + 1)π."""
+        if self._is_free(u):
+            return ANY
         start = -sp.pi / 2 if isinstance(e, sp.cos) else sp.S.Zero
         step = sp.pi / 2 if isinstance(e, sp.tan) else sp.pi
         for k in (0, -1, 1, -2, 2):
@@ -235,6 +240,12 @@ class _Signs:
                 inside = frozenset({-1 if k % 2 else 1})
                 return inside if all(side == POSITIVE for side in sides) else inside | {0}
         return ANY
+
+    def _is_free(self, e: sp.Expr) -> bool:
+        """Return True if nothing bounds e, because a term or a factor is a symbol without assumptions that occurs only there."""
+        parts = [part.as_coeff_Mul()[1] for part in (e.args if e.is_Add or e.is_Mul else (e,))]
+        symbols = (part for part in parts if part.is_Symbol and _declared(part) == ANY and part not in self.bounded)
+        return any(sum(symbol in part.free_symbols for part in parts) == 1 for symbol in symbols)
 
     def _monotone(self, e: sp.Expr) -> Signs | None:
         """Return the signs of a + b f(u) for numbers a and b and an increasing f: the signs of b (u − f⁻¹(−a/b))."""

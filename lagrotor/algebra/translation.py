@@ -55,10 +55,11 @@ def prove_zero(expression: sp.Expr, where: Region) -> tuple[tuple[sp.Expr, ...] 
     `divisors` must not vanish; it is None if the proof fails. `missing` lists inequalities that a rule of the translation would
     have needed.
     """
-    first = Translation(where)
-    first.of(expression)
-    second = Translation(where, first.steps, first.degrees)
-    translated = second.of(expression)
+    first = second = Translation(where)
+    translated = first.of(expression)
+    if first.revised:
+        second = Translation(where, first.steps, first.degrees)
+        translated = second.of(expression)
     ring, zero = vanishes(translated, second.relations, second.numbers)
     divided = (second.restore(ring.expression(d) if n is None else n) for d, n in ring.divisors.items())
     divisors = tuple(dict.fromkeys((*divided, *second.signed)))
@@ -69,7 +70,8 @@ def prove_zero(expression: sp.Expr, where: Region) -> tuple[tuple[sp.Expr, ...] 
 class Translation:
     """The translation of expressions in one region.
 
-    A second pass starts with the denominators of angles (`steps`) and the degrees of roots that the first pass found.
+    `steps` are the denominators of angles, `degrees` those of roots. If an entry was `revised` after its first use, a second pass
+    must start with the final entries.
     """
 
     def __init__(
@@ -78,6 +80,7 @@ class Translation:
         self.where = where
         self.steps: dict[Any, int] = dict(steps or {})
         self.degrees: dict[sp.Expr, int] = dict(degrees or {})
+        self.revised = False
         self.symbols: dict[Any, list[tuple[tuple[sp.Expr, ...], sp.Symbol]]] = {}
         self.meaning: dict[sp.Symbol, sp.Expr] = {}
         self.relations: dict[sp.Symbol, tuple[int, sp.Expr]] = {}
@@ -313,11 +316,17 @@ class Translation:
         if base.is_Rational:
             return self._number_power(base, r)
         key = self.restore(base)  # the symbols of two passes differ
-        self.degrees[key] = lcm(self.degrees.get(key, 1), int(r.q))
-        q = self.degrees[key]
+        q = self._multiple_of(self.degrees, key, int(r.q))
         symbol = self.symbol(f"root{q}", (base,), sp.Pow(meaning, sp.Rational(1, q)))
         self.relations.setdefault(symbol, (q, base))
         return symbol ** int(r * q)
+
+    def _multiple_of(self, denominators: dict[Any, int], key: Any, q: int) -> int:
+        """Make the entry of `key` a multiple of q, and return it."""
+        known = denominators.get(key, q)
+        denominators[key] = lcm(known, q)
+        self.revised = self.revised or denominators[key] != known
+        return denominators[key]
 
     def _number_power(self, value: sp.Rational, r: sp.Rational) -> sp.Expr:
         return sp.Mul(*(f if f.is_Rational else self._number(f) for f in sp.Mul.make_args(sp.Pow(value, r))))
@@ -342,8 +351,7 @@ class Translation:
                 result *= self._size_power(p, rate) if size else self._principal(p, rate, self.restore(p))
             else:
                 key = "exp", self.restore(monomial)
-                self.steps[key] = lcm(self.steps.get(key, 1), int(rate.q))
-                step = self.steps[key]
+                step = self._multiple_of(self.steps, key, int(rate.q))
                 # Unevaluated: sympy would expand p**n from exp(n log p), which does not end for n = 10**8.
                 w = self.symbol(key, (), sp.exp(self.restore(monomial) / step, evaluate=not key[1].has(sp.log)))
                 self.exponentials[w] = monomial / step
@@ -402,8 +410,7 @@ class Translation:
         if monomial in self.arcs and rate.is_Integer:
             return _multiple(self.arcs[monomial], int(rate))
         key = "angle", self.restore(monomial)
-        self.steps[key] = lcm(self.steps.get(key, 1), int(rate.q))
-        step = self.steps[key]
+        step = self._multiple_of(self.steps, key, int(rate.q))
         tau = self.symbol(key, (), sp.tan(self.restore(monomial) / (2 * step)))
         square = 1 + tau**2
         return _multiple(((1 - tau**2) / square, 2 * tau / square), int(rate * step))

@@ -288,6 +288,10 @@ def _plural(count: int, what: str) -> str:
 def reproduce_command(options: argparse.Namespace) -> int:
     if options.jobs is not None and options.jobs < 1:
         raise InputError(f"--jobs {options.jobs} must be at least 1: it is the number of processes")
+    from lagrotor.report.job.processes import cores, start_server
+
+    if (options.jobs or cores()) > 1:
+        start_server()
     from lagrotor.report.content import count_list
     from lagrotor.report.formulas.mathml_latex import converter
     from lagrotor.report.job.reproduce import reproduce

@@ -437,11 +437,15 @@ class Catalogue:
         >>> PAPER.letters("5.2").names["theta_0"]
         theta_0
         """
-        check_names(str(self.folder / "symbols.py"), list(self.glossary), dict(self.written_out))
-        glossary_names = {symbol.name: symbol for symbol in self.glossary}
         section_letters = self._equations_toml.get("letters", {}).get(section, {})
-        names = {**glossary_names, **getattr(self._symbols, "FUNCTIONS", {}), **declared(section_letters)}
+        names = {**self._glossary_names, **getattr(self._symbols, "FUNCTIONS", {}), **declared(section_letters)}
         return Letters(names, getattr(self._symbols, "LATEX", {}))
+
+    @cached_property
+    def _glossary_names(self) -> dict[str, Any]:
+        """The symbols of the glossary by name; no two share one."""
+        check_names(str(self.folder / "symbols.py"), list(self.glossary), dict(self.written_out))
+        return {symbol.name: symbol for symbol in self.glossary}
 
     def lines(self, identifier: str) -> tuple[Line, ...]:
         r"""Read the printed lines of an equation.

@@ -188,7 +188,7 @@ class ClaimTest:
             If a theorem contradicts the simulation or its certificate is rejected.
         """
         began = time.perf_counter()
-        measured = {name: float(value) for name, value in self.measure(case).items()}
+        measured = self.measured if case is self.case else self._numbers(case)
         finding = self.decide(measured)
         if self.unproved:
             what = "the other parts" if self.prove else "the claim"
@@ -204,9 +204,17 @@ class ClaimTest:
             verify({id(theorem): theorem for _, theorem in finding.theorems}.values(), self.id)
         return Result(self, measured, finding, time.perf_counter() - began)
 
+    def _numbers(self, case: Any) -> dict[str, float]:
+        return {name: float(value) for name, value in self.measure(case).items()}
+
+    @cached_property
+    def measured(self) -> dict[str, float]:
+        """The numbers of the claim's own case. The first access runs the simulations, which take some seconds."""
+        return self._numbers(self.case)
+
     @cached_property
     def result(self) -> "Result":
-        """The result of the claim's own case. The first access runs the simulations, which take some seconds."""
+        """The result of the claim's own case. The first access proves its theorems, if python-flint is installed."""
         return self.evaluated(self.case)
 
     def _repr_html_(self) -> str:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import sympy as sp
 
-from lagrotor.algebra import decide_equal
+from lagrotor.algebra.identity import are_equal
 from lagrotor.errors import InputError, NotProved, ProofError
 from lagrotor.paper.catalogue import Catalogue, Equation
 from lagrotor.paper.grammar import Letters, Line, components
@@ -311,7 +311,7 @@ def needs_premises(
     value: Side, derived: Side, premises: tuple[Premise, ...], scene: Mapping[sp.Symbol, sp.Expr]
 ) -> bool | None:
     """Return False if a form is equal to the derived side, True if it is so only under the premises, and None otherwise."""
-    if decide_equal(value, derived).answer == "zero":
+    if are_equal(value, derived):
         return False
     under = hypotheses((*premises, Premise("the values that the text gives", scene)) if scene else premises)
-    return True if decide_equal(under.on(value), under.on(derived)).answer == "zero" else None
+    return True if are_equal(under.on(value), under.on(derived)) else None

@@ -17,6 +17,7 @@ from sympy.core.relational import Relational
 
 from lagrotor.algebra import LeadingTerm, decide_equal, leading_term, normal_form, truncated_series
 from lagrotor.algebra.branches import sided
+from lagrotor.algebra.identity import differ
 from lagrotor.algebra.scalar import sympified
 from lagrotor.algebra.signs import is_positive
 from lagrotor.errors import InputError, LagrotorError, NotExactError
@@ -33,7 +34,7 @@ from lagrotor.renamed import accept_old_keywords
 BEYOND = 4
 # A difference with more symbols is not simplified; a fraction with a larger denominator is shown in digits.
 _MOST_LETTERS, _LARGEST_DENOMINATOR = 7, 100
-_SINGULAR = (sp.nan, sp.zoo, sp.oo, -sp.oo)
+_SINGULAR = (type(sp.nan), type(sp.zoo), type(sp.oo), type(-sp.oo))
 _RANK: tuple[Answer, ...] = ("proved", "holds", "holds-if", "holds-to-order", "undecided", "refuted")
 
 
@@ -164,9 +165,8 @@ def _line(relation: Relation, offered: tuple[Premise, ...], glossary: Glossary) 
     if relation.theorem is not None and relation.theorem.bounds is not None:
         return _verdict(relation, _enclosed(relation, *relation.theorem.bounds), (), glossary)
     assumed = (*offered, *relation.scene_premises)
-    alone = _under(relation, ())
-    if alone.answer == "holds":
-        return _verdict(relation, alone, (), glossary)
+    if _under(relation, (), refute=False).answer == "holds":
+        return _verdict(relation, _under(relation, ()), (), glossary)
     whole = _under(relation, assumed)
     if whole.answer in AGREES:
         used, finding = _needed(relation, assumed, whole)
@@ -235,36 +235,41 @@ def _needed(relation: Relation, assumed: tuple[Premise, ...], whole: _Finding) -
         needed, finding = list(assumed), whole
         for premise in row:
             remaining = [p for p in needed if p is not premise]
-            without = _under(relation, remaining)
+            without = _under(relation, remaining, refute=False)
             if without.answer in AGREES and _RANK.index(without.answer) <= _RANK.index(finding.answer):
                 if without.trivial and not finding.trivial:
                     continue
                 needed, finding = remaining, without
         minimal_sets.append((tuple(needed), finding))
-    return min(
+    used, _ = min(
         minimal_sets, key=lambda candidate: (candidate[1].trivial, len(candidate[0]), candidate[1].answer != "holds")
     )
+    return used, whole if len(used) == len(assumed) else _under(relation, used)
 
 
 def _is_conclusion(relation: Relation, premise: Premise) -> bool:
     """Return True if the premise is the line itself: their differences, left − right, are multiples of each other."""
-    gap = relation.printed - relation.derived
-    entries = [e for e in (gap if isinstance(gap, sp.MatrixBase) else [gap]) if sp.expand(e) != 0]
+    if premise.small is not None or premise.defines:
+        return False
     equations = [
         e for a, b in premise.equations if sp.expand(e := sp.sympify(a, strict=True) - sp.sympify(b, strict=True)) != 0
     ]
-    return (
-        premise.small is None
-        and not premise.defines
-        and bool(entries)
-        and all(any(_are_multiples(entry, e) for e in equations) for entry in entries)
-    )
+    gap = relation.printed - relation.derived
+    is_multiple = False
+    for entry in gap if isinstance(gap, sp.MatrixBase) else [gap]:
+        if any(_are_multiples(entry, e) for e in equations):
+            is_multiple = True
+        elif not equations or sp.expand(entry) != 0:
+            return False
+    return is_multiple
 
 
 def _are_multiples(a: sp.Expr, b: sp.Expr) -> bool:
     """Return True if a is a rational multiple of the numerator of b; the denominator of a must be a number."""
+    if a == 0 or a.free_symbols != b.free_symbols:
+        return False
     above, below = sp.together(a).as_numer_denom()
-    if a.free_symbols != b.free_symbols or below.free_symbols:
+    if below.free_symbols:
         return False
     primitive_a, primitive_b = (
         sp.expand(e).as_content_primitive()[1] for e in (above, sp.together(b).as_numer_denom()[0])
@@ -290,8 +295,11 @@ def _has_room(condition: Relational, assumed: tuple[Premise, ...]) -> bool:
     )
 
 
-def _under(relation: Relation, premises: Iterable[Premise]) -> _Finding:
-    """Decide a relation under all the given premises."""
+def _under(relation: Relation, premises: Iterable[Premise], refute: bool = True) -> _Finding:
+    """Decide a relation under all the given premises.
+
+    If `refute` is False, only the answers of lines that agree are certain, and a series has no domain.
+    """
     under = hypotheses(premises, relation.small)
     if under.signed.contradiction:
         reason = f"the premises contradict each other or the assumptions of their symbols: {under.signed.contradiction}"
@@ -310,22 +318,26 @@ def _under(relation: Relation, premises: Iterable[Premise]) -> _Finding:
         return _read_off_series(relation, printed / derived, *relation.known, under)
     if relation.within is not None:
         return _read_off(relation, printed, derived, under)
-    return _compared(relation, printed, derived, under)
+    small = _small(relation, printed, derived, under)
+    if not refute and not under.signed.equations and differ(printed, derived, under.signed.inside):
+        return _Finding("undecided") if small is None else _to_order(relation, printed, derived, small, (), under)
+    return _compared(relation, printed, derived, small, under, refute)
 
 
-def _compared(relation: Relation, printed: Any, derived: Any, under: Hypotheses) -> _Finding:
+def _compared(
+    relation: Relation, printed: Any, derived: Any, small: sp.Symbol | None, under: Hypotheses, refute: bool
+) -> _Finding:
     exact = decide_equal(printed, derived, under.signed.inside)
     factors = (f for f in exact.domain if not (is_positive(f) or f.is_number))
     domain = tuple(sp.Ne(factor, 0, evaluate=False) for factor in factors)
     if exact.answer == "zero":
         domain += exact.branch
     domain = tuple(_in_printed_symbols(relation, under.signed) for relation in domain)
-    small = _small(relation, printed, derived, under)
     on_equations = _in_ideal(printed, derived, under)
     if on_equations == "nowhere":
         return _Finding("undecided", reasons=("the premises contradict each other or the domain of the sides",))
     if exact.answer == "zero" or on_equations == "zero":
-        if (at := contradicted(relation.printed, relation.derived, under)) is not None:
+        if refute and (at := contradicted(relation.printed, relation.derived, under)) is not None:
             both = f"{relation.printed} and {relation.derived}"
             raise LagrotorError(f"{both} were decided to be equal, but differ at {at}: report this error of lagrotor")
         trivial = _is_trivial(relation, under.signed)
@@ -389,7 +401,7 @@ def _is_singular(side: Any) -> bool:
         return any(map(_is_singular, side))
     if isinstance(side, sp.Sum | sp.Integral):
         return _is_singular(side.function)
-    return side in _SINGULAR or any(map(_is_singular, side.args))
+    return isinstance(side, _SINGULAR) or any(map(_is_singular, side.args))
 
 
 def _is_zero(side: Any) -> bool:
@@ -400,8 +412,8 @@ def _is_trivial(relation: Relation, signed: Hypotheses) -> bool:
     """Return True if the premises make every term of both sides zero. This is never so for an equation Q = 0."""
     sides = [relation.printed, relation.derived]
     entries = (e for side in sides for e in (side if isinstance(side, sp.MatrixBase) else [side]))
-    return not any(map(_is_zero, sides)) and all(
-        _is_zero(signed.on(term)) for e in entries for term in sp.Add.make_args(e)
+    return all(_is_zero(signed.on(term)) for e in entries for term in sp.Add.make_args(e)) and not any(
+        map(_is_zero, sides)
     )
 
 

@@ -1,8 +1,9 @@
 """The cache: results of earlier runs in the user's cache folder, which are reused if their inputs have not changed.
 
-The product of a step is its result: the numbers of a claim, a figure with its files, the interactive model. A product that
-JSON can represent is stored with the digest of its inputs. A derivation gives expressions and runs again unless the whole
-report is unchanged. A missing, damaged or outdated product is computed again.
+The product of a step is its result: the numbers of a claim, a figure with its files, the interactive model, the title,
+findings, tables and HTML of a derivation. A product that JSON can represent is stored with the digest of its inputs. A missing,
+damaged or outdated product is computed again. A derivation also runs again, unless the whole report is unchanged, if it has
+verdicts or tables with expressions, or if a step that runs imports its values.
 """
 
 import json
@@ -17,8 +18,10 @@ from typing import Any
 from lagrotor.errors import InputError
 from lagrotor.files import write_text
 from lagrotor.paper.papers import Paper
+from lagrotor.paper.tables import FigureLink, Table
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.job.dependencies import digest
+from lagrotor.report.job.steps import Derived
 
 
 def cache_folder() -> Path:
@@ -69,3 +72,39 @@ def picture_from_json(data: Mapping[str, Any], folder: Path) -> Picture:
     svg.write_text(data["svg"], encoding="utf-8")
     png.write_bytes(b64decode(data["png"]))
     return Picture(**{**data, "svg": svg, "png": png})
+
+
+def derived_as_json(derived: Derived) -> dict[str, Any]:
+    """Return a derivation without its values as a dictionary, which JSON can represent if it has no verdicts or expressions."""
+    tables = [
+        asdict(table) | {"rows": [list(map(_cell_as_json, row)) for row in table.rows]} for table in derived.tables
+    ]
+    fields = {name: getattr(derived, name) for name in ("stem", "title", "verdicts", "remarks", "html")}
+    return fields | {"tables": tables}
+
+
+def derived_from_json(data: Mapping[str, Any]) -> Derived:
+    """Return a stored derivation, which has no verdicts; its `values` are missing."""
+    tables = (
+        Table(
+            table["title"],
+            tuple(table["head"]),
+            tuple(tuple(map(_cell_from_json, row)) for row in table["rows"]),
+            table["note"],
+        )
+        for table in data["tables"]
+    )
+    remarks = tuple((title, text) for title, text in data["remarks"])
+    return Derived(data["stem"], data["title"], (), remarks, tuple(tables), data["html"], {})
+
+
+def _cell_as_json(cell: Any) -> Any:
+    if isinstance(cell, tuple):
+        return list(map(_cell_as_json, cell))
+    return asdict(cell) if isinstance(cell, FigureLink) else cell
+
+
+def _cell_from_json(cell: Any) -> Any:
+    if isinstance(cell, list):
+        return tuple(map(_cell_from_json, cell))
+    return FigureLink(**cell) if isinstance(cell, dict) else cell

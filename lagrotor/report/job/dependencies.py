@@ -7,8 +7,9 @@ import hashlib
 import platform
 import re
 from collections.abc import Iterable
+from contextlib import suppress
 from functools import cache
-from importlib.metadata import version
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from lagrotor.about import __version__
@@ -16,9 +17,12 @@ from lagrotor.paper.papers import Paper
 
 _PACKAGE = Path(__file__).resolve().parents[2]
 _TOOLS = ("sympy", "mpmath", "numpy", "scipy", "matplotlib")
-# Files that are no inputs: the record is only compared with, and drawings are outputs.
+# Packages that convert the text of a derivation to HTML, if they are installed.
+_CONVERTERS = ("latex2mathml", "markdown-it-py", "mdit-py-plugins", "pillow")
+TIMES = "times.json"  # computing times; in a paper's folder those of an earlier run, from which the order of the steps follows
+# Files that are no inputs: the record is only compared with, the times only give an order, and drawings are outputs.
 _NO_SOURCE = {".py", ".pyc", ".gif", ".png", ".svg", ".cff", ".md"}
-_NO_DATA = {"recorded.toml"}
+_NO_DATA = {"recorded.toml", TIMES}
 _WORD = re.compile(r"""["'](\w+)["']""")
 
 
@@ -35,6 +39,16 @@ def digest(*items: bytes | str) -> str:
 def versions() -> dict[str, str]:
     """Return the versions of Python, of lagrotor and of its dependencies."""
     return {"Python": platform.python_version(), "lagrotor": __version__} | {name: version(name) for name in _TOOLS}
+
+
+@cache
+def converters() -> dict[str, str]:
+    """Return the versions of those packages in `_CONVERTERS` that are installed."""
+    found = {}
+    for name in _CONVERTERS:
+        with suppress(PackageNotFoundError):
+            found[name] = version(name)
+    return found
 
 
 @cache
@@ -86,7 +100,8 @@ def _shared(paper: Paper) -> str:
     ]
     shared = inputs(paper)
     digests = (shared["package"], shared["catalogue of equations, claims, figures"], _digest_of(data, paper))
-    return digest(*digests, *map(str, versions().items()), platform.machine(), platform.system())
+    tools = (versions() | converters()).items()
+    return digest(*digests, *map(str, tools), platform.machine(), platform.system())
 
 
 def _digest_of(files: Iterable[Path], paper: Paper) -> str:

@@ -8,9 +8,10 @@ from pathlib import Path
 
 from lagrotor.errors import InputError
 from lagrotor.report.content import BESIDE
+from lagrotor.report.job.dependencies import TIMES
 
-TIMES = "times.json"  # computing times: the only file that may differ between two runs of the same inputs
 CERTIFICATES = "certificates"  # only with `--certify`
+# The times are the only file that may differ between two runs of the same inputs.
 CONTENTS = {*BESIDE, "pages", "figures", "errata.tex", CERTIFICATES, TIMES}
 _OF_VERSION_0_2 = {"made.json", "products"}
 # Files that pdflatex writes; they are deleted with the report.

@@ -94,14 +94,28 @@ def _begin() -> None:
     begin_process(_OBJECTS)
 
 
-@contextmanager
-def _pool(jobs: int) -> Iterator[ProcessPoolExecutor]:
-    """Yield a pool of `jobs` processes, which ignore interrupts and end when the `with` block fails."""
+def _context() -> Any:
+    """Return the way in which processes start: as copies of a server that has imported the package, if the system has it."""
     methods = multiprocessing.get_all_start_methods()
     context = multiprocessing.get_context("forkserver" if "forkserver" in methods else "spawn")
     if hasattr(context, "set_forkserver_preload"):
         context.set_forkserver_preload(_LOADED)
-    pool = ProcessPoolExecutor(jobs, mp_context=context, initializer=_begin)
+    return context
+
+
+def start_server() -> None:
+    """Start the server of `_context` before this process imports the package, so that both import at the same time."""
+    if _context().get_start_method() == "forkserver":
+        from multiprocessing import forkserver  # not on all systems
+
+        with _interrupts_wait():
+            forkserver.ensure_running()
+
+
+@contextmanager
+def _pool(jobs: int) -> Iterator[ProcessPoolExecutor]:
+    """Yield a pool of `jobs` processes, which ignore interrupts and end when the `with` block fails."""
+    pool = ProcessPoolExecutor(jobs, mp_context=_context(), initializer=_begin)
     try:
         yield pool
     except BaseException:

@@ -1,13 +1,13 @@
 """The job `lagrotor reproduce`: decide every equation, test every claim, draw every figure, and write the report.
 
-The steps run in parallel. Claims' numbers and figures of an earlier run are reused if their inputs have not changed. The report
+The steps run in parallel. Results of an earlier run are reused if their inputs have not changed. The report
 has the same bytes for any number of processes.
 """
 
 import json
 import time
-from collections.abc import Callable
-from contextlib import AbstractContextManager
+from collections.abc import Callable, Mapping
+from contextlib import AbstractContextManager, suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -23,11 +23,16 @@ from lagrotor.pictures.figures import Picture
 from lagrotor.proofs.coq.coq_check import certify
 from lagrotor.report.content import Report, ResultSection
 from lagrotor.report.errata import latex_document
-from lagrotor.report.formulas.mathml_latex import converter
 from lagrotor.report.job import dependencies
-from lagrotor.report.job.cache import Cache, picture_as_json, picture_from_json
-from lagrotor.report.job.dependencies import digest
-from lagrotor.report.job.folder import CERTIFICATES, TIMES, check_target, replacement
+from lagrotor.report.job.cache import (
+    Cache,
+    derived_as_json,
+    derived_from_json,
+    picture_as_json,
+    picture_from_json,
+)
+from lagrotor.report.job.dependencies import TIMES, digest
+from lagrotor.report.job.folder import CERTIFICATES, check_target, replacement
 from lagrotor.report.job.processes import cores, results
 from lagrotor.report.job.steps import Derived, JobStep, derive, draw_step, steps
 from lagrotor.report.page.pages import FOLDER, pages, whole_page
@@ -66,7 +71,12 @@ def reproduce(
     """
     began, on_record, old = time.perf_counter(), paper.recorded, check_target(target)
     made_from = json.dumps(
-        [dependencies.inputs(paper), {i: row.verdict for i, row in on_record.items()}, converter(), certificates]
+        [
+            dependencies.inputs(paper),
+            {i: row.verdict for i, row in on_record.items()},
+            dependencies.converters(),
+            certificates,
+        ]
     )
     whole = digest(made_from, *map(str, dependencies.versions().items()), beside("CITATION.cff").read_bytes())
     cache = Cache(paper)
@@ -110,15 +120,28 @@ def _make(
     """
     products: dict[str, Any] = dict.fromkeys(step.name for step in all_steps)
     for step in all_steps:
-        if step.run is not derive and (product := cache.take(step.name, step.made_from)) is not None:
-            products[step.name] = picture_from_json(product, folder) if step.run is draw_step else product
+        if (product := cache.take(step.name, step.made_from)) is not None:
+            products[step.name] = _restored(step, product, folder)
+    # A stored derivation has no values, so it runs if a step that runs imports some.
+    while stale := {
+        name
+        for step in all_steps
+        if products[step.name] is None
+        for name in step.derivations
+        if products[name] is not None
+    }:
+        products |= dict.fromkeys(stale)
     reused = [name for name, product in products.items() if product is not None]
-    pending = sorted((step for step in all_steps if products[step.name] is None), key=_longest_first(old))
+    pending = [
+        step
+        for step in longest_first(all_steps, _seconds(cache.paper.folder) | _seconds(old))
+        if products[step.name] is None
+    ]
     seconds: dict[str, float] = {}
 
     def given(step: JobStep) -> tuple[dict[str, dict[str, Any]]] | None:
-        needed = {stem: products[f"derivation {stem}"] for stem in step.needs}
-        return None if None in needed.values() else ({stem: product.values for stem, product in needed.items()},)
+        needed = [products[name] for name in step.derivations]
+        return None if None in needed else ({product.stem: product.values for product in needed},)
 
     timed = partial(_run_timed, folder=folder)
     with progress(len(pending) + 1) as begins:
@@ -126,11 +149,23 @@ def _make(
             pending, timed, min(jobs, max(len(pending), 1)), lambda step: begins(step.name), given
         ):
             products[step.name], seconds[step.name] = product, round(took, 3)
-            if step.run is not derive:
-                plain = picture_as_json(product) if isinstance(product, Picture) else product
-                cache.keep(step.name, step.made_from, plain)
+            cache.keep(step.name, step.made_from, _stored(product))
         begins("report")
     return products, {step.name: seconds[step.name] for step in all_steps if step.name in seconds}, reused
+
+
+def _stored(product: Any) -> Any:
+    """Return the result of a step in the form that the cache keeps."""
+    if isinstance(product, Picture):
+        return picture_as_json(product)
+    return derived_as_json(product) if isinstance(product, Derived) else product
+
+
+def _restored(step: JobStep, data: Any, folder: Path) -> Any:
+    """Return the result of a step from its stored form; the files of a figure are written into `folder`."""
+    if step.run is draw_step:
+        return picture_from_json(data, folder)
+    return derived_from_json(data) if step.run is derive else data
 
 
 def _run_timed(step: JobStep, imported: dict[str, dict[str, Any]], folder: Path) -> tuple[Any, float]:
@@ -141,13 +176,29 @@ def _run_timed(step: JobStep, imported: dict[str, dict[str, Any]], folder: Path)
     return product, time.perf_counter() - began
 
 
-def _longest_first(old: Path) -> Callable[[JobStep], float]:
-    """Return a sort key that puts the steps with the longest computing time in the last report `old` first."""
-    try:
-        took = json.loads((old / TIMES).read_text(encoding="utf-8"))["seconds"]
-    except (OSError, ValueError, KeyError, TypeError):
-        took = {}
-    return lambda step: -float(took.get(step.name, 1.0))
+def longest_first(all_steps: list[JobStep], seconds: Mapping[str, float]) -> list[JobStep]:
+    """Sort steps by the computing time from their beginning to the end of all steps that import their values, longest first.
+
+    `seconds` are the computing times of an earlier run; a step that is not among them takes their mean.
+    """
+    mean = sum(seconds.values()) / len(seconds) if seconds else 1.0
+    to_end = {step.name: seconds.get(step.name, mean) for step in all_steps}
+    for _ in all_steps:  # a chain of imports is not longer
+        last, to_end = to_end, {step.name: seconds.get(step.name, mean) for step in all_steps}
+        for step in all_steps:
+            for name in step.derivations:
+                to_end[name] = max(to_end[name], seconds.get(name, mean) + last[step.name])
+        if to_end == last:
+            break
+    return sorted(all_steps, key=lambda step: -to_end[step.name])
+
+
+def _seconds(folder: Path) -> dict[str, float]:
+    """Return step → computing time in s from the file of times in a folder; empty if it is missing or damaged."""
+    with suppress(OSError, ValueError, KeyError, TypeError, AttributeError):
+        took = json.loads((folder / TIMES).read_text(encoding="utf-8"))["seconds"]
+        return {str(name): float(seconds) for name, seconds in took.items()}
+    return {}
 
 
 def _report(paper: Paper, products: dict[str, Any]) -> Report:

@@ -25,7 +25,7 @@ class Derived:
     """The result of running a derivation.
 
     verdicts: those on its equations. remarks: its findings, (title, text). tables: its tables. html: the derivation as
-    HTML. values: name → value that other scripts import.
+    HTML. values: name → value that other scripts import; the cache does not store them.
     """
 
     stem: str
@@ -51,9 +51,9 @@ class JobStep:
     source: Path
 
     @property
-    def needs(self) -> tuple[str, ...]:
-        """The stems of the derivations whose values the step imports."""
-        return scripts_named(self.source, self.paper)
+    def derivations(self) -> tuple[str, ...]:
+        """The names of the steps whose values this step imports, such as "derivation t5_floquet"."""
+        return tuple(f"derivation {stem}" for stem in scripts_named(self.source, self.paper))
 
     @property
     def made_from(self) -> str:
@@ -76,7 +76,8 @@ def derive(paper: Paper, stem: str, folder: Path) -> Derived:
 
 def measure(paper: Paper, identifier: str, folder: Path) -> dict[str, float]:
     """Return the numbers that the test of one claim measures, by name."""
-    return dict(paper.measured(identifier).measured)
+    with paper.importable():
+        return paper.claim_tests[identifier].measured
 
 
 def draw_step(paper: Paper, key: str, folder: Path) -> figures.Picture:

@@ -4,15 +4,26 @@ import json
 import math
 import os
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
+import sympy as sp
 
 from lagrotor.paper.papers import opened
 from lagrotor.paper.scripts import beside
+from lagrotor.paper.tables import FigureLink, Table
 from lagrotor.pictures import Picture
 from lagrotor.report.job import cache as cache_module
-from lagrotor.report.job.cache import Cache, cache_folder, picture_as_json, picture_from_json
+from lagrotor.report.job.cache import (
+    Cache,
+    cache_folder,
+    derived_as_json,
+    derived_from_json,
+    picture_as_json,
+    picture_from_json,
+)
+from lagrotor.report.job.steps import Derived
 
 VALUE = {"slope": 0.1 + 0.2, "limit": math.inf, "words": ["θ", None, True]}
 
@@ -97,3 +108,21 @@ def test_a_picture_comes_back_with_its_files_and_writes_nowhere_else(tmp_path: P
         "fig01", "1", "Title", "Caption", "Alt", new / svg.name, new / png.name, {"period (s)": 0.1}
     )
     assert picture_from_json(data | {"stem": "../../fig01"}, new).svg.parent == new
+
+
+def derived(cell: object, verdicts: tuple = ()) -> Derived:
+    table = Table("Rates", ("rate", "figure"), ((cell, FigureLink("19")), (("one", "below"), "")), "A note.")
+    return Derived(
+        "t1_rate", "The rate", verdicts, (("It holds", "because θ is small"),), (table,), "<p>θ</p>", {"r": 1}
+    )
+
+
+def test_a_derivation_comes_back_without_its_values() -> None:
+    again = derived_from_json(json.loads(json.dumps(derived_as_json(derived("16 rad/s")))))
+    assert again == replace(derived("16 rad/s"), values={})
+
+
+@pytest.mark.parametrize("product", [derived(sp.Symbol("x")), derived("16", verdicts=(object(),))])
+def test_a_derivation_with_expressions_or_verdicts_is_not_stored(product: Derived, cache: Cache) -> None:
+    cache.keep("derivation t1_rate", "inputs", derived_as_json(product))
+    assert cache.take("derivation t1_rate", "inputs") is None
