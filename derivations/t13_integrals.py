@@ -86,6 +86,24 @@ Remark(
 )
 
 # %% [markdown]
+# The same exponents over 30 periods for other amplitudes and momenta, and for the six starts of two sections:
+
+# %%
+TURNS, PIECE = 30, 3
+AMPLITUDES, MOMENTA = np.array([0.05, 0.1, 0.2, 0.3, 0.4, 0.5]), np.array([-0.6, -0.3, -0.1, 0.0, 0.1, 0.3, 0.6])
+SECTIONS = ((0.1, -0.3), (0.3, 0.1))  # r_0, P/G
+starts = [[start(r0, p, phase) for phase in np.linspace(0, np.pi / 2, 6)] for r0, p in SECTIONS]
+
+
+def exponent(scene: Scene) -> float:
+    """The largest Lyapunov exponent per period over `TURNS`, of a fixed direction."""
+    return float(log_distances(scene, TURNS, PIECE)[-1]) / TURNS
+
+
+exponents = np.array([[exponent(start(r0, p)) for r0 in AMPLITUDES] for p in MOMENTA])
+of_section = [exponent(one) for one in starts[1]]
+
+# %% [markdown]
 # ## The horizon of a run
 #
 # An initial error $\varepsilon$ grows to the tolerance after $\ln(\mathrm{tol}/\varepsilon)/\lambda$ periods. This time is

@@ -17,22 +17,16 @@ from lagrotor.errors import LagrotorWarning
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 MADE = PAPER.scripts.run("derivations", "t13_integrals")
-PAIR, RATE, start, log_distances = (MADE[name] for name in ("PAIR", "RATE", "start", "log_distances"))
-AMPLITUDES, MOMENTA = np.array([0.05, 0.1, 0.2, 0.3, 0.4, 0.5]), np.array([-0.6, -0.3, -0.1, 0.0, 0.1, 0.3, 0.6])
-TURNS, PIECE, SECTION, TOL = 30, 3, 100, 1e-6
-SECTIONS = ((0.1, -0.3), (0.3, 0.1))  # r_0, P/G
-PHASES = np.linspace(0, np.pi / 2, 6)
+PAIR, RATE, TURNS = (MADE[name] for name in ("PAIR", "RATE", "TURNS"))
+AMPLITUDES, MOMENTA, SECTIONS = (MADE[name] for name in ("AMPLITUDES", "MOMENTA", "SECTIONS"))
+STARTS, EXPONENTS, OF_SECTION = (MADE[name] for name in ("starts", "exponents", "of_section"))
+SECTION, TOL = 100, 1e-6
 CHAOTIC = 0.25  # 1/turn, above what 30 turns of a regular motion leave
 
 TITLE = "Are the integrals complete?"
 
 
 # %%
-def exponent(scene: Scene) -> float:
-    """The largest Lyapunov exponent per turn over TURNS, of a fixed direction."""
-    return float(log_distances(scene, TURNS, PIECE)[-1]) / TURNS
-
-
 def section(scene: Scene, turns: int, model: str) -> tuple[np.ndarray, float]:
     """(mean x, half the twist in rad) where the mean x stops growing, (n, 2), until tol is lost; and when that is, turns."""
     t = np.linspace(0, turns * 2 * np.pi / RATE, turns * 60 + 1)
@@ -53,17 +47,18 @@ def section(scene: Scene, turns: int, model: str) -> tuple[np.ndarray, float]:
 def data() -> dict[str, np.ndarray]:
     """exponents (momenta, amplitudes), 1/turn; sections, (n, 3): which start, mean x, half the twist (rad); horizons (phases, 2):
     exponent and horizon (turns) of the starts of the chaotic section."""
-    regular, chaotic = ([start(r0, p, phase) for phase in PHASES] for r0, p in SECTIONS)
-    own = [exponent(one) for one in chaotic]
+    regular, chaotic = STARTS
     # A chaotic run is lost long before the end; the half of it has the same horizon.
-    turns = [SECTION // 2 if growth > CHAOTIC else SECTION for growth in own]
+    turns = [SECTION // 2 if growth > CHAOTIC else SECTION for growth in OF_SECTION]
     parts = {
         "regular": [section(one, SECTION, "minimal") for one in regular],
         "chaotic": [section(one, most, "auto") for one, most in zip(chaotic, turns, strict=True)],
     }
     return {
-        "exponents": np.array([[exponent(start(r0, p)) for r0 in AMPLITUDES] for p in MOMENTA]),
-        "horizons": np.array([(growth, until) for growth, (_, until) in zip(own, parts["chaotic"], strict=True)]),
+        "exponents": EXPONENTS,
+        "horizons": np.array(
+            [(growth, until) for growth, (_, until) in zip(OF_SECTION, parts["chaotic"], strict=True)]
+        ),
     } | {
         name: np.concatenate([np.column_stack([np.full(len(s), k), s]) for k, (s, _) in enumerate(part)])
         for name, part in parts.items()
@@ -104,7 +99,7 @@ CAPTION = (
     f"{AMPLITUDES.size * MOMENTA.size} exceed {CHAOTIC:g}. The sections are "
     "taken at the maxima of the mean x while the error is below 10⁻⁶, in one colour per start. At r_0 = "
     f"{SECTIONS[0][0]:g}, P/G = {SECTIONS[0][1]:g} each start stays on a curve of constant averaged action. At r_0 = "
-    f"{SECTIONS[1][0]:g}, P/G = {SECTIONS[1][1]:g}, {_wild:.0f} of {PHASES.size} starts are chaotic. Their error stays "
+    f"{SECTIONS[1][0]:g}, P/G = {SECTIONS[1][1]:g}, {_wild:.0f} of {len(STARTS[1])} starts are chaotic. Their error stays "
     "below 10⁻⁶ for "
     f"at least {_short:.0f} turns, the error of the others for all {_long:.0f}. The line is the time in which 10⁻¹⁴ grows to tol."
 ).replace("-", "−")
@@ -127,7 +122,7 @@ def figure() -> Figure:
     plane.grid(visible=False)
     colours = list(OKABE_ITO.values())
     for panel, name, (r0, p) in zip((regular, chaotic), ("regular", "chaotic"), SECTIONS, strict=True):
-        for k in range(PHASES.size):
+        for k in range(len(STARTS[1])):
             points = d[name][d[name][:, 0] == k]
             panel.plot(points[:, 1], points[:, 2], ".", ms=3, color=colours[k])
         panel.margins(0.04)
