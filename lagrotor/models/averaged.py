@@ -21,7 +21,7 @@ import numpy as np
 from lagrotor.errors import DomainError, SingularError
 from lagrotor.mechanics.canonical.polynomials import Polynomial, inverse_matrix, total, variable
 from lagrotor.models.minimal import MODEL, RATIOS
-from lagrotor.models.model import PACE, Array, ClosedMotion, integrate_model, natural_units
+from lagrotor.models.model import PACE, Array, ClosedMotion, integrate_model, natural_units, without_idle_shock
 from lagrotor.numerics.error_estimate import UNKNOWN
 from lagrotor.numerics.segment import StopError
 from lagrotor.numerics.solver_constants import LOST, Calibrated
@@ -234,7 +234,7 @@ def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) 
             f"averaged: spins {scene.spins[0]:g}, {scene.spins[1]:g} rad/s are not opposite: the axes part freely, and no "
             "motion stays small; use model='minimal', or lagrotor.theory.guiding_centre(scene).path(t) for the swing's centre"
         )
-    units = natural_units(replace(scene, shock=scene.shock_until(t_end)))
+    units = natural_units(without_idle_shock(scene, t_end))
     natural, end, begin, starts, count = units.scene, t_end * units.rate, 0.0, [MODEL.start(units.scene)], 0
     if natural.shock:
         begin = natural.shock.end

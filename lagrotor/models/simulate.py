@@ -18,6 +18,7 @@ from lagrotor.models.model import (
     ClosedMotion,
     Model,
     NaturalUnits,
+    Observed,
     check_range,
     conservation_defect,
     constant_momenta,
@@ -25,6 +26,7 @@ from lagrotor.models.model import (
     natural_units,
     pulse_nodes,
     typical_rate,
+    without_idle_shock,
 )
 from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.error_estimate import (
@@ -194,9 +196,7 @@ def simulate(
         )
     # Time counts from the pulse. A distant pulse without effect is dropped, as it would cost digits.
     duration = float(times[-1] - times[0])
-    scaled = _ScaledScene(
-        natural_units(replace(at_zero, shock=at_zero.shock_until(duration))), times, tolerance, engine, progress
-    )
+    scaled = _ScaledScene(natural_units(without_idle_shock(at_zero, duration)), times, tolerance, engine, progress)
     if model == "auto":
         name, why, run = scaled.by_ladder(choice)
     else:
@@ -310,8 +310,8 @@ def evolution_of(
 
     def integrate(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
         begin = float(times[0])
-        segment, elapsed = scene.since(begin), times - begin
-        segment = replace(segment, shock=segment.shock_until(float(elapsed[-1])))
+        elapsed = times - begin
+        segment = without_idle_shock(scene.since(begin), float(elapsed[-1]))
         reporting_model = model if progress is None else replace(model, progress=lambda s: progress(begin + s))
         try:
             return integrate_model(reporting_model, segment, elapsed, local, engine, bounded, companion, start, budget)
@@ -319,18 +319,15 @@ def evolution_of(
             stop.at += begin
             raise
 
-    def defect(times: Array, states: Array) -> Array:
-        felt = replace(scene, shock=scene.shock_until(float(times[-1])))
+    def defect(times: Array, observed: Observed) -> Array:
         whole = nodes if nodes and nodes.t[-1] <= times[-1] else None
-        return conservation_defect(felt, times, model.observe(scene, states), whole)
+        return conservation_defect(without_idle_shock(scene, float(times[-1])), times, observed, whole)
 
-    def distance(first: Array, second: Array) -> Array:
-        apart = model.observe(scene, first).axes - model.observe(scene, second).axes
-        return np.asarray(np.linalg.norm(apart, axis=-1).max(axis=0))
+    def distance(first: Observed, second: Observed) -> Array:
+        return np.asarray(np.linalg.norm(first.axes - second.axes, axis=-1).max(axis=0))
 
-    def difference(first: Array, second: Array) -> float:
-        apart = model.observe(scene, first).rates - model.observe(scene, second).rates
-        return float(np.abs(apart).max(initial=0.0)) / PACE
+    def difference(first: Observed, second: Observed) -> float:
+        return float(np.abs(first.rates - second.rates).max(initial=0.0)) / PACE
 
     return Evolution(
         start,
@@ -341,6 +338,7 @@ def evolution_of(
         project=model.projection(scene) if model.projection else None,
         start_error=start_error(model, scene, start),
         constraint_uncertainty=model.slack if scene.link else None,
+        observe=lambda states: model.observe(scene, states),
         conservation_error=defect,
         difference=difference,
         watch=nodes.t if nodes else np.empty(0),
