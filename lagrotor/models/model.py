@@ -69,7 +69,12 @@ def _together_and_apart(scene: Scene) -> tuple[float, float]:
 
 
 def typical_rate(scene: Scene) -> float:
-    """Return a rate (rad/s) that the motion hardly exceeds: (|G_1| + |G_2|)/I + sqrt(2T/I), plus a rate for the shock.
+    """Return a rate (rad/s) that the motion hardly exceeds: (|G_1| + |G_2|)/I, plus `tilting_rate`. I is the smaller inertia."""
+    return tilting_rate(scene) + (abs(scene.momenta[0]) + abs(scene.momenta[1])) / min(_together_and_apart(scene))
+
+
+def tilting_rate(scene: Scene) -> float:
+    """Return a rate (rad/s) that the axes hardly exceed: sqrt(2T/I), plus a rate for the shock.
 
     I is the smaller inertia and T the energy of tilting. A pulse adds its impulse over I, or sqrt(force R / I) if it is so
     broad that the rotor turns during it.
@@ -81,7 +86,7 @@ def typical_rate(scene: Scene) -> float:
     if scene.shock:
         torque = hypot(*scene.shock.force) * scene.rotor.length / inertia
         rate += min(2 * torque * scene.shock.width, sqrt(torque))
-    return rate + (abs(scene.momenta[0]) + abs(scene.momenta[1])) / inertia
+    return rate
 
 
 _BETWEEN_PROJECTIONS = 3.0  # rad of the typical rate between projections, by the fast extra

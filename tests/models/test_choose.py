@@ -148,7 +148,7 @@ SHOCK = Shock((40, -11, 0), 2.0, 1 / 20)
         (Scene((10, -10)), 1e-9, "closed_form", "at rest without shock: nothing moves"),
         (paired_scene(Scene((10, -10)), 0.05), 1e-6, "closed_form", r"paired precession of amplitude 0\.05: .* r₀⁷"),
         (Scene((10, -10), shock=Shock((0.04, 0, 0), 2.0, 0.05)), 1e-4, "linear", "normal modes; error"),
-        (Scene((10, -10), shock=SHOCK), 1e-6, "minimal", "bar eliminated, six states; normal modes have an error of"),
+        (Scene((10, -10), shock=SHOCK), 1e-6, "minimal", "bar eliminated, six states; the motion is too wide for normal modes"),
         (Scene((10, 0), link=None, shock=SHOCK), 1e-6, "spheres", "regular everywhere; minimal: the scene has no bar"),
     ],
 )
