@@ -51,20 +51,18 @@ MODELS: dict[str, Model] = {model.name: model for model in (*LADDER, euler.MODEL
 _BY_NAME = EvaluationBudget(20_000, 250 * 2 * pi)
 # For a run that another model can replace: five times as many evaluations improve none.
 _REPLACEABLE = EvaluationBudget(1_000, 500 * 2 * pi)
-LONG_RUN = {
-    "core": Calibrated(
-        600.0,
-        "turns beyond which the averaged motion is tried before one is integrated",
-        "turns that an integration follows in the time in which the normal form of order 8 is made",
-        "test_averaged.py::test_auto_takes_it_for_long_runs",
-    ),
-    "fast": Calibrated(
-        10_000.0,
-        "turns beyond which the averaged motion is tried before the fast extra integrates",
-        "turns that an integration follows in the time in which the normal form of order 8 is made",
-        "test_averaged.py::test_auto_takes_it_for_long_runs",
-    ),
-}
+LONG_RUN = Calibrated(
+    600.0,
+    "turns beyond which the averaged motion is tried before one is integrated",
+    "turns that an integration follows in the time in which the normal form of order 8 is made",
+    "test_averaged.py::test_auto_takes_it_for_long_runs",
+)
+LONG_FAST_RUN = Calibrated(
+    10_000.0,
+    "the same number of turns for the fast extra",
+    "turns that the fast extra follows in the time in which the normal form of order 8 is made",
+    "test_averaged.py::test_auto_takes_it_for_long_runs",
+)
 SMALL = Calibrated(
     0.1,
     "least error of the linear model, in units of the square of the tilting rate over the typical rate",
@@ -120,7 +118,8 @@ def choose(scene: Scene, t_end: float, tol: float, engine: str = "core") -> Choi
         names, missed = ["closed_form"], "the motion is too wide for normal modes"
         if SMALL.value * tilting_rate(scene) ** 2 <= tol * rate**2:
             names.append("linear")
-    if scene.link and scene.spins[0] == -scene.spins[1] and turns > LONG_RUN[engine].value:
+    long_run = LONG_RUN.value if engine == "core" else LONG_FAST_RUN.value
+    if scene.link and scene.spins[0] == -scene.spins[1] and turns > long_run:
         names.append("averaged")
     for name in names:
         try:

@@ -411,8 +411,8 @@ def _estimated(course: _Course, best: _Pair, tol: float) -> EstimatedRun:
     if stop:
         words = singular(best.tight.stretch.end) if singular and stop.cause == "stopped" else ""
         ending = Ending("singular" if words else stop.cause, stop.at, words or stop.reason.rstrip("."))
-    read = np.isin(t, course.times)
-    horizon = first_time(t, errors > tol)
+    read = np.searchsorted(course.t, course.times)
+    read, horizon = read[read < len(t)], first_time(t, errors > tol)
     return EstimatedRun(t[read], states[read], errors[read], horizon, course.evaluations, ending, best.tight.local)
 
 
