@@ -42,6 +42,10 @@ class Program:
                 )
             defined |= {name} if name else set()
 
+    def __hash__(self) -> int:
+        """Return a hash of arguments and outputs; each integration looks up its program, and hashing all stages takes longer."""
+        return hash((self.arguments, self.outputs))
+
 
 @lru_cache(maxsize=16)
 def reduce_common(program: Program) -> tuple[Sequence[Stage], Sequence[sp.Expr]]:
