@@ -1,6 +1,7 @@
 """Detection of two different symbols with one name: they print alike, but relations for one do not apply to the other."""
 
 from collections.abc import Iterable, Mapping
+from itertools import pairwise
 from typing import Any
 
 import sympy as sp
@@ -10,20 +11,21 @@ from lagrotor.errors import InputError
 
 def check_names(where: str, *values: Any) -> None:
     """Raise InputError, whose text begins with `where`, if different symbols in the values share a name (except dummies)."""
-    first_of_name: dict[str, sp.Symbol] = {}
-    for symbol in symbols_in(values):
-        if type(symbol) is sp.Symbol and (namesake := first_of_name.setdefault(symbol.name, symbol)) != symbol:
-            kinds = " and ".join(sorted({_kind(symbol), _kind(namesake)}))
-            raise InputError(
-                f"{where}: two different symbols are called {symbol.name!r}, one declared {kinds.replace(' and ', ', one ')}: "
-                "declare the symbol once and use it everywhere"
-            )
+    symbols = {s for s in symbols_in(values) if type(s) is sp.Symbol}
+    if len({s.name for s in symbols}) == len(symbols):
+        return
+    ordered = sorted(symbols, key=lambda s: (s.name, _kind(s)))
+    first, second = next((a, b) for a, b in pairwise(ordered) if a.name == b.name)
+    raise InputError(
+        f"{where}: two different symbols are called {first.name!r}, one declared {_kind(first)}, one declared {_kind(second)}: "
+        "declare the symbol once and use it everywhere"
+    )
 
 
 def symbols_in(value: Any) -> Iterable[sp.Symbol]:
-    """Yield the symbols of expressions, relations, rows and mappings of them, each as often as it occurs."""
+    """Yield the symbols of expressions, relations, rows and mappings of them, in no order, also repeatedly."""
     if isinstance(value, sp.Basic | sp.MatrixBase):
-        yield from sorted(value.free_symbols, key=lambda s: (str(s), s.sort_key()))
+        yield from value.free_symbols
     elif isinstance(value, Mapping):
         for pair in value.items():
             yield from symbols_in(pair)

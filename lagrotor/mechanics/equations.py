@@ -74,17 +74,19 @@ class Equations:
             object.__setattr__(self, name, tuple(expression(f"System: {name}[{i}]", e) for i, e in enumerate(entries)))
         object.__setattr__(self, "dissipation", expression("System: dissipation", self.dissipation))
         self._take_velocities()
+        if not self.bodies:  # energies of bodies are multiplied out only when needed
+            object.__setattr__(self, "lagrangian", expression("System: L", self.lagrangian))
         if self.forces and len(self.forces) != len(self.c.q):
             raise InputError(
                 f"System: {len(self.forces)} forces for {len(self.c.q)} coordinates: Q has one component for each "
                 "coordinate; give 0 where no force acts"
             )
-        no_coordinate("System: a force or a constraint", self.acting, (*self.c.q, *self.c.v, *self.c.a))
+        moving = (*self.c.q, *self.c.v, *self.c.a)
+        no_coordinate("System: L", self.lagrangian_parts, moving)
+        no_coordinate("System: a force or a constraint", self.acting, moving)
         check_names("System", *self._letters)
         self._check_symbols()
         self._check_reactions()
-        if not self.bodies:
-            object.__setattr__(self, "lagrangian", self.L)  # energies of bodies are multiplied out only when needed
         _ = self.kinematics
 
     def _take_velocities(self) -> None:
@@ -170,6 +172,8 @@ class Equations:
                             f"System: rolling[{i}] = {e} is not affine in the velocities: its reaction is not defined by "
                             "d'Alembert's principle; write it as sum_j A_j(q, t) v_j + b(q, t)"
                         )
+        way = "a Lagrangian depends on q, v and t; add the total derivative that removes them"
+        _free_of("L", self.letters, higher, way)
         _free_of("dissipation", self.dissipation.free_symbols, higher, "D depends on q, v and t alone")
         if self.dissipation != 0 and not self.dissipation.free_symbols & velocities:
             raise InputError(
@@ -177,6 +181,11 @@ class Equations:
                 "force −∂D/∂v, k v**2/2 for linear friction"
             )
         check_friction("System", self.dissipation, self.c)
+        symbols = self.letters.union(*(e.free_symbols for e in (*self.forces, *self.residual)))
+        if reserved := sorted(str(s) for s in symbols if re.fullmatch(r"_a\d+", str(s))):
+            raise InputError(
+                f"System: {', '.join(reserved)}: generated programs use names like _a0; choose other names"
+            )
 
     @property
     def acting(self) -> tuple[sp.Expr, ...]:
@@ -206,35 +215,23 @@ class Equations:
     def _letters(self) -> tuple[Any, ...]:
         """The symbols and expressions of the system, in groups; across all of them a name belongs to one symbol."""
         moving = self.c.q, self.c.v, self.c.a, t
-        return *moving, self.acting, self.velocities, self.letters if self.bodies else ()
+        return *moving, self.acting, self.velocities, self.letters
+
+    @property
+    def lagrangian_parts(self) -> tuple[sp.Expr, ...]:
+        """The Lagrangian; if it is made of bodies, the expressions in their energies, which are not multiplied out."""
+        lagrangian: Any = self.lagrangian
+        return (lagrangian.remainder, *lagrangian.parts) if self.bodies else (lagrangian,)
 
     @cached_property
     def letters(self) -> set[sp.Symbol]:
         """The symbols in the Lagrangian."""
-        return (
-            free_letters(self.lagrangian)
-            if isinstance(self.lagrangian, sp.Basic)
-            else {*getattr(self.lagrangian, "free_symbols", ())}
-        )
+        return set().union(*map(free_letters, self.lagrangian_parts))
 
     @cached_property
     def L(self) -> sp.Expr:
         """The Lagrangian as an expression."""
-        L = expression("System: L", self.lagrangian)
-        no_coordinate("System: L", L, (*self.c.q, *self.c.v, *self.c.a))
-        check_names("System", *self._letters, self.letters)
-        acting = self.letters.union(*(sp.sympify(e, strict=True).free_symbols for e in (*self.forces, *self.residual)))
-        if reserved := sorted(str(s) for s in acting if re.fullmatch(r"_a\d+", str(s))):
-            raise InputError(
-                f"System: {', '.join(reserved)}: generated programs use names like _a0; choose other names"
-            )
-        _free_of(
-            "L",
-            self.letters,
-            {*self.c.a},
-            "a Lagrangian depends on q, v and t; add the total derivative that removes them",
-        )
-        return L
+        return expression("System: L", self.lagrangian) if self.bodies else self.lagrangian
 
     @property
     def speeds(self) -> tuple[sp.Symbol, ...]:

@@ -13,9 +13,11 @@ Mechanics, §§12, 19.
 """
 
 import re
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
+from functools import cached_property
 from typing import ClassVar
 from unicodedata import normalize
 
@@ -61,25 +63,29 @@ class Coordinates:
                 "each coordinate has one velocity and one acceleration; give equally many, at least one"
             )
         symbols = (*self.q, *self.v, *self.a, t)
-        if repeated := sorted({str(s) for s in symbols if symbols.count(s) > 1}):
+        if repeated := sorted(str(s) for s, times in Counter(symbols).items() if times > 1):
             raise InputError(f"Coordinates: {', '.join(repeated)} repeated: the symbols are independent; rename one")
 
     __iter__: ClassVar[None] = None  # the symbols are c.q, c.v and c.a
 
+    @cached_property
+    def _symbols(self) -> dict[str, sp.Symbol]:
+        """The coordinates, velocities and accelerations by name."""
+        return {str(s): s for s in (*self.q, *self.v, *self.a)}
+
     def __getitem__(self, name: str) -> sp.Symbol:
         """Return the coordinate, velocity or acceleration with this name."""
-        symbols = {str(s): s for s in (*self.q, *self.v, *self.a)}
-        if not isinstance(name, str) or name not in symbols:
-            meant = near(name, symbols) or ": find these symbols by their names"
-            raise InputError(f"Coordinates: {name!r} is none of {', '.join(symbols)}{meant}")
-        return symbols[name]
+        if not isinstance(name, str) or name not in self._symbols:
+            meant = near(name, self._symbols) or ": find these symbols by their names"
+            raise InputError(f"Coordinates: {name!r} is none of {', '.join(self._symbols)}{meant}")
+        return self._symbols[name]
 
     def __getattr__(self, name: str) -> sp.Symbol:
         """Return the symbol with this name, if no attribute has it."""
         if name.startswith("_") or "a" not in vars(self):
             raise AttributeError(name)
         # Python reads c.ϕ as c.φ: it normalizes the letters of identifiers.
-        normal = {normalize("NFKC", str(s)): s for s in (*self.q, *self.v, *self.a)}
+        normal = {normalize("NFKC", text): s for text, s in self._symbols.items()}
         if name in normal:
             return normal[name]
         try:
@@ -89,7 +95,7 @@ class Coordinates:
 
     def __dir__(self) -> list[str]:
         """Return the names of attributes and symbols."""
-        return [*object.__dir__(self), *map(str, (*self.q, *self.v, *self.a))]
+        return [*object.__dir__(self), *self._symbols]
 
 
 def coordinates(names: str | Sequence[str]) -> Coordinates:

@@ -51,12 +51,24 @@ class MovingFrame:
     def __post_init__(self) -> None:
         if not isinstance(self.c, Coordinates):
             raise InputError(f"Frame: {self.c!r} must be Coordinates: Frame(coordinates('phi theta psi'))")
-        check_names("Frame", self.c.q, self.c.v, [frame.amount for frame in self.to_the_ground])
+        _ = self.letters
 
     @property
     def to_the_ground(self) -> "list[MovingFrame]":
         """The list of frames from this one to the ground, both included."""
-        return [self] if self.parent is None else [self, *self.parent.to_the_ground]
+        steps = [self]
+        while (parent := steps[-1].parent) is not None:
+            steps.append(parent)
+        return steps
+
+    @cached_property
+    def letters(self) -> frozenset[sp.Symbol]:
+        """The symbols in the steps from the ground to this frame, without those of the coordinates."""
+        before = self.parent.letters if self.parent is not None else frozenset[sp.Symbol]()
+        symbols = getattr(self.amount, "free_symbols", frozenset[sp.Symbol]()) - before
+        new = {s: self.c._symbols.get(str(s), s) for s in symbols if self.c._symbols.get(str(s)) != s}
+        check_names("Frame", before if new else (), new)
+        return before.union(new) if new else before
 
     def __repr__(self) -> str:
         if self.parent is None:
@@ -344,7 +356,7 @@ def ball_joint(frame: Kind, quaternion: Any, omega: Any) -> Kind:
     q = tuple(_coordinate("ball", frame, name) for name in _names("ball: quaternion", quaternion, 4))
     w = [s if isinstance(s, sp.Symbol) else sp.Symbol(s, real=True) for s in _names("ball: omega", omega, 3)]
     names = {*map(str, w)}
-    if len({*q}) < 4 or len(names) < 3 or names & {str(s) for s in (*frame.c.q, *frame.c.v, *frame.c.a)}:
+    if len({*q}) < 4 or len(names) < 3 or names & frame.c._symbols.keys():
         raise InputError(
             f"ball: quaternion {quaternion!r} and omega {omega!r}: give seven different names, and for omega none of a "
             "coordinate"
@@ -449,7 +461,9 @@ def _names(where: str, names: Any, number: int) -> list[str | sp.Symbol]:
 
 
 def _coordinate(where: str, frame: MovingFrame, name: str | sp.Symbol) -> sp.Symbol:
-    coordinates = {str(q): q for q in frame.c.q}
-    if str(name) not in coordinates:
-        raise InputError(f"{where}: {name} is none of the coordinates {', '.join(coordinates)}: name some of these")
-    return coordinates[str(name)]
+    q = frame.c._symbols.get(str(name))
+    if q not in frame.c.q:
+        raise InputError(
+            f"{where}: {name} is none of the coordinates {', '.join(map(str, frame.c.q))}: name some of these"
+        )
+    return q
