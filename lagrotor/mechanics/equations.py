@@ -12,6 +12,7 @@ Nonholonomic Systems, ch. III.
 """
 
 import re
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -29,7 +30,9 @@ from lagrotor.mechanics.expressions import expression, no_coordinate, put_in, sh
 from lagrotor.mechanics.lagrangian import (
     Coordinates,
     dependent_rows,
+    depends_on,
     gradient,
+    is_affine,
     jacobian,
     linear_solve,
     singular_mass,
@@ -94,11 +97,11 @@ class Equations:
         joints = self.ball_joints
         turns = dict.fromkeys((joint.quaternion, joint.omega) for joint in joints)
         letters = [s for group in turns for symbols in group for s in symbols]
-        if twice := [s for s in letters if letters.count(s) > 1]:
+        if twice := [s for s, times in Counter(letters).items() if times > 1]:
             raise InputError(
                 f"System: {twice[0]} is in two ball joints: give each four coordinates and three velocities of its own"
             )
-        for body in self.bodies:
+        for body in self.bodies if letters else ():
             if used := {*letters} & (body.mass.free_symbols | body.inertia.free_symbols | body.centre.free_symbols):
                 raise InputError(
                     f"System: {min(map(str, used))} is a velocity of a ball joint and a symbol of a body: rename one"
@@ -159,15 +162,14 @@ class Equations:
                 if name == "constraints":
                     way = "a holonomic constraint depends on coordinates and time alone; integrate it, or give it to rolling"
                     _free_of(f"constraints[{i}]", e.free_symbols, velocities, way)
-                    if all(decide_zero(slope).answer == "zero" for slope in gradient(e, self.c.q)):
+                    if not depends_on(e, self.c.q):
                         raise InputError(f"System: constraints[{i}]: {e} = 0 binds no coordinate: leave it out")
                 elif name == "rolling":
                     if not e.free_symbols & velocities:
                         raise InputError(f"System: rolling[{i}] = {e} has no velocity: give it to constraints")
-                    slope = gradient(e, self.c.v)
-                    if all(decide_zero(entry).answer == "zero" for entry in slope):
+                    if not depends_on(e, self.c.v):
                         raise InputError(f"System: rolling[{i}]: {e} = 0 binds no velocity: leave it out")
-                    if any(decide_zero(entry).answer != "zero" for entry in jacobian(slope, self.c.v)):
+                    if not is_affine(e, self.c.v):
                         raise InputError(
                             f"System: rolling[{i}] = {e} is not affine in the velocities: its reaction is not defined by "
                             "d'Alembert's principle; write it as sum_j A_j(q, t) v_j + b(q, t)"

@@ -23,7 +23,8 @@ from unicodedata import normalize
 
 import sympy as sp
 
-from lagrotor.algebra import along, decide_zero, derivative
+from lagrotor.algebra import along, decide_zero
+from lagrotor.algebra.differentiation import slopes
 from lagrotor.errors import InputError, SingularError, near
 
 t = sp.Symbol("t", real=True)  # the time, s, where a Lagrangian, a force or a constraint depends on it explicitly
@@ -133,12 +134,22 @@ def coordinates(names: str | Sequence[str]) -> Coordinates:
 
 def gradient(f: sp.Expr, symbols: Sequence[sp.Symbol]) -> sp.Matrix:
     """Return the column ∂f/∂s, one row for each symbol."""
-    return sp.Matrix([derivative(f, s) for s in symbols])
+    return sp.Matrix(slopes(f, symbols))
 
 
 def jacobian(rows: Sequence[sp.Expr], symbols: Sequence[sp.Symbol]) -> sp.Matrix:
     """Return ∂f_i/∂s_j, one row for each f and one column for each symbol."""
-    return sp.Matrix(len(rows), len(symbols), lambda i, j: derivative(rows[i], symbols[j]))
+    return sp.Matrix(len(rows), len(symbols), [slope for row in rows for slope in slopes(row, symbols)])
+
+
+def depends_on(f: sp.Expr, symbols: Sequence[sp.Symbol]) -> bool:
+    """Return True if a partial derivative of an expression by one of the symbols is not identically zero."""
+    return any(slope != 0 and decide_zero(slope).answer != "zero" for slope in slopes(f, symbols))
+
+
+def is_affine(f: sp.Expr, symbols: Sequence[sp.Symbol]) -> bool:
+    """Return True if the partial derivatives of an expression by the symbols do not depend on them."""
+    return not any(slope != 0 and depends_on(slope, symbols) for slope in slopes(f, symbols))
 
 
 def total_derivative(expression: sp.Expr, c: Coordinates) -> sp.Expr:

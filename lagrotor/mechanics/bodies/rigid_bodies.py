@@ -20,6 +20,7 @@ from lagrotor.errors import InputError
 from lagrotor.mechanics.bodies import force_elements, moving_frames
 from lagrotor.mechanics.bodies.contacts import Contact, contact
 from lagrotor.mechanics.bodies.moving_frames import MovingFrame, Vector
+from lagrotor.mechanics.bodies.small_matrices import Small
 from lagrotor.mechanics.expressions import expression, vector_of
 from lagrotor.mechanics.lagrangian import t
 
@@ -586,6 +587,6 @@ class Energy:
 
 def _value(body: Body, field: tuple[sp.Expr, ...] | None) -> sp.Expr:
     if field is not None:
-        return -body.mass * sp.Matrix(field).dot(body.frame.place(body.centre))
-    v, w = body.velocity, body.frame.angular_velocity
-    return body.mass * v.dot(v) / 2 + w.dot(body.inertia * w) / 2
+        return -body.mass * Small.column(*field).dot(Small.of(body.frame.place(body.centre)))
+    v, w = Small.of(body.velocity), Small.of(body.frame.angular_velocity)
+    return body.mass * v.dot(v) / 2 + w.dot(Small.of(body.inertia) * w) / 2
