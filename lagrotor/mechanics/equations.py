@@ -454,7 +454,8 @@ def constrained_accelerations(system: Equations) -> tuple[sp.Matrix, sp.Matrix]:
     >>> constrained_accelerations(slide)[0].T
     Matrix([[-4, -4]])
     """
-    M, G = system.mass_matrix, system.rows
+    # cos² + sin², left in M, would fill det S of a body that rolls with thousands of terms.
+    M, G = (_short(e) if system.residual else e for e in (system.mass_matrix, system.rows))
     if system.ball_joints:
         raise SingularError(
             "accelerations: the mass matrix is singular along the length of a quaternion (det M = 0): "
@@ -464,9 +465,15 @@ def constrained_accelerations(system: Equations) -> tuple[sp.Matrix, sp.Matrix]:
     # M⁻¹ (Q − h) and W = M⁻¹ Gᵀ side by side, so that M is inverted once.
     right = (push - system.bias).row_join(G.T + by_reaction)
     solved = linear_solve(M, right, singular_mass("accelerations", M, system.c))
-    unbound, W = solved[:, :1], solved[:, 1:]
-    lam = -linear_solve(G * W, G * unbound + system.gamma, dependent_rows("accelerations", "det S = 0"))
+    if not system.residual:
+        return solved, sp.zeros(0, 1)
+    unbound, W = _short(solved[:, :1]), _short(solved[:, 1:])
+    lam = -linear_solve(_short(G * W), _short(G * unbound + system.gamma), dependent_rows("accelerations", "det S = 0"))
     return unbound + W * lam, lam
+
+
+def _short(matrix: sp.Matrix) -> sp.Matrix:
+    return matrix.applyfunc(shortest)
 
 
 def degrees_of_freedom(system: Equations, at: Mapping[sp.Symbol, float]) -> int:

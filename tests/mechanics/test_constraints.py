@@ -13,7 +13,7 @@ from sympy.physics.mechanics import LagrangesMethod, dynamicsymbols
 from lagrotor.errors import LagrotorError, LagrotorWarning
 from lagrotor.mechanics import Frame, System, constrained_accelerations, coordinates, degrees_of_freedom
 from lagrotor.mechanics.constraints import project_position, project_velocity, solve_constrained
-from tests.systems import I1, I2, I3, VALUES, ball_top, g, heavy_top, l, m, rod_pendulum
+from tests.systems import I1, I2, I3, VALUES, ball_top, g, heavy_top, l, m, rod_pendulum, rolling_disc
 
 
 def two_rods() -> System:
@@ -193,3 +193,13 @@ def test_a_kinetic_energy_that_is_negative_is_said() -> None:
     with pytest.warns(LagrotorWarning, match="negative"):
         run = System(c, M * c.v[0] ** 2 / 2 - c.q[0] ** 2 / 2).simulate({M: -1}, (0.1,), (0,), T)
     assert run.q[:, 0] == pytest.approx(0.1 * np.cosh(run.t), rel=1e-5)
+
+
+def test_accelerations_of_a_rolling_disc_are_short_and_those_of_its_right_hand_side() -> None:
+    disc, _ = rolling_disc()
+    values = {s: VALUES[s] for s in disc.letters if s in VALUES}
+    assert sp.count_ops(disc.accelerations) < 1000
+    q, v = disc.consistent(values, [0, 0, 1, 0.2, 0.3, 0.5], [0.1, 0.2, 0, 0.4, 0.5, 3])
+    at = values | dict(zip((*disc.c.q, *disc.c.v), (*q, *v), strict=True))
+    a = [float(e.subs(at)) for e in disc.accelerations]
+    assert a == pytest.approx(disc.rhs(values)(0.0, np.concatenate([q, v]))[6:], abs=1e-12)

@@ -8,7 +8,7 @@ import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lagrotor.errors import SingularError
+from lagrotor.errors import InputError, SingularError
 from lagrotor.numerics import operations
 from lagrotor.numerics.codegen import Program, reduce_common, solve_symmetric
 from lagrotor.numerics.printers import compile_program, in_blocks, javascript
@@ -135,3 +135,23 @@ def test_a_program_with_another_number_of_outputs_is_not_taken(outputs: int) -> 
     assert in_blocks(two, [np.arange(float(n))], 2, n)[1].tolist() == (2 * np.arange(n)).tolist()
     with pytest.raises(ValueError, match="zip"):
         in_blocks(two, [np.arange(float(n))], outputs, n)
+
+
+def test_stages_of_many_columns_have_different_names() -> None:
+    """With one digit after another, y1 of column 11 and y11 of column 1 were one stage."""
+    n = 12
+    matrix = sp.Matrix(n, n, lambda i, j: sp.Symbol(f"a{min(i, j)}_{max(i, j)}", real=True))
+    stages, x = solve_symmetric(matrix, sp.eye(n), "_m")
+    program = Program(tuple(sorted(matrix.free_symbols, key=str)), tuple(stages), tuple(x))
+    numbers = np.eye(n) + np.fromfunction(lambda i, j: 1 / (1 + i + j), (n, n))
+    values = {matrix[i, j]: numbers[i, j] for i in range(n) for j in range(n)}
+    inverse = compile_program(program)(*(values[s] for s in program.arguments))
+    assert np.reshape(inverse, (n, n)) @ numbers == pytest.approx(np.eye(n), abs=1e-12)
+
+
+def test_a_stage_has_a_name_of_its_own() -> None:
+    x, s = sp.symbols("x s", real=True)
+    with pytest.raises(InputError, match="s names two quantities"):
+        Program((x,), ((s, x + 1), (s, x + 2)), (s,))
+    with pytest.raises(InputError, match="x names two quantities"):
+        Program((x,), ((x, sp.Integer(2)),), (x,))

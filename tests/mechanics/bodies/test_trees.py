@@ -1,6 +1,8 @@
 """The articulated-body recursion against the mass matrix of the same Lagrangian, on random trees, with and without loops."""
 
+import sys
 from collections.abc import Callable
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -8,6 +10,7 @@ import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from lagrotor.algebra.subexpressions import forget
 from lagrotor.mechanics import Frame, System, coordinates, motion_program, t
 from lagrotor.mechanics.bodies.moving_frames import turn_matrix
 from lagrotor.mechanics.bodies.trees import tree_of
@@ -168,3 +171,50 @@ def test_what_is_no_tree_takes_the_mass_matrix() -> None:
     assert tree_of(System(c, right.kinetic)) is not None
     assert tree_of(System(c, 2 * right.kinetic)) is None
     assert tree_of(System(c, right.kinetic + c.v[0] ** 2 * b)) is None
+
+
+def spatial_chain(n: int) -> System:
+    """Return n rods on ball joints."""
+    c = coordinates([f"{name}{i}" for i in range(n) for name in "abcd"])
+    frame, L = Frame(c), sp.S.Zero
+    for i in range(n):
+        rod = frame.ball([f"{name}{i}" for name in "abcd"], [f"{name}{i}" for name in "uvw"])
+        body, frame = rod.body(m, (I1, I1, I3), (0, 0, -l / 2)), rod.moved(0, 0, -l)
+        L = body.kinetic - body.potential(GRAVITY) + L
+    return System(c, L)
+
+
+def calls(work: Callable[[], object]) -> int:
+    """Count the calls of Python functions."""
+    count = 0
+
+    def counted(frame: object, event: str, argument: object) -> None:
+        nonlocal count
+        count += event == "call"
+
+    forget()
+    sys.setprofile(counted)
+    try:
+        work()
+    finally:
+        sys.setprofile(None)
+    return count
+
+
+@pytest.mark.parametrize(("make", "sizes"), [(chain, (16, 32)), (spatial_chain, (6, 12))])
+def test_the_work_to_derive_a_chain_grows_in_proportion_to_its_length(make, sizes) -> None:
+    few, many = (calls(lambda n=n: make(n).rhs(KNOWN)) for n in sizes)
+    assert many < 2.3 * few
+
+
+def test_the_program_of_a_chain_grows_in_proportion_to_its_length() -> None:
+    programs = [motion_program(chain(n)).program for n in (16, 32, 64)]
+    for count in (operations, lambda program: len(reduce_common(program)[0])):
+        assert all(more <= 2.1 * less for less, more in pairwise(map(count, programs)))
+
+
+@pytest.mark.slow
+def test_a_chain_of_100_rods_runs_for_a_second_and_keeps_its_energy() -> None:
+    run = chain(100).simulate({m: 1.3, l: 0.7, g: 9.81}, np.linspace(0.05, 0.01, 100), np.zeros(100), [0, 0.5, 1], 1e-8)
+    assert run.error < 1e-8
+    assert np.ptp(run.energy) < 1e-10 * np.abs(run.energy).max()
