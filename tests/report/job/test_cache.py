@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 import sympy as sp
 
+from lagrotor.paper import FigureLink, Table
 from lagrotor.paper.papers import opened
 from lagrotor.paper.scripts import beside
-from lagrotor.paper.tables import FigureLink, Table
 from lagrotor.pictures import Picture
 from lagrotor.report.job import cache as cache_module
 from lagrotor.report.job.cache import (
