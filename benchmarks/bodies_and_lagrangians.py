@@ -7,7 +7,6 @@ Each in a process of its own, ended after LONGEST; right-hand sides are compared
 
 import argparse
 import importlib
-import json
 import sys
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -20,9 +19,8 @@ from benchmarks.mechanisms.chains import JOINTS, VALUES, chain
 from benchmarks.mechanisms.comparison import SAME, _clock, _time_of
 from benchmarks.mechanisms.sympy_tools import kane, lagrange
 from benchmarks.mechanisms.tool import forget_all, in_own_process
-from lagrotor.benchmark.records import BODIES_AND_LAGRANGIANS, LINKS, MechanismKind, stamp
+from lagrotor.benchmark.records import LINKS, MechanismKind, write_record
 from lagrotor.benchmark.runner import check_work
-from lagrotor.files import write_text
 from lagrotor.mechanics import Frame, System, coordinates
 
 LONGEST = 90.0  # s of processor time
@@ -260,6 +258,6 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(prog="python -m benchmarks.bodies_and_lagrangians", description=__doc__)
     parser.add_argument("--record", action="store_true", help="write the record")
     arguments = parser.parse_args()
-    made = stamp("bodies_and_lagrangians") | {"machine": machine(), "longest": LONGEST, "rows": measure()}
+    made = {"machine": machine(), "longest": LONGEST, "rows": measure()}
     if arguments.record:
-        print(write_text(BODIES_AND_LAGRANGIANS, json.dumps(made, indent=1, ensure_ascii=False) + "\n"))
+        print(write_record("bodies_and_lagrangians", made))

@@ -23,6 +23,8 @@ _PACKAGES = {
     "Cython": "Cython",
     "CyRK": "CyRK",
     "numba": "numba",
+    "jax": "jax",
+    "diffrax": "diffrax",
 }
 
 

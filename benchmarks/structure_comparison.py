@@ -5,7 +5,6 @@ tool's time is that of its coarsest setting whose tips are within CHAIN_ERROR of
 10⁻¹², with which every engine agrees. `simulate` gives its error estimate, for which it integrates twice; the engines give none.
 """
 
-import json
 import os
 import time
 from collections.abc import Callable
@@ -20,10 +19,9 @@ import numpy as np
 from benchmarks.machine import machine, versions
 from benchmarks.peers.multibody_engines import ENGINES
 from benchmarks.peers.rig import Rig
-from lagrotor.benchmark.records import CHAIN_ERROR, CHAIN_SIZES, STRUCTURES, Timed, stamp
+from lagrotor.benchmark.records import CHAIN_ERROR, CHAIN_SIZES, Timed, write_record
 from lagrotor.benchmark.runner import Array, Runner, check_work
 from lagrotor.errors import IntegrationError
-from lagrotor.files import write_text
 from lagrotor.numerics.integrate import Engine
 from lagrotor.pair.scene import Link
 from lagrotor.structures.exact.structure_run import StructureRun
@@ -140,7 +138,7 @@ def measure_all(say: Callable[[str], None] = lambda text: None) -> dict[str, Any
             else row
             for row in rows
         ]
-    return stamp("structures") | {
+    return {
         "machine": machine(),
         "versions": versions(),
         "rows": [asdict(row) | {"error": None if np.isinf(row.error) else row.error} for row in rows],
@@ -148,7 +146,7 @@ def measure_all(say: Callable[[str], None] = lambda text: None) -> dict[str, Any
 
 
 def _in_one_thread() -> None:
-    write_text(STRUCTURES, json.dumps(measure_all(print), indent=1) + "\n")
+    print(write_record("structures", measure_all(print)))
 
 
 if __name__ == "__main__":

@@ -119,7 +119,7 @@ def rates_seen(pattern: object, count: int, turns: int, band: int) -> tuple[obje
     t = np.linspace(0, 30 * np.pi / wave.rate, 601)
     weight, seen = np.hanning(len(t) + 2)[1:-1], []
     for amplitude in amplitudes:
-        run = pattern.piece(count).simulate(t, *wave.state(count, amplitude=amplitude), tol=1e-7)
+        run = pattern.piece(count).simulate(t, *wave.state(count, amplitude=amplitude), tol=1e-6)
         part = wave_amplitude(pattern, run, (count,), wave.q, band)
         seen.append(
             (np.average(np.abs(part), weights=weight), -np.polyfit(t, np.unwrap(np.angle(part)), 1, w=weight)[0])
@@ -194,7 +194,7 @@ for amplitude in pumped:
         hexagon.nonlinear_wave(triad.q[k], triad.bands[k]).state(6, amplitude=x) for k, x in ((0, 1e-6), (2, amplitude))
     ]
     t = np.linspace(0, 5 / growth, 401)
-    run = hexagon.piece(6).simulate(t, *(one + other for one, other in zip(*parts, strict=True)), tol=1e-8)
+    run = hexagon.piece(6).simulate(t, *(one + other for one, other in zip(*parts, strict=True)), tol=1e-6)
     grown = np.abs(wave_amplitude(hexagon, run, (6,), triad.q[0], triad.bands[0]))
     short.append(1 - np.polyfit(t[200:], np.log(grown[200:]), 1)[0] / growth)
 assert max(np.abs(short)) < 0.02

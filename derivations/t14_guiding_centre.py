@@ -174,7 +174,7 @@ def moving(pair: Scene, size: float, push: tuple[float, ...]) -> Scene:
 def distance(pair: Scene, size: float, push: tuple[float, ...], straight: bool = False) -> float:
     """The largest distance (rad) of the path from the centres of the exact run; `straight`: without ∇Ω, as a control."""
     start = moving(pair, size, push)
-    run = simulate(start, np.linspace(0, 0.3 / size, 13), "minimal", 1e-9)
+    run = simulate(start, np.linspace(0, 0.3 / size, 13), "minimal", 1e-7)
     exact = [
         guiding_centre(Scene(pair.spins, pair.rotor, pair.link, axes=r, rates=w)).place
         for r, w in zip(*(vectors.swapaxes(0, 1).tolist() for vectors in (run.axes, run.rates)), strict=True)

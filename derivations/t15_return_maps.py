@@ -15,7 +15,7 @@
 # %%
 import numpy as np
 import sympy as sp
-from scipy.integrate import solve_ivp
+from scipy.integrate import odeint, solve_ivp
 
 from lagrotor.mechanics import System, coordinates, t
 from lagrotor.numerics import measured_order
@@ -145,7 +145,7 @@ forms = {name: sides[name].normal_form(order=6, at=at, period=T) for name, (_, a
 
 def returns(h, n, size, count=120):
     """(q, p) minus the orbit's initial state, at the returns of the exact motion from z = size."""
-    states, base, driven = (*h.q, *h.p), np.array(list(n.orbit.values())), h.H.has(t)
+    states, base = (*h.q, *h.p), np.array(list(n.orbit.values()))
     rates = sp.lambdify((*states, t), [*(h.H.diff(p) for p in h.p), *(-h.H.diff(q) for q in h.q)], "math")
     normal = np.array(rates(*base, 0.0))
 
@@ -154,11 +154,12 @@ def returns(h, n, size, count=120):
 
     section.direction = 1
     times, start = n.period * np.arange(count + 1), list(n.place([size]).values())
+    if h.H.has(t):  # once per period of the drive
+        return odeint(lambda now, state: rates(*state, now), start, times, tfirst=True, rtol=1e-12, atol=1e-13) - base
     run = solve_ivp(
-        lambda now, state: rates(*state, now), (0, times[-1]), start, "DOP853", times,
-        events=None if driven else section, rtol=1e-11, atol=1e-13,
+        lambda now, state: rates(*state, now), (0, times[-1]), start, "DOP853", events=section, rtol=1e-11, atol=1e-13,
     )  # fmt: skip
-    return (run.y.T if driven else run.y_events[0]) - base
+    return run.y_events[0] - base
 
 
 def angle(n, apart):
@@ -187,3 +188,14 @@ Remark(
     + "; ".join(", ".join(f"{order:.2f}" for order in orders) + f" ({name})" for name, orders in measured.items())
     + ".",
 )
+
+# %% [markdown]
+# Wider motions are for figure t15, which compares the actions of the runs with the form:
+
+# %%
+SIZES = {
+    "an orbit of Hénon–Heiles": np.array([0.015, 0.025, 0.035, 0.045, 0.055]),
+    "a driven Duffing oscillator": np.array([0.2, 0.35, 0.45, 0.55, 0.65]),
+}
+runs = {name: [returns(sides[name], forms[name], size) for size in sizes] for name, sizes in SIZES.items()}
+angles = {name: np.array([angle(forms[name], apart) for apart in parts]) for name, parts in runs.items()}

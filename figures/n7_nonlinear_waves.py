@@ -43,7 +43,7 @@ def data() -> dict[str, np.ndarray]:
     for turns in range(1, CORNERS):
         wave = RING.nonlinear_wave(2 * pi * turns / CORNERS, 0)
         t = np.linspace(0, 30 * pi / wave.rate, 601)
-        run = RING.piece(CORNERS).simulate(t, *wave.state(CORNERS, amplitude=AMPLITUDE), tol=1e-6)
+        run = RING.piece(CORNERS).simulate(t, *wave.state(CORNERS, amplitude=AMPLITUDE), tol=1e-5)
         part, weight = wave_amplitude(RING, run, (CORNERS,), wave.q, 0), np.hanning(len(t) + 2)[1:-1]
         rate = -np.polyfit(t, np.unwrap(np.angle(part)), 1, w=weight)[0]
         exact.append((rate - wave.rate) / np.average(np.abs(part), weights=weight) ** 2)
@@ -52,7 +52,7 @@ def data() -> dict[str, np.ndarray]:
     waves = [HEXAGON.nonlinear_wave(triad.q[k], triad.bands[k]) for k in range(3)]
     starts = [wave.state(6, amplitude=a) for wave, a in zip(waves, begin, strict=True) if a]
     times = np.linspace(0, 90, 901)
-    run = HEXAGON.piece(6).simulate(times, *map(sum, zip(*starts, strict=True)), tol=1e-6)
+    run = HEXAGON.piece(6).simulate(times, *map(sum, zip(*starts, strict=True)), tol=1e-5)
     one, two, three = triad.strengths
 
     def slow(_: float, a: np.ndarray) -> np.ndarray:

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 from lagrotor import Structure
 from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR, FORCE_COLOUR
+from lagrotor.structures.steady_precession import SteadyPrecession
 
 TRIANGLE = Structure([(0, 0), (1, 0), (0.3, 0.9)], [(0, 1), (1, 2), (2, 0)], [-6.5, 7.7, 7.6], hinge=20.0)
 CORNER = Structure([(0, 0), (1, 0), (1.6, 0.8)], [(0, 1), (1, 2)], [39, 5.2, 36.4], gravity=9.81, load=2.0)
@@ -38,9 +39,15 @@ ALT = (
 
 
 # %%
+@cache
+def precession(structure: Structure, mode: int, tilt: float) -> SteadyPrecession:
+    """The exact periodic orbit of a mode at a tilt."""
+    return structure.steady_precession(mode, tilt)
+
+
 def off(structure: Structure, mode: int, tilt: float, turns: int) -> np.ndarray:
     """Distances of an exact run from a precession beside which it begins, after each turn; growth per turn last."""
-    orbit = structure.steady_precession(mode, tilt)
+    orbit = precession(structure, mode, tilt)
     kick = np.zeros_like(orbit.axes)
     kick[0, :2] = KICK
     run = structure.simulate(orbit.period * np.arange(turns + 1), orbit.axes + kick, orbit.rates, tol=1e-5)
@@ -56,13 +63,13 @@ def data() -> dict[str, np.ndarray]:
         fine = np.linspace(0, min(law.reach, 1.1 * tilts[-1]), 60)
         found[f"tilts, {name}"] = fine
         found[f"law, {name}"] = np.array([law.rate_at(tilt) for tilt in fine]) / law.rate - 1
-        exact = [2 * np.pi / structure.steady_precession(mode, tilt).period for tilt in tilts]
+        exact = [2 * np.pi / precession(structure, mode, tilt).period for tilt in tilts]
         found[f"exact, {name}"] = np.array(exact) / law.rate - 1
         found[f"said, {name}"] = np.array([law.rate_at(tilt) for tilt in tilts]) / law.rate - 1
     law = TRIANGLE.precession_law(2)
     found["tilts"] = np.append(law.edge, np.linspace(0.05, 0.18, 131))
     found["growth"] = np.array([law.growth_at(tilt) for tilt in found["tilts"]])
-    found["exact"] = np.array([TRIANGLE.steady_precession(2, tilt).growth for tilt in GROWN])
+    found["exact"] = np.array([precession(TRIANGLE, 2, tilt).growth for tilt in GROWN])
     found["said"] = np.array([law.growth_at(tilt) for tilt in GROWN])
     return found | {f"off, {name}": off(*case) for name, case in LEFT.items()}
 

@@ -14,11 +14,7 @@ from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 MADE = PAPER.scripts.run("derivations", "t15_return_maps")
-FORMS, SIDES = MADE["forms"], MADE["sides"]
-SIZES = {  # of the exact runs; the form's curves go on to a little more
-    "an orbit of Hénon–Heiles": np.array([0.015, 0.025, 0.035, 0.045, 0.055]),
-    "a driven Duffing oscillator": np.array([0.2, 0.35, 0.45, 0.55, 0.65]),
-}
+FORMS, SIZES, RUNS, ANGLES = (MADE[name] for name in ("forms", "SIZES", "runs", "angles"))
 AXIS = next(iter(SIZES))
 INKS = (*CASE_COLOURS, CORRECTION_COLOUR)
 
@@ -37,12 +33,11 @@ def data() -> dict[str, np.ndarray]:
     the section x and p_x, exact (m, returns, 2) and of the form (m, n, 2)."""
     found = {}
     for name, sizes in SIZES.items():
-        n, h = FORMS[name], SIDES[name]
-        runs = [MADE["returns"](h, n, size) for size in sizes]
+        n, runs = FORMS[name], RUNS[name]
         actions = np.linspace(0, 1.1 * sizes[-1] ** 2, 80)
         found |= {
             f"I, {name}": sizes**2,
-            f"exact, {name}": np.array([MADE["angle"](n, apart) for apart in runs]) / (2 * np.pi),
+            f"exact, {name}": ANGLES[name] / (2 * np.pi),
             f"form at the runs, {name}": np.array([n.rotation_numbers([size**2])[0] for size in sizes]),
             f"curve I, {name}": actions,
             f"line, {name}": (n.frequencies[0] + n.twist[0, 0] * actions) / (2 * np.pi),

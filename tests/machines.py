@@ -6,6 +6,7 @@ dependencies, with the extras and without, and every Python from 3.11 on that is
 not run though its packages could be fetched: only what this machine lacks, a network, an interpreter or a processor, excuses it.
 """
 
+import ast
 import os
 import platform
 import re
@@ -20,6 +21,17 @@ ROOT = Path(__file__).resolve().parent.parent
 # The folders in which numbers are computed, whose last digits depend on the machine. What decides has no floating point.
 COMPUTING = tuple(f"tests/{folder}" for folder in ("numerics", "mechanics", "pair", "theory", "models", "structures"))
 DECIDING = ("tests/algebra",)
+# Of the computing folders, the tests that call neither numpy nor scipy: another kernel or processor cannot change them.
+SYMBOLIC = (
+    "tests/mechanics/canonical/test_generating_functions.py",
+    "tests/mechanics/test_expressions.py",
+    "tests/mechanics/test_fourier.py::test_the_drift_of_the_guiding_centre",
+    "tests/mechanics/test_linear_modes.py::test_equal_rates_of_gyroscopic_systems_are_seen_in_any_numbers",
+    "tests/mechanics/test_peers_texts.py::test_energies_momenta_and_hamiltonians_are_emmys",
+    "tests/mechanics/test_quasi_velocities.py::test_integrals_are_decided_in_velocities_of_ones_own",
+    "tests/pair/test_scene_document.py",
+    "tests/theory/test_derivations.py::test_a_changed_step_is_refused",
+)
 # OPENBLAS_CORETYPE → what the processor has to have for it.
 KERNELS = {"Prescott": "pni", "Nehalem": "sse4_2", "Sandybridge": "avx", "Haswell": "avx2", "SkylakeX": "avx512bw"}
 OLDEST = "Prescott"  # its run has no vector features of numpy either
@@ -68,31 +80,43 @@ LOWEST = Environment(".venv-lowest")
 
 @dataclass(frozen=True)
 class Run:
-    """A run of tests: its name, files, environment and variables. vectors: whether numpy uses its vector features."""
+    """A run of tests: its name, files, environment and variables. vectors: whether numpy uses its vector features.
+    without: files and tests that it leaves out."""
 
     name: str
     tests: tuple[str, ...]
     environment: Environment
     variables: dict[str, str] = field(default_factory=dict)
     vectors: bool = True
+    without: tuple[str, ...] = ()
 
 
-def extras_files() -> tuple[str, ...]:
-    """The files of tests that need an extra: they name a module of it in quotes."""
-    named = re.compile("|".join(f'"{module}' for module in EXTRAS))
-    files = sorted(
-        path for path in (ROOT / "tests").rglob("test_*.py") if named.search(path.read_text(encoding="utf-8"))
-    )
-    return tuple(path.relative_to(ROOT).as_posix() for path in files)
+def extras_tests() -> tuple[str, ...]:
+    """The tests that need an extra: the functions that name a module of it in quotes; the whole file where other lines do,
+    and in tests/benchmarks, where tools name their modules."""
+    named = re.compile("|".join(map(re.escape, EXTRAS)))
+    chosen = list[str]()
+    for path in sorted((ROOT / "tests").rglob("test_*.py")):
+        file, naming = path.relative_to(ROOT).as_posix(), list[ast.stmt]()
+        for statement in ast.parse(path.read_text(encoding="utf-8")).body:
+            texts = (node.value for node in ast.walk(statement) if isinstance(node, ast.Constant))
+            if any(isinstance(text, str) and named.match(text) for text in texts):
+                naming.append(statement)
+        alone = all(isinstance(s, ast.FunctionDef) and s.name.startswith("test_") for s in naming)
+        if alone and not (naming and file.startswith("tests/benchmarks/")):
+            chosen += [f"{file}::{s.name}" for s in naming]  # type: ignore[attr-defined]
+        else:
+            chosen.append(file)
+    return tuple(chosen)
 
 
 def runs() -> list[Run]:
     """All of them."""
     return [
         *(Run(f"hash-seed-{seed}", ("tests",), ORDINARY, {"PYTHONHASHSEED": str(seed)}) for seed in SEEDS),
-        Run("extras", extras_files(), WITH_EXTRAS),
-        *(Run(name, COMPUTING, WITH_EXTRAS, {"OPENBLAS_CORETYPE": name}, name != OLDEST) for name in KERNELS),
-        Run("no-vectors", COMPUTING, WITH_EXTRAS, vectors=False),
+        Run("extras", extras_tests(), WITH_EXTRAS),
+        *(Run(name, COMPUTING, WITH_EXTRAS, {"OPENBLAS_CORETYPE": name}, name != OLDEST, SYMBOLIC) for name in KERNELS),
+        Run("no-vectors", COMPUTING, WITH_EXTRAS, vectors=False, without=SYMBOLIC),
         Run("lowest", (*DECIDING, *COMPUTING), LOWEST),
         *(
             Run(f"python{number}", ("tests",), Environment(f".venv-{number}", ".installed-test", f"python{number}"))
@@ -102,7 +126,7 @@ def runs() -> list[Run]:
 
 
 def without_repeats(run: Run, before: Iterable[Run]) -> Run:
-    """The run without the files that one of those before had with the same packages: what is asked of it is only that."""
+    """The run without the tests that one of those before had with the same packages: what is asked of it is only that."""
     had = tuple(f"{path}/" for other in before if other.environment == run.environment for path in other.tests)
     tests = tuple(path for path in run.tests if not path.startswith(had))
     return run if run.variables or not run.vectors else replace(run, tests=tests)
@@ -152,6 +176,7 @@ def variables_of(run: Run) -> dict[str, str]:
 def passed(run: Run) -> bool:
     """Run the tests, their progress shown."""
     command = [run.environment.executable, "-m", "pytest", "-q", *run.tests]
+    command += [f"--deselect={test}" for test in run.without]
     return subprocess.run(command, cwd=ROOT, env=variables_of(run)).returncode == 0
 
 

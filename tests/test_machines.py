@@ -12,7 +12,19 @@ from hypothesis import settings
 
 from tests import machines
 from tests.conftest import exploring
-from tests.machines import EXTRAS, KERNELS, OLDEST, PYTHONS, ROOT, Environment, Run, extras_files, runs
+from tests.machines import (
+    COMPUTING,
+    EXTRAS,
+    KERNELS,
+    OLDEST,
+    PYTHONS,
+    ROOT,
+    SYMBOLIC,
+    Environment,
+    Run,
+    extras_tests,
+    runs,
+)
 
 WORKFLOW = ROOT / ".github" / "workflows" / "tests.yml"
 BUILD = ROOT / ".ci" / "run"
@@ -28,16 +40,32 @@ def nothing_is_installed(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_every_run_has_a_name_of_its_own_and_files() -> None:
     names = [run.name for run in runs()]
     assert len(set(names)) == len(names) and not any(" " in name for name in names)
-    assert all((ROOT / path).exists() for run in runs() for path in run.tests)
+    for test in {test for run in runs() for test in (*run.tests, *run.without)}:
+        path, _, function = test.partition("::")
+        assert (ROOT / path).exists() and (not function or f"def {function}(" in (ROOT / path).read_text()), test
     assert {*KERNELS, "extras", "lowest", "no-vectors"} <= set(names)
 
 
 def test_the_extras_are_in_the_environment_that_tests_them() -> None:
-    assert "fast,notebook" in (ROOT / "Makefile").read_text() and len(extras_files()) > 8
-    assert {"tests/numerics/test_taylor.py", "tests/pair/test_result_display.py"} <= set(extras_files())
+    chosen = extras_tests()
+    assert "fast,notebook" in (ROOT / "Makefile").read_text() and len(chosen) > 8
+    # A fixture that names a module, a function, and a file whose tools name their modules.
+    assert {"tests/numerics/test_taylor.py", "tests/benchmarks/test_peers_on_mechanisms.py"} <= set(chosen)
+    assert "tests/test_examples.py::test_examples_of_docstrings" in chosen and "tests/test_examples.py" not in chosen
     needing = re.compile(rf"importorskip\(\s*\"(?:{'|'.join(EXTRAS)})\"")
     files = [path for path in (ROOT / "tests").rglob("test_*.py") if needing.search(path.read_text())]
-    assert {path.relative_to(ROOT).as_posix() for path in files} <= set(extras_files())
+    assert {path.relative_to(ROOT).as_posix() for path in files} <= {test.partition("::")[0] for test in chosen}
+
+
+def test_another_kernel_leaves_out_what_needs_neither_numbers_nor_an_extra() -> None:
+    """What it leaves out is not run with the extras either."""
+    assert all(run.without == SYMBOLIC for run in runs() if run.tests == COMPUTING)
+    assert {test.partition("::")[0] for test in SYMBOLIC}.isdisjoint(test.partition("::")[0] for test in extras_tests())
+    for test in SYMBOLIC:
+        path, _, function = test.partition("::")
+        text = (ROOT / path).read_text()
+        text = text[text.index(f"def {function}(") :].split("\n\n\n")[0] if function else text
+        assert test.startswith(COMPUTING) and not re.search(r"\bnp\.|numpy|scipy|simulate", text), test
 
 
 @pytest.mark.skipif(not (WORKFLOW.exists() and BUILD.exists()), reason="installed without the workflow")
@@ -53,7 +81,7 @@ def test_what_is_run_elsewhere_is_one_of_the_runs() -> None:
 def test_what_a_kernel_has_run_with_the_extras_is_not_run_again_for_them() -> None:
     named = {run.name: run for run in runs()}
     files, rest = (machines.without_repeats(named["extras"], [named[name]]).tests for name in ("lowest", OLDEST))
-    assert files == extras_files() and set(rest) < set(files)
+    assert files == extras_tests() and set(rest) < set(files)
     assert not any(path.startswith(machines.COMPUTING) for path in rest) and "tests/proofs/test_theorems.py" in rest
     assert machines.without_repeats(named["Haswell"], [named[OLDEST]]) == named["Haswell"]
 

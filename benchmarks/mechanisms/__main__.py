@@ -4,7 +4,6 @@
 """
 
 import argparse
-import json
 from dataclasses import asdict
 
 from benchmarks.machine import machine, versions
@@ -18,26 +17,23 @@ from lagrotor.benchmark.mechanism_tables import (
     mechanism_rows,
     target_rows,
 )
-from lagrotor.benchmark.records import MECHANISMS, Comparison, recorded_bodies_and_lagrangians, stamp
-from lagrotor.files import write_text
+from lagrotor.benchmark.records import recorded_bodies_and_lagrangians, write_record
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(prog="python -m benchmarks.mechanisms", description=__doc__)
     parser.add_argument("--record", action="store_true", help="write the record")
     arguments = parser.parse_args()
-    when, results = stamp("mechanisms"), (compare(step=print), decide_pairs(), operation_counts())
-    made = Comparison(when["date"], when["digest"], machine(), versions(), *results)
+    measured, decided, operations = compare(step=print), decide_pairs(), operation_counts()
     if arguments.record:
-        rows = [{name: x for name, x in asdict(row).items() if x not in (None, "")} for row in made.measured]
-        print(
-            write_text(MECHANISMS, json.dumps(asdict(made) | {"measured": rows}, indent=1, ensure_ascii=False) + "\n")
-        )
+        rows = [{name: x for name, x in asdict(row).items() if x not in (None, "")} for row in measured]
+        made = {"machine": machine(), "versions": versions(), "measured": rows, "operations": operations}
+        print(write_record("mechanisms", made | {"decided": list(map(asdict, decided))}))
     for head, body in (
-        (MECHANISM_HEAD, mechanism_rows(made.measured)),
-        (DECISION_HEAD, decision_rows(made.decided)),
+        (MECHANISM_HEAD, mechanism_rows(measured)),
+        (DECISION_HEAD, decision_rows(decided)),
         (
             TARGET_HEAD,
-            target_rows(made.measured, made.decided, made.operations, recorded_bodies_and_lagrangians()["rows"]),
+            target_rows(measured, decided, operations, recorded_bodies_and_lagrangians()["rows"]),
         ),
     ):
         print("", " | ".join(head), *(" | ".join(row) for row in body), sep="\n")

@@ -7,6 +7,8 @@ from collections.abc import Iterable, Sequence
 
 import sympy as sp
 
+from lagrotor.algebra.subexpressions import free_letters
+
 _FUNCTIONS = (
     sp.sin, sp.cos, sp.tan, sp.cot, sp.sec, sp.csc, sp.asin, sp.acos, sp.atan,
     sp.sinh, sp.cosh, sp.tanh, sp.coth, sp.sech, sp.csch, sp.asinh, sp.acosh, sp.atanh, sp.exp, sp.log,
@@ -64,8 +66,14 @@ def along(expression: sp.Expr, symbols: Iterable[sp.Symbol], rates: Iterable[sp.
     0
     """
     nonzero = [(s, r) for s, r in zip(symbols, rates, strict=True) if r != 0]
-    slopes = [(derivative(expression, s), r) for s, r in nonzero]
-    return sp.Add(*(slope * r for slope, r in slopes if slope is not sp.S.Zero))
+    changes = zip(slopes(expression, [s for s, _ in nonzero]), nonzero, strict=True)
+    return sp.Add(*(slope * r for slope, (_, r) in changes if slope is not sp.S.Zero))
+
+
+def slopes(expression: sp.Expr, symbols: Iterable[sp.Symbol]) -> list[sp.Expr]:
+    """Return the partial derivatives of an expression, one for each symbol; those by symbols that it does not contain cost nothing."""
+    inside = free_letters(sp.sympify(expression, strict=True))
+    return [derivative(expression, s) if s in inside else sp.S.Zero for s in symbols]
 
 
 def hessian(expression: sp.Expr, symbols: Sequence[sp.Symbol]) -> sp.Matrix:
@@ -92,8 +100,7 @@ def hessian(expression: sp.Expr, symbols: Sequence[sp.Symbol]) -> sp.Matrix:
     [2*y, 2*x],
     [2*x,   0]])
     """
-    slopes = [derivative(expression, s) for s in symbols]
-    return sp.Matrix([[derivative(slope, s) for s in symbols] for slope in slopes])
+    return sp.Matrix([slopes(slope, symbols) for slope in slopes(expression, symbols)])
 
 
 def _derivative(e: sp.Expr, s: sp.Symbol, slopes_of: dict[sp.Expr, sp.Expr]) -> sp.Expr:

@@ -24,7 +24,7 @@ def check_names(where: str, *values: Any) -> None:
 
 
 def symbols_in(value: Any) -> Iterable[sp.Symbol]:
-    """Yield the symbols of expressions, relations, rows and mappings of them, each as often as it occurs."""
+    """Yield the symbols of expressions, relations, rows and mappings of them, in no order, also repeatedly."""
     if isinstance(value, sp.Basic | sp.MatrixBase):
         yield from value.free_symbols
     elif isinstance(value, Mapping):

@@ -3,29 +3,32 @@ chains.
 
 Records make reports reproducible. They are renewed in a checkout with the other tools installed: `python -m
 benchmarks.speed`, `python -m benchmarks.mechanisms --record`, `python -m benchmarks.structure_comparison`, `python -m
-benchmarks.bodies_and_lagrangians --record`. Each record has its date and a digest of the measured code, null in older
-records.
+benchmarks.bodies_and_lagrangians --record`. Each record has its date and, for each package that it measured, a digest of the
+code. Older records have no such digests.
 """
 
 import ast
 import json
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
-from typing import Any, Literal, TypeVar
+from types import ModuleType
+from typing import Any, Literal, TypeVar, get_args
 
 from lagrotor import algebra, mechanics, models, numerics, pair, structures, theory
 from lagrotor.errors import LagrotorError
+from lagrotor.files import write_text
 
-_NAMES = ("speed", "mechanisms", "structures", "bodies_and_lagrangians")
-_FILES = [Path(__file__).with_name(f"recorded_{name}.json") for name in _NAMES]
-SPEED, MECHANISMS, STRUCTURES, BODIES_AND_LAGRANGIANS = _FILES
 RecordName = Literal["speed", "mechanisms", "structures", "bodies_and_lagrangians"]
-MEASURED_PACKAGES = {
+FILES: dict[RecordName, Path] = {
+    name: Path(__file__).with_name(f"recorded_{name}.json") for name in get_args(RecordName)
+}
+KEPT_SOURCES = "generated.txt"
+MEASURED_PACKAGES: dict[RecordName, tuple[ModuleType, ...]] = {
     "speed": (models, numerics, pair, theory),
     "mechanisms": (algebra, mechanics, numerics),
     "structures": (mechanics, numerics, structures),
@@ -89,7 +92,7 @@ class Comparison:
     """A record of mechanisms. `operations` are the numbers of operations of one evaluation, for each size in LINKS."""
 
     date: str
-    digest: str | None
+    digest: Mapping[str, str] | None
     machine: dict[str, Any]
     versions: dict[str, str]
     measured: list[Measured]
@@ -116,13 +119,21 @@ class Timed:
 
 
 @cache
-def code_digest(name: RecordName) -> str:
-    """Return the SHA-256 digest of the code that a record measures. Comments, docstrings and line numbers do not change it."""
+def code_digests(name: RecordName) -> dict[str, str]:
+    """Return the SHA-256 digest of the code of each package that a record measures, by the name of the package. Comments,
+    docstrings and line numbers do not change it."""
+    return {
+        package.__name__.removeprefix("lagrotor."): _digest(Path(package.__path__[0]))
+        for package in MEASURED_PACKAGES[name]
+    }
+
+
+def _digest(folder: Path) -> str:
+    """Return the digest of the modules in a folder, and of the kept programs, which are code without words."""
     digest = sha256()
-    for folder in (Path(package.__path__[0]) for package in MEASURED_PACKAGES[name]):
-        for file in sorted(folder.rglob("*.py")):
-            name_in_package = file.relative_to(folder.parent).as_posix()
-            digest.update(f"{name_in_package} {_code_of(file)}".encode())
+    for file in sorted([*folder.rglob("*.py"), *folder.rglob(KEPT_SOURCES)]):
+        code = file.read_text(encoding="utf-8") if file.name == KEPT_SOURCES else _code_of(file)
+        digest.update(f"{file.relative_to(folder).as_posix()} {code}".encode())
     return digest.hexdigest()
 
 
@@ -142,23 +153,26 @@ def _code(node: object) -> object:
     return tuple(item for item in map(_code, node) if item) if isinstance(node, list) else repr(node)
 
 
-def stamp(name: RecordName) -> dict[str, str]:
-    """Return the date of today and the digest of the present code, for a record that is measured now."""
-    return {"date": datetime.now(UTC).date().isoformat(), "digest": code_digest(name)}
+def write_record(name: RecordName, data: Mapping[str, Any]) -> Path:
+    """Write a record that was measured now, with the date of today and the digests of the present code; return its file."""
+    made = {"date": datetime.now(UTC).date().isoformat(), "digest": code_digests(name), **data}
+    return write_text(FILES[name], json.dumps(made, indent=1, ensure_ascii=False) + "\n")
 
 
-def record_age(name: RecordName, date: str, digest: str | None) -> str:
-    """Return a sentence with the date of a record, which also says if the measured code has changed since."""
-    if digest == code_digest(name):
+def record_age(name: RecordName, date: str, digest: Mapping[str, str] | None) -> str:
+    """Return a sentence with the date of a record, which also says in which packages the code has changed since."""
+    if not isinstance(digest, Mapping):
+        return f"The measurement is of {date}; the code that it measured is not on record."
+    changed = [package for package, now in code_digests(name).items() if digest.get(package) != now]
+    if not changed:
         return f"The measurement is of {date}, with the present code."
-    packages = ", ".join(package.__name__.removeprefix("lagrotor.") for package in MEASURED_PACKAGES[name])
-    return f"The measurement is of {date}; the code that it measured ({packages}) has changed since then."
+    return f"The measurement is of {date}; since then the code of {', '.join(changed)} has changed."
 
 
 def recorded_speed() -> dict[str, Any]:
     """Return the record of speed: date, digest, machine, versions, throughput, at_error (error → method → time in s) and set_up
     (method → time in s). Raise LagrotorError if it is unreadable."""
-    return _read(SPEED, dict)
+    return _read("speed", dict)
 
 
 def recorded_multiple(record: dict[str, Any], name: str, error: str, of: str) -> float | None:
@@ -169,7 +183,7 @@ def recorded_multiple(record: dict[str, Any], name: str, error: str, of: str) ->
 
 def recorded_mechanisms() -> Comparison:
     """Return the record of mechanisms. Raises LagrotorError if it is unreadable."""
-    return _read(MECHANISMS, _comparison)
+    return _read("mechanisms", _comparison)
 
 
 def _comparison(data: dict[str, Any]) -> Comparison:
@@ -179,7 +193,7 @@ def _comparison(data: dict[str, Any]) -> Comparison:
 
 def recorded_structures() -> tuple[dict[str, Any], list[Timed]]:
     """Return the record of chains, and its rows as `Timed`. Raises LagrotorError if it is unreadable."""
-    return _read(STRUCTURES, lambda data: (data, list(map(_timed, data["rows"]))))
+    return _read("structures", lambda data: (data, list(map(_timed, data["rows"]))))
 
 
 def _timed(row: dict[str, Any]) -> Timed:
@@ -188,11 +202,11 @@ def _timed(row: dict[str, Any]) -> Timed:
 
 def recorded_bodies_and_lagrangians() -> dict[str, Any]:
     """Return the record of mechanisms from bodies and from Lagrangians, times in s. Raises LagrotorError if it is unreadable."""
-    return _read(BODIES_AND_LAGRANGIANS, dict)
+    return _read("bodies_and_lagrangians", dict)
 
 
-def _read(file: Path, build: Callable[[Any], Record]) -> Record:
+def _read(name: RecordName, build: Callable[[Any], Record]) -> Record:
     try:
-        return build(json.loads(file.read_text(encoding="utf-8")))
+        return build(json.loads(FILES[name].read_text(encoding="utf-8")))
     except (OSError, ValueError, KeyError, TypeError) as error:
-        raise LagrotorError(f"{file} cannot be read ({error}): install lagrotor anew") from None
+        raise LagrotorError(f"{FILES[name]} cannot be read ({error}): install lagrotor anew") from None

@@ -21,7 +21,7 @@ from lagrotor.pair.scene import Scene
 
 Runner = Callable[[float], tuple[Array, int]]
 Prepare = Callable[[Scene, Array], Runner]
-Family = Literal["closed", "core", "fast", "scipy", "springs", "candidate", "peer", "trap"]
+Family = Literal["closed", "core", "fast", "scipy", "springs", "compiled", "peer", "trap"]
 
 TOLERANCES = tuple(10.0**-n for n in range(3, 14))
 LONGEST_RUN = Calibrated(
@@ -98,7 +98,7 @@ class Case:
 # Processor time does not depend on other processes; the wall clock is used if its resolution is too coarse.
 _CLOCK = time.process_time if time.get_clock_info("process_time").resolution < 1e-6 else time.perf_counter
 Work = Literal["seconds", "nfev"]
-_COMPILING = "closed", "fast"  # families whose first run may derive or compile
+_COMPILING = "closed", "fast", "compiled"  # families whose first run may derive or compile
 _REFUSALS = LagrotorError, RuntimeError, ValueError
 _FLOOR = 1e-6  # m, the largest difference of the reference's two formulations
 

@@ -15,7 +15,8 @@ from lagrotor.models.sweeps.ensemble import CHUNK, Ensemble, sweep
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.natural_rate import natural_rate
 
-_RUN = 10.0  # s
+DURATION = 10.0  # s
+ENSEMBLE_ERRORS = 1e-6, 1e-10
 
 
 @dataclass(frozen=True)
@@ -47,17 +48,17 @@ def throughput(n: int = 4096, executor: Executor | None = None) -> list[Throughp
     first = ""
     chunk = max(1, min(CHUNK, n // 2))
     for engine in ("core", *(["fast"] if find_spec("heyoka") else [])):
-        for tol in (1e-6, 1e-10):
+        for tol in ENSEMBLE_ERRORS:
             # Compilation happens once in a process and is not part of the rate.
             sweep(scenes[:16], [0.0, 0.1], tol, chunk=4, executor=executor, engine=engine)
             seconds = []
             for _ in range(2):
                 began = time.perf_counter()
-                ensemble = sweep(scenes, [0.0, _RUN], tol, chunk=chunk, executor=executor, engine=engine)
+                ensemble = sweep(scenes, [0.0, DURATION], tol, chunk=chunk, executor=executor, engine=engine)
                 seconds.append(time.perf_counter() - began)
             _check_ensemble(ensemble)
             kind = f"{engine}, error {tol:.0e}"
-            what, first = f"trajectories of {_RUN:g} s, displaced family, {kind}", first or kind
+            what, first = f"trajectories of {DURATION:g} s, displaced family, {kind}", first or kind
             rate = n / min(seconds)
             against = f"that of {first}" if rows else "itself"
             rows.append(Throughput(what, "trajectories/s", rate, rate / rows[0].rate if rows else 1.0, against))
@@ -68,7 +69,7 @@ def _check_ensemble(ensemble: Ensemble) -> None:
     """Check the evaluations and errors of an ensemble, and compare the last axes of three runs with the model `spheres`."""
     ends, errors = ensemble.axes[:, :, -1], [float(ensemble.error.max())]
     for i in (0, len(ends) // 2, len(ends) - 1):
-        run = simulate(ensemble.scenes[i], [0.0, _RUN], "spheres", 1e-11)
+        run = simulate(ensemble.scenes[i], [0.0, DURATION], "spheres", 1e-11)
         errors.append(float(np.linalg.norm(ends[i] - run.axes[:, -1], axis=-1).max()))
-    angle = natural_rate(ensemble.scenes[0]) * _RUN  # rad
+    angle = natural_rate(ensemble.scenes[0]) * DURATION  # rad
     check_work("sweep", ensemble.evaluations.min(), ensemble.axes[:, 0], max(errors), ensemble.tol, angle)

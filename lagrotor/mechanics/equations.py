@@ -12,6 +12,7 @@ Nonholonomic Systems, ch. III.
 """
 
 import re
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -29,7 +30,9 @@ from lagrotor.mechanics.expressions import expression, no_coordinate, put_in, sh
 from lagrotor.mechanics.lagrangian import (
     Coordinates,
     dependent_rows,
+    depends_on,
     gradient,
+    is_affine,
     jacobian,
     linear_solve,
     singular_mass,
@@ -74,17 +77,19 @@ class Equations:
             object.__setattr__(self, name, tuple(expression(f"System: {name}[{i}]", e) for i, e in enumerate(entries)))
         object.__setattr__(self, "dissipation", expression("System: dissipation", self.dissipation))
         self._take_velocities()
+        if not self.bodies:  # energies of bodies are multiplied out only when needed
+            object.__setattr__(self, "lagrangian", expression("System: L", self.lagrangian))
         if self.forces and len(self.forces) != len(self.c.q):
             raise InputError(
                 f"System: {len(self.forces)} forces for {len(self.c.q)} coordinates: Q has one component for each "
                 "coordinate; give 0 where no force acts"
             )
-        no_coordinate("System: a force or a constraint", self.acting, (*self.c.q, *self.c.v, *self.c.a))
+        moving = (*self.c.q, *self.c.v, *self.c.a)
+        no_coordinate("System: L", self.lagrangian_parts, moving)
+        no_coordinate("System: a force or a constraint", self.acting, moving)
         check_names("System", *self._letters)
         self._check_symbols()
         self._check_reactions()
-        if not self.bodies:
-            object.__setattr__(self, "lagrangian", self.L)  # energies of bodies are multiplied out only when needed
         _ = self.kinematics
 
     def _take_velocities(self) -> None:
@@ -92,11 +97,11 @@ class Equations:
         joints = self.ball_joints
         turns = dict.fromkeys((joint.quaternion, joint.omega) for joint in joints)
         letters = [s for group in turns for symbols in group for s in symbols]
-        if twice := [s for s in letters if letters.count(s) > 1]:
+        if twice := [s for s, times in Counter(letters).items() if times > 1]:
             raise InputError(
                 f"System: {twice[0]} is in two ball joints: give each four coordinates and three velocities of its own"
             )
-        for body in self.bodies:
+        for body in self.bodies if letters else ():
             if used := {*letters} & (body.mass.free_symbols | body.inertia.free_symbols | body.centre.free_symbols):
                 raise InputError(
                     f"System: {min(map(str, used))} is a velocity of a ball joint and a symbol of a body: rename one"
@@ -157,19 +162,20 @@ class Equations:
                 if name == "constraints":
                     way = "a holonomic constraint depends on coordinates and time alone; integrate it, or give it to rolling"
                     _free_of(f"constraints[{i}]", e.free_symbols, velocities, way)
-                    if all(decide_zero(slope).answer == "zero" for slope in gradient(e, self.c.q)):
+                    if not depends_on(e, self.c.q):
                         raise InputError(f"System: constraints[{i}]: {e} = 0 binds no coordinate: leave it out")
                 elif name == "rolling":
                     if not e.free_symbols & velocities:
                         raise InputError(f"System: rolling[{i}] = {e} has no velocity: give it to constraints")
-                    slope = gradient(e, self.c.v)
-                    if all(decide_zero(entry).answer == "zero" for entry in slope):
+                    if not depends_on(e, self.c.v):
                         raise InputError(f"System: rolling[{i}]: {e} = 0 binds no velocity: leave it out")
-                    if any(decide_zero(entry).answer != "zero" for entry in jacobian(slope, self.c.v)):
+                    if not is_affine(e, self.c.v):
                         raise InputError(
                             f"System: rolling[{i}] = {e} is not affine in the velocities: its reaction is not defined by "
                             "d'Alembert's principle; write it as sum_j A_j(q, t) v_j + b(q, t)"
                         )
+        way = "a Lagrangian depends on q, v and t; add the total derivative that removes them"
+        _free_of("L", self.letters, higher, way)
         _free_of("dissipation", self.dissipation.free_symbols, higher, "D depends on q, v and t alone")
         if self.dissipation != 0 and not self.dissipation.free_symbols & velocities:
             raise InputError(
@@ -177,6 +183,11 @@ class Equations:
                 "force −∂D/∂v, k v**2/2 for linear friction"
             )
         check_friction("System", self.dissipation, self.c)
+        symbols = self.letters.union(*(e.free_symbols for e in (*self.forces, *self.residual)))
+        if reserved := sorted(str(s) for s in symbols if re.fullmatch(r"_a\d+", str(s))):
+            raise InputError(
+                f"System: {', '.join(reserved)}: generated programs use names like _a0; choose other names"
+            )
 
     @property
     def acting(self) -> tuple[sp.Expr, ...]:
@@ -206,35 +217,23 @@ class Equations:
     def _letters(self) -> tuple[Any, ...]:
         """The symbols and expressions of the system, in groups; across all of them a name belongs to one symbol."""
         moving = self.c.q, self.c.v, self.c.a, t
-        return *moving, self.acting, self.velocities, self.letters if self.bodies else ()
+        return *moving, self.acting, self.velocities, self.letters
+
+    @property
+    def lagrangian_parts(self) -> tuple[sp.Expr, ...]:
+        """The Lagrangian; if it is made of bodies, the expressions in their energies, which are not multiplied out."""
+        lagrangian: Any = self.lagrangian
+        return (lagrangian.remainder, *lagrangian.parts) if self.bodies else (lagrangian,)
 
     @cached_property
     def letters(self) -> set[sp.Symbol]:
         """The symbols in the Lagrangian."""
-        return (
-            free_letters(self.lagrangian)
-            if isinstance(self.lagrangian, sp.Basic)
-            else {*getattr(self.lagrangian, "free_symbols", ())}
-        )
+        return set().union(*map(free_letters, self.lagrangian_parts))
 
     @cached_property
     def L(self) -> sp.Expr:
         """The Lagrangian as an expression."""
-        L = expression("System: L", self.lagrangian)
-        no_coordinate("System: L", L, (*self.c.q, *self.c.v, *self.c.a))
-        check_names("System", *self._letters, self.letters)
-        acting = self.letters.union(*(sp.sympify(e, strict=True).free_symbols for e in (*self.forces, *self.residual)))
-        if reserved := sorted(str(s) for s in acting if re.fullmatch(r"_a\d+", str(s))):
-            raise InputError(
-                f"System: {', '.join(reserved)}: generated programs use names like _a0; choose other names"
-            )
-        _free_of(
-            "L",
-            self.letters,
-            {*self.c.a},
-            "a Lagrangian depends on q, v and t; add the total derivative that removes them",
-        )
-        return L
+        return expression("System: L", self.lagrangian) if self.bodies else self.lagrangian
 
     @property
     def speeds(self) -> tuple[sp.Symbol, ...]:

@@ -13,15 +13,18 @@ Mechanics, §§12, 19.
 """
 
 import re
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
+from functools import cached_property
 from typing import ClassVar
 from unicodedata import normalize
 
 import sympy as sp
 
-from lagrotor.algebra import along, decide_zero, derivative
+from lagrotor.algebra import along, decide_zero
+from lagrotor.algebra.differentiation import slopes
 from lagrotor.errors import InputError, SingularError, near
 
 t = sp.Symbol("t", real=True)  # the time, s, where a Lagrangian, a force or a constraint depends on it explicitly
@@ -61,25 +64,29 @@ class Coordinates:
                 "each coordinate has one velocity and one acceleration; give equally many, at least one"
             )
         symbols = (*self.q, *self.v, *self.a, t)
-        if repeated := sorted({str(s) for s in symbols if symbols.count(s) > 1}):
+        if repeated := sorted(str(s) for s, times in Counter(symbols).items() if times > 1):
             raise InputError(f"Coordinates: {', '.join(repeated)} repeated: the symbols are independent; rename one")
 
     __iter__: ClassVar[None] = None  # the symbols are c.q, c.v and c.a
 
+    @cached_property
+    def _symbols(self) -> dict[str, sp.Symbol]:
+        """The coordinates, velocities and accelerations by name."""
+        return {str(s): s for s in (*self.q, *self.v, *self.a)}
+
     def __getitem__(self, name: str) -> sp.Symbol:
         """Return the coordinate, velocity or acceleration with this name."""
-        symbols = {str(s): s for s in (*self.q, *self.v, *self.a)}
-        if not isinstance(name, str) or name not in symbols:
-            meant = near(name, symbols) or ": find these symbols by their names"
-            raise InputError(f"Coordinates: {name!r} is none of {', '.join(symbols)}{meant}")
-        return symbols[name]
+        if not isinstance(name, str) or name not in self._symbols:
+            meant = near(name, self._symbols) or ": find these symbols by their names"
+            raise InputError(f"Coordinates: {name!r} is none of {', '.join(self._symbols)}{meant}")
+        return self._symbols[name]
 
     def __getattr__(self, name: str) -> sp.Symbol:
         """Return the symbol with this name, if no attribute has it."""
         if name.startswith("_") or "a" not in vars(self):
             raise AttributeError(name)
         # Python reads c.ϕ as c.φ: it normalizes the letters of identifiers.
-        normal = {normalize("NFKC", str(s)): s for s in (*self.q, *self.v, *self.a)}
+        normal = {normalize("NFKC", text): s for text, s in self._symbols.items()}
         if name in normal:
             return normal[name]
         try:
@@ -89,7 +96,7 @@ class Coordinates:
 
     def __dir__(self) -> list[str]:
         """Return the names of attributes and symbols."""
-        return [*object.__dir__(self), *map(str, (*self.q, *self.v, *self.a))]
+        return [*object.__dir__(self), *self._symbols]
 
 
 def coordinates(names: str | Sequence[str]) -> Coordinates:
@@ -127,12 +134,22 @@ def coordinates(names: str | Sequence[str]) -> Coordinates:
 
 def gradient(f: sp.Expr, symbols: Sequence[sp.Symbol]) -> sp.Matrix:
     """Return the column ∂f/∂s, one row for each symbol."""
-    return sp.Matrix([derivative(f, s) for s in symbols])
+    return sp.Matrix(slopes(f, symbols))
 
 
 def jacobian(rows: Sequence[sp.Expr], symbols: Sequence[sp.Symbol]) -> sp.Matrix:
     """Return ∂f_i/∂s_j, one row for each f and one column for each symbol."""
-    return sp.Matrix(len(rows), len(symbols), lambda i, j: derivative(rows[i], symbols[j]))
+    return sp.Matrix(len(rows), len(symbols), [slope for row in rows for slope in slopes(row, symbols)])
+
+
+def depends_on(f: sp.Expr, symbols: Sequence[sp.Symbol]) -> bool:
+    """Return True if a partial derivative of an expression by one of the symbols is not identically zero."""
+    return any(slope != 0 and decide_zero(slope).answer != "zero" for slope in slopes(f, symbols))
+
+
+def is_affine(f: sp.Expr, symbols: Sequence[sp.Symbol]) -> bool:
+    """Return True if the partial derivatives of an expression by the symbols do not depend on them."""
+    return not any(slope != 0 and depends_on(slope, symbols) for slope in slopes(f, symbols))
 
 
 def total_derivative(expression: sp.Expr, c: Coordinates) -> sp.Expr:

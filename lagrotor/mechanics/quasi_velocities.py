@@ -14,19 +14,21 @@ with G' the rows of the other constraints. At a pole det [A; G] = 0, and u does 
 Hamel, Theoretische Mechanik (1949), §§ 235–242; Kane & Levinson, Dynamics: Theory and Applications (1985), ch. 2.
 """
 
-from collections.abc import Mapping, Sequence
+from collections import defaultdict
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from operator import itemgetter
 from typing import Any
 
 import sympy as sp
 
-from lagrotor.algebra import along, decide_zero
+from lagrotor.algebra import along
 from lagrotor.algebra.evidence import points
 from lagrotor.errors import InputError
 from lagrotor.mechanics.bodies.small_matrices import Stages
 from lagrotor.mechanics.expressions import expression, shortest
-from lagrotor.mechanics.lagrangian import Coordinates, gradient, jacobian, t, total_derivative
+from lagrotor.mechanics.lagrangian import Coordinates, depends_on, gradient, is_affine, jacobian, t, total_derivative
 from lagrotor.numerics.codegen import Stage, solve_symmetric
 
 Pairs = tuple[tuple[sp.Symbol, sp.Expr], ...]
@@ -66,25 +68,25 @@ def check_velocities(c: Coordinates, velocities: Any, named: Mapping[sp.Symbol, 
         raise InputError(f"System: velocities = {velocities!r} must be {{symbol: expression in q, v and t, …}}")
     checked: list[Stage] = []
     definitions = dict(named or {})
+    taken, later = {*c.q, *c.a, t}, {u for u, e in pairs if isinstance(u, sp.Symbol) and u != e} - definitions.keys()
     for u, e in pairs:
         name = f"System: velocities[{u}]"
-        if not isinstance(u, sp.Symbol) or u in {*c.q, *c.a, t}:
+        if not isinstance(u, sp.Symbol) or u in taken:
             raise InputError(f"{name}: a quasi-velocity must be named by a symbol without another meaning: rename it")
         e = expression(name, e).xreplace(definitions)
         if u in c.v and e != u:
             raise InputError(f"{name} = {e}: {u} is the velocity of a coordinate and cannot be redefined: rename it")
-        later = {v for v, form in pairs if v != form and v not in definitions}
         if wrong := e.free_symbols & later:
             raise InputError(f"{name} = {e} contains {min(map(str, wrong))}, which is defined after it: put that first")
         if wrong := e.free_symbols & {*c.a}:
             raise InputError(f"{name} = {e} contains {min(map(str, wrong))}: write it in q, v and t")
-        slope = jacobian([e], c.v)
-        if all(decide_zero(entry).answer == "zero" for entry in slope):
+        if not depends_on(e, c.v):
             raise InputError(f"{name} = {e} has no velocity of a coordinate: write it as sum_j A_j(q, t) v_j + a(q, t)")
-        if any(decide_zero(entry).answer != "zero" for entry in jacobian(list(slope), c.v)):
+        if not is_affine(e, c.v):
             raise InputError(f"{name} = {e} is not affine in the velocities: write it as sum_j A_j(q, t) v_j + a(q, t)")
         checked.append((u, e))
         definitions |= {u: e} if u != e else {}
+        later.discard(u)
     names = [str(u) for u, _ in checked]
     if len({*names}) < len(names):
         raise InputError(f"System: velocities {', '.join(names)}: each needs a different name")
@@ -163,15 +165,16 @@ def inverse_of(
     that K uses and takes the new ones. The blocks of K are solved in order of dependence. The inverse is the transpose for
     orthogonal rows, the adjugate over det K for small blocks, and Kᵀ (K Kᵀ)⁻¹ for others, which needs no pivots.
     """
-    n = K.rows
+    n, entries = K.rows, rows_of(K)
     stages, short, prefix = (keep.made, keep, "_j") if keep else ([], _reduced, "_k")
-    inverse, factors, solved = sp.zeros(n, n), list[sp.Expr](), list[int]()
-    for number, (rows, columns) in enumerate(_blocks(K)):
+    inverse, factors = dict[int, dict[int, sp.Expr]](), list[sp.Expr]()
+    for number, (rows, columns) in enumerate(_blocks(entries)):
         block = K.extract(rows, columns)
         gram = block * block.T
         if all(sp.expand(gram[i, j]) == 0 for i in range(len(rows)) for j in range(i)):
             squares = [shortest(gram[i, i]) for i in range(len(rows))]
-            lengths = [_modulo(e, relations, c) for e in squares] if len(rows) > 1 else [block[0] ** 2]
+            modulo = {e: _modulo(e, relations, c) for e in {*squares}}
+            lengths = [modulo[e] for e in squares] if len(rows) > 1 else [block[0] ** 2]
             block_inverse = block.T * sp.diag(*(1 / e for e in lengths))
             factors += lengths
         elif len(rows) <= _SMALL:
@@ -182,32 +185,55 @@ def inverse_of(
             solving, normal = solve_symmetric(gram, sp.eye(len(rows)), f"{prefix}{number}")
             stages += solving
             block_inverse = block.T * normal
-        substituted = K.extract(rows, solved) * inverse.extract(solved, list(range(n)))
-        right = sp.eye(n).extract(rows, list(range(n))) - substituted
-        for i, line in enumerate((block_inverse * right).tolist()):
-            inverse[columns[i], :] = sp.Matrix([[short(e) for e in line]])
-        solved += columns
+        # The rows K x = e_i of the block, with the columns solved before on the right side.
+        right = [
+            _combined([({i: sp.S.One}, sp.S.One), *((inverse[j], -e) for j, e in entries[i].items() if j in inverse)])
+            for i in rows
+        ]
+        for j, factors_of_rows in zip(columns, block_inverse.tolist(), strict=True):
+            inverse[j] = {k: short(e) for k, e in _combined(zip(right, factors_of_rows, strict=True)).items()}
     moving = {*c.q, t}
     factors = [f for e in factors if _is_short(e) for f in sp.Mul.make_args(sp.factor(e))]
     poles = [f for f in factors if f.free_symbols & moving]
-    return stages, inverse, list(dict.fromkeys(f.base if f.is_Pow else f for f in poles))
+    whole = sp.SparseMatrix(n, n, {(j, k): e for j, row in inverse.items() for k, e in row.items()})
+    return stages, whole, list(dict.fromkeys(f.base if f.is_Pow else f for f in poles))
 
 
-def _blocks(K: sp.Matrix) -> list[tuple[list[int], list[int]]]:
-    """Return (rows, columns) of each block of a block-triangular form of K.
+def _combined(rows: Iterable[tuple[Mapping[int, sp.Expr], sp.Expr]]) -> dict[int, sp.Expr]:
+    """Return the sum of sparse rows, each times a factor."""
+    terms = defaultdict[int, list[sp.Expr]](list)
+    for row, factor in rows:
+        for k, e in row.items() if factor != 0 else ():
+            terms[k].append(e * factor)
+    return {k: e for k, products in terms.items() if (e := sp.Add(*products)) != 0}
+
+
+def rows_of(matrix: sp.Matrix) -> list[dict[int, sp.Expr]]:
+    """Return the rows of a matrix, each as a mapping from columns to the entries that are not zero."""
+    rows: list[dict[int, sp.Expr]] = [{} for _ in range(matrix.rows)]
+    for (i, j), e in sorted(matrix.todok().items(), key=itemgetter(0)):
+        rows[i][j] = e
+    return rows
+
+
+def _blocks(entries: Sequence[Mapping[int, sp.Expr]]) -> list[tuple[list[int], list[int]]]:
+    """Return (rows, columns) of each block of a block-triangular form of a square matrix, which is given by its sparse rows.
 
     Rows with one unknown come first, columns that a single row contains come last.
     """
-    rows, columns = {*range(K.rows)}, {*range(K.rows)}
-    columns_of = {i: {j for j in columns if K[i, j] != 0} for i in rows}
-    rows_of = {j: {i for i in rows if j in columns_of[i]} for j in columns}
+    rows, columns = {*range(len(entries))}, {*range(len(entries))}
+    columns_of = [{*row} for row in entries]
+    users_of: list[set[int]] = [set() for _ in columns]
+    for i, members in enumerate(columns_of):
+        for j in members:
+            users_of[j].add(i)
     first, last = list[tuple[list[int], list[int]]](), list[tuple[list[int], list[int]]]()
 
     def unknowns(i: int) -> list[int]:
         return sorted(columns_of[i] & columns)
 
     def users(j: int) -> list[int]:
-        return sorted(rows_of[j] & rows)
+        return sorted(users_of[j] & rows)
 
     while rows:
         if single := next((([i], unknowns(i)) for i in sorted(rows) if len(unknowns(i)) == 1), None):
@@ -244,16 +270,19 @@ def _modulo(e: sp.Expr, relations: Sequence[sp.Expr], c: Coordinates) -> sp.Expr
     return sp.reduced(e, applicable, *sorted(set().union(*(g.free_symbols for g in applicable)), key=str))[1]
 
 
-def _values(matrix: sp.Matrix) -> list[list[list[float]]]:
-    """Evaluate the matrix at random states; leave out those at which it has no value."""
+def _values(matrix: sp.Matrix) -> list[list[dict[int, float]]]:
+    """Evaluate the sparse rows of the matrix at random states; leave out those at which it has no value."""
     unknown = matrix.atoms(sp.Derivative, sp.core.function.AppliedUndef)
     plain = matrix.xreplace({f: sp.Symbol(f"_f{i}", real=True) for i, f in enumerate(sorted(unknown, key=str))})
     symbols = sorted(plain.free_symbols, key=str)
-    function = sp.lambdify(symbols, plain.tolist(), "math", cse=True, dummify=True)
+    names = {s: sp.Symbol(f"x{i}") for i, s in enumerate(symbols)}  # sympy would rename them one after another
+    rows = rows_of(plain.xreplace(names))
+    function = sp.lambdify([*names.values()], [e for row in rows for e in row.values()], "math", cse=True)
     values = []
     for point in points(symbols, _STATES):
         with suppress(ArithmeticError, ValueError):
-            values.append([[float(e) for e in row] for row in function(*(float(point[s]) for s in symbols))])
+            numbers = iter(function(*(float(point[s]) for s in symbols)))
+            values.append([{j: float(next(numbers)) for j in row} for row in rows])
     return values
 
 
@@ -261,22 +290,31 @@ def independent_rows(matrix: sp.Matrix, rank: int) -> list[int]:
     """Return the indices of the first independent rows, at most `rank`, at the random state that has most of them."""
     best: list[int] = []
     for rows in _values(matrix):
-        chosen, basis = list[int](), list[list[float]]()
+        chosen, basis, users = list[int](), list[dict[int, float]](), defaultdict[int, list[int]](list)
         for i, row in enumerate(rows):
-            remainder = _without(row, basis)
-            if len(chosen) < rank and max(map(abs, remainder)) > _ROUNDING * (max(map(abs, row)) or 1.0):
-                size = sum(x * x for x in remainder) ** 0.5
+            remainder = _without(row, basis, users)
+            largest = max(map(abs, remainder.values()), default=0.0)
+            if len(chosen) < rank and largest > _ROUNDING * max(map(abs, row.values()), default=1.0):
+                size = sum(x * x for x in remainder.values()) ** 0.5
                 chosen.append(i)
-                basis.append([x / size for x in remainder])
+                for j in remainder:
+                    users[j].append(len(basis))
+                basis.append({j: x / size for j, x in remainder.items()})
         best = chosen if len(chosen) > len(best) else best
     return best
 
 
-def _without(row: Sequence[float], basis: Sequence[Sequence[float]]) -> list[float]:
-    """Subtract from a row its components along orthonormal vectors, twice to reduce rounding errors."""
-    remainder = list(row)
+def _without(
+    row: Mapping[int, float], basis: Sequence[Mapping[int, float]], users: Mapping[int, Sequence[int]]
+) -> dict[int, float]:
+    """Subtract from a sparse row its components along orthonormal vectors, twice to reduce rounding errors.
+
+    `users` gives for each column the numbers of the vectors in which it occurs.
+    """
+    remainder = dict(row)
     for _ in range(2):
-        for direction in basis:
-            component = sum(x * y for x, y in zip(remainder, direction, strict=True))
-            remainder = [x - component * y for x, y in zip(remainder, direction, strict=True)]
+        for k in sorted({k for j in remainder for k in users[j]}):
+            component = sum(x * basis[k].get(j, 0.0) for j, x in remainder.items())
+            for j, x in basis[k].items():
+                remainder[j] = remainder.get(j, 0.0) - component * x
     return remainder

@@ -21,7 +21,7 @@ import numpy as np
 from lagrotor.errors import DomainError, SingularError
 from lagrotor.mechanics.canonical.polynomials import Polynomial, inverse_matrix, total, variable
 from lagrotor.models.minimal import MODEL, RATIOS
-from lagrotor.models.model import PACE, Array, ClosedMotion, integrate_model, natural_units
+from lagrotor.models.model import PACE, Array, ClosedMotion, integrate_model, natural_units, without_idle_shock
 from lagrotor.numerics.error_estimate import UNKNOWN
 from lagrotor.numerics.segment import StopError
 from lagrotor.numerics.solver_constants import LOST, Calibrated
@@ -37,6 +37,14 @@ FALLING = Calibrated(
     "error of a normal form over its difference from the one two orders lower, in units of the ratio of the last two differences",
     "74 random pairs over 10 to 300 turns: at most 6.2",
     "test_averaged.py::test_the_error_is_bounded",
+)
+# An order is not derived, which takes longer than all else, where its error is known to exceed the tolerance.
+LEAST_ERROR = Calibrated(
+    (0.2, 0.01),
+    "least errors of the forms of order 6 and 8, per turn, in units of the third and the fourth power of the squared size of the "
+    "swing",
+    "34 random pairs over 350 to 3,000 turns: at least 0.24 and 0.017",
+    "test_averaged.py::test_no_form_is_derived_that_cannot_keep_the_tolerance",
 )
 _SLOWEST = 0.3  # the largest ratio at which the orders converge
 _ROUNDED = 3e-14  # rad: rounding per rad of the swing
@@ -221,11 +229,24 @@ def _centre(scene: Scene, state: Array) -> float:
     return float(state[0]) + offset
 
 
+def _useful_orders(scene: Scene, lean: float, start: Array, turns: float, tol: float) -> tuple[int, ...]:
+    """Return the orders of the normal form that may keep `tol` over a number of turns. Raises DomainError if there is none."""
+    size = float(np.abs(_linear(scene, _forms_about(scene, lean, 2), start)).max()) ** 2
+    least = zip(_ORDERS, LEAST_ERROR.value, strict=True)
+    orders = tuple(order for order, factor in least if factor * turns * size ** (order // 2) <= tol)
+    if not orders:
+        raise DomainError(
+            f"averaged: the swing is too wide for tol = {tol:g} over {turns:.0f} turns; use model='minimal'"
+        )
+    return orders
+
+
 def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) -> ClosedMotion:
     """Return the motion up to t_end (s) by the normal form through order 6, or 8 if `tol` requires it.
 
     The motion through a pulse is integrated twice, to estimate its error. Raises SingularError without a bar. Raises
-    DomainError if the spins are not opposite, the motion is not small, or the run ends within the pulse.
+    DomainError if the spins are not opposite, the motion is not small, or the run ends within the pulse. Without `best` it also
+    raises DomainError if no order can keep `tol`, and does not derive an order that cannot.
     """
     if scene.link is None:
         raise SingularError("averaged: the scene has no bar; use model='closed_form'")
@@ -234,18 +255,24 @@ def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) 
             f"averaged: spins {scene.spins[0]:g}, {scene.spins[1]:g} rad/s are not opposite: the axes part freely, and no "
             "motion stays small; use model='minimal', or lagrotor.theory.guiding_centre(scene).path(t) for the swing's centre"
         )
-    units = natural_units(replace(scene, shock=scene.shock_until(t_end)))
+    units = natural_units(without_idle_shock(scene, t_end))
     natural, end, begin, starts, count = units.scene, t_end * units.rate, 0.0, [MODEL.start(units.scene)], 0
     if natural.shock:
         begin = natural.shock.end
         if begin >= end:
             raise DomainError("averaged: the run ends within the pulse; use model='minimal'")
+    if not best and _ROUNDED * (1 + PACE * (end - begin)) > tol:
+        raise DomainError(
+            f"averaged: rounding exceeds tol = {tol:g} over so many turns; use a larger tol or a shorter run"
+        )
+    if natural.shock:
         pulsed = [_pulsed(natural, np.array([begin]), k) for k in (0, 1)]
         starts, count = [states[-1] for states, _ in pulsed], sum(evaluations for _, evaluations in pulsed)
     # The error may vanish at single times: sample a few swings all along the run.
     ends = (end - begin) * np.r_[np.geomspace(1e-3, 1, 9), np.linspace(0, 1, 9)]
     grid = np.unique(np.r_[0.0, np.clip(ends[:, None] - np.linspace(0, 8 * np.pi / PACE, 9), 0, end - begin).ravel()])
     lean = _centre(natural, starts[0])
+    orders = _ORDERS if best else _useful_orders(natural, lean, starts[0], PACE * (end - begin) / (2 * np.pi), tol)
 
     def states(order: int, through: int, start: Array, t: Array) -> Array:
         nonlocal count
@@ -257,7 +284,7 @@ def averaged_motion(scene: Scene, t_end: float, tol: float, best: bool = False) 
         apart = MODEL.observe(natural, first).axes - MODEL.observe(natural, second).axes
         return np.asarray(np.maximum.accumulate(np.linalg.norm(apart, axis=-1).max(0)))
 
-    for order in _ORDERS:
+    for order in orders:
         motions = [states(order, through, starts[0], grid) for through in (order, order - 2, order - 4)]
         last, previous = distance(motions[0], motions[1]), distance(motions[1], motions[2])
         rounded = _ROUNDED * (1 + PACE * grid)

@@ -161,7 +161,7 @@ def time_to_wander(scene: Scene, bound: float, longest: float) -> float:
     float
         The time, s.
     """
-    run = run_after(scene, 6 + int(np.ceil(longest * shock_response(scene).frequency / (2 * np.pi))), 1e-9)
+    run = run_after(scene, 6 + int(np.ceil(longest * shock_response(scene).frequency / (2 * np.pi))), 1e-7)
     t, values, shock = run.t, run.axes[..., 0].mean(0), scene.shock
     assert shock is not None
     u = (np.arange(6 * _SAMPLES) + 0.5) / (6 * _SAMPLES)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from math import hypot, inf, nan, sqrt
 from typing import TYPE_CHECKING, Any
 
@@ -68,7 +69,12 @@ def _together_and_apart(scene: Scene) -> tuple[float, float]:
 
 
 def typical_rate(scene: Scene) -> float:
-    """Return a rate (rad/s) that the motion hardly exceeds: (|G_1| + |G_2|)/I + sqrt(2T/I), plus a rate for the shock.
+    """Return a rate (rad/s) that the motion hardly exceeds: (|G_1| + |G_2|)/I, plus `tilting_rate`. I is the smaller inertia."""
+    return tilting_rate(scene) + (abs(scene.momenta[0]) + abs(scene.momenta[1])) / min(_together_and_apart(scene))
+
+
+def tilting_rate(scene: Scene) -> float:
+    """Return a rate (rad/s) that the axes hardly exceed: sqrt(2T/I), plus a rate for the shock.
 
     I is the smaller inertia and T the energy of tilting. A pulse adds its impulse over I, or sqrt(force R / I) if it is so
     broad that the rotor turns during it.
@@ -80,7 +86,7 @@ def typical_rate(scene: Scene) -> float:
     if scene.shock:
         torque = hypot(*scene.shock.force) * scene.rotor.length / inertia
         rate += min(2 * torque * scene.shock.width, sqrt(torque))
-    return rate + (abs(scene.momenta[0]) + abs(scene.momenta[1])) / inertia
+    return rate
 
 
 _BETWEEN_PROJECTIONS = 3.0  # rad of the typical rate between projections, by the fast extra
@@ -177,6 +183,11 @@ class Model:
         return rate if self.progress is None else reporting(rate, self.progress, scene.shock.at if scene.shock else 0.0)
 
 
+def without_idle_shock(scene: Scene, t_end: float) -> Scene:
+    """Return the scene without a shock that does not act between 0 and t_end (s); the same object if nothing changes."""
+    return replace(scene, shock=None) if scene.shock and not scene.shock_until(t_end) else scene
+
+
 def scenes_of(scene: Scene, observed: Observed | Trajectory) -> list[Scene]:
     """Return a list of n scenes, each with one of the n observed states as its start."""
     axes, rates = (array.swapaxes(0, 1).tolist() for array in (observed.axes, observed.rates))
@@ -228,14 +239,19 @@ def integrate_model(
     )
     run = integrate(problem, times, local, solver)
     if bounded:
-        from lagrotor.numerics.printers import compile_program
-
         program, values = model.program(scene, False)
-        bounds = compile_program(replace(program, outputs=program.positive), "numpy")
-        outside = ~np.all([bound > 0 for bound in bounds(*run.states.T, *values)], axis=0)
+        outside = ~np.all([bound > 0 for bound in _bounds(program)(*run.states.T, *values)], axis=0)
         if outside.any():
             raise OutsideError(float(times[np.argmax(outside)]))
     return run
+
+
+@lru_cache(maxsize=16)
+def _bounds(program: Program) -> Callable[..., list[Array]]:
+    """Compile the expressions of a program that are positive where it is well conditioned, for arrays of states."""
+    from lagrotor.numerics.printers import compile_program
+
+    return compile_program(replace(program, outputs=program.positive), "numpy")
 
 
 def check_range(model: Model, scene: Scene) -> None:

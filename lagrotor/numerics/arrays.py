@@ -46,13 +46,16 @@ def real_array(values: ArrayLike) -> Array | None:
 def increasing_array(where: str, values: ArrayLike, what: str = "numbers") -> Array:
     """Return increasing finite numbers as an array (n,), n > 0, or raise InputError. The message uses `what` as the name of the
     numbers."""
-    numbers, text = real_array(values), repr(values)
+    numbers = real_array(values)
+    listed = numbers is not None and numbers.ndim == 1 and len(numbers) > 0 and np.isfinite(numbers).all()
+    if numbers is not None and listed and (numbers[1:] > numbers[:-1]).all():
+        return numbers
+    text = repr(values)
     text = text if len(text) < 60 else f"{text[:57]}…"
-    if numbers is None:
-        raise InputError(f"{where} = {text} must be an array of {what}")
-    if numbers.ndim != 1 or not len(numbers) or not np.isfinite(numbers).all() or (np.diff(numbers) <= 0).any():
-        raise InputError(f"{where} = {text} must be an increasing array of finite {what}: np.linspace(0, 10, 101)")
-    return numbers
+    kind = (
+        f"an array of {what}" if numbers is None else f"an increasing array of finite {what}: np.linspace(0, 10, 101)"
+    )
+    raise InputError(f"{where} = {text} must be {kind}")
 
 
 def check_times(where: str, times: ArrayLike) -> Array:

@@ -14,7 +14,7 @@ from sympy.simplify.cse_main import tree_cse
 
 from lagrotor.algebra import derivative
 from lagrotor.algebra.name_clashes import check_names
-from lagrotor.errors import SingularError
+from lagrotor.errors import InputError, SingularError
 
 Stage = tuple[sp.Symbol, sp.Expr]
 
@@ -40,7 +40,14 @@ class Program:
                 raise SingularError(
                     f"Program: {sorted(map(str, missing))} is used before it is defined: add it to the arguments"
                 )
-            defined |= {name} if name else set()
+            if name in defined:
+                raise InputError(f"Program: {name} names two quantities: rename the symbol of the system")
+            if name:
+                defined.add(name)
+
+    def __hash__(self) -> int:
+        """Return a hash of arguments and outputs; each integration looks up its program, and hashing all stages takes longer."""
+        return hash((self.arguments, self.outputs))
 
 
 @lru_cache(maxsize=16)
@@ -169,24 +176,26 @@ def solve_symmetric(matrix: sp.Matrix, right: sp.Matrix, prefix: str) -> tuple[l
         stages.append((symbol, expression))
         return symbol
 
-    work, x, lower = matrix.as_mutable(), right.as_mutable(), sp.zeros(n, n)
+    work, x, pivots = matrix.tolist(), right.tolist(), list[sp.Expr]()
+    lower: list[list[sp.Expr]] = [[] for _ in range(n)]  # each row as far as it is known
+
+    def reduced(e: sp.Expr, i: int, factors: Sequence[sp.Expr]) -> sp.Expr:
+        """Return e − Σ lower[i][k] · factors[k]."""
+        products = [-l * f for l, f in zip(lower[i], factors, strict=False) if l != 0 and f != 0]
+        return sp.Add(e, *products) if products else e
+
     for j in range(n):
-        if work[j, j] == 0:
+        scaled = [l * d for l, d in zip(lower[j], pivots, strict=True)]
+        pivot = reduced(work[j][j], j, scaled)
+        if pivot == 0:
             raise SingularError(f"solve_symmetric: pivot {j} is zero: the matrix is not positive definite; reorder it")
-        pivot = keep(f"d{j}", work[j, j])
+        pivots.append(keep(f"d{j}", pivot))
         for i in range(j + 1, n):
-            lower[i, j] = keep(f"l{i}{j}", work[i, j] / pivot)
-        for i in range(j + 1, n):
-            for r in range(j + 1, i + 1):
-                work[i, r] -= lower[i, j] * pivot * lower[r, j]
-                work[r, i] = work[i, r]
-        for col in range(columns):
-            x[j, col] = keep(f"y{j}{col}", x[j, col])
-            for i in range(j + 1, n):
-                x[i, col] -= lower[i, j] * x[j, col]
-        work[j, j] = pivot
+            lower[i].append(keep(f"l{i}_{j}", reduced(work[i][j], i, scaled) / pivots[j]))
     for col in range(columns):
+        for j in range(n):
+            x[j][col] = keep(f"y{j}_{col}", reduced(x[j][col], j, [row[col] for row in x[:j]]))
         for j in reversed(range(n)):
-            products = sum((lower[i, j] * x[i, col] for i in range(j + 1, n)), sp.Integer(0))
-            x[j, col] = keep(f"x{j}{col}", x[j, col] / work[j, j] - products)
-    return stages, x
+            products = [-lower[i][j] * x[i][col] for i in range(j + 1, n) if lower[i][j] != 0]
+            x[j][col] = keep(f"x{j}_{col}", sp.Add(x[j][col] / pivots[j], *products))
+    return stages, sp.Matrix(n, columns, [e for row in x for e in row])

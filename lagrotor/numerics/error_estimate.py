@@ -64,7 +64,7 @@ class Evolution:
     # Start (d,), times (n,), local error, companion, most evaluations → the motion from times[0]. A companion uses another order
     # or other steps, where the local error does not set them.
     integrate: Callable[[Array, Array, float, bool, float], Stretch]
-    distance: Callable[[Array, Array], Array]  # two runs (n, d) → distance (n,) relative to the size of the states
+    distance: Callable[[Any, Any], Array]  # two observed runs → distance (n,) relative to the size of the states
     turn: float  # typical period in s
     budget: EvaluationBudget
     project: Projection | None = None  # brings a state back onto its constraints
@@ -72,9 +72,11 @@ class Evolution:
     # States (n, d) → error (n,) along nearly dependent constraints, in machine epsilons of the sizes (d,).
     constraint_uncertainty: Callable[[Array], Array] | None = None
     sizes: Array | float = 1.0
-    # Times (n,), states (n, d) → signed state errors that would explain the change of the conserved quantities.
-    conservation_error: Callable[[Array, Array], Array] | None = None
-    difference: Callable[[Array, Array], float] | None = None  # of two runs in all conserved quantities
+    # States (n, d) → the quantities that the distance, the conservation error and the difference measure, computed once a run.
+    observe: Callable[[Array], Any] = lambda states: states
+    # Times (n,), observed run → signed state errors that would explain the change of the conserved quantities.
+    conservation_error: Callable[[Array, Any], Array] | None = None
+    difference: Callable[[Any, Any], float] | None = None  # of two observed runs in all conserved quantities
     watch: Array = field(default_factory=lambda: np.empty(0))  # times (m,) that the conservation error needs
     singular: Callable[[Array], str] | None = None  # state of a stop → the words for a singular position, or ""
     has_other_coordinates: bool = False  # then a run that stops is not tried again
@@ -329,10 +331,11 @@ def _compare(course: _Course, local: float, companion: bool) -> Generator[Leg, S
     if not m:
         return _Pair(loose, tight, np.empty(0), inf, stop)
     t, looser, better = course.t[:m], coarse.states[:m], fine.states[:m]
+    observed = [evolution.observe(states) for states in (looser, better)]
     # Between the two times at which the runs pass the same event, their states are not compared.
     jumps = [np.searchsorted(stretch.jumps, t, side="right") for stretch in (coarse, fine)]
     together = jumps[0] == jumps[1]
-    distance = evolution.distance(looser, better)
+    distance = evolution.distance(*observed)
     finite = bool(np.isfinite(looser).all() and np.isfinite(better).all() and np.isfinite(distance).all())
     uncertain = evolution.constraint_uncertainty
     uncertainty = np.maximum.accumulate(uncertain(better)) if uncertain else 1.0
@@ -341,7 +344,7 @@ def _compare(course: _Course, local: float, companion: bool) -> Generator[Leg, S
     least = LEAST.value * tight.local + rounding
     lost = first_time(t, (difference + least > LOST.value) & together)
     conserved = evolution.conservation_error
-    violations = [conserved(t, states) for states in (looser, better)] if conserved and finite else []
+    violations = [conserved(t, one) for one in observed] if conserved and finite else []
     factor = _shared_error_factor(violations, rounding[-1])
     errors = factor * difference + least
     grown = errors_up_to(t, np.where(together, errors, 0.0), evolution.turn, evolution.sudden)
@@ -350,7 +353,9 @@ def _compare(course: _Course, local: float, companion: bool) -> Generator[Leg, S
         way_out = "take other coordinates or a smaller tol" if evolution.has_other_coordinates else "take a smaller tol"
         estimate = max(float(grown[-1]) / factor, tight.local)
         if evolution.difference and together.any():
-            estimate = max(estimate, evolution.difference(looser[together], better[together]))
+            if not together.all():
+                observed = [evolution.observe(states[together]) for states in (looser, better)]
+            estimate = max(estimate, evolution.difference(*observed))
         if not finite:
             refusal = IntegrationError(f"a value is not finite: {way_out}")
         elif violations and (violation := _largest(violations[1])) > KEPT.value * estimate:
@@ -406,8 +411,8 @@ def _estimated(course: _Course, best: _Pair, tol: float) -> EstimatedRun:
     if stop:
         words = singular(best.tight.stretch.end) if singular and stop.cause == "stopped" else ""
         ending = Ending("singular" if words else stop.cause, stop.at, words or stop.reason.rstrip("."))
-    read = np.isin(t, course.times)
-    horizon = first_time(t, errors > tol)
+    read = np.searchsorted(course.t, course.times)
+    read, horizon = read[read < len(t)], first_time(t, errors > tol)
     return EstimatedRun(t[read], states[read], errors[read], horizon, course.evaluations, ending, best.tight.local)
 
 

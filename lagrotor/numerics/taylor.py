@@ -180,6 +180,7 @@ def march_lanes(program: Program, parameters: Array, legs: Mapping[int, Leg]) ->
     return answers
 
 
+@lru_cache(maxsize=64)
 def _carried(program: Program, states: int, angles: tuple[int, ...]) -> Array:
     """Return the factor of each state during the integration, shape (states,); it is small for states that may grow without
     end."""
@@ -260,13 +261,14 @@ def taylor_march(
     while now < end or len(pieces) == 1:
         until = min(end, now + longest_between)
         inside = times[(times > now if len(pieces) > 1 else times >= now) & (times <= until)]
-        grid = np.unique([now, *inside, until])
+        grid = np.concatenate([[now], inside, [until]])
+        later = np.append(True, grid[1:] > grid[:-1])  # False for a first or last time that is requested, too
+        grid, places = grid[later], np.cumsum(later)[1:-1] - 1
         solver.time, solver.state[:-1], solver.state[-1] = now, y, size
         outcome, _, _, new_steps, _, states = solver.propagate_grid(grid, **options)
         steps += new_steps
         finite = np.isfinite(states).all(axis=1)
         whole = len(finite) if finite.all() else int(np.argmin(finite))
-        places = np.searchsorted(grid, inside)
         pieces.append(states[places[places < whole], :-1])
         y = states[whole - 1, :-1].copy() if whole else y
         if whole < len(grid) or "time_limit" not in str(outcome):

@@ -18,7 +18,7 @@ _FAMILIES = {
     "closed": ("closed forms", "reddish purple"),
     "core": ("core: sympy, numpy, scipy", "blue"),
     "fast": ("fast extra: heyoka", "vermillion"),
-    "candidate": ("candidates for the fast extra", "orange"),
+    "compiled": ("other compiled solvers", "orange"),
     "scipy": ("other solvers of scipy, minimal model", "sky blue"),
     "springs": ("the paper's method", "black"),
     "peer": ("other tools", "bluish green"),

@@ -38,9 +38,11 @@ _NULL = 1e-7  # relative to the largest singular value: smaller ones belong to a
 _AHEAD = 0.1  # the largest step of the tilt along the family
 _LEAST = 1e-3  # the least step; the family ends if it fails
 _EQUAL = 1e-6  # relative difference of equal rates
-_COARSE = 1e-10  # tolerance of the motions in Newton's steps
+_COARSE, _DIFFERENCES = 1e-7, 5e-11  # tolerances of the differences in Newton's steps and for the multipliers
+_MISSED = 10.0  # bound of the relative error of the differences over their tolerance
 _NEWTON = 8  # steps to an orbit
 _MOST = 100_000  # evaluations of a period
+_TOGETHER = 1_000  # components of the states that are integrated with the same steps
 _ADVICE = {
     False: "if a mode has a multiple of its rate there may be none; take another mode, or change a spin",
     True: "its family ends or turns near {:.3g}; take a smaller tilt",
@@ -91,16 +93,33 @@ class _Shooting:
         problem = Problem(self.rhs, y, _MOST, project=self.motion.project, typical_rate=1.0)
         return integrate(problem, np.array([duration]), local).end
 
+    def ends(self, states: Array, duration: float, local: float) -> Array:
+        """Return the final states, (6N, m), of m neighbouring states. Groups of them share their steps, so that the error of a
+        difference is relative to the difference."""
+        size = len(states)
+
+        def rates(s: float, y: Array) -> Any:
+            return np.transpose([self.rhs(s, state) for state in y.reshape(-1, size)]).T.ravel()
+
+        def project(y: Array) -> Array:
+            columns = y.reshape(-1, size, *y.shape[1:]).swapaxes(0, 1)
+            return self.motion.project(columns.reshape(size, -1)).reshape(columns.shape).swapaxes(0, 1).reshape(y.shape)
+
+        blocks = []
+        for some in np.array_split(states.T, -(-states.size // _TOGETHER)):
+            problem = Problem(rates, some.ravel(), _MOST, project=project, typical_rate=1.0)
+            blocks.append(integrate(problem, np.array([duration]), local).end.reshape(some.shape))
+        return np.concatenate(blocks).T
+
     def slopes(self, y: Array, duration: float, weights: dict[float, Array], local: float) -> Array:
         """Return derivatives of the start y and of the state after `duration`, (k, 2, 6N, 2n). They are differences along 2n
         directions on the constraints. `weights` maps a step to its weights in k formulas."""
         tangents = np.kron(np.eye(2), constraint_tangents(self.motion, y[: len(y) // 2].reshape(-1, 3)))
-        slopes: Any = 0.0
-        for step, weight in weights.items():
-            states = self.motion.project(self.motion.project(y[:, None] + step * tangents))
-            ends = np.column_stack([self.end(state, duration, local) for state in states.T])
-            slopes = slopes + weight[:, None, None, None] * np.stack([states, ends])
-        return np.asarray(slopes)
+        steps, shares = np.array(list(weights)), np.array(list(weights.values()))
+        moved = (y[:, None, None] + steps[:, None] * tangents[:, None]).reshape(len(y), -1)
+        states = self.motion.project(self.motion.project(moved))
+        both = np.stack([states, self.ends(states, duration, local)])
+        return np.einsum("sk,aisj->kaij", shares, both.reshape(2, len(y), len(steps), -1))
 
     def orbit(self, y: Array, duration: float, tilt: float) -> tuple[Array, float, float]:
         """Find the orbit of a tilt by Newton's method from y, and return (start, duration, mismatch). Raises
@@ -194,7 +213,7 @@ def _multipliers(shoot: _Shooting, y: Array, duration: float) -> tuple[NDArray[n
     """Return the Floquet multipliers and their errors, (2n,) each. The errors compare differences with two steps."""
     shares = {1: (8, 0), 2: (-1, 4), 4: (0, -0.5)}  # weights of differences by one step and by two
     weights = {k * sign * _STEP: sign * np.array(w) / (12 * _STEP) for k, w in shares.items() for sign in (1, -1)}
-    slopes = shoot.slopes(y, duration, weights, TIGHTEST)
+    slopes = shoot.slopes(y, duration, weights, _DIFFERENCES)
     forms, start = [np.linalg.lstsq(*slope)[0] for slope in slopes], slopes[0, 0]
     flow = np.linalg.lstsq(start, np.asarray(shoot.rhs(0.0, y)))[0]
     neighbours = np.concatenate([y[None] + k * _STEP * start.T for k in (1, -1, 2, -2)])
@@ -206,6 +225,6 @@ def _multipliers(shoot: _Shooting, y: Array, duration: float) -> tuple[NDArray[n
     inner, coarse = (transverse.T @ form @ transverse for form in forms)
     values, right = np.linalg.eig(inner)
     conditions = np.linalg.norm(np.linalg.pinv(right), axis=1) * np.linalg.norm(right, axis=0)
-    errors = conditions * (np.linalg.norm(inner - coarse, 2) + TIGHTEST * np.linalg.norm(inner, 2))
+    errors = conditions * (np.linalg.norm(inner - coarse, 2) + _MISSED * _DIFFERENCES * np.linalg.norm(inner, 2))
     order = np.lexsort((-values.imag, np.abs(np.angle(values)), -np.round(np.abs(values), 6)))
     return resolved_multipliers(np.append([1.0, 1.0], values[order]), np.append([0.0, 0.0], errors[order]))

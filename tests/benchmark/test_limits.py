@@ -144,7 +144,7 @@ def test_usefulness_falls_with_amplitude_and_departure():
 
 @pytest.mark.slow
 def test_throughput_counts_what_it_ran(monkeypatch):
-    monkeypatch.setattr(throughput, "_RUN", 0.1)
+    monkeypatch.setattr(throughput, "DURATION", 0.1)
     rows = throughput.throughput(8)
     swept = 2 if find_spec("heyoka") is None else 4
     assert [row.unit for row in rows] == ["trajectories/s"] * swept

@@ -3,13 +3,13 @@
 import json
 from datetime import date
 from pathlib import Path
-from types import SimpleNamespace
-from typing import get_args
+from typing import Any, get_args
 
 import pytest
 
+from lagrotor import numerics
 from lagrotor.benchmark import records
-from lagrotor.benchmark.records import RecordName, code_digest, record_age, stamp
+from lagrotor.benchmark.records import RecordName, code_digests, record_age, write_record
 
 RENEWAL: dict[RecordName, str] = {
     "speed": "python -m benchmarks.speed",
@@ -19,18 +19,19 @@ RENEWAL: dict[RecordName, str] = {
 }
 
 
-def record_of(name: RecordName) -> dict[str, str | None]:
-    data = json.loads(Path(records.__file__).with_name(f"recorded_{name}.json").read_text(encoding="utf-8"))
+def record_of(name: RecordName) -> dict[str, Any]:
+    data = json.loads(records.FILES[name].read_text(encoding="utf-8"))
     return {key: data[key] for key in ("date", "digest")}
 
 
-def test_every_record_has_a_date_and_a_digest() -> None:
+def test_every_record_has_a_date_and_says_which_code_it_measured() -> None:
     kept = {file.stem.removeprefix("recorded_") for file in Path(records.__file__).parent.glob("recorded_*.json")}
     assert kept == set(get_args(RecordName)) == set(RENEWAL) == set(records.MEASURED_PACKAGES)
     for name in RENEWAL:
         record = record_of(name)
         assert date(2026, 11, 22) <= date.fromisoformat(str(record["date"]))
-        assert record["digest"] is None or len(str(record["digest"])) == 64
+        if isinstance(record["digest"], dict):  # an older record has none of each package
+            assert record["digest"].keys() == code_digests(name).keys()
 
 
 SOURCE = '"""Words."""\nMOST = 3  # times\n\n\ndef work(x):\n    """Return x."""\n    return MOST * x\n'
@@ -49,33 +50,44 @@ SOURCE = '"""Words."""\nMOST = 3  # times\n\n\ndef work(x):\n    """Return x."""
         (SOURCE.replace("MOST * x", "'said'"), False),
     ],
 )
-def test_the_digest_is_of_the_code_and_not_of_its_words(
-    source: str, same: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    package = SimpleNamespace(__path__=[str(tmp_path)], __name__="lagrotor.numerics")
-    monkeypatch.setitem(records.MEASURED_PACKAGES, "speed", (package,))
+def test_the_digest_is_of_the_code_and_not_of_its_words(source: str, same: bool, tmp_path: Path) -> None:
     made = []
     for text in (SOURCE, source):
         (tmp_path / "module.py").write_text(text, encoding="utf-8")
-        code_digest.cache_clear()
-        made.append(stamp("speed")["digest"])
-    code_digest.cache_clear()
+        made.append(records._digest(tmp_path))
     assert (made[0] == made[1]) == same
 
 
-def test_the_page_says_whether_the_code_has_changed() -> None:
-    now = stamp("structures")
+def test_a_kept_program_is_code(tmp_path: Path) -> None:
+    made = []
+    for text in ("_1 = 2*x", "_1 = 3*x"):
+        (tmp_path / "generated.txt").write_text(text, encoding="utf-8")
+        made.append(records._digest(tmp_path))
+    assert made[0] != made[1]
+    assert {file.name for file in Path(numerics.__file__).parent.parent.rglob("generated.txt")} == {
+        records.KEPT_SOURCES
+    }
+
+
+def test_a_record_says_which_code_it_measured_and_the_page_what_has_changed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(records.FILES, "structures", tmp_path / "recorded.json")
+    assert write_record("structures", {"rows": []}) == tmp_path / "recorded.json"
+    now = record_of("structures")
+    assert now["digest"].keys() == {"mechanics", "numerics", "structures"}
     assert record_age("structures", **now) == f"The measurement is of {now['date']}, with the present code."
-    for digest in ("0" * 64, None):  # another code; a record that is older than the digest
-        said = (
-            "The measurement is of 2026-11-22; the code that it measured (mechanics, numerics, structures) has changed"
-        )
-        assert record_age("structures", "2026-11-22", digest) == f"{said} since then."
+    said = "The measurement is of 2026-11-22; "
+    other = now["digest"] | {"numerics": "0" * 64}
+    changed = record_age("structures", "2026-11-22", other)
+    assert changed == f"{said}since then the code of numerics has changed."
+    for older in (None, "0" * 64):  # before there were digests, or one of each package
+        assert record_age("structures", "2026-11-22", older) == f"{said}the code that it measured is not on record."  # type: ignore[arg-type]
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", RENEWAL)
 def test_a_record_is_of_the_present_code_or_is_to_be_renewed(name: RecordName) -> None:
     record = record_of(name)
-    if record["digest"] != code_digest(name):
+    if record["digest"] != code_digests(name):
         pytest.xfail(f"{record_age(name, str(record['date']), record['digest'])} Renew it: {RENEWAL[name]}")

@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from benchmarks import bodies_and_lagrangians, doublings, structure_comparison
+from benchmarks import bodies_and_lagrangians, structure_comparison
 from benchmarks.mechanisms import comparison, deciding
+from benchmarks.ratios import rods, runs
 from lagrotor import Scene
 from lagrotor.benchmark import throughput
 from lagrotor.benchmark.limits import coordinate_singularities, error_map, numerical_drift, range_of_validity, step_size
@@ -67,7 +68,7 @@ RUNS: dict[str, tuple[Any, str, int, Callable[[], object]]] = {
 @pytest.mark.parametrize("name", RUNS)
 def test_a_limit_of_a_run_without_length_is_not_reported(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     module, run, place, work = RUNS[name]
-    monkeypatch.setattr(throughput, "_RUN", 0.1)
+    monkeypatch.setattr(throughput, "DURATION", 0.1)
     work()
     monkeypatch.setattr(module, run, _only_start(getattr(module, run), place))
     if name == "pole":
@@ -99,9 +100,12 @@ def test_comparisons_with_other_tools_refuse_what_did_nothing(monkeypatch: pytes
     monkeypatch.setattr(structure_comparison, "TIMES", np.array([0.0]))
     with pytest.raises(LagrotorError, match="the reference of 2 rotors: the benchmark did not do its work"):
         structure_comparison.compared(2, print, set())
-    monkeypatch.setattr(doublings, "_ROTORS", 0)
-    with pytest.raises(LagrotorError, match="4 rotors, core: the benchmark did not do its work"):
-        doublings.times([structure_comparison.staircase(4)], "core", 1)
+    monkeypatch.setattr(rods, "accelerations", lambda q, v: q)
+    with pytest.raises(LagrotorError, match="2 rods: the benchmark did not do its work"):
+        rods.ready(2)
+    monkeypatch.setitem(runs.SCENES, "short bar, shock", lambda x: Scene((10.0, -10.0)))  # at rest
+    with pytest.raises(LagrotorError, match="auto, short bar, shock: the benchmark did not do its work"):
+        next(runs.auto_and_chosen("short bar, shock", "core"))
     monkeypatch.setattr(bodies_and_lagrangians, "_rates", lambda *given: np.ones(2))
     with pytest.raises(LagrotorError, match="lagrotor, bodies on 1 gyroscope: the benchmark did not do its work"):
         bodies_and_lagrangians._measured(print, lambda: None, "1 gyroscope", "lagrotor, bodies")

@@ -142,7 +142,7 @@ def test_the_record_is_complete_and_its_counts_are_those_of_this_code() -> None:
 
 def test_a_broken_record_is_said(tmp_path, monkeypatch: pytest.MonkeyPatch) -> None:
     broken = tmp_path / "recorded.json"
-    monkeypatch.setattr(records, "MECHANISMS", broken)
+    monkeypatch.setitem(records.FILES, "mechanisms", broken)
     for text in (None, "{", '{"measured": [{"speed": 1}], "decided": []}'):
         if text is not None:
             broken.write_text(text)

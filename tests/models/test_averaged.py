@@ -119,6 +119,34 @@ def test_auto_takes_it_for_long_runs() -> None:
     assert choose(swinging(0.15), turns(scene, 1_000)[-1], 1e-9).model == "minimal"
     run = simulate(scene, turns(scene, 1_000), tol=1e-6)
     assert run.model == "averaged" and run.error < 1e-6
+    # The fast extra integrates the same run in less time than the normal form takes.
+    scene = swinging(0.003)
+    fast = [choose(scene, turns(scene, count)[-1], 1e-6, "fast").model for count in (1_000, 20_000)]
+    assert fast == ["minimal", "averaged"]
+
+
+@pytest.mark.parametrize(
+    ("size", "count", "tol", "orders", "left_out"),
+    [
+        (0.06, 1_000, 1e-6, {2}, (6, 8)),
+        (0.02, 1_000, 1e-6, {2, 8}, (6,)),
+        (0.002, 1_000, 1e-9, {2, 6}, ()),
+        (1e-4, 20_000, 1e-9, set(), (6,)),  # the rounding of so many turns exceeds the tolerance
+    ],
+)
+def test_no_form_is_derived_that_cannot_keep_the_tolerance(
+    monkeypatch: pytest.MonkeyPatch, size: float, count: int, tol: float, orders: set[int], left_out: tuple[int, ...]
+) -> None:
+    """An order is derived only if it may suffice, and one that was left out would not have kept the tolerance."""
+    derive, derived = averaged._forms, set[int]()
+    monkeypatch.setattr(averaged, "_forms", lambda *a: (derived.add(a[-1]), derive(*a))[1])
+    scene = swinging(size)
+    end = float(turns(scene, count)[-1])
+    model = choose(scene, end, tol).model
+    assert derived == orders and (model == "averaged") == (max(orders, default=0) > 2)
+    for order in left_out:
+        monkeypatch.setattr(averaged, "_ORDERS", (order,))
+        assert averaged.averaged_motion(scene, end, tol, best=True).error > tol
 
 
 # The modes about its start put the centre of the fast one on the joint line.

@@ -139,6 +139,26 @@ def test_the_judge_would_see_a_wrong_choice(monkeypatch: pytest.MonkeyPatch) -> 
     assert len(judge(3, 16)[1]) > 16 / 10
 
 
+@pytest.mark.parametrize(
+    ("size", "tol", "estimated"), [(0.03, 1e-4, 0), (1e-4, 1e-4, 1), (1e-4, 1e-11, 0), (1e-6, 1e-11, 1)]
+)
+@pytest.mark.parametrize("shaken", [False, True])
+def test_nothing_is_estimated_that_cannot_keep_the_tolerance(
+    monkeypatch: pytest.MonkeyPatch, size: float, tol: float, estimated: int, shaken: bool
+) -> None:
+    """A motion too wide for normal modes costs no estimate of their error, whether it moves at the start or is shaken."""
+    import lagrotor.models.linear as normal_modes
+
+    right, calls = normal_modes.linear_error, []
+    monkeypatch.setattr(normal_modes, "linear_error", lambda *a: (calls.append(a), right(*a))[1])
+    shock = Shock((200 * size, 100 * size, 0), 1.0, 0.05)
+    moving = consistent_scene((10, 4), UP, 10 * size * np.array([[1, 0.5, 0], [-0.3, 1, 0]]))
+    scene = Scene((10, 4), shock=shock) if shaken else moving
+    choice = choose(scene, 2.0, tol)
+    assert len(calls) == estimated and (estimated or choice.model == "minimal")
+    assert choice.model == "linear" or right(scene, 2.0) > tol
+
+
 SHOCK = Shock((40, -11, 0), 2.0, 1 / 20)
 
 
@@ -148,7 +168,12 @@ SHOCK = Shock((40, -11, 0), 2.0, 1 / 20)
         (Scene((10, -10)), 1e-9, "closed_form", "at rest without shock: nothing moves"),
         (paired_scene(Scene((10, -10)), 0.05), 1e-6, "closed_form", r"paired precession of amplitude 0\.05: .* r₀⁷"),
         (Scene((10, -10), shock=Shock((0.04, 0, 0), 2.0, 0.05)), 1e-4, "linear", "normal modes; error"),
-        (Scene((10, -10), shock=SHOCK), 1e-6, "minimal", "bar eliminated, six states; normal modes have an error of"),
+        (
+            Scene((10, -10), shock=SHOCK),
+            1e-6,
+            "minimal",
+            "bar eliminated, six states; the motion is too wide for normal modes",
+        ),
         (Scene((10, 0), link=None, shock=SHOCK), 1e-6, "spheres", "regular everywhere; minimal: the scene has no bar"),
     ],
 )

@@ -5,11 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lagrotor import Link, Scene, Trajectory, consistent_scene, simulate
+from lagrotor import Link, Scene, Shock, Trajectory, consistent_scene, simulate
 from lagrotor.errors import LagrotorError
+from lagrotor.models import model as model_module
 from lagrotor.models import simulate as simulating
 from lagrotor.models.model import natural_units, problem_of
-from lagrotor.numerics import error_estimate
+from lagrotor.numerics import error_estimate, printers
 from lagrotor.numerics.integrate import integrate
 from lagrotor.numerics.solvers import dop853
 from tests.models.test_wide_scenes import RECORDED, SHORT, TRIALS
@@ -99,6 +100,44 @@ def test_no_run_takes_ten_times_a_plain_dop853_that_is_as_exact(shaken: bool) ->
     which = [i for i in QUIET if (TRIALS[i].scene.shock is not None) == shaken][::6]
     ratios = [over_plain_dop853(TRIALS[i], RECORDED["axes"][i]) for i in which]
     assert max(ratios) < 10 and sum(ratio > 0 for ratio in ratios) > len(ratios) / 3
+
+
+class Unprinted(np.ndarray):
+    """An array that refuses to be printed."""
+
+    def __repr__(self) -> str:
+        raise AssertionError
+
+
+@pytest.mark.parametrize("name", ["minimal", "spheres"])
+@pytest.mark.parametrize(
+    ("shock", "scenes"), [(None, 1), (Shock((4, -1, 0), 0.5, 0.05), 1), (Shock((4, -1, 0), 9, 0.05), 2)]
+)
+def test_a_run_by_name_repeats_no_work(
+    monkeypatch: pytest.MonkeyPatch, name: str, shock: Shock | None, scenes: int
+) -> None:
+    """Few scenes are made and checked, each integration is observed once, and valid times are not printed."""
+    made, observed, model = list[Scene](), list[int](), simulating.MODELS[name]
+    scene, times = replace(BESIDE_A_FOLD, shock=shock), np.linspace(0, 2, 9).view(Unprinted)
+    check = Scene.__post_init__
+    monkeypatch.setattr(Scene, "__post_init__", lambda self: (made.append(self), check(self))[1])
+    counting = replace(model, observe=lambda one, states: (observed.append(len(states)), model.observe(one, states))[1])
+    monkeypatch.setitem(simulating.MODELS, name, counting)
+    run = simulate(scene, times, name, 1e-6)
+    # In natural units, and before that without a shock that comes after the end.
+    assert len(made) == scenes
+    # The start, two integrations, and the requested times of the better one.
+    assert len(observed) == 4 and observed[0] == 2 and observed[-1] == len(run.t)
+
+
+def test_the_range_of_a_fast_run_is_compiled_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("heyoka", reason="the fast extra is not installed")
+    compiled, right = [], printers.compile_program
+    monkeypatch.setattr(printers, "compile_program", lambda *a: (compiled.append(a), right(*a))[1])
+    model_module._bounds.cache_clear()
+    for tol in (1e-6, 1e-8):
+        assert simulate(BESIDE_A_FOLD, np.linspace(0, 2, 9), tol=tol, engine="fast").model == "minimal"
+    assert len(compiled) == 1
 
 
 def test_beside_a_fold_a_run_costs_little_more_than_by_unit_vectors() -> None:

@@ -28,6 +28,7 @@ from lagrotor.algebra import decide_equal, decide_zero
 from lagrotor.algebra.name_clashes import check_names
 from lagrotor.algebra.subexpressions import with_shared_parts
 from lagrotor.errors import InputError
+from lagrotor.mechanics.bodies.small_matrices import Small
 from lagrotor.mechanics.expressions import expression, vector_of
 from lagrotor.mechanics.lagrangian import Coordinates, total_derivative
 from lagrotor.renamed import accept_old_keywords
@@ -51,12 +52,24 @@ class MovingFrame:
     def __post_init__(self) -> None:
         if not isinstance(self.c, Coordinates):
             raise InputError(f"Frame: {self.c!r} must be Coordinates: Frame(coordinates('phi theta psi'))")
-        check_names("Frame", self.c.q, self.c.v, [frame.amount for frame in self.to_the_ground])
+        _ = self.letters
 
     @property
     def to_the_ground(self) -> "list[MovingFrame]":
         """The list of frames from this one to the ground, both included."""
-        return [self] if self.parent is None else [self, *self.parent.to_the_ground]
+        steps = [self]
+        while (parent := steps[-1].parent) is not None:
+            steps.append(parent)
+        return steps
+
+    @cached_property
+    def letters(self) -> frozenset[sp.Symbol]:
+        """The symbols in the steps from the ground to this frame, without those of the coordinates."""
+        before = self.parent.letters if self.parent is not None else frozenset[sp.Symbol]()
+        symbols = getattr(self.amount, "free_symbols", frozenset[sp.Symbol]()) - before
+        new = {s: self.c._symbols.get(str(s), s) for s in symbols if self.c._symbols.get(str(s)) != s}
+        check_names("Frame", before if new else (), new)
+        return before.union(new) if new else before
 
     def __repr__(self) -> str:
         if self.parent is None:
@@ -145,7 +158,7 @@ class MovingFrame:
         spin = R.T * R.applyfunc(lambda e: total_derivative(e, self.c))
         return sp.Matrix([spin[2, 1], spin[0, 2], spin[1, 0]])
 
-    @property
+    @cached_property
     def ball_velocities(self) -> dict[sp.Symbol, sp.Expr]:
         """The angular velocities ω = 2 E(q) q' of a ball joint by symbol; empty for any other step."""
         if not self.omega:
@@ -164,16 +177,18 @@ class MovingFrame:
         """The angular velocity ω (3, 1), in the axes of this frame, 1/s."""
         if self.parent is None:
             return sp.zeros(3, 1)
-        return (self.rotation.T * self.parent.angular_velocity + self.turn_rate).applyfunc(with_shared_parts)
+        carried = Small.of(self.rotation).T * Small.of(self.parent.angular_velocity)
+        return (carried + Small.of(self.turn_rate)).each(with_shared_parts).matrix
 
     @cached_property
     def origin_velocity(self) -> sp.Matrix:
         """The velocity v (3, 1) of the origin, in the axes of this frame, m/s."""
         if self.parent is None:
             return sp.zeros(3, 1)
-        d = self.shift
-        carried = self.parent.angular_velocity.cross(d) + d.applyfunc(lambda e: total_derivative(e, self.c))
-        return (self.rotation.T * (self.parent.origin_velocity + carried)).applyfunc(with_shared_parts)
+        d = Small.of(self.shift)
+        carried = Small.of(self.parent.angular_velocity).cross(d) + d.each(lambda e: total_derivative(e, self.c))
+        v = Small.of(self.rotation).T * (Small.of(self.parent.origin_velocity) + carried)
+        return v.each(with_shared_parts).matrix
 
     @accept_old_keywords
     def place(self, point: Vector = (0, 0, 0), frame: "MovingFrame | None" = None) -> sp.Matrix:
@@ -197,12 +212,12 @@ class MovingFrame:
         >>> Frame(coordinates("theta")).pin("theta").place((1, 0, 0)).T
         Matrix([[cos(theta), sin(theta), 0]])
         """
-        position = sp.Matrix(vector_of("place: point", point, 3))
+        position = Small.column(*vector_of("place: point", point, 3))
         step, end = self, None if frame is None else self._step("place", frame)
         while step is not end and step.parent is not None:
-            position = (step.rotation * position + step.shift).applyfunc(with_shared_parts)
+            position = (Small.of(step.rotation) * position + Small.of(step.shift)).each(with_shared_parts)
             step = step.parent
-        return position
+        return position.matrix
 
     @accept_old_keywords
     def velocity(self, point: Vector = (0, 0, 0), frame: "MovingFrame | None" = None) -> sp.Matrix:
@@ -227,9 +242,10 @@ class MovingFrame:
         >>> Frame(coordinates("theta")).pin("theta").velocity((1, 0, 0)).T
         Matrix([[0, theta_dot, 0]])
         """
-        at, axes = sp.Matrix(vector_of("velocity: point", point, 3)), self._step("velocity", frame or self)
-        _, spin, origin, drift = self._relative(axes)
-        return axes.origin_velocity + axes.angular_velocity.cross(at) + drift + spin.cross(at - origin)
+        at, axes = Small.column(*vector_of("velocity: point", point, 3)), self._step("velocity", frame or self)
+        _, spin, origin, drift = (Small.of(e) for e in self._relative(axes))
+        carried = Small.of(axes.origin_velocity) + Small.of(axes.angular_velocity).cross(at)
+        return (carried + drift + spin.cross(at - origin)).matrix
 
     def _step(self, where: str, frame: Any) -> "MovingFrame":
         """Return one of the frames from this one to the ground; Frame(c) is the ground."""
@@ -344,7 +360,7 @@ def ball_joint(frame: Kind, quaternion: Any, omega: Any) -> Kind:
     q = tuple(_coordinate("ball", frame, name) for name in _names("ball: quaternion", quaternion, 4))
     w = [s if isinstance(s, sp.Symbol) else sp.Symbol(s, real=True) for s in _names("ball: omega", omega, 3)]
     names = {*map(str, w)}
-    if len({*q}) < 4 or len(names) < 3 or names & {str(s) for s in (*frame.c.q, *frame.c.v, *frame.c.a)}:
+    if len({*q}) < 4 or len(names) < 3 or names & frame.c._symbols.keys():
         raise InputError(
             f"ball: quaternion {quaternion!r} and omega {omega!r}: give seven different names, and for omega none of a "
             "coordinate"
@@ -449,7 +465,9 @@ def _names(where: str, names: Any, number: int) -> list[str | sp.Symbol]:
 
 
 def _coordinate(where: str, frame: MovingFrame, name: str | sp.Symbol) -> sp.Symbol:
-    coordinates = {str(q): q for q in frame.c.q}
-    if str(name) not in coordinates:
-        raise InputError(f"{where}: {name} is none of the coordinates {', '.join(coordinates)}: name some of these")
-    return coordinates[str(name)]
+    q = frame.c._symbols.get(str(name))
+    if q not in frame.c.q:
+        raise InputError(
+            f"{where}: {name} is none of the coordinates {', '.join(map(str, frame.c.q))}: name some of these"
+        )
+    return q

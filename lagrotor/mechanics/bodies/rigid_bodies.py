@@ -20,6 +20,7 @@ from lagrotor.errors import InputError
 from lagrotor.mechanics.bodies import force_elements, moving_frames
 from lagrotor.mechanics.bodies.contacts import Contact, contact
 from lagrotor.mechanics.bodies.moving_frames import MovingFrame, Vector
+from lagrotor.mechanics.bodies.small_matrices import Small
 from lagrotor.mechanics.expressions import expression, vector_of
 from lagrotor.mechanics.lagrangian import t
 
@@ -536,19 +537,22 @@ class Energy:
         return sp.Add(self.remainder, *(factor * _value(body, field) for body, field, factor in self.terms))
 
     @cached_property
+    def parts(self) -> tuple[sp.Expr, ...]:
+        """The expressions in the energies: masses, inertias, centres, fields, factors, and the steps of the frames."""
+        parts, frames = dict[sp.Expr, None](), set[MovingFrame]()
+        for body, field, factor in self.terms:
+            parts |= dict.fromkeys((body.mass, *body.inertia, *body.centre, *(field or ()), factor))
+            frame: MovingFrame | None = body.frame
+            while frame is not None and frame.parent is not None and frame not in frames:
+                frames.add(frame)
+                parts |= dict.fromkeys([frame.amount] if frame.axis is not None else frame.amount)
+                frame = frame.parent
+        return tuple(parts)
+
+    @cached_property
     def free_symbols(self) -> set[sp.Basic]:
         """The symbols of the energy without the velocities."""
-        symbols = set(self.remainder.free_symbols)
-        for body, field, factor in self.terms:
-            symbols |= (
-                body.mass.free_symbols | body.inertia.free_symbols | body.centre.free_symbols | factor.free_symbols
-            )
-            symbols |= set().union(*(e.free_symbols for e in field or ()))
-            frame: MovingFrame | None = body.frame
-            while frame is not None and frame.parent is not None:
-                symbols |= frame.amount.free_symbols
-                frame = frame.parent
-        return symbols
+        return self.remainder.free_symbols.union(*(e.free_symbols for e in self.parts))
 
     def _sympy_(self) -> sp.Expr:
         return self.expression
@@ -583,6 +587,6 @@ class Energy:
 
 def _value(body: Body, field: tuple[sp.Expr, ...] | None) -> sp.Expr:
     if field is not None:
-        return -body.mass * sp.Matrix(field).dot(body.frame.place(body.centre))
-    v, w = body.velocity, body.frame.angular_velocity
-    return body.mass * v.dot(v) / 2 + w.dot(body.inertia * w) / 2
+        return -body.mass * Small.column(*field).dot(Small.of(body.frame.place(body.centre)))
+    v, w = Small.of(body.velocity), Small.of(body.frame.angular_velocity)
+    return body.mass * v.dot(v) / 2 + w.dot(Small.of(body.inertia) * w) / 2

@@ -1,6 +1,6 @@
 """Matrices of at most six rows whose products skip zeros, and the stages of a program, which store their entries.
 
-Matrices of sympy would take most of the recursion's time.
+Matrices of sympy would take most of the recursion's time: they multiply zeros, for which sympy asks if the factor is finite.
 """
 
 from collections.abc import Callable, Sequence
@@ -33,6 +33,10 @@ class Small:
 
     def __getitem__(self, key: Any) -> Any:
         return self.rows[key[0]][key[1]] if isinstance(key, tuple) else self.rows[key][0]
+
+    @property
+    def matrix(self) -> sp.Matrix:
+        return sp.Matrix(self.rows)
 
     @property
     def T(self) -> "Small":

@@ -140,11 +140,14 @@ class _Walk:
         self.used: set[sp.Symbol] = set()
 
     def place_of(self, frame: MovingFrame) -> Place:
-        if frame.parent is None:
-            return -1, sp.zeros(3, 1), sp.eye(3)
-        if frame not in self.known:
-            self.known[frame] = self.step(frame, *self.place_of(frame.parent))
-        return self.known[frame]
+        steps, place = list[MovingFrame](), (-1, sp.zeros(3, 1), sp.eye(3))
+        while frame.parent is not None and frame not in self.known:
+            steps.append(frame)
+            frame = frame.parent
+        place = self.known.get(frame, place)
+        for step in reversed(steps):
+            place = self.known[step] = self.step(step, *place)
+        return place
 
     def step(self, frame: MovingFrame, parent: int, d: sp.Matrix, R: sp.Matrix) -> Place:
         """Return the place of a frame from that of its parent, (link, d, R); a step that moves adds a new link."""

@@ -95,8 +95,7 @@ def jet_name(name: str, orders: Orders) -> str:
 def put_functions(where: str, system: Kind, values: Any, others: Sequence[sp.Expr] = ()) -> tuple[Kind, Any]:
     """Substitute the functions whose values are expressions into the system. Return the system and all values: a number for each
     symbol, a `Lambda` or `FunctionValue` for each function. `others` are further expressions that may contain functions."""
-    energy = system.L if system.bodies else system.lagrangian
-    expressions = [energy, *system.acting, *(e for _, e in system.velocities), *others]
+    expressions = [*system.lagrangian_parts, *system.acting, *(e for _, e in system.velocities), *others]
     applied = unknown_functions(expressions)
     functions = {str(f.func): f.func for f in applied}
     if not isinstance(values, Mapping):
@@ -160,7 +159,7 @@ def _with_expressions(system: Kind, lambdas: Mapping[str, sp.Lambda]) -> Kind:
     lagrangian: Any = system.lagrangian
     if not system.bodies:
         lagrangian = put(lagrangian)
-    elif unknown_functions(system.L - sp.sympify(lagrangian.remainder, strict=True)):  # in the position of a frame
+    elif unknown_functions(lagrangian.parts):  # in the position of a frame
         lagrangian = put(system.L)
     else:
         lagrangian = replace(lagrangian, remainder=put(lagrangian.remainder))

@@ -376,7 +376,7 @@ def _smooth(
 
             hit = None
             if phase.conditions:
-                ends, at = curve(np.array([begin, end_of_step])), np.array([now + begin, now + end_of_step])
+                ends, at = np.array([dense.y_old, solver.y]) * scale, np.array([now + begin, now + end_of_step])
                 rounding = np.abs(watch(perturbed_state(ends, _ROUNDINGS), at) - watch(ends, at)).max(1)
                 hit, hidden = _first(h, phase, conditions, begin, end_of_step, habit, rounding)
                 h.hidden.extend((now + a, now + b) for a, b in hidden)
@@ -384,8 +384,9 @@ def _smooth(
             if observe is not None:
                 observe(now, begin, until, curve)
             reached = int(np.searchsorted(times, until, side="right"))
-            blocks.append(curve(times[count:reached]))
-            count = reached
+            if reached > count:
+                blocks.append(curve(times[count:reached]))
+                count = reached
             if hit is not None:
                 y = curve(np.array([until]))[0]
                 return Stretch(np.concatenate(blocks), y if project is None else project(y), solver.nfev), hit

@@ -19,7 +19,7 @@ from lagrotor.algebra.subexpressions import subexpressions
 from lagrotor.mechanics.bodies.small_matrices import Stages
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.lagrangian import jacobian, t
-from lagrotor.mechanics.quasi_velocities import inverse_of
+from lagrotor.mechanics.quasi_velocities import inverse_of, rows_of
 from lagrotor.numerics.codegen import Stage
 
 
@@ -43,16 +43,14 @@ def swept_equations(system: Equations) -> tuple[list[Stage], sp.Matrix, sp.Matri
     momenta = slopes[n:]
     drift = forward_sweep(keep, momenta, onward | dict(zip(c.v, alpha, strict=True)))
     forces = sp.Matrix([keep(a - b) for a, b in zip(slopes[:n], drift, strict=True)])
-    M = sp.zeros(m, m)
-    for j in range(m):
-        needed = [i for i in range(n) if any(B[i, j:])]
-        column = sp.zeros(n, 1)
-        for i, e in zip(
-            needed, forward_sweep(keep, [momenta[i] for i in needed], dict(zip(c.v, B[:, j], strict=True))), strict=True
-        ):
-            column[i] = e
+    rows, M = rows_of(B.T), sp.zeros(m, m)
+    for j, row in enumerate(rows):
+        needed = sorted({i for later in rows[j:] for i in later})
+        changes = forward_sweep(keep, [momenta[i] for i in needed], {c.v[i]: b for i, b in row.items()})
+        column = dict(zip(needed, changes, strict=True))
         for i in range(j, m):
-            M[i, j] = M[j, i] = keep(B[:, i].dot(column))
+            products = [b * column[k] for k, b in rows[i].items() if column[k] != 0]
+            M[i, j] = M[j, i] = keep(sp.Add(*products))
     return [*first, *keep.made[place:]], M, B.T * (forces + system.generalised_forces)
 
 
@@ -68,7 +66,16 @@ def expression_stages(keep: Stages, e: sp.Expr) -> sp.Expr:
     that it contains."""
     sums = sorted((s for s in subexpressions(e) if s.is_Add), key=lambda s: len(s.args))
     terms = {s: {*s.args} for s in sums if len({*s.args}) == len(s.args)}  # left unevaluated, one may have a term twice
-    stages = dict[sp.Expr, sp.Expr]()
+    stages, beginning_with = dict[sp.Expr, sp.Expr](), defaultdict[sp.Expr, list[int]](list)
+    for i, s in enumerate(sums):
+        beginning_with[s.args[0]].append(i)
+
+    def contained(whole: sp.Expr) -> sp.Expr | None:
+        """Return the longest sum whose terms are some of the terms of another one."""
+        numbers = (
+            i for a in whole.args for i in beginning_with[a] if sums[i] in terms and terms[sums[i]] < terms[whole]
+        )
+        return sums[last] if (last := max(numbers, default=None)) is not None else None
 
     def stage(term: sp.Expr) -> sp.Expr:
         if term.is_Atom:
@@ -76,11 +83,7 @@ def expression_stages(keep: Stages, e: sp.Expr) -> sp.Expr:
         if term not in stages and not all(isinstance(a, sp.Expr) for a in term.args):
             stages[term] = keep(term)  # a Piecewise or an integral, whose arguments are no values
         if term not in stages:
-            shorter = (
-                next((s for s in reversed(sums) if s in terms and terms[s] < terms[term]), None)
-                if term in terms
-                else None
-            )
+            shorter = contained(term) if term in terms else None
             if shorter is None:
                 stages[term] = keep(term.func(*map(stage, term.args)))
             else:
@@ -129,4 +132,9 @@ def _below(keep: Stages, outputs: Sequence[sp.Expr]) -> list[Stage]:
 
 @lru_cache(maxsize=10_000)
 def _slopes(e: sp.Expr) -> list[tuple[sp.Symbol, sp.Expr]]:
-    return [(s, derivative(e, s)) for s in sorted(e.free_symbols, key=attrgetter("name"))]
+    """Return the symbols of an expression, each with the partial derivative by it; those of a sum term by term."""
+    parts = defaultdict[sp.Symbol, list[sp.Expr]](list)
+    for term in sp.Add.make_args(e):
+        for s in term.free_symbols:
+            parts[s].append(derivative(term, s))
+    return [(s, sp.Add(*parts[s])) for s in sorted(parts, key=attrgetter("name"))]

@@ -121,7 +121,7 @@ SOUGHT = {
     "two samples": (lambda: henon_heiles(2), 18, [2.96674186, 6.4409149, 9.89681531]),
     "6,001 samples": (lambda: henon_heiles(6001), 18, [2.96674186, 6.4409149, 9.89681531]),
     "stiff": (lambda: van_der_pol(1000, 3000, 301), 3, [807.08474082, 1614.28530372, 2421.48586662]),
-    "relaxation": (lambda: van_der_pol(100, 500, 2001), 6, [81.1723779, 162.59091345, 244.00944899]),
+    "relaxation": (lambda: van_der_pol(20, 100, 2001), 5, [16.92174302, 34.26290467, 51.60406633]),
     "narrow": (lambda: bumpy(3), 8, [1.2532359, 1.65349752, 1.69347848, 1.89240504]),
     "impacts": (lambda: (BALL.simulate({g: 1}, (1,), (0,), np.linspace(0, 4, 2001), events=Impact(x, 0.8)), x), 4, []),
 }
@@ -145,7 +145,7 @@ def test_crossings_of_a_run_that_is_lost_are_sought_as_it_went_on() -> None:
     (a, b), (a_v, b_v) = c.q, c.v
     double = System(c, a_v**2 + b_v**2 / 2 + a_v * b_v * sp.cos(a - b) + 2 * sp.cos(a) + sp.cos(b))
     with pytest.warns(LagrotorWarning, match="motions separate"):
-        run = double.simulate({}, (2, 2.5), (0, 0), np.linspace(0, 400, 401), 1e-9)
+        run = double.simulate({}, (2, 2.5), (0, 0), np.linspace(0, 250, 251), 1e-9)
     assert run.ending.kind == "lost"
     there = run.crossings(b_v)
     assert there.evaluations <= 3 * run.evaluations
@@ -153,10 +153,10 @@ def test_crossings_of_a_run_that_is_lost_are_sought_as_it_went_on() -> None:
 
 
 def test_what_may_hide_an_event_is_announced_by_the_clock_of_the_run() -> None:
-    fast = Event(sp.sin(1 / (x - 1 / sp.Integer(2))), velocities=(v,))
-    with pytest.warns(LagrotorWarning, match=r"between t = 10\d\.\d+ and 10\d\.\d+ s a condition"):
+    fast = Event(sp.sin(1 / (x - 1 / sp.Integer(2))) + sp.Rational(11, 10))  # never zero, but too fast near x = 1/2
+    with pytest.warns(LagrotorWarning, match=r"between t = 101\.0\d+ and 101\.0\d+ s a condition"):
         run = OSCILLATOR.simulate({}, (1,), (0,), (100, 103.0), 1e-6, events=fast)
-    assert run.q[-1, 0] == pytest.approx(np.cos(run.t[-1] - 100), abs=1e-6)
+    assert run.t[-1] == 103 and run.q[-1, 0] == pytest.approx(np.cos(3), abs=1e-6)
 
 
 def test_a_section_may_move_and_depend_on_velocities() -> None:

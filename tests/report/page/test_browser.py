@@ -12,8 +12,7 @@ from typing import Any
 
 import pytest
 
-from lagrotor.paper.ledger import decide
-from lagrotor.paper.papers import judge_script
+from lagrotor.paper import Audit
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.report.content import Report, derived_lines
 from lagrotor.report.errata import correction_lines
@@ -94,14 +93,13 @@ def sheet(formulas: Iterator[str]) -> str:
     return f'<!DOCTYPE html><html><head><meta charset="utf-8">{view}<style>{style}</style></head><main>{boxes}</main></html>'
 
 
-def every_formula() -> Iterator[str]:
+def every_formula(audit: Audit) -> Iterator[str]:
     """The printed equations, and every expression that the derivations state as derived or as a correction."""
     for entry in PAPER.equations.values():
         yield from filter(None, [mathml(entry.latex)])
-    for stem in PAPER.scripts.names("derivations", "s"):
-        for verdict in judge_script(PAPER, stem):
-            lines = (*derived_lines(verdict.statement.relations), *correction_lines(verdict))
-            yield from filter(None, map(mathml, lines))
+    for verdict in audit:
+        lines = (*derived_lines(verdict.statement.relations), *correction_lines(verdict))
+        yield from filter(None, map(mathml, lines))
 
 
 def wrong() -> str:
@@ -113,10 +111,10 @@ def wrong() -> str:
 
 
 @pytest.fixture(scope="module")
-def found(tmp_path_factory: pytest.TempPathFactory) -> Seen:
+def found(audit: Audit, tmp_path_factory: pytest.TempPathFactory) -> Seen:
     """A page, all formulas and what is wrong, looked at together."""
-    report = Report(PAPER, tuple(map(decide, PAPER.statements("s5_2a_single_rotor"))), (), ())
-    pages = {"page": whole_page(report), "formulas": sheet(every_formula()), "wrong": wrong()}
+    report = Report(PAPER, tuple(audit[s.id] for s in PAPER.statements("s5_2a_single_rotor")), (), ())
+    pages = {"page": whole_page(report), "formulas": sheet(every_formula(audit)), "wrong": wrong()}
     return looked_at(pages, tmp_path_factory.mktemp("browser"))
 
 
