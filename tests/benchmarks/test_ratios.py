@@ -137,9 +137,20 @@ def test_a_derivation_is_changed_only_in_the_copy() -> None:
     with copied(ROOT) as folder:
         assert not (folder / ".git").exists() and not list(folder.glob(".venv*"))
         change_derivation(folder / name, 3)
-        assert (folder / name).read_text().removeprefix(
-            before
-        ).split() == ["#", "%%", "changed", "=", "3", "#", "%%", "[markdown]", "#", "Change", "number", "3."]
+        assert (folder / name).read_text().removeprefix(before).split() == [
+            "#",
+            "%%",
+            "changed",
+            "=",
+            "3",
+            "#",
+            "%%",
+            "[markdown]",
+            "#",
+            "Change",
+            "number",
+            "3.",
+        ]
     assert (ROOT / name).read_text() == before and not folder.exists()
 
 
