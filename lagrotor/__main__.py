@@ -4,6 +4,7 @@ An interrupt while the package loads, or after the command has ended, stops the 
 `main` reports it in words.
 """
 
+import gc
 import signal
 import sys
 
@@ -19,6 +20,7 @@ def start() -> int:
     except KeyboardInterrupt:  # a second one, while the first is reported
         return 130
     finally:
+        gc.freeze()  # at its end Python would search all modules for garbage, as long as it takes to import half of sympy
         signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 

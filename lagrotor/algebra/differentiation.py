@@ -71,7 +71,7 @@ def along(expression: sp.Expr, symbols: Iterable[sp.Symbol], rates: Iterable[sp.
 
 
 def slopes(expression: sp.Expr, symbols: Iterable[sp.Symbol]) -> list[sp.Expr]:
-    """Return the partial derivatives of an expression, one for each symbol. A symbol that it does not contain costs no work."""
+    """Return the partial derivatives of an expression by the symbols; those that it does not contain take no work."""
     inside = free_letters(sp.sympify(expression, strict=True))
     return [derivative(expression, s) if s in inside else sp.S.Zero for s in symbols]
 

@@ -10,6 +10,8 @@ from hypothesis import strategies as st
 from sympy import cos, cosh, cot, coth, csc, csch, exp, pi, sec, sech, sin, sinh, sqrt, tan, tanh
 
 from lagrotor.algebra import decide_equal, decide_zero, normal_form
+from lagrotor.algebra.signs import Region
+from lagrotor.algebra.translation import Translation, prove_zero
 from lagrotor.errors import InputError, NotExactError
 
 x, y, omega, t = sp.symbols("x y omega t")
@@ -337,3 +339,18 @@ def test_a_sign_that_no_real_letter_has_is_no_branch() -> None:
     assert decide_equal(power, c * sp.sqrt(1 - b) / sp.Abs(x)).answer == "nonzero"
     assert decide_equal(power, (sp.Abs(x) * v) ** (s * sp.sqrt(1 - b))).answer == "zero"
     assert decide_equal(sp.sqrt(x**2), x).branch == (x >= 0,)
+
+
+HALVES = -2 * sin(x / 2) * cos(x / 2)
+
+
+@pytest.mark.parametrize(("terms", "passes"), [((HALVES, sin(x)), 1), ((sin(x), HALVES), 2)])
+def test_a_second_pass_is_made_only_if_a_later_term_divides_an_angle(
+    terms: tuple[sp.Expr, ...], passes: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begun: list[object] = []
+    begin = Translation.__init__
+    monkeypatch.setattr(Translation, "__init__", lambda self, *given: begun.append(self) or begin(self, *given))
+    divisors, _ = prove_zero(sp.Add(*terms, evaluate=False), Region())
+    assert divisors is not None
+    assert len(begun) == passes

@@ -1,13 +1,15 @@
 """The ledger decides by identity or by order, under the fewest premises, and by nothing else."""
 
 from dataclasses import replace
+from typing import Any
 
 import pytest
 import sympy as sp
 
+from lagrotor.algebra import decide_equal
 from lagrotor.errors import InputError
 from lagrotor.pair.notation import r0
-from lagrotor.paper import Premise, grammar, judge, verdict
+from lagrotor.paper import Premise, grammar, judge, ledger, verdict
 from lagrotor.paper.equation_statements import statement
 from lagrotor.paper.ledger import decide
 from lagrotor.paper.record import changes, reaches_result, record_text, recorded
@@ -56,6 +58,21 @@ def test_the_fewest_premises_are_reported() -> None:
     both = verdict_of(x * n + y, x, premises=(third, ONE, other))
     assert both.premises == (ONE, other)
     assert decide(Statement("5.01", (Relation(x * n + y, x),), (ONE, third))).verdict == "refuted"
+
+
+def test_a_line_that_differs_at_a_point_is_not_decided_before(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without one of the two premises that it needs the line differs, and without the others it holds."""
+    answers: list[str] = []
+
+    def decided(*sides: Any) -> Any:
+        answers.append((decision := decide_equal(*sides)).answer)
+        return decision
+
+    monkeypatch.setattr(ledger, "decide_equal", decided)
+    a, b, c, d, x = sp.symbols("a b c d x", real=True)
+    given = [Premise(f"{letter} is {value}", {letter: value}) for letter, value in ((a, 1), (b, 2), (c, 3), (d, 4))]
+    assert len(judge(a * x + b + c * d, x + 2 + c * d, given).premises) == 2
+    assert set(answers) == {"zero"}
 
 
 def test_premises_that_contradict_each_other_decide_nothing() -> None:

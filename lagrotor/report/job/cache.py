@@ -3,7 +3,7 @@
 The product of a step is its result: the numbers of a claim, a figure with its files, the interactive model, the title,
 findings, tables and HTML of a derivation. A product that JSON can represent is stored with the digest of its inputs. A missing,
 damaged or outdated product is computed again. A derivation also runs again, unless the whole report is unchanged, if it has
-verdicts or tables with expressions, or if a step that runs imports its values.
+verdicts, or if a step that runs imports its values. Of the formulas in a table only the LaTeX is stored.
 """
 
 import json
@@ -15,8 +15,12 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+import sympy as sp
+from sympy.core.symbol import Str
+
 from lagrotor.errors import InputError
 from lagrotor.files import write_text
+from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.papers import Paper
 from lagrotor.paper.tables import FigureLink, Table
 from lagrotor.pictures.figures import Picture
@@ -74,8 +78,15 @@ def picture_from_json(data: Mapping[str, Any], folder: Path) -> Picture:
     return Picture(**{**data, "svg": svg, "png": png})
 
 
+class StoredFormula(sp.Expr):  # type: ignore[misc]
+    """An expression of a table of which only the LaTeX is stored, its argument."""
+
+    def _latex(self, printer: Any, exp: Any = None) -> str:
+        return str(self.args[0].name)
+
+
 def derived_as_json(derived: Derived) -> dict[str, Any]:
-    """Return a derivation without its values as a dictionary, which JSON can represent if it has no verdicts or expressions."""
+    """Return a derivation without its values as a dictionary, which JSON can represent if it has no verdicts."""
     tables = [
         asdict(table) | {"rows": [list(map(_cell_as_json, row)) for row in table.rows]} for table in derived.tables
     ]
@@ -101,10 +112,14 @@ def derived_from_json(data: Mapping[str, Any]) -> Derived:
 def _cell_as_json(cell: Any) -> Any:
     if isinstance(cell, tuple):
         return list(map(_cell_as_json, cell))
+    if isinstance(cell, sp.Basic) and not isinstance(cell, sp.Symbol | sp.MatrixBase):
+        return {"latex": latex(cell)}
     return asdict(cell) if isinstance(cell, FigureLink) else cell
 
 
 def _cell_from_json(cell: Any) -> Any:
     if isinstance(cell, list):
         return tuple(map(_cell_from_json, cell))
-    return FigureLink(**cell) if isinstance(cell, dict) else cell
+    if isinstance(cell, dict):
+        return StoredFormula(Str(cell["latex"])) if "latex" in cell else FigureLink(**cell)
+    return cell

@@ -35,7 +35,7 @@ from lagrotor.report.job.dependencies import TIMES, digest
 from lagrotor.report.job.folder import CERTIFICATES, check_target, replacement
 from lagrotor.report.job.processes import cores, results
 from lagrotor.report.job.steps import Derived, JobStep, derive, draw_step, steps
-from lagrotor.report.page.pages import FOLDER, pages, whole_page
+from lagrotor.report.page.pages import FOLDER, html_files
 from lagrotor.report.text_forms import errata_sheet, markdown, supplement
 
 StepProgress = Callable[[int], AbstractContextManager[Callable[[str], None]]]
@@ -242,7 +242,7 @@ def _claim_results(paper: Paper, products: dict[str, Any]) -> list[Result]:
 
 
 def _write(folder: Path, report: Report) -> None:
-    files = pages(report) | {"whole.html": whole_page(report)}
+    files = html_files(report)
     (folder / FOLDER).mkdir()
     for name, text in files.items():
         write_text(folder / name, text)

@@ -54,7 +54,10 @@ class Page:
 
 def whole_page(report: Report) -> str:
     """Return the whole report as one HTML page that contains its style, script, font, formulas and figures."""
-    everything = sections(report)
+    return _whole_page(report, sections(report))
+
+
+def _whole_page(report: Report, everything: list[Section]) -> str:
     body = "\n".join(section.html for section in everything)
     for picture in report.pictures:
         body = body.replace(f'src="figures/{picture.svg.name}"', f'src="{data_address(picture)}"')
@@ -62,9 +65,19 @@ def whole_page(report: Report) -> str:
     return _document(report, body, contents, f"<style>\n{_style()}</style>", f"<script>\n{_script()}</script>")
 
 
+def html_files(report: Report) -> dict[str, str]:
+    """Return a map from the address of each file to its text: those of `pages`, and the whole report as one page."""
+    everything = sections(report)
+    return _page_files(report, everything) | {"whole.html": _whole_page(report, everything)}
+
+
 def pages(report: Report) -> dict[str, str]:
     """Return a map from the address of each file to its text: the pages, their style and script, the words to search."""
-    all_pages = _pages(report)
+    return _page_files(report, sections(report))
+
+
+def _page_files(report: Report, everything: list[Section]) -> dict[str, str]:
+    all_pages = _pages(report, everything)
     places = {place: page.file for page in all_pages for place in _PLACE.findall(page.body)}
     words = [row for page in all_pages for row in _words(page.file, page.sections)]
     assets = {"page.css": _style(), "page.js": _script(), "words.js": _data(words)}
@@ -72,9 +85,9 @@ def pages(report: Report) -> dict[str, str]:
     return {page.file: _page(page, all_pages, places, report) for page in all_pages} | files
 
 
-def _pages(report: Report) -> list[Page]:
+def _pages(report: Report, everything: list[Section]) -> list[Page]:
     """Return the pages in the order of the contents; figures and derivations are put into the sections they belong to."""
-    remaining = {section.anchor: section for section in sections(report)}
+    remaining = {section.anchor: section for section in everything}
     figures = remaining.pop("figures", None)
     derivations = remaining.pop("derivations", None)
     if figures:

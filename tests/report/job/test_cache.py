@@ -10,9 +10,10 @@ from pathlib import Path
 import pytest
 import sympy as sp
 
+from lagrotor.mechanics.glossary import latex
+from lagrotor.paper import FigureLink, Table
 from lagrotor.paper.papers import opened
 from lagrotor.paper.scripts import beside
-from lagrotor.paper.tables import FigureLink, Table
 from lagrotor.pictures import Picture
 from lagrotor.report.job import cache as cache_module
 from lagrotor.report.job.cache import (
@@ -122,7 +123,15 @@ def test_a_derivation_comes_back_without_its_values() -> None:
     assert again == replace(derived("16 rad/s"), values={})
 
 
-@pytest.mark.parametrize("product", [derived(sp.Symbol("x")), derived("16", verdicts=(object(),))])
-def test_a_derivation_with_expressions_or_verdicts_is_not_stored(product: Derived, cache: Cache) -> None:
+def test_of_a_formula_in_a_table_the_latex_comes_back() -> None:
+    x, t = sp.symbols("x theta_dot")
+    for formula in (sp.Eq(x, sp.sin(t) ** 2 / 2), sp.sqrt(1 - x**2)):
+        stored = json.loads(json.dumps(derived_as_json(derived(formula))))
+        assert "Eq" not in json.dumps(stored)
+        assert latex(derived_from_json(stored).tables[0].rows[0][0]) == latex(formula)
+
+
+@pytest.mark.parametrize("product", [derived(sp.Symbol("x")), derived(sp.eye(2)), derived("16", verdicts=(object(),))])
+def test_a_derivation_with_symbols_matrices_or_verdicts_is_not_stored(product: Derived, cache: Cache) -> None:
     cache.keep("derivation t1_rate", "inputs", derived_as_json(product))
     assert cache.take("derivation t1_rate", "inputs") is None
