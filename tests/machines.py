@@ -93,17 +93,18 @@ class Run:
 
 def extras_tests() -> tuple[str, ...]:
     """The tests that need an extra: the functions that name a module of it in quotes; the whole file where other lines do,
-    and in tests/benchmarks, where tools name their modules."""
+    where a missing module skips the file, and in tests/benchmarks, where tools name their modules."""
     named = re.compile("|".join(map(re.escape, EXTRAS)))
     chosen = list[str]()
     for path in sorted((ROOT / "tests").rglob("test_*.py")):
-        file, naming = path.relative_to(ROOT).as_posix(), list[ast.stmt]()
+        file, naming, skipped = path.relative_to(ROOT).as_posix(), list[ast.stmt](), False
         for statement in ast.parse(path.read_text(encoding="utf-8")).body:
+            skipped |= isinstance(statement, ast.Expr | ast.Assign) and "importorskip" in ast.unparse(statement)
             texts = (node.value for node in ast.walk(statement) if isinstance(node, ast.Constant))
             if any(isinstance(text, str) and named.match(text) for text in texts):
                 naming.append(statement)
         alone = all(isinstance(s, ast.FunctionDef) and s.name.startswith("test_") for s in naming)
-        if alone and not (naming and file.startswith("tests/benchmarks/")):
+        if not naming or (alone and not skipped and not file.startswith("tests/benchmarks/")):
             chosen += [f"{file}::{s.name}" for s in naming]  # type: ignore[attr-defined]
         else:
             chosen.append(file)

@@ -49,8 +49,12 @@ def test_every_run_has_a_name_of_its_own_and_files() -> None:
 def test_the_extras_are_in_the_environment_that_tests_them() -> None:
     chosen = extras_tests()
     assert "fast,notebook" in (ROOT / "Makefile").read_text() and len(chosen) > 8
-    # A fixture that names a module, a function, and a file whose tools name their modules.
-    assert {"tests/numerics/test_taylor.py", "tests/benchmarks/test_peers_on_mechanisms.py"} <= set(chosen)
+    # A fixture names a module, a missing one skips the file, tools name their modules: each time the file is whole.
+    assert {
+        "tests/numerics/test_taylor.py",
+        "tests/test_reference.py",
+        "tests/benchmarks/test_peers_on_mechanisms.py",
+    } <= set(chosen)
     assert "tests/test_examples.py::test_examples_of_docstrings" in chosen and "tests/test_examples.py" not in chosen
     needing = re.compile(rf"importorskip\(\s*\"(?:{'|'.join(EXTRAS)})\"")
     files = [path for path in (ROOT / "tests").rglob("test_*.py") if needing.search(path.read_text())]
