@@ -64,7 +64,7 @@ test-machines:
 
 .venv-extras/.installed: pyproject.toml
 	$(PYTHON) -m venv .venv-extras
-	.venv-extras/bin/python -m pip install --quiet --disable-pip-version-check --editable '.[test,fast,notebook,proof]'
+	.venv-extras/bin/python -m pip install --quiet --disable-pip-version-check --editable '.[test,fast,notebook,proof,cluster]'
 	@touch $@
 
 $(VENV)/bin/python:

@@ -28,7 +28,7 @@ from lagrotor.benchmark.scenes_and_methods import CASES, METHODS, OURS
 from lagrotor.benchmark.throughput import DURATION, ENSEMBLE_ERRORS, Throughput, displaced_family, throughput
 from lagrotor.drawing import paper_style
 from lagrotor.files import write_beside
-from lagrotor.models.sweeps.ensemble import sweep
+from lagrotor.models.sweeps.sweep import sweep
 from lagrotor.pair.scene import Scene
 from lagrotor.pictures.benchmark_figures import speed_chart
 from lagrotor.process_settings import begin_process

@@ -12,7 +12,8 @@ if TYPE_CHECKING:
     from lagrotor.models.orbits.precession import precession_orbit as precession_orbit
     from lagrotor.models.orbits.shooting import orbit_family as orbit_family
     from lagrotor.models.simulate import simulate as simulate
-    from lagrotor.models.sweeps.ensemble import sweep as sweep
+    from lagrotor.models.sweeps.sweep import sweep as sweep
+    from lagrotor.models.sweeps.sweep_folder import Sweep as Sweep
     from lagrotor.pair.initial_conditions import consistent_scene as consistent_scene
     from lagrotor.pair.scene import Link as Link
     from lagrotor.pair.scene import Rotor as Rotor

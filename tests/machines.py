@@ -37,7 +37,7 @@ KERNELS = {"Prescott": "pni", "Nehalem": "sse4_2", "Sandybridge": "avx", "Haswel
 OLDEST = "Prescott"  # its run has no vector features of numpy either
 SEEDS = 1, 2, 3
 PYTHONS = "3.11", "3.12", "3.13", "3.14"
-EXTRAS = "heyoka", "pandas", "xarray", "flint"
+EXTRAS = "heyoka", "pandas", "xarray", "flint", "distributed"
 NOT_INSTALLED = "its packages cannot be installed"
 _UNREACHED = "after connection broken by"  # what pip says of a package index that it does not reach
 # Prints the vector features that numpy chooses among and this processor has.

@@ -26,7 +26,7 @@ from lagrotor.benchmark.throughput import DURATION, ENSEMBLE_ERRORS, displaced_f
 from lagrotor.errors import LagrotorError, LagrotorWarning
 from lagrotor.models.model import integrate_model
 from lagrotor.models.simulate import MODELS, simulate
-from lagrotor.models.sweeps.ensemble import sweep
+from lagrotor.models.sweeps.sweep import sweep
 from lagrotor.numerics.integrate import TIGHTEST, Engine
 from lagrotor.pair.scene import Link
 from lagrotor.structures import exact_motion

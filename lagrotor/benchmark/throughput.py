@@ -11,7 +11,9 @@ from lagrotor.benchmark.runner import check_work
 from lagrotor.models.minimal import MODEL, scenes_from_states
 from lagrotor.models.orbits.shooting import exact_orbit
 from lagrotor.models.simulate import simulate
-from lagrotor.models.sweeps.ensemble import CHUNK, Ensemble, sweep
+from lagrotor.models.sweeps.chunk import CHUNK
+from lagrotor.models.sweeps.ensemble import Ensemble
+from lagrotor.models.sweeps.sweep import sweep
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.natural_rate import natural_rate
 

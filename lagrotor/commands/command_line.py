@@ -57,10 +57,10 @@ def main(argv: Sequence[str] | None = None) -> int:
         return _flush(int(stop.code or 0))
     except BrokenPipeError:
         return _close_pipe()
-    except _Terminated:
-        return say("terminated", 143)
-    except KeyboardInterrupt:
-        return say("interrupted", 130)
+    except _Terminated as stop:
+        return say(str(stop) or "terminated", 143)
+    except KeyboardInterrupt as stop:
+        return say(str(stop) or "interrupted", 130)
     except MemoryError:
         return say("not enough memory: take fewer samples", 2)
     except LagrotorError as error:

@@ -5,14 +5,15 @@ Bad input is refused before any computation.
 
 import argparse
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from lagrotor.commands.terminal import Command, add_json, check_folder, print_json, progress, table
 from lagrotor.errors import InputError
-from lagrotor.files import FILMS, PICTURES
+from lagrotor.files import FILMS, PICTURES, read_text
 from lagrotor.pair.examples import SCENES
 from lagrotor.pair.scene import Link, Scene, Shock
 
@@ -99,7 +100,7 @@ _VARIED: dict[str, tuple[str, _Change]] = {
     "link-mass": ("mass of the bar, kg", _bar_field("mass")),
     "link-inertia": ("inertia of the bar, kg m²", _bar_field("inertia")),
 }
-_MOST = 100_000  # runs of a sweep; all are in memory at once
+_MOST = 100_000  # values of a varied parameter; their scenes are in memory at once
 _TOLERANCE = "target for the estimated largest error of an axis over the run"
 
 
@@ -108,16 +109,27 @@ def add_sweep(added: argparse.ArgumentParser) -> None:
     add_scene(added)
     add_shock(added)
     says = "; ".join(f"{name}: {what}" for name, (what, _) in _VARIED.items())
-    added.add_argument("--vary", required=True, choices=_VARIED, metavar="NAME", help=says)
-    added.add_argument(
-        "--between", nargs=3, required=True, metavar=("FROM", "TO", "N"), help="N values, evenly from FROM to TO"
+    added.add_argument("--vary", choices=_VARIED, metavar="NAME", help=says)
+    added.add_argument("--between", nargs=3, metavar=("FROM", "TO", "N"), help="N values, evenly from FROM to TO")
+    says = (
+        "in place of a scene and --vary: a table, a scene per line under names such as spins_1, rates_2z, link_length"
     )
+    added.add_argument("--columns", type=Path, metavar="FILE.csv", help=says)
     added.add_argument("--t-end", type=float, default=10.0, metavar="S", help="end of the runs, s (default: 10)")
+    added.add_argument("--samples", type=int, default=3, metavar="N", help="number of times (default: 3)")
     added.add_argument("--tol", type=float, default=1e-8, help=f"{_TOLERANCE} (default: 1e-8)")
-    add_json(added, "a JSON list, one object per run")
+    says = "write the results to a folder; after an interruption the same command goes on"
+    added.add_argument("--folder", type=Path, metavar="FOLDER", help=says)
+    added.add_argument(
+        "--workers", type=int, metavar="N", help="number of processes on this machine (default: this one)"
+    )
+    added.add_argument("--scheduler", metavar="ADDRESS", help="run on the cluster of a dask scheduler, tcp://HOST:PORT")
+    add_json(added, "a JSON list, one object per run; with --folder one object for all")
 
 
 def _values(options: argparse.Namespace) -> list[float]:
+    if options.vary is None or options.between is None:
+        raise InputError("--vary NAME and --between FROM TO N are needed, or --columns FILE.csv")
     try:
         first, last, count = float(options.between[0]), float(options.between[1]), int(options.between[2])
     except ValueError:
@@ -127,34 +139,94 @@ def _values(options: argparse.Namespace) -> list[float]:
     return [first + (last - first) * i / max(count - 1, 1) for i in range(count)]
 
 
-def sweep_command(options: argparse.Namespace) -> int:
-    """Simulate the scene for each value of the varied parameter, and print one line per run."""
-    if not (math.isfinite(options.t_end) and options.t_end > 0):
-        raise InputError(f"--t-end {options.t_end:g} must be above zero")
-    values, scene, change = _values(options), scene_from_options(options), _VARIED[options.vary][1]
-    family = [change(scene, value) for value in values]
+def _columns(options: argparse.Namespace) -> dict[str, Any]:
+    """Return the columns of a CSV file by the names in its first line. An empty cell is NaN."""
+    scene = (options.scene, options.spins, options.link_mass, options.link_inertia, options.shock, options.vary)
+    if any(value is not None for value in scene):
+        raise InputError("--columns: the file has the scenes: leave out --scene, --spins, --link, --shock and --vary")
 
     import numpy as np
 
-    from lagrotor.models.sweeps.ensemble import sweep
+    head, _, body = read_text(options.columns).partition("\n")
+    names = [name.strip(' "\r') for name in head.split(",")]
+    try:
+        rows = np.loadtxt(
+            body.splitlines(), delimiter=",", ndmin=2, converters=lambda cell: float(cell or "nan"), encoding="utf-8"
+        )
+        return dict(zip(names, rows.T, strict=True))
+    except ValueError as error:
+        why, remedy = (
+            str(error).split(";")[0].rstrip("."),
+            "give a line of names and then numbers, as many in each line",
+        )
+        raise InputError(f"--columns {options.columns}: {why}: {remedy}") from None
 
-    with progress(1) as step:
-        step(f"{len(family)} runs")
-        ensemble = sweep(family, np.linspace(0.0, options.t_end, 3), tol=options.tol)
-    runs = [ensemble.trajectory(i) for i in range(len(family))]
+
+@contextmanager
+def _executor(options: argparse.Namespace) -> Iterator[Any]:
+    """Yield the executor that the options state. An interruption says how to go on."""
+    from lagrotor.models.sweeps.executors import process_pool
+    from lagrotor.numerics.run import optional_package
+
+    if options.workers is not None and (options.workers < 1 or options.scheduler):
+        raise InputError(f"--workers {options.workers}: give 1 or more, without --scheduler")
+    try:
+        if options.scheduler:
+            with optional_package("distributed").Client(options.scheduler) as client:
+                yield client
+        elif options.workers:
+            with process_pool(options.workers) as pool:
+                yield pool
+        else:
+            yield None
+    except BaseException as stop:
+        if isinstance(stop, Exception) or not options.folder:
+            raise
+        says = f"interrupted: the finished runs are in {options.folder}; the same command goes on"
+        raise type(stop)(says) from None
+
+
+def sweep_command(options: argparse.Namespace) -> int:
+    """Simulate the scene for each value of the varied parameter, or each scene of a table. Print one line per run, or the summary
+    of a folder."""
+    if not (math.isfinite(options.t_end) and options.t_end > 0):
+        raise InputError(f"--t-end {options.t_end:g} must be above zero")
+    if not 2 <= options.samples <= _MOST_SAMPLES:
+        raise InputError(f"--samples {options.samples} must lie between 2 and {_MOST_SAMPLES}")
+    scenes: Any
+    if options.columns:
+        scenes = _columns(options)
+        name, values = "run", [float(i) for i in range(len(next(iter(scenes.values()))))]
+    else:
+        name, values, scene = options.vary, _values(options), scene_from_options(options)
+        scenes = [_VARIED[name][1](scene, value) for value in values]
+
+    import numpy as np
+
+    from lagrotor.models.sweeps.sweep import sweep
+
+    times = np.linspace(0.0, options.t_end, options.samples)
+    with progress(len(values)) as step, _executor(options) as executor:
+        ensemble = sweep(
+            scenes, times, options.tol, folder=options.folder, executor=executor,
+            progress=lambda done, n: step("runs", done),
+        )  # fmt: skip
+    if options.folder:
+        print_json(ensemble.summary()) if options.json else print(ensemble)
+        return 1 if len(ensemble.failed) else 0
     rows = [
-        {options.vary: value, "model": run.model, "evaluations": run.evaluations,
+        {name: value, "model": run.model, "evaluations": run.evaluations,
          "tip_1": run.tips[0, -1].tolist(), "tip_2": run.tips[1, -1].tolist()}
-        for value, run in zip(values, runs, strict=True)
+        for value, run in zip(values, ensemble, strict=True)
     ]  # fmt: skip
     if options.json:
         print_json(rows)
     else:
         cells = [
-            (f"{r[options.vary]:.6g}", r["model"], str(r["evaluations"]), "  ".join(f"{x:.6f}" for x in r["tip_1"]))
+            (f"{r[name]:.6g}", r["model"], str(r["evaluations"]), "  ".join(f"{x:.6f}" for x in r["tip_1"]))
             for r in rows
         ]
-        print(table((options.vary, "model", "evaluations", f"tip 1 at {options.t_end:g} s [m]"), cells))
+        print(table((name, "model", "evaluations", f"tip 1 at {options.t_end:g} s [m]"), cells))
     return 1 if len(ensemble.failed) else 0
 
 

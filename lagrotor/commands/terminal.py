@@ -87,16 +87,17 @@ def _clear_line() -> None:
 
 
 @contextmanager
-def progress(total: int) -> Iterator[Callable[[str], None]]:
-    """Yield a function that shows the progress of a work of `total` steps; it is called with a step's name at its begin.
+def progress(total: int) -> Iterator[Callable[..., None]]:
+    """Yield a function that shows the progress of a work of `total` steps; it is called with a step's name at its begin, or with
+    a name and the number of steps that are done.
 
     A terminal shows all steps in the same line; any other stderr gets one line per step.
     """
     count, start, live = 0, time.perf_counter(), sys.stderr.isatty()
 
-    def step(name: str) -> None:
+    def step(name: str, done: int | None = None) -> None:
         nonlocal count
-        count += 1
+        count = count + 1 if done is None else done
         line = f"[{count}/{total}] {time.perf_counter() - start:4.0f} s  {name}"
         width = shutil.get_terminal_size().columns - 1
         print(f"\r{line[:width]:<{width}}" if live else line, end="" if live else "\n", file=sys.stderr, flush=True)

@@ -12,7 +12,6 @@ A pulse adds the response of `theory.shock_response`. `linear_error` estimates t
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import exp, nan, pi
-from typing import Any
 
 import numpy as np
 
@@ -251,14 +250,14 @@ def _spread(scene: Scene, angle: float, duration: float) -> float:
 def _defect(scene: Scene, linear: LinearPair, shock: Shock | None, t: Array, states: Array) -> Array:
     """Return the exact minus the linear accelerations of (U, chi, alpha) at the states (n, 6) and times t (n,), (n, 3)."""
     kind, values = MODEL.kind(replace(scene, shock=shock), True)
-    parameters: list[Any] = [*values]
+    force: list[Array] = []
     acceleration = -states[:, 3:] @ linear.turning.T
     if shock is not None:
         pulse = scene.rotor.length * np.exp(-(((t - shock.at) / shock.width) ** 2))
-        parameters += [f * pulse for f in shock.force]
+        force = [f * pulse for f in shock.force]
         straight = _straightened(linear, states[0], shock)
         push = np.zeros(3)
         push[0], push[shock.body] = straight.force[:2]
         acceleration = acceleration + pulse[:, None] * np.linalg.solve(linear.mass, linear.upright.T @ push)
-    exact = rhs_on_arrays(*kind)(*states.T, *parameters)
+    exact = rhs_on_arrays(*kind)(*values)(*states.T, *force)
     return np.stack(exact[3:], axis=1) - acceleration

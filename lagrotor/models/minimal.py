@@ -6,7 +6,7 @@ The model is exact for every bar and every ratio k = ell / R. It is singular onl
 from __future__ import annotations
 
 from itertools import product
-from math import asin, asinh, atan2, cosh, hypot, sin, sinh
+from math import hypot
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -42,10 +42,10 @@ def _rhs(massive: bool, ratio: Ratio, body: int, bounded: bool) -> str:
 
 @generated(_KINDS)
 def rhs_on_arrays(massive: bool, ratio: Ratio, body: int) -> str:
-    """Return the source of the right-hand side for one kind of scene, on arrays that broadcast."""
-    from lagrotor.numerics.printers import program_source
+    """Return the source of a function of the parameters of one kind of scene, arrays (n,), that returns the right-hand side."""
+    from lagrotor.numerics.printers import arrays_source
 
-    return program_source(program(massive, ratio, body), "numpy")
+    return arrays_source(program(massive, ratio, body), 6, 3 if body else 0)
 
 
 @generated((ratio,) for ratio in RATIOS)
@@ -75,33 +75,44 @@ def _kind(scene: Scene, driven: bool) -> tuple[Kind, tuple[float, ...]]:
 
 def _start(scene: Scene) -> Array:
     value, ratio = _ratio(scene)
-    u, alpha, u_v, alpha_v = [], [], [], []
-    for i, (r, v) in enumerate(zip(scene.axes, scene.rates, strict=True)):
-        radius = hypot(r[1], r[2])
-        if radius < 1e-6:
+    for i, r in enumerate(scene.axes):
+        if hypot(r[1], r[2]) < 1e-6:
             raise SingularError(f"minimal: axis {i + 1} lies along the joint line, r = {r}; use model='spheres'")
-        u.append(asinh(r[0] / radius))
-        alpha.append(atan2(-r[1], r[2]))
-        u_v.append(v[0] / radius**2)
-        alpha_v.append((r[1] * v[2] - r[2] * v[1]) / radius**2)
-    twist = (alpha[1] - alpha[0] + np.pi) % (2 * np.pi) - np.pi
-    w, twist_v, w_v = u[0] - u[1], alpha_v[1] - alpha_v[0], u_v[0] - u_v[1]
+    return start_states(ratio, value, np.array(scene.axes), np.array(scene.rates))
+
+
+def start_states(ratio: Ratio, k: float | Array, axes: Array, rates: Array) -> Array:
+    """Return the states (…, 6) of pairs (…) whose unit axes and their rates have the shape (…, 2, 3), with ell / R = k (…)."""
+    (x, y, z), (x_v, y_v, z_v) = np.moveaxis(axes, -1, 0), np.moveaxis(rates, -1, 0)
+    radius = np.hypot(y, z)
+    (u_1, u_2), (u_v1, u_v2) = (np.moveaxis(array, -1, 0) for array in (np.arcsinh(x / radius), x_v / radius**2))
+    turn_v = (y * z_v - z * y_v) / radius**2
+    (alpha_1, alpha_2), (alpha_v1, alpha_v2) = (np.moveaxis(array, -1, 0) for array in (np.arctan2(-y, z), turn_v))
+    twist = (alpha_2 - alpha_1 + np.pi) % (2 * np.pi) - np.pi
+    w, twist_v, w_v = u_1 - u_2, alpha_v2 - alpha_v1, u_v1 - u_v2
+    chi, chi_v, Delta = twist, twist_v, twist
     if ratio == "short":
         # Delta has an extremum where the bar begins to fold over, but chi and w continue: take the rate from both.
-        rho, c, s = value * cosh(w) - sinh(w), np.cos(twist), sin(twist)
-        chi = atan2(s, rho)
+        rho, c, s = k * np.cosh(w) - np.sinh(w), np.cos(twist), np.sin(twist)
+        chi = np.arctan2(s, rho)
         chi_v = (rho / c * twist_v + s / c * w_v) / ((rho**2 + s**2) / c**2)
-    else:
-        chi, chi_v = twist, twist_v
-    Delta = asin(max(-1.0, min(1.0, value * sin(chi)))) if ratio == "short" else chi
-    middle = [(u[0] + u[1]) / 2, chi, alpha[0] + Delta / 2]
-    return np.array([*middle, (u_v[0] + u_v[1]) / 2, chi_v, (alpha_v[0] + alpha_v[1]) / 2])
+        Delta = np.arcsin(np.clip(k * np.sin(chi), -1.0, 1.0))
+    middle = (u_1 + u_2) / 2, chi, alpha_1 + Delta / 2, (u_v1 + u_v2) / 2, chi_v, (alpha_v1 + alpha_v2) / 2
+    return np.stack(middle, axis=-1)
 
 
 def _observe(scene: Scene, states: Array) -> Observed:
     value, ratio = _ratio(scene)
-    blocks = np.stack(_axes(ratio)(*states.T, value)).reshape(2, 2, 3, -1).transpose(0, 1, 3, 2)
-    return Observed(blocks[0], blocks[1], constant_momenta(scene, blocks.shape[2]))
+    axes, rates = observe_states(ratio, value, states)
+    return Observed(axes, rates, constant_momenta(scene, axes.shape[1]))
+
+
+def observe_states(ratio: Ratio, k: float | Array, states: Array) -> tuple[Array, Array]:
+    """Return the axes and their rates, (2, …, 3) each, for states (…, 6) with ell / R = k (…). Their components are contiguous in
+    memory, so that sums over them are fast."""
+    blocks = np.stack(_axes(ratio)(*np.moveaxis(states, -1, 0), k))
+    axes, rates = np.moveaxis(blocks.reshape(2, 2, 3, *blocks.shape[1:]), 2, -1)
+    return axes, rates
 
 
 def scenes_from_states(scene: Scene, states: ArrayLike) -> list[Scene]:

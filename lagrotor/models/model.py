@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from math import hypot, inf, nan, sqrt
+from math import hypot, inf, nan, pi, sqrt
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,7 +22,7 @@ from lagrotor.numerics.pulse import pulse_windows
 from lagrotor.numerics.segment import OutsideError, Projection, RightHandSide, Stretch, reporting
 from lagrotor.numerics.source_cache import GeneratedFunction
 from lagrotor.pair.scene import Link, Rotor, Scene
-from lagrotor.pair.trajectory import Trajectory, momentum_about_joints, tilting_energy
+from lagrotor.pair.trajectory import Inertias, Trajectory, momentum_about_joints, tilting_energy
 
 if TYPE_CHECKING:
     from lagrotor.numerics.codegen import Program
@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 # Rates of PACE and axes of 1 share an absolute tolerance, so that rates and energy are PACE times more accurate.
 PACE = 16.0
+TURN = 2 * pi / PACE  # the typical period in natural units
+FARTHEST_ALONG = 49, 50  # the largest |x| of an axis, as a fraction; there Mercator coordinates magnify errors fivefold
 
 
 @dataclass(frozen=True)
@@ -296,29 +298,58 @@ def pulse_nodes(scene: Scene, t_end: float) -> PulseNodes | None:
     return PulseNodes(t, (half * _WEIGHTS).ravel(), (half * _LOWER).ravel(), end)
 
 
+@dataclass(frozen=True)
+class Conserved:
+    """The quantities that the motions of pairs in natural units conserve, with leading axes for the pairs.
+
+    - `lengths`: the residuals (…, n) of the lengths of axes and bar.
+    - `energy` and `momentum`: the energy and the momentum about the joint line, (…, n).
+    - `scales`: their largest changes, (…, 1), by an error of 1 in the axes and of PACE in the rates.
+    """
+
+    lengths: list[Array]
+    energy: Array
+    momentum: Array
+    scales: tuple[Array, Array]
+
+    def changes(self) -> Array:
+        """Return the violations (…, q) of the conservation laws if no force acts, as errors of axes and rates."""
+        changes = list[Array]()
+        for values, scale in zip((self.energy, self.momentum), self.scales, strict=True):
+            change = values - values[..., :1]
+            changes.append(np.divide(change, scale, out=np.zeros(change.shape), where=scale > 0))
+        return np.concatenate([*self.lengths, *changes], axis=-1)
+
+
+def conserved(inertias: Inertias, k: float | Array | None, observed: Observed) -> Conserved:
+    """Return the conserved quantities of observed states with axes (2, …, n, 3). Inertias and k = ell/R (None without a bar) are
+    numbers or arrays (…, 1)."""
+    (a, b), (v1, v2), axes = inertias, observed.rates, observed.axes
+    # |a v_1 + b v_2|² + |a v_2 + b v_1|²
+    squared = (a * a + b * b) * (v1**2 + v2**2).sum(-1) + 4 * a * b * (v1 * v2).sum(-1)
+    size = np.sqrt(np.maximum(squared, 0.0).max(-1, keepdims=True))
+    lengths = [np.sqrt((r**2).sum(-1)) - 1 for r in axes]
+    if k is not None:
+        bar = axes[1] - axes[0]
+        bar[..., 0] += k
+        lengths.append((np.sqrt((bar**2).sum(-1)) - k) * np.minimum(1.0, k))
+    scales = PACE * size, size + 2 * PACE * a + np.abs(observed.momenta).max(0).max(-1, keepdims=True)
+    energy = tilting_energy(inertias, observed.rates)
+    return Conserved(lengths, energy, momentum_about_joints(inertias, axes, observed.rates, observed.momenta), scales)
+
+
 def conservation_defect(scene: Scene, t: Array, observed: Observed, nodes: PulseNodes | None) -> Array:
     """Return the violations of the conservation laws along a run, each as the error of axes and rates that would cause it. The
     scene is in natural units. The laws are those of the lengths, the energy and the momentum about the joint line."""
-    (a, b), (v1, v2) = scene.inertias, observed.rates
-    size = float(np.sqrt(((a * v1 + b * v2) ** 2 + (a * v2 + b * v1) ** 2).sum(-1)).max())
-    lengths = [np.linalg.norm(observed.axes, axis=-1) - 1]
-    if scene.link:
-        k = scene.link.length / scene.rotor.length
-        bar = observed.axes[1] - observed.axes[0] + np.array([k, 0.0, 0.0])
-        lengths.append((np.linalg.norm(bar, axis=-1) - k) * min(1.0, k))
-    defects = [residual.ravel() for residual in lengths]
-    prior, posterior = np.ones(len(t), bool), np.zeros(len(t), bool)
-    work, turn = (0.0, 0.0), (0.0, 0.0)
-    if scene.shock:
-        prior = t <= max(scene.shock.begin, t[0])
-        posterior = t >= min(scene.shock.end, nodes.end if nodes else inf)
-    if nodes:
-        work, turn = _received(scene, t, observed, nodes)
-    energy = tilting_energy(scene, observed.rates)
-    momentum = momentum_about_joints(scene, observed.axes, observed.rates, observed.momenta)
-    # The largest changes by an error of 1 in the axes and of PACE in the rates.
-    scales = PACE * size, size + 2 * PACE * a + float(np.abs(observed.momenta).max())
-    for values, (received, uncertainty), scale in zip((energy, momentum), (work, turn), scales, strict=True):
+    kept = conserved(scene.inertias, scene.k if scene.link else None, observed)
+    if scene.shock is None:
+        return kept.changes()
+    prior = t <= max(scene.shock.begin, t[0])
+    posterior = t >= min(scene.shock.end, nodes.end if nodes else inf)
+    work, turn = _received(scene, t, observed, nodes) if nodes else ((0.0, 0.0), (0.0, 0.0))
+    defects = list(kept.lengths)
+    quantities = zip((kept.energy, kept.momentum), (work, turn), kept.scales, strict=True)
+    for values, (received, uncertainty), scale in quantities:
         if scale > 0:
             later = values[posterior] - (values[0] + received if nodes else values[posterior][:1])
             later = np.sign(later) * np.maximum(np.abs(later) - uncertainty, 0.0)

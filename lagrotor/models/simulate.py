@@ -15,6 +15,7 @@ from lagrotor.models.closed_form_model import closed_form
 from lagrotor.models.linear import linear_motion
 from lagrotor.models.model import (
     PACE,
+    TURN,
     ClosedMotion,
     Model,
     NaturalUnits,
@@ -329,6 +330,10 @@ def evolution_of(
     nodes = pulse_nodes(scene, t_end)
     start = model.start(scene)
 
+    def observed(states: Array) -> tuple[Array, Array]:
+        found = model.observe(scene, states)
+        return found.axes, found.rates
+
     def integrate(start: Array, times: Array, local: float, companion: bool, budget: float) -> Stretch:
         begin = float(times[0])
         elapsed = times - begin
@@ -354,10 +359,10 @@ def evolution_of(
         start,
         integrate,
         distance,
-        turn=2 * pi / PACE,
+        turn=TURN,
         budget=patience,
         project=model.projection(scene) if model.projection else None,
-        start_error=start_error(model, scene, start),
+        start_error=float(start_error(np.array(scene.axes), np.array(scene.rates), observed, start)),
         constraint_uncertainty=model.slack if scene.link else None,
         observe=lambda states: model.observe(scene, states),
         conservation_error=defect,
@@ -368,17 +373,20 @@ def evolution_of(
     )
 
 
-def start_error(model: Model, scene: Scene, start: Array) -> float:
-    """Return the error of the initial state (d,) of a model in units of the rounding error, at least 1.
+def start_error(axes: Array, rates: Array, observed: Callable[[Array], tuple[Array, Array]], start: Array) -> Array:
+    """Return the errors (…) of the initial states (…, d) of a model in units of the rounding error, at least 1.
 
-    Near the joint line the bar hardly determines an axis, and the coordinates may represent another start than the given one.
+    Near the joint line the bar hardly determines an axis, and the coordinates may represent another start than the given one,
+    with the axes and rates (2, …, 3). `observed` returns the axes and rates (2, …, n, 3) of states (…, n, d).
     """
-    unsure, epsilons = 1.0, 1e4  # one rounding step may change nothing
-    observed = model.observe(scene, np.array([start, perturbed_state(start, epsilons)]))
-    for target, computed, unit in ((scene.axes, observed.axes, 1.0), (scene.rates, observed.rates, PACE)):
-        error = float(np.abs(computed[:, 0] - target).max()) / unit
-        response = float(np.abs(computed[:, 1] - computed[:, 0]).max()) / unit / epsilons
-        unsure = max(unsure, error / response) if error > _RESOLVED and response > 0 else unsure
+    epsilons = 1e4  # one rounding step may change nothing
+    unsure: Array = np.ones(start.shape[:-1])
+    computed = observed(np.stack([start, perturbed_state(start, epsilons)], axis=-2))
+    for target, values, unit in zip((axes, rates), computed, (1.0, PACE), strict=True):
+        error = np.abs(values[..., 0, :] - target).max((0, -1)) / unit
+        response = np.abs(values[..., 1, :] - values[..., 0, :]).max((0, -1)) / unit / epsilons
+        moved = (error > _RESOLVED) & (response > 0)
+        unsure = np.maximum(unsure, np.divide(error, response, out=np.ones(error.shape), where=moved))
     return unsure
 
 

@@ -47,6 +47,10 @@ UNKNOWN = 2.0  # the error of an unknown state: the largest difference of two st
 # forty times its error at the ends, with changing sign.
 _PARTS = 8
 _SAMPLES = 65  # times at which two runs are compared besides the requested times
+_BESIDE = (
+    1e-9  # distance of a sample from a requested time, as part of the run, below which the sample tells nothing more
+)
+_NONE = np.empty(0)
 
 
 class EvaluationBudget(NamedTuple):
@@ -91,6 +95,77 @@ class Leg(NamedTuple):
     local: float
     companion: bool
     budget: float
+
+
+class Legs(NamedTuple):
+    """The arguments of n legs as arrays: starts (n, d), times (n, m), local errors, flags of companions and budgets, (n,) each.
+    Rows with fewer times repeat their last one."""
+
+    start: Array
+    times: Array
+    local: Array
+    companion: NDArray[np.bool_]
+    budget: Array
+
+    def take(self, rows: NDArray[np.intp]) -> "Legs":
+        """Return the legs of some rows."""
+        return Legs(self.start[rows], self.times[rows], self.local[rows], self.companion[rows], self.budget[rows])
+
+    @classmethod
+    def of(cls, legs: Sequence[Leg]) -> "Legs":
+        """Return some legs as arrays."""
+        m = max(len(leg.times) for leg in legs)
+        times = np.array([np.pad(leg.times, (0, m - len(leg.times)), "edge") for leg in legs])
+        columns = [np.array(column) for column in zip(*((leg.start, *leg[2:]) for leg in legs), strict=True)]
+        return cls(columns[0], times, *columns[1:])
+
+
+@dataclass(frozen=True, eq=False)
+class Motions:
+    """The motions of n legs with states of d components: `components` (d, n, m), of which the first `reached` (n,) times of each
+    leg are known, the number of evaluations (n,), and the errors that stopped a solver by the number of the leg."""
+
+    components: Array
+    reached: NDArray[np.int64]
+    evaluations: NDArray[np.int64]
+    stops: dict[int, StopError]
+
+    @classmethod
+    def begun(cls, legs: Legs, components: Array | None = None) -> "Motions":
+        """Return motions of which only the starts are known, in an array (d, n, m) if it is given."""
+        n, m = legs.times.shape
+        components = np.empty((legs.start.shape[1], n, m)) if components is None else components
+        components[:, :, 0] = legs.start.T
+        return cls(components, np.full(n, m), np.zeros(n, np.int64), {})
+
+    @property
+    def states(self) -> Array:
+        """The states, (n, m, d)."""
+        return np.moveaxis(self.components, 0, -1)
+
+    def answer(self, i: int, leg: Leg) -> Stretch | StopError:
+        """Return the motion of one leg alone, or the error that stopped it, with the motion up to the stop."""
+        n = min(int(self.reached[i]), len(leg.times))
+        states, stop = self.states[i, :n].copy(), self.stops.get(i)
+        stretch = Stretch(states, states[-1] if n else leg.start, int(self.evaluations[i]))
+        if stop is None:
+            return stretch
+        return StopError(stop.at, stop.reason, stop.reached or stretch, cause=stop.cause)
+
+
+def finite_times(components: Array) -> NDArray[np.int64]:
+    """Return the number (n,) of times up to the first state that is not finite, from components (d, n, m)."""
+    finite = np.logical_and.reduce(np.isfinite(components), axis=0)
+    return np.where(finite.all(1), finite.shape[1], np.argmin(finite, axis=1))
+
+
+def march_legs(
+    legs: Mapping[int, Leg], march: Callable[[NDArray[np.intp], Legs], Motions]
+) -> dict[int, Stretch | StopError]:
+    """Integrate legs by a function that takes the numbers of some problems and their legs as arrays."""
+    listed = list(legs.values())
+    motions = march(np.array(list(legs)), Legs.of(listed))
+    return {number: motions.answer(i, leg) for i, (number, leg) in enumerate(legs.items())}
 
 
 @dataclass(frozen=True, eq=False)
@@ -183,12 +258,8 @@ class _Course:
     companion), and the number of all evaluations."""
 
     def __init__(self, evolution: Evolution, times: Array) -> None:
-        begin, end = float(times[0]), float(times[-1])
-        t = np.union1d(times, np.linspace(begin, end, _SAMPLES))
-        t = np.union1d(t, evolution.watch[(evolution.watch > begin) & (evolution.watch < end)])
-        t = np.union1d(t, np.linspace(begin, t[min(1, len(t) - 1)], _PARTS + 1))
-        self.evolution, self.times, self.t = evolution, times, t
-        self.turns = (t - begin) / evolution.turn
+        self.evolution, self.times, self.t = evolution, times, comparison_times(times, evolution.watch)
+        self.turns = (self.t - times[0]) / evolution.turn
         self.evaluations, self.refused = 0, 0.0  # refused: the largest local error at which an integration stopped
         self.integrations: dict[tuple[float, bool], _Integration] = {}
 
@@ -222,7 +293,19 @@ class _Course:
         return project(state) if project else state
 
 
-def perturbed_state(y0: Array, epsilons: float = 1.0) -> Array:
+def comparison_times(times: Array, watch: Array = _NONE) -> Array:
+    """Return the times at which two runs are compared: the requested times (n,), the times of `watch` between them, and
+    samples, more of them near the start. A sample beside a requested time is left out."""
+    begin, end = times[0], times[-1]
+    samples = np.linspace(begin, end, _SAMPLES)[1:-1]
+    after = np.searchsorted(times, samples)
+    if len(times) > 1:
+        samples = samples[np.minimum(times[after] - samples, samples - times[after - 1]) > _BESIDE * (end - begin)]
+    t = np.union1d(np.union1d(times, samples if end > begin else _NONE), watch[(watch > begin) & (watch < end)])
+    return np.union1d(t, np.linspace(begin, t[min(1, len(t) - 1)], _PARTS + 1))
+
+
+def perturbed_state(y0: Array, epsilons: float | Array = 1.0) -> Array:
     """Multiply each component of a state (…, d) by 1 and at most `epsilons` machine epsilons more or less, in no special
     direction."""
     return y0 * (1 + epsilons * np.finfo(float).eps * np.cos(np.arange(1, y0.shape[-1] + 1)))
@@ -277,7 +360,7 @@ def _requests(evolution: Evolution, times: Array, tol: float) -> Generator[Leg, 
     one is larger. After a refusal looser pairs follow, up to the local error GIVEN_UP."""
     course = _Course(evolution, times)
     turns = float(course.turns[-1])
-    unavoidable = ROUNDING.value * (START.value + turns)
+    unavoidable = float(unavoidable_error(turns))
     if unavoidable > UNKNOWN:
         raise IntegrationError(
             f"the run has {turns:.1e} turns, over which rounding errors exceed the states: take a shorter run"
@@ -287,8 +370,7 @@ def _requests(evolution: Evolution, times: Array, tol: float) -> Generator[Leg, 
             f"the run has {turns:.1e} turns and takes at least {scientific(_LEAST_A_TURN * turns, 1)} evaluations, more than "
             f"{scientific(MOST_EVALUATIONS)}: take a shorter run or a larger tol"
         )
-    shortness = 10 / max(turns, 10 / SHORTEST.value)
-    local = max(min(tol * FIRST.value * max(1.0, shortness), LOOSEST.value), APART.value * TIGHTEST)
+    local = float(first_local_error(turns, tol))
     best = pair = yield from _compare(course, local, True)
     final = evolution.has_other_coordinates
     while pair.refusal and not (final or local > GIVEN_UP.value or _at_singular(pair.refusal)):
@@ -298,9 +380,8 @@ def _requests(evolution: Evolution, times: Array, tol: float) -> Generator[Leg, 
         best = min(pair, best, key=lambda candidate: candidate.merit)
     pair = best
     while unavoidable <= tol < pair.error and not pair.refusal and not _hopeless(course, pair):
-        third = pair.error / APART.value <= tol / 2 and pair.tight.local >= APART.value * TIGHTEST
-        local = max(min(pair.tight.local, pair.loose.local * tol / pair.error / 2), APART.value * TIGHTEST)
-        local, companion = (pair.tight.local, pair.tight.companion) if third else (local, True)
+        third, next_local = next_local_error(pair.loose.local, pair.tight.local, pair.error, tol)
+        local, companion = float(next_local), pair.tight.companion if third else True
         if local / APART.value <= 1.1 * course.refused or local >= pair.loose.local:
             break
         pair = yield from _compare(course, local, companion)
@@ -310,6 +391,33 @@ def _requests(evolution: Evolution, times: Array, tol: float) -> Generator[Leg, 
         refusal.evaluations = course.evaluations
         raise refusal
     return _estimated(course, best, tol)
+
+
+def unavoidable_error(turns: Array | float) -> Array:
+    """Return the error that rounding causes in a run of some turns, (…)."""
+    return np.asarray(ROUNDING.value * (START.value + turns))
+
+
+def first_local_error(turns: Array | float, tol: float) -> Array:
+    """Return the local error of the first companion of a run of some turns, (…), for the tolerance of the run."""
+    shortness = 10 / np.maximum(turns, 10 / SHORTEST.value)
+    wanted = tol * FIRST.value * np.maximum(1.0, shortness)
+    return np.maximum(np.minimum(wanted, LOOSEST.value), APART.value * TIGHTEST)
+
+
+def next_local_error(
+    loose: Array | float, tight: Array | float, error: Array | float, tol: float
+) -> tuple[NDArray[np.bool_], Array]:
+    """Return how pairs (…) continue that have a larger error than `tol`: True if the tighter integration is compared with a third
+    one, and the local error of the looser integration of the next pair."""
+    third = (error / APART.value <= tol / 2) & (np.asarray(tight) >= APART.value * TIGHTEST)
+    required = np.maximum(np.minimum(tight, loose * tol / error / 2), APART.value * TIGHTEST)
+    return third, np.where(third, tight, required)
+
+
+def is_feasible(turns: Array) -> NDArray[np.bool_]:
+    """Return True for the numbers of turns (…) of runs that are short enough to be integrated."""
+    return (unavoidable_error(turns) <= UNKNOWN) & (_LEAST_A_TURN * turns <= MOST_EVALUATIONS)
 
 
 def _at_singular(refusal: IntegrationError) -> bool:
@@ -339,57 +447,108 @@ def _compare(course: _Course, local: float, companion: bool) -> Generator[Leg, S
     finite = bool(np.isfinite(looser).all() and np.isfinite(better).all() and np.isfinite(distance).all())
     uncertain = evolution.constraint_uncertainty
     uncertainty = np.maximum.accumulate(uncertain(better)) if uncertain else 1.0
-    rounding = ROUNDING.value * (START.value + course.turns[:m])
-    difference = SAFETY.value ** np.where(tight.local < RESOLVED.value * uncertainty, 2, 1) * distance
-    least = LEAST.value * tight.local + rounding
-    lost = first_time(t, (difference + least > LOST.value) & together)
     conserved = evolution.conservation_error
     violations = [conserved(t, one) for one in observed] if conserved and finite else []
-    factor = _shared_error_factor(violations, rounding[-1])
-    errors = factor * difference + least
-    grown = errors_up_to(t, np.where(together, errors, 0.0), evolution.turn, evolution.sudden)
+    found = compare_runs(
+        t, evolution.turn, tight.local, distance, violations, uncertainty, together, concave=not evolution.sudden
+    )
+    grown, errors = found.grown, found.errors
     refusal: IntegrationError | None = stop
     if not (stop and evolution.has_other_coordinates):
         way_out = "take other coordinates or a smaller tol" if evolution.has_other_coordinates else "take a smaller tol"
-        estimate = max(float(grown[-1]) / factor, tight.local)
+        apart = 0.0
         if evolution.difference and together.any():
             if not together.all():
                 observed = [evolution.observe(states[together]) for states in (looser, better)]
-            estimate = max(estimate, evolution.difference(*observed))
+            apart = evolution.difference(*observed)
         if not finite:
             refusal = IntegrationError(f"a value is not finite: {way_out}")
-        elif violations and (violation := _largest(violations[1])) > KEPT.value * estimate:
+        elif not conserves(found, apart):
             refusal = IntegrationError(
-                f"the conserved quantities change by as much as for an error of {violation:.1e}, although {estimate:.1e} is "
-                f"estimated: the run followed another motion; {way_out}"
+                f"the conserved quantities change by as much as for an error of {found.violation:.1e}, although "
+                f"{max(found.unshared, apart):.1e} is estimated: the run followed another motion; {way_out}"
             )
-    return _Pair(loose, tight, np.where(together, grown, np.maximum(errors, grown)), lost, refusal)
+    return _Pair(loose, tight, np.where(together, grown, np.maximum(errors, grown)), float(found.lost), refusal)
 
 
-def _shared_error_factor(defects: Sequence[Array], rounding: float) -> float:
+class Comparison(NamedTuple):
+    """The errors of the tighter one of two integrations of each run, (…, m) at the times of comparison.
+
+    - `errors`: the error at each time; `grown`: the largest error up to each time.
+    - `lost`: the time from which on the states are unknown, (…); inf if there is none.
+    - `unshared`: the largest error, (…), without an error that both integrations share.
+    - `violation`: the largest change of the conserved quantities, (…), as the error that would cause it.
+    """
+
+    errors: Array
+    grown: Array
+    lost: Array
+    unshared: Array
+    violation: Array
+
+
+def compare_runs(
+    t: Array, turn: float, local: Array | float, distance: Array, violations: Sequence[Array],
+    uncertainty: Array | float = 1.0, together: NDArray[np.bool_] | bool = True, concave: bool = True,
+) -> Comparison:  # fmt: skip
+    """Estimate the errors of one run or of many from two integrations of each.
+
+    The times t (…, m) of comparison and the distances of the two integrations have leading axes for the runs. `local` (…) is the
+    local error of the tighter integration, `violations` the changes (…, q) of the conserved quantities in both integrations, and
+    `together` False at times at which states are not to be compared. `concave` is that of `errors_up_to`.
+    """
+    tight = np.asarray(local)[..., None]
+    rounding = unavoidable_error((t - t[..., :1]) / turn)
+    difference = SAFETY.value ** np.where(tight < RESOLVED.value * uncertainty, 2, 1) * distance
+    least = LEAST.value * tight + rounding
+    lost = first_times(t, (difference + least > LOST.value) & together)
+    factor = np.asarray(_shared_error_factor(violations, rounding[..., -1]))
+    errors = factor[..., None] * difference + least
+    grown = errors_up_to(t, np.where(together, errors, 0.0), turn, concave)
+    violation = _largest(violations[1]) if len(violations) else np.zeros(t.shape[:-1])
+    return Comparison(errors, grown, lost, np.maximum(grown[..., -1] / factor, local), violation)
+
+
+def conserves(found: Comparison, apart: Array | float) -> NDArray[np.bool_]:
+    """Return True for the runs (…) whose conserved quantities change by no more than the estimated error explains. `apart` (…) is
+    the difference of the two integrations in all conserved quantities."""
+    return np.asarray(~(found.violation > KEPT.value * np.maximum(found.unshared, apart)))
+
+
+def _shared_error_factor(defects: Sequence[Array], rounding: Array) -> Array:
     """Return the factor, at least 1, by which the estimate must grow because both runs share an error that their difference
-    hides. It follows from the conserved quantities of both runs, unless their change is mostly rounding. SAFETY covers an error
-    of the better run up to half the difference."""
-    if not defects or _largest(defects[1]) < 10 * rounding:
-        return 1.0
-    return max(1.0, 2 * _largest(defects[1]) / max(_largest(defects[1] - defects[0]), rounding))
+    hides. It follows from the conserved quantities (…, q) of both runs, unless their change is mostly rounding. SAFETY covers an
+    error of the better run up to half the difference."""
+    if not len(defects):
+        return np.ones(rounding.shape)
+    largest, apart = _largest(defects[1]), np.maximum(_largest(defects[1] - defects[0]), rounding)
+    return np.where(largest < 10 * rounding, 1.0, np.maximum(1.0, 2 * largest / apart))
 
 
-def _largest(values: Array) -> float:
-    return float(np.abs(values).max(initial=0.0))
+def _largest(values: Array) -> Array:
+    return np.asarray(np.abs(values).max(axis=-1, initial=0.0))
 
 
-def errors_up_to(t: Array, errors: Array, turn: float, sudden: bool = False) -> Array:
-    """Return the largest error up to each time t (n,), shape (n,), for a motion with the typical period `turn` in s. Two runs
+def errors_up_to(t: Array, errors: Array, turn: float, concave: bool = True) -> Array:
+    """Return the largest error up to each time t (…, m), shape (…, m), for motions with the typical period `turn` in s. Two runs
     that separate may cross, so the maximum extends to SWING periods later. Errors grow as a power of time or as e^(λt),
     so their logarithm is concave, although two runs may be close by chance. The result is therefore the least concave curve above
-    the logarithm, unless motions separate suddenly."""
-    grown = np.maximum.accumulate(errors)
-    grown[1:] = grown[np.searchsorted(t, t[1:] + SWING.value * turn, side="right") - 1]
-    if sudden or not (grown[0] > 0 and np.isfinite(grown).all()):
-        return grown
+    the logarithm, unless `concave` is False: that changes no error at the first and the last time."""
+    m = t.shape[-1]
+    times, grown = t.reshape(-1, m), np.maximum.accumulate(errors, axis=-1).reshape(-1, m)
+    for x, later, row in zip(times, times[:, 1:] + SWING.value * turn, grown, strict=True):
+        row[1:] = row[x.searchsorted(later, "right") - 1]
+        if concave and row[0] > 0 and np.isfinite(row[-1]):
+            np.maximum(row, np.exp(_concave_above(x, np.log(row))), out=row)
+    return grown.reshape(errors.shape)
+
+
+def _concave_above(t: Array, values: Array) -> Array:
+    """Return the least concave curve above values (m,) that do not decrease, at the times t (m,)."""
+    steps = np.flatnonzero(values[1:] > values[:-1]) + 1
+    ends = np.concatenate([[0], steps, [len(t) - 1]])
     corners = list[tuple[float, float]]()
-    for x, y in zip(t.tolist(), np.log(grown).tolist(), strict=True):
+    for x, y in zip(t[ends].tolist(), values[ends].tolist(), strict=True):
         while len(corners) > 1:
             (a, b), (c, d) = corners[-2:]
             if (d - b) * (x - a) > (y - b) * (c - a):
@@ -397,7 +556,7 @@ def errors_up_to(t: Array, errors: Array, turn: float, sudden: bool = False) -> 
             corners.pop()
         corners.append((x, y))
     at, logs = np.array(corners).T
-    return np.maximum(grown, np.exp(np.interp(t, at, logs)))
+    return np.interp(t, at, logs)
 
 
 def _estimated(course: _Course, best: _Pair, tol: float) -> EstimatedRun:
@@ -416,9 +575,15 @@ def _estimated(course: _Course, best: _Pair, tol: float) -> EstimatedRun:
     return EstimatedRun(t[read], states[read], errors[read], horizon, course.evaluations, ending, best.tight.local)
 
 
+def first_times(t: Array, where: NDArray[np.bool_]) -> Array:
+    """Return the first of the times (…, m) at which `where` is true, (…); inf if there is none."""
+    first = np.take_along_axis(t, np.argmax(where, axis=-1, keepdims=True), axis=-1)[..., 0]
+    return np.where(where.any(axis=-1), first, inf)
+
+
 def first_time(t: Array, where: NDArray[np.bool_]) -> float:
     """Return the first of the times (n,) at which `where` is true; inf if there is none."""
-    return float(t[np.argmax(where)]) if where.any() else inf
+    return float(first_times(t, where))
 
 
 def _hopeless(course: _Course, pair: _Pair) -> bool:

@@ -150,6 +150,41 @@ def compile_program(program: Program, module: str = "math", doc: str = "") -> Ca
     return function
 
 
+def arrays_source(program: Program, states: int, passing: int = 0) -> str:
+    """Return the source of a function that takes parameters and returns a function rate(*state, *force) of arrays. The state is
+    the program's first `states` arguments, and the force its last `passing` ones. Stages of parameters are evaluated once."""
+    stages, outputs = reduce_common(program)
+    show = _Arrays()
+    split = len(program.arguments) - passing
+    parameters, varying = program.arguments[states:split], program.arguments[:states] + program.arguments[split:]
+    fixed, moving = _parameter_stages(stages, set(parameters), show)
+    lines = _assignments(moving, outputs, show, program.shared)
+    text = [
+        f"def make({', '.join(map(str, parameters))}):",
+        *(f"    {line}" for line in fixed),
+        f"    def rate({', '.join(map(str, varying))}):",
+        *(f"        {line}" for line in lines),
+        f"        return [{', '.join(map(show.doprint, outputs))}]",
+        "    return rate",
+    ]
+    imports = [f"from {name} import {', '.join(sorted(used))}" for name, used in show.module_imports.items()]
+    return "\n".join([*imports, *text])
+
+
+def _parameter_stages(
+    stages: Sequence[Stage], parameters: set[sp.Symbol], show: _Printer
+) -> tuple[list[str], list[Stage]]:
+    """Return the stages that contain only parameters as printed assignments, and the other stages."""
+    fixed, moving, known = list[str](), list[Stage](), set(parameters)
+    for name, expression in stages:
+        if expression.free_symbols <= known:
+            known.add(name)
+            fixed.append(f"{name} = {show.doprint(expression)}")
+        else:
+            moving.append((name, expression))
+    return fixed, moving
+
+
 def rhs_source(
     program: Program, states: int, driven: bool = False, bounded: bool = False, clock: int | None = None
 ) -> str:
@@ -164,13 +199,7 @@ def rhs_source(
     show = _Scalars()
     state, parameters = program.arguments[:states], program.arguments[states:]
     force = parameters[-3:] if driven else ()
-    fixed, moving, fixed_symbols = list[str](), list[Stage](), set(parameters) - set(force)
-    for name, expression in stages:
-        if expression.free_symbols <= fixed_symbols:
-            fixed_symbols.add(name)
-            fixed.append(f"{name} = {show.doprint(expression)}")
-        else:
-            moving.append((name, expression))
+    fixed, moving = _parameter_stages(stages, set(parameters) - set(force), show)
     lines = _assignments(moving, reduced, show, program.shared)
     checks = [f"{show.doprint(e)} > 0" for e in bounds]
     body = [

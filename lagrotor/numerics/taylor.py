@@ -9,19 +9,19 @@ component of the state. The state therefore gets one more component, a constant 
 decouples the step size from the order, so that three orders serve every tolerance.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from functools import lru_cache, reduce
 from math import exp
 from operator import mul
 from threading import get_ident
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import sympy as sp
 
 from lagrotor.errors import InputError
 from lagrotor.numerics.codegen import Program, reduce_common
-from lagrotor.numerics.error_estimate import Leg
+from lagrotor.numerics.error_estimate import Legs, Motions, finite_times
 from lagrotor.numerics.segment import (
     Array,
     Projection,
@@ -36,6 +36,7 @@ _CARRIED = 2.0**-20  # factor of a coordinate that may grow without end: a power
 _LAST_STEPS = 10_000  # steps in which the reason of a stop is sought
 _MOST_STEPS = 1_000_000  # between two edges, beyond which a run stops
 _LANES = 8  # trajectories at once: the fastest number with vectors of four doubles
+Size = TypeVar("Size", float, Array)
 # True in a pulse → the program and the values of its parameters.
 Generated = Callable[[bool], tuple[Program, tuple[float, ...]]]
 
@@ -141,43 +142,45 @@ def taylor_solver(
     return solve
 
 
-def march_lanes(program: Program, parameters: Array, legs: Mapping[int, Leg]) -> dict[int, Stretch | StopError]:
-    """Integrate the legs of an autonomous motion, each with its own column of the parameters (p, n). Eight legs are integrated at
-    once, each with its own steps. Return the motion or the StopError of each leg by its number."""
-    answers: dict[int, Stretch | StopError] = {}
-    orders: dict[int, list[int]] = {}
-    for i, leg in legs.items():
-        orders.setdefault(taylor_order(leg.local, leg.companion), []).append(i)
-    for order, numbers in orders.items():
-        d = len(legs[numbers[0]].start)
+def march_lanes(program: Program, parameters: Array, legs: Legs) -> Motions:
+    """Integrate n legs of an autonomous motion, each with its own column of the parameters (p, n). Eight legs of similar
+    duration are integrated at once, each with its own steps."""
+    finished, d, (n, m) = heyoka_module().taylor_outcome.time_limit, legs.start.shape[1], legs.times.shape
+    keys = list(zip(legs.local.tolist(), legs.companion.tolist(), strict=True))
+    order_of = {key: taylor_order(*key) for key in set(keys)}
+    orders = np.array([order_of[key] for key in keys])
+    motions = Motions.begun(legs, np.empty((m, d, n)).transpose(1, 2, 0))  # as the solver returns states
+    # A shorter leg is read at its end again and again, at neighbouring doubles.
+    times = legs.times - legs.times[:, :1]
+    again = np.maximum(np.cumsum(times == times[:, -1:], axis=1) - 1, 0)
+    times *= 1 + 4 * np.finfo(float).eps * again
+    stopped, at_zero = np.zeros(n, bool), np.zeros(_LANES)
+    for order in np.unique(orders).tolist():
         solver, cyclic = _solver(program, d, False, order, _LANES, get_ident()), _cyclic(program, d)
-        numbers.sort(key=lambda i: len(legs[i].times))
+        numbers = np.flatnonzero(orders == order)
+        numbers = numbers[np.argsort(times[numbers, -1], kind="stable")]
+        starts = np.vstack([legs.start.T, dummy_size(legs.local, order)])
+        starts[cyclic] *= _CARRIED
         for begin in range(0, len(numbers), _LANES):
             batch = numbers[begin : begin + _LANES]
-            lanes = batch + batch[-1:] * (_LANES - len(batch))  # copies fill the last lanes
-            m = len(legs[lanes[-1]].times)
-            # A shorter one is read at its end again and again, at neighbouring doubles.
-            since, later = (
-                [legs[i].times - legs[i].times[0] for i in lanes],
-                1 + 4 * np.finfo(float).eps * np.arange(1, m),
-            )
-            grid = np.array([np.append(t, t[-1] * later[: m - len(t)]) for t in since]).T
-            solver.set_time(np.zeros(_LANES))
-            solver.state[:d] = np.array([legs[i].start for i in lanes]).T
-            solver.state[d] = [dummy_size(legs[i].local, order) for i in lanes]
-            solver.state[cyclic] *= _CARRIED
-            solver.pars[:] = parameters[:, lanes]
-            _, states = solver.propagate_grid(np.ascontiguousarray(grid), max_steps=_MOST_STEPS)
-            states[:, cyclic] /= _CARRIED
-            for lane, (i, (outcome, _, _, steps)) in enumerate(zip(batch, solver.propagate_res, strict=False)):
-                read, evaluations = states[: len(legs[i].times), :d, lane], steps * order
-                whole = np.isfinite(read).all(1)
-                n = len(read) if whole.all() else int(np.argmin(whole))
-                stretch = Stretch(read[:n].copy(), read[max(n, 1) - 1].copy(), evaluations)
-                stopped = n < len(read) or "time_limit" not in str(outcome)
-                reason = "the Taylor series gives no further step"
-                answers[i] = StopError(float(legs[i].times[max(n, 1) - 1]), reason, stretch) if stopped else stretch
-    return answers
+            k = len(batch)
+            lanes = batch if k == _LANES else np.append(batch, [batch[-1]] * (_LANES - k))  # copies fill the last lanes
+            solver.set_time(at_zero)
+            solver.state[:], solver.pars[:] = starts[:, lanes], parameters[:, lanes]
+            _, states = solver.propagate_grid(np.ascontiguousarray(times[lanes].T), max_steps=_MOST_STEPS)
+            adjacent = batch[-1] - batch[0] == k - 1 and batch[0] == batch.min()
+            rows = slice(batch[0], batch[0] + k) if adjacent else batch
+            motions.components[:, rows] = states[:, :d, :k].transpose(1, 2, 0)
+            outcomes = solver.propagate_res[:k]
+            motions.evaluations[rows] = [order * steps for _, _, _, steps in outcomes]
+            stopped[rows] = [outcome != finished for outcome, _, _, _ in outcomes]
+    motions.components[_cyclic(program, d)] /= _CARRIED
+    motions.reached[:] = finite_times(motions.components)
+    stopped |= motions.reached < m
+    for i in np.flatnonzero(stopped).tolist():
+        at = float(legs.times[i, max(int(motions.reached[i]), 1) - 1])
+        motions.stops[i] = StopError(at, "the Taylor series gives no further step")
+    return motions
 
 
 @lru_cache(maxsize=64)
@@ -235,7 +238,7 @@ def compiled_solver(equations: Sequence[tuple[Any, Any]], order: int, lanes: int
     return heyoka.taylor_adaptive(equations, state=[0.0] * len(equations), compact_mode=compact, **settings)
 
 
-def dummy_size(tol: float, order: int) -> float:
+def dummy_size(tol: Size, order: int) -> Size:
     """Return the size of the constant component for which the error of a step of this order is a tenth of `tol`."""
     return tol / 10 / _compiled_for(order)
 

@@ -19,7 +19,7 @@ from lagrotor.pair.quantities import (
     two_vectors,
 )
 
-_CLOSE = 1e-9  # the largest residual of the constraints at the start
+CLOSE = 1e-9  # the largest residual of the constraints at the start
 
 
 def _dot(p: Vector, q: Vector) -> float:
@@ -210,9 +210,9 @@ class Scene:
         object.__setattr__(self, "axes", two_vectors(self.axes, "Scene: axes", "1"))
         object.__setattr__(self, "rates", two_vectors(self.rates, "Scene: rates", "1/s"))
         for i, (r, v) in enumerate(zip(self.axes, self.rates, strict=True)):
-            if abs(hypot(*r) - 1) > _CLOSE:
+            if abs(hypot(*r) - 1) > CLOSE:
                 raise InputError(f"Scene: axes[{i}] has length {hypot(*r):.9g}, not 1: divide it by its length")
-            if abs(_dot(r, v)) > _CLOSE * (1 + hypot(*v)):
+            if abs(_dot(r, v)) > CLOSE * (1 + hypot(*v)):
                 raise InputError(
                     f"Scene: rates[{i}] is not tangent: r . r' = {_dot(r, v):.3g}; subtract (r . r') r, "
                     "or use lagrotor.consistent_scene"
@@ -225,13 +225,13 @@ class Scene:
         (r1, r2), (v1, v2), R, ell = self.axes, self.rates, self.rotor.length, link.length
         d = (ell + R * (r2[0] - r1[0]), R * (r2[1] - r1[1]), R * (r2[2] - r1[2]))
         w = (v2[0] - v1[0], v2[1] - v1[1], v2[2] - v1[2])
-        if abs(hypot(*d) - ell) > _CLOSE * ell:
+        if abs(hypot(*d) - ell) > CLOSE * ell:
             raise InputError(
                 f"Scene: the bar cannot reach: |ell e_x + R (r2 - r1)| = {hypot(*d):.9g}, ell = {ell:g}; "
                 "change an axis or the bar, or use lagrotor.consistent_scene"
             )
         stretch = R * _dot(d, w) / ell
-        if abs(stretch) > _CLOSE * R * (1 + hypot(*w)):
+        if abs(stretch) > CLOSE * R * (1 + hypot(*w)):
             raise InputError(
                 f"Scene: the rates stretch the bar at {stretch:.3g} m/s; make them tangent to its constraint, "
                 "or use lagrotor.consistent_scene"

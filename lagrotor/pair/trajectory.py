@@ -35,19 +35,25 @@ UNITS = {
 _AXES = {3: ("rotor", "t", "component"), 2: ("rotor", "t"), 1: ("t",)}
 
 
-def tilting_energy(scene: Scene, rates: Array) -> Array:
-    """Return the energy a/2 (|r_1'|² + |r_2'|²) + b r_1'·r_2' in J, shape (n,), for rates of shape (2, n, 3)."""
-    a, b = scene.inertias
-    v1, v2 = rates
+Inertias = tuple[float | Array, float | Array]
+
+
+def tilting_energy(inertias: Inertias, rates: Array) -> Array:
+    """Return the energy a/2 (|r_1'|² + |r_2'|²) + b r_1'·r_2' in J, shape (…), for rates of shape (2, …, 3) and inertias (a, b)
+    that broadcast with it."""
+    (a, b), (v1, v2) = inertias, rates
     return np.asarray(a / 2 * ((v1**2).sum(-1) + (v2**2).sum(-1)) + b * (v1 * v2).sum(-1))
 
 
-def momentum_about_joints(scene: Scene, axes: Array, rates: Array, momenta: Array) -> Array:
-    """Return the angular momentum about the line through the ground joints, shape (n,), in kg m²/s."""
-    a, b = scene.inertias
-    (r1, r2), (v1, v2) = axes, rates
-    turning = np.cross(r1, a * v1 + b * v2) + np.cross(r2, a * v2 + b * v1)
-    return np.asarray(turning[:, 0] + momenta[0] * r1[:, 0] + momenta[1] * r2[:, 0])
+def momentum_about_joints(inertias: Inertias, axes: Array, rates: Array, momenta: Array) -> Array:
+    """Return the angular momentum about the line through the ground joints in kg m²/s, shape (…), for axes and rates of shape
+    (2, …, 3), and inertias (a, b) and two axial momenta that broadcast with it."""
+    (a, b), (G_1, G_2) = inertias, momenta
+    (x_1, y_1, z_1), (x_2, y_2, z_2) = np.moveaxis(axes, -1, 1)
+    (_, y_v1, z_v1), (_, y_v2, z_v2) = np.moveaxis(rates, -1, 1)
+    turning = y_1 * (a * z_v1 + b * z_v2) - z_1 * (a * y_v1 + b * y_v2)
+    turning = turning + y_2 * (a * z_v2 + b * z_v1) - z_2 * (a * y_v2 + b * y_v1)
+    return np.asarray(turning + G_1 * x_1 + G_2 * x_2)
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -109,12 +115,12 @@ class Trajectory(Run):
     @property
     def energy(self) -> Array:
         """The kinetic energy a/2 (|r_1'|² + |r_2'|²) + b r_1'.r_2' + (G_1² + G_2²)/(2 I_3), shape (n,), in J."""
-        return tilting_energy(self.scene, self.rates) + (self.momenta**2).sum(0) / (2 * self.scene.rotor.I3)
+        return tilting_energy(self.scene.inertias, self.rates) + (self.momenta**2).sum(0) / (2 * self.scene.rotor.I3)
 
     @property
     def joint_line_momentum(self) -> Array:
         """The angular momentum about the line through the joints, shape (n,), in kg m²/s; only the shock changes it."""
-        return momentum_about_joints(self.scene, self.axes, self.rates, self.momenta)
+        return momentum_about_joints(self.scene.inertias, self.axes, self.rates, self.momenta)
 
     @property
     def invariants(self) -> dict[str, Array]:

@@ -4,6 +4,7 @@ The fast tests take a few pairs; `pytest -m slow` takes 10,000.
 """
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -13,8 +14,8 @@ from lagrotor.models.linear import pair_modes
 from lagrotor.models.minimal import MODEL
 from lagrotor.models.model import natural_units
 from lagrotor.models.sweeps.batch_dop853 import march_swarm
-from lagrotor.models.sweeps.ensemble import _swarm
-from lagrotor.numerics.error_estimate import Leg
+from lagrotor.models.sweeps.chunk import _swarm
+from lagrotor.numerics.error_estimate import Leg, march_legs
 from lagrotor.numerics.segment import StopError
 
 COUNTS = [8, pytest.param(10_000, marks=pytest.mark.slow)]
@@ -82,7 +83,8 @@ def exact_axes(scenes, times, local=1e-11):
             j: Leg(MODEL.start(units[i].scene), times[i] * units[i].rate, local, False, 2e5)
             for j, i in enumerate(those)
         }
-        for j, stretch in march_swarm(_swarm(kind, members, columns), legs).items():
+        swarm = _swarm(kind, columns, members)
+        for j, stretch in march_legs(legs, partial(march_swarm, swarm)).items():
             if not isinstance(stretch, StopError):
                 one = MODEL.observe(members[j], stretch.states)
                 seen[those[j]] = one.axes, one.rates * units[those[j]].rate

@@ -8,7 +8,7 @@ import numpy as np
 from lagrotor.benchmark.runner import check_work
 from lagrotor.errors import InputError
 from lagrotor.models.orbits.shooting import exact_orbit
-from lagrotor.models.sweeps.ensemble import sweep
+from lagrotor.models.sweeps.sweep import sweep
 from lagrotor.numerics.arrays import Array
 from lagrotor.pair.scene import Scene
 from lagrotor.theory.natural_rate import natural_rate

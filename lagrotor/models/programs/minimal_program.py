@@ -15,12 +15,12 @@ from typing import Literal, NamedTuple
 
 import sympy as sp
 
+from lagrotor.models.model import FARTHEST_ALONG
 from lagrotor.numerics.codegen import Program, Stage, solve_symmetric
 from lagrotor.pair.notation import G_1, G_2, MINIMAL, a, b, k
 
 Ratio = Literal["short", "equal", "long"]
 _Pair = tuple[sp.Expr, sp.Expr]
-_FARTHEST_ALONG = sp.Rational(49, 50)  # the largest |x| of an axis; there Mercator coordinates magnify errors fivefold
 FORCE = sp.symbols("F_x F_y F_z", real=True)
 (_U, _CHI, _ALPHA), (_U_V, _CHI_V, _ALPHA_V) = MINIMAL.q, MINIMAL.v
 # Delta, its cosine and sine, rho of the bar's curve, exp(−w), exp(2 U).
@@ -65,7 +65,7 @@ def program(massive: bool, ratio: Ratio, body: int) -> Program:
     accelerations = _massive(stages, rotors, curve) if massive else _massless(stages, rotors, curve)
     lengths = () if ratio == "equal" else (k,)
     parameters = (a, *((b,) if massive else ()), *lengths, G_1, G_2, *(FORCE if body else ()))
-    away = tuple(_FARTHEST_ALONG**2 - r.t**2 for r in rotors)
+    away = tuple(sp.Rational(*FARTHEST_ALONG) ** 2 - r.t**2 for r in rotors)
     return Program((*MINIMAL.q, *MINIMAL.v, *parameters), tuple(stages), (*MINIMAL.v, *accelerations), positive=away)
 
 

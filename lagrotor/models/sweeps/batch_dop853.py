@@ -1,18 +1,18 @@
 """Parallel integration of many trajectories of one right-hand side by DOP853, each with its own time, step and tolerance.
 
 A step of all n costs the same array operations as a step of one, so that the overhead of the interpreter is paid once.
-Trajectories that have arrived leave the batch.
+Trajectories that have arrived leave the batch, a tenth of them at a time.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrotor.numerics.error_estimate import Leg
+from lagrotor.numerics.error_estimate import Legs, Motions
 from lagrotor.numerics.pulse import COMPANION_STEP, PULSE_REACH
-from lagrotor.numerics.segment import Array, StopError, Stretch
+from lagrotor.numerics.segment import Array, Cause, StopError, Stretch
 
 Index = NDArray[np.intp]
 # (s (n,), y (d, n), into (d, n)): writes y' into its last argument. It is rebuilt for the active problems.
@@ -22,6 +22,7 @@ _TIGHTEST = 2.3e-14  # the least local error: below it rounding rejects every st
 _LEAST = 1e-14  # the least step relative to the run or the width of the pulse
 _BETWEEN = 0.38  # the fraction of a leg at which a companion ends a step, so that its steps differ
 _PATIENCE = 5_000  # evaluations before they are compared with the progress in the leg
+_FULL = 0.9  # the fraction of active legs below which the others leave the batch
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,87 +41,82 @@ class Swarm:
     width: Array
 
 
-def march_swarm(swarm: Swarm, legs: Mapping[int, Leg]) -> dict[int, Stretch | StopError]:
-    """Integrate segments of some problems, and return {number of the problem: its states, or the error that stopped it}.
+def march_swarm(swarm: Swarm, who: Index, legs: Legs) -> Motions:
+    """Integrate n legs, each of the problem with the number in `who` (n,).
 
-    `legs` maps the number of a problem to its segment. The method is DOP853 (Hairer, Nørsett & Wanner, II.5) with scipy's error
-    norm for each trajectory and dense output between the steps. As in `numerics.integrate`, the local error is a twentieth of
-    the local error of the segment.
+    The method is DOP853 (Hairer, Nørsett & Wanner, II.5) with scipy's error norm for each trajectory and dense output between
+    the steps. As in `numerics.integrate`, the local error is a twentieth of the local error of the leg.
     """
-    requests, n = list(legs.values()), len(legs)
-    who, m = np.array(list(legs)), np.array([len(leg.times) for leg in requests])
-    times = np.full((n, m.max()), np.inf)
-    for row, leg in zip(times, requests, strict=True):
-        row[: len(leg.times)] = leg.times
-    times -= swarm.at[who, None]
-    states = np.empty((*times.shape, len(requests[0].start)))
-    states[:, 0] = [leg.start for leg in requests]
     with np.errstate(all="ignore"):
-        return _march(swarm, who, requests, times, m, states)
+        return _march(swarm, who, legs)
 
 
-def _march(
-    swarm: Swarm, who: Index, requests: list[Leg], times: Array, m: NDArray[np.int64], states: Array
-) -> dict[int, Stretch | StopError]:
-    n = len(who)
-    error = np.array([max(leg.local / 20, _TIGHTEST) for leg in requests])
-    longest = np.array([COMPANION_STEP if leg.companion else 1.0 for leg in requests]) * swarm.width[who]
-    budget = np.array([leg.budget for leg in requests])
-    s, y, reach = times[:, 0].copy(), states[:, 0].T.copy(), PULSE_REACH * swarm.width[who]
-    begin, end = s, times[np.arange(n), m - 1]
-    between = np.array([_BETWEEN if leg.companion else 1.0 for leg in requests]) * (end - begin) + begin
-    halts = np.array([between, end, -reach, np.where(reach > 0, reach, -np.inf)])
-    least = _LEAST * np.where(reach > 0, np.minimum(swarm.width[who], end - begin), end - begin)
-    h, evaluations, following = 0.5 * error ** (1 / 8) / swarm.first, np.ones(n, np.int64), np.ones(n, np.int64)
-    answers: dict[int, Stretch | StopError] = {}
-    lane = np.arange(n)  # the active problems
-    rates, room = swarm.rates(who), np.empty((13, *y.shape))
+def _march(swarm: Swarm, who: Index, legs: Legs) -> Motions:
+    motions, width = Motions.begun(legs), swarm.width[who]
+    times, reach = legs.times - swarm.at[who, None], PULSE_REACH * width
+    begin, end = times[:, 0], times[:, -1]
+    between = np.where(legs.companion, _BETWEEN, 1.0) * (end - begin) + begin
+    # By leg: where its steps end, the edges and the longest step of its pulse, its error, times, least step and budget.
+    columns = np.array([
+        between, end, -reach, np.where(reach > 0, reach, -np.inf), reach,
+        np.where(legs.companion, COMPANION_STEP, 1.0) * width, np.maximum(legs.local / 20, _TIGHTEST), begin, end,
+        _LEAST * np.where(reach > 0, np.minimum(width, end - begin), end - begin), legs.budget,
+    ])  # fmt: skip
+    error, following, evaluations = columns[6], np.ones(len(who), np.int64), np.ones(len(who), np.int64)
+    lane = np.arange(len(who))  # the legs in the batch; those that have ended take steps of length zero
+    s, y, h, active = begin.copy(), legs.start.T.copy(), 0.5 * error ** (1 / 8) / swarm.first, np.ones(len(who), bool)
+    rates, room, pulses = swarm.rates(who), np.empty((13, *y.shape)), bool(reach.any())
     rates(s, y, room[0])
-    while lane.size:
-        stop = np.where(halts[:, lane] > s, halts[:, lane], np.inf).min(0)
-        pulsed = (s >= -reach[lane]) & (s < reach[lane])
-        step = np.minimum(np.where(pulsed, np.minimum(h, longest[lane]), h), stop - s)
-        proposed, size = _step(rates, s, y, step, error[lane], room)
-        evaluations[lane] += 12
-        ok = size < 1
-        factor = np.clip(np.nan_to_num(_SAFE * size ** (-1 / 8), nan=_SHRINK), _SHRINK, _GROW)
+    while active.any():
+        halts, (reach, longest, error, begin, end, least, budget) = columns[:4], columns[4:]
+        stop = np.where(halts > s, halts, np.inf).min(0)
+        step = np.minimum(np.where((s >= -reach) & (s < reach), np.minimum(h, longest), h) if pulses else h, stop - s)
+        step[~active] = 0.0
+        proposed, size = _step(rates, s, y, step, error, room)
+        ok = (size < 1) & active
+        factor = np.fmax(np.minimum(_SAFE * size ** (-1 / 8), _GROW), _SHRINK)
         later = np.where(step == stop - s, stop, s + step)
         # Output within a step costs three more evaluations, at the end of a leg none.
-        at = np.flatnonzero(ok & (times[lane, following[lane]] < later))
+        at = np.flatnonzero(ok & (times[lane, following] < later))
+        evaluations += 12 * active
         if at.size:
-            evaluations[lane[at]] += 3
+            evaluations[at] += 3
             dense = _dense_output(
                 swarm.rates(who[lane[at]]), s[at], y[:, at], proposed[:, at], step[at], room[:, :, at]
             )
             inside = np.arange(at.size)
             while inside.size:
-                lanes = lane[at[inside]]
-                x = (times[lanes, following[lanes]] - s[at[inside]]) / step[at[inside]]
-                states[lanes, following[lanes]] = (y[:, at[inside]] + _interpolated(dense[:, :, inside], x)).T
-                following[lanes] += 1
-                inside = inside[times[lanes, following[lanes]] < later[at[inside]]]
+                chosen = at[inside]
+                lanes, place = lane[chosen], following[chosen]
+                x = (times[lanes, place] - s[chosen]) / step[chosen]
+                motions.components[:, lanes, place] = y[:, chosen] + _interpolated(dense[:, :, inside], x)
+                following[chosen] += 1
+                inside = inside[times[lanes, place + 1] < later[chosen]]
         h = np.where(ok & (step < h), np.maximum(h, step * factor), step * factor)
         s, y = np.where(ok, later, s), np.where(ok, proposed, y)
         np.copyto(room[0], room[12], where=ok)
-        arrived = s == end[lane]
-        share = (s - begin[lane]) / (end[lane] - begin[lane])
-        over = evaluations[lane] > np.minimum(budget[lane], _PATIENCE + share * budget[lane])
-        stay = ~arrived & ~over & (ok | (step > least[lane]))
-        if not stay.all():
-            for i in np.flatnonzero(~stay):
-                k, used, read = int(who[lane[i]]), int(evaluations[lane[i]]), following[lane[i]]
-                states[lane[i], read:] = y[:, i]
-                stretch = Stretch(states[lane[i], : m[lane[i]] if arrived[i] else read], y[:, i].copy(), used)
+        arrived, share = s == end, (s - begin) / (end - begin)
+        over = evaluations > np.minimum(budget, _PATIENCE + share * budget)
+        ended = active & (arrived | over | ~(ok | (step > least)))
+        if not ended.any():
+            continue
+        for i in np.flatnonzero(ended).tolist():
+            k, first, used = int(lane[i]), int(following[i]), int(evaluations[i])
+            motions.components[:, k, first:], motions.evaluations[k] = y[:, i, None], used
+            if not arrived[i]:
+                cause: Cause = "budget" if over[i] else "stopped"
                 reason = f"{used} evaluations spent" if over[i] else "the step is below what doubles resolve"
-                answers[k] = (
-                    stretch
-                    if arrived[i]
-                    else StopError(float(s[i] + swarm.at[k]), reason, stretch, cause="budget" if over[i] else "stopped")
-                )
-            lane, s, h, y, f = lane[stay], s[stay], h[stay], y[:, stay], room[0][:, stay]
+                reached = Stretch(motions.states[k, :first].copy(), y[:, i].copy(), used)
+                motions.reached[k] = first
+                motions.stops[k] = StopError(float(s[i] + swarm.at[who[k]]), reason, reached, cause=cause)
+        active &= ~ended
+        if active.sum() < _FULL * len(active):
+            lane, following, evaluations = lane[active], following[active], evaluations[active]
+            s, h, y, columns, f = s[active], h[active], y[:, active], columns[:, active], room[0][:, active]
+            active = np.ones(len(lane), bool)
             rates, room = swarm.rates(who[lane]), np.empty((13, *y.shape))
             room[0] = f
-    return answers
+    return motions
 
 
 def _step(rates: Rates, s: Array, y: Array, h: Array, error: Array, room: Array) -> tuple[Array, Array]:
