@@ -377,7 +377,8 @@ def start_error(axes: Array, rates: Array, observed: Callable[[Array], tuple[Arr
     """Return the errors (…) of the initial states (…, d) of a model in units of the rounding error, at least 1.
 
     Near the joint line the bar hardly determines an axis, and the coordinates may represent another start than the given one,
-    with the axes and rates (2, …, 3). `observed` returns the axes and rates (2, …, n, 3) of states (…, n, d).
+    with the axes and rates (2, …, 3). `observed` returns the axes and rates (2, …, n, 3) of states (…, n, d). The error counts
+    twice, since the response to a perturbation in one direction may be smaller than that to the actual one.
     """
     epsilons = 1e4  # one rounding step may change nothing
     unsure: Array = np.ones(start.shape[:-1])
@@ -386,7 +387,7 @@ def start_error(axes: Array, rates: Array, observed: Callable[[Array], tuple[Arr
         error = np.abs(values[..., 0, :] - target).max((0, -1)) / unit
         response = np.abs(values[..., 1, :] - values[..., 0, :]).max((0, -1)) / unit / epsilons
         moved = (error > _RESOLVED) & (response > 0)
-        unsure = np.maximum(unsure, np.divide(error, response, out=np.ones(error.shape), where=moved))
+        unsure = np.maximum(unsure, np.divide(2 * error, response, out=np.ones(error.shape), where=moved))
     return unsure
 
 
