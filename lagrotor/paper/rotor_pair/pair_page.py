@@ -46,7 +46,7 @@ def pair_formulas() -> dict[str, sp.Expr]:
     integral_A = J * w * (s_1**2 + s_2**2) + I3 * (c_1 * (spin + w * c_1) + c_2 * (spin + w * c_2))
     rate = (2 * A - B * (c_1 + c_2)) / (2 * J * (s_1**2 + s_2**2) + I3 * (c_1 - c_2) ** 2)
     sine, cosine, width = sp.sin(Phi), sp.cos(Phi), sp.sqrt(sigma)
-    shift = r0**2 * sigma / (2 * k) * sine**2
+    shift = r0**2 * sigma / k * sine**2
     swing = width * r0**2 / (2 * k) * sine * cosine
     return {
         r"\mathcal L": tilting + b * product + spinning,
