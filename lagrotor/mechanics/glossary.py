@@ -87,7 +87,7 @@ class Glossary(dict[sp.Symbol, Entry]):
 
 
 def latex(expression: Any, names: Mapping[sp.Symbol, str] | None = None) -> str:
-    """Return an expression as LaTeX, in the order in which it is written by hand: m g l \\cos\\theta.
+    r"""Return an expression as LaTeX, in the order in which it is written by hand: m g l \cos\theta.
 
     Symbols that end in _dot or _ddot get dots; `names` gives LaTeX for chosen symbols.
     """
@@ -99,7 +99,7 @@ def latex(expression: Any, names: Mapping[sp.Symbol, str] | None = None) -> str:
 _VELOCITY = 3  # the place of a velocity in a product, after numbers, masses and parameters
 
 
-class _Printer(LatexPrinter):
+class _Printer(LatexPrinter):  # type: ignore[misc]
     """LaTeX with masses and inertias first in a product, then other parameters, velocities, functions and sums; in a sum with a
     term without a minus sign first."""
 

@@ -1,4 +1,4 @@
-"""The pair on one page: its formulas are the derived ones, and its comparison with a run has the numbers of an independent one."""
+"""The pair on one page: its formulas are the derived ones, and its numbers those of an orbit found by shooting."""
 
 import json
 

@@ -1,6 +1,6 @@
-"""The pair on one page: Lagrangian, constraint, A and B, precession rate, corrected trajectories, and their comparison with a run.
+"""The pair on one page: Lagrangian, constraint, A and B, precession rate and corrected trajectories, compared with a run.
 
-The run is the paired precession of the paper's section 5.2.4, integrated by scipy: spins ±10 rad/s, a massless bar, ell = R = 1 m.
+The run is a paired precession, integrated by scipy: spins ±10 rad/s, a massless bar, ell = R = 1 m.
 """
 
 from dataclasses import dataclass
@@ -111,7 +111,7 @@ def compare_pair(amplitude: float = PAPER_R0, spin: float = 10.0, tol: float = 1
     series = np.array(corrected_trajectories(3)(amplitude, phase, 1.0, 1.0)).reshape(2, 3, -1).swapaxes(1, 2)
     theta_1, theta_2 = np.arccos(run.axes[..., 2])
     start = ansatz_A(run)[0], run.momenta[0, 0] - run.momenta[1, 0]
-    formula = pair_precession_rate()(theta_1, theta_2, *start, scene.rotor.J, scene.rotor.I3)
+    formula = np.asarray(pair_precession_rate()(theta_1, theta_2, *start, scene.rotor.J, scene.rotor.I3))
     (x, y, _), (x_rate, y_rate, _) = np.moveaxis(run.axes, -1, 0), np.moveaxis(run.rates, -1, 0)
     azimuth_rate = (x * y_rate - y * x_rate) / (x**2 + y**2)
     rate = (azimuth_rate[0] - azimuth_rate[1]) / 2
@@ -151,7 +151,7 @@ def pair_page(comparison: PairComparison) -> list[tuple[str, list[str]]]:
                 f"estimated error of the run: {scientific(c.run.error, 1)}",
                 f"corrected series of order 3: within {c.series:.4f} m",
                 f"the paper's x (5.20): within {c.printed_x:.3f} m",
-                f"the paper's rate (5.15) with A and B of the start: within {100 * c.rate_error:.2f} %; over the turn its mean is "
+                f"the paper's rate (5.15) with A and B of the start: within {100 * c.rate_error:.2f} %; its mean over the turn is "
                 f"{c.rate_mean:.3f} rad/s, that of the run {c.run_mean:.3f} rad/s",
             ],
         )
