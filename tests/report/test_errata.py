@@ -2,6 +2,7 @@
 
 import shutil
 import subprocess
+import unicodedata
 from pathlib import Path
 
 import pytest
@@ -9,6 +10,7 @@ import pytest
 from lagrotor.paper import Audit, Verdict
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.report.errata import errata, latex_document
+from lagrotor.report.latex import latex_prose, tidy
 
 
 @pytest.fixture(scope="module")
@@ -44,3 +46,20 @@ def test_the_document_compiles(verdicts: list[Verdict], tmp_path: Path) -> None:
     assert done.returncode == 0, done.stdout[-1500:]
     assert (tmp_path / "errata.pdf").stat().st_size > 10_000
     assert "errata.pdf (3 pages" in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("text", "written"),
+    [
+        ("J r̂ × r̂″", r"J $\hat{r}$ $\times$ $\hat{r}$$''$"),
+        ("|r̂′| ≪ ω", r"$|$$\hat{r}$$'$$|$ $\ll$ $\omega$"),
+        ("sin(‖Ω‖ Δt)", r"sin($\|$$\Omega$$\|$ $\Delta$t)"),
+        ("a ⊗ b", r"a \text{[circled times]} b"),
+    ],
+)
+def test_no_character_becomes_a_question_mark(text: str, written: str) -> None:
+    assert latex_prose(text) == written
+    everything = " ".join(
+        chr(code) for code in range(33, 0x2AFF) if "?" not in unicodedata.normalize("NFKD", chr(code))
+    )
+    assert "?" not in latex_prose(everything) and "?" not in tidy(everything)

@@ -151,7 +151,7 @@ def pair_page(comparison: PairComparison) -> list[tuple[str, list[str]]]:
                 f"estimated error of the run: {scientific(c.run.error, 1)}",
                 f"corrected series of order 3: within {c.series:.4f} m",
                 f"the paper's x (5.20): within {c.printed_x:.3f} m",
-                f"the paper's rate (5.15) with A and B of the start: within {100 * c.rate_error:.2f} %; its mean over the turn is "
+                f"the paper's rate (5.15) with A and B of the start: within {100 * c.rate_error:.2f} %; its mean is "
                 f"{c.rate_mean:.3f} rad/s, that of the run {c.run_mean:.3f} rad/s",
             ],
         )
