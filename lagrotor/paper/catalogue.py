@@ -17,7 +17,7 @@ from typing import Any, TypeVar
 from lagrotor.algebra.name_clashes import check_names
 from lagrotor.errors import InputError
 from lagrotor.files import path_of
-from lagrotor.mechanics.glossary import Entry, Glossary
+from lagrotor.mechanics.glossary import Entry, Glossary, latex
 from lagrotor.paper.grammar import Letters, Line, components, declared, read, read_line
 from lagrotor.paper.scripts import importable
 
@@ -315,7 +315,7 @@ class Catalogue:
     def _rows(self, name: str, key: str, kind: type[Row]) -> dict[Any, Row]:
         file = self.folder / f"{name}.toml"
         content = self._equations_toml if name == "equations" else toml(file)
-        if unknown := sorted(content.keys() - {key, "letters", "units"}):
+        if unknown := sorted(content.keys() - {key, "letters", "units", "meanings"}):
             raise InputError(f"{file}: {unknown[0]!r} is not a key: write [[{key}]]")
         rows: dict[Any, Row] = {}
         for entry in content.get(key, []):
@@ -357,7 +357,7 @@ class Catalogue:
                     yield f"{file}: {equation.id}: {key!r} is not a key of a line: the keys are {', '.join(_LINE)}"
                 if "quantity" not in line:
                     yield f"{file}: {equation.id}: a line has no quantity: name in LaTeX the quantity that it gives"
-        for key in ("letters", "units"):
+        for key in ("letters", "units", "meanings"):
             for section in self._equations_toml.get(key, {}).keys() - self.about.sections.keys():
                 yield f"{file}: {key}: section {section!r} is not among the sections of paper.toml"
 
@@ -442,6 +442,29 @@ class Catalogue:
         section_letters = self._equations_toml.get("letters", {}).get(section, {})
         names = {**glossary_names, **getattr(self._symbols, "FUNCTIONS", {}), **declared(section_letters)}
         return Letters(names, getattr(self._symbols, "LATEX", {}))
+
+    def meanings(self, section: str) -> dict[str, tuple[str, str]]:
+        """Return LaTeX → (meaning, unit) of the glossary's symbols and of the symbols that a section explains.
+
+        Parameters
+        ----------
+        section : str
+            Number of the section.
+
+        Returns
+        -------
+        dict[str, tuple[str, str]]
+            The symbols in LaTeX; a meaning that `equations.toml` gives for the section replaces that of the glossary.
+
+        Examples
+        --------
+        >>> from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
+        >>> PAPER.meanings("3")["M"]
+        ('sum of the masses', 'kg')
+        """
+        known = {latex(entry.symbol): (entry.meaning, entry.unit) for entry in self.glossary.values()}
+        section_rows = self._equations_toml.get("meanings", {}).get(section, {})
+        return known | {tex: (meaning, unit) for tex, (meaning, unit) in section_rows.items()}
 
     def lines(self, identifier: str) -> tuple[Line, ...]:
         r"""Read the printed lines of an equation.
