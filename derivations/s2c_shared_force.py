@@ -113,7 +113,7 @@ turning_alike = Premise(
     broken=f"with opposite spins the drift of axis 2 is {pair['apart']} times that of axis 1",
 )
 slow = Premise(
-    "the axes turn slowly compared with the spins, so that J r̂ × r̂″ is neglected as in (3) and (4)",
+    "the axes turn slowly compared with the spins, so that J r̂ × r̂″ is neglected as in equations (3) and (4)",
     dict.fromkeys(a_1, sp.S.Zero),
     broken=rotors["slow_force"](omega_1).broken,
 )

@@ -107,7 +107,7 @@ verdict(
     premises=[MASSLESS_BAR, BAR_AS_LONG_AS_ROTORS],
     correction=sines_written,
     wrong="The correction keeps the bar's length nearly constant, but makes it too long by 2r₀². "
-    f"At r₀ = {PAPER_R0} the bar is {min(lengths):.3f} to {max(lengths):.3f} times as long as it is.",
+    f"At r₀ = {PAPER_R0} it gives the bar {min(lengths):.3f} to {max(lengths):.3f} times its true length.",
     uses=["5.19"],
     evidence=[
         f"At r₀ = {PAPER_R0} the printed correction makes the bar {min(lengths):.4f} to {max(lengths):.4f} times as "

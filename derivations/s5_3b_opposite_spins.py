@@ -247,7 +247,8 @@ verdict(
         r"\Omega/\Omega_0\text{ (opposite spins, through }r_0^3)": through_third_written,
     },
     wrong="The constant holds for one bar and equal spins only; for opposite spins the rate is not proportional to 1/cos θ. "
-    f"{average} Spins of ±10 rad/s: {changing}; printed: {float(product):g} (1 + 0.5 θ²) rad/s, in powers of θ.",
+    f"{average} Through θ², with spins of ±10 rad/s, the rate is {changing}; the print gives "
+    f"{float(product):g} (1 + 0.5 θ²) rad/s.",
     uses=["5.25", "5.26"],
     evidence=[
         f"Equal spins: on the exact pair at θ = {tilt} the axes differ by at most {apart:.0e} and turn at "

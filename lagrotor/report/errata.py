@@ -108,7 +108,10 @@ def _line(relation: Relation, side: Any) -> str:
 
 
 LETTER_HEAD = ("Letter", "Meaning", "Unit", "In")
-LETTERS_FIRST = "The letters of the corrections; a dot over a letter is its rate of change with time, and the last column lists the items."
+LETTERS_FIRST = (
+    "The table explains the letters of the corrections and premises. A dot over a letter, or a prime after it, denotes its time "
+    "derivative. The last column lists the items in which a letter has this meaning."
+)
 PREMISES_CITED = "The premises, which the items cite as P1, P2, …:"
 
 
@@ -122,12 +125,9 @@ def sheet_summary(verdicts: Iterable[Verdict], errors: list[Erratum]) -> Iterato
     reaching = [e.id for e in errors if not e.survives]
     others = len(errors) - len(reaching)
     effect = f"{len(reaching)} of the errors change a result of the paper ({', '.join(reaching)})" if reaching else ""
-    rest = f"no result depends on the other {others}" if reaching else "no result of the paper depends on them"
-    yield (
-        f"Of {len(list(verdicts))} equations of the paper {differ} from the derivation. "
-        + "; ".join(filter(None, [effect, rest]))
-        + "."
-    )
+    rest = f"no result depends on the {'other ' if reaching else ''}{others}" if others else ""
+    counted = f"Of {len(list(verdicts))} equations of the paper {differ} from the derivation."
+    yield f"{counted} {'; '.join(filter(None, [effect, rest]))}." if errors else counted
 
 
 # LaTeX that names no quantity, and a letter with its accent and its index.
@@ -206,6 +206,6 @@ def latex_item(e: Erratum, listed: list[Premise]) -> str:
     right = r";\quad ".join(line.strip() for line in e.corrected)
     granted = "".join(f" {label}: {cited_premises(conditions, listed)}." for label, conditions in e.conditions)
     return (
-        rf"\item \textbf{{{latex_prose(e.cited.capitalize())}}}, {latex_prose(e.title)}. {latex_prose(e.wrong)}{reach}{granted}\\"
+        rf"\item \textbf{{{latex_prose(f'{e.id}: {e.cited}')}}}, {latex_prose(e.title)}. {latex_prose(e.wrong)}{reach}{granted}\\"
         rf"Printed: ${tidy(e.printed)}$\\ Should read: ${tidy(right)}$"
     )

@@ -190,10 +190,10 @@ def unmet(report: Report) -> str:
     named = "; ".join(f"{says} ({count} equations)" for says, count in frequent[:3])
     some = sum(any(says in first for says in premises) for premises in affected)
     return (
-        f"Of the {holding} equations that hold, {len(affected)} hold only under a premise that the paper's own scene does not meet. "
-        f"There are {len(frequent)} such premises. {some} of the {len(affected)} equations need at least one of these three: {named}. "
-        f"For the paper's own scene the {len(affected)} equations are therefore approximations. Each entry says how far the scene is "
-        "from the premise."
+        f"Of the {holding} equations that hold, {len(affected)} need a premise that the paper's own scene does not meet. "
+        f"There are {len(frequent)} such premises. The three that most equations need are: {named}; "
+        f"{some} of the {len(affected)} equations need at least one of these. For the paper's own scene the {len(affected)} "
+        "equations are therefore approximations. Each entry says how far the scene is from the premise."
     )
 
 

@@ -174,7 +174,8 @@ def errata_blocks(report: Report) -> Iterator[Block]:
     errors = list(errata(report.verdicts, report.paper))
     if not errors:
         return
-    yield from ([sentence] for sentence in sheet_summary(report.verdicts, errors))
+    for sentence in sheet_summary(report.verdicts, errors):
+        yield [sentence]
     rows = letter_table(errors, report.paper)
     if rows:
         yield [LETTERS_FIRST]
@@ -186,7 +187,7 @@ def errata_blocks(report: Report) -> Iterator[Block]:
         yield [Bold(f"P{number}."), f"{premise_text(premise)}."]
     for e in errors:
         yield Heading(f"erratum-{e.id}", e.title, f"Erratum {e.id}:")
-        yield [e.wrong]
+        yield [Bold(f"{e.cited.capitalize()}."), e.wrong]
         yield [Bold("Printed.")]
         yield Display(e.printed)
         yield [Bold(f"Corrected equation ({e.verdict_of_correction}).")]
