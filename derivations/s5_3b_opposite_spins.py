@@ -229,9 +229,9 @@ own_shape = {sigma: HEAVY_BAR.on(own_sigma), k: 1}
 own_mean, own_change = (float(e.subs(own_shape)) for e in (mean_D, sp.Rational(1, 2) - in_average))
 own_change *= float(product / HEAVY_BAR.on(own_rate))
 changing = " and ".join(
-    f"{float(premise.on(own_rate)):.3f} (1 {float(in_average.subs({sigma: premise.on(own_sigma), k: 1})):+.4f} θ²) rad/s "
-    f"with {name}"
+    f"{float(premise.on(own_rate)):.3f} (1 {'−' if change < 0 else '+'} {abs(change):.4f} θ²) rad/s with {name}"
     for name, premise in (("the bar of section 4.1", HEAVY_BAR), ("that of section 5.2.1", LIGHT_BAR_PREMISE))
+    for change in [float(in_average.subs({sigma: premise.on(own_sigma), k: 1}))]
 )
 verdict(
     "5.27",

@@ -192,8 +192,9 @@ def unmet(report: Report) -> str:
     return (
         f"Of the {holding} equations that hold, {len(affected)} need a premise that the paper's own scene does not meet. "
         f"There are {len(frequent)} such premises. The three that most equations need are: {named}; "
-        f"{some} of the {len(affected)} equations need at least one of these. For the paper's own scene the {len(affected)} "
-        "equations are therefore approximations. Each entry says how far the scene is from the premise."
+        f"{some} of the {len(affected)} equations need at least one of these. The verdicts on these {len(affected)} do not "
+        "extend to the paper's own scene, for which the equations are at best approximate. Each entry says how far the "
+        "scene is from the premise."
     )
 
 

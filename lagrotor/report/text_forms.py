@@ -184,7 +184,7 @@ def errata_blocks(report: Report) -> Iterator[Block]:
     if listed:
         yield [PREMISES_CITED]
     for number, premise in enumerate(listed, 1):
-        yield [Bold(f"P{number}."), f"{premise_text(premise)}."]
+        yield [Bold(f"P{number}:"), f"{premise_text(premise)}."]
     for e in errors:
         yield Heading(f"erratum-{e.id}", e.title, f"Erratum {e.id}:")
         yield [Bold(f"{e.cited.capitalize()}."), e.wrong]

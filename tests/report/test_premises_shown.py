@@ -60,7 +60,7 @@ def test_shell_page_and_data_show_the_premises_of_all_equations(report: Report) 
 
 def number_in(markdown: str, words: str) -> str:
     """The number, such as P3, of the premise that begins with these words."""
-    return markdown.split(f".** {words}")[0].rpartition("**")[2]
+    return markdown.split(f":** {words}")[0].rpartition("**")[2]
 
 
 def test_errata_in_three_forms_show_the_premises_of_every_refuted_equation(report: Report) -> None:
@@ -71,7 +71,7 @@ def test_errata_in_three_forms_show_the_premises_of_every_refuted_equation(repor
     for verdict in report.verdicts:
         for premise in shown_premises(verdict) if verdict.verdict == "refuted" else ():
             words = readable(premise.says).replace("|", r"\|").split(":")[0].split("_")[0].split("*")[0]
-            assert f"**{number_in(markdown, words)}.**" in markdown
+            assert f"**{number_in(markdown, words)}:**" in markdown
             assert re.search(rf"\b{number_in(markdown, words)}\b", sheets[verdict.id]), (verdict.id, premise.says)
             assert prose(premise.sentence) in erratum_entry(rows[verdict.id]), (verdict.id, premise.says)
             number = tex.split(f": {latex_prose(premise.says)}")[0].rpartition("\n")[2]
