@@ -360,6 +360,10 @@ class Catalogue:
         for key in ("letters", "units", "meanings"):
             for section in self._equations_toml.get(key, {}).keys() - self.about.sections.keys():
                 yield f"{file}: {key}: section {section!r} is not among the sections of paper.toml"
+        for section, rows in self._equations_toml.get("meanings", {}).items():
+            for tex, pair in rows.items():
+                if not (isinstance(pair, list) and list(map(type, pair)) == [str, str]):
+                    yield f"{file}: meanings: section {section}: {tex} has {pair!r}: write [meaning, unit]"
 
     def equation(self, identifier: str) -> Equation:
         """Return one equation.
@@ -443,29 +447,6 @@ class Catalogue:
         names = {**glossary_names, **getattr(self._symbols, "FUNCTIONS", {}), **declared(section_letters)}
         return Letters(names, getattr(self._symbols, "LATEX", {}))
 
-    def meanings(self, section: str) -> dict[str, tuple[str, str]]:
-        """Return LaTeX → (meaning, unit) of the glossary's symbols and of the symbols that a section explains.
-
-        Parameters
-        ----------
-        section : str
-            Number of the section.
-
-        Returns
-        -------
-        dict[str, tuple[str, str]]
-            The symbols in LaTeX; a meaning that `equations.toml` gives for the section replaces that of the glossary.
-
-        Examples
-        --------
-        >>> from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
-        >>> PAPER.meanings("3")["M"]
-        ('sum of the masses', 'kg')
-        """
-        known = {latex(entry.symbol): (entry.meaning, entry.unit) for entry in self.glossary.values()}
-        section_rows = self._equations_toml.get("meanings", {}).get(section, {})
-        return known | {tex: (meaning, unit) for tex, (meaning, unit) in section_rows.items()}
-
     def lines(self, identifier: str) -> tuple[Line, ...]:
         r"""Read the printed lines of an equation.
 
@@ -508,3 +489,10 @@ def section_glossary(catalogue: Catalogue, section: str) -> Glossary:
                 )
             glossary |= {symbol: Entry(symbol, "parameter", unit) for symbol in components([names[name]])}
     return glossary
+
+
+def section_meanings(catalogue: Catalogue, section: str) -> dict[str, tuple[str, str]]:
+    """Return LaTeX → (meaning, unit) of the glossary's symbols; those that `equations.toml` gives for a section go first."""
+    known = {latex(entry.symbol): (entry.meaning, entry.unit) for entry in catalogue.glossary.values()}
+    given = catalogue._equations_toml.get("meanings", {}).get(section, {})
+    return known | {tex: (meaning, unit) for tex, (meaning, unit) in given.items()}

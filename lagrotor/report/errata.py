@@ -7,6 +7,7 @@ from typing import Any
 
 from lagrotor.mechanics.glossary import GREEK, latex
 from lagrotor.paper.audit import uncorrected
+from lagrotor.paper.catalogue import section_meanings
 from lagrotor.paper.papers import Paper
 from lagrotor.paper.premises import Premise
 from lagrotor.paper.verdicts import AGREES, Relation, Verdict
@@ -154,7 +155,9 @@ def letter_table(errors: Iterable[Erratum], paper: Paper) -> list[tuple[str, str
     """
     rows: dict[tuple[str, str, str], list[str]] = {}
     for e in errors:
-        known = {letters_in(tex): (tex, *row) for tex, row in paper.meanings(e.section).items() if "dot{" not in tex}
+        known = {
+            letters_in(tex): (tex, *row) for tex, row in section_meanings(paper, e.section).items() if "dot{" not in tex
+        }
         premises = (p for _, listed in e.conditions for p in listed if not _in_components(p))
         for letter in dict.fromkeys(c for tex in (*e.corrected, *premise_formulas(premises)) for c in letters_in(tex)):
             if (letter,) in known:

@@ -78,7 +78,7 @@ class File:
 
 
 Span: TypeAlias = (
-    "str | sp.Basic | Bold | Links | File | Letter | tuple[Span, ...]"  # in a line or cell; a tuple is stacked
+    "str | sp.Basic | Bold | Links | File | Display | tuple[Span, ...]"  # in a line or cell; a tuple is stacked
 )
 Line: TypeAlias = list[Span]  # joined by spaces
 
@@ -93,15 +93,8 @@ class Heading:
 
 
 @dataclass(frozen=True)
-class Letter:
-    """A letter in LaTeX, within a line or a cell."""
-
-    formula: str
-
-
-@dataclass(frozen=True)
 class Display:
-    """A formula on its own line, given as LaTeX or as an expression."""
+    """A formula on its own line, given as LaTeX or as an expression; within a line or a cell it is LaTeX."""
 
     formula: str | sp.Basic
 
@@ -179,7 +172,7 @@ def errata_blocks(report: Report) -> Iterator[Block]:
     rows = letter_table(errors, report.paper)
     if rows:
         yield [LETTERS_FIRST]
-    yield Rows(LETTER_HEAD, [(Letter(tex), *texts) for tex, *texts in rows])
+    yield Rows(LETTER_HEAD, [(Display(tex), *texts) for tex, *texts in rows])
     listed = listed_premises(errors)
     if listed:
         yield [PREMISES_CITED]
@@ -330,7 +323,7 @@ def _span(span: Span, target: str = "") -> str:
             return ", ".join(f"[{identifier}]({target}#{anchor(identifier)})" for identifier in ids)
         case File(address, name):
             return f"[{name}]({address})"
-        case Letter(formula):
+        case Display(str(formula)):
             return f"${formula}$"
         case tuple():
             return "<br>".join(map(_span, span))
@@ -387,7 +380,7 @@ def _latex_span(span: Span) -> str:
             return ", ".join(rf"\hyperlink{{{anchor(identifier)}}}{{{latex_prose(identifier)}}}" for identifier in ids)
         case File(_, name):
             return latex_prose(name)
-        case Letter(formula):
+        case Display(str(formula)):
             return f"${formula}$"
         case tuple():
             return r"\par ".join(map(_latex_cell, span))
