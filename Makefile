@@ -23,7 +23,7 @@ check: $(VENV)/.installed-test
 	$(VENV)/bin/mypy
 
 docs: $(VENV)/.installed-docs reproduce
-	NO_MKDOCS_2_WARNING=1 $(VENV)/bin/mkdocs build --quiet
+	$(VENV)/bin/python -m sphinx -W --keep-going docs site
 
 certify: $(VENV)/.installed
 	$(VENV)/bin/python -m lagrotor audit --certify certificates > /dev/null

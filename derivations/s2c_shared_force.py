@@ -113,7 +113,7 @@ turning_alike = Premise(
     broken=f"with opposite spins the drift of axis 2 is {pair['apart']} times that of axis 1",
 )
 slow = Premise(
-    "the axes turn slowly compared with the spins, so that J r̂ × r̂″ is neglected as in (3) and (4)",
+    "the axes turn slowly compared with the spins, so that J r̂ × r̂″ is neglected as in equations (3) and (4)",
     dict.fromkeys(a_1, sp.S.Zero),
     broken=rotors["slow_force"](omega_1).broken,
 )
@@ -147,14 +147,14 @@ prove(
 )
 
 # %%
-right_8 = form("(rho - 1)/2*cross(r, F)", rho=rho)
-right_9 = form("(rho - 1)/(2*(1 + rho))*cross(r, F)", rho=rho)
+right_8 = form("(omega_1/omega_2 - 1)/2*cross(r, F)")
+right_9 = form("(omega_1/omega_2 - 1)/(2*(1 + omega_1/omega_2))*cross(r, F)")
 verdict(
     "2.08",
     (1 + rho) * cross(r, f),
     premises=premises,
     correction=right_8,
-    wrong="The left side has the wrong sign; here rho = omega_1/omega_2.",
+    wrong="The left side has the wrong sign.",
     uses=["2.07"],
     evidence=["If 2.07 is solved for r x f, the right side is rho r x F/2 - r x F/2, with rho = omega_1/omega_2."],
     form=right_8,
@@ -176,14 +176,15 @@ verdict(
 )
 
 # %%
+right_10 = form("omega_1/(omega_1 + omega_2)*cross(r, F)")
 verdict(
     "2.10",
     spinning_1,
     premises=premises,
-    correction=form("rho/(1 + rho)*cross(r, F)", rho=rho),
+    correction=right_10,
     wrong="This line has the same sign error as the equation before (5).",
     uses=["2.09", "2.04"],
-    form=form("rho/(1 + rho)*cross(r, F)", rho=rho),
+    form=right_10,
 )
 
 # %% [markdown]
@@ -192,13 +193,13 @@ verdict(
 # As printed, (6) is not the rate that the premises give, and (7) does not follow from it:
 
 # %%
-right_11 = form("rho/(1 + rho)*cross(r, F)/(I_3*omega_1)", rho=rho)
+right_11 = form("cross(r, F)/(I_3*(omega_1 + omega_2))")
 verdict(
     "2.11",
     rate_1,
     premises=premises,
     correction=right_11,
-    wrong="The same sign error gives the factor 2/(1 + rho) instead of 2 rho/(1 + rho), with rho = omega_1/omega_2.",
+    wrong="The same sign error gives the factor 2/(1 + omega_1/omega_2) instead of 2 omega_1/(omega_1 + omega_2).",
     uses=["2.10"],
     evidence=["(7) follows from the premises: a second sign error between (6) and (7) cancels that of 2.08."],
     form=right_11,

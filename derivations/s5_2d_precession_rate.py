@@ -19,8 +19,9 @@ from lagrotor.paper import Premise, Remark, prove, verdict
 from lagrotor.paper.grammar import rate as moving
 from lagrotor.paper.proof import form
 from lagrotor.paper.rotor_pair.ansatz import no_bar_force, opposite_azimuths, opposite_spin_angles
-from lagrotor.paper.rotor_pair.premises import EQUAL_INERTIAS, MASSLESS_BAR, OPPOSITE_SPINS
+from lagrotor.paper.rotor_pair.premises import EQUAL_INERTIAS, MASSLESS_BAR, OPPOSITE_SPINS, PAPERS_ROTOR
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
+from lagrotor.paper.rotor_pair.runs import OPPOSITE
 from lagrotor.theory.natural_frequency import natural_frequency
 
 theta_1, theta_2 = ANSATZ.q[:2]
@@ -109,12 +110,14 @@ axes_and_rates = {
     "hat_r_1_dot": moving(r_1, PAIR.q, PAIR.v),
     "hat_r_2_dot": moving(r_2, PAIR.q, PAIR.v),
 }
+own_B = PAPERS_ROTOR.on(value_B).subs(dict(zip((omega_1, omega_2), OPPOSITE, strict=True)))
 verdict(
     "5.16",
     {"B": value_B, "A": value_A},
     premises=[MASSLESS_BAR, EQUAL_INERTIAS, OPPOSITE_SPINS, opposite_azimuths(), one_inclination],
     correction={"B": form("I_3*(omega_1 - omega_2)")},
-    wrong="B lacks the factor I. The correct value is 2Iω, an angular momentum like A.",
+    wrong="B lacks the factor I. The correct value is 2Iω, an angular momentum like A. "
+    f"With the paper's rotor and spins of ±10 rad/s B is {float(own_B):g} kg m²/s.",
     uses=["5.12", "5.13"],
     evidence=[
         "For opposite spins B is 2I₃ω. For the paper's rotor, with I₃ = 1 kg m², the printed value is the same number."

@@ -23,7 +23,7 @@ from lagrotor.pair.notation import ANSATZ, I3, ROTOR, A, B, G, J, Phi, R, ell, k
 from lagrotor.paper import Formula, Series, prove, verdict
 from lagrotor.paper.proof import form
 from lagrotor.paper.rotor_pair.premises import BAR_AS_LONG_AS_ROTORS, EQUAL_INERTIAS, MASSLESS_BAR, UNIT_LENGTH
-from lagrotor.paper.rotor_pair.runs import PAPER_R0
+from lagrotor.paper.rotor_pair.runs import OPPOSITE, PAPER_BAR, PAPER_R0
 from lagrotor.theory import pair_precession_rate, paired_series
 
 cosine, sine = sp.cos(Phi), sp.sin(Phi)
@@ -106,7 +106,8 @@ verdict(
     {rf"\sin\theta_{i}": Series(series, theta_0, 2) for i, series in enumerate(sines, 1)},
     premises=[MASSLESS_BAR, BAR_AS_LONG_AS_ROTORS],
     correction=sines_written,
-    wrong="The correction keeps the bar's length nearly constant, but makes it too long by 2r₀².",
+    wrong="The correction keeps the bar's length nearly constant, but makes it too long by 2r₀². "
+    f"At r₀ = {PAPER_R0} it gives the bar {min(lengths):.3f} to {max(lengths):.3f} times its true length.",
     uses=["5.19"],
     evidence=[
         f"At r₀ = {PAPER_R0} the printed correction makes the bar {min(lengths):.4f} to {max(lengths):.4f} times as "
@@ -255,7 +256,8 @@ verdict(
     },
     premises=[EQUAL_INERTIAS, MASSLESS_BAR, BAR_AS_LONG_AS_ROTORS],
     correction={r"\dot\phi": line_written, r"\dot\phi\text{ (last member)}": form(unchanged), **orbit_written},
-    wrong="The derivatives are multiplied, but they should be subtracted.",
+    wrong="The derivatives are multiplied, but they should be subtracted. "
+    f"The frequency of the orbit at r₀ = {PAPER_R0} is {at_paper:.4f} Ω₀ with a massless bar.",
     uses=["5.15", "5.20"],
     evidence=[
         "The printed product of derivatives should be their difference, which is zero; the last line is right because two errors "
@@ -298,6 +300,8 @@ of_y = "((8*k**2 + 5*k**2*sigma - 13*k**2*sigma**2 - 39*sigma)*sin(Phi) + 3*sigm
 third = {"x_1": of_x, "x_2": of_x}
 third |= {f"y_{i}": f" {sign} r_0**2/(48*k**2)*{of_y}" for i, sign in ((1, "+"), (2, "-"))}
 short = {"k": ell / R, "A_x": R * r0, "A_y": R * width * r0}
+light_big, light_coupled = Scene(spins=OPPOSITE, link=PAPER_BAR).inertias
+light_sigma = (light_big + light_coupled) / (light_big - light_coupled)
 in_words = "; ".join(f"{x:.2f} in x and {y:.2f} in y ({name})" for name, (x, y) in slopes.items())
 verdict(
     "5.22",
@@ -305,7 +309,9 @@ verdict(
     premises=[MASSLESS_BAR, BAR_AS_LONG_AS_ROTORS, UNIT_LENGTH],
     correction={name: form(text + ")", remainder="r_0^3", **short) for name, text in through_second.items()},
     form={name: form(text + third[name] + ")", **short) for name, text in through_second.items()},
-    wrong="A constant of second order in the amplitude is missing: x₁ lacks r₀², x₂ lacks −r₀².",
+    wrong="A constant of second order in the amplitude is missing: x₁ lacks r₀², x₂ lacks −r₀². "
+    f"At r₀ = {PAPER_R0} this is {PAPER_R0**2:.4f} m. With the bar of section 5.2.1, whose σ is {light_sigma:.4f}, the "
+    f"missing term varies during a turn from {light_sigma * PAPER_R0**2:.4f} m to {PAPER_R0**2:.4f} m.",
     uses=["5.20", "5.21"],
     evidence=[
         "In x the printed second harmonic is right. The paper does not print y = sin θ sin φ; with its correction of the "

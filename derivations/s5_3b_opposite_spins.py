@@ -44,6 +44,7 @@ from lagrotor.paper import Formula, Premise, Remark, Series, prove, verdict
 from lagrotor.paper.proof import form
 from lagrotor.paper.rotor_pair.claims.natural_rates import coefficient
 from lagrotor.paper.rotor_pair.premises import HEAVY_BAR, LIGHT_BAR_PREMISE, PAPERS_ROTOR, in_parameters
+from lagrotor.paper.rotor_pair.runs import EQUAL, OPPOSITE, listed_rates
 from lagrotor.theory.natural_frequency import natural_frequency
 
 theta = ROTOR.q[0]
@@ -115,7 +116,8 @@ verdict(
     },
     premises=[HEAVY_BAR, small_motion],
     correction={r"\Omega_0^2\text{ (opposite spins)}": square_written},
-    wrong="The product is 5.7, not 0.57, and no bar listed in the paper has this rate.",
+    wrong="The product is 5.7, not 0.57, and no bar listed in the paper has this rate. "
+    f"The rate is {listed_rates(OPPOSITE)}.",
     uses=["5.25"],
     evidence=[
         f"The natural frequency is {listed}. Each of the last two bars has the mass of one listed bar and the inertia "
@@ -222,9 +224,15 @@ average = (
     "θ is the average inclination, as printed. It is q r₀, with r₀ the sine of the inclination when the axes are parallel, and q "
     "the mean of √(cos² Φ + σ sin² Φ) over a turn."
 )
-own_shape = {sigma: HEAVY_BAR.on(PAPERS_ROTOR.on(with_mass / with_inertia)), k: 1}
+own_sigma = PAPERS_ROTOR.on(with_mass / with_inertia)
+own_shape = {sigma: HEAVY_BAR.on(own_sigma), k: 1}
 own_mean, own_change = (float(e.subs(own_shape)) for e in (mean_D, sp.Rational(1, 2) - in_average))
 own_change *= float(product / HEAVY_BAR.on(own_rate))
+changing = " and ".join(
+    f"{float(premise.on(own_rate)):.3f} (1 {'−' if change < 0 else '+'} {abs(change):.4f} θ²) rad/s with {name}"
+    for name, premise in (("the bar of section 4.1", HEAVY_BAR), ("that of section 5.2.1", LIGHT_BAR_PREMISE))
+    for change in [float(in_average.subs({sigma: premise.on(own_sigma), k: 1}))]
+)
 verdict(
     "5.27",
     {
@@ -239,7 +247,8 @@ verdict(
         r"\Omega/\Omega_0\text{ (opposite spins, through }r_0^3)": through_third_written,
     },
     wrong="The constant holds for one bar and equal spins only; for opposite spins the rate is not proportional to 1/cos θ. "
-    f"{average}",
+    f"{average} Through θ², with spins of ±10 rad/s, the rate is {changing}; the print gives "
+    f"{float(product):g} (1 + 0.5 θ²) rad/s.",
     uses=["5.25", "5.26"],
     evidence=[
         f"Equal spins: on the exact pair at θ = {tilt} the axes differ by at most {apart:.0e} and turn at "
@@ -298,7 +307,9 @@ verdict(
         r"\dot\phi\text{ (equal spins)}": form("I_3*omega/(a + b)", **inertias),
         r"\dot\phi\text{ (opposite spins)}": form("I_3*omega/sqrt(a**2 - b**2)", **inertias),
     },
-    wrong="The constant holds for one bar and equal spins only.",
+    wrong="The constant holds for one bar and equal spins only. Where it gives "
+    f"{float(product):g} rad/s, at ω = 10 rad/s, the rate for opposite spins is {listed_rates(OPPOSITE)}; for equal spins it is "
+    f"{listed_rates(EQUAL)}.",
     uses=["5.25", "5.27"],
     evidence=[
         f"The constants for equal and for opposite spins are {in_words}.",

@@ -16,10 +16,33 @@ import sympy as sp
 from lagrotor import paired_frequency
 from lagrotor.mechanics import degrees_of_freedom
 from lagrotor.pair import axes_pair, pair_with_bar
-from lagrotor.pair.notation import AXES, G_1, G_2, I1, I3, PAIR, ROTOR, G, K, M, R, a, b, ell, k, m, omega, q, r0, sigma
+from lagrotor.pair.notation import (
+    AXES,
+    G_1,
+    G_2,
+    I1,
+    I3,
+    PAIR,
+    ROTOR,
+    G,
+    J,
+    K,
+    M,
+    R,
+    a,
+    b,
+    ell,
+    k,
+    m,
+    omega,
+    q,
+    r0,
+    sigma,
+)
 from lagrotor.paper import Formula, Remark, Series, prove, verdict
 from lagrotor.paper.proof import form
 from lagrotor.paper.rotor_pair.premises import HEAVY_BAR, PAPERS_ROTOR, in_parameters
+from lagrotor.paper.rotor_pair.runs import OPPOSITE, listed_rates
 from lagrotor.theory import linear_pair
 
 # %% [markdown]
@@ -173,6 +196,7 @@ through_third = 1 - sigma * (k**2 * sigma - 3 * k**2 + 3) / (4 * k**2) * r0**2
 prove(ratio, through_third, "the rate of the paired precession over the natural frequency, through the third order")
 
 # %%
+printed_rate = float(sp.Rational(7125, 10000) * PAPERS_ROTOR.on(in_parameters(I3 * omega / J)).subs(omega, OPPOSITE[0]))
 at_theta = ratio.subs(r0, sp.sin(theta) / q).subs({k: ell / R, sigma: with_mass / with_inertia})
 inertias = {"a": in_parameters(a), "b": in_parameters(b)}
 cone_written = form("I_3*omega/((a + b)*cos(theta))", **inertias)
@@ -205,7 +229,8 @@ verdict(
     },
     wrong="The constant holds for one bar and equal spins only; for opposite spins the rate is not proportional to 1/cos θ. "
     "θ is the average inclination, as printed. It is q r₀, with r₀ the sine of the inclination when the axes are parallel, and q "
-    "the mean of √(cos² Φ + σ sin² Φ) over a turn.",
+    "the mean of √(cos² Φ + σ sin² Φ) over a turn. "
+    f"For opposite spins of 10 rad/s the rate at small θ is {listed_rates(OPPOSITE)}; the print gives {printed_rate:g} rad/s.",
     uses=["5.27", "5.28"],
     evidence=["The line repeats 5.27 for both kinds of pair; the evidence of 5.27 applies to each of them."],
 )

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from lagrotor.models.sweeps.sweep import sweep as sweep
     from lagrotor.models.sweeps.sweep_folder import Sweep as Sweep
     from lagrotor.pair.initial_conditions import consistent_scene as consistent_scene
+    from lagrotor.pair.lagrangians import ansatz_integrals as ansatz_integrals
+    from lagrotor.pair.lagrangians import pair_with_bar as pair_with_bar
     from lagrotor.pair.scene import Link as Link
     from lagrotor.pair.scene import Rotor as Rotor
     from lagrotor.pair.scene import Scene as Scene
@@ -29,6 +31,7 @@ if TYPE_CHECKING:
     from lagrotor.structures.waves.patterns import Pattern as Pattern
     from lagrotor.theory.drift_after_shock import cancelling_force as cancelling_force
     from lagrotor.theory.drift_after_shock import toppling_after_shock as toppling_after_shock
+    from lagrotor.theory.natural_frequency import pair_precession_rate as pair_precession_rate
     from lagrotor.theory.natural_rate import natural_rate as natural_rate
     from lagrotor.theory.paired_precession.closed_forms import corrected_trajectories as corrected_trajectories
     from lagrotor.theory.paired_precession.closed_forms import paired_frequency as paired_frequency

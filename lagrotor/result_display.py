@@ -1,6 +1,7 @@
 """The printed form of results: numbers in powers of ten, and a `summary` in lines or as a table."""
 
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from html import escape
 
 _HIGH = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -32,6 +33,12 @@ def scientific(value: float, digits: int = 0) -> str:
     return mantissa.replace("-", "−") + (f"×10{superscript(int(power))}" if int(power) else "")
 
 
+def in_lines(title: str, rows: Mapping[str, str]) -> str:
+    """Return a title and one line for each row {name: text}."""
+    width = max(map(len, rows), default=0)
+    return "\n".join([title, *(f"  {name:{width}}  {says}" for name, says in rows.items())])
+
+
 class Shown(ABC):
     """A result whose `summary` is printed as lines, and in Jupyter as a table. A dataclass that inherits it needs repr=False."""
 
@@ -40,9 +47,7 @@ class Shown(ABC):
         """Return the result in words: {name of a quantity: its value as text}."""
 
     def __repr__(self) -> str:
-        rows = self.summary()
-        width = max(map(len, rows))
-        return "\n".join([type(self).__name__, *(f"  {name:{width}}  {says}" for name, says in rows.items())])
+        return in_lines(type(self).__name__, self.summary())
 
     def _repr_html_(self) -> str:
         rows = "".join(

@@ -12,15 +12,19 @@ import asyncio
 import os
 import shutil
 import sys
+import zlib
 from collections import defaultdict
 from collections.abc import Iterator
 from functools import partial
 from html.parser import HTMLParser
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from importlib import import_module
 from pathlib import Path
 from threading import Thread
 from typing import Any
 from urllib.parse import unquote, urljoin, urlsplit
+
+import lagrotor
 
 SMALLEST = 10  # px, of a formula's letters
 DESK, PHONE = 1300, 390  # px
@@ -163,6 +167,33 @@ async def open_pages(folder: Path, names: list[str], axe: str, chromium: str) ->
     return wrong
 
 
+def without_reference(folder: Path) -> Iterator[str]:
+    """Public classes' methods and properties that the built reference does not explain, a line each."""
+    if not (folder / "objects.inv").is_file():
+        return
+    inventory = (folder / "objects.inv").read_bytes()
+    explained = {
+        line.split()[0] for line in zlib.decompress(inventory.split(b"\n", 4)[4]).decode().splitlines() if line
+    }
+    ends = {".".join(name.split(".")[-2:]) for name in explained}
+    for part in sorted(path.parent.name for path in Path(lagrotor.__file__).parent.glob("*/__init__.py")):
+        if part in ("drawing", "pictures"):
+            continue
+        module = import_module(f"lagrotor.{part}")
+        for name in getattr(module, "__all__", ()):
+            if isinstance(thing := getattr(module, name), type):
+                own = {each for base in thing.__mro__ if base.__module__.startswith("lagrotor.") for each in vars(base)}
+                documented = (
+                    each for each in own if not each.startswith("_") and getattr(getattr(thing, each), "__doc__", None)
+                )
+                methods = (
+                    each
+                    for each in documented
+                    if callable(getattr(thing, each)) or isinstance(getattr(thing, each), property)
+                )
+                yield from (f"the reference lacks {name}.{each}" for each in methods if f"{name}.{each}" not in ends)
+
+
 def main(folders: list[str]) -> int:
     """Look at the pages of the folders; 0 where nothing is wrong."""
     import axe_core_python
@@ -178,7 +209,7 @@ def main(folders: list[str]) -> int:
     wrong = 0
     for folder in (Path(folder).resolve() for folder in folders):
         names = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*.html"))
-        broken = list(broken_links(folder, names))
+        broken = [*broken_links(folder, names), *without_reference(folder)]
         print(*broken, sep="\n", end="\n" if broken else "", flush=True)
         wrong += len(broken) + asyncio.run(open_pages(folder, names, axe, installed))
     print(f"{wrong} faults" if wrong else "no fault")

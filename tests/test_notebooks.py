@@ -149,3 +149,10 @@ def test_every_notebook_has_its_test_and_no_output() -> None:
     for stem in stems:
         cells = json.loads((FOLDER / f"{stem}.ipynb").read_text(encoding="utf-8"))["cells"]
         assert not any(cell.get("outputs") for cell in cells), f"{stem}: clear the outputs before it is committed"
+
+
+def test_the_pair_in_thirty_lines() -> None:
+    names, ends = ran("the_pair_in_thirty_lines")
+    assert "dot{\\theta}_1" in ends[1].data and ends[2].data.startswith("0 = k")
+    assert names["rate"].expressions == ends[4].expressions and ends[5].error < 1e-11
+    assert 1e-3 < ends[6] < 2e-3 and ends[7] == "0.43%, 7.910 and 7.918 rad/s"

@@ -1,4 +1,4 @@
-"""The commands about a paper: judge, init, notation, readings, derive, check, reproduce, audit, certify, claims, figure.
+"""The commands about a paper: pair, judge, init, notation, readings, derive, check, reproduce, audit, certify, claims, figure.
 
 The exit status is 1 if a verdict differs from the recorded one, or if an error is found. Without --paper, a command uses
 the paper on the rotor pair.
@@ -25,6 +25,13 @@ def add_paper_commands(command: Command) -> None:
 
 def _add_reading_commands(command: Command) -> None:
     """Add the commands that read a paper: judge, init, notation, readings, derive and check."""
+    added = command("pair", pair_command, "print the pair's formulas, and compare them with a run", "lagrotor pair")
+    added.description = (
+        "Print the Lagrangian of the pair, the bar's constraint, A and B, the precession rate and the corrected trajectories,\n"
+        "and compare the rate and the trajectories with an integrated paired precession."
+    )
+    add_json(added, "a JSON object: LaTeX of each formula, and the differences")
+
     added = command(
         "judge", judge_command, "decide whether one equation holds", 'lagrotor judge "sqrt(x**2) = x" --given "x >= 0"'
     )
@@ -137,6 +144,21 @@ def _paper(options: argparse.Namespace) -> "Paper":
     from lagrotor.paper.papers import opened
 
     return opened(options.paper.resolve())
+
+
+def pair_command(options: argparse.Namespace) -> int:
+    from lagrotor.mechanics.glossary import latex
+    from lagrotor.paper.rotor_pair.pair_page import compare_pair, pair_formulas, pair_page
+
+    comparison = compare_pair()
+    if options.json:
+        numbers = {name: value for name, value in vars(comparison).items() if name != "run"}
+        formulas = {name: latex(expression) for name, expression in pair_formulas().items()}
+        print_json({"formulas": formulas, "comparison": numbers | {"error": comparison.run.error}})
+        return 0
+    for heading, lines in pair_page(comparison):
+        print(wrap(heading, 4), *(f"    {wrap(line, 8)}" for line in lines), "", sep="\n")
+    return 0
 
 
 def judge_command(options: argparse.Namespace) -> int:

@@ -19,14 +19,15 @@ from lagrotor.errors import InputError, LagrotorWarning, NotExactError, Singular
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import by_symbol, put_in
 from lagrotor.mechanics.lagrangian import euler_lagrange, t
+from lagrotor.result_display import Shown
 
 _UNSOLVABLE = 1000  # the effort of a factor that is not solved for any unknown
 _LONGEST = 300  # characters of the conditions in a message
 Solution = dict[sp.Symbol, sp.Expr]
 
 
-@dataclass(frozen=True)
-class Equilibrium:
+@dataclass(frozen=True, repr=False)
+class Equilibrium(Shown):
     """A configuration at rest, and the conditions on the parameters under which it exists.
 
     Attributes
@@ -55,6 +56,18 @@ class Equilibrium:
     domain: tuple[sp.Basic, ...] = ()
     regular: bool = True
     enclosure: Mapping[sp.Symbol, tuple[sp.Rational, sp.Rational]] = field(default_factory=dict)
+
+    def summary(self) -> dict[str, str]:
+        """Return the configuration and its conditions in words.
+
+        Returns
+        -------
+        dict of str
+            {symbol: value}; "free" for a symbol that may have any value.
+        """
+        rows = {str(s): "free" if value == s else str(value) for s, value in self.at.items()}
+        rows |= {"where": ", ".join(map(str, self.domain))} if self.domain else {}
+        return rows | ({} if self.regular else {"mass matrix": "singular there"})
 
 
 def equilibria(

@@ -12,10 +12,11 @@ from lagrotor.mechanics import equilibria, glossary, steady_motions, symmetry, w
 from lagrotor.mechanics.canonical import hamiltonians
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.equilibria import Equilibrium
-from lagrotor.mechanics.expressions import in_order
+from lagrotor.mechanics.expressions import in_order, longer
 from lagrotor.mechanics.from_sympy import parts_from_sympy
 from lagrotor.mechanics.lagrangian import Coordinates
 from lagrotor.renamed import accept_old_keywords
+from lagrotor.result_display import in_lines
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
 Kind = TypeVar("Kind", bound=Equations)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class System(Equations):
     """A mechanical system: a Lagrangian L(q, v, t) with constraints, friction and forces.
 
@@ -489,6 +490,17 @@ class System(Equations):
         (-eps*r/2, 0)
         """
         return weakly_nonlinear.averaged(self, order, small, frequency)
+
+    def __repr__(self) -> str:
+        many, long = len(self.bodies), bool(self.bodies) or longer(self.L, 60)
+        lagrangian = f"the energy of {many} {'body' if many == 1 else 'bodies'}" if many else "a long expression"
+        rows = {"coordinates": ", ".join(map(str, self.c.q)), "L": lagrangian if long else str(self.L)}
+        for name in ("constraints", "rolling", "forces"):
+            if each := getattr(self, name):
+                rows[name] = str(len(each)) if long else ", ".join(map(str, each))
+        if self.dissipation != 0:
+            rows["dissipation"] = "a long expression" if long else str(self.dissipation)
+        return in_lines("System", rows)
 
     def latex(self) -> str:
         r"""Return the equations of motion and the constraints as an `align` of LaTeX.

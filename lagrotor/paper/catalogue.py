@@ -17,7 +17,7 @@ from typing import Any, TypeVar
 from lagrotor.algebra.name_clashes import check_names
 from lagrotor.errors import InputError
 from lagrotor.files import path_of
-from lagrotor.mechanics.glossary import Entry, Glossary
+from lagrotor.mechanics.glossary import Entry, Glossary, latex
 from lagrotor.paper.grammar import Letters, Line, components, declared, read, read_line
 from lagrotor.paper.scripts import importable
 
@@ -315,7 +315,7 @@ class Catalogue:
     def _rows(self, name: str, key: str, kind: type[Row]) -> dict[Any, Row]:
         file = self.folder / f"{name}.toml"
         content = self._equations_toml if name == "equations" else toml(file)
-        if unknown := sorted(content.keys() - {key, "letters", "units"}):
+        if unknown := sorted(content.keys() - {key, "letters", "units", "meanings"}):
             raise InputError(f"{file}: {unknown[0]!r} is not a key: write [[{key}]]")
         rows: dict[Any, Row] = {}
         for entry in content.get(key, []):
@@ -357,9 +357,13 @@ class Catalogue:
                     yield f"{file}: {equation.id}: {key!r} is not a key of a line: the keys are {', '.join(_LINE)}"
                 if "quantity" not in line:
                     yield f"{file}: {equation.id}: a line has no quantity: name in LaTeX the quantity that it gives"
-        for key in ("letters", "units"):
+        for key in ("letters", "units", "meanings"):
             for section in self._equations_toml.get(key, {}).keys() - self.about.sections.keys():
                 yield f"{file}: {key}: section {section!r} is not among the sections of paper.toml"
+        for section, rows in self._equations_toml.get("meanings", {}).items():
+            for tex, pair in rows.items():
+                if not (isinstance(pair, list) and list(map(type, pair)) == [str, str]):
+                    yield f"{file}: meanings: section {section}: {tex} has {pair!r}: write [meaning, unit]"
 
     def equation(self, identifier: str) -> Equation:
         """Return one equation.
@@ -489,3 +493,10 @@ def section_glossary(catalogue: Catalogue, section: str) -> Glossary:
                 )
             glossary |= {symbol: Entry(symbol, "parameter", unit) for symbol in components([names[name]])}
     return glossary
+
+
+def section_meanings(catalogue: Catalogue, section: str) -> dict[str, tuple[str, str]]:
+    """Return LaTeX → (meaning, unit) of the glossary's symbols; those that `equations.toml` gives for a section go first."""
+    known = {latex(entry.symbol): (entry.meaning, entry.unit) for entry in catalogue.glossary.values()}
+    given = catalogue._equations_toml.get("meanings", {}).get(section, {})
+    return known | {tex: (meaning, unit) for tex, (meaning, unit) in given.items()}

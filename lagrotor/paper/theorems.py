@@ -17,7 +17,7 @@ from lagrotor.errors import InputError, NotProved, ProofError
 NOT_AGAIN = "on record, not proved again here; lagrotor claims does, with python-flint: pip install lagrotor[proof]"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Theorem:
     """A theorem about a motion, with the certificate from which it can be verified.
 
@@ -89,6 +89,9 @@ class Theorem:
     def text(self) -> str:
         """The theorem in words and its enclosure. For a theorem on record, a note says that it was not proved again."""
         return " ".join(filter(None, (self.says, self.encloses, f"({NOT_AGAIN})" if self.certificate is None else "")))
+
+    def __repr__(self) -> str:
+        return f"Theorem: {self.text}"
 
 
 def can_prove() -> bool:

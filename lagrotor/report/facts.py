@@ -1,6 +1,7 @@
 """The sentences of a report: facts about equations, claims and figures, counts of verdicts, and the main results."""
 
 import re
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from string import Formatter
@@ -14,7 +15,7 @@ from lagrotor.paper import catalogue
 from lagrotor.paper.audit import dimension_texts, line_text
 from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.premises import Premise
-from lagrotor.paper.verdicts import Verdict, point_tex, point_text
+from lagrotor.paper.verdicts import AGREES, Verdict, point_tex, point_text
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.content import Report, word
 from lagrotor.report.errata import correction_lines, premise_formulas
@@ -173,6 +174,28 @@ def balance(report: Report) -> str:
     kind = "is a definition or a measured number" if remainder == 1 else "are definitions or measured numbers"
     text += f" {remainder} {kind}." if remainder else ""
     return text + (f" {waiting} more {'is' if waiting == 1 else 'are'} not yet judged." if waiting else "")
+
+
+def unmet(report: Report) -> str:
+    """Return sentences on the premises that the paper's own scene does not meet, "" if it meets all of them.
+
+    They count the equations that hold under such premises, and name the three premises that most of these need.
+    """
+    needed = [tuple(p.says for p in v.premises if p.broken) for v in report.verdicts if v.verdict in AGREES]
+    holding, affected = len(needed), [premises for premises in needed if premises]
+    frequent = Counter(says for premises in affected for says in dict.fromkeys(premises)).most_common()
+    if not affected:
+        return ""
+    first = [says for says, _ in frequent[:3]]
+    named = "; ".join(f"{says} ({count} equations)" for says, count in frequent[:3])
+    some = sum(any(says in first for says in premises) for premises in affected)
+    return (
+        f"Of the {holding} equations that hold, {len(affected)} need a premise that the paper's own scene does not meet. "
+        f"There are {len(frequent)} such premises. The three that most equations need are: {named}; "
+        f"{some} of the {len(affected)} equations need at least one of these. The verdicts on these {len(affected)} do not "
+        "extend to the paper's own scene, for which the equations are at best approximate. Each entry says how far the "
+        "scene is from the premise."
+    )
 
 
 def headlines(report: Report) -> list[Headline]:

@@ -44,6 +44,9 @@ END = "\\end{document}\n"
 _LETTERS = {
     "−": "$-$", "–": "--", "⁻": "$^-$", "·": r"$\cdot$", "±": r"$\pm$", "∓": r"$\mp$", "×": r"$\times$", "ℓ": r"$\ell$",
     "≤": r"$\leq$", "≥": r"$\geq$", "≈": r"$\approx$", "≠": r"$\neq$", "→": r"$\to$", "…": r"\ldots{}", "°": r"$^\circ$",
+    "≪": r"$\ll$", "≫": r"$\gg$", "‖": r"$\|$", "∝": r"$\propto$", "∘": r"$\circ$", "↔": r"$\leftrightarrow$", "∼": r"$\sim$",
+    "∗": "$*$", "∑": r"$\sum$", "∏": r"$\prod$", "≡": r"$\equiv$", "⇒": r"$\Rightarrow$", "∈": r"$\in$", "ϕ": r"$\phi$",
+    "ϵ": r"$\epsilon$", "—": "---", "“": "``", "”": "''", "„": "``", "‘": "`", "’": "'", "µ": r"$\mu$",
     "∫": r"$\int$", "∂": r"$\partial$", "∇": r"$\nabla$", "∞": r"$\infty$", "⟨": r"$\langle$", "⟩": r"$\rangle$",
     "†": r"$\dagger$", "′": "$'$", "″": "$''$", "ᵀ": "$^T$", "√": r"$\surd$",
     "§": r"$\mathsection$", "ß": r"\ss{}", "ø": r"\o{}", "Ø": r"\O{}", "ł": r"\l{}", "Ł": r"\L{}", "æ": r"\ae{}", "œ": r"\oe{}",
@@ -90,7 +93,12 @@ def _character(character: str) -> str:
     letter, *marks = list(unicodedata.normalize("NFKD", character))
     if letter.isascii() and letter.isalpha() and len(marks) == 1 and marks[0] in _ACCENTS:
         return rf"\{_ACCENTS[marks[0]]}{{{letter}}}"
-    return "".join((letter, *marks)).encode("ascii", "ignore").decode() or "?"
+    return "".join((letter, *marks)).encode("ascii", "ignore").decode() or unknown(character)
+
+
+def unknown(character: str) -> str:
+    """Return LaTeX of a character for which no command is known: its name in Unicode."""
+    return rf"\text{{[{unicodedata.name(character, f'U+{ord(character):04X}').lower()}]}}"
 
 
 def _letter(match: re.Match[str]) -> str:
@@ -113,7 +121,7 @@ def displayed_formula(source: str) -> str:
 def tidy(source: str) -> str:
     """Return a formula in ASCII without the comma or full stop at its end."""
     clean = re.sub(r"[.,;]\s*$", "", source.strip()).replace(r"\mathbb{1}", r"\one ")
-    clean = "".join(c if c.isascii() else GREEK.get(c) or _LETTERS.get(c, "?").strip("$") for c in clean)
+    clean = "".join(c if c.isascii() else GREEK.get(c) or _LETTERS.get(c, unknown(c)).strip("$") for c in clean)
     return _LONE.sub(r" \1 ", clean)
 
 

@@ -32,8 +32,18 @@ from lagrotor.report.content import (
     notation,
     word,
 )
-from lagrotor.report.errata import errata, premise_formulas
-from lagrotor.report.facts import Fact, balance, facts, figure_facts, headlines, linked_facts, note, opening
+from lagrotor.report.errata import (
+    LETTER_HEAD,
+    LETTERS_FIRST,
+    PREMISES_CITED,
+    cited_premises,
+    errata,
+    letter_table,
+    listed_premises,
+    premise_text,
+    sheet_summary,
+)
+from lagrotor.report.facts import Fact, balance, facts, figure_facts, headlines, linked_facts, note, opening, unmet
 from lagrotor.report.latex import (
     END,
     displayed_expression,
@@ -67,7 +77,9 @@ class File:
     name: str
 
 
-Span: TypeAlias = "str | sp.Basic | Bold | Links | File | tuple[Span, ...]"  # in a line or cell; a tuple is stacked
+Span: TypeAlias = (
+    "str | sp.Basic | Bold | Links | File | Display | tuple[Span, ...]"  # in a line or cell; a tuple is stacked
+)
 Line: TypeAlias = list[Span]  # joined by spaces
 
 
@@ -82,7 +94,7 @@ class Heading:
 
 @dataclass(frozen=True)
 class Display:
-    """A formula on its own line, given as LaTeX or as an expression."""
+    """A formula on its own line, given as LaTeX or as an expression; within a line or a cell it is LaTeX."""
 
     formula: str | sp.Basic
 
@@ -144,22 +156,37 @@ def _summary(report: Report) -> Iterator[Block]:
 
 
 def _verdicts(report: Report) -> Iterator[Block]:
+    if text := unmet(report):
+        yield [text]
     rows = [(Links((v.id,)), report.paper.equation(v.id).title, word(v.verdict), note(v)) for v in report.verdicts]
     yield Rows(("Equation", "Title", "Verdict", "Reason or condition"), rows)
 
 
 def errata_blocks(report: Report) -> Iterator[Block]:
     """Yield the blocks of the errata sheet; none if no equation is refuted."""
-    for e in errata(report.verdicts, report.paper):
+    errors = list(errata(report.verdicts, report.paper))
+    if not errors:
+        return
+    for sentence in sheet_summary(report.verdicts, errors):
+        yield [sentence]
+    rows = letter_table(errors, report.paper)
+    if rows:
+        yield [LETTERS_FIRST]
+    yield Rows(LETTER_HEAD, [(Display(tex), *texts) for tex, *texts in rows])
+    listed = listed_premises(errors)
+    if listed:
+        yield [PREMISES_CITED]
+    for number, premise in enumerate(listed, 1):
+        yield [Bold(f"P{number}:"), f"{premise_text(premise)}."]
+    for e in errors:
         yield Heading(f"erratum-{e.id}", e.title, f"Erratum {e.id}:")
-        yield [e.wrong]
+        yield [Bold(f"{e.cited.capitalize()}."), e.wrong]
         yield [Bold("Printed.")]
         yield Display(e.printed)
         yield [Bold(f"Corrected equation ({e.verdict_of_correction}).")]
         yield from map(Display, e.corrected)
         for label, premises in e.conditions:
-            yield [Bold(f"{label}:"), "; ".join(p.sentence for p in premises)]
-            yield from map(Display, premise_formulas(premises))
+            yield [Bold(f"{label}:"), f"{cited_premises(premises, listed)}."]
         yield ["Used by:", Links(e.used_by) if e.used_by else "none", f"– {e.reach}."]
 
 
@@ -296,6 +323,8 @@ def _span(span: Span, target: str = "") -> str:
             return ", ".join(f"[{identifier}]({target}#{anchor(identifier)})" for identifier in ids)
         case File(address, name):
             return f"[{name}]({address})"
+        case Display(str(formula)):
+            return f"${formula}$"
         case tuple():
             return "<br>".join(map(_span, span))
         case formula:  # a bar would end the cell
@@ -351,6 +380,8 @@ def _latex_span(span: Span) -> str:
             return ", ".join(rf"\hyperlink{{{anchor(identifier)}}}{{{latex_prose(identifier)}}}" for identifier in ids)
         case File(_, name):
             return latex_prose(name)
+        case Display(str(formula)):
+            return f"${formula}$"
         case tuple():
             return r"\par ".join(map(_latex_cell, span))
         case formula:

@@ -16,11 +16,12 @@ from lagrotor.numerics.arrays import Array as Array
 from lagrotor.numerics.codegen import Program
 from lagrotor.numerics.printers import compile_program, in_blocks, program_source
 from lagrotor.pair.notation import GLOSSARY
+from lagrotor.result_display import in_lines
 
 _Bound = Callable[..., Array]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class ClosedForm:
     """Expressions with their arguments and domain. A call with numbers or arrays in the order of `arguments` evaluates them.
 
@@ -92,6 +93,12 @@ class ClosedForm:
             Python source.
         """
         return program_source(self._program, module)
+
+    def __repr__(self) -> str:
+        rows = {name: str(e) for name, e in zip(self.outputs, self.expressions, strict=True)}
+        rows |= {"where": ", ".join(map(str, self.domain))} if self.domain else {}
+        rows |= {"under": self.assumptions} if self.assumptions else {}
+        return in_lines(f"{self.name}({', '.join(map(str, self.arguments))})", rows)
 
     def _repr_latex_(self) -> str:
         pairs = zip(self.outputs, self.expressions, strict=True)

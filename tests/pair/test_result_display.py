@@ -13,6 +13,7 @@ from lagrotor import (
     Structure,
     floquet,
     orbit_family,
+    pair_precession_rate,
     precession_orbit,
     shock_response,
     simulate,
@@ -33,6 +34,7 @@ RESULTS = {
     "Floquet": lambda: floquet(PAIR, 0.1),
     "ShockResponse": lambda: shock_response(Scene(spins=(10, -10), shock=Shock((4, 0, 0), at=1, width=0.05))),
     "Ensemble": lambda: sweep([PAIR], [0, 1]),
+    "Equilibrium": lambda: PENDULUM.equilibria()[1],
     "Modes": CORNER.modes,
     "Standing": CORNER.stands,
     "Characteristic": CORNER.characteristic,
@@ -50,6 +52,14 @@ def test_every_result_is_a_table_in_a_notebook(name: str) -> None:
     assert all(result.summary().values()) and html.count("<tr>") == len(result.summary())
     lines = repr(result).split("\n")
     assert lines[0] == name and len(lines) == 1 + len(result.summary())
+
+
+def test_systems_and_closed_forms_are_printed_in_lines() -> None:
+    assert repr(PENDULUM) == "System\n  coordinates  theta\n  L            theta_dot**2/2 + cos(theta)"
+    assert repr(PENDULUM.equilibria()[1]) == "Equilibrium\n  theta  pi"
+    assert repr(pair_precession_rate()).startswith(
+        "pair_precession_rate(theta_1, theta_2, A, B, J, I_3)\n  phi'   (2*A"
+    )
 
 
 def test_a_film_is_shown_in_a_notebook(tmp_path) -> None:

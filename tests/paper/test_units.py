@@ -6,7 +6,7 @@ import sympy as sp
 from lagrotor.errors import InputError
 from lagrotor.mechanics import coordinates
 from lagrotor.paper import Glossary, Paper, Premise
-from lagrotor.paper.catalogue import section_glossary
+from lagrotor.paper.catalogue import section_glossary, section_meanings
 from lagrotor.paper.ledger import decide
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.paper.scripts import beside
@@ -161,3 +161,16 @@ def test_units_of_a_sections_letters_are_those_of_the_catalogue(tmp_path) -> Non
     (tmp_path / "equations.toml").write_text(head + 'kg = "M"\n')
     with pytest.raises(InputError, match="section 1 has no symbol 'M'"):
         section_glossary(Paper(tmp_path), "1")
+
+
+def test_meanings_of_a_sections_letters_go_before_those_of_the_glossary(tmp_path) -> None:
+    (tmp_path / "paper.toml").write_text('title = "A"\n[sections]\n1 = "one"\n2 = "two"\n')
+    (tmp_path / "equations.toml").write_text("[meanings.1]\nR = ['a rotation', '1']\n")
+    assert section_meanings(Paper(tmp_path), "1") == {"R": ("a rotation", "1")}
+    assert section_meanings(Paper(tmp_path), "2") == {}
+    assert section_meanings(PAPER, "3")["M"] == ("sum of the masses", "kg")
+    assert section_meanings(PAPER, "5.2")["M"] == ("mass of a rotor", "kg")
+    for wrong in ("R = 'a rotation'", "R = ['a rotation']", "R = ['a rotation', 1]"):
+        (tmp_path / "equations.toml").write_text(f"[meanings.1]\n{wrong}\n")
+        with pytest.raises(InputError, match=r"meanings: section 1: R has .*: write \[meaning, unit\]"):
+            Paper(tmp_path)

@@ -1,5 +1,7 @@
 """The premises that the scripts give to the ledger are those that a reader gets: in the shell, page, data and errata."""
 
+import re
+
 import pytest
 
 from lagrotor.paper import Audit, Premise, Verdict
@@ -56,6 +58,11 @@ def test_shell_page_and_data_show_the_premises_of_all_equations(report: Report) 
         assert ("stated if" in shell) == ("Premises of the error" in page) == bool(verdict.refuted_under), verdict.id
 
 
+def number_in(markdown: str, words: str) -> str:
+    """The number, such as P3, of the premise that begins with these words."""
+    return markdown.split(f":** {words}")[0].rpartition("**")[2]
+
+
 def test_errata_in_three_forms_show_the_premises_of_every_refuted_equation(report: Report) -> None:
     markdown, tex = errata_sheet(report), latex_document(report.verdicts, PAPER)
     rows = {e.id: e for e in errata(report.verdicts, PAPER)}
@@ -64,10 +71,11 @@ def test_errata_in_three_forms_show_the_premises_of_every_refuted_equation(repor
     for verdict in report.verdicts:
         for premise in shown_premises(verdict) if verdict.verdict == "refuted" else ():
             words = readable(premise.says).replace("|", r"\|").split(":")[0].split("_")[0].split("*")[0]
-            assert words in sheets[verdict.id], (verdict.id, premise.says)
+            assert f"**{number_in(markdown, words)}:**" in markdown
+            assert re.search(rf"\b{number_in(markdown, words)}\b", sheets[verdict.id]), (verdict.id, premise.says)
             assert prose(premise.sentence) in erratum_entry(rows[verdict.id]), (verdict.id, premise.says)
-            number = tex.split(f") {latex_prose(premise.says)}")[0].rpartition("(")[2]
-            assert f"({number})" in items[verdict.id], (verdict.id, premise.says)
+            number = tex.split(f": {latex_prose(premise.says)}")[0].rpartition("\n")[2]
+            assert re.search(rf"\b{number}\b", items[verdict.id]), (verdict.id, premise.says)
 
 
 def test_differences_are_in_their_normal_form_and_numbers_in_digits(report: Report) -> None:

@@ -110,7 +110,7 @@ def test_text_is_text() -> None:
     assert latex_prose("50 % of r_0² & more") == r"50 \% of $r_{0}$$^2$ \& more"
     assert latex_prose("a\\b^c~d") == r"a\textbackslash{}b\^{}c\~{}d"
     assert latex_prose("phi_dot, theta_1_dot and Omega") == r"$\dot{\phi}$, $\dot{\theta}_{1}$ and $\Omega$"
-    assert latex_prose("☃éßŁş") == r"?\'{e}\ss{}\L{}\c{s}", "a sign without a word of its own is marked"
+    assert latex_prose("☃éßŁş") == r"\text{[snowman]}\'{e}\ss{}\L{}\c{s}", "a sign without a word of its own is named"
     assert latex_prose("∫₀₁² f₂ ∞†") == r"$\int$$_{01}$$^2$ $f_{2}$ $\infty$$\dagger$", "an index without a letter"
     assert r"\allowbreak" in latex_prose("G_1**2*a-2*G_1*G_2*b+G_2**2*a") and r"\allowbreak" not in latex_prose(
         "a short word"

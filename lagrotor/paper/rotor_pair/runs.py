@@ -24,6 +24,7 @@ from lagrotor.pair.quantities import Spins, Vector
 from lagrotor.pair.scene import Link, Scene, Shock
 from lagrotor.pair.trajectory import Trajectory, ansatz_A
 from lagrotor.theory.natural_frequency import free_precession_rate
+from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.paired_precession.closed_forms import corrected_trajectories
 
 # s. The paper's shocks have their peak at 2 s. They end before the first time, at which energies are read; the wider shocks of
@@ -49,6 +50,12 @@ def after_shock(scene: Scene, seconds: float, tol: float = 1e-9) -> Trajectory:
     first, last = shock.at + PULSE_REACH * shock.width, shock.at + seconds
     times = np.linspace(first, last, round(40 * seconds) + 1)
     return simulate(scene, [0.0, *times], "spheres", tol).after(first)
+
+
+def listed_rates(spins: tuple[float, float]) -> str:
+    """Return in words the natural frequencies of the pair with each of the two bars that the paper lists."""
+    bars = {"the heavy bar of section 4.1": HEAVY_LINK, "the light bar of section 5.2.1": PAPER_BAR}
+    return " and ".join(f"{natural_rate(Scene(spins, link=bar)):.3f} rad/s with {name}" for name, bar in bars.items())
 
 
 def angle_between(axes: Array) -> Array:

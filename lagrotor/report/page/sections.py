@@ -27,7 +27,7 @@ from lagrotor.report.content import (
     notation,
 )
 from lagrotor.report.errata import Erratum, errata, premise_formulas
-from lagrotor.report.facts import Headline, balance, facts, figure_facts, headlines, linked_facts, note, opening
+from lagrotor.report.facts import Headline, balance, facts, figure_facts, headlines, linked_facts, note, opening, unmet
 from lagrotor.report.page.html_elements import (
     badge,
     code,
@@ -210,7 +210,8 @@ def _verdicts(report: Report) -> str:
         (link(v.id), prose(report.paper.equation(v.id).title), badge(v.verdict), f"<small>{prose(note(v))}</small>")
         for v in report.verdicts
     ]
-    return html_table(("Equation", "Title", "Verdict", "Reason or condition"), lines, "verdicts")
+    above = f"<p>{prose(text)}</p>" if (text := unmet(report)) else ""
+    return above + html_table(("Equation", "Title", "Verdict", "Reason or condition"), lines, "verdicts")
 
 
 def _notation(report: Report) -> str:
