@@ -144,6 +144,7 @@ def test_every_notebook_has_its_test_and_no_output() -> None:
         "small_motions",
         "speed_against_accuracy",
         "structures",
+        "the_pair_in_thirty_lines",
         "velocities_and_joints",
     ]
     for stem in stems:

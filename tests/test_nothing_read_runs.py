@@ -17,7 +17,7 @@ import pytest
 import sympy as sp
 
 import lagrotor
-from lagrotor import Scene, Trajectory, read_scene
+from lagrotor import Scene, Sweep, Trajectory, read_scene, sweep
 from lagrotor.commands.command_line import main
 from lagrotor.errors import LagrotorError
 from lagrotor.files import read_arrays
@@ -379,6 +379,30 @@ def test_no_file_of_arrays_runs(tmp_path: Path) -> None:
         mark.unlink()
 
 
+def test_no_folder_of_a_sweep_and_no_table_runs(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Pickles and Python in every file of the folder and in a table; the twin is numpy, told to read objects."""
+    mark, folder, table = tmp_path / "ran", tmp_path / "out", tmp_path / "scenes.csv"
+    sweep([Scene((10, -10))], [0.0, 0.1], folder=folder)
+    objects = np.empty(1, object)
+    objects[0] = Call(eval, python(mark)[0])
+    np.save(tmp_path / "objects.npy", objects, allow_pickle=True)
+    texts = [(tmp_path / "objects.npy").read_bytes(), *(text.encode() for text in python(mark))]
+    for file in sorted(folder.iterdir()):
+        kept = file.read_bytes()
+        for text in texts:
+            file.write_bytes(text)
+            with suppress(LagrotorError):
+                _ = [np.asarray(getattr(Sweep.open(folder), name)) for name in ("axes", "errors", "models")]
+            assert not mark.exists(), file.name
+        file.write_bytes(kept)
+    for text in python(mark):
+        table.write_text(f"spins_1,spins_2\n{text},{text}\n", encoding="utf-8")
+        assert main(["sweep", "--columns", str(table)]) == 2 and not mark.exists()
+    assert "--columns" in capsys.readouterr().err
+    np.load(tmp_path / "objects.npy", allow_pickle=True)
+    assert mark.exists()
+
+
 # ---- pages
 
 
@@ -433,12 +457,14 @@ READERS = {
     "benchmark/records.py": "own",
     "commands/command_line.py": "own",
     "commands/paper_commands.py": "LaTeX",
+    "commands/scene_commands.py": "sweeps",
     "drawing/film.py": "own",
     "drawing/view.py": "own",
     "lazy_imports.py": "own",
     "files.py": "arrays",
     "mechanics/running/simulation.py": "arrays",
     "models/spring_link/run.py": "arrays",
+    "models/sweeps/sweep_folder.py": "sweeps",
     "numerics/run.py": "arrays",
     "numerics/source_cache.py": "system",
     "pair/scene_document.py": "scene",
@@ -509,7 +535,7 @@ def modules_that(have: Callable[[ast.AST], bool], words: str) -> set[str]:
 def test_every_module_that_reads_or_runs_stands_behind_a_door() -> None:
     words = "|".join([*_NAMES, *(name for name, _ in _MODULES)])
     assert modules_that(reads_or_runs, rf"\b({words})\b") == set(READERS)
-    assert set(READERS.values()) - set(TEXTS) == {"own", "program", "arrays", "products"}
+    assert set(READERS.values()) - set(TEXTS) == {"own", "program", "arrays", "products", "sweeps"}
     assert reads_or_runs(ast.parse("pickle.loads(b'')")) and not reads_or_runs(ast.parse("re.compile('x')"))
 
 

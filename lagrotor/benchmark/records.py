@@ -132,15 +132,15 @@ def _digest(folder: Path) -> str:
     """Return the digest of the modules in a folder, and of the kept programs, which are code without words."""
     digest = sha256()
     for file in sorted([*folder.rglob("*.py"), *folder.rglob(KEPT_SOURCES)]):
-        code = file.read_text(encoding="utf-8") if file.name == KEPT_SOURCES else _code_of(file)
+        code = file.read_text(encoding="utf-8") if file.name == KEPT_SOURCES else _code_of(file.read_bytes())
         digest.update(f"{file.relative_to(folder).as_posix()} {code}".encode())
     return digest.hexdigest()
 
 
 @cache
-def _code_of(file: Path) -> str:
-    """Return the code of a file as text, without docstrings; records share many files."""
-    return str(_code(ast.parse(file.read_bytes())))
+def _code_of(source: bytes) -> str:
+    """Return the code of a module as text, without docstrings; records share many modules."""
+    return str(_code(ast.parse(source)))
 
 
 def _code(node: object) -> object:

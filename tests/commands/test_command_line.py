@@ -32,7 +32,7 @@ from lagrotor.paper.rotor_pair import rotor_pair_audit
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.paper.verdicts import Relation, Statement
 from lagrotor.report.formulas import mathml_latex
-from lagrotor.report.job import cache, folder, reproduce
+from lagrotor.report.job import cache, dependencies, folder, reproduce
 
 ROOT = Path(lagrotor.__file__).parent.parent
 SINGLE_ROTOR = ("5.01", "5.02", "5.03", "5.04", "5.05", "5.06")
@@ -493,7 +493,7 @@ def test_report_without_the_converter_says_so(
     assert main(["reproduce", "--jobs", "1"]) == 0
     assert "pip install" not in capsys.readouterr().out
     monkeypatch.setattr(mathml_latex, "converter", lambda: "")
-    monkeypatch.setattr(reproduce, "converter", lambda: "")
+    monkeypatch.setattr(dependencies, "converters", dict)
     assert main(["reproduce", "--jobs", "1"]) == 0
     out = capsys.readouterr().out
     assert out.splitlines()[-1].endswith("pip install 'lagrotor[report]'")

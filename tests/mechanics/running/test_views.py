@@ -34,7 +34,7 @@ def test_a_notebook_shows_the_equations_of_a_system() -> None:
     shown = TOP._repr_markdown_()
     headings = re.findall(r"\*\*(.+)\*\*", shown)
     assert headings == ["Kinetic energy", "Potential energy", "Equations of motion", "Conserved"]
-    assert r"$$V = g l m \cos \theta$$" in shown
+    assert r"$$V = m g l \cos \theta$$" in shown
     assert r"$$I_3 \ddot{\phi} \cos \theta + I_3 \ddot{\psi} - I_3 \dot{\phi} \dot{\theta} \sin \theta = 0$$" in shown
     assert r"$$p_{\psi} = I_3 \dot{\phi} \cos \theta + I_3 \dot{\psi}$$" in shown
     rough = System(ONE, ROD.L, dissipation=mu * ONE.v[0] ** 2)
@@ -51,7 +51,7 @@ def test_latex_has_functions_dots_and_names() -> None:
         and r"U'\left(x - y\right)" in lines[1]
         and r"\lambda_{\mathrm{slip}}" in lines[1]
     )
-    assert lines[4] == r"- \dot{y}_s\left(t\right) + \dot{x} &= 0"
+    assert lines[4] == r"\dot{x} - \dot{y}_s\left(t\right) &= 0"
 
 
 def odd_names() -> System:
@@ -66,8 +66,8 @@ def test_any_name_is_latex() -> None:
     lines = odd_names().latex().splitlines()
     rod = r"\lambda_{\mathrm{rod\ \&\ bar\_1\ 50\%\ \#2\ \$\ \{\ \alpha }}"
     # The coordinate's acceleration is no multiplier.
-    assert lines[1] == rf"\ddot{{\lambda}} m - 2 \lambda {rod} &= 0 \\"
-    assert lines[2] == rf"m \ddot{{\alpha}}_{{in}} + g m - 2 {rod} \alpha_{{in}} &= 0 \\"
+    assert lines[1] == rf"m \ddot{{\lambda}} - 2 \lambda {rod} &= 0 \\"
+    assert lines[2] == rf"m \ddot{{\alpha}}_{{in}} + m g - 2 {rod} \alpha_{{in}} &= 0 \\"
     assert lines[3] == r"m \ddot{\gamma\%} - \lambda_{\mathrm{\text{é}}} &= 0 \\"
     assert r"\ddot{\delta}_1" in lines[4]
     c = coordinates("lambda y")  # whose velocity is lambda_dot
@@ -105,8 +105,8 @@ def test_equations_are_shown_in_velocities_of_ones_own() -> None:
         r"\dot{x} &= u \cos \phi \\",
         r"\dot{y} &= u \sin \phi \\",
         r"\dot{\phi} &= \omega \\",
-        r"m \dot{u} - a m \omega^{2} &= 0 \\",
-        r"\dot{\omega} \left(I + a^{2} m\right) + a m \omega u &= 0",
+        r"m \dot{u} - m a \omega^{2} &= 0 \\",
+        r"\dot{\omega} \left(I + m a^{2}\right) + m a \omega u &= 0",
         r"\end{align}",
     ]  # and not the rolling again, which the first two keep
     assert "Constraints" not in system._repr_markdown_()
