@@ -50,7 +50,7 @@ def check(runs: Sweep, n: int) -> None:
     assert len(runs) == n == len(Sweep.open(runs.folder)) and not len(runs.failed)
     assert (runs.error <= TOL).all() and (runs.evaluations > 0).all()
     for i in np.linspace(0, n - 1, 5).astype(int):
-        exact = simulate(runs.scenes[i], TIMES, "minimal", 1e-10)
+        exact = simulate(runs.scenes[i], TIMES, "spheres", 1e-10)
         apart = np.linalg.norm(runs.axes[i] - exact.axes, axis=-1).max()
         assert apart <= runs.error[i] + exact.error, (i, apart, runs.error[i])
 
