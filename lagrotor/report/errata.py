@@ -153,7 +153,7 @@ def letter_table(errors: Iterable[Erratum], paper: Paper) -> list[tuple[str, str
 
     A letter that has two meanings has two rows. A letter that the paper does not explain has none.
     """
-    rows: dict[tuple[str, str, str], list[str]] = {}
+    rows: dict[tuple[str, str, str], tuple[str, list[str]]] = {}  # (letter, meaning, unit) → LaTeX, ids
     for e in errors:
         known = {
             letters_in(tex): (tex, *row) for tex, row in section_meanings(paper, e.section).items() if "dot{" not in tex
@@ -161,8 +161,10 @@ def letter_table(errors: Iterable[Erratum], paper: Paper) -> list[tuple[str, str
         premises = (p for _, listed in e.conditions for p in listed if not _in_components(p))
         for letter in dict.fromkeys(c for tex in (*e.corrected, *premise_formulas(premises)) for c in letters_in(tex)):
             if (letter,) in known:
-                rows.setdefault(known[letter,], []).append(e.id)
-    return [(*row, ", ".join(ids)) for row, ids in rows.items()]
+                tex, meaning, unit = known[letter,]
+                ids = rows.setdefault((letter, meaning, unit), (tex, []))[1]
+                ids += [e.id] if e.id not in ids else []
+    return [(tex, meaning, unit, ", ".join(ids)) for (_, meaning, unit), (tex, ids) in rows.items()]
 
 
 def listed_premises(errors: Iterable[Erratum]) -> list[Premise]:
