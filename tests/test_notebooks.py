@@ -154,6 +154,7 @@ def test_every_notebook_has_its_test_and_no_output() -> None:
 
 def test_the_pair_in_thirty_lines() -> None:
     names, ends = ran("the_pair_in_thirty_lines")
-    assert "dot{\\theta}_1" in ends[1].data and ends[2].data.startswith("0 = k")
-    assert names["rate"].expressions == ends[4].expressions and ends[5].error < 1e-11
-    assert 1e-3 < ends[6] < 2e-3 and ends[7] == "0.43%, 7.910 and 7.918 rad/s"
+    assert ends[1].tex.startswith(r"\mathcal L = ") and r"\dot{\theta}_1" in ends[1].tex
+    assert ends[2].tex.startswith("0 = k") and (ends[3].name, ends[4].name) == ("A", "B")
+    assert names["rate"].expressions == ends[5].expressions and ends[6].error < 1e-11
+    assert 1e-3 < ends[7] < 2e-3 and ends[8] == "0.43%, 7.910 and 7.918 rad/s"

@@ -7,7 +7,7 @@ from runpy import run_path
 import pytest
 
 from lagrotor.benchmark import records
-from lagrotor.benchmark.scenes_and_methods import OURS
+from lagrotor.benchmark.scenes_and_methods import METHODS, OURS
 from lagrotor.errors import LagrotorError
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
@@ -27,7 +27,8 @@ def test_the_tables_are_the_record(made):
     told = {row[0]: dict(zip(multiples.head, row, strict=True)) for row in multiples.rows}
     for best in OURS:  # each is one of itself
         assert told[f"best of {best}"][f"divided by {best}, 1e-06"] == "1"
-    assert told["minimal"]["divided by core, 1e-06"] == "1" != told["minimal"]["divided by any model, 1e-06"]
+    minimal = told["minimal"]
+    assert 1 <= float(minimal["divided by core, 1e-06"]) < float(minimal["divided by any model, 1e-06"])
     assert len(rates.rows) == len(found["throughput"])
 
 
@@ -35,6 +36,8 @@ def test_the_tables_are_the_record(made):
 def test_the_page_says_what_others_do_faster_and_by_how_much_they_miss_their_tolerance(older, tmp_path, monkeypatch):
     found = records.recorded_speed()
     errors = found["at_error"]
+    for at in errors.values():
+        at |= {name: None for name in at.keys() - METHODS.keys() if not name.startswith("best of ")}  # the record's own
     errors["1e-06"]["heyoka alone"] = errors["1e-06"]["best of fast"] / 2
     errors["1e-08"]["heyoka alone"] = 2 * errors["1e-08"]["best of fast"]
     for error in ("1e-10", "1e-12", "1e-13"):
