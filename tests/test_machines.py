@@ -62,7 +62,7 @@ def test_the_extras_are_in_the_environment_that_tests_them() -> None:
 
 
 def test_another_kernel_leaves_out_what_needs_neither_numbers_nor_an_extra() -> None:
-    """What it leaves out is not run with the extras either."""
+    """Tests that another kernel leaves out are not run with the extras either."""
     assert all(run.without == SYMBOLIC for run in runs() if run.tests == COMPUTING)
     assert {test.partition("::")[0] for test in SYMBOLIC}.isdisjoint(test.partition("::")[0] for test in extras_tests())
     for test in SYMBOLIC:

@@ -32,7 +32,7 @@ _REPRODUCE = ("-m", "lagrotor", "reproduce", "--out", "report")
 
 @dataclass(frozen=True)
 class Used:
-    """What one process and its children used, wall-clock and processor time in s, and what it printed."""
+    """The wall-clock and processor time in s of one process and its children, and the text that it printed."""
 
     wall: float
     processor: float
