@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
-from lagrotor.mechanics.glossary import latex
+from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.glossary import formulas, latex
+from lagrotor.paper.claim_tests import ClaimTest
 from lagrotor.paper.equation_statements import Stated
 from lagrotor.paper.plain_text import readable
 from lagrotor.paper.proof import Formula, Remark, Step
@@ -210,12 +212,21 @@ def _value_html(value: Any, answers: Mapping[str, str]) -> str:
     if isinstance(value, Stated):
         answer = badge(answers[value.id]) if value.id in answers else ""
         return f'<p class="judged"><a href="#{anchor(value.id)}">{escape(value.id)}</a> {answer}</p>'
+    if isinstance(value, ClaimTest):
+        return f'<p class="judged">Outcome and measured numbers: <a href="#{anchor(value.id)}">{value.id}</a></p>'
     if isinstance(value, Remark):
         return f"<p><b>{prose(value.title)}.</b> {prose(value.text)}</p>"
     if isinstance(value, Table):
-        return html_table(value.head, (tuple(_derived_cell(cell) for cell in row) for row in value.rows))
+        note = f"<p><small>{prose(value.note)}</small></p>" if value.note else ""
+        rows = (tuple(_derived_cell(cell) for cell in row) for row in value.rows)
+        return f"<p><b>{prose(value.title)}.</b></p>{html_table(value.head, rows)}{note}"
+    if isinstance(value, Equations):
+        parts = formulas(value).items()
+        return "".join(f"<p>{name}</p>{''.join(map(typeset, lines))}" for name, lines in parts)
     if isinstance(value, sp.Basic | sp.MatrixBase):
         return typeset(Formula(value).tex)
+    if isinstance(value, str | float):
+        return f"<p>{prose(value if isinstance(value, str) else f'{value:.6g}')}</p>"
     from lagrotor.drawing.run_figure import RunFigure
 
     if isinstance(value, RunFigure):
