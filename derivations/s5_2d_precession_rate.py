@@ -3,7 +3,7 @@
 #
 # **Objective.** $\dot\phi$ from $A$ and $B$, the values that the paper gives $A$ and $B$, and the prediction of the formula.
 #
-# **Assumptions.** Those of $A$ and $B$ (5.12, 5.13), named where they are used.
+# **Assumptions.** Those of $A$ and $B$ (5.12, 5.13), named where they are used. Figure t4 shows the actual rate.
 #
 # **Notation.** $A = p_{\phi_1} - p_{\phi_2}$, $B = p_{\psi_1} - p_{\psi_2}$; $S = \cos\theta_1 + \cos\theta_2$;
 # $\theta_m$ the mean inclination, printed $\bar\theta$, and $\delta$ half the difference; $\omega_i$ the axial velocities.

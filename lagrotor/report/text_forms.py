@@ -13,7 +13,7 @@ import sympy as sp
 
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.claim_tests import Result
-from lagrotor.paper.plain_text import readable
+from lagrotor.paper.plain_text import readable_on_page
 from lagrotor.paper.tables import Cell, FigureLink
 from lagrotor.paper.verdicts import Verdict
 from lagrotor.pictures.figures import Picture
@@ -333,7 +333,7 @@ def _span(span: Span, target: str = "") -> str:
 
 def _prose(text: str) -> str:
     """Return text on one line, in which characters with a meaning in Markdown, HTML or tables are escaped."""
-    return re.sub(r"([\\`*_\[\]<>|#$~])", r"\\\1", " ".join(readable(text).split()))
+    return re.sub(r"([\\`*_\[\]<>|#$~])", r"\\\1", " ".join(readable_on_page(text).split()))
 
 
 def supplement(report: Report) -> str:

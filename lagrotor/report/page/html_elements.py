@@ -14,7 +14,7 @@ from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.glossary import formulas, latex
 from lagrotor.paper.claim_tests import ClaimTest
 from lagrotor.paper.equation_statements import Stated
-from lagrotor.paper.plain_text import readable
+from lagrotor.paper.plain_text import readable_on_page
 from lagrotor.paper.proof import Formula, Remark, Step
 from lagrotor.paper.scripts import Script
 from lagrotor.paper.tables import Cell, FigureLink, Table
@@ -44,7 +44,7 @@ def prose(text: str) -> str:
 
 
 def _plain(text: str) -> str:
-    html = escape(readable(text))
+    html = escape(readable_on_page(text))
     html = _CODE.sub(r"<code>\1</code>", html)
     indexed = _INDEX.sub(lambda match: f"{match[1]}<sub>{match[2].replace('_', ',')}</sub>", html)
     return _POWER.sub(r"<sup>\1</sup>", indexed)
@@ -52,7 +52,7 @@ def _plain(text: str) -> str:
 
 def html_table(head: tuple[str, ...], lines: Iterable[tuple[str, ...]], kind: str = "plain") -> str:
     """Return a table of HTML cells; the first cell of each line is its header."""
-    heads = [escape(readable(cell), quote=True) for cell in head[1:]]
+    heads = [escape(readable_on_page(cell), quote=True) for cell in head[1:]]
     top = "".join(f'<th scope="col">{prose(cell)}</th>' for cell in head)
     rows = (f'<tr><th scope="row">{first}</th>{"".join(map(_under, heads, cells))}</tr>' for first, *cells in lines)
     return f'<div class="wide"><table class="{kind}"><thead><tr>{top}</tr></thead><tbody>{"".join(rows)}</tbody></table></div>'

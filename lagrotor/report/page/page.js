@@ -1,9 +1,13 @@
 // The page reads without this script; with it there is a search, open contents on a wide screen, and whole folds on paper.
 
+// Text as it is compared: in small letters, and with the φ of a keyboard for the ϕ of formulas.
+function searchable(text) {
+  return text.toLowerCase().replaceAll("ϕ", "φ");
+}
+
 // A query as the words that an entry must hold: "Fig. 7" and "figure 7" are one, "c8" is C08, "5.1" begins 5.10 too.
 function words(query) {
-  return query
-    .toLowerCase()
+  return searchable(query)
     .replace(/\b(?:fig(?:ure)?s?\.?)\s*(?=[btm]?\d)/g, "figure-")
     .replace(/\b(?:eqs?\.?|equations?)\s*(?=\d)/g, "")
     .replace(/\b(?:claims?\s*c?|c)0*(\d{1,2})\b/g, (_, number) => "c" + number.padStart(2, "0"))
@@ -61,7 +65,7 @@ function setUpSearch(script) {
   async function show() {
     entries ??= (await loadWords(script)).map(([address, anchor, name, text]) => ({
       id: anchor.replace(/^(eq|claim)-/, "").toLowerCase(),
-      text: text.toLowerCase(),
+      text: searchable(text),
       address: address.startsWith("#") ? address : up + address,
       name: (anchor.startsWith("erratum-") ? "Erratum " : "") + name,
     }));

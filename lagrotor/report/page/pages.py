@@ -16,7 +16,7 @@ from lagrotor.paper.plain_text import readable
 from lagrotor.report.content import SUBTITLE, Report, ResultSection
 from lagrotor.report.formulas.font import font_face
 from lagrotor.report.page.html_elements import data_address, prose, side_by_side
-from lagrotor.report.page.sections import Section, introduction, picture_entry, sections
+from lagrotor.report.page.sections import Section, derivation_figures, introduction, picture_entry, sections
 
 _HERE = Path(__file__).parent
 # Hidden until the script, which performs the search, shows it.
@@ -105,7 +105,9 @@ def _pages(report: Report, everything: list[Section]) -> list[Page]:
     result += [Page(f"{FOLDER}/{anchor}.html", section.heading, (section,)) for anchor, section in remaining.items()]
     result.append(Page(f"{FOLDER}/about.html", "How this was made", tuple(about)))
     for stem, name, inside in report.derivations:
-        alone = Section(f"derivation-{stem}", name, inside)
+        introduction, heading, steps = inside.partition("<h3>")
+        drawn = derivation_figures(stem, inside, report)
+        alone = Section(f"derivation-{stem}", name, introduction + drawn + heading + steps)
         result.append(Page(f"{FOLDER}/{alone.anchor}.html", name, (alone,), listed=False))
     return result
 

@@ -3,6 +3,7 @@
 Their links lead to anchors of the report and to files beside its front page.
 """
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from html import escape
@@ -136,6 +137,30 @@ def _image(picture: Picture) -> str:
     width, height = size(picture)
     source = f'src="figures/{picture.svg.name}" width="{width}" height="{height}"'
     return f'<img {source} loading="lazy" alt="{escape(picture.alt)}">'
+
+
+_MOST = 3  # drawings above a derivation; others are linked only
+_NAMED = re.compile(r"\bfigures? ([a-z]?\d+)\b", re.IGNORECASE)
+_TREATED = re.compile(r'class="judged">[^<]*<a href="#([^"]+)"')
+
+
+def derivation_figures(stem: str, inside: str, report: Report) -> str:
+    """Return the figures that belong to a derivation as HTML; the page of the derivation contains `inside`.
+
+    They are the figure of the same name (t5_floquet), those of the equations and claims that it treats, and those that its
+    text names.
+    """
+    treated, name = set(_TREATED.findall(inside)), stem.partition("_")[2]
+    keys = set(_NAMED.findall(inside))
+    keys |= {str(n) for n, figure in report.paper.figures.items() if treated & set(map(anchor, figure.equations))}
+    keys |= {key for claim in report.paper.claims.values() if anchor(claim.id) in treated for key in claim.figures}
+    pictures = [p for p in report.pictures if p.key in keys or p.stem.partition("_")[2] == name]
+    drawn = "".join(
+        f"<figure>{_image(p)}<figcaption>{links([f'figure {p.key}'])}{prose(p.title)}</figcaption></figure>"
+        for p in pictures[:_MOST]
+    )
+    others = links(f"figure {p.key}" for p in pictures[_MOST:])
+    return (f'<div class="figures">{drawn}</div>' if drawn else "") + (f"<p>See also {others}</p>" if others else "")
 
 
 def headline_entry(headline: Headline, report: Report) -> str:
