@@ -6,7 +6,7 @@ import pytest
 
 from lagrotor.paper import Audit, Premise, Verdict
 from lagrotor.paper.audit import in_words, verdict_data
-from lagrotor.paper.plain_text import readable
+from lagrotor.paper.plain_text import readable, readable_on_page
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.report.content import Report
 from lagrotor.report.errata import errata, latex_document
@@ -70,7 +70,7 @@ def test_errata_in_three_forms_show_the_premises_of_every_refuted_equation(repor
     items = dict(zip(rows, tex.split(r"\item ")[1:], strict=True))
     for verdict in report.verdicts:
         for premise in shown_premises(verdict) if verdict.verdict == "refuted" else ():
-            words = readable(premise.says).replace("|", r"\|").split(":")[0].split("_")[0].split("*")[0]
+            words = readable_on_page(premise.says).replace("|", r"\|").split(":")[0].split("_")[0].split("*")[0]
             assert f"**{number_in(markdown, words)}:**" in markdown
             assert re.search(rf"\b{number_in(markdown, words)}\b", sheets[verdict.id]), (verdict.id, premise.says)
             assert prose(premise.sentence) in erratum_entry(rows[verdict.id]), (verdict.id, premise.says)
