@@ -14,11 +14,12 @@ _PYTHON = re.compile(r"\{\w*:|\w=\{|\w\(\w+=|\barray\(|\bnp\.|dtype|<\w+ object|
 
 
 def derivation_faults(html: str, stem: str = "") -> list[str]:
-    """Headings without content, warnings, values in the form of Python, a letter in two forms, and empty paragraphs."""
+    """Headings and colons without content, warnings, values as Python prints them, a letter in two forms, empty paragraphs."""
     found = [f"nothing below {text}" for rank, text, after in _HEADING.findall(html) if not after or after <= rank]
     words = _text(re.sub(r"<(math|code)\b.*?</\1>", " ", html, flags=re.DOTALL))
     found += [f"warning: {line}" for line in re.findall(r".*Warning.*", words)]
     found += [f"Python: {match[0]}" for match in _PYTHON.finditer(words)]
+    found += [f"nothing after {end}:" for end in re.findall(r"([^<>]*):</p>\s*(?=<h\d|$)", html)]
     letters = _text(html)
     forms = [any(form in letters for form in of) for of in (("φ", r"\varphi"), ("ϕ", r"\phi"))]
     found += ["φ and ϕ"] * (all(forms) and stem not in BOTH)

@@ -62,6 +62,7 @@ def test_a_reader_has_nothing_to_mark(stem: str) -> None:
         ("<p>the rate 0.78539816339</p>", "Python: 0.785398163"),
         ("<p>the azimuth φ</p><math><mi>ϕ</mi></math>", "φ and ϕ"),
         (r"<p>the azimuth ϕ</p><code>\dot\varphi</code>", "φ and ϕ"),
+        ("<p>The rates are:</p><h3>Spin</h3><p>3</p>", "nothing after The rates are:"),
         ("<p> </p>", "an empty paragraph"),
     ],
 )
