@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor.benchmark.runner import work_at
-from lagrotor.drawing import OKABE_ITO
+from lagrotor.drawing import OKABE_ITO, legend_below
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 # Method → colour and marker: models as `simulate` runs them, engines on the minimal model, other solvers of scipy on it.
@@ -97,7 +97,7 @@ def figure() -> Figure:
         )
     panel.axhline(np.nanmin(d["closed"]), color="#222222", linestyle="--", label="closed form, no evaluation")
     panel.axhline(d["floor"][0], color="#888888", linestyle=":", linewidth=0.9, label="error of the reference")
-    panel.set(xlabel="evaluations [1]", ylabel="largest error of a tip [m]", title="10 s, 1001 output times")
+    panel.set(xlabel="evaluations", ylabel="largest error of a tip (m)", title="10 s, 1001 output times")
     panel.margins(0.05)
-    picture.legend(loc="outside lower center", ncols=4)
+    legend_below(picture, 4)
     return picture

@@ -13,7 +13,7 @@ from matplotlib.ticker import LogFormatterSciNotation, LogLocator
 
 from lagrotor.benchmark.mechanism_tables import mechanism_name
 from lagrotor.benchmark.records import LINKS, record_age, recorded_bodies_and_lagrangians, recorded_mechanisms
-from lagrotor.drawing import OKABE_ITO
+from lagrotor.drawing import OKABE_ITO, legend_below
 
 BESIDE = ("lagrotor, bodies", "KanesMethod", "LagrangesMethod")  # of the record of bodies and Lagrangians
 LOOKS = {
@@ -26,7 +26,7 @@ LOOKS = {
     "Pinocchio": ("black", "P"),
     "Drake": ("olive", "p"),
 }
-WHAT = {"ready": "time to be ready [s]", "rhs": "a right-hand side [µs]"}
+WHAT = {"ready": "time to be ready (s)", "rhs": "a right-hand side (µs)"}
 
 TITLE = "Other tools on growing mechanisms"
 ALT = (
@@ -90,11 +90,11 @@ def figure() -> Figure:
                 line = {"color": OKABE_ITO.get(colour, colour), "marker": marker, "markersize": 5, "linewidth": 1.0}
                 line["linestyle"] = "-" if name in BESIDE else ":"
                 panel.loglog(d[f"n of {kind}"], seconds * (1e6 if what == "rhs" else 1), label=name, **line)
-            panel.set(xlabel=f"number of {kind} [1]", ylabel=label, title=kind)
+            panel.set(xlabel=f"number of {kind}", ylabel=label, title=kind)
             panel.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if what == "rhs" else (1,)))
             panel.yaxis.set_major_formatter("{x:g}" if what == "rhs" else LogFormatterSciNotation())
             panel.set_xticks(d[f"n of {kind}"], [str(n) for n in d[f"n of {kind}"]])
             panel.minorticks_off()
             panel.margins(x=0.04)
-    picture.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
+    legend_below(picture, 4)
     return picture

@@ -11,7 +11,7 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor.drawing import MODEL_COLOUR, OKABE_ITO
+from lagrotor.drawing import MODEL_COLOUR, OKABE_ITO, legend_below
 from lagrotor.models import paper_system, run_steps
 from lagrotor.pair import DAMPING, SCENES, STEP, STIFFNESS
 
@@ -93,10 +93,10 @@ def figure() -> Figure:
         above = d[name][early] - 100
         label = "kinetic and spring energy" if name == "total" else None
         panels["decay"].semilogy(d["t"][early], above, color=colour, label=label)
-    panels["decay"].set(title="First 0.15 s, above 100 J", ylim=(1e-3, 1e4), ylabel="energy − 100 J [J]")
+    panels["decay"].set(title="First 0.15 s, above 100 J", ylim=(1e-3, 1e4), ylabel="energy − 100 J (J)")
     for name in ("run", "spike"):
-        panels[name].set_ylabel("energy [J]")
+        panels[name].set_ylabel("energy (J)")
     for panel in panels.values():
-        panel.set_xlabel("time [s]")
-    drawn.legend(loc="outside lower center", ncols=2)
+        panel.set_xlabel("time $t$ (s)")
+    legend_below(drawn, 2)
     return drawn

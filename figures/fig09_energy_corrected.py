@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import simulate
-from lagrotor.drawing import EXACT_COLOUR, MODEL_COLOUR
+from lagrotor.drawing import EXACT_COLOUR, MODEL_COLOUR, legend_below
 from lagrotor.pair import DAMPING, SCENES, STEP, STIFFNESS
 from lagrotor.paper.rotor_pair.runs import paper_run
 
@@ -57,9 +57,9 @@ def figure() -> Figure:
     main, below = drawn.subplots(2, 1, sharex=True, height_ratios=(1.4, 1))
     main.plot(d["t"], d["kinetic"], color=MODEL_COLOUR, linewidth=3, label="paper's method, kinetic energy")
     main.plot(d["t"], d["exact"], color=EXACT_COLOUR, linestyle="--", label="exact model")
-    main.set(ylabel="energy [J]", ylim=(0, 120), title="Energy")
+    main.set(ylabel="energy (J)", ylim=(0, 120), title="Energy")
     for name, colour, line in (("kinetic", MODEL_COLOUR, "-"), ("exact", EXACT_COLOUR, "--")):
         below.plot(d["t"], 1e12 * (d[name] - 100), color=colour, linestyle=line, linewidth=3 if line == "-" else 1.6)
-    below.set(ylabel="energy − 100 J [pJ]", xlabel="time [s]", ylim=(-5, 5), title="Departure from 100 J")
-    drawn.legend(loc="outside lower center", ncols=2)
+    below.set(ylabel="energy − 100 J (pJ)", xlabel="time $t$ (s)", ylim=(-5, 5), title="Departure from 100 J")
+    legend_below(drawn, 2)
     return drawn

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import simulate
-from lagrotor.drawing import EXACT_COLOUR, FORCE_COLOUR, MODEL_COLOUR
+from lagrotor.drawing import EXACT_COLOUR, FORCE_COLOUR, MODEL_COLOUR, legend_below
 from lagrotor.models import paper_system, step_limit
 from lagrotor.pair import DAMPING, SCENES, STEP, STIFFNESS
 from lagrotor.paper.rotor_pair.runs import paper_run, pulse
@@ -72,8 +72,8 @@ def figure() -> Figure:
     upper, lower = drawn.subplots(2, 1, sharex=True, height_ratios=(2, 1))
     upper.plot(d["t"], d["kinetic"], color=MODEL_COLOUR, label="paper's method, kinetic energy")
     upper.plot(d["t"], d["exact"], color=EXACT_COLOUR, linestyle="--", label="exact model")
-    upper.set(ylabel="energy [J]", title="Energy", ylim=(99.95, 100.5))
+    upper.set(ylabel="energy (J)", title="Energy", ylim=(99.95, 100.5))
     lower.plot(d["t"], d["force"], color=FORCE_COLOUR)
-    lower.set(ylabel="force in x [N]", xlabel="time [s]", title="Force on the tip of rotor 1", ylim=(-3, 55))
-    drawn.legend(loc="outside lower center", ncols=2)
+    lower.set(ylabel="force in x (N)", xlabel="time $t$ (s)", title="Force on the tip of rotor 1", ylim=(-3, 55))
+    legend_below(drawn, 2)
     return drawn

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, simulate
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR, with_residual
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR, legend_below, with_residual
 from lagrotor.models import exact_orbit
 from lagrotor.paper.rotor_pair.runs import ansatz_axes, paper_axes, series_axes
 from lagrotor.pictures import over_one_turn
@@ -92,10 +92,9 @@ def figure() -> Figure:
         main.plot(d["phi"], d[name], color=colour, ls=line, label=label)
         if name != "exact":
             residual.semilogy(d["phi"], np.maximum(np.abs(d[name] - 1), 1e-9), color=colour, ls=line)
-    main.set(ylabel="length of the bar [m]", ylim=(0.985, 1.095), title=f"Length of the bar, $r_0$ = {R0}")
-    residual.set(ylabel="|length − ℓ| [m]", xlabel="angle $\\phi$ [rad]", title="Residual", ylim=(1e-5, 0.3))
+    main.set(ylabel="length of the bar (m)", ylim=(0.985, 1.095), title=f"Length of the bar, $r_0$ = {R0}")
+    residual.set(ylabel="|length − ℓ| (m)", xlabel="angle $\\phi$ (rad)", title="Residual", ylim=(1e-5, 0.3))
     residual.set_yticks([1e-5, 1e-4, 1e-3, 1e-2, 1e-1])
     over_one_turn(residual)
-    handles, labels = main.get_legend_handles_labels()
-    picture.legend(handles, labels, loc="outside lower center", ncols=2)
+    legend_below(picture, 2)
     return picture

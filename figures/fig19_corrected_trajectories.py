@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR, legend_below
 from lagrotor.models import exact_orbit
 from lagrotor.paper.rotor_pair.runs import against_orbit, paper_axes, series_axes
 from lagrotor.pictures import distance_over_one_turn, orbits_from_above
@@ -74,5 +74,5 @@ def figure() -> Figure:
     residual.semilogy(d["phase"], d["order_2_distance"], color=CORRECTION_COLOUR, ls=":")
     residual.semilogy(d["phase"], d["order_3_distance"], color=CORRECTION_COLOUR)
     distance_over_one_turn(residual, 5e-5, 0.2)
-    picture.legend(loc="outside lower center", ncols=3)
+    legend_below(picture, 3)
     return picture

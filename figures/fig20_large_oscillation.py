@@ -11,7 +11,7 @@ import sympy as sp
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, natural_rate
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, HIGH_ORDER_COLOUR, PAPER_COLOUR
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, HIGH_ORDER_COLOUR, PAPER_COLOUR, legend_below
 from lagrotor.models import exact_orbit
 from lagrotor.pair.notation import Phi, r0
 from lagrotor.paper.rotor_pair.runs import against_orbit, paper_axes
@@ -91,5 +91,5 @@ def figure() -> Figure:
             residual.semilogy(d["phase"], d[f"{name}_distance"], color=colour, ls=line, lw=min(width, 1.6))
     orbits_from_above(top, 1.35, 0.68)
     distance_over_one_turn(residual, 1e-5, 1)
-    picture.legend(loc="outside lower center", ncols=3)
+    legend_below(picture, 3)
     return picture

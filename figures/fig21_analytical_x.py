@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, simulate
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR, legend_below
 from lagrotor.models import exact_orbit
 
 R0, TOL = 0.204, 1e-11
@@ -76,13 +76,12 @@ def figure() -> Figure:
         panel.plot(d["t"], d["paper"][i], color=PAPER_COLOUR, label="paper (5.22)")
         panel.plot(d["t"], d["corrected"][i], color=CORRECTION_COLOUR, lw=3, alpha=0.7, label="corrected, order 2")
         panel.plot(d["t"], d["exact"][i], color=EXACT_COLOUR, ls="--", lw=1.2, label="exact orbit, phase t")
-    right.set(ylabel="$x_2$ [m]", title="Right tip", ylim=(0.22, 0.78))
-    left.set(ylabel="$x_1$ [m]", title="Left tip", ylim=(-0.78, -0.22))
+    right.set(ylabel="$x_2$ (m)", title="Right tip", ylim=(0.22, 0.78))
+    left.set(ylabel="$x_1$ (m)", title="Left tip", ylim=(-0.78, -0.22))
     residual.plot(d["t"], d["paper"][0] - d["exact"][0], color=PAPER_COLOUR)
     residual.plot(d["t"], d["paper"][1] - d["exact"][1], color=PAPER_COLOUR, ls=":")
     residual.plot(d["t"], d["corrected"][0] - d["exact"][0], color=CORRECTION_COLOUR)
     residual.plot(d["t"], d["corrected"][1] - d["exact"][1], color=CORRECTION_COLOUR, ls=":")
-    residual.set(xlabel="time [s]", ylabel="residual [m]", title="Residual (solid $x_1$, dotted $x_2$)")
-    handles, labels = right.get_legend_handles_labels()
-    picture.legend(handles, labels, loc="outside lower center", ncols=3)
+    residual.set(xlabel="time $t$ (s)", ylabel="residual (m)", title="Residual (solid $x_1$, dotted $x_2$)")
+    legend_below(picture, 3)
     return picture

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import simulate
-from lagrotor.drawing import EXACT_COLOUR, ROTORS
+from lagrotor.drawing import EXACT_COLOUR, ROTORS, legend_below
 from lagrotor.pair import SCENES
 
 TOL = 1e-10
@@ -72,8 +72,8 @@ def figure() -> Figure:
     across.plot(d["t"], d["y"][0], color=ROTORS[0])
     for panel in (right, left, across):
         panel.axvline(2, color=EXACT_COLOUR, lw=1, ls=":", label="shock" if panel is across else None)
-    right.set(ylabel="$x_2$ [m]", title="x of the right tip", ylim=(0.28, 0.78))
-    left.set(ylabel="$x_1$ [m]", title="x of the left tip", ylim=(-0.65, -0.15))
-    across.set(xlabel="time [s]", ylabel="$y$ [m]", title="y of both tips")
-    picture.legend(loc="outside lower center", ncols=3)
+    right.set(ylabel="$x_2$ (m)", title="x of the right tip", ylim=(0.28, 0.78))
+    left.set(ylabel="$x_1$ (m)", title="x of the left tip", ylim=(-0.65, -0.15))
+    across.set(xlabel="time $t$ (s)", ylabel="$y$ (m)", title="y of both tips")
+    legend_below(picture, 3)
     return picture

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import shock_response, simulate
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, ROTORS
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, ROTORS, legend_below
 from lagrotor.numerics import turn_means
 from lagrotor.pair import SCENES
 
@@ -95,14 +95,12 @@ def figure() -> Figure:
         top.plot(*points.T, mark, color=colour, ms=7)
         top.plot([], [], color=colour, ls=line, marker=mark, ms=7, label=label)
     top.plot([-0.5, 0.5], [0, 0], "s", color="#888888", ms=6, label="ground joints")
-    top.set(xlabel="x [m]", ylabel="y [m]", title="Top view", xlim=(-0.85, 1.0), ylim=(-0.45, 0.45))
+    top.set(xlabel="x (m)", ylabel="y (m)", title="Top view", xlim=(-0.85, 1.0), ylim=(-0.45, 0.45))
     top.set_aspect("equal")
     top.text(0.06, 0.06, f"{d['angle'][0]:.1f}° to x".replace("-", "−"), fontsize=10)
     turns.plot(np.arange(1, len(d["turn_angles"]) + 1), d["turn_angles"], "o", color=EXACT_COLOUR, ms=5)
     turns.axhline(d["predicted_angle"][0], color=CORRECTION_COLOUR, ls="--")
-    turns.set(
-        xlabel="turn after the shock [1]", ylabel="angle to x [deg]", title="Angle of the skew axis, turn by turn"
-    )
+    turns.set(xlabel="turn after the shock", ylabel="angle to x (deg)", title="Angle of the skew axis, turn by turn")
     turns.set(ylim=(-21.5, -19), xlim=(0.5, len(d["turn_angles"]) + 0.5))
-    picture.legend(loc="outside lower center", ncols=3)
+    legend_below(picture, 3)
     return picture

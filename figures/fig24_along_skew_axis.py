@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import corrected_trajectories, paired_frequency, shock_response, simulate
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR, legend_below
 from lagrotor.numerics import turn_means
 from lagrotor.pair import SCENES
 
@@ -140,12 +140,11 @@ def figure() -> Figure:
         panel.plot(d["t"], d["paper"][i], color=PAPER_COLOUR, label="paper (5.22)")
         panel.plot(d["t"], d["corrected"][i], color=CORRECTION_COLOUR, label="corrected series, order 3")
         panel.plot(d["t"], d["simulated"][i], color=EXACT_COLOUR, ls="--", lw=1.2, label="simulated, exact model")
-    right.set(ylabel="along the axis [m]", title="Right tip", ylim=(0.2, 0.8))
-    left.set(ylabel="along the axis [m]", title="Left tip", ylim=(-0.8, -0.2))
+    right.set(ylabel="along the axis (m)", title="Right tip", ylim=(0.2, 0.8))
+    left.set(ylabel="along the axis (m)", title="Left tip", ylim=(-0.8, -0.2))
     for name, colour in (("paper", PAPER_COLOUR), ("corrected", CORRECTION_COLOUR)):
         residual.plot(d["t"], d[name][0] - d["simulated"][0], color=colour)
         residual.plot(d["t"], d[name][1] - d["simulated"][1], color=colour, ls=":")
-    residual.set(xlabel="time [s]", ylabel="residual [m]", title="Residual (solid left tip, dotted right tip)")
-    handles, labels = right.get_legend_handles_labels()
-    picture.legend(handles, labels, loc="outside lower center", ncols=3)
+    residual.set(xlabel="time $t$ (s)", ylabel="residual (m)", title="Residual (solid left tip, dotted right tip)")
+    legend_below(picture, 3)
     return picture

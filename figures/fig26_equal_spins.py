@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, Shock, simulate
-from lagrotor.drawing import EXACT_COLOUR, FORCE_COLOUR, MODEL_COLOUR
+from lagrotor.drawing import EXACT_COLOUR, FORCE_COLOUR, MODEL_COLOUR, legend_below
 from lagrotor.pair import DAMPING, HEAVY_LINK, STEP, STIFFNESS
 from lagrotor.paper.rotor_pair.runs import paper_run, pulse
 
@@ -72,8 +72,8 @@ def figure() -> Figure:
     x.plot(d["t"], d["exact"], color=EXACT_COLOUR, label="exact model")
     x.plot(d["t"], d["springs"], color=MODEL_COLOUR, ls="--", lw=1.2, label="paper's method, stiff springs")
     residual.plot(d["t"], d["springs"] - d["exact"], color=MODEL_COLOUR)
-    force.set(ylabel="force [N]", title="Force on tip 1 along x")
-    x.set(ylabel="$x_1$ [m]", title="x of tip 1")
-    residual.set(xlabel="time [s]", ylabel="residual [m]", title="Residual: paper's method − exact model")
-    picture.legend(loc="outside lower center", ncols=2)
+    force.set(ylabel="force (N)", title="Force on tip 1 along x")
+    x.set(ylabel="$x_1$ (m)", title="x of tip 1")
+    residual.set(xlabel="time $t$ (s)", ylabel="residual (m)", title="Residual: paper's method − exact model")
+    legend_below(picture, 2)
     return picture

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, natural_rate, simulate
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, MODEL_COLOUR, PAPER_COLOUR
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, MODEL_COLOUR, PAPER_COLOUR, legend_below
 from lagrotor.numerics import peak, spectrum
 from lagrotor.pair import HEAVY_LINK, LIGHT, SHOCK_PAIRED, STEP
 from lagrotor.paper.rotor_pair.runs import paper_run
@@ -117,7 +117,7 @@ def figure() -> Figure:
             lw=2,
             label="sine at the natural rate",
         )
-        panel.set(ylabel="$x_1$ [m]", title=title, xlim=(1.5, 10))
+        panel.set(ylabel="$x_1$ (m)", title=title, xlim=(1.5, 10))
         panel.tick_params(labelbottom=False)
         line = "-" if name == "heavy" else "-."
         drift.plot(d[f"{name}_phase_t"], d[f"{name}_printed_drift"], color=PAPER_COLOUR, ls=line)
@@ -127,10 +127,9 @@ def figure() -> Figure:
     heavy.plot(d["t"], d["springs_x"], color=MODEL_COLOUR, lw=1.2, label="paper's method (heavy bar)")
     heights.plot(d["rate"], d["springs_amplitude"], color=MODEL_COLOUR, lw=1.2)
     heights.axvline(PRINTED, color=PAPER_COLOUR, ls="--", lw=1.2)
-    drift.set(xlabel="time [s]", ylabel="phase drift [rad]", xlim=(1.5, 10))
+    drift.set(xlabel="time $t$ (s)", ylabel="phase drift (rad)", xlim=(1.5, 10))
     drift.set_title("Phase of the sine less that of $x_1$ (solid: heavy bar, dash-dotted: light)")
-    heights.set(xlabel="rate [rad/s]", ylabel="amplitude [m]", xlim=(0, 12), ylim=(0, None))
+    heights.set(xlabel="rate (rad/s)", ylabel="amplitude (m)", xlim=(0, 12), ylim=(0, None))
     heights.set_title("Spectrum of $x_1$ after the shock (solid: heavy bar, dash-dotted: light)")
-    handles, labels = heavy.get_legend_handles_labels()
-    picture.legend(handles, labels, loc="outside lower center", ncols=2)
+    legend_below(picture, 2)
     return picture

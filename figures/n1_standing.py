@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Structure
-from lagrotor.drawing import CASE_COLOURS, EXACT_COLOUR
+from lagrotor.drawing import CASE_COLOURS, EXACT_COLOUR, legend_below
 from lagrotor.structures import measured_growth
 from lagrotor.structures.coefficients import coefficients
 from lagrotor.structures.small_motion import small_motion
@@ -100,9 +100,9 @@ def figure() -> Figure:
     for (name, (_, _, colour)), values in zip(SHOWN.items(), d["growth"], strict=True):
         growth.plot(d["spins"], values, "--" if name[0] == "s" else "-", color=colour, label=name)
     growth.plot(np.tile(TRIED, 4), d["measured"].ravel(), "o", color=EXACT_COLOUR, mfc="none", label="exact motion")
-    growth.set(xlabel="spin in √(aκ)/I₃ [1]", ylabel="growth in √(κ/a) [1]", title="Largest growth rate")
+    growth.set(xlabel="spin in √(aκ)/I₃", ylabel="growth in √(κ/a)", title="Largest growth rate")
     for values, name, line in zip(d["tilt"], ("3 % under", "3 % over"), (":", "-"), strict=True):
         tilt.semilogy(d["t"], values + 1e-6, line, color=EXACT_COLOUR, lw=1.2, label=f"corner, {name} its threshold")
-    tilt.set(xlabel="time in √(a/κ) [1]", ylabel="|x| of the first axis [1]", title="The corner after a push")
-    picture.legend(loc="outside lower center", ncols=3)
+    tilt.set(xlabel="time in √(a/κ)", ylabel="|x| of the first axis", title="The corner after a push")
+    legend_below(picture, 3)
     return picture

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Brace, Rotor, Structure
-from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR
+from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR, legend_below
 from lagrotor.structures import mass_worst_case, spins_win_worst_case, spins_worst_case
 
 ROTOR, LOAD, SWAY = Rotor(1, 1, 1 / 16, 1 / 8), 50.0, 2 * np.pi  # a disc of radius 0.5 m; 50 kg a tip; 1 Hz
@@ -111,10 +111,10 @@ def figure() -> Figure:
         peaks.plot(
             d["gamma"][[0, -1]], [level, level], line, color=CASE_COLOURS[2], label=f"tuned mass, {100 * mu:g} %"
         )
-    peaks.set(xlabel="γ = G/(aΩ) [1]", ylabel="largest |X K/F| [1]", title="Worst case")
+    peaks.set(xlabel="γ = G/(aΩ)", ylabel="largest |X K/F|", title="Worst case")
     transfer.semilogy(d["rates"], d["bare"], color=CASE_COLOURS[1], lw=1.0, label="sway alone")
     transfer.plot(d["rates"], d["tuned"], color=CASE_COLOURS[2])
     transfer.plot(d["rates"], d["spun"], color=CORRECTION_COLOUR, ls="-.", label=f"spins, γ = {SHOWN}")
-    transfer.set(xlabel="rate in Ω [1]", ylabel="|X K/F| [1]", title="Transfer functions", ylim=(0.5, 200))
-    picture.legend(loc="outside lower center", ncols=3)
+    transfer.set(xlabel="rate in Ω", ylabel="|X K/F|", title="Transfer functions", ylim=(0.5, 200))
+    legend_below(picture, 3)
     return picture

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Pattern, Rotor
-from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR
+from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR, legend_below
 from lagrotor.structures import honeycomb, polygon_ring, zigzag
 
 SPIN, HINGE, ROTORS = 10.0, 50.0, 16
@@ -147,13 +147,13 @@ def figure() -> Figure:
         ("loaded", CASE_COLOURS[3], "under weight"),
     ):
         staircase.plot(d["q"], d[name], color=ink, lw=1.2, label=[label, None])
-    staircase.plot(d["q"], d["growth"], "--", color=CASE_COLOURS[3], label="growth under weight [1/s]")
+    staircase.plot(d["q"], d["growth"], "--", color=CASE_COLOURS[3], label="growth under weight (1/s)")
     net.plot(d["share"], d["honeycomb"], color=CORRECTION_COLOUR, label="honeycomb, opposite spins")
     for panel, title in zip(
         panels.flat, ("Alternating spins, and rings", "Equal spins", "Staircase, alternating", "Honeycomb"), strict=True
     ):
-        panel.set(title=title, ylabel="rate [rad/s]", xlabel="wave number per rotor [rad]")
-    net.set(xlabel="share of the path 0 – K – M [1]")
+        panel.set(title=title, ylabel="rate (rad/s)", xlabel="wave number per rotor (rad)")
+    net.set(xlabel="share of the path 0 – K – M")
     even.set_xlim(0, pi / 2)
-    picture.legend(loc="outside lower center", ncols=4)
+    legend_below(picture, 4)
     return picture

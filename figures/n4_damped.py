@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, Structure, paired_scene
-from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR
+from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR, legend_below
 
 SPIN, TILT = 10.0, 0.1
 FRICTIONS = (0.3, 0.5, 0.8)  # N m s/rad
@@ -96,9 +96,7 @@ def figure() -> Figure:
         angle.plot(t[:-1], values[:-1], color=ink, lw=1.2, label=f"exact, c = {c:g} N m s/rad")
         law = SPIN * TILT**2 / (2 * c)
         angle.plot(t[[0, -2]], [law, law], "--", color=ink, lw=1.0)
-    angle.set(
-        xlabel="time in a/c [1]", ylabel="angle about the joint line [rad]", title="The pair comes to rest rotated"
-    )
+    angle.set(xlabel="time in a/c", ylabel="angle about the joint line (rad)", title="The pair comes to rest rotated")
     for x, ink, name in zip(
         d["tilts"], (EXACT_COLOUR, CASE_COLOURS[3]), ("friction on the spins too", "spins kept up"), strict=True
     ):
@@ -106,6 +104,6 @@ def figure() -> Figure:
     for rate, line in ((WEAR * 0.2, "-"), (-WEAR * 0.8, "-")):
         label = "law of the radius" if rate > 0 else None
         tilt.plot(d["t"], np.exp(rate * d["t"]), line, color=CORRECTION_COLOUR, lw=1.4, label=label)
-    tilt.set(xlabel="time [s]", ylabel="tilt along the bar over the first [1]", title="Spin-down widens the precession")
-    picture.legend(loc="outside lower center", ncols=3)
+    tilt.set(xlabel="time $t$ (s)", ylabel="tilt along the bar over the first", title="Spin-down widens the precession")
+    legend_below(picture, 3)
     return picture

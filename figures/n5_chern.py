@@ -10,7 +10,7 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor.drawing import CASE_COLOURS
+from lagrotor.drawing import CASE_COLOURS, legend_below
 from lagrotor.structures import honeycomb, square_octagon
 from lagrotor.structures.waves.chern import chern_numbers, edge_waves
 
@@ -96,8 +96,7 @@ def figure() -> Figure:
             panel.plot(at[seen], rates[seen], ".", ms=3.5, color=ink, label=label, rasterized=label == "bulk")
         for edge in (low, high):
             panel.axhline(edge, color="#222222", lw=0.8, ls="--")
-        panel.set(xlabel="wave number along the strip [rad]", ylabel="rate [rad/s]", title=title, xlim=(0, 2 * np.pi))
+        panel.set(xlabel="wave number along the strip (rad)", ylabel="rate (rad/s)", title=title, xlim=(0, 2 * np.pi))
         panel.set_ylim(low - reach, high + reach)
-    entries = panels[0].get_legend_handles_labels()
-    picture.legend(*entries, loc="outside lower center", ncols=3, markerscale=3)
+    legend_below(picture, 3, markerscale=3)
     return picture

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Structure
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, legend_below
 from lagrotor.structures import local_hamiltonian, measured_fall, resonant_factors
 
 CORNER = Structure(joints=[(0, 0), (1, 0), (1, 1)], bars=[(0, 1), (1, 2)], spins=[1, 0, 1], gravity=9.81, load=2.0)
@@ -102,14 +102,14 @@ def figure() -> Figure:
     fell = np.isfinite(d["ends"])
     plane.plot(x[fell], y[fell], "o", color=EXACT_COLOUR, label="exact run, fell")
     plane.plot(x[~fell], y[~fell], "o", color=EXACT_COLOUR, mfc="none", label="exact run, stayed")
-    plane.set(xlabel="spins over the critical ones [1]", ylabel="push in √(κ/a) [1]", title="Which pushes fall")
+    plane.set(xlabel="spins over the critical ones", ylabel="push in √(κ/a)", title="Which pushes fall")
     plane.set(xlim=(float(d["centre"]) - 0.027, float(d["centre"]) + 0.027), ylim=(0, 0.04))
     times.loglog(TIMED, d["said"], "-", color=CORRECTION_COLOUR, label="normal form, this direction")
     times.loglog(TIMED, d["least"], "--", color=CORRECTION_COLOUR, label="least time of any direction")
     times.loglog(TIMED, d["exact"], "o", color=EXACT_COLOUR, mfc="none", label="exact motion")
-    times.set(xlabel="push in √(κ/a) [1]", ylabel="time to fall in √(a/κ) [1]", title="At the resonance")
+    times.set(xlabel="push in √(κ/a)", ylabel="time to fall in √(a/κ)", title="At the resonance")
     times.set(xlim=(0.008, 0.05), xticks=TIMED, xticklabels=[f"{push:g}" for push in TIMED])
     times.set(yticks=(25, 50, 100), yticklabels=("25", "50", "100"), ylim=(20, 160))
     times.minorticks_off()
-    picture.legend(loc="outside lower center", ncols=3)
+    legend_below(picture, 3)
     return picture

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from scipy.integrate import solve_ivp
 
 from lagrotor import Link
-from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR
+from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR, legend_below
 from lagrotor.structures import polygon_ring, wave_amplitude
 
 CORNERS, AMPLITUDE = 7, 0.05
@@ -115,14 +115,14 @@ def figure() -> Figure:
     )
     shifts.plot(d["turns"], d["exact"], "o", color=EXACT_COLOUR, mfc="none", label="exact motion")
     shifts.set(
-        xlabel="wave number per rotor [rad]",
-        ylabel="shift over a² [rad/s]",
+        xlabel="wave number per rotor (rad)",
+        ylabel="shift over a² (rad/s)",
         title="Shift of the rate",
         xlim=(0, 2 * pi),
     )
     for k, (name, ink) in enumerate(zip(("three turns", "four turns", "one turn"), CASE_COLOURS, strict=False)):
         exchange.plot(d["times"], d["said"][k], color=ink, label=name)
         exchange.plot(d["times"][::20], d["seen"][k][::20], "o", ms=3, color=ink, mfc="none")
-    exchange.set(xlabel="time [s]", ylabel="amplitude [1]", title="Three waves", xlim=(0, d["times"][-1]))
-    picture.legend(loc="outside lower center", ncols=5)
+    exchange.set(xlabel="time $t$ (s)", ylabel="amplitude", title="Three waves", xlim=(0, d["times"][-1]))
+    legend_below(picture, 5)
     return picture

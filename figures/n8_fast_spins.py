@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from scipy.optimize import minimize
 
 from lagrotor import Pattern
-from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR
+from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR, legend_below
 from lagrotor.structures import honeycomb
 from lagrotor.structures.waves.chern import chern_numbers
 
@@ -97,12 +97,12 @@ def figure() -> Figure:
     bands, gap = picture.subplots(1, 2)
     bands.plot(d["share"], d["limit"], color=CORRECTION_COLOUR, label=["limit of fast spins", None])
     bands.plot(d["at"], d["whole"], "o", ms=3.5, color=EXACT_COLOUR, mfc="none", label=["with inertia", None])
-    bands.set(xlabel="share of the path 0 – K – M – 0 [1]", ylabel="rate [rad/s]", title="Bands", xlim=(0, 1))
+    bands.set(xlabel="share of the path 0 – K – M – 0", ylabel="rate (rad/s)", title="Bands", xlim=(0, 1))
     gap.fill_between(ANGLES, *d["edges"].T, color="#999999", alpha=0.2, lw=0)
     for number, ink in ((-1, CASE_COLOURS[0]), (0, "#222222"), (1, CASE_COLOURS[1])):
         here = d["numbers"] == number
         name = "bands touch" if not number else f"Chern number {number:+d} below".replace("-", "−")
         gap.plot(np.repeat(ANGLES[here], 2), d["edges"][here].ravel(), "o", ms=5, color=ink, label=name)
-    gap.set(xlabel="bond angle [deg]", ylabel="rate [rad/s]", title="Edges of the gap")
-    picture.legend(loc="outside lower center", ncols=3)
+    gap.set(xlabel="bond angle (deg)", ylabel="rate (rad/s)", title="Edges of the gap")
+    legend_below(picture, 3)
     return picture

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Structure
-from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR, FORCE_COLOUR
+from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR, FORCE_COLOUR, legend_below
 from lagrotor.structures.steady_precession import SteadyPrecession
 
 TRIANGLE = Structure([(0, 0), (1, 0), (0.3, 0.9)], [(0, 1), (1, 2), (2, 0)], [-6.5, 7.7, 7.6], hinge=20.0)
@@ -120,10 +120,10 @@ def figure() -> Figure:
     for (name, (_, _, tilts)), ink in zip(RATES.items(), CASE_COLOURS, strict=False):
         rates.plot(d[f"tilts, {name}"], d[f"law, {name}"], color=ink, label=name)
         rates.plot(tilts, d[f"exact, {name}"], "o", color=ink, mfc="none")
-    rates.set(xlabel="tilt (sine) [1]", ylabel="shift over the rate upright [1]", title="Rate")
+    rates.set(xlabel="tilt (sine)", ylabel="shift over the rate upright", title="Rate")
     growth.plot(d["tilts"][1:], d["growth"][1:], color=CORRECTION_COLOUR, label="normal form")
     growth.plot(GROWN, d["exact"], "o", color=EXACT_COLOUR, mfc="none", label="exact orbits")
-    growth.set(xlabel="tilt (sine) [1]", ylabel="growth per turn [1]", title="Stability", xticks=(0.05, 0.1, 0.15))
+    growth.set(xlabel="tilt (sine)", ylabel="growth per turn", title="Stability", xticks=(0.05, 0.1, 0.15))
     for (name, (_, _, tilt, _)), ink in zip(LEFT.items(), (FORCE_COLOUR, CASE_COLOURS[3], EXACT_COLOUR), strict=False):
         sizes, slope = d[f"off, {name}"][:-1], d[f"off, {name}"][-1]
         turns = np.arange(len(sizes))
@@ -132,6 +132,6 @@ def figure() -> Figure:
             middle = len(sizes) // 3
             part = turns[: len(sizes) // 2]
             runs.semilogy(part, sizes[middle] * np.exp(slope * (part - middle)), ":", color=ink)
-    runs.set(xlabel="turns [1]", ylabel="distance [1]", title="Exact runs beside them")
-    picture.legend(loc="outside lower center", ncols=3)
+    runs.set(xlabel="turns", ylabel="distance", title="Exact runs beside them")
+    legend_below(picture, 3)
     return picture

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, Shock, floquet, natural_rate, simulate
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, legend_below
 from lagrotor.theory import SlowMotion, slow_frequency, slow_motion
 
 LIGHT, HEAVY = Link(1, 0.01, 0.1), Link(1, 12.0, 0.0)
@@ -107,7 +107,7 @@ def portrait(panel: Axes, motion: SlowMotion, name: str) -> None:
     levels = np.unique([*(start + np.array([-2.0, -1.2, -0.6, -0.2, 0.4, 1.2, 3, 8, 20]))])
     panel.contour(np.degrees(lean), half, W, levels, colors=[OTHERS], linewidths=0.8, linestyles="-")
     panel.contour(np.degrees(lean), half, W, [start], colors=[CORRECTION_COLOUR], linewidths=1.8, linestyles="-")
-    panel.set(xlabel="lean β [deg]", title=name, ylim=(-2.2, 2.2))
+    panel.set(xlabel="lean β (deg)", title=name, ylim=(-2.2, 2.2))
 
 
 def figure() -> Figure:
@@ -126,15 +126,11 @@ def figure() -> Figure:
     )
     left.plot([], [], color=OTHERS, lw=0.8, label="closed form, other starts")
     left.plot([], [], color=CORRECTION_COLOUR, lw=1.8, label="closed form, after the shock")
-    left.set_ylabel("half-angle η/s [1]")
+    left.set_ylabel("half-angle η/s")
     fine = np.linspace(-1.1, 1.3, 121)
     right.plot(fine, squares(fine), color=CORRECTION_COLOUR, label="closed form, frequency")
     right.plot(d["pushes"], d["exact"], "o", mfc="none", color=EXACT_COLOUR, ms=6, label="exact multipliers")
     right.axhline(0, color="0.6", lw=0.7)
-    right.set(xlabel="push d/s² [1]", ylabel="frequency²/(g² s⁶) [1]", title="Slow frequency")
-    one = {}
-    for panel in (left, right):
-        handles, labels = panel.get_legend_handles_labels()
-        one |= dict(zip(labels, handles, strict=True))
-    picture.legend(one.values(), one.keys(), loc="outside lower center", ncols=3)
+    right.set(xlabel="push d/s²", ylabel="frequency²/(g² s⁶)", title="Slow frequency")
+    legend_below(picture, 3)
     return picture

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, natural_rate
-from lagrotor.drawing import CASE_COLOURS, EXACT_COLOUR
+from lagrotor.drawing import CASE_COLOURS, EXACT_COLOUR, legend_below
 from lagrotor.models import upright_orbit
 from lagrotor.theory import azimuth_drift, frequency_shift
 
@@ -81,17 +81,15 @@ def figure() -> Figure:
     picture = Figure(figsize=(7.4, 4.2))
     left, right = picture.subplots(1, 2)
     for panel, name, label in (
-        (left, "shift", "relative shift of the rate / r₀² [1]"),
-        (right, "drift", "drift of the azimuth / r₀⁴ [rad/s]"),
+        (left, "shift", "relative shift of the rate / r₀²"),
+        (right, "drift", "drift of the azimuth / r₀⁴ (rad/s)"),
     ):
         for i, (bar, (_, colour)) in enumerate(BARS.items()):
             panel.plot(FINE, d[name][i], color=colour, label=f"closed form, {bar}")
             panel.plot(TRIED, d[f"exact {name}"][i], "o", color=EXACT_COLOUR, mfc="none", ms=6, label="exact orbits")
         panel.axhline(0, color="0.6", lw=0.7)
-        panel.set(xlabel="ratio of the spins ω₂/ω₁ [1]", ylabel=label)
+        panel.set(xlabel="ratio of the spins ω₂/ω₁", ylabel=label)
     left.set_title("Shift of the rate")
     right.set_title("Drift of the azimuth")
-    handles, labels = left.get_legend_handles_labels()
-    one = dict(zip(labels, handles, strict=True))
-    picture.legend(one.values(), one.keys(), loc="outside lower center", ncols=2)
+    legend_below(picture, 2)
     return picture

@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, simulate
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, OKABE_ITO
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, OKABE_ITO, legend_below
 from lagrotor.errors import LagrotorWarning
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
@@ -114,7 +114,7 @@ def figure() -> Figure:
     plane.imshow(d["exponents"], origin="lower", aspect="auto", cmap="magma", vmin=0, vmax=1.2)
     plane.set_xticks(range(AMPLITUDES.size), [f"{r:g}" for r in AMPLITUDES])
     plane.set_yticks(range(MOMENTA.size), [f"{p:g}".replace("-", "−") for p in MOMENTA])
-    plane.set(xlabel="amplitude $r_0$ [1]", ylabel="momentum P/G [1]", title="Exponent [1/turn]")
+    plane.set(xlabel="amplitude $r_0$", ylabel="momentum P/G", title="Exponent (1/turn)")
     for (i, j), value in np.ndenumerate(d["exponents"]):
         plane.text(
             j, i, f"{value:.2f}", ha="center", va="center", color="white" if value < 0.8 else "black", fontsize=8
@@ -127,8 +127,8 @@ def figure() -> Figure:
             panel.plot(points[:, 1], points[:, 2], ".", ms=3, color=colours[k])
         panel.margins(0.04)
         panel.set(
-            xlabel="mean x [1]",
-            ylabel="half the twist [rad]",
+            xlabel="mean x",
+            ylabel="half the twist (rad)",
             title=f"Section at $r_0$ = {r0:g}, P/G = {p:g}".replace("-", "−"),
         )
     rate = np.linspace(0.3, 1.0, 60)
@@ -137,6 +137,6 @@ def figure() -> Figure:
     )
     horizons.plot(rate, np.log(TOL / 1e-14) / rate, color=CORRECTION_COLOUR, label="ln(tol/10⁻¹⁴) over the exponent")
     horizons.margins(0.04)
-    horizons.set(xlabel="exponent [1/turn]", ylabel="horizon [turns]", title="How long a run is known")
-    picture.legend(loc="outside lower center", ncols=3)
+    horizons.set(xlabel="exponent (1/turn)", ylabel="horizon (turns)", title="How long a run is known")
+    legend_below(picture, 3)
     return picture

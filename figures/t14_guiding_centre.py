@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, consistent_scene, simulate
-from lagrotor.drawing import CASE_COLOURS, EXACT_COLOUR
+from lagrotor.drawing import CASE_COLOURS, EXACT_COLOUR, legend_below
 from lagrotor.theory import guiding_centre, leaning_state
 
 PAIR = Scene((11, 7), link=Link(0.8, 4.0, 0.0))
@@ -94,9 +94,7 @@ def figure() -> Figure:
         course.plot(d["times"], motion[:, 1], ":", color=EXACT_COLOUR, lw=0.8, label="exact motion")
         course.plot(d["times"], law[:, 1], color=colour)
         course.plot(d["times"][::FINE], centres[::FINE, 1], "o", color=EXACT_COLOUR, mfc="none", ms=4)
-    plane.set(xlabel="lean β [rad]", ylabel="half the twist h [rad]", title="Where the centre goes")
-    course.set(xlabel="time [s]", ylabel="half the twist h [rad]", title="And when")
-    entries = [panel.get_legend_handles_labels() for panel in (plane, course)]
-    one = {label: handle for handles, labels in entries for handle, label in zip(handles, labels, strict=True)}
-    picture.legend(one.values(), one.keys(), loc="outside lower center", ncols=3)
+    plane.set(xlabel="lean β (rad)", ylabel="half the twist h (rad)", title="Where the centre goes")
+    course.set(xlabel="time $t$ (s)", ylabel="half the twist h (rad)", title="And when")
+    legend_below(picture, 3)
     return picture

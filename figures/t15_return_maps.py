@@ -10,7 +10,7 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR
+from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR, legend_below
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 MADE = PAPER.scripts.run("derivations", "t15_return_maps")
@@ -87,14 +87,13 @@ def figure() -> Figure:
     for curve, dots, ink in zip(d["section of the form"], d["section"], INKS, strict=True):
         section.plot(*curve.T, color=ink, lw=1)
         section.plot(*dots.T, ".", color=ink, ms=3)
-    section.set(xlabel="x [1]", ylabel="momentum of x [1]", title="Section of Hénon–Heiles")
+    section.set(xlabel="x", ylabel="momentum of x", title="Section of Hénon–Heiles")
     section.margins(0.06)
     for panel, name in zip(panels, SIZES, strict=True):
         panel.plot(d[f"curve I, {name}"], d[f"line, {name}"], "--", color=CASE_COLOURS[0], label="with the twist alone")
         panel.plot(d[f"curve I, {name}"], d[f"form, {name}"], color=CORRECTION_COLOUR, label="form of sixth order")
         panel.plot(d[f"I, {name}"], d[f"exact, {name}"], "o", color=EXACT_COLOUR, mfc="none", ms=5, label="exact runs")
-        panel.set(xlabel="action I [1]", ylabel="turns in a return [1]", title=name[0].upper() + name[1:])
+        panel.set(xlabel="action I", ylabel="turns in a return", title=name[0].upper() + name[1:])
     panels[0].set_xticks(np.arange(4) / 1000)
-    handles, labels = panels[0].get_legend_handles_labels()
-    picture.legend(handles, labels, loc="outside lower center", ncols=3)
+    legend_below(picture, 3)
     return picture

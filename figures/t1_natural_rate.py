@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Rotor, Scene, natural_rate, simulate
-from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR
+from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR, legend_below
 from lagrotor.numerics import peak, spectrum
 
 SPIN, MASS, INERTIA, PRINTED = 10.0, 1.0, 0.1, 0.7125
@@ -97,12 +97,10 @@ def figure() -> Figure:
         panel.axvline(edge, color="#777777", ls=":", label=r"dumbbell, $K = m\ell^2/4$")
         place = 1.0 if by == "inertia" else 0.01
         panel.axvline(place, color=PAPER_COLOUR, lw=5, alpha=0.25, label="the paper's bar")
-        panel.set_ylabel("natural frequency, in units of G/J [1]")
-    panels["inertia"].set(xlabel="inertia of the bar K [kg m²]", title=f"Mass of the bar m = {MASS:g} kg")
-    panels["mass"].set(xlabel="mass of the bar m [kg]", title=f"Inertia of the bar K = {INERTIA:g} kg m²")
+        panel.set_ylabel("natural frequency, in units of G/J")
+    panels["inertia"].set(xlabel="inertia of the bar K (kg m²)", title=f"Mass of the bar m = {MASS:g} kg")
+    panels["mass"].set(xlabel="mass of the bar m (kg)", title=f"Inertia of the bar K = {INERTIA:g} kg m²")
     panels["mass"].set_xlim(-0.05, 2)
     panels["inertia"].set_ylim(0.4, 1.05)
-    handles, labels = panels["inertia"].get_legend_handles_labels()
-    one = dict(zip(labels, handles, strict=True))
-    picture.legend(one.values(), one.keys(), loc="outside lower center", ncols=3)
+    legend_below(picture, 3)
     return picture

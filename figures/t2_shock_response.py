@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, Shock, shock_response, simulate
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, ROTORS
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, ROTORS, legend_below
 from lagrotor.numerics import measured_order
 
 FORCE, AT, WIDTH, TOL = (8.0, -2.0, 0.0), 0.5, 1 / 20, 1e-11
@@ -88,11 +88,11 @@ def figure() -> Figure:
             d["t"], d["exact"][:, i], color=EXACT_COLOUR, ls=":", lw=1.3, label="exact model" if i == 0 else None
         )
         difference.plot(d["t"], d["closed"][:, i] - d["exact"][:, i], color=colour)
-    motion.set(xlabel="time [s]", ylabel="component of the axis [1]", title="Motion")
-    difference.set(xlabel="time [s]", ylabel="difference [1]", title="Residual: closed form less exact")
+    motion.set(xlabel="time $t$ (s)", ylabel="component of the axis", title="Motion")
+    difference.set(xlabel="time $t$ (s)", ylabel="difference", title="Residual: closed form less exact")
     order.loglog(d["forces"], d["errors"], "o", color=EXACT_COLOUR, label="largest difference over 2 s")
     law = d["errors"][0] * (d["forces"] / d["forces"][0]) ** 2
     order.loglog(d["forces"], law, color=CORRECTION_COLOUR, ls="--", label="square of the force")
-    order.set(xlabel="force along x [N]", ylabel="largest difference [1]", title="Order", xlim=(0.8, 20))
-    picture.legend(loc="outside lower center", ncols=3)
+    order.set(xlabel="force along x (N)", ylabel="largest difference", title="Order", xlim=(0.8, 20))
+    legend_below(picture, 3)
     return picture

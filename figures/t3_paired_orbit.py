@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, simulate
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, legend_below
 from lagrotor.models import exact_orbit
 from lagrotor.numerics import measured_order
 from lagrotor.theory import paired_series, series_orbit
@@ -93,14 +93,12 @@ def figure() -> Figure:
     for i, (order, bounds) in enumerate(zip(BOUNDED, d["bounds"], strict=True)):
         says = "the series' own bound" if i == 0 else None
         errors.loglog(AT, bounds, ls="--", lw=1.0, color=shades[order - 1], label=says)
-    errors.set(
-        xlabel="amplitude $r_0$ [1]", ylabel="largest distance [1]", title="Error of the series", ylim=(1e-13, 1)
-    )
+    errors.set(xlabel="amplitude $r_0$", ylabel="largest distance", title="Error of the series", ylim=(1e-13, 1))
     errors.set_xticks([0.05, 0.1, 0.2, 0.4], ["0.05", "0.1", "0.2", "0.4"], minor=False)
     errors.set_xticks([], minor=True)
     slope.plot(d["orders"], d["orders"] + 1, color=CORRECTION_COLOUR, label="promised: order + 1")
     slope.plot(d["orders"], slopes(), "o", color=EXACT_COLOUR, mfc="none", label="measured slope")
-    slope.set(xlabel="order of the series [1]", ylabel="slope [1]", title="Residual's slope", xlim=(0.5, 9.5))
+    slope.set(xlabel="order of the series", ylabel="slope", title="Residual's slope", xlim=(0.5, 9.5))
     slope.set_xticks(range(1, 10))
-    picture.legend(loc="outside lower center", ncols=4)
+    legend_below(picture, 4)
     return picture

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, natural_rate, orbit_family
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, HIGH_ORDER_COLOUR, PAPER_COLOUR
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, HIGH_ORDER_COLOUR, PAPER_COLOUR, legend_below
 from lagrotor.theory import paired_series
 from lagrotor.theory.paired_precession.series import shape_of
 
@@ -101,7 +101,7 @@ def figure() -> Figure:
         )
         low, high = min(exact.min(), 1.0), max(exact.max(), 1.0)
         panel.set_ylim(low - 0.25 * (high - low), high + 0.6 * (high - low))
-        panel.set(xlabel="amplitude $r_0$ [1]", ylabel=r"$\Omega / \Omega_0$ [1]" if i == 0 else "", xlim=(0, 1))
+        panel.set(xlabel="amplitude $r_0$", ylabel=r"$\Omega / \Omega_0$" if i == 0 else "", xlim=(0, 1))
         panel.set_title(name.replace(", ", ",\n"), fontsize=9.5)
-    picture.legend(loc="outside lower center", ncols=4)
+    legend_below(picture, 4)
     return picture

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, floquet
-from lagrotor.drawing import CASE_COLOURS, EXACT_COLOUR, OKABE_ITO
+from lagrotor.drawing import CASE_COLOURS, EXACT_COLOUR, OKABE_ITO, legend_below
 from lagrotor.numerics import measured_order
 from lagrotor.theory import elliptic_edge, growth_squared
 
@@ -103,7 +103,7 @@ def figure() -> Figure:
         fill = colour if values[0] > 0 else "white"
         growth.loglog(d["fine"], law, color=colour, lw=1.2)
         growth.loglog(d["amplitudes"], np.abs(values), mark, color=colour, mfc=fill, label=name)
-    growth.set(xlabel="amplitude $r_0$ [1]", ylabel="growth or angle per turn [rad]", title="Growth per turn")
+    growth.set(xlabel="amplitude $r_0$", ylabel="growth or angle per turn (rad)", title="Growth per turn")
     growth.set_xticks([0.06, 0.1, 0.2, 0.3], ["0.06", "0.1", "0.2", "0.3"])
     growth.set_xticks([], minor=True)
     plane.fill_betweenx(d["edge_sigma"], d["edge_r0"], 0.4, color=OKABE_ITO["yellow"], alpha=0.3, lw=0)
@@ -120,11 +120,11 @@ def figure() -> Figure:
         sigma, r0, _ = d["tried"][(d["tried"][:, 2] > 0) == growing].T
         plane.plot(r0, sigma, "D", color=EXACT_COLOUR, mfc=fill, ms=5, label=says)
     plane.set(
-        xlabel="amplitude $r_0$ [1]",
-        ylabel=r"$\sigma$ [1]",
+        xlabel="amplitude $r_0$",
+        ylabel=r"$\sigma$",
         title="Where it is stable",
         xlim=(0, 0.4),
         ylim=(0.96, LAST),
     )
-    picture.legend(loc="outside lower center", ncols=3)
+    legend_below(picture, 3)
     return picture

@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, Shock, natural_rate, simulate, toppling_after_shock
-from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR
+from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR, legend_below
 from lagrotor.models import run_after, time_to_wander, turning_rate, wandering_rate
 from lagrotor.numerics import measured_order
 from lagrotor.theory import wander_after_shock
@@ -102,18 +102,14 @@ def figure() -> Figure:
             FORCES, d[name], "o", color=EXACT_COLOUR, mfc="none", ms=6, label="exact mean rates", clip_on=False
         )
     times.loglog(FOLLOWED, d["followed"], "x", color=EXACT_COLOUR, ms=7, label="exact, mean of x at the bound")
-    times.set(xlabel="force along x [N]", ylabel="time [s]", title="Time to reach the bound", xlim=(1.9, 21))
+    times.set(xlabel="force along x (N)", ylabel="time $t$ (s)", title="Time to reach the bound", xlim=(1.9, 21))
     times.set_xticks([2, 5, 10, 20], ["2", "5", "10", "20"])
     times.set_xticks([], minor=True)
-    run.plot(d["t"], d["x"], color=EXACT_COLOUR, lw=1.0, label="exact run: mean x of both axes [1]")
-    run.plot(d["t"], d["alpha"], color=EXACT_COLOUR, ls=":", label="exact run: mean turning angle [rad]")
+    run.plot(d["t"], d["x"], color=EXACT_COLOUR, lw=1.0, label="exact run: mean x of both axes")
+    run.plot(d["t"], d["alpha"], color=EXACT_COLOUR, ls=":", label="exact run: mean turning angle (rad)")
     after = d["t"] > AT
     run.plot(d["t"][after], wander_after_shock(scene(SHOWN)) * (d["t"][after] - AT), color=CORRECTION_COLOUR)
     run.plot(d["t"][after], toppling_after_shock(scene(SHOWN)) * (d["t"][after] - AT), color=purple)
-    run.set(xlabel="time [s]", ylabel="mean x and turning angle [1]", title=f"One run, {SHOWN:g} N")
-    one = {}
-    for panel in (times, run):
-        handles, labels = panel.get_legend_handles_labels()
-        one |= dict(zip(labels, handles, strict=True))
-    picture.legend(one.values(), one.keys(), loc="outside lower center", ncols=2)
+    run.set(xlabel="time $t$ (s)", ylabel="mean x and turning angle", title=f"One run, {SHOWN:g} N")
+    legend_below(picture, 2)
     return picture

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, Shock, shock_response, simulate
-from lagrotor.drawing import CASE_COLOURS, EXACT_COLOUR
+from lagrotor.drawing import CASE_COLOURS, EXACT_COLOUR, legend_below
 from lagrotor.theory import toppling_growth, toppling_threshold
 
 SPIN, FORCE = 10.0, 50.0
@@ -107,8 +107,8 @@ def figure() -> Figure:
         growth.plot(d["rates"], values, color=colour, label=f"closed form, {name}")
     growth.plot(d["tried"][:, 1], d["measured"], "o", color=EXACT_COLOUR, mfc="none", label="exact motion")
     growth.set(
-        xlabel=r"rate of turning $\nu$ [rad/s]",
-        ylabel="growth rate [1/s]",
+        xlabel=r"rate of turning $\nu$ (rad/s)",
+        ylabel="growth rate (1/s)",
         title="Growth of a small tilt",
         ylim=(-0.3, 14),
     )
@@ -116,6 +116,6 @@ def figure() -> Figure:
         shocks.plot(
             d["t"], x, color=EXACT_COLOUR, ls=line, lw=1.2, label=f"exact, {force:+g} N along y".replace("-", "−")
         )
-    shocks.set(xlabel="time [s]", ylabel="mean x of both axes [1]", title="After the paper's shocks along y")
-    picture.legend(loc="outside lower center", ncols=3)
+    shocks.set(xlabel="time $t$ (s)", ylabel="mean x of both axes", title="After the paper's shocks along y")
+    legend_below(picture, 3)
     return picture

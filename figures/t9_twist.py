@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, simulate
-from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR
+from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR, legend_below
 from lagrotor.theory import parallel_scene, twist_growth, twist_multiplier_growth
 
 MASS, SPIN, ANGLES = 1.0, 10.0, (0.1, 0.4)
@@ -99,9 +99,9 @@ def figure() -> Figure:
         residual.plot(d["inertia"], d["closed"][i] - d["hill"][i], color=colour)
     for panel in (growth, residual):
         panel.axvline(EDGE, color="#777777", ls=":", label=r"threshold, $K = m\ell^2/4$" if panel is growth else None)
-        panel.set_xlabel("inertia of the bar K [kg m²]")
+        panel.set_xlabel("inertia of the bar K (kg m²)")
     growth.axvline(1.0, color=PAPER_COLOUR, lw=5, alpha=0.25, label="the paper's bar")
-    growth.set(ylabel="growth rate [1/s]", title="Growth of a small twist")
-    residual.set(ylabel="difference [1/s]", title="Residual: closed form less Hill")
-    picture.legend(loc="outside lower center", ncols=3)
+    growth.set(ylabel="growth rate (1/s)", title="Growth of a small twist")
+    residual.set(ylabel="difference (1/s)", title="Residual: closed form less Hill")
+    legend_below(picture, 3)
     return picture

@@ -49,7 +49,7 @@ def _curve(run: SampledMotion, what: Any) -> tuple[str, Array]:
         letter = next(s for s in letters if str(s) == name)
         return f"${letter_latex(letter)}$", moving[name]
     if name in ("E", "energy"):
-        return "$E$ [J]", run.energy
+        return "$E$ (J)", run.energy
     if isinstance(what, str) and name in run.system.names:
         return fill(name, _WIDE).replace("$", r"\$"), run.reactions[name]
     if isinstance(what, str):
