@@ -44,8 +44,8 @@ def measure() -> dict[str, float]:
 CAPTION = (
     f"Run of the spring-link model with the paper's step of {STEP:g} s, S = {STIFFNESS:g} N/m and D = {DAMPING:g} kg/s (n = 20, "
     "omega_s = 10 rad/s in 4.01, as in figure 10), spins of 10 and 10 rad/s and no shock. The bar has 1 kg and 1 kg m², and its "
-    "centre is midway between the tips. In 10 s the energy differs from 100 J by at most "
-    f"{measure()['largest distance from 100 J (J)']:.0g} J."
+    "centre is midway between the tips. In 10 s the energy (a) differs from 100 J by at most "
+    f"{measure()['largest distance from 100 J (J)']:.0g} J (b)."
 )
 
 

@@ -55,7 +55,7 @@ def measure() -> dict[str, float]:
 _before, _most, _end, _exact, _limit = measure().values()
 CAPTION = (
     f"Run of the spring-link model with the paper's step of {STEP:g} s, a bar of 1 kg and 1 kg m², spins of 10 and 10 rad/s, and "
-    "the shock 50 exp(−(50 (t − 2))²) N along x on the tip of rotor 1. The energy rises from "
+    "the shock 50 exp(−(50 (t − 2))²) N along x on the tip of rotor 1 (b). The energy (a) rises from "
     f"{_before:.0f} to {_most:.3f} J, and the dampers reduce it to {_end:.3f} J at 10 s. In the exact model it is {_exact:.3f} J "
     "after the shock. The paper does not give n and omega_s of 4.01. This figure and the others use omega_s = 10 "
     "rad/s and n = 20, "

@@ -64,7 +64,7 @@ def measure() -> dict[str, float]:
 
 _constant, _least, _most, _second, _third = measure().values()
 CAPTION = (
-    f"The distance between the tips is shown for r_0 = sin theta_0 = {R0}, ell = R = 1 m. At constant inclination it "
+    f"The distance between the tips (a) and its difference from 1 m (b) are shown for r_0 = sin theta_0 = {R0}, ell = R = 1 m. At constant inclination it "
     "varies from 1 "
     f"to {_constant:.4f} m. With the paper's correction (5.20) it varies from {_least:.4f} to {_most:.4f} m, so it is nearly "
     f"constant but too long. The series of the exact orbit (massless bar) differs from 1 m by up to {_second:.1e} m "
@@ -93,7 +93,12 @@ def figure() -> Figure:
         if name != "exact":
             residual.semilogy(d["phi"], np.maximum(np.abs(d[name] - 1), 1e-9), color=colour, ls=line)
     main.set(ylabel="length of the bar (m)", ylim=(0.985, 1.095), title=f"Length of the bar, $r_0$ = {R0}")
-    residual.set(ylabel="|length − ℓ| (m)", xlabel="angle $\\phi$ (rad)", title="Residual", ylim=(1e-5, 0.3))
+    residual.set(
+        ylabel="|length − ℓ| (m)",
+        xlabel="angle $\\phi$ (rad)",
+        title="Distance of the length from 1 m",
+        ylim=(1e-5, 0.3),
+    )
     residual.set_yticks([1e-5, 1e-4, 1e-3, 1e-2, 1e-1])
     over_one_turn(residual)
     legend_below(picture, 2)

@@ -62,11 +62,11 @@ def measure() -> dict[str, float]:
 
 _paper, _third, _ninth, _longest, _ratio = measure().values()
 CAPTION = (
-    f"The amplitude is r_0 = {R0} (the paper does not print its value), the bar is massless, and ell = R = 1 m. The "
+    f"Orbits of the tips (a): the amplitude is r_0 = {R0} (the paper does not print its value), the bar is massless, and ell = R = 1 m. The "
     "exact curve is "
     f"the periodic orbit of the minimal model with spins of ±10 rad/s at the tolerance {TOL:g}; its rate is "
     f"{_ratio:.4f} times the "
-    f"natural rate. The largest distance from the exact tip at the same phase is {_paper:.2f} m for the paper's "
+    f"natural rate. The largest distance from the exact tip at the same phase (b) is {_paper:.2f} m for the paper's "
     "correction, which "
     f"needs a bar of up to {_longest:.2f} m, {_third:.3f} m for the series of order 3, and {_ninth:.4f} m for order 9."
 )

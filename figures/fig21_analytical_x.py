@@ -56,10 +56,10 @@ def measure() -> dict[str, float]:
 
 _paper, _corrected, _mean, _ = measure().values()
 CAPTION = (
-    f"The rate is 1 rad/s, r_0 = {R0}, and ell = R = 1 m. The exact curve is the periodic orbit of the minimal model "
+    f"Positions of the right (a) and left tip (b): the rate is 1 rad/s, r_0 = {R0}, and ell = R = 1 m. The exact curve is the periodic orbit of the minimal model "
     "(massless bar, "
     f"spins of ±10 rad/s, tolerance {TOL:g}); its time is multiplied by its frequency, so that its phase is t. The "
-    "largest residual "
+    "largest residual (c) "
     f"of the paper's formula (5.22) is {_paper:.3f} m. Its mean residual in x_1 is {_mean:.3f} m, because −r_0² = "
     f"{-(R0**2):.3f} m "
     f"is missing from its centre. The corrected formula of order 2 has a residual of at most {_corrected:.4f} m."
@@ -82,6 +82,10 @@ def figure() -> Figure:
     residual.plot(d["t"], d["paper"][1] - d["exact"][1], color=PAPER_COLOUR, ls=":")
     residual.plot(d["t"], d["corrected"][0] - d["exact"][0], color=CORRECTION_COLOUR)
     residual.plot(d["t"], d["corrected"][1] - d["exact"][1], color=CORRECTION_COLOUR, ls=":")
-    residual.set(xlabel="time $t$ (s)", ylabel="residual (m)", title="Residual (solid $x_1$, dotted $x_2$)")
+    residual.set(
+        xlabel="time $t$ (s)",
+        ylabel="residual (m)",
+        title="Difference from the exact orbit (solid $x_1$, dotted $x_2$)",
+    )
     legend_below(picture, 3)
     return picture

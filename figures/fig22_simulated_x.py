@@ -54,9 +54,9 @@ def measure() -> dict[str, float]:
 _m = measure()
 CAPTION = (
     "The scene of 5.2.1 has spins of ±10 rad/s, a bar of 1 m, 0.01 kg and 0.1 kg m², and the shock (40, −11, 0) exp(−(20 (t − "
-    f"2))²) N on tip 1. It is simulated with the minimal model at the tolerance {TOL:g}. From 2.3 to 10 s x_1 varies from "
-    f"{_m['x_1, least (m)']:.3f} to {_m['x_1, most (m)']:.3f} m and x_2 from {_m['x_2, least (m)']:.3f} to "
-    f"{_m['x_2, most (m)']:.3f} m, at the rate {_m['rate (rad/s)']:.3f} rad/s."
+    f"2))²) N on tip 1. It is simulated with the minimal model at the tolerance {TOL:g}. From 2.3 to 10 s x_1 (b) varies from "
+    f"{_m['x_1, least (m)']:.3f} to {_m['x_1, most (m)']:.3f} m and x_2 (a) from {_m['x_2, least (m)']:.3f} to "
+    f"{_m['x_2, most (m)']:.3f} m, at the rate {_m['rate (rad/s)']:.3f} rad/s; (c) shows y."
 ).replace(" -", " −")
 
 

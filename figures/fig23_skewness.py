@@ -69,8 +69,8 @@ _m = measure()
 CAPTION = (
     f"This is the run of figure 22 (spins of ±10 rad/s, a bar of 0.01 kg and 0.1 kg m², minimal model, tolerance {TOL:g}) after "
     f"2.4 s. Each centre is the mean of a tip over {_m['whole turns']:.0f} whole turns. The line through the centres "
-    "has the angle "
-    f"{_m['skew angle (deg)']:.2f}° to x; from turn to turn the angle varies by {_m['spread over the turns (deg)']:.2f}°. The "
+    "(a) has the angle "
+    f"{_m['skew angle (deg)']:.2f}° to x; from turn to turn (b) the angle varies by {_m['spread over the turns (deg)']:.2f}°. The "
     f"linear response to the shock gives {_m['skew angle by the linear response (deg)']:.2f}°. The paper does not "
     "print the angle."
 ).replace(" -", " −")
@@ -100,7 +100,7 @@ def figure() -> Figure:
     top.text(0.06, 0.06, f"{d['angle'][0]:.1f}° to x".replace("-", "−"), fontsize=10)
     turns.plot(np.arange(1, len(d["turn_angles"]) + 1), d["turn_angles"], "o", color=EXACT_COLOUR, ms=5)
     turns.axhline(d["predicted_angle"][0], color=CORRECTION_COLOUR, ls="--")
-    turns.set(xlabel="turn after the shock", ylabel="angle to x (deg)", title="Angle of the skew axis, turn by turn")
+    turns.set(xlabel="turn after the shock", ylabel="angle to x (deg)", title="Angle of the skew axis in each turn")
     turns.set(ylim=(-21.5, -19), xlim=(0.5, len(d["turn_angles"]) + 0.5))
     legend_below(picture, 3)
     return picture

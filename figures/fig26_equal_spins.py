@@ -55,10 +55,10 @@ _exact, _springs, _residual = measure().values()
 CAPTION = (
     "The spins are 20 and 20 rad/s, the bar has 1 m, 1 kg and 1 kg m² (section 4.1), and the shock 40 exp(−(20 (t − "
     "2))²) N acts on "
-    f"tip 1 along x. The exact curve is the minimal model at the tolerance {TOL:g}. The paper's method has springs with S = "
-    f"{STIFFNESS:g} N/m and D = {DAMPING:g} kg/s (as in figure 25) and a step of {STEP:g} s. The amplitude is "
+    f"tip 1 along x (a). The exact curve is the minimal model at the tolerance {TOL:g}. The paper's method has springs with S = "
+    f"{STIFFNESS:g} N/m and D = {DAMPING:g} kg/s (as in figure 25) and a step of {STEP:g} s. The amplitude (b) is "
     f"{_exact:.4f} m in the "
-    f"exact model and {_springs:.4f} m by the paper's method; the largest residual is {_residual:.3f} m."
+    f"exact model and {_springs:.4f} m by the paper's method; the largest residual (c) is {_residual:.3f} m."
 )
 
 
@@ -74,6 +74,6 @@ def figure() -> Figure:
     residual.plot(d["t"], d["springs"] - d["exact"], color=MODEL_COLOUR)
     force.set(ylabel="force (N)", title="Force on tip 1 along x")
     x.set(ylabel="$x_1$ (m)", title="x of tip 1")
-    residual.set(xlabel="time $t$ (s)", ylabel="residual (m)", title="Residual: paper's method − exact model")
+    residual.set(xlabel="time $t$ (s)", ylabel="residual (m)", title="Paper's method minus exact model")
     legend_below(picture, 2)
     return picture

@@ -82,15 +82,15 @@ def measure() -> dict[str, float]:
 _m = measure()
 CAPTION = (
     "The spins are ±10 rad/s, and the shock is (40, −11, 0) N of 5.2.1 on tip 1, because the listing of 5.3 has no shock and no "
-    "bar. Both bars are 1 m long; the heavy one has 1 kg and 1 kg m² (4.1), the light one 0.01 kg and 0.1 kg m² "
+    "bar. Both bars are 1 m long; the heavy one (a) has 1 kg and 1 kg m² (4.1), the light one (b) 0.01 kg and 0.1 kg m² "
     "(5.2.1). The exact "
     f"curves are the minimal model at the tolerance {TOL:g}. The paper's method, for the heavy bar, has springs as in figure 25 "
-    f"and a step of {STEP:g} s. From 2.3 s to 10 s the spectra (Hann window) give {_m['heavy bar, rate (rad/s)']:.3f} "
+    f"and a step of {STEP:g} s. From 2.3 s to 10 s the spectra (d) give {_m['heavy bar, rate (rad/s)']:.3f} "
     "rad/s for the "
     f"heavy bar (paper's method {_m['heavy bar, spring model, rate (rad/s)']:.3f}, natural rate "
     f"{_m['heavy bar, natural rate (rad/s)']:.3f}) and {_m['light bar, rate (rad/s)']:.3f} rad/s for the light bar (natural rate "
     f"{_m['light bar, natural rate (rad/s)']:.3f}). Neither is {PRINTED:g} rad/s, printed as 0.57. The sines have given rates; "
-    "their offset, size and phase are fitted over the first period after 2.3 s."
+    "their offset, size and phase are fitted over the first period after 2.3 s; (c) is their phase minus that of x_1."
 )
 
 
@@ -128,8 +128,8 @@ def figure() -> Figure:
     heights.plot(d["rate"], d["springs_amplitude"], color=MODEL_COLOUR, lw=1.2)
     heights.axvline(PRINTED, color=PAPER_COLOUR, ls="--", lw=1.2)
     drift.set(xlabel="time $t$ (s)", ylabel="phase drift (rad)", xlim=(1.5, 10))
-    drift.set_title("Phase of the sine less that of $x_1$ (solid: heavy bar, dash-dotted: light)")
+    drift.set_title("Phase of the sine minus that of $x_1$ (solid heavy, dash-dotted light bar)")
     heights.set(xlabel="rate (rad/s)", ylabel="amplitude (m)", xlim=(0, 12), ylim=(0, None))
-    heights.set_title("Spectrum of $x_1$ after the shock (solid: heavy bar, dash-dotted: light)")
+    heights.set_title("Spectrum of $x_1$ after the shock (solid heavy, dash-dotted light bar)")
     legend_below(picture, 2)
     return picture

@@ -6,7 +6,7 @@ from lagrotor.lazy_imports import face
 
 if TYPE_CHECKING:
     from lagrotor.drawing.style import CASE_COLOURS as CASE_COLOURS
-    from lagrotor.drawing.style import CASE_LINES as CASE_LINES
+    from lagrotor.drawing.style import CASE_DASHES as CASE_DASHES
     from lagrotor.drawing.style import CORRECTION_COLOUR as CORRECTION_COLOUR
     from lagrotor.drawing.style import EXACT_COLOUR as EXACT_COLOUR
     from lagrotor.drawing.style import FORCE_COLOUR as FORCE_COLOUR

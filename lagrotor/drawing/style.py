@@ -31,12 +31,10 @@ HIGH_ORDER_COLOUR = "#7FD3B8"  # high-order correction, a wide line below the co
 EXACT_COLOUR = OKABE_ITO["black"]
 MODEL_COLOUR = OKABE_ITO["blue"]
 # Curves that differ by a case, such as a bar or a spin; these colours have no fixed meaning. They are equally light in a
-# print without colours, so lines have the dashes of CASE_LINES, and points have different markers.
+# print without colours, so lines have the dashes CASE_DASHES, colour → dashes, and points have different markers.
 CASE_COLOURS = OKABE_ITO["sky blue"], OKABE_ITO["orange"], OKABE_ITO["reddish purple"], "#7A5C1E"
-_CASE_DASHES = "-", (0, (5, 1.5)), (0, (6, 1.5, 1.5, 1.5)), (0, (1.5, 1))
-CASE_LINES: tuple[dict[str, Any], ...] = tuple(
-    {"color": colour, "linestyle": dashes} for colour, dashes in zip(CASE_COLOURS, _CASE_DASHES, strict=True)
-)
+_DASHES: tuple[Any, ...] = "-", (0, (5, 1.5)), (0, (6, 1.5, 1.5, 1.5)), (0, (1.5, 1))
+CASE_DASHES = dict(zip(CASE_COLOURS, _DASHES, strict=True))
 FORCE_COLOUR = "#777777"
 
 HALO = [withStroke(linewidth=3, foreground="white")]  # around a label on a line

@@ -119,11 +119,11 @@ def stability_figure(useful: Usefulness) -> Figure:
             colors=EXACT_COLOUR,
             linewidths=2,
         )
-        panel.set(xscale="log", yscale="log", title=f"order {order}", xlabel="amplitude $r_0$")
+        panel.set(xscale="log", yscale="log", title=f"Order {order}", xlabel="amplitude $r_0$")
         panel.grid(False)
     panels[0].set_ylabel(r"departure from opposite spins, $1 + \omega_2/\omega_1$")
     bar = figure.colorbar(filled, ax=list(panels))
-    bar.set_label(r"largest error over one turn, $\log_{10}$ of R")
+    bar.set_label(r"$\log_{10}$ of the largest error over one turn (R)")
     line = Line2D([], [], color=EXACT_COLOUR, linewidth=2, label=f"error {USEFUL:g} $r_0$: useful left of and below it")
     figure.legend(handles=[line], loc="outside lower center")
     return figure

@@ -136,7 +136,7 @@ def shock_figure(data: dict[str, Array], letter: str) -> Figure:
             panel.axvline(end, color=EXACT_COLOUR, linewidth=0.8, linestyle=":")
         lower.annotate("the exact model ends:\nbar and axes in line", (end, -0.75), (8, 0), textcoords="offset points")
     lower.set(ylabel="centre of rotor 1 (m)", xlabel="time $t$ (s)", title="Centre of mass of rotor 1")
-    lower.margins(y=0.06)
+    lower.margins(y=0.12)
     legend_below(figure, 2)
     return figure
 
@@ -160,9 +160,9 @@ def shock_script(scene: Scene, letter: str) -> tuple[Callable[[], Any], Callable
         f"Run of the spring-link model with the paper's step of {STEP:g} s, S = {STIFFNESS:g} N/m and D = {DAMPING:g} "
         "kg/s (n = 20, "
         "omega_s = 10 rad/s in 4.01, as in figure 10), a bar of 1 kg and 1 kg m², spins of 10 and −10 rad/s, and the shock "
-        f"50 exp(−(50 (t − 2))²) N along {letter} on the tip of rotor 1. The energy rises from 100 to {energy:.3f} J "
+        f"50 exp(−(50 (t − 2))²) N along {letter} on the tip of rotor 1 (b). The energy (a) rises from 100 to {energy:.3f} J "
         "(exact model: "
-        f"{exact:.3f} J). In 10 s the centre of rotor 1 moves over a range of {x:.2f} m in x, {y:.2f} m in y and "
+        f"{exact:.3f} J). In 10 s the centre of rotor 1 (c) moves over a range of {x:.2f} m in x, {y:.2f} m in y and "
         f"{z:.2f} m in z. The "
         f"dashed curves are the exact model, which differs by {1000 * distance:.1f} mm at 10 s. The paper's z is 0.5 m less."
     )
@@ -197,14 +197,16 @@ def rate_figure(data: dict[str, Array], printed: float) -> Figure:
         )
         x.set(xlim=span, xlabel="time $t$ (s)", ylabel="$x - x(0)$ (m)", title=f"x of tip 1: {says.lower()}")
     over = data["t"] > SPECTRUM_FROM
-    for name, colour, width in (
-        ("printed", PAPER_COLOUR, 1.6),
-        ("springs", MODEL_COLOUR, 1.2),
-        ("corrected", CORRECTION_COLOUR, 1.6),
+    for name, colour, line in (
+        ("printed", PAPER_COLOUR, "--"),
+        ("springs", MODEL_COLOUR, "-"),
+        ("corrected", CORRECTION_COLOUR, ":"),
     ):
-        residual.plot(data["t"][over], (data[name] - data["exact"])[over], color=colour, lw=width)
-    residual.set(xlabel="time $t$ (s)", ylabel="residual (m)", xlim=(1.5, 10))
-    residual.set_title("Residual against the exact model, from the end of the shock")
+        residual.plot(
+            data["t"][over], (data[name] - data["exact"])[over], color=colour, ls=line, lw=2 if line == ":" else 1.2
+        )
+    residual.set(xlabel="time $t$ (s)", ylabel="difference (m)", xlim=(1.5, 10))
+    residual.set_title("Difference of x from the exact model, after the shock")
     heights.plot(data["rate"], data["exact_amplitude"], color=EXACT_COLOUR)
     heights.plot(data["rate"], data["springs_amplitude"], color=MODEL_COLOUR, lw=1.2)
     heights.axvline(printed, color=PAPER_COLOUR, ls="--", lw=1.2)
@@ -230,6 +232,6 @@ def over_one_turn(panel: Axes) -> None:
 @accept_old_keywords
 def distance_over_one_turn(panel: Axes, least: float, greatest: float) -> None:
     """Prepare a panel for the distance, in m, of tip 1 from the exact tip over the phase; its limits are given in m."""
-    panel.set(xlabel="phase (rad)", ylabel="distance (m)", title="Residual: distance of tip 1 from the exact one")
+    panel.set(xlabel="phase (rad)", ylabel="distance (m)", title="Distance of tip 1 from the exact tip")
     panel.set_ylim(least, greatest)
     over_one_turn(panel)
