@@ -67,7 +67,8 @@ def measure() -> dict[str, float]:
 
 _BESIDE, _OTHERS = recorded_bodies_and_lagrangians(), recorded_mechanisms()
 CAPTION = (
-    "Processor times of several tools: (a), (b) until the mechanism is ready, (c), (d) of a right-hand side. Each tool runs in its own process, and its right-hand side equals the others' "
+    "Processor times of several tools: (a), (b) until the mechanism is ready, (c), (d) of a right-hand side. Each tool "
+    "runs in its own process, and its right-hand side equals the others' "
     "to 1e-9. Solid "
     f"lines are one run on {_BESIDE['machine']['processor']}. "
     f"{record_age('bodies_and_lagrangians', _BESIDE['date'], _BESIDE['digest'])} Dotted lines are "

@@ -64,7 +64,8 @@ def measure() -> dict[str, float]:
 
 _constant, _least, _most, _second, _third = measure().values()
 CAPTION = (
-    f"The distance between the tips (a) and its difference from 1 m (b) are shown for r_0 = sin theta_0 = {R0}, ell = R = 1 m. At constant inclination it "
+    f"The distance between the tips (a) and its difference from 1 m (b) are shown for r_0 = sin theta_0 = {R0}, ell = R "
+    "= 1 m. At constant inclination it "
     "varies from 1 "
     f"to {_constant:.4f} m. With the paper's correction (5.20) it varies from {_least:.4f} to {_most:.4f} m, so it is nearly "
     f"constant but too long. The series of the exact orbit (massless bar) differs from 1 m by up to {_second:.1e} m "

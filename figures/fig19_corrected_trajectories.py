@@ -49,9 +49,11 @@ def measure() -> dict[str, float]:
 
 _paper, _second, _third = measure().values()
 CAPTION = (
-    f"Orbits of the tips (a): the amplitude is r_0 = {R0}, the bar is massless, and ell = R = 1 m. The exact curve is the periodic orbit of the minimal "
+    f"Orbits of the tips (a): the amplitude is r_0 = {R0}, the bar is massless, and ell = R = 1 m. The exact curve is "
+    "the periodic orbit of the minimal "
     f"model with spins of ±10 rad/s at the tolerance {TOL:g}. The largest distance from the exact tip at the same phase "
-    f"(b) is {_paper:.3f} m for the paper's correction (5.20), {_second:.4f} m for the corrected series of order 2, and {_third:.4f} m "
+    f"(b) is {_paper:.3f} m for the paper's correction (5.20), {_second:.4f} m for the corrected series of order 2, and "
+    f"{_third:.4f} m "
     "for order 3."
 )
 

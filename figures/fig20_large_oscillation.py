@@ -62,7 +62,8 @@ def measure() -> dict[str, float]:
 
 _paper, _third, _ninth, _longest, _ratio = measure().values()
 CAPTION = (
-    f"Orbits of the tips (a): the amplitude is r_0 = {R0} (the paper does not print its value), the bar is massless, and ell = R = 1 m. The "
+    f"Orbits of the tips (a): the amplitude is r_0 = {R0} (the paper does not print its value), the bar is massless, "
+    "and ell = R = 1 m. The "
     "exact curve is "
     f"the periodic orbit of the minimal model with spins of ±10 rad/s at the tolerance {TOL:g}; its rate is "
     f"{_ratio:.4f} times the "

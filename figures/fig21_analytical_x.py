@@ -56,7 +56,8 @@ def measure() -> dict[str, float]:
 
 _paper, _corrected, _mean, _ = measure().values()
 CAPTION = (
-    f"Positions of the right (a) and left tip (b): the rate is 1 rad/s, r_0 = {R0}, and ell = R = 1 m. The exact curve is the periodic orbit of the minimal model "
+    f"Positions of the right (a) and left tip (b): the rate is 1 rad/s, r_0 = {R0}, and ell = R = 1 m. The exact curve "
+    "is the periodic orbit of the minimal model "
     "(massless bar, "
     f"spins of ±10 rad/s, tolerance {TOL:g}); its time is multiplied by its frequency, so that its phase is t. The "
     "largest residual (c) "
@@ -85,7 +86,7 @@ def figure() -> Figure:
     residual.set(
         xlabel="time $t$ (s)",
         ylabel="residual (m)",
-        title="Difference from the exact orbit (solid $x_1$, dotted $x_2$)",
+        title="Residual (solid $x_1$, dotted $x_2$)",
     )
     legend_below(picture, 3)
     return picture

@@ -151,7 +151,7 @@ def figure() -> Figure:
     residual.set(
         xlabel="time $t$ (s)",
         ylabel="residual (m)",
-        title="Difference from the simulation (solid left, dotted right tip)",
+        title="Residual (solid left tip, dotted right tip)",
     )
     legend_below(picture, 3)
     return picture

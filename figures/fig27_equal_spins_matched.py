@@ -42,7 +42,8 @@ def measure() -> dict[str, float]:
 
 _m = measure()
 CAPTION = (
-    "The spins are 20 and 20 rad/s, the bar has 1 m, 1 kg and 1 kg m², and the shock (a) is as in figure 25. The exact curve (b), (c) is the "
+    "The spins are 20 and 20 rad/s, the bar has 1 m, 1 kg and 1 kg m², and the shock (a) is as in figure 25. The exact "
+    "curve (b), (c) is the "
     f"minimal model at the tolerance {TOL:g}. The paper's method has springs with S = {STIFFNESS:g} N/m and D = {DAMPING:g} kg/s "
     f"(as in figure 25) and a step of {STEP:g} s. From 2.3 s to 10 s the spectrum (e) with a Hann window gives the rate "
     f"{_m['rate, exact model (rad/s)']:.3f} rad/s for the exact model and {_m['rate, spring model (rad/s)']:.3f} rad/s for the "

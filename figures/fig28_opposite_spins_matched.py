@@ -20,6 +20,8 @@ TOL, PRINTED = 1e-10, 10 * 4 / 5 * 0.7125
 BARS = {"heavy": HEAVY_LINK, "light": LIGHT}
 SCENES = {name: Scene(spins=(10, -10), link=bar, shock=SHOCK_PAIRED) for name, bar in BARS.items()}
 
+SINE, NATURAL = f"sine at {PRINTED:g} rad/s", "sine at the natural rate"  # labels
+
 TITLE = "Opposite spins ±10 in the second mode"
 ALT = (
     "The panels show x of tip 1 from 1.5 s to 10 s for two bars, each with sines at 5.7 rad/s and at the natural rate. The "
@@ -106,22 +108,20 @@ def figure() -> Figure:
         (light, "light", "Light bar: 0.01 kg, 0.1 kg m²"),
     ):
         panel.plot(d["t"], d[f"{name}_x"], color=EXACT_COLOUR, label="exact model")
-        panel.plot(
-            d["t"][after], d[f"{name}_printed"][after], color=PAPER_COLOUR, ls="--", lw=1.2, label="sine at 5.7 rad/s"
-        )
+        panel.plot(d["t"][after], d[f"{name}_printed"][after], color=PAPER_COLOUR, ls="--", lw=1.2, label=SINE)
         panel.plot(
             d["t"][after],
             d[f"{name}_natural"][after],
             color=CORRECTION_COLOUR,
             ls=":",
             lw=2,
-            label="sine at the natural rate",
+            label=NATURAL,
         )
         panel.set(ylabel="$x_1$ (m)", title=title, xlim=(1.5, 10))
         panel.tick_params(labelbottom=False)
         line = "-" if name == "heavy" else "-."
-        drift.plot(d[f"{name}_phase_t"], d[f"{name}_printed_drift"], color=PAPER_COLOUR, ls=line)
-        drift.plot(d[f"{name}_phase_t"], d[f"{name}_natural_drift"], color=CORRECTION_COLOUR, ls=line)
+        drift.plot(d[f"{name}_phase_t"], d[f"{name}_printed_drift"], color=PAPER_COLOUR, ls=line, label=SINE)
+        drift.plot(d[f"{name}_phase_t"], d[f"{name}_natural_drift"], color=CORRECTION_COLOUR, ls=line, label=NATURAL)
         heights.plot(d["rate"], d[f"{name}_amplitude"], color=EXACT_COLOUR, ls=line)
         heights.axvline(d[f"{name}_natural_rate"][0], color=CORRECTION_COLOUR, ls=":", lw=2)
     heavy.plot(d["t"], d["springs_x"], color=MODEL_COLOUR, lw=1.2, label="paper's method (heavy bar)")

@@ -59,7 +59,7 @@ def figure() -> Figure:
     for panel, name, factor, stands in zip(panels, GALLERY, data()["factor"], data()["stands"], strict=True):
         draw_plan(panel, example(name))
         verdict = "stands" if stands else "drifts" if factor == 0 else "falls"
-        panel.set(title=f"{name}: {verdict}", xticks=[], yticks=[], xlabel="", ylabel="")
+        panel.set(title=f"{name}\n{verdict}", xticks=[], yticks=[], xlabel="", ylabel="")
         panel.axis("off")
         ends = np.array([*example(name).joints, *(brace.to[:2] for brace in example(name).braces)])
         middle, half = (ends.max(0) + ends.min(0)) / 2, 0.75 * max(np.ptp(ends, axis=0).max(), 1.0)

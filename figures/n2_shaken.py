@@ -88,7 +88,8 @@ def measure() -> dict[str, float]:
 _one, _two, _five, _above, _higher, _same, _spun, _tuned = measure().values()
 CAPTION = (
     "Two discs of 1 kg under 50 kg each sway along the bar at 1 Hz. Brace and damper across the bar are optimal. With "
-    f"γ = G/(aΩ) the peak (a) exceeds √2/γ by at most {100 * _higher:.1f} %. Spins are as good as a tuned mass of 1, 2 and 5 % at "
+    f"γ = G/(aΩ) the peak (a) exceeds √2/γ by at most {100 * _higher:.1f} %. Spins are as good as a tuned mass of 1, 2 "
+    "and 5 % at "
     f"γ = {_one:.3f}, {_two:.3f}, {_five:.3f}. The discs have 2 % of the mass, and γ = {_two:.3f} is a spin of "
     f"{_two * INERTIA * SWAY / ROTOR.I3:.0f} rad/s. The peaks found on structures agree with the curve within "
     f"{100 * _above:.3f} %, "

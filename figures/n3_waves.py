@@ -158,5 +158,5 @@ def figure() -> Figure:
     staircase.set(ylabel="rate (rad/s), growth (1/s)")
     net.set(xlabel="share of the path 0 – K – M")
     even.set_xlim(0, pi / 2)
-    legend_below(picture, 4)
+    legend_below(picture, 3)
     return picture

@@ -94,6 +94,7 @@ def figure() -> Figure:
     angle, tilt = picture.subplots(1, 2)
     for t, values, c, ink in zip(d["times"], d["angles"], FRICTIONS, CASE_COLOURS[:3], strict=True):
         angle.plot(t[:-1], values[:-1], color=ink, ls=CASE_DASHES[ink], lw=1.4, label=f"exact, c = {c:g} N m s/rad")
+    for t, c in zip(d["times"], FRICTIONS, strict=True):
         law = SPIN * TILT**2 / (2 * c)
         angle.plot(t[[0, -2]], [law, law], ":", color=CORRECTION_COLOUR, label="law, G r₀²/2c")
     angle.set(

@@ -97,7 +97,7 @@ def figure() -> Figure:
     edges = [d["centre"] + sign * d["width"] * reach for sign in (-1, 1)]
     plane.fill_betweenx(reach, *edges, color=CORRECTION_COLOUR, alpha=0.2, lw=0, label="may fall, third order")
     for edge in edges:
-        plane.plot(edge, reach, color=CORRECTION_COLOUR)
+        plane.plot(edge, reach, color=CORRECTION_COLOUR, label="may fall, third order")
     x, y = np.meshgrid(d["centre"] + np.array(OFFSETS), PUSHES, indexing="ij")
     fell = np.isfinite(d["ends"])
     plane.plot(x[fell], y[fell], "o", color=EXACT_COLOUR, label="exact run, fell")

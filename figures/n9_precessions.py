@@ -136,7 +136,7 @@ def figure() -> Figure:
                 sizes[middle] * np.exp(slope * (part - middle)),
                 ":",
                 color="#222222",
-                label="growth at the multiplier",
+                label="rate of the multiplier",
             )
     runs.set(xlabel="number of turns", ylabel="distance from the precession", title="Exact runs")
     legend_below(picture, 3)

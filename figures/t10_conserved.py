@@ -59,7 +59,8 @@ ALT = (
     f"the paper's B stay at the rounding and step errors of the run, all below {_largest:.0e}."
 )
 CAPTION = (
-    "The spins are ±10 rad/s, the bar has m = 0.01 kg and K = 0.1 kg m². Each point is one turn of the exact orbit in the minimal (a) or Euler (b) model at "
+    "The spins are ±10 rad/s, the bar has m = 0.01 kg and K = 0.1 kg m². Each point is one turn of the exact orbit in "
+    "the minimal (a) or Euler (b) model at "
     "the tolerance "
     f"1e-12. Values below {FLOOR:g} are drawn at this value. The axial momenta are constant parameters of the reduced models. E, "
     f"G_1, P and B = G_1 − G_2 vary by at most {_largest:.1e} in SI units. The paper's A varies by {_swing:.3f} kg m²/s at r_0 = "

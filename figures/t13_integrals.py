@@ -97,11 +97,13 @@ CAPTION = (
     f"{_small:.2f} "
     f"per turn, as for growth by a power of time; the largest is {_largest:.1f}. {_chaotic:.0f} of "
     f"{AMPLITUDES.size * MOMENTA.size} exceed {CHAOTIC:g}. The sections are "
-    "taken at the maxima of the mean x while the error is below 10⁻⁶, in one colour and shape per start, named after its phase. At r_0 = "
+    "taken at the maxima of the mean x while the error is below 10⁻⁶, in one colour and shape per start, named after "
+    "its phase. At r_0 = "
     f"{SECTIONS[0][0]:g}, P/G = {SECTIONS[0][1]:g} (b) each start stays on a curve of constant averaged action. At r_0 = "
     f"{SECTIONS[1][0]:g}, P/G = {SECTIONS[1][1]:g} (d), {_wild:.0f} of {len(STARTS[1])} starts are chaotic. Their error stays "
     "below 10⁻⁶ for "
-    f"at least {_short:.0f} turns, the error of the others for all {_long:.0f}. The line in (c) is the time in which 10⁻¹⁴ grows to tol."
+    f"at least {_short:.0f} turns, the error of the others for all {_long:.0f}. The line in (c) is the time in which "
+    "10⁻¹⁴ grows to tol."
 ).replace("-", "−")
 
 

@@ -65,7 +65,8 @@ def measure() -> dict[str, float]:
 
 
 CAPTION = (
-    "The frequency ratio is Omega divided by Omega_0 for massless bars of the lengths R (a), 0.6 R (b) and 1.6 R (c); r_0 is the sine of the inclination when the axes are parallel. The paper's "
+    "The frequency ratio is Omega divided by Omega_0 for massless bars of the lengths R (a), 0.6 R (b) and 1.6 R (c); "
+    "r_0 is the sine of the inclination when the axes are parallel. The paper's "
     "curve is 1/cos theta_0 for every bar. The exact points are the family of periodic orbits, continued from small amplitudes "
     "without a fold. It ends at r_0 = 1, where the axes lie along the joint line. At r_0 = "
     f"{READ_AT:g} with the massless bar the errors are "

@@ -88,7 +88,8 @@ CAPTION = (
     "(hyperbolic), open marks the angle of mu per turn (elliptic), and lines the leading terms. Between the two "
     "smallest amplitudes "
     f"they are proportional to r_0 to the power {_none:.2f} for b = 0, {_less:.2f} for b < 0, and {_more:.2f} for b > 0. (b) "
-    "Here sigma = (a + b)/(a − b) for K = 0. The line is the derived edge, which is right to first order in sigma − 1, where r_0² is "
+    "Here sigma = (a + b)/(a − b) for K = 0. The line is the derived edge, which is right to first order in sigma − 1, "
+    "where r_0² is "
     f"(2/3) (sigma − 1). The grey band is its error, {100 * _error:.0f} % of r_0 at sigma = {LAST:g}."
 )
 

@@ -63,7 +63,8 @@ CAPTION = (
     "The spins are ±10 rad/s, the bar has m = 0.01 kg and K = 0.1 kg m², and the shock has F_x = "
     f"{ALONG:g} N for 1/20 s. The mean of alpha' over {SWINGS} oscillations vanishes at F_y = −{-_second:.2f} N to "
     "second order in "
-    f"the shock, and at −{-_exact:.2f} N in the exact motion (a). With the paper's −{-CHOSEN:g} N it is {_chosen:+.4f} rad/s, and "
+    f"the shock, and at −{-_exact:.2f} N in the exact motion (a). With the paper's −{-CHOSEN:g} N it is {_chosen:+.4f} "
+    "rad/s, and "
     f"without F_y it is −{-_without:.4f} rad/s. The closed form differs from the exact runs by the curve in (b)."
 )
 

@@ -104,7 +104,9 @@ def figure() -> Figure:
             FORCES, d[name], "o", color=EXACT_COLOUR, mfc="none", ms=6, label="exact mean rates", clip_on=False
         )
     times.loglog(FOLLOWED, d["followed"], "x", color=EXACT_COLOUR, ms=7, label="exact, mean of x at the bound")
-    times.set(xlabel="force along x (N)", ylabel="time until then (s)", title="Time to reach the bound", xlim=(1.9, 21))
+    times.set(
+        xlabel="force along x (N)", ylabel="time to the bound (s)", title="Time to reach the bound", xlim=(1.9, 21)
+    )
     times.set_xticks([2, 5, 10, 20], ["2", "5", "10", "20"])
     times.set_xticks([], minor=True)
     run.plot(d["t"], d["x"], color=EXACT_COLOUR, lw=1.0, label="exact run: mean x of both axes (R)")

@@ -101,7 +101,7 @@ CAPTION = (
 def figure() -> Figure:
     """Growth against rate; mean x after the two shocks."""
     d = data()
-    picture = Figure(figsize=(7.4, 4.9))
+    picture = Figure(figsize=(7.4, 5.2))
     growth, shocks = picture.subplots(1, 2, width_ratios=(1.3, 1))
     for (name, (_, colour)), values in zip(BARS.items(), d["growth"], strict=True):
         growth.plot(d["rates"], values, color=colour, ls=CASE_DASHES[colour], label=f"closed form, {name}")
@@ -113,10 +113,10 @@ def figure() -> Figure:
         ylim=(-0.3, 14),
     )
     for force, x, rate, line in zip((FORCE, -FORCE), d["x"], (_plus, _minus), ("-", "--"), strict=True):
-        growth.axvline(rate, color=EXACT_COLOUR, ls=line, lw=1.2)
+        growth.axvline(rate, color=EXACT_COLOUR, ls=line, lw=0.9)
         shocks.plot(
             d["t"], x, color=EXACT_COLOUR, ls=line, lw=1.2, label=f"exact, {force:+g} N along y".replace("-", "−")
         )
     shocks.set(xlabel="time $t$ (s)", ylabel="mean x of both axes (R)", title="Mean x after the shocks")
-    legend_below(picture, 3)
+    legend_below(picture, 2)
     return picture
