@@ -100,7 +100,7 @@ CAPTION = (
 def figure() -> Figure:
     """x of tip 1 for each bar, phase drift, spectra."""
     d = data()
-    picture = Figure(figsize=(7.0, 8.8))
+    picture = Figure(figsize=(7.0, 8.4))
     heavy, light, drift, heights = picture.subplots(4, 1, height_ratios=(1.3, 1.3, 1.1, 1.3))
     after = d["t"] > 2.3
     for panel, name, title in (

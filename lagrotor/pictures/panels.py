@@ -133,11 +133,11 @@ def shock_figure(data: dict[str, Array], letter: str) -> Figure:
     if "exact_t" in data:
         end = data["exact_t"][-1]
         for panel in (upper, lower):
-            panel.axvline(end, color=EXACT_COLOUR, linewidth=0.8, linestyle=":")
-        lower.annotate("the exact model ends:\nbar and axes in line", (end, -0.75), (8, 0), textcoords="offset points")
+            panel.axvline(end, color=EXACT_COLOUR, linewidth=0.8, linestyle=":", label="end of the exact model")
+        lower.annotate("bar and axes in line", (end, -0.8), (8, 0), textcoords="offset points")
     lower.set(ylabel="centre of rotor 1 (m)", xlabel="time $t$ (s)", title="Centre of mass of rotor 1")
     lower.margins(y=0.12)
-    legend_below(figure, 2)
+    legend_below(figure, 3)
     return figure
 
 
