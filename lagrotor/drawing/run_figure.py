@@ -68,7 +68,7 @@ def coordinates_figure(t: Array, coordinates: Mapping[str, Array], energy: Array
 
     coordinates: label → values (n,). drift: violation of the constraints, (n,); it is drawn unless all of it is zero.
     """
-    below = {"E − E(0)": energy - energy[0]} | ({"largest |g|": drift} if drift.any() else {})
+    below = {"E − E(0) (J)": energy - energy[0]} | ({"largest |g|": drift} if drift.any() else {})
     return curves_figure(t, {**coordinates, **below}, below)
 
 
