@@ -27,7 +27,7 @@ UNITS = {
 }  # fmt: skip
 LEAST, WIDTH = 7.0, 182 / 25.4  # points; inches of the text on A4 with the margins of the printed report
 PRINTED = (Path(lagrotor.__file__).parent / "report/page/page.css").read_text().partition("@media print")[2]
-HEIGHT = float(re.search(r"img \{[^}]*max-height: ([\d.]+)cm", PRINTED)[1]) / 2.54  # inches
+SCALE = float(re.search(r"img \{[^}]*zoom: ([\d.]+);", PRINTED)[1])
 
 
 def faults(picture, caption):
@@ -107,7 +107,7 @@ def titles_of(panel):
 
 def text_faults(picture):
     """Text that is too small in print, in old brackets, outside the figure, or titles and legends that overlap."""
-    scale = min(1, WIDTH / picture.get_figwidth(), HEIGHT / picture.get_figheight())
+    scale = min(SCALE, WIDTH / picture.get_figwidth())
     texts = [text for text in picture.findobj(Text) if text.get_visible() and text.get_text().strip()]
     found = [
         f"{text.get_text()!r} has {scale * text.get_fontsize():.1f} pt in print"

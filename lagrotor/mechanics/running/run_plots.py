@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from lagrotor.drawing.run_figure import RunFigure
     from lagrotor.drawing.view import View
     from lagrotor.mechanics.bodies.moving_frames import MovingFrame
-    from lagrotor.mechanics.systems import System
+    from lagrotor.mechanics.equations import Equations
 
 Point = Sequence[sp.Expr]
 _WIDE = 18  # characters of a name beside a panel in one line
@@ -67,7 +67,7 @@ def _curve(run: SampledMotion, what: Any) -> tuple[str, Array]:
     return f"${latex(expression.xreplace(rounded))}$", run.evaluate(what)
 
 
-def _units(system: "System") -> dict[sp.Symbol, str]:
+def _units(system: "Equations") -> dict[sp.Symbol, str]:
     """Return the units of the angles and of their velocities; the units of other coordinates are not known.
 
     A coordinate is an angle if its multiple stands in a sine or cosine of L, of a constraint or of a frame's rotation.
