@@ -47,7 +47,7 @@ CAPTION = (
     f"model, tolerance {TOL:g}. The paper's method has springs with S = {STIFFNESS:g} N/m and D = {DAMPING:g} kg/s (n = 20 and "
     f"omega_s = 10 rad/s, which the paper does not print; see figure 10) and a step of {STEP:g} s. The sines (b), (c) "
     "have the amplitude "
-    f"{_m['amplitude (m)']:.4f} m. From 2.3 s to 10 s the spectrum (e) gives the rate "
+    f"{_m['amplitude (m)']:.4f} m. From 2.3 s to 10 s the spectrum (e) with a Hann window gives the rate "
     f"{_m['rate, exact model (rad/s)']:.3f} rad/s for the exact model and {_m['rate, spring model (rad/s)']:.3f} rad/s for the "
     f"paper's method; over the first 3 s the latter has {_m['rate, spring model, first 3 s (rad/s)']:.3f} rad/s, because the "
     f"dampers reduce the amplitude. The closed form 16/cos theta is {_m['rate, closed form (rad/s)']:.3f} rad/s; the "

@@ -87,7 +87,7 @@ CAPTION = (
     "bar. Both bars are 1 m long; the heavy one (a) has 1 kg and 1 kg m² (4.1), the light one (b) 0.01 kg and 0.1 kg m² "
     "(5.2.1). The exact "
     f"curves are the minimal model at the tolerance {TOL:g}. The paper's method, for the heavy bar, has springs as in figure 25 "
-    f"and a step of {STEP:g} s. From 2.3 s to 10 s the spectra (d) give {_m['heavy bar, rate (rad/s)']:.3f} "
+    f"and a step of {STEP:g} s. From 2.3 s to 10 s the spectra (d) with a Hann window give {_m['heavy bar, rate (rad/s)']:.3f} "
     "rad/s for the "
     f"heavy bar (paper's method {_m['heavy bar, spring model, rate (rad/s)']:.3f}, natural rate "
     f"{_m['heavy bar, natural rate (rad/s)']:.3f}) and {_m['light bar, rate (rad/s)']:.3f} rad/s for the light bar (natural rate "

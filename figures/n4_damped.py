@@ -21,7 +21,7 @@ FAST, SMALL, WEAR, LONG = 40.0, 0.02, 0.1, 6.0
 TITLE = "Friction of the paired precession"
 ALT = (
     "Left: the angle about the joint line as a function of time for three values of friction. Each run oscillates and then "
-    "comes to rest at an angle, which is larger for smaller friction. A dashed line marks the predicted angle G r0 squared "
+    "comes to rest at an angle, which is larger for smaller friction. A dotted line marks the predicted angle G r0 squared "
     "divided by 2 c. Right: the radius of the precession for friction that is the same in every direction, and with "
     "constant spins; the first grows and the second shrinks."
 )

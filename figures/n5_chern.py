@@ -88,7 +88,7 @@ def figure() -> Figure:
         reach = 3 * max(high - low, 0.25)
         shown = (rates > low - reach) & (rates < high + reach)
         for kept, ink, mark, size, label in (
-            (~first & ~last, "#999999", ".", 3.5, "bulk"),
+            (~first & ~last, "#c4c4c4", ".", 3.5, "bulk"),
             (first, CASE_COLOURS[1], "^", 3, "first border"),
             (last, CASE_COLOURS[0], "s", 2.5, "last border"),
         ):
