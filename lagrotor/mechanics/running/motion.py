@@ -25,6 +25,7 @@ from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.integrate import Engine
 from lagrotor.numerics.run import Quantity, Run, check_nonempty
 from lagrotor.numerics.segment import Integrate
+from lagrotor.result_display import text_of
 
 Kind = TypeVar("Kind", bound="SampledMotion")
 
@@ -100,7 +101,7 @@ class SampledMotion(Run):
         >>> System(c, c.v[0]**2 / 2).simulate({}, (0,), (1,), [0, 1]).summary()["ending"]
         'the last time was reached'
         """
-        return {"coordinates": ", ".join(map(str, self.system.c.q))} | super().summary()
+        return {"coordinates": text_of(self.system.c.q)} | super().summary()
 
     @property
     def energy(self) -> Array:
