@@ -1,5 +1,6 @@
 """Formulas as plain text, with factors in the order in which they are written by hand: m g l cos θ, m l² θ̇²/2."""
 
+import re
 from collections.abc import Callable
 from itertools import islice
 from typing import Any
@@ -13,16 +14,29 @@ from sympy.printing.str import StrPrinter
 VELOCITY = 3  # the place of a velocity in a product, after numbers, masses and parameters
 _DOTS = {"_dot": "\u0307", "_ddot": "\u0308"}
 _GREEK = greek_unicode | {"ell": "ℓ"}
+LONG = "a long expression"
 _LONGEST = 120  # nodes of the tree of a formula that is written out
 
 
 def formula(e: Any, number: Callable[[float], str]) -> str:
     """Return a formula as plain text, or "a long expression" for one of more than two lines; `number` writes a float."""
     if sum(1 for _ in islice(sp.preorder_traversal(e), _LONGEST + 1)) > _LONGEST:
-        return "a long expression"
+        return LONG
     text = _Text()
     text.number = number
     return str(text.doprint(e))
+
+
+def with_greek(text: str) -> str:
+    """Return a text with Greek letters and indices in place of names: Omega_0 is Ω₀, phi_1' is φ₁'."""
+    return re.sub(r"(?<![A-Za-z])([A-Za-z]+)(?:_(\d+))?(?![A-Za-z_])", _letter, text)
+
+
+def _letter(match: re.Match[str]) -> str:
+    name, index = match[1], match[2]
+    if name not in _GREEK and (index is None or len(name) > 1):
+        return match[0]
+    return _GREEK.get(name, name) + "".join(map(sub.__getitem__, index or ""))
 
 
 def place_of_factor(factor: sp.Expr) -> tuple[int, Any]:

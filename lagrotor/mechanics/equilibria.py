@@ -215,7 +215,7 @@ def _equilibria(system: Equations, unknowns: str | Sequence[str | sp.Symbol]) ->
             equilibrium = replace(equilibrium, regular=_regular(system, equilibrium.at))
         if equilibrium is not None and equilibrium not in places:
             places.append(equilibrium)
-    return tuple(places)
+    return tuple(sorted(places, key=lambda place: not place.regular))
 
 
 def _regular(system: Equations, at: Mapping[sp.Symbol, sp.Expr]) -> bool:

@@ -8,6 +8,7 @@ import sympy as sp
 
 from lagrotor.algebra import Decision
 from lagrotor.errors import InputError
+from lagrotor.formula_text import LONG
 from lagrotor.mechanics import equilibria, glossary, steady_motions, symmetry, weakly_nonlinear
 from lagrotor.mechanics.canonical import hamiltonians
 from lagrotor.mechanics.equations import Equations
@@ -32,7 +33,12 @@ if TYPE_CHECKING:
     Start = ArrayLike | Mapping[Any, float]
 
 Kind = TypeVar("Kind", bound=Equations)
+_FEW = 3  # coordinates of a system of bodies whose L is written out
 _MOST_PRINTED = 6  # constraints or forces that are written out
+
+
+def _point(at: Any) -> Any:
+    return at.at if isinstance(at, Equilibrium) else at
 
 
 @dataclass(frozen=True, repr=False)
@@ -492,9 +498,10 @@ class System(Equations):
         return weakly_nonlinear.averaged(self, order, small, frequency)
 
     def __repr__(self) -> str:
-        many = len(self.bodies)
-        bodies = f"the energy of {many} {'body' if many == 1 else 'bodies'}" if many else ""
-        rows = {"coordinates": text_of(self.c.q), "L": bodies or text_of(self.L)}
+        many, written = len(self.bodies), not self.bodies or len(self.c.q) <= _FEW
+        rows = {"coordinates": text_of(self.c.q), "L": text_of(self.L) if written else LONG}
+        if many and rows["L"] == LONG:
+            rows["L"] = f"the energy of {many} {'body' if many == 1 else 'bodies'}"
         for name in ("constraints", "rolling"):
             if each := getattr(self, name):
                 rows[name] = (
@@ -582,7 +589,7 @@ class System(Equations):
             raise InputError(
                 f"linearise: inputs = {inputs} must be different symbols: for a function F(t) write a symbol F"
             )
-        point = at.at if isinstance(at, Equilibrium) else at
+        point = _point(at)
         if not isinstance(point, Mapping):
             raise InputError(f"linearise: at = {at!r} must be an equilibrium or {{coordinate or velocity: value, …}}")
         if values is None:
@@ -596,12 +603,12 @@ class System(Equations):
         self, values = function_values.put_functions("linearise", self, values)
         return state_space.state_space(self, point, values, inputs, outputs)
 
-    def floquet(self, at: "Mapping[Any, Any]", values: "Values", period: float) -> "MonodromyMatrix":
+    def floquet(self, at: "Mapping[Any, Any] | Equilibrium", values: "Values", period: float) -> "MonodromyMatrix":
         """Return the monodromy matrix of a periodic motion with its multipliers.
 
         Parameters
         ----------
-        at : mapping
+        at : mapping or Equilibrium
             {coordinate or velocity: value} at t = 0, or at the time that `at` gives for t. Rest in a driven system is a
             periodic motion, too.
         values : mapping
@@ -633,16 +640,16 @@ class System(Equations):
         from lagrotor.mechanics.running import function_values, monodromy
 
         self, values = function_values.put_functions("floquet", self, values)
-        return monodromy.monodromy_matrix(self, at, values, period)
+        return monodromy.monodromy_matrix(self, _point(at), values, period)
 
     def root_locus(
-        self, at: "Mapping[Any, Any]", values: "Values", symbol: sp.Symbol | str, numbers: "ArrayLike"
+        self, at: "Mapping[Any, Any] | Equilibrium", values: "Values", symbol: sp.Symbol | str, numbers: "ArrayLike"
     ) -> "RootLocus":
         """Compute the rates of small motion as one symbol takes numbers.
 
         Parameters
         ----------
-        at : mapping
+        at : mapping or Equilibrium
             {coordinate or velocity: value}, which may be expressions in the symbol.
         values : mapping
             {symbol or name: number} for the other parameters.
@@ -668,10 +675,14 @@ class System(Equations):
         from lagrotor.mechanics.running import function_values, root_loci
 
         self, values = function_values.put_functions("root_locus", self, values)
-        return root_loci.root_locus(self, at, values, symbol, numbers)
+        return root_loci.root_locus(self, _point(at), values, symbol, numbers)
 
     def stability_chart(
-        self, at: "Mapping[Any, Any]", values: "Values", numbers: "Mapping[Any, ArrayLike]", period: Any = None
+        self,
+        at: "Mapping[Any, Any] | Equilibrium",
+        values: "Values",
+        numbers: "Mapping[Any, ArrayLike]",
+        period: Any = None,
     ) -> "StabilityChart":
         """Compute the largest growth rate of small motion over two symbols.
 
@@ -679,7 +690,7 @@ class System(Equations):
 
         Parameters
         ----------
-        at : mapping
+        at : mapping or Equilibrium
             {coordinate or velocity: value}, which may be expressions in the symbols.
         values : mapping
             {symbol or name: number} for the other parameters.
@@ -707,7 +718,7 @@ class System(Equations):
         from lagrotor.mechanics.running import function_values, root_loci
 
         self, values = function_values.put_functions("stability_chart", self, values)
-        return root_loci.stability_chart(self, at, values, numbers, period)
+        return root_loci.stability_chart(self, _point(at), values, numbers, period)
 
     def consistent(
         self, values: "Values", q0: "Start", v0: "Start | None" = None, t: float = 0.0
@@ -850,6 +861,8 @@ class System(Equations):
         from lagrotor.mechanics.running import initial_state, simulation
 
         if t is None:
-            raise InputError("simulate: t, the times in s, is missing: without v0 give it by name, t=np.linspace(0, 10, 101)")
+            raise InputError(
+                "simulate: t, the times in s, is missing: without v0 give it by name, t=np.linspace(0, 10, 101)"
+            )
         q, v = initial_state.numbers_of_start("simulate", self, q0, v0)
         return simulation.simulate_system(self, values, q, v, t, tol, engine, events, progress)

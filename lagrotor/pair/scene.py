@@ -217,11 +217,11 @@ class Scene(Printed):
     rates: tuple[Vector, Vector] = _REST
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "spins", numbers(self.spins, 2, "Scene: spins", "rad/s"))
         for name, kind, optional in (("rotor", Rotor, False), ("link", Link, True), ("shock", Shock, True)):
             value = getattr(self, name)
             if not (isinstance(value, kind) or (optional and value is None)):
                 raise InputError(f"Scene: {name} = {value!r} must be a {kind.__name__}")
-        object.__setattr__(self, "spins", numbers(self.spins, 2, "Scene: spins", "rad/s"))
         for i, spin in enumerate(self.spins):
             not_vanishing(spin, f"Scene: spins[{i}]", "rad/s")
         object.__setattr__(self, "axes", two_vectors(self.axes, "Scene: axes", "1"))

@@ -12,6 +12,7 @@ import sympy as sp
 from numpy.typing import ArrayLike
 
 from lagrotor.errors import DomainError, InputError
+from lagrotor.formula_text import with_greek
 from lagrotor.numerics.arrays import Array as Array
 from lagrotor.numerics.codegen import Program
 from lagrotor.numerics.printers import compile_program, in_blocks, program_source
@@ -95,9 +96,9 @@ class ClosedForm:
         return program_source(self._program, module)
 
     def __repr__(self) -> str:
-        rows = {name: text_of(e) for name, e in zip(self.outputs, self.expressions, strict=True)}
+        rows = {with_greek(name): text_of(e) for name, e in zip(self.outputs, self.expressions, strict=True)}
         rows |= {"where": text_of(self.domain)} if self.domain else {}
-        rows |= {"under": self.assumptions} if self.assumptions else {}
+        rows |= {"under": with_greek(self.assumptions)} if self.assumptions else {}
         return in_lines(f"{self.name}({text_of(self.arguments)})", rows)
 
     def _repr_latex_(self) -> str:

@@ -199,7 +199,7 @@ class Hamiltonian(Shown):
         ----------
         order : int
             The highest degree in the coordinates and momenta.
-        at : mapping
+        at : mapping or Equilibrium
             {coordinate or momentum: value}. If no momentum is named, the momenta are those of rest. For an orbit velocities
             may be named instead, and t gives the time of the point under a drive (0 by default).
         values : mapping or None, optional

@@ -42,11 +42,15 @@ _LARGE = 1e30  # times the first term: growth that no finite series of a nilpote
 _SMALL = 1e-16  # of the largest coefficient: smaller terms of a nilpotent part's series are rounding
 
 
+def _number(value: Any) -> str:
+    return text_of(value) if isinstance(value, sp.Expr) else f"{value:.8g}".replace("-", "−")
+
+
 def _monomial(exponents: Exponents, letters: str) -> str:
     """Return a product of powers as text; the letters share the exponents alike: I₁ I₂², or z₁ w₂."""
     n = len(exponents) // len(letters)
     names = (sp.Symbol(f"{letter}_{j + 1}") for letter in letters for j in range(n))
-    return text_of(sp.Mul(*map(sp.Pow, names, exponents)))
+    return text_of(sp.Mul(*map(sp.Pow, names, exponents))) if any(exponents) else "constant"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -158,13 +162,9 @@ class NormalForm(Shown):
         dict[str, str]
             Name → value in words.
         """
-        exact = self.field is not None
-        rows = {
-            f"frequency {j + 1} [rad/s]": text_of(w) if exact else f"{w:.8g}" for j, w in enumerate(self.frequencies)
-        }
-        rows |= {
-            f"{_monomial(e, 'I')} in H": text_of(c) if exact else f"{c:.8g}" for e, c in list(self.actions.items())[:12]
-        }
+        actions = sorted(self.actions.items(), key=lambda term: (sum(term[0]), [-m for m in term[0]]))
+        rows = {f"frequency {j + 1} [rad/s]": _number(w) for j, w in enumerate(self.frequencies)}
+        rows |= {f"{_monomial(e, 'I')} in H": _number(c) for e, c in actions[:12]}
         resonant = {"resonances": ", ".join(_monomial(e, "zw") for e in self.resonances) or "none"}
         return rows | resonant | {"known through": str(self.known_through), "error": scientific(self.error, 1)}
 
