@@ -87,6 +87,8 @@ class NormalForm(Shown):
     [((0,), -1), ((1,), 1), ((2,), -1/16)]
     """
 
+    _rate, _unit, _series = "frequency", "rad/s", "H"
+
     frequencies: tuple[Any, ...]
     series: Polynomial
     weights: Coefficients
@@ -163,8 +165,8 @@ class NormalForm(Shown):
             Name → value in words.
         """
         actions = sorted(self.actions.items(), key=lambda term: (sum(term[0]), [-m for m in term[0]]))
-        rows = {f"frequency {j + 1} [rad/s]": _number(w) for j, w in enumerate(self.frequencies)}
-        rows |= {f"{_monomial(e, 'I')} in H": _number(c) for e, c in actions[:12]}
+        rows = {f"{self._rate} {j + 1} [{self._unit}]": _number(w) for j, w in enumerate(self.frequencies)}
+        rows |= {f"{_monomial(e, 'I')} in {self._series}": _number(c) for e, c in actions[:12]}
         resonant = {"resonances": ", ".join(_monomial(e, "zw") for e in self.resonances) or "none"}
         return rows | resonant | {"known through": str(self.known_through), "error": scientific(self.error, 1)}
 
