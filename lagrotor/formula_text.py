@@ -122,6 +122,9 @@ class _Text(StrPrinter):  # type: ignore[misc]
         bare = isinstance(e, sp.sin | sp.cos | sp.tan) and e.args[0].is_Symbol
         return f"{e.func.__name__}{power}{f' {inside}' if bare else f'({inside})'}"
 
+    def _print_Abs(self, e: sp.Expr) -> str:
+        return f"|{self._print(e.args[0])}|"
+
     def _print_exp(self, e: sp.Expr) -> str:
         return f"exp({self._print(e.args[0])})"
 

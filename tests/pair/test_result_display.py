@@ -2,6 +2,7 @@
 
 import re
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -23,12 +24,13 @@ from lagrotor import (
     sweep,
 )
 from lagrotor.errors import InputError
-from lagrotor.mechanics import System, coordinates
+from lagrotor.mechanics import Pathway, System, coordinates
 from lagrotor.paper import Finding, Part, judge_text
 from lagrotor.result_display import text_of
 from tests.systems import double_pendulum, heavy_top, henon_heiles
 
 PAIR = Scene(spins=(10, -10))
+PAPERS = Path(__file__).parents[2] / "papers"
 CORNER = Structure([(0, 0), (1, 0), (1, 1)], [(0, 1), (1, 2)], spins=[30, 0, 30])
 
 
@@ -98,8 +100,17 @@ PRINTED = {
     "scene": (lambda: PAIR, "  spins [rad/s]         10, −10"),
     "structure": (lambda: CORNER, "  bars           0–1, 1–2\n  spins [rad/s]  30, 0, 30"),
     "pattern": (lambda: Pattern([(0, 0)], [(1, 0)], bars=[(0, 0, 1)], spins=10), "  steps [m]      (1, 0)"),
-    "paper": (lambda: Paper("papers/heavy_top"), "  title               The heavy symmetric top"),
+    "paper": (lambda: Paper(PAPERS / "heavy_top"), "  title               The heavy symmetric top"),
     "finding": (lambda: Finding((Part("x grows", True),), "It does."), "  outcome  confirmed\n  parts    x grows: holds"),
+    "return map": (
+        lambda: henon_heiles().hamiltonian().normal_form(4, {"x": 0, "y": 0, "p_x": 0.1}, {}, period=6.28),
+        "  rotation per return 1 [rad]  0.0090750096",
+    ),
+    "path": (lambda: Pathway.line(X, (0, 0, 0), (X.q[0], 1, 0)), "  length [m]  √(x² + 1)"),
+    "claim": (lambda: Paper(PAPERS / "heavy_top").claims["C01"], "  claim      C01"),
+    "equation": (lambda: next(iter(Paper(PAPERS / "hoop").equations.values())), "  print     "),
+    "line": (lambda: judge_text("sqrt(x**2) = x", ["x >= 0"]).verdict.lines[0], "  line     |x| = x\n  verdict  holds-if"),
+    "premise": (lambda: judge_text("sqrt(x**2) = x", ["x >= 0"]).verdict.premises[0], "  premise  x ≥ 0"),
     "judgement": (lambda: judge_text("sqrt(x**2) = x", ["x >= 0"]), "  under the given premise x ≥ 0"),
 }  # fmt: skip
 _NOISE = re.compile(r"\w+\(\w+=|\d\.\d{13}|\b(\w+): \1\b|\be[-+]\d|\d\*|\*\*|_d?dot|np\.|j\b")
