@@ -343,7 +343,7 @@ class Scene(Printed):
         rotor, bar, shock = self.rotor, self.link, self.shock
 
         def vectors(pair: tuple[Vector, Vector]) -> str:
-            return ", ".join("({:.4g}, {:.4g}, {:.4g})".format(*vector) for vector in pair)
+            return ", ".join(f"({text_of(float(f'{x:.4g}') + 0.0 for x in vector)})" for vector in pair)
 
         return {
             "spins [rad/s]": text_of(self.spins),
