@@ -12,7 +12,7 @@ import sympy as sp
 from numpy.typing import ArrayLike
 
 from lagrotor.algebra.subexpressions import written
-from lagrotor.errors import InputError
+from lagrotor.errors import InputError, near
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import expression as checked
 from lagrotor.mechanics.running.flow import Array, Values, smooth_motion
@@ -25,6 +25,7 @@ from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.integrate import Engine
 from lagrotor.numerics.run import Quantity, Run, check_nonempty
 from lagrotor.numerics.segment import Integrate
+from lagrotor.result_display import text_of
 
 Kind = TypeVar("Kind", bound="SampledMotion")
 
@@ -100,7 +101,7 @@ class SampledMotion(Run):
         >>> System(c, c.v[0]**2 / 2).simulate({}, (0,), (1,), [0, 1]).summary()["ending"]
         'the last time was reached'
         """
-        return {"coordinates": ", ".join(map(str, self.system.c.q))} | super().summary()
+        return {"coordinates": text_of(self.system.c.q)} | super().summary()
 
     @property
     def energy(self) -> Array:
@@ -147,16 +148,16 @@ class SampledMotion(Run):
         both = zip(self.system.multiplier_names, self.system.multipliers, strict=True)
         return {name: self.evaluate(lam) for name, lam in both}
 
-    def evaluate(self, expression: sp.Expr) -> Array:
+    def evaluate(self, expression: sp.Expr | str) -> Array:
         """Evaluate an expression along the run.
 
         Where dry friction sticks, sign(w) is the friction force divided by its bound, between −1 and 1.
 
         Parameters
         ----------
-        expression : Expr
-            A function of q, v, t, the parameters, the accelerations c.a and the multipliers λ of `system.multipliers`. The
-            generalised force of the constraints is Gᵀ λ.
+        expression : Expr or str
+            The name of a coordinate or velocity, or a function of q, v, t, the parameters, the accelerations c.a and the
+            multipliers λ of `system.multipliers`. The generalised force of the constraints is Gᵀ λ.
 
         Returns
         -------
@@ -175,6 +176,14 @@ class SampledMotion(Run):
         >>> System(c, (c.v[0]**2 - c.q[0]**2) / 2).simulate({}, (1,), (0,), [0, 1]).evaluate(c.a[0]).round(6)
         array([-1.      , -0.540302])
         """
+        if isinstance(expression, str):
+            names = {str(s): s for s in (*self.system.c.q, *self.system.c.v, *self.system.speeds)}
+            if expression not in names:
+                raise InputError(
+                    f"evaluate: {expression!r} is none of {', '.join(names)}{near(expression, names)}: name one, or give an "
+                    "expression"
+                )
+            expression = names[expression]
         e = with_values(checked("evaluate: expression", expression), self.values)
         if self.switched.smooth:
             return self._values(e)[0]

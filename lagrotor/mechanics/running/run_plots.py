@@ -8,9 +8,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import sympy as sp
 
+from lagrotor.algebra import derivative
 from lagrotor.algebra.scalar import sympified
+from lagrotor.algebra.subexpressions import subexpressions
 from lagrotor.errors import InputError, near
 from lagrotor.mechanics.bodies.rigid_bodies import Body
+from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import vector_of
 from lagrotor.mechanics.glossary import latex, letter_latex
 from lagrotor.mechanics.running.flow import Array
@@ -20,8 +23,6 @@ from lagrotor.numerics.run import check_nonempty
 if TYPE_CHECKING:
     from lagrotor.drawing.run_figure import RunFigure
     from lagrotor.drawing.view import View
-    from lagrotor.mechanics.bodies.moving_frames import MovingFrame
-    from lagrotor.mechanics.equations import Equations
 
 Point = Sequence[sp.Expr]
 _WIDE = 18  # characters of a name beside a panel in one line
@@ -41,6 +42,22 @@ def plot(run: SampledMotion, *quantities: Any) -> "RunFigure":
         return coordinates_figure(run.t, labels, run.energy, run.drift)
     curves = (_curve(run, quantity) for quantity in quantities)
     return curves_figure(run.t, {label.replace(r"\&", "&"): values for label, values in curves})  # matplotlib's escape
+
+
+def _units(system: Equations) -> dict[sp.Symbol, str]:
+    """Return {coordinate or velocity: " (unit)"} as far as the system tells them: an angle turns a frame or is the argument of a
+    sine or cosine, and a length shifts a frame."""
+    c, units = system.c, dict[sp.Symbol, str]()
+    for step in (step for body in system.bodies for step in body.frame.to_the_ground if step.parent is not None):
+        if step.axis is not None:
+            units[step.amount] = "rad"
+        units |= dict.fromkeys(step.shift, "m")
+    formulas = (*(() if system.bodies else (system.L,)), *system.constraints, *system.rolling)
+    for e in (part for formula in formulas for part in subexpressions(formula)):
+        slopes = [derivative(e.args[0], q) for q in c.q] if isinstance(e, sp.sin | sp.cos) else ()
+        units |= {q: "rad" for q, slope in zip(c.q, slopes, strict=False) if slope.is_Rational and slope != 0}
+    known = [(q, v, units[q]) for q, v in zip(c.q, c.v, strict=True) if q in units]
+    return {s: f" ({unit})" for q, v, unit in known for s, unit in ((q, unit), (v, f"{unit}/s"))}
 
 
 def _curve(run: SampledMotion, what: Any) -> tuple[str, Array]:
@@ -65,23 +82,6 @@ def _curve(run: SampledMotion, what: Any) -> tuple[str, Array]:
     expression = sympified(what, "plot")
     rounded = {number: sp.Float(number, 3) for number in expression.atoms(sp.Float)}
     return f"${latex(expression.xreplace(rounded))}$", run.evaluate(what)
-
-
-def _units(system: "Equations") -> dict[sp.Symbol, str]:
-    """Return the units of the angles and of their velocities; the units of other coordinates are not known.
-
-    A coordinate is an angle if its multiple stands in a sine or cosine of L, of a constraint or of a frame's rotation.
-    """
-    given = [*((system.L,) if not system.bodies else ()), *system.constraints, *system.rolling]
-    for body in system.bodies:
-        frame: MovingFrame | None = body.frame
-        while frame is not None and frame.parent is not None:
-            given += frame.rotation
-            frame = frame.parent
-    arguments = [node.args[0] for node in set().union(*(e.atoms(sp.sin, sp.cos) for e in given))]
-    angles = [q for q in system.c.q if any(u.has(q) and u.diff(q).is_Number for u in arguments)]
-    rates = [v for q, v in zip(system.c.q, system.c.v, strict=True) if q in angles]
-    return dict.fromkeys(angles, " (rad)") | dict.fromkeys(rates, " (rad/s)")
 
 
 def view(run: SampledMotion, lines: Sequence[Sequence[Point]] = ()) -> "View":
