@@ -11,23 +11,61 @@ function words(query) {
     .filter(Boolean);
 }
 
-// Whether an entry is meant: an id (or a figure's name) from its beginning, any other word anywhere.
-function matches(sought, id, text) {
-  return sought.every((word) => (/\d/.test(word) && id.startsWith(word)) || (!/^figure-/.test(word) && text.includes(word)));
+// Whether two words differ by one letter, or by two neighbours in the other order.
+function isTypo(a, b) {
+  let [start, end] = [0, 0];
+  while (start < a.length && a[start] === b[start]) start++;
+  while (end < Math.min(a.length, b.length) - start && a.at(-1 - end) === b.at(-1 - end)) end++;
+  const [x, y] = [a, b].map((word) => word.slice(start, word.length - end));
+  return Math.max(x.length, y.length) < 2 || (x.length === 2 && x === [...y].reverse().join(""));
 }
 
-// Those of the entries that are meant, an id that is met exactly first.
+// A word of the query, or the words of the entries that it may be a misspelling of, if it has five letters and no entry has it.
+function meant(word, entries) {
+  if (!/^\p{L}{5,}$/u.test(word) || entries.some((entry) => entry.text.includes(word))) return [word];
+  const known = new Set(entries.flatMap((entry) => entry.text.match(/\p{L}{4,}/gu) ?? []));
+  const near = [...known].filter((other) => Math.abs(other.length - word.length) < 2 && isTypo(word, other));
+  return near.length ? near : [word];
+}
+
+// Whether an entry has a word: an id (or a figure's name) from its beginning, any other word anywhere.
+function has(entry, word) {
+  const isId = /\d/.test(word) && entry.id.replace("erratum-", "").startsWith(word);
+  return isId || (!/^figure-/.test(word) && entry.text.includes(word));
+}
+
+// The entries that have all words of a query, the entry of that number first, and the words that were looked for.
 function search(query, entries) {
-  const sought = words(query);
-  const found = sought.length ? entries.filter((entry) => matches(sought, entry.id, entry.text)) : [];
-  const exact = (entry) => Number(sought.includes(entry.id));
-  return found.map((entry, i) => [entry, i]).sort(([a, i], [b, j]) => exact(b) - exact(a) || i - j).map(([entry]) => entry);
+  const asked = words(query);
+  const sought = asked.map((word) => meant(word, entries));
+  const rank = ({ id, name }) => {
+    const tests = [
+      asked.includes(id),
+      asked.includes(id.replace("erratum-", "")),
+      asked.some((word) => /\d/.test(word) && id.startsWith(word)),
+      sought.every((any) => any.some((word) => name.toLowerCase().includes(word))),
+      true,
+    ];
+    return tests.indexOf(true);
+  };
+  const found = entries.filter((entry) => asked.length && sought.every((any) => any.some((word) => has(entry, word))));
+  const ranked = found.map((entry) => [rank(entry), entry]).sort(([a], [b]) => a - b);
+  return { found: ranked.map(([, entry]) => entry), sought: sought.flat(), changed: sought.flat().join() !== asked.join() };
 }
 
-// What can be found: [address, anchor, name, words] of each entry, in a file that is loaded at the first query or in this page.
+// A text as pieces, of which every second one is a word that was looked for; all of it, or `size` letters about the first word.
+function marked(text, sought, size = Infinity) {
+  const escaped = sought.map((word) => word.replace(/[.*+?^${}()|[\]\\]/g, "\\$&").replace("figure-", "figure[- ]"));
+  const place = Math.max(0, text.search(new RegExp(escaped.join("|"), "i")) - size / 3);
+  const start = size < text.length && place > 0 ? text.indexOf(" ", place) + 1 : 0;
+  const end = start + size < text.length ? text.lastIndexOf(" ", start + size) : text.length;
+  const piece = (start ? "… " : "") + text.slice(start, end) + (end < text.length ? " …" : "");
+  return piece.split(new RegExp(`(${escaped.join("|")})`, "i"));
+}
+
+// What can be found: [address, anchor, title, verdict, words] of each entry, from a file that the first query loads, or here.
 function loadWords(script) {
   if (typeof WORDS !== "undefined") return WORDS;
-  if (!script.dataset.words) return wordsOfPage();
   return new Promise((resolve, reject) => {
     const loaded = document.createElement("script");
     loaded.src = script.dataset.words;
@@ -37,18 +75,21 @@ function loadWords(script) {
   });
 }
 
-// The entries of a page that holds the whole report, then its sections without their entries.
-function wordsOfPage() {
-  const entries = "article[id], figure[id], details.derivation";
-  return [entries, "section[aria-labelledby], #model"].flatMap((kind) =>
-    [...document.querySelectorAll(kind)].map((part) => {
-      const copy = part.cloneNode(true);
-      for (const inside of copy.querySelectorAll(`img, script, style, ${entries}`)) inside.remove();
-      const id = part.getAttribute("aria-labelledby") ?? part.id;
-      const name = copy.querySelector("h2, h3, summary")?.textContent ?? id;
-      return [`#${id}`, id, name, copy.textContent.replace(/\s+/g, " ")];
-    }),
-  );
+function element(tag, name, ...inside) {
+  const made = document.createElement(tag);
+  made.className = name;
+  made.append(...inside);
+  return made;
+}
+
+// One row of the list: title, verdict, and a piece of the text with the words marked.
+function hit({ address, name, answer, plain }, sought) {
+  const marks = (pieces) => pieces.map((piece, i) => (i % 2 ? element("mark", "", piece) : piece));
+  const anchor = element("a", "", element("span", "", ...marks(marked(name, sought))));
+  if (answer) anchor.append(element("span", "unseen", ","), " ", element("span", `badge ${answer}`, answer.replaceAll("-", " ")));
+  anchor.append(" ", element("small", "", ...marks(marked(plain, sought, 150))));
+  anchor.href = address;
+  return element("li", "", anchor);
 }
 
 const MOST = 30; // hits that are listed
@@ -57,36 +98,53 @@ function setUpSearch(script) {
   const [input, said, hits] = ["query", "found", "hits"].map((id) => document.getElementById(id));
   const up = script.dataset.up ?? "";
   let entries = null;
-  let first = null;
   async function show() {
-    entries ??= (await loadWords(script)).map(([address, anchor, name, text]) => ({
+    entries ??= (await loadWords(script)).map(([address, anchor, name, answer, plain]) => ({
       id: anchor.replace(/^(eq|claim)-/, "").toLowerCase(),
-      text: text.toLowerCase(),
+      text: `${name} ${answer.replaceAll("-", " ")} ${plain}`.toLowerCase(),
       address: address.startsWith("#") ? address : up + address,
-      name: (anchor.startsWith("erratum-") ? "Erratum " : "") + name,
+      ...{ name, answer, plain },
     }));
-    const sought = input.value.trim();
-    const found = search(sought, entries);
-    hits.replaceChildren(
-      ...found.slice(0, MOST).map(({ address, name }) => {
-        const [item, anchor] = [document.createElement("li"), document.createElement("a")];
-        anchor.href = address;
-        anchor.textContent = name;
-        item.append(anchor);
-        return item;
-      }),
-    );
+    const { found, sought, changed } = search(input.value, entries);
+    hits.replaceChildren(...found.slice(0, MOST).map((entry) => hit(entry, sought)));
     const more = found.length > MOST ? `, the first ${MOST}:` : "";
-    said.textContent = sought && `${found.length} found${more}`;
-    first = found[0] ?? null;
+    said.textContent = input.value.trim() && `${found.length} found${changed ? ` with ${sought.join(", ")}` : ""}${more}`;
   }
   form.hidden = false;
   form.addEventListener("input", show);
   form.addEventListener("submit", async (event) => {
     event.preventDefault();
     await show();
-    if (first) location.href = first.address;
+    hits.querySelector("a")?.click();
   });
+  form.addEventListener("keydown", (event) => {
+    const stops = [input, ...hits.querySelectorAll("a")];
+    const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+    if (step) stops[stops.indexOf(document.activeElement) + step]?.focus();
+    if (event.key === "Escape") {
+      input.value = "";
+      input.focus();
+      show();
+    }
+    if (step || event.key === "Escape") event.preventDefault();
+  });
+}
+
+// On a narrow screen the entries are folded to their headings; that to which a link leads is unfolded.
+function setUpFolds() {
+  if (matchMedia("(max-width: 40rem)").matches) for (const fold of document.querySelectorAll(".entry")) fold.open = false;
+  const reveal = () => {
+    const target = location.hash && document.getElementById(decodeURIComponent(location.hash.slice(1)));
+    if (!target) return;
+    const inner = target.querySelector(":scope > details") ?? target;
+    for (let fold = inner.closest("details"); fold; fold = fold.parentElement.closest("details")) fold.open = true;
+    target.scrollIntoView();
+  };
+  addEventListener("hashchange", reveal);
+  document.addEventListener("click", (event) => {
+    if (location.hash && event.target.closest("a")?.getAttribute("href") === location.hash) reveal();
+  });
+  reveal();
 }
 
 // A figure opens as large as it is drawn, and closes by Escape, the button or a click.
@@ -117,11 +175,12 @@ function setUpFigures() {
   }
 }
 
-// Two formulas beside each other stand one below the other where one is too wide; a formula wider than its box is drawn smaller, down to letters that can be read; what is then still too wide scrolls.
+// Two formulas beside each other stand one below the other where one is too wide; a formula wider than its box is drawn smaller, down to letters that can be read; what is then still too wide scrolls. On paper nothing scrolls: there it is drawn as small as it must be.
 const SMALLEST = 14.4; // px, of a formula: its scripts have 0.7 of it
-function fitFormulas() {
-  for (const pair of document.querySelectorAll("[data-pair]")) pair.className = "pair";
-  for (const box of document.querySelectorAll(".wide")) {
+const [PAPER, PAPER_TERM] = [680, 128]; // px, the text width of A4, and of that the column of terms of a list
+function fitFormulas(part = document) {
+  for (const pair of part.querySelectorAll("[data-pair]")) pair.className = "pair";
+  for (const box of part.querySelectorAll(".wide")) {
     for (const formula of box.querySelectorAll("math[display=block]")) {
       formula.style.fontSize = "";
       const pair = box.closest(".pair");
@@ -130,6 +189,8 @@ function fitFormulas() {
         pair.dataset.pair = "";
       }
       const natural = parseFloat(getComputedStyle(formula).fontSize);
+      const room = PAPER - (box.closest("dd") ? PAPER_TERM : 0);
+      formula.style.setProperty("--paper", `${Math.min(SMALLEST, (0.97 * room * natural) / formula.scrollWidth)}px`);
       // Letters lean out of their boxes, and smaller ones are wider for their size: a second look.
       for (let pass = 0, share = 1; box.clientWidth && pass < 2; pass++) {
         share *= Math.min(1, (box.clientWidth - 4) / Math.max(formula.scrollWidth, box.scrollWidth - 4));
@@ -138,7 +199,7 @@ function fitFormulas() {
     }
     if (box.scrollWidth > box.clientWidth) box.tabIndex = 0; // the keyboard must reach what scrolls
   }
-  for (const formula of document.querySelectorAll("math:not([display=block])")) {
+  for (const formula of part.querySelectorAll("math:not([display=block])")) {
     const line = formula.closest("p, li, td, dd, figcaption, h3");
     if (!line?.clientWidth || formula.getBoundingClientRect().width <= line.clientWidth || formula.closest("span.wide, div.wide:not(:has(table))")) continue;
     const box = document.createElement("span");
@@ -158,14 +219,16 @@ function setUpPage(script) {
   contents.addEventListener("click", (event) => {
     if (event.target.closest("a") && !wide.matches) contents.open = false;
   });
+  setUpFolds();
   fitFormulas();
-  addEventListener("resize", fitFormulas);
-  for (const fold of document.querySelectorAll("details")) fold.addEventListener("toggle", fitFormulas);
+  addEventListener("resize", () => fitFormulas());
+  for (const fold of document.querySelectorAll("details")) fold.addEventListener("toggle", () => fitFormulas(fold));
   setUpFigures();
   let opened = [];
   addEventListener("beforeprint", () => {
-    opened = [...document.querySelectorAll("details.fold:not([open])")];
+    opened = [...document.querySelectorAll("details:is(.fold, .entry):not([open])")];
     for (const fold of opened) fold.open = true;
+    fitFormulas();
   });
   addEventListener("afterprint", () => {
     for (const fold of opened) fold.open = false;

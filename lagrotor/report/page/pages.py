@@ -23,7 +23,7 @@ _HERE = Path(__file__).parent
 _SEARCH = (
     '<form id="search" role="search" hidden><label for="query">Find</label>'
     '<input id="query" type="search" autocomplete="off" placeholder="{}, a word, a number">'
-    '<p id="found" role="status"></p><ol id="hits"></ol></form>'
+    '<p id="found" role="status"></p><ul id="hits"></ul></form>'
 )
 # Sections that share a page; each section of the paper has its own.
 _FRONT = ("model", "summary", "verdicts")
@@ -32,9 +32,12 @@ FOLDER = "pages"
 _CURRENT = ' aria-current="page"'
 _PLACE = re.compile(r'\bid="([^"]+)"')
 _ADDRESS = re.compile(r'\b(href|src)="([^"]+)"')
-_ENTRY = re.compile(r'(<(article|figure|details)(?: class="derivation")? id="([^"]+)">(.*?)</\2>)', re.DOTALL)
+_ENTRY = re.compile(r'<(article|details)(?: class="derivation")? id="([^"]+)">(.*?)</\1>', re.DOTALL)
+_SUMMARY = re.compile(r"<summary>(.*?)</summary>", re.DOTALL)
+_BADGE = re.compile(r'(?:<span class="unseen">,</span> )?<span class="badge ([a-z-]+)">[^<]*</span>')
 _TAG = re.compile(r"<[^>]+>")
-_UNREAD = re.compile(r"<(script|style)\b.*?</\1>", re.DOTALL)
+# Programs, sources and displayed formulas: their letters are neither searched nor shown as text.
+_UNREAD = re.compile(r"<(script|style|pre)\b.*?</\1>|<math display=.*?</math>", re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -48,8 +51,12 @@ class Page:
 
     @property
     def body(self) -> str:
-        """The HTML of all sections of the page, joined."""
-        return "\n".join(section.html for section in self.sections)
+        """The HTML of all sections of the page, joined; several sections can be folded."""
+        return _joined(self.sections)
+
+
+def _joined(listed: tuple[Section, ...]) -> str:
+    return "\n".join(section.folded if len(listed) > 1 else section.html for section in listed)
 
 
 def whole_page(report: Report) -> str:
@@ -58,11 +65,12 @@ def whole_page(report: Report) -> str:
 
 
 def _whole_page(report: Report, everything: list[Section]) -> str:
-    body = "\n".join(section.html for section in everything)
+    body = _joined(tuple(everything))
     for picture in report.pictures:
         body = body.replace(f'src="figures/{picture.svg.name}"', f'src="{data_address(picture)}"')
     contents = [(f"#{section.anchor}", section.heading) for section in everything]
-    return _document(report, body, contents, f"<style>\n{_style()}</style>", f"<script>\n{_script()}</script>")
+    words = _data(_words("", everything))
+    return _document(report, body, contents, f"<style>\n{_style()}</style>", f"<script>\n{words}{_script()}</script>")
 
 
 def html_files(report: Report) -> dict[str, str]:
@@ -217,25 +225,34 @@ def _document(
     )
 
 
-def _words(file: str, listed: Iterable[Section]) -> list[tuple[str, str, str, str]]:
-    """Return the rows of the search: (address, anchor, heading, words) of each entry and then of each section."""
+def _words(file: str, listed: Iterable[Section]) -> list[tuple[str, str, str, str, str]]:
+    """Return the rows of the search: (address, anchor, title, verdict, words) of each entry and then of each section.
+
+    The verdict is "" for an entry or a section without one.
+    """
     rows = []
     for section in listed:
-        text = section.html
-        for whole, _, anchor, inside in _ENTRY.findall(text):
-            text = text.replace(whole, "", 1)
-            title = re.search(r"<(h3|summary)>(.*?)</\1>", inside, re.DOTALL)
-            rows.append((f"{file}#{anchor}", anchor, _text(title[2] if title else anchor), _text(inside)))
-        rows.append((f"{file}#{section.anchor}", section.anchor, section.heading, _text(text)))
+        for _, anchor, inside in _ENTRY.findall(section.inside):
+            summary = _SUMMARY.search(inside)
+            heading = summary[1] if summary else ""
+            answer = _BADGE.search(heading)
+            title = ("Erratum " if anchor.startswith("erratum-") else "") + _text(_BADGE.sub("", heading))
+            words = _text(inside.replace(heading, " ", 1))
+            rows.append((f"{file}#{anchor}", anchor, title, answer[1] if answer else "", words))
+        rows.append(
+            (f"{file}#{section.anchor}", section.anchor, section.heading, "", _text(_ENTRY.sub(" ", section.inside)))
+        )
     return rows
 
 
 def _text(html: str) -> str:
-    """Return the text of HTML without styles and scripts."""
-    return " ".join(unescape(_TAG.sub(" ", _UNREAD.sub(" ", html))).split())
+    """Return the text of HTML without programs, sources and displayed formulas; a formula in a line has no spaces."""
+    html = re.sub(r"<math\b(?! display).*?</math>", lambda formula: _TAG.sub("", formula[0]), _UNREAD.sub(" ", html))
+    html = re.sub(r"</?(?:sub|sup|b|span|small|code|a)\b[^>]*>", "", html)
+    return " ".join(unescape(_TAG.sub(" ", html)).split())
 
 
-def _data(rows: list[tuple[str, str, str, str]]) -> str:
+def _data(rows: list[tuple[str, str, str, str, str]]) -> str:
     """Return the rows of the search as a script that any page can load, even if it is opened from a disk."""
     return f"const WORDS = {json.dumps(rows, ensure_ascii=False, separators=(',', ':'))};\n".replace("<", "\\u003c")
 
