@@ -20,47 +20,44 @@ function isTypo(a, b) {
   return Math.max(x.length, y.length) < 2 || (x.length === 2 && x === [...y].reverse().join(""));
 }
 
-// A word of the query, or the words of the entries that it may be a misspelling of, if it has five letters and no entry has it.
+// The beginning of a word of a text.
+function beginning(word) {
+  return "(?<![\\p{L}\\d.])" + word.replace(/[.*+?^${}()|[\]\\]/g, "\\$&").replace("figure-", "figure[- ]");
+}
+
+// A word of the query as the words to look for: itself, or those of the entries that it may be a misspelling of, if it has five letters and no entry has it.
 function meant(word, entries) {
-  if (!/^\p{L}{5,}$/u.test(word) || entries.some((entry) => entry.text.includes(word))) return [word];
-  const known = new Set(entries.flatMap((entry) => entry.text.match(/\p{L}{4,}/gu) ?? []));
+  const pattern = new RegExp(beginning(word), "iu");
+  if (!/^\p{L}{5,}$/u.test(word) || entries.some((entry) => pattern.test(entry.text))) return [word];
+  const known = new Set(entries.flatMap((entry) => entry.text.toLowerCase().match(/\p{L}{4,}/gu) ?? []));
   const near = [...known].filter((other) => Math.abs(other.length - word.length) < 2 && isTypo(word, other));
   return near.length ? near : [word];
 }
 
-// Whether an entry has a word: an id (or a figure's name) from its beginning, any other word anywhere.
-function has(entry, word) {
-  const isId = /\d/.test(word) && entry.id.replace("erratum-", "").startsWith(word);
-  return isId || (!/^figure-/.test(word) && entry.text.includes(word));
-}
-
-// The entries that have all words of a query, the entry of that number first, and the words that were looked for.
+// The entries that have all words of a query, the entry of that number first, and the words that were looked for. An id is met from its beginning.
 function search(query, entries) {
   const asked = words(query);
   const sought = asked.map((word) => meant(word, entries));
-  const rank = ({ id, name }) => {
-    const tests = [
-      asked.includes(id),
-      asked.includes(id.replace("erratum-", "")),
-      asked.some((word) => /\d/.test(word) && id.startsWith(word)),
-      sought.every((any) => any.some((word) => name.toLowerCase().includes(word))),
-      true,
-    ];
-    return tests.indexOf(true);
-  };
-  const found = entries.filter((entry) => asked.length && sought.every((any) => any.some((word) => has(entry, word))));
-  const ranked = found.map((entry) => [rank(entry), entry]).sort(([a], [b]) => a - b);
-  return { found: ranked.map(([, entry]) => entry), sought: sought.flat(), changed: sought.flat().join() !== asked.join() };
+  const patterns = sought.map((any) => new RegExp(any.map(beginning).join("|"), "iu"));
+  const number = (id) => id.replace("erratum-", "");
+  const begins = (id) => asked.map((word) => /\d/.test(word) && number(id).startsWith(word));
+  const rank = ({ id, name }) =>
+    [asked.includes(id), asked.includes(number(id)), begins(id).includes(true), patterns.every((p) => p.test(name)), true].indexOf(true);
+  const isFigure = asked.map((word) => word.startsWith("figure-"));
+  const meets = ({ id, text }) => begins(id).every((is, i) => is || (!isFigure[i] && patterns[i].test(text)));
+  const found = asked.length ? entries.filter(meets).map((entry) => ({ ...entry, rank: rank(entry) })) : [];
+  const changed = asked.map((word, i) => [word, sought[i]]).filter(([word, any]) => any[0] !== word);
+  return { found: found.sort((a, b) => a.rank - b.rank), sought: sought.flat(), changed };
 }
 
-// A text as pieces, of which every second one is a word that was looked for; all of it, or `size` letters about the first word.
-function marked(text, sought, size = Infinity) {
-  const escaped = sought.map((word) => word.replace(/[.*+?^${}()|[\]\\]/g, "\\$&").replace("figure-", "figure[- ]"));
-  const place = Math.max(0, text.search(new RegExp(escaped.join("|"), "i")) - size / 3);
-  const start = size < text.length && place > 0 ? text.indexOf(" ", place) + 1 : 0;
+// A text as pieces, of which every second one is a word that was looked for: `size` letters from the first such word, or from the beginning.
+function marked(text, sought, size, fromWord) {
+  const pattern = `(${sought.map(beginning).join("|")})`;
+  const place = fromWord ? Math.max(0, text.search(new RegExp(pattern, "iu")) - size / 3) : 0;
+  const start = size < text.length && place ? text.indexOf(" ", place) + 1 : 0;
   const end = start + size < text.length ? text.lastIndexOf(" ", start + size) : text.length;
   const piece = (start ? "… " : "") + text.slice(start, end) + (end < text.length ? " …" : "");
-  return piece.split(new RegExp(`(${escaped.join("|")})`, "i"));
+  return piece.split(new RegExp(pattern, "iu"));
 }
 
 // What can be found: [address, anchor, title, verdict, words] of each entry, from a file that the first query loads, or here.
@@ -82,12 +79,12 @@ function element(tag, name, ...inside) {
   return made;
 }
 
-// One row of the list: title, verdict, and a piece of the text with the words marked.
-function hit({ address, name, answer, plain }, sought) {
+// One row of the list: title, verdict, and a piece of the text with the words marked; its beginning if the title has the words.
+function hit({ address, name, answer, plain, rank }, sought) {
   const marks = (pieces) => pieces.map((piece, i) => (i % 2 ? element("mark", "", piece) : piece));
-  const anchor = element("a", "", element("span", "", ...marks(marked(name, sought))));
+  const anchor = element("a", "", element("span", "", ...marks(marked(name, sought, Infinity, false))));
   if (answer) anchor.append(element("span", "unseen", ","), " ", element("span", `badge ${answer}`, answer.replaceAll("-", " ")));
-  anchor.append(" ", element("small", "", ...marks(marked(plain, sought, 150))));
+  anchor.append(" ", element("small", "", ...marks(marked(plain, sought, 150, rank > 3))));
   anchor.href = address;
   return element("li", "", anchor);
 }
@@ -101,14 +98,15 @@ function setUpSearch(script) {
   async function show() {
     entries ??= (await loadWords(script)).map(([address, anchor, name, answer, plain]) => ({
       id: anchor.replace(/^(eq|claim)-/, "").toLowerCase(),
-      text: `${name} ${answer.replaceAll("-", " ")} ${plain}`.toLowerCase(),
+      text: `${name} ${answer.replaceAll("-", " ")} ${plain}`,
       address: address.startsWith("#") ? address : up + address,
       ...{ name, answer, plain },
     }));
     const { found, sought, changed } = search(input.value, entries);
     hits.replaceChildren(...found.slice(0, MOST).map((entry) => hit(entry, sought)));
     const more = found.length > MOST ? `, the first ${MOST}:` : "";
-    said.textContent = input.value.trim() && `${found.length} found${changed ? ` with ${sought.join(", ")}` : ""}${more}`;
+    const read = changed.map(([word, any]) => `, with ${any.join(" or ")} for ${word}`).join("");
+    said.textContent = input.value.trim() && `${found.length} found${read}${more}`;
   }
   form.hidden = false;
   form.addEventListener("input", show);

@@ -36,8 +36,12 @@ _ENTRY = re.compile(r'<(article|details)(?: class="derivation")? id="([^"]+)">(.
 _SUMMARY = re.compile(r"<summary>(.*?)</summary>", re.DOTALL)
 _BADGE = re.compile(r'(?:<span class="unseen">,</span> )?<span class="badge ([a-z-]+)">[^<]*</span>')
 _TAG = re.compile(r"<[^>]+>")
-# Programs, sources and displayed formulas: their letters are neither searched nor shown as text.
-_UNREAD = re.compile(r"<(script|style|pre)\b.*?</\1>|<math display=.*?</math>", re.DOTALL)
+# Programs, sources, displayed formulas, headings and lists of links, which the search neither reads nor shows.
+_UNREAD = re.compile(
+    r"<(script|style|pre|h4|summary)\b.*?</\1>|<math display=.*?</math>|<p><a [^>]*>The derivation</a>.*?</p>"
+    r'|<ul class="overview">.*?</ul>',
+    re.DOTALL,
+)
 
 
 @dataclass(frozen=True)
@@ -69,7 +73,7 @@ def _whole_page(report: Report, everything: list[Section]) -> str:
     for picture in report.pictures:
         body = body.replace(f'src="figures/{picture.svg.name}"', f'src="{data_address(picture)}"')
     contents = [(f"#{section.anchor}", section.heading) for section in everything]
-    words = _data(_words("", everything))
+    words = _data(_words(("", section) for section in everything))
     return _document(report, body, contents, f"<style>\n{_style()}</style>", f"<script>\n{words}{_script()}</script>")
 
 
@@ -87,7 +91,7 @@ def pages(report: Report) -> dict[str, str]:
 def _page_files(report: Report, everything: list[Section]) -> dict[str, str]:
     all_pages = _pages(report, everything)
     places = {place: page.file for page in all_pages for place in _PLACE.findall(page.body)}
-    words = [row for page in all_pages for row in _words(page.file, page.sections)]
+    words = _words((page.file, section) for page in all_pages for section in page.sections)
     assets = {"page.css": _style(), "page.js": _script(), "words.js": _data(words)}
     files = {f"{FOLDER}/{name}": text for name, text in assets.items()}
     return {page.file: _page(page, all_pages, places, report) for page in all_pages} | files
@@ -225,30 +229,28 @@ def _document(
     )
 
 
-def _words(file: str, listed: Iterable[Section]) -> list[tuple[str, str, str, str, str]]:
-    """Return the rows of the search: (address, anchor, title, verdict, words) of each entry and then of each section.
+def _words(listed: Iterable[tuple[str, Section]]) -> list[tuple[str, str, str, str, str]]:
+    """Return the rows of the search, (address, anchor, title, verdict, words), those of entries before those of sections.
 
-    The verdict is "" for an entry or a section without one.
+    The pairs are the address of the page of a section, and the section. The verdict is "" for an entry without one.
     """
-    rows = []
-    for section in listed:
+    entries, whole = [], []
+    for file, section in listed:
         for _, anchor, inside in _ENTRY.findall(section.inside):
             summary = _SUMMARY.search(inside)
-            heading = summary[1] if summary else ""
+            heading = summary[1] if summary else anchor
             answer = _BADGE.search(heading)
             title = ("Erratum " if anchor.startswith("erratum-") else "") + _text(_BADGE.sub("", heading))
-            words = _text(inside.replace(heading, " ", 1))
-            rows.append((f"{file}#{anchor}", anchor, title, answer[1] if answer else "", words))
-        rows.append(
-            (f"{file}#{section.anchor}", section.anchor, section.heading, "", _text(_ENTRY.sub(" ", section.inside)))
-        )
-    return rows
+            entries.append((f"{file}#{anchor}", anchor, title, answer[1] if answer else "", _text(inside)))
+        words = _text(_ENTRY.sub(" ", section.inside))
+        whole.append((f"{file}#{section.anchor}", section.anchor, section.heading, "", words))
+    return entries + whole
 
 
 def _text(html: str) -> str:
-    """Return the text of HTML without programs, sources and displayed formulas; a formula in a line has no spaces."""
-    html = re.sub(r"<math\b(?! display).*?</math>", lambda formula: _TAG.sub("", formula[0]), _UNREAD.sub(" ", html))
-    html = re.sub(r"</?(?:sub|sup|b|span|small|code|a)\b[^>]*>", "", html)
+    """Return the text of HTML without programs, sources, headings and displayed formulas."""
+    html = re.sub(r"<math\b.*?</math>", lambda formula: _TAG.sub("", formula[0]), _UNREAD.sub(" ", html))
+    html = re.sub(r"</?(?:sub|sup|b|span|small|code|a)\b[^>]*>", "", html.replace("</dt>", ": "))
     return " ".join(unescape(_TAG.sub(" ", html)).split())
 
 

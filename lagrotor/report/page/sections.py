@@ -110,16 +110,16 @@ def errata_sheet(report: Report) -> str:
     listed = listed_premises(errors)
     above = "".join(f"<p>{prose(sentence)}</p>" for sentence in sheet_summary(report.verdicts, errors))
     rows = [
-        (prose(f"${tex}$"), prose(meaning), prose(unit), ids)
+        (prose(f"${tex}$"), prose(meaning), prose(unit).replace(" ", "&nbsp;"), ids)
         for tex, meaning, unit, ids in letter_table(errors, report.paper)
     ]
     if rows:
-        above += f"<p>{prose(LETTERS_FIRST)}</p>{html_table(LETTER_HEAD, rows)}"
+        above += foldable("<h3>Letters</h3>", f"<p>{prose(LETTERS_FIRST)}</p>{html_table(LETTER_HEAD, rows)}")
     premises = "".join(
         f'<li id="premise-{n}"><b>P{n}:</b> {prose(premise_text(premise))}.</li>' for n, premise in enumerate(listed, 1)
     )
     if premises:
-        above += f'<p>{prose(PREMISES_CITED)}</p><ul class="premises">{premises}</ul>'
+        above += foldable("<h3>Premises</h3>", f'<p>{prose(PREMISES_CITED)}</p><ul class="premises">{premises}</ul>')
     return above + "\n".join(erratum_entry(e, listed) for e in errors)
 
 
