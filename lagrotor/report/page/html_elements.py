@@ -150,13 +150,13 @@ def links(identifiers: Iterable[str]) -> str:
     return " ".join(f'<span class="id">{link(identifier)}</span>' for identifier in identifiers)
 
 
-def heading(identifier: str, name: str, title: str, answer: str = "") -> str:
-    """Return the heading of an entry: its name, which links to its anchor `identifier`, its title and its verdict.
+def heading(name: str, title: str, answer: str = "") -> str:
+    """Return the heading of an entry: its name such as "5.07", its title and its verdict.
 
     A comma, which only a screen reader or a copy shows, separates the title from the verdict.
     """
     mark = f'<span class="unseen">,</span> {badge(answer)}' if answer else ""
-    return f'<h3><a class="permalink" href="#{identifier}">{escape(name)}</a> {prose(title)}{mark}</h3>'
+    return f'<h3><span class="id">{escape(name)}</span> {prose(title)}{mark}</h3>'
 
 
 def derivation_html(script: Script, answers: Mapping[str, str]) -> str:

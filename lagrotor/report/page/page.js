@@ -188,7 +188,7 @@ function fitFormulas(part = document) {
       }
       const natural = parseFloat(getComputedStyle(formula).fontSize);
       const room = PAPER - (box.closest("dd") ? PAPER_TERM : 0);
-      formula.style.setProperty("--paper", `${Math.min(SMALLEST, (0.97 * room * natural) / formula.scrollWidth)}px`);
+      formula.style.setProperty("--paper", `${Math.min(SMALLEST, (0.93 * room * natural) / formula.scrollWidth)}px`);
       // Letters lean out of their boxes, and smaller ones are wider for their size: a second look.
       for (let pass = 0, share = 1; box.clientWidth && pass < 2; pass++) {
         share *= Math.min(1, (box.clientWidth - 4) / Math.max(formula.scrollWidth, box.scrollWidth - 4));

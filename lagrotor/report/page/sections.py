@@ -86,7 +86,7 @@ def equation_entry(verdict: Verdict, report: Report) -> str:
         f"{fact_list(facts(verdict, report))}"
         f"{certificate}{link_to_derivation(verdict.id, report)}{fold('LaTeX source and reading', source, 'source')}"
     )
-    return _entry(anchor(verdict.id), heading(anchor(verdict.id), verdict.id, entry.title, verdict.verdict), inside)
+    return _entry(anchor(verdict.id), heading(verdict.id, entry.title, verdict.verdict), inside)
 
 
 def _entry(place: str, title: str, inside: str) -> str:
@@ -135,7 +135,7 @@ def erratum_entry(e: Erratum, listed: list[Premise]) -> str:
         f"{_beside('Printed', typeset(e.printed), f'Corrected equation ({escape(e.verdict_of_correction)})', correct)}"
         f"<p><small>{escape(e.reach.capitalize())}. Derived in {link(e.id)}. Used by: {links(e.used_by) or 'none'}</small></p>"
     )
-    return _entry(place, heading(place, e.id, e.title), inside)
+    return _entry(place, heading(e.id, e.title), inside)
 
 
 def _beside(heading_a: str, printed: str, heading_b: str, derived: str) -> str:
@@ -156,7 +156,7 @@ def claim_entry(result: Result, report: Report) -> str:
         f"{fact_list(linked_facts(result, report))}"
         f"{fold(f'Measured ({result.test.model})', number_list('Quantity', result.measured.items()))}"
     )
-    return _entry(place, heading(place, entry.id, claim_title(entry), finding.outcome), inside)
+    return _entry(place, heading(entry.id, claim_title(entry), finding.outcome), inside)
 
 
 def picture_entry(picture: Picture, report: Report) -> str:
@@ -165,7 +165,7 @@ def picture_entry(picture: Picture, report: Report) -> str:
     measured = fold("Measured", number_list("Quantity", picture.measured.items())) if picture.measured else ""
     drawn = f"<figure>{_image(picture)}<figcaption>{prose(picture.caption)}</figcaption></figure>"
     inside = f"{drawn}{fact_list(figure_facts(picture, report))}{measured}"
-    return _entry(place, heading(place, f"Figure {picture.key}", picture.title), inside)
+    return _entry(place, heading(f"Figure {picture.key}", picture.title), inside)
 
 
 def _image(picture: Picture) -> str:
