@@ -60,8 +60,9 @@ function marked(text, sought, size, fromWord) {
   return piece.split(new RegExp(pattern, "iu"));
 }
 
-// What can be found: [address, anchor, title, verdict, words] of each entry, from a file that the first query loads, or here.
+// What can be found: [address, anchor, title, verdict, words] of each entry, from a file that the first query loads, or from this page, which has the words itself.
 function loadWords(script) {
+  if (!script.dataset.words) return WORDS.map((row) => [...row, wordsOf(row[1])]);
   if (typeof WORDS !== "undefined") return WORDS;
   return new Promise((resolve, reject) => {
     const loaded = document.createElement("script");
@@ -70,6 +71,16 @@ function loadWords(script) {
     loaded.onerror = reject;
     document.body.append(loaded);
   });
+}
+
+// The words of an entry or a section of this page, without programs, displayed formulas, headings and other entries.
+function wordsOf(anchor) {
+  const part = document.getElementById(anchor);
+  const copy = (part.closest("h2")?.closest("section") ?? part).cloneNode(true);
+  const unread = "script, style, pre, h2, h4, summary, math[display], img, article, .derivation, .overview";
+  for (const inside of copy.querySelectorAll(unread)) inside.remove();
+  for (const block of copy.querySelectorAll("p, dt, dd, th, td, li, h3, figcaption")) block.append(block.tagName === "DT" ? ": " : " ");
+  return copy.textContent.replace(/\s+/g, " ").trim();
 }
 
 function element(tag, name, ...inside) {

@@ -6,7 +6,7 @@ the pages the address of the anchor's page is put before it; in the single file 
 
 import json
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from html import escape, unescape
 from pathlib import Path
@@ -73,7 +73,7 @@ def _whole_page(report: Report, everything: list[Section]) -> str:
     for picture in report.pictures:
         body = body.replace(f'src="figures/{picture.svg.name}"', f'src="{data_address(picture)}"')
     contents = [(f"#{section.anchor}", section.heading) for section in everything]
-    words = _data(_words(("", section) for section in everything))
+    words = _data([row[:4] for row in _words(("", section) for section in everything)])  # the page has the texts
     return _document(report, body, contents, f"<style>\n{_style()}</style>", f"<script>\n{words}{_script()}</script>")
 
 
@@ -254,7 +254,7 @@ def _text(html: str) -> str:
     return " ".join(unescape(_TAG.sub(" ", html)).split())
 
 
-def _data(rows: list[tuple[str, str, str, str, str]]) -> str:
+def _data(rows: Sequence[tuple[str, ...]]) -> str:
     """Return the rows of the search as a script that any page can load, even if it is opened from a disk."""
     return f"const WORDS = {json.dumps(rows, ensure_ascii=False, separators=(',', ':'))};\n".replace("<", "\\u003c")
 

@@ -50,6 +50,7 @@ function measure(view) {
   return {formulas: page.querySelectorAll("math").length, smallest: Math.min(...sizes), tooWide, scrolled,
           width: page.documentElement.scrollWidth, room: view.innerWidth, failures: view.failures,
           hits: [...page.querySelectorAll("#hits a")].map((hit) => hit.getAttribute("href")),
+          hit: page.querySelector("#hits li")?.textContent,
           font: page.fonts.check("16px 'FAMILY'")};
 }
 window.onload = async () => {
@@ -127,6 +128,9 @@ def test_the_page_fits_a_desk_and_a_phone(found: Seen) -> None:
         assert seen["formulas"] > 20
         assert seen["font"]
         assert seen["hits"][0] == "#eq-5.02" and len(seen["hits"]) < 9, "the search reads the page itself"
+        assert seen["hit"].startswith("5.02 precession rate of one rotor, holds if Condition: I₁ is read as"), seen[
+            "hit"
+        ]
         assert seen["smallest"] >= 10, "px"
         assert seen["tooWide"] == []
         assert seen["width"] <= seen["room"]
