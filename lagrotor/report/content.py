@@ -4,13 +4,14 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from textwrap import shorten
 
 import sympy as sp
 
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper import scripts
 from lagrotor.paper.audit import NOT_YET
-from lagrotor.paper.catalogue import Equation, is_claim
+from lagrotor.paper.catalogue import Claim, Equation, is_claim
 from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.papers import Paper
 from lagrotor.paper.plain_text import from_latex
@@ -188,6 +189,11 @@ def notation(report: Report) -> list[tuple[sp.Symbol, str, str]]:
 def word(answer: str) -> str:
     """Return a verdict or an outcome in words: "holds if" for "holds-if"."""
     return answer.replace("-", " ")
+
+
+def claim_title(claim: Claim) -> str:
+    """Return the title of a claim, the beginning of its text and its section."""
+    return f"{shorten(claim.text, 72, placeholder=' …')} (section {claim.section})"
 
 
 def count_list(counts: dict[str, int]) -> str:

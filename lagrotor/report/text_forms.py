@@ -26,6 +26,7 @@ from lagrotor.report.content import (
     ResultSection,
     anchor,
     citation,
+    claim_title,
     contents,
     derived_heading,
     derived_lines,
@@ -211,7 +212,7 @@ def _facts(listed: Iterable[Fact]) -> Iterator[Block]:
 
 def _claim(result: Result, report: Report) -> Iterator[Block]:
     entry, finding = report.paper.claims[result.test.id], result.finding
-    yield Heading(anchor(entry.id), f"section {entry.section}: {word(finding.outcome)}", entry.id)
+    yield Heading(anchor(entry.id), f"{claim_title(entry)}: {word(finding.outcome)}", entry.id)
     yield Verbatim(entry.text, quoted=True)
     yield [finding.explanation]
     if finding.condition:

@@ -74,7 +74,9 @@ def side_by_side(table: Table, report: Report) -> str:
     """Return the HTML of a table from a derivation, with its title above and its note below."""
     lines = [tuple(_cell(cell, report) for cell in row) for row in table.rows]
     note = f"<p><small>{prose(table.note)}</small></p>" if table.note else ""
-    return f'<div class="table"><h3>{prose(table.title)}</h3>{html_table(table.head, lines)}{note}</div>'
+    return (
+        f'<div class="table">{foldable(f"<h3>{prose(table.title)}</h3>", html_table(table.head, lines) + note)}</div>'
+    )
 
 
 def _cell(cell: Cell, report: Report) -> str:
@@ -126,6 +128,11 @@ def fold(summary: str, inside: str, kind: str = "fold") -> str:
     return f'<details class="{kind}"><summary>{escape(summary)}</summary>{inside}</details>'
 
 
+def foldable(heading: str, inside: str) -> str:
+    """Return a heading and its content, which page.js folds on a narrow screen."""
+    return f'<details class="entry" open><summary>{heading}</summary>{inside}</details>'
+
+
 def badge(answer: str) -> str:
     """Return the HTML of a verdict or an outcome on a field of its colour."""
     return f'<span class="badge {answer}">{escape(word(answer))}</span>'
@@ -145,10 +152,13 @@ def links(identifiers: Iterable[str]) -> str:
     return " ".join(f'<span class="id">{link(identifier)}</span>' for identifier in identifiers)
 
 
-def heading(identifier: str, name: str, title: str, answer: str = "") -> str:
-    """Return the heading of an entry: its name, which links to its anchor `identifier`, its title and its verdict."""
-    mark = f" {badge(answer)}" if answer else ""
-    return f'<h3><a class="permalink" href="#{identifier}">{escape(name)}</a> {prose(title)}{mark}</h3>'
+def heading(name: str, title: str, answer: str = "") -> str:
+    """Return the heading of an entry: its name such as "5.07", its title and its verdict.
+
+    A comma, which only a screen reader or a copy shows, separates the title from the verdict.
+    """
+    mark = f'<span class="unseen">,</span> {badge(answer)}' if answer else ""
+    return f'<h3><span class="id">{escape(name)}</span> {prose(title)}{mark}</h3>'
 
 
 def derivation_html(script: Script, answers: Mapping[str, str]) -> str:
