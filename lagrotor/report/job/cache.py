@@ -51,12 +51,14 @@ class Cache:
                 return entry["product"]
         return None
 
-    def keep(self, name: str, made_from: str, product: Any) -> None:
-        """Store a product for later runs if JSON can represent it and the folder is writable; else do nothing."""
+    def keep(self, name: str, made_from: str, product: Any) -> bool:
+        """Store a product for later runs. Return False if JSON cannot represent it or the folder cannot be written to."""
         with suppress(OSError, RuntimeError, InputError, TypeError):
             text = json.dumps(product)
             self._file(name).parent.mkdir(parents=True, exist_ok=True)
             write_text(self._file(name), json.dumps({"digest": digest(made_from, text), "product": product}))
+            return True
+        return False
 
     def _file(self, name: str) -> Path:
         place = digest(str(self.paper.folder), str(self.paper.scripts_in))[:16]

@@ -60,11 +60,13 @@ class Run:
         self.kept[name] = product
 
     @contextmanager
-    def progress(self, total: int) -> Iterator[Any]:
+    def progress(self, total: int, first: str) -> Iterator[Any]:
+        self.first = first
         yield self.begun.append
 
     def of(self, *all_steps: JobStep) -> dict[str, Any]:
-        return reproduce._make(self, list(all_steps), self.folder, self.progress, 1, self.folder)[0]  # type: ignore[arg-type]
+        made = reproduce._make(self, list(all_steps), self.folder, self.progress, 1, self.folder, set())  # type: ignore[arg-type]
+        return made[0]
 
 
 def derived(stem: str) -> Derived:
