@@ -6,7 +6,7 @@ has the same bytes for any number of processes.
 
 import json
 import time
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager, suppress
 from dataclasses import dataclass, replace
 from functools import partial
@@ -108,9 +108,8 @@ def reproduce(
             _write_json(new / TIMES, {"seconds": seconds, "taken from earlier runs": reused})
     except BaseException as stop:
         if not isinstance(stop, Exception):  # an interrupt or a termination, which the command reports
-            count = len(_reusable(all_steps, kept))
-            says = f"{count} of {len(all_steps)} results are kept, and the same command goes on from there"
-            stop.args = (says if count else "no result is kept yet, and the same command begins again",)
+            says = f"{len(kept)} of {len(all_steps)} results are kept, and the same command goes on from there"
+            stop.args = (says if kept else "no result is kept yet, and the same command begins again",)
         raise
     return JobOutcome(**outcome, reused=reused, seconds=time.perf_counter() - began)
 
@@ -140,13 +139,12 @@ def _make(
         if (product := cache.take(step.name, step.made_from)) is not None:
             products[step.name] = _restored(step, product, folder)
             kept.add(step.name)
-    reusable = _reusable(all_steps, kept)
-    products |= dict.fromkeys(products.keys() - reusable)
+    reused = [step.name for step in all_steps if step.name in kept]
     expected = _seconds(cache.paper.folder) | _seconds(old)
-    pending = [step for step in longest_first(all_steps, expected) if step.name not in reusable]
+    pending = [step for step in longest_first(all_steps, expected) if step.name not in reused]
     jobs = min(jobs, max(len(pending), 1))
     time_left = partial(_time_left, pending, expected, jobs)
-    first = f"{len(pending)} steps in {jobs} process{'es' if jobs > 1 else ''}, {len(reusable)} results kept from earlier runs"
+    first = f"{len(pending)} steps in {jobs} process{'es' if jobs > 1 else ''}, {len(reused)} results kept from earlier runs"
     if expects := time_left({}):
         first += f": about {expects}, by the times of an earlier run"
     seconds: dict[str, float] = {}
@@ -167,19 +165,7 @@ def _make(
             if cache.keep(step.name, step.made_from, _stored(product)):
                 kept.add(step.name)
         show("report")
-    times = {step.name: seconds[step.name] for step in all_steps if step.name in seconds}
-    return products, times, [step.name for step in all_steps if step.name in reusable]
-
-
-def _reusable(all_steps: list[JobStep], kept: Collection[str]) -> set[str]:
-    """Return the steps that need not run if the cache holds the results of the steps `kept`.
-
-    A stored derivation has no values, so it runs if a step that runs imports some.
-    """
-    reusable = set(kept)
-    while stale := {name for step in all_steps if step.name not in reusable for name in step.derivations} & reusable:
-        reusable -= stale
-    return reusable
+    return products, {step.name: seconds[step.name] for step in all_steps if step.name in seconds}, reused
 
 
 def _time_left(pending: list[JobStep], expected: Mapping[str, float], jobs: int, seconds: Mapping[str, float]) -> str:
