@@ -144,7 +144,7 @@ def _make(
     pending = [step for step in longest_first(all_steps, expected) if step.name not in reused]
     jobs = min(jobs, max(len(pending), 1))
     time_left = partial(_time_left, pending, expected, jobs)
-    first = f"{len(pending)} steps in {jobs} process{'es' if jobs > 1 else ''}, {len(reused)} results kept from earlier runs"
+    first = f"{len(pending)} of {len(all_steps)} results to compute, with --jobs {jobs}"
     if expects := time_left({}):
         first += f": about {expects}, by the times of an earlier run"
     seconds: dict[str, float] = {}
