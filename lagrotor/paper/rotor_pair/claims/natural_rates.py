@@ -103,12 +103,11 @@ def decide_c20(m: Mapping[str, float]) -> Finding:
     )
     return Finding(
         (Part(AT_16, all(map(SINGLE.is_matched, (exact, springs, small)))),),
-        f"{SINGLE.rule} rad/s. The fitted rates are {exact:.3f} rad/s in the exact model over 8 s, "
-        f"{SINGLE.compare(exact)}; {springs:.3f} with springs over the first {SPRINGS_SECONDS:.0f} s; and "
-        f"{small:.4f} after a small shock. (With springs the rate decreases later, figure 25, because the dampers reduce the "
-        "amplitude.) The excess over 16 is due to the amplitude: G/(J cos θ) = "
-        f"{m['rate_by_G_over_J_cos_rad_per_s']:.3f} rad/s at sin θ = {m['amplitude']:.3f}. At the end of the 8 s sin 16(t − 2) "
-        f"lags by {m['cycles_off_16_at_the_end_of_8_s']:.2f} of a cycle.",
+        f"{SINGLE.rule} rad/s. The fitted rates are {exact:.3f} rad/s in the exact model over 8 s, {SINGLE.compare(exact)}; "
+        f"{springs:.3f} with springs over the first {SPRINGS_SECONDS:.0f} s; and {small:.4f} after a small shock. (With springs "
+        "the rate decreases later, figure 25, because the dampers reduce the amplitude.) The excess over 16 is due to the "
+        f"amplitude: G/(J cos θ) = {m['rate_by_G_over_J_cos_rad_per_s']:.3f} rad/s at sin θ = {m['amplitude']:.3f}. At the end "
+        f"of the 8 s sin 16(t − 2) lags by {m['cycles_off_16_at_the_end_of_8_s']:.2f} of a cycle.",
     )
 
 
@@ -216,12 +215,13 @@ def decide_c22(m: Mapping[str, float]) -> Finding:
         f"1), (0.01, 0.1) and (1, 0.1) in kg and kg m². After 40 N a fitted rate depends on the window. Over the first {FEW} "
         f"cycles of the wave, {FEW * 2 * pi / OPPOSITE_RATE:.1f} s, the rates are {large[0]:.2f} "
         f"({m['rate_springs_over_3_s_m_1_K_1']:.2f} with springs over {SPRINGS_SECONDS:.0f} s), {large[1]:.2f}, {large[2]:.2f} "
-        f"rad/s. Twelve windows of {WINDOWS[0]} to {WINDOWS[-1]} cycles give {spread[0]}, {spread[1]} and {spread[2]} rad/s. A sine "
-        f"of {OPPOSITE_RATE:.1f} rad/s stays within a quarter of a cycle of x₁ for {cycles[0]:.1f}, {cycles[1]:.1f} and "
-        f"{cycles[2]:.1f} cycles (after a small shock for {cycles_small[0]:.1f}, {cycles_small[1]:.1f} and {cycles_small[2]:.1f}). "
-        f"“The first few cycles” means at least {FEW}. The third bar, with the mass of the first and the inertia of the second, is in no listing. "
-        f"With m = 1 kg the constant would require K = {m['inertia_that_mass_1_needs_kg_m2']:.3f} kg m², a bar that "
-        f"the paper does not list. Equal spins of 10 rad/s oscillate at {m['rate_of_equal_spins_m_1']:.3f} rad/s.",
+        f"rad/s. Twelve windows of {WINDOWS[0]} to {WINDOWS[-1]} cycles give {spread[0]}, {spread[1]} and {spread[2]} rad/s. A "
+        f"sine of {OPPOSITE_RATE:.1f} rad/s stays within a quarter of a cycle of x₁ for {cycles[0]:.1f}, {cycles[1]:.1f} and "
+        f"{cycles[2]:.1f} cycles (after a small shock for {cycles_small[0]:.1f}, {cycles_small[1]:.1f} and "
+        f"{cycles_small[2]:.1f}). “The first few cycles” means at least {FEW}. The third bar, with the mass of the first and "
+        "the inertia of the second, is in no listing. With m = 1 kg the constant would require K = "
+        f"{m['inertia_that_mass_1_needs_kg_m2']:.3f} kg m², a bar that the paper does not list. Equal spins of 10 rad/s "
+        f"oscillate at {m['rate_of_equal_spins_m_1']:.3f} rad/s.",
     )
 
 
