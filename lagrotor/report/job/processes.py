@@ -112,10 +112,13 @@ def _start_server() -> None:
 
 
 def _stop_server() -> None:
-    with suppress(ImportError, AttributeError, TypeError, ProcessLookupError):  # no server here, or none is running
+    with suppress(ImportError):  # no server on this system
         from multiprocessing import forkserver
 
-        os.kill(forkserver._forkserver._forkserver_pid, signal.SIGKILL)  # type: ignore[attr-defined]
+        running: Any = forkserver._forkserver
+        if running._forkserver_pid is not None:
+            os.kill(running._forkserver_pid, signal.SIGKILL)  # it may still be importing
+            running._stop()
 
 
 @contextmanager
@@ -128,7 +131,7 @@ def server() -> Iterator[None]:
         _start_server()
         yield
     except BaseException:
-        _stop_server()  # it may still be importing
+        _stop_server()
         raise
 
 
@@ -138,7 +141,7 @@ def ending_at_interrupt() -> Iterator[None]:
 
     def end(number: int, frame: Any) -> None:
         _stop_server()
-        os.write(sys.stderr.fileno(), b"lagrotor: interrupted\n")
+        os.write(2, b"lagrotor: interrupted\n")
         os._exit(130)
 
     if threading.current_thread() is not threading.main_thread():
@@ -160,7 +163,7 @@ def _pool(jobs: int) -> Iterator[Callable[..., Future[Any]]]:
     pool, starter = ProcessPoolExecutor(jobs, mp_context=_context(), initializer=_begin), ThreadPoolExecutor(1)
     try:
         with server():
-            yield lambda *call: starter.submit(pool.submit, *call).result()
+            yield lambda run, *arguments: starter.submit(lambda: pool.submit(run, *arguments)).result()
     except BaseException:
         starter.shutdown(cancel_futures=True)
         for process in list((getattr(pool, "_processes", None) or {}).values()):

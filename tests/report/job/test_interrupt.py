@@ -54,7 +54,9 @@ class Run:
                 if run.poll() is None:
                     os.killpg(run.pid, signal.SIGKILL)
                     run.wait()
-        for _ in range(50):  # processes that were told to end have five seconds to do so
+        for _ in range(
+            20
+        ):  # two seconds, in which a busy machine carries out the signals; a server that lives imports longer
             if not (living := processes(mark)):
                 break
             time.sleep(0.1)
