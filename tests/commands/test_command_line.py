@@ -549,7 +549,8 @@ def test_progress_is_a_line_a_step_or_one_line_in_a_terminal(
 ) -> None:
     record(found())
     assert main(["reproduce", "--jobs", "1"]) == 0
-    lines = capsys.readouterr().err.splitlines()
+    first, *lines = capsys.readouterr().err.splitlines()
+    assert first == "lagrotor: 3 of 3 results to compute, with --jobs 1", "no recorded times, so no remaining time"
     assert [re.sub(r" +\d+ s  ", " ", line) for line in lines] == [
         "[1/4] derivation s5_2a_single_rotor",
         "[2/4] figure 17",
@@ -559,7 +560,7 @@ def test_progress_is_a_line_a_step_or_one_line_in_a_terminal(
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
     assert main(["reproduce", "--jobs", "1", "--out", "another"]) == 0
     shown = capsys.readouterr().err
-    assert shown.count("\n") == 0
+    assert shown.count("\n") == 1
     assert shown.count("\r[") == 2, "a derivation and the report"
     assert main(["reproduce", "--jobs", "1", "--out", "another"]) == 0
     assert not capsys.readouterr().err, "nothing to do"
