@@ -444,10 +444,8 @@ def test_interrupted_report_leaves_the_last_good_one(
     monkeypatch.setattr(reproduce, "errata_sheet", interrupted)
     if stop is KeyboardInterrupt:
         assert main(["reproduce", "--jobs", "1"]) == 130
-        says = capsys.readouterr().err.splitlines()[-1]
-        assert re.fullmatch(
-            r"lagrotor: interrupted: (\d+) of \1 results are kept, and the same command goes on from there", says
-        )
+        says = "interrupted: 2 of 3 results are kept, and the same command goes on from there"  # not a derivation with verdicts
+        assert capsys.readouterr().err.splitlines()[-1] == f"lagrotor: {says}"
     else:
         with pytest.raises(stop):
             main(["reproduce", "--jobs", "1"])
@@ -598,7 +596,7 @@ def test_a_terminated_run_leaves_nothing_behind(work: Path, monkeypatch: pytest.
     running.terminate()
     running.join()
     assert running.exitcode == 143
-    assert said.read_text() == "lagrotor: terminated\n"
+    assert said.read_text() == "lagrotor: terminated: no result is kept yet, and the same command begins again\n"
     assert not list(work.iterdir())
 
 
