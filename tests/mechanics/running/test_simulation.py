@@ -278,7 +278,7 @@ def test_a_motion_on_its_way_to_infinity_is_as_exact_as_it_is_told(power: sp.Exp
 def test_a_run_is_drawn_and_filmed(tmp_path: Path) -> None:
     run = rod().simulate(VALUES, (0.8, 0), (0, 0), np.linspace(0, 0.4, 11), 1e-9)
     figure = run.plot()
-    assert [axes.get_ylabel() for axes in figure.axes] == ["$x$", "$y$", "E − E(0)", "largest |g|"]
+    assert [axes.get_ylabel() for axes in figure.axes] == ["$x$", "$y$", "E − E(0) (J)", "largest |g|"]
     np.testing.assert_array_equal(figure.axes[0].lines[0].get_ydata(), run.q[:, 0])
     from PIL import Image
 
