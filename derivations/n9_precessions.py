@@ -222,6 +222,7 @@ Remark(
 # %%
 near = Structure([(0, 0), (1, 0), (0.3, 0.9)], [*BARS, (2, 0)], [-6.5, 7.7, 7.5], hinge=20.0)
 said = near.precession_law(2)
+law_edge = said.edge
 beyond = np.array([1.1, 1.3]) * said.edge
 grown = [near.steady_precession(2, tilt).growth for tilt in beyond]
 (first, last), (low, high) = np.square(grown), np.square(beyond)

@@ -35,6 +35,12 @@ class PrintedNumber(float):
         """The interval of the numbers that the printed one stands for, in words."""
         return f"{self.digits} as printed means {self - self.half_unit:.8g} to {self + self.half_unit:.8g}"
 
+    def compare(self, number: float) -> str:
+        """Return in words whether a number rounds to the printed one, and by how many percent it differs."""
+        rounds = "rounds" if self.is_matched(number) else "does not round"
+        side = "above" if number > self else "below"
+        return f"which {rounds} to {self.digits} and is {abs(number / self - 1):.1%} {side} it"
+
 
 @dataclass(frozen=True)
 class Part:

@@ -97,7 +97,9 @@ class Report:
         """The introduction of the report: how equations, claims and figures were examined, and how they are cited."""
         equations, claims = list(self.paper.equations)[:1], list(self.paper.claims)[:1]
         text = "Each equation of the paper is read as printed and derived anew; an exact decision procedure compares the two. "
-        text += "Each claim made in words is tested by a simulation or a theorem. " if claims else ""
+        if claims:
+            text += "Each claim made in words is tested by a simulation or a theorem. A printed number agrees with a computed "
+            text += "one that rounds to it: 16 stands for 15.5 to 16.5, and 11.4 for 11.35 to 11.45. "
         text += "Each figure is drawn again. " if self.paper.figures else ""
         text += "All numbers were computed by the run that wrote this page, except computing times, which are on record with the "
         ids = [*(f"Equations are cited by number, such as {i}" for i in equations), *(f"claims as {i}" for i in claims)]
