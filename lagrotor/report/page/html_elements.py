@@ -240,7 +240,7 @@ def _value_html(value: Any, answers: Mapping[str, str]) -> str:
     from lagrotor.drawing.run_figure import RunFigure
 
     if isinstance(value, RunFigure):
-        labels = ", ".join(axes.get_ylabel().strip("$") for axes in value.axes)
+        labels = ", ".join(axes.get_ylabel().replace("$", "") for axes in value.axes)
         return f'<img src="{_png(value)}" alt="Over time: {escape(labels)}">'
     return ""
 

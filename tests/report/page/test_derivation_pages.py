@@ -25,7 +25,7 @@ def test_a_script_of_the_gallery_is_a_page_with_its_picture() -> None:
     assert "<p><small>Decided exactly: the splitting of the frequencies.</small></p>" in html
     ((data, labels),) = re.findall(PICTURE, html)
     assert b64decode(data).startswith(b"\x89PNG") and len(data) < 80_000
-    assert labels.startswith("z, \\vartheta")
+    assert labels.startswith("z (m), \\vartheta (rad)")
 
 
 @pytest.mark.parametrize(
