@@ -261,7 +261,7 @@ class Frame(MovingFrame):
         """
         return force_elements.torque(self, moment, against, axes)
 
-    def weld(self, at: Vector = (0, 0, 0), axes: str = "", angles: Any = ()) -> Self:
+    def weld(self, at: Vector = (0, 0, 0), axes: str = "", angles: Any = (), name: str = "") -> Self:
         """Return a frame fixed to this one.
 
         Parameters
@@ -270,6 +270,8 @@ class Frame(MovingFrame):
             The origin, in m.
         axes, angles : str and sequence
             Axes of turns, one after another, and fixed angles in rad.
+        name : str, default ''
+            The name of the joint.
 
         Returns
         -------
@@ -282,15 +284,17 @@ class Frame(MovingFrame):
         >>> Frame(coordinates("theta")).pin("theta").weld((0, 2, 0)).place().T
         Matrix([[-2*sin(theta), 2*cos(theta), 0]])
         """
-        return moving_frames.weld(self, at, axes, angles)
+        return moving_frames.weld(self, at, axes, angles, name)
 
-    def pin(self, angle: Any, axis: Any = "z") -> Self:
+    def pin(self, angle: Any, axis: Any = "z", name: str = "") -> Self:
         """Return a frame turned by an angle about an axis.
 
         Parameters
         ----------
         angle, axis : Expr or str
             The angle in rad and the axis.
+        name : str, default ''
+            The name of the joint.
 
         Returns
         -------
@@ -303,15 +307,17 @@ class Frame(MovingFrame):
         >>> Frame(coordinates("theta")).pin("theta", "x").angular_velocity.T
         Matrix([[theta_dot, 0, 0]])
         """
-        return moving_frames.pin(self, angle, axis)
+        return moving_frames.pin(self, angle, axis, name)
 
-    def prismatic(self, length: Any, axis: Any = "z") -> Self:
+    def prismatic(self, length: Any, axis: Any = "z", name: str = "") -> Self:
         """Return a frame shifted along an axis.
 
         Parameters
         ----------
         length, axis : Expr or str
             The length in m and the axis.
+        name : str, default ''
+            The name of the joint.
 
         Returns
         -------
@@ -324,15 +330,17 @@ class Frame(MovingFrame):
         >>> Frame(coordinates("s")).prismatic("s", (3, 4, 0)).place().T
         Matrix([[3*s/5, 4*s/5, 0]])
         """
-        return moving_frames.prismatic(self, length, axis)
+        return moving_frames.prismatic(self, length, axis, name)
 
-    def screw(self, angle: Any, pitch: Any, axis: Any = "z") -> Self:
+    def screw(self, angle: Any, pitch: Any, axis: Any = "z", name: str = "") -> Self:
         """Return a frame that advances along an axis as it turns about it.
 
         Parameters
         ----------
         angle, pitch, axis : Expr or str
             The angle in rad, the advance in m for each turn of 2 π, and the axis.
+        name : str, default ''
+            The name of the joint.
 
         Returns
         -------
@@ -346,15 +354,17 @@ class Frame(MovingFrame):
         >>> Frame(coordinates("theta")).screw("theta", 2 * pi).place().T
         Matrix([[0, 0, theta]])
         """
-        return moving_frames.screw(self, angle, pitch, axis)
+        return moving_frames.screw(self, angle, pitch, axis, name)
 
-    def cylindrical(self, length: Any, angle: Any, axis: Any = "z") -> Self:
+    def cylindrical(self, length: Any, angle: Any, axis: Any = "z", name: str = "") -> Self:
         """Return a frame shifted along an axis and turned about it.
 
         Parameters
         ----------
         length, angle, axis : Expr or str
             The length in m, the angle in rad and the axis.
+        name : str, default ''
+            The name of the joint.
 
         Returns
         -------
@@ -367,15 +377,17 @@ class Frame(MovingFrame):
         >>> Frame(coordinates("s theta")).cylindrical("s", "theta").place((1, 0, 0)).T
         Matrix([[cos(theta), sin(theta), s]])
         """
-        return moving_frames.cylindrical(self, length, angle, axis)
+        return moving_frames.cylindrical(self, length, angle, axis, name)
 
-    def universal(self, first: Any, second: Any, axes: str = "xy") -> Self:
+    def universal(self, first: Any, second: Any, axes: str = "xy", name: str = "") -> Self:
         """Return a frame turned about one axis and then about another, by a Cardan or Hooke joint.
 
         Parameters
         ----------
         first, second, axes : Expr or str
             The angles in rad and two different axes.
+        name : str, default ''
+            The name of the joint.
 
         Returns
         -------
@@ -388,15 +400,17 @@ class Frame(MovingFrame):
         >>> Frame(coordinates("alpha beta")).universal("alpha", "beta").angular_velocity.T
         Matrix([[alpha_dot*cos(beta), beta_dot, alpha_dot*sin(beta)]])
         """
-        return moving_frames.universal(self, first, second, axes)
+        return moving_frames.universal(self, first, second, axes, name)
 
-    def planar(self, x: Any, y: Any, angle: Any, normal: Any = "z") -> Self:
+    def planar(self, x: Any, y: Any, angle: Any, normal: Any = "z", name: str = "") -> Self:
         """Return a frame shifted in a plane and turned about its normal.
 
         Parameters
         ----------
         x, y, angle, normal : Expr or str
             The shifts in m, the angle in rad and the axis normal to the plane.
+        name : str, default ''
+            The name of the joint.
 
         Returns
         -------
@@ -409,9 +423,9 @@ class Frame(MovingFrame):
         >>> Frame(coordinates("x y theta")).planar("x", "y", "theta").place((1, 0, 0)).T
         Matrix([[x + cos(theta), y + sin(theta), 0]])
         """
-        return moving_frames.planar(self, x, y, angle, normal)
+        return moving_frames.planar(self, x, y, angle, normal, name)
 
-    def ball(self, quaternion: Any, omega: Any) -> Self:
+    def ball(self, quaternion: Any, omega: Any, name: str = "") -> Self:
         """Return a frame turned by a unit quaternion, which has no pole.
 
         Parameters
@@ -421,6 +435,8 @@ class Frame(MovingFrame):
         omega : str or sequence
             Three new symbols or their names: the angular velocities about the axes of the turned frame. In the system they
             replace the velocities of the four coordinates.
+        name : str, default ''
+            The name of the joint.
 
         Returns
         -------
@@ -435,9 +451,9 @@ class Frame(MovingFrame):
         >>> System(c, gyro.kinetic).speeds
         (u, v, w)
         """
-        return moving_frames.ball_joint(self, quaternion, omega)
+        return moving_frames.ball_joint(self, quaternion, omega, name)
 
-    def free(self, place: Any, quaternion: Any, omega: Any) -> Self:
+    def free(self, place: Any, quaternion: Any, omega: Any, name: str = "") -> Self:
         """Return a frame shifted along the axes and turned by a unit quaternion: six degrees of freedom.
 
         Parameters
@@ -446,6 +462,8 @@ class Frame(MovingFrame):
             Three coordinates or their names.
         quaternion, omega : str or sequence
             Four coordinates, and three new symbols of angular velocities: see `ball`.
+        name : str, default ''
+            The name of the joint.
 
         Returns
         -------
@@ -458,7 +476,7 @@ class Frame(MovingFrame):
         >>> Frame(coordinates("x y z a b c d")).free("x y z", "a b c d", "u v w").place().T
         Matrix([[x, y, z]])
         """
-        return moving_frames.free(self, place, quaternion, omega)
+        return moving_frames.free(self, place, quaternion, omega, name)
 
     def coincides(self, other: MovingFrame, at: Vector = (0, 0, 0), point: Vector = (0, 0, 0)) -> tuple[sp.Expr, ...]:
         """Return the constraints that hold a point of this frame on a point of another: a ball joint that closes a loop.
