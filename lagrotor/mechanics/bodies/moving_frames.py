@@ -341,7 +341,8 @@ def pin(frame: Kind, angle: Any, axis: Any, name: str = "") -> Kind:
 
 def prismatic(frame: Kind, length: Any, axis: Any, name: str = "") -> Kind:
     """Shift a frame along an axis: `Frame.prismatic`."""
-    return frame.moved(*(_direction("prismatic", axis) * _amount("prismatic: length", frame, length)), name=name)
+    x, y, z = _direction("prismatic", axis) * _amount("prismatic: length", frame, length)
+    return frame.moved(x, y, z, name)
 
 
 def cylindrical(frame: Kind, length: Any, angle: Any, axis: Any, name: str = "") -> Kind:

@@ -156,6 +156,10 @@ class Frame(MovingFrame):
     quaternion : tuple of Symbol
     omega : tuple of Symbol
         The coordinates, scalar first, and the angular velocities of a ball joint.
+    name : str
+        The name of the joint that leads to this frame; "" if it was given none.
+    base : Frame or None
+        The frame before that joint.
 
     Examples
     --------
