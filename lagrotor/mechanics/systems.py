@@ -149,6 +149,47 @@ class System(Equations):
 
         return system_of(read_urdf(path, base), symbols)
 
+    @staticmethod
+    def from_mjcf(path: "str | Path", symbols: "Symbols" = "inertia") -> "RobotSystem":
+        """Return the system of a machine in an MJCF file of MuJoCo.
+
+        Inertias without <inertial> are those of the geoms. Damping, springs and armatures of joints are read, and equality
+        constraints hold exactly. Meshes, contacts, actuators and limits are listed in `not_read`. Files that are included
+        must lie in the folder of the file.
+
+        Parameters
+        ----------
+        path : str or Path
+            The MJCF file.
+        symbols : {"inertia", "all", "none"}, default 'inertia'
+            "inertia": masses, centres, inertias and g are symbols, and `values` has their numbers. "all": lengths,
+            dampings, stiffnesses and armatures, too. "none": numbers alone. A zero stays a zero.
+
+        Returns
+        -------
+        RobotSystem
+            The system, with the coordinates of the joints by the file's names.
+
+        Raises
+        ------
+        InputError
+            If the file is no valid MJCF; the message names file, line, element and reason.
+
+        Examples
+        --------
+        >>> from pathlib import Path
+        >>> from tempfile import mkdtemp
+        >>> path = Path(mkdtemp(), "mass.xml")
+        >>> _ = path.write_text('''<mujoco><worldbody><body name="mass"><joint name="z" type="slide" stiffness="8"/>
+        ... <geom type="box" size="1 1 1" mass="2"/></body></worldbody></mujoco>''')
+        >>> System.from_mjcf(path, symbols="none").motion[0]
+        8*z + 2*z_ddot + 981/50
+        """
+        from lagrotor.mechanics.robot_files.description import system_of
+        from lagrotor.mechanics.robot_files.mjcf import read_mjcf
+
+        return system_of(read_mjcf(path), symbols)
+
     @property
     def cyclic(self) -> tuple[sp.Symbol, ...]:
         """The coordinates whose momentum is conserved.

@@ -80,3 +80,14 @@ def to_axis(axis: Sequence[sp.Rational]) -> Quaternion:
         return (sp.S.One, sp.S.Zero, sp.S.Zero, sp.S.Zero) if z > 0 else (sp.S.Zero, sp.S.One, sp.S.Zero, sp.S.Zero)
     quaternion = (length + z, -y, x, sp.S.Zero)
     return quaternion if length.is_Rational else rounded(quaternion)
+
+
+def quaternion_of(R: sp.Matrix) -> Quaternion:
+    """Return the quaternion of a rotation matrix of real numbers."""
+    R = R.evalf(40)
+    squares = [1 + R.trace(), *(1 + 2 * R[i, i] - R.trace() for i in range(3))]  # 4 a², 4 b², 4 c², 4 d²
+    k = max(range(4), key=lambda i: squares[i])
+    wedge = [R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]]  # 4 a (b, c, d)
+    if k == 0:
+        return rounded((squares[0], *wedge))
+    return rounded((wedge[k - 1], *(squares[k] if i == k - 1 else R[i, k - 1] + R[k - 1, i] for i in range(3))))
