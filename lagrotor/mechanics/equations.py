@@ -86,7 +86,7 @@ class Equations:
             if isinstance(entries, Mapping) and name != "forces":
                 self._name(name, entries)
                 entries = tuple(entries.values())
-            if isinstance(entries, sp.Expr | str) or not isinstance(entries, Sequence | sp.MatrixBase):
+            if isinstance(entries, str) or not isinstance(entries, Sequence | sp.MatrixBase):
                 way = f": write ({entries},)" if isinstance(entries, sp.Expr) else ""
                 raise InputError(f"System: {name} = {entries} must be a tuple of expressions{way}")
             checked = tuple(expression(f"System: {name}[{i}]", e) for i, e in enumerate(entries))

@@ -259,7 +259,8 @@ def frame_motions(system: Equations, frames: Sequence[MovingFrame], keep: Stages
             lift = p.lift + p.bend * d + p.spin.cross(keep.each(d_rate)) * 2 + keep.each(rate_of(d_rate))
             motions[frame] = FrameMotion(ground.rotation, d, p.spin, p.turn, keep.each(lift), p.bend, p.fields)
             continue
-        R, u = keep.each(Small.of(frame.rotation)), Small.of(frame.turn_rate)
+        R = keep.each(Small.of(frame.rotation))
+        u = Small.column(*frame.omega) if frame.omega else Small.of(frame.turn_rate)
         u_rate = keep.each(Small.column(*map(_rate, frame.omega)) if frame.omega else rate_of(u))
         u, carried = keep.each(u), keep.each(R.T * p.spin)
         spin, turn = keep.each(carried + u), keep.each(R.T * p.turn + carried.cross(u) + u_rate)
