@@ -9,7 +9,7 @@ import sympy as sp
 from lagrotor.algebra import Decision
 from lagrotor.errors import InputError
 from lagrotor.mechanics import equilibria, glossary, steady_motions, symmetry, weakly_nonlinear
-from lagrotor.mechanics.bodies import joint_forces
+from lagrotor.mechanics.bodies import inertial_parameters, joint_forces
 from lagrotor.mechanics.canonical import hamiltonians
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.equilibria import Equilibrium
@@ -838,6 +838,65 @@ class System(Equations):
         from lagrotor.mechanics.running import joint_programs
 
         return joint_programs.inverse_dynamics(self, q, v, a, values, t)
+
+    def regressor(self) -> tuple[sp.Matrix, sp.Matrix]:
+        """Return Y(q, v, a) and π: the bodies need the generalised forces Y π, linear in their inertial parameters π.
+
+        Each body has ten parameters: m, the first moments m c, and the inertias xx, xy, xz, yy, yz, zz about the origin of its
+        frame, in the axes of that frame. `inverse_dynamics` is Y π without applied forces, friction and other terms of L.
+
+        Returns
+        -------
+        tuple of Matrix
+            Y, shape (n, 10 N) for N bodies, and π in the symbols of the system, (10 N, 1).
+
+        Raises
+        ------
+        InputError
+            If L has energies other than `body.kinetic` and `body.potential` in one field.
+
+        Examples
+        --------
+        >>> from sympy import symbols
+        >>> from lagrotor.mechanics import Frame, coordinates
+        >>> m, g, l = symbols("m g l", positive=True)
+        >>> c = coordinates("theta")
+        >>> rod = Frame(c).pin("theta").body(mass=m, centre=(0, -l, 0))
+        >>> Y, parameters = System(c, rod.kinetic - rod.potential((0, -g, 0))).regressor()
+        >>> Y
+        Matrix([[0, g*cos(theta), -g*sin(theta), 0, 0, 0, 0, 0, 0, theta_ddot]])
+        >>> (Y * parameters)[0]
+        g*l*m*sin(theta) + l**2*m*theta_ddot
+        """
+        return inertial_parameters.regressor(self)
+
+    def base_parameters(self) -> inertial_parameters.BaseParameters:
+        """Return the combinations of masses, first moments and inertias that motions can determine, exactly.
+
+        The energies are evaluated at random rational states, and their dependence is found by exact elimination.
+
+        Returns
+        -------
+        BaseParameters
+            The combinations, and the changes of parameters that no motion can tell.
+
+        Raises
+        ------
+        InputError
+            If joints move with time, constraints act, or L has other energies than those of bodies in one field.
+
+        Examples
+        --------
+        >>> from sympy import symbols
+        >>> from lagrotor.mechanics import Frame, coordinates
+        >>> m, g, l = symbols("m g l", positive=True)
+        >>> c = coordinates("theta")
+        >>> rod = Frame(c).pin("theta").body(mass=m, centre=(0, -l, 0))
+        >>> base = System(c, rod.kinetic - rod.potential((0, -g, 0))).base_parameters()
+        >>> base.combinations.T, base.values.T
+        (Matrix([[mx_1, my_1, Izz_1]]), Matrix([[0, -l*m, l**2*m]]))
+        """
+        return inertial_parameters.base_parameters(self)
 
     def coriolis_matrix(self) -> sp.Matrix:
         """Return C(q, v) of the Christoffel symbols, with which M' − 2 C is skew: M a + C v + ∂V/∂q = Q.

@@ -235,6 +235,16 @@ def _rate(u: sp.Symbol) -> sp.Symbol:
     return sp.Symbol(f"{u}_dot", real=True)
 
 
+def rate_stages(system: Equations) -> list[tuple[sp.Symbol, sp.Expr]]:
+    """Return the stages that compute v and a from the quasi-velocities and their rates; none if the system has none."""
+    relation = system.kinematics
+    if relation is None:
+        return []
+    a = relation.B * sp.Matrix(system.speed_rates) + relation.alpha
+    pairs = zip((*system.c.v, *system.c.a), (*relation.velocity, *a), strict=True)
+    return [*relation.stages, *((s, e) for s, e in pairs if s != e)]
+
+
 def written_out(stages: Iterable[tuple[sp.Symbol, sp.Expr]], outputs: Sequence[sp.Expr]) -> list[sp.Expr]:
     """Substitute the stages into the outputs."""
     values = dict[sp.Symbol, sp.Expr]()

@@ -14,6 +14,7 @@ from lagrotor.mechanics.bodies.joint_forces import (
     joint_names,
     joint_outputs,
     placed_loads,
+    rate_stages,
     written_out,
 )
 from lagrotor.mechanics.bodies.small_matrices import Stages
@@ -116,12 +117,9 @@ def inverse_program(system: Equations) -> Generated:
 
 
 def _inverse(system: Equations) -> tuple[list[Stage], list[sp.Expr]]:
-    rates, relation = sp.Matrix(system.speed_rates), system.kinematics
     if not system.bodies:
         stages, M, push = equations_of_speeds(system)
-        return stages, list(M * rates - push)
+        return stages, list(M * sp.Matrix(system.speed_rates) - push)
     keep = Stages()
     outputs = inverse_outputs(system, keep)
-    a = relation.B * rates + relation.alpha if relation else system.c.a
-    accelerations = [(s, e) for s, e in zip(system.c.a, a, strict=True) if s != e]
-    return [*velocity_stages(system), *accelerations, *keep.made], outputs
+    return [*rate_stages(system), *keep.made], outputs
