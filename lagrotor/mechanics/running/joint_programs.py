@@ -1,7 +1,7 @@
 """The recursion of Newton and Euler as programs: the forces in joints along a run, and inverse dynamics at given states."""
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import sympy as sp
@@ -25,14 +25,11 @@ from lagrotor.mechanics.running.function_values import put_functions, with_value
 from lagrotor.mechanics.running.programs import Generated, _program, equations_of_speeds, velocity_stages
 from lagrotor.numerics.codegen import Stage
 
-if TYPE_CHECKING:
-    from lagrotor.mechanics.running.motion import SampledMotion
-
 
 class Reactions(Mapping[str, Any]):
     """The reactions of a run by name: the multiplier of each constraint, shape (n,), and the `JointForce` of each joint."""
 
-    def __init__(self, run: "SampledMotion") -> None:
+    def __init__(self, run: Any) -> None:
         self._run, self._joints = run, dict[str, dict[str, JointForce]]()
 
     def __getitem__(self, name: str) -> Any:
@@ -59,7 +56,7 @@ class Reactions(Mapping[str, Any]):
         return self._joints[axes][name]
 
 
-def joint_forces_along(run: "SampledMotion", axes: str) -> dict[str, JointForce]:
+def joint_forces_along(run: Any, axes: str) -> dict[str, JointForce]:
     """Compute the forces in all joints along a run.
 
     Accelerations, multipliers and loads are evaluated first and enter the program as inputs: dry friction and contacts make

@@ -231,9 +231,11 @@ REFUSED: dict[str, Callable[[], Any]] = {
     "term -b.g.m of L does not say": lambda: System(c2, T - m * g * c2.b).joint_force("one"),
     "dissipation .* does not say": lambda: System(c2, T, dissipation=ROPE.damper(1)).joint_force("one"),
     "force .* a Pathway knows no bodies": lambda: System(c2, T, forces=ROPE.actuator(k)).joint_force("one"),
-    "force .* unchanged": lambda: System(c2, T, forces=SECOND.force((1, 2, 3)).applyfunc(sp.expand)).joint_force("b"),
+    "force .* use Frame.force on the frames, unchanged": lambda: System(
+        c2, T, forces=SECOND.force((1, 2, 3)).applyfunc(sp.expand)
+    ).joint_force("b"),
     "constraint .* = 0 does not say": lambda: System(c2, T, (SECOND.place((l, 0, 0))[1],)).joint_force("one"),
-    "field or factor with a ": lambda: System(c2, T - BODY.potential((c2.q[0], 0, 0))).joint_force("one"),
+    "a weight with a ": lambda: System(c2, T - BODY.potential((c2.q[0], 0, 0))).joint_force("one"),
 }
 
 
