@@ -21,6 +21,7 @@ from typing import Any
 import sympy as sp
 from sympy.polys.constructor import construct_domain
 from sympy.polys.matrices import DomainMatrix
+from sympy.polys.polyerrors import CoercionFailed
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.bodies.joint_forces import (
@@ -139,7 +140,12 @@ def base_parameters(system: Equations) -> BaseParameters:
     letters = {s: _number(random) for s in energies.letters}
     base = energies.domain(())
     states = [energies.state(random) for _ in range(len(names) + _MORE)]
-    rows = energies.rows(states, base, letters)
+    try:
+        rows = energies.rows(states, base, letters)
+    except CoercionFailed as problem:
+        raise InputError(
+            f"base_parameters: joints with {problem}: give angles and polynomials of coordinates"
+        ) from None
     reduced, columns = DomainMatrix(rows, (len(rows), len(names)), base).rref()
     reduced = reduced.to_Matrix()
     combinations, hidden = [names[p] for p in columns], list[sp.Expr]()

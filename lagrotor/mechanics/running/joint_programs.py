@@ -63,6 +63,10 @@ def joint_forces_along(run: Any, axes: str) -> dict[str, JointForce]:
     them jump.
     """
     system, names, components = run.system, joint_names(run.system), list[sp.Expr]()
+    if not run.switched.smooth and any(sum(run.switched.mode(state).closed) for state in run.states):
+        raise InputError(
+            "reactions: a body rests on the gap of an Impact, which does not say on which bodies its force acts"
+        )
 
     def input_of(e: sp.Expr) -> sp.Expr:
         components.append(e)

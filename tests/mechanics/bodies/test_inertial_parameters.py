@@ -121,6 +121,7 @@ def test_what_has_no_base_parameters_is_refused() -> None:
         "of all or of none": System(c, body.kinetic + Frame(c).pin("p").body(1).kinetic - body.potential((0, 0, 1))),
         "leave them out": System(c, body.kinetic, (c.p - c.r,)),
         "the joints move with time": System(c, body.kinetic + frame.moved(t).body(1).kinetic),
+        "joints with .*tanh": System(c, body.kinetic + frame.moved(sp.tanh(c.p)).body(1).kinetic),
         "common divisor": System(c, body.kinetic + frame.pin(c.p / 2, "x").body(1, (1, 1, 1)).kinetic),
     }
     for words, system in refused.items():

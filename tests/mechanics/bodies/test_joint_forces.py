@@ -10,7 +10,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from lagrotor.errors import InputError
-from lagrotor.mechanics import Frame, Pathway, Plane, System, coordinates, total_derivative
+from lagrotor.mechanics import Frame, Impact, Pathway, Plane, System, coordinates, total_derivative
 from lagrotor.mechanics.bodies.moving_frames import in_ground
 
 m, g, l, k = sp.symbols("m g l k", positive=True)
@@ -212,6 +212,17 @@ def test_dry_friction_of_a_load_is_that_of_the_run() -> None:
     run = rubs.simulate({}, (1.5,), (0,), [0, 1])
     assert run.evaluate(sp.sign(c.s_dot)) == pytest.approx([-0.75, -0.75])
     assert run.reactions["rail"].force[:, 0] == pytest.approx([-1.5, -1.5])  # of the spring, which is in the joint
+
+
+def test_a_body_that_rests_on_an_impact_has_no_forces_in_joints() -> None:
+    c = coordinates("s")
+    block = Frame(c).prismatic("s", name="rail").body(1)
+    fall = System(c, block.kinetic - block.potential((0, 0, -9)))
+    run = fall.simulate({}, (1,), (0,), [0, 0.1, 1], events=Impact(c.s, 0))
+    with pytest.raises(InputError, match="rests on the gap of an Impact"):
+        _ = run.reactions["rail"]
+    flight = fall.simulate({}, (1,), (0,), [0, 0.1], events=Impact(c.s, 0)).reactions["rail"]
+    assert flight.force == pytest.approx(np.zeros((2, 3)), abs=1e-9)
 
 
 c2 = coordinates("a b")
