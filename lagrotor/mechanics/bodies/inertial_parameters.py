@@ -31,6 +31,7 @@ from lagrotor.mechanics.bodies.joint_forces import (
     generalised,
     inward,
     rate_stages,
+    unsteady_weights,
     written_out,
 )
 from lagrotor.mechanics.bodies.moving_frames import MovingFrame
@@ -98,7 +99,7 @@ def _bodies(where: str, system: Equations) -> tuple[tuple[Any, ...], tuple[sp.Ex
     complete = len(kinetic) + len(fallen) == len(terms) and sorted(map(id, kinetic)) == sorted(
         map(id, fallen or kinetic)
     )
-    if not kinetic or not complete or len(fields) > 1 or len({*kinetic}) < len(kinetic):
+    if not kinetic or not complete or len(fields) > 1 or len({*kinetic}) < len(kinetic) or unsteady_weights(system):
         raise InputError(
             f"{where}: the Lagrangian must be made of bodies: body.kinetic of each, once, less body.potential(field) of all or "
             "of none, with one field"

@@ -169,9 +169,8 @@ def placed_loads(where: str, system: Equations) -> list[Load]:
         {*c.q, *c.v},
         [{*b.quaternion, *(system.c.v[c.q.index(q)] for q in b.quaternion)} for b in system.ball_joints],
     )
-    for _, field, factor in L.terms:
-        if wrong := set().union(factor.free_symbols, *(e.free_symbols for e in field or ())) & moving:
-            raise refusal(f"a weight with {min(map(str, wrong))}", "keep field and factor free of coordinates")
+    if wrong := unsteady_weights(system):
+        raise refusal(f"a weight with {min(map(str, wrong))}", "keep field and factor free of coordinates")
     for term in sp.Add.make_args(L.remainder):
         inside = term.free_symbols & moving
         is_spring = len(inside) == 1 and (s := min(inside)) in c.q and term.is_polynomial(s) and sp.degree(term, s) > 1
@@ -276,6 +275,12 @@ def _fields(system: Equations) -> list[tuple[sp.Expr, ...]]:
     return list(dict.fromkeys(field for _, field, _ in system.lagrangian.terms if field is not None))
 
 
+def unsteady_weights(system: Equations) -> set[sp.Basic]:
+    """Return the coordinates and velocities in fields or factors of energies, of which the recursion does not know."""
+    parts = (e for _, field, factor in system.lagrangian.terms for e in (factor, *(field or ())))
+    return set().union(*(e.free_symbols for e in parts)) & {*system.c.q, *system.c.v}
+
+
 def _still(system: Equations) -> FrameMotion:
     """Return the motion of the ground."""
     fields = Small(list(zip(*_fields(system), strict=True)) or [[]] * 3)
@@ -284,9 +289,7 @@ def _still(system: Equations) -> FrameMotion:
 
 def body_wrenches(system: Equations, motions: Mapping[MovingFrame, FrameMotion], keep: Stages) -> Wrenches:
     """Return the torque and force (N, F) about each frame's origin that its bodies need, less their weights."""
-    ground = _still(system)
-    fields = _fields(system)
-    wrenches = Wrenches()
+    ground, fields, wrenches = _still(system), _fields(system), Wrenches()
     for body, field, factor in system.lagrangian.terms:
         at, c = motions.get(body.frame, ground), Small.of(body.centre)
         if field is None:
@@ -295,8 +298,7 @@ def body_wrenches(system: Equations, motions: Mapping[MovingFrame, FrameMotion],
         else:
             column = fields.index(field)
             f, n = Small([[row[column]] for row in at.fields.rows]) * (factor * body.mass), _NONE
-        f = keep.each(f)
-        wrench = blocks([[n + c.cross(f)], [f]])
+        wrench = blocks([[n + c.cross(f := keep.each(f))], [f]])
         wrenches[body.frame] = keep.each(wrenches.get(body.frame, zeros(6, 1)) + wrench)
     return wrenches
 

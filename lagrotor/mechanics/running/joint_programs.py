@@ -15,6 +15,7 @@ from lagrotor.mechanics.bodies.joint_forces import (
     joint_outputs,
     placed_loads,
     rate_stages,
+    unsteady_weights,
     written_out,
 )
 from lagrotor.mechanics.bodies.small_matrices import Stages
@@ -37,7 +38,7 @@ class Reactions(Mapping[str, Any]):
         if name in multipliers:
             return self._run.evaluate(multipliers[name])
         if name not in joint_names(self._run.system):
-            raise KeyError(name)
+            raise KeyError(f"{name!r} is none of the reactions {', '.join(self)}")
         return self.joint(name, "ground")
 
     def __iter__(self) -> Iterator[str]:
@@ -118,7 +119,7 @@ def inverse_program(system: Equations) -> Generated:
 
 
 def _inverse(system: Equations) -> tuple[list[Stage], list[sp.Expr]]:
-    if not system.bodies:
+    if not system.bodies or unsteady_weights(system):
         stages, M, push = equations_of_speeds(system)
         return stages, list(M * sp.Matrix(system.speed_rates) - push)
     keep = Stages()

@@ -322,6 +322,10 @@ def test_forces_that_give_an_acceleration_are_those_of_the_equations() -> None:
     np.testing.assert_allclose(found, plain.inverse_dynamics(q, v, a, {k: 0.3}), atol=1e-10)
     np.testing.assert_allclose(found[2], system.inverse_dynamics(q[2], v[2], a[2], {"k": 0.3}))
     assert found.shape == (5, 4)
+    c = coordinates("s")
+    body = Frame(c).prismatic("s").body(2)
+    pulled = System(c, body.kinetic - body.potential((0, 0, -c.s)))  # of a field that is not uniform
+    assert pulled.inverse_dynamics() == sp.Matrix([2 * c.s_ddot + 4 * c.s])
     ball = tree(["ball", "pin"], False)
     q, u = state(ball, 3)
     rates = ball.rhs({})(0, [*q, *u])[len(q) :]
