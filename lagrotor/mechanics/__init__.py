@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.bodies.contacts import Plane as Plane
     from lagrotor.mechanics.bodies.contacts import Sphere as Sphere
     from lagrotor.mechanics.bodies.force_elements import Pathway as Pathway
+    from lagrotor.mechanics.bodies.inertial_parameters import BaseParameters as BaseParameters
+    from lagrotor.mechanics.bodies.joint_forces import JointForce as JointForce
     from lagrotor.mechanics.bodies.rigid_bodies import Frame as Frame
     from lagrotor.mechanics.canonical.hamiltonians import GeneratedTransformation as GeneratedTransformation
     from lagrotor.mechanics.canonical.hamiltonians import Hamiltonian as Hamiltonian
@@ -58,6 +60,7 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.steady_motions import StateEquations as StateEquations
     from lagrotor.mechanics.symmetry import FirstIntegral as FirstIntegral
     from lagrotor.mechanics.symmetry import legendre as legendre
+    from lagrotor.mechanics.systems import RobotSystem as RobotSystem
     from lagrotor.mechanics.systems import System as System
     from lagrotor.mechanics.weakly_nonlinear import AveragedMotion as AveragedMotion
     from lagrotor.mechanics.weakly_nonlinear import Oscillation as Oscillation

@@ -1,7 +1,7 @@
 """A mechanical system, and what can be derived from it."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import sympy as sp
@@ -10,19 +10,23 @@ from lagrotor.algebra import Decision
 from lagrotor.errors import InputError
 from lagrotor.formula_text import LONG
 from lagrotor.mechanics import equilibria, glossary, steady_motions, symmetry, weakly_nonlinear
+from lagrotor.mechanics.bodies import inertial_parameters, joint_forces
 from lagrotor.mechanics.canonical import hamiltonians
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.equilibria import Equilibrium
 from lagrotor.mechanics.from_sympy import parts_from_sympy
-from lagrotor.mechanics.lagrangian import Coordinates
+from lagrotor.mechanics.lagrangian import Coordinates, coriolis_matrix
 from lagrotor.renamed import accept_old_keywords
 from lagrotor.result_display import in_lines, text_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from pathlib import Path
 
     from numpy.typing import ArrayLike
 
+    from lagrotor.mechanics.bodies.rigid_bodies import Frame
+    from lagrotor.mechanics.robot_files.description import Symbols
     from lagrotor.mechanics.running.flow import Array, Rhs, Values
     from lagrotor.mechanics.running.monodromy import MonodromyMatrix
     from lagrotor.mechanics.running.root_loci import RootLocus, StabilityChart
@@ -107,6 +111,90 @@ class System(Equations):
         x + x_ddot
         """
         return System(**parts_from_sympy(source, q))
+
+    @staticmethod
+    def from_urdf(path: "str | Path", symbols: "Symbols" = "inertia", base: str = "fixed") -> "RobotSystem":
+        """Return the system of a robot in a URDF file.
+
+        Decimals become exact rationals, and an angle such as 1.5707963 becomes π/2; `notes` of the result says where. Joint
+        damping becomes dissipation, and a mimic joint a constraint. Meshes, limits and dry friction are listed in
+        `not_read`. Gravity is 9.81 m/s² along −z.
+
+        Parameters
+        ----------
+        path : str or Path
+            The URDF file.
+        symbols : {"inertia", "all", "none"}, default 'inertia'
+            "inertia": masses, centres, inertias and g are symbols, and `values` has their numbers. "all": lengths and
+            dampings, too. "none": numbers alone. A zero stays a zero.
+        base : {"fixed", "floating"}, default 'fixed'
+            Whether the root link is fixed to the ground or free.
+
+        Returns
+        -------
+        RobotSystem
+            The system, with the coordinates of the joints by the file's names.
+
+        Raises
+        ------
+        InputError
+            If the file is no valid URDF; the message names file, line, element and reason.
+
+        Examples
+        --------
+        >>> from pathlib import Path
+        >>> from tempfile import mkdtemp
+        >>> path = Path(mkdtemp(), "cart.urdf")
+        >>> _ = path.write_text('''<robot name="cart"><link name="rail"/><link name="cart"><inertial><mass value="2"/>
+        ... <inertia ixx="1" iyy="1" izz="1"/></inertial></link><joint name="x" type="prismatic"><parent link="rail"/>
+        ... <child link="cart"/><axis xyz="1 0 0"/><dynamics damping="3"/></joint></robot>''')
+        >>> cart = System.from_urdf(path)
+        >>> cart.accelerations, cart.values[cart.lagrangian.bodies[0].mass]
+        (Matrix([[-3*x_dot/m_cart]]), 2.0)
+        """
+        from lagrotor.mechanics.robot_files import description, urdf
+
+        return RobotSystem(**description.parts_of(urdf.read_urdf(path, base), symbols))
+
+    @staticmethod
+    def from_mjcf(path: "str | Path", symbols: "Symbols" = "inertia") -> "RobotSystem":
+        """Return the system of a machine in an MJCF file of MuJoCo.
+
+        Inertias without <inertial> are those of the geoms. Damping, springs and armatures of joints are read, and equality
+        constraints hold exactly. Meshes, contacts, actuators and limits are listed in `not_read`. Files that are included
+        must lie in the folder of the file.
+
+        Parameters
+        ----------
+        path : str or Path
+            The MJCF file.
+        symbols : {"inertia", "all", "none"}, default 'inertia'
+            "inertia": masses, centres, inertias and g are symbols, and `values` has their numbers. "all": lengths,
+            dampings, stiffnesses and armatures, too. "none": numbers alone. A zero stays a zero.
+
+        Returns
+        -------
+        RobotSystem
+            The system, with the coordinates of the joints by the file's names.
+
+        Raises
+        ------
+        InputError
+            If the file is no valid MJCF; the message names file, line, element and reason.
+
+        Examples
+        --------
+        >>> from pathlib import Path
+        >>> from tempfile import mkdtemp
+        >>> path = Path(mkdtemp(), "mass.xml")
+        >>> _ = path.write_text('''<mujoco><worldbody><body name="mass"><joint name="z" type="slide" stiffness="8"/>
+        ... <geom type="box" size="1 1 1" mass="2"/></body></worldbody></mujoco>''')
+        >>> System.from_mjcf(path, symbols="none").motion[0]
+        8*z + 2*z_ddot + 981/50
+        """
+        from lagrotor.mechanics.robot_files import description, mjcf
+
+        return RobotSystem(**description.parts_of(mjcf.read_mjcf(path), symbols))
 
     @property
     def cyclic(self) -> tuple[sp.Symbol, ...]:
@@ -762,6 +850,183 @@ class System(Equations):
         self, values = function_values.put_functions("consistent", self, values)
         return initial_state.consistent("consistent", self, values, q, v, t)
 
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """The names of the joints: those that carry bodies, from the ground outward, then those that close loops.
+
+        A joint without a name is called after its coordinates, unless another joint or a constraint has that name.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import Frame, coordinates
+        >>> c = coordinates("alpha beta")
+        >>> upper = Frame(c).pin("alpha", name="shoulder").moved(0, -1)
+        >>> System(c, upper.pin("beta").body(mass=1, inertia=(1, 1, 1)).kinetic).joints
+        ('shoulder', 'beta')
+        """
+        return joint_forces.joint_names(self)
+
+    def joint_force(self, name: str, axes: str = "ground") -> joint_forces.JointForce:
+        """Return the force and the torque in a joint as expressions; `run.reactions` has them in numbers.
+
+        The frame before the joint exerts them on the frame after it, at the origin of that frame. They contain the drive, the
+        spring and the friction of the joint. `forces` act in the joints of their coordinates, except what `Frame.force` and
+        `Frame.torque` return, which acts on that frame.
+
+        Parameters
+        ----------
+        name : str
+            The name of the joint: see `joints`.
+        axes : str, default 'ground'
+            The axes of the components: "ground", or "joint" for the frame after the joint.
+
+        Returns
+        -------
+        JointForce
+            Columns `force` in N and `torque` in N m in q, v, a, t and `multipliers`. Substitute `accelerations` for a.
+
+        Raises
+        ------
+        InputError
+            If no joint has this name, if L has no bodies, or if a term does not say on which bodies it acts: a potential or
+            friction of several joints, or a constraint that no method of frames built.
+
+        Examples
+        --------
+        >>> from sympy import symbols
+        >>> from lagrotor.mechanics import Frame, coordinates
+        >>> m, g, l = symbols("m g l", positive=True)
+        >>> c = coordinates("theta")
+        >>> rod = Frame(c).pin("theta", name="hook").body(mass=m, centre=(0, -l, 0))
+        >>> swing = System(c, rod.kinetic - rod.potential((0, -g, 0)))
+        >>> swing.joint_force("hook", axes="joint").force.T
+        Matrix([[g*m*sin(theta) + l*m*theta_ddot, g*m*cos(theta) + l*m*theta_dot**2, 0]])
+        """
+        return joint_forces.joint_force(self, name, axes)
+
+    def inverse_dynamics(
+        self, q: Any = None, v: Any = None, a: Any = None, values: "Values | None" = None, t: float = 0.0
+    ) -> Any:
+        """Return the forces that must act besides those of the system to give it accelerations: τ = M a + h − Q.
+
+        Under constraints τ includes their forces Gᵀ λ. In a system with quasi-velocities, v and a stand for these and for
+        their rates, and τ is the force for them: about the axes of a ball joint, the torque.
+
+        Parameters
+        ----------
+        q, v, a : array_like, mapping or None, optional
+            Coordinates, shape (n,) or (k, n), velocities and accelerations, as numbers or expressions. None stands for the
+            symbols of the system.
+        values : mapping or None, optional
+            {symbol or name: number} for all parameters; it is not used if q, v or a are expressions.
+        t : float, default 0.0
+            The time in s.
+
+        Returns
+        -------
+        Matrix or ndarray
+            The forces, shape (n, 1) as expressions, (n,) or (k, n) as numbers.
+
+        Examples
+        --------
+        >>> from sympy import symbols
+        >>> from lagrotor.mechanics import Frame, coordinates
+        >>> m, g, l = symbols("m g l", positive=True)
+        >>> c = coordinates("theta")
+        >>> rod = Frame(c).pin("theta").body(mass=m, centre=(0, -l, 0))
+        >>> swing = System(c, rod.kinetic - rod.potential((0, -g, 0)))
+        >>> swing.inverse_dynamics()
+        Matrix([[g*l*m*sin(theta) + l**2*m*theta_ddot]])
+        >>> swing.inverse_dynamics([0], [0], [3], {m: 1, l: 2, g: 9})
+        array([12.])
+        """
+        from lagrotor.mechanics.running import joint_programs
+
+        return joint_programs.inverse_dynamics(self, q, v, a, values, t)
+
+    def regressor(self) -> tuple[sp.Matrix, sp.Matrix]:
+        """Return Y(q, v, a) and π: the bodies need the generalised forces Y π, linear in their inertial parameters π.
+
+        Each body has ten parameters: m, the first moments m c, and the inertias xx, xy, xz, yy, yz, zz about the origin of its
+        frame, in the axes of that frame. `inverse_dynamics` is Y π without applied forces, friction and other terms of L.
+
+        Returns
+        -------
+        tuple of Matrix
+            Y, shape (n, 10 N) for N bodies, and π in the symbols of the system, (10 N, 1).
+
+        Raises
+        ------
+        InputError
+            If L has energies other than `body.kinetic` and `body.potential` in one field.
+
+        Examples
+        --------
+        >>> from sympy import symbols
+        >>> from lagrotor.mechanics import Frame, coordinates
+        >>> m, g, l = symbols("m g l", positive=True)
+        >>> c = coordinates("theta")
+        >>> rod = Frame(c).pin("theta").body(mass=m, centre=(0, -l, 0))
+        >>> Y, parameters = System(c, rod.kinetic - rod.potential((0, -g, 0))).regressor()
+        >>> Y
+        Matrix([[0, g*cos(theta), -g*sin(theta), 0, 0, 0, 0, 0, 0, theta_ddot]])
+        >>> (Y * parameters)[0]
+        g*l*m*sin(theta) + l**2*m*theta_ddot
+        """
+        return inertial_parameters.regressor(self)
+
+    def base_parameters(self) -> inertial_parameters.BaseParameters:
+        """Return the combinations of masses, first moments and inertias that motions can determine, exactly.
+
+        The energies are evaluated at random rational states, and their dependence is found by exact elimination.
+
+        Returns
+        -------
+        BaseParameters
+            The combinations, and the changes of parameters that no motion can tell.
+
+        Raises
+        ------
+        InputError
+            If joints move with time, constraints act, or L has other energies than those of bodies in one field.
+
+        Examples
+        --------
+        >>> from sympy import symbols
+        >>> from lagrotor.mechanics import Frame, coordinates
+        >>> m, g, l = symbols("m g l", positive=True)
+        >>> c = coordinates("theta")
+        >>> rod = Frame(c).pin("theta").body(mass=m, centre=(0, -l, 0))
+        >>> base = System(c, rod.kinetic - rod.potential((0, -g, 0))).base_parameters()
+        >>> base.combinations.T, base.values.T
+        (Matrix([[mx_1, my_1, Izz_1]]), Matrix([[0, -l*m, l**2*m]]))
+        """
+        return inertial_parameters.base_parameters(self)
+
+    def coriolis_matrix(self) -> sp.Matrix:
+        """Return C(q, v) of the Christoffel symbols, with which M' − 2 C is skew: M a + C v + ∂V/∂q = Q.
+
+        It belongs to the velocities v, as `mass_matrix` does.
+
+        Returns
+        -------
+        Matrix
+            C, shape (n, n).
+
+        Raises
+        ------
+        InputError
+            If the mass matrix depends on velocities or time.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> c = coordinates("r phi")
+        >>> System(c, (c.r_dot**2 + c.r**2 * c.phi_dot**2) / 2).coriolis_matrix().tolist()
+        [[0, -phi_dot*r], [phi_dot*r, r*r_dot]]
+        """
+        return coriolis_matrix(self.mass_matrix, self.c)
+
     def rhs(self, values: "Values", engine: "Engine" = "core") -> "Rhs":
         """Return the right-hand side of y' = f(t, y) in numbers; `accelerations` has it in symbols.
 
@@ -866,3 +1131,56 @@ class System(Equations):
             )
         q, v = initial_state.numbers_of_start("simulate", self, q0, v0)
         return simulation.simulate_system(self, values, q, v, t, tol, engine, events, progress)
+
+
+@dataclass(frozen=True, repr=False)
+class RobotSystem(System):
+    """A System from a robot file, returned by `System.from_urdf` and `System.from_mjcf`.
+
+    Attributes
+    ----------
+    c : Coordinates
+    lagrangian : Energy
+    constraints
+    rolling
+    dissipation
+    forces
+    names
+    velocities
+        The fields of `System`.
+    values : mapping
+        The numbers of the file by symbol, for `simulate`, `rhs` and `linearise`; empty if the system has no symbols.
+    start : mapping
+        The coordinates in the position that the file describes, by name.
+    links : mapping
+        The frames of the links by the names of the file, for forces, points and constraints.
+    joint_coordinates : mapping
+        The coordinates of each joint by the names of the file.
+    not_read : tuple of str
+        The parts of the file that are left out, in words: meshes, contacts, actuators, limits.
+    notes : tuple of str
+        The changes, in words: decimals that are read as multiples of π, names that are changed.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import mkdtemp
+    >>> file = Path(mkdtemp(), "rod.urdf")
+    >>> _ = file.write_text('''<robot name="rod"><link name="base"/><link name="rod"><inertial><origin xyz="0 0 -0.5"/>
+    ... <mass value="2"/><inertia ixx="0.1" iyy="0.1" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>
+    ... <joint name="hinge" type="continuous"><parent link="base"/><child link="rod"/><axis xyz="0 1 0"/></joint></robot>''')
+    >>> rod = System.from_urdf(file)
+    >>> rod.motion[0].subs(rod.values)
+    0.6*hinge_ddot + 9.81*sin(hinge)
+    """
+
+    values: Mapping[sp.Symbol, float] = field(default_factory=dict, compare=False)
+    start: Mapping[str, float] = field(default_factory=dict, compare=False)
+    links: "Mapping[str, Frame]" = field(default_factory=dict, compare=False)
+    joint_coordinates: Mapping[str, tuple[sp.Symbol, ...]] = field(default_factory=dict, compare=False)
+    not_read: tuple[str, ...] = field(default=(), compare=False)
+    notes: tuple[str, ...] = field(default=(), compare=False)
+
+    def __repr__(self) -> str:
+        rows = {"not read": "; ".join(self.not_read), "notes": "; ".join(self.notes)}
+        return super().__repr__() + in_lines("", {name: text for name, text in rows.items() if text})
