@@ -58,10 +58,10 @@ class Coordinates:
     a: tuple[sp.Symbol, ...]
 
     def __post_init__(self) -> None:
-        if not len(self.q) == len(self.v) == len(self.a) > 0:
+        if not len(self.q) == len(self.v) == len(self.a):
             raise InputError(
                 f"Coordinates: {len(self.q)} coordinates, {len(self.v)} velocities, {len(self.a)} accelerations: "
-                "each coordinate has one velocity and one acceleration; give equally many, at least one"
+                "each coordinate has one velocity and one acceleration; give equally many"
             )
         symbols = (*self.q, *self.v, *self.a, t)
         if repeated := sorted(str(s) for s, times in Counter(symbols).items() if times > 1):
@@ -121,6 +121,8 @@ def coordinates(names: str | Sequence[str]) -> Coordinates:
     if not isinstance(names, Sequence):
         raise InputError(f"coordinates: {names!r} must be names: coordinates('phi theta psi')")
     stems = names.replace(",", " ").split() if isinstance(names, str) else list(names)
+    if not stems:
+        raise InputError("coordinates: no name: give at least one; equations of first order are System(states={x: rate of x})")
     if strange := [stem for stem in stems if not isinstance(stem, str)]:
         raise InputError(f"coordinates: {strange[0]!r} must be a name: coordinates('phi theta psi')")
     if odd := [e for e in stems if not re.fullmatch(r"\\?[^\W\d_]\S*", e) or e.count("{") != e.count("}")]:
@@ -132,9 +134,12 @@ def coordinates(names: str | Sequence[str]) -> Coordinates:
     return Coordinates(q, v, a)
 
 
+NO_COORDINATES = Coordinates((), (), ())  # of a system of first-order states alone
+
+
 def gradient(f: sp.Expr, symbols: Sequence[sp.Symbol]) -> sp.Matrix:
     """Return the column ∂f/∂s, one row for each symbol."""
-    return sp.Matrix(slopes(f, symbols))
+    return sp.Matrix(len(symbols), 1, slopes(f, symbols))
 
 
 def jacobian(rows: Sequence[sp.Expr], symbols: Sequence[sp.Symbol]) -> sp.Matrix:
@@ -285,7 +290,7 @@ def force_column(forces: Sequence[sp.Expr] | None, c: Coordinates, where: str) -
             f"{where}: {len(forces)} forces for {len(c.q)} coordinates: Q has one component for each coordinate; "
             "give 0 where no force acts"
         )
-    return sp.Matrix(list(forces))
+    return sp.Matrix(len(c.q), 1, list(forces))
 
 
 def dependent_rows(where: str, value: str) -> str:

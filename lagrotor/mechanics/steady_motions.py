@@ -49,7 +49,7 @@ def small_states(system: Equations) -> tuple[sp.Symbol, ...]:
     gone = {q for joint in system.ball_joints for q in joint.quaternion[1:]}
     turns = {q: [sp.Symbol(f"turn_{w}", real=True) for w in omega] for q, omega in first.items()}
     names = [turns.get(q, [q]) for q in system.c.q if q not in gone]
-    return (*(s for group in names for s in group), *system.speeds)
+    return (*(s for group in names for s in group), *system.variables[len(system.c.q) :])
 
 
 def small_turns(system: Equations, state: Any) -> tuple[list[list[Any]], list[list[Any]]]:
@@ -60,7 +60,7 @@ def small_turns(system: Equations, state: Any) -> tuple[list[list[Any]], list[li
     c, joints = system.c, {joint.quaternion[0]: joint for joint in system.ball_joints}
     gone = {q for joint in joints.values() for q in joint.quaternion[1:]}
     columns, rows = list[dict[int, Any]](), list[dict[int, Any]]()
-    for i, s in enumerate((*c.q, *system.speeds)):
+    for i, s in enumerate(system.variables):
         if s in joints:
             places = [c.q.index(q) for q in joints[s].quaternion]
             for row in quaternion_rows(*(state[j] for j in places)):
@@ -69,7 +69,7 @@ def small_turns(system: Equations, state: Any) -> tuple[list[list[Any]], list[li
         elif s not in gone:
             columns.append({i: 1})
             rows.append({i: 1})
-    d = len(c.q) + len(system.speeds)
+    d = len(system.variables)
     return [[e.get(j, 0) for e in columns] for j in range(d)], [[e.get(j, 0) for j in range(d)] for e in rows]
 
 

@@ -60,6 +60,9 @@ class System(Equations):
         The names of the constraints and then of the rolling constraints.
     velocities : mapping
         Quasi-velocities {u: expression affine in v}: one for each coordinate, or fewer if constraints determine the rest.
+    states : mapping
+        First-order states {x: f}, x' = f(q, v, x, t), for example the current of a motor. Forces, dissipation and other rates
+        may contain x. System(states={…}), without coordinates, is a system of first-order equations.
 
     Examples
     --------
@@ -757,7 +760,8 @@ class System(Equations):
         Returns
         -------
         callable
-            (t, y) → y' for the state y = (q, v), 2 n numbers, or (q, u), n + m numbers, with m quasi-velocities u.
+            (t, y) → y' for the state y = (q, v), 2 n numbers, or (q, u), n + m numbers, with m quasi-velocities u, each
+            followed by the first-order states.
 
         Examples
         --------
@@ -775,13 +779,14 @@ class System(Equations):
     def simulate(
         self,
         values: "Values",
-        q0: "Start",
-        v0: "Start",
-        t: "ArrayLike",
+        q0: "Start" = (),
+        v0: "Start" = (),
+        t: "ArrayLike" = (),
         tol: float = 1e-9,
         engine: "Engine" = "core",
         events: "Event | Impact | Sequence[Event | Impact]" = (),
         progress: "Callable[[float], None] | None" = None,
+        x0: "Start" = (),
     ) -> "SystemRun":
         """Integrate the equations of motion. Where forces contain sign(w), or the dissipation |w|, bodies can stick and slip.
 
@@ -804,7 +809,7 @@ class System(Equations):
         t : array_like
             Increasing times in s, shape (k,).
         tol : float, default 1e-09
-            The largest error of the whole run, from 1e-13 to 0.1, relative to the sizes of coordinates and velocities.
+            The largest error of the whole run, from 1e-13 to 0.1, relative to the sizes of coordinates, velocities and states.
             `run.error` and `run.errors` estimate it. It is below `tol` until the time `run.horizon`; a LagrotorWarning says so
             if that is before the end.
         engine : Engine, default 'core'
@@ -813,6 +818,8 @@ class System(Equations):
             Conditions that change the velocities or end the run.
         progress : callable or None, optional
             Called with the time in s of each evaluation, or of each step of a run with events.
+        x0 : array_like or mapping, default ()
+            The first-order states at t[0]: an array, or {symbol or name: number} for each.
 
         Returns
         -------
@@ -842,4 +849,5 @@ class System(Equations):
         from lagrotor.mechanics.running import simulation
 
         q, v = in_order("simulate: q0", q0, self.c.q), in_order("simulate: v0", v0, self.speeds)
-        return simulation.simulate_system(self, values, q, v, t, tol, engine, events, progress)
+        x = in_order("simulate: x0", x0, [x for x, _ in self.states])
+        return simulation.simulate_system(self, values, q, v, t, tol, engine, events, progress, x)

@@ -45,7 +45,7 @@ def check_values(where: str, system: Equations, values: Values, others: Iterable
     of another system is ignored, so that several systems can share one dictionary."""
     if not isinstance(values, Mapping):
         raise InputError(f"{where}: values = {values!r} must be {{symbol: number, …}}, a dictionary")
-    moving = {*system.c.q, *system.c.v, *system.c.a, *system.speeds, time}
+    moving = {*system.c.v, *system.c.a, *system.variables, time}
     acting = (*system.acting, *others, *(e for _, e in system.velocities))
     every = system.letters.union(*(getattr(e, "free_symbols", ()) for e in acting))
     letters = {str(s): s for s in every if s not in moving}
@@ -95,7 +95,7 @@ def check_pole(where: str, system: Equations, values: Values, state: Array) -> N
     kinematics = system.kinematics
     if kinematics is None:
         return
-    size = len(system.c.q) + len(system.speeds)
+    size = len(system.variables)
     at, now = state[None, :size], np.append(state, 0.0)[size : size + 1]
     speeds = ", ".join(map(str, system.speeds))
     poles = [function_program(system, e).along(values)(at, now).item() for e in kinematics.poles]

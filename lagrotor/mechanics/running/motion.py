@@ -85,6 +85,21 @@ class SampledMotion(Run):
         n = len(self.system.c.q)
         return self.states[:, n : n + len(self.system.speeds)]
 
+    @property
+    def x(self) -> Array:
+        """The k first-order states at the n times, shape (n, k).
+
+        Examples
+        --------
+        >>> from sympy import Symbol
+        >>> from lagrotor.mechanics import System
+        >>> x = Symbol("x", real=True)
+        >>> System(states={x: -x}).simulate({}, t=[0, 1], x0={"x": 1}).x.round(6).T
+        array([[1.      , 0.367879]])
+        """
+        first = len(self.system.c.q) + len(self.system.speeds)
+        return self.states[:, first : len(self.system.variables)]
+
     def summary(self) -> dict[str, str]:
         """Summarise the coordinates, the times, the error and the ending in words.
 
@@ -100,7 +115,8 @@ class SampledMotion(Run):
         >>> System(c, c.v[0]**2 / 2).simulate({}, (0,), (1,), [0, 1]).summary()["ending"]
         'the last time was reached'
         """
-        return {"coordinates": ", ".join(map(str, self.system.c.q))} | super().summary()
+        rows = {"coordinates": self.system.c.q, "states": tuple(x for x, _ in self.system.states)}
+        return {name: ", ".join(map(str, symbols)) for name, symbols in rows.items() if symbols} | super().summary()
 
     @property
     def energy(self) -> Array:
@@ -224,7 +240,7 @@ class SampledMotion(Run):
         return replace(with_states(self, instants, states), evaluations=evaluations)
 
     def quantities(self) -> dict[str, Quantity]:
-        """Return coordinates, velocities, energy and, with constraints, their violation.
+        """Return coordinates, velocities, states, energy and, with constraints, their violation.
 
         Returns
         -------
@@ -239,9 +255,11 @@ class SampledMotion(Run):
         ['x', 'x_dot', 'energy']
         """
         c, system = self.system.c, self.system
-        names, columns = (*c.q, *c.v, *system.speeds), (*self.q.T, *self.v.T, *self.u.T)
+        names = (*c.q, *c.v, *system.variables[len(c.q) :])
+        columns = (*self.q.T, *self.v.T, *self.u.T, *self.x.T)
         table = {str(s): Quantity(column, ("t",), "") for s, column in zip(names, columns, strict=True)}
-        table["energy"] = Quantity(self.energy, ("t",), "J")
+        if c.q:
+            table["energy"] = Quantity(self.energy, ("t",), "J")
         if self.system.multipliers:
             table["drift"] = Quantity(self.drift, ("t",), "")
         return table
@@ -262,7 +280,7 @@ class SampledMotion(Run):
             "local": self.local,
             "turn": self.scales.turn,
             "sizes": self.scales.sizes.tolist(),
-            "modes": self.states[:, len(self.system.c.q) + len(self.system.speeds) :].tolist(),
+            "modes": self.states[:, len(self.system.variables) :].tolist(),
         }
 
 
@@ -280,7 +298,7 @@ def digest_of(system: Equations) -> str:
         system.rolling,
         system.dissipation,
         system.forces,
-        *([system.velocities] if system.velocities else []),
+        *(e for e in (system.velocities, system.states) if e),
     )
     return sha256("; ".join(map(str, equations)).encode()).hexdigest()
 

@@ -34,7 +34,8 @@ def plot(run: SampledMotion, *quantities: Any) -> "RunFigure":
 
     check_nonempty("plot", run.t)
     if not quantities:
-        labels = {f"${letter_latex(q)}$": run.q[:, i] for i, q in enumerate(run.system.c.q)}
+        both = (*run.system.c.q, *(x for x, _ in run.system.states))
+        labels = {f"${letter_latex(s)}$": values for s, values in zip(both, (*run.q.T, *run.x.T), strict=True)}
         return coordinates_figure(run.t, labels, run.energy, run.drift)
     curves = (_curve(run, quantity) for quantity in quantities)
     return curves_figure(run.t, {label.replace(r"\&", "&"): values for label, values in curves})  # matplotlib's escape
@@ -43,8 +44,8 @@ def plot(run: SampledMotion, *quantities: Any) -> "RunFigure":
 def _curve(run: SampledMotion, what: Any) -> tuple[str, Array]:
     """Return the label of a quantity, with formulas in TeX, and its values along the run, shape (n,)."""
     c, name = run.system.c, str(what)
-    letters = (*c.q, *c.v, *run.system.speeds)
-    moving = dict(zip(map(str, letters), (*run.q.T, *run.v.T, *run.u.T), strict=True))
+    letters = (*c.q, *c.v, *run.system.variables[len(c.q) :])
+    moving = dict(zip(map(str, letters), (*run.q.T, *run.v.T, *run.u.T, *run.x.T), strict=True))
     if name in moving:
         letter = next(s for s in letters if str(s) == name)
         return f"${letter_latex(letter)}$", moving[name]

@@ -194,7 +194,7 @@ def _stage(run: SampledMotion, i: int, j: int, value: Values, touch: float, obse
 
 def _change(run: SampledMotion, section: sp.Expr) -> float:
     """Return the largest change of a section along the run if each component of the state changes by its size."""
-    symbols, sizes = (*run.system.c.q, *run.system.speeds), run.scales.sizes
+    symbols, sizes = run.system.variables, run.scales.sizes
     if not section.free_symbols & {*symbols, *run.system.c.v, *run.system.c.a, *run.system.multipliers, t}:
         raise InputError(f"crossings: section = {section} does not change: give q, v or t in it")
     if run.system.kinematics is not None:

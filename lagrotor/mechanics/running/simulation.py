@@ -143,13 +143,13 @@ class SystemRun(SampledMotion):
                 raise InputError(
                     f"load: {path} is a run of another system, in {', '.join(about['coordinates'])}: give that system"
                 )
-            q, u = (np.stack([arrays[str(s)] for s in names], 1) for names in (c.q, system.speeds))
-            states = np.hstack([q, u, np.array(about["modes"], float).reshape(len(q), -1)])
+            y = np.stack([arrays[str(s)] for s in system.variables], 1)
+            states = np.hstack([y, np.array(about["modes"], float).reshape(len(y), -1)])
             scales = Scales(float(about["turn"]), np.array(about["sizes"], float), 0)
             values = {str(name): float(value) for name, value in about["values"].items()} | callables
             tol, local, engine = check_tolerance(about["tol"]), float(about["local"]), about["engine"]
             check_engine(engine, "load")
-            whole = len(states) == len(saved.fields["t"]) and scales.sizes.shape == (len(c.q) + len(system.speeds),)
+            whole = len(states) == len(saved.fields["t"]) and scales.sizes.shape == (len(system.variables),)
             if not whole or not np.isfinite(states).all():
                 raise ValueError("its states are invalid")
         except InputError:
@@ -340,6 +340,7 @@ def simulate_system(
     engine: Engine = "core",
     events: Event | Impact | Sequence[Event | Impact] = (),
     progress: Callable[[float], None] | None = None,
+    x0: ArrayLike = (),
 ) -> SystemRun:
     """Simulate a system for `System.simulate`."""
     times, tol = check_times("simulate", t), check_tolerance(tol)
@@ -352,26 +353,29 @@ def simulate_system(
         raise InputError("simulate: engine='fast' takes no callable and no table for a function: use engine='core'")
     h, n = with_events(system, values, events), len(system.c.q)
     q, v = state_vector("simulate", "q0", q0, n), state_vector("simulate", "v0", v0, len(system.speeds), system)
+    x = state_vector("simulate", "x0", x0, len(system.states))
     parameter_values(h.phase(h.slipping).motion, h.numbers(h.slipping))
     check_values("simulate", system, values, [e for event in h.events for e in event.expressions])
     for event in h.events:
         program = function_program(h.system, *event.expressions)
-        at_start = program.along(h.numbers(h.slipping))(np.concatenate([q, v])[None], times[:1])[:, 0]
+        at_start = program.along(h.numbers(h.slipping))(np.concatenate([q, v, x])[None], times[:1])[:, 0]
         if isinstance(event, Impact) and not 0 <= at_start[1] <= 1:
             raise InputError(
                 f"simulate: the restitution {event.restitution} is {at_start[1]:.6g}: it must lie between 0 and 1"
             )
     if system.multipliers:
         q, v = _on_constraints(system, values, np.concatenate([q, v]), times)
-    check_pole("simulate", system, values, np.concatenate([q, v, [times[0]]]))
-    check_inertia("simulate", system, values, np.concatenate([q, v, [times[0]]]))
+    y = np.concatenate([q, v, x])
+    check_pole("simulate", system, values, np.append(y, times[0]))
+    if len(q):
+        check_inertia("simulate", system, values, np.append(y, times[0]))
     h = replace(h, windows=clock_windows(h.phase(h.slipping).system, h.numbers(h.slipping), times))
     if h.smooth:
-        start = np.concatenate([q, v, [times[0]] * depends_on_time(system)])
+        start = np.append(y, [times[0]] * depends_on_time(system))
     elif engine == "fast":
         raise InputError("simulate: engine='fast' takes no events, and no force that jumps: use engine='core'")
     else:
-        start = begin(h, q, v, times[0])
+        start = begin(h, y, times[0])
 
     def survey() -> Scales:
         motion = None if h.smooth else integration_of(system, values, engine, None, h, start)
@@ -383,7 +387,7 @@ def simulate_system(
         scales = replace(again := survey(), evaluations=again.evaluations + first.evaluations)
     if not h.smooth:
         h = replace(h, scale=powers_of_two(scales.sizes), sizes=scales.sizes)
-        _check_gaps(h, Moment(np.concatenate([q, v]), times[0], h.slipping))
+        _check_gaps(h, Moment(y, times[0], h.slipping))
     evolution = Evolution(
         start=start,
         # A solver evaluates beyond its last time.
@@ -407,7 +411,8 @@ def simulate_system(
         engine=engine, scales=scales, states=estimate.states, local=estimate.local, switched=h,
     )  # fmt: skip
     hint = narrowest_words(h.system, h.numbers(h.slipping), h.narrow, estimate)
-    estimate.warn_unless_kept(", ".join(map(str, system.c.q)), tol, 3, hint)
+    named = (*system.c.q, *(x for x, _ in system.states))
+    estimate.warn_unless_kept(", ".join(map(str, named)), tol, 3, hint)
     if system.multipliers:
         _warn_of_dependence(run)
     return run if h.smooth else _cut_at_event(run)
@@ -416,7 +421,8 @@ def simulate_system(
 def _uncertainty(system: Equations, values: Values, sizes: Array) -> Callable[[Array], Array]:
     """Return a function that takes states (n, d) and returns the error of each along nearly dependent constraints, shape (n,).
     The unit of the error is the machine epsilon times the size of a component."""
-    unit = sizes[: len(system.c.q)] if system.kinematics is None else sizes[len(system.c.q) :]
+    n, m = len(system.c.q), len(system.speeds)
+    unit = sizes[:n] if system.kinematics is None else sizes[n : n + m]
 
     def uncertainty(states: Array) -> Array:
         least = independence(system, values, states, unit)
@@ -490,7 +496,7 @@ def _warn_of_dependence(run: SystemRun) -> None:
     from scipy.interpolate import CubicHermiteSpline
 
     fine = np.append(np.linspace(run.t[:-1], run.t[1:], _BETWEEN, endpoint=False).T.ravel(), run.t[-1])
-    still = np.zeros((len(fine), len(run.system.speeds)))
+    still = np.zeros((len(fine), len(run.system.variables) - len(run.system.c.q)))
     states = np.hstack([CubicHermiteSpline(run.t, run.q, run.v)(fine), still])
     G = rows_program(run.system).along(run.values)(states, fine)
     G = G.T.reshape(-1, len(run.system.left), len(run.system.speeds))

@@ -143,9 +143,9 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
     """Replace each sign that jumps where the state passes a surface by a symbol σ. Return the smooth system and a `Surface` for
     each symbol. The replacements are sign(w) → σ, |w| → σ w, Heaviside(w) → (1 + σ)/2, Max(a, b) → (a + b + σ (a − b))/2, and
     Min(a, b) with −σ in place of σ."""
-    moving = {*system.c.q, *system.c.v, *system.reactions, t}
+    moving = {*system.c.v, *system.variables, *system.reactions, t}
     L = getattr(system.lagrangian, "remainder", system.lagrangian)  # for bodies, the terms added to their energy
-    places = [*system.forces, system.dissipation, L]
+    places = [*system.forces, system.dissipation, L, *(f for _, f in system.states)]
     substitutions: dict[sp.Expr, sp.Expr] = {}
     signs: dict[sp.Expr, sp.Expr] = {}
     for atom in sorted({e for e in subexpressions(*places) if isinstance(e, _JUMPING)}, key=sp.default_sort_key):
@@ -184,7 +184,19 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
     substitutions |= roots
     friction = gradient(system.dissipation.xreplace(substitutions), system.c.v)
     forces = tuple((force_column(system.forces or None, system.c, "System") - friction).xreplace(substitutions))
-    smooth = replace(system, lagrangian=system.lagrangian.xreplace(substitutions), forces=forces, dissipation=sp.S.Zero)
+    smooth = replace(
+        system,
+        lagrangian=system.lagrangian.xreplace(substitutions),
+        forces=forces if system.c.q else (),
+        dissipation=sp.S.Zero,
+        states=tuple((x, f.xreplace(substitutions)) for x, f in system.states),
+    )
+    for w in signs:
+        if w.free_symbols & {x for x, _ in system.states} and w.free_symbols & {*system.c.v}:
+            raise InputError(
+                f"simulate: a force jumps where {w} = 0, which has a velocity and a first-order state: what sticks there would "
+                "be bound to the state; make the state a coordinate, or the jump steep but smooth, tanh(w/w_0)"
+            )
     return smooth, tuple(Surface(w, s, _friction(smooth, w, s)) for w, s in signs.items())
 
 
