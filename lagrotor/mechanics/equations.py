@@ -97,6 +97,8 @@ class Equations:
 
     def _take_states(self) -> None:
         """Store the first-order states as pairs (x, f), f the rate of x."""
+        if not isinstance(self.states, Mapping | tuple):
+            raise InputError(f"System: states = {self.states!r} must be {{x: rate of x}}, a dictionary")
         states = self.states.items() if isinstance(self.states, Mapping) else self.states
         pairs = tuple((x, expression(f"System: states[{x}]", f)) for x, f in states)
         symbols = [x for x, _ in pairs]
@@ -410,7 +412,8 @@ class Equations:
         drift = -self.residual.subs(dict.fromkeys(self.c.v, 0))
         work = sum((lam * b for lam, b in zip(self.multipliers, drift, strict=True)), sp.S.Zero)
         by_time = derivative(self.L, t)
-        return self.generalised_forces.dot(self.c.v) + work - (0 if decide_zero(by_time).answer == "zero" else by_time)
+        push = self.generalised_forces.dot(self.c.v) if self.c.q else sp.S.Zero
+        return push + work - (0 if decide_zero(by_time).answer == "zero" else by_time)
 
 
 def time_derivative(system: Equations, e: sp.Expr) -> sp.Expr:
@@ -499,6 +502,8 @@ def constrained_accelerations(system: Equations) -> tuple[sp.Matrix, sp.Matrix]:
     """
     # cos² + sin², left in M, would fill det S of a body that rolls with thousands of terms.
     M, G = (_short(e) if system.residual else e for e in (system.mass_matrix, system.rows))
+    if not system.c.q:
+        return sp.zeros(0, 1), sp.zeros(0, 1)
     if system.ball_joints:
         raise SingularError(
             "accelerations: the mass matrix is singular along the length of a quaternion (det M = 0): "

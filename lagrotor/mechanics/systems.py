@@ -498,11 +498,13 @@ class System(Equations):
         many, long = len(self.bodies), bool(self.bodies) or longer(self.L, 60)
         lagrangian = f"the energy of {many} {'body' if many == 1 else 'bodies'}" if many else "a long expression"
         rows = {"coordinates": ", ".join(map(str, self.c.q)), "L": lagrangian if long else str(self.L)}
+        rows = rows if self.c.q else {}
         for name in ("constraints", "rolling", "forces"):
             if each := getattr(self, name):
                 rows[name] = str(len(each)) if long else ", ".join(map(str, each))
         if self.dissipation != 0:
             rows["dissipation"] = "a long expression" if long else str(self.dissipation)
+        rows |= {f"{x}'": str(f) for x, f in self.states}
         return in_lines("System", rows)
 
     def latex(self) -> str:
@@ -550,8 +552,9 @@ class System(Equations):
         Returns
         -------
         LinearSystem, StateEquations or StateSpace
-            Without values M a + C v + K q = 0 in symbols, a `LinearSystem`. With inputs or outputs, or about a motion that
-            rolls or is written in quasi-velocities, x' = A x + B u, y = C x + D u in symbols, a `StateEquations`.
+            Without values M a + C v + K q = 0 in symbols, a `LinearSystem`. With inputs, outputs or first-order states, or
+            about a motion that rolls or is written in quasi-velocities, x' = A x + B u, y = C x + D u in symbols, a
+            `StateEquations`.
             With values the same in numbers with the eigenvalues of A in 1/s, a `StateSpace`.
 
         Raises
@@ -587,7 +590,7 @@ class System(Equations):
         if values is None:
             moves = any(str(s) in map(str, self.speeds) and x != 0 for s, x in dict(point).items())
             carried = self.kinematics and any(self.kinematics.velocity.xreplace(dict.fromkeys(self.speeds, sp.S.Zero)))
-            if inputs or outputs or carried or (moves and (self.rolling or self.kinematics)):
+            if inputs or outputs or carried or self.states or (moves and (self.rolling or self.kinematics)):
                 return steady_motions.state_equations(self, point, inputs, outputs)
             return steady_motions.linearise(self, at)
         from lagrotor.mechanics.running import function_values, state_space

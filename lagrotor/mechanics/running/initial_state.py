@@ -152,6 +152,8 @@ def consistent(
     `System.consistent`. Distances are measured by the mass matrix; for quasi-velocities they are Euclidean."""
     n, m, h = len(system.c.q), len(system.speeds), len(system.constraints)
     q, v = state_vector(where, "q0", q0, n), state_vector(where, "v0", v0, m, system)
+    if not system.c.q:
+        return q, v
     for joint in system.ball_joints:
         if (size := float(np.linalg.norm(q[[system.c.q.index(s) for s in joint.quaternion]]))) < _LEAST_NORM:
             raise InputError(f"{where}: {no_turn(joint.quaternion, size)}")
@@ -210,12 +212,15 @@ def metric(mass: Array, slope: Array) -> Array:
 
 
 def state_vector(where: str, name: str, numbers: ArrayLike, n: int, system: Equations | None = None) -> Array:
-    """Check that `numbers` are n finite numbers, and return them, shape (n,). If a system is given, they are its velocities."""
+    """Check that `numbers` are n finite numbers, and return them, shape (n,). If a system is given, they are its velocities, or
+    its first-order states if their name is x0."""
     vector = real_array(numbers)
     if vector is None:
         raise InputError(f"{where}: {name} = {numbers!r} must be {n} numbers")
     if vector.shape != (n,) or not np.isfinite(vector).all():
         quasi = system is not None and system.kinematics is not None
         meaning = f"of {', '.join(map(str, system.speeds))}" if system and quasi else "one for each coordinate"
+        if system and name == "x0":
+            meaning = f"of {', '.join(str(x) for x, _ in system.states) or 'no state, as the system has none'}"
         raise InputError(f"{where}: {name} = {numbers!r} must be {n} finite numbers, {meaning}")
     return vector

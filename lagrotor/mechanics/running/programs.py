@@ -483,7 +483,7 @@ def parameter_values(program: Generated, values: Mapping[Any, Any], where: str =
         )
     if moving := [str(s) for s in program.states if str(s) in by_name]:
         raise InputError(
-            f"{where}: values give {', '.join(moving)} a value, which varies in time: give its start by q0 and v0, a time by t"
+            f"{where}: values give {', '.join(moving)} a value, which varies in time: give its start by q0, v0 or x0, a time by t"
         )
     if missing := [name for name in program.letters if name not in by_name]:
         misspelt = near(missing[0], by_name.keys() - {str(p) for p in program.parameters})

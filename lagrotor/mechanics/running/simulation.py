@@ -353,7 +353,7 @@ def simulate_system(
         raise InputError("simulate: engine='fast' takes no callable and no table for a function: use engine='core'")
     h, n = with_events(system, values, events), len(system.c.q)
     q, v = state_vector("simulate", "q0", q0, n), state_vector("simulate", "v0", v0, len(system.speeds), system)
-    x = state_vector("simulate", "x0", x0, len(system.states))
+    x = state_vector("simulate", "x0", x0, len(system.states), system)
     parameter_values(h.phase(h.slipping).motion, h.numbers(h.slipping))
     check_values("simulate", system, values, [e for event in h.events for e in event.expressions])
     for event in h.events:
