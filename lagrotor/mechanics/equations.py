@@ -108,7 +108,9 @@ class Equations:
                 f"System: {wrong[0]!r} in states must be a symbol that is no coordinate, velocity or time: {{x: rate of x}}"
             )
         if not pairs and not self.c.q:
-            raise InputError("System: no coordinates and no states: give System(c, L), or System(states={x: rate of x})")
+            raise InputError(
+                "System: no coordinates and no states: give System(c, L), or System(states={x: rate of x})"
+            )
         object.__setattr__(self, "states", pairs)
 
     def _take_velocities(self) -> None:
@@ -204,7 +206,10 @@ class Equations:
             )
         for x, f in self.states:
             _free_of(f"the rate of {x}", f.free_symbols, higher, "x' depends on q, v, x and t alone")
-        states, positions = {x for x, _ in self.states}, (*self.constraints, *self.rolling, *(e for _, e in self.velocities))
+        states, positions = (
+            {x for x, _ in self.states},
+            (*self.constraints, *self.rolling, *(e for _, e in self.velocities)),
+        )
         if wrong := states & self.letters.union(*(e.free_symbols for e in positions)):
             raise InputError(
                 f"System: the state {min(map(str, wrong))} is in L, a constraint or a velocity: its rate would enter their time "

@@ -19,7 +19,7 @@ from lagrotor.errors import InputError, LagrotorWarning, NotExactError, Singular
 from lagrotor.mechanics.equations import Equations, no_states
 from lagrotor.mechanics.expressions import by_symbol, put_in
 from lagrotor.mechanics.lagrangian import euler_lagrange, t
-from lagrotor.result_display import Shown
+from lagrotor.result_display import Shown, scientific
 
 _UNSOLVABLE = 1000  # the effort of a factor that is not solved for any unknown
 _LONGEST = 300  # characters of the conditions in a message
@@ -41,6 +41,10 @@ class Equilibrium(Shown):
         coordinate is necessary for rest but may not suffice: other coordinates decide.
     enclosure : mapping, default {}
         {coordinate: (lower, upper)}, rational bounds of the exact value, of an equilibrium in a box; `at` is then rounded.
+    residual : float or None, optional
+        The largest rate of a velocity or state that is left at an equilibrium from `System.rest`.
+    stability : str, default ""
+        The stability of that equilibrium to first order, in words.
 
     Examples
     --------
@@ -56,6 +60,8 @@ class Equilibrium(Shown):
     domain: tuple[sp.Basic, ...] = ()
     regular: bool = True
     enclosure: Mapping[sp.Symbol, tuple[sp.Rational, sp.Rational]] = field(default_factory=dict)
+    residual: float | None = None
+    stability: str = ""
 
     def summary(self) -> dict[str, str]:
         """Return the configuration and its conditions in words.
@@ -67,6 +73,8 @@ class Equilibrium(Shown):
         """
         rows = {str(s): "free" if value == s else str(value) for s, value in self.at.items()}
         rows |= {"where": ", ".join(map(str, self.domain))} if self.domain else {}
+        rows |= {} if self.residual is None else {"largest rate left": scientific(self.residual, 1)}
+        rows |= {"small motion": self.stability} if self.stability else {}
         return rows | ({} if self.regular else {"mass matrix": "singular there"})
 
 
@@ -94,7 +102,9 @@ def _in_box(
     system, values = put_functions("equilibria", system, values)
     if called := [str(name) for name, value in values.items() if isinstance(value, FunctionValue)]:
         raise InputError(f"equilibria: {called[0]} is a callable or a table: an enclosure needs an expression")
-    no_states("equilibria", system, "a box holds coordinates alone: leave out box and values, or use rest(near=…, values=…)")
+    no_states(
+        "equilibria", system, "a box holds coordinates alone: leave out box and values, or use rest(near=…, values=…)"
+    )
     c = system.c
     values = {name: value for name, value in values.items() if not isinstance(value, sp.Lambda)}
     if len(system.constraints) > 1:

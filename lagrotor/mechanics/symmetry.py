@@ -180,7 +180,9 @@ def legendre(L: sp.Expr, c: Coordinates, p: Sequence[sp.Symbol]) -> sp.Expr:
 
 def routh(system: Kind, cyclic: str | Sequence[str | sp.Symbol] | Mapping[str | sp.Symbol, sp.Expr]) -> Kind:
     """Reduce a system by cyclic coordinates: `System.routh`."""
-    no_states("routh", system, "the reduction does not carry their rates over: write the reduced system with its states")
+    no_states(
+        "routh", system, "the reduction does not carry their rates over: write the reduced system with its states"
+    )
     c, L = system.c, system.L
     chosen = _momenta(c, cyclic)
     free = cyclic_coordinates(system)
@@ -282,7 +284,9 @@ def _field(system: Equations, xi: Sequence[sp.Expr]) -> sp.Matrix:
     fits = isinstance(xi, Sequence | sp.MatrixBase) and not isinstance(xi, str) and len(xi) == len(system.c.q)
     field = sp.Matrix([expression(f"noether: ξ[{i}]", e) for i, e in enumerate(xi)]) if fits else sp.Matrix()
     if not system.c.q or field.free_symbols & {x for x, _ in system.states}:
-        no_states("noether", system, "a symmetry acts on coordinates, ξ(q, v, t): conserved(f) decides about f(q, v, x, t)")
+        no_states(
+            "noether", system, "a symmetry acts on coordinates, ξ(q, v, t): conserved(f) decides about f(q, v, x, t)"
+        )
     if not fits or field.free_symbols & {*system.c.a}:
         raise InputError(
             f"noether: ξ = {xi}: give one component ξ(q, v, t) for each of {system.c.q}, without accelerations"

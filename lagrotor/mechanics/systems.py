@@ -356,6 +356,48 @@ class System(Equations):
         """
         return equilibria.equilibria(self, unknowns, values, box)
 
+    def rest(self, near: "Mapping[Any, Any] | Equilibrium", values: "Values") -> Equilibrium:
+        """Find the equilibrium to which Newton's method leads from a configuration, also in closed loops.
+
+        The steps are short enough to stay in the neighbourhood, and the last ones go to rounding, so that `linearise` takes the
+        result. It may be stable or not. Where equilibria are not isolated, the nearest to the last step is returned.
+
+        Parameters
+        ----------
+        near : mapping or Equilibrium
+            {coordinate or state: number} for those that forces and constraints contain; it is first moved onto the constraints.
+        values : mapping
+            {symbol or name: number} for all parameters.
+
+        Returns
+        -------
+        Equilibrium
+            The coordinates and first-order states, the largest rate that is left, and the stability to first order.
+
+        Raises
+        ------
+        InputError
+            If a force or a constraint depends on time, or a force jumps.
+        ConstraintError
+            If no configuration near to the given one satisfies the constraints.
+        SingularError
+            If Newton's method does not converge.
+
+        Examples
+        --------
+        >>> from sympy import cos
+        >>> from lagrotor.mechanics import coordinates
+        >>> c = coordinates("x theta")
+        >>> swing = System(c, (c.x_dot**2 + c.theta_dot**2) / 2 + cos(c.theta) - c.x**2, constraints=(c.x - c.theta - 1,))
+        >>> place = swing.rest({"x": 1, "theta": 0}, {})
+        >>> round(place.at[c.theta], 6), place.residual < 1e-14
+        (-0.686175, True)
+        """
+        from lagrotor.mechanics.running import function_values, nearest_rest
+
+        self, values = function_values.put_functions("rest", self, values)
+        return nearest_rest.nearest_rest(self, near.at if isinstance(near, Equilibrium) else near, values)
+
     def same_as(self, other: Equations) -> Decision:
         """Decide if two systems have the same accelerations in the same coordinates.
 

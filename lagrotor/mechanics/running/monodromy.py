@@ -97,11 +97,10 @@ def monodromy_matrix(system: Equations, at: Mapping[Any, Any], values: Values, p
     begin = _number(given_time)
     if not np.isfinite(begin):
         raise InputError(f"floquet: t = {given_time!r} must be a time in s")
-    program = motion_program(system)
-    n, d = len(system.c.q), len(program.states)
-    size = len(system.variables)
     place = {s: x for s, x in at.items() if str(s) != str(t)} if isinstance(at, Mapping) else at
-    state = point_state("floquet", system, place, values, begin)
+    system, state = point_state("floquet", system, place, values, begin)
+    program = motion_program(system)
+    n, d, size = len(system.c.q), len(program.states), len(system.variables)
     free, T = tangent_space("floquet", system, values, state, begin)
     start = np.append(state, [begin] * (d - size))
     slope, width = motion_slope("floquet", program, values), T.shape[1]

@@ -20,6 +20,7 @@ from lagrotor.mechanics.running.function_values import FunctionValue, with_value
 from lagrotor.mechanics.running.phases import Observer, Switched, march
 from lagrotor.mechanics.running.phases import evaluate as evaluate_in_phases
 from lagrotor.mechanics.running.programs import energy_program, function_program, velocities_along
+from lagrotor.mechanics.running.redundant_constraints import Redundancy
 from lagrotor.mechanics.running.scales import Scales
 from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.integrate import Engine
@@ -41,6 +42,7 @@ class SampledMotion(Run):
     states: Array
     local: float
     switched: Switched
+    redundancy: Redundancy | None = None
 
     @property
     def q(self) -> Array:
@@ -144,6 +146,7 @@ class SampledMotion(Run):
         True
         """
         residuals = (*self.system.constraints, *self.system.residual)
+        residuals += self.redundancy.residuals if self.redundancy else ()
         return np.abs(self._values(*residuals)).max(0) if residuals else np.zeros(len(self.t))
 
     @property
@@ -151,6 +154,7 @@ class SampledMotion(Run):
         """The multipliers by the names of their constraints, shape (n,) each.
 
         The names are 1, 2, … unless the system gives others. For a gap in m or a slip in m/s the multiplier is a force in N.
+        Redundant constraints share a force that the motion does not divide among them: InputError is raised for their names.
 
         Examples
         --------
@@ -161,7 +165,9 @@ class SampledMotion(Run):
         array([-0.5, -0.5])
         """
         both = zip(self.system.multiplier_names, self.system.multipliers, strict=True)
-        return {name: self.evaluate(lam) for name, lam in both}
+        lost = self.redundancy.undetermined if self.redundancy else ()
+        determined = {name: self.evaluate(lam) for name, lam in both if name not in lost}
+        return _Reactions(determined, self.redundancy) if self.redundancy else determined
 
     def evaluate(self, expression: sp.Expr) -> Array:
         """Evaluate an expression along the run.
@@ -192,6 +198,8 @@ class SampledMotion(Run):
         array([-1.      , -0.540302])
         """
         e = with_values(checked("evaluate: expression", expression), self.values)
+        if self.redundancy and (lost := e.free_symbols & self.redundancy.symbols):
+            raise InputError(f"evaluate: {min(lost, key=str)} is not determined: {self.redundancy.words}")
         if self.switched.smooth:
             return self._values(e)[0]
         return evaluate_in_phases(self.switched, e, self.t, self.states)
@@ -281,7 +289,24 @@ class SampledMotion(Run):
             "turn": self.scales.turn,
             "sizes": self.scales.sizes.tolist(),
             "modes": self.states[:, len(self.system.variables) :].tolist(),
-        }
+        } | (
+            {"redundant": {name: list(getattr(self.redundancy, name)) for name in ("dropped", "undetermined")}}
+            if self.redundancy
+            else {}
+        )
+
+
+class _Reactions(dict[str, Array]):
+    """Reactions by name, of a system with redundant constraints; those that are not determined are refused."""
+
+    def __init__(self, determined: dict[str, Array], redundancy: Redundancy) -> None:
+        super().__init__(determined)
+        self.redundancy = redundancy
+
+    def __missing__(self, name: str) -> Array:
+        if name in self.redundancy.undetermined:
+            raise InputError(f"reactions: {name} is not determined: {self.redundancy.words}")
+        raise KeyError(name)
 
 
 def with_states(run: Kind, times: Array, states: Array) -> Kind:

@@ -10,9 +10,11 @@ import numpy as np
 import sympy as sp
 from numpy.typing import ArrayLike
 
+from lagrotor.algebra import derivative
 from lagrotor.errors import ConstraintError, InputError, LagrotorWarning
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import vector_of
+from lagrotor.mechanics.lagrangian import jacobian
 from lagrotor.mechanics.lagrangian import t as time
 from lagrotor.mechanics.running import run_plots, sections
 from lagrotor.mechanics.running.flow import Array, Values, powers_of_two, projection_of
@@ -30,13 +32,14 @@ from lagrotor.mechanics.running.motion import SampledMotion, digest_of, integrat
 from lagrotor.mechanics.running.narrow_features import narrow_parts, narrowest_words
 from lagrotor.mechanics.running.phases import Moment, Switched, begin, with_events
 from lagrotor.mechanics.running.programs import depends_on_time, function_program, parameter_values, rows_program
+from lagrotor.mechanics.running.redundant_constraints import without, without_redundant
 from lagrotor.mechanics.running.scales import Scales, clock_windows, conservation_error_of, motion_scales
 from lagrotor.mechanics.running.singular_positions import independence
 from lagrotor.mechanics.running.switches import Event, Impact, check_events
 from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.error_estimate import EvaluationBudget, Evolution, estimate_run
 from lagrotor.numerics.integrate import Engine, check_engine, check_progress, check_tolerance
-from lagrotor.numerics.run import read_run
+from lagrotor.numerics.run import Ending, read_run
 from lagrotor.numerics.solver_constants import DEPENDENT
 
 if TYPE_CHECKING:
@@ -47,6 +50,8 @@ _BELOW = 1e-7  # gap below zero, over its size, at which an initial state is ref
 _BUDGET = EvaluationBudget(20_000, 1_600)
 _STIFF = EvaluationBudget(200_000, 16_000)  # the turns of a stiff motion take many steps
 _PER_TURN = 16  # intervals in a turn, in which rows of constraints do not turn by a right angle
+_ALLOWED = 100.0  # residual of a redundant constraint over its size and the error of the run
+_BOUND = 0.3  # singular value of all rows over its median, above which they are no more dependent than before
 _BETWEEN = 8  # intervals between two samples in which dependent constraints are sought
 
 
@@ -85,6 +90,9 @@ class SystemRun(SampledMotion):
         The local error of the better of the two integrations that were compared.
     switched : Switched
         The system with its events.
+    redundancy : Redundancy or None, default None
+        The constraints that the run leaves out because they follow from the others, and the reactions that are therefore not
+        determined.
 
     Examples
     --------
@@ -139,6 +147,7 @@ class SystemRun(SampledMotion):
         saved = read_run(path)
         about, arrays, c = saved.about, saved.arrays, system.c
         try:
+            system, redundancy = without(system, about.get("redundant", {}))
             if about["coordinates"] != [str(q) for q in c.q] or about["equations"] != digest_of(system):
                 raise InputError(
                     f"load: {path} is a run of another system, in {', '.join(about['coordinates'])}: give that system"
@@ -165,7 +174,7 @@ class SystemRun(SampledMotion):
         h = replace(h, scale=powers_of_two(scales.sizes), sizes=scales.sizes, windows=windows, narrow=narrow)
         return SystemRun(
             **saved.fields, system=system, values=values, tol=tol, engine=engine, scales=scales, states=states,
-            local=local, switched=h,
+            local=local, switched=h, redundancy=redundancy,
         )  # fmt: skip
 
     def crossings(self, section: sp.Expr, direction: int = 0) -> "SystemRun":
@@ -351,9 +360,11 @@ def simulate_system(
     events = tuple(event_with(event, lambda e: with_values(e, values)) for event in events)
     if engine == "fast" and any(isinstance(value, FunctionValue) for value in dict(values).values()):
         raise InputError("simulate: engine='fast' takes no callable and no table for a function: use engine='core'")
-    h, n = with_events(system, values, events), len(system.c.q)
+    n = len(system.c.q)
     q, v = state_vector("simulate", "q0", q0, n), state_vector("simulate", "v0", v0, len(system.speeds), system)
     x = state_vector("simulate", "x0", x0, len(system.states), system)
+    system, redundancy = without_redundant("simulate", system, values, q, v, times[0])
+    h = with_events(system, values, events)
     parameter_values(h.phase(h.slipping).motion, h.numbers(h.slipping))
     check_values("simulate", system, values, [e for event in h.events for e in event.expressions])
     for event in h.events:
@@ -408,14 +419,38 @@ def simulate_system(
     estimate = estimate_run(evolution, times, tol)
     run = SystemRun(
         **estimate.run_fields | {"evaluations": estimate.evaluations + scales.evaluations}, system=system, values=values, tol=tol,
-        engine=engine, scales=scales, states=estimate.states, local=estimate.local, switched=h,
+        engine=engine, scales=scales, states=estimate.states, local=estimate.local, switched=h, redundancy=redundancy,
     )  # fmt: skip
     hint = narrowest_words(h.system, h.numbers(h.slipping), h.narrow, estimate)
     named = (*system.c.q, *(x for x, _ in system.states))
     estimate.warn_unless_kept(", ".join(map(str, named)), tol, 3, hint)
     if system.multipliers:
         _warn_of_dependence(run)
-    return run if h.smooth else _cut_at_event(run)
+    run = run if h.smooth else _cut_at_event(run)
+    return _cut_where_redundant_fail(run) if redundancy else run
+
+
+def _cut_where_redundant_fail(run: SystemRun) -> SystemRun:
+    """Cut a run before the first sample at which a constraint that was left out does not hold."""
+    assert run.redundancy is not None
+    symbols, residuals = run.system.variables, run.redundancy.residuals
+    if run.system.kinematics is not None:
+        symbols = (*symbols, *run.system.c.v)
+    reach = np.append(run.scales.sizes, np.abs(run.v).max(0)[: len(symbols) - len(run.scales.sizes)])
+    slopes = [np.abs(run._values(*(derivative(e, s) for s in symbols))).T @ reach for e in residuals]
+    allowed = _ALLOWED * (np.maximum(run.errors, run.tol) + np.finfo(float).eps) * np.maximum.accumulate(slopes, axis=1)
+    wrong = (np.abs(run._values(*residuals)) > allowed).any(0)
+    if not wrong.any():
+        return run
+    i = int(np.argmax(wrong))
+    names = ", ".join(run.redundancy.dropped)
+    reason = (
+        f"the constraints {names}, which follow from the others at the start, no longer hold at t = {run.t[i]:.6g} s: they "
+        "contradict the others from here on, or the motion has passed a singular position onto another branch"
+    )
+    ending = Ending("stopped", float(run.t[max(i - 1, 0)]), reason)
+    warnings.warn(f"simulate: {ending}", LagrotorWarning, stacklevel=3)
+    return replace(with_states(run, run.t[: max(i, 1)], run.states[: max(i, 1)]), ending=ending)
 
 
 def _uncertainty(system: Equations, values: Values, sizes: Array) -> Callable[[Array], Array]:
@@ -502,13 +537,25 @@ def _warn_of_dependence(run: SystemRun) -> None:
     G = G.T.reshape(-1, len(run.system.left), len(run.system.speeds))
     near = np.repeat(np.diff(run.t) < _BETWEEN / _PER_TURN * run.scales.turn, _BETWEEN)
     reversed_after = fine[:-1][near & (np.linalg.det(G[:-1] @ G[1:].swapaxes(1, 2)) < 0)]
-    if len(reversed_after):
+    if len(reversed_after) and not _bound_by_redundant(run, states, fine, G, reversed_after[0]):
         warnings.warn(
             f"simulate: near t = {reversed_after[0]:.6g} s the constraints become dependent: their reactions may have no limit "
             "there, and the motion beyond may be one of several; end the run before",
             LagrotorWarning,
             stacklevel=3,
         )
+
+
+def _bound_by_redundant(run: SystemRun, states: Array, times: Array, G: Array, at: float) -> bool:
+    """Return True if redundant constraints, which were left out, determine the motion at a time in s where the others with the
+    rows G become dependent, as two coupling rods at a right angle do at the dead point of one."""
+    if run.redundancy is None or run.system.kinematics is not None:
+        return False
+    rows = function_program(run.system, *jacobian(run.redundancy.residuals, run.system.c.v))
+    others = rows.along(run.values)(states, times).T.reshape(len(times), -1, G.shape[2])
+    both = np.concatenate([G, others], axis=1)
+    least = np.linalg.svd(both, compute_uv=False)[:, G.shape[1] - 1]
+    return bool(least[times == at] > _BOUND * np.median(least))
 
 
 def _as_text(values: Sequence[float] | Array) -> str:

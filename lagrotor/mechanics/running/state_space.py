@@ -30,6 +30,7 @@ from lagrotor.mechanics.running.programs import (
     motion_program,
     parameter_values,
 )
+from lagrotor.mechanics.running.redundant_constraints import nearest_without_redundant, without_redundant
 from lagrotor.mechanics.steady_motions import small_states, small_turns
 
 _STEP = 1e-30  # of the complex step, whose square is below all rounding
@@ -123,7 +124,7 @@ def state_space(
         raise InputError(
             f"{where}: the motion depends on time explicitly: write a symbol for an input F(t), or simulate it"
         )
-    start = point_state(where, system, at, numbers)
+    system, start = point_state(where, system, at, numbers)
     motion = motion_slope(where, motion_program(system), numbers, inputs)
     rate, J, B = motion(start)
     check_smooth(where, motion, start, [f"the rate of {s}" for s in system.variables], at)
@@ -134,7 +135,9 @@ def state_space(
         rates = [*(system.c.a if system.kinematics is None else [f"{u}'" for u in system.speeds])]
         rates += [f"{x}'" for x, _ in system.states]
         rates_text = ", ".join(f"{a} = {x:.3g}" for a, x in zip(rates, rate[n:], strict=True) if abs(x) > least)
-        raise SingularError(f"{where}: {dict(at)} is no steady motion: {rates_text} is not zero; start from one")
+        raise SingularError(
+            f"{where}: {dict(at)} is no steady motion: {rates_text} is not zero; system.rest(near=…, values=…) finds one"
+        )
     A, P, inverse = local_slope(system, start, rate, J)
     later = start + np.concatenate([rate[:n], np.zeros(d - n)]) / size
     for joint in system.ball_joints:  # a turn about a fixed axis
@@ -166,16 +169,27 @@ def local_slope(system: Equations, state: Array, rate: Array, J: Array) -> tuple
     return inverse @ (J @ P - change_of_P), P, inverse
 
 
-def point_state(where: str, system: Equations, at: Mapping[Any, Any], values: Values, time: float = 0.0) -> Array:
-    """Return the state (q, u) at a point. Coordinates that the point omits are zero if the motion does not depend on them,
-    otherwise InputError is raised."""
+def point_state(
+    where: str, system: Equations, at: Mapping[Any, Any], values: Values, time: float = 0.0, moved: bool = False
+) -> tuple[Equations, Array]:
+    """Return the system without redundant constraints, and the state (q, u, x) at a point. Coordinates that the point omits are
+    zero if the motion does not depend on them, otherwise InputError is raised. If `moved` is true, a point off the constraints
+    is moved onto them."""
     c = system.c
     point = by_symbol(f"{where}: at", at, system.variables)
+    first = np.array([_number_of(where, point.get(s, 0), values) for s in (*c.q, *system.speeds)])
+    if system.multipliers and np.isfinite(first).all():
+        move = nearest_without_redundant if moved else without_redundant
+        system, _ = move(where, system, values, first[: len(c.q)], first[len(c.q) :], time)
     used, _ = _parts(motion_program(system))
-    moving = dict(zip(system.variables, motion_program(system).program.arguments, strict=False))  # a program may rename symbols
+    moving = dict(
+        zip(system.variables, motion_program(system).program.arguments, strict=False)
+    )  # a program may rename symbols
     named = (*c.q, *(x for x, _ in system.states))
     if missing := [str(s) for s in named if s not in point and moving[s] in used]:
-        raise InputError(f"{where}: {', '.join(missing)} without a value: the point needs a value of each coordinate and state")
+        raise InputError(
+            f"{where}: {', '.join(missing)} without a value: the point needs a value of each coordinate and state"
+        )
     if strangers := [str(s) for s in point if s not in system.variables]:
         names = "" if system.kinematics is None else f" ({', '.join(map(str, system.speeds))})"
         raise InputError(
@@ -193,14 +207,27 @@ def point_state(where: str, system: Equations, at: Mapping[Any, Any], values: Va
     if system.multipliers:
         n, m = len(c.q), len(c.q) + len(system.speeds)
         near = np.concatenate(consistent(where, system, values, start[:n], start[n:m], time))
-        if (np.abs(near - start[:m]) > rounding_of_start(system, values, start[:m], time)).any():
+        if not moved and (np.abs(near - start[:m]) > rounding_of_start(system, values, start[:m], time)).any():
             nearest = ", ".join(f"{s} = {x:.9g}" for s, x in zip((*c.q, *system.speeds), near, strict=True) if x)
             raise ConstraintError(
                 f"{where}: the point is off the constraints; the nearest on them is {nearest or 'zero'}"
             )
         start = np.append(near, start[m:])
     check_pole(where, system, values, np.append(start, time))
-    return start
+    return system, start
+
+
+def _number_of(where: str, value: Any, values: Values) -> float:
+    """Return the number of an entry of a point, which may contain parameters; NaN if it has none."""
+    e = expression(f"{where}: at", value)
+    try:
+        return float(
+            e.subs(
+                {s: x for s, x in by_symbol(f"{where}: values", values, e.free_symbols).items() if s in e.free_symbols}
+            )
+        )
+    except (TypeError, ValueError):
+        return float("nan")
 
 
 @lru_cache(maxsize=64)
