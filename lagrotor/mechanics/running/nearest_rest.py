@@ -1,4 +1,4 @@
-"""The equilibrium to which Newton's method leads from a configuration: closed loops, any number of constraints, first-order states.
+"""The equilibrium to which Newton's method leads from a configuration: closed loops, and first-order states.
 
 At rest the rates u' and x' of the constrained motion vanish. They are functions of the coordinates and states on the constraints,
 and their derivatives along the tangent space of these give the step δ of (∂(u', x')/∂(q, x)) T δ = −(u', x'). Each step is

@@ -154,7 +154,7 @@ class _Rows:
         self._rows = function_program(system, *system.rows, *system.constraints, *system.residual).along(values)
         self._mass = np.ones(len(system.c.q))
 
-    def __call__(self, q: Array, u: Array) -> tuple[Array, Array, Array]:
+    def __call__(self, q: Any, u: Array) -> tuple[Array, Array, Array]:
         """Return the rows G of length one, shape (k, n), and g (h,) and G v + b (k,) in their units."""
         k, n, d = len(self.system.residual), len(q), len(self.system.states)
         numbers = self._rows(np.concatenate([q, u, np.zeros(d)])[None], self.time)[:, 0]
@@ -201,7 +201,7 @@ class _Rows:
         free, random = np.linalg.svd(G)[2][len(G) :], np.random.default_rng(1)
         near = []
         for _ in range(_STATES if len(free) else 0):
-            place = q + _NEAR * (1 + np.abs(q).max()) * (random.normal(size=len(free)) @ free)
+            place = np.asarray(q + _NEAR * (1 + np.abs(q).max()) * (random.normal(size=len(free)) @ free))
             try:
                 if first:
                     place = np.asarray(

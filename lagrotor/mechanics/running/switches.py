@@ -165,7 +165,10 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
     if not substitutions:
         return system, ()
     if nested := [atom for atom in substitutions if any(atom != outer and atom.has(outer) for outer in substitutions)]:
-        raise InputError(f"simulate: {nested[0]} has a jump within a jump: write each case as a system of its own")
+        raise InputError(
+            f"simulate: {nested[0]} has a jump within a jump: write each case as a system of its own, "
+            "and a saturation Max(-a, Min(a, u)) as (Abs(u + a) - Abs(u - a))/2"
+        )
     slopes = [derivative(L, s) for s in (*system.c.q, *system.c.v)]
     steps = {(step, e) for e in slopes for step in e.atoms(sp.DiracDelta)}
     if jumps := [step.args[0] for step, e in steps if _is_a_jump(step, e, (*system.c.q, *system.c.v))]:
@@ -191,13 +194,14 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
         dissipation=sp.S.Zero,
         states=tuple((x, f.xreplace(substitutions)) for x, f in system.states),
     )
-    for w in signs:
-        if w.free_symbols & {x for x, _ in system.states} and w.free_symbols & {*system.c.v}:
+    surfaces = tuple(Surface(w, s, _friction(smooth, w, s)) for w, s in signs.items())
+    for surface in surfaces:
+        if surface.bound not in (None, 0) and surface.argument.free_symbols & {x for x, _ in system.states}:
             raise InputError(
-                f"simulate: a force jumps where {w} = 0, which has a velocity and a first-order state: what sticks there would "
-                "be bound to the state; make the state a coordinate, or the jump steep but smooth, tanh(w/w_0)"
+                f"simulate: dry friction on {surface.argument} = 0 would bind a velocity to a first-order state: make the state "
+                "the velocity of a coordinate, or the friction smooth, tanh(w/w_0) for sign(w)"
             )
-    return smooth, tuple(Surface(w, s, _friction(smooth, w, s)) for w, s in signs.items())
+    return smooth, surfaces
 
 
 def _is_a_jump(step: sp.DiracDelta, slope: sp.Expr, moving: Sequence[sp.Symbol]) -> bool:
