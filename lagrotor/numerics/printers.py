@@ -203,7 +203,7 @@ def rhs_source(
     lines = _assignments(moving, reduced, show, program.shared)
     checks = [f"{show.doprint(e)} > 0" for e in bounds]
     body = [
-        f"{', '.join(map(str, state))} = y.tolist()",
+        f"{', '.join(map(str, state))}{',' * (states == 1)} = y.tolist()",
         *([f"if begin is not None: {state[clock]} = begin + s"] if clock is not None else []),
         *(["pulse = exp(-(s / width) ** 2)", *(f"{f} = peak_{f} * pulse" for f in force)] if driven else []),
         *lines,
