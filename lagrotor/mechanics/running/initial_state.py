@@ -5,6 +5,7 @@ masses, and friction must dissipate energy. The mass matrix and the constraints 
 """
 
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from typing import Any
 from warnings import warn
 
@@ -27,7 +28,7 @@ from lagrotor.mechanics.running.programs import (
     tree_motion,
     velocities_along,
 )
-from lagrotor.mechanics.running.redundant_constraints import nearest_without_redundant, without_redundant
+from lagrotor.mechanics.running.redundant_constraints import without_redundant
 from lagrotor.mechanics.running.singular_positions import mass_at, rows_at
 from lagrotor.mechanics.steady_motions import no_turn
 from lagrotor.numerics.arrays import finite_array, real_array
@@ -175,12 +176,11 @@ def consistent(
         try:
             placed = project_position(lambda at: matrices(at, v)[1], lambda at: matrices(at, v)[2], q, metric_there)
         except (ConstraintError, SingularError) as error:
-            try:
-                reduced, redundancy = nearest_without_redundant(where, system, values, q, v, float(arguments[0]))
-            except ConstraintError as contradiction:
-                if isinstance(error, SingularError):
-                    raise contradiction from None
-                redundancy = None
+            reduced, redundancy = system, None
+            with suppress(
+                *[ConstraintError] * isinstance(error, ConstraintError)
+            ):  # else constraints contradict each other
+                reduced, redundancy = without_redundant(where, system, values, q, v, float(arguments[0]), True)
             if redundancy is not None:
                 return consistent(where, reduced, values, q0, v0, t)
             raise type(error)(str(error).replace("project_position", where, 1)) from None

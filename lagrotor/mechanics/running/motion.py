@@ -289,11 +289,8 @@ class SampledMotion(Run):
             "turn": self.scales.turn,
             "sizes": self.scales.sizes.tolist(),
             "modes": self.states[:, len(self.system.variables) :].tolist(),
-        } | (
-            {"redundant": {name: list(getattr(self.redundancy, name)) for name in ("dropped", "undetermined")}}
-            if self.redundancy
-            else {}
-        )
+            "redundant": self.redundancy and [self.redundancy.dropped, self.redundancy.undetermined],
+        }
 
 
 class _Reactions(dict[str, Array]):

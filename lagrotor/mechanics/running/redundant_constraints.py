@@ -5,7 +5,7 @@ has dependent rows only where it closes. A subset of independent rows is kept fo
 constraint must hold wherever the kept ones hold. Row i has a determined multiplier if no vector z with Gᵀ z = 0 has an entry z_i.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple, TypeVar
 
@@ -22,26 +22,15 @@ from lagrotor.mechanics.running.singular_positions import rows_at
 Kind = TypeVar("Kind", bound=Equations)
 _SUSPECT = 1e-5  # least singular value of scaled rows, below which the rank is measured
 _DEPENDENT = 1e-8  # part of a scaled row outside the span of the others, below which it is dependent
-_HOLDS = 1e-9  # residual of a dropped constraint over its row, at a state that satisfies the others
+_HOLDS = 1e-10  # distance from a constraint over 1 + the largest coordinate
 _TAKES_PART = 1e-6  # entry of a left null vector of the rows, from which a multiplier is not determined
-_NEAR, _STATES = 0.03, 3  # distance over the size of a configuration, and number, of states near the start
-_STEPS = 100
+_NEAR, _STATES = 1e-3, 3  # distance and number of the states near the start
+_STEPS = 100  # of Newton's method, which is slow near dependent rows
 
 
 class Redundancy(NamedTuple):
-    """The constraints that a run leaves out because they follow from the others.
-
-    Attributes
-    ----------
-    dropped : tuple of str
-        Their names.
-    residuals : tuple of Expr
-        Their expressions, g and G v + b, which stay zero.
-    undetermined : tuple of str
-        The names of all constraints whose multipliers are not determined.
-    symbols : frozenset of Symbol
-        The symbols of these multipliers.
-    """
+    """The names of the constraints that a run leaves out, their expressions g and G v + b, which stay zero, the names of all
+    constraints whose multipliers are not determined, and the symbols of these multipliers."""
 
     dropped: tuple[str, ...]
     residuals: tuple[sp.Expr, ...]
@@ -51,163 +40,131 @@ class Redundancy(NamedTuple):
     @property
     def words(self) -> str:
         """The reason why a reaction is refused, and the remedy."""
-        names = ", ".join(self.undetermined)
         return (
-            f"the constraints {names} are dependent (rank of G), so that only sums of their reactions are determined: "
-            f"leave {', '.join(self.dropped)} out to give the whole force to the others, or give the parts elasticity"
+            f"the constraints {', '.join(self.undetermined)} are dependent (rank of G), so that only sums of their reactions are "
+            f"determined: leave {', '.join(self.dropped)} out to give the whole force to the others, or give the parts elasticity"
         )
 
 
 def without_redundant(
-    where: str, system: Kind, values: Mapping[Any, Any], q: Array, u: Array, t: float
+    where: str, system: Kind, values: Mapping[Any, Any], q: Array, u: Array, t: float, moved: bool = False
 ) -> tuple[Kind, Redundancy | None]:
     """Return the system without its redundant constraints, and what was left out; None if the rows are independent near (q, u).
-
-    Raises ConstraintError if dependent constraints contradict each other there.
-    """
+    If `moved` is true, q may be far from the constraints. Raise ConstraintError if dependent ones contradict each other."""
     if not system.left or (len(system.left) < 2 and system.kinematics is None):
         return system, None
-    G = rows_at(system, values, np.concatenate([q, u, np.zeros(len(system.states)), [t]]))
-    length = np.linalg.norm(G, axis=1, keepdims=True)
-    if not np.isfinite(G).all() or (length.all() and np.linalg.svd(G / length, compute_uv=False)[-1] > _SUSPECT):
-        return system, None
-    at = _Rows(system, values, t)
-    q = at.closed(where, q)
-    G = at(q, u)[0]
-    kept = independent(G, len(system.constraints))
+    if not moved:
+        G = rows_at(system, values, np.concatenate([q, u, np.zeros(len(system.states)), [t]]))
+        length = np.linalg.norm(G, axis=1, keepdims=True)
+        if not np.isfinite(G).all() or (length.all() and np.linalg.svd(G / length, compute_uv=False)[-1] > _SUSPECT):
+            return system, None
+    h, names, rows = len(system.constraints), system.multiplier_names, _rows(system, values, t)
+    q = _closed(where, names, rows, h, q)
+    G, _, offset = rows(q)
+    kept = _independent(G, h)
     dropped = [i for i in range(len(G)) if i not in kept]
     if not dropped:
         return system, None
-    offset = at(q, 0 * u)[2]
-    if (np.abs(offset - G @ (np.linalg.pinv(G) @ offset)) > _HOLDS * (1 + np.abs(offset).max())).any():
-        at.contradict(where, G, offset)
-    near = [(q, G), *at.neighbours(q, kept)]
-    if any(len(independent(rows, len(system.constraints))) > len(kept) for _, rows in near):
+    _check_contradiction(where, names, G, offset, 1 + np.abs(offset).max())
+    near = [(q, G), *((place, rows(place)[0]) for place in _neighbours(rows, q, kept, h))]
+    if any(len(_independent(G_there, h)) > len(kept) for _, G_there in near):
         return system, None  # a singular position, whose neighbours have more independent rows
-    if any((np.abs(at.violation(place)[[i for i in dropped if i < at.h]]) > _HOLDS).any() for place, _ in near):
+    if any((np.abs(rows(p)[1][[i for i in dropped if i < h]]) > _HOLDS * (1 + np.abs(p).max())).any() for p, _ in near):
         return system, None
-    names = system.multiplier_names
-    free = {i for _, rows in near for i in _undetermined(rows, len(kept))}
-    undetermined = tuple(names[i] for i in sorted(free))
-    symbols = frozenset(system.multipliers[i] for i in free)
-    if rubbing := symbols & system.generalised_forces.free_symbols:
+    null = np.max([np.abs(np.linalg.svd(G_there)[0][:, len(kept) :]).max(1) for _, G_there in near], axis=0)
+    undetermined = [names[int(i)] for i in np.flatnonzero(null > _TAKES_PART)]
+    reduced, redundancy = without(system, [names[i] for i in dropped], undetermined)
+    if rubbing := redundancy.symbols & system.generalised_forces.free_symbols:
         raise InputError(
-            f"{where}: a force depends on {min(rubbing, key=str)}, which is not determined, as the constraints "
-            f"{', '.join(undetermined)} are dependent: leave out {', '.join(names[i] for i in dropped)}"
+            f"{where}: a force depends on {min(rubbing, key=str)}, which is not determined: {redundancy.words}"
         )
-    return without(system, {"dropped": [names[i] for i in dropped], "undetermined": undetermined})
+    return reduced, redundancy
 
 
-def without(system: Kind, about: Mapping[str, Any]) -> tuple[Kind, Redundancy | None]:
-    """Return the system without the constraints named in `about`, the entry of a saved run, and what was left out."""
-    if not about:
-        return system, None
+def without(system: Kind, dropped: Sequence[str], undetermined: Sequence[str]) -> tuple[Kind, Redundancy]:
+    """Return the system without the constraints with the names in `dropped`, and what was left out."""
     names, h = system.multiplier_names, len(system.constraints)
-    dropped, undetermined = (
-        [i for i, name in enumerate(names) if name in about[k]] for k in ("dropped", "undetermined")
-    )
-    residuals = [system.residual[i] for i in dropped] + [system.constraints[i] for i in dropped if i < h]
+    kept, out = ([i for i, name in enumerate(names) if (name in dropped) == left_out] for left_out in (False, True))
+    residuals = (*(system.residual[i] for i in out), *(system.constraints[i] for i in out if i < h))
+    lost = [i for i, name in enumerate(names) if name in undetermined]
+    symbols = frozenset(s for i in lost for s in (system.multipliers[i], system.reactions[i]))
     reduced = replace(
         system,
-        constraints=tuple(system.constraints[i] for i in range(h) if i not in dropped),
-        rolling=tuple(system.rolling[i - h] for i in range(h, len(names)) if i not in dropped),
-        names=tuple(name for i, name in enumerate(names) if i not in dropped),
+        constraints=tuple(system.constraints[i] for i in kept if i < h),
+        rolling=tuple(system.rolling[i - h] for i in kept if i >= h),
+        names=tuple(names[i] for i in kept),
     )
-    symbols = frozenset(s for i in undetermined for s in (system.multipliers[i], system.reactions[i]))
-    both = (tuple(names[i] for i in places) for places in (dropped, undetermined))
-    return reduced, Redundancy(next(both), tuple(residuals), next(both), symbols)
+    return reduced, Redundancy(tuple(dropped), residuals, tuple(undetermined), symbols)
 
 
-def nearest_without_redundant(
-    where: str, system: Kind, values: Mapping[Any, Any], q: Array, u: Array, t: float
-) -> tuple[Kind, Redundancy | None]:
-    """Do the same for a configuration that need not be near to the constraints, by first moving onto them."""
-    return without_redundant(where, system, values, _Rows(system, values, t).closed(where, q), u, t)
+Rows = Callable[[Any], tuple[Array, Array, Array]]
 
 
-def independent(G: Array, h: int) -> list[int]:
+def _rows(system: Equations, values: Mapping[Any, Any], t: float) -> Rows:
+    """Return a function of q that returns the rows G of all constraints, scaled to length one, shape (k, n), and g and the offset
+    b in G v + b over the length of their rows, shapes (h,) and (k,)."""
+    still = dict.fromkeys(system.c.v, sp.S.Zero)
+    offset = [e.xreplace(still) for e in system.residual]
+    program = function_program(system, *system.rows, *system.constraints, *offset).along(values)
+    k, n, h = len(offset), len(system.c.q), len(system.constraints)
+
+    def rows(q: Any) -> tuple[Array, Array, Array]:
+        state = np.append(q, np.zeros(len(system.variables) - n))
+        G, g, b = np.split(program(state[None], np.array([t]))[:, 0], [k * n, k * n + h])
+        length = np.linalg.norm(G.reshape(k, n), axis=1)
+        length = np.where(length > 0, length, 1.0)
+        return G.reshape(k, n) / length[:, None], g / length[:h], b / length
+
+    return rows
+
+
+def _closed(where: str, names: Sequence[str], rows: Rows, h: int, q: Array) -> Array:
+    """Return a configuration that satisfies all constraints, by Newton's method with the pseudo-inverse."""
+    for _ in range(_STEPS):
+        G, g, _ = rows(q)
+        step = np.linalg.pinv(G[:h], rcond=_SUSPECT) @ g if np.isfinite(G).all() and h else 0 * q
+        q = q - step
+        if np.abs(step).max() <= 1e-14 * (1 + np.abs(q).max()):
+            break
+    G, g, _ = rows(q)
+    _check_contradiction(where, names, G[:h], g, 1 + np.abs(q).max())
+    return q
+
+
+def _check_contradiction(where: str, names: Sequence[str], G: Array, residual: Array, size: float) -> None:
+    """Raise ConstraintError if no small displacement, or no velocity, makes the residuals (k,) of the rows G zero."""
+    excess = np.abs(residual - G @ (np.linalg.pinv(G, rcond=_SUSPECT) @ residual))
+    if not (excess <= _HOLDS * size).all():
+        wrong = ", ".join(names[int(i)] for i in np.flatnonzero(~(excess <= 0.1 * excess.max())))
+        raise ConstraintError(
+            f"{where}: no state near the start satisfies the constraints {wrong} beside the others: they leave "
+            f"{excess.max():.3g}; correct a constraint or a length, or leave out what contradicts the others"
+        )
+
+
+def _independent(G: Array, h: int) -> list[int]:
     """Return the indices of independent rows of length one, in ascending order. The first h, of holonomic constraints, have
     priority; within both groups the row with the largest part outside the span of those before it comes next."""
-    chosen, remainder = list[int](), G.copy()
-    for group in (range(h), range(h, len(G))):
-        while len(group):
-            i = max(group, key=lambda k: np.linalg.norm(remainder[k]))
-            size = np.linalg.norm(remainder[i])
-            if size <= _DEPENDENT:
-                break
-            direction = remainder[i] / size
+    chosen, remainder = list[int](), G
+    for group in (slice(0, h), slice(h, len(G))):
+        while (sizes := np.linalg.norm(remainder[group], axis=1)).max(initial=0) > _DEPENDENT:
+            i = group.start + int(sizes.argmax())
+            direction = remainder[i] / np.linalg.norm(remainder[i])
             remainder = remainder - np.outer(remainder @ direction, direction)
             chosen.append(i)
     return sorted(chosen)
 
 
-def _undetermined(G: Array, rank: int) -> list[int]:
-    z = np.linalg.svd(G)[0][:, rank:]
-    return [int(i) for i in np.flatnonzero(np.abs(z).max(1) > _TAKES_PART)]
-
-
-class _Rows:
-    """The rows of all constraints on the velocities v, at configurations and quasi-velocities u at the time t in s."""
-
-    def __init__(self, system: Equations, values: Mapping[Any, Any], t: float) -> None:
-        self.system, self.h, self.time = system, len(system.constraints), np.array([t])
-        self._rows = function_program(system, *system.rows, *system.constraints, *system.residual).along(values)
-        self._mass = np.ones(len(system.c.q))
-
-    def __call__(self, q: Any, u: Array) -> tuple[Array, Array, Array]:
-        """Return the rows G of length one, shape (k, n), and g (h,) and G v + b (k,) in their units."""
-        k, n, d = len(self.system.residual), len(q), len(self.system.states)
-        numbers = self._rows(np.concatenate([q, u, np.zeros(d)])[None], self.time)[:, 0]
-        G, g, residual = np.split(numbers, [k * n, k * n + self.h])
-        G = G.reshape(k, n)
-        length = np.linalg.norm(G, axis=1)
-        length = np.where(length > 0, length, 1.0)
-        return G / length[:, None], g / length[: self.h], residual / length
-
-    def violation(self, q: Array) -> Array:
-        """Return |g| of each constraint over the length of its row and the size of the configuration; zero for rolling."""
-        _, g, residual = self(q, np.zeros(len(self.system.speeds)))
-        return np.append(np.abs(g) / (1 + np.abs(q).max()), np.zeros(len(residual) - self.h))
-
-    def closed(self, where: str, q: Array) -> Array:
-        """Return a configuration that satisfies all constraints, by Gauss and Newton's method with the pseudo-inverse."""
-        u = np.zeros(len(self.system.speeds))
-        for _ in range(_STEPS):
-            G, g, _ = self(q, u)
-            step = np.linalg.pinv(G[: self.h], rcond=_SUSPECT) @ g if self.h else 0 * q
-            if not np.isfinite(step).all():
-                break
-            q = q - step
-            if np.abs(step).max(initial=0) <= 1e-14 * (1 + np.abs(q).max()):
-                break
-        G, g, _ = self(q, u)
-        if (np.abs(g) > _HOLDS * (1 + np.abs(q).max())).any():
-            self.contradict(where, G[: self.h], g)
-        return q
-
-    def contradict(self, where: str, G: Array, residual: Array) -> None:
-        """Raise ConstraintError with the names of dependent constraints that no state satisfies."""
-        excess = residual - G @ (np.linalg.pinv(G, rcond=_SUSPECT) @ residual)
-        names = [self.system.multiplier_names[i] for i in np.flatnonzero(np.abs(excess) > 0.1 * np.abs(excess).max())]
-        raise ConstraintError(
-            f"{where}: no state near the start satisfies the constraints {', '.join(names)} beside the others: they leave "
-            f"{np.abs(residual).max():.3g}; correct a constraint or a length, or leave out what contradicts the others"
-        )
-
-    def neighbours(self, q: Array, kept: list[int]) -> list[tuple[Array, Array]]:
-        """Return states near q, which satisfy the kept constraints, each with the rows G there."""
-        u, first = np.zeros(len(self.system.speeds)), [i for i in kept if i < self.h]
-        G = self(q, u)[0][kept]
-        free, random = np.linalg.svd(G)[2][len(G) :], np.random.default_rng(1)
-        near = []
-        for _ in range(_STATES if len(free) else 0):
-            place = np.asarray(q + _NEAR * (1 + np.abs(q).max()) * (random.normal(size=len(free)) @ free))
-            try:
-                if first:
-                    place = np.asarray(
-                        project_position(lambda p: self(p, u)[1][first], lambda p: self(p, u)[0][first], place)
-                    )
-            except LagrotorError:
-                continue
-            near.append((place, self(place, u)[0]))
-        return near
+def _neighbours(rows: Rows, q: Array, kept: Sequence[int], h: int) -> list[Array]:
+    """Return configurations near q that satisfy the kept constraints."""
+    free = np.linalg.svd(rows(q)[0][kept])[2][len(kept) :]
+    random, first, near = np.random.default_rng(1), [i for i in kept if i < h], list[Array]()
+    for direction in random.normal(size=(_STATES, len(free))) @ free if len(free) else ():
+        place = np.asarray(q + _NEAR * np.clip(np.abs(q).max(), _NEAR, 1) * direction)
+        try:
+            if first:
+                place = project_position(lambda p: rows(p)[1][first], lambda p: rows(p)[0][first], place)
+        except LagrotorError:
+            continue
+        near.append(place)
+    return near

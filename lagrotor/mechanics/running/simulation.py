@@ -10,7 +10,6 @@ import numpy as np
 import sympy as sp
 from numpy.typing import ArrayLike
 
-from lagrotor.algebra import derivative
 from lagrotor.errors import ConstraintError, InputError, LagrotorWarning
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import vector_of
@@ -32,7 +31,7 @@ from lagrotor.mechanics.running.motion import SampledMotion, digest_of, integrat
 from lagrotor.mechanics.running.narrow_features import narrow_parts, narrowest_words
 from lagrotor.mechanics.running.phases import Moment, Switched, begin, with_events
 from lagrotor.mechanics.running.programs import depends_on_time, function_program, parameter_values, rows_program
-from lagrotor.mechanics.running.redundant_constraints import without, without_redundant
+from lagrotor.mechanics.running.redundant_constraints import Redundancy, without, without_redundant
 from lagrotor.mechanics.running.scales import Scales, clock_windows, conservation_error_of, motion_scales
 from lagrotor.mechanics.running.singular_positions import independence
 from lagrotor.mechanics.running.switches import Event, Impact, check_events
@@ -147,7 +146,7 @@ class SystemRun(SampledMotion):
         saved = read_run(path)
         about, arrays, c = saved.about, saved.arrays, system.c
         try:
-            system, redundancy = without(system, about.get("redundant", {}))
+            system, redundancy = without(system, *left_out) if (left_out := about.get("redundant")) else (system, None)
             if about["coordinates"] != [str(q) for q in c.q] or about["equations"] != digest_of(system):
                 raise InputError(
                     f"load: {path} is a run of another system, in {', '.join(about['coordinates'])}: give that system"
@@ -427,30 +426,24 @@ def simulate_system(
     if system.multipliers:
         _warn_of_dependence(run)
     run = run if h.smooth else _cut_at_event(run)
-    return _cut_where_redundant_fail(run) if redundancy else run
+    return _cut_where_redundant_fail(run, redundancy) if redundancy else run
 
 
-def _cut_where_redundant_fail(run: SystemRun) -> SystemRun:
+def _cut_where_redundant_fail(run: SystemRun, redundancy: Redundancy) -> SystemRun:
     """Cut a run before the first sample at which a constraint that was left out does not hold."""
-    assert run.redundancy is not None
-    symbols, residuals = run.system.variables, run.redundancy.residuals
-    if run.system.kinematics is not None:
-        symbols = (*symbols, *run.system.c.v)
-    reach = np.append(run.scales.sizes, np.abs(run.v).max(0)[: len(symbols) - len(run.scales.sizes)])
-    slopes = [np.abs(run._values(*(derivative(e, s) for s in symbols))).T @ reach for e in residuals]
-    allowed = _ALLOWED * (np.maximum(run.errors, run.tol) + np.finfo(float).eps) * np.maximum.accumulate(slopes, axis=1)
-    wrong = (np.abs(run._values(*residuals)) > allowed).any(0)
-    if not wrong.any():
-        return run
-    i = int(np.argmax(wrong))
-    names = ", ".join(run.redundancy.dropped)
-    reason = (
-        f"the constraints {names}, which follow from the others at the start, no longer hold at t = {run.t[i]:.6g} s: they "
-        "contradict the others from here on, or the motion has passed a singular position onto another branch"
+    allowed = np.outer(
+        [_ALLOWED * sections.change(run, e) for e in redundancy.residuals], np.maximum(run.errors, run.tol)
     )
-    ending = Ending("stopped", float(run.t[max(i - 1, 0)]), reason)
+    i = int(np.argmax((np.abs(run._values(*redundancy.residuals)) > allowed).any(0)))
+    if i == 0:
+        return run
+    reason = (
+        f"the constraints {', '.join(redundancy.dropped)}, which follow from the others at the start, no longer hold at t = "
+        f"{run.t[i]:.6g} s: they contradict the others, or the motion has passed a singular position onto another branch"
+    )
+    ending = Ending("stopped", float(run.t[i - 1]), reason)
     warnings.warn(f"simulate: {ending}", LagrotorWarning, stacklevel=3)
-    return replace(with_states(run, run.t[: max(i, 1)], run.states[: max(i, 1)]), ending=ending)
+    return replace(with_states(run, run.t[:i], run.states[:i]), ending=ending)
 
 
 def _uncertainty(system: Equations, values: Values, sizes: Array) -> Callable[[Array], Array]:
@@ -547,14 +540,13 @@ def _warn_of_dependence(run: SystemRun) -> None:
 
 
 def _bound_by_redundant(run: SystemRun, states: Array, times: Array, G: Array, at: float) -> bool:
-    """Return True if redundant constraints, which were left out, determine the motion at a time in s where the others with the
-    rows G become dependent, as two coupling rods at a right angle do at the dead point of one."""
+    """Return True if constraints that were left out determine the motion where the others, with the rows G, become dependent, as
+    two coupling rods at a right angle do at the dead point of one."""
     if run.redundancy is None or run.system.kinematics is not None:
         return False
-    rows = function_program(run.system, *jacobian(run.redundancy.residuals, run.system.c.v))
-    others = rows.along(run.values)(states, times).T.reshape(len(times), -1, G.shape[2])
-    both = np.concatenate([G, others], axis=1)
-    least = np.linalg.svd(both, compute_uv=False)[:, G.shape[1] - 1]
+    program = function_program(run.system, *jacobian(run.redundancy.residuals, run.system.c.v))
+    others = program.along(run.values)(states, times).T.reshape(len(times), -1, G.shape[2])
+    least = np.linalg.svd(np.concatenate([G, others], axis=1), compute_uv=False)[:, G.shape[1] - 1]
     return bool(least[times == at] > _BOUND * np.median(least))
 
 

@@ -30,7 +30,7 @@ from lagrotor.mechanics.running.programs import (
     motion_program,
     parameter_values,
 )
-from lagrotor.mechanics.running.redundant_constraints import nearest_without_redundant, without_redundant
+from lagrotor.mechanics.running.redundant_constraints import without_redundant
 from lagrotor.mechanics.steady_motions import small_states, small_turns
 
 _STEP = 1e-30  # of the complex step, whose square is below all rounding
@@ -175,21 +175,15 @@ def point_state(
     """Return the system without redundant constraints, and the state (q, u, x) at a point. Coordinates that the point omits are
     zero if the motion does not depend on them, otherwise InputError is raised. If `moved` is true, a point off the constraints
     is moved onto them."""
-    c = system.c
+    n, m = len(system.c.q), len(system.c.q) + len(system.speeds)
     point = by_symbol(f"{where}: at", at, system.variables)
-    first = np.array([_number_of(where, point.get(s, 0), values) for s in (*c.q, *system.speeds)])
-    if system.multipliers and np.isfinite(first).all():
-        move = nearest_without_redundant if moved else without_redundant
-        system, _ = move(where, system, values, first[: len(c.q)], first[len(c.q) :], time)
-    used, _ = _parts(motion_program(system))
-    moving = dict(
-        zip(system.variables, motion_program(system).program.arguments, strict=False)
-    )  # a program may rename symbols
-    named = (*c.q, *(x for x, _ in system.states))
-    if missing := [str(s) for s in named if s not in point and moving[s] in used]:
-        raise InputError(
-            f"{where}: {', '.join(missing)} without a value: the point needs a value of each coordinate and state"
-        )
+    if omitted := [s for i, s in enumerate(system.variables) if s not in point and not n <= i < m]:
+        motion = motion_program(system)
+        moving = dict(zip(system.variables, motion.program.arguments, strict=False))  # a program may rename symbols
+        if missing := [str(s) for s in omitted if moving[s] in _parts(motion)[0]]:
+            raise InputError(
+                f"{where}: {', '.join(missing)} without a value: give each coordinate and state of the point one"
+            )
     if strangers := [str(s) for s in point if s not in system.variables]:
         names = "" if system.kinematics is None else f" ({', '.join(map(str, system.speeds))})"
         raise InputError(
@@ -205,29 +199,16 @@ def point_state(
     if not np.isfinite(start).all():
         raise InputError(f"{where}: {dict(at)} must be finite")
     if system.multipliers:
-        n, m = len(c.q), len(c.q) + len(system.speeds)
+        system, _ = without_redundant(where, system, values, start[:n], start[n:m], time, moved)
         near = np.concatenate(consistent(where, system, values, start[:n], start[n:m], time))
         if not moved and (np.abs(near - start[:m]) > rounding_of_start(system, values, start[:m], time)).any():
-            nearest = ", ".join(f"{s} = {x:.9g}" for s, x in zip((*c.q, *system.speeds), near, strict=True) if x)
+            nearest = ", ".join(f"{s} = {x:.9g}" for s, x in zip(system.variables, near, strict=False) if x)
             raise ConstraintError(
                 f"{where}: the point is off the constraints; the nearest on them is {nearest or 'zero'}"
             )
         start = np.append(near, start[m:])
     check_pole(where, system, values, np.append(start, time))
     return system, start
-
-
-def _number_of(where: str, value: Any, values: Values) -> float:
-    """Return the number of an entry of a point, which may contain parameters; NaN if it has none."""
-    e = expression(f"{where}: at", value)
-    try:
-        return float(
-            e.subs(
-                {s: x for s, x in by_symbol(f"{where}: values", values, e.free_symbols).items() if s in e.free_symbols}
-            )
-        )
-    except (TypeError, ValueError):
-        return float("nan")
 
 
 @lru_cache(maxsize=64)

@@ -103,7 +103,7 @@ REFUSED: dict[str, tuple[type[LagrotorError], Callable[[], Any]]] = {
         InputError,
         lambda: System(C, C.theta_dot**2 - C.theta**2, dissipation=sp.Abs(C.theta_dot)).rest({"theta": 1}, {}),
     ),
-    "no state near the start satisfies the constraints": (
+    "not reached the constraints": (
         ConstraintError,
         lambda: FOUR_BAR.rest({"A": 1, "B": 0, "phi": 0}, VALUES | {b: 20}),
     ),

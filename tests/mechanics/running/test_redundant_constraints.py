@@ -113,7 +113,7 @@ def test_coupling_rods_at_a_right_angle_pass_the_dead_points_of_each() -> None:
 
 def test_constraints_that_contradict_each_other_later_end_the_run() -> None:
     system = System(C, BALL, constraints={"first": C.x - t**3, "second": C.x - t**4})
-    with pytest.warns(match="no longer hold at t = 0.25 s: they contradict the others"):
+    with pytest.warns(match="no longer hold at t = 0.25 s: they contradict"):
         run = system.simulate({}, [0, 0], [0, 0], [0, 0.25, 1])
     assert run.ending.kind == "stopped"
 
