@@ -97,20 +97,21 @@ class Equations:
 
     def _take_states(self) -> None:
         """Store the first-order states as pairs (x, f), f the rate of x."""
-        if not isinstance(self.states, Mapping | tuple):
-            raise InputError(f"System: states = {self.states!r} must be {{x: rate of x}}, a dictionary")
-        states = self.states.items() if isinstance(self.states, Mapping) else self.states
-        pairs = tuple((x, expression(f"System: states[{x}]", f)) for x, f in states)
-        symbols = [x for x, _ in pairs]
-        moving = {*self.c.q, *self.c.v, *self.c.a, t}
-        if wrong := [x for x in symbols if not isinstance(x, sp.Symbol) or x in moving or symbols.count(x) > 1]:
-            raise InputError(
-                f"System: {wrong[0]!r} in states must be a symbol that is no coordinate, velocity or time: {{x: rate of x}}"
-            )
-        if not pairs and not self.c.q:
-            raise InputError(
-                "System: no coordinates and no states: give System(c, L), or System(states={x: rate of x})"
-            )
+        entries, moving = self.states, {*self.c.q, *self.c.v, *self.c.a, t}
+        symbols = (
+            [*entries]
+            if isinstance(entries, Mapping)
+            else [x for x, _ in entries]
+            if isinstance(entries, tuple)
+            else [0]
+        )
+        if not all(isinstance(x, sp.Symbol) and x not in moving and symbols.count(x) == 1 for x in symbols):
+            way = "a dictionary {x: rate of x}, each x a symbol that is no coordinate, velocity or time"
+            raise InputError(f"System: states = {entries!r} must be {way}")
+        if not symbols and not self.c.q:
+            raise InputError("System: no coordinates and no states: give System(c, L) or System(states={x: rate})")
+        rates = entries.items() if isinstance(entries, Mapping) else entries
+        pairs = tuple((x, expression(f"System: states[{x}]", f)) for x, f in rates)
         object.__setattr__(self, "states", pairs)
 
     def _take_velocities(self) -> None:
@@ -206,11 +207,8 @@ class Equations:
             )
         for x, f in self.states:
             _free_of(f"the rate of {x}", f.free_symbols, higher, "x' depends on q, v, x and t alone")
-        states, positions = (
-            {x for x, _ in self.states},
-            (*self.constraints, *self.rolling, *(e for _, e in self.velocities)),
-        )
-        if wrong := states & self.letters.union(*(e.free_symbols for e in positions)):
+        fixed = (*self.constraints, *self.rolling, *(e for _, e in self.velocities))
+        if wrong := self.letters.union(*(e.free_symbols for e in fixed)) & {x for x, _ in self.states}:
             raise InputError(
                 f"System: the state {min(map(str, wrong))} is in L, a constraint or a velocity: its rate would enter their time "
                 "derivatives; write its force into forces, or make it a coordinate"

@@ -117,9 +117,7 @@ def conserved(system: Equations, f: sp.Expr) -> Decision:
     f = expression("conserved: f", f)
     if f.free_symbols & {*system.c.a} or not f.free_symbols & {*system.c.v, *system.variables, t}:
         raise InputError(f"conserved: f = {f} must be an expression in q, v and t")
-    if not system.c.q:
-        rate = time_derivative(system, f)
-    elif system.kinematics is not None and not system.kinematics.stages and not system.left:
+    if system.kinematics is not None and not system.kinematics.stages and not system.left:
         rate = _rate_along_speeds(system, f)
     else:
         a, _ = constrained_accelerations(system)
@@ -180,9 +178,7 @@ def legendre(L: sp.Expr, c: Coordinates, p: Sequence[sp.Symbol]) -> sp.Expr:
 
 def routh(system: Kind, cyclic: str | Sequence[str | sp.Symbol] | Mapping[str | sp.Symbol, sp.Expr]) -> Kind:
     """Reduce a system by cyclic coordinates: `System.routh`."""
-    no_states(
-        "routh", system, "the reduction does not carry their rates over: write the reduced system with its states"
-    )
+    no_states("routh", system, "the reduction does not carry them over: write the reduced system with its states")
     c, L = system.c, system.L
     chosen = _momenta(c, cyclic)
     free = cyclic_coordinates(system)
@@ -284,9 +280,7 @@ def _field(system: Equations, xi: Sequence[sp.Expr]) -> sp.Matrix:
     fits = isinstance(xi, Sequence | sp.MatrixBase) and not isinstance(xi, str) and len(xi) == len(system.c.q)
     field = sp.Matrix([expression(f"noether: ξ[{i}]", e) for i, e in enumerate(xi)]) if fits else sp.Matrix()
     if not system.c.q or field.free_symbols & {x for x, _ in system.states}:
-        no_states(
-            "noether", system, "a symmetry acts on coordinates, ξ(q, v, t): conserved(f) decides about f(q, v, x, t)"
-        )
+        no_states("noether", system, "a symmetry acts on coordinates: conserved(f) decides about f(q, v, x, t)")
     if not fits or field.free_symbols & {*system.c.a}:
         raise InputError(
             f"noether: ξ = {xi}: give one component ξ(q, v, t) for each of {system.c.q}, without accelerations"

@@ -5,7 +5,6 @@ masses, and friction must dissipate energy. The mass matrix and the constraints 
 """
 
 from collections.abc import Iterable, Mapping
-from contextlib import suppress
 from typing import Any
 from warnings import warn
 
@@ -176,11 +175,7 @@ def consistent(
         try:
             placed = project_position(lambda at: matrices(at, v)[1], lambda at: matrices(at, v)[2], q, metric_there)
         except (ConstraintError, SingularError) as error:
-            reduced, redundancy = system, None
-            with suppress(
-                *[ConstraintError] * isinstance(error, ConstraintError)
-            ):  # else constraints contradict each other
-                reduced, redundancy = without_redundant(where, system, values, q, v, float(arguments[0]), True)
+            reduced, redundancy = without_redundant(where, system, values, q, v, float(arguments[0]), True)
             if redundancy is not None:
                 return consistent(where, reduced, values, q0, v0, t)
             raise type(error)(str(error).replace("project_position", where, 1)) from None

@@ -15,13 +15,14 @@ import sympy as sp
 from lagrotor.errors import InputError, LagrotorError, SingularError
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.equilibria import Equilibrium
-from lagrotor.mechanics.running.flow import Array, Values
+from lagrotor.mechanics.running.flow import Values
 from lagrotor.mechanics.running.initial_state import check_values, consistent
 from lagrotor.mechanics.running.programs import depends_on_time, motion_program
 from lagrotor.mechanics.running.state_space import check_smooth, motion_slope, point_state, state_space, tangent_space
 from lagrotor.mechanics.steady_motions import small_turns
 
-_STEPS, _HALVINGS = 200, 30
+_STEPS = 200
+_LEAST = 1e-9  # share of a step, below which the search ends
 _REACH = 0.5  # longest step over 1 + the largest coordinate or state
 _LINEAR = 0.5  # deviation from the linear prediction over the predicted change, beyond which a step is halved
 _SHORT = 1e-15  # step over the size of the state, below which Newton's method has ended
@@ -36,57 +37,41 @@ def nearest_rest(system: Equations, near: Mapping[Any, Any], values: Values) -> 
     if depends_on_time(system):
         raise InputError("rest: a force or a constraint depends on time: there is no equilibrium; simulate it")
     system, y = point_state("rest", system, near, values, moved=True)
-    n, m = len(system.c.q), len(system.speeds)
+    n, m, k = len(system.c.q), len(system.speeds), len(system.states)
     if y[n : n + m].any():
         raise InputError(f"rest: near = {dict(near)} has velocities: give coordinates and states alone")
-    motion, every = motion_slope("rest", motion_program(system), values), [str(s) for s in system.variables]
-
-    def moved(y: Array, step: Array) -> Array:
-        y = y + step
-        if system.multipliers:
-            y[: n + m] = np.concatenate(consistent("rest", system, values, y[:n], 0 * y[n : n + m]))
-        return y
-
-    rate, J, _ = motion(y)
+    motion = motion_slope("rest", motion_program(system), values)
+    check_smooth("rest", motion, y, [f"the rate of {s}" for s in system.variables], near)
+    (rate, J, _), share = motion(y), 1.0
     for _ in range(_STEPS):
-        if not np.isfinite(J).all() or not np.isfinite(rate).all():
-            check_smooth("rest", motion, y, [f"the rate of {s}" for s in every], dict(zip(every, y, strict=True)))
         free, T = tangent_space("rest", system, values, y)
         P = np.array(small_turns(system, y)[0], float)
-        speeds = slice(P.shape[1] - m - len(system.states), P.shape[1] - len(system.states))
-        still = np.flatnonzero(free)
-        columns = P @ T[:, (still < speeds.start) | (still >= speeds.stop)]
-        slope = (J @ columns)[n:]
-        step = -columns @ np.linalg.lstsq(slope, rate[n:], rcond=_RANK)[0]
-        size, share = 1 + np.abs(y).max(initial=0), 1.0
-        share = min(1.0, _REACH * size / max(np.abs(step).max(initial=0), 1e-300))
-        if np.abs(step).max(initial=0) <= _SHORT * size:
+        first = P.shape[1] - m - k  # the small displacements of velocities begin here
+        places = P @ T[:, [not first <= i < first + m for i in np.flatnonzero(free)]]
+        step = -places @ np.linalg.lstsq((J @ places)[n:], rate[n:], rcond=_RANK)[0]
+        length, size = np.abs(step).max(initial=0), 1 + np.abs(y).max()
+        if length <= _SHORT * size:
             break
-        before = np.linalg.norm(rate[n:])
-        for _ in range(_HALVINGS):
-            try:
-                place = moved(y, share * step)
-                after, J_there, _ = motion(place)
-            except LagrotorError:
-                share /= 2
-                continue
-            if np.linalg.norm(after[n:] - (1 - share) * rate[n:]) <= _LINEAR * share * before:
+        share = min(1.0, _REACH * size / length)
+        while share > _LEAST:
+            place = y + share * step
+            if system.multipliers:
+                place[: n + m] = np.concatenate(consistent("rest", system, values, place[:n], y[n : n + m]))
+            after, J_there, _ = motion(place)
+            if np.linalg.norm(after[n:] - (1 - share) * rate[n:]) <= _LINEAR * share * np.linalg.norm(rate[n:]):
                 break
             share /= 2
-        else:
+        if share <= _LEAST:
             break
         y, rate, J = place, after, J_there
-    terms = np.abs(J[n:]) @ (np.abs(y) + 1)
-    if not (np.abs(rate[n:]) <= _ROUNDING * terms).all():
-        at = ", ".join(f"{s} = {x:.6g}" for s, x in zip(every, y, strict=True) if s not in map(str, system.speeds))
+    left = np.abs(rate[n:])
+    at = {s: sp.Float(float(x)) for s, x in zip(system.variables, y, strict=True) if s not in system.speeds}
+    if not (left <= _ROUNDING * (np.abs(J[n:]) @ (np.abs(y) + 1))).all():
         raise SingularError(
-            f"rest: Newton's method ends at {at}, where the rates are still {np.abs(rate[n:]).max():.3g}: there may be no "
-            "equilibrium in this direction; start near={…} nearer to one"
+            f"rest: Newton's method ends at {', '.join(f'{s} = {float(x):.6g}' for s, x in at.items())}, where the rates are "
+            f"still {left.max():.3g}: there may be no equilibrium in this direction; start near={{…}} nearer to one"
         )
-    places = {s: sp.Float(float(x)) for s, x in zip(system.variables, y, strict=True) if s not in system.speeds}
-    return Equilibrium(
-        places, residual=float(np.abs(rate[n:]).max(initial=0)), stability=_stability(system, places, values)
-    )
+    return Equilibrium(at, residual=float(left.max(initial=0)), stability=_stability(system, at, values))
 
 
 def _stability(system: Equations, at: Mapping[sp.Symbol, sp.Expr], values: Values) -> str:

@@ -167,10 +167,8 @@ def first_sizes(bare: Rhs, start: Array, span: float, ends: tuple[int, int, int]
     rate = max(float(np.abs(_rates(bare, start, ends)).max()), 1 / span)
     places, speeds, states = np.split(np.maximum(np.abs(start[:size]), np.abs(rates) / rate), [n, m])
     if m == 2 * n:
-        places, speeds = (
-            np.maximum(places, np.abs(rates[n:m]) / rate / rate),
-            np.maximum(speeds, np.abs(start[:n]) / span),
-        )
+        places = np.maximum(places, np.abs(rates[n:m]) / rate / rate)
+        speeds = np.maximum(speeds, np.abs(start[:n]) / span)
     return np.concatenate([_positive(part, 1e-6) for part in (places, speeds, states)])
 
 

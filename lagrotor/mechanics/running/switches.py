@@ -165,10 +165,8 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
     if not substitutions:
         return system, ()
     if nested := [atom for atom in substitutions if any(atom != outer and atom.has(outer) for outer in substitutions)]:
-        raise InputError(
-            f"simulate: {nested[0]} has a jump within a jump: write each case as a system of its own, "
-            "and a saturation Max(-a, Min(a, u)) as (Abs(u + a) - Abs(u - a))/2"
-        )
+        way = "write each case as a system of its own, a saturation Max(-a, Min(a, u)) as (Abs(u + a) - Abs(u - a))/2"
+        raise InputError(f"simulate: {nested[0]} has a jump within a jump: {way}")
     slopes = [derivative(L, s) for s in (*system.c.q, *system.c.v)]
     steps = {(step, e) for e in slopes for step in e.atoms(sp.DiracDelta)}
     if jumps := [step.args[0] for step, e in steps if _is_a_jump(step, e, (*system.c.q, *system.c.v))]:
@@ -195,12 +193,13 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
         states=tuple((x, f.xreplace(substitutions)) for x, f in system.states),
     )
     surfaces = tuple(Surface(w, s, _friction(smooth, w, s)) for w, s in signs.items())
-    for surface in surfaces:
-        if surface.bound not in (None, 0) and surface.argument.free_symbols & {x for x, _ in system.states}:
-            raise InputError(
-                f"simulate: dry friction on {surface.argument} = 0 would bind a velocity to a first-order state: make the state "
-                "the velocity of a coordinate, or the friction smooth, tanh(w/w_0) for sign(w)"
-            )
+    if bound := [
+        s.argument for s in surfaces if s.bound not in (None, 0) and s.argument.free_symbols & {*dict(system.states)}
+    ]:
+        way = "make the state the velocity of a coordinate, or the friction smooth, tanh(w/w_0) for sign(w)"
+        raise InputError(
+            f"simulate: dry friction on {bound[0]} = 0 would bind a velocity to a first-order state: {way}"
+        )
     return smooth, surfaces
 
 

@@ -198,8 +198,8 @@ def test_a_state_that_depends_on_time_and_a_function() -> None:
 
 REFUSED: dict[str, Callable[[], Any]] = {
     "no coordinates and no states": lambda: System(),
-    "must be {x: rate of x}, a dictionary": lambda: System(C, C.theta_dot**2, states=[I]),  # type: ignore[arg-type]
-    "must be a symbol that is no coordinate": lambda: System(C, C.theta_dot**2, states={C.theta: 1}),
+    "must be a dictionary {x: rate of x}": lambda: System(C, C.theta_dot**2, states=[I]),  # type: ignore[arg-type]
+    "each x a symbol that is no coordinate": lambda: System(C, C.theta_dot**2, states={C.theta: 1}),
     "the rate of I contains theta_ddot": lambda: System(C, C.theta_dot**2, states={I: C.theta_ddot}),
     "write its force into forces": lambda: System(C, C.theta_dot**2 - I * C.theta, states={I: -I}),
     "in L, a constraint or a velocity": lambda: System(C, C.theta_dot**2, rolling=(C.theta_dot - I,), states={I: -I}),
