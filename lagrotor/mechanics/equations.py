@@ -97,21 +97,14 @@ class Equations:
 
     def _take_states(self) -> None:
         """Store the first-order states as pairs (x, f), f the rate of x."""
-        entries, moving = self.states, {*self.c.q, *self.c.v, *self.c.a, t}
-        symbols = (
-            [*entries]
-            if isinstance(entries, Mapping)
-            else [x for x, _ in entries]
-            if isinstance(entries, tuple)
-            else [0]
-        )
-        if not all(isinstance(x, sp.Symbol) and x not in moving and symbols.count(x) == 1 for x in symbols):
+        given: Any = self.states if isinstance(self.states, Mapping | tuple) else {0: 0}
+        states, moving = dict(given), {*self.c.q, *self.c.v, *self.c.a, t}
+        if not all(isinstance(x, sp.Symbol) and x not in moving for x in states):
             way = "a dictionary {x: rate of x}, each x a symbol that is no coordinate, velocity or time"
-            raise InputError(f"System: states = {entries!r} must be {way}")
-        if not symbols and not self.c.q:
+            raise InputError(f"System: states = {self.states!r} must be {way}")
+        if not states and not self.c.q:
             raise InputError("System: no coordinates and no states: give System(c, L) or System(states={x: rate})")
-        rates = entries.items() if isinstance(entries, Mapping) else entries
-        pairs = tuple((x, expression(f"System: states[{x}]", f)) for x, f in rates)
+        pairs = tuple((x, expression(f"System: states[{x}]", f)) for x, f in states.items())
         object.__setattr__(self, "states", pairs)
 
     def _take_velocities(self) -> None:
@@ -208,7 +201,7 @@ class Equations:
         for x, f in self.states:
             _free_of(f"the rate of {x}", f.free_symbols, higher, "x' depends on q, v, x and t alone")
         fixed = (*self.constraints, *self.rolling, *(e for _, e in self.velocities))
-        if wrong := self.letters.union(*(e.free_symbols for e in fixed)) & {x for x, _ in self.states}:
+        if wrong := self.letters.union(*(e.free_symbols for e in fixed)) & {*dict(self.states)}:
             raise InputError(
                 f"System: the state {min(map(str, wrong))} is in L, a constraint or a velocity: its rate would enter their time "
                 "derivatives; write its force into forces, or make it a coordinate"
@@ -274,7 +267,7 @@ class Equations:
     @property
     def variables(self) -> tuple[sp.Symbol, ...]:
         """The components of a state: the coordinates q, the velocities u and the first-order states x."""
-        return (*self.c.q, *self.speeds, *(x for x, _ in self.states))
+        return (*self.c.q, *self.speeds, *dict(self.states))
 
     @property
     def speed_rates(self) -> tuple[sp.Symbol, ...]:

@@ -102,9 +102,7 @@ def _in_box(
     system, values = put_functions("equilibria", system, values)
     if called := [str(name) for name, value in values.items() if isinstance(value, FunctionValue)]:
         raise InputError(f"equilibria: {called[0]} is a callable or a table: an enclosure needs an expression")
-    no_states(
-        "equilibria", system, "a box holds coordinates alone: leave out box and values, or use rest(near=…, values=…)"
-    )
+    no_states("equilibria", system, "a box holds coordinates alone: leave out box and values, or use rest")
     c = system.c
     values = {name: value for name, value in values.items() if not isinstance(value, sp.Lambda)}
     if len(system.constraints) > 1:
@@ -240,7 +238,7 @@ def _unknowns(system: Equations, unknowns: str | Sequence[str | sp.Symbol]) -> t
     by_name = {str(s): s for s in sorted(symbols, key=str)}
     if strangers := [str(name) for name in names if str(name) not in by_name]:
         raise InputError(f"equilibria: no {', '.join(strangers)} in the system: solve for some of {', '.join(by_name)}")
-    return tuple(by_name[str(name)] for name in names) or (*system.c.q, *(x for x, _ in system.states))
+    return tuple(by_name[str(name)] for name in names) or (*system.c.q, *dict(system.states))
 
 
 def _polynomials(

@@ -121,10 +121,6 @@ def coordinates(names: str | Sequence[str]) -> Coordinates:
     if not isinstance(names, Sequence):
         raise InputError(f"coordinates: {names!r} must be names: coordinates('phi theta psi')")
     stems = names.replace(",", " ").split() if isinstance(names, str) else list(names)
-    if not stems:
-        raise InputError(
-            "coordinates: no name: give at least one; equations of first order are System(states={x: rate of x})"
-        )
     if strange := [stem for stem in stems if not isinstance(stem, str)]:
         raise InputError(f"coordinates: {strange[0]!r} must be a name: coordinates('phi theta psi')")
     if odd := [e for e in stems if not re.fullmatch(r"\\?[^\W\d_]\S*", e) or e.count("{") != e.count("}")]:

@@ -135,9 +135,8 @@ def state_equations(
     with time, or the point is off the constraints.
     """
     kinematics = system.kinematics
-    V, F = (sp.Matrix(len(system.c.q), 1, system.c.v), system.motion)
-    if kinematics is not None:
-        V, F = kinematics.velocity, system.hamel
+    plain = sp.Matrix(len(system.c.q), 1, system.c.v), system.motion
+    V, F = plain if kinematics is None else (kinematics.velocity, system.hamel)
     velocity_of = dict(zip(system.c.v, V, strict=True))
     named = [expression(f"linearise: outputs[{i}]", e) for i, e in enumerate(outputs)]
     measured = [_in_speeds(system, e, velocity_of) for e in named]

@@ -82,7 +82,7 @@ def variation(system: Equations, xi: Sequence[sp.Expr]) -> sp.Expr:
 def invariance(system: Equations, xi: Sequence[sp.Expr], gauge: sp.Expr = sp.S.Zero) -> Decision:
     """Decide if δL + Q · ξ = dF/dt and G ξ = 0 identically: `System.invariance`."""
     gauge = expression("noether: gauge", gauge)
-    if higher := gauge.free_symbols & {*system.c.a, *(x for x, _ in system.states)}:
+    if higher := gauge.free_symbols & {*system.c.a, *dict(system.states)}:
         raise InputError(
             f"noether: gauge = {gauge} contains {', '.join(map(str, higher))}: F depends on q, v and t alone"
         )
@@ -279,7 +279,7 @@ def _vanish(expressions: Sequence[sp.Expr]) -> bool:
 def _field(system: Equations, xi: Sequence[sp.Expr]) -> sp.Matrix:
     fits = isinstance(xi, Sequence | sp.MatrixBase) and not isinstance(xi, str) and len(xi) == len(system.c.q)
     field = sp.Matrix([expression(f"noether: ξ[{i}]", e) for i, e in enumerate(xi)]) if fits else sp.Matrix()
-    if not system.c.q or field.free_symbols & {x for x, _ in system.states}:
+    if not system.c.q or field.free_symbols & {*dict(system.states)}:
         no_states("noether", system, "a symmetry acts on coordinates: conserved(f) decides about f(q, v, x, t)")
     if not fits or field.free_symbols & {*system.c.a}:
         raise InputError(

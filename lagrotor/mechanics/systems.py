@@ -359,8 +359,8 @@ class System(Equations):
     def rest(self, near: "Mapping[Any, Any] | Equilibrium", values: "Values") -> Equilibrium:
         """Find the equilibrium to which Newton's method leads from a configuration, also in closed loops.
 
-        The steps are short enough to stay in the neighbourhood, and the last ones go to rounding, so that `linearise` takes the
-        result. It may be stable or not. Where equilibria are not isolated, the nearest to the last step is returned.
+        The steps stay in the neighbourhood, and the last ones go to rounding, so that `linearise` takes the result. It may be
+        unstable. If equilibria are not isolated, it is one of them.
 
         Parameters
         ----------

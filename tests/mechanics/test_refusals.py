@@ -124,7 +124,7 @@ def boxed(system: System = pendulum, values: Any = VALUES, box: Any = None) -> A
 REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
     InputError: {
         # Coordinates
-        "coordinates: no name": lambda: coordinates(""),
+        "no coordinates and no states": lambda: System(coordinates(""), 0),
         "2 coordinates, 1 velocities, 2 accel": lambda: Coordinates(P.q, (u,), P.a),
         "coordinates: 3 must be names": lambda: coordinates(3),
         "coordinates: x must be a name": lambda: coordinates([sp.Symbol("x")]),

@@ -117,7 +117,7 @@ class SampledMotion(Run):
         >>> System(c, c.v[0]**2 / 2).simulate({}, (0,), (1,), [0, 1]).summary()["ending"]
         'the last time was reached'
         """
-        rows = {"coordinates": self.system.c.q, "states": tuple(x for x, _ in self.system.states)}
+        rows = {"coordinates": self.system.c.q, "states": dict(self.system.states)}
         return {name: ", ".join(map(str, symbols)) for name, symbols in rows.items() if symbols} | super().summary()
 
     @property
@@ -166,8 +166,9 @@ class SampledMotion(Run):
         """
         both = zip(self.system.multiplier_names, self.system.multipliers, strict=True)
         lost = self.redundancy.undetermined if self.redundancy else ()
-        determined = {name: self.evaluate(lam) for name, lam in both if name not in lost}
-        return _Reactions(determined, self.redundancy) if self.redundancy else determined
+        reactions = _Reactions((name, self.evaluate(lam)) for name, lam in both if name not in lost)
+        reactions.redundancy = self.redundancy
+        return reactions
 
     def evaluate(self, expression: sp.Expr) -> Array:
         """Evaluate an expression along the run.
@@ -294,14 +295,12 @@ class SampledMotion(Run):
 
 
 class _Reactions(dict[str, Array]):
-    """Reactions by name, of a system with redundant constraints; those that are not determined are refused."""
+    """Reactions by name; those of dependent constraints are refused."""
 
-    def __init__(self, determined: dict[str, Array], redundancy: Redundancy) -> None:
-        super().__init__(determined)
-        self.redundancy = redundancy
+    redundancy: Redundancy | None = None
 
     def __missing__(self, name: str) -> Array:
-        if name in self.redundancy.undetermined:
+        if self.redundancy and name in self.redundancy.undetermined:
             raise InputError(f"reactions: {name} is not determined: {self.redundancy.words}")
         raise KeyError(name)
 

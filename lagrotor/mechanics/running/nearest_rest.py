@@ -80,10 +80,8 @@ def _stability(system: Equations, at: Mapping[sp.Symbol, sp.Expr], values: Value
         rates = state_space(system, at, values, where="rest").rates
     except LagrotorError:
         return "unknown: the linear equations are not regular there"
-    largest = float(np.abs(rates).max(initial=0))
-    growth = float(rates.real.max(initial=-np.inf))
-    if growth > _BOUNDED * largest:
-        return f"unstable: a small motion grows at {growth:.4g} 1/s"
-    if growth < -_BOUNDED * largest:
-        return f"stable: every small motion decays, the slowest at {-growth:.4g} 1/s"
-    return "no small motion grows exponentially"
+    growth, least = float(rates.real.max(initial=-np.inf)), _BOUNDED * float(np.abs(rates).max(initial=0))
+    if abs(growth) <= least:
+        return "no small motion grows exponentially"
+    verdict = "unstable: a small motion grows" if growth > 0 else "stable: every small motion decays, the slowest"
+    return f"{verdict} at {abs(growth):.4g} 1/s"

@@ -6,6 +6,7 @@ constraint must hold wherever the kept ones hold. Row i has a determined multipl
 """
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any, NamedTuple, TypeVar
 
@@ -20,12 +21,11 @@ from lagrotor.mechanics.running.programs import function_program
 from lagrotor.mechanics.running.singular_positions import rows_at
 
 Kind = TypeVar("Kind", bound=Equations)
-_SUSPECT = 1e-5  # least singular value of scaled rows, below which the rank is measured
-_DEPENDENT = 1e-8  # part of a scaled row outside the span of the others, below which it is dependent
+_SUSPECT, _DEPENDENT = 1e-5, 1e-8  # least singular value of scaled rows: measure the rank; dependent
+_LATER = 1e-4  # weight of rolling constraints: a holonomic one is kept before them, unless it is nearly dependent
 _HOLDS = 1e-10  # distance from a constraint over 1 + the largest coordinate
 _TAKES_PART = 1e-6  # entry of a left null vector of the rows, from which a multiplier is not determined
-_NEAR, _STATES = 1e-3, 3  # distance and number of the states near the start
-_STEPS = 100  # of Newton's method, which is slow near dependent rows
+_NEAR, _STATES, _STEPS = 1e-3, 3, 100  # distance and number of states near the start; steps of Newton's method
 
 
 class Redundancy(NamedTuple):
@@ -67,18 +67,17 @@ def without_redundant(
         return system, None
     _check_contradiction(where, names, G, offset, 1 + np.abs(offset).max())
     near = [(q, G), *((place, rows(place)[0]) for place in _neighbours(rows, q, kept, h))]
-    if any(len(_independent(G_there, h)) > len(kept) for _, G_there in near):
-        return system, None  # a singular position, whose neighbours have more independent rows
-    if any((np.abs(rows(p)[1][[i for i in dropped if i < h]]) > _HOLDS * (1 + np.abs(p).max())).any() for p, _ in near):
-        return system, None
+    singular = any(len(_independent(G_there, h)) > len(kept) for _, G_there in near)
+    if singular or any((np.abs(rows(p)[1]) > _HOLDS * (1 + np.abs(p).max())).any() for p, _ in near):
+        return system, None  # near a singular position the rows are independent, or a dropped constraint does not hold
     null = np.max([np.abs(np.linalg.svd(G_there)[0][:, len(kept) :]).max(1) for _, G_there in near], axis=0)
-    undetermined = [names[int(i)] for i in np.flatnonzero(null > _TAKES_PART)]
-    reduced, redundancy = without(system, [names[i] for i in dropped], undetermined)
-    if rubbing := redundancy.symbols & system.generalised_forces.free_symbols:
+    lost = np.flatnonzero(null > _TAKES_PART).tolist()
+    if rubbing := {system.multipliers[i] for i in lost} & system.generalised_forces.free_symbols:
         raise InputError(
-            f"{where}: a force depends on {min(rubbing, key=str)}, which is not determined: {redundancy.words}"
+            f"{where}: a force depends on {min(rubbing, key=str)}, which is not determined, as the constraints "
+            f"{', '.join(names[i] for i in lost)} are dependent: leave out {', '.join(names[i] for i in dropped)}"
         )
-    return reduced, redundancy
+    return without(system, [names[i] for i in dropped], [names[i] for i in lost])
 
 
 def without(system: Kind, dropped: Sequence[str], undetermined: Sequence[str]) -> tuple[Kind, Redundancy]:
@@ -143,16 +142,14 @@ def _check_contradiction(where: str, names: Sequence[str], G: Array, residual: A
 
 
 def _independent(G: Array, h: int) -> list[int]:
-    """Return the indices of independent rows of length one, in ascending order. The first h, of holonomic constraints, have
-    priority; within both groups the row with the largest part outside the span of those before it comes next."""
-    chosen, remainder = list[int](), G
-    for group in (slice(0, h), slice(h, len(G))):
-        while (sizes := np.linalg.norm(remainder[group], axis=1)).max(initial=0) > _DEPENDENT:
-            i = group.start + int(sizes.argmax())
-            direction = remainder[i] / np.linalg.norm(remainder[i])
-            remainder = remainder - np.outer(remainder @ direction, direction)
-            chosen.append(i)
-    return sorted(chosen)
+    """Return the indices of independent rows of length one, in ascending order. The first h, of holonomic constraints, come
+    before the others by their weight in the pivoted factorization."""
+    from scipy.linalg import qr
+
+    weight = np.where(np.arange(len(G)) < h, 1.0, _LATER)
+    _, triangle, order = qr((G * weight[:, None]).T, mode="economic", pivoting=True)
+    sizes = np.abs(np.diag(triangle)) / weight[order[: len(triangle)]]
+    return sorted(order[: len(triangle)][sizes > _DEPENDENT].tolist())
 
 
 def _neighbours(rows: Rows, q: Array, kept: Sequence[int], h: int) -> list[Array]:
@@ -161,10 +158,7 @@ def _neighbours(rows: Rows, q: Array, kept: Sequence[int], h: int) -> list[Array
     random, first, near = np.random.default_rng(1), [i for i in kept if i < h], list[Array]()
     for direction in random.normal(size=(_STATES, len(free))) @ free if len(free) else ():
         place = np.asarray(q + _NEAR * np.clip(np.abs(q).max(), _NEAR, 1) * direction)
-        try:
-            if first:
-                place = project_position(lambda p: rows(p)[1][first], lambda p: rows(p)[0][first], place)
-        except LagrotorError:
-            continue
-        near.append(place)
+        with suppress(LagrotorError):
+            place = np.asarray(project_position(lambda p: rows(p)[1][first], lambda p: rows(p)[0][first], place), float)
+            near.append(place)
     return near

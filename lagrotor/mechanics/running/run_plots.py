@@ -34,9 +34,9 @@ def plot(run: SampledMotion, *quantities: Any) -> "RunFigure":
 
     check_nonempty("plot", run.t)
     if not quantities:
-        both = (*run.system.c.q, *(x for x, _ in run.system.states))
+        both = (*run.system.c.q, *dict(run.system.states))
         labels = {f"${letter_latex(s)}$": values for s, values in zip(both, (*run.q.T, *run.x.T), strict=True)}
-        return coordinates_figure(run.t, labels, run.energy, run.drift)
+        return coordinates_figure(run.t, labels, run.energy, run.drift) if run.q.size else curves_figure(run.t, labels)
     curves = (_curve(run, quantity) for quantity in quantities)
     return curves_figure(run.t, {label.replace(r"\&", "&"): values for label, values in curves})  # matplotlib's escape
 

@@ -90,8 +90,7 @@ class SystemRun(SampledMotion):
     switched : Switched
         The system with its events.
     redundancy : Redundancy or None, default None
-        The constraints that the run leaves out because they follow from the others, and the reactions that are therefore not
-        determined.
+        The constraints that the run leaves out as they follow from others, and the reactions that are not determined.
 
     Examples
     --------
@@ -421,8 +420,7 @@ def simulate_system(
         engine=engine, scales=scales, states=estimate.states, local=estimate.local, switched=h, redundancy=redundancy,
     )  # fmt: skip
     hint = narrowest_words(h.system, h.numbers(h.slipping), h.narrow, estimate)
-    named = (*system.c.q, *(x for x, _ in system.states))
-    estimate.warn_unless_kept(", ".join(map(str, named)), tol, 3, hint)
+    estimate.warn_unless_kept(", ".join(map(str, (*system.c.q, *dict(system.states)))), tol, 3, hint)
     if system.multipliers:
         _warn_of_dependence(run)
     run = run if h.smooth else _cut_at_event(run)
@@ -431,9 +429,8 @@ def simulate_system(
 
 def _cut_where_redundant_fail(run: SystemRun, redundancy: Redundancy) -> SystemRun:
     """Cut a run before the first sample at which a constraint that was left out does not hold."""
-    allowed = np.outer(
-        [_ALLOWED * sections.change(run, e) for e in redundancy.residuals], np.maximum(run.errors, run.tol)
-    )
+    sizes = [_ALLOWED * sections.change(run, e) for e in redundancy.residuals]
+    allowed = np.outer(sizes, np.maximum(run.errors, run.tol))
     i = int(np.argmax((np.abs(run._values(*redundancy.residuals)) > allowed).any(0)))
     if i == 0:
         return run
@@ -542,12 +539,11 @@ def _warn_of_dependence(run: SystemRun) -> None:
 def _bound_by_redundant(run: SystemRun, states: Array, times: Array, G: Array, at: float) -> bool:
     """Return True if constraints that were left out determine the motion where the others, with the rows G, become dependent, as
     two coupling rods at a right angle do at the dead point of one."""
-    if run.redundancy is None or run.system.kinematics is not None:
-        return False
-    program = function_program(run.system, *jacobian(run.redundancy.residuals, run.system.c.v))
+    residuals = run.redundancy.residuals if run.redundancy and run.system.kinematics is None else ()
+    program = function_program(run.system, *jacobian(residuals, run.system.c.v))
     others = program.along(run.values)(states, times).T.reshape(len(times), -1, G.shape[2])
     least = np.linalg.svd(np.concatenate([G, others], axis=1), compute_uv=False)[:, G.shape[1] - 1]
-    return bool(least[times == at] > _BOUND * np.median(least))
+    return bool(residuals) and bool(least[times == at] > _BOUND * np.median(least))
 
 
 def _as_text(values: Sequence[float] | Array) -> str:

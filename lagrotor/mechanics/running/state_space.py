@@ -135,9 +135,7 @@ def state_space(
         rates = [*(system.c.a if system.kinematics is None else [f"{u}'" for u in system.speeds])]
         rates += [f"{x}'" for x, _ in system.states]
         rates_text = ", ".join(f"{a} = {x:.3g}" for a, x in zip(rates, rate[n:], strict=True) if abs(x) > least)
-        raise SingularError(
-            f"{where}: {dict(at)} is no steady motion: {rates_text} is not zero; system.rest(near=…, values=…) finds one"
-        )
+        raise SingularError(f"{where}: {dict(at)} is no steady motion: {rates_text} is not zero; system.rest finds one")
     A, P, inverse = local_slope(system, start, rate, J)
     later = start + np.concatenate([rate[:n], np.zeros(d - n)]) / size
     for joint in system.ball_joints:  # a turn about a fixed axis
@@ -182,7 +180,7 @@ def point_state(
         moving = dict(zip(system.variables, motion.program.arguments, strict=False))  # a program may rename symbols
         if missing := [str(s) for s in omitted if moving[s] in _parts(motion)[0]]:
             raise InputError(
-                f"{where}: {', '.join(missing)} without a value: give each coordinate and state of the point one"
+                f"{where}: {', '.join(missing)} without a value: the point needs each coordinate and state"
             )
     if strangers := [str(s) for s in point if s not in system.variables]:
         names = "" if system.kinematics is None else f" ({', '.join(map(str, system.speeds))})"

@@ -68,7 +68,7 @@ def test_a_four_bar_linkage_agrees_with_its_reduction_to_one_angle() -> None:
     again = FOUR_BAR.rest(place, VALUES)
     assert {s: float(x) for s, x in again.at.items()} == pytest.approx({s: float(x) for s, x in place.at.items()})
     assert "largest rate left" in place.summary()
-    with pytest.raises(SingularError, match=r"system\.rest\(near=…, values=…\) finds one"):
+    with pytest.raises(SingularError, match=r"system\.rest finds one"):
         SWING.linearise({"theta": 1e-6}, {})
 
 
