@@ -56,7 +56,8 @@ def without_redundant(
     if not moved:
         G = rows_at(system, values, np.concatenate([q, u, np.zeros(len(system.states)), [t]]))
         length = np.linalg.norm(G, axis=1, keepdims=True)
-        if not np.isfinite(G).all() or (length.all() and np.linalg.svd(G / length, compute_uv=False)[-1] > _SUSPECT):
+        wide = np.isfinite(G).all() and length.all() and len(G) <= G.shape[1]
+        if not np.isfinite(G).all() or (wide and np.linalg.svd(G / length, compute_uv=False)[-1] > _SUSPECT):
             return system, None
     h, names, rows = len(system.constraints), system.multiplier_names, _rows(system, values, t)
     q = _closed(where, names, rows, h, q)

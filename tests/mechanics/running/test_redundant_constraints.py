@@ -137,7 +137,7 @@ REFUSED: dict[str, tuple[type[LagrotorError], Callable[[], Any]]] = {
             C, BALL, constraints=(C.y, 2 * C.y), dissipation=sp.Abs(reaction(1)) * sp.Abs(C.x_dot) / 9
         ).simulate({}, [0, 0], [1, 0], TIMES),
     ),
-    "which is not determined, as the constraints 1, 2 are dependent: leave out 1": (
+    "which is not determined, as the constraints 1, 2 are dependent: leave out 2": (
         InputError,
         lambda: System(C, BALL, constraints=(C.y, 2 * C.y, C.x), forces=(0, reaction(1) + reaction(2))).simulate(
             {}, [0, 0], [0, 0], TIMES
