@@ -232,7 +232,7 @@ class Switched:
             tuple(e.xreplace(still) for e in base.forces),
             names,
             velocities=base.velocities,
-            states=tuple((x, f.xreplace(still)) for x, f in base.states),
+            states=base.states,
         )
         lam, first = system.multipliers, len(base.constraints)
         conditions: list[tuple[str, int, sp.Expr]] = []

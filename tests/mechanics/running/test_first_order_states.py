@@ -183,6 +183,12 @@ def test_bodies_constraints_and_quasi_velocities_take_states() -> None:
     own = System(d, kinetic, velocities={u: d.phi_dot}, **wheel).simulate(values, [0, 0], [1], [0, 2], x0=[0])
     np.testing.assert_allclose(own.q, plain.q, atol=1e-8)
     np.testing.assert_allclose(own.x, plain.x, atol=1e-8)
+    # 5 phi'' = −phi + k I, I' = U − I − k phi'
+    by_hand = np.linalg.eigvals([[0, 1, 0], [-0.2, 0, 0.1], [0, -0.5, -1]])
+    for velocities in ({}, {u: d.phi_dot}):
+        held = System(d, kinetic - d.phi**2 / 2, velocities=velocities, **wheel)
+        rates = held.linearise({"s": 0, "phi": 1.5, "I": 3}, {R: 2, k: 0.5, U: 3}).rates
+        np.testing.assert_allclose(np.sort_complex(rates[np.abs(rates) > 1e-9]), np.sort_complex(by_hand), rtol=1e-9)
 
 
 def test_a_state_that_depends_on_time_and_a_function() -> None:

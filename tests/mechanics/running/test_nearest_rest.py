@@ -80,6 +80,12 @@ def test_the_search_stays_in_the_neighbourhood(near: float, at: float, words: st
     assert words in place.stability
 
 
+def test_a_step_is_shortened_where_the_force_is_not_linear() -> None:
+    """The force tanh 10 θ, whose slope at 0.3 is a hundredth of that at rest: steps of the full length would alternate."""
+    place = System(C, C.theta_dot**2 / 2 - sp.log(sp.cosh(10 * C.theta))).rest({"theta": 0.3}, {})
+    assert float(place.at[C.theta]) == pytest.approx(0, abs=1e-12)
+
+
 def test_rest_of_ball_joints_and_of_rolling_bodies() -> None:
     """A body hangs below its ball joint; a loaded wheel rolls to the place where its load is lowest, x = R θ."""
     c = coordinates("q0 q1 q2 q3")
@@ -102,6 +108,10 @@ REFUSED: dict[str, tuple[type[LagrotorError], Callable[[], Any]]] = {
     "no derivative everywhere": (
         InputError,
         lambda: System(C, C.theta_dot**2 - C.theta**2, dissipation=sp.Abs(C.theta_dot)).rest({"theta": 1}, {}),
+    ),
+    "no value or no derivative": (
+        SingularError,
+        lambda: System(P, sum(v**2 for v in P.v) - sp.sqrt(P.A**2 + P.B**2)).rest({"A": 0, "B": 0}, {}),
     ),
     "not reached the constraints": (
         ConstraintError,

@@ -77,6 +77,8 @@ def test_a_constraint_beside_its_twin(twin: str, tmp_path: Path) -> None:
     for refused in (lambda: run.reactions["2"], lambda: run.evaluate(system.multipliers[1])):
         with pytest.raises(InputError, match=r"is not determined: the constraints 1, 2 are dependent .*leave . out"):
             refused()
+    np.testing.assert_allclose(system.consistent({}, [0, -1.2], [1, 0.3]), [[0, -1], [1, 0]], atol=1e-12)
+    np.testing.assert_allclose(system.consistent({}, [0, -1], [1, 0.3]), [[0, -1], [1, 0]], atol=1e-12)
     again = SystemRun.load(run.save(tmp_path / "twin.npz"), system)
     np.testing.assert_array_equal(again.drift, run.drift)
     with pytest.raises(InputError, match="not determined"):
