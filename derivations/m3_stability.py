@@ -12,10 +12,12 @@ from lagrotor.benchmark.limits.step_size import limits
 from lagrotor.paper import Table
 
 thresholds = limits(quick=True)
-list(dict.fromkeys(x.regime for x in thresholds))
+f"The regimes are: {'; '.join(dict.fromkeys(x.regime for x in thresholds))}."
 
 # %% [markdown]
 # ## Predicted and measured thresholds
+#
+# Figure m1 shows the range of use of the closed forms.
 
 # %%
 tables = [

@@ -47,6 +47,7 @@ myst_heading_anchors = 3
 nb_execution_mode = "force"
 nb_execution_raise_on_error = True
 nb_execution_timeout = 300
+nb_render_markdown_format = "myst"  # of the formulas of a system
 autodoc_default_options = {"members": True, "inherited-members": "dict, tuple, list, str, Exception"}
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"  # numpydoc's sections have the types

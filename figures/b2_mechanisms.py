@@ -13,7 +13,7 @@ from matplotlib.ticker import LogFormatterSciNotation, LogLocator
 
 from lagrotor.benchmark.mechanism_tables import mechanism_name
 from lagrotor.benchmark.records import LINKS, record_age, recorded_bodies_and_lagrangians, recorded_mechanisms
-from lagrotor.drawing import OKABE_ITO
+from lagrotor.drawing import OKABE_ITO, legend_below
 
 BESIDE = ("lagrotor, bodies", "KanesMethod", "LagrangesMethod")  # of the record of bodies and Lagrangians
 LOOKS = {
@@ -26,7 +26,7 @@ LOOKS = {
     "Pinocchio": ("black", "P"),
     "Drake": ("olive", "p"),
 }
-WHAT = {"ready": "time to be ready [s]", "rhs": "a right-hand side [µs]"}
+WHAT = {"ready": "time until ready (s)", "rhs": "time of a right-hand side (µs)"}
 
 TITLE = "Other tools on growing mechanisms"
 ALT = (
@@ -67,7 +67,8 @@ def measure() -> dict[str, float]:
 
 _BESIDE, _OTHERS = recorded_bodies_and_lagrangians(), recorded_mechanisms()
 CAPTION = (
-    "Processor times of several tools. Each tool runs in its own process, and its right-hand side equals the others' "
+    "Processor times of several tools: (a), (b) until the mechanism is ready, (c), (d) of a right-hand side. Each tool "
+    "runs in its own process, and its right-hand side equals the others' "
     "to 1e-9. Solid "
     f"lines are one run on {_BESIDE['machine']['processor']}. "
     f"{record_age('bodies_and_lagrangians', _BESIDE['date'], _BESIDE['digest'])} Dotted lines are "
@@ -82,7 +83,7 @@ CAPTION = (
 def figure() -> Figure:
     """A row for each measure, a column for each mechanism."""
     d = data()
-    picture = Figure(figsize=(9.0, 7.0))
+    picture = Figure(figsize=(8.6, 7.2))
     panels = picture.subplots(2, 2)
     for row, (what, label) in zip(panels, WHAT.items(), strict=True):
         for panel, kind in zip(row, ("rods", "gyroscopes"), strict=True):
@@ -90,11 +91,13 @@ def figure() -> Figure:
                 line = {"color": OKABE_ITO.get(colour, colour), "marker": marker, "markersize": 5, "linewidth": 1.0}
                 line["linestyle"] = "-" if name in BESIDE else ":"
                 panel.loglog(d[f"n of {kind}"], seconds * (1e6 if what == "rhs" else 1), label=name, **line)
-            panel.set(xlabel=f"number of {kind} [1]", ylabel=label, title=kind)
+            panel.set(
+                xlabel=f"number of {kind}", ylabel=label, title=f"{kind.capitalize()}: {label.rpartition(' (')[0]}"
+            )
             panel.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if what == "rhs" else (1,)))
             panel.yaxis.set_major_formatter("{x:g}" if what == "rhs" else LogFormatterSciNotation())
             panel.set_xticks(d[f"n of {kind}"], [str(n) for n in d[f"n of {kind}"]])
             panel.minorticks_off()
             panel.margins(x=0.04)
-    picture.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
+    legend_below(picture, 4)
     return picture

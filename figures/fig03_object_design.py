@@ -94,7 +94,7 @@ def figure() -> Figure:
         side[name] = (left, left + width, top, top - height)
     (_, right, top, bottom), (left, end, _, foot) = side["RigidBody"], side["RigidBodySystem"]
     arrow(axes, (right, (top + bottom) / 2), (left, (top + bottom) / 2), width=1.4)
-    arrow(axes, (side["Force"][1], side["Force"][2] - 0.2), (left + 0.4, foot), width=1.4)
+    arrow(axes, (side["Force"][1], side["Force"][2] - 0.2), (left + 0.1, foot), width=1.4)
     arrow(axes, ((left + end) / 2 + 0.2, foot), ((left + end) / 2 + 0.2, side["Runs"][2]), width=1.4)
     return drawn
 

@@ -78,5 +78,5 @@ def figure() -> Figure:
         arrow(axes, start, start + 0.36 * sign * force, MARK, 2.4)
     label(axes, point + 0.07 * n, r"$\vec F$ on the body", MARK, (-44, 8), fontsize=10)
     label(axes, foot + 0.07 * n - 0.36 * force, r"$-\vec F$ on the ground", MARK, (-60, 2), fontsize=10)
-    label(axes, (point + foot) / 2, "$S$, $D$", INK, (24, -4))
+    label(axes, (point + foot) / 2, "$S$, $D$", INK, (34, -8))
     return drawn

@@ -21,7 +21,8 @@ TITLE = "Equal spins: the moving bodies"
 CAPTION = (
     f"Run of the spring-link model with S = {STIFFNESS:g} N/m and D = {DAMPING:g} kg/s (n = 20 and omega_s = 10 rad/s "
     "in 4.01) and "
-    f"the paper's step of {STEP:g} s. The spins are 10 and 10 rad/s, the bar has 1 kg and 1 kg m². Between consecutive pictures "
+    f"the paper's step of {STEP:g} s. The spins are 10 and 10 rad/s, the bar has 1 kg and 1 kg m². Between consecutive "
+    "pictures (a) to (d) "
     "the rotors make a quarter of a turn: the marked spoke turns, while the axes stay upright. The wheels are not drawn to the "
     "scale of the inertia."
 )

@@ -11,7 +11,7 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor.drawing import MODEL_COLOUR, OKABE_ITO
+from lagrotor.drawing import MODEL_COLOUR, OKABE_ITO, legend_below
 from lagrotor.models import paper_system, run_steps
 from lagrotor.pair import DAMPING, SCENES, STEP, STIFFNESS
 
@@ -71,8 +71,8 @@ CAPTION = (
     f"Run of the spring-link model with the paper's step of {STEP:g} s, S = {STIFFNESS:g} N/m and D = {DAMPING:g} kg/s (n = 20, "
     "omega_s = 10 rad/s in 4.01, as in figure 10), a bar of 1 kg and 1 kg m², and spins of 10 and 10 rad/s. The bar starts "
     f"{BAR_HEIGHT:g} m above the ground joints instead of {RIGHT_HEIGHT:g} m. The paper plots only the kinetic "
-    "energy. It rises to "
-    f"{_peak:.1f} J after {1000 * _at:.0f} ms and then decays, in the end at the rate {_decay:.2f} 1/s; the mobility "
+    "energy (a). It rises to "
+    f"{_peak:.1f} J after {1000 * _at:.0f} ms (b) and then decays (c), in the end at the rate {_decay:.2f} 1/s; the mobility "
     "of the joints "
     f"predicts {_predicted:.2f} 1/s. Together with the energy of the springs the run begins at {_start:.0f} J."
 )
@@ -86,17 +86,17 @@ def figure() -> Figure:
     panels = drawn.subplot_mosaic([["run", "run"], ["spike", "decay"]])
     early = (d["t"] > 0) & (d["t"] <= 0.15)
     panels["run"].plot(d["t"], d["kinetic"], color=MODEL_COLOUR, label="kinetic energy, as the paper records it")
-    panels["run"].set(title="Whole run, kinetic", xlim=(-0.1, 10), ylim=(90, 215))
+    panels["run"].set(title="Kinetic energy, whole run", xlim=(-0.1, 10), ylim=(90, 215))
     panels["spike"].plot(d["t"][: early.sum() + 1], d["kinetic"][: early.sum() + 1], color=MODEL_COLOUR)
-    panels["spike"].set(title="First 0.15 s, kinetic", ylim=(90, 215))
+    panels["spike"].set(title="Kinetic energy, first 0.15 s", ylim=(90, 215))
     for name, colour in (("kinetic", MODEL_COLOUR), ("total", TOTAL)):
         above = d[name][early] - 100
         label = "kinetic and spring energy" if name == "total" else None
-        panels["decay"].semilogy(d["t"][early], above, color=colour, label=label)
-    panels["decay"].set(title="First 0.15 s, above 100 J", ylim=(1e-3, 1e4), ylabel="energy − 100 J [J]")
+        panels["decay"].semilogy(d["t"][early], above, color=colour, ls="-" if name == "kinetic" else "--", label=label)
+    panels["decay"].set(title="Energy above 100 J", ylim=(1e-3, 1e4), ylabel="energy − 100 J (J)")
     for name in ("run", "spike"):
-        panels[name].set_ylabel("energy [J]")
+        panels[name].set_ylabel("energy (J)")
     for panel in panels.values():
-        panel.set_xlabel("time [s]")
-    drawn.legend(loc="outside lower center", ncols=2)
+        panel.set_xlabel("time $t$ (s)")
+    legend_below(drawn, 2)
     return drawn

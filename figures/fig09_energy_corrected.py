@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import simulate
-from lagrotor.drawing import EXACT_COLOUR, MODEL_COLOUR
+from lagrotor.drawing import EXACT_COLOUR, MODEL_COLOUR, legend_below
 from lagrotor.pair import DAMPING, SCENES, STEP, STIFFNESS
 from lagrotor.paper.rotor_pair.runs import paper_run
 
@@ -44,8 +44,8 @@ def measure() -> dict[str, float]:
 CAPTION = (
     f"Run of the spring-link model with the paper's step of {STEP:g} s, S = {STIFFNESS:g} N/m and D = {DAMPING:g} kg/s (n = 20, "
     "omega_s = 10 rad/s in 4.01, as in figure 10), spins of 10 and 10 rad/s and no shock. The bar has 1 kg and 1 kg m², and its "
-    "centre is midway between the tips. In 10 s the energy differs from 100 J by at most "
-    f"{measure()['largest distance from 100 J (J)']:.0g} J."
+    "centre is midway between the tips. In 10 s the energy (a) differs from 100 J by at most "
+    f"{measure()['largest distance from 100 J (J)']:.0g} J (b)."
 )
 
 
@@ -57,9 +57,9 @@ def figure() -> Figure:
     main, below = drawn.subplots(2, 1, sharex=True, height_ratios=(1.4, 1))
     main.plot(d["t"], d["kinetic"], color=MODEL_COLOUR, linewidth=3, label="paper's method, kinetic energy")
     main.plot(d["t"], d["exact"], color=EXACT_COLOUR, linestyle="--", label="exact model")
-    main.set(ylabel="energy [J]", ylim=(0, 120), title="Energy")
+    main.set(ylabel="energy (J)", ylim=(0, 120), title="Energy")
     for name, colour, line in (("kinetic", MODEL_COLOUR, "-"), ("exact", EXACT_COLOUR, "--")):
         below.plot(d["t"], 1e12 * (d[name] - 100), color=colour, linestyle=line, linewidth=3 if line == "-" else 1.6)
-    below.set(ylabel="energy − 100 J [pJ]", xlabel="time [s]", ylim=(-5, 5), title="Departure from 100 J")
-    drawn.legend(loc="outside lower center", ncols=2)
+    below.set(ylabel="energy − 100 J (pJ)", xlabel="time $t$ (s)", ylim=(-5, 5), title="Departure from 100 J")
+    legend_below(drawn, 2)
     return drawn

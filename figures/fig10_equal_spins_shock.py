@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import simulate
-from lagrotor.drawing import EXACT_COLOUR, FORCE_COLOUR, MODEL_COLOUR
+from lagrotor.drawing import EXACT_COLOUR, FORCE_COLOUR, MODEL_COLOUR, legend_below
 from lagrotor.models import paper_system, step_limit
 from lagrotor.pair import DAMPING, SCENES, STEP, STIFFNESS
 from lagrotor.paper.rotor_pair.runs import paper_run, pulse
@@ -55,7 +55,7 @@ def measure() -> dict[str, float]:
 _before, _most, _end, _exact, _limit = measure().values()
 CAPTION = (
     f"Run of the spring-link model with the paper's step of {STEP:g} s, a bar of 1 kg and 1 kg m², spins of 10 and 10 rad/s, and "
-    "the shock 50 exp(−(50 (t − 2))²) N along x on the tip of rotor 1. The energy rises from "
+    "the shock 50 exp(−(50 (t − 2))²) N along x on the tip of rotor 1 (b). The energy (a) rises from "
     f"{_before:.0f} to {_most:.3f} J, and the dampers reduce it to {_end:.3f} J at 10 s. In the exact model it is {_exact:.3f} J "
     "after the shock. The paper does not give n and omega_s of 4.01. This figure and the others use omega_s = 10 "
     "rad/s and n = 20, "
@@ -72,8 +72,8 @@ def figure() -> Figure:
     upper, lower = drawn.subplots(2, 1, sharex=True, height_ratios=(2, 1))
     upper.plot(d["t"], d["kinetic"], color=MODEL_COLOUR, label="paper's method, kinetic energy")
     upper.plot(d["t"], d["exact"], color=EXACT_COLOUR, linestyle="--", label="exact model")
-    upper.set(ylabel="energy [J]", title="Energy", ylim=(99.95, 100.5))
+    upper.set(ylabel="energy (J)", title="Energy", ylim=(99.95, 100.5))
     lower.plot(d["t"], d["force"], color=FORCE_COLOUR)
-    lower.set(ylabel="force in x [N]", xlabel="time [s]", title="Force on the tip of rotor 1", ylim=(-3, 55))
-    drawn.legend(loc="outside lower center", ncols=2)
+    lower.set(ylabel="force in x (N)", xlabel="time $t$ (s)", title="Force on the tip of rotor 1", ylim=(-3, 55))
+    legend_below(drawn, 2)
     return drawn

@@ -82,6 +82,6 @@ def figure() -> Figure:
     axes.plot(*d["tips"].T, color=BAR, linewidth=6, solid_capstyle="round", zorder=2)
     label(axes, d["tips"].T @ [0.75, 0.25], "bar", INK, (18, 8))
     ground(axes, d["joints"])
-    axes.set(xlabel="x [m]", ylabel="y [m]", aspect="equal")
+    axes.set(xlabel="x (m)", ylabel="y (m)", aspect="equal")
     axes.margins(x=0.06, y=0.06)
     return drawn

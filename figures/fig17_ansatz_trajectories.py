@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, simulate
-from lagrotor.drawing import EXACT_COLOUR, PAPER_COLOUR
+from lagrotor.drawing import EXACT_COLOUR, PAPER_COLOUR, legend_below
 from lagrotor.models import exact_orbit
 from lagrotor.paper.rotor_pair.runs import ansatz_axes
 from lagrotor.pictures import orbits_from_above, over_one_turn
@@ -60,8 +60,8 @@ CAPTION = (
     f"The ansatz has a constant inclination with sin theta_0 = r_0 = {R0} and phi_1 = −phi_2. The exact orbit is the "
     "periodic orbit "
     "of the minimal model, found by shooting, with opposite spins of ±10 rad/s, a massless bar, ell = R = 1 m and the tolerance "
-    f"{TOL:g}; it is drawn at the same phase. The ansatz needs a bar of up to {_longest:.4f} m, and its tips are up to "
-    f"{_distance:.3f} m away from the exact ones."
+    f"{TOL:g}; it is drawn at the same phase (a). The ansatz needs a bar of up to {_longest:.4f} m (b), and its tips are up "
+    f"to {_distance:.3f} m away from the exact ones (c)."
 )
 
 
@@ -89,12 +89,12 @@ def figure() -> Figure:
 
     length.plot(d["phase"], d["ansatz_length"], color=PAPER_COLOUR, ls="-.")
     length.plot(d["phase"], d["exact_length"], color=EXACT_COLOUR, ls="--")
-    length.set(ylabel="length of the bar [m]", title="Length of the bar", ylim=(0.99, 1.09))
+    length.set(ylabel="length of the bar (m)", title="Length of the bar", ylim=(0.99, 1.09))
     distance.plot(d["phase"], d["distance"][0], color=PAPER_COLOUR, label="distance of tip 1")
     distance.plot(d["phase"], d["distance"][1], color=PAPER_COLOUR, ls=":", label="distance of tip 2")
-    distance.set(ylabel="distance [m]", title="Residual: distance from exact", ylim=(0, None))
+    distance.set(ylabel="distance (m)", title="Distance from the exact tips", ylim=(0, None))
     for panel in (length, distance):
-        panel.set_xlabel("phase [rad]")
+        panel.set_xlabel("phase (rad)")
         over_one_turn(panel)
-    picture.legend(loc="outside lower center", ncols=3)
+    legend_below(picture, 3)
     return picture

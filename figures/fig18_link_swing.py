@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, simulate
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR, with_residual
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR, legend_below, with_residual
 from lagrotor.models import exact_orbit
 from lagrotor.paper.rotor_pair.runs import ansatz_axes, paper_axes, series_axes
 from lagrotor.pictures import over_one_turn
@@ -64,7 +64,8 @@ def measure() -> dict[str, float]:
 
 _constant, _least, _most, _second, _third = measure().values()
 CAPTION = (
-    f"The distance between the tips is shown for r_0 = sin theta_0 = {R0}, ell = R = 1 m. At constant inclination it "
+    f"The distance between the tips (a) and its difference from 1 m (b) are shown for r_0 = sin theta_0 = {R0}, ell = R "
+    "= 1 m. At constant inclination it "
     "varies from 1 "
     f"to {_constant:.4f} m. With the paper's correction (5.20) it varies from {_least:.4f} to {_most:.4f} m, so it is nearly "
     f"constant but too long. The series of the exact orbit (massless bar) differs from 1 m by up to {_second:.1e} m "
@@ -92,10 +93,14 @@ def figure() -> Figure:
         main.plot(d["phi"], d[name], color=colour, ls=line, label=label)
         if name != "exact":
             residual.semilogy(d["phi"], np.maximum(np.abs(d[name] - 1), 1e-9), color=colour, ls=line)
-    main.set(ylabel="length of the bar [m]", ylim=(0.985, 1.095), title=f"Length of the bar, $r_0$ = {R0}")
-    residual.set(ylabel="|length − ℓ| [m]", xlabel="angle $\\phi$ [rad]", title="Residual", ylim=(1e-5, 0.3))
+    main.set(ylabel="length of the bar (m)", ylim=(0.985, 1.095), title=f"Length of the bar, $r_0$ = {R0}")
+    residual.set(
+        ylabel="|length − ℓ| (m)",
+        xlabel="angle $\\phi$ (rad)",
+        title="Distance of the length from 1 m",
+        ylim=(1e-5, 0.3),
+    )
     residual.set_yticks([1e-5, 1e-4, 1e-3, 1e-2, 1e-1])
     over_one_turn(residual)
-    handles, labels = main.get_legend_handles_labels()
-    picture.legend(handles, labels, loc="outside lower center", ncols=2)
+    legend_below(picture, 2)
     return picture

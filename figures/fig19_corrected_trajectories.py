@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR, legend_below
 from lagrotor.models import exact_orbit
 from lagrotor.paper.rotor_pair.runs import against_orbit, paper_axes, series_axes
 from lagrotor.pictures import distance_over_one_turn, orbits_from_above
@@ -49,9 +49,11 @@ def measure() -> dict[str, float]:
 
 _paper, _second, _third = measure().values()
 CAPTION = (
-    f"The amplitude is r_0 = {R0}, the bar is massless, and ell = R = 1 m. The exact curve is the periodic orbit of the minimal "
-    f"model with spins of ±10 rad/s at the tolerance {TOL:g}. The largest distance from the exact tip at the same phase is "
-    f"{_paper:.3f} m for the paper's correction (5.20), {_second:.4f} m for the corrected series of order 2, and {_third:.4f} m "
+    f"Orbits of the tips (a): the amplitude is r_0 = {R0}, the bar is massless, and ell = R = 1 m. The exact curve is "
+    "the periodic orbit of the minimal "
+    f"model with spins of ±10 rad/s at the tolerance {TOL:g}. The largest distance from the exact tip at the same phase "
+    f"(b) is {_paper:.3f} m for the paper's correction (5.20), {_second:.4f} m for the corrected series of order 2, and "
+    f"{_third:.4f} m "
     "for order 3."
 )
 
@@ -74,5 +76,5 @@ def figure() -> Figure:
     residual.semilogy(d["phase"], d["order_2_distance"], color=CORRECTION_COLOUR, ls=":")
     residual.semilogy(d["phase"], d["order_3_distance"], color=CORRECTION_COLOUR)
     distance_over_one_turn(residual, 5e-5, 0.2)
-    picture.legend(loc="outside lower center", ncols=3)
+    legend_below(picture, 3)
     return picture

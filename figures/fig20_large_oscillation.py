@@ -11,7 +11,7 @@ import sympy as sp
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, natural_rate
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, HIGH_ORDER_COLOUR, PAPER_COLOUR
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, HIGH_ORDER_COLOUR, PAPER_COLOUR, legend_below
 from lagrotor.models import exact_orbit
 from lagrotor.pair.notation import Phi, r0
 from lagrotor.paper.rotor_pair.runs import against_orbit, paper_axes
@@ -62,11 +62,12 @@ def measure() -> dict[str, float]:
 
 _paper, _third, _ninth, _longest, _ratio = measure().values()
 CAPTION = (
-    f"The amplitude is r_0 = {R0} (the paper does not print its value), the bar is massless, and ell = R = 1 m. The "
+    f"Orbits of the tips (a): the amplitude is r_0 = {R0} (the paper does not print its value), the bar is massless, "
+    "and ell = R = 1 m. The "
     "exact curve is "
     f"the periodic orbit of the minimal model with spins of ±10 rad/s at the tolerance {TOL:g}; its rate is "
     f"{_ratio:.4f} times the "
-    f"natural rate. The largest distance from the exact tip at the same phase is {_paper:.2f} m for the paper's "
+    f"natural rate. The largest distance from the exact tip at the same phase (b) is {_paper:.2f} m for the paper's "
     "correction, which "
     f"needs a bar of up to {_longest:.2f} m, {_third:.3f} m for the series of order 3, and {_ninth:.4f} m for order 9."
 )
@@ -91,5 +92,5 @@ def figure() -> Figure:
             residual.semilogy(d["phase"], d[f"{name}_distance"], color=colour, ls=line, lw=min(width, 1.6))
     orbits_from_above(top, 1.35, 0.68)
     distance_over_one_turn(residual, 1e-5, 1)
-    picture.legend(loc="outside lower center", ncols=3)
+    legend_below(picture, 3)
     return picture

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, simulate
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR, legend_below
 from lagrotor.models import exact_orbit
 
 R0, TOL = 0.204, 1e-11
@@ -56,10 +56,11 @@ def measure() -> dict[str, float]:
 
 _paper, _corrected, _mean, _ = measure().values()
 CAPTION = (
-    f"The rate is 1 rad/s, r_0 = {R0}, and ell = R = 1 m. The exact curve is the periodic orbit of the minimal model "
+    f"Positions of the right (a) and left tip (b): the rate is 1 rad/s, r_0 = {R0}, and ell = R = 1 m. The exact curve "
+    "is the periodic orbit of the minimal model "
     "(massless bar, "
     f"spins of ±10 rad/s, tolerance {TOL:g}); its time is multiplied by its frequency, so that its phase is t. The "
-    "largest residual "
+    "largest residual (c) "
     f"of the paper's formula (5.22) is {_paper:.3f} m. Its mean residual in x_1 is {_mean:.3f} m, because −r_0² = "
     f"{-(R0**2):.3f} m "
     f"is missing from its centre. The corrected formula of order 2 has a residual of at most {_corrected:.4f} m."
@@ -76,13 +77,16 @@ def figure() -> Figure:
         panel.plot(d["t"], d["paper"][i], color=PAPER_COLOUR, label="paper (5.22)")
         panel.plot(d["t"], d["corrected"][i], color=CORRECTION_COLOUR, lw=3, alpha=0.7, label="corrected, order 2")
         panel.plot(d["t"], d["exact"][i], color=EXACT_COLOUR, ls="--", lw=1.2, label="exact orbit, phase t")
-    right.set(ylabel="$x_2$ [m]", title="Right tip", ylim=(0.22, 0.78))
-    left.set(ylabel="$x_1$ [m]", title="Left tip", ylim=(-0.78, -0.22))
+    right.set(ylabel="$x_2$ (m)", title="Right tip", ylim=(0.22, 0.78))
+    left.set(ylabel="$x_1$ (m)", title="Left tip", ylim=(-0.78, -0.22))
     residual.plot(d["t"], d["paper"][0] - d["exact"][0], color=PAPER_COLOUR)
     residual.plot(d["t"], d["paper"][1] - d["exact"][1], color=PAPER_COLOUR, ls=":")
     residual.plot(d["t"], d["corrected"][0] - d["exact"][0], color=CORRECTION_COLOUR)
     residual.plot(d["t"], d["corrected"][1] - d["exact"][1], color=CORRECTION_COLOUR, ls=":")
-    residual.set(xlabel="time [s]", ylabel="residual [m]", title="Residual (solid $x_1$, dotted $x_2$)")
-    handles, labels = right.get_legend_handles_labels()
-    picture.legend(handles, labels, loc="outside lower center", ncols=3)
+    residual.set(
+        xlabel="time $t$ (s)",
+        ylabel="residual (m)",
+        title="Residual (solid $x_1$, dotted $x_2$)",
+    )
+    legend_below(picture, 3)
     return picture

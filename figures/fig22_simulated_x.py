@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import simulate
-from lagrotor.drawing import EXACT_COLOUR, ROTORS
+from lagrotor.drawing import EXACT_COLOUR, ROTORS, legend_below
 from lagrotor.pair import SCENES
 
 TOL = 1e-10
@@ -54,9 +54,9 @@ def measure() -> dict[str, float]:
 _m = measure()
 CAPTION = (
     "The scene of 5.2.1 has spins of ±10 rad/s, a bar of 1 m, 0.01 kg and 0.1 kg m², and the shock (40, −11, 0) exp(−(20 (t − "
-    f"2))²) N on tip 1. It is simulated with the minimal model at the tolerance {TOL:g}. From 2.3 to 10 s x_1 varies from "
-    f"{_m['x_1, least (m)']:.3f} to {_m['x_1, most (m)']:.3f} m and x_2 from {_m['x_2, least (m)']:.3f} to "
-    f"{_m['x_2, most (m)']:.3f} m, at the rate {_m['rate (rad/s)']:.3f} rad/s."
+    f"2))²) N on tip 1. It is simulated with the minimal model at the tolerance {TOL:g}. From 2.3 to 10 s x_1 (b) varies from "
+    f"{_m['x_1, least (m)']:.3f} to {_m['x_1, most (m)']:.3f} m and x_2 (a) from {_m['x_2, least (m)']:.3f} to "
+    f"{_m['x_2, most (m)']:.3f} m, at the rate {_m['rate (rad/s)']:.3f} rad/s; (c) shows y."
 ).replace(" -", " −")
 
 
@@ -72,8 +72,8 @@ def figure() -> Figure:
     across.plot(d["t"], d["y"][0], color=ROTORS[0])
     for panel in (right, left, across):
         panel.axvline(2, color=EXACT_COLOUR, lw=1, ls=":", label="shock" if panel is across else None)
-    right.set(ylabel="$x_2$ [m]", title="x of the right tip", ylim=(0.28, 0.78))
-    left.set(ylabel="$x_1$ [m]", title="x of the left tip", ylim=(-0.65, -0.15))
-    across.set(xlabel="time [s]", ylabel="$y$ [m]", title="y of both tips")
-    picture.legend(loc="outside lower center", ncols=3)
+    right.set(ylabel="$x_2$ (m)", title="x of the right tip", ylim=(0.28, 0.78))
+    left.set(ylabel="$x_1$ (m)", title="x of the left tip", ylim=(-0.65, -0.15))
+    across.set(xlabel="time $t$ (s)", ylabel="$y$ (m)", title="y of both tips")
+    legend_below(picture, 3)
     return picture

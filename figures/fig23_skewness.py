@@ -11,12 +11,14 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import shock_response, simulate
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, ROTORS
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, ROTORS, legend_below
 from lagrotor.numerics import turn_means
 from lagrotor.pair import SCENES
 
 TOL = 1e-10
 SCENE = SCENES["free-precession"].scene
+
+AXIS, RESPONSE = "centres and skew axis", "by the linear response"  # labels in both panels
 
 TITLE = "Skewness of the precession centres"
 ALT = (
@@ -69,8 +71,9 @@ _m = measure()
 CAPTION = (
     f"This is the run of figure 22 (spins of ±10 rad/s, a bar of 0.01 kg and 0.1 kg m², minimal model, tolerance {TOL:g}) after "
     f"2.4 s. Each centre is the mean of a tip over {_m['whole turns']:.0f} whole turns. The line through the centres "
-    "has the angle "
-    f"{_m['skew angle (deg)']:.2f}° to x; from turn to turn the angle varies by {_m['spread over the turns (deg)']:.2f}°. The "
+    "(a) has the angle "
+    f"{_m['skew angle (deg)']:.2f}° to x; from turn to turn (b) the angle varies by "
+    f"{_m['spread over the turns (deg)']:.2f}°. The "
     f"linear response to the shock gives {_m['skew angle by the linear response (deg)']:.2f}°. The paper does not "
     "print the angle."
 ).replace(" -", " −")
@@ -86,8 +89,8 @@ def figure() -> Figure:
         top.plot(*d["tips"][i, :, :2].T, color=colour, lw=0.9, label=f"{('left', 'right')[i]} tip, of rotor {i + 1}")
     centres = d["centres"].mean(1)[:, :2]
     for points, colour, line, mark, label in (
-        (centres, EXACT_COLOUR, "-", "o", "centres and skew axis"),
-        (d["predicted_centres"], CORRECTION_COLOUR, "--", "^", "by the linear response"),
+        (centres, EXACT_COLOUR, "-", "o", AXIS),
+        (d["predicted_centres"], CORRECTION_COLOUR, "--", "^", RESPONSE),
     ):
         middle, along = points.mean(0), points[1] - points[0]
         ends = middle + np.array([[-0.85], [0.85]]) * along
@@ -95,14 +98,12 @@ def figure() -> Figure:
         top.plot(*points.T, mark, color=colour, ms=7)
         top.plot([], [], color=colour, ls=line, marker=mark, ms=7, label=label)
     top.plot([-0.5, 0.5], [0, 0], "s", color="#888888", ms=6, label="ground joints")
-    top.set(xlabel="x [m]", ylabel="y [m]", title="Top view", xlim=(-0.85, 1.0), ylim=(-0.45, 0.45))
+    top.set(xlabel="x (m)", ylabel="y (m)", title="Top view", xlim=(-0.85, 1.0), ylim=(-0.45, 0.45))
     top.set_aspect("equal")
     top.text(0.06, 0.06, f"{d['angle'][0]:.1f}° to x".replace("-", "−"), fontsize=10)
-    turns.plot(np.arange(1, len(d["turn_angles"]) + 1), d["turn_angles"], "o", color=EXACT_COLOUR, ms=5)
-    turns.axhline(d["predicted_angle"][0], color=CORRECTION_COLOUR, ls="--")
-    turns.set(
-        xlabel="turn after the shock [1]", ylabel="angle to x [deg]", title="Angle of the skew axis, turn by turn"
-    )
+    turns.plot(np.arange(1, len(d["turn_angles"]) + 1), d["turn_angles"], "o", color=EXACT_COLOUR, ms=5, label=AXIS)
+    turns.axhline(d["predicted_angle"][0], color=CORRECTION_COLOUR, ls="--", label=RESPONSE)
+    turns.set(xlabel="turn after the shock", ylabel="angle to x (deg)", title="Angle of the skew axis in each turn")
     turns.set(ylim=(-21.5, -19), xlim=(0.5, len(d["turn_angles"]) + 0.5))
-    picture.legend(loc="outside lower center", ncols=3)
+    legend_below(picture, 3)
     return picture

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import corrected_trajectories, paired_frequency, shock_response, simulate
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR, legend_below
 from lagrotor.numerics import turn_means
 from lagrotor.pair import SCENES
 
@@ -115,11 +115,11 @@ _m = measure()
 CAPTION = (
     "The scene of 5.2.1 (spins of ±10 rad/s, a bar of 0.01 kg and 0.1 kg m², the shock (40, −11, 0) N on tip 1 at 2 "
     "s) is simulated "
-    f"at the tolerance {TOL:g}. The curves are displacements along the line through the centres, at "
+    f"at the tolerance {TOL:g}. The curves (a), (b) are displacements along the line through the centres, at "
     f"{_m['skew angle (deg)']:.2f}° "
     f"to x. Both formulas use r_0 = {_m['predicted r_0']:.4f} from the linear response and the rate "
     f"{_m['predicted rate (rad/s)']:.3f} rad/s from the natural rate and r_0 (measured {_m['measured rate (rad/s)']:.3f} rad/s); "
-    f"the phase is fitted. The largest residual is {_m['paper, largest residual (m)']:.3f} m for the paper and "
+    f"the phase is fitted. The largest residual (c) is {_m['paper, largest residual (m)']:.3f} m for the paper and "
     f"{_m['corrected, largest residual (m)']:.3f} m for the series of order 3, mostly because the middle drifts by "
     f"{_m['drift of the middle along the axis (m)']:.3f} m. Half the distance between the tips is free of this drift; "
     "its residual "
@@ -138,14 +138,20 @@ def figure() -> Figure:
     right, left, residual = picture.subplots(3, 1, sharex=True, height_ratios=(2, 2, 1.4))
     for panel, i in ((right, 1), (left, 0)):
         panel.plot(d["t"], d["paper"][i], color=PAPER_COLOUR, label="paper (5.22)")
-        panel.plot(d["t"], d["corrected"][i], color=CORRECTION_COLOUR, label="corrected series, order 3")
+        panel.plot(
+            d["t"], d["corrected"][i], color=CORRECTION_COLOUR, lw=3, alpha=0.7, label="corrected series, order 3"
+        )
         panel.plot(d["t"], d["simulated"][i], color=EXACT_COLOUR, ls="--", lw=1.2, label="simulated, exact model")
-    right.set(ylabel="along the axis [m]", title="Right tip", ylim=(0.2, 0.8))
-    left.set(ylabel="along the axis [m]", title="Left tip", ylim=(-0.8, -0.2))
+    right.set(ylabel="along the axis (m)", title="Right tip", ylim=(0.2, 0.8))
+    left.set(ylabel="along the axis (m)", title="Left tip", ylim=(-0.8, -0.2))
     for name, colour in (("paper", PAPER_COLOUR), ("corrected", CORRECTION_COLOUR)):
-        residual.plot(d["t"], d[name][0] - d["simulated"][0], color=colour)
-        residual.plot(d["t"], d[name][1] - d["simulated"][1], color=colour, ls=":")
-    residual.set(xlabel="time [s]", ylabel="residual [m]", title="Residual (solid left tip, dotted right tip)")
-    handles, labels = right.get_legend_handles_labels()
-    picture.legend(handles, labels, loc="outside lower center", ncols=3)
+        wide = {"lw": 3, "alpha": 0.7} if name == "corrected" else {}
+        residual.plot(d["t"], d[name][0] - d["simulated"][0], color=colour, **wide)
+        residual.plot(d["t"], d[name][1] - d["simulated"][1], color=colour, ls=":", **wide)
+    residual.set(
+        xlabel="time $t$ (s)",
+        ylabel="residual (m)",
+        title="Residual (solid left tip, dotted right tip)",
+    )
+    legend_below(picture, 3)
     return picture

@@ -42,15 +42,18 @@ def measure() -> dict[str, float]:
 
 _m = measure()
 CAPTION = (
-    "A rotor with a spin of 20 rad/s and no bar receives the shock 40 exp(−(20 (t − 2))²) N along x on its tip. Exact: spheres "
+    "A rotor with a spin of 20 rad/s and no bar receives the shock 40 exp(−(20 (t − 2))²) N along x on its tip (a). "
+    "Exact: spheres "
     f"model, tolerance {TOL:g}. The paper's method has springs with S = {STIFFNESS:g} N/m and D = {DAMPING:g} kg/s (n = 20 and "
-    f"omega_s = 10 rad/s, which the paper does not print; see figure 10) and a step of {STEP:g} s. The sines have the amplitude "
-    f"{_m['amplitude (m)']:.4f} m. From 2.3 s to 10 s the spectrum (Hann window) gives the rate "
+    f"omega_s = 10 rad/s, which the paper does not print; see figure 10) and a step of {STEP:g} s. The sines (b), (c) "
+    "have the amplitude "
+    f"{_m['amplitude (m)']:.4f} m. From 2.3 s to 10 s the spectrum (e) with a Hann window gives the rate "
     f"{_m['rate, exact model (rad/s)']:.3f} rad/s for the exact model and {_m['rate, spring model (rad/s)']:.3f} rad/s for the "
     f"paper's method; over the first 3 s the latter has {_m['rate, spring model, first 3 s (rad/s)']:.3f} rad/s, because the "
     f"dampers reduce the amplitude. The closed form 16/cos theta is {_m['rate, closed form (rad/s)']:.3f} rad/s; the "
     "paper prints "
-    f"{PRINTED:g} rad/s. From 2.3 s on the largest residual is {_m['printed rate, largest residual (m)']:.3f} m at the printed "
+    f"{PRINTED:g} rad/s. From 2.3 s on the largest residual (d) is {_m['printed rate, largest residual (m)']:.3f} m at "
+    "the printed "
     f"rate, {_m['closed form, largest residual (m)']:.4f} m for the closed form, and "
     f"{_m['spring model, largest residual (m)']:.3f} m for the springs."
 )

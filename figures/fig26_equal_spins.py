@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, Shock, simulate
-from lagrotor.drawing import EXACT_COLOUR, FORCE_COLOUR, MODEL_COLOUR
+from lagrotor.drawing import EXACT_COLOUR, FORCE_COLOUR, MODEL_COLOUR, legend_below
 from lagrotor.pair import DAMPING, HEAVY_LINK, STEP, STIFFNESS
 from lagrotor.paper.rotor_pair.runs import paper_run, pulse
 
@@ -55,10 +55,10 @@ _exact, _springs, _residual = measure().values()
 CAPTION = (
     "The spins are 20 and 20 rad/s, the bar has 1 m, 1 kg and 1 kg m² (section 4.1), and the shock 40 exp(−(20 (t − "
     "2))²) N acts on "
-    f"tip 1 along x. The exact curve is the minimal model at the tolerance {TOL:g}. The paper's method has springs with S = "
-    f"{STIFFNESS:g} N/m and D = {DAMPING:g} kg/s (as in figure 25) and a step of {STEP:g} s. The amplitude is "
+    f"tip 1 along x (a). The exact curve is the minimal model at the tolerance {TOL:g}. The paper's method has springs with S = "
+    f"{STIFFNESS:g} N/m and D = {DAMPING:g} kg/s (as in figure 25) and a step of {STEP:g} s. The amplitude (b) is "
     f"{_exact:.4f} m in the "
-    f"exact model and {_springs:.4f} m by the paper's method; the largest residual is {_residual:.3f} m."
+    f"exact model and {_springs:.4f} m by the paper's method; the largest residual (c) is {_residual:.3f} m."
 )
 
 
@@ -72,8 +72,8 @@ def figure() -> Figure:
     x.plot(d["t"], d["exact"], color=EXACT_COLOUR, label="exact model")
     x.plot(d["t"], d["springs"], color=MODEL_COLOUR, ls="--", lw=1.2, label="paper's method, stiff springs")
     residual.plot(d["t"], d["springs"] - d["exact"], color=MODEL_COLOUR)
-    force.set(ylabel="force [N]", title="Force on tip 1 along x")
-    x.set(ylabel="$x_1$ [m]", title="x of tip 1")
-    residual.set(xlabel="time [s]", ylabel="residual [m]", title="Residual: paper's method − exact model")
-    picture.legend(loc="outside lower center", ncols=2)
+    force.set(ylabel="force (N)", title="Force on tip 1 along x")
+    x.set(ylabel="$x_1$ (m)", title="x of tip 1")
+    residual.set(xlabel="time $t$ (s)", ylabel="residual (m)", title="Paper's method minus exact model")
+    legend_below(picture, 2)
     return picture

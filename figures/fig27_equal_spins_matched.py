@@ -42,12 +42,13 @@ def measure() -> dict[str, float]:
 
 _m = measure()
 CAPTION = (
-    "The spins are 20 and 20 rad/s, the bar has 1 m, 1 kg and 1 kg m², and the shock is as in figure 25. The exact curve is the "
+    "The spins are 20 and 20 rad/s, the bar has 1 m, 1 kg and 1 kg m², and the shock (a) is as in figure 25. The exact "
+    "curve (b), (c) is the "
     f"minimal model at the tolerance {TOL:g}. The paper's method has springs with S = {STIFFNESS:g} N/m and D = {DAMPING:g} kg/s "
-    f"(as in figure 25) and a step of {STEP:g} s. From 2.3 s to 10 s the spectrum (Hann window) gives the rate "
+    f"(as in figure 25) and a step of {STEP:g} s. From 2.3 s to 10 s the spectrum (e) with a Hann window gives the rate "
     f"{_m['rate, exact model (rad/s)']:.3f} rad/s for the exact model and {_m['rate, spring model (rad/s)']:.3f} rad/s for the "
     f"paper's method. The closed form (80/7)/cos theta is {_m['rate, closed form (rad/s)']:.3f} rad/s; the paper prints "
-    f"{PRINTED:g} rad/s. From 2.3 s on the largest residual is {_m['printed rate, largest residual (m)']:.3f} m at "
+    f"{PRINTED:g} rad/s. From 2.3 s on the largest residual (d) is {_m['printed rate, largest residual (m)']:.3f} m at "
     "the printed rate "
     f"and {_m['closed form, largest residual (m)']:.1e} m for the closed form."
 )

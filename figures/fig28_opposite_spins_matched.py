@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, natural_rate, simulate
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, MODEL_COLOUR, PAPER_COLOUR
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, MODEL_COLOUR, PAPER_COLOUR, legend_below
 from lagrotor.numerics import peak, spectrum
 from lagrotor.pair import HEAVY_LINK, LIGHT, SHOCK_PAIRED, STEP
 from lagrotor.paper.rotor_pair.runs import paper_run
@@ -19,6 +19,8 @@ from lagrotor.paper.rotor_pair.runs import paper_run
 TOL, PRINTED = 1e-10, 10 * 4 / 5 * 0.7125
 BARS = {"heavy": HEAVY_LINK, "light": LIGHT}
 SCENES = {name: Scene(spins=(10, -10), link=bar, shock=SHOCK_PAIRED) for name, bar in BARS.items()}
+
+SINE, NATURAL = f"sine at {PRINTED:g} rad/s", "sine at the natural rate"  # labels
 
 TITLE = "Opposite spins ±10 in the second mode"
 ALT = (
@@ -82,15 +84,15 @@ def measure() -> dict[str, float]:
 _m = measure()
 CAPTION = (
     "The spins are ±10 rad/s, and the shock is (40, −11, 0) N of 5.2.1 on tip 1, because the listing of 5.3 has no shock and no "
-    "bar. Both bars are 1 m long; the heavy one has 1 kg and 1 kg m² (4.1), the light one 0.01 kg and 0.1 kg m² "
+    "bar. Both bars are 1 m long; the heavy one (a) has 1 kg and 1 kg m² (4.1), the light one (b) 0.01 kg and 0.1 kg m² "
     "(5.2.1). The exact "
     f"curves are the minimal model at the tolerance {TOL:g}. The paper's method, for the heavy bar, has springs as in figure 25 "
-    f"and a step of {STEP:g} s. From 2.3 s to 10 s the spectra (Hann window) give {_m['heavy bar, rate (rad/s)']:.3f} "
+    f"and a step of {STEP:g} s. From 2.3 s to 10 s the spectra (d) with a Hann window give {_m['heavy bar, rate (rad/s)']:.3f} "
     "rad/s for the "
     f"heavy bar (paper's method {_m['heavy bar, spring model, rate (rad/s)']:.3f}, natural rate "
     f"{_m['heavy bar, natural rate (rad/s)']:.3f}) and {_m['light bar, rate (rad/s)']:.3f} rad/s for the light bar (natural rate "
     f"{_m['light bar, natural rate (rad/s)']:.3f}). Neither is {PRINTED:g} rad/s, printed as 0.57. The sines have given rates; "
-    "their offset, size and phase are fitted over the first period after 2.3 s."
+    "their offset, size and phase are fitted over the first period after 2.3 s; (c) is their phase minus that of x_1."
 )
 
 
@@ -98,7 +100,7 @@ CAPTION = (
 def figure() -> Figure:
     """x of tip 1 for each bar, phase drift, spectra."""
     d = data()
-    picture = Figure(figsize=(7.0, 8.8))
+    picture = Figure(figsize=(7.0, 8.4))
     heavy, light, drift, heights = picture.subplots(4, 1, height_ratios=(1.3, 1.3, 1.1, 1.3))
     after = d["t"] > 2.3
     for panel, name, title in (
@@ -106,31 +108,28 @@ def figure() -> Figure:
         (light, "light", "Light bar: 0.01 kg, 0.1 kg m²"),
     ):
         panel.plot(d["t"], d[f"{name}_x"], color=EXACT_COLOUR, label="exact model")
-        panel.plot(
-            d["t"][after], d[f"{name}_printed"][after], color=PAPER_COLOUR, ls="--", lw=1.2, label="sine at 5.7 rad/s"
-        )
+        panel.plot(d["t"][after], d[f"{name}_printed"][after], color=PAPER_COLOUR, ls="--", lw=1.2, label=SINE)
         panel.plot(
             d["t"][after],
             d[f"{name}_natural"][after],
             color=CORRECTION_COLOUR,
             ls=":",
             lw=2,
-            label="sine at the natural rate",
+            label=NATURAL,
         )
-        panel.set(ylabel="$x_1$ [m]", title=title, xlim=(1.5, 10))
+        panel.set(ylabel="$x_1$ (m)", title=title, xlim=(1.5, 10))
         panel.tick_params(labelbottom=False)
         line = "-" if name == "heavy" else "-."
-        drift.plot(d[f"{name}_phase_t"], d[f"{name}_printed_drift"], color=PAPER_COLOUR, ls=line)
-        drift.plot(d[f"{name}_phase_t"], d[f"{name}_natural_drift"], color=CORRECTION_COLOUR, ls=line)
+        drift.plot(d[f"{name}_phase_t"], d[f"{name}_printed_drift"], color=PAPER_COLOUR, ls=line, label=SINE)
+        drift.plot(d[f"{name}_phase_t"], d[f"{name}_natural_drift"], color=CORRECTION_COLOUR, ls=line, label=NATURAL)
         heights.plot(d["rate"], d[f"{name}_amplitude"], color=EXACT_COLOUR, ls=line)
         heights.axvline(d[f"{name}_natural_rate"][0], color=CORRECTION_COLOUR, ls=":", lw=2)
     heavy.plot(d["t"], d["springs_x"], color=MODEL_COLOUR, lw=1.2, label="paper's method (heavy bar)")
     heights.plot(d["rate"], d["springs_amplitude"], color=MODEL_COLOUR, lw=1.2)
     heights.axvline(PRINTED, color=PAPER_COLOUR, ls="--", lw=1.2)
-    drift.set(xlabel="time [s]", ylabel="phase drift [rad]", xlim=(1.5, 10))
-    drift.set_title("Phase of the sine less that of $x_1$ (solid: heavy bar, dash-dotted: light)")
-    heights.set(xlabel="rate [rad/s]", ylabel="amplitude [m]", xlim=(0, 12), ylim=(0, None))
-    heights.set_title("Spectrum of $x_1$ after the shock (solid: heavy bar, dash-dotted: light)")
-    handles, labels = heavy.get_legend_handles_labels()
-    picture.legend(handles, labels, loc="outside lower center", ncols=2)
+    drift.set(xlabel="time $t$ (s)", ylabel="phase drift (rad)", xlim=(1.5, 10))
+    drift.set_title("Phase of the sine minus that of $x_1$ (solid heavy, dash-dotted light bar)")
+    heights.set(xlabel="rate (rad/s)", ylabel="amplitude (m)", xlim=(0, 12), ylim=(0, None))
+    heights.set_title("Spectrum of $x_1$ after the shock (solid heavy, dash-dotted light bar)")
+    legend_below(picture, 2)
     return picture

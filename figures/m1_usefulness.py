@@ -44,7 +44,8 @@ def caption() -> str:
     reach = ", ".join(f"{edges[key]:.2f} ({key.split(', ')[1]})" for key in edges if key.startswith("amplitude"))
     apart = edges["departure at r0 = 0.01, order 5"]
     return (
-        "The error is the largest distance of an axis from the exact axis over the first turn, for a massless bar as long as the "
+        "The error of the series of order 1 (a), 3 (b) and 5 (c) is the largest distance of an axis from the exact axis "
+        "over the first turn, for a massless bar as long as the "
         f"axes and a spin of 10 rad/s. On the line it is {USEFUL:g} of the amplitude. With opposite spins the line lies at "
         f"r0 = {reach}. If the spins depart from opposite ones by a fraction of {apart:.3f}, the error reaches this value at any "
         "small amplitude and order."

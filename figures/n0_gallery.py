@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from lagrotor.structures import GALLERY, draw_plan, example
 
-TITLE = "Ten structures"
+TITLE = "Ten structures and their stability"
 ALT = (
     "The picture has ten plans: one rotor, pairs, a corner, a row, a square, a plate, a hexagon and a grid. Indigo rotors "
     "spin in one sense and purple ones in the other; a ring around each rotor shows how fast it spins. Above each plan is "
@@ -40,8 +40,9 @@ def measure() -> dict[str, float]:
 
 
 CAPTION = (
-    "The gallery of `lagrotor structure` is seen from above, with 2 kg on each tip. The pair is not loaded and drifts "
-    "after a push. "
+    "The gallery of `lagrotor structure` is seen from above: (a) to (j), with 2 kg on each tip. The "
+    "numbers are spins in rad/s. Blue rotors turn in the positive sense, purple ones in the negative; the dashed line is a "
+    "brace. The pair is not loaded and drifts after a push. "
     f"{int(data()['stands'].sum())} of {len(GALLERY)} structures are stable. Under weight, a structure with an odd "
     "number of bars "
     "and no brace is never stable. A stable structure stays stable if its spins are multiplied by a factor not below "
@@ -53,12 +54,12 @@ CAPTION = (
 # %%
 def figure() -> Figure:
     """A plan a structure."""
-    picture = Figure(figsize=(9.0, 4.4))
+    picture = Figure(figsize=(8.6, 4.4))
     panels = picture.subplots(2, 5).ravel()
     for panel, name, factor, stands in zip(panels, GALLERY, data()["factor"], data()["stands"], strict=True):
         draw_plan(panel, example(name))
         verdict = "stands" if stands else "drifts" if factor == 0 else "falls"
-        panel.set(title=f"{name}: {verdict}", xticks=[], yticks=[], xlabel="", ylabel="")
+        panel.set(title=f"{name}\n{verdict}", xticks=[], yticks=[], xlabel="", ylabel="")
         panel.axis("off")
         ends = np.array([*example(name).joints, *(brace.to[:2] for brace in example(name).braces)])
         middle, half = (ends.max(0) + ends.min(0)) / 2, 0.75 * max(np.ptp(ends, axis=0).max(), 1.0)

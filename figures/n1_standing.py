@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Structure
-from lagrotor.drawing import CASE_COLOURS, EXACT_COLOUR
+from lagrotor.drawing import CASE_COLOURS, CASE_DASHES, EXACT_COLOUR, legend_below
 from lagrotor.structures import measured_growth
 from lagrotor.structures.coefficients import coefficients
 from lagrotor.structures.small_motion import small_motion
@@ -84,8 +84,9 @@ CAPTION = (
     "the moment of "
     f"the weight. The least spin for stability is {_alone:.3f} √(aκ)/I₃ for a single rotor, {_corner:.3f} √(aκ)/I₃ "
     "for the corner, "
-    f"and {_square:.3f} √(aκ)/I₃ for the square with one spin opposite. A pair is never stable. The growth rates of exact runs "
-    f"differ from the curves by at most {_off:.0e} √(κ/a). After a push of 0.001 rad/s the corner tilts by "
+    f"and {_square:.3f} √(aκ)/I₃ for the square with one spin opposite. A pair is never stable. The growth rates (a) of "
+    "exact runs "
+    f"differ from the curves by at most {_off:.0e} √(κ/a). After a push of 0.001 rad/s (b) the corner tilts by "
     f"{_under:.2f} rad if its "
     f"spins are 3 % below the threshold, and by {_over:.4f} rad if they are 3 % above it."
 )
@@ -98,11 +99,12 @@ def figure() -> Figure:
     picture = Figure(figsize=(8.6, 4.6))
     growth, tilt = picture.subplots(1, 2, width_ratios=(1.3, 1))
     for (name, (_, _, colour)), values in zip(SHOWN.items(), d["growth"], strict=True):
-        growth.plot(d["spins"], values, "--" if name[0] == "s" else "-", color=colour, label=name)
+        line = {"ls": "--" if name[0] == "s" else CASE_DASHES[colour], "lw": 3.2 if name[0] == "c" else 1.6}
+        growth.plot(d["spins"], values, color=colour, label=name, **line)
     growth.plot(np.tile(TRIED, 4), d["measured"].ravel(), "o", color=EXACT_COLOUR, mfc="none", label="exact motion")
-    growth.set(xlabel="spin in √(aκ)/I₃ [1]", ylabel="growth in √(κ/a) [1]", title="Largest growth rate")
+    growth.set(xlabel="spin (√(aκ)/I₃)", ylabel="growth rate (√(κ/a))", title="Largest growth rate")
     for values, name, line in zip(d["tilt"], ("3 % under", "3 % over"), (":", "-"), strict=True):
         tilt.semilogy(d["t"], values + 1e-6, line, color=EXACT_COLOUR, lw=1.2, label=f"corner, {name} its threshold")
-    tilt.set(xlabel="time in √(a/κ) [1]", ylabel="|x| of the first axis [1]", title="The corner after a push")
-    picture.legend(loc="outside lower center", ncols=3)
+    tilt.set(xlabel="time $t$ (√(a/κ))", ylabel="|x| of the first axis", title="Corner after a push")
+    legend_below(picture, 3)
     return picture

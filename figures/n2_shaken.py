@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Brace, Rotor, Structure
-from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR
+from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR, legend_below
 from lagrotor.structures import mass_worst_case, spins_win_worst_case, spins_worst_case
 
 ROTOR, LOAD, SWAY = Rotor(1, 1, 1 / 16, 1 / 8), 50.0, 2 * np.pi  # a disc of radius 0.5 m; 50 kg a tip; 1 Hz
@@ -19,7 +19,7 @@ INERTIA = ROTOR.J + LOAD * ROTOR.length**2
 MASSES = (0.01, 0.02, 0.05)
 SHOWN = 0.3
 
-TITLE = "A sway with spins, and with a tuned mass"
+TITLE = "Damping of a sway by spins or by a tuned mass"
 ALT = (
     "Left: the largest amplification as a function of the ratio of spin to sway rate. The curve of the spins falls as one "
     "divided by the spin and crosses the level lines of tuned masses of 1, 2 and 5 per cent. Peaks found on structures lie "
@@ -88,11 +88,12 @@ def measure() -> dict[str, float]:
 _one, _two, _five, _above, _higher, _same, _spun, _tuned = measure().values()
 CAPTION = (
     "Two discs of 1 kg under 50 kg each sway along the bar at 1 Hz. Brace and damper across the bar are optimal. With "
-    f"γ = G/(aΩ) the peak exceeds √2/γ by at most {100 * _higher:.1f} %. Spins are as good as a tuned mass of 1, 2 and 5 % at "
+    f"γ = G/(aΩ) the peak (a) exceeds √2/γ by at most {100 * _higher:.1f} %. Spins are as good as a tuned mass of 1, 2 "
+    "and 5 % at "
     f"γ = {_one:.3f}, {_two:.3f}, {_five:.3f}. The discs have 2 % of the mass, and γ = {_two:.3f} is a spin of "
     f"{_two * INERTIA * SWAY / ROTOR.I3:.0f} rad/s. The peaks found on structures agree with the curve within "
     f"{100 * _above:.3f} %, "
-    f"for equal and for opposite spins. Right: with spins at γ = {SHOWN} the peak is {_spun:.2f}, with the tuned mass it is "
+    f"for equal and for opposite spins. (b) With spins at γ = {SHOWN} the peak is {_spun:.2f}, with the tuned mass it is "
     f"{_tuned:.2f}."
 )
 
@@ -111,10 +112,15 @@ def figure() -> Figure:
         peaks.plot(
             d["gamma"][[0, -1]], [level, level], line, color=CASE_COLOURS[2], label=f"tuned mass, {100 * mu:g} %"
         )
-    peaks.set(xlabel="γ = G/(aΩ) [1]", ylabel="largest |X K/F| [1]", title="Worst case")
-    transfer.semilogy(d["rates"], d["bare"], color=CASE_COLOURS[1], lw=1.0, label="sway alone")
+    peaks.set(xlabel="γ = G/(aΩ)", ylabel="largest |X K/F|", title="Largest response at any rate")
+    peaks.set(yticks=(2, 5, 10, 20), yticklabels=("2", "5", "10", "20"))
+    peaks.set(xticks=(0.05, 0.1, 0.2, 0.5, 1), xticklabels=("0.05", "0.1", "0.2", "0.5", "1"), xlim=d["gamma"][[0, -1]])
+    peaks.minorticks_off()
+    transfer.semilogy(d["rates"], d["bare"], color=CASE_COLOURS[1], ls="--", lw=1.2, label="sway alone")
     transfer.plot(d["rates"], d["tuned"], color=CASE_COLOURS[2])
     transfer.plot(d["rates"], d["spun"], color=CORRECTION_COLOUR, ls="-.", label=f"spins, γ = {SHOWN}")
-    transfer.set(xlabel="rate in Ω [1]", ylabel="|X K/F| [1]", title="Transfer functions", ylim=(0.5, 200))
-    picture.legend(loc="outside lower center", ncols=3)
+    transfer.set(
+        xlabel="rate of the force / Ω", ylabel="|X K/F|", title="Response to a periodic force", ylim=(0.5, 200)
+    )
+    legend_below(picture, 3)
     return picture

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Pattern, Rotor
-from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR
+from lagrotor.drawing import CASE_COLOURS, CASE_DASHES, CORRECTION_COLOUR, EXACT_COLOUR, legend_below
 from lagrotor.structures import honeycomb, polygon_ring, zigzag
 
 SPIN, HINGE, ROTORS = 10.0, 50.0, 16
@@ -118,12 +118,12 @@ def measure() -> dict[str, float]:
 CAPTION = (
     f"The bars are massless, the rotors have 1 kg and 1 m, and the spins are {SPIN:g} rad/s; wave numbers are per "
     "rotor. The curves "
-    f"are bands. The marks are modes of closed polygons and of open zigzags of {ROTORS} rotors at q = πm/{ROTORS}; "
+    f"are bands. The marks (a), (b) are modes of closed polygons and of open zigzags of {ROTORS} rotors at q = πm/{ROTORS}; "
     "they lie on the "
-    f"bands to rounding error. The highest rate is G/a = {_top:.0f} rad/s. The staircase of alternating spins is "
+    f"bands to rounding error. The highest rate is G/a = {_top:.0f} rad/s. The staircase (c) of alternating spins is "
     "shown on hinges of "
     f"{HINGE:g} N m/rad, and under its weight with {LOADED:g} rad/s; there waves within {_held:.2f} of q = 0 and of q = π are "
-    "unstable. The honeycomb of opposite spins is shown from q = 0 to K and M; with equal spins its rate is zero."
+    "unstable. The honeycomb (d) of opposite spins is shown from q = 0 to K and M; with equal spins its rate is zero."
 )
 
 
@@ -136,8 +136,8 @@ def figure() -> Figure:
     (turning, even), (staircase, net) = panels
     inks = CASE_COLOURS[:3]
     for n, ink, one, both, modes in zip(RINGS, inks, d["alternating"], d["equal"], d["open_modes"], strict=True):
-        turning.plot(d["q"], one, color=ink, label=f"bars turned by {360 / n:.0f}°")
-        even.plot(d["q"][d["q"] < pi / 2], both[d["q"] < pi / 2], color=ink)
+        turning.plot(d["q"], one, color=ink, ls=CASE_DASHES[ink], label=f"bars turned by {360 / n:.0f}°")
+        even.plot(d["q"][d["q"] < pi / 2], both[d["q"] < pi / 2], color=ink, ls=CASE_DASHES[ink])
         even.plot(d["open_q"], modes, "o", color=EXACT_COLOUR, mfc="none", ms=4)
     turning.plot(
         d["ring_q"], d["ring_modes"], "o", color=EXACT_COLOUR, mfc="none", ms=4, label="modes of finite structures"
@@ -147,13 +147,16 @@ def figure() -> Figure:
         ("loaded", CASE_COLOURS[3], "under weight"),
     ):
         staircase.plot(d["q"], d[name], color=ink, lw=1.2, label=[label, None])
-    staircase.plot(d["q"], d["growth"], "--", color=CASE_COLOURS[3], label="growth under weight [1/s]")
+    staircase.plot(d["q"], d["growth"], "--", color=CASE_COLOURS[3], label="growth under weight")
     net.plot(d["share"], d["honeycomb"], color=CORRECTION_COLOUR, label="honeycomb, opposite spins")
     for panel, title in zip(
-        panels.flat, ("Alternating spins, and rings", "Equal spins", "Staircase, alternating", "Honeycomb"), strict=True
+        panels.flat,
+        ("Alternating spins, and rings", "Equal spins", "Staircase of alternating spins", "Honeycomb"),
+        strict=True,
     ):
-        panel.set(title=title, ylabel="rate [rad/s]", xlabel="wave number per rotor [rad]")
-    net.set(xlabel="share of the path 0 – K – M [1]")
+        panel.set(title=title, ylabel="rate (rad/s)", xlabel="wave number per rotor (rad)")
+    staircase.set(ylabel="rate (rad/s), growth (1/s)")
+    net.set(xlabel="share of the path 0 – K – M")
     even.set_xlim(0, pi / 2)
-    picture.legend(loc="outside lower center", ncols=4)
+    legend_below(picture, 3)
     return picture

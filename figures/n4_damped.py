@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, Structure, paired_scene
-from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR
+from lagrotor.drawing import CASE_COLOURS, CASE_DASHES, CORRECTION_COLOUR, EXACT_COLOUR, legend_below
 
 SPIN, TILT = 10.0, 0.1
 FRICTIONS = (0.3, 0.5, 0.8)  # N m s/rad
@@ -21,7 +21,7 @@ FAST, SMALL, WEAR, LONG = 40.0, 0.02, 0.1, 6.0
 TITLE = "Friction of the paired precession"
 ALT = (
     "Left: the angle about the joint line as a function of time for three values of friction. Each run oscillates and then "
-    "comes to rest at an angle, which is larger for smaller friction. A dashed line marks the predicted angle G r0 squared "
+    "comes to rest at an angle, which is larger for smaller friction. A dotted line marks the predicted angle G r0 squared "
     "divided by 2 c. Right: the radius of the precession for friction that is the same in every direction, and with "
     "constant spins; the first grows and the second shrinks."
 )
@@ -77,10 +77,10 @@ def measure() -> dict[str, float]:
 
 _found = list(measure().values())
 CAPTION = (
-    f"Left: the bar is massless, the spins are ±{SPIN:g} rad/s, and the amplitude is {TILT:g}. The pair comes to rest "
+    f"(a) The bar is massless, the spins are ±{SPIN:g} rad/s, and the amplitude is {TILT:g}. The pair comes to rest "
     "rotated about "
-    f"the joint line by {', '.join(f'{x:.3f}' for x in _found[:3])} times G r0²/2c (dashed) for c = "
-    f"{', '.join(f'{c:g}' for c in FRICTIONS)} N m s/rad. Right: the spins are ±{FAST:g} rad/s, and c = {WEAR:g} N m s/rad. The "
+    f"the joint line by {', '.join(f'{x:.3f}' for x in _found[:3])} times G r0²/2c (dotted) for c = "
+    f"{', '.join(f'{c:g}' for c in FRICTIONS)} N m s/rad. (b) The spins are ±{FAST:g} rad/s, and c = {WEAR:g} N m s/rad. The "
     "radius is proportional to exp((1/I₃ − 1/a) c t) if the friction also acts on the spins, and to exp(−c t/a) if the spins are "
     f"constant. After {LONG - 0.25:g} s it differs from these laws by at most {100 * max(abs(x - 1) for x in _found[3:]):.1f} %."
 )
@@ -93,19 +93,22 @@ def figure() -> Figure:
     picture = Figure(figsize=(8.6, 4.6))
     angle, tilt = picture.subplots(1, 2)
     for t, values, c, ink in zip(d["times"], d["angles"], FRICTIONS, CASE_COLOURS[:3], strict=True):
-        angle.plot(t[:-1], values[:-1], color=ink, lw=1.2, label=f"exact, c = {c:g} N m s/rad")
+        angle.plot(t[:-1], values[:-1], color=ink, ls=CASE_DASHES[ink], lw=1.4, label=f"exact, c = {c:g} N m s/rad")
+    for t, c in zip(d["times"], FRICTIONS, strict=True):
         law = SPIN * TILT**2 / (2 * c)
-        angle.plot(t[[0, -2]], [law, law], "--", color=ink, lw=1.0)
+        angle.plot(t[[0, -2]], [law, law], ":", color=CORRECTION_COLOUR, label="law, G r₀²/2c")
     angle.set(
-        xlabel="time in a/c [1]", ylabel="angle about the joint line [rad]", title="The pair comes to rest rotated"
+        xlabel="time $t$ (a/c)",
+        ylabel="angle about the joint line (rad)",
+        title="Angle of the pair as it comes to rest",
     )
     for x, ink, name in zip(
         d["tilts"], (EXACT_COLOUR, CASE_COLOURS[3]), ("friction on the spins too", "spins kept up"), strict=True
     ):
         tilt.plot(d["t"], x, color=ink, lw=0.8, label=f"exact, {name}")
     for rate, line in ((WEAR * 0.2, "-"), (-WEAR * 0.8, "-")):
-        label = "law of the radius" if rate > 0 else None
+        label = "law, radius" if rate > 0 else None
         tilt.plot(d["t"], np.exp(rate * d["t"]), line, color=CORRECTION_COLOUR, lw=1.4, label=label)
-    tilt.set(xlabel="time [s]", ylabel="tilt along the bar over the first [1]", title="Spin-down widens the precession")
-    picture.legend(loc="outside lower center", ncols=3)
+    tilt.set(xlabel="time $t$ (s)", ylabel="tilt along the bar / initial tilt", title="Radius of the precession")
+    legend_below(picture, 3)
     return picture

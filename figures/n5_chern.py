@@ -10,7 +10,7 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor.drawing import CASE_COLOURS
+from lagrotor.drawing import CASE_COLOURS, legend_below
 from lagrotor.structures import honeycomb, square_octagon
 from lagrotor.structures.waves.chern import chern_numbers, edge_waves
 
@@ -61,11 +61,11 @@ def signed(number: float) -> str:
 
 _low, _high, _number, _first, _last, _low_2, _high_2, _number_2, *_ = measure().values()
 CAPTION = (
-    f"Both strips have {WIDTH} cells and rotors of 1 kg and 1 m on hinges of {HINGE:g} N m/rad. Left: the springs have "
+    f"Both strips have {WIDTH} cells and rotors of 1 kg and 1 m on hinges of {HINGE:g} N m/rad. (a) The springs have "
     f"{SPRING:g} N/m, and the spins are {SPIN:g} rad/s. The bulk has a gap from {_low:.2f} to {_high:.2f} rad/s, and the band "
-    f"below it has the Chern number {signed(_number)}. Right: the bars are rigid, one joint of four is displaced by 0.3 m along "
+    f"below it has the Chern number {signed(_number)}. (b) The bars are rigid, one joint of four is displaced by 0.3 m along "
     f"both axes, and the spins alternate between {SPIN:g} and {SPIN / 3:g} rad/s. The gap is from {_low_2:.2f} to {_high_2:.2f} "
-    f"rad/s, and the Chern number is {signed(_number_2)}. The dashed lines bound the gaps. Colour marks the waves whose "
+    f"rad/s, and the Chern number is {signed(_number_2)}. The dashed lines bound the gaps. Colour and shape mark the waves whose "
     f"mean position is closer to a border than {100 * NEAR:.0f} % of the width. "
     f"The net number of rising curves across the gap is {signed(_first)} at the "
     f"first border and {signed(_last)} at the last."
@@ -87,17 +87,16 @@ def figure() -> Figure:
         low, high = d[f"{name}_gap"]
         reach = 3 * max(high - low, 0.25)
         shown = (rates > low - reach) & (rates < high + reach)
-        for kept, ink, label in (
-            (~first & ~last, "#999999", "bulk"),
-            (first, CASE_COLOURS[1], "first border"),
-            (last, CASE_COLOURS[0], "last border"),
+        for kept, ink, mark, size, label in (
+            (~first & ~last, "#c4c4c4", ".", 3.5, "bulk"),
+            (first, CASE_COLOURS[1], "^", 3, "first border"),
+            (last, CASE_COLOURS[0], "s", 2.5, "last border"),
         ):
             seen = kept & shown
-            panel.plot(at[seen], rates[seen], ".", ms=3.5, color=ink, label=label, rasterized=label == "bulk")
+            panel.plot(at[seen], rates[seen], mark, ms=size, color=ink, label=label, rasterized=label == "bulk")
         for edge in (low, high):
-            panel.axhline(edge, color="#222222", lw=0.8, ls="--")
-        panel.set(xlabel="wave number along the strip [rad]", ylabel="rate [rad/s]", title=title, xlim=(0, 2 * np.pi))
+            panel.axhline(edge, color="#222222", lw=0.8, ls="--", label="edges of the gap")
+        panel.set(xlabel="wave number along the strip (rad)", ylabel="rate (rad/s)", title=title, xlim=(0, 2 * np.pi))
         panel.set_ylim(low - reach, high + reach)
-    entries = panels[0].get_legend_handles_labels()
-    picture.legend(*entries, loc="outside lower center", ncols=3, markerscale=3)
+    legend_below(picture, 4, markerscale=2)
     return picture

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Structure
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, legend_below
 from lagrotor.structures import local_hamiltonian, measured_fall, resonant_factors
 
 CORNER = Structure(joints=[(0, 0), (1, 0), (1, 1)], bars=[(0, 1), (1, 2)], spins=[1, 0, 1], gravity=9.81, load=2.0)
@@ -21,7 +21,7 @@ DIRECTION = np.array(
     [[-0.051, -0.647], [-0.051, -0.265], [0.661, -0.265]]
 )  # of length 1, rates of the axes; a steep one
 
-TITLE = "Resonances: spins, pushes and falls"
+TITLE = "Falls of the corner near a resonance"
 ALT = (
     "Left: pushes and spins, in units of the critical ones. Two straight lines rise from a point at 1.0607. All exact runs "
     "that fell lie between the lines, and the runs outside did not fall. Right: the time until the corner falls as a "
@@ -77,9 +77,9 @@ _centre, _half, _outside, _runs, _, _slope, _off, _over = measure().values()
 CAPTION = (
     "The corner has three rotors, the middle one without spin, 2 kg on each tip, and massless bars. Pushes are in "
     "√(κ/a), times in "
-    f"√(a/κ). Left: at {_centre:.4f} times the critical spins two slow rates add up to a fast one. The two lines are {_half:.4f} "
+    f"√(a/κ). (a) At {_centre:.4f} times the critical spins two slow rates add up to a fast one. The two lines are {_half:.4f} "
     "to each side for a push of 0.01. Outside them no motion falls according to the terms of third order; "
-    f"{_outside:.0f} of {_runs:.0f} exact runs fell there. Right: the time until the corner falls at the resonance, "
+    f"{_outside:.0f} of {_runs:.0f} exact runs fell there. (b) The time until the corner falls at the resonance, "
     "for a push in a "
     f"direction of fast growth. The exact time is proportional to the push to the power −{-_slope:.3f}. It differs "
     "from the normal "
@@ -97,19 +97,19 @@ def figure() -> Figure:
     edges = [d["centre"] + sign * d["width"] * reach for sign in (-1, 1)]
     plane.fill_betweenx(reach, *edges, color=CORRECTION_COLOUR, alpha=0.2, lw=0, label="may fall, third order")
     for edge in edges:
-        plane.plot(edge, reach, color=CORRECTION_COLOUR)
+        plane.plot(edge, reach, color=CORRECTION_COLOUR, label="may fall, third order")
     x, y = np.meshgrid(d["centre"] + np.array(OFFSETS), PUSHES, indexing="ij")
     fell = np.isfinite(d["ends"])
     plane.plot(x[fell], y[fell], "o", color=EXACT_COLOUR, label="exact run, fell")
     plane.plot(x[~fell], y[~fell], "o", color=EXACT_COLOUR, mfc="none", label="exact run, stayed")
-    plane.set(xlabel="spins over the critical ones [1]", ylabel="push in √(κ/a) [1]", title="Which pushes fall")
+    plane.set(xlabel="spins / critical spins", ylabel="push (√(κ/a))", title="Pushes after which it falls")
     plane.set(xlim=(float(d["centre"]) - 0.027, float(d["centre"]) + 0.027), ylim=(0, 0.04))
     times.loglog(TIMED, d["said"], "-", color=CORRECTION_COLOUR, label="normal form, this direction")
     times.loglog(TIMED, d["least"], "--", color=CORRECTION_COLOUR, label="least time of any direction")
     times.loglog(TIMED, d["exact"], "o", color=EXACT_COLOUR, mfc="none", label="exact motion")
-    times.set(xlabel="push in √(κ/a) [1]", ylabel="time to fall in √(a/κ) [1]", title="At the resonance")
+    times.set(xlabel="push (√(κ/a))", ylabel="time to fall (√(a/κ))", title="Time to fall at resonance")
     times.set(xlim=(0.008, 0.05), xticks=TIMED, xticklabels=[f"{push:g}" for push in TIMED])
     times.set(yticks=(25, 50, 100), yticklabels=("25", "50", "100"), ylim=(20, 160))
     times.minorticks_off()
-    picture.legend(loc="outside lower center", ncols=3)
+    legend_below(picture, 3)
     return picture

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from scipy.integrate import solve_ivp
 
 from lagrotor import Link
-from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR
+from lagrotor.drawing import CASE_COLOURS, CASE_DASHES, CORRECTION_COLOUR, EXACT_COLOUR, legend_below
 from lagrotor.structures import polygon_ring, wave_amplitude
 
 CORNERS, AMPLITUDE = 7, 0.05
@@ -23,7 +23,7 @@ HEXAGON = polygon_ring(
 )  # three and four turns of phase add up to one
 PUMPED, SEED = 0.03, 0.003
 
-TITLE = "Nonlinear waves"
+TITLE = "Nonlinear waves: shift of the rate, and exchange of three waves"
 ALT = (
     "Left: the shift of the rate divided by the square of the amplitude, as a function of the wave number. The curve is "
     "positive for waves of one to two turns and negative beyond; marks of exact runs lie on it. Right: the amplitudes of "
@@ -86,12 +86,12 @@ def measure() -> dict[str, float]:
 
 _off, _apart, _least = measure().values()
 CAPTION = (
-    f"Left: a ring of {CORNERS} rotors with heavy bars on hinges. Exact runs of amplitude {AMPLITUDE:g} differ from "
+    f"(a) A ring of {CORNERS} rotors with heavy bars on hinges. Exact runs of amplitude {AMPLITUDE:g} differ from "
     "the law by at "
     f"most {100 * _off:.1f} % of the largest shift. At the poles the second harmonic is itself a wave. The kink at 2π/{CORNERS} "
     "comes from the definition of the amplitude, which is the larger semi-axis of a tip's path: there the paths are "
-    "circles. Right: "
-    "a hexagon of springs, in which the rates of the waves of three and four turns of phase add up to the rate of the "
+    "circles. (b) "
+    "A hexagon of springs, in which the rates of the waves of three and four turns of phase add up to the rate of the "
     "wave of one "
     f"turn. That wave starts with the amplitude {PUMPED:g} and the wave of three turns with {SEED:g}. The former decreases to "
     f"{_least:.2f} of its initial amplitude and returns. In 30 s the exact amplitudes differ by at most "
@@ -115,14 +115,14 @@ def figure() -> Figure:
     )
     shifts.plot(d["turns"], d["exact"], "o", color=EXACT_COLOUR, mfc="none", label="exact motion")
     shifts.set(
-        xlabel="wave number per rotor [rad]",
-        ylabel="shift over a² [rad/s]",
+        xlabel="wave number per rotor (rad)",
+        ylabel="shift / amplitude² (rad/s)",
         title="Shift of the rate",
         xlim=(0, 2 * pi),
     )
     for k, (name, ink) in enumerate(zip(("three turns", "four turns", "one turn"), CASE_COLOURS, strict=False)):
-        exchange.plot(d["times"], d["said"][k], color=ink, label=name)
-        exchange.plot(d["times"][::20], d["seen"][k][::20], "o", ms=3, color=ink, mfc="none")
-    exchange.set(xlabel="time [s]", ylabel="amplitude [1]", title="Three waves", xlim=(0, d["times"][-1]))
-    picture.legend(loc="outside lower center", ncols=5)
+        exchange.plot(d["times"], d["said"][k], color=ink, ls=CASE_DASHES[ink], label=f"law, {name}")
+        exchange.plot(d["times"][::20], d["seen"][k][::20], "o", ms=3, color=EXACT_COLOUR, mfc="none")
+    exchange.set(xlabel="time $t$ (s)", ylabel="amplitude", title="Amplitudes of three waves", xlim=(0, d["times"][-1]))
+    legend_below(picture, 3)
     return picture

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from scipy.optimize import minimize
 
 from lagrotor import Pattern
-from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR
+from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR, legend_below
 from lagrotor.structures import honeycomb
 from lagrotor.structures.waves.chern import chern_numbers
 
@@ -20,7 +20,7 @@ SPIN, SPRING = 30.0, 8.0  # rad/s, N/m
 LATTICE = {"spring": SPRING, "gravity": -9.81, "spins": SPIN}
 ANGLES = np.array([120, 113, 106, 99, 94, 90, 86, 81, 74, 67, 60])  # degrees
 
-TITLE = "The limit of fast spins"
+TITLE = "Bands and gap of gyroscopes in the limit of fast spins"
 ALT = (
     "Left: two bands of rates along a path through the wave numbers, with a gap at the corner of the zone. The curves are "
     "the limit of fast spins; the marks of the full equations lie just below them. Right: the edges of the gap as functions "
@@ -80,10 +80,10 @@ def measure() -> dict[str, float]:
 
 _over, _, _wide, *_ = measure().values()
 CAPTION = (
-    f"Gyroscopes of 1 kg hang with spins of {SPIN:g} rad/s and are joined by springs of {SPRING:g} N/m. Left: the "
+    f"Gyroscopes of 1 kg hang with spins of {SPIN:g} rad/s and are joined by springs of {SPRING:g} N/m. (a) The "
     "bands in the limit "
     "of fast spins along a path from q = 0 to K, M and back. The rates of the full equations are lower by up to "
-    f"{100 * (1 - 1 / _over):.1f} %. Right: the gap of the bulk, which is {_wide:.3f} rad/s wide on the honeycomb. At "
+    f"{100 * (1 - 1 / _over):.1f} %. (b) The gap of the bulk, which is {_wide:.3f} rad/s wide on the honeycomb. At "
     "a bond angle "
     "of 90° the bands touch, and the Chern number of the lower one changes its sign (Nash et al. 2015)."
 )
@@ -97,12 +97,12 @@ def figure() -> Figure:
     bands, gap = picture.subplots(1, 2)
     bands.plot(d["share"], d["limit"], color=CORRECTION_COLOUR, label=["limit of fast spins", None])
     bands.plot(d["at"], d["whole"], "o", ms=3.5, color=EXACT_COLOUR, mfc="none", label=["with inertia", None])
-    bands.set(xlabel="share of the path 0 – K – M – 0 [1]", ylabel="rate [rad/s]", title="Bands", xlim=(0, 1))
+    bands.set(xlabel="share of the path 0 – K – M – 0", ylabel="rate (rad/s)", title="Bands of the bulk", xlim=(0, 1))
     gap.fill_between(ANGLES, *d["edges"].T, color="#999999", alpha=0.2, lw=0)
-    for number, ink in ((-1, CASE_COLOURS[0]), (0, "#222222"), (1, CASE_COLOURS[1])):
+    for number, ink, mark in ((-1, CASE_COLOURS[0], "s"), (0, "#222222", "D"), (1, CASE_COLOURS[1], "o")):
         here = d["numbers"] == number
         name = "bands touch" if not number else f"Chern number {number:+d} below".replace("-", "−")
-        gap.plot(np.repeat(ANGLES[here], 2), d["edges"][here].ravel(), "o", ms=5, color=ink, label=name)
-    gap.set(xlabel="bond angle [deg]", ylabel="rate [rad/s]", title="Edges of the gap")
-    picture.legend(loc="outside lower center", ncols=3)
+        gap.plot(np.repeat(ANGLES[here], 2), d["edges"][here].ravel(), mark, ms=5, color=ink, label=name)
+    gap.set(xlabel="bond angle (deg)", ylabel="rate (rad/s)", title="Edges of the gap in the bulk")
+    legend_below(picture, 3)
     return picture

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Structure
-from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR, FORCE_COLOUR
+from lagrotor.drawing import CASE_COLOURS, CASE_DASHES, CORRECTION_COLOUR, EXACT_COLOUR, FORCE_COLOUR, legend_below
 from lagrotor.structures.steady_precession import SteadyPrecession
 
 TRIANGLE = Structure([(0, 0), (1, 0), (0.3, 0.9)], [(0, 1), (1, 2), (2, 0)], [-6.5, 7.7, 7.6], hinge=20.0)
@@ -97,13 +97,13 @@ def measure() -> dict[str, float]:
 
 _edge, _share, _least, _, _stays, _run, _most, _ = measure().values()
 CAPTION = (
-    "Left: the rate of three precessions according to the normal form of fourth order. Against exact orbits (circles) "
+    "(a) The rate of three precessions according to the normal form of fourth order. Against exact orbits (circles) "
     "the shift has "
-    f"a relative error of {100 * _least:.1f} % at the smallest tilts and {100 * _share:.0f} % at the largest. Middle: "
-    "the growth per "
+    f"a relative error of {100 * _least:.1f} % at the smallest tilts and {100 * _share:.0f} % at the largest. (b) "
+    "The growth per "
     "turn of a perturbation of the triangle's fastest precession, whose rate is nearly the sum of the two others. The "
     "growth is zero "
-    f"up to a tilt of {_edge:.3f}. Right: exact runs that start at the distance {KICK:g} from precessions. At a tilt of 0.07 the "
+    f"up to a tilt of {_edge:.3f}. (c) Exact runs that start at the distance {KICK:g} from precessions. At a tilt of 0.07 the "
     f"distance stays below {_stays:.0f} times its initial value. At 0.16 it grows at the rate of the multiplier (dotted) within "
     f"{100 * abs(_run - 1):.0f} %; on hinges it stops growing at {_most:.1f}. Under weight slow precessions of "
     "negative energy grow "
@@ -115,15 +115,15 @@ CAPTION = (
 def figure() -> Figure:
     """Rates against tilt; growth against tilt; runs beside precessions."""
     d = data()
-    picture = Figure(figsize=(9.2, 4.4))
+    picture = Figure(figsize=(8.6, 4.6))
     rates, growth, runs = picture.subplots(1, 3)
     for (name, (_, _, tilts)), ink in zip(RATES.items(), CASE_COLOURS, strict=False):
-        rates.plot(d[f"tilts, {name}"], d[f"law, {name}"], color=ink, label=name)
-        rates.plot(tilts, d[f"exact, {name}"], "o", color=ink, mfc="none")
-    rates.set(xlabel="tilt (sine) [1]", ylabel="shift over the rate upright [1]", title="Rate")
+        rates.plot(d[f"tilts, {name}"], d[f"law, {name}"], color=ink, ls=CASE_DASHES[ink], label=name)
+        rates.plot(tilts, d[f"exact, {name}"], "o", color=EXACT_COLOUR, mfc="none")
+    rates.set(xlabel="sine of the tilt", ylabel="shift / rate upright", title="Shift of the rate")
     growth.plot(d["tilts"][1:], d["growth"][1:], color=CORRECTION_COLOUR, label="normal form")
     growth.plot(GROWN, d["exact"], "o", color=EXACT_COLOUR, mfc="none", label="exact orbits")
-    growth.set(xlabel="tilt (sine) [1]", ylabel="growth per turn [1]", title="Stability", xticks=(0.05, 0.1, 0.15))
+    growth.set(xlabel="sine of the tilt", ylabel="growth per turn", title="Growth", xticks=(0.05, 0.1, 0.15))
     for (name, (_, _, tilt, _)), ink in zip(LEFT.items(), (FORCE_COLOUR, CASE_COLOURS[3], EXACT_COLOUR), strict=False):
         sizes, slope = d[f"off, {name}"][:-1], d[f"off, {name}"][-1]
         turns = np.arange(len(sizes))
@@ -131,7 +131,13 @@ def figure() -> Figure:
         if slope:
             middle = len(sizes) // 3
             part = turns[: len(sizes) // 2]
-            runs.semilogy(part, sizes[middle] * np.exp(slope * (part - middle)), ":", color=ink)
-    runs.set(xlabel="turns [1]", ylabel="distance [1]", title="Exact runs beside them")
-    picture.legend(loc="outside lower center", ncols=3)
+            runs.semilogy(
+                part,
+                sizes[middle] * np.exp(slope * (part - middle)),
+                ":",
+                color="#222222",
+                label="rate of the multiplier",
+            )
+    runs.set(xlabel="number of turns", ylabel="distance from the precession", title="Exact runs")
+    legend_below(picture, 3)
     return picture

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, simulate
-from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR
+from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR, legend_below
 from lagrotor.models import exact_orbit
 from lagrotor.numerics import measured_order, swing
 from lagrotor.pair import ansatz_A
@@ -59,7 +59,8 @@ ALT = (
     f"the paper's B stay at the rounding and step errors of the run, all below {_largest:.0e}."
 )
 CAPTION = (
-    "The spins are ±10 rad/s, the bar has m = 0.01 kg and K = 0.1 kg m². Each point is one turn of the exact orbit at "
+    "The spins are ±10 rad/s, the bar has m = 0.01 kg and K = 0.1 kg m². Each point is one turn of the exact orbit in "
+    "the minimal (a) or Euler (b) model at "
     "the tolerance "
     f"1e-12. Values below {FLOOR:g} are drawn at this value. The axial momenta are constant parameters of the reduced models. E, "
     f"G_1, P and B = G_1 − G_2 vary by at most {_largest:.1e} in SI units. The paper's A varies by {_swing:.3f} kg m²/s at r_0 = "
@@ -73,11 +74,11 @@ def figure() -> Figure:
     d = data()
     picture = Figure(figsize=(7.4, 5.0))
     looks = {
-        "A": (PAPER_COLOUR, "o", "the paper's A [kg m²/s]"),
-        "E": (EXACT_COLOUR, "s", "energy E [J]"),
-        "P": (CORRECTION_COLOUR, "^", "momentum about the joint line P [kg m²/s]"),
-        "B": (CASE_COLOURS[1], "D", "the paper's B [kg m²/s]"),
-        "G_1": (CASE_COLOURS[0], "x", "axial momentum $G_1$ [kg m²/s]"),
+        "A": (PAPER_COLOUR, "o", "the paper's A (kg m²/s)"),
+        "E": (EXACT_COLOUR, "s", "energy E (J)"),
+        "P": (CORRECTION_COLOUR, "^", "momentum about the joint line P (kg m²/s)"),
+        "B": (CASE_COLOURS[1], "D", "the paper's B (kg m²/s)"),
+        "G_1": (CASE_COLOURS[0], "x", "axial momentum $G_1$ (kg m²/s)"),
     }
     for i, (model, panel) in enumerate(zip(MODELS, picture.subplots(1, 2, sharey=True), strict=True)):
         for name, (colour, mark, says) in looks.items():
@@ -85,9 +86,13 @@ def figure() -> Figure:
                 AMPLITUDES, d[name][i], f"-{mark}", color=colour, ms=6, mfc="none", clip_on=False,
                 label=says if i == 0 else None,
             )  # fmt: skip
-        panel.set(xlabel="amplitude $r_0$ [1]", ylabel="" if i else "change over one turn [SI]", title=f"Model {model}")
+        panel.set(
+            xlabel="amplitude $r_0$",
+            ylabel="" if i else "change over one turn (SI)",
+            title=f"{model.capitalize()} model",
+        )
         panel.set_ylim(FLOOR / 3, 10)
         panel.set_xticks(AMPLITUDES, [f"{r:g}" for r in AMPLITUDES])
         panel.set_xticks([], minor=True)
-    picture.legend(loc="outside lower center", ncols=2)
+    legend_below(picture, 2)
     return picture

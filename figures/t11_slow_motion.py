@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, Shock, floquet, natural_rate, simulate
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, legend_below
 from lagrotor.theory import SlowMotion, slow_frequency, slow_motion
 
 LIGHT, HEAVY = Link(1, 0.01, 0.1), Link(1, 12.0, 0.0)
@@ -85,13 +85,13 @@ def measure() -> dict[str, float]:
 
 _off, _lean, _apart = measure().values()
 CAPTION = (
-    f"The spins are ±10 rad/s, and the shock is {FORCE:g} N along x. Left: with a bar of 0.01 kg the exact run, "
+    f"The spins are ±10 rad/s, and the shock is {FORCE:g} N along x. (a) With a bar of 0.01 kg the exact run, "
     "averaged over three "
     f"oscillations, leans to {np.degrees(_lean):.0f}° in {LASTS:g} s. Its distance from its curve is at most "
     f"{_off:.2f} times the "
-    "initial half-angle. Middle: with a bar of 12 kg, above the threshold, x turns back; the motion does not reach "
+    "initial half-angle. (b) With a bar of 12 kg, above the threshold, x turns back; the motion does not reach "
     "the curves of the "
-    f"same value at large lean. Right: the square of the slow frequency near the paired precession of r₀ = {R0}, with a massless "
+    f"same value at large lean. (c) The square of the slow frequency near the paired precession of r₀ = {R0}, with a massless "
     "bar, as a function of a push d = k P/G about the joint line, in units of g² s⁶. The exact multipliers differ by at most "
     f"{1e4 * _apart:.1f}×10⁻⁴ of the largest value. Where it is negative, a perturbation grows."
 )
@@ -107,13 +107,15 @@ def portrait(panel: Axes, motion: SlowMotion, name: str) -> None:
     levels = np.unique([*(start + np.array([-2.0, -1.2, -0.6, -0.2, 0.4, 1.2, 3, 8, 20]))])
     panel.contour(np.degrees(lean), half, W, levels, colors=[OTHERS], linewidths=0.8, linestyles="-")
     panel.contour(np.degrees(lean), half, W, [start], colors=[CORRECTION_COLOUR], linewidths=1.8, linestyles="-")
-    panel.set(xlabel="lean β [deg]", title=name, ylim=(-2.2, 2.2))
+    panel.plot([], [], color=OTHERS, lw=0.8, label="closed form, other starts")
+    panel.plot([], [], color=CORRECTION_COLOUR, lw=1.8, label="closed form, after the shock")
+    panel.set(xlabel="lean β (deg)", title=name, ylim=(-2.2, 2.2))
 
 
 def figure() -> Figure:
     """Two portraits; slow frequency against push."""
     d = data()
-    picture = Figure(figsize=(9.6, 4.2))
+    picture = Figure(figsize=(8.6, 4.4))
     left, middle, right = picture.subplots(1, 3)
     for panel, link, name in ((left, LIGHT, "Light bar"), (middle, HEAVY, "Heavy bar")):
         portrait(panel, slow_motion(scene(link)), name)
@@ -124,17 +126,11 @@ def figure() -> Figure:
         lw=1.2,
         label="exact run",
     )
-    left.plot([], [], color=OTHERS, lw=0.8, label="closed form, other starts")
-    left.plot([], [], color=CORRECTION_COLOUR, lw=1.8, label="closed form, after the shock")
-    left.set_ylabel("half-angle η/s [1]")
+    left.set_ylabel("half-angle η/s")
     fine = np.linspace(-1.1, 1.3, 121)
     right.plot(fine, squares(fine), color=CORRECTION_COLOUR, label="closed form, frequency")
     right.plot(d["pushes"], d["exact"], "o", mfc="none", color=EXACT_COLOUR, ms=6, label="exact multipliers")
     right.axhline(0, color="0.6", lw=0.7)
-    right.set(xlabel="push d/s² [1]", ylabel="frequency²/(g² s⁶) [1]", title="Slow frequency")
-    one = {}
-    for panel in (left, right):
-        handles, labels = panel.get_legend_handles_labels()
-        one |= dict(zip(labels, handles, strict=True))
-    picture.legend(one.values(), one.keys(), loc="outside lower center", ncols=3)
+    right.set(xlabel="push d/s²", ylabel="frequency²/(g² s⁶)", title="Slow frequency")
+    legend_below(picture, 3)
     return picture

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, natural_rate
-from lagrotor.drawing import CASE_COLOURS, EXACT_COLOUR
+from lagrotor.drawing import CASE_COLOURS, CASE_DASHES, EXACT_COLOUR, legend_below
 from lagrotor.models import upright_orbit
 from lagrotor.theory import azimuth_drift, frequency_shift
 
@@ -67,7 +67,7 @@ _shift, _drift = measure().values()
 CAPTION = (
     "The first spin is 10 rad/s; the second is the first multiplied by the ratio on the horizontal axis. For exact "
     "orbits of r₀ = "
-    f"{R0} (circles) the shift differs from the curve by at most {100 * _shift:.1f} %, and the drift by at most "
+    f"{R0} (circles) the shift (a) differs from the curve by at most {100 * _shift:.1f} %, and the drift (b) by at most "
     f"{100 * _drift:.1f} %, of the largest value. For opposite spins the paired precession is a closed orbit. The law "
     "of the drift "
     "requires that r₀² is much smaller than (G₁ + G₂)/(G₁ − G₂)."
@@ -81,17 +81,15 @@ def figure() -> Figure:
     picture = Figure(figsize=(7.4, 4.2))
     left, right = picture.subplots(1, 2)
     for panel, name, label in (
-        (left, "shift", "relative shift of the rate / r₀² [1]"),
-        (right, "drift", "drift of the azimuth / r₀⁴ [rad/s]"),
+        (left, "shift", "relative shift of the rate / r₀²"),
+        (right, "drift", "drift of the azimuth / r₀⁴ (rad/s)"),
     ):
         for i, (bar, (_, colour)) in enumerate(BARS.items()):
-            panel.plot(FINE, d[name][i], color=colour, label=f"closed form, {bar}")
+            panel.plot(FINE, d[name][i], color=colour, ls=CASE_DASHES[colour], label=f"closed form, {bar}")
             panel.plot(TRIED, d[f"exact {name}"][i], "o", color=EXACT_COLOUR, mfc="none", ms=6, label="exact orbits")
         panel.axhline(0, color="0.6", lw=0.7)
-        panel.set(xlabel="ratio of the spins ω₂/ω₁ [1]", ylabel=label)
+        panel.set(xlabel="ratio of the spins ω₂/ω₁", ylabel=label)
     left.set_title("Shift of the rate")
     right.set_title("Drift of the azimuth")
-    handles, labels = left.get_legend_handles_labels()
-    one = dict(zip(labels, handles, strict=True))
-    picture.legend(one.values(), one.keys(), loc="outside lower center", ncols=2)
+    legend_below(picture, 2)
     return picture

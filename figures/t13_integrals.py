@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Scene, simulate
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, OKABE_ITO
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, OKABE_ITO, legend_below
 from lagrotor.errors import LagrotorWarning
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
@@ -23,7 +23,7 @@ STARTS, EXPONENTS, OF_SECTION = (MADE[name] for name in ("starts", "exponents", 
 SECTION, TOL = 100, 1e-6
 CHAOTIC = 0.25  # 1/turn, above what 30 turns of a regular motion leave
 
-TITLE = "Are the integrals complete?"
+TITLE = "Regular and chaotic motion of the pair"
 
 
 # %%
@@ -91,17 +91,19 @@ ALT = (
     "others."
 )
 CAPTION = (
-    f"The spins are ±10 rad/s, and the bar has {PAIR.link.mass:g} kg and {PAIR.link.length:g} m. The map shows the "
+    f"The spins are ±10 rad/s, and the bar has {PAIR.link.mass:g} kg and {PAIR.link.length:g} m. The map (a) shows "
     "exponents over "
     f"{TURNS} turns for amplitudes r_0 and momenta P about the joint line. At r_0 = 0.05 with P ≤ 0 they are at most "
     f"{_small:.2f} "
     f"per turn, as for growth by a power of time; the largest is {_largest:.1f}. {_chaotic:.0f} of "
     f"{AMPLITUDES.size * MOMENTA.size} exceed {CHAOTIC:g}. The sections are "
-    "taken at the maxima of the mean x while the error is below 10⁻⁶, in one colour per start. At r_0 = "
-    f"{SECTIONS[0][0]:g}, P/G = {SECTIONS[0][1]:g} each start stays on a curve of constant averaged action. At r_0 = "
-    f"{SECTIONS[1][0]:g}, P/G = {SECTIONS[1][1]:g}, {_wild:.0f} of {len(STARTS[1])} starts are chaotic. Their error stays "
+    "taken at the maxima of the mean x while the error is below 10⁻⁶, in one colour and shape per start, named after "
+    "its phase. At r_0 = "
+    f"{SECTIONS[0][0]:g}, P/G = {SECTIONS[0][1]:g} (b) each start stays on a curve of constant averaged action. At r_0 = "
+    f"{SECTIONS[1][0]:g}, P/G = {SECTIONS[1][1]:g} (d), {_wild:.0f} of {len(STARTS[1])} starts are chaotic. Their error stays "
     "below 10⁻⁶ for "
-    f"at least {_short:.0f} turns, the error of the others for all {_long:.0f}. The line is the time in which 10⁻¹⁴ grows to tol."
+    f"at least {_short:.0f} turns, the error of the others for all {_long:.0f}. The line in (c) is the time in which "
+    "10⁻¹⁴ grows to tol."
 ).replace("-", "−")
 
 
@@ -109,34 +111,40 @@ CAPTION = (
 def figure() -> Figure:
     """The map of exponents, the two sections, the horizons."""
     d = data()
-    picture = Figure(figsize=(9.0, 7.6))
+    picture = Figure(figsize=(8.6, 7.6))
     plane, regular, horizons, chaotic = picture.subplots(2, 2).ravel()
     plane.imshow(d["exponents"], origin="lower", aspect="auto", cmap="magma", vmin=0, vmax=1.2)
     plane.set_xticks(range(AMPLITUDES.size), [f"{r:g}" for r in AMPLITUDES])
     plane.set_yticks(range(MOMENTA.size), [f"{p:g}".replace("-", "−") for p in MOMENTA])
-    plane.set(xlabel="amplitude $r_0$ [1]", ylabel="momentum P/G [1]", title="Exponent [1/turn]")
+    plane.set(xlabel="amplitude $r_0$", ylabel="momentum P/G", title="Lyapunov exponent (1/turn)")
     for (i, j), value in np.ndenumerate(d["exponents"]):
         plane.text(
-            j, i, f"{value:.2f}", ha="center", va="center", color="white" if value < 0.8 else "black", fontsize=8
+            j, i, f"{value:.2f}", ha="center", va="center", color="white" if value < 0.8 else "black", fontsize=9
         )
     plane.grid(visible=False)
-    colours = list(OKABE_ITO.values())
+    looks = list(zip([name for name in OKABE_ITO if name != "yellow"], "osD^vXP", strict=True))
     for panel, name, (r0, p) in zip((regular, chaotic), ("regular", "chaotic"), SECTIONS, strict=True):
         for k in range(len(STARTS[1])):
             points = d[name][d[name][:, 0] == k]
-            panel.plot(points[:, 1], points[:, 2], ".", ms=3, color=colours[k])
+            colour, mark = looks[k]
+            panel.plot(points[:, 1], points[:, 2], mark, ms=2.5, color=OKABE_ITO[colour], label=f"start at {18 * k}°")
         panel.margins(0.04)
         panel.set(
-            xlabel="mean x [1]",
-            ylabel="half the twist [rad]",
+            xlabel="mean x",
+            ylabel="half the twist (rad)",
             title=f"Section at $r_0$ = {r0:g}, P/G = {p:g}".replace("-", "−"),
         )
     rate = np.linspace(0.3, 1.0, 60)
     horizons.plot(
-        d["horizons"][:, 0], d["horizons"][:, 1], "o", color=EXACT_COLOUR, mfc="none", label="horizon of auto"
+        d["horizons"][:, 0],
+        d["horizons"][:, 1],
+        "o",
+        color=EXACT_COLOUR,
+        mfc="none",
+        label="horizon of the model 'auto'",
     )
     horizons.plot(rate, np.log(TOL / 1e-14) / rate, color=CORRECTION_COLOUR, label="ln(tol/10⁻¹⁴) over the exponent")
     horizons.margins(0.04)
-    horizons.set(xlabel="exponent [1/turn]", ylabel="horizon [turns]", title="How long a run is known")
-    picture.legend(loc="outside lower center", ncols=3)
+    horizons.set(xlabel="exponent (1/turn)", ylabel="horizon (turns)", title="Horizon of a run")
+    legend_below(picture, 4, markerscale=1.6)
     return picture

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, consistent_scene, simulate
-from lagrotor.drawing import CASE_COLOURS, EXACT_COLOUR
+from lagrotor.drawing import CASE_COLOURS, CASE_DASHES, EXACT_COLOUR, legend_below
 from lagrotor.theory import guiding_centre, leaning_state
 
 PAIR = Scene((11, 7), link=Link(0.8, 4.0, 0.0))
@@ -67,11 +67,11 @@ _numbers = list(measure().values())
 CAPTION = (
     f"The spins are {PAIR.spins[0]:g} and {PAIR.spins[1]:g} rad/s. A tilted and twisted initial state is pushed in "
     "three ways. In "
-    f"{DURATION:g} s the centre moves by up to {max(_numbers[:3]):.2f} rad, and the law differs from the centres of "
+    f"{DURATION:g} s the centre (a) moves by up to {max(_numbers[:3]):.2f} rad, and the law differs from the centres of "
     "the exact runs "
     f"(circles) by at most {max(_numbers[3:]):.3f} rad. On the thin lines the part G₁x₁ + G₂x₂ of the momentum about "
     "the joint line "
-    "is constant. The dotted curve is the exact motion."
+    "is constant. The dotted curve (b) is the exact motion."
 )
 
 
@@ -87,16 +87,14 @@ def figure() -> Figure:
     plane.contour(beta, h, flux, levels=14, colors="0.75", linewidths=0.7)
     for (name, _), colour in zip(PUSHES.items(), CASE_COLOURS, strict=False):
         law, centres, motion = d[name], d[f"exact, {name}"], d[f"motion, {name}"]
-        plane.plot(law[:, 0], law[:, 1], color=colour, label=f"law, pushed {name}")
+        plane.plot(law[:, 0], law[:, 1], color=colour, ls=CASE_DASHES[colour], label=f"law, pushed {name}")
         plane.plot(
             centres[::FINE, 0], centres[::FINE, 1], "o", color=EXACT_COLOUR, mfc="none", ms=4, label="exact centres"
         )
         course.plot(d["times"], motion[:, 1], ":", color=EXACT_COLOUR, lw=0.8, label="exact motion")
-        course.plot(d["times"], law[:, 1], color=colour)
+        course.plot(d["times"], law[:, 1], color=colour, ls=CASE_DASHES[colour])
         course.plot(d["times"][::FINE], centres[::FINE, 1], "o", color=EXACT_COLOUR, mfc="none", ms=4)
-    plane.set(xlabel="lean β [rad]", ylabel="half the twist h [rad]", title="Where the centre goes")
-    course.set(xlabel="time [s]", ylabel="half the twist h [rad]", title="And when")
-    entries = [panel.get_legend_handles_labels() for panel in (plane, course)]
-    one = {label: handle for handles, labels in entries for handle, label in zip(handles, labels, strict=True)}
-    picture.legend(one.values(), one.keys(), loc="outside lower center", ncols=3)
+    plane.set(xlabel="lean β (rad)", ylabel="half the twist h (rad)", title="Path of the centre")
+    course.set(xlabel="time $t$ (s)", ylabel="half the twist h (rad)", title="Twist over time")
+    legend_below(picture, 3)
     return picture

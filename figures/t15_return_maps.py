@@ -10,13 +10,13 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR
+from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR, legend_below
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 
 MADE = PAPER.scripts.run("derivations", "t15_return_maps")
 FORMS, SIZES, RUNS, ANGLES = (MADE[name] for name in ("forms", "SIZES", "runs", "angles"))
 AXIS = next(iter(SIZES))
-INKS = (*CASE_COLOURS, CORRECTION_COLOUR)
+SHORT = dict(zip(SIZES, ("Hénon–Heiles: rotation", "Duffing: rotation"), strict=True))
 
 TITLE = "The normal form about a periodic orbit"
 ALT = (
@@ -65,14 +65,14 @@ def measure() -> dict[str, float]:
 
 _form, _line, _driven_form, _driven_line = measure().values()
 CAPTION = (
-    "Left and middle: the orbit of Hénon–Heiles along the axis, which crosses y = 0 at "
-    f"{MADE['CASES'][AXIS][1][MADE['y_v']]:g}. Left: the section through its neighbourhood according to the normal form of sixth "
+    "(a) and (b): the orbit of Hénon–Heiles along the axis, which crosses y = 0 at "
+    f"{MADE['CASES'][AXIS][1][MADE['y_v']]:g}. (a) The section through its neighbourhood according to the normal form of sixth "
     "order (curves), and 120 exact returns of each run (dots). The widest run rotates once in "
-    f"{1 / data()[f'exact, {AXIS}'][-1]:.2f} returns, so its dots form clusters. Middle and right: the rotations "
+    f"{1 / data()[f'exact, {AXIS}'][-1]:.2f} returns, so its dots form clusters. (b) and (c): the rotations "
     "about the orbit per "
-    f"return. Except for the widest run the error of the normal form is at most {_form:.5f} turns (middle) and "
+    f"return. Except for the widest run the error of the normal form is at most {_form:.5f} turns (b) and "
     f"{_driven_form:.4f} "
-    f"turns (right); the error of the linear twist is at most {_line:.5f} and {_driven_line:.4f} turns. The form is "
+    f"turns (c); the error of the linear twist is at most {_line:.5f} and {_driven_line:.4f} turns. The form is "
     "due to Birkhoff "
     "(1927)."
 )
@@ -82,19 +82,18 @@ CAPTION = (
 def figure() -> Figure:
     """The section; turns against the action, of two cases."""
     d = data()
-    picture = Figure(figsize=(10.4, 4.2))
+    picture = Figure(figsize=(8.6, 4.2))
     section, *panels = picture.subplots(1, 3)
-    for curve, dots, ink in zip(d["section of the form"], d["section"], INKS, strict=True):
-        section.plot(*curve.T, color=ink, lw=1)
-        section.plot(*dots.T, ".", color=ink, ms=3)
-    section.set(xlabel="x [1]", ylabel="momentum of x [1]", title="Section of Hénon–Heiles")
+    for curve, dots in zip(d["section of the form"], d["section"], strict=True):
+        section.plot(*curve.T, color=CORRECTION_COLOUR, lw=1)
+        section.plot(*dots.T, ".", color=EXACT_COLOUR, ms=3, label="exact returns")
+    section.set(xlabel="x", ylabel="momentum of x", title="Hénon–Heiles: section")
     section.margins(0.06)
     for panel, name in zip(panels, SIZES, strict=True):
         panel.plot(d[f"curve I, {name}"], d[f"line, {name}"], "--", color=CASE_COLOURS[0], label="with the twist alone")
         panel.plot(d[f"curve I, {name}"], d[f"form, {name}"], color=CORRECTION_COLOUR, label="form of sixth order")
         panel.plot(d[f"I, {name}"], d[f"exact, {name}"], "o", color=EXACT_COLOUR, mfc="none", ms=5, label="exact runs")
-        panel.set(xlabel="action I [1]", ylabel="turns in a return [1]", title=name[0].upper() + name[1:])
+        panel.set(xlabel="action I", ylabel="rotation (turns per return)", title=SHORT[name])
     panels[0].set_xticks(np.arange(4) / 1000)
-    handles, labels = panels[0].get_legend_handles_labels()
-    picture.legend(handles, labels, loc="outside lower center", ncols=3)
+    legend_below(picture, 4)
     return picture

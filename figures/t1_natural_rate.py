@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Rotor, Scene, natural_rate, simulate
-from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR
+from lagrotor.drawing import CASE_COLOURS, CASE_DASHES, CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR, legend_below
 from lagrotor.numerics import peak, spectrum
 
 SPIN, MASS, INERTIA, PRINTED = 10.0, 1.0, 0.1, 0.7125
@@ -68,8 +68,8 @@ def measure() -> dict[str, float]:
 
 _heavy_equal, _, _heavy, _heavy_run, _, _, _light, _light_run, _off = measure().values()
 CAPTION = (
-    f"Omega_0 is in units of G/J, with J = {Rotor().J:g} kg m² and ell = R = 1 m. Left: the bar has a mass of "
-    f"{MASS:g} kg. Right: it "
+    f"Omega_0 is in units of G/J, with J = {Rotor().J:g} kg m² and ell = R = 1 m. (a) The bar has a mass of "
+    f"{MASS:g} kg. (b) It "
     f"has an inertia of {INERTIA:g} kg m². The paper's constant {PRINTED} is J/(J + m R²/2) for equal spins with its heavy bar, "
     f"{_heavy_equal:.5f}. Opposite spins have {_heavy:.5f} with this bar and {_light:.5f} with the light bar of "
     "section 5.2.1. The "
@@ -87,7 +87,13 @@ def figure() -> Figure:
     colours = {"equal": CORRECTION_COLOUR, "opposite": CASE_COLOURS[2]}
     for by, panel in panels.items():
         for name, colour in colours.items():
-            panel.plot(d[by], d[f"{name}_by_{by}"], color=colour, label=f"closed form, {name} spins")
+            panel.plot(
+                d[by],
+                d[f"{name}_by_{by}"],
+                color=colour,
+                ls=CASE_DASHES.get(colour, "-"),
+                label=f"closed form, {name} spins",
+            )
             panel.plot(
                 d[f"{by}_tried"], d[f"{name}_by_{by}_tried"], "o", color=EXACT_COLOUR, ms=5, mfc="none",
                 label="exact model", clip_on=False, zorder=4,
@@ -97,12 +103,10 @@ def figure() -> Figure:
         panel.axvline(edge, color="#777777", ls=":", label=r"dumbbell, $K = m\ell^2/4$")
         place = 1.0 if by == "inertia" else 0.01
         panel.axvline(place, color=PAPER_COLOUR, lw=5, alpha=0.25, label="the paper's bar")
-        panel.set_ylabel("natural frequency, in units of G/J [1]")
-    panels["inertia"].set(xlabel="inertia of the bar K [kg m²]", title=f"Mass of the bar m = {MASS:g} kg")
-    panels["mass"].set(xlabel="mass of the bar m [kg]", title=f"Inertia of the bar K = {INERTIA:g} kg m²")
+        panel.set_ylabel("natural frequency Ω₀ (G/J)")
+    panels["inertia"].set(xlabel="inertia of the bar K (kg m²)", title=f"Bar of mass m = {MASS:g} kg")
+    panels["mass"].set(xlabel="mass of the bar m (kg)", title=f"Bar of inertia K = {INERTIA:g} kg m²")
     panels["mass"].set_xlim(-0.05, 2)
     panels["inertia"].set_ylim(0.4, 1.05)
-    handles, labels = panels["inertia"].get_legend_handles_labels()
-    one = dict(zip(labels, handles, strict=True))
-    picture.legend(one.values(), one.keys(), loc="outside lower center", ncols=3)
+    legend_below(picture, 3)
     return picture

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, Shock, shock_response, simulate
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, ROTORS
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, ROTORS, legend_below
 from lagrotor.numerics import measured_order
 
 FORCE, AT, WIDTH, TOL = (8.0, -2.0, 0.0), 0.5, 1 / 20, 1e-11
@@ -68,9 +68,9 @@ _difference, _power = measure().values()
 CAPTION = (
     "A pair at rest with opposite spins of ±10 rad/s and a bar with m = 0.01 kg, K = 0.1 kg m² receives a pulse of "
     f"{FORCE[0]:g} N along x and {FORCE[1]:g} N along y on tip 1 at {AT:g} s, with the width {WIDTH:g} s. The exact curve is the "
-    f"minimal model at the tolerance {TOL:g}. The positions are those of the tips relative to the ground joints, in "
+    f"minimal model at the tolerance {TOL:g}. The positions (a) are those of the tips relative to the ground joints, in "
     "units of R. The "
-    f"difference is up to {_difference:.3f} R; it is proportional to the force to the power {_power:.2f}."
+    f"difference is up to {_difference:.3f} R (b); it is proportional to the force to the power {_power:.2f} (c)."
 )
 
 
@@ -88,11 +88,11 @@ def figure() -> Figure:
             d["t"], d["exact"][:, i], color=EXACT_COLOUR, ls=":", lw=1.3, label="exact model" if i == 0 else None
         )
         difference.plot(d["t"], d["closed"][:, i] - d["exact"][:, i], color=colour)
-    motion.set(xlabel="time [s]", ylabel="component of the axis [1]", title="Motion")
-    difference.set(xlabel="time [s]", ylabel="difference [1]", title="Residual: closed form less exact")
+    motion.set(xlabel="time $t$ (s)", ylabel="x or y of the tip (R)", title="Motion after the shock")
+    difference.set(xlabel="time $t$ (s)", ylabel="difference (R)", title="Closed form minus exact")
     order.loglog(d["forces"], d["errors"], "o", color=EXACT_COLOUR, label="largest difference over 2 s")
     law = d["errors"][0] * (d["forces"] / d["forces"][0]) ** 2
     order.loglog(d["forces"], law, color=CORRECTION_COLOUR, ls="--", label="square of the force")
-    order.set(xlabel="force along x [N]", ylabel="largest difference [1]", title="Order", xlim=(0.8, 20))
-    picture.legend(loc="outside lower center", ncols=3)
+    order.set(xlabel="force along x (N)", ylabel="largest difference (R)", title="Largest difference", xlim=(0.8, 20))
+    legend_below(picture, 3)
     return picture

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, simulate
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, legend_below
 from lagrotor.models import exact_orbit
 from lagrotor.numerics import measured_order
 from lagrotor.theory import paired_series, series_orbit
@@ -70,9 +70,9 @@ def measure() -> dict[str, float]:
 
 CAPTION = (
     "The bar has ell = 1.3 R, m = 0.35 kg and K = 0.11 kg m², which the derivation does not use; the spins are ±10 "
-    "rad/s. The error "
+    "rad/s. The error (a) "
     "is the largest distance of the tip, in units of R, from the periodic orbit found by shooting, at equal phase. The error of "
-    "order n should be proportional to r_0 to the power n + 1; the measured slopes differ from n + 1 by at most "
+    "order n should be proportional to r_0 to the power n + 1; the measured slopes (b) differ from n + 1 by at most "
     f"{np.abs(slopes() - np.array(ORDERS) - 1).max():.2f}. The dashed lines are bounds from the terms of the series; "
     "the errors are "
     f"at most {100 * measure()['largest error over its bound']:.0f} % of them."
@@ -91,16 +91,14 @@ def figure() -> Figure:
             d["amplitudes"], d["errors"][i], "o-", ms=3.5, color=shades[i], label=f"order {order}", clip_on=False
         )
     for i, (order, bounds) in enumerate(zip(BOUNDED, d["bounds"], strict=True)):
-        says = "the series' own bound" if i == 0 else None
+        says = "bound, orders 5, 7, 9" if i == 0 else None
         errors.loglog(AT, bounds, ls="--", lw=1.0, color=shades[order - 1], label=says)
-    errors.set(
-        xlabel="amplitude $r_0$ [1]", ylabel="largest distance [1]", title="Error of the series", ylim=(1e-13, 1)
-    )
+    errors.set(xlabel="amplitude $r_0$", ylabel="largest distance (R)", title="Error of the series", ylim=(1e-13, 1))
     errors.set_xticks([0.05, 0.1, 0.2, 0.4], ["0.05", "0.1", "0.2", "0.4"], minor=False)
     errors.set_xticks([], minor=True)
     slope.plot(d["orders"], d["orders"] + 1, color=CORRECTION_COLOUR, label="promised: order + 1")
     slope.plot(d["orders"], slopes(), "o", color=EXACT_COLOUR, mfc="none", label="measured slope")
-    slope.set(xlabel="order of the series [1]", ylabel="slope [1]", title="Residual's slope", xlim=(0.5, 9.5))
+    slope.set(xlabel="order of the series", ylabel="slope", title="Slope of the error", xlim=(0.5, 9.5))
     slope.set_xticks(range(1, 10))
-    picture.legend(loc="outside lower center", ncols=4)
+    legend_below(picture, 4)
     return picture

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, natural_rate, orbit_family
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, HIGH_ORDER_COLOUR, PAPER_COLOUR
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, HIGH_ORDER_COLOUR, PAPER_COLOUR, legend_below
 from lagrotor.theory import paired_series
 from lagrotor.theory.paired_precession.series import shape_of
 
@@ -65,7 +65,8 @@ def measure() -> dict[str, float]:
 
 
 CAPTION = (
-    "The frequency ratio is Omega divided by Omega_0; r_0 is the sine of the inclination when the axes are parallel. The paper's "
+    "The frequency ratio is Omega divided by Omega_0 for massless bars of the lengths R (a), 0.6 R (b) and 1.6 R (c); "
+    "r_0 is the sine of the inclination when the axes are parallel. The paper's "
     "curve is 1/cos theta_0 for every bar. The exact points are the family of periodic orbits, continued from small amplitudes "
     "without a fold. It ends at r_0 = 1, where the axes lie along the joint line. At r_0 = "
     f"{READ_AT:g} with the massless bar the errors are "
@@ -101,7 +102,7 @@ def figure() -> Figure:
         )
         low, high = min(exact.min(), 1.0), max(exact.max(), 1.0)
         panel.set_ylim(low - 0.25 * (high - low), high + 0.6 * (high - low))
-        panel.set(xlabel="amplitude $r_0$ [1]", ylabel=r"$\Omega / \Omega_0$ [1]" if i == 0 else "", xlim=(0, 1))
-        panel.set_title(name.replace(", ", ",\n"), fontsize=9.5)
-    picture.legend(loc="outside lower center", ncols=4)
+        panel.set(xlabel="amplitude $r_0$", ylabel=r"$\Omega / \Omega_0$" if i == 0 else "", xlim=(0, 1))
+        panel.set_title(name.removeprefix("massless, "))
+    legend_below(picture, 4)
     return picture

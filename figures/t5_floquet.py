@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, floquet
-from lagrotor.drawing import CASE_COLOURS, EXACT_COLOUR, OKABE_ITO
+from lagrotor.drawing import CASE_COLOURS, EXACT_COLOUR, OKABE_ITO, legend_below
 from lagrotor.numerics import measured_order
 from lagrotor.theory import elliptic_edge, growth_squared
 
@@ -84,11 +84,12 @@ def measure() -> dict[str, float]:
 
 _none, _less, _more, _error = measure().values()
 CAPTION = (
-    "Exact Floquet multipliers mu, 1/mu of the orbit for spins of ±10 rad/s and ell = R. Filled marks are log|mu| per turn "
+    "(a) Exact Floquet multipliers mu, 1/mu of the orbit for spins of ±10 rad/s and ell = R. Filled marks are log|mu| per turn "
     "(hyperbolic), open marks the angle of mu per turn (elliptic), and lines the leading terms. Between the two "
     "smallest amplitudes "
-    f"they are proportional to r_0 to the power {_none:.2f} for b = 0, {_less:.2f} for b < 0, and {_more:.2f} for b > 0. Right: "
-    "sigma = (a + b)/(a − b) for K = 0. The line is the derived edge, which is right to first order in sigma − 1, where r_0² is "
+    f"they are proportional to r_0 to the power {_none:.2f} for b = 0, {_less:.2f} for b < 0, and {_more:.2f} for b > 0. (b) "
+    "Here sigma = (a + b)/(a − b) for K = 0. The line is the derived edge, which is right to first order in sigma − 1, "
+    "where r_0² is "
     f"(2/3) (sigma − 1). The grey band is its error, {100 * _error:.0f} % of r_0 at sigma = {LAST:g}."
 )
 
@@ -103,7 +104,7 @@ def figure() -> Figure:
         fill = colour if values[0] > 0 else "white"
         growth.loglog(d["fine"], law, color=colour, lw=1.2)
         growth.loglog(d["amplitudes"], np.abs(values), mark, color=colour, mfc=fill, label=name)
-    growth.set(xlabel="amplitude $r_0$ [1]", ylabel="growth or angle per turn [rad]", title="Growth per turn")
+    growth.set(xlabel="amplitude $r_0$", ylabel="growth or angle per turn (rad)", title="Growth or angle per turn")
     growth.set_xticks([0.06, 0.1, 0.2, 0.3], ["0.06", "0.1", "0.2", "0.3"])
     growth.set_xticks([], minor=True)
     plane.fill_betweenx(d["edge_sigma"], d["edge_r0"], 0.4, color=OKABE_ITO["yellow"], alpha=0.3, lw=0)
@@ -120,11 +121,11 @@ def figure() -> Figure:
         sigma, r0, _ = d["tried"][(d["tried"][:, 2] > 0) == growing].T
         plane.plot(r0, sigma, "D", color=EXACT_COLOUR, mfc=fill, ms=5, label=says)
     plane.set(
-        xlabel="amplitude $r_0$ [1]",
-        ylabel=r"$\sigma$ [1]",
-        title="Where it is stable",
+        xlabel="amplitude $r_0$",
+        ylabel="σ = (a + b)/(a − b)",
+        title="Regions of stability",
         xlim=(0, 0.4),
         ylim=(0.96, LAST),
     )
-    picture.legend(loc="outside lower center", ncols=3)
+    legend_below(picture, 3)
     return picture

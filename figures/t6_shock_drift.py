@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, Shock, cancelling_force, toppling_after_shock
-from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR
+from lagrotor.drawing import CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR, legend_below
 from lagrotor.models import run_after, turning_rate
 
 ALONG, CHOSEN, SWINGS = 40.0, -11.0, 8
@@ -63,8 +63,9 @@ CAPTION = (
     "The spins are ±10 rad/s, the bar has m = 0.01 kg and K = 0.1 kg m², and the shock has F_x = "
     f"{ALONG:g} N for 1/20 s. The mean of alpha' over {SWINGS} oscillations vanishes at F_y = −{-_second:.2f} N to "
     "second order in "
-    f"the shock, and at −{-_exact:.2f} N in the exact motion. With the paper's −{-CHOSEN:g} N it is {_chosen:+.4f} rad/s, and "
-    f"without F_y it is −{-_without:.4f} rad/s."
+    f"the shock, and at −{-_exact:.2f} N in the exact motion (a). With the paper's −{-CHOSEN:g} N it is {_chosen:+.4f} "
+    "rad/s, and "
+    f"without F_y it is −{-_without:.4f} rad/s. The closed form differs from the exact runs by the curve in (b)."
 )
 
 
@@ -80,10 +81,12 @@ def figure() -> Figure:
     rate.plot(d["tried"], d["exact"], "o", color=EXACT_COLOUR, mfc="none", label="exact runs")
     rate.plot(_second, 0, "D", color=CORRECTION_COLOUR, ms=7, label=f"cancels to second order, −{-_second:.2f} N")
     rate.plot(_exact, 0, "*", color=EXACT_COLOUR, ms=11, label=f"cancels on exact runs, −{-_exact:.2f} N")
-    rate.set(xlabel="force along y [N]", ylabel="mean turning rate [rad/s]", title="Drift", xlim=(-20.5, 5.5))
+    rate.set(
+        xlabel="force along y (N)", ylabel="mean turning rate (rad/s)", title="Mean turning rate", xlim=(-20.5, 5.5)
+    )
     residual.plot(d["tried"], d["closed_tried"] - d["exact"], "o-", color=CORRECTION_COLOUR, mfc="none")
     residual.axhline(0, color="#777777", lw=0.8)
-    residual.set(xlabel="force along y [N]", ylabel="difference [rad/s]", title="Closed form less exact")
+    residual.set(xlabel="force along y (N)", ylabel="difference (rad/s)", title="Closed form − exact")
     residual.set_xlim(-20.5, 5.5)
-    picture.legend(loc="outside lower center", ncols=2)
+    legend_below(picture, 2)
     return picture

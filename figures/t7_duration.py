@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, Shock, natural_rate, simulate, toppling_after_shock
-from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR
+from lagrotor.drawing import CASE_COLOURS, CASE_DASHES, CORRECTION_COLOUR, EXACT_COLOUR, legend_below
 from lagrotor.models import run_after, time_to_wander, turning_rate, wandering_rate
 from lagrotor.numerics import measured_order
 from lagrotor.theory import wander_after_shock
@@ -77,12 +77,12 @@ def measure() -> dict[str, float]:
 
 _lean, _leave, *_ratios = measure().values()
 CAPTION = (
-    "A pair at rest has opposite spins of ±10 rad/s and a bar with m = 0.01 kg, K = 0.1 kg m². Left: the time until the lean is "
+    "A pair at rest has opposite spins of ±10 rad/s and a bar with m = 0.01 kg, K = 0.1 kg m². (a) The time until the lean is "
     f"{LEAN:g} rad, and until the mean of x is {BOUND:g} R, according to the initial rates. The measured exponents of "
     "the force are "
     f"−{-_lean:.3f} and −{-_leave:.3f}. Circles use the mean rate of exact runs over 16 oscillations. Crosses are "
     "exact times; they "
-    f"are {min(_ratios):.2f} to {max(_ratios):.2f} times the times of the law. Right: a run at {SHOWN:g} N. The shock "
+    f"are {min(_ratios):.2f} to {max(_ratios):.2f} times the times of the law. (b) A run at {SHOWN:g} N. The shock "
     "leaves a twist "
     "p_x/G, and leaning about the joint line converts it into x."
 )
@@ -95,25 +95,27 @@ def figure() -> Figure:
     picture = Figure(figsize=(7.4, 5.0))
     times, run = picture.subplots(1, 2)
     purple = CASE_COLOURS[2]
-    times.loglog(FORCES, d["lean_law"], color=purple, label="closed form: leaning, square of the force")
+    times.loglog(
+        FORCES, d["lean_law"], color=purple, ls=CASE_DASHES[purple], label="closed form: leaning, square of the force"
+    )
     times.loglog(FORCES, d["leave_law"], color=CORRECTION_COLOUR, label="closed form: x, cube of the force")
     for name in ("lean", "leave"):
         times.loglog(
             FORCES, d[name], "o", color=EXACT_COLOUR, mfc="none", ms=6, label="exact mean rates", clip_on=False
         )
     times.loglog(FOLLOWED, d["followed"], "x", color=EXACT_COLOUR, ms=7, label="exact, mean of x at the bound")
-    times.set(xlabel="force along x [N]", ylabel="time [s]", title="Time to reach the bound", xlim=(1.9, 21))
+    times.set(
+        xlabel="force along x (N)", ylabel="time to the bound (s)", title="Time to reach the bound", xlim=(1.9, 21)
+    )
     times.set_xticks([2, 5, 10, 20], ["2", "5", "10", "20"])
     times.set_xticks([], minor=True)
-    run.plot(d["t"], d["x"], color=EXACT_COLOUR, lw=1.0, label="exact run: mean x of both axes [1]")
-    run.plot(d["t"], d["alpha"], color=EXACT_COLOUR, ls=":", label="exact run: mean turning angle [rad]")
+    run.plot(d["t"], d["x"], color=EXACT_COLOUR, lw=1.0, label="exact run: mean x of both axes (R)")
+    run.plot(d["t"], d["alpha"], color=EXACT_COLOUR, ls=":", label="exact run: mean turning angle (rad)")
     after = d["t"] > AT
     run.plot(d["t"][after], wander_after_shock(scene(SHOWN)) * (d["t"][after] - AT), color=CORRECTION_COLOUR)
-    run.plot(d["t"][after], toppling_after_shock(scene(SHOWN)) * (d["t"][after] - AT), color=purple)
-    run.set(xlabel="time [s]", ylabel="mean x and turning angle [1]", title=f"One run, {SHOWN:g} N")
-    one = {}
-    for panel in (times, run):
-        handles, labels = panel.get_legend_handles_labels()
-        one |= dict(zip(labels, handles, strict=True))
-    picture.legend(one.values(), one.keys(), loc="outside lower center", ncols=2)
+    run.plot(
+        d["t"][after], toppling_after_shock(scene(SHOWN)) * (d["t"][after] - AT), color=purple, ls=CASE_DASHES[purple]
+    )
+    run.set(xlabel="time $t$ (s)", ylabel="mean x (R), turning angle (rad)", title=f"Run after {SHOWN:g} N")
+    legend_below(picture, 2)
     return picture

@@ -11,18 +11,18 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, Shock, shock_response, simulate
-from lagrotor.drawing import CASE_COLOURS, EXACT_COLOUR
+from lagrotor.drawing import CASE_COLOURS, CASE_DASHES, EXACT_COLOUR, legend_below
 from lagrotor.theory import toppling_growth, toppling_threshold
 
 SPIN, FORCE = 10.0, 50.0
 BARS = {
     "b = 0: massless": (Link(1, 0, 0), CASE_COLOURS[2]),
-    "b < 0: m = K = 1": (Link(1, 1, 1), CASE_COLOURS[0]),
+    "b < 0: m = 1 kg, K = 1 kg m²": (Link(1, 1, 1), CASE_COLOURS[0]),
     "b > 0: m = 1 kg, K = 0": (Link(1, 1, 0), CASE_COLOURS[1]),
 }
 TRIED = ((0, 2.0), (0, 6.0), (1, 8.0), (1, -16.0), (2, 20.0))
 
-TITLE = "Stability of toppling, both senses"
+TITLE = "Growth of a small tilt while the pair turns about its joint line"
 ALT = (
     "Left: the growth rate as a function of the rate of turning from minus 25 to 50 radians per second for three bars. "
     "Turning in one sense is stable at any rate for a massless bar. With a bar of large inertia it becomes unstable beyond "
@@ -87,13 +87,13 @@ _threshold, _other, _plus, _wide, _minus, _wider, _off = measure().values()
 CAPTION = (
     f"G = {SPIN:g} kg m²/s, ell = R = 1 m, and nu = alpha' is positive in the sense of G. The rotation is unstable if b nu² < G "
     "nu/k. With b = 0 only its sense matters; otherwise the threshold is G/(k b), here "
-    f"−{-_threshold:.2f} and {_other:.2f} rad/s. The exact growth rate of a tilt of 1e-9, fitted from 8 to 12 growth "
+    f"−{-_threshold:.2f} and {_other:.2f} rad/s. The exact growth rate (a) of a tilt of 1e-9, fitted from 8 to 12 growth "
     "times, differs "
     f"by at most {100 * _off:.2f} %. After a shock of +{FORCE:g} N along y the pair rotates stably at −{-_plus:.3f} "
     "rad/s, and the "
-    f"mean x varies by {_wide:.2f} R up to 20 s. After −{FORCE:g} N it rotates at {_minus:+.3f} rad/s, which is "
+    f"mean x (b) varies by {_wide:.2f} R up to 20 s. After −{FORCE:g} N it rotates at {_minus:+.3f} rad/s, which is "
     "unstable, and the "
-    f"mean x varies by {_wider:.2f} R."
+    f"mean x varies by {_wider:.2f} R. Vertical lines in (a) mark the two rates."
 )
 
 
@@ -101,21 +101,22 @@ CAPTION = (
 def figure() -> Figure:
     """Growth against rate; mean x after the two shocks."""
     d = data()
-    picture = Figure(figsize=(7.4, 4.9))
+    picture = Figure(figsize=(7.4, 5.2))
     growth, shocks = picture.subplots(1, 2, width_ratios=(1.3, 1))
     for (name, (_, colour)), values in zip(BARS.items(), d["growth"], strict=True):
-        growth.plot(d["rates"], values, color=colour, label=f"closed form, {name}")
+        growth.plot(d["rates"], values, color=colour, ls=CASE_DASHES[colour], label=f"closed form, {name}")
     growth.plot(d["tried"][:, 1], d["measured"], "o", color=EXACT_COLOUR, mfc="none", label="exact motion")
     growth.set(
-        xlabel=r"rate of turning $\nu$ [rad/s]",
-        ylabel="growth rate [1/s]",
-        title="Growth of a small tilt",
+        xlabel=r"rate of turning $\nu$ (rad/s)",
+        ylabel="growth rate (1/s)",
+        title="Growth rate of a small tilt",
         ylim=(-0.3, 14),
     )
-    for force, x, line in zip((FORCE, -FORCE), d["x"], ("-", "--"), strict=True):
+    for force, x, rate, line in zip((FORCE, -FORCE), d["x"], (_plus, _minus), ("-", "--"), strict=True):
+        growth.axvline(rate, color=EXACT_COLOUR, ls=line, lw=0.9)
         shocks.plot(
             d["t"], x, color=EXACT_COLOUR, ls=line, lw=1.2, label=f"exact, {force:+g} N along y".replace("-", "−")
         )
-    shocks.set(xlabel="time [s]", ylabel="mean x of both axes [1]", title="After the paper's shocks along y")
-    picture.legend(loc="outside lower center", ncols=3)
+    shocks.set(xlabel="time $t$ (s)", ylabel="mean x of both axes (R)", title="Mean x after the shocks")
+    legend_below(picture, 2)
     return picture

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from lagrotor import Link, Scene, simulate
-from lagrotor.drawing import CASE_COLOURS, CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR
+from lagrotor.drawing import CASE_COLOURS, CASE_DASHES, CORRECTION_COLOUR, EXACT_COLOUR, PAPER_COLOUR, legend_below
 from lagrotor.theory import parallel_scene, twist_growth, twist_multiplier_growth
 
 MASS, SPIN, ANGLES = 1.0, 10.0, (0.1, 0.4)
@@ -75,10 +75,11 @@ CAPTION = (
     "twist grows for "
     f"K above m ell²/4 = {_edge:g} kg m² and stays small for K below it. The closed form is of first order in the "
     "half-angle; Hill's "
-    "equation is exact in the half-angle. The exact motion starts with a twist rate of 1e-7 rad/s; its growth rate differs from "
+    "equation is exact in the half-angle. The exact motion starts with a twist rate of 1e-7 rad/s; its growth rate (a) "
+    "differs from "
     f"Hill's equation by at most {100 * _off:.1g} %. At K = {TRIED[-1]:g} kg m² the twist grows at {_narrow:.3f} 1/s "
     "on the narrow "
-    f"cone and {_wide:.3f} 1/s on the wide one."
+    f"cone and {_wide:.3f} 1/s on the wide one, where the closed form is too small (b)."
 )
 
 
@@ -90,18 +91,20 @@ def figure() -> Figure:
     growth, residual = picture.subplots(1, 2, width_ratios=(1.5, 1))
     for i, (angle, colour) in enumerate(zip(ANGLES, (CASE_COLOURS[0], CASE_COLOURS[2]), strict=True)):
         growth.plot(
-            d["inertia"], d["closed"][i], color=CORRECTION_COLOUR, ls="--", label="closed form" if i == 0 else None
+            d["inertia"], d["closed"][i], color=CORRECTION_COLOUR, ls=":", lw=2, label="closed form" if i == 0 else None
         )
-        growth.plot(d["inertia"], d["hill"][i], color=colour, label=f"Hill's equation, {angle:g} rad")
+        growth.plot(
+            d["inertia"], d["hill"][i], color=colour, ls=CASE_DASHES[colour], label=f"Hill's equation, {angle:g} rad"
+        )
         growth.plot(
             d["tried"], d["exact"][i], "o", color=EXACT_COLOUR, mfc="none", label="exact motion" if i == 0 else None
         )
-        residual.plot(d["inertia"], d["closed"][i] - d["hill"][i], color=colour)
+        residual.plot(d["inertia"], d["closed"][i] - d["hill"][i], color=colour, ls=CASE_DASHES[colour])
     for panel in (growth, residual):
         panel.axvline(EDGE, color="#777777", ls=":", label=r"threshold, $K = m\ell^2/4$" if panel is growth else None)
-        panel.set_xlabel("inertia of the bar K [kg m²]")
+        panel.set_xlabel("inertia of the bar K (kg m²)")
     growth.axvline(1.0, color=PAPER_COLOUR, lw=5, alpha=0.25, label="the paper's bar")
-    growth.set(ylabel="growth rate [1/s]", title="Growth of a small twist")
-    residual.set(ylabel="difference [1/s]", title="Residual: closed form less Hill")
-    picture.legend(loc="outside lower center", ncols=3)
+    growth.set(ylabel="growth rate (1/s)", title="Growth of a small twist")
+    residual.set(ylabel="difference (1/s)", title="Closed form − Hill")
+    legend_below(picture, 3)
     return picture

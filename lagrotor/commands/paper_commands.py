@@ -7,6 +7,7 @@ the paper on the rotor pair.
 import argparse
 import time
 from collections import Counter
+from contextlib import nullcontext
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -310,16 +311,16 @@ def _plural(count: int, what: str) -> str:
 def reproduce_command(options: argparse.Namespace) -> int:
     if options.jobs is not None and options.jobs < 1:
         raise InputError(f"--jobs {options.jobs} must be at least 1: it is the number of processes")
-    from lagrotor.report.job.processes import cores, start_server
+    from lagrotor.report.job.processes import cores, ending_at_interrupt, server
 
-    if (options.jobs or cores()) > 1:
-        start_server()
-    from lagrotor.report.content import count_list
-    from lagrotor.report.formulas.mathml_latex import converter
-    from lagrotor.report.job.reproduce import reproduce
+    with server() if (options.jobs or cores()) > 1 else nullcontext():
+        with ending_at_interrupt():
+            from lagrotor.report.content import count_list
+            from lagrotor.report.formulas.mathml_latex import converter
+            from lagrotor.report.job.reproduce import reproduce
 
-    paper = _paper(options)
-    result = reproduce(paper, options.out, progress, options.jobs, options.certify)
+            paper = _paper(options)
+        result = reproduce(paper, options.out, progress, options.jobs, options.certify)
     page = options.out / "index.html"
     if options.json:
         print_json(asdict(result) | {"report": str(page)})

@@ -182,7 +182,7 @@ def _executor(options: argparse.Namespace) -> Iterator[Any]:
     except BaseException as stop:
         if isinstance(stop, Exception) or not options.folder:
             raise
-        says = f"interrupted: the finished runs are in {options.folder}; the same command goes on"
+        says = f"the finished runs are in {options.folder}; the same command goes on"
         raise type(stop)(says) from None
 
 

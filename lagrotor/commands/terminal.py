@@ -87,12 +87,14 @@ def _clear_line() -> None:
 
 
 @contextmanager
-def progress(total: int) -> Iterator[Callable[..., None]]:
+def progress(total: int, first: str = "") -> Iterator[Callable[..., None]]:
     """Yield a function that shows the progress of a work of `total` steps; it is called with a step's name at its begin, or with
     a name and the number of steps that are done.
 
-    A terminal shows all steps in the same line; any other stderr gets one line per step.
+    A terminal shows all steps in the same line; any other stderr gets one line per step. The line `first` stands before them.
     """
+    if first:
+        say(first, 0)
     count, start, live = 0, time.perf_counter(), sys.stderr.isatty()
 
     def step(name: str, done: int | None = None) -> None:

@@ -6,6 +6,7 @@ from lagrotor.lazy_imports import face
 
 if TYPE_CHECKING:
     from lagrotor.drawing.style import CASE_COLOURS as CASE_COLOURS
+    from lagrotor.drawing.style import CASE_DASHES as CASE_DASHES
     from lagrotor.drawing.style import CORRECTION_COLOUR as CORRECTION_COLOUR
     from lagrotor.drawing.style import EXACT_COLOUR as EXACT_COLOUR
     from lagrotor.drawing.style import FORCE_COLOUR as FORCE_COLOUR
@@ -13,6 +14,7 @@ if TYPE_CHECKING:
     from lagrotor.drawing.style import MODEL_COLOUR as MODEL_COLOUR
     from lagrotor.drawing.style import OKABE_ITO as OKABE_ITO
     from lagrotor.drawing.style import PAPER_COLOUR as PAPER_COLOUR
+    from lagrotor.drawing.style import legend_below as legend_below
     from lagrotor.drawing.style import paper_style as paper_style
     from lagrotor.drawing.style import with_residual as with_residual
     from lagrotor.drawing.view import View as View

@@ -47,15 +47,15 @@ def run_figure(
         for i, j in bars:
             panels["above"].plot(*tips[[i, j], 0, :2].T, color=BAR, linewidth=3, zorder=0)
         for letter in "xyz":
-            panels[letter].set_ylabel(f"Δ{letter} of the tip [m]")
+            panels[letter].set_ylabel(f"Δ{letter} of the tip (m)")
             panels[letter].tick_params(labelbottom=letter == "z")
-        panels["above"].set(xlabel="x of the tip [m]", ylabel="y of the tip [m]", aspect="equal", xmargin=0.05)
+        panels["above"].set(xlabel="x of the tip (m)", ylabel="y of the tip (m)", aspect="equal", xmargin=0.05)
         panels["above"].set_adjustable("datalim")
         panels["energy"].plot(t, energy - energy[0], color=INK)
-        panels["energy"].set_ylabel("change of the energy [J]")
+        panels["energy"].set_ylabel("change of the energy (J)")
         panels["energy"].margins(y=0.2)
         for name in ("z", "energy"):
-            panels[name].set_xlabel("time [s]")
+            panels[name].set_xlabel("time $t$ (s)")
         if len(tips) <= len(inks):
             handles, labels = panels["x"].get_legend_handles_labels()
             figure.legend(handles, labels, loc="outside lower center", ncols=len(tips))
@@ -68,7 +68,7 @@ def coordinates_figure(t: Array, coordinates: Mapping[str, Array], energy: Array
 
     coordinates: label → values (n,). drift: violation of the constraints, (n,); it is drawn unless all of it is zero.
     """
-    below = {"E − E(0)": energy - energy[0]} | ({"largest |g|": drift} if drift.any() else {})
+    below = {"E − E(0) (J)": energy - energy[0]} | ({"largest |g|": drift} if drift.any() else {})
     return curves_figure(t, {**coordinates, **below}, below)
 
 
@@ -83,7 +83,7 @@ def curves_figure(t: Array, curves: Mapping[str, Array], others: Collection[str]
             middle = float(np.abs(values).max(initial=0.0))
             if np.ptp(values) < _CONSTANT * middle:  # rounding only
                 panel.set_ylim(*sorted((0.9 * values[0], 1.1 * values[0])))
-        axes[-1].set_xlabel("time [s]")
+        axes[-1].set_xlabel("time $t$ (s)")
     return figure
 
 
@@ -96,8 +96,8 @@ def rates_figure(letter: str, numbers: Array, rates: NDArray[np.complex128], mar
         figure = RunFigure(figsize=(7.0, 5.0))
         above, below = figure.subplots(2, 1, sharex=True)
         for panel, values, label in (
-            (above, rates.real, "real part [1/s]"),
-            (below, rates.imag, "imaginary part [1/s]"),
+            (above, rates.real, "real part (1/s)"),
+            (below, rates.imag, "imaginary part (1/s)"),
         ):
             panel.plot(numbers, values, color=ROTORS[0])
             panel.axhline(0, color=GROUND, linewidth=1)
@@ -118,7 +118,7 @@ def chart_figure(names: tuple[str, str], numbers: tuple[Array, Array], growth: A
         panel = figure.subplots()
         visible = np.where(growth > 1e-6 * max(float(growth.max()), 1e-300), growth, np.nan)
         mesh = panel.pcolormesh(*numbers, visible, cmap="Blues", vmin=0, shading="nearest")
-        figure.colorbar(mesh, label="growth rate [1/s]")
+        figure.colorbar(mesh, label="growth rate (1/s)")
         panel.plot(*edges.T, ".", color=ROTORS[1], markersize=4)
         panel.set_xlabel(names[0])
         panel.set_ylabel(names[1])

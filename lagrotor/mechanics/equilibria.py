@@ -19,7 +19,7 @@ from lagrotor.errors import InputError, LagrotorWarning, NotExactError, Singular
 from lagrotor.mechanics.equations import Equations, no_states
 from lagrotor.mechanics.expressions import by_symbol, put_in
 from lagrotor.mechanics.lagrangian import euler_lagrange, t
-from lagrotor.result_display import Shown, scientific
+from lagrotor.result_display import ShownInOneLine, scientific, text_of
 
 _UNSOLVABLE = 1000  # the effort of a factor that is not solved for any unknown
 _LONGEST = 300  # characters of the conditions in a message
@@ -27,7 +27,7 @@ Solution = dict[sp.Symbol, sp.Expr]
 
 
 @dataclass(frozen=True, repr=False)
-class Equilibrium(Shown):
+class Equilibrium(ShownInOneLine):
     """A configuration at rest, and the conditions on the parameters under which it exists.
 
     Attributes
@@ -71,8 +71,11 @@ class Equilibrium(Shown):
         dict of str
             {symbol: value}; "free" for a symbol that may have any value.
         """
-        rows = {str(s): "free" if value == s else str(value) for s, value in self.at.items()}
-        rows |= {"where": ", ".join(map(str, self.domain))} if self.domain else {}
+        rows = {text_of(s): "free" if value == s else text_of(value) for s, value in self.at.items()}
+        if self.enclosure:
+            width = max(high - low for low, high in self.enclosure.values())
+            rows["enclosed to"] = scientific(float(width), 1)
+        rows |= {"where": text_of(self.domain)} if self.domain else {}
         rows |= {} if self.residual is None else {"largest rate left": scientific(self.residual, 1)}
         rows |= {"small motion": self.stability} if self.stability else {}
         return rows | ({} if self.regular else {"mass matrix": "singular there"})
@@ -222,7 +225,7 @@ def _equilibria(system: Equations, unknowns: str | Sequence[str | sp.Symbol]) ->
             equilibrium = replace(equilibrium, regular=_regular(system, equilibrium.at))
         if equilibrium is not None and equilibrium not in places:
             places.append(equilibrium)
-    return tuple(places)
+    return tuple(sorted(places, key=lambda place: not place.regular))
 
 
 def _regular(system: Equations, at: Mapping[sp.Symbol, sp.Expr]) -> bool:

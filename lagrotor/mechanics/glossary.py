@@ -12,6 +12,7 @@ from sympy.printing.pretty.pretty_symbology import greek_unicode
 
 from lagrotor.algebra import derivative
 from lagrotor.algebra.enclosures import jet_of
+from lagrotor.formula_text import VELOCITY, place_of_factor, with_plus_first
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import jets_of, longer, shortest
 from lagrotor.mechanics.lagrangian import Coordinates, t
@@ -96,17 +97,14 @@ def latex(expression: Any, names: Mapping[sp.Symbol, str] | None = None) -> str:
     return light(_Printer({"symbol_names": symbol_names, "order": "none"}).doprint(expression))
 
 
-_VELOCITY = 3  # the place of a velocity in a product, after numbers, masses and parameters
-
-
 class _Printer(LatexPrinter):  # type: ignore[misc]
     """LaTeX with masses and inertias first in a product, then other parameters, velocities, functions and sums; in a sum with a
     term without a minus sign first."""
 
     def _print_Mul(self, expr: sp.Expr) -> str:
         commutative, others = expr.args_cnc(split_1=False)
-        factors = sorted(commutative, key=_place_of_factor)
-        split = next((i for i, e in enumerate(factors) if _place_of_factor(e)[0] >= _VELOCITY), len(factors))
+        factors = sorted(commutative, key=place_of_factor)
+        split = next((i for i, e in enumerate(factors) if place_of_factor(e)[0] >= VELOCITY), len(factors))
         (number, *constants), rest = factors[: max(split, 1)], factors[max(split, 1) :]
         divided = number.is_Rational and number.q > 1 and 0 < len(constants) <= 2 and rest
         if not divided or others or any(e.is_Pow and e.exp.could_extract_minus_sign() for e in factors):
@@ -118,22 +116,7 @@ class _Printer(LatexPrinter):  # type: ignore[misc]
         return rf"{'- ' if number.is_negative else ''}\frac{{{self._print(top)}}}{{{number.q}}} {after}"
 
     def _as_ordered_terms(self, expr: sp.Expr, order: str | None = None) -> list[sp.Expr]:
-        terms = list(expr.as_ordered_terms())
-        first = next((i for i, term in enumerate(terms) if not term.could_extract_minus_sign()), 0)
-        return [terms[first], *terms[:first], *terms[first + 1 :]]
-
-
-def _place_of_factor(factor: sp.Expr) -> tuple[int, Any]:
-    """Return a sort key of a factor in a product that is written by hand."""
-    base = factor.base if factor.is_Pow else factor
-    name = base.name if base.is_Symbol else ""
-    if factor.is_number:
-        place = 0
-    elif name:
-        place = _VELOCITY if name.endswith("_dot") else 4 if name.endswith("_ddot") else 1 if name[0] in "mMIJK" else 2
-    else:
-        place = 6 if base.is_Add else 5
-    return place, factor.sort_key()
+        return with_plus_first(expr)
 
 
 # sin, cos or tan, perhaps to a power, of a single symbol in brackets.

@@ -36,6 +36,7 @@ from lagrotor.mechanics.expressions import by_symbol, expression, put_in, shorte
 from lagrotor.mechanics.lagrangian import euler_lagrange, jacobian, t
 from lagrotor.mechanics.linear_modes import LinearSystem, is_identically_zero, reduced, stability_condition
 from lagrotor.mechanics.quasi_velocities import independent_rows
+from lagrotor.result_display import Shown
 
 Point = Mapping[Any, Any]
 
@@ -78,8 +79,8 @@ def no_turn(quaternion: Sequence[sp.Symbol], norm: float) -> str:
     return f"the quaternion ({', '.join(map(str, quaternion))}) has norm {norm:.3g} and gives no direction: give one of norm 1"
 
 
-@dataclass(frozen=True, eq=False)
-class StateEquations:
+@dataclass(frozen=True, eq=False, repr=False)
+class StateEquations(Shown):
     """The linear equations x' = A x + B u, y = C x + D u for small changes x of the states, in symbols.
 
     Attributes
@@ -95,6 +96,14 @@ class StateEquations:
     D : Matrix
         Feedthrough matrix, shape (outputs, inputs).
     """
+
+    _shown = (
+        ("states x", "states"),
+        ("A", "A"),
+        ("B", "B"),
+        ("C", "C"),
+        ("D", "D"),
+    )
 
     states: tuple[sp.Symbol, ...]
     A: sp.Matrix

@@ -36,13 +36,14 @@ from lagrotor.mechanics.lagrangian import (
     total_derivative,
 )
 from lagrotor.mechanics.quasi_velocities import boltzmann_hamel
+from lagrotor.result_display import Shown
 
 Kind = TypeVar("Kind", bound=Equations)
 _MULTIPLIED_OUT = 100  # operations of L up to which determinants are expanded in the Legendre transform
 
 
-@dataclass(frozen=True)
-class FirstIntegral:
+@dataclass(frozen=True, repr=False)
+class FirstIntegral(Shown):
     """A conserved quantity.
 
     Attributes
@@ -52,6 +53,11 @@ class FirstIntegral:
     domain : tuple of Expr
         Expressions. Conservation is proved where none of them vanishes.
     """
+
+    _shown = (
+        ("conserved", "expression"),
+        ("where not zero", "domain"),
+    )
 
     expression: sp.Expr
     domain: tuple[sp.Expr, ...]

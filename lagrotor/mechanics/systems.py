@@ -8,15 +8,16 @@ import sympy as sp
 
 from lagrotor.algebra import Decision
 from lagrotor.errors import InputError
+from lagrotor.formula_text import LONG
 from lagrotor.mechanics import equilibria, glossary, steady_motions, symmetry, weakly_nonlinear
 from lagrotor.mechanics.canonical import hamiltonians
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.equilibria import Equilibrium
-from lagrotor.mechanics.expressions import in_order, longer
+from lagrotor.mechanics.expressions import in_order
 from lagrotor.mechanics.from_sympy import parts_from_sympy
 from lagrotor.mechanics.lagrangian import Coordinates
 from lagrotor.renamed import accept_old_keywords
-from lagrotor.result_display import in_lines
+from lagrotor.result_display import in_lines, text_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -33,6 +34,12 @@ if TYPE_CHECKING:
     Start = ArrayLike | Mapping[Any, float]
 
 Kind = TypeVar("Kind", bound=Equations)
+_FEW = 3  # coordinates of a system of bodies whose L is written out
+_MOST_PRINTED = 6  # constraints or forces that are written out
+
+
+def _point(at: Any) -> Any:
+    return at.at if isinstance(at, Equilibrium) else at
 
 
 @dataclass(frozen=True, repr=False)
@@ -537,16 +544,20 @@ class System(Equations):
         return weakly_nonlinear.averaged(self, order, small, frequency)
 
     def __repr__(self) -> str:
-        many, long = len(self.bodies), bool(self.bodies) or longer(self.L, 60)
-        lagrangian = f"the energy of {many} {'body' if many == 1 else 'bodies'}" if many else "a long expression"
-        rows = {"coordinates": ", ".join(map(str, self.c.q)), "L": lagrangian if long else str(self.L)}
-        rows = rows if self.c.q else {}
-        for name in ("constraints", "rolling", "forces"):
+        many, written = len(self.bodies), not self.bodies or len(self.c.q) <= _FEW
+        rows = {"coordinates": text_of(self.c.q), "L": text_of(self.L) if written else LONG} if self.c.q else {}
+        if many and rows["L"] == LONG:
+            rows["L"] = f"the energy of {many} {'body' if many == 1 else 'bodies'}"
+        for name in ("constraints", "rolling"):
             if each := getattr(self, name):
-                rows[name] = str(len(each)) if long else ", ".join(map(str, each))
+                rows[name] = (
+                    ", ".join(f"{text_of(e)} = 0" for e in each) if len(each) <= _MOST_PRINTED else str(len(each))
+                )
+        if self.forces and len(self.forces) <= _MOST_PRINTED:
+            rows["forces"] = text_of(self.forces)
         if self.dissipation != 0:
-            rows["dissipation"] = "a long expression" if long else str(self.dissipation)
-        rows |= {f"{x}'": str(f) for x, f in self.states}
+            rows["dissipation"] = text_of(self.dissipation)
+        rows |= {f"{text_of(x)}'": text_of(f) for x, f in self.states}
         return in_lines("System", rows)
 
     def latex(self) -> str:
@@ -626,7 +637,7 @@ class System(Equations):
             raise InputError(
                 f"linearise: inputs = {inputs} must be different symbols: for a function F(t) write a symbol F"
             )
-        point = at.at if isinstance(at, Equilibrium) else at
+        point = _point(at)
         if not isinstance(point, Mapping):
             raise InputError(f"linearise: at = {at!r} must be an equilibrium or {{coordinate or velocity: value, …}}")
         if values is None:
@@ -640,12 +651,12 @@ class System(Equations):
         self, values = function_values.put_functions("linearise", self, values)
         return state_space.state_space(self, point, values, inputs, outputs)
 
-    def floquet(self, at: "Mapping[Any, Any]", values: "Values", period: float) -> "MonodromyMatrix":
+    def floquet(self, at: "Mapping[Any, Any] | Equilibrium", values: "Values", period: float) -> "MonodromyMatrix":
         """Return the monodromy matrix of a periodic motion with its multipliers.
 
         Parameters
         ----------
-        at : mapping
+        at : mapping or Equilibrium
             {coordinate or velocity: value} at t = 0, or at the time that `at` gives for t. Rest in a driven system is a
             periodic motion, too.
         values : mapping
@@ -677,16 +688,16 @@ class System(Equations):
         from lagrotor.mechanics.running import function_values, monodromy
 
         self, values = function_values.put_functions("floquet", self, values)
-        return monodromy.monodromy_matrix(self, at, values, period)
+        return monodromy.monodromy_matrix(self, _point(at), values, period)
 
     def root_locus(
-        self, at: "Mapping[Any, Any]", values: "Values", symbol: sp.Symbol | str, numbers: "ArrayLike"
+        self, at: "Mapping[Any, Any] | Equilibrium", values: "Values", symbol: sp.Symbol | str, numbers: "ArrayLike"
     ) -> "RootLocus":
         """Compute the rates of small motion as one symbol takes numbers.
 
         Parameters
         ----------
-        at : mapping
+        at : mapping or Equilibrium
             {coordinate or velocity: value}, which may be expressions in the symbol.
         values : mapping
             {symbol or name: number} for the other parameters.
@@ -712,10 +723,14 @@ class System(Equations):
         from lagrotor.mechanics.running import function_values, root_loci
 
         self, values = function_values.put_functions("root_locus", self, values)
-        return root_loci.root_locus(self, at, values, symbol, numbers)
+        return root_loci.root_locus(self, _point(at), values, symbol, numbers)
 
     def stability_chart(
-        self, at: "Mapping[Any, Any]", values: "Values", numbers: "Mapping[Any, ArrayLike]", period: Any = None
+        self,
+        at: "Mapping[Any, Any] | Equilibrium",
+        values: "Values",
+        numbers: "Mapping[Any, ArrayLike]",
+        period: Any = None,
     ) -> "StabilityChart":
         """Compute the largest growth rate of small motion over two symbols.
 
@@ -723,7 +738,7 @@ class System(Equations):
 
         Parameters
         ----------
-        at : mapping
+        at : mapping or Equilibrium
             {coordinate or velocity: value}, which may be expressions in the symbols.
         values : mapping
             {symbol or name: number} for the other parameters.
@@ -751,9 +766,11 @@ class System(Equations):
         from lagrotor.mechanics.running import function_values, root_loci
 
         self, values = function_values.put_functions("stability_chart", self, values)
-        return root_loci.stability_chart(self, at, values, numbers, period)
+        return root_loci.stability_chart(self, _point(at), values, numbers, period)
 
-    def consistent(self, values: "Values", q0: "Start", v0: "Start", t: float = 0.0) -> "tuple[Array, Array]":
+    def consistent(
+        self, values: "Values", q0: "Start", v0: "Start | None" = None, t: float = 0.0
+    ) -> "tuple[Array, Array]":
         """Return the state on the constraints that is nearest to (q0, v0) in the mass metric.
 
         Parameters
@@ -761,7 +778,8 @@ class System(Equations):
         values : mapping
             {symbol or name: number} for all parameters.
         q0, v0 : array_like or mapping
-            Coordinates, shape (n,), and velocities (n,) or quasi-velocities (m,), or {symbol or name: number} for each.
+            Coordinates, shape (n,), and velocities (n,) or quasi-velocities (m,), or {symbol or name: number} for each. Without
+            v0 the system is at rest.
         t : float, default 0.0
             The time in s.
 
@@ -788,7 +806,7 @@ class System(Equations):
         """
         from lagrotor.mechanics.running import function_values, initial_state
 
-        q, v = in_order("consistent: q0", q0, self.c.q), in_order("consistent: v0", v0, self.speeds)
+        q, v = initial_state.numbers_of_start("consistent", self, q0, v0)
         self, values = function_values.put_functions("consistent", self, values)
         return initial_state.consistent("consistent", self, values, q, v, t)
 
@@ -825,8 +843,8 @@ class System(Equations):
         self,
         values: "Values",
         q0: "Start" = (),
-        v0: "Start" = (),
-        t: "ArrayLike" = (),
+        v0: "Start | None" = None,
+        t: "ArrayLike | None" = None,
         tol: float = 1e-9,
         engine: "Engine" = "core",
         events: "Event | Impact | Sequence[Event | Impact]" = (),
@@ -850,9 +868,10 @@ class System(Equations):
             callables (U, U', …) as far as the equations need derivatives, a table (x, y) or a spline of scipy. The run
             ends where the motion leaves a table.
         q0, v0 : array_like or mapping
-            Coordinates and velocities, or quasi-velocities, at t[0]: arrays, or {symbol or name: number} for each.
+            Coordinates and velocities, or quasi-velocities, at t[0]: arrays, or {symbol or name: number} for each. Without v0
+            the system starts at rest.
         t : array_like
-            Increasing times in s, shape (k,).
+            Increasing times in s, shape (k,), which every run needs.
         tol : float, default 1e-09
             The largest error of the whole run, from 1e-13 to 0.1, relative to the sizes of coordinates, velocities and states.
             `run.error` and `run.errors` estimate it. It is below `tol` until the time `run.horizon`; a LagrotorWarning says so
@@ -887,12 +906,16 @@ class System(Equations):
         >>> from lagrotor.mechanics import coordinates
         >>> c = coordinates("x")
         >>> spring = System(c, c.x_dot**2 / 2 - c.x**2 / 2)
-        >>> run = spring.simulate({}, q0={"x": 1}, v0={"x_dot": 0}, t=[0, 1, 2])
+        >>> run = spring.simulate({}, q0={"x": 1}, t=[0, 1, 2])
         >>> run.q[:, 0].round(6)
         array([ 1.      ,  0.540302, -0.416147])
         """
-        from lagrotor.mechanics.running import simulation
+        from lagrotor.mechanics.running import initial_state, simulation
 
-        q, v = in_order("simulate: q0", q0, self.c.q), in_order("simulate: v0", v0, self.speeds)
+        if t is None:
+            raise InputError(
+                "simulate: t, the times in s, is missing: without v0 give it by name, t=np.linspace(0, 10, 101)"
+            )
+        q, v = initial_state.numbers_of_start("simulate", self, q0, v0)
         x = in_order("simulate: x0", x0, [x for x, _ in self.states])
         return simulation.simulate_system(self, values, q, v, t, tol, engine, events, progress, x)

@@ -64,14 +64,14 @@ def draw_figure(key: str, folder: Path, scripts: Scripts) -> Picture:
 
     Raises InputError if the folder is not writable or the script lacks a definition, ScriptError if the script fails.
     """
-    from lagrotor.drawing.style import laid_out, paper_style
+    from lagrotor.drawing.style import laid_out, letter_panels, paper_style
 
     stem = stems(scripts)[key]
     with paper_style():
         script = scripts.run("figures", stem)
         if lacking := [name for name in ("TITLE", "CAPTION", "ALT", "figure") if name not in script]:
             raise InputError(f"{scripts.path('figures', stem)} does not define {lacking[0]}: define it there")
-        with laid_out(scripts.called("figures", stem, "figure")) as figure:
+        with laid_out(letter_panels(scripts.called("figures", stem, "figure"))) as figure:
             drawn = StringIO()
             figure.savefig(drawn, format="svg", metadata={"Date": None})
             svg = write_text(folder / f"{stem}.svg", lean_svg(drawn.getvalue()))

@@ -11,7 +11,15 @@ from matplotlib.figure import Figure
 from matplotlib.patches import FancyArrowPatch
 from numpy.typing import ArrayLike
 
-from lagrotor.drawing.style import CORRECTION_COLOUR, EXACT_COLOUR, FORCE_COLOUR, HALO, MODEL_COLOUR, PAPER_COLOUR
+from lagrotor.drawing.style import (
+    CORRECTION_COLOUR,
+    EXACT_COLOUR,
+    FORCE_COLOUR,
+    HALO,
+    MODEL_COLOUR,
+    PAPER_COLOUR,
+    legend_below,
+)
 from lagrotor.drawing.wheel import INK, MARK, Camera, place_points, wheel
 from lagrotor.models.simulate import simulate
 from lagrotor.numerics.rotations import Array
@@ -110,10 +118,10 @@ def shock_figure(data: dict[str, Array], letter: str) -> Figure:
     upper, middle, lower = figure.subplots(3, 1, sharex=True, height_ratios=(1, 0.7, 1.6))
     upper.plot(data["t"], data["energy"], color=MODEL_COLOUR, linewidth=3)
     upper.plot(data.get("exact_t", data["t"]), data["exact_energy"], color=EXACT_COLOUR, linestyle="--", linewidth=1.2)
-    upper.set(ylabel="energy [J]", title="Energy")
+    upper.set(ylabel="energy (J)", title="Energy")
     upper.margins(y=0.12)
     middle.plot(data["t"], data["force"], color=FORCE_COLOUR)
-    middle.set(ylabel=f"force in {letter} [N]", title="Force on the tip of rotor 1", ylim=(-3, 55))
+    middle.set(ylabel=f"force in {letter} (N)", title="Force on the tip of rotor 1", ylim=(-3, 55))
     for name, centre, exact in zip("xyz", data["centre"].T, data["exact_centre"].T, strict=True):
         first = name == "x"
         lower.plot(data["t"], centre, color=MODEL_COLOUR, linewidth=3, label="paper's method" if first else None)
@@ -125,11 +133,11 @@ def shock_figure(data: dict[str, Array], letter: str) -> Figure:
     if "exact_t" in data:
         end = data["exact_t"][-1]
         for panel in (upper, lower):
-            panel.axvline(end, color=EXACT_COLOUR, linewidth=0.8, linestyle=":")
-        lower.annotate("the exact model ends:\nbar and axes in line", (end, -0.75), (8, 0), textcoords="offset points")
-    lower.set(ylabel="centre of rotor 1 [m]", xlabel="time [s]", title="Centre of mass of rotor 1")
-    lower.margins(y=0.06)
-    figure.legend(loc="outside lower center", ncols=2)
+            panel.axvline(end, color=EXACT_COLOUR, linewidth=0.8, linestyle=":", label="end of the exact model")
+        lower.annotate("bar and axes in line", (end, -0.8), (8, 0), textcoords="offset points")
+    lower.set(ylabel="centre of rotor 1 (m)", xlabel="time $t$ (s)", title="Centre of mass of rotor 1")
+    lower.margins(y=0.12)
+    legend_below(figure, 3)
     return figure
 
 
@@ -152,9 +160,9 @@ def shock_script(scene: Scene, letter: str) -> tuple[Callable[[], Any], Callable
         f"Run of the spring-link model with the paper's step of {STEP:g} s, S = {STIFFNESS:g} N/m and D = {DAMPING:g} "
         "kg/s (n = 20, "
         "omega_s = 10 rad/s in 4.01, as in figure 10), a bar of 1 kg and 1 kg m², spins of 10 and −10 rad/s, and the shock "
-        f"50 exp(−(50 (t − 2))²) N along {letter} on the tip of rotor 1. The energy rises from 100 to {energy:.3f} J "
+        f"50 exp(−(50 (t − 2))²) N along {letter} on the tip of rotor 1 (b). The energy (a) rises from 100 to {energy:.3f} J "
         "(exact model: "
-        f"{exact:.3f} J). In 10 s the centre of rotor 1 moves over a range of {x:.2f} m in x, {y:.2f} m in y and "
+        f"{exact:.3f} J). In 10 s the centre of rotor 1 (c) moves over a range of {x:.2f} m in x, {y:.2f} m in y and "
         f"{z:.2f} m in z. The "
         f"dashed curves are the exact model, which differs by {1000 * distance:.1f} mm at 10 s. The paper's z is 0.5 m less."
     )
@@ -179,7 +187,7 @@ def rate_figure(data: dict[str, Array], printed: float) -> Figure:
     )
     force, residual, heights = (panels[name] for name in ("force", "residual", "heights"))
     force.plot(data["t"], data["force"], color=FORCE_COLOUR)
-    force.set(ylabel="force [N]", title="Force on tip 1 along x", xlabel="time [s]", xlim=(1.5, 10))
+    force.set(ylabel="force (N)", title="Force on tip 1 along x", xlabel="time $t$ (s)", xlim=(1.5, 10))
     for x, span, says in ((panels["first"], _FIRST, "The first swings"), (panels["last"], _LAST, "The last swings")):
         x.plot(data["t"], data["exact"], color=EXACT_COLOUR, lw=2.4, label="exact model")
         x.plot(data["t"], data["springs"], color=MODEL_COLOUR, lw=1.2, label="paper's method, stiff springs")
@@ -187,31 +195,32 @@ def rate_figure(data: dict[str, Array], printed: float) -> Figure:
         x.plot(
             data["t"], data["corrected"], color=CORRECTION_COLOUR, ls=":", lw=2, label="sine at the closed form's rate"
         )
-        x.set(xlim=span, xlabel="time [s]", ylabel="$x - x(0)$ [m]", title=f"x of tip 1: {says.lower()}")
+        x.set(xlim=span, xlabel="time $t$ (s)", ylabel="$x - x(0)$ (m)", title=f"x of tip 1: {says.lower()}")
     over = data["t"] > SPECTRUM_FROM
-    for name, colour, width in (
-        ("printed", PAPER_COLOUR, 1.6),
-        ("springs", MODEL_COLOUR, 1.2),
-        ("corrected", CORRECTION_COLOUR, 1.6),
+    for name, colour, line in (
+        ("printed", PAPER_COLOUR, "--"),
+        ("springs", MODEL_COLOUR, "-"),
+        ("corrected", CORRECTION_COLOUR, ":"),
     ):
-        residual.plot(data["t"][over], (data[name] - data["exact"])[over], color=colour, lw=width)
-    residual.set(xlabel="time [s]", ylabel="residual [m]", xlim=(1.5, 10))
-    residual.set_title("Residual against the exact model, from the end of the shock")
+        residual.plot(
+            data["t"][over], (data[name] - data["exact"])[over], color=colour, ls=line, lw=2 if line == ":" else 1.2
+        )
+    residual.set(xlabel="time $t$ (s)", ylabel="difference (m)", xlim=(1.5, 10))
+    residual.set_title("Difference of x from the exact model, after the shock")
     heights.plot(data["rate"], data["exact_amplitude"], color=EXACT_COLOUR)
     heights.plot(data["rate"], data["springs_amplitude"], color=MODEL_COLOUR, lw=1.2)
     heights.axvline(printed, color=PAPER_COLOUR, ls="--", lw=1.2)
     heights.axvline(data["closed_form_rate"][0], color=CORRECTION_COLOUR, ls=":", lw=2)
-    heights.set(xlabel="rate [rad/s]", ylabel="amplitude [m]", title="Spectrum of x after the shock")
+    heights.set(xlabel="rate (rad/s)", ylabel="amplitude (m)", title="Spectrum of x after the shock")
     heights.set(xlim=(printed - 5, printed + 5), ylim=(0, None))
-    handles, labels = panels["first"].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=2)
+    legend_below(figure, 2)
     return figure
 
 
 def orbits_from_above(panel: Axes, wide: float, high: float) -> None:
     """Prepare a panel for both tips seen from above: the ground joints at x = ∓0.5 m, and limits ±wide, ±high in m."""
     panel.plot([-0.5, 0.5], [0, 0], "s", color="#222222", ms=6, label="ground joints")
-    panel.set(xlabel="x [m]", ylabel="y [m]", title="Top view", xlim=(-wide, wide), ylim=(-high, high))
+    panel.set(xlabel="x (m)", ylabel="y (m)", title="Top view", xlim=(-wide, wide), ylim=(-high, high))
     panel.set_aspect("equal")
 
 
@@ -223,6 +232,6 @@ def over_one_turn(panel: Axes) -> None:
 @accept_old_keywords
 def distance_over_one_turn(panel: Axes, least: float, greatest: float) -> None:
     """Prepare a panel for the distance, in m, of tip 1 from the exact tip over the phase; its limits are given in m."""
-    panel.set(xlabel="phase [rad]", ylabel="distance [m]", title="Residual: distance of tip 1 from the exact one")
+    panel.set(xlabel="phase (rad)", ylabel="distance (m)", title="Distance of tip 1 from the exact tip")
     panel.set_ylim(least, greatest)
     over_one_turn(panel)

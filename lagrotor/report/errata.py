@@ -85,8 +85,11 @@ def _conditions(verdict: Verdict) -> Iterator[tuple[str, tuple[Premise, ...]]]:
 
 
 def premise_formulas(premises: Iterable[Premise]) -> tuple[str, ...]:
-    """Return the equations of the premises in LaTeX, one line for each premise that has equations."""
-    return tuple(r",\quad ".join(premise.tex) for premise in premises if premise.tex)
+    """Return the equations of the premises in LaTeX, one line for each premise that has equations.
+
+    Equations between components of vectors are left out, because the words of the premise contain the vectors.
+    """
+    return tuple(r",\quad ".join(p.tex) for p in premises if p.tex and not _in_components(p))
 
 
 def correction_lines(verdict: Verdict) -> tuple[str, ...]:
@@ -158,7 +161,7 @@ def letter_table(errors: Iterable[Erratum], paper: Paper) -> list[tuple[str, str
         known = {
             letters_in(tex): (tex, *row) for tex, row in section_meanings(paper, e.section).items() if "dot{" not in tex
         }
-        premises = (p for _, listed in e.conditions for p in listed if not _in_components(p))
+        premises = (p for _, listed in e.conditions for p in listed)
         for letter in dict.fromkeys(c for tex in (*e.corrected, *premise_formulas(premises)) for c in letters_in(tex)):
             if (letter,) in known:
                 tex, meaning, unit = known[letter,]

@@ -36,7 +36,7 @@ _HEAD = r"""\documentclass[11pt]{article}
 \newcommand{\broken}[1]{{\small\let\built\frac\let\frac\slashed\let\radix\sqrt\let\sqrt\rooted\raggedright\relpenalty=50\binoppenalty=100
   \hangindent=2em\hangafter=1\noindent$\displaystyle #1$\par}}
 % A picture of the folder beside this file.
-\newcommand{\drawn}[1]{\IfFileExists{#1}{\includegraphics[width=.8\linewidth]{#1}}%
+\newcommand{\drawn}[1]{\IfFileExists{#1}{\includegraphics[width=\linewidth]{#1}}%
   {\emph{(\texttt{\detokenize{#1}})}}}
 """
 END = "\\end{document}\n"

@@ -42,7 +42,7 @@ def draw_plan(panel: Axes, s: Assembly) -> None:
                 va="center" if abs(dy) < 0.3 else "bottom" if dy > 0 else "top",
             )  # fmt: skip
         panel.plot(x, y, "o", color=ink, markersize=9 + 6 * abs(spin) / fastest, fillstyle="none", zorder=2)
-    panel.set(xlabel="x [m]", ylabel="y [m]", title="From above, spins in rad/s", aspect="equal", adjustable="datalim")
+    panel.set(xlabel="x (m)", ylabel="y (m)", title="From above, spins in rad/s", aspect="equal", adjustable="datalim")
     panel.margins(0.25)
 
 
@@ -68,7 +68,7 @@ def structure_picture(s: Assembly) -> Figure:
         figure = RunFigure(figsize=(9.0, 4.6))
         plan, roots = figure.subplots(1, 2, width_ratios=(1.2, 1))
         draw_plan(plan, s)
-        roots.set(xlabel="growth [1/s]", ylabel="rate [rad/s]", title="Roots of small motion")
+        roots.set(xlabel="growth (1/s)", ylabel="rate (rad/s)", title="Roots of small motion")
         if not s.natural:
             roots.set_axis_off()
             reason = "None about upright:\na bar does not have\nits upright length"

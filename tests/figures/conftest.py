@@ -6,6 +6,7 @@ from typing import Any
 import pytest
 
 from lagrotor.drawing import paper_style
+from lagrotor.drawing.style import letter_panels
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.pictures import figures
 
@@ -28,7 +29,7 @@ class Drawn:
     @cached_property
     def picture(self) -> Any:
         with paper_style():
-            return self.names["figure"]()
+            return letter_panels(self.names["figure"]())
 
     def constants(self) -> dict[str, Any]:
         return {name: value for name, value in self.names.items() if name.isupper()}

@@ -188,6 +188,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "axes 'w' and angles theta: give one angle": lambda: ground.turned("w", q),
         "turned: angle: q is none of the coordinates": lambda: ground.turned("x", "q"),
         r"moved: .* x is none of the coordinates": lambda: ground.moved("x"),
+        r"moved: x, y and z are three arguments: moved\(1, 0, 0\)": lambda: ground.moved((1, 0, 0)),
         "from which this one was turned": lambda: ground.velocity(frame=ground.turned("z", 1)),
         "must be 4 names": lambda: GROUND.ball("q0 q1 q2", "p q r"),
         "must be 3 names": lambda: GROUND.ball("q0 q1 q2 q3", "p q"),
@@ -276,7 +277,11 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "the gap l contains no coordinate": lambda: run(events=Impact(l)),
         "restitution = 2 must lie": lambda: Impact(q, sp.Integer(2)),
         "Program: two different symbols": lambda: run().evaluate(STRANGER),
-        "evaluate: expression = 'theta' is no": lambda: run().evaluate("theta"),
+        "evaluate: 'thta' is none of theta, theta_dot: theta": lambda: run().evaluate("thta"),
+        "simulate: t, the times in s, is missing": lambda: pendulum.simulate(VALUES, (0.1,), T),
+        "simulate: v0 is missing, and u is not zero at rest": lambda: System(
+            A, UNIT, velocities={sp.Symbol("u"): v - 1}
+        ).simulate({}, (0.1,), t=T),
         "evaluate: expression = Matrix.* is no": lambda: run().evaluate(sp.Matrix([q])),
         "at: times must lie between 0 and 1 s": lambda: run().at(2),
         "crossings: section = m does not change": lambda: run().crossings(m),

@@ -25,7 +25,7 @@ def test_the_force_is_drawn_along_the_letter_given():
     data = {"t": t, "energy": t, "exact_energy": t[:3], "exact_t": t[:3], "force": t}
     data |= {"centre": np.outer(t, [1, 2, 3]), "exact_centre": np.zeros((3, 3))}
     _, force, centre = shock_figure(data, "y").axes
-    assert force.get_ylabel() == "force in y [N]"
+    assert force.get_ylabel() == "force in y (N)"
     *curves, end = centre.lines
     assert [line.get_ydata()[-1] for line in curves] == [1, 0, 2, 0, 3, 0]
     assert [len(line.get_xdata()) for line in curves] == [5, 3] * 3

@@ -13,7 +13,7 @@ from lagrotor import Link, Scene, natural_rate
 from lagrotor.models import exact_orbit
 from lagrotor.paper import Audit, Paper, Verdict
 from lagrotor.paper.catalogue import section_meanings
-from lagrotor.paper.plain_text import readable
+from lagrotor.paper.plain_text import readable_on_page
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.report.content import Report
 from lagrotor.report.errata import (
@@ -136,9 +136,9 @@ def test_a_premise_is_printed_once_and_every_cited_number_exists(verdicts: list[
         cited = {n for item in items for n in re.findall(r"\bP\d+\b", item)}
         assert cited == set(numbers)
     for premise in listed:
-        words = readable(premise.says)
+        words = readable_on_page(premise.says)
         assert markdown.count(f":** {words}") == 1, words
-        assert sum(words in readable(premise_text(other)) for other in listed) == 1, words
+        assert sum(words in readable_on_page(premise_text(other)) for other in listed) == 1, words
 
 
 def test_the_authors_own_numbers_are_those_of_his_scene(verdicts: list[Verdict]) -> None:

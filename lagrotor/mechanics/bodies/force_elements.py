@@ -18,10 +18,11 @@ from lagrotor.mechanics.bodies.moving_frames import MovingFrame, Vector, in_grou
 from lagrotor.mechanics.expressions import expression, shortest, vector_of
 from lagrotor.mechanics.lagrangian import Coordinates, gradient, jacobian, t, total_derivative
 from lagrotor.renamed import accept_old_keywords
+from lagrotor.result_display import Shown, text_of
 
 
-@dataclass(frozen=True)
-class Pathway:
+@dataclass(frozen=True, repr=False)
+class Pathway(Shown):
     """A path between two points, along which springs, dampers and actuators act.
 
     Pathway.line(c, P, Q) is straight, Pathway.around(c, P, Q, radius) goes round a cylinder where that is in the way. Points
@@ -34,6 +35,8 @@ class Pathway:
     lengths : tuple of (weight, length)
         The possible lengths in m. At each time one length has the weight 1 and the others have the weight 0.
     """
+
+    _shown = (("length [m]", lambda p: "; or ".join(text_of(length) for _, length in p.lengths)),)
 
     c: Coordinates
     lengths: tuple[tuple[sp.Expr, sp.Expr], ...]

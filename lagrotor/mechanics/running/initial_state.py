@@ -16,7 +16,7 @@ from lagrotor.errors import ConstraintError, InputError, LagrotorWarning, Singul
 from lagrotor.mechanics.bodies.rigid_bodies import check_body
 from lagrotor.mechanics.constraints import project_position, project_velocity
 from lagrotor.mechanics.equations import Equations, check_friction
-from lagrotor.mechanics.expressions import by_symbol, put_in
+from lagrotor.mechanics.expressions import by_symbol, in_order, put_in
 from lagrotor.mechanics.lagrangian import t as time
 from lagrotor.mechanics.running.flow import Array, Values
 from lagrotor.mechanics.running.function_values import FunctionValue
@@ -189,6 +189,18 @@ def consistent(
     mass = metric(mass, slope)
     particular = -np.linalg.pinv(slope) @ offset
     return q, np.asarray(particular + project_velocity(slope, v - particular, mass), float)
+
+
+def numbers_of_start(where: str, system: Equations, q0: Any, v0: Any) -> tuple[Any, Any]:
+    """Return the coordinates and the velocities of a start in the order of the system. Without v0 the system is at rest."""
+    if v0 is None:
+        still = dict.fromkeys(system.c.v, sp.S.Zero)
+        if moving := [u for u, e in system.velocities if put_in(e, still) != 0]:
+            raise InputError(
+                f"{where}: v0 is missing, and {moving[0]} is not zero at rest: give v0 = {{{moving[0]}: …}}"
+            )
+        v0 = [0.0] * len(system.speeds)
+    return in_order(f"{where}: q0", q0, system.c.q), in_order(f"{where}: v0", v0, system.speeds)
 
 
 def rounding_of_start(system: Equations, values: Values, start: Array, t: float, duration: float = 1.0) -> Array:

@@ -31,7 +31,7 @@ from lagrotor.mechanics.steady_motions import small_states
 from lagrotor.numerics.floquet_multipliers import multiplier_rows, product_eigenvalues, resolved_multipliers
 from lagrotor.numerics.integrate import Problem, integrate
 from lagrotor.numerics.pulse import windows_since
-from lagrotor.result_display import Shown, scientific
+from lagrotor.result_display import Shown, scientific, text_of
 
 _LOCAL = (1e-10, 1e-12)  # local errors of the two integrations that are compared
 _CUTS = (1, 4, 32)  # pieces of the period, more where a multiplier is not resolved
@@ -84,7 +84,7 @@ class MonodromyMatrix(Shown):
         dict
             Words, by the name of the row.
         """
-        head = {"states": ", ".join(map(str, self.states)), "error of the matrix": scientific(self.error, 1)}
+        head = {"states": text_of(self.states), "error of the matrix": scientific(self.error, 1)}
         return head | multiplier_rows(self.multipliers, self.errors)
 
 

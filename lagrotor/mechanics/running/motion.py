@@ -12,7 +12,7 @@ import sympy as sp
 from numpy.typing import ArrayLike
 
 from lagrotor.algebra.subexpressions import written
-from lagrotor.errors import InputError
+from lagrotor.errors import InputError, near
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import expression as checked
 from lagrotor.mechanics.running.flow import Array, Values, smooth_motion
@@ -26,6 +26,7 @@ from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.integrate import Engine
 from lagrotor.numerics.run import Quantity, Run, check_nonempty
 from lagrotor.numerics.segment import Integrate
+from lagrotor.result_display import text_of
 
 Kind = TypeVar("Kind", bound="SampledMotion")
 
@@ -117,8 +118,8 @@ class SampledMotion(Run):
         >>> System(c, c.v[0]**2 / 2).simulate({}, (0,), (1,), [0, 1]).summary()["ending"]
         'the last time was reached'
         """
-        rows = {"coordinates": self.system.c.q, "states": dict(self.system.states)}
-        return {name: ", ".join(map(str, symbols)) for name, symbols in rows.items() if symbols} | super().summary()
+        rows = {"coordinates": self.system.c.q, "states": tuple(dict(self.system.states))}
+        return {name: text_of(symbols) for name, symbols in rows.items() if symbols} | super().summary()
 
     @property
     def energy(self) -> Array:
@@ -170,16 +171,16 @@ class SampledMotion(Run):
         reactions.redundancy = self.redundancy
         return reactions
 
-    def evaluate(self, expression: sp.Expr) -> Array:
+    def evaluate(self, expression: sp.Expr | str) -> Array:
         """Evaluate an expression along the run.
 
         Where dry friction sticks, sign(w) is the friction force divided by its bound, between −1 and 1.
 
         Parameters
         ----------
-        expression : Expr
-            A function of q, v, t, the parameters, the accelerations c.a and the multipliers λ of `system.multipliers`. The
-            generalised force of the constraints is Gᵀ λ.
+        expression : Expr or str
+            The name of a coordinate or velocity, or a function of q, v, t, the parameters, the accelerations c.a and the
+            multipliers λ of `system.multipliers`. The generalised force of the constraints is Gᵀ λ.
 
         Returns
         -------
@@ -198,6 +199,14 @@ class SampledMotion(Run):
         >>> System(c, (c.v[0]**2 - c.q[0]**2) / 2).simulate({}, (1,), (0,), [0, 1]).evaluate(c.a[0]).round(6)
         array([-1.      , -0.540302])
         """
+        if isinstance(expression, str):
+            names = {str(s): s for s in (*self.system.c.q, *self.system.c.v, *self.system.variables)}
+            if expression not in names:
+                raise InputError(
+                    f"evaluate: {expression!r} is none of {', '.join(names)}{near(expression, names)}: name one, or give an "
+                    "expression"
+                )
+            expression = names[expression]
         e = with_values(checked("evaluate: expression", expression), self.values)
         if self.redundancy and (lost := e.free_symbols & self.redundancy.symbols):
             raise InputError(f"evaluate: {min(lost, key=str)} is not determined: {self.redundancy.words}")

@@ -32,6 +32,7 @@ from lagrotor.mechanics.running.programs import (
 )
 from lagrotor.mechanics.running.redundant_constraints import without_redundant
 from lagrotor.mechanics.steady_motions import small_states, small_turns
+from lagrotor.result_display import Shown
 
 _STEP = 1e-30  # of the complex step, whose square is below all rounding
 _OTHER = -4  # factor of a second step, which gives the same derivative if one exists
@@ -48,8 +49,8 @@ class Slope(Protocol):
     def __call__(self, state: Array, step: float = _STEP) -> tuple[Array, Array, Array]: ...
 
 
-@dataclass(frozen=True, eq=False)
-class StateSpace:
+@dataclass(frozen=True, eq=False, repr=False)
+class StateSpace(Shown):
     """The linear system x' = A x + B u, y = C x + D u for small displacements x from a steady motion.
 
     For a ball joint, the state turn_p is a small rotation angle. Its axis is the one of the turned frame to which the angular
@@ -78,6 +79,15 @@ class StateSpace:
     (array([[ 0.,  1.],
            [-2.,  0.]]), array([[0., 1.]]), array([[1., 0.]]))
     """
+
+    _shown = (
+        ("states x", "states"),
+        ("A", "A"),
+        ("B", "B"),
+        ("C", "C"),
+        ("D", "D"),
+        ("rates [1/s]", "rates"),
+    )
 
     states: tuple[sp.Symbol, ...]
     A: Array

@@ -135,6 +135,20 @@ _PARTS = (
 )
 
 
+def comparison_rows(comparison: PairComparison) -> list[tuple[str, str]]:
+    """Return the compared quantities, each with its largest difference from the run, as text."""
+    c = comparison
+    return [
+        ("estimated error of the run", scientific(c.run.error, 1)),
+        ("corrected series of order 3", f"within {c.series:.4f} m"),
+        ("the paper's x (5.20)", f"within {c.printed_x:.3f} m"),
+        (
+            "the paper's rate (5.15) with A and B of the start",
+            f"within {100 * c.rate_error:.2f} %; its mean is {c.rate_mean:.3f} rad/s, that of the run {c.run_mean:.3f} rad/s",
+        ),
+    ]
+
+
 def pair_page(comparison: PairComparison) -> list[tuple[str, list[str]]]:
     """Return the page as text: headings (a) to (f), each with its lines."""
     formulas, c = pair_formulas(), comparison
@@ -147,13 +161,7 @@ def pair_page(comparison: PairComparison) -> list[tuple[str, list[str]]]:
         (
             f"(f) comparison with the scipy model {c.run.model}: one turn of {period:.4f} s, spins {scene.spins[0]:g} and "
             f"{scene.spins[1]:g} rad/s, a massless bar, ell = R = 1 m",
-            [
-                f"estimated error of the run: {scientific(c.run.error, 1)}",
-                f"corrected series of order 3: within {c.series:.4f} m",
-                f"the paper's x (5.20): within {c.printed_x:.3f} m",
-                f"the paper's rate (5.15) with A and B of the start: within {100 * c.rate_error:.2f} %; its mean is "
-                f"{c.rate_mean:.3f} rad/s, that of the run {c.run_mean:.3f} rad/s",
-            ],
+            [f"{quantity}: {difference}" for quantity, difference in comparison_rows(c)],
         )
     )
     return page

@@ -154,11 +154,20 @@ def test_dense_output_is_as_exact_as_the_run(engine: str) -> None:
         run.at([6.1])
 
 
+def test_without_velocities_a_start_is_at_rest() -> None:
+    system, times = double_pendulum(), [0.0, 0.5]
+    resting = system.simulate(VALUES, {"alpha": 1, "beta": 2}, t=times)
+    assert (resting.states == system.simulate(VALUES, (1, 2), (0, 0), times).states).all()
+    q, v = rod().consistent(VALUES, (0.5, -0.5))
+    assert np.hypot(*q) == pytest.approx(0.8) and (v == 0).all()
+
+
 def test_expressions_are_evaluated_along_a_run() -> None:
     run = pendulum().simulate(VALUES, (2.5,), (0,), np.linspace(0, 6, 31), 1e-11)
     height = run.evaluate(l * (1 - sp.cos(ANGLE.q[0])))
     assert height == pytest.approx(0.8 * (1 - np.cos(run.q[:, 0])))
     assert run.evaluate(sp.S.One).shape == (31,)
+    assert run.evaluate("theta_dot") == pytest.approx(run.v[:, 0])
     with pytest.raises(InputError, match="unheard without a value"):
         run.evaluate(sp.Symbol("unheard"))
 
@@ -278,7 +287,7 @@ def test_a_motion_on_its_way_to_infinity_is_as_exact_as_it_is_told(power: sp.Exp
 def test_a_run_is_drawn_and_filmed(tmp_path: Path) -> None:
     run = rod().simulate(VALUES, (0.8, 0), (0, 0), np.linspace(0, 0.4, 11), 1e-9)
     figure = run.plot()
-    assert [axes.get_ylabel() for axes in figure.axes] == ["$x$", "$y$", "E − E(0)", "largest |g|"]
+    assert [axes.get_ylabel() for axes in figure.axes] == ["$x$", "$y$", "E − E(0) (J)", "largest |g|"]
     np.testing.assert_array_equal(figure.axes[0].lines[0].get_ydata(), run.q[:, 0])
     from PIL import Image
 

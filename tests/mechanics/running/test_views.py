@@ -117,7 +117,7 @@ def test_equations_are_shown_in_velocities_of_ones_own() -> None:
 def test_curves_are_those_that_are_named(spinning) -> None:
     figure = spinning.plot("theta", "E", "phi_dot", sp.cos(C.q[1]))
     labels = [axes.get_ylabel() for axes in figure.axes]
-    assert labels == [r"$\theta$", "$E$ [J]", r"$\dot{\phi}$", r"$\cos \theta$"]
+    assert labels == [r"$\theta$ (rad)", "$E$ (J)", r"$\dot{\phi}$ (rad/s)", r"$\cos \theta$"]
     assert figure.axes[0].lines[0].get_ydata() == pytest.approx(spinning.q[:, 1])
     assert np.ptp(figure.axes[1].get_ylim()) > 1  # no picture of rounding
     hung = ROD.simulate({m: 1, g: 9.81, l: 1}, (0, -1), (1, 0), np.linspace(0, 1, 11))
