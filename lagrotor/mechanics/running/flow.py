@@ -33,14 +33,13 @@ def rhs(system: Equations, values: Values, engine: Engine = "core") -> Rhs:
     fast = engine == "fast"
     function = taylor_rhs(program.program, len(program.states), parameters) if fast else program.rhs(*parameters)
     timed, shape = depends_on_time(system), (len(system.variables),)
-    parts = "q and then " * bool(system.c.q) + ("u" if system.kinematics else "q'") * bool(system.c.q)
-    parts += (", then " * bool(parts) + "the states") * bool(system.states)
 
     def rate(t: float, y: Any) -> Any:
         if getattr(y, "shape", None) != shape or y.dtype.kind not in "iuf":
             state = real_array(y)
             if state is None or state.shape != shape:
-                raise InputError(f"rhs: y = {y!r} must be {shape[0]} numbers, {parts}")
+                names = ", ".join(map(str, system.variables))
+                raise InputError(f"rhs: y = {y!r} must be {shape[0]} numbers: {names}")
             y = state
         return function(t, np.append(y, t))[:-1] if timed else function(t, y)
 
