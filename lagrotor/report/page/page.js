@@ -200,9 +200,10 @@ function fitFormulas(part = document) {
       const natural = parseFloat(getComputedStyle(formula).fontSize);
       const room = PAPER - (box.closest("dd") ? PAPER_TERM : 0);
       formula.style.setProperty("--paper", `${Math.min(SMALLEST, (0.93 * room * natural) / formula.scrollWidth)}px`);
-      // Letters lean out of their boxes, and smaller ones are wider for their size: a second look.
+      // Letters lean out of their boxes, and smaller ones are wider for their size: a second look. In a list a box is only as wide as its formula: what counts there is the column.
+      const column = box.parentElement.matches("dd") ? box.parentElement : box;
       for (let pass = 0, share = 1; box.clientWidth && pass < 2; pass++) {
-        share *= Math.min(1, (box.clientWidth - 4) / Math.max(formula.scrollWidth, box.scrollWidth - 4));
+        share *= Math.min(1, (column.clientWidth - 4) / Math.max(formula.scrollWidth, box.scrollWidth - 4));
         if (share < 1) formula.style.fontSize = Math.max(SMALLEST, share * natural) + "px";
       }
     }
