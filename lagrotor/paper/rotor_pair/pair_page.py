@@ -72,7 +72,7 @@ class PairComparison:
     series : float
         The largest distance of an axis of the corrected series of order 3 from the run, relative to R.
     printed_x : float
-        The largest difference of the paper's x (5.20) from the run, in m.
+        The largest difference of the paper's x (5.22) from the run, in m.
     rate_error : float
         The largest relative difference of the formula (5.15), with A and B of the start, from the rate of the run.
     rate_mean : float
@@ -141,7 +141,7 @@ def comparison_rows(comparison: PairComparison) -> list[tuple[str, str]]:
     return [
         ("estimated error of the run", scientific(c.run.error, 1)),
         ("corrected series of order 3", f"within {c.series:.4f} m"),
-        ("the paper's x (5.20)", f"within {c.printed_x:.3f} m"),
+        ("the paper's x (5.22)", f"within {c.printed_x:.3f} m"),
         (
             "the paper's rate (5.15) with A and B of the start",
             f"within {100 * c.rate_error:.2f} %; its mean is {c.rate_mean:.3f} rad/s, that of the run {c.run_mean:.3f} rad/s",
