@@ -117,7 +117,7 @@ verdict(
     {"B": value_B, "A": value_A},
     premises=[MASSLESS_BAR, EQUAL_INERTIAS, OPPOSITE_SPINS, opposite_azimuths(), one_inclination],
     correction={"B": form("I_3*(omega_1 - omega_2)")},
-    wrong="B lacks the factor I. The correct value is 2Iω, an angular momentum like A. "
+    wrong="B lacks the factor I. The correct value is 2Iω, an angular momentum like A. The printed A needs no correction. "
     f"With the paper's rotor and spins of ±10 rad/s B is {float(own_B):g} kg m²/s.",
     uses=["5.12", "5.13"],
     evidence=[

@@ -102,7 +102,10 @@ class Report:
             text += "one that rounds to it: 16 stands for 15.5 to 16.5, and 11.4 for 11.35 to 11.45. "
         text += "Each figure is drawn again. " if self.paper.figures else ""
         text += "All numbers were computed by the run that wrote this page, except computing times, which are on record with the "
-        ids = [*(f"Equations are cited by number, such as {i}" for i in equations), *(f"claims as {i}" for i in claims)]
+        ids = [
+            *(f"Equations are cited by numbers of this report, such as {i}" for i in equations),
+            *(f"claims as {i}" for i in claims),
+        ]
         return f"{text}machine. {', and '.join(ids)}."
 
     @property

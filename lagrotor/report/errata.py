@@ -124,6 +124,11 @@ def sheet_summary(verdicts: Iterable[Verdict], errors: list[Erratum]) -> Iterato
     yield (
         "This sheet lists the equations of the paper that differ from what the same premises give, each as printed and as it "
         "should read. Every equation was derived anew, and one exact procedure compared both forms with the derivation."
+        + "".join(
+            f" The number of an item, such as {e.id}, is that of the report, not of a section; a number that the paper prints at "
+            "the equation follows in parentheses."
+            for e in errors[:1]
+        )
     )
     differ = "1 differs" if len(errors) == 1 else f"{len(errors)} differ"
     reaching = [e.id for e in errors if not e.survives]

@@ -165,7 +165,8 @@ def test_the_authors_own_numbers_are_those_of_his_scene(verdicts: list[Verdict])
 
 def test_the_sheet_begins_with_what_it_is(verdicts: list[Verdict]) -> None:
     what, counted = sheet_summary(verdicts, list(errata(verdicts, PAPER)))
-    assert what.count(". ") == 1
+    assert what.count(". ") == 2
+    assert "2.08, is that of the report, not of a section" in what
     assert "20 differ" in counted and "7 of the errors change a result" in counted and "other 13" in counted
     markdown = errata_sheet(Report(PAPER, tuple(verdicts), (), ()))
     places = [markdown.index(text) for text in (what[:40], counted[:30], "| Letter |", "**P1:**", "### Erratum 2.08")]
