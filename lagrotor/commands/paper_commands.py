@@ -343,8 +343,9 @@ def reproduce_command(options: argparse.Namespace) -> int:
 def audit_command(options: argparse.Namespace) -> int:
     from lagrotor.paper.audit import NOT_YET, in_words, verdicts_json
     from lagrotor.paper.catalogue import known_id
-    from lagrotor.paper.plain_text import readable
+    from lagrotor.paper.plain_text import from_latex, readable
     from lagrotor.report.content import count_list, word
+    from lagrotor.report.errata import errata, letter_table
     from lagrotor.report.facts import note
 
     paper = _paper(options)
@@ -362,6 +363,11 @@ def audit_command(options: argparse.Namespace) -> int:
     elif identifiers:
         words = "\n\n".join(in_words(verdict, paper) for verdict in verdicts)
         print("\n".join(wrap(line, 13) for line in words.split("\n")))
+        if letters := letter_table(errata(verdicts, paper), paper):
+            print("\nletters of the corrections and of the premises")
+        for tex, meaning, unit, ids in letters:
+            used = f", in {ids}" if len(verdicts) > 1 else ""
+            print(wrap(readable(f"  {from_latex(tex)}: {meaning} ({unit}{used})"), 4))
     else:
         titles = {i: entry.title for i, entry in paper.equations.items()}
         rows = [(v.id, word(v.verdict), readable(": ".join(filter(None, (titles[v.id], note(v)))))) for v in verdicts]
