@@ -34,6 +34,7 @@ extensions = ["sphinx.ext.autodoc", "sphinx.ext.autosummary", "sphinx.ext.inters
 exclude_patterns = ["edition", "_build"]
 html_theme = "pydata_sphinx_theme"
 html_title = f"lagrotor {release}"
+html_context = {"default_mode": "auto"}  # light or dark as the system; without it the first page writes an error
 html_static_path = ["site.css"]
 html_css_files = ["site.css"]
 html_sidebars = {page: [] for page in ("index", "gallery", "contributing", "changelog")}
