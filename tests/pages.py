@@ -45,7 +45,7 @@ _SETTLED = (
     "() => document.fonts.ready.then(() => new Promise((done) => requestAnimationFrame(() => setTimeout(done, 50))))"
 )
 _MEASURE = """() => {
-  const seen = (e) => e.getClientRects().length > 0, box = (e) => e.getBoundingClientRect();
+  const seen = (e) => e.getClientRects().length > 0 && e.checkVisibility({visibilityProperty: true}), box = (e) => e.getBoundingClientRect();
   const buttons = [...document.querySelectorAll("button")].filter(seen);
   const overlap = (a, b) => Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1 &&
     Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 1;
@@ -220,6 +220,7 @@ def main(folders: list[str]) -> int:
     wrong = 0
     for folder in (Path(folder).resolve() for folder in folders):
         names = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*.html"))
+        names = [name for name in names if not name.startswith("_static/")]  # templates of the theme, not pages
         broken = [*broken_links(folder, names), *without_reference(folder), *unshown_results(folder, names)]
         print(*broken, sep="\n", end="\n" if broken else "", flush=True)
         wrong += len(broken) + asyncio.run(open_pages(folder, names, axe, installed))
