@@ -131,7 +131,7 @@ def erratum_entry(e: Erratum, listed: list[Premise]) -> str:
         cited = re.sub(r"P(\d+)", r'<a href="#premise-\1">P\1</a>', cited_premises(premises, listed))
         correct += f"<p>{label}: {cited}.</p>"
     inside = (
-        f"<p>{prose(e.wrong)}</p>"
+        f"<p><b>{prose(e.cited.capitalize())}.</b> {prose(e.wrong)}</p>"
         f"{_beside('Printed', typeset(e.printed), f'Corrected equation ({escape(e.verdict_of_correction)})', correct)}"
         f"<p><small>{escape(e.reach.capitalize())}. Derived in {link(e.id)}. Used by: {links(e.used_by) or 'none'}</small></p>"
     )
