@@ -45,7 +45,8 @@ _SETTLED = (
     "() => document.fonts.ready.then(() => new Promise((done) => requestAnimationFrame(() => setTimeout(done, 50))))"
 )
 _MEASURE = """() => {
-  const seen = (e) => e.getClientRects().length > 0 && e.checkVisibility({visibilityProperty: true}), box = (e) => e.getBoundingClientRect();
+  const seen = (e) => e.getClientRects().length > 0 && e.checkVisibility({visibilityProperty: true});
+  const box = (e) => e.getBoundingClientRect();
   const buttons = [...document.querySelectorAll("button")].filter(seen);
   const overlap = (a, b) => Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1 &&
     Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 1;
