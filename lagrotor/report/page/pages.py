@@ -115,7 +115,8 @@ def _pages(report: Report, everything: list[Section]) -> list[Page]:
     about = [remaining.pop(anchor) for anchor in _ABOUT if anchor in remaining]
     result = [Page("index.html", "In short", tuple(front))]
     result += [Page(f"{FOLDER}/{anchor}.html", section.heading, (section,)) for anchor, section in remaining.items()]
-    result.append(Page(f"{FOLDER}/about.html", "How this was made", tuple(about)))
+    name = "Notation, and how this was made" if report.paper.glossary else "How this was made"
+    result.append(Page(f"{FOLDER}/about.html", name, tuple(about)))
     for stem, name, inside in report.derivations:
         introduction, heading, steps = inside.partition("<h3>")
         drawn = derivation_figures(stem, inside, report)
