@@ -1200,6 +1200,7 @@ class RobotSystem(System):
     forces
     names
     velocities
+    states
         The fields of `System`.
     values : mapping
         The numbers of the file by symbol, for `simulate`, `rhs` and `linearise`; empty if the system has no symbols.

@@ -63,7 +63,7 @@ class AppliedForce(sp.ImmutableDenseMatrix):  # type: ignore[misc]
         return -self + other
 
     def __truediv__(self, divisor: Any) -> "AppliedForce":
-        return self * (1 / sp.sympify(divisor))
+        return self * (sp.S.One / divisor)
 
     __radd__ = __add__
 
