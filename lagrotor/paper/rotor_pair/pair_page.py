@@ -144,7 +144,7 @@ _PARTS = (
     ("a", "Lagrangian of the two rotors and the bar, in the Euler angles of each axis", (r"\mathcal L",)),
     ("b", "constraint of the bar, g = 0, with k = ell/R", ("g",)),
     ("c", "conserved quantities of the ansatz φ₁′ = −φ₂′ = φ′, ψ₁′ = −ψ₂′ = ψ′ without a bar", ("A", "B")),
-    ("d", "precession rate from A and B, which themselves depend on the rate φ̇ at the start", (r"\dot\phi",)),
+    ("d", "precession rate from A and B, which depend on the rate at the start", (r"\dot\phi",)),
     ("e", "corrected axes through r₀², at the phase Φ = Ωt", ("x_1", "y_1", "x_2", "y_2")),
 )
 
