@@ -12,6 +12,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from lagrotor.commands.scene_commands import add_scene, scene_from_options
 from lagrotor.commands.terminal import Command, add_json, check_folder, print_json, progress, say, table, wrap
 from lagrotor.errors import InputError
 
@@ -26,11 +27,16 @@ def add_paper_commands(command: Command) -> None:
 
 def _add_reading_commands(command: Command) -> None:
     """Add the commands that read a paper: judge, init, notation, readings, derive and check."""
-    added = command("pair", pair_command, "print the pair's formulas, and compare them with a run", "lagrotor pair")
+    example = "lagrotor pair --paired 0.3 --link-length 1.5 --link-mass 1"
+    added = command("pair", pair_command, "print the pair's formulas, and compare them with a run", example)
     added.description = (
         "Print the Lagrangian of the pair, the bar's constraint, A and B, the precession rate and the corrected trajectories,\n"
-        "and compare the rate and the trajectories with an integrated paired precession."
+        "and compare the rate and the trajectories with an integrated paired precession. Without options it is the paper's:\n"
+        "spins of ±10 rad/s, a massless bar, ell = R = 1 m, amplitude 0.204."
     )
+    says = "amplitude: the sine of the inclination when the axes are parallel (default: 0.204)"
+    added.add_argument("--paired", type=float, default=0.204, metavar="R0", help=says)
+    add_scene(added)
     add_json(added, "a JSON object: LaTeX of each formula, and the differences")
 
     added = command(
@@ -151,7 +157,9 @@ def pair_command(options: argparse.Namespace) -> int:
     from lagrotor.mechanics.glossary import latex
     from lagrotor.paper.rotor_pair.pair_page import compare_pair, pair_formulas, pair_page
 
-    comparison = compare_pair()
+    if options.scene is None and options.spins is None:
+        options.spins = (10.0, -10.0)
+    comparison = compare_pair(options.paired, scene_from_options(options))
     if options.json:
         numbers = {name: value for name, value in vars(comparison).items() if name != "run"}
         formulas = {name: latex(expression) for name, expression in pair_formulas().items()}

@@ -328,7 +328,8 @@ class Equations:
     def mass_matrix(self) -> sp.Matrix:
         """The mass matrix M = ∂²L/∂v∂v, shape (n, n): M a = forcing + Gᵀ λ.
 
-        It belongs to the velocities v, also in a system with quasi-velocities.
+        It belongs to the velocities v, also in a system with quasi-velocities. The entries are not simplified:
+        mass_matrix.applyfunc(sympy.trigsimp) shortens them.
         """
         return free.mass_matrix(self.L, self.c).as_immutable()
 

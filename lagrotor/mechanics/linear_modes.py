@@ -252,7 +252,9 @@ def _roots(factor: sp.Poly) -> list[sp.Expr]:
     if even and factor.degree() == 4:
         squares = sp.roots(sp.Poly(factor.as_expr().subs(s, sp.sqrt(s)), s), multiple=True)
         return [sign * sp.sqrt(square) for square in squares for sign in (1, -1)]
-    raise InputError(f"modes: {factor.as_expr()} = 0 is not solved in closed form: give values={{symbol: number, …}}")
+    raise InputError(
+        f"modes: {factor.as_expr()} = 0 is not solved in closed form: modes(values={{symbol: number, …}}) gives numbers"
+    )
 
 
 def _all_negative(a: list[sp.Expr]) -> list[sp.Expr]:

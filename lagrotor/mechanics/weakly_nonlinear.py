@@ -254,7 +254,7 @@ class Perturbed:
         return self._with(self.orbit.times(factor), self.p.times(factor), self.q.times(factor))
 
     def derivative(self) -> "Perturbed":
-        """Return df/dPhi. Its perturbation is (p' + B q) xi + (q' + A p) eta."""
+        """Return df/dPhi; in it (p' + B q) xi + (q' + A p) eta takes the place of the perturbation p xi + q eta of f."""
         p, q = self.p.derivative() + self.B * self.q, self.q.derivative() + self.A * self.p
         return self._with(self.orbit.derivative(), p, q)
 

@@ -87,7 +87,7 @@ def _conditions(verdict: Verdict) -> Iterator[tuple[str, tuple[Premise, ...]]]:
 def premise_formulas(premises: Iterable[Premise]) -> tuple[str, ...]:
     """Return the equations of the premises in LaTeX, one line for each premise that has equations.
 
-    Equations between components of vectors are left out, because the words of the premise contain the vectors.
+    An equation between components is left out: the sentence of such a premise already states the equation of the vectors.
     """
     return tuple(r",\quad ".join(p.tex) for p in premises if p.tex and not _in_components(p))
 

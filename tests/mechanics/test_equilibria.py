@@ -35,6 +35,7 @@ def many_starts(system: System, values: dict, sides: list[tuple[float, float]]) 
         (2 * sp.cos(a) + sp.cos(b) - (a - b) ** 2 / 8, {}),
         (g * sp.cos(a) + sp.sin(b) * a - k * a**2 - b**2 / 3, {g: 2.0, k: 0.3}),
         (-((a**2 + b - 11) ** 2) / 20 - (a + b**2 - 7) ** 2 / 20, {}),
+        (sp.cos(b) - 10 * a**2, {}),  # a is found at once, long before b permits the proof of a root
     ],
 )
 def test_a_box_holds_what_many_starts_find_and_no_less(potential: sp.Expr, values: dict) -> None:

@@ -391,7 +391,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "after kanes_equations": lambda: System.from_sympy(
             KanesMethod(ReferenceFrame("N"), [q1], [u1], [q1.diff() - u1])
         ),
-        "modes: .* give values": lambda: THREE.modes(),
+        "modes: .* gives numbers": lambda: THREE.modes(),
     },
     SingularError: {
         r"not regular in psi_dot; use fewer": lambda: accelerations(S.v[0] ** 2 + S.v[1] ** 2 - S.q[2], S),

@@ -222,10 +222,25 @@ class Pathway(Shown):
         -------
         Expr
             The function for `dissipation`, in W.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> c = coordinates("x")
+        >>> Pathway.line(c, (0, 0, 0), (c.x, 0, 0)).damper(6)
+        3*x_dot**2
         """
         self._check_moves("damper")
         d = expression("damper: constant", constant)
-        return sp.Add(*(weight * d * total_derivative(length, self.c) ** 2 / 2 for weight, length in self.lengths))
+        squares = [(weight, total_derivative(length, self.c) ** 2) for weight, length in self.lengths]
+        smooth = [  # along one axis the length is |x| and its rate sign(x) x'; the square of the sign is 1
+            (
+                weight,
+                square.replace(lambda e: e.is_Pow and e.exp == 2 and isinstance(e.base, sp.sign), lambda _: sp.S.One),
+            )
+            for weight, square in squares
+        ]
+        return sp.Add(*(weight * d * square / 2 for weight, square in smooth))
 
     def dry_friction(self, force: Any) -> sp.Expr:
         """Return Rayleigh's function F |ℓ'| of Coulomb's friction, under which the path may stick.

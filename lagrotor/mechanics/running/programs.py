@@ -497,7 +497,10 @@ def parameter_values(program: Generated, values: Mapping[Any, Any], where: str =
                 raise TypeError
             numbers.append(float(by_name[name]))
         except (TypeError, ValueError, OverflowError):
-            raise InputError(f"{where}: {name} = {by_name[name]!r} must be a number") from None
+            raise InputError(
+                f"{where}: {name} = {by_name[name]!r} must be a number; for a value that varies in time write "
+                f'Function("{name}")(t) in the system, with t of lagrotor.mechanics'
+            ) from None
         if not abs(numbers[-1]) < float("inf"):
             raise InputError(f"{where}: {name} = {numbers[-1]} must be finite")
     for jet in program.parameters[len(numbers) :]:

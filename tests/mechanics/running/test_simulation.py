@@ -204,7 +204,7 @@ def test_a_run_is_saved_and_read_again_with_its_system(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="another system"):
         SystemRun.load(tmp_path / "run.npz", pendulum())
     header = run.save(tmp_path / "run.csv").read_text().splitlines()
-    assert header[0].startswith("t [s],x") and len(header) == 12
+    assert header[0] == "t [s],x,y,x_dot,y_dot,energy [J],drift" and len(header) == 12
     frame = run.to_dataframe() if importlib.util.find_spec("pandas") else None
     assert frame is None or list(frame.columns) == ["x", "y", "x_dot", "y_dot", "energy", "drift"]
 

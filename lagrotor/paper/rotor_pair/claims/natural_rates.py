@@ -289,9 +289,10 @@ def decide_c23(m: Mapping[str, float]) -> Finding:
     needs = "equal spins with parallel axes" if OVER_COSINE.is_matched(equal) else ""
     return Finding(
         (Part(_COSINE, all(map(OVER_COSINE.is_matched, on_orbits)), needs),),
-        "The rate is the natural rate times 1 + c θ², with θ the average inclination; 1/cos θ has c = +0.5, and c from 0.45 to "
-        f"0.55 counts as equal. The measured c is {on_orbits[0]:+.3f} for a massless bar. It is {on_orbits[1]:+.3f}, "
-        f"{on_orbits[2]:+.3f} and {on_orbits[3]:+.3f} for bars with (m, K) = (1, 1), (0.01, 0.1) and (1, 0.1) in kg and kg m². "
+        "The rate is the natural rate times 1 + c θ², with θ the average inclination. The claimed rate has c = +0.5; a measured "
+        f"c from 0.45 to 0.55 agrees with it. The measured c is {on_orbits[0]:+.3f} for a massless bar. It is "
+        f"{on_orbits[1]:+.3f}, {on_orbits[2]:+.3f} and {on_orbits[3]:+.3f} for bars with (m, K) = (1, 1), "
+        "(0.01, 0.1) and (1, 0.1) in kg and kg m². "
         f"(The change of the rate is proportional to θ to the power {m['order_massless']:.2f}.) For equal spins with parallel "
         f"axes it is {equal:+.3f}. A shock along x from rest twists the centres of precession; c over the first {FEW} cycles is "
         f"then {shock[0]:+.2f}, {shock[1]:+.2f} and {shock[2]:+.2f} for these bars, so that its sign depends on the twist.",
