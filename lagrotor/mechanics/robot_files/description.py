@@ -308,6 +308,24 @@ def _check_masses(described: Description) -> None:
             )
         if link.parent >= 0:
             heavy[link.parent] |= heavy[i]
+    _check_free_links(described)
+
+
+def _check_free_links(described: Description) -> None:
+    """Raise InputError for a free link without mass that carries one moving joint: the motions of both cannot be told apart."""
+    fixed: list[int] = []  # the first of the links that are fixed to one another
+    for i, link in enumerate(described.links):
+        fixed.append(fixed[link.parent] if link.parent >= 0 and not link.joints else i)
+    for i, link in enumerate(described.links):
+        if [joint.kind for joint in link.joints] != ["free"]:
+            continue
+        whole = [k for k, first in enumerate(fixed) if first == i]
+        moved = [k for k, other in enumerate(described.links) if other.joints and other.parent in whole]
+        if len(moved) == 1 and not any(described.links[k].mass or any(described.links[k].inertia) for k in whole):
+            raise InputError(
+                f"{link.where}: the free link {link.name!r} has no mass and carries joint "
+                f"{described.links[moved[0]].joints[0].name!r} alone: the motions of both are the same; give it an inertial"
+            )
 
 
 def _constraints(described: Description, frames: list[Frame], q: Mapping[str, sp.Symbol]) -> dict[str, sp.Expr]:

@@ -15,6 +15,7 @@ from lagrotor.mechanics.robot_files.xml_elements import Element
 _DENSITY = "1000"  # kg/m³, the default of MJCF
 _SIZES = {"sphere": 1, "capsule": 2, "cylinder": 2, "box": 3, "ellipsoid": 3}
 WITHOUT_MASS = ("plane", "hfield")
+ORIENTATION = ("quat", "axisangle", "xyaxes", "zaxis", "euler")
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +52,7 @@ def combined(solids: Sequence[Solid]) -> Solid:
 
 
 def solid_of(geom: Element, pose: Pose) -> Solid | None:
-    """Return the body of a geom whose `pose` comes from its position and orientation; None without mass."""
+    """Return the body of a geom; `pose` contains its position and orientation, unless it has fromto. None without mass."""
     kind = geom.text("type", "sphere")
     density = geom.number("density", _DENSITY, least=0)
     given = geom.number("mass", least=0) if "mass" in geom.attributes else None
@@ -59,6 +60,12 @@ def solid_of(geom: Element, pose: Pose) -> Solid | None:
         return None
     if kind not in _SIZES:
         raise geom.refusal(f"the inertia of a {kind} needs its mesh, which is not read: give the body an <inertial>")
+    if "mesh" in geom.attributes:
+        raise geom.refusal(
+            f"the size of this {kind} is that of its mesh, which is not read: give the body an <inertial>"
+        )
+    if "fromto" in geom.attributes and geom.attributes.keys() & {"pos", *ORIENTATION}:
+        raise geom.refusal("it has a position or an orientation beside fromto: give one of them")
     if geom.text("shellinertia", "false") != "false":
         raise geom.refusal("the inertia of a shell is not read: give the body an <inertial>")
     size = list(geom.numbers("size", range(1, 4)))
@@ -69,7 +76,7 @@ def solid_of(geom: Element, pose: Pose) -> Solid | None:
         first, last = sp.ImmutableMatrix(ends[:3]), sp.ImmutableMatrix(ends[3:])
         if first == last:
             raise geom.refusal("the two points of fromto are one: give two")
-        pose = Pose((first + last) / 2, to_axis(list(last - first)))
+        pose = pose.then(Pose((first + last) / 2, to_axis(list(last - first))))
         half = number((last - first).norm() / 2)
         size = [size[0], half] if _SIZES[kind] == 2 else [size[0], size[0], half]
     if len(size) < _SIZES[kind] or not all(x > 0 for x in size[: _SIZES[kind]]):

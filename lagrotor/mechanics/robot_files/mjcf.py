@@ -5,15 +5,17 @@ A joint turns or moves the body in the axes that the joints before it have left,
 and armatures of joints are read. Equality constraints hold exactly, while MuJoCo's are soft.
 """
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from itertools import count
 from pathlib import Path
 
 import sympy as sp
 
 from lagrotor.errors import near
 from lagrotor.mechanics.robot_files.description import Closure, Description, Joint, Link
-from lagrotor.mechanics.robot_files.geoms import NOTHING, Solid, combined, solid_of
+from lagrotor.mechanics.robot_files.geoms import NOTHING, ORIENTATION, Solid, combined, solid_of
 from lagrotor.mechanics.robot_files.poses import ORIGIN, UNTURNED, Pose, about, number, product, quaternion_of, to_axis
 from lagrotor.mechanics.robot_files.xml_elements import Element, read_xml
 
@@ -25,7 +27,6 @@ _SECTIONS = (
     "extension deformable include"
 )
 _ALTERS = ("boundmass", "boundinertia", "balanceinertia")
-_ORIENTATION = ("quat", "axisangle", "xyaxes", "zaxis", "euler")
 
 
 @dataclass
@@ -40,6 +41,7 @@ class _Reading:
     solids: list[Solid] = field(default_factory=list)
     sites: dict[str, tuple[int, Pose]] = field(default_factory=dict)
     names: set[str] = field(default_factory=set)
+    named: dict[str, set[str]] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
     counts: dict[str, int] = field(default_factory=dict)
 
@@ -57,8 +59,8 @@ class _Reading:
         if name not in self.defaults:
             raise element.refusal(f"there is no default class {name!r}{near(name, self.defaults) or ': define it'}")
         given = dict(self.defaults[name].get(element.tag, {}))
-        if any(key in element.attributes for key in _ORIENTATION):
-            given = {key: value for key, value in given.items() if key not in _ORIENTATION}
+        if any(key in element.attributes for key in ORIENTATION):
+            given = {key: value for key, value in given.items() if key not in ORIENTATION}
         return replace(element, attributes=given | element.attributes)
 
 
@@ -70,12 +72,12 @@ def read_mjcf(path: str | Path) -> Description:
         raise root.refusal(f"an MJCF file has the root element <mujoco>{way}")
     root = replace(root, children=list(_included(root, root.file.resolve().parent, {root.file.resolve()})))
     unknown = root.check_children(_SECTIONS)
-    settings = {tag: {k: v for e in root.all(tag) for k, v in e.attributes.items()} for tag in ("compiler", "option")}
     flags = {k: v for option in root.all("option") for flag in option.all("flag") for k, v in flag.attributes.items()}
-    compiler = settings["compiler"]
+    compiler = {k: v for e in root.all("compiler") for k, v in e.attributes.items()}
     for element in root.all("compiler"):
         _check_compiler(element)
-    reading = _Reading(compiler, flags, {"main": {}})
+    named = {"body": set(_names_of("body", root)), "joint": set(_names_of("joint", root))}
+    reading = _Reading(compiler, flags, {"main": {}}, named=named)
     for element in root.all("default"):
         _read_defaults(element, reading.defaults, "")
     for world in root.all("worldbody"):
@@ -83,13 +85,16 @@ def read_mjcf(path: str | Path) -> Description:
     if "settotalmass" in compiler:
         total = next(e for e in reversed(root.all("compiler")) if "settotalmass" in e.attributes).number("settotalmass")
         if total > 0:
-            factor = total / sum(solid.mass for solid in reading.solids)
+            if not (mass := sum(solid.mass for solid in reading.solids)):
+                raise root.refusal(f"no body has a mass that settotalmass={total} could scale: give one a mass")
+            factor = total / mass
             reading.solids = [solid.scaled(factor) for solid in reading.solids]
     links = tuple(
         replace(link, mass=solid.mass, centre=solid.centre, inertia=solid.inertia)
         for link, solid in zip(reading.links, reading.solids, strict=True)
     )
-    closures = tuple(_closures(root, reading)) if flags.get("equality") != "disable" else ()
+    held = "disable" not in (flags.get("equality"), flags.get("constraint"))
+    closures = tuple(_closures(root, reading)) if held else ()
     gravity = next(
         (e.numbers("gravity", 3) for e in reversed(root.all("option")) if "gravity" in e.attributes),
         (sp.S.Zero, sp.S.Zero, sp.Rational("-9.81")),
@@ -98,14 +103,28 @@ def read_mjcf(path: str | Path) -> Description:
         gravity = (sp.S.Zero,) * 3
     for tag in ("actuator", "sensor", "tendon", "keyframe", "contact", "deformable"):
         reading.count(f"<{tag}>", sum(len(section.children) for section in root.all(tag)))
-    for name in ("density", "viscosity", "wind"):
-        if any(float(x) for x in settings["option"].get(name, "0").split()):
+    for name, size in (("density", 1), ("viscosity", 1), ("wind", 3)):
+        said = [e.numbers(name, size) for e in root.all("option") if name in e.attributes]
+        if said and any(said[-1]):
             reading.count(f"forces of the fluid ({name})")
     for element in unknown:
         reading.count(f"<{element.tag}>")
     not_read = tuple(f"{what}: {count}" for what, count in reading.counts.items())
     name = root.text("model", Path(path).stem)
     return Description(name, root.file, links, gravity, closures, not_read, tuple(reading.notes))
+
+
+def _names_of(tag: str, element: Element) -> Iterator[str]:
+    """Yield the names that the file gives to its bodies or joints."""
+    for child in element.children:
+        if child.tag.endswith(tag) and "name" in child.attributes:
+            yield child.text("name")
+        yield from _names_of(tag, child)
+
+
+def _unused(name: str, taken: set[str]) -> str:
+    """Return the name, with a number if it is taken."""
+    return next(chosen for i in count(1) if (chosen := name if i == 1 else f"{name}_{i}") not in taken)
 
 
 def _included(element: Element, folder: Path, seen: set[Path]) -> Iterator[Element]:
@@ -135,6 +154,8 @@ def _check_compiler(element: Element) -> None:
     sequence = element.text("eulerseq", "xyz")
     if len(sequence) != 3 or {*sequence} - {*"xyzXYZ"}:
         raise element.refusal(f"eulerseq={sequence!r} must be three letters of x, y, z, X, Y, Z")
+    if not re.fullmatch(r"\d+ +\d+", element.text("inertiagrouprange", "0 5").strip()):
+        raise element.refusal(f"inertiagrouprange={element.text('inertiagrouprange')!r} must be two whole numbers")
     for name in _ALTERS:
         if element.text(name, "0") not in ("0", "false"):
             raise element.refusal(
@@ -144,6 +165,9 @@ def _check_compiler(element: Element) -> None:
 
 def _read_defaults(element: Element, defaults: dict[str, dict[str, dict[str, str]]], parent: str) -> None:
     name = element.text("class", None if parent else "main")
+    if (name in defaults) if parent else (name != "main"):
+        reason = "is there already: name another" if parent else "cannot replace 'main', the outermost: nest it"
+        raise element.refusal(f"class={name!r} {reason}")
     values = {tag: dict(attributes) for tag, attributes in defaults.get(parent or name, {}).items()}
     for child in element.children:
         if child.tag != "default":
@@ -173,15 +197,15 @@ def _read_body(body: Element, index: int, inherited: str, prefix: Pose, moving: 
                 index,
                 prefix.then(_pose(reading.with_defaults(child, inherited), reading)),
             )
-        elif child.tag in ("joint", "freejoint", "inertial") and body.tag == "frame":
-            raise child.refusal("it belongs into a body, not into a frame: move it there")
+        elif child.tag in ("joint", "freejoint", "inertial") and body.tag != "body":
+            raise child.refusal(f"it belongs into a body, not into a {body.tag}: move it there")
 
 
 def _add_body(body: Element, parent: int, inherited: str, prefix: Pose, moving: bool, reading: _Reading) -> None:
     index = len(reading.links)
-    name = body.attributes.get("name", f"body{index + 1}")
-    if any(link.name == name for link in reading.links):
+    if (name := body.attributes.get("name", "")) and any(link.name == name for link in reading.links):
         raise body.refusal("another body has the same name: rename one")
+    name = name or _unused(f"body{index + 1}", {link.name for link in reading.links} | reading.named["body"])
     pose = prefix.then(_pose(body, reading))
     home = reading.homes[parent].then(pose) if parent >= 0 else pose
     joints = [_joint(e, name, inherited, pose, reading) for e in body.all("joint", "freejoint")]
@@ -195,7 +219,7 @@ def _add_body(body: Element, parent: int, inherited: str, prefix: Pose, moving: 
     reading.homes.append(home)
     needed = moving or "settotalmass" in reading.compiler
     reading.solids.append(_solid(body, inherited, reading) if needed else NOTHING)
-    reading.count("gravity compensation", float(body.text("gravcomp", "0")) != 0)
+    reading.count("gravity compensation", body.number("gravcomp", "0") != 0)
     _read_body(body, index, inherited, Pose(), moving, reading)
 
 
@@ -208,9 +232,9 @@ def _joint(element: Element, body: str, inherited: str, pose: Pose, reading: _Re
         "name class type group pos axis springdamper limited actuatorfrclimited solreflimit solimplimit solreffriction range "
         "actuatorfrcrange solimpfriction stiffness damping frictionloss armature ref springref margin user actuatorgravcomp align"
     )
-    name = element.attributes.get("name") or f"{body}_joint"
-    if name in reading.names:
+    if (name := element.attributes.get("name", "")) in reading.names:
         raise element.refusal(f"another joint has the name {name!r}: rename one")
+    name = name or _unused(f"{body}_joint", reading.names | reading.named["joint"])
     reading.names.add(name)
     reading.count("limits of joints", "range" in joint.attributes and joint.text("limited", "auto") != "false")
     reading.count("dry friction of joints", joint.number("frictionloss", "0") != 0)
@@ -221,8 +245,9 @@ def _joint(element: Element, body: str, inherited: str, pose: Pose, reading: _Re
         raise element.refusal(f"armature and stiffness of a {kind} joint are not read: set them to 0")
     if "springdamper" in joint.attributes and any(joint.numbers("springdamper", 2)):
         raise element.refusal("springdamper depends on the masses: write stiffness and damping")
-    if joint.text("align", "auto") == "true":
-        raise element.refusal("align='true' moves the axes of the body: write align='false'")
+    align = joint.text("align", "auto")
+    if align == "true" or (kind == "free" and align == "auto" and reading.compiler.get("alignfree") == "true"):
+        raise element.refusal("align='true', or alignfree of the compiler, moves the axes of the body: write 'false'")
     axis = joint.numbers("axis", 3, "0 0 1")
     if not any(axis):
         raise element.refusal("axis = 0 0 0 is no direction: give one")
@@ -246,7 +271,7 @@ def _joint(element: Element, body: str, inherited: str, pose: Pose, reading: _Re
 def _pose(element: Element, reading: _Reading) -> Pose:
     """Return the pose that pos and one of quat, axisangle, xyaxes, zaxis, euler give."""
     shift = sp.ImmutableMatrix(element.numbers("pos", 3, "0 0 0"))
-    given = [name for name in _ORIENTATION if name in element.attributes]
+    given = [name for name in ORIENTATION if name in element.attributes]
     if len(given) > 1:
         raise element.refusal(f"it has both {given[0]} and {given[1]}: give one orientation")
     return Pose(shift, _orientation(element, given[0], reading) if given else UNTURNED)
@@ -280,18 +305,26 @@ def _orientation(element: Element, name: str, reading: _Reading) -> tuple[sp.Rat
 def _solid(body: Element, inherited: str, reading: _Reading) -> Solid:
     """Return the rigid body of <inertial>, or of the geoms."""
     mode, inertial = reading.compiler.get("inertiafromgeom", "auto"), body.one("inertial")
-    if inertial is not None and mode != "true":
+    counts = mode == "true" or (mode == "auto" and inertial is None)
+    whole = _solid_of_geoms(body, inherited, reading) if counts else NOTHING
+    if inertial is not None and whole.mass == 0:
         inertial.check_attributes("pos quat axisangle xyaxes zaxis euler mass diaginertia fullinertia")
         pose = _pose(inertial, reading)
         R = pose.rotation
         if "fullinertia" in inertial.attributes:
+            if inertial.attributes.keys() & {"diaginertia", *ORIENTATION}:
+                raise inertial.refusal(
+                    "fullinertia is in the axes of the body: leave out diaginertia and the orientation"
+                )
             xx, yy, zz, xy, xz, yz = inertial.numbers("fullinertia", 6)
             I = sp.Matrix([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
         else:
             I = sp.diag(*inertial.numbers("diaginertia", 3))
         return Solid(inertial.number("mass", least=0), pose.shift, R * I * R.T)
-    if mode == "false":
-        return NOTHING
+    return whole
+
+
+def _solid_of_geoms(body: Element, inherited: str, reading: _Reading) -> Solid:
     first, last = map(int, reading.compiler.get("inertiagrouprange", "0 5").split())
     solids = []
     for element, prefix, own in _geoms(body, inherited, Pose(), reading):
@@ -322,7 +355,8 @@ def _closures(root: Element, reading: _Reading) -> Iterator[Closure]:
             raise element.refusal(
                 "it couples parts that are not read: leave it out, or set it inactive and leave it out"
             )
-        if element.text("active", "true") != "true":
+        inherited = reading.with_defaults(replace(element, tag="equality"), "main")
+        if inherited.text("active", "true") != "true":
             reading.count("inactive equality constraints")
             continue
         name = element.attributes.get("name") or f"{element.tag} {len(names) + 1}"
@@ -344,13 +378,14 @@ def _closures(root: Element, reading: _Reading) -> Iterator[Closure]:
 def _held(element: Element, name: str, number_of: Mapping[str, int], reading: _Reading) -> Closure:
     """Return the closure of connect or weld."""
     is_weld = element.tag == "weld"
+    turns = not is_weld or element.number("torquescale", "1") != 0
     if "site1" in element.attributes:
         sites = [element.text(f"site{i}") for i in (1, 2)]
         for site in sites:
             if site not in reading.sites:
                 raise element.refusal(f"there is no site {site!r}{near(site, reading.sites) or ': correct the name'}")
         (one, first), (two, second) = (reading.sites[site] for site in sites)
-        turn = first.rotation * second.rotation.T if is_weld else None
+        turn = first.rotation * second.rotation.T if is_weld and turns else None
         return Closure(name, (one, two), (first.shift, second.shift), turn)
     pair = element.text("body1"), element.text("body2", "world")
     for body in pair:
@@ -369,4 +404,4 @@ def _held(element: Element, name: str, number_of: Mapping[str, int], reading: _R
         shift, turn = pose.shift, pose.rotation
     else:
         shift, turn = home.rotation.T * (other.shift - home.shift), home.rotation.T * other.rotation
-    return Closure(name, (one, two), (shift + turn * anchor, anchor), turn)
+    return Closure(name, (one, two), (shift + turn * anchor, anchor), turn if turns else None)

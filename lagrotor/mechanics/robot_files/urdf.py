@@ -125,7 +125,9 @@ def _moving(joint: Element, kind: str) -> Joint:
 def _pose(origin: Element | None, notes: list[str]) -> Pose:
     if origin is None:
         return Pose()
-    origin.check_attributes("xyz rpy")
+    origin.check_attributes("xyz rpy quat_xyzw")
+    if "quat_xyzw" in origin.attributes:
+        raise origin.refusal("quat_xyzw is not read: write the rotation as rpy")
     shift = sp.ImmutableMatrix(origin.numbers("xyz", 3, "0 0 0"))
     origin.numbers("rpy", 3, "0 0 0")
     quaternion = UNTURNED

@@ -57,7 +57,8 @@ MJCF = f"""<mujoco><compiler eulerseq="zYx"/><option gravity="1 -2 -9"/><default
 <inertial pos="0.1 0 0" mass="2" fullinertia="1 1.1 1.2 0.1 0.2 0.3"/><frame pos="0.2 0 0" axisangle="1 1 0 40">
 <body name="c"><joint name="s" type="ball" armature="0" stiffness="0" pos="0 0.1 0"/>{_SOLID}<body name="d" pos="0.5 0 0">
 <joint name="u" axis="0 0 1"/>{_SOLID}<site name="tip" pos="0.3 0.2 0.1"/></body></body></frame></body></body>
-<body name="e" pos="2 0 0" quat="1 2 3 4"><freejoint name="f"/>{_SOLID}</body></worldbody>{{}}</mujoco>"""
+<body name="e" pos="2 0 0" quat="1 2 3 4"><freejoint name="f"/>{_SOLID}<frame pos="0 1 2" euler="30 20 10">{_SOLID}</frame>
+</body></worldbody>{{}}</mujoco>"""
 
 
 def test_odd_mjcf_against_mujoco(tmp_path: Path) -> None:
@@ -85,6 +86,7 @@ EQUALITIES = {
     "connect two bodies": '<connect body1="d" body2="e" anchor="0.2 0.1 0"/>',
     "weld": '<weld body1="d" body2="e"/>',
     "weld of a pose": '<weld body1="e" body2="world" relpose="POSE"/>',
+    "weld without a rotation": '<weld body1="d" body2="e" torquescale="0" anchor="0.2 0.1 0"/>',
     "joint": '<joint joint1="p" joint2="u" polycoef="0 2 3 1"/><joint joint1="q"/>',
 }
 

@@ -179,7 +179,9 @@ def test_inertials_before_geoms_unless_the_compiler_says_otherwise(read: Callabl
     both = '<body name="b"><joint name="q"/>{}<geom size="1" mass="1" group="3"/></body>'
     full = '<inertial pos="0 0 0" mass="2" fullinertia="2 3 4 0.1 0.2 0.3"/>'
     assert sp.Matrix([[2, sp.Rational(1, 10), sp.Rational(1, 5)]]) == read(both.format(full)).bodies[0].inertia[:, 0].T
-    assert read(both.format(full), '<compiler inertiafromgeom="true"/>').bodies[0].mass == 1
+    by_geoms = '<compiler inertiafromgeom="true"/>'
+    assert read(both.format(full), by_geoms).bodies[0].mass == 1
+    assert read(both.format(full).replace('mass="1"', 'mass="0"'), by_geoms).bodies[0].mass == 2
     turned = '<inertial pos="0 0 0" mass="2" diaginertia="2 3 4" quat="1 1 0 0"/>'
     assert read(both.format(turned)).bodies[0].inertia == sp.diag(2, 4, 3)
 
@@ -187,6 +189,28 @@ def test_inertials_before_geoms_unless_the_compiler_says_otherwise(read: Callabl
 FREE_IN_PLANE = (
     '<joint name="x" type="slide" axis="1 0 0"/><joint name="z" type="slide"/><joint name="a" axis="0 1 0"/>'
 )
+
+
+def test_joints_and_bodies_without_a_name_have_different_ones(read: Callable[..., Any]) -> None:
+    inner = f'<body><joint name="body1_joint"/>{HEAVY.format("0 0 0")}</body><body name="body2"/>'
+    system = read(f'<body><joint type="slide"/><joint/>{HEAVY.format("0 0 0")}{inner}</body>')
+    assert [*system.joint_coordinates] == ["body1_joint_2", "body1_joint_3", "body1_joint"]
+    assert [*system.links] == ["body1", "body2_2", "body2"]
+
+
+OFF = {
+    '<option><flag constraint="disable"/></option>': 0,
+    '<option><flag equality="disable"/></option>': 0,
+    '<default><equality active="false"/></default>': 0,
+    '<default><equality active="false"/><default class="on"><equality active="true"/></default></default>': 1,
+}
+
+
+@pytest.mark.parametrize("text", OFF)
+def test_constraints_that_the_file_disables(read: Callable[..., Any], text: str) -> None:
+    on = 'class="on"' if "on" in text.split('"') else ""
+    equality = f'{text}<equality><joint joint1="q" {on}/></equality>'
+    assert len(read(BODY.format('<joint name="q"/>'), equality).constraints) == OFF[text]
 
 
 def test_connect_makes_a_pendulum(read: Callable[..., Any]) -> None:

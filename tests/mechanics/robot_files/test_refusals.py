@@ -38,6 +38,7 @@ JOINTS = {
     (f'type="revolute">{ENDS}<origin rpy="0 ${{x}} 0"/>', BODY): "expand the file with xacro",
     (f'type="revolute">{ENDS}<origin xyz="1e999999 0 0"/>', BODY): "is no number",
     (f'type="revolute">{ENDS}<origin rqy="1 0 0"/>', BODY): "attribute rqy has no meaning: rpy?",
+    (f'type="revolute">{ENDS}<origin quat_xyzw="0 0 0 1"/>', BODY): "write the rotation as rpy",
     (f'type="revolute">{ENDS}<orign/>', BODY): "inside <joint>: origin",
     (f'type="revolute">{ENDS}<dynamics damping="-1"/>', BODY): "must be at least 0",
     (f'type="revolute">{ENDS}<mimic joint="k"/>', BODY): "there is no other joint 'k'",
@@ -77,6 +78,17 @@ MJCF = {
     ('<compiler coordinate="global"/>', _B): "no meaning in MuJoCo any more",
     ('<compiler angle="grad"/>', _B): "must be degree or radian",
     ('<compiler eulerseq="xyw"/>', _B): "three letters",
+    ("", '<joint name="q"/>' + _B.format("")): "into a body, not into a worldbody",
+    ('<compiler settotalmass="1"/>', _G.format("")): "no body has a mass that settotalmass=1",
+    ('<compiler alignfree="true"/>', _G.replace('<joint name="q"', "<freejoint").format("")): "alignfree of the compiler",
+    ("", _G.format('<geom type="box" size="1 1 1" mesh="m"/>')): "that of its mesh, which is not read",
+    ("", _G.format('<geom type="box" size="1" fromto="0 0 0 1 1 1" pos="1 0 0"/>')): "beside fromto: give one",
+    ("", _G.format('<inertial mass="1" fullinertia="1 1 1 0 0 0" quat="1 1 0 0"/>')): "leave out diaginertia",
+    ("", _B.format("").replace("<body", '<body gravcomp="x"')): "gravcomp='x' is no number",
+    ('<option density="x"/>', _B.format("")): "density='x' is no number",
+    ('<compiler inertiagrouprange="0"/>', _B): "must be two whole numbers",
+    ('<default class="top"/>', _B): "cannot replace 'main'",
+    ('<default><default class="a"/><default class="a"/></default>', _B): "class='a' is there already",
     ('<compiler boundmass="1"/>', _B): "boundmass changes inertias",
     ('<equality><tendon/></equality>', _B.format("")): "couples parts that are not read",
     ('<equality><connect body1="c" anchor="0 0 0"/></equality>', _B.format("")): "there is no body 'c'",
@@ -121,6 +133,14 @@ def test_a_link_out_of_the_folder_is_not_followed(tmp_path: Path) -> None:
     (tmp_path / "inside").mkdir()
     (tmp_path / "inside" / "link.xml").symlink_to(tmp_path / "secret.xml")
     refused(tmp_path / "inside", "m.xml", '<mujoco><include file="link.xml"/></mujoco>', "is outside the folder")
+
+
+def test_a_free_link_without_mass_carries_two_joints_or_none(tmp_path: Path) -> None:
+    (tmp_path / "m.urdf").write_text(
+        f'<robot name="r"><link name="a"/><link name="b">{BODY}</link><joint name="j" type="revolute">{ENDS}</joint></robot>'
+    )
+    with pytest.raises(InputError, match="free link 'a' has no mass and carries joint 'j' alone"):
+        System.from_urdf(tmp_path / "m.urdf", base="floating")
 
 
 def test_bad_arguments(tmp_path: Path) -> None:
