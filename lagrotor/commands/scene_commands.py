@@ -346,8 +346,9 @@ def simulate_command(options: argparse.Namespace) -> int:
             "shock_width",
             "paired",
             "write_scene",
+            "model",
         )
-        if given := [name for name in of_scene if vars(options)[name] is not None]:
+        if given := [name for name in of_scene if vars(options)[name] not in (None, "auto")]:
             raise InputError(
                 f"--{given[0].replace('_', '-')} belongs to a scene, and {options.file} is none: leave it out"
             )

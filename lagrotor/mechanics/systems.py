@@ -1209,7 +1209,8 @@ class RobotSystem(System):
     links : mapping
         The frames of the links by the names of the file, for forces, points and constraints.
     joint_coordinates : mapping
-        The coordinates of each joint by the names of the file.
+        The coordinates of each joint by the names of the file. In other coordinates (`in_coordinates`, `routh`) it is empty,
+        as are `start` and `links`.
     not_read : tuple of str
         The parts of the file that are left out, in words: meshes, contacts, actuators, limits.
     notes : tuple of str
@@ -1235,6 +1236,14 @@ class RobotSystem(System):
     not_read: tuple[str, ...] = field(default=(), compare=False)
     notes: tuple[str, ...] = field(default=(), compare=False)
 
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if any(frame.c != self.c for frame in self.links.values()):  # in_coordinates, routh
+            for name in ("start", "links", "joint_coordinates"):
+                object.__setattr__(self, name, {})
+
     def __repr__(self) -> str:
-        rows = {"not read": "; ".join(self.not_read), "notes": "; ".join(self.notes)}
+        many = len(self.notes) > _MOST_PRINTED
+        notes = f"{len(self.notes)} changes, see the attribute notes" if many else "; ".join(self.notes)
+        rows = {"not read": "; ".join(self.not_read), "notes": notes}
         return super().__repr__() + in_lines("", {name: text for name, text in rows.items() if text})

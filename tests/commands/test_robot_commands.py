@@ -67,6 +67,7 @@ REFUSED = {
     ("equations", "ROD", "--out", "a.pdf"): "must end in .md, .tex, .html",
     ("equations", "ROD", "--symbols", "some"): "invalid choice",
     ("simulate", "ROD", "--spins", "1", "2"): "--spins belongs to a scene",
+    ("simulate", "ROD", "--model", "spheres"): "--model belongs to a scene",
     ("simulate", "ROD", "--start", "hing=1"): ": hinge",
     ("simulate", "ROD", "--start", "hinge"): "write NAME=NUMBER",
     ("simulate", "ROD", "--start", "hinge=nan"): "write NAME=NUMBER",

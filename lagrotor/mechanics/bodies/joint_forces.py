@@ -175,6 +175,10 @@ def placed_loads(where: str, system: Equations) -> list[Load]:
         inside = term.free_symbols & moving
         is_spring = len(inside) == 1 and (s := min(inside)) in c.q and term.is_polynomial(s) and sp.degree(term, s) > 1
         if inside and not is_spring:
+            if inside <= {*c.v}:
+                raise refusal(
+                    f"the kinetic energy {term}", "an armature spins on an unknown body; use bodies, or leave it out"
+                )
             way = "write a weight as body.potential((0, 0, -g)), the spring of a joint as -k*q**2/2, others as frame.force(…)"
             raise refusal(f"the term {term} of L", way)
     for term in sp.Add.make_args(sp.expand(system.dissipation)):

@@ -109,8 +109,8 @@ class _Names:
         self.notes: list[str] = []
 
     def take(self, name: str, quiet: bool = False) -> str:
-        plain = re.sub(r"\W", "_", name)
-        plain = plain if re.match(r"[^\W\d_]", plain) else f"q_{plain}".replace("__", "_")
+        plain = re.sub(r"[\W_]+", "_", name).rstrip("_")  # sympy prints a__b as a power, a_ as a
+        plain = plain if re.match(r"[^\W\d_]", plain) else f"q_{plain.lstrip('_')}".rstrip("_")
         chosen, number = plain, 2
         while {chosen, f"{chosen}_dot", f"{chosen}_ddot"} & self.taken:
             chosen, number = f"{plain}_{number}", number + 1

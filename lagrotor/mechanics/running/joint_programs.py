@@ -46,7 +46,8 @@ class Reactions(Mapping[str, Any]):
 
     def __iter__(self) -> Iterator[str]:
         system = self._run.system
-        names = dict.fromkeys((*system.multiplier_names, *joint_names(system)))
+        joints = () if self._run.redundancy else joint_names(system)
+        names = dict.fromkeys((*system.multiplier_names, *joints))
         return (name for name in names if name not in self._undetermined)
 
     def __len__(self) -> int:

@@ -246,6 +246,7 @@ REFUSED: dict[str, Callable[[], Any]] = {
         c2, T, forces=SECOND.force((1, 2, 3)).applyfunc(sp.expand)
     ).joint_force("b"),
     "constraint .* = 0 does not say": lambda: System(c2, T, (SECOND.place((l, 0, 0))[1],)).joint_force("one"),
+    "energy .*a_dot.* an armature spins on an unknown body": lambda: System(c2, T + c2.a_dot**2).joint_force("one"),
     "a weight with a ": lambda: System(c2, T - BODY.potential((c2.q[0], 0, 0))).joint_force("one"),
 }
 

@@ -1,6 +1,7 @@
 """URDF files of one construct each, with energies and accelerations that are derived by hand."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -8,7 +9,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from lagrotor.mechanics import System
+from lagrotor.mechanics import System, coordinates
 from lagrotor.mechanics.robot_files.xml_elements import as_multiple_of_pi
 
 INERTIAL = '<inertial>{}<mass value="{}"/><inertia ixx="{}" iyy="{}" izz="{}" ixy="0" ixz="0" iyz="0"/></inertial>'
@@ -79,12 +80,12 @@ def test_names_and_frames_of_the_file(read: Callable[..., Any]) -> None:
 
 
 def test_changed_names_are_said(read: Callable[..., Any]) -> None:
-    names = ("joint-1", "1st", "t", "a.b", "a_b")
-    bodies = [link(f"l{i}", 1) for i in range(5)]
+    names = ("joint-1", "1st", "t", "a.b", "a_b", "k__%", "--")
+    bodies = [link(f"l{i}", 1) for i in range(7)]
     joints = [joint(name, "continuous", f"l{i - 1}" if i else "base", f"l{i}") for i, name in enumerate(names)]
     system = read(link("base"), *bodies, *joints)
-    assert [str(q) for q in system.c.q] == ["joint_1", "q_1st", "t_2", "a_b", "a_b_2"]
-    assert len(system.notes) == 5 and "'joint-1' has the symbol joint_1" in system.notes
+    assert [str(q) for q in system.c.q] == ["joint_1", "q_1st", "t_2", "a_b", "a_b_2", "k", "q"]
+    assert len(system.notes) == 7 and "'joint-1' has the symbol joint_1" in system.notes
 
 
 def test_mimic_is_a_constraint(read: Callable[..., Any]) -> None:
@@ -185,3 +186,22 @@ def test_placeholders_of_sensors_join_the_body_that_carries_them(read: Callable[
     system = read(link("a"), link("b", 5), sensor, joint("q", "continuous", "a", "b", X), carried, symbols="none")
     assert len(system.bodies) == 1 and "'b', 'imu' are fixed to one another" in system.notes[0]
     assert float(system.mass_matrix[0].subs(system.values)) == pytest.approx(2 + 1e-6 + 0.001)
+
+
+def test_a_robot_in_other_coordinates_has_no_start_and_no_frames_of_the_old_ones(read: Callable[..., Any]) -> None:
+    arm = read(
+        link("a"), link("b", 5), link("d", 2), joint("p", "continuous", "a", "b"), joint("q", "prismatic", "b", "d")
+    )
+    c = coordinates("p s")
+    moved = arm.in_coordinates(c, {arm.c.q[1]: c.s - c.p})
+    assert not moved.start and not moved.links and not moved.joint_coordinates and moved.values == arm.values
+    kept = replace(arm, forces=(0, 1))
+    assert kept.start == arm.start and [*kept.links] == ["a", "b", "d"]
+
+
+def test_a_robot_with_many_changes_is_printed_in_few_lines(read: Callable[..., Any]) -> None:
+    links = [link(f"b{i}", 5) for i in range(9)]
+    turned = '<origin rpy="0 1.5707963 0.3"/>'
+    joints = [joint(f"q{i}", "continuous", f"b{i}", f"b{i + 1}", turned) for i in range(8)]
+    text = repr(read(*links, *joints))
+    assert "8 changes, see the attribute notes" in text and len(text) < 400

@@ -9,7 +9,7 @@ import pytest
 import sympy as sp
 
 from lagrotor.errors import ConstraintError, InputError, LagrotorError, SingularError
-from lagrotor.mechanics import System, SystemRun, coordinates, reaction, t
+from lagrotor.mechanics import Frame, System, SystemRun, coordinates, reaction, t
 
 C = coordinates("x y")
 CIRCLE = C.x**2 + C.y**2 - 1
@@ -96,6 +96,18 @@ def test_other_reactions_are_determined() -> None:
     np.testing.assert_allclose(run.reactions["slope"], -4.5)
     with pytest.raises(KeyError):
         run.reactions["spring"]
+
+
+def test_joints_of_a_redundant_loop_are_not_among_the_reactions() -> None:
+    c = coordinates("p q r")
+    cranks = [Frame(c).moved(i).pin(name, name=f"pin {name}") for i, name in enumerate("pqr")]
+    bodies = [crank.body(1, (0, 0, 1)) for crank in cranks]
+    p, q, r = c.q
+    rods = {"1": p - q, "2": q - r, "3": r - p}
+    run = System(c, sum(body.kinetic for body in bodies), constraints=rods).simulate({}, [0, 0, 0], [1, 1, 1], [0, 1])
+    assert not run.reactions
+    with pytest.raises(InputError, match="forces in joints are not determined"):
+        run.reactions["pin p"]
 
 
 def test_coupling_rods_at_a_right_angle_pass_the_dead_points_of_each() -> None:
