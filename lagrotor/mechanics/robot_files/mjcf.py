@@ -21,6 +21,27 @@ from lagrotor.mechanics.robot_files.xml_elements import Element, read_xml
 
 _KINDS = {"hinge": "revolute", "slide": "prismatic", "ball": "ball", "free": "free"}
 _BODY = "body joint freejoint inertial geom site frame camera light"
+_TURNED = "pos quat axisangle xyaxes zaxis euler"
+_ATTRIBUTES = {
+    "body": f"name childclass mocap gravcomp sleep user {_TURNED}",
+    "frame": f"name childclass {_TURNED}",
+    "joint": "name class type group pos axis springdamper limited actuatorfrclimited solreflimit solimplimit solreffriction "
+    "range actuatorfrcrange solimpfriction stiffness damping frictionloss armature ref springref margin user actuatorgravcomp "
+    "align",
+    "geom": f"name class type contype conaffinity condim group priority size material friction mass density shellinertia solmix "
+    f"solref solimp margin gap fromto hfield mesh fitscale rgba fluidshape fluidcoef user {_TURNED}",
+    "compiler": "autolimits boundmass boundinertia settotalmass balanceinertia strippath coordinate angle fitaabb eulerseq "
+    "meshdir texturedir assetdir discardvisual usethread fusestatic inertiafromgeom inertiagrouprange alignfree saveinertial "
+    "convexhull exactmeshinertia conflict",
+    "option": "timestep apirate impratio tolerance ls_tolerance noslip_tolerance ccd_tolerance mpr_tolerance sleep_tolerance "
+    "gravity wind magnetic density viscosity o_margin o_solref o_solimp o_friction integrator cone jacobian solver iterations "
+    "ls_iterations noslip_iterations ccd_iterations mpr_iterations sdf_iterations sdf_initpoints actuatorgroupdisable collision",
+    "flag": "constraint equality frictionloss limit contact passive spring damper gravity clampctrl warmstart filterparent "
+    "actuation refsafe sensor midphase nativeccd eulerdamp autoreset override energy fwdinv invdiscrete multiccd island sleep",
+}
+_OF_EQUALITY = (
+    "name class active solref solimp body1 body2 site1 site2 anchor relpose torquescale joint1 joint2 polycoef"
+)
 _REFUSED = ("composite", "flexcomp", "replicate", "attach")
 _SECTIONS = (
     "compiler option default worldbody equality size visual statistic asset contact actuator sensor tendon keyframe custom "
@@ -76,7 +97,7 @@ def read_mjcf(path: str | Path) -> Description:
     compiler = {k: v for e in root.all("compiler") for k, v in e.attributes.items()}
     for element in root.all("compiler"):
         _check_compiler(element)
-    named = {"body": set(_names_of("body", root)), "joint": set(_names_of("joint", root))}
+    named = _checked_names(root)
     reading = _Reading(compiler, flags, {"main": {}}, named=named)
     for element in root.all("default"):
         _read_defaults(element, reading.defaults, "")
@@ -114,12 +135,29 @@ def read_mjcf(path: str | Path) -> Description:
     return Description(name, root.file, links, gravity, closures, not_read, tuple(reading.notes))
 
 
-def _names_of(tag: str, element: Element) -> Iterator[str]:
-    """Yield the names that the file gives to its bodies or joints."""
+def _checked_names(root: Element) -> dict[str, set[str]]:
+    """Check the attributes of all elements that are read, and return the names that the file gives to bodies and joints."""
+    inside = [
+        e
+        for tag in ("compiler", "option", "default", "worldbody")
+        for section in root.all(tag)
+        for e in _inside(section)
+    ]
+    for element in inside:
+        element.check_attributes(_ATTRIBUTES.get(element.tag, ""))
+        if element.tag == "flag" and (wrong := {*element.attributes.values()} - {"enable", "disable"}):
+            raise element.refusal(f"{min(wrong)!r} must be enable or disable")
+    return {
+        kind: {e.text("name") for e in inside if e.tag.endswith(kind) and "name" in e.attributes}
+        for kind in ("body", "joint")
+    }
+
+
+def _inside(element: Element) -> Iterator[Element]:
+    """Yield an element and all elements inside it."""
+    yield element
     for child in element.children:
-        if child.tag.endswith(tag) and "name" in child.attributes:
-            yield child.text("name")
-        yield from _names_of(tag, child)
+        yield from _inside(child)
 
 
 def _unused(name: str, taken: set[str]) -> str:
@@ -228,10 +266,6 @@ def _joint(element: Element, body: str, inherited: str, pose: Pose, reading: _Re
     kind = "free" if element.tag == "freejoint" else joint.text("type", "hinge")
     if kind not in _KINDS:
         raise element.refusal(f"type={kind!r} is none of {', '.join(_KINDS)}{near(kind, _KINDS)}")
-    element.check_attributes(
-        "name class type group pos axis springdamper limited actuatorfrclimited solreflimit solimplimit solreffriction range "
-        "actuatorfrcrange solimpfriction stiffness damping frictionloss armature ref springref margin user actuatorgravcomp align"
-    )
     if (name := element.attributes.get("name", "")) in reading.names:
         raise element.refusal(f"another joint has the name {name!r}: rename one")
     name = name or _unused(f"{body}_joint", reading.names | reading.named["joint"])
@@ -355,8 +389,11 @@ def _closures(root: Element, reading: _Reading) -> Iterator[Closure]:
             raise element.refusal(
                 "it couples parts that are not read: leave it out, or set it inactive and leave it out"
             )
-        inherited = reading.with_defaults(replace(element, tag="equality"), "main")
-        if inherited.text("active", "true") != "true":
+        element.check_attributes(_OF_EQUALITY)
+        active = reading.with_defaults(replace(element, tag="equality"), "main").text("active", "true")
+        if active not in ("true", "false"):
+            raise element.refusal(f"active={active!r} must be true or false")
+        if active == "false":
             reading.count("inactive equality constraints")
             continue
         name = element.attributes.get("name") or f"{element.tag} {len(names) + 1}"
