@@ -175,6 +175,12 @@ def test_boxes_and_ellipsoids_and_their_sum(read: Callable[..., Any]) -> None:
     assert body.inertia == sp.diag(10, 13, 5)
 
 
+def test_a_geom_between_two_points_stands_in_its_frame(read: Callable[..., Any]) -> None:
+    geom = '<geom type="capsule" size="0.1" fromto="0 0 0 2 0 0"/>'
+    (body,) = read(f'<body><joint/><frame pos="0 0 3" euler="0 0 90">{geom}</frame></body>').bodies
+    assert list(body.centre) == [0, 1, 3] and body.inertia[1, 1] < body.inertia[0, 0]
+
+
 def test_inertials_before_geoms_unless_the_compiler_says_otherwise(read: Callable[..., Any]) -> None:
     both = '<body name="b"><joint name="q"/>{}<geom size="1" mass="1" group="3"/></body>'
     full = '<inertial pos="0 0 0" mass="2" fullinertia="2 3 4 0.1 0.2 0.3"/>'
@@ -235,6 +241,14 @@ def test_weld_makes_one_body_of_two(read: Callable[..., Any]) -> None:
     (g, *others), (p, q) = system.constraints, system.c.q
     assert not others
     assert abs(float(g.subs({p: 0.2, q: 0.2}))) < 1e-15 < abs(float(g.subs({p: 0.2, q: 0.3})))
+
+
+def test_a_weld_without_torque_holds_a_point_alone(read: Callable[..., Any]) -> None:
+    equality = '<equality><weld body1="b" body2="c" anchor="1 0 0" torquescale="{}"/></equality>'
+    two = BODY.format('<joint name="p"/>') + BODY.replace('"b"', '"c" pos="3 0 0"').format(
+        '<joint type="ball" name="q"/>'
+    )
+    assert [len(read(two, equality.format(scale)).constraints) for scale in (0, 2)] == [4, 7]
 
 
 def test_sites_connect(read: Callable[..., Any]) -> None:
