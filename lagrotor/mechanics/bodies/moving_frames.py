@@ -17,7 +17,7 @@ velocities are the components of its angular velocity ω relative to the frame b
 and Double Groups (1986), ch. 12.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Self, TypeVar
@@ -35,6 +35,7 @@ from lagrotor.renamed import accept_old_keywords
 
 Vector = Sequence[Any]
 AXES = "xyz"
+_NONE = sp.zeros(3, 1)
 Kind = TypeVar("Kind", bound="MovingFrame")
 
 
@@ -48,6 +49,8 @@ class MovingFrame:
     amount: Any = None
     quaternion: tuple[sp.Symbol, ...] = ()
     omega: tuple[sp.Symbol, ...] = ()
+    name: str = ""
+    base: "MovingFrame | None" = None
 
     def __post_init__(self) -> None:
         if not isinstance(self.c, Coordinates):
@@ -80,7 +83,7 @@ class MovingFrame:
             return f"Frame(turned about {AXES[self.axis]} by {self.amount})"
         return f"Frame({'turned' if self.amount.cols == 3 else 'moved'} by {self.amount.tolist()})"
 
-    def turned(self, axes: Any, angles: Any = None) -> Self:
+    def turned(self, axes: Any, angles: Any = None, name: str = "") -> Self:
         """Return a frame turned about the axes one after another.
 
         Parameters
@@ -89,6 +92,8 @@ class MovingFrame:
             Names of axes, "zxz", each in the frame turned before; or a rotation matrix (3, 3).
         angles : Expr, str or sequence
             An angle in rad for each axis: expressions, or names of coordinates, "phi theta psi".
+        name : str, default ''
+            The name of the joint.
 
         Returns
         -------
@@ -102,7 +107,7 @@ class MovingFrame:
         phi_dot*cos(theta) + psi_dot
         """
         if not isinstance(axes, str):
-            return type(self)(self.c, self, None, _rotation(axes))
+            return _joint("turned", self, type(self)(self.c, self, None, _rotation(axes)), name)
         split = angles.replace(",", " ").split() if isinstance(angles, str) else angles
         amounts = list(split) if isinstance(split, Sequence | sp.MatrixBase) else [split]
         if not axes or set(axes) - set(AXES) or len(amounts) != len(axes) or None in amounts:
@@ -110,15 +115,17 @@ class MovingFrame:
         frame = self
         for letter, angle in zip(axes, amounts, strict=True):
             frame = type(self)(self.c, frame, AXES.index(letter), _amount("turned: angle", self, angle))
-        return frame
+        return _joint("turned", self, frame, name)
 
-    def moved(self, x: Any = 0, y: Any = 0, z: Any = 0) -> Self:
+    def moved(self, x: Any = 0, y: Any = 0, z: Any = 0, name: str = "") -> Self:
         """Return a frame shifted along the axes of this one.
 
         Parameters
         ----------
         x, y, z : Expr or str, default 0
             Lengths in m, or names of coordinates.
+        name : str, default ''
+            The name of the joint.
 
         Returns
         -------
@@ -132,7 +139,7 @@ class MovingFrame:
         Matrix([[0, 0, s]])
         """
         shift = [_amount("moved: (x, y, z)", self, length) for length in (x, y, z)]
-        return type(self)(self.c, self, None, sp.Matrix(shift))
+        return _joint("moved", self, type(self)(self.c, self, None, sp.Matrix(shift)), name)
 
     @cached_property
     def rotation(self) -> sp.Matrix:
@@ -306,7 +313,14 @@ def _rotation(matrix: Any) -> sp.Matrix:
     return R
 
 
-def weld(frame: Kind, at: Vector, axes: str, angles: Any) -> Kind:
+def _joint(where: str, base: MovingFrame, frame: Kind, name: str) -> Kind:
+    """Return the last frame of a joint, which knows the frame `base` before the joint, and the joint's name."""
+    if not isinstance(name, str) or name != name.strip():
+        raise InputError(f"{where}: name = {name!r} must be a text without blanks around it")
+    return replace(frame, name=name, base=base)
+
+
+def weld(frame: Kind, at: Vector, axes: str, angles: Any, name: str = "") -> Kind:
     """Fix a frame to another: `Frame.weld`."""
     place = vector_of("weld: at", at, 3)
     turns = angles if isinstance(angles, Sequence | sp.MatrixBase) and not isinstance(angles, str) else [angles]
@@ -317,45 +331,46 @@ def weld(frame: Kind, at: Vector, axes: str, angles: Any) -> Kind:
             f"weld: {', '.join(sorted(map(str, moving)))} moves the frame, but a weld is fixed: take a joint that moves"
         )
     shifted = frame.moved(*place)
-    return shifted.turned(axes, amounts) if axes or amounts else shifted
+    return _joint("weld", frame, shifted.turned(axes, amounts) if axes or amounts else shifted, name)
 
 
-def pin(frame: Kind, angle: Any, axis: Any) -> Kind:
+def pin(frame: Kind, angle: Any, axis: Any, name: str = "") -> Kind:
     """Turn a frame about an axis: `Frame.pin`."""
     turn = _amount("pin: angle", frame, angle)
-    return _about("pin", frame, axis, lambda it: it.turned("z", turn))
+    return _about("pin", frame, axis, lambda it: it.turned("z", turn), name)
 
 
-def prismatic(frame: Kind, length: Any, axis: Any) -> Kind:
+def prismatic(frame: Kind, length: Any, axis: Any, name: str = "") -> Kind:
     """Shift a frame along an axis: `Frame.prismatic`."""
-    return frame.moved(*(_direction("prismatic", axis) * _amount("prismatic: length", frame, length)))
+    x, y, z = _direction("prismatic", axis) * _amount("prismatic: length", frame, length)
+    return frame.moved(x, y, z, name)
 
 
-def cylindrical(frame: Kind, length: Any, angle: Any, axis: Any) -> Kind:
+def cylindrical(frame: Kind, length: Any, angle: Any, axis: Any, name: str = "") -> Kind:
     """Shift a frame along an axis and turn it about it: `Frame.cylindrical`."""
-    return _about("cylindrical", frame, axis, lambda it: it.moved(0, 0, length).turned("z", angle))
+    return _about("cylindrical", frame, axis, lambda it: it.moved(0, 0, length).turned("z", angle), name)
 
 
-def screw(frame: Kind, angle: Any, pitch: Any, axis: Any) -> Kind:
+def screw(frame: Kind, angle: Any, pitch: Any, axis: Any, name: str = "") -> Kind:
     """Turn a frame about an axis along which it advances: `Frame.screw`."""
     turn = _amount("screw: angle", frame, angle)
     advance = expression("screw: pitch", pitch) * turn / (2 * sp.pi)
-    return _about("screw", frame, axis, lambda it: it.moved(0, 0, advance).turned("z", turn))
+    return _about("screw", frame, axis, lambda it: it.moved(0, 0, advance).turned("z", turn), name)
 
 
-def universal(frame: Kind, first: Any, second: Any, axes: str) -> Kind:
+def universal(frame: Kind, first: Any, second: Any, axes: str, name: str = "") -> Kind:
     """Turn a frame about two of its axes: `Frame.universal`."""
     if not isinstance(axes, str) or len(axes) != 2 or len({*axes}) != 2 or {*axes} - {*AXES}:
         raise InputError(f"universal: axes {axes!r} must be two different letters of x, y, z")
-    return frame.turned(axes, [first, second])
+    return frame.turned(axes, [first, second], name)
 
 
-def planar(frame: Kind, x: Any, y: Any, angle: Any, normal: Any) -> Kind:
+def planar(frame: Kind, x: Any, y: Any, angle: Any, normal: Any, name: str = "") -> Kind:
     """Shift a frame in a plane and turn it about the normal: `Frame.planar`."""
-    return _about("planar", frame, normal, lambda it: it.moved(x, y, 0).turned("z", angle))
+    return _about("planar", frame, normal, lambda it: it.moved(x, y, 0).turned("z", angle), name)
 
 
-def ball_joint(frame: Kind, quaternion: Any, omega: Any) -> Kind:
+def ball_joint(frame: Kind, quaternion: Any, omega: Any, name: str = "") -> Kind:
     """Turn a frame by a unit quaternion: `Frame.ball`."""
     q = tuple(_coordinate("ball", frame, name) for name in _names("ball: quaternion", quaternion, 4))
     w = [s if isinstance(s, sp.Symbol) else sp.Symbol(s, real=True) for s in _names("ball: omega", omega, 3)]
@@ -378,29 +393,59 @@ def ball_joint(frame: Kind, quaternion: Any, omega: Any) -> Kind:
         ]
     )
     step = type(frame)(frame.c, frame, None, R)
-    return replace(step, quaternion=q, omega=tuple(w))
+    return _joint("ball", frame, replace(step, quaternion=q, omega=tuple(w)), name)
 
 
-def free(frame: Kind, place: Any, quaternion: Any, omega: Any) -> Kind:
+def free(frame: Kind, place: Any, quaternion: Any, omega: Any, name: str = "") -> Kind:
     """Shift a frame by three coordinates and turn it by a quaternion: `Frame.free`."""
     x, y, z = (_coordinate("free", frame, name) for name in _names("free: place", place, 3))
-    return ball_joint(frame.moved(x, y, z), quaternion, omega)
+    return _joint("free", frame, ball_joint(frame.moved(x, y, z), quaternion, omega), name)
 
 
-def coincides(first: MovingFrame, second: MovingFrame, at: Vector, point: Vector) -> tuple[sp.Expr, ...]:
+@dataclass(frozen=True, eq=False)
+class Load:
+    """A force at a point of a frame, and a torque on that frame, with components along the axes of the frame `axes`."""
+
+    frame: MovingFrame
+    at: Sequence[Any]
+    force: Sequence[Any]
+    torque: Sequence[Any]
+    axes: MovingFrame
+
+    def each(self, function: Callable[[Any], Any]) -> "Load":
+        """Apply a function to every component of the force and of the torque."""
+        return replace(self, force=tuple(map(function, self.force)), torque=tuple(map(function, self.torque)))
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """The loads by which a constraint acts on frames if its multiplier is 1, and the name of the joint that it belongs to."""
+
+    name: str
+    loads: tuple[Load, ...]
+
+
+def coincides(
+    first: MovingFrame, second: MovingFrame, at: Vector, point: Vector, name: str = ""
+) -> tuple[sp.Expr, ...]:
     """Return the constraints that hold two points together: `Frame.coincides`."""
     _check_frame("coincides", second)
-    apart = first.place(vector_of("coincides: at", at, 3)) - second.place(vector_of("coincides: point", point, 3))
-    return _constraints("coincides", list(apart), first)
+    places = vector_of("coincides: at", at, 3), vector_of("coincides: point", point, 3)
+    apart = first.place(places[0]) - second.place(places[1])
+    ends, directions = tuple(zip((first, second), places, strict=True)), sp.eye(3)
+    return _constraints("coincides", list(apart), ends, [(directions[:, k], _NONE) for k in range(3)], name)
 
 
-def keeps_axis(first: MovingFrame, second: MovingFrame, axis: Any, second_axis: Any) -> tuple[sp.Expr, ...]:
+def keeps_axis(
+    first: MovingFrame, second: MovingFrame, axis: Any, second_axis: Any, name: str = ""
+) -> tuple[sp.Expr, ...]:
     """Return the constraints that hold two axes parallel: `Frame.keeps_axis`."""
     _check_frame("keeps_axis", second)
     theirs = _direction("keeps_axis", axis if second_axis is None else second_axis)
     e = first.place(list(_direction("keeps_axis", axis))) - first.place()
     transverse = [second.place(list(v)) - second.place() for v in _axes_to(theirs)[:2]]
-    return _constraints("keeps_axis", [e.dot(v) for v in transverse], first)
+    ends, turning = ((first, _NONE), (second, _NONE)), [(_NONE, e.cross(v)) for v in transverse]
+    return _constraints("keeps_axis", [e.dot(v) for v in transverse], ends, turning, name)
 
 
 def _check_frame(where: str, frame: Any) -> None:
@@ -408,17 +453,28 @@ def _check_frame(where: str, frame: Any) -> None:
         raise InputError(f"{where}: {frame!r} must be a Frame, in which the other part of the loop is fixed")
 
 
-def _constraints(where: str, components: Sequence[sp.Expr], frame: MovingFrame) -> tuple[sp.Expr, ...]:
-    """Return the components without those that vanish identically; raise InputError if none depends on a coordinate."""
-    constraints = tuple(e for e in map(sp.expand, components) if e != 0)
-    if not any(e.free_symbols & {*frame.c.q} for e in constraints):
+def _constraints(
+    where: str, components: Sequence[sp.Expr], ends: Sequence[Any], actions: Sequence[Any], name: str
+) -> tuple[sp.Expr, ...]:
+    """Return the components without those that vanish identically; raise InputError if none depends on a coordinate.
+
+    `ends` are the two frames with their points. `actions` are the force and torque of each component on the first frame, in
+    the ground's axes, for a multiplier of 1; the second frame gets the opposite.
+    """
+    c, ground = ends[0][0].c, ends[0][0].to_the_ground[-1]
+    acting = [(g, action) for e, action in zip(components, actions, strict=True) if (g := sp.expand(e)) != 0]
+    if not any(g.free_symbols & {*c.q} for g, _ in acting):
         raise InputError(
             f"{where}: {', '.join(map(str, components))} = 0 binds no coordinate: give frames that move apart"
         )
-    return constraints
+    for g, (force, torque) in acting:
+        signs = zip(ends, (1, -1), strict=True)
+        loads = tuple(Load(frame, at, force * sign, torque * sign, ground) for (frame, at), sign in signs)
+        c.sources.setdefault(g, []).append(Source(name, loads))
+    return tuple(g for g, _ in acting)
 
 
-def _about(where: str, frame: Kind, axis: Any, step: Any) -> Kind:
+def _about(where: str, frame: Kind, axis: Any, step: Any, name: str) -> Kind:
     """Apply `step`, a function that turns or shifts a frame along its z axis, along another axis instead."""
     if isinstance(axis, str) and axis in ("x", "y", "z"):
         k = AXES.index(axis)
@@ -426,10 +482,8 @@ def _about(where: str, frame: Kind, axis: Any, step: Any) -> Kind:
     else:
         R = sp.Matrix.hstack(*_axes_to(_direction(where, axis)))
     if sp.eye(3) == R:
-        direct: Kind = step(frame)
-        return direct
-    returned: Kind = step(frame.turned(R)).turned(R.T)
-    return returned
+        return _joint(where, frame, step(frame), name)
+    return _joint(where, frame, step(frame.turned(R)).turned(R.T), name)
 
 
 def _axes_to(e: sp.Matrix) -> tuple[sp.Matrix, sp.Matrix, sp.Matrix]:

@@ -126,7 +126,7 @@ def check_body(where: str, body: Body, values: Mapping[sp.Symbol, Any] | None = 
         raise InputError(f"{where}: inertia = {I.tolist()} must not be negative about an axis")
     if I.free_symbols or sum(e != 0 for e in I) == sum(I[i, i] != 0 for i in range(3)) == 1:
         return
-    spread = mp.eigsy(mp.matrix((sp.eye(3) * I.trace() / 2 - I).tolist()), eigvals_only=True)
+    spread = mp.eigsy(mp.matrix((sp.eye(3) * I.trace() / 2 - I).evalf().tolist()), eigvals_only=True)
     if min(spread) < -_ROUNDING * max(map(abs, spread)):
         entries = [[float(e) for e in row] for row in I.tolist()]
         raise InputError(
@@ -156,6 +156,10 @@ class Frame(MovingFrame):
     quaternion : tuple of Symbol
     omega : tuple of Symbol
         The coordinates, scalar first, and the angular velocities of a ball joint.
+    name : str
+        The name of the joint that leads to this frame; "" if it was given none.
+    base : Frame or None
+        The frame before that joint.
 
     Examples
     --------
@@ -193,7 +197,7 @@ class Frame(MovingFrame):
         """
         return make_body(self, mass, inertia, centre)
 
-    def force(self, components: Vector, at: Vector = (0, 0, 0), axes: MovingFrame | None = None) -> sp.Matrix:
+    def force(self, components: Vector, at: Vector = (0, 0, 0), axes: MovingFrame | str = "frame") -> sp.Matrix:
         """Return the generalised forces of a force that acts at a point of this frame.
 
         Parameters
@@ -202,8 +206,8 @@ class Frame(MovingFrame):
             The force (x, y, z), in N.
         at : sequence, default (0, 0, 0)
             The point in this frame, in m.
-        axes : Frame or None, optional
-            The frame in whose axes the force is given: this one by default; Frame(c) is the ground.
+        axes : str or Frame, default 'frame'
+            The axes of the components: "frame" for this frame, "ground", or another frame.
 
         Returns
         -------
@@ -214,13 +218,13 @@ class Frame(MovingFrame):
         --------
         >>> from lagrotor.mechanics import coordinates
         >>> rod = Frame(coordinates("theta")).pin("theta")
-        >>> rod.force((0, 5, 0), at=(2, 0, 0)), rod.force((0, 5, 0), at=(2, 0, 0), axes=Frame(rod.c))
+        >>> rod.force((0, 5, 0), at=(2, 0, 0)), rod.force((0, 5, 0), at=(2, 0, 0), axes="ground")
         (Matrix([[10]]), Matrix([[10*cos(theta)]]))
         """
         return force_elements.force(self, components, at, axes)
 
     def push(self, force: Vector, at: Vector = (0, 0, 0)) -> sp.Matrix:
-        """Return the generalised forces of a force in the ground's axes: the old form of `force` with axes=Frame(c).
+        """Return the generalised forces of a force in the ground's axes: the old form of `force` with axes="ground".
 
         Parameters
         ----------
@@ -232,10 +236,12 @@ class Frame(MovingFrame):
         Matrix
             Q, shape (n, 1).
         """
-        warn("Frame.push(F, at) is now Frame.force(F, at, axes=Frame(c))", DeprecationWarning, stacklevel=2)
-        return force_elements.force(self, force, at, self.to_the_ground[-1])
+        warn("Frame.push(F, at) is now Frame.force(F, at, axes='ground')", DeprecationWarning, stacklevel=2)
+        return force_elements.force(self, force, at, "ground")
 
-    def torque(self, moment: Vector, against: MovingFrame | None = None, axes: MovingFrame | None = None) -> sp.Matrix:
+    def torque(
+        self, moment: Vector, against: MovingFrame | None = None, axes: MovingFrame | str = "frame"
+    ) -> sp.Matrix:
         """Return the generalised forces of a torque on this frame.
 
         Parameters
@@ -244,8 +250,8 @@ class Frame(MovingFrame):
             The torque (x, y, z), in N m.
         against : Frame or None, optional
             The frame on which the reaction acts; by default the ground.
-        axes : Frame or None, optional
-            The frame in whose axes the torque is given: this one by default; Frame(c) is the ground.
+        axes : str or Frame, default 'frame'
+            The axes of the components: "frame" for this frame, "ground", or another frame.
 
         Returns
         -------
@@ -261,7 +267,7 @@ class Frame(MovingFrame):
         """
         return force_elements.torque(self, moment, against, axes)
 
-    def weld(self, at: Vector = (0, 0, 0), axes: str = "", angles: Any = ()) -> Self:
+    def weld(self, at: Vector = (0, 0, 0), axes: str = "", angles: Any = (), name: str = "") -> Self:
         """Return a frame fixed to this one.
 
         Parameters
@@ -270,6 +276,8 @@ class Frame(MovingFrame):
             The origin, in m.
         axes, angles : str and sequence
             Axes of turns, one after another, and fixed angles in rad.
+        name : str, default ''
+            The name of the joint.
 
         Returns
         -------
@@ -282,15 +290,17 @@ class Frame(MovingFrame):
         >>> Frame(coordinates("theta")).pin("theta").weld((0, 2, 0)).place().T
         Matrix([[-2*sin(theta), 2*cos(theta), 0]])
         """
-        return moving_frames.weld(self, at, axes, angles)
+        return moving_frames.weld(self, at, axes, angles, name)
 
-    def pin(self, angle: Any, axis: Any = "z") -> Self:
+    def pin(self, angle: Any, axis: Any = "z", name: str = "") -> Self:
         """Return a frame turned by an angle about an axis.
 
         Parameters
         ----------
         angle, axis : Expr or str
             The angle in rad and the axis.
+        name : str, default ''
+            The name of the joint.
 
         Returns
         -------
@@ -303,15 +313,17 @@ class Frame(MovingFrame):
         >>> Frame(coordinates("theta")).pin("theta", "x").angular_velocity.T
         Matrix([[theta_dot, 0, 0]])
         """
-        return moving_frames.pin(self, angle, axis)
+        return moving_frames.pin(self, angle, axis, name)
 
-    def prismatic(self, length: Any, axis: Any = "z") -> Self:
+    def prismatic(self, length: Any, axis: Any = "z", name: str = "") -> Self:
         """Return a frame shifted along an axis.
 
         Parameters
         ----------
         length, axis : Expr or str
             The length in m and the axis.
+        name : str, default ''
+            The name of the joint.
 
         Returns
         -------
@@ -324,15 +336,17 @@ class Frame(MovingFrame):
         >>> Frame(coordinates("s")).prismatic("s", (3, 4, 0)).place().T
         Matrix([[3*s/5, 4*s/5, 0]])
         """
-        return moving_frames.prismatic(self, length, axis)
+        return moving_frames.prismatic(self, length, axis, name)
 
-    def screw(self, angle: Any, pitch: Any, axis: Any = "z") -> Self:
+    def screw(self, angle: Any, pitch: Any, axis: Any = "z", name: str = "") -> Self:
         """Return a frame that advances along an axis as it turns about it.
 
         Parameters
         ----------
         angle, pitch, axis : Expr or str
             The angle in rad, the advance in m for each turn of 2 π, and the axis.
+        name : str, default ''
+            The name of the joint.
 
         Returns
         -------
@@ -346,15 +360,17 @@ class Frame(MovingFrame):
         >>> Frame(coordinates("theta")).screw("theta", 2 * pi).place().T
         Matrix([[0, 0, theta]])
         """
-        return moving_frames.screw(self, angle, pitch, axis)
+        return moving_frames.screw(self, angle, pitch, axis, name)
 
-    def cylindrical(self, length: Any, angle: Any, axis: Any = "z") -> Self:
+    def cylindrical(self, length: Any, angle: Any, axis: Any = "z", name: str = "") -> Self:
         """Return a frame shifted along an axis and turned about it.
 
         Parameters
         ----------
         length, angle, axis : Expr or str
             The length in m, the angle in rad and the axis.
+        name : str, default ''
+            The name of the joint.
 
         Returns
         -------
@@ -367,15 +383,17 @@ class Frame(MovingFrame):
         >>> Frame(coordinates("s theta")).cylindrical("s", "theta").place((1, 0, 0)).T
         Matrix([[cos(theta), sin(theta), s]])
         """
-        return moving_frames.cylindrical(self, length, angle, axis)
+        return moving_frames.cylindrical(self, length, angle, axis, name)
 
-    def universal(self, first: Any, second: Any, axes: str = "xy") -> Self:
+    def universal(self, first: Any, second: Any, axes: str = "xy", name: str = "") -> Self:
         """Return a frame turned about one axis and then about another, by a Cardan or Hooke joint.
 
         Parameters
         ----------
         first, second, axes : Expr or str
             The angles in rad and two different axes.
+        name : str, default ''
+            The name of the joint.
 
         Returns
         -------
@@ -388,15 +406,17 @@ class Frame(MovingFrame):
         >>> Frame(coordinates("alpha beta")).universal("alpha", "beta").angular_velocity.T
         Matrix([[alpha_dot*cos(beta), beta_dot, alpha_dot*sin(beta)]])
         """
-        return moving_frames.universal(self, first, second, axes)
+        return moving_frames.universal(self, first, second, axes, name)
 
-    def planar(self, x: Any, y: Any, angle: Any, normal: Any = "z") -> Self:
+    def planar(self, x: Any, y: Any, angle: Any, normal: Any = "z", name: str = "") -> Self:
         """Return a frame shifted in a plane and turned about its normal.
 
         Parameters
         ----------
         x, y, angle, normal : Expr or str
             The shifts in m, the angle in rad and the axis normal to the plane.
+        name : str, default ''
+            The name of the joint.
 
         Returns
         -------
@@ -409,9 +429,9 @@ class Frame(MovingFrame):
         >>> Frame(coordinates("x y theta")).planar("x", "y", "theta").place((1, 0, 0)).T
         Matrix([[x + cos(theta), y + sin(theta), 0]])
         """
-        return moving_frames.planar(self, x, y, angle, normal)
+        return moving_frames.planar(self, x, y, angle, normal, name)
 
-    def ball(self, quaternion: Any, omega: Any) -> Self:
+    def ball(self, quaternion: Any, omega: Any, name: str = "") -> Self:
         """Return a frame turned by a unit quaternion, which has no pole.
 
         Parameters
@@ -421,6 +441,8 @@ class Frame(MovingFrame):
         omega : str or sequence
             Three new symbols or their names: the angular velocities about the axes of the turned frame. In the system they
             replace the velocities of the four coordinates.
+        name : str, default ''
+            The name of the joint.
 
         Returns
         -------
@@ -435,9 +457,9 @@ class Frame(MovingFrame):
         >>> System(c, gyro.kinetic).speeds
         (u, v, w)
         """
-        return moving_frames.ball_joint(self, quaternion, omega)
+        return moving_frames.ball_joint(self, quaternion, omega, name)
 
-    def free(self, place: Any, quaternion: Any, omega: Any) -> Self:
+    def free(self, place: Any, quaternion: Any, omega: Any, name: str = "") -> Self:
         """Return a frame shifted along the axes and turned by a unit quaternion: six degrees of freedom.
 
         Parameters
@@ -446,6 +468,8 @@ class Frame(MovingFrame):
             Three coordinates or their names.
         quaternion, omega : str or sequence
             Four coordinates, and three new symbols of angular velocities: see `ball`.
+        name : str, default ''
+            The name of the joint.
 
         Returns
         -------
@@ -458,9 +482,11 @@ class Frame(MovingFrame):
         >>> Frame(coordinates("x y z a b c d")).free("x y z", "a b c d", "u v w").place().T
         Matrix([[x, y, z]])
         """
-        return moving_frames.free(self, place, quaternion, omega)
+        return moving_frames.free(self, place, quaternion, omega, name)
 
-    def coincides(self, other: MovingFrame, at: Vector = (0, 0, 0), point: Vector = (0, 0, 0)) -> tuple[sp.Expr, ...]:
+    def coincides(
+        self, other: MovingFrame, at: Vector = (0, 0, 0), point: Vector = (0, 0, 0), name: str = ""
+    ) -> tuple[sp.Expr, ...]:
         """Return the constraints that hold a point of this frame on a point of another: a ball joint that closes a loop.
 
         Parameters
@@ -469,6 +495,8 @@ class Frame(MovingFrame):
             The other frame.
         at, point : sequence, default (0, 0, 0)
             The points in this frame and in the other, in m.
+        name : str, default ''
+            The name of the joint that closes the loop.
 
         Returns
         -------
@@ -482,9 +510,11 @@ class Frame(MovingFrame):
         >>> ground.pin("theta").coincides(ground.prismatic("s", "x"), at=(2, 0, 0))
         (-s + 2*cos(theta), 2*sin(theta))
         """
-        return moving_frames.coincides(self, other, at, point)
+        return moving_frames.coincides(self, other, at, point, name)
 
-    def keeps_axis(self, other: MovingFrame, axis: Any = "z", other_axis: Any = None) -> tuple[sp.Expr, ...]:
+    def keeps_axis(
+        self, other: MovingFrame, axis: Any = "z", other_axis: Any = None, name: str = ""
+    ) -> tuple[sp.Expr, ...]:
         """Return the constraints that hold an axis of this frame parallel to one of another.
 
         With `coincides` they are a pin that closes a loop. The axes may be opposite to each other.
@@ -495,6 +525,8 @@ class Frame(MovingFrame):
             The other frame.
         axis, other_axis : str or sequence
             The axes of this frame and of the other, by default "z" and the same.
+        name : str, default ''
+            The name of the joint that closes the loop, as in `coincides`.
 
         Returns
         -------
@@ -508,7 +540,7 @@ class Frame(MovingFrame):
         >>> ground.pin("alpha", "x").keeps_axis(ground)
         (-sin(alpha),)
         """
-        return moving_frames.keeps_axis(self, other, axis, other_axis)
+        return moving_frames.keeps_axis(self, other, axis, other_axis, name)
 
 
 @dataclass(frozen=True)
