@@ -198,6 +198,62 @@ def compare_urdf(name: str, path: Path, base: str) -> Row:
     return Row(name, n, (machine.ready, ready), each, max(forward), max(inverse))
 
 
+def compare_mjcf(name: str, path: Path) -> Row:
+    import mujoco as mj
+
+    machine = Machine(lambda: System.from_mjcf(path))
+    system, n = machine.system, len(machine.system.c.q)
+    begin = perf_counter()
+    model = mj.MjModel.from_xml_path(str(path))
+    ready = perf_counter() - begin
+    model.opt.disableflags |= mj.mjtDisableBit.mjDSBL_CONTACT | mj.mjtDisableBit.mjDSBL_CONSTRAINT
+    model.opt.density = model.opt.viscosity = 0
+    model.opt.wind[:] = 0
+    model.tendon_stiffness[:] = model.tendon_damping[:] = 0
+    data = mj.MjData(model)
+    assert model.nq == n and model.nv == len(system.speeds), f"{model.nq} and {model.nv} coordinates"
+    names = [mj.mj_id2name(model, mj.mjtObj.mjOBJ_JOINT, i) for i in range(model.njnt)]
+    wanted = [str(joint) for joint in system.joints]
+    assert all(a in (b, None) for a, b in zip(names, wanted, strict=True)), f"{names} != {wanted}"
+    speeds = [str(u) for u in system.speeds]
+    at = {speed: i for i, speed in enumerate(speeds)}
+    place: list[int] = []  # of the engine's velocity i among the speeds
+    for joint, own in system.joints.items():
+        if len(own) == 1:
+            place.append(at[f"{own[0]}_dot"])
+        else:
+            place += [at[f"{q}_dot"] for q in own[:-4]] + [at[f"{joint_stem(own)}_w{axis}"] for axis in "xyz"]
+    random, forward, inverse = np.random.default_rng(2), [], []
+    single = [i for i, u in enumerate(speeds) if u.removesuffix("_dot") in {str(q) for q in machine.torques}]
+    for _ in range(_STATES):
+        q, u = random.uniform(-1, 1, n), random.uniform(-1, 1, len(speeds))
+        for joint in system.ball_joints:
+            own = [system.c.q.index(c) for c in joint.quaternion]
+            q[own] /= np.linalg.norm(q[own])
+        tau = np.zeros(len(speeds))
+        tau[single] = random.uniform(-1, 1, len(single))
+        machine.set({c: tau[at[f"{c}_dot"]] for c in machine.torques})
+        y = [*q, *u]
+        a = np.array(machine.rhs(0.0, y))[n:]
+        data.qpos[:], data.qvel[:], data.qfrc_applied[:] = q, u[place], tau[place]
+        mj.mj_forward(model, data)
+        theirs = np.empty(len(a))
+        theirs[place] = data.qacc
+        forward.append(np.abs(a - theirs).max() / np.abs(theirs).max())
+        data.qacc[:] = a[place]
+        mj.mj_inverse(model, data)
+        scale = np.abs(data.qfrc_bias).max() + np.abs(data.qfrc_passive).max() + np.abs(data.qfrc_inverse).max()
+        inverse.append(np.abs(data.qfrc_inverse - tau[place]).max() / scale)
+    rhs = machine.rhs
+    each = lasting(lambda: rhs(0.0, y)), lasting(lambda: mj.mj_forward(model, data))
+    return Row(name, n, (machine.ready, ready), each, max(forward), max(inverse))
+
+
+def joint_stem(own: tuple[sp.Symbol, ...]) -> str:
+    """Return the common stem of the coordinates of a ball or free joint."""
+    return str(own[-1]).removesuffix("_d")
+
+
 def constraints_of(system: Any) -> list[sp.Expr]:
     """Return the constraints without those of quaternions."""
     units = {joint.unit_length for joint in system.ball_joints}
@@ -265,6 +321,7 @@ def main() -> int:
     for title, files, compare in (
         ("URDF, fixed base, against Pinocchio", URDF, lambda name, path: compare_urdf(name, path, "fixed")),
         ("URDF, floating base, against Pinocchio", FLOATING, lambda name, path: compare_urdf(name, path, "floating")),
+        ("MJCF, against MuJoCo", MJCF, compare_mjcf),
     ):
         print(f"\n{title}\n{head}")
         for name, relative in files.items():
