@@ -123,7 +123,9 @@ class Machine:
 
     def rows(self, state: np.ndarray) -> np.ndarray:
         """Return the Jacobian of the constraints by the joint coordinates at a state."""
-        own = [e for e, name in zip(self.system.constraints, self.system.names, strict=True) if not name.startswith("unit")]
+        own = [
+            e for e, name in zip(self.system.constraints, self.system.names, strict=True) if not name.startswith("unit")
+        ]
         return np.array(own)
 
 
@@ -206,7 +208,9 @@ def compare_mjcf(name: str, path: Path) -> Row:
     begin = perf_counter()
     model = mj.MjModel.from_xml_path(str(path))
     ready = perf_counter() - begin
-    model.opt.disableflags |= mj.mjtDisableBit.mjDSBL_CONTACT | mj.mjtDisableBit.mjDSBL_CONSTRAINT
+    model.opt.disableflags |= (
+        mj.mjtDisableBit.mjDSBL_CONTACT | mj.mjtDisableBit.mjDSBL_CONSTRAINT | mj.mjtDisableBit.mjDSBL_ACTUATION
+    )
     model.opt.density = model.opt.viscosity = 0
     model.opt.wind[:] = 0
     model.tendon_stiffness[:] = model.tendon_damping[:] = 0

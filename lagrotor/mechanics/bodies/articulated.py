@@ -197,7 +197,9 @@ def tree_accelerations(
             inverse, axes = keep(1 / D), [k for k in range(6) if s[k] != 0]
             E = keep.each(U * inverse)
             x = [keep(keep(tau[number] - s.dot(f)) * inverse) for tau, f in zip(torques, forces[i], strict=True)]
-            direct = len(axes) == 1 and speeds[number] not in tree.rotors  # then s·E = 1, and along s the inertia vanishes
+            direct = (
+                len(axes) == 1 and speeds[number] not in tree.rotors
+            )  # then s·E = 1, and along s the inertia vanishes
             if direct:  # no division remains
                 E.rows[axes[0]][0] = 1 / s[axes[0]]
             factors[-1].append(Factor(number, s, E, x))

@@ -132,6 +132,24 @@ class RobotSystem(System):
     not_read: tuple[str, ...] = field(default=(), compare=False)
     notes: tuple[str, ...] = field(default=(), compare=False)
 
+    @property
+    def skeleton(self) -> list[list[list[sp.Expr]]]:
+        """The lines of a picture: for each last link, the places of the links from the ground to its centre of mass, in m."""
+        carried = {id(body.frame): body for body in self.lagrangian.bodies}
+        places = {id(frame): list(frame.place()) for frame in self.links.values()}
+        inner = {id(step) for frame in self.links.values() for step in frame.to_the_ground[1:]}
+        lines = []
+        for frame in self.links.values():
+            if id(frame) in inner:
+                continue
+            steps = [step for step in reversed(frame.to_the_ground) if id(step) in places]
+            line = [places[id(step)] for step in steps]
+            if id(frame) in carried:
+                line.append(list(frame.place(carried[id(frame)].centre)))
+            if any(a != b for a, b in zip(line, line[1:], strict=False)):
+                lines.append(line)
+        return lines
+
     def __repr__(self) -> str:
         rows = {"not read": "; ".join(self.not_read), "notes": "; ".join(self.notes)}
         return super().__repr__() + in_lines("", {name: text for name, text in rows.items() if text})
@@ -182,7 +200,9 @@ def system_of(described: Description, symbols: Symbols) -> RobotSystem:
     names = _Names()
     stems = {joint.name: names.take(joint.name) for link in described.links for joint in link.joints}
     listed = {
-        joint.name: [names.take(stems[joint.name] + end, True) if end else stems[joint.name] for end in _COORDINATES[joint.kind]]
+        joint.name: [
+            names.take(stems[joint.name] + end, True) if end else stems[joint.name] for end in _COORDINATES[joint.kind]
+        ]
         for link in described.links
         for joint in link.joints
     }

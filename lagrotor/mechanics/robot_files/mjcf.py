@@ -134,7 +134,9 @@ def _check_compiler(element: Element) -> None:
         raise element.refusal(f"eulerseq={sequence!r} must be three letters of x, y, z, X, Y, Z")
     for name in _ALTERS:
         if element.text(name, "0") not in ("0", "false"):
-            raise element.refusal(f"{name} changes inertias of the file: write the changed ones into it, and leave it out")
+            raise element.refusal(
+                f"{name} changes inertias of the file: write the changed ones into it, and leave it out"
+            )
 
 
 def _read_defaults(element: Element, defaults: dict[str, dict[str, dict[str, str]]], parent: str) -> None:
@@ -152,7 +154,9 @@ def _read_body(body: Element, index: int, inherited: str, prefix: Pose, moving: 
     """Read what is in a body, <worldbody> or <frame>; `index` is that of the body's link, and `prefix` the pose in it."""
     for element in body.check_children(_BODY):
         if element.tag in _REFUSED:
-            raise element.refusal("it makes bodies that are not read: let MuJoCo save the compiled model, and give that file")
+            raise element.refusal(
+                "it makes bodies that are not read: let MuJoCo save the compiled model, and give that file"
+            )
         reading.count(f"<{element.tag}>")
     for child in body.children:
         if child.tag == "frame":
@@ -161,7 +165,10 @@ def _read_body(body: Element, index: int, inherited: str, prefix: Pose, moving: 
         elif child.tag == "body":
             _add_body(child, index, child.attributes.get("childclass", inherited), prefix, moving, reading)
         elif child.tag == "site" and "name" in child.attributes:
-            reading.sites[child.text("name")] = index, prefix.then(_pose(reading.with_defaults(child, inherited), reading))
+            reading.sites[child.text("name")] = (
+                index,
+                prefix.then(_pose(reading.with_defaults(child, inherited), reading)),
+            )
         elif child.tag in ("joint", "freejoint", "inertial") and body.tag == "frame":
             raise child.refusal("it belongs into a body, not into a frame: move it there")
 
@@ -215,7 +222,10 @@ def _joint(element: Element, body: str, inherited: str, pose: Pose, reading: _Re
     if not any(axis):
         raise element.refusal("axis = 0 0 0 is no direction: give one")
     turned = kind == "hinge"
-    zero, rest = (joint.angles(key, "0", turned and reading.degrees, reading.notes)[0] if turned else joint.number(key, "0") for key in ("ref", "springref"))
+    zero, rest = (
+        joint.angles(key, "0", turned and reading.degrees, reading.notes)[0] if turned else joint.number(key, "0")
+        for key in ("ref", "springref")
+    )
     start: tuple[sp.Expr, ...] = (zero,)
     if kind in ("ball", "free"):
         a, b, c, d = pose.quaternion if kind == "free" else Pose().quaternion
@@ -282,7 +292,9 @@ def _solid(body: Element, inherited: str, reading: _Reading) -> Solid:
     for element, prefix, own in _geoms(body, inherited, Pose(), reading):
         geom = reading.with_defaults(element, own)
         if first <= geom.number("group", "0") <= last:
-            solids.append(solid_of(geom, prefix.then(_pose(geom, reading)) if "fromto" not in geom.attributes else prefix))
+            solids.append(
+                solid_of(geom, prefix.then(_pose(geom, reading)) if "fromto" not in geom.attributes else prefix)
+            )
     return combined([solid for solid in solids if solid is not None])
 
 
@@ -302,7 +314,9 @@ def _closures(root: Element, reading: _Reading) -> Iterator[Closure]:
     names: set[str] = set()
     for element in (e for section in root.all("equality") for e in section.children):
         if element.tag not in ("connect", "weld", "joint"):
-            raise element.refusal("it couples parts that are not read: leave it out, or set it inactive and leave it out")
+            raise element.refusal(
+                "it couples parts that are not read: leave it out, or set it inactive and leave it out"
+            )
         if element.text("active", "true") != "true":
             reading.count("inactive equality constraints")
             continue
@@ -312,7 +326,9 @@ def _closures(root: Element, reading: _Reading) -> Iterator[Closure]:
             pair = element.text("joint1"), element.text("joint2", "")
             for joint in pair:
                 if joint and kinds.get(joint) not in ("revolute", "prismatic"):
-                    raise element.refusal(f"{joint!r} is no hinge and no slide{near(joint, kinds) or ': correct the name'}")
+                    raise element.refusal(
+                        f"{joint!r} is no hinge and no slide{near(joint, kinds) or ': correct the name'}"
+                    )
             coefficients = element.numbers("polycoef", range(1, 6), "0 1 0 0 0")
             yield Closure(name, joints=pair, polynomial=coefficients if pair[1] else coefficients[:1])
         else:

@@ -47,7 +47,9 @@ def read_urdf(path: str | Path, base: str = "fixed") -> Description:
     for joint in joints.values():
         child = _link(joint, "child", links)
         if child in into:
-            raise joint.refusal(f"link {child!r} is already the child of joint {into[child].text('name')!r}: URDF has no loops")
+            raise joint.refusal(
+                f"link {child!r} is already the child of joint {into[child].text('name')!r}: URDF has no loops"
+            )
         into[child] = joint
     roots = [name for name in links if name not in into]
     if len(roots) != 1:
@@ -85,7 +87,7 @@ def _by_name(elements: list[Element]) -> dict[str, Element]:
 
 def _link(joint: Element, end: str, links: dict[str, Element]) -> str:
     if (element := joint.one(end)) is None:
-        raise joint.refusal(f"it has no <{end} link=\"…\"/>: add it")
+        raise joint.refusal(f'it has no <{end} link="…"/>: add it')
     if (name := element.text("link")) not in links:
         raise element.refusal(f"there is no link {name!r} in the file{near(name, links) or ': correct the name'}")
     return name
@@ -139,13 +141,16 @@ def _inertial(link: Element, notes: list[str]) -> tuple[sp.Rational, sp.Matrix, 
         return sp.S.Zero, sp.ImmutableMatrix([0, 0, 0]), sp.ImmutableMatrix(sp.zeros(3, 3))
     inertial.check_children(_ELEMENTS["inertial"])
     if (mass := inertial.one("mass")) is None:
-        raise inertial.refusal(f"link {link.text('name')!r} has no <mass value=\"…\"/>: add it, or leave out the inertial")
+        raise inertial.refusal(
+            f'link {link.text("name")!r} has no <mass value="…"/>: add it, or leave out the inertial'
+        )
     if (tensor := inertial.one("inertia")) is None:
-        raise inertial.refusal(f"link {link.text('name')!r} has no <inertia ixx=\"…\" …/>: add it")
+        raise inertial.refusal(f'link {link.text("name")!r} has no <inertia ixx="…" …/>: add it')
     tensor.check_attributes("ixx ixy ixz iyy iyz izz")
     axes = "xyz"
     entries = {
-        name: tensor.number(name, None if name[1] == name[2] else "0") for name in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+        name: tensor.number(name, None if name[1] == name[2] else "0")
+        for name in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
     }
     I = sp.Matrix(3, 3, lambda i, j: entries[f"i{axes[min(i, j)]}{axes[max(i, j)]}"])
     pose = _pose(inertial.one("origin"), notes)
@@ -159,10 +164,14 @@ def _mimic(joint: Element, joints: dict[str, Element]) -> Closure:
     mimic.check_attributes("joint multiplier offset")
     name, other = joint.text("name"), mimic.text("joint")
     if other not in joints or other == name:
-        raise mimic.refusal(f"there is no other joint {other!r} in the file{near(other, joints) or ': correct the name'}")
+        raise mimic.refusal(
+            f"there is no other joint {other!r} in the file{near(other, joints) or ': correct the name'}"
+        )
     for one in (joint, joints[other]):
         if one.text("type") in ("planar", "floating"):
-            raise mimic.refusal(f"joint {one.text('name')!r} is {one.text('type')}, which has no single coordinate: leave it out")
+            raise mimic.refusal(
+                f"joint {one.text('name')!r} is {one.text('type')}, which has no single coordinate: leave it out"
+            )
     offset, multiplier = mimic.number("offset", "0"), mimic.number("multiplier", "1")
     if joints[other].text("type") == "fixed":
         return Closure(f"mimic {name}", joints=(name, ""), polynomial=(offset,))

@@ -44,12 +44,14 @@ class Element:
         """Return the child with a tag, None without one; two of them are refused."""
         found = self.all(tag)
         if len(found) > 1:
-            raise self.refusal(f"it has {len(found)} elements <{tag}>, and only one has a meaning: leave out the others")
+            raise self.refusal(
+                f"it has {len(found)} elements <{tag}>, and only one has a meaning: leave out the others"
+            )
         return found[0] if found else None
 
     def text(self, name: str, default: str | None = None) -> str:
         if (value := self.attributes.get(name, default)) is None:
-            raise self.refusal(f"the attribute {name} is missing: add {name}=\"…\"")
+            raise self.refusal(f'the attribute {name} is missing: add {name}="…"')
         return value
 
     def numbers(self, name: str, count: int | Iterable[int], default: str | None = None) -> Numbers:
