@@ -26,7 +26,6 @@ import numpy as np
 import sympy as sp
 
 from lagrotor.mechanics import System
-from lagrotor.mechanics.running.programs import function_program
 
 LARGEST = 1e-10  # relative difference
 _STATES = 3
@@ -111,22 +110,12 @@ class Machine:
         base = {q for name, own in system.joints.items() if len(own) > 1 for q in own}
         self.torques = {q: sp.Symbol(f"tau_{q}", real=True) for q in system.c.q if q not in base | turned}
         self.system = replace(system, forces=tuple(self.torques.get(q, sp.S.Zero) for q in system.c.q))
-        self.rhs, self.tau = None, dict.fromkeys(self.torques, 0.0)
-        self.set(self.tau)
-        n = len(system.c.q)
+        self.set(dict.fromkeys(self.torques, 0.0))
         self.rhs(0.0, [*(system.start[str(q)] for q in system.c.q), *[0.0] * len(system.speeds)])
         self.ready = perf_counter() - begin
 
     def set(self, tau: dict[sp.Symbol, float]) -> None:
-        self.tau = tau
-        self.rhs = self.system.rhs({**self.read.values, **{self.torques[q]: x for q, x in tau.items()}})
-
-    def rows(self, state: np.ndarray) -> np.ndarray:
-        """Return the Jacobian of the constraints by the joint coordinates at a state."""
-        own = [
-            e for e, name in zip(self.system.constraints, self.system.names, strict=True) if not name.startswith("unit")
-        ]
-        return np.array(own)
+        self.rhs: Any = self.system.rhs({**self.read.values, **{self.torques[q]: x for q, x in tau.items()}})
 
 
 def lasting(call: Callable[[], Any], least: float = 0.05) -> float:
@@ -158,14 +147,12 @@ def compare_urdf(name: str, path: Path, base: str) -> Row:
     n, at = len(system.c.q), len(root) * 6
     for _ in range(_STATES):
         y = random.uniform(-1, 1, n + len(system.speeds))
-        free = np.array([c for c in constraints_of(system)])
         if base == "floating":
             y[3:7] /= np.linalg.norm(y[3:7])
         tau = random.uniform(-1, 1, model.nv)
         tau[:at] = 0
         q, v = pin.neutral(model), np.zeros(model.nv)
         G = gradient_of(system, order, at, model.nv)
-        ours_q, ours_v = y[first:n], y[n + at :]
         if len(G):
             onto(system, y, first, at)
         for x, speed, place in zip(y[first:n], y[n + at :], order, strict=True):
@@ -222,7 +209,7 @@ def compare_mjcf(name: str, path: Path) -> Row:
     speeds = [str(u) for u in system.speeds]
     at = {speed: i for i, speed in enumerate(speeds)}
     place: list[int] = []  # of the engine's velocity i among the speeds
-    for joint, own in system.joints.items():
+    for own in system.joints.values():
         if len(own) == 1:
             place.append(at[f"{own[0]}_dot"])
         else:
@@ -295,7 +282,7 @@ def exact_lines(path: Path, notes: tuple[str, ...]) -> Iterator[str]:
     changed: dict[int, list[tuple[str, str]]] = {}
     for note in notes:
         if match := re.search(r"line (\d+): the angle (\S+) is read as (\S+)", note):
-            exact = repr(float(sp.Rational(1) * eval_pi(match[3])))
+            exact = repr(float(eval_pi(match[3])))
             changed.setdefault(int(match[1]), []).append((match[2], exact))
     for number, line in enumerate(path.read_text().splitlines(), 1):
         for word, exact in changed.get(number, ()):

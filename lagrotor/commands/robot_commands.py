@@ -2,6 +2,7 @@
 
 import argparse
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from html import escape
 from pathlib import Path
@@ -170,7 +171,7 @@ def simulate_robot(options: argparse.Namespace) -> int:
     return 0
 
 
-def _start(system: "RobotSystem", given: list[str]) -> tuple[dict[str, float], dict[str, float]]:
+def _start(system: "RobotSystem", given: Sequence[str]) -> tuple[dict[str, float], dict[str, float]]:
     """Return the initial coordinates and velocities: those of the file and zeros, with the changes NAME=NUMBER."""
     q0, v0 = dict(system.start), dict.fromkeys(map(str, system.speeds), 0.0)
     for text in given:

@@ -18,7 +18,6 @@ if TYPE_CHECKING:
 
 def read_robot(path: str | Path, symbols: "Symbols" = "inertia", base: str = "fixed") -> "RobotSystem":
     """Return the system of a URDF or MJCF file, whichever its root element says."""
-    from lagrotor.errors import InputError
     from lagrotor.mechanics.robot_files.xml_elements import read_xml
     from lagrotor.mechanics.systems import System
 

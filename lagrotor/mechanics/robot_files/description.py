@@ -6,7 +6,8 @@ another in the axes turned before, each about an anchor of its own.
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
+from itertools import pairwise
 from pathlib import Path
 from typing import Any, Literal
 
@@ -16,12 +17,12 @@ from lagrotor.errors import InputError
 from lagrotor.mechanics.bodies.moving_frames import AXES
 from lagrotor.mechanics.bodies.rigid_bodies import Body, Energy, Frame, check_body
 from lagrotor.mechanics.lagrangian import coordinates
-from lagrotor.mechanics.robot_files.poses import Pose, rotation_of, to_axis
+from lagrotor.mechanics.robot_files.poses import ORIGIN, Pose, rotation_of, to_axis
 from lagrotor.mechanics.systems import System
 from lagrotor.result_display import in_lines
 
 Symbols = Literal["inertia", "all", "none"]
-_ZERO = sp.ImmutableMatrix([0, 0, 0])
+_NO_INERTIA = sp.ImmutableMatrix(sp.zeros(3, 3))
 _COORDINATES = {
     "revolute": ("",),
     "prismatic": ("",),
@@ -29,20 +30,20 @@ _COORDINATES = {
     "ball": ("_a", "_b", "_c", "_d"),
     "free": ("_x", "_y", "_z", "_a", "_b", "_c", "_d"),
 }
-_UNITS = {"revolute": ("rad",), "prismatic": ("m",), "planar": ("m", "m", "rad"), "ball": ("1",) * 4}
-UNITS = _UNITS | {"free": (*("m",) * 3, *("1",) * 4)}
 
 
 @dataclass(frozen=True, eq=False)
 class Joint:
-    """A joint of a kind in `UNITS`, at an anchor in the link, along or about an axis (3, 1); `zero` is the coordinate at which the
-    link has its pose. The spring has its rest at the coordinate `rest`; `rotor` is an inertia that turns or moves with the
-    coordinate alone."""
+    """A joint of a kind in _COORDINATES, at an anchor in the link, about or along an axis (3, 1).
+
+    At the coordinate `zero` the link has its pose, and at `rest` the spring is free. `rotor` is an inertia that turns or moves
+    with the coordinate alone. `start` has the coordinates in the position of the file.
+    """
 
     name: str
     kind: str
     axis: tuple[sp.Rational, ...] = (sp.S.Zero, sp.S.Zero, sp.S.One)
-    anchor: sp.Matrix = _ZERO
+    anchor: sp.Matrix = ORIGIN
     zero: sp.Rational = sp.S.Zero
     damping: sp.Rational = sp.S.Zero
     stiffness: sp.Rational = sp.S.Zero
@@ -53,28 +54,33 @@ class Joint:
 
 @dataclass(frozen=True, eq=False)
 class Link:
-    """A link: the index of its parent (−1 for the ground), pose, joints, mass, centre, and inertia about the centre in the axes of
-    the link. `fixed` is the name of a joint that does not move."""
+    """A link: the index of its parent (−1 for the ground), pose, joints, mass, centre, and inertia about the centre.
+
+    Centre and inertia are in the axes of the link. `fixed` is the name of a joint that does not move, and `where` the place in
+    the file, for messages.
+    """
 
     name: str
     parent: int
     pose: Pose
     joints: tuple[Joint, ...] = ()
     mass: sp.Rational = sp.S.Zero
-    centre: sp.Matrix = _ZERO
-    inertia: sp.Matrix = sp.ImmutableMatrix(sp.zeros(3, 3))
+    centre: sp.Matrix = ORIGIN
+    inertia: sp.Matrix = _NO_INERTIA
     fixed: str = ""
     where: str = ""
 
 
 @dataclass(frozen=True, eq=False)
 class Closure:
-    """A constraint by name: `points` of two links (index, place) coincide and, with `turn`, their axes, R₂ = R₁ turn; or the first
-    of two coordinates of joints is a polynomial in the second, each less its `zero`."""
+    """A constraint: two points, each in the axes of its link, coincide, or one joint's coordinate is a polynomial in another's.
+
+    With a matrix `turn` the rotations of the links stay in the relation R₂ = R₁ turn, too. Coordinates are counted from `zero`.
+    """
 
     name: str
     links: tuple[int, int] = (-1, -1)
-    points: tuple[sp.Matrix, sp.Matrix] = (_ZERO, _ZERO)
+    points: tuple[sp.Matrix, sp.Matrix] = (ORIGIN, ORIGIN)
     turn: sp.Matrix | None = None
     joints: tuple[str, str] = ("", "")
     polynomial: tuple[sp.Rational, ...] = ()
@@ -82,7 +88,7 @@ class Closure:
 
 @dataclass(frozen=True, eq=False)
 class Description:
-    """A machine: links, parents first, closures, the field of gravity (3,), and sentences about what was not read or was changed."""
+    """A machine: links, parents first, the field of gravity (3,), closures, and sentences on parts not read and on changes."""
 
     name: str
     file: Path
@@ -146,7 +152,7 @@ class RobotSystem(System):
             line = [places[id(step)] for step in steps]
             if id(frame) in carried:
                 line.append(list(frame.place(carried[id(frame)].centre)))
-            if any(a != b for a, b in zip(line, line[1:], strict=False)):
+            if any(a != b for a, b in pairwise(line)):
                 lines.append(line)
         return lines
 
@@ -218,7 +224,7 @@ def system_of(described: Description, symbols: Symbols) -> RobotSystem:
         place = numbers.vector(f"l_{link.name}", link.pose.shift, length=True)
         turned = link.pose.rotation != sp.eye(3)
         if any(place):
-            frame = frame.moved(*place, name="" if turned else link.fixed)
+            frame = frame.moved(place[0], place[1], place[2], "" if turned else link.fixed)
         if turned:
             frame = frame.turned(link.pose.rotation, name=link.fixed)
         for joint in link.joints:
@@ -238,7 +244,7 @@ def system_of(described: Description, symbols: Symbols) -> RobotSystem:
     L: Any = Energy((), remainder)
     for body in bodies:
         L = L + body.kinetic - (body.potential(fall) if any(fall) else 0)
-    constraints = _constraints(described, [*frames, ground], {name: c[own[0]] for name, own in listed.items()})
+    constraints: Any = _constraints(described, [*frames, ground], {name: c[own[0]] for name, own in listed.items()})
     system = RobotSystem(
         c, L, constraints, dissipation=dissipation, values=numbers.values, start=start,
         links={link.name: frame for link, frame in zip(described.links, frames, strict=True)},
@@ -260,7 +266,8 @@ def _moved(frame: Frame, joint: Joint, own: list[str], numbers: _Parameters) -> 
         frame = moved.ball(own, [f"{joint.name}_w{axis}" for axis in AXES], name=joint.name)
         v = [*frame.ball_velocities.values()]
     elif joint.kind == "prismatic":
-        frame = moved.moved(*(rotation_of(to_axis(joint.axis))[:, 2] * (c[own[0]] - joint.zero)), name=joint.name)
+        x, y, z = rotation_of(to_axis(joint.axis))[:, 2] * (c[own[0]] - joint.zero)
+        frame = moved.moved(x, y, z, joint.name)
     else:
         along = [i for i in range(3) if joint.axis[i] != 0]
         if joint.kind == "revolute" and len(along) == 1:
@@ -272,7 +279,7 @@ def _moved(frame: Frame, joint: Joint, own: list[str], numbers: _Parameters) -> 
             if joint.kind == "revolute":
                 frame = frame.turned("z", [c[own[0]] - joint.zero], name=joint.name)
             else:
-                frame = frame.planar(*own, name=joint.name)
+                frame = frame.planar(own[0], own[1], own[2], name=joint.name)
             frame = frame.turned(R.T) if sp.eye(3) != R else frame
     return frame.moved(*(-e for e in anchor)) if any(anchor) else frame, v
 

@@ -11,10 +11,10 @@ from pathlib import Path
 
 import sympy as sp
 
-from lagrotor.errors import InputError, near
+from lagrotor.errors import near
 from lagrotor.mechanics.robot_files.description import Closure, Description, Joint, Link
 from lagrotor.mechanics.robot_files.geoms import NOTHING, Solid, combined, solid_of
-from lagrotor.mechanics.robot_files.poses import Pose, about, number, product, quaternion_of, to_axis
+from lagrotor.mechanics.robot_files.poses import ORIGIN, UNTURNED, Pose, about, number, product, quaternion_of, to_axis
 from lagrotor.mechanics.robot_files.xml_elements import Element, read_xml
 
 _KINDS = {"hinge": "revolute", "slide": "prismatic", "ball": "ball", "free": "free"}
@@ -228,11 +228,11 @@ def _joint(element: Element, body: str, inherited: str, pose: Pose, reading: _Re
     )
     start: tuple[sp.Expr, ...] = (zero,)
     if kind in ("ball", "free"):
-        a, b, c, d = pose.quaternion if kind == "free" else Pose().quaternion
+        a, b, c, d = pose.quaternion if kind == "free" else UNTURNED
         length = sp.sqrt(a * a + b * b + c * c + d * d)
         start = (*(pose.shift if kind == "free" else ()), *(number(x / length) for x in (a, b, c, d)))
     return Joint(
-        name, _KINDS[kind], axis, sp.ImmutableMatrix(joint.numbers("pos", 3, "0 0 0")) if kind != "free" else Pose().shift,
+        name, _KINDS[kind], axis, sp.ImmutableMatrix(joint.numbers("pos", 3, "0 0 0")) if kind != "free" else ORIGIN,
         zero, numbers["damping"] if dampers else sp.S.Zero, numbers["stiffness"] if springs else sp.S.Zero, rest,
         numbers["armature"], start,
     )  # fmt: skip
@@ -244,7 +244,7 @@ def _pose(element: Element, reading: _Reading) -> Pose:
     given = [name for name in _ORIENTATION if name in element.attributes]
     if len(given) > 1:
         raise element.refusal(f"it has both {given[0]} and {given[1]}: give one orientation")
-    return Pose(shift, _orientation(element, given[0], reading) if given else Pose().quaternion)
+    return Pose(shift, _orientation(element, given[0], reading) if given else UNTURNED)
 
 
 def _orientation(element: Element, name: str, reading: _Reading) -> tuple[sp.Rational, ...]:
@@ -265,7 +265,7 @@ def _orientation(element: Element, name: str, reading: _Reading) -> tuple[sp.Rat
     angles = element.angles(name, "", reading.degrees, reading.notes)
     if name == "axisangle":
         return about(numbers[:3], angles[3])
-    total = Pose().quaternion
+    total = UNTURNED
     for letter, angle in zip(reading.compiler.get("eulerseq", "xyz"), angles, strict=True):
         turn = about([int(letter.lower() == axis) for axis in "xyz"], angle)
         total = product(total, turn) if letter.islower() else product(turn, total)

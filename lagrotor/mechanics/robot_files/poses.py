@@ -12,6 +12,8 @@ from functools import cached_property
 import sympy as sp
 
 Quaternion = tuple[sp.Rational, ...]
+ORIGIN = sp.ImmutableMatrix([0, 0, 0])
+UNTURNED: Quaternion = (sp.S.One, sp.S.Zero, sp.S.Zero, sp.S.Zero)
 _PLACES = 10**18
 
 
@@ -19,8 +21,8 @@ _PLACES = 10**18
 class Pose:
     """A shift d (3, 1) in m in the axes of the parent, and then a rotation R (3, 3)."""
 
-    shift: sp.Matrix = sp.ImmutableMatrix([0, 0, 0])
-    quaternion: Quaternion = (sp.S.One, sp.S.Zero, sp.S.Zero, sp.S.Zero)
+    shift: sp.Matrix = ORIGIN
+    quaternion: Quaternion = UNTURNED
 
     @cached_property
     def rotation(self) -> sp.Matrix:
@@ -77,7 +79,7 @@ def to_axis(axis: Sequence[sp.Rational]) -> Quaternion:
     x, y, z = axis
     length = sp.sqrt(x * x + y * y + z * z)
     if x == y == 0:
-        return (sp.S.One, sp.S.Zero, sp.S.Zero, sp.S.Zero) if z > 0 else (sp.S.Zero, sp.S.One, sp.S.Zero, sp.S.Zero)
+        return UNTURNED if z > 0 else (sp.S.Zero, sp.S.One, sp.S.Zero, sp.S.Zero)
     quaternion = (length + z, -y, x, sp.S.Zero)
     return quaternion if length.is_Rational else rounded(quaternion)
 

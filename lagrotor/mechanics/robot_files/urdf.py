@@ -11,7 +11,7 @@ import sympy as sp
 
 from lagrotor.errors import InputError, near
 from lagrotor.mechanics.robot_files.description import Closure, Description, Joint, Link
-from lagrotor.mechanics.robot_files.poses import Pose, about, product
+from lagrotor.mechanics.robot_files.poses import UNTURNED, Pose, about, product
 from lagrotor.mechanics.robot_files.xml_elements import Element, read_xml
 
 _KINDS = {
@@ -80,8 +80,7 @@ def _by_name(elements: list[Element]) -> dict[str, Element]:
         if (name := element.text("name")) in named:
             raise element.refusal(f"line {named[name].line} has the same name: rename one")
         named[name] = element
-        for unknown in element.check_children(_ELEMENTS[element.tag]):
-            pass
+        element.check_children(_ELEMENTS[element.tag])
     return named
 
 
@@ -129,7 +128,7 @@ def _pose(origin: Element | None, notes: list[str]) -> Pose:
     origin.check_attributes("xyz rpy")
     shift = sp.ImmutableMatrix(origin.numbers("xyz", 3, "0 0 0"))
     origin.numbers("rpy", 3, "0 0 0")
-    quaternion = Pose().quaternion
+    quaternion = UNTURNED
     for axis, angle in zip(((1, 0, 0), (0, 1, 0), (0, 0, 1)), origin.angles("rpy", "0 0 0", notes=notes), strict=True):
         quaternion = product(about(axis, angle), quaternion)
     return Pose(shift, quaternion)
