@@ -6,7 +6,7 @@ another in the axes turned before, each about an anchor of its own.
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, Literal
@@ -17,11 +17,13 @@ from lagrotor.errors import InputError
 from lagrotor.mechanics.bodies.moving_frames import AXES
 from lagrotor.mechanics.bodies.rigid_bodies import Body, Energy, Frame, check_body
 from lagrotor.mechanics.lagrangian import coordinates
+from lagrotor.mechanics.robot_files.geoms import Solid, combined
 from lagrotor.mechanics.robot_files.poses import ORIGIN, Pose, rotation_of, to_axis
 from lagrotor.mechanics.systems import System
 from lagrotor.result_display import in_lines
 
 Symbols = Literal["inertia", "all", "none"]
+_ANY = coordinates("q")
 _NO_INERTIA = sp.ImmutableMatrix(sp.zeros(3, 3))
 _COORDINATES = {
     "revolute": ("",),
@@ -203,6 +205,7 @@ def system_of(described: Description, symbols: Symbols) -> RobotSystem:
     if symbols not in ("inertia", "all", "none"):
         raise InputError(f"symbols = {symbols!r} must be 'inertia', 'all' or 'none'")
     _check_masses(described)
+    links, merged = _possible_bodies(described.links)
     names = _Names()
     stems = {joint.name: names.take(joint.name) for link in described.links for joint in link.joints}
     listed = {
@@ -217,9 +220,9 @@ def system_of(described: Description, symbols: Symbols) -> RobotSystem:
     c = coordinates([name for group in listed.values() for name in group])
     numbers = _Parameters(names, symbols)
     ground = Frame(c)
-    frames, moving, bodies, start = list[Frame](), list[bool](), list[Body](), dict[str, float]()
+    frames, bodies, start = list[Frame](), list[Body](), dict[str, float]()
     remainder = dissipation = sp.S.Zero
-    for link in described.links:
+    for link in links:
         frame = frames[link.parent] if link.parent >= 0 else ground
         place = numbers.vector(f"l_{link.name}", link.pose.shift, length=True)
         turned = link.pose.rotation != sp.eye(3)
@@ -237,8 +240,7 @@ def system_of(described: Description, symbols: Symbols) -> RobotSystem:
             remainder -= numbers.symbol(f"k_{joint.name}", joint.stiffness, True) * (q - joint.rest) ** 2 / 2
             dissipation += numbers.symbol(f"d_{joint.name}", joint.damping, True) * half
         frames.append(frame)
-        moving.append(bool(link.joints) or (link.parent >= 0 and moving[link.parent]))
-        if body := _body(frame, link, moving[-1], numbers):
+        if body := _body(frame, link, numbers):
             bodies.append(body)
     fall = _gravity(described.gravity, numbers)
     L: Any = Energy((), remainder)
@@ -249,7 +251,7 @@ def system_of(described: Description, symbols: Symbols) -> RobotSystem:
         c, L, constraints, dissipation=dissipation, values=numbers.values, start=start,
         links={link.name: frame for link, frame in zip(described.links, frames, strict=True)},
         joints={name: tuple(c[q] for q in own) for name, own in listed.items()},
-        not_read=described.not_read, notes=(*described.notes, *names.notes),
+        not_read=described.not_read, notes=(*described.notes, *merged, *names.notes),
     )  # fmt: skip
     return system
 
@@ -284,15 +286,47 @@ def _moved(frame: Frame, joint: Joint, own: list[str], numbers: _Parameters) -> 
     return frame.moved(*(-e for e in anchor)) if any(anchor) else frame, v
 
 
-def _body(frame: Frame, link: Link, moves: bool, numbers: _Parameters) -> Body | None:
-    """Return the body of a link, None without mass or on the ground; its entries are symbols where the numbers are not zero."""
-    if link.mass == 0 and not any(link.inertia):
-        return None
+def _is_possible(link: Link) -> bool:
     try:
-        check_body("inertial", Body(frame, link.mass, link.inertia, link.centre))
-    except InputError as refusal:
-        raise InputError(f"{link.where}: link {link.name!r}: {refusal}") from None
-    if not moves:
+        check_body("", Body(Frame(_ANY), link.mass, link.inertia, link.centre))
+    except InputError:
+        return False
+    return True
+
+
+def _possible_bodies(links: Sequence[Link]) -> tuple[list[Link], list[str]]:
+    """Return the moving links and sentences; links fixed to one another are one body if one alone has an impossible inertia.
+
+    Files give sensors placeholders such as ixx = ixy = 10⁻⁶, which no body has. Raises InputError if the whole is impossible.
+    """
+    carriers, poses, moving = list[int](), list[Pose](), list[bool]()
+    for i, link in enumerate(links):
+        fixed = link.parent >= 0 and not link.joints
+        carriers.append(carriers[link.parent] if fixed else i)
+        poses.append(poses[link.parent].then(link.pose) if fixed else Pose())
+        moving.append(bool(link.joints) or (link.parent >= 0 and moving[link.parent]))
+    nothing = {"mass": sp.S.Zero, "centre": ORIGIN, "inertia": _NO_INERTIA}
+    changed = [link if move else replace(link, **nothing) for link, move in zip(links, moving, strict=True)]
+    notes = []
+    for k in sorted({carriers[i] for i, link in enumerate(changed) if not _is_possible(link)}):
+        members = [i for i, link in enumerate(changed) if carriers[i] == k and (link.mass or any(link.inertia))]
+        named = ", ".join(repr(links[i].name) for i in members)
+        whole = combined([Solid(links[i].mass, links[i].centre, links[i].inertia).seen_from(poses[i]) for i in members])
+        for i in members:
+            changed[i] = replace(links[i], **nothing)
+        changed[k] = replace(links[k], mass=whole.mass, centre=whole.centre, inertia=whole.inertia)
+        if not _is_possible(changed[k]):
+            raise InputError(
+                f"{links[members[0]].where}: the inertia of link {named} is that of no body: of its principal inertias none may be "
+                f"larger than the two others together; correct it: {changed[k].inertia.evalf(6).tolist()}"
+            )
+        notes.append(f"links {named} are fixed to one another and have impossible inertias alone: they are one body")
+    return changed, notes
+
+
+def _body(frame: Frame, link: Link, numbers: _Parameters) -> Body | None:
+    """Return the body of a link, None without mass; its entries are symbols where the numbers are not zero."""
+    if link.mass == 0 and not any(link.inertia):
         return None
     m = numbers.symbol(f"m_{link.name}", link.mass, positive=True)
     centre = numbers.vector(f"c_{link.name}", link.centre)

@@ -25,6 +25,11 @@ class Solid:
     centre: sp.Matrix
     inertia: sp.Matrix
 
+    def seen_from(self, pose: Pose) -> "Solid":
+        """Return the body in the axes of a frame in which its own frame has a pose."""
+        R = pose.rotation
+        return Solid(self.mass, pose.shift + R * self.centre, R * self.inertia * R.T)
+
     def scaled(self, factor: sp.Rational) -> "Solid":
         return Solid(self.mass * factor, self.centre, self.inertia * factor)
 
