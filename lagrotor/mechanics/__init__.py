@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.bodies.contacts import Plane as Plane
     from lagrotor.mechanics.bodies.contacts import Sphere as Sphere
     from lagrotor.mechanics.bodies.force_elements import Pathway as Pathway
+    from lagrotor.mechanics.bodies.inertial_parameters import BaseParameters as BaseParameters
+    from lagrotor.mechanics.bodies.joint_forces import JointForce as JointForce
     from lagrotor.mechanics.bodies.rigid_bodies import Frame as Frame
     from lagrotor.mechanics.canonical.hamiltonians import GeneratedTransformation as GeneratedTransformation
     from lagrotor.mechanics.canonical.hamiltonians import Hamiltonian as Hamiltonian

@@ -13,7 +13,7 @@ Nonholonomic Systems, ch. III.
 
 import re
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -45,6 +45,21 @@ from lagrotor.renamed import old_attribute
 _FAST = 1000  # the factor on random velocities at which friction must have increased
 
 
+class PlacedForces(tuple[sp.Expr, ...]):
+    """The generalised forces of a system, and the loads on frames that they come from; `loads` is None if those are unknown."""
+
+    loads: tuple[Any, ...] | None = ()
+
+    @classmethod
+    def of(
+        cls, forces: Any, entries: Iterable[sp.Expr], each: Callable[[sp.Expr], sp.Expr] = lambda e: e
+    ) -> "PlacedForces":
+        """Return the entries with the loads of `forces`, to which the function `each` is applied."""
+        placed, loads = cls(entries), getattr(forces, "loads", ())
+        placed.loads = loads and tuple(load.each(each) for load in loads)
+        return placed
+
+
 @dataclass(frozen=True)
 class Equations:
     """The equations of motion of a Lagrangian with constraints, friction and forces; `System` describes the fields."""
@@ -71,10 +86,11 @@ class Equations:
             if isinstance(entries, Mapping) and name != "forces":
                 self._name(name, entries)
                 entries = tuple(entries.values())
-            if isinstance(entries, sp.Expr | str) or not isinstance(entries, Sequence | sp.MatrixBase):
+            if isinstance(entries, str) or not isinstance(entries, Sequence | sp.MatrixBase):
                 way = f": write ({entries},)" if isinstance(entries, sp.Expr) else ""
                 raise InputError(f"System: {name} = {entries} must be a tuple of expressions{way}")
-            object.__setattr__(self, name, tuple(expression(f"System: {name}[{i}]", e) for i, e in enumerate(entries)))
+            checked = tuple(expression(f"System: {name}[{i}]", e) for i, e in enumerate(entries))
+            object.__setattr__(self, name, PlacedForces.of(entries, checked) if name == "forces" else checked)
         object.__setattr__(self, "dissipation", expression("System: dissipation", self.dissipation))
         self._take_velocities()
         if not self.bodies:  # energies of bodies are multiplied out only when needed
@@ -90,6 +106,7 @@ class Equations:
         check_names("System", *self._letters)
         self._check_symbols()
         self._check_reactions()
+        self._check_joints()
         _ = self.kinematics
 
     def _take_velocities(self) -> None:
@@ -125,8 +142,10 @@ class Equations:
         object.__setattr__(self, "velocities", pairs)
         if not quasi:
             return
-        for name in ("constraints", "rolling", "forces"):
+        for name in ("constraints", "rolling"):
             object.__setattr__(self, name, tuple(e.xreplace(quasi) for e in getattr(self, name)))
+        forces = PlacedForces.of(self.forces, (e.xreplace(quasi) for e in self.forces))
+        object.__setattr__(self, "forces", forces)
         object.__setattr__(self, "dissipation", self.dissipation.xreplace(quasi))
         if hasattr(self.lagrangian, "xreplace"):
             object.__setattr__(self, "lagrangian", self.lagrangian.xreplace(quasi))
@@ -207,6 +226,13 @@ class Equations:
                     f"System: {s} {what}: the constraints have the names {', '.join(names) or '(none)'}; name them by "
                     "{name: expression}"
                 )
+
+    def _check_joints(self) -> None:
+        """Raise InputError if two joints, or a joint and a constraint, have the same given name."""
+        steps = dict.fromkeys(step for body in self.bodies for step in body.frame.to_the_ground)
+        times = Counter([*self.names, *(step.name for step in steps if step.name)])
+        if twice := [name for name, number in times.items() if number > 1]:
+            raise InputError(f"System: two joints or constraints have the name {twice[0]}: rename one")
 
     @property
     def multiplier_names(self) -> tuple[str, ...]:

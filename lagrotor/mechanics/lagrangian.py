@@ -18,7 +18,7 @@ from collections.abc import Iterable, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
+from typing import Any, ClassVar
 from unicodedata import normalize
 
 import sympy as sp
@@ -73,6 +73,14 @@ class Coordinates:
     def _symbols(self) -> dict[str, sp.Symbol]:
         """The coordinates, velocities and accelerations by name."""
         return {str(s): s for s in (*self.q, *self.v, *self.a)}
+
+    @cached_property
+    def sources(self) -> dict[sp.Expr, list[Any]]:
+        """The frames between which constraints act, by constraint, as far as methods of frames built them.
+
+        An expression in the coordinates does not say on which bodies its reaction acts, and joint forces depend on that.
+        """
+        return {}
 
     def __getitem__(self, name: str) -> sp.Symbol:
         """Return the coordinate, velocity or acceleration with this name."""
@@ -212,6 +220,21 @@ def bias(L: sp.Expr, c: Coordinates) -> sp.Matrix:
     """Return h = (∂²L/∂v∂q) v + ∂²L/∂v∂t − ∂L/∂q: centrifugal, gyroscopic and driving terms minus potential forces."""
     drift = momenta(L, c).applyfunc(lambda p: along(p, (*c.q, t), (*c.v, 1)))
     return drift - gradient(L, c.q)
+
+
+def coriolis_matrix(M: sp.Matrix, c: Coordinates) -> sp.Matrix:
+    """Return C_ij = ½ Σ_k (∂M_ij/∂q_k + ∂M_ik/∂q_j − ∂M_jk/∂q_i) v_k, shape (n, n); M' − 2 C is skew."""
+    if moving := M.free_symbols & {*c.v, t}:
+        raise InputError(
+            f"coriolis_matrix: the mass matrix contains {min(map(str, moving))}: it must depend on the coordinates alone"
+        )
+    n = len(c.q)
+    slope = [jacobian(list(M.col(j)), c.q) for j in range(n)]  # slope[j][i, k] = ∂M_ij/∂q_k
+    return sp.Matrix(
+        n,
+        n,
+        lambda i, j: sp.Add(*((slope[j][i, k] + slope[k][i, j] - slope[k][j, i]) * c.v[k] / 2 for k in range(n))),
+    )
 
 
 def energy(L: sp.Expr, c: Coordinates) -> sp.Expr:

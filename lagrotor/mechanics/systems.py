@@ -9,12 +9,13 @@ import sympy as sp
 from lagrotor.algebra import Decision
 from lagrotor.errors import InputError
 from lagrotor.mechanics import equilibria, glossary, steady_motions, symmetry, weakly_nonlinear
+from lagrotor.mechanics.bodies import inertial_parameters, joint_forces
 from lagrotor.mechanics.canonical import hamiltonians
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.equilibria import Equilibrium
 from lagrotor.mechanics.expressions import in_order, longer
 from lagrotor.mechanics.from_sympy import parts_from_sympy
-from lagrotor.mechanics.lagrangian import Coordinates
+from lagrotor.mechanics.lagrangian import Coordinates, coriolis_matrix
 from lagrotor.renamed import accept_old_keywords
 from lagrotor.result_display import in_lines
 
@@ -831,6 +832,183 @@ class System(Equations):
         q, v = in_order("consistent: q0", q0, self.c.q), in_order("consistent: v0", v0, self.speeds)
         self, values = function_values.put_functions("consistent", self, values)
         return initial_state.consistent("consistent", self, values, q, v, t)
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """The names of the joints: those that carry bodies, from the ground outward, then those that close loops.
+
+        A joint without a name is called after its coordinates, unless another joint or a constraint has that name.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import Frame, coordinates
+        >>> c = coordinates("alpha beta")
+        >>> upper = Frame(c).pin("alpha", name="shoulder").moved(0, -1)
+        >>> System(c, upper.pin("beta").body(mass=1, inertia=(1, 1, 1)).kinetic).joints
+        ('shoulder', 'beta')
+        """
+        return joint_forces.joint_names(self)
+
+    def joint_force(self, name: str, axes: str = "ground") -> joint_forces.JointForce:
+        """Return the force and the torque in a joint as expressions; `run.reactions` has them in numbers.
+
+        The frame before the joint exerts them on the frame after it, at the origin of that frame. They contain the drive, the
+        spring and the friction of the joint. `forces` act in the joints of their coordinates, except what `Frame.force` and
+        `Frame.torque` return, which acts on that frame.
+
+        Parameters
+        ----------
+        name : str
+            The name of the joint: see `joints`.
+        axes : str, default 'ground'
+            The axes of the components: "ground", or "joint" for the frame after the joint.
+
+        Returns
+        -------
+        JointForce
+            Columns `force` in N and `torque` in N m in q, v, a, t and `multipliers`. Substitute `accelerations` for a.
+
+        Raises
+        ------
+        InputError
+            If no joint has this name, if L has no bodies, or if a term does not say on which bodies it acts: a potential or
+            friction of several joints, or a constraint that no method of frames built.
+
+        Examples
+        --------
+        >>> from sympy import symbols
+        >>> from lagrotor.mechanics import Frame, coordinates
+        >>> m, g, l = symbols("m g l", positive=True)
+        >>> c = coordinates("theta")
+        >>> rod = Frame(c).pin("theta", name="hook").body(mass=m, centre=(0, -l, 0))
+        >>> swing = System(c, rod.kinetic - rod.potential((0, -g, 0)))
+        >>> swing.joint_force("hook", axes="joint").force.T
+        Matrix([[g*m*sin(theta) + l*m*theta_ddot, g*m*cos(theta) + l*m*theta_dot**2, 0]])
+        """
+        return joint_forces.joint_force(self, name, axes)
+
+    def inverse_dynamics(
+        self, q: Any = None, v: Any = None, a: Any = None, values: "Values | None" = None, t: float = 0.0
+    ) -> Any:
+        """Return the forces that must act besides those of the system to give it accelerations: τ = M a + h − Q.
+
+        Under constraints τ includes their forces Gᵀ λ. In a system with quasi-velocities, v and a stand for these and for
+        their rates, and τ is the force for them: about the axes of a ball joint, the torque.
+
+        Parameters
+        ----------
+        q, v, a : array_like, mapping or None, optional
+            Coordinates, shape (n,) or (k, n), velocities and accelerations, as numbers or expressions. None stands for the
+            symbols of the system.
+        values : mapping or None, optional
+            {symbol or name: number} for all parameters; it is not used if q, v or a are expressions.
+        t : float, default 0.0
+            The time in s.
+
+        Returns
+        -------
+        Matrix or ndarray
+            The forces, shape (n, 1) as expressions, (n,) or (k, n) as numbers.
+
+        Examples
+        --------
+        >>> from sympy import symbols
+        >>> from lagrotor.mechanics import Frame, coordinates
+        >>> m, g, l = symbols("m g l", positive=True)
+        >>> c = coordinates("theta")
+        >>> rod = Frame(c).pin("theta").body(mass=m, centre=(0, -l, 0))
+        >>> swing = System(c, rod.kinetic - rod.potential((0, -g, 0)))
+        >>> swing.inverse_dynamics()
+        Matrix([[g*l*m*sin(theta) + l**2*m*theta_ddot]])
+        >>> swing.inverse_dynamics([0], [0], [3], {m: 1, l: 2, g: 9})
+        array([12.])
+        """
+        from lagrotor.mechanics.running import joint_programs
+
+        return joint_programs.inverse_dynamics(self, q, v, a, values, t)
+
+    def regressor(self) -> tuple[sp.Matrix, sp.Matrix]:
+        """Return Y(q, v, a) and π: the bodies need the generalised forces Y π, linear in their inertial parameters π.
+
+        Each body has ten parameters: m, the first moments m c, and the inertias xx, xy, xz, yy, yz, zz about the origin of its
+        frame, in the axes of that frame. `inverse_dynamics` is Y π without applied forces, friction and other terms of L.
+
+        Returns
+        -------
+        tuple of Matrix
+            Y, shape (n, 10 N) for N bodies, and π in the symbols of the system, (10 N, 1).
+
+        Raises
+        ------
+        InputError
+            If L has energies other than `body.kinetic` and `body.potential` in one field.
+
+        Examples
+        --------
+        >>> from sympy import symbols
+        >>> from lagrotor.mechanics import Frame, coordinates
+        >>> m, g, l = symbols("m g l", positive=True)
+        >>> c = coordinates("theta")
+        >>> rod = Frame(c).pin("theta").body(mass=m, centre=(0, -l, 0))
+        >>> Y, parameters = System(c, rod.kinetic - rod.potential((0, -g, 0))).regressor()
+        >>> Y
+        Matrix([[0, g*cos(theta), -g*sin(theta), 0, 0, 0, 0, 0, 0, theta_ddot]])
+        >>> (Y * parameters)[0]
+        g*l*m*sin(theta) + l**2*m*theta_ddot
+        """
+        return inertial_parameters.regressor(self)
+
+    def base_parameters(self) -> inertial_parameters.BaseParameters:
+        """Return the combinations of masses, first moments and inertias that motions can determine, exactly.
+
+        The energies are evaluated at random rational states, and their dependence is found by exact elimination.
+
+        Returns
+        -------
+        BaseParameters
+            The combinations, and the changes of parameters that no motion can tell.
+
+        Raises
+        ------
+        InputError
+            If joints move with time, constraints act, or L has other energies than those of bodies in one field.
+
+        Examples
+        --------
+        >>> from sympy import symbols
+        >>> from lagrotor.mechanics import Frame, coordinates
+        >>> m, g, l = symbols("m g l", positive=True)
+        >>> c = coordinates("theta")
+        >>> rod = Frame(c).pin("theta").body(mass=m, centre=(0, -l, 0))
+        >>> base = System(c, rod.kinetic - rod.potential((0, -g, 0))).base_parameters()
+        >>> base.combinations.T, base.values.T
+        (Matrix([[mx_1, my_1, Izz_1]]), Matrix([[0, -l*m, l**2*m]]))
+        """
+        return inertial_parameters.base_parameters(self)
+
+    def coriolis_matrix(self) -> sp.Matrix:
+        """Return C(q, v) of the Christoffel symbols, with which M' − 2 C is skew: M a + C v + ∂V/∂q = Q.
+
+        It belongs to the velocities v, as `mass_matrix` does.
+
+        Returns
+        -------
+        Matrix
+            C, shape (n, n).
+
+        Raises
+        ------
+        InputError
+            If the mass matrix depends on velocities or time.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> c = coordinates("r phi")
+        >>> System(c, (c.r_dot**2 + c.r**2 * c.phi_dot**2) / 2).coriolis_matrix()
+        Matrix([[0, -phi_dot*r], [phi_dot*r, r*r_dot]])
+        """
+        return coriolis_matrix(self.mass_matrix, self.c)
 
     def rhs(self, values: "Values", engine: "Engine" = "core") -> "Rhs":
         """Return the right-hand side of y' = f(t, y) in numbers; `accelerations` has it in symbols.

@@ -15,9 +15,11 @@ import sympy as sp
 
 from lagrotor.algebra import decide_zero
 from lagrotor.errors import InputError
-from lagrotor.mechanics.bodies.moving_frames import MovingFrame, Vector, in_ground
+from lagrotor.mechanics.bodies.moving_frames import Load, MovingFrame, Source, Vector, in_ground
 from lagrotor.mechanics.expressions import expression, shortest, vector_of
 from lagrotor.mechanics.lagrangian import total_derivative
+
+_NONE = sp.zeros(3, 1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -172,5 +174,11 @@ def contact(
     carried = drift.cross(at - ground.place())
     centre_moves = (at - ground.place()).applyfunc(lambda e: total_derivative(e, frame.c)) - carried
     slip = axes.T * centre_moves - (axes.T * spin).cross(below)
-    slips = tuple(shortest(slip.dot(e)) for e in surface._tangents(n))
-    return Contact(shortest(gap), (slips[0], slips[1]), point)
+    tangents = surface._tangents(n)
+    slips = tuple(shortest(slip.dot(e)) for e in tangents)
+    gap, arm = shortest(gap), in_ground(frame)[0].T * axes * below
+    for e, direction in zip((gap, *slips), (n, *tangents), strict=True):
+        on_body = Load(frame, list(sp.Matrix(centre) - arm), direction, _NONE, ground)
+        on_surface = Load(ground, list(p - below), -direction, _NONE, ground)
+        frame.c.sources.setdefault(e, []).append(Source("", (on_body, on_surface)))
+    return Contact(gap, (slips[0], slips[1]), point)

@@ -14,10 +14,57 @@ import sympy as sp
 
 from lagrotor.algebra import decide_zero
 from lagrotor.errors import InputError
-from lagrotor.mechanics.bodies.moving_frames import MovingFrame, Vector, in_ground
+from lagrotor.mechanics.bodies.moving_frames import Load, MovingFrame, Vector, in_ground
 from lagrotor.mechanics.expressions import expression, shortest, vector_of
 from lagrotor.mechanics.lagrangian import Coordinates, gradient, jacobian, t, total_derivative
 from lagrotor.renamed import accept_old_keywords
+
+_ZERO = (sp.S.Zero,) * 3
+
+
+class AppliedForce(sp.ImmutableDenseMatrix):  # type: ignore[misc]
+    """Generalised forces Q, shape (n, 1), that remember on which frames they act, for the forces in joints.
+
+    Sums with other columns and multiples remember it, too. After any other operation `loads` is None.
+    """
+
+    loads: tuple[Load, ...] | None = None
+    _op_priority = 20.0
+
+    @classmethod
+    def of(cls, Q: sp.Matrix, loads: tuple[Load, ...] | None) -> "AppliedForce":
+        """Return the forces with their loads."""
+        force = cls(Q)
+        force.loads = loads
+        return force
+
+    def __add__(self, other: Any) -> "AppliedForce":
+        theirs = other.loads if isinstance(other, AppliedForce) else ()
+        both = None if self.loads is None or theirs is None else self.loads + theirs
+        return self.of(sp.Matrix(self) if other == 0 else sp.Matrix(self) + sp.Matrix(other), both)
+
+    def __mul__(self, factor: Any) -> Any:
+        if isinstance(factor, sp.MatrixBase):
+            return sp.Matrix(self) * factor
+        loads = self.loads and tuple(load.each(lambda e: factor * e) for load in self.loads)
+        return self.of(sp.Matrix(self) * factor, loads)
+
+    def __rmul__(self, factor: Any) -> Any:
+        return factor * sp.Matrix(self) if isinstance(factor, sp.MatrixBase) else self * factor
+
+    def __neg__(self) -> "AppliedForce":
+        return self * -1
+
+    def __sub__(self, other: Any) -> "AppliedForce":
+        return self + -other
+
+    def __rsub__(self, other: Any) -> "AppliedForce":
+        return -self + other
+
+    def __truediv__(self, divisor: Any) -> "AppliedForce":
+        return self * (1 / sp.sympify(divisor))
+
+    __radd__ = __add__
 
 
 @dataclass(frozen=True)
@@ -212,7 +259,8 @@ class Pathway:
         self._check_moves("actuator")
         F = expression("actuator: force", force)
         zero = sp.zeros(len(self.c.q), 1)
-        return sum((gradient(length, self.c.q) * weight * F for weight, length in self.lengths), zero)
+        Q = sum((gradient(length, self.c.q) * weight * F for weight, length in self.lengths), zero)
+        return AppliedForce.of(Q, None)
 
     def _check_moves(self, what: str) -> None:
         if not self.length.has(*self.c.q, t):
@@ -221,29 +269,34 @@ class Pathway:
             )
 
 
-def force(frame: MovingFrame, components: Vector, at: Vector, axes: MovingFrame | None) -> sp.Matrix:
+def force(frame: MovingFrame, components: Vector, at: Vector, axes: MovingFrame | str) -> AppliedForce:
     """Return the generalised forces of a force: `Frame.force`."""
-    F = _rotation("force", frame, axes) * sp.Matrix(vector_of("force: components", components, 3))
-    place = frame.place(vector_of("force: at", at, 3))
-    return (jacobian(place, frame.c.q).T * F).applyfunc(shortest)
+    along, F = _axes("force", frame, axes), vector_of("force: components", components, 3)
+    point = vector_of("force: at", at, 3)
+    Q = (jacobian(frame.place(point), frame.c.q).T * in_ground(along)[0] * sp.Matrix(F)).applyfunc(shortest)
+    return AppliedForce.of(Q, (Load(frame, point, F, _ZERO, along),))
 
 
-def torque(frame: MovingFrame, moment: Vector, against: MovingFrame | None, axes: MovingFrame | None) -> sp.Matrix:
+def torque(frame: MovingFrame, moment: Vector, against: MovingFrame | None, axes: MovingFrame | str) -> AppliedForce:
     """Return the generalised forces of a torque: `Frame.torque`."""
-    T, w = sp.Matrix(vector_of("torque: moment", moment, 3)), frame.angular_velocity
+    along, T = _axes("torque", frame, axes), vector_of("torque: moment", moment, 3)
+    w, loads = frame.angular_velocity, [Load(frame, _ZERO, _ZERO, T, along)]
     if against is not None:
         _check("torque: against", frame, against)
         w = w - in_ground(frame)[0].T * in_ground(against)[1]
-    if axes is not None:
-        T = in_ground(frame)[0].T * _rotation("torque", frame, axes) * T
-    return (jacobian(w, frame.c.v).T * T).applyfunc(shortest)
+        loads.append(Load(against, _ZERO, _ZERO, tuple(-e for e in T), along))
+    moment = in_ground(frame)[0].T * in_ground(along)[0] * sp.Matrix(T)
+    return AppliedForce.of((jacobian(w, frame.c.v).T * moment).applyfunc(shortest), tuple(loads))
 
 
-def _rotation(where: str, frame: MovingFrame, axes: MovingFrame | None) -> sp.Matrix:
-    """Return the rotation into the ground's axes from those of `axes`, or from those of `frame` if `axes` is None."""
-    if axes is not None:
-        _check(f"{where}: axes", frame, axes)
-    return in_ground(frame if axes is None else axes)[0]
+def _axes(where: str, frame: MovingFrame, axes: MovingFrame | str) -> MovingFrame:
+    """Return the frame along whose axes a vector is given: "frame", "ground", or a frame."""
+    if axes in ("frame", "ground"):
+        return frame if axes == "frame" else frame.to_the_ground[-1]
+    if isinstance(axes, str):
+        raise InputError(f"{where}: axes = {axes!r} must be 'frame', 'ground' or a Frame")
+    _check(f"{where}: axes", frame, axes)
+    return axes
 
 
 def _check(where: str, frame: MovingFrame, other: Any) -> None:

@@ -17,7 +17,7 @@ velocities are the components of its angular velocity ω relative to the frame b
 and Double Groups (1986), ch. 12.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Self, TypeVar
@@ -35,6 +35,7 @@ from lagrotor.renamed import accept_old_keywords
 
 Vector = Sequence[Any]
 AXES = "xyz"
+_NONE = sp.zeros(3, 1)
 Kind = TypeVar("Kind", bound="MovingFrame")
 
 
@@ -401,20 +402,50 @@ def free(frame: Kind, place: Any, quaternion: Any, omega: Any, name: str = "") -
     return _joint("free", frame, ball_joint(frame.moved(x, y, z), quaternion, omega), name)
 
 
-def coincides(first: MovingFrame, second: MovingFrame, at: Vector, point: Vector) -> tuple[sp.Expr, ...]:
+@dataclass(frozen=True, eq=False)
+class Load:
+    """A force at a point of a frame, and a torque on that frame, with components along the axes of the frame `axes`."""
+
+    frame: MovingFrame
+    at: Sequence[Any]
+    force: Sequence[Any]
+    torque: Sequence[Any]
+    axes: MovingFrame
+
+    def each(self, function: Callable[[Any], Any]) -> "Load":
+        """Apply a function to every component of the force and of the torque."""
+        return replace(self, force=tuple(map(function, self.force)), torque=tuple(map(function, self.torque)))
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """The loads by which a constraint acts on frames if its multiplier is 1, and the name of the joint that it belongs to."""
+
+    name: str
+    loads: tuple[Load, ...]
+
+
+def coincides(
+    first: MovingFrame, second: MovingFrame, at: Vector, point: Vector, name: str = ""
+) -> tuple[sp.Expr, ...]:
     """Return the constraints that hold two points together: `Frame.coincides`."""
     _check_frame("coincides", second)
-    apart = first.place(vector_of("coincides: at", at, 3)) - second.place(vector_of("coincides: point", point, 3))
-    return _constraints("coincides", list(apart), first)
+    places = vector_of("coincides: at", at, 3), vector_of("coincides: point", point, 3)
+    apart = first.place(places[0]) - second.place(places[1])
+    ends, directions = tuple(zip((first, second), places, strict=True)), sp.eye(3)
+    return _constraints("coincides", list(apart), ends, [(directions[:, k], _NONE) for k in range(3)], name)
 
 
-def keeps_axis(first: MovingFrame, second: MovingFrame, axis: Any, second_axis: Any) -> tuple[sp.Expr, ...]:
+def keeps_axis(
+    first: MovingFrame, second: MovingFrame, axis: Any, second_axis: Any, name: str = ""
+) -> tuple[sp.Expr, ...]:
     """Return the constraints that hold two axes parallel: `Frame.keeps_axis`."""
     _check_frame("keeps_axis", second)
     theirs = _direction("keeps_axis", axis if second_axis is None else second_axis)
     e = first.place(list(_direction("keeps_axis", axis))) - first.place()
     transverse = [second.place(list(v)) - second.place() for v in _axes_to(theirs)[:2]]
-    return _constraints("keeps_axis", [e.dot(v) for v in transverse], first)
+    ends, turning = ((first, _NONE), (second, _NONE)), [(_NONE, e.cross(v)) for v in transverse]
+    return _constraints("keeps_axis", [e.dot(v) for v in transverse], ends, turning, name)
 
 
 def _check_frame(where: str, frame: Any) -> None:
@@ -422,14 +453,25 @@ def _check_frame(where: str, frame: Any) -> None:
         raise InputError(f"{where}: {frame!r} must be a Frame, in which the other part of the loop is fixed")
 
 
-def _constraints(where: str, components: Sequence[sp.Expr], frame: MovingFrame) -> tuple[sp.Expr, ...]:
-    """Return the components without those that vanish identically; raise InputError if none depends on a coordinate."""
-    constraints = tuple(e for e in map(sp.expand, components) if e != 0)
-    if not any(e.free_symbols & {*frame.c.q} for e in constraints):
+def _constraints(
+    where: str, components: Sequence[sp.Expr], ends: Sequence[Any], actions: Sequence[Any], name: str
+) -> tuple[sp.Expr, ...]:
+    """Return the components without those that vanish identically; raise InputError if none depends on a coordinate.
+
+    `ends` are the two frames with their points. `actions` are the force and torque of each component on the first frame, in
+    the ground's axes, for a multiplier of 1; the second frame gets the opposite.
+    """
+    c, ground = ends[0][0].c, ends[0][0].to_the_ground[-1]
+    acting = [(g, action) for e, action in zip(components, actions, strict=True) if (g := sp.expand(e)) != 0]
+    if not any(g.free_symbols & {*c.q} for g, _ in acting):
         raise InputError(
             f"{where}: {', '.join(map(str, components))} = 0 binds no coordinate: give frames that move apart"
         )
-    return constraints
+    for g, (force, torque) in acting:
+        signs = zip(ends, (1, -1), strict=True)
+        loads = tuple(Load(frame, at, force * sign, torque * sign, ground) for (frame, at), sign in signs)
+        c.sources.setdefault(g, []).append(Source(name, loads))
+    return tuple(g for g, _ in acting)
 
 
 def _about(where: str, frame: Kind, axis: Any, step: Any, name: str) -> Kind:

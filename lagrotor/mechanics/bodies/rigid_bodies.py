@@ -126,7 +126,7 @@ def check_body(where: str, body: Body, values: Mapping[sp.Symbol, Any] | None = 
         raise InputError(f"{where}: inertia = {I.tolist()} must not be negative about an axis")
     if I.free_symbols or sum(e != 0 for e in I) == sum(I[i, i] != 0 for i in range(3)) == 1:
         return
-    spread = mp.eigsy(mp.matrix((sp.eye(3) * I.trace() / 2 - I).tolist()), eigvals_only=True)
+    spread = mp.eigsy(mp.matrix((sp.eye(3) * I.trace() / 2 - I).evalf().tolist()), eigvals_only=True)
     if min(spread) < -_ROUNDING * max(map(abs, spread)):
         entries = [[float(e) for e in row] for row in I.tolist()]
         raise InputError(
@@ -197,7 +197,7 @@ class Frame(MovingFrame):
         """
         return make_body(self, mass, inertia, centre)
 
-    def force(self, components: Vector, at: Vector = (0, 0, 0), axes: MovingFrame | None = None) -> sp.Matrix:
+    def force(self, components: Vector, at: Vector = (0, 0, 0), axes: MovingFrame | str = "frame") -> sp.Matrix:
         """Return the generalised forces of a force that acts at a point of this frame.
 
         Parameters
@@ -206,8 +206,8 @@ class Frame(MovingFrame):
             The force (x, y, z), in N.
         at : sequence, default (0, 0, 0)
             The point in this frame, in m.
-        axes : Frame or None, optional
-            The frame in whose axes the force is given: this one by default; Frame(c) is the ground.
+        axes : str or Frame, default 'frame'
+            The axes of the components: "frame" for this frame, "ground", or another frame.
 
         Returns
         -------
@@ -218,13 +218,13 @@ class Frame(MovingFrame):
         --------
         >>> from lagrotor.mechanics import coordinates
         >>> rod = Frame(coordinates("theta")).pin("theta")
-        >>> rod.force((0, 5, 0), at=(2, 0, 0)), rod.force((0, 5, 0), at=(2, 0, 0), axes=Frame(rod.c))
+        >>> rod.force((0, 5, 0), at=(2, 0, 0)), rod.force((0, 5, 0), at=(2, 0, 0), axes="ground")
         (Matrix([[10]]), Matrix([[10*cos(theta)]]))
         """
         return force_elements.force(self, components, at, axes)
 
     def push(self, force: Vector, at: Vector = (0, 0, 0)) -> sp.Matrix:
-        """Return the generalised forces of a force in the ground's axes: the old form of `force` with axes=Frame(c).
+        """Return the generalised forces of a force in the ground's axes: the old form of `force` with axes="ground".
 
         Parameters
         ----------
@@ -236,10 +236,12 @@ class Frame(MovingFrame):
         Matrix
             Q, shape (n, 1).
         """
-        warn("Frame.push(F, at) is now Frame.force(F, at, axes=Frame(c))", DeprecationWarning, stacklevel=2)
-        return force_elements.force(self, force, at, self.to_the_ground[-1])
+        warn("Frame.push(F, at) is now Frame.force(F, at, axes='ground')", DeprecationWarning, stacklevel=2)
+        return force_elements.force(self, force, at, "ground")
 
-    def torque(self, moment: Vector, against: MovingFrame | None = None, axes: MovingFrame | None = None) -> sp.Matrix:
+    def torque(
+        self, moment: Vector, against: MovingFrame | None = None, axes: MovingFrame | str = "frame"
+    ) -> sp.Matrix:
         """Return the generalised forces of a torque on this frame.
 
         Parameters
@@ -248,8 +250,8 @@ class Frame(MovingFrame):
             The torque (x, y, z), in N m.
         against : Frame or None, optional
             The frame on which the reaction acts; by default the ground.
-        axes : Frame or None, optional
-            The frame in whose axes the torque is given: this one by default; Frame(c) is the ground.
+        axes : str or Frame, default 'frame'
+            The axes of the components: "frame" for this frame, "ground", or another frame.
 
         Returns
         -------
@@ -482,7 +484,9 @@ class Frame(MovingFrame):
         """
         return moving_frames.free(self, place, quaternion, omega, name)
 
-    def coincides(self, other: MovingFrame, at: Vector = (0, 0, 0), point: Vector = (0, 0, 0)) -> tuple[sp.Expr, ...]:
+    def coincides(
+        self, other: MovingFrame, at: Vector = (0, 0, 0), point: Vector = (0, 0, 0), name: str = ""
+    ) -> tuple[sp.Expr, ...]:
         """Return the constraints that hold a point of this frame on a point of another: a ball joint that closes a loop.
 
         Parameters
@@ -491,6 +495,8 @@ class Frame(MovingFrame):
             The other frame.
         at, point : sequence, default (0, 0, 0)
             The points in this frame and in the other, in m.
+        name : str, default ''
+            The name of the joint that closes the loop.
 
         Returns
         -------
@@ -504,9 +510,11 @@ class Frame(MovingFrame):
         >>> ground.pin("theta").coincides(ground.prismatic("s", "x"), at=(2, 0, 0))
         (-s + 2*cos(theta), 2*sin(theta))
         """
-        return moving_frames.coincides(self, other, at, point)
+        return moving_frames.coincides(self, other, at, point, name)
 
-    def keeps_axis(self, other: MovingFrame, axis: Any = "z", other_axis: Any = None) -> tuple[sp.Expr, ...]:
+    def keeps_axis(
+        self, other: MovingFrame, axis: Any = "z", other_axis: Any = None, name: str = ""
+    ) -> tuple[sp.Expr, ...]:
         """Return the constraints that hold an axis of this frame parallel to one of another.
 
         With `coincides` they are a pin that closes a loop. The axes may be opposite to each other.
@@ -517,6 +525,8 @@ class Frame(MovingFrame):
             The other frame.
         axis, other_axis : str or sequence
             The axes of this frame and of the other, by default "z" and the same.
+        name : str, default ''
+            The name of the joint that closes the loop, as in `coincides`.
 
         Returns
         -------
@@ -530,7 +540,7 @@ class Frame(MovingFrame):
         >>> ground.pin("alpha", "x").keeps_axis(ground)
         (-sin(alpha),)
         """
-        return moving_frames.keeps_axis(self, other, axis, other_axis)
+        return moving_frames.keeps_axis(self, other, axis, other_axis, name)
 
 
 @dataclass(frozen=True)

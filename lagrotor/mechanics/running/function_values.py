@@ -14,7 +14,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef, UndefinedFunction
 
 from lagrotor.errors import InputError, IntegrationError, near
-from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.equations import Equations, PlacedForces
 from lagrotor.mechanics.expressions import expression, repeated_name, unknown_functions, with_jets
 from lagrotor.mechanics.lagrangian import t
 from lagrotor.mechanics.running.switches import Event, Impact
@@ -169,7 +169,7 @@ def _with_expressions(system: Kind, lambdas: Mapping[str, sp.Lambda]) -> Kind:
         constraints=tuple(map(put, system.constraints)),
         rolling=tuple(map(put, system.rolling)),
         dissipation=put(system.dissipation),
-        forces=tuple(map(put, system.forces)),
+        forces=PlacedForces.of(system.forces, map(put, system.forces), put),
         velocities=tuple((u, put(e)) for u, e in system.velocities),
     )
 

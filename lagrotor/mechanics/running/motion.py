@@ -1,6 +1,6 @@
 """A simulated motion of a system: its states at some times, and any function of them."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from hashlib import sha256
@@ -130,22 +130,64 @@ class SampledMotion(Run):
         residuals = (*self.system.constraints, *self.system.residual)
         return np.abs(self._values(*residuals)).max(0) if residuals else np.zeros(len(self.t))
 
-    @property
-    def reactions(self) -> dict[str, Array]:
-        """The multipliers by the names of their constraints, shape (n,) each.
+    @cached_property
+    def reactions(self) -> Mapping[str, Any]:
+        """The multipliers of the constraints, shape (n,) each, and the `JointForce` of each joint, by their names.
 
-        The names are 1, 2, … unless the system gives others. For a gap in m or a slip in m/s the multiplier is a force in N.
+        The names of constraints are 1, 2, … unless the system gives others. For a gap in m or a slip in m/s the multiplier is
+        a force in N. A joint without a name is called after its coordinates; its force and torque are in the ground's axes,
+        and `joint_force` has them in the joint's.
 
         Examples
         --------
-        >>> from lagrotor.mechanics import System, coordinates
+        >>> from lagrotor.mechanics import Frame, System, coordinates
         >>> c = coordinates("x y")
         >>> pendulum = System(c, sum(s**2 for s in c.v) / 2 - c.q[1], [sum(s**2 for s in c.q) - 1])
         >>> pendulum.simulate({}, (0, -1), (0, 0), [0, 1]).reactions["1"].round(6)
         array([-0.5, -0.5])
+        >>> c = coordinates("theta")
+        >>> rod = Frame(c).pin("theta", name="hook").body(mass=2, centre=(0, -1, 0))
+        >>> hanging = System(c, rod.kinetic - rod.potential((0, -9, 0)))
+        >>> hanging.simulate({}, (0,), (0,), [0, 1]).reactions["hook"].force.round(6)
+        array([[ 0., 18.,  0.],
+               [ 0., 18.,  0.]])
         """
-        both = zip(self.system.multiplier_names, self.system.multipliers, strict=True)
-        return {name: self.evaluate(lam) for name, lam in both}
+        from lagrotor.mechanics.running.joint_programs import Reactions
+
+        return Reactions(self)
+
+    def joint_force(self, name: str, axes: str = "ground") -> Any:
+        """Return the force and the torque in a joint along the run.
+
+        They are what the frame before the joint exerts on the frame after it; `System.joint_force` says more.
+
+        Parameters
+        ----------
+        name : str
+            The name of the joint.
+        axes : str, default 'ground'
+            The axes of the components: "ground", or "joint" for the frame after the joint.
+
+        Returns
+        -------
+        JointForce
+            `force` in N and `torque` in N m, shape (n, 3) each.
+
+        Raises
+        ------
+        InputError
+            If no joint has this name, or a term of the system does not say on which bodies it acts.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import Frame, System, coordinates
+        >>> c = coordinates("theta")
+        >>> rod = Frame(c).pin("theta", name="hook").body(mass=2, centre=(0, -1, 0))
+        >>> swing = System(c, rod.kinetic - rod.potential((0, -9, 0)))
+        >>> swing.simulate({}, (1.2,), (0,), [0, 1]).joint_force("hook", axes="joint").force[0].round(3)
+        array([0.   , 6.522, 0.   ])
+        """
+        return self.reactions.joint(name, axes)  # type: ignore[attr-defined]
 
     def evaluate(self, expression: sp.Expr) -> Array:
         """Evaluate an expression along the run.
