@@ -1,6 +1,6 @@
 """Robot files read by lagrotor against Pinocchio (URDF) and MuJoCo (MJCF): forward and inverse dynamics at random states.
 
-    python -m benchmarks.robot_files [--models FOLDER …] [NAME …]
+    python -m benchmarks.robot_files [--models FOLDER] [NAME …]
 
 The files are those of packages that ship models: example-robot-data and airo-models for URDF, dm_control and gymnasium for
 MJCF. They are sought in the folders of installed packages and in FOLDER. Each row of the table has the coordinates, the seconds
@@ -107,7 +107,7 @@ class Machine:
         begin = perf_counter()
         system = self.read = read()
         turned = {q for joint in system.ball_joints for q in joint.quaternion}
-        base = {q for name, own in system.joints.items() if len(own) > 1 for q in own}
+        base = {q for name, own in system.joint_coordinates.items() if len(own) > 1 for q in own}
         self.torques = {q: sp.Symbol(f"tau_{q}", real=True) for q in system.c.q if q not in base | turned}
         self.system = replace(system, forces=tuple(self.torques.get(q, sp.S.Zero) for q in system.c.q))
         self.set(dict.fromkeys(self.torques, 0.0))
@@ -139,8 +139,8 @@ def compare_urdf(name: str, path: Path, base: str) -> Row:
     data = model.createData()
     ready = perf_counter() - begin
     ids = {joint: model.getJointId(joint) for joint in list(model.names)[1 + len(root) :]}
-    assert {*ids} == {*list(system.joints)[len(root) :]}, f"{name}: other joints: {ids.keys() ^ {*system.joints}}"
-    q_of = {q: joint for joint, own in system.joints.items() for q in own}
+    assert {*ids} == {*list(system.joint_coordinates)[len(root) :]}, f"{name}: other joints: {ids.keys() ^ {*system.joint_coordinates}}"
+    q_of = {q: joint for joint, own in system.joint_coordinates.items() for q in own}
     first = 7 * len(root)
     order = [model.joints[ids[q_of[q]]].idx_v for q in system.c.q[first:]]
     random, forward, inverse = np.random.default_rng(1), [], []
@@ -170,18 +170,26 @@ def compare_urdf(name: str, path: Path, base: str) -> Row:
         a[order] = rate[at:]
         if at:
             a[:6] = [*(R.T @ rate[:3] - np.cross(v[3:6], v[:3])), *rate[3:6]]
-        acting = tau - damping_of(model) * v
+        acting = tau - np.asarray(model.damping) * v
         theirs = pin.aba(model, data, q, v, acting).copy()
-        reaction = np.zeros(model.nv)
         if len(G):
             M = pin.crba(model, data, q)
             M = np.triu(M) + np.triu(M, 1).T
             W = np.linalg.solve(M, G.T)
             lam = -np.linalg.solve(G @ W, G @ theirs)
-            theirs, reaction = theirs + W @ lam, G.T @ lam
+            theirs += W @ lam
         forward.append(np.abs(a - theirs).max() / np.abs(theirs).max())
-        back = pin.rnea(model, data, q, v, a) - reaction
-        inverse.append(np.abs(back - acting).max() / np.abs(pin.rnea(model, data, q, v, np.abs(a))).max())
+        chosen = random.uniform(-1, 1, len(rate))
+        a[order] = chosen[at:]
+        if at:
+            a[:6] = [*(R.T @ chosen[:3] - np.cross(v[3:6], v[:3])), *chosen[3:6]]
+        theirs = pin.rnea(model, data, q, v, a) + np.asarray(model.damping) * v
+        ours = machine.read.inverse_dynamics(y[:n], y[n:], chosen, machine.read.values)
+        back = np.zeros(model.nv)
+        back[order] = ours[at:]
+        if at:
+            back[:6] = [*(R.T @ ours[:3]), *ours[3:6]]
+        inverse.append(np.abs(back - theirs).max() / np.abs(theirs).max())
     state, rhs = list(y), machine.rhs
     each = lasting(lambda: rhs(0.0, state)), lasting(lambda: pin.aba(model, data, q, v, acting))
     return Row(name, n, (machine.ready, ready), each, max(forward), max(inverse))
@@ -204,12 +212,12 @@ def compare_mjcf(name: str, path: Path) -> Row:
     data = mj.MjData(model)
     assert model.nq == n and model.nv == len(system.speeds), f"{model.nq} and {model.nv} coordinates"
     names = [mj.mj_id2name(model, mj.mjtObj.mjOBJ_JOINT, i) for i in range(model.njnt)]
-    wanted = [str(joint) for joint in system.joints]
+    wanted = [str(joint) for joint in system.joint_coordinates]
     assert all(a in (b, None) for a, b in zip(names, wanted, strict=True)), f"{names} != {wanted}"
     speeds = [str(u) for u in system.speeds]
     at = {speed: i for i, speed in enumerate(speeds)}
     place: list[int] = []  # of the engine's velocity i among the speeds
-    for own in system.joints.values():
+    for own in system.joint_coordinates.values():
         if len(own) == 1:
             place.append(at[f"{own[0]}_dot"])
         else:
@@ -231,10 +239,11 @@ def compare_mjcf(name: str, path: Path) -> Row:
         theirs = np.empty(len(a))
         theirs[place] = data.qacc
         forward.append(np.abs(a - theirs).max() / np.abs(theirs).max())
-        data.qacc[:] = a[place]
+        chosen = random.uniform(-1, 1, len(speeds))
+        data.qacc[:] = chosen[place]
         mj.mj_inverse(model, data)
-        scale = np.abs(data.qfrc_bias).max() + np.abs(data.qfrc_passive).max() + np.abs(data.qfrc_inverse).max()
-        inverse.append(np.abs(data.qfrc_inverse - tau[place]).max() / scale)
+        ours = machine.read.inverse_dynamics(q, u, chosen, machine.read.values)
+        inverse.append(np.abs(data.qfrc_inverse - ours[place]).max() / np.abs(ours).max())
     rhs = machine.rhs
     each = lasting(lambda: rhs(0.0, y)), lasting(lambda: mj.mj_forward(model, data))
     return Row(name, n, (machine.ready, ready), each, max(forward), max(inverse))
@@ -273,10 +282,6 @@ def onto(system: Any, y: np.ndarray, first: int, at: int) -> None:
         y[n + at + joints.index(q) - first] = np.dot(slopes, y[n + at :])
 
 
-def damping_of(model: Any) -> np.ndarray:
-    return np.asarray(model.damping)
-
-
 def exact_lines(path: Path, notes: tuple[str, ...]) -> Iterator[str]:
     """Return the lines of a file, in which angles that lagrotor reads as multiples of π have 17 digits."""
     changed: dict[int, list[tuple[str, str]]] = {}
@@ -304,7 +309,7 @@ def find(relative: str, folders: list[Path]) -> Path | None:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("names", nargs="*")
-    parser.add_argument("--models", nargs="*", type=Path, default=[])
+    parser.add_argument("--models", action="append", type=Path, default=[], metavar="FOLDER")
     options = parser.parse_args()
     folders = [*options.models, *map(Path, sys.path)]
     head = f"{'file':<28} {'q':>4} {'ready [s]':>19} {'forward dynamics [µs]':>19}   forward  inverse"

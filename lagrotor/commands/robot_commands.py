@@ -67,7 +67,7 @@ def _sections(system: "RobotSystem") -> list[Section]:
     from lagrotor.mechanics.expressions import longer
     from lagrotor.mechanics.glossary import formulas, in_decimals, latex
 
-    names = (f"{joint}: {', '.join(map(str, own))}" for joint, own in system.joints.items())
+    names = (f"{joint}: {', '.join(map(str, own))}" for joint, own in system.joint_coordinates.items())
     sections: list[Section] = [("Joints and their coordinates", [], list(names))]
     n = len(system.c.q)
     if n > _MOST_COORDINATES or longer(system.L, _MOST_OPERATIONS):

@@ -113,7 +113,7 @@ class RobotSystem(System):
         The coordinates in the position that the file describes, by name.
     links : mapping
         The frames of the links by the names of the file, for forces, points and constraints.
-    joints : mapping
+    joint_coordinates : mapping
         The coordinates of each joint by the names of the file.
     not_read : tuple of str
         The parts of the file that are left out, in words: meshes, contacts, actuators, limits.
@@ -136,7 +136,7 @@ class RobotSystem(System):
     values: Mapping[sp.Symbol, float] = field(default_factory=dict, compare=False)
     start: Mapping[str, float] = field(default_factory=dict, compare=False)
     links: Mapping[str, Frame] = field(default_factory=dict, compare=False)
-    joints: Mapping[str, tuple[sp.Symbol, ...]] = field(default_factory=dict, compare=False)
+    joint_coordinates: Mapping[str, tuple[sp.Symbol, ...]] = field(default_factory=dict, compare=False)
     not_read: tuple[str, ...] = field(default=(), compare=False)
     notes: tuple[str, ...] = field(default=(), compare=False)
 
@@ -250,7 +250,7 @@ def system_of(described: Description, symbols: Symbols) -> RobotSystem:
     system = RobotSystem(
         c, L, constraints, dissipation=dissipation, values=numbers.values, start=start,
         links={link.name: frame for link, frame in zip(described.links, frames, strict=True)},
-        joints={name: tuple(c[q] for q in own) for name, own in listed.items()},
+        joint_coordinates={name: tuple(c[q] for q in own) for name, own in listed.items()},
         not_read=described.not_read, notes=(*described.notes, *merged, *names.notes),
     )  # fmt: skip
     return system
