@@ -15,6 +15,7 @@ from typing import Any
 from lagrotor.about import __version__
 from lagrotor.commands.benchmark_commands import add_benchmark_commands
 from lagrotor.commands.paper_commands import add_paper_commands
+from lagrotor.commands.robot_commands import add_robot_commands
 from lagrotor.commands.scene_commands import add_scene_commands, add_structure_commands
 from lagrotor.commands.terminal import Parser, say
 from lagrotor.errors import LagrotorError
@@ -102,5 +103,6 @@ def _parser() -> argparse.ArgumentParser:
     add_paper_commands(command)
     add_scene_commands(command)
     add_structure_commands(command)
+    add_robot_commands(command)
     add_benchmark_commands(command)
     return parser

@@ -11,6 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from lagrotor.commands.robot_commands import add_robot, simulate_robot
 from lagrotor.commands.terminal import Command, add_json, check_folder, print_json, progress, table
 from lagrotor.errors import InputError
 from lagrotor.files import FILMS, PICTURES, read_text
@@ -240,7 +241,7 @@ def add_scene_commands(command: Command) -> None:
         command(
             "simulate",
             simulate_command,
-            "simulate a rotor pair; save or show the motion",
+            "simulate a rotor pair, or the robot of a URDF or MJCF file; save or show the motion",
             "lagrotor simulate --spins 10 -10 --shock 40 -11 0 --shock-time 2 --shock-width 0.05 --t-end 10 --out run.npz",
         )
     )
@@ -273,6 +274,11 @@ def add_scene_commands(command: Command) -> None:
 
 
 def _add_simulate(added: argparse.ArgumentParser) -> None:
+    says = "a URDF or MJCF file in place of the options of a scene"
+    added.add_argument("file", nargs="?", type=Path, metavar="FILE", help=says)
+    says = "initial coordinates and velocities of a file, such as elbow=0.5 elbow_dot=1 (default: at rest as the file says)"
+    added.add_argument("--start", nargs="+", metavar="NAME=X", help=says)
+    add_robot(added)
     add_scene(added)
     add_shock(added)
     says = "start on the paired precession of this amplitude (opposite spins)"
@@ -325,6 +331,25 @@ def simulate_command(options: argparse.Namespace) -> int:
         from lagrotor.drawing.film import check_film
 
         check_film(options.out, options.t_end, _FPS)
+    if options.file:
+        of_scene = (
+            "spins",
+            "link_mass",
+            "link_inertia",
+            "scene",
+            "shock",
+            "shock_time",
+            "shock_width",
+            "paired",
+            "write_scene",
+        )
+        if given := [name for name in of_scene if vars(options)[name] is not None]:
+            raise InputError(
+                f"--{given[0].replace('_', '-')} belongs to a scene, and {options.file} is none: leave it out"
+            )
+        return simulate_robot(options)
+    if options.start or options.base != "fixed":
+        raise InputError("--start and --base belong to a robot file: name the file, lagrotor simulate arm.urdf")
     scene = _scene_with_start(scene_from_options(options), options)
 
     import numpy as np

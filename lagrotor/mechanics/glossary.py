@@ -178,19 +178,20 @@ def multiplier_latex(letter: str, name: str) -> str:
     return rf"\{letter}_{{{name}}}" if name.isdigit() else rf"\{letter}_{{\mathrm{{{upright}}}}}"
 
 
+_DIGITS = 6  # of a printed decimal fraction
 _MOST_COORDINATES, _MOST_OPERATIONS = 6, 400  # the largest system and formula that are printed
 
 
-def formulas(system: Equations) -> dict[str, list[str]]:
+def formulas(system: Equations, most: int = _MOST_OPERATIONS) -> dict[str, list[str]]:
     """Return {heading: lines of LaTeX}: energies, dissipation, equations of motion, constraints, conserved quantities.
 
-    The relation q' = B u + b to quasi-velocities, if short, precedes the Boltzmann–Hamel equations. A long formula is
-    replaced by the number of its operations.
+    The relation q' = B u + b to quasi-velocities, if short, precedes the Boltzmann–Hamel equations. A formula of more than
+    `most` operations is replaced by the number of its operations.
     """
     c = system.c
     if system.bodies and len(c.q) > _MOST_COORDINATES:
         return {"Bodies": [rf"{len(system.bodies)}\ \text{{bodies in {len(c.q)} coordinates}}"]}
-    short = not longer(system.L, _MOST_OPERATIONS)
+    short = not longer(system.L, most)
     relation = system.kinematics if short else None
     velocities = dict(zip(c.v, relation.velocity, strict=True)) if relation and not relation.stages else {}
     rates = tuple(dict.fromkeys((*c.a, *system.speed_rates)))
@@ -200,7 +201,7 @@ def formulas(system: Equations) -> dict[str, list[str]]:
     }
 
     def line(side: sp.Expr | str, right: sp.Expr = sp.S.Zero) -> str:
-        return " = ".join(e if isinstance(e, str) else _side(e, rates, multipliers) for e in (side, right))
+        return " = ".join(e if isinstance(e, str) else _side(e, rates, multipliers, most) for e in (side, right))
 
     still = system.L.subs(dict.fromkeys(c.v, 0))
     kinetic = sp.expand(system.L - still) if short else system.L - still
@@ -249,10 +250,10 @@ def in_latex(system: Equations) -> str:
     return f"\\begin{{align}}\n{rows}\n\\end{{align}}"
 
 
-def _side(e: sp.Expr, rates: tuple[sp.Symbol, ...], multipliers: dict[sp.Symbol, str]) -> str:
+def _side(e: sp.Expr, rates: tuple[sp.Symbol, ...], multipliers: dict[sp.Symbol, str], most: int) -> str:
     """Return LaTeX of one side of a formula, each acceleration before its coefficient."""
     count = sp.count_ops(e)
-    if count > _MOST_OPERATIONS:
+    if count > most:
         return rf"\text{{{count:,} operations}}"
     e = shortest(e)
     names = {jet: sp.Dummy() for jet in jets_of(e)}
@@ -264,10 +265,16 @@ def _side(e: sp.Expr, rates: tuple[sp.Symbol, ...], multipliers: dict[sp.Symbol,
         remainder = sp.expand(e - sp.Add(*inertial))
         terms = [*(a * shortest(e.coeff(a)) for a in accelerated), remainder]
     names_of = {dummy: _function(jet) for jet, dummy in names.items()} | multipliers
-    formulas = [latex(term, names_of) for term in terms if term != 0] or ["0"]
+    formulas = [latex(in_decimals(term), names_of) for term in terms if term != 0] or ["0"]
     return formulas[0] + "".join(
         f" {formula}" if formula.startswith("-") else f" + {formula}" for formula in formulas[1:]
     )
+
+
+def in_decimals(e: sp.Expr) -> sp.Expr:
+    """Return an expression with finite decimal fractions, and fractions of long numbers, as decimals of six digits."""
+    long = (r for r in e.atoms(sp.Rational) if r.q >= 100 and (10**_DIGITS % r.q == 0 or r.q > 10**_DIGITS))
+    return e.xreplace({r: sp.Float(r, _DIGITS) for r in long})
 
 
 def _function(jet: sp.Expr) -> str:

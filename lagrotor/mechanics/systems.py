@@ -21,9 +21,11 @@ from lagrotor.result_display import in_lines
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from pathlib import Path
 
     from numpy.typing import ArrayLike
 
+    from lagrotor.mechanics.robot_files.description import RobotSystem, Symbols
     from lagrotor.mechanics.running.flow import Array, Rhs, Values
     from lagrotor.mechanics.running.monodromy import MonodromyMatrix
     from lagrotor.mechanics.running.root_loci import RootLocus, StabilityChart
@@ -102,6 +104,92 @@ class System(Equations):
         x + x_ddot
         """
         return System(**parts_from_sympy(source, q))
+
+    @staticmethod
+    def from_urdf(path: "str | Path", symbols: "Symbols" = "inertia", base: str = "fixed") -> "RobotSystem":
+        """Return the system of a robot in a URDF file.
+
+        Decimals become exact rationals, and an angle such as 1.5707963 becomes π/2; `notes` of the result says where. Joint
+        damping becomes dissipation, and a mimic joint a constraint. Meshes, limits and dry friction are listed in
+        `not_read`. Gravity is 9.81 m/s² along −z.
+
+        Parameters
+        ----------
+        path : str or Path
+            The URDF file.
+        symbols : {"inertia", "all", "none"}, default 'inertia'
+            "inertia": masses, centres, inertias and g are symbols, and `values` has their numbers. "all": lengths and
+            dampings, too. "none": numbers alone. A zero stays a zero.
+        base : {"fixed", "floating"}, default 'fixed'
+            Whether the root link is fixed to the ground or free.
+
+        Returns
+        -------
+        RobotSystem
+            The system, with the coordinates of the joints by the file's names.
+
+        Raises
+        ------
+        InputError
+            If the file is no valid URDF; the message names file, line, element and reason.
+
+        Examples
+        --------
+        >>> from pathlib import Path
+        >>> from tempfile import mkdtemp
+        >>> path = Path(mkdtemp(), "cart.urdf")
+        >>> _ = path.write_text('''<robot name="cart"><link name="rail"/><link name="cart"><inertial><mass value="2"/>
+        ... <inertia ixx="1" iyy="1" izz="1"/></inertial></link><joint name="x" type="prismatic"><parent link="rail"/>
+        ... <child link="cart"/><axis xyz="1 0 0"/><dynamics damping="3"/></joint></robot>''')
+        >>> cart = System.from_urdf(path)
+        >>> cart.accelerations, cart.values[cart.lagrangian.bodies[0].mass]
+        (Matrix([[-3*x_dot/m_cart]]), 2.0)
+        """
+        from lagrotor.mechanics.robot_files.description import system_of
+        from lagrotor.mechanics.robot_files.urdf import read_urdf
+
+        return system_of(read_urdf(path, base), symbols)
+
+    @staticmethod
+    def from_mjcf(path: "str | Path", symbols: "Symbols" = "inertia") -> "RobotSystem":
+        """Return the system of a machine in an MJCF file of MuJoCo.
+
+        Inertias without <inertial> are those of the geoms. Damping, springs and armatures of joints are read, and equality
+        constraints hold exactly. Meshes, contacts, actuators and limits are listed in `not_read`. Files that are included
+        must lie in the folder of the file.
+
+        Parameters
+        ----------
+        path : str or Path
+            The MJCF file.
+        symbols : {"inertia", "all", "none"}, default 'inertia'
+            "inertia": masses, centres, inertias and g are symbols, and `values` has their numbers. "all": lengths,
+            dampings, stiffnesses and armatures, too. "none": numbers alone. A zero stays a zero.
+
+        Returns
+        -------
+        RobotSystem
+            The system, with the coordinates of the joints by the file's names.
+
+        Raises
+        ------
+        InputError
+            If the file is no valid MJCF; the message names file, line, element and reason.
+
+        Examples
+        --------
+        >>> from pathlib import Path
+        >>> from tempfile import mkdtemp
+        >>> path = Path(mkdtemp(), "mass.xml")
+        >>> _ = path.write_text('''<mujoco><worldbody><body name="mass"><joint name="z" type="slide" stiffness="8"/>
+        ... <geom type="box" size="1 1 1" mass="2"/></body></worldbody></mujoco>''')
+        >>> System.from_mjcf(path, symbols="none").motion[0]
+        8*z + 2*z_ddot + 981/50
+        """
+        from lagrotor.mechanics.robot_files.description import system_of
+        from lagrotor.mechanics.robot_files.mjcf import read_mjcf
+
+        return system_of(read_mjcf(path), symbols)
 
     @property
     def cyclic(self) -> tuple[sp.Symbol, ...]:

@@ -10,9 +10,9 @@ The second pass goes inward. Each link gets the inertia I of all that it carries
     [N]   [J   H] [α]
     [F] = [Hᵀ  M] [a],
 
-and each coordinate of its joint, with the column s, reduces it to I − U Uᵀ/D with U = I s, D = s·U. The result is turned and
-shifted to the parent's axes and origin. The third pass goes outward and gives q''. With several columns of joint forces τ the
-same factors give M⁻¹ τ for each, which the constraints need.
+and each coordinate of its joint, with the column s and an inertia J of its own, reduces it to I − U Uᵀ/D with U = I s and
+D = s·U + J. The result is turned and shifted to the parent's axes and origin. The third pass goes outward and gives q''.
+With several columns of joint forces τ the same factors give M⁻¹ τ for each, which the constraints need.
 
 Featherstone, Rigid Body Dynamics Algorithms (2008), ch. 7; Luh, Walker & Paul (1980) for the accelerations.
 """
@@ -140,6 +140,7 @@ def tree_energy(tree: Tree, chain: Sequence[Joint], speeds: Sequence[sp.Symbol],
     """
     still = dict.fromkeys(speeds, 0)
     total, motions, fields, depths = -tree.remainder.subs(still), list[Small](), list[Small](), list[sp.Expr]()
+    total += sp.Add(*(J * u**2 / 2 for u, J in tree.rotors.items()))
     for joint in chain:
         parent = joint.link.parent
         carried = motions[parent] if parent >= 0 else zeros(6, 2)
@@ -173,7 +174,7 @@ class Factor:
 
 
 def tree_accelerations(
-    chain: Sequence[Joint], speeds: Sequence[sp.Symbol], torques: Sequence[Column], keep: Stages
+    tree: Tree, chain: Sequence[Joint], speeds: Sequence[sp.Symbol], torques: Sequence[Column], keep: Stages
 ) -> list[Column]:
     """Compute M⁻¹ (τ − h) for the first column of joint forces, and M⁻¹ τ for the others.
 
@@ -187,7 +188,7 @@ def tree_accelerations(
         factors.append([])
         for number, s in zip(joint.link.coordinates, joint.columns, strict=True):
             U = keep.each(I * s)
-            D = keep(s.dot(U))
+            D = keep(s.dot(U) + tree.rotors.get(speeds[number], sp.S.Zero))
             if D == 0:
                 raise SingularError(
                     f"System: the mass matrix is singular: {speeds[number]} moves no mass; use fewer coordinates, or give the "
@@ -196,14 +197,17 @@ def tree_accelerations(
             inverse, axes = keep(1 / D), [k for k in range(6) if s[k] != 0]
             E = keep.each(U * inverse)
             x = [keep(keep(tau[number] - s.dot(f)) * inverse) for tau, f in zip(torques, forces[i], strict=True)]
-            if len(axes) == 1:  # s·E = 1: no division remains
+            direct = (
+                len(axes) == 1 and speeds[number] not in tree.rotors
+            )  # then s·E = 1, and along s the inertia vanishes
+            if direct:  # no division remains
                 E.rows[axes[0]][0] = 1 / s[axes[0]]
             factors[-1].append(Factor(number, s, E, x))
             if parent < 0 and s is joint.columns[-1]:
                 break
             I = I - U * E.T
             forces[i] = [keep.each(f + U * e) for f, e in zip(forces[i], x, strict=True)]
-            if len(axes) == 1:  # along s the inertia vanishes, and the force is τ
+            if direct:  # the force is τ
                 for k in range(6):
                     I.rows[axes[0]][k] = I.rows[k][axes[0]] = sp.S.Zero
                 for f, tau in zip(forces[i], torques, strict=True):

@@ -69,19 +69,22 @@ class TreeLink:
 
 @dataclass(frozen=True)
 class Tree:
-    """The links, parents first; the field (3, 1) on all bodies; the terms of L without bodies, at most linear in v."""
+    """The links, parents first; the field (3, 1) on all bodies; the terms of L without bodies.
+
+    `rotors` has the inertia of each speed that these terms add to its own mass, ½ J v², without a coupling.
+    """
 
     links: tuple[TreeLink, ...]
     field: sp.Matrix
     remainder: sp.Expr
+    rotors: dict[sp.Symbol, sp.Expr]
 
 
 def tree_of(system: Equations) -> Tree | None:
-    """Return the tree if L is T of bodies minus their potentials in one field, plus terms at most linear in v; else None."""
+    """Return the tree if L is T of bodies minus their potentials in one field, plus terms at most linear in v and constant
+    inertias of single speeds; else None."""
     L = system.lagrangian
-    if not isinstance(L, Energy):
-        return None
-    if L.remainder.free_symbols & {*system.c.v} and mass_matrix(L.remainder, system.c).is_zero_matrix is not True:
+    if not isinstance(L, Energy) or (rotors := _rotors(system, L.remainder)) is None:
         return None
     kinetic = [body for body, field, factor in L.terms if field is None and factor == 1]
     fallen = [(body, field) for body, field, factor in L.terms if field is not None and factor == -1]
@@ -93,7 +96,18 @@ def tree_of(system: Equations) -> Tree | None:
     if links is None:
         return None
     field = sp.Matrix(next(iter(fields))) if fields else sp.zeros(3, 1)
-    return None if field.free_symbols & {*system.c.q, *system.c.v} else Tree(links, field, L.remainder)
+    return None if field.free_symbols & {*system.c.q, *system.c.v} else Tree(links, field, L.remainder, rotors)
+
+
+def _rotors(system: Equations, remainder: sp.Expr) -> dict[sp.Symbol, sp.Expr] | None:
+    """Return the constant inertias of single speeds in an expression; None if it has another quadratic form in v."""
+    if not remainder.free_symbols & {*system.c.v}:
+        return {}
+    M = mass_matrix(remainder, system.c)
+    if not M.is_diagonal() or M.free_symbols & {*system.c.q, *system.c.v, t}:
+        return None
+    inertias = {v: M[i, i] for i, v in enumerate(system.c.v) if M[i, i] != 0}
+    return inertias if inertias.keys() <= {*system.speeds} else None
 
 
 def rest_forces(tree: Tree, c: Coordinates) -> sp.Matrix:

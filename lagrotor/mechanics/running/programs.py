@@ -350,7 +350,7 @@ def tree_motion(system: Equations) -> tuple[list[Stage], sp.Matrix] | None:
     push, by_reaction = push_left(system, push if kinematics is None else kinematics.B.T * push)
     columns = [list(push), *((G.T + by_reaction).col(i).flat() for i in range(G.rows))]
     try:
-        solved = sp.Matrix(tree_accelerations(joints(tree, keep), system.speeds, columns, keep)).T
+        solved = sp.Matrix(tree_accelerations(tree, joints(tree, keep), system.speeds, columns, keep)).T
         return [*velocity_stages(system), *keep.made], solved
     except SingularError:
         if not G.rows:
