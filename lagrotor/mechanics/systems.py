@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.running.simulation import SystemRun
     from lagrotor.mechanics.running.switches import Event, Impact
     from lagrotor.numerics.integrate import Engine
+    from lagrotor.numerics.languages import LanguageName
 
     Start = ArrayLike | Mapping[Any, float]
 
@@ -1037,6 +1038,53 @@ class System(Equations):
         self, values = function_values.put_functions("rhs", self, values)
         initial_state.check_values("rhs", self, values)
         return flow.rhs(self, values, engine)
+
+    def export(self, language: "LanguageName", folder: "str | Path", name: str = "system") -> "tuple[Path, ...]":
+        """Write the equations as functions of another language, for other tools.
+
+        The functions are rhs, mass_matrix, forcing, inverse_dynamics, energy, joint_forces and jacobian, the last by exact
+        differentiation. They take the time t, the state x = (q, u) and the parameters p, and compute what `rhs` and
+        `inverse_dynamics` compute. `name.json` has the order of states, parameters and outputs, with their units. Constraints
+        hold for accelerations; an integrator drifts from them, which `simulate` prevents.
+
+        Parameters
+        ----------
+        language : {"c", "casadi", "jax", "julia", "matlab"}
+            The language. Octave reads the files of MATLAB.
+        folder : str or Path
+            The folder, which is made if it is missing.
+        name : str, default 'system'
+            The first part of the names of files and functions.
+
+        Returns
+        -------
+        tuple of Path
+            The files.
+
+        Raises
+        ------
+        InputError
+            If dry friction acts, a force contains a reaction, or a function has no expression; if a file of that name exists
+            that lagrotor did not write, or that belongs to another system.
+
+        Warns
+        -----
+        LagrotorWarning
+            If the forces in the joints are left out, with the reason.
+
+        Examples
+        --------
+        >>> from tempfile import mkdtemp
+        >>> from sympy import cos, symbols
+        >>> from lagrotor.mechanics import coordinates
+        >>> (l, g), c = symbols("l g", positive=True), coordinates("theta")
+        >>> pendulum = System(c, l**2 * c.theta_dot**2 / 2 + g * l * cos(c.theta))
+        >>> [file.name for file in pendulum.export("c", mkdtemp(), "pendulum")]
+        ['pendulum.h', 'pendulum.c', 'pendulum.json']
+        """
+        from lagrotor.mechanics.running import exports
+
+        return exports.export(self, language, folder, name)
 
     def simulate(
         self,

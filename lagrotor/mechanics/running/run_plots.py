@@ -15,13 +15,12 @@ from lagrotor.mechanics.expressions import vector_of
 from lagrotor.mechanics.glossary import latex, letter_latex
 from lagrotor.mechanics.running.flow import Array
 from lagrotor.mechanics.running.motion import SampledMotion
+from lagrotor.mechanics.units import units_of
 from lagrotor.numerics.run import check_nonempty
 
 if TYPE_CHECKING:
     from lagrotor.drawing.run_figure import RunFigure
     from lagrotor.drawing.view import View
-    from lagrotor.mechanics.bodies.moving_frames import MovingFrame
-    from lagrotor.mechanics.equations import Equations
 
 Point = Sequence[sp.Expr]
 _WIDE = 18  # characters of a name beside a panel in one line
@@ -36,8 +35,7 @@ def plot(run: SampledMotion, *quantities: Any) -> "RunFigure":
 
     check_nonempty("plot", run.t)
     if not quantities:
-        units = _units(run.system)
-        labels = {f"${letter_latex(q)}${units.get(q, '')}": run.q[:, i] for i, q in enumerate(run.system.c.q)}
+        labels = {_label(run, q): run.q[:, i] for i, q in enumerate(run.system.c.q)}
         return coordinates_figure(run.t, labels, run.energy, run.drift)
     curves = (_curve(run, quantity) for quantity in quantities)
     return curves_figure(run.t, {label.replace(r"\&", "&"): values for label, values in curves})  # matplotlib's escape
@@ -50,7 +48,7 @@ def _curve(run: SampledMotion, what: Any) -> tuple[str, Array]:
     moving = dict(zip(map(str, letters), (*run.q.T, *run.v.T, *run.u.T), strict=True))
     if name in moving:
         letter = next(s for s in letters if str(s) == name)
-        return f"${letter_latex(letter)}${_units(run.system).get(letter, '')}", moving[name]
+        return _label(run, letter), moving[name]
     if name in ("E", "energy"):
         return "$E$ (J)", run.energy
     if isinstance(what, str) and name in run.system.names:
@@ -67,21 +65,9 @@ def _curve(run: SampledMotion, what: Any) -> tuple[str, Array]:
     return f"${latex(expression.xreplace(rounded))}$", run.evaluate(what)
 
 
-def _units(system: "Equations") -> dict[sp.Symbol, str]:
-    """Return the units of the angles and of their velocities; the units of other coordinates are not known.
-
-    A coordinate is an angle if its multiple stands in a sine or cosine of L, of a constraint or of a frame's rotation.
-    """
-    given = [*((system.L,) if not system.bodies else ()), *system.constraints, *system.rolling]
-    for body in system.bodies:
-        frame: MovingFrame | None = body.frame
-        while frame is not None and frame.parent is not None:
-            given += frame.rotation
-            frame = frame.parent
-    arguments = [node.args[0] for node in set().union(*(e.atoms(sp.sin, sp.cos) for e in given))]
-    angles = [q for q in system.c.q if any(u.has(q) and u.diff(q).is_Number for u in arguments)]
-    rates = [v for q, v in zip(system.c.q, system.c.v, strict=True) if q in angles]
-    return dict.fromkeys(angles, " (rad)") | dict.fromkeys(rates, " (rad/s)")
+def _label(run: SampledMotion, letter: sp.Symbol) -> str:
+    unit = units_of(run.system).get(letter)
+    return f"${letter_latex(letter)}$" + (f" ({unit})" if unit else "")
 
 
 def view(run: SampledMotion, lines: Sequence[Sequence[Point]] = ()) -> "View":
