@@ -21,7 +21,8 @@ from lagrotor.numerics.codegen import Program, reduce_common
 LanguageName = Literal["c", "casadi", "jax", "julia", "matlab"]
 _MOST_FACTORS = 8  # of a power that is written as a product
 _LONGEST_NAME = 50  # characters; MATLAB allows 63
-_PLAIN = "sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh exp log sqrt floor sign".split()
+_CIRCULAR = ("sin", "cos", "tan", "sinh", "cosh", "tanh")
+_PLAIN = (*_CIRCULAR, *(f"a{name}" for name in _CIRCULAR), "exp", "log", "sqrt", "floor", "sign")
 
 
 def _named(prefix: str, **others: str) -> dict[str, str]:
@@ -48,7 +49,7 @@ _CASADI = Language(_named("ca.", Abs="fabs", Max="fmax", Min="fmin"), "({})**({}
 _JAX = Language(
     _named(
         "jnp.",
-        **{f"a{name}": f"arc{name}" for name in "sin cos tan sinh cosh tanh".split()},
+        **{f"a{name}": f"arc{name}" for name in _CIRCULAR},
         atan2="arctan2",
         Abs="abs",
         Max="maximum",
@@ -71,20 +72,21 @@ _REWRITTEN: dict[type, Callable[..., sp.Expr]] = {
     sp.DiracDelta: lambda x: sp.S.Zero,  # the slope of a sign beside its jump
 }
 
-_RESERVED = {
-    *keyword.kwlist,
-    *"auto break case char const continue default do double else enum extern float for goto if inline int long register "
-    "restrict return short signed sizeof static struct switch typedef union unsigned void volatile while".split(),  # C
-    *"alignas alignof and and_eq asm bitand bitor bool catch char16_t char32_t class compl concept constexpr const_cast "
-    "decltype delete dynamic_cast explicit export false friend mutable namespace new noexcept not not_eq nullptr operator "
-    "or or_eq private protected public reinterpret_cast requires static_assert static_cast template this thread_local throw "
-    "true try typeid typename using virtual wchar_t xor xor_eq linux unix".split(),  # C++, and what compilers define
-    *"abstract baremodule begin const do elseif end export finally function global import in isa let local macro module "
-    "mutable outer primitive quote struct type using where pi im".split(),  # Julia
-    *"case classdef end endfunction endif endfor endwhile endswitch function global otherwise parfor persistent spmd until "
-    "unwind_protect end_try_catch end_unwind_protect ans eps reshape zeros".split(),  # MATLAB, Octave
-    *"ca jnp jax float eye math t x p a d out i j column SIGN NAN INFINITY DOMAIN SING OVERFLOW UNDERFLOW".split(),
-}
+# Keywords of C, of C++ with what compilers define, of Julia, of MATLAB and Octave; then names in the files.
+_WORDS = """
+auto break case char const continue default do double else enum extern float for goto if inline int long register restrict
+return short signed sizeof static struct switch typedef union unsigned void volatile while
+alignas alignof and and_eq asm bitand bitor bool catch char16_t char32_t class compl concept constexpr const_cast decltype
+delete dynamic_cast explicit export false friend mutable namespace new noexcept not not_eq nullptr operator or or_eq private
+protected public reinterpret_cast requires static_assert static_cast template this thread_local throw true try typeid typename
+typeof using virtual wchar_t xor xor_eq linux unix
+abstract baremodule begin elseif end finally function global import in isa let local macro module outer primitive quote type
+where pi im
+classdef endfunction endif endfor endwhile endswitch otherwise parfor persistent spmd until unwind_protect end_try_catch
+end_unwind_protect ans eps reshape zeros
+ca jnp jax eye math pow fabs fmax fmin abs max min ceil atan2 t x p a d i j column SIGN NAN INFINITY DOMAIN SING OVERFLOW UNDERFLOW
+"""
+_RESERVED = {*keyword.kwlist, *_WORDS.split(), *_PLAIN}
 
 
 @dataclass(frozen=True)

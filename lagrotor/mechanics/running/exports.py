@@ -1,7 +1,6 @@
 """Systems as functions of other languages, with a description in JSON: `System.export`.
 
-Each function is the program that `simulate` or a property of System evaluates in numbers; `numerics.languages` writes it. The state
-x holds q, u and the first-order states, and u' satisfies
+Each function is a program that lagrotor itself evaluates; `numerics.languages` writes it. The state x is (q, u), and u' satisfies
 
     M u' = forcing + Gᵀ λ,        inverse_dynamics = M u' − forcing.
 """
@@ -156,9 +155,9 @@ def _module(system: Equations, programs: Mapping[str, Generated], name: str) -> 
         },
         "digest": digest,
     }
-    says = {s: f"{s} ({units[s]})" if s in units else str(s) for s in (*x, *p)}
+    explained: dict[Any, str] = {s: f"{s} ({units[s]})" if s in units else str(s) for s in (*x, *p)}
     origin = f"{_ORIGIN} {__version__} from a system with the digest {digest}."
-    return Module(name, tuple(functions), places, origin, says), about
+    return Module(name, tuple(functions), places, origin, explained), about
 
 
 Rows = list[dict[str, Any]]

@@ -1,0 +1,375 @@
+"""Exported functions, run by the tools of each language: they give the numbers of `System.rhs` and of the other properties.
+
+Where a tool is missing, its test is skipped. Without Julia a small evaluator reads the text: it knows assignments, loops and
+arithmetic, which is all that the files contain, but it is no Julia.
+"""
+
+import ctypes
+import importlib.util
+import json
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import sympy as sp
+
+from lagrotor.errors import InputError, LagrotorWarning
+from lagrotor.mechanics import Frame, System, coordinates, reaction, t
+from tests.systems import VALUES, ball_top, cart_and_pole, g, l, m, pendulum, rolling_disc
+
+Numbers = dict[str, np.ndarray]
+_STATES = 3
+FUNCTIONS = ("rhs", "mass_matrix", "forcing", "inverse_dynamics", "energy", "joint_forces", "jacobian")
+
+
+def cart_with_two_rods() -> System:
+    c = coordinates("z alpha beta")
+    cart = Frame(c).prismatic("z", "x", name="rail")
+    first = cart.pin("alpha", "z", name="first")
+    second = first.moved(0, -l).pin("beta", "z", name="second")
+    bodies = [cart.body(m), first.body(m, (0, 0, m * l**2), (0, -l, 0)), second.body(m, centre=(0, -l / 2, 0))]
+    return System(c, sum(b.kinetic - b.potential((0, -g, 0)) for b in bodies))
+
+
+def four_bar() -> System:
+    c = coordinates("a b e")
+    ends = Frame(c)
+    first = ends.pin("a", "z").moved(0, 1)
+    second = first.pin("b", "z").moved(1, 0)
+    third = ends.moved(1, 0).pin("e", "z").moved(0, 1)
+    bodies = [f.body(m, (0, 0, m), (0, -sp.Rational(1, 2), 0)) for f in (first, second, third)]
+    L = sum(b.kinetic - b.potential((0, -g, 0)) for b in bodies)
+    return System(c, L, constraints=second.coincides(third, name="loop")[:2])
+
+
+def driven() -> System:
+    F, Omega, d = sp.symbols("F Omega d", positive=True)
+    system = cart_and_pole(F * sp.cos(Omega * t))
+    return replace(system, dissipation=d * system.c.v[1] ** 2 / 2)
+
+
+def quasi_disc() -> System:
+    system, wheel = rolling_disc()
+    return replace(system, velocities=dict(zip(sp.symbols("p q r", real=True), wheel.angular_velocity, strict=True)))
+
+
+def odd_functions() -> System:
+    """Return a system with every kind of function, powers, and names that no language would take."""
+    c = coordinates("x dx")
+    names = "lambda end function t_ double π v+1 v_1 M_PI s0 jnp"
+    bad = [sp.Symbol(name, positive=True) for name in names.split()]
+    x, y = c.q
+    V = bad[0] * sp.sech(x) + bad[1] * sp.Abs(x) ** sp.Rational(5, 2) + bad[2] * sp.atan2(y, 2 + x**2) + sp.exp(-x * bad[3])
+    V += bad[4] * sp.sqrt(1 + x**2) + bad[5] * y**2 / (1 + y**6) + sp.log(2 + sp.cos(x)) * sp.pi + sp.tanh(y * bad[6])
+    V += bad[7] * sp.Max(x, y, 1) ** 2 + bad[8] * (2 + x) ** bad[9] + sp.asinh(x * y) + x**11 / 3 + bad[10] * sp.tan(y / 4)
+    return System(c, (c.v[0] ** 2 + bad[0] * c.v[1] ** 2 * (2 + sp.sin(x))) / 2 - V, forces=(-c.v[0] * sp.Abs(c.v[0]), 0))
+
+
+def arm_of_seven_axes(folder: Path) -> System:
+    links = "".join(
+        f'<link name="l{i}"><inertial><origin xyz="0.0{i} -0.02 0.1" rpy="0.1 0.2 0.{i}"/><mass value="{4 - i * 0.4:.1f}"/>'
+        f'<inertia ixx="0.03" iyy="0.03" izz="0.02" ixy="0.001" ixz="0" iyz="-0.002"/></inertial></link>'
+        f'<joint name="joint_{i}" type="revolute"><parent link="l{i - 1}"/><child link="l{i}"/><axis xyz="0 0 1"/>'
+        f'<origin xyz="0 0.1 0.2" rpy="{(-1) ** i * 1.5707963} 0 0"/><dynamics damping="0.5"/></joint>'
+        for i in range(1, 8)
+    )
+    path = folder / "arm.urdf"
+    path.write_text(f'<robot name="arm"><link name="l0"/>{links}</robot>')
+    return System.from_urdf(path)
+
+
+@pytest.fixture(scope="module")
+def gallery(tmp_path_factory: pytest.TempPathFactory) -> dict[str, System]:
+    return {
+        "pendulum": pendulum(),
+        "cart": cart_with_two_rods(),
+        "top": ball_top(),
+        "disc": quasi_disc(),
+        "loop": four_bar(),
+        "driven": driven(),
+        "odd": odd_functions(),
+        "arm": arm_of_seven_axes(tmp_path_factory.mktemp("urdf")),
+    }
+
+
+Calls = dict[str, list[tuple[float, np.ndarray, np.ndarray, np.ndarray]]]
+
+
+@pytest.fixture(scope="module")
+def about(gallery: dict[str, System], tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
+    """The description of each system."""
+    folder = tmp_path_factory.mktemp("about")
+    return {name: json.loads(s.export("c", folder, name)[-1].read_text()) for name, s in gallery.items()}
+
+
+@pytest.fixture(scope="module")
+def calls(gallery: dict[str, System], about: dict[str, Any]) -> Calls:
+    """Random arguments (t, x, p, a) of the functions of each system."""
+    random, made = np.random.default_rng(1), Calls()
+    for name, system in gallery.items():
+        p = [row.get("value", {str(s): x for s, x in VALUES.items()}.get(row["name"])) for row in about[name]["parameters"]]
+        numbers = np.array([random.uniform(0.5, 1.5) if x is None else x for x in p], float)
+        sizes = len(system.c.q) + len(system.speeds), len(system.speeds)
+        made[name] = [
+            (float(random.uniform(0, 3)), random.uniform(0.2, 1, sizes[0]), numbers, random.uniform(-1, 1, sizes[1]))
+            for _ in range(_STATES)
+        ]
+    for _, x, _, _ in made["top"]:
+        x[:4] /= np.linalg.norm(x[:4])  # a quaternion
+    return made
+
+
+@pytest.fixture(scope="module")
+def right(gallery: dict[str, System], about: dict[str, Any], calls: Calls) -> dict[str, list[Numbers]]:
+    """The numbers of lagrotor itself: of its right-hand side, of inverse dynamics, and of formulas."""
+    return {
+        name: [_right(system, [row["name"] for row in about[name]["parameters"]], *call) for call in calls[name]]
+        for name, system in gallery.items()
+    }
+
+
+def _right(system: System, names: list[str], time: float, x: np.ndarray, p: np.ndarray, a: np.ndarray) -> Numbers:
+    values, n = dict(zip(names, p, strict=True)), len(system.c.q)
+    rhs, q, u = system.rhs(values), x[:n], x[n:]
+
+    rates, h = np.array([0 * a, a, *np.eye(len(a))]), 1e-4
+    still, forces, *columns = system.inverse_dynamics(np.tile(q, (len(rates), 1)), np.tile(u, (len(rates), 1)), rates, values, time)
+    slopes = [[np.array(rhs(time, x + k * h * e)) for k in (-2, -1, 1, 2)] for e in np.eye(len(x))]
+    numbers = {
+        "rhs": np.array(rhs(time, x)),
+        "inverse_dynamics": forces,
+        "forcing": -still,
+        "mass_matrix": (np.array(columns) - still).T,
+        "jacobian": np.array([(s[0] - 8 * s[1] + 8 * s[2] - s[3]) / 12 / h for s in slopes]).T,
+    }
+    if n < 5:
+        v = system.kinematics.velocity if system.kinematics else system.c.v
+        at = dict(zip((*system.c.q, *system.speeds, t), (*x, time), strict=True))
+        at |= {s: values[str(s)] for s in system.energy.free_symbols if str(s) in values}
+        energy = system.energy.xreplace(dict(zip(system.c.v, v, strict=True)))
+        numbers["energy"] = np.array(float(energy.xreplace(at).xreplace(at)))
+    return numbers
+
+
+TOLERANCE = {"rhs": 1e-13, "jacobian": 1e-8}
+
+
+def check(name: str, function: str, numbers: Any, right: np.ndarray) -> None:
+    got = np.asarray(numbers, float)
+    assert got.shape == right.shape, (name, function)
+    assert np.abs(got - right).max() <= TOLERANCE.get(function, 1e-12) * np.abs(right).max() + 1e-300, (name, function)
+
+
+Call = Callable[..., Any]
+Runner = Callable[[dict[str, System], Path, Calls, dict[str, Any]], dict[str, list[Numbers]]]
+
+
+def each(calls: Calls, about: dict[str, Any], call: Callable[[str, str], Call]) -> dict[str, list[Numbers]]:
+    """Return the numbers of every function at every state."""
+    return {
+        name: [
+            {f: call(name, f)(*args[: len(about[name]["functions"][f]["arguments"])]) for f in about[name]["functions"]}
+            for args in states
+        ]
+        for name, states in calls.items()
+    }
+
+
+def in_c(gallery: dict[str, System], folder: Path, calls: Calls, about: dict[str, Any]) -> dict[str, list[Numbers]]:
+    if not shutil.which("gcc"):
+        pytest.skip("no gcc")
+    sources = [file for name, s in gallery.items() for file in s.export("c", folder, name) if file.suffix == ".c"]
+    strict = ["-Wall", "-Wextra", "-Werror", "-pedantic"]
+    subprocess.run(["gcc", "-std=c99", *strict, "-O0", "-shared", "-fPIC", "-o", "all.so", *sources, "-lm"], cwd=folder, check=True)
+    if shutil.which("g++"):
+        subprocess.run(["g++", "-x", "c++", *strict, "-fsyntax-only", *sources], cwd=folder, check=True)
+    library = ctypes.CDLL(str(folder / "all.so"))
+
+    def call(name: str, f: str) -> Call:
+        shape = about[name]["functions"][f]["shape"]
+
+        def numbers(time: float, *arrays: np.ndarray) -> np.ndarray:
+            result = np.full(shape, np.nan)
+            arguments = [np.ascontiguousarray(a).ctypes.data_as(ctypes.c_void_p) for a in (*arrays, result)]
+            getattr(library, f"{name}_{f}")(ctypes.c_double(time), *arguments)
+            return result
+
+        return numbers
+
+    return each(calls, about, call)
+
+
+def load(path: Path) -> Any:
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    assert spec and spec.loader
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def in_casadi(gallery: dict[str, System], folder: Path, calls: Calls, about: dict[str, Any]) -> dict[str, list[Numbers]]:
+    ca = pytest.importorskip("casadi")
+
+    modules = {name: load(system.export("casadi", folder, name)[0]) for name, system in gallery.items()}
+
+    @cache
+    def call(name: str, f: str) -> Call:
+        function, shape = getattr(modules[name], f"{name}_{f}"), about[name]["functions"][f]["shape"]
+        sizes = [len(e) for e in calls[name][0][1:]]
+        symbols = [ca.SX.sym("t"), *(ca.SX.sym(s, k) for s, k in zip("xpa", sizes, strict=True))]
+        symbols = symbols[: len(about[name]["functions"][f]["arguments"])]
+        expression = function(*symbols)
+        if f == "jacobian":  # CasADi differentiates the right-hand side itself
+            exact = ca.jacobian(getattr(modules[name], f"{name}_rhs")(*symbols), symbols[1])
+            both = ca.Function("both", symbols, [expression, exact])(*calls[name][0][: len(symbols)])
+            np.testing.assert_allclose(*map(np.array, both), rtol=1e-11, atol=1e-11)
+        compiled = ca.Function(f, symbols, [expression])
+        return lambda *args: np.array(compiled(*args)).reshape(shape)
+
+    return each(calls, about, call)
+
+
+def in_jax(gallery: dict[str, System], folder: Path, calls: Calls, about: dict[str, Any]) -> dict[str, list[Numbers]]:
+    jax = pytest.importorskip("jax")
+
+    modules = {name: load(system.export("jax", folder, name)[0]) for name, system in gallery.items()}
+
+    def call(name: str, f: str) -> Call:
+        return getattr(modules[name], f"{name}_{f}")
+
+    # The long programs are run as they are, at one state, since compiling them takes XLA minutes.
+    numbers = each({name: states[:1] if name == "arm" else states for name, states in calls.items()}, about, call)
+    rhs, (time, x, p, _) = call("cart", "rhs"), calls["cart"][0]
+    np.testing.assert_allclose(jax.jit(rhs)(time, x, p), numbers["cart"][0]["rhs"], rtol=1e-13)
+    np.testing.assert_allclose(jax.jacfwd(rhs, 1)(time, x, p), numbers["cart"][0]["jacobian"], rtol=1e-11, atol=1e-12)
+    states = np.array([args[1] for args in calls["cart"]])
+    rows = jax.vmap(rhs, (None, 0, None))(time, states, p)
+    np.testing.assert_allclose(rows[0], numbers["cart"][0]["rhs"], rtol=1e-13)
+    energy = jax.grad(call("cart", "energy"), 1)(time, x, p)
+    assert energy.dtype == np.float64 and energy.shape == x.shape
+    return numbers
+
+
+def in_matlab(gallery: dict[str, System], folder: Path, calls: Calls, about: dict[str, Any]) -> dict[str, list[Numbers]]:
+    if not shutil.which("octave"):
+        pytest.skip("no octave")
+    lines = ["function out(z)", "printf('%.17g ', z.'); printf('\\n');", "end"]
+    for name, states in calls.items():
+        gallery[name].export("matlab", folder, name)
+        for args in states:
+            vector = [repr(args[0]), *(f"[{'; '.join(map(repr, a.tolist()))}]" for a in args[1:])]
+            for f, says in about[name]["functions"].items():
+                lines.append(f"out({name}_{f}({', '.join(vector[: len(says['arguments'])])}));")
+    (folder / "run_all.m").write_text("1;\n" + "\n".join(lines))
+    run = subprocess.run(["octave", "--no-gui", "--norc", "-q", "run_all.m"], cwd=folder, text=True, capture_output=True)
+    assert run.returncode == 0, run.stderr
+    rows = iter(run.stdout.splitlines())
+    return each(
+        calls,
+        about,
+        lambda name, f: lambda *args: np.array(next(rows).split(), float).reshape(about[name]["functions"][f]["shape"]),
+    )
+
+
+def in_julia(gallery: dict[str, System], folder: Path, calls: Calls, about: dict[str, Any]) -> dict[str, list[Numbers]]:
+    for name, system in gallery.items():
+        system.export("julia", folder, name)
+    if shutil.which("julia"):
+        return _by_julia(folder, calls, about)
+
+    @cache
+    def functions(name: str) -> dict[str, Any]:
+        made: dict[str, Any] = {}
+        exec(_python_of_julia((folder / f"{name}.jl").read_text()), made)
+        return made
+
+    def call(name: str, f: str) -> Call:
+        shape = about[name]["functions"][f]["shape"]
+
+        def numbers(time: float, x: np.ndarray, p: np.ndarray, *more: np.ndarray) -> Any:
+            made, one = functions(name), _FromOne
+            if not shape:
+                return made[f"{name}_{f}"](one(x), one(p), time)
+            result = np.full(shape, np.nan)
+            made[f"{name}_{f}_"](one(result), one(x), one(p), time, *map(one, more))
+            return result
+
+        return numbers
+
+    return each(calls, about, call)
+
+
+class _FromOne:
+    """An array whose indices begin at 1."""
+
+    def __init__(self, array: Any) -> None:
+        self.array = array
+
+    def __getitem__(self, i: int) -> Any:
+        return self.array[i - 1]
+
+    def __setitem__(self, i: Any, value: Any) -> None:
+        self.array[tuple(k - 1 for k in i) if isinstance(i, tuple) else i - 1] = value
+
+
+def _python_of_julia(text: str) -> str:
+    """Return Julia's assignments, loops and functions as Python."""
+    lines, depth = ["from math import *", "sign = lambda x: float(x > 0) - float(x < 0)", "def julia_atan(y, x=1.0): return atan2(y, x)"], 0
+    for raw in text.splitlines():
+        line = raw.strip()
+        if not line or line.startswith("#"):
+            continue
+        if line == "end":
+            depth -= 1
+            continue
+        line = re.sub(r"\batan\(", "julia_atan(", line).replace("^", "**")
+        line = re.sub(r"^(function) (\w+)!?\(", r"def \2(", re.sub(r"(\w)!\(", r"\1_(", line))
+        line = re.sub(r"^for j in 1:(\d+)$", r"for j in range(1, \1 + 1):", line)
+        line = re.sub(r"\[i == j \? 1.0 : 0.0 for i in 1:(\d+)\]", r"One([float(i == j) for i in range(1, \1 + 1)])", line)
+        line = "return None" if line == "return nothing" else f"{line}:" if line.startswith("def") else line
+        lines.append(" " * depth + line)
+        depth += line.startswith(("def ", "for "))
+    inside = "class One(list):\n def __getitem__(self, i): return list.__getitem__(self, i - 1)"
+    return "\n".join([lines[0], inside, "abs = fabs", *lines[1:]])
+
+
+def _by_julia(folder: Path, calls: Calls, about: dict[str, Any]) -> dict[str, list[Numbers]]:
+    lines = []
+    for name, states in calls.items():
+        lines.append(f'include("{name}.jl")')
+        for args in states:
+            x, p, a = (f"Float64[{', '.join(map(repr, e.tolist()))}]" for e in args[1:])
+            for f, says in about[name]["functions"].items():
+                more, shape = (f", {a}" if "a" in says["arguments"] else ""), ", ".join(map(str, says["shape"]))
+                head = f"{name}_{f}!(zeros({shape}), " if says["shape"] else f"{name}_{f}("
+                value = f"{head}{x}, {p}, {args[0]!r}{more})"
+                lines.append(f"println(join({f'permutedims({value})' if len(says['shape']) == 2 else value}, ' '))")
+    (folder / "run_all.jl").write_text("\n".join(lines))
+    run = subprocess.run(["julia", "run_all.jl"], cwd=folder, text=True, capture_output=True, check=True)
+    rows = iter(run.stdout.splitlines())
+    return each(
+        calls,
+        about,
+        lambda name, f: lambda *args: np.array(next(rows).split(), float).reshape(about[name]["functions"][f]["shape"]),
+    )
+
+
+LANGUAGES: dict[str, Runner] = {"c": in_c, "casadi": in_casadi, "jax": in_jax, "julia": in_julia, "matlab": in_matlab}
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_every_language_gives_the_numbers_of_lagrotor(
+    language: str, gallery: dict[str, System], calls: Calls, about: dict[str, Any], right: dict[str, list[Numbers]], tmp_path: Path
+) -> None:
+    for name, states in LANGUAGES[language](gallery, tmp_path, calls, about).items():
+        for numbers, expected in zip(states, right[name], strict=False):
+            for function, values in expected.items():
+                check(name, function, numbers[function], values)
