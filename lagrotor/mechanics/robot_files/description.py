@@ -275,6 +275,8 @@ def _moved(frame: Frame, joint: Joint, own: list[str], numbers: _Parameters) -> 
         if joint.kind == "revolute" and len(along) == 1:
             angle = (c[own[0]] - joint.zero) * sp.sign(joint.axis[along[0]])
             frame = moved.turned(AXES[along[0]], [angle], name=joint.name)
+        elif joint.kind == "planar" and len(along) == 1 and joint.axis[along[0]] > 0:
+            frame = moved.planar(own[0], own[1], own[2], AXES[along[0]], name=joint.name)
         else:
             R = rotation_of(to_axis(joint.axis))
             frame = moved.turned(R) if sp.eye(3) != R else moved
@@ -376,11 +378,15 @@ def _constraints(described: Description, frames: list[Frame], q: Mapping[str, sp
             named[closure.name] = q[first] - zeros[first] - sum(a * x**i for i, a in enumerate(closure.polynomial))
             continue
         one, two = (frames[i] for i in closure.links)
-        parts = list(one.coincides(two, *closure.points))
+        parts = list[sp.Expr]()
+        if any((one.place(closure.points[0]) - two.place(closure.points[1])).expand()):
+            parts += one.coincides(two, *closure.points, name=closure.name)
         if closure.turn is not None:
             theirs = [two.place(list(closure.turn.T[:, i])) - two.place() for i in range(3)]
             ours = [one.place(list(sp.eye(3)[:, i])) - one.place() for i in range(3)]
             turns = [sp.expand(ours[i].dot(theirs[(i + 1) % 3])) for i in range(3)]
             parts += [e for e in turns if e != 0]
+        if not parts:
+            raise InputError(f"{described.file}: the constraint {closure.name!r} binds no coordinate: leave it out")
         named |= {f"{closure.name} {i + 1}" if len(parts) > 1 else closure.name: e for i, e in enumerate(parts)}
     return named
