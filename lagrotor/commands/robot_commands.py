@@ -13,7 +13,7 @@ from lagrotor.errors import InputError, near
 from lagrotor.files import FILMS, write_text
 
 if TYPE_CHECKING:
-    from lagrotor.mechanics.robot_files.description import RobotSystem
+    from lagrotor.mechanics.systems import RobotSystem
 
 _FORMATS = {".md": "markdown", ".tex": "latex", ".html": "html"}
 _MOST_COORDINATES, _MOST_OPERATIONS, _MOST_PRINTED = 6, 1000, 3000  # of L, and of one formula
@@ -44,9 +44,19 @@ def add_robot_commands(command: Command) -> None:
     added.add_argument("--out", type=Path, metavar="FILE", help="write a .md, .tex or .html instead of printing")
 
 
-def equations_command(options: argparse.Namespace) -> int:
-    from lagrotor.mechanics.robot_files import read_robot
+def read_robot(path: Path, symbols: Any, base: str) -> "RobotSystem":
+    """Return the system of a URDF or MJCF file, whichever its root element says."""
+    from lagrotor.mechanics import System
+    from lagrotor.mechanics.robot_files.xml_elements import read_xml
 
+    if (root := read_xml(path)).tag != "mujoco":
+        return System.from_urdf(path, symbols, base)
+    if base != "fixed":
+        raise root.refusal("an MJCF file says itself which bodies are free: leave out --base")
+    return System.from_mjcf(path, symbols)
+
+
+def equations_command(options: argparse.Namespace) -> int:
     form = options.format or "markdown"
     if options.out:
         if options.out.suffix not in _FORMATS:
@@ -135,7 +145,7 @@ def simulate_robot(options: argparse.Namespace) -> int:
     """Simulate the robot of a file and print the last state, or write the run to --out."""
     import numpy as np
 
-    from lagrotor.mechanics.robot_files import read_robot
+    from lagrotor.mechanics.robot_files.description import skeleton
 
     system = read_robot(options.file, "none", options.base)
     q0, v0 = _start(system, options.start or ())
@@ -153,7 +163,7 @@ def simulate_robot(options: argparse.Namespace) -> int:
 
         run = system.simulate({}, q0, v0, times, tol=options.tol, progress=show)
     if options.out and options.out.suffix in FILMS:
-        run.animate(options.out, _FPS, system.skeleton)
+        run.animate(options.out, _FPS, skeleton(system))
     elif options.out:
         run.save(options.out)
     summary = {

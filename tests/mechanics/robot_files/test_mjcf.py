@@ -178,7 +178,7 @@ def test_boxes_and_ellipsoids_and_their_sum(read: Callable[..., Any]) -> None:
 def test_inertials_before_geoms_unless_the_compiler_says_otherwise(read: Callable[..., Any]) -> None:
     both = '<body name="b"><joint name="q"/>{}<geom size="1" mass="1" group="3"/></body>'
     full = '<inertial pos="0 0 0" mass="2" fullinertia="2 3 4 0.1 0.2 0.3"/>'
-    assert read(both.format(full)).bodies[0].inertia[:, 0].T == sp.Matrix([[2, sp.Rational(1, 10), sp.Rational(1, 5)]])
+    assert sp.Matrix([[2, sp.Rational(1, 10), sp.Rational(1, 5)]]) == read(both.format(full)).bodies[0].inertia[:, 0].T
     assert read(both.format(full), '<compiler inertiafromgeom="true"/>').bodies[0].mass == 1
     turned = '<inertial pos="0 0 0" mass="2" diaginertia="2 3 4" quat="1 1 0 0"/>'
     assert read(both.format(turned)).bodies[0].inertia == sp.diag(2, 4, 3)

@@ -6,9 +6,9 @@ from typing import Any
 
 import pytest
 
+from lagrotor.commands.robot_commands import read_robot
 from lagrotor.errors import InputError
 from lagrotor.mechanics import System
-from lagrotor.mechanics.robot_files import read_robot
 
 BODY = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1"/></inertial>'
 ENDS = '<parent link="a"/><child link="b"/>'
@@ -89,10 +89,10 @@ MJCF = {
 }  # fmt: skip
 
 
-def refused(tmp_path: Path, name: str, text: str, words: str, read: Callable[..., Any] = read_robot) -> None:
+def refused(tmp_path: Path, name: str, text: str, words: str, read: Callable[..., Any] | None = None) -> None:
     (tmp_path / name).write_text(text)
     with pytest.raises(InputError) as refusal:
-        read(tmp_path / name)
+        read(tmp_path / name) if read else read_robot(tmp_path / name, "inertia", "fixed")
     assert words in str(refusal.value) and len(str(refusal.value)) < 500 and "\n" not in str(refusal.value)
     assert str(tmp_path) in str(refusal.value)
 

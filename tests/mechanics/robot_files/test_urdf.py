@@ -73,7 +73,7 @@ def test_names_and_frames_of_the_file(read: Callable[..., Any]) -> None:
         joint("elbow", "continuous", "a", "b", Z), joint("flange", "fixed", "b", "tool", '<origin xyz="2 0 0"/>'),
     )  # fmt: skip
     assert [str(q) for q in system.c.q] == ["elbow"] and system.joint_coordinates == {"elbow": system.c.q}
-    assert system.links["tool"].place().T == sp.Matrix([[2 * sp.cos(system.c.elbow), 2 * sp.sin(system.c.elbow), 0]])
+    assert sp.Matrix([[2 * sp.cos(system.c.elbow), 2 * sp.sin(system.c.elbow), 0]]) == system.links["tool"].place().T
     assert system.links["tool"].name == "flange" and "elbow" in system.joints and not system.notes
     assert {str(s) for s in system.values} == {"m_b", "I_b_xx", "I_b_yy", "I_b_zz", "g"}
 
@@ -123,7 +123,7 @@ def test_a_tree_of_two_branches_and_damping(read: Callable[..., Any]) -> None:
         link("a"), link("b", 5), link("c", 5),
         joint("p", "continuous", "a", "b", X + dynamics), joint("q", "continuous", "a", "c", Z), symbols="none",
     )  # fmt: skip
-    assert system.accelerations.T == sp.Matrix([[-4 * system.c.v[0], 0]])
+    assert sp.Matrix([[-4 * system.c.v[0], 0]]) == system.accelerations.T
     assert system.not_read == ("dry friction of joints: 1",)
 
 
@@ -143,7 +143,7 @@ def test_an_angle_is_exactly_orthogonal_and_near(read: Callable[..., Any]) -> No
     R = system.links["b"].parent.rotation
     r, p, y = 0.123, -1.7, 3.1
     turns = [sp.rot_axis1(-r), sp.rot_axis2(-p), sp.rot_axis3(-y)]
-    assert R * R.T == sp.eye(3) and all(e.is_Rational for e in R)
+    assert sp.eye(3) == R * R.T and all(e.is_Rational for e in R)
     assert np.abs(np.array(R.evalf(), float) - np.array(turns[2] * turns[1] * turns[0], float)).max() < 4e-16
 
 
