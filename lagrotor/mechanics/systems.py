@@ -1116,6 +1116,15 @@ class RobotSystem(System):
 
     Attributes
     ----------
+    c : Coordinates
+    lagrangian : Energy
+    constraints
+    rolling
+    dissipation
+    forces
+    names
+    velocities
+        The fields of `System`.
     values : mapping
         The numbers of the file by symbol, for `simulate`, `rhs` and `linearise`; empty if the system has no symbols.
     start : mapping

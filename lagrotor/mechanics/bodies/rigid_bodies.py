@@ -119,7 +119,7 @@ def check_body(where: str, body: Body, values: Mapping[sp.Symbol, Any] | None = 
     For principal inertias the second condition is I1 ≤ I2 + I3 and its permutations. Inertia about one axis alone is allowed,
     for motion in a plane. Symbols without a number are not checked.
     """
-    mass, I = (e.subs(values or {}) for e in (body.mass, body.inertia))
+    mass, I = (e.xreplace(dict(values or {})) for e in (body.mass, body.inertia))
     if mass.is_negative:
         raise InputError(f"{where}: mass = {mass} must not be negative: give 0 or more")
     if any(I[i, i].is_negative for i in range(3)):
