@@ -13,9 +13,11 @@ from typing import Any, Literal
 
 import sympy as sp
 
+from lagrotor.algebra.subexpressions import with_shared_parts
 from lagrotor.errors import InputError
 from lagrotor.mechanics.bodies.moving_frames import AXES
 from lagrotor.mechanics.bodies.rigid_bodies import Body, Energy, Frame, check_body
+from lagrotor.mechanics.bodies.small_matrices import Small
 from lagrotor.mechanics.lagrangian import coordinates
 from lagrotor.mechanics.robot_files.geoms import Solid, combined
 from lagrotor.mechanics.robot_files.poses import ORIGIN, Pose, rotation_of, to_axis
@@ -323,14 +325,21 @@ def _constraints(described: Description, frames: list[Frame], q: Mapping[str, sp
         if any((one.place(closure.points[0]) - two.place(closure.points[1])).expand()):
             parts += one.coincides(two, *closure.points, name=closure.name)
         if closure.turn is not None:
-            theirs = [two.place(list(closure.turn.T[:, i])) - two.place() for i in range(3)]
-            ours = [one.place(list(sp.eye(3)[:, i])) - one.place() for i in range(3)]
-            turns = [sp.expand(ours[i].dot(theirs[(i + 1) % 3])) for i in range(3)]
+            ours, theirs = _rotation(one), _rotation(two) * Small.of(closure.turn.T)
+            turns = [(ours.T * theirs)[i, (i + 1) % 3] for i in range(3)]
             parts += [e for e in turns if e != 0]
         if not parts:
             raise InputError(f"{described.file}: the constraint {closure.name!r} binds no coordinate: leave it out")
         named |= {f"{closure.name} {i + 1}" if len(parts) > 1 else closure.name: e for i, e in enumerate(parts)}
     return named
+
+
+def _rotation(frame: Frame) -> Small:
+    """Return the rotation of a frame into the ground's axes, not multiplied out."""
+    R = Small.of(sp.eye(3))
+    for step in reversed(frame.to_the_ground):
+        R = (R * Small.of(step.rotation)).each(with_shared_parts)
+    return R
 
 
 def skeleton(system: Any) -> list[list[list[sp.Expr]]]:
