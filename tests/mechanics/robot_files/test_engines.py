@@ -22,7 +22,8 @@ def _link(name: str, seed: int) -> str:
 def _joint(name: str, kind: str, ends: str, axis: str, inside: str = "") -> str:
     origin = '<origin xyz="0.3 -0.2 0.5" rpy="0.3 1.5707963 -0.7"/>'
     a, b = ends.split()
-    ends, tail = f"<parent link=\"{a}\"/><child link=\"{b}\"/>", f"<axis xyz=\"{axis}\"/>{inside}</joint>"
+    parts = f'<parent link="{a}"/><child link="{b}"/>{origin}<axis xyz="{axis}"/>{inside}'
+    return f'<joint name="{name}" type="{kind}">{parts}</joint>'
 
 
 _LIMIT = '<limit effort="1" velocity="1"/>'
