@@ -1004,8 +1004,8 @@ class System(Equations):
         --------
         >>> from lagrotor.mechanics import coordinates
         >>> c = coordinates("r phi")
-        >>> System(c, (c.r_dot**2 + c.r**2 * c.phi_dot**2) / 2).coriolis_matrix()
-        Matrix([[0, -phi_dot*r], [phi_dot*r, r*r_dot]])
+        >>> System(c, (c.r_dot**2 + c.r**2 * c.phi_dot**2) / 2).coriolis_matrix().tolist()
+        [[0, -phi_dot*r], [phi_dot*r, r*r_dot]]
         """
         return coriolis_matrix(self.mass_matrix, self.c)
 
