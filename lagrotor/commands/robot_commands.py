@@ -2,6 +2,7 @@
 
 import argparse
 import math
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from html import escape
@@ -94,6 +95,12 @@ def _sections(system: "RobotSystem") -> list[Section]:
             sections.append(("Potential energy", [f"V = {latex(in_decimals(V))}"], []))
     else:
         sections += [(heading, lines, []) for heading, lines in formulas(system, _MOST_PRINTED).items()]
+    words = {word for s in (*system.c.q, *system.values) for word in re.findall("[A-Za-z]{3,}", str(s))}
+    name = re.compile(rf"(?<![\\A-Za-z])({'|'.join(words) or '$.'})(?![A-Za-z])")
+    space = re.compile(r"(?<=[}\w]) (?=\\d+ot\{\\mathrm)")  # between words of a product
+    sections = [
+        (h, [space.sub(r" \\, ", name.sub(r"\\mathrm{\1}", e)) for e in lines], text) for h, lines, text in sections
+    ]
     values = [f"{symbol} = {value:.10g}" for symbol, value in system.values.items()]
     sections += [("Values of the file", [], values), ("Not read", [], list(system.not_read))]
     sections.append(("Notes", [], list(system.notes)))

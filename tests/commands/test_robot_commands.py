@@ -27,12 +27,15 @@ def test_equations_in_three_formats(rod: str, tmp_path: Path, capsys: pytest.Cap
     """The equation of motion is (I + m c²) q'' = m g c sin q, with I about the hinge's axis and c the centre on z."""
     assert main(["equations", rod]) == 0
     said = capsys.readouterr().out
-    assert r"\ddot{hinge} \left(I_{rod yy} + m_{rod} c_{rod z}^{2}\right)" in said and "- hinge: hinge" in said
+    assert (
+        r"\ddot{\mathrm{hinge}} \left(I_{\mathrm{rod} yy} + m_{\mathrm{rod}} c_{\mathrm{rod} z}^{2}\right)" in said
+        and "- hinge: hinge" in said
+    )
     assert "- shapes (visual, collision): 1" in said and "the angle 1.5707963 is read as pi/2" in said
     assert "- I_rod_yy = 0.1" in said and "E = T + V" in said
     assert main(["equations", rod, "--symbols", "none"]) == 0
     said = capsys.readouterr().out
-    assert r"\frac{3 \ddot{hinge}}{5}" in said and r"9.81" in said
+    assert r"\frac{3 \ddot{\mathrm{hinge}}}{5}" in said and r"9.81" in said
     for name, words in (("a.tex", r"\section*{rod\_1.urdf}"), ("a.md", "# rod_1.urdf"), ("a.html", "<math")):
         assert main(["equations", rod, "--out", str(tmp_path / name)]) == 0
         assert words in (tmp_path / name).read_text()
