@@ -118,6 +118,8 @@ def _included(element: Element, folder: Path, seen: set[Path]) -> Iterator[Eleme
         target = (folder / name).resolve()
         if not target.is_relative_to(folder):
             raise child.refusal(f"file={name!r} is outside the folder {folder}: move it there")
+        if not target.is_file():
+            raise child.refusal(f"file={name!r} is no file in {folder}: correct the name")
         if target in seen:
             raise child.refusal(f"file={name!r} is included already: a file is included once")
         yield from _included(read_xml(target), folder, seen | {target})

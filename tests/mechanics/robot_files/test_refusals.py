@@ -84,7 +84,7 @@ MJCF = {
     ('<equality><joint joint1="p"/></equality>', _B.format("")): "is no hinge and no slide",
     ('<include file="../other.xml"/>', ""): "is outside the folder",
     ('<include file="/etc/hostname"/>', ""): "is outside the folder",
-    ('<include file="missing.xml"/>', ""): "No such file",
+    ('<include file="missing.xml"/>', ""): "is no file in",
     ('<include file="m.xml"/>', ""): "included already",
 }  # fmt: skip
 
