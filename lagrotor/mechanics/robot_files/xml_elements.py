@@ -88,10 +88,14 @@ class Element:
         return exact
 
     def check_attributes(self, known: str) -> None:
-        """Refuse an attribute that is none of the known ones."""
+        """Refuse an attribute that looks like a misprint of a known one; files contain others, for other programs."""
         names = known.split()
-        if unknown := next((name for name in self.attributes if name not in names), ""):
-            raise self.refusal(f"the attribute {unknown} has no meaning{near(unknown, names) or ': leave it out'}")
+        for name in self.attributes.keys() - {*names}:
+            one_off = [
+                k for k in names if len(k) == len(name) and sum(a != b for a, b in zip(k, name, strict=True)) == 1
+            ]
+            if meant := near(name, names) or f": {' or '.join(one_off)}?" * bool(one_off):
+                raise self.refusal(f"the attribute {name} has no meaning{meant}")
 
     def check_children(self, known: str) -> "list[Element]":
         """Return the children with unknown tags. A tag that looks like a misprint of a known one is refused."""

@@ -37,7 +37,7 @@ JOINTS = {
     (f'type="revolute">{ENDS}<origin rpy="0 nan 0"/>', BODY): "'nan' is no number: write a finite decimal",
     (f'type="revolute">{ENDS}<origin rpy="0 ${{x}} 0"/>', BODY): "expand the file with xacro",
     (f'type="revolute">{ENDS}<origin xyz="1e999999 0 0"/>', BODY): "is no number",
-    (f'type="revolute">{ENDS}<origin rqy="1 0 0"/>', BODY): "attribute rqy has no meaning",
+    (f'type="revolute">{ENDS}<origin rqy="1 0 0"/>', BODY): "attribute rqy has no meaning: rpy?",
     (f'type="revolute">{ENDS}<orign/>', BODY): "inside <joint>: origin",
     (f'type="revolute">{ENDS}<dynamics damping="-1"/>', BODY): "must be at least 0",
     (f'type="revolute">{ENDS}<mimic joint="k"/>', BODY): "there is no other joint 'k'",

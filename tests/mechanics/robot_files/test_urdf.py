@@ -118,7 +118,7 @@ def test_a_massless_link_between_two_joints(read: Callable[..., Any]) -> None:
 
 
 def test_a_tree_of_two_branches_and_damping(read: Callable[..., Any]) -> None:
-    dynamics = '<dynamics damping="8" friction="3"/>'
+    dynamics = '<dynamics damping="8" friction="3" for_others="2"/>'
     system = read(
         link("a"), link("b", 5), link("c", 5),
         joint("p", "continuous", "a", "b", X + dynamics), joint("q", "continuous", "a", "c", Z), symbols="none",
