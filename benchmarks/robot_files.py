@@ -139,7 +139,9 @@ def compare_urdf(name: str, path: Path, base: str) -> Row:
     data = model.createData()
     ready = perf_counter() - begin
     ids = {joint: model.getJointId(joint) for joint in list(model.names)[1 + len(root) :]}
-    assert {*ids} == {*list(system.joint_coordinates)[len(root) :]}, f"{name}: other joints: {ids.keys() ^ {*system.joint_coordinates}}"
+    assert {*ids} == {*list(system.joint_coordinates)[len(root) :]}, (
+        f"{name}: other joints: {ids.keys() ^ {*system.joint_coordinates}}"
+    )
     q_of = {q: joint for joint, own in system.joint_coordinates.items() for q in own}
     first = 7 * len(root)
     order = [model.joints[ids[q_of[q]]].idx_v for q in system.c.q[first:]]

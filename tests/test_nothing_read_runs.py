@@ -11,6 +11,7 @@ from html.parser import HTMLParser
 from importlib import import_module
 from pathlib import Path
 from typing import Any
+from xml.sax.saxutils import escape
 
 import numpy as np
 import pytest
@@ -50,6 +51,14 @@ def python(mark: Path) -> list[str]:
 def tex(mark: Path) -> list[str]:
     """Texts with which TeX, and a shell, would leave the mark."""
     return [rf"\write18{{touch {mark}}}", rf'\input{{|"touch {mark}"}}', rf"\directlua{{os.execute('touch {mark}')}}"]
+
+
+ROBOT = """<robot name="«r»"><link name="«a»"/><link name="b"><inertial><origin xyz="«0 0 0»"/><mass value="«1»"/>
+<inertia ixx="«1»" iyy="1" izz="1"/></inertial></link><joint name="«j»" type="«revolute»"><parent link="a"/><child link="b"/>
+</joint>«»</robot>"""
+MJCF = """<mujoco model="«m»"><compiler angle="«radian»"/><default><joint damping="«1»"/></default><worldbody><body name="«b»">
+<joint name="«q»"/><geom size="«1»"/></body></worldbody><equality><joint name="«e»" joint1="q" polycoef="«0»"/></equality>
+</mujoco>"""
 
 
 def variants(template: str, text: str, quoted: bool = True) -> Iterator[str]:
@@ -253,6 +262,17 @@ def document(name: str, template: str, read: Callable[[Path], Any], command: lis
     return door
 
 
+def robot_file(folder: Path, text: str) -> None:
+    """Attributes and elements of URDF and MJCF, which may name the symbols, and reach the formulas that the shell prints."""
+    for name, template in (("m.urdf", ROBOT), ("m.xml", MJCF)):
+        for content in (escape(text, {'"': "&quot;", "\n": "&#10;"}), text):
+            for inside in variants(template, content, quoted=False):
+                (folder / name).write_text(inside, encoding="utf-8")
+                with suppress(LagrotorError):
+                    System.from_urdf(folder / name) if name == "m.urdf" else System.from_mjcf(folder / name)
+                assert main(["equations", str(folder / name), "--format", "latex"]) in (0, 2)
+
+
 def certificates(folder: Path, text: str) -> None:
     """The list of a folder of certificates, and what stands in a file of Coq."""
     row = {"id": "«1.1»", "verdict": "«holds»", "file": "«equation_1_1.v»"}
@@ -289,6 +309,7 @@ TEXTS: dict[str, Callable[[Path, str], None]] = {
     "system": system_text,
     "scene": document("scene.toml", SCENE, read_scene, ["simulate", "--scene"]),
     "structure": document("structure.toml", STRUCTURE, read_structure, ["structure"]),
+    "robot file": robot_file,
     "certificates": certificates,
     "theorem": theorem,
 }
@@ -462,6 +483,7 @@ READERS = {
     "drawing/view.py": "own",
     "lazy_imports.py": "own",
     "files.py": "arrays",
+    "mechanics/robot_files/xml_elements.py": "robot file",
     "mechanics/running/simulation.py": "arrays",
     "models/spring_link/run.py": "arrays",
     "models/sweeps/sweep_folder.py": "sweeps",

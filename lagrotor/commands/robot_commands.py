@@ -2,6 +2,7 @@
 
 import argparse
 import math
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from html import escape
@@ -13,7 +14,7 @@ from lagrotor.errors import InputError, near
 from lagrotor.files import FILMS, write_text
 
 if TYPE_CHECKING:
-    from lagrotor.mechanics.robot_files.description import RobotSystem
+    from lagrotor.mechanics.systems import RobotSystem
 
 _FORMATS = {".md": "markdown", ".tex": "latex", ".html": "html"}
 _MOST_COORDINATES, _MOST_OPERATIONS, _MOST_PRINTED = 6, 1000, 3000  # of L, and of one formula
@@ -44,9 +45,19 @@ def add_robot_commands(command: Command) -> None:
     added.add_argument("--out", type=Path, metavar="FILE", help="write a .md, .tex or .html instead of printing")
 
 
-def equations_command(options: argparse.Namespace) -> int:
-    from lagrotor.mechanics.robot_files import read_robot
+def read_robot(path: Path, symbols: Any, base: str) -> "RobotSystem":
+    """Return the system of a URDF or MJCF file, whichever its root element says."""
+    from lagrotor.mechanics import System
+    from lagrotor.mechanics.robot_files.xml_elements import read_xml
 
+    if (root := read_xml(path)).tag != "mujoco":
+        return System.from_urdf(path, symbols, base)
+    if base != "fixed":
+        raise root.refusal("an MJCF file says itself which bodies are free: leave out --base")
+    return System.from_mjcf(path, symbols)
+
+
+def equations_command(options: argparse.Namespace) -> int:
     form = options.format or "markdown"
     if options.out:
         if options.out.suffix not in _FORMATS:
@@ -84,6 +95,12 @@ def _sections(system: "RobotSystem") -> list[Section]:
             sections.append(("Potential energy", [f"V = {latex(in_decimals(V))}"], []))
     else:
         sections += [(heading, lines, []) for heading, lines in formulas(system, _MOST_PRINTED).items()]
+    words = {word for s in (*system.c.q, *system.values) for word in re.findall("[A-Za-z]{3,}", str(s))}
+    name = re.compile(rf"(?<![\\A-Za-z])({'|'.join(words) or '$.'})(?![A-Za-z])")
+    space = re.compile(r"(?<=[}\w]) (?=\\d+ot\{\\mathrm)")  # between words of a product
+    sections = [
+        (h, [space.sub(r" \\, ", name.sub(r"\\mathrm{\1}", e)) for e in lines], text) for h, lines, text in sections
+    ]
     values = [f"{symbol} = {value:.10g}" for symbol, value in system.values.items()]
     sections += [("Values of the file", [], values), ("Not read", [], list(system.not_read))]
     sections.append(("Notes", [], list(system.notes)))
@@ -135,7 +152,7 @@ def simulate_robot(options: argparse.Namespace) -> int:
     """Simulate the robot of a file and print the last state, or write the run to --out."""
     import numpy as np
 
-    from lagrotor.mechanics.robot_files import read_robot
+    from lagrotor.mechanics.robot_files.description import skeleton
 
     system = read_robot(options.file, "none", options.base)
     q0, v0 = _start(system, options.start or ())
@@ -153,7 +170,7 @@ def simulate_robot(options: argparse.Namespace) -> int:
 
         run = system.simulate({}, q0, v0, times, tol=options.tol, progress=show)
     if options.out and options.out.suffix in FILMS:
-        run.animate(options.out, _FPS, system.skeleton)
+        run.animate(options.out, _FPS, skeleton(system))
     elif options.out:
         run.save(options.out)
     summary = {

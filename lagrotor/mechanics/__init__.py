@@ -60,6 +60,7 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.steady_motions import StateEquations as StateEquations
     from lagrotor.mechanics.symmetry import FirstIntegral as FirstIntegral
     from lagrotor.mechanics.symmetry import legendre as legendre
+    from lagrotor.mechanics.systems import RobotSystem as RobotSystem
     from lagrotor.mechanics.systems import System as System
     from lagrotor.mechanics.weakly_nonlinear import AveragedMotion as AveragedMotion
     from lagrotor.mechanics.weakly_nonlinear import Oscillation as Oscillation

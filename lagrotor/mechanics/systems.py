@@ -1,7 +1,7 @@
 """A mechanical system, and what can be derived from it."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import sympy as sp
@@ -25,7 +25,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike
 
-    from lagrotor.mechanics.robot_files.description import RobotSystem, Symbols
+    from lagrotor.mechanics.bodies.rigid_bodies import Frame
+    from lagrotor.mechanics.robot_files.description import Symbols
     from lagrotor.mechanics.running.flow import Array, Rhs, Values
     from lagrotor.mechanics.running.monodromy import MonodromyMatrix
     from lagrotor.mechanics.running.root_loci import RootLocus, StabilityChart
@@ -146,10 +147,9 @@ class System(Equations):
         >>> cart.accelerations, cart.values[cart.lagrangian.bodies[0].mass]
         (Matrix([[-3*x_dot/m_cart]]), 2.0)
         """
-        from lagrotor.mechanics.robot_files.description import system_of
-        from lagrotor.mechanics.robot_files.urdf import read_urdf
+        from lagrotor.mechanics.robot_files import description, urdf
 
-        return system_of(read_urdf(path, base), symbols)
+        return RobotSystem(**description.parts_of(urdf.read_urdf(path, base), symbols))
 
     @staticmethod
     def from_mjcf(path: "str | Path", symbols: "Symbols" = "inertia") -> "RobotSystem":
@@ -187,10 +187,9 @@ class System(Equations):
         >>> System.from_mjcf(path, symbols="none").motion[0]
         8*z + 2*z_ddot + 981/50
         """
-        from lagrotor.mechanics.robot_files.description import system_of
-        from lagrotor.mechanics.robot_files.mjcf import read_mjcf
+        from lagrotor.mechanics.robot_files import description, mjcf
 
-        return system_of(read_mjcf(path), symbols)
+        return RobotSystem(**description.parts_of(mjcf.read_mjcf(path), symbols))
 
     @property
     def cyclic(self) -> tuple[sp.Symbol, ...]:
@@ -1006,8 +1005,8 @@ class System(Equations):
         --------
         >>> from lagrotor.mechanics import coordinates
         >>> c = coordinates("r phi")
-        >>> System(c, (c.r_dot**2 + c.r**2 * c.phi_dot**2) / 2).coriolis_matrix()
-        Matrix([[0, -phi_dot*r], [phi_dot*r, r*r_dot]])
+        >>> System(c, (c.r_dot**2 + c.r**2 * c.phi_dot**2) / 2).coriolis_matrix().tolist()
+        [[0, -phi_dot*r], [phi_dot*r, r*r_dot]]
         """
         return coriolis_matrix(self.mass_matrix, self.c)
 
@@ -1157,3 +1156,56 @@ class System(Equations):
 
         q, v = in_order("simulate: q0", q0, self.c.q), in_order("simulate: v0", v0, self.speeds)
         return simulation.simulate_system(self, values, q, v, t, tol, engine, events, progress)
+
+
+@dataclass(frozen=True, repr=False)
+class RobotSystem(System):
+    """A System from a robot file, returned by `System.from_urdf` and `System.from_mjcf`.
+
+    Attributes
+    ----------
+    c : Coordinates
+    lagrangian : Energy
+    constraints
+    rolling
+    dissipation
+    forces
+    names
+    velocities
+        The fields of `System`.
+    values : mapping
+        The numbers of the file by symbol, for `simulate`, `rhs` and `linearise`; empty if the system has no symbols.
+    start : mapping
+        The coordinates in the position that the file describes, by name.
+    links : mapping
+        The frames of the links by the names of the file, for forces, points and constraints.
+    joint_coordinates : mapping
+        The coordinates of each joint by the names of the file.
+    not_read : tuple of str
+        The parts of the file that are left out, in words: meshes, contacts, actuators, limits.
+    notes : tuple of str
+        The changes, in words: decimals that are read as multiples of π, names that are changed.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import mkdtemp
+    >>> file = Path(mkdtemp(), "rod.urdf")
+    >>> _ = file.write_text('''<robot name="rod"><link name="base"/><link name="rod"><inertial><origin xyz="0 0 -0.5"/>
+    ... <mass value="2"/><inertia ixx="0.1" iyy="0.1" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>
+    ... <joint name="hinge" type="continuous"><parent link="base"/><child link="rod"/><axis xyz="0 1 0"/></joint></robot>''')
+    >>> rod = System.from_urdf(file)
+    >>> rod.motion[0].subs(rod.values)
+    0.6*hinge_ddot + 9.81*sin(hinge)
+    """
+
+    values: Mapping[sp.Symbol, float] = field(default_factory=dict, compare=False)
+    start: Mapping[str, float] = field(default_factory=dict, compare=False)
+    links: "Mapping[str, Frame]" = field(default_factory=dict, compare=False)
+    joint_coordinates: Mapping[str, tuple[sp.Symbol, ...]] = field(default_factory=dict, compare=False)
+    not_read: tuple[str, ...] = field(default=(), compare=False)
+    notes: tuple[str, ...] = field(default=(), compare=False)
+
+    def __repr__(self) -> str:
+        rows = {"not read": "; ".join(self.not_read), "notes": "; ".join(self.notes)}
+        return super().__repr__() + in_lines("", {name: text for name, text in rows.items() if text})

@@ -269,7 +269,7 @@ class Pathway:
             )
 
 
-def force(frame: MovingFrame, components: Vector, at: Vector, axes: MovingFrame | str) -> AppliedForce:
+def force(frame: MovingFrame, components: Vector, at: Vector, axes: MovingFrame | str | None) -> AppliedForce:
     """Return the generalised forces of a force: `Frame.force`."""
     along, F = _axes("force", frame, axes), vector_of("force: components", components, 3)
     point = vector_of("force: at", at, 3)
@@ -277,7 +277,9 @@ def force(frame: MovingFrame, components: Vector, at: Vector, axes: MovingFrame 
     return AppliedForce.of(Q, (Load(frame, point, F, _ZERO, along),))
 
 
-def torque(frame: MovingFrame, moment: Vector, against: MovingFrame | None, axes: MovingFrame | str) -> AppliedForce:
+def torque(
+    frame: MovingFrame, moment: Vector, against: MovingFrame | None, axes: MovingFrame | str | None
+) -> AppliedForce:
     """Return the generalised forces of a torque: `Frame.torque`."""
     along, T = _axes("torque", frame, axes), vector_of("torque: moment", moment, 3)
     w, loads = frame.angular_velocity, [Load(frame, _ZERO, _ZERO, T, along)]
@@ -289,10 +291,12 @@ def torque(frame: MovingFrame, moment: Vector, against: MovingFrame | None, axes
     return AppliedForce.of((jacobian(w, frame.c.v).T * moment).applyfunc(shortest), tuple(loads))
 
 
-def _axes(where: str, frame: MovingFrame, axes: MovingFrame | str) -> MovingFrame:
+def _axes(where: str, frame: MovingFrame, axes: MovingFrame | str | None) -> MovingFrame:
     """Return the frame along whose axes a vector is given: "frame", "ground", or a frame."""
-    if axes in ("frame", "ground"):
-        return frame if axes == "frame" else frame.to_the_ground[-1]
+    if axes is None or axes == "frame":
+        return frame
+    if axes == "ground":
+        return frame.to_the_ground[-1]
     if isinstance(axes, str):
         raise InputError(f"{where}: axes = {axes!r} must be 'frame', 'ground' or a Frame")
     _check(f"{where}: axes", frame, axes)

@@ -21,6 +21,7 @@ from typing import Any
 import sympy as sp
 from sympy.polys.constructor import construct_domain
 from sympy.polys.matrices import DomainMatrix
+from sympy.polys.polyerrors import CoercionFailed
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.bodies.joint_forces import (
@@ -30,6 +31,7 @@ from lagrotor.mechanics.bodies.joint_forces import (
     generalised,
     inward,
     rate_stages,
+    unsteady_weights,
     written_out,
 )
 from lagrotor.mechanics.bodies.moving_frames import MovingFrame
@@ -62,8 +64,8 @@ class BaseParameters:
     values : Matrix
         The base parameters in the symbols of the system, shape (r, 1).
     hidden : tuple of Expr
-        Changes of the parameters that no motion can tell: each a combination of names, for example m_1 − l**2*Izz_2, that
-        names a direction. The parameters change in proportion to their coefficients.
+        Changes of the parameters that no motion can tell: each a combination of names, for example m_2 − l*mx_1 −
+        l**2*Izz_1. The parameters change in proportion to their coefficients.
     """
 
     names: tuple[sp.Symbol, ...]
@@ -97,7 +99,7 @@ def _bodies(where: str, system: Equations) -> tuple[tuple[Any, ...], tuple[sp.Ex
     complete = len(kinetic) + len(fallen) == len(terms) and sorted(map(id, kinetic)) == sorted(
         map(id, fallen or kinetic)
     )
-    if not kinetic or not complete or len(fields) > 1 or len({*kinetic}) < len(kinetic):
+    if not kinetic or not complete or len(fields) > 1 or len({*kinetic}) < len(kinetic) or unsteady_weights(system):
         raise InputError(
             f"{where}: the Lagrangian must be made of bodies: body.kinetic of each, once, less body.potential(field) of all or "
             "of none, with one field"
@@ -139,7 +141,12 @@ def base_parameters(system: Equations) -> BaseParameters:
     letters = {s: _number(random) for s in energies.letters}
     base = energies.domain(())
     states = [energies.state(random) for _ in range(len(names) + _MORE)]
-    rows = energies.rows(states, base, letters)
+    try:
+        rows = energies.rows(states, base, letters)
+    except CoercionFailed as problem:
+        raise InputError(
+            f"base_parameters: joints with {problem}: give angles and polynomials of coordinates"
+        ) from None
     reduced, columns = DomainMatrix(rows, (len(rows), len(names)), base).rref()
     reduced = reduced.to_Matrix()
     combinations, hidden = [names[p] for p in columns], list[sp.Expr]()
@@ -196,6 +203,7 @@ class _Energies:
         self.turning = {self.angles[x] for x in turning}
         self.roots = {p for e in every for p in e.atoms(sp.Pow) if p.is_number}
         self.moving = moving | self.turning
+        self.exact = dict[int, Any]()  # energies at states, by number, with the letters of the system
         self.letters = sorted(set().union(*(e.free_symbols for e in every)) - self.moving, key=str)
 
     def domain(self, letters: Sequence[sp.Symbol]) -> Any:
@@ -248,8 +256,10 @@ class _Energies:
         chosen = numbers.rref()[1]  # the first independent rows
         exact = list[list[Any]]()
         for i in chosen:
-            pair = self.rows([states[0], states[i // 2]], K, {})
-            exact.append([pair[2 + i % 2][k] for k in (*columns, j)])
+            for k in {0, i // 2} - self.exact.keys():
+                self.exact[k] = self._row(states[k], K)
+            (kinetic, potential), (_, first) = self.exact[i // 2], self.exact[0]
+            exact.append([potential[k] - first[k] if i % 2 else kinetic[k] for k in (*columns, j)])
         solved = DomainMatrix(exact, (n, n + 1), K).rref()[0].to_Matrix()[:, n]
         back = {s: sp.tan(x / 2) for x, s in self.angles.items()} | self.constants
         return [sp.factor(e).xreplace(back) for e in solved]

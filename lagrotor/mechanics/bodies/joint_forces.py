@@ -158,47 +158,37 @@ def placed_loads(where: str, system: Equations) -> list[Load]:
             f"{where}: the Lagrangian has no bodies and says nothing of joints: build it from Frame(c).pin(…).body(…)"
         )
 
-    def refusal(what: str, e: Any, remedy: str) -> InputError:
-        return InputError(f"{where}: {what} {e} does not say on which bodies it acts: {remedy}")
+    def refusal(what: str, remedy: str) -> InputError:
+        return InputError(f"{where}: {what} does not say on which bodies it acts: {remedy}")
 
-    applied = getattr(system.forces, "loads", ())
-    if applied is None:
+    if (applied := getattr(system.forces, "loads", ())) is None:
         raise refusal(
-            "the force",
-            f"{system.forces}",
-            "a Pathway knows no bodies; use Frame.force on the frames of both ends, unchanged",
+            f"the force {system.forces}", "use Frame.force on the frames, unchanged; a Pathway knows no bodies"
         )
-    moving, quaternions = {*c.q, *c.v}, [{*joint.quaternion} for joint in system.ball_joints]
-    position_of = dict(zip((*c.v, *c.q), (*c.q, *c.q), strict=True))
-    for _, field, factor in L.terms:
-        if wrong := set().union(factor.free_symbols, *(e.free_symbols for e in field or ())) & moving:
-            raise refusal("a field or factor with", min(map(str, wrong)), "keep it free of coordinates")
+    moving, balls = (
+        {*c.q, *c.v},
+        [{*b.quaternion, *(system.c.v[c.q.index(q)] for q in b.quaternion)} for b in system.ball_joints],
+    )
+    if wrong := unsteady_weights(system):
+        raise refusal(f"a weight with {min(map(str, wrong))}", "keep field and factor free of coordinates")
     for term in sp.Add.make_args(L.remainder):
         inside = term.free_symbols & moving
         is_spring = len(inside) == 1 and (s := min(inside)) in c.q and term.is_polynomial(s) and sp.degree(term, s) > 1
         if inside and not is_spring:
-            raise refusal(
-                "the term",
-                f"{term} of L",
-                "write a weight as body.potential((0, 0, -g)), a spring in a joint as -k*q**2/2 of its coordinate, and any "
-                "other force by forces=frame.force(…)",
-            )
+            way = "write a weight as body.potential((0, 0, -g)), the spring of a joint as -k*q**2/2, others as frame.force(…)"
+            raise refusal(f"the term {term} of L", way)
     for term in sp.Add.make_args(sp.expand(system.dissipation)):
         inside = term.free_symbols & moving
-        of_ball = any({position_of[s] for s in inside} <= q for q in quaternions)
-        if (len(inside) > 1 and not of_ball) or term.free_symbols & {*system.reactions}:
-            raise refusal(
-                "the dissipation",
-                term,
-                "friction in a joint is a function of that joint's velocity alone; give any other by forces=frame.force(…)",
-            )
+        if (len(inside) > 1 and not any(inside <= ball for ball in balls)) or term.free_symbols & {*system.reactions}:
+            way = "friction in a joint depends on that joint's velocity alone; give other friction by frame.force(…)"
+            raise refusal(f"the dissipation {term}", way)
     loads, units = list(applied), [joint.unit_length for joint in system.ball_joints]
     everything = (*system.constraints, *system.rolling)
     for i, (e, lam, source) in enumerate(zip(everything, system.multipliers, _sources(system), strict=True)):
         if source is not None:
             loads += [_times(load, lam) for load in source.loads]
         elif e not in units and (i >= len(system.constraints) or len(e.free_symbols & moving) > 1):
-            raise refusal("the constraint", f"{e} = 0", "build it by coincides, keeps_axis or rolls_on")
+            raise refusal(f"the constraint {e} = 0", "build it by coincides, keeps_axis or rolls_on")
     return loads
 
 
@@ -285,6 +275,12 @@ def _fields(system: Equations) -> list[tuple[sp.Expr, ...]]:
     return list(dict.fromkeys(field for _, field, _ in system.lagrangian.terms if field is not None))
 
 
+def unsteady_weights(system: Equations) -> set[sp.Basic]:
+    """Return the coordinates and velocities in fields or factors of energies, of which the recursion does not know."""
+    parts = (e for _, field, factor in system.lagrangian.terms for e in (factor, *(field or ())))
+    return set().union(*(e.free_symbols for e in parts)) & {*system.c.q, *system.c.v}
+
+
 def _still(system: Equations) -> FrameMotion:
     """Return the motion of the ground."""
     fields = Small(list(zip(*_fields(system), strict=True)) or [[]] * 3)
@@ -293,9 +289,7 @@ def _still(system: Equations) -> FrameMotion:
 
 def body_wrenches(system: Equations, motions: Mapping[MovingFrame, FrameMotion], keep: Stages) -> Wrenches:
     """Return the torque and force (N, F) about each frame's origin that its bodies need, less their weights."""
-    ground = _still(system)
-    fields = _fields(system)
-    wrenches = Wrenches()
+    ground, fields, wrenches = _still(system), _fields(system), Wrenches()
     for body, field, factor in system.lagrangian.terms:
         at, c = motions.get(body.frame, ground), Small.of(body.centre)
         if field is None:
@@ -304,8 +298,7 @@ def body_wrenches(system: Equations, motions: Mapping[MovingFrame, FrameMotion],
         else:
             column = fields.index(field)
             f, n = Small([[row[column]] for row in at.fields.rows]) * (factor * body.mass), _NONE
-        f = keep.each(f)
-        wrench = blocks([[n + c.cross(f)], [f]])
+        wrench = blocks([[n + c.cross(f := keep.each(f))], [f]])
         wrenches[body.frame] = keep.each(wrenches.get(body.frame, zeros(6, 1)) + wrench)
     return wrenches
 

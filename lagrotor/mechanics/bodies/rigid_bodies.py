@@ -119,7 +119,7 @@ def check_body(where: str, body: Body, values: Mapping[sp.Symbol, Any] | None = 
     For principal inertias the second condition is I1 ≤ I2 + I3 and its permutations. Inertia about one axis alone is allowed,
     for motion in a plane. Symbols without a number are not checked.
     """
-    mass, I = (e.subs(values or {}) for e in (body.mass, body.inertia))
+    mass, I = (e.xreplace(dict(values or {})) for e in (body.mass, body.inertia))
     if mass.is_negative:
         raise InputError(f"{where}: mass = {mass} must not be negative: give 0 or more")
     if any(I[i, i].is_negative for i in range(3)):
@@ -274,10 +274,8 @@ class Frame(MovingFrame):
         ----------
         at : sequence, default (0, 0, 0)
             The origin, in m.
-        axes, angles : str and sequence
-            Axes of turns, one after another, and fixed angles in rad.
-        name : str, default ''
-            The name of the joint.
+        axes, angles, name : str, sequence and str
+            Axes of turns, one after another, fixed angles in rad, and the name of the joint.
 
         Returns
         -------
@@ -297,10 +295,8 @@ class Frame(MovingFrame):
 
         Parameters
         ----------
-        angle, axis : Expr or str
-            The angle in rad and the axis.
-        name : str, default ''
-            The name of the joint.
+        angle, axis, name : Expr or str
+            The angle in rad, the axis, and the name of the joint.
 
         Returns
         -------
@@ -320,10 +316,8 @@ class Frame(MovingFrame):
 
         Parameters
         ----------
-        length, axis : Expr or str
-            The length in m and the axis.
-        name : str, default ''
-            The name of the joint.
+        length, axis, name : Expr or str
+            The length in m, the axis, and the name of the joint.
 
         Returns
         -------
@@ -343,10 +337,8 @@ class Frame(MovingFrame):
 
         Parameters
         ----------
-        angle, pitch, axis : Expr or str
-            The angle in rad, the advance in m for each turn of 2 π, and the axis.
-        name : str, default ''
-            The name of the joint.
+        angle, pitch, axis, name : Expr or str
+            The angle in rad, the advance in m for each turn of 2 π, the axis, and the name of the joint.
 
         Returns
         -------
@@ -367,10 +359,8 @@ class Frame(MovingFrame):
 
         Parameters
         ----------
-        length, angle, axis : Expr or str
-            The length in m, the angle in rad and the axis.
-        name : str, default ''
-            The name of the joint.
+        length, angle, axis, name : Expr or str
+            The length in m, the angle in rad, the axis, and the name of the joint.
 
         Returns
         -------
@@ -390,10 +380,8 @@ class Frame(MovingFrame):
 
         Parameters
         ----------
-        first, second, axes : Expr or str
-            The angles in rad and two different axes.
-        name : str, default ''
-            The name of the joint.
+        first, second, axes, name : Expr or str
+            The angles in rad, two different axes, and the name of the joint.
 
         Returns
         -------
@@ -413,10 +401,8 @@ class Frame(MovingFrame):
 
         Parameters
         ----------
-        x, y, angle, normal : Expr or str
-            The shifts in m, the angle in rad and the axis normal to the plane.
-        name : str, default ''
-            The name of the joint.
+        x, y, angle, normal, name : Expr or str
+            The shifts in m, the angle in rad, the axis normal to the plane, and the name of the joint.
 
         Returns
         -------

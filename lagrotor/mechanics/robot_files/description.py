@@ -6,21 +6,21 @@ another in the axes turned before, each about an anchor of its own.
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, Literal
 
 import sympy as sp
 
+from lagrotor.algebra.subexpressions import with_shared_parts
 from lagrotor.errors import InputError
 from lagrotor.mechanics.bodies.moving_frames import AXES
 from lagrotor.mechanics.bodies.rigid_bodies import Body, Energy, Frame, check_body
+from lagrotor.mechanics.bodies.small_matrices import Small
 from lagrotor.mechanics.lagrangian import coordinates
 from lagrotor.mechanics.robot_files.geoms import Solid, combined
 from lagrotor.mechanics.robot_files.poses import ORIGIN, Pose, rotation_of, to_axis
-from lagrotor.mechanics.systems import System
-from lagrotor.result_display import in_lines
 
 Symbols = Literal["inertia", "all", "none"]
 _ANY = coordinates("q")
@@ -101,68 +101,6 @@ class Description:
     notes: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, repr=False)
-class RobotSystem(System):
-    """A System from a robot file, returned by `System.from_urdf` and `System.from_mjcf`.
-
-    Attributes
-    ----------
-    values : mapping
-        The numbers of the file by symbol, for `simulate`, `rhs` and `linearise`; empty if the system has no symbols.
-    start : mapping
-        The coordinates in the position that the file describes, by name.
-    links : mapping
-        The frames of the links by the names of the file, for forces, points and constraints.
-    joint_coordinates : mapping
-        The coordinates of each joint by the names of the file.
-    not_read : tuple of str
-        The parts of the file that are left out, in words: meshes, contacts, actuators, limits.
-    notes : tuple of str
-        The changes, in words: decimals that are read as multiples of π, names that are changed.
-
-    Examples
-    --------
-    >>> from pathlib import Path
-    >>> from tempfile import mkdtemp
-    >>> file = Path(mkdtemp(), "rod.urdf")
-    >>> _ = file.write_text('''<robot name="rod"><link name="base"/><link name="rod"><inertial><origin xyz="0 0 -0.5"/>
-    ... <mass value="2"/><inertia ixx="0.1" iyy="0.1" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>
-    ... <joint name="hinge" type="continuous"><parent link="base"/><child link="rod"/><axis xyz="0 1 0"/></joint></robot>''')
-    >>> rod = System.from_urdf(file)
-    >>> rod.motion[0].subs(rod.values)
-    0.6*hinge_ddot + 9.81*sin(hinge)
-    """
-
-    values: Mapping[sp.Symbol, float] = field(default_factory=dict, compare=False)
-    start: Mapping[str, float] = field(default_factory=dict, compare=False)
-    links: Mapping[str, Frame] = field(default_factory=dict, compare=False)
-    joint_coordinates: Mapping[str, tuple[sp.Symbol, ...]] = field(default_factory=dict, compare=False)
-    not_read: tuple[str, ...] = field(default=(), compare=False)
-    notes: tuple[str, ...] = field(default=(), compare=False)
-
-    @property
-    def skeleton(self) -> list[list[list[sp.Expr]]]:
-        """The lines of a picture: for each last link, the places of the links from the ground to its centre of mass, in m."""
-        carried = {id(body.frame): body for body in self.lagrangian.bodies}
-        places = {id(frame): list(frame.place()) for frame in self.links.values()}
-        inner = {id(step) for frame in self.links.values() for step in frame.to_the_ground[1:]}
-        lines = []
-        for frame in self.links.values():
-            if id(frame) in inner:
-                continue
-            steps = [step for step in reversed(frame.to_the_ground) if id(step) in places]
-            line = [places[id(step)] for step in steps]
-            if id(frame) in carried:
-                line.append(list(frame.place(carried[id(frame)].centre)))
-            if any(a != b for a, b in pairwise(line)):
-                lines.append(line)
-        return lines
-
-    def __repr__(self) -> str:
-        rows = {"not read": "; ".join(self.not_read), "notes": "; ".join(self.notes)}
-        return super().__repr__() + in_lines("", {name: text for name, text in rows.items() if text})
-
-
 class _Names:
     """The names of the symbols: letters, digits and _ alone, each once, also with _dot and _ddot."""
 
@@ -200,8 +138,8 @@ class _Parameters:
         return [self.symbol(f"{name}_{axis}", e, length) for axis, e in zip(AXES, numbers, strict=True)]
 
 
-def system_of(described: Description, symbols: Symbols) -> RobotSystem:
-    """Return the system of a description."""
+def parts_of(described: Description, symbols: Symbols) -> dict[str, Any]:
+    """Return the fields of a `RobotSystem` by name."""
     if symbols not in ("inertia", "all", "none"):
         raise InputError(f"symbols = {symbols!r} must be 'inertia', 'all' or 'none'")
     _check_masses(described)
@@ -246,14 +184,19 @@ def system_of(described: Description, symbols: Symbols) -> RobotSystem:
     L: Any = Energy((), remainder)
     for body in bodies:
         L = L + body.kinetic - (body.potential(fall) if any(fall) else 0)
-    constraints: Any = _constraints(described, [*frames, ground], {name: c[own[0]] for name, own in listed.items()})
-    system = RobotSystem(
-        c, L, constraints, dissipation=dissipation, values=numbers.values, start=start,
-        links={link.name: frame for link, frame in zip(described.links, frames, strict=True)},
-        joint_coordinates={name: tuple(c[q] for q in own) for name, own in listed.items()},
-        not_read=described.not_read, notes=(*described.notes, *merged, *names.notes),
-    )  # fmt: skip
-    return system
+    constraints = _constraints(described, [*frames, ground], {name: c[own[0]] for name, own in listed.items()})
+    return {
+        "c": c,
+        "lagrangian": L,
+        "constraints": constraints,
+        "dissipation": dissipation,
+        "values": numbers.values,
+        "start": start,
+        "links": {link.name: frame for link, frame in zip(described.links, frames, strict=True)},
+        "joint_coordinates": {name: tuple(c[q] for q in own) for name, own in listed.items()},
+        "not_read": described.not_read,
+        "notes": (*described.notes, *merged, *names.notes),
+    }
 
 
 def _moved(frame: Frame, joint: Joint, own: list[str], numbers: _Parameters) -> tuple[Frame, list[sp.Expr]]:
@@ -275,6 +218,8 @@ def _moved(frame: Frame, joint: Joint, own: list[str], numbers: _Parameters) -> 
         if joint.kind == "revolute" and len(along) == 1:
             angle = (c[own[0]] - joint.zero) * sp.sign(joint.axis[along[0]])
             frame = moved.turned(AXES[along[0]], [angle], name=joint.name)
+        elif joint.kind == "planar" and len(along) == 1 and joint.axis[along[0]] > 0:
+            frame = moved.planar(own[0], own[1], own[2], AXES[along[0]], name=joint.name)
         else:
             R = rotation_of(to_axis(joint.axis))
             frame = moved.turned(R) if sp.eye(3) != R else moved
@@ -317,8 +262,8 @@ def _possible_bodies(links: Sequence[Link]) -> tuple[list[Link], list[str]]:
         changed[k] = replace(links[k], mass=whole.mass, centre=whole.centre, inertia=whole.inertia)
         if not _is_possible(changed[k]):
             raise InputError(
-                f"{links[members[0]].where}: the inertia of link {named} is that of no body: of its principal inertias none may be "
-                f"larger than the two others together; correct it: {changed[k].inertia.evalf(6).tolist()}"
+                f"{links[members[0]].where}: the inertia of link {named} is that of no body: of the principal inertias none may "
+                f"exceed the two others together; correct it: {changed[k].inertia.evalf(6).tolist()}"
             )
         notes.append(f"links {named} are fixed to one another and have impossible inertias alone: they are one body")
     return changed, notes
@@ -376,11 +321,39 @@ def _constraints(described: Description, frames: list[Frame], q: Mapping[str, sp
             named[closure.name] = q[first] - zeros[first] - sum(a * x**i for i, a in enumerate(closure.polynomial))
             continue
         one, two = (frames[i] for i in closure.links)
-        parts = list(one.coincides(two, *closure.points))
+        parts = list[sp.Expr]()
+        if any((one.place(closure.points[0]) - two.place(closure.points[1])).expand()):
+            parts += one.coincides(two, *closure.points, name=closure.name)
         if closure.turn is not None:
-            theirs = [two.place(list(closure.turn.T[:, i])) - two.place() for i in range(3)]
-            ours = [one.place(list(sp.eye(3)[:, i])) - one.place() for i in range(3)]
-            turns = [sp.expand(ours[i].dot(theirs[(i + 1) % 3])) for i in range(3)]
+            ours, theirs = _rotation(one), _rotation(two) * Small.of(closure.turn.T)
+            turns = [(ours.T * theirs)[i, (i + 1) % 3] for i in range(3)]
             parts += [e for e in turns if e != 0]
+        if not parts:
+            raise InputError(f"{described.file}: the constraint {closure.name!r} binds no coordinate: leave it out")
         named |= {f"{closure.name} {i + 1}" if len(parts) > 1 else closure.name: e for i, e in enumerate(parts)}
     return named
+
+
+def _rotation(frame: Frame) -> Small:
+    """Return the rotation of a frame into the ground's axes, not multiplied out."""
+    R = Small.of(sp.eye(3))
+    for step in reversed(frame.to_the_ground):
+        R = (R * Small.of(step.rotation)).each(with_shared_parts)
+    return R
+
+
+def skeleton(system: Any) -> list[list[list[sp.Expr]]]:
+    """Return the lines of a picture: for each last link, the places of the links from the ground to its centre of mass, in m."""
+    carried = {id(body.frame): body for body in system.bodies}
+    places = {id(frame): list(frame.place()) for frame in system.links.values()}
+    inner = {id(step) for frame in system.links.values() for step in frame.to_the_ground[1:]}
+    lines = []
+    for frame in system.links.values():
+        if id(frame) in inner:
+            continue
+        line = [places[id(step)] for step in reversed(frame.to_the_ground) if id(step) in places]
+        if id(frame) in carried:
+            line.append(list(frame.place(carried[id(frame)].centre)))
+        if any(a != b for a, b in pairwise(line)):
+            lines.append(line)
+    return lines

@@ -39,6 +39,7 @@ class _Reading:
     homes: list[Pose] = field(default_factory=list)
     solids: list[Solid] = field(default_factory=list)
     sites: dict[str, tuple[int, Pose]] = field(default_factory=dict)
+    names: set[str] = field(default_factory=set)
     notes: list[str] = field(default_factory=list)
     counts: dict[str, int] = field(default_factory=dict)
 
@@ -117,6 +118,8 @@ def _included(element: Element, folder: Path, seen: set[Path]) -> Iterator[Eleme
         target = (folder / name).resolve()
         if not target.is_relative_to(folder):
             raise child.refusal(f"file={name!r} is outside the folder {folder}: move it there")
+        if not target.is_file():
+            raise child.refusal(f"file={name!r} is no file in {folder}: correct the name")
         if target in seen:
             raise child.refusal(f"file={name!r} is included already: a file is included once")
         yield from _included(read_xml(target), folder, seen | {target})
@@ -158,6 +161,7 @@ def _read_body(body: Element, index: int, inherited: str, prefix: Pose, moving: 
                 "it makes bodies that are not read: let MuJoCo save the compiled model, and give that file"
             )
         reading.count(f"<{element.tag}>")
+    reading.count("shapes of contact and drawing", len(body.all("geom")))
     for child in body.children:
         if child.tag == "frame":
             pose = prefix.then(_pose(child, reading))
@@ -205,8 +209,9 @@ def _joint(element: Element, body: str, inherited: str, pose: Pose, reading: _Re
         "actuatorfrcrange solimpfriction stiffness damping frictionloss armature ref springref margin user actuatorgravcomp align"
     )
     name = element.attributes.get("name") or f"{body}_joint"
-    if any(joint_.name == name for link in reading.links for joint_ in link.joints):
+    if name in reading.names:
         raise element.refusal(f"another joint has the name {name!r}: rename one")
+    reading.names.add(name)
     reading.count("limits of joints", "range" in joint.attributes and joint.text("limited", "auto") != "false")
     reading.count("dry friction of joints", joint.number("frictionloss", "0") != 0)
     passive = reading.flags.get("passive") != "disable"
@@ -321,6 +326,7 @@ def _closures(root: Element, reading: _Reading) -> Iterator[Closure]:
             reading.count("inactive equality constraints")
             continue
         name = element.attributes.get("name") or f"{element.tag} {len(names) + 1}"
+        name = name if name not in reading.names | names else f"constraint {len(names) + 1}, {name}"
         names.add(name)
         if element.tag == "joint":
             pair = element.text("joint1"), element.text("joint2", "")

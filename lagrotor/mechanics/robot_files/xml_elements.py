@@ -88,10 +88,13 @@ class Element:
         return exact
 
     def check_attributes(self, known: str) -> None:
-        """Refuse an attribute that looks like a misprint of a known one."""
+        """Refuse an attribute that looks like a misprint of a known one; files contain others, for other programs."""
         names = known.split()
-        for name in self.attributes:
-            if name not in names and (meant := near(name, names)):
+        for name in self.attributes.keys() - {*names}:
+            one_off = [
+                k for k in names if len(k) == len(name) and sum(a != b for a, b in zip(k, name, strict=True)) == 1
+            ]
+            if meant := near(name, names) or f": {' or '.join(one_off)}?" * bool(one_off):
                 raise self.refusal(f"the attribute {name} has no meaning{meant}")
 
     def check_children(self, known: str) -> "list[Element]":
@@ -105,13 +108,14 @@ class Element:
 
 
 def as_multiple_of_pi(word: str, value: sp.Rational) -> sp.Expr:
-    """Return the multiple of π/12 that a decimal gives to its last digit; the decimal itself if there is none."""
+    """Return the multiple of π/12 of which a decimal is the rounded or cut off value; the decimal itself if there is none."""
     mantissa, _, exponent = word.lower().partition("e")
     last = sp.Rational(10) ** (int(exponent or 0) - len(mantissa.partition(".")[2]))
     significant = len(mantissa.lstrip("+-0.").replace(".", ""))
     for part, digits in ((2, 3), (12, 5)):
         exact = round(float(value) * part / math.pi) * sp.pi / part
-        if exact != 0 and significant >= digits and abs((exact - value).evalf(40)) < last:
+        over = (abs(value) - abs(exact)).evalf(40)  # ≤ 0 if the decimal is cut off, not rounded
+        if exact != 0 and significant >= digits and -last < over <= last / 2:
             return exact
     return value
 

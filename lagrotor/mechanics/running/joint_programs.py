@@ -1,7 +1,7 @@
 """The recursion of Newton and Euler as programs: the forces in joints along a run, and inverse dynamics at given states."""
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import sympy as sp
@@ -15,6 +15,7 @@ from lagrotor.mechanics.bodies.joint_forces import (
     joint_outputs,
     placed_loads,
     rate_stages,
+    unsteady_weights,
     written_out,
 )
 from lagrotor.mechanics.bodies.small_matrices import Stages
@@ -25,14 +26,11 @@ from lagrotor.mechanics.running.function_values import put_functions, with_value
 from lagrotor.mechanics.running.programs import Generated, _program, equations_of_speeds, velocity_stages
 from lagrotor.numerics.codegen import Stage
 
-if TYPE_CHECKING:
-    from lagrotor.mechanics.running.motion import SampledMotion
-
 
 class Reactions(Mapping[str, Any]):
     """The reactions of a run by name: the multiplier of each constraint, shape (n,), and the `JointForce` of each joint."""
 
-    def __init__(self, run: "SampledMotion") -> None:
+    def __init__(self, run: Any) -> None:
         self._run, self._joints = run, dict[str, dict[str, JointForce]]()
 
     def __getitem__(self, name: str) -> Any:
@@ -40,7 +38,7 @@ class Reactions(Mapping[str, Any]):
         if name in multipliers:
             return self._run.evaluate(multipliers[name])
         if name not in joint_names(self._run.system):
-            raise KeyError(name)
+            raise KeyError(f"{name!r} is none of the reactions {', '.join(self)}")
         return self.joint(name, "ground")
 
     def __iter__(self) -> Iterator[str]:
@@ -59,13 +57,17 @@ class Reactions(Mapping[str, Any]):
         return self._joints[axes][name]
 
 
-def joint_forces_along(run: "SampledMotion", axes: str) -> dict[str, JointForce]:
+def joint_forces_along(run: Any, axes: str) -> dict[str, JointForce]:
     """Compute the forces in all joints along a run.
 
     Accelerations, multipliers and loads are evaluated first and enter the program as inputs: dry friction and contacts make
     them jump.
     """
     system, names, components = run.system, joint_names(run.system), list[sp.Expr]()
+    if not run.switched.smooth and any(sum(run.switched.mode(state).closed) for state in run.states):
+        raise InputError(
+            "reactions: a body rests on the gap of an Impact, which does not say on which bodies its force acts"
+        )
 
     def input_of(e: sp.Expr) -> sp.Expr:
         components.append(e)
@@ -117,7 +119,7 @@ def inverse_program(system: Equations) -> Generated:
 
 
 def _inverse(system: Equations) -> tuple[list[Stage], list[sp.Expr]]:
-    if not system.bodies:
+    if not system.bodies or unsteady_weights(system):
         stages, M, push = equations_of_speeds(system)
         return stages, list(M * sp.Matrix(system.speed_rates) - push)
     keep = Stages()

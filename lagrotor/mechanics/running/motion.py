@@ -181,10 +181,9 @@ class SampledMotion(Run):
         Examples
         --------
         >>> from lagrotor.mechanics import Frame, System, coordinates
-        >>> c = coordinates("theta")
-        >>> rod = Frame(c).pin("theta", name="hook").body(mass=2, centre=(0, -1, 0))
-        >>> swing = System(c, rod.kinetic - rod.potential((0, -9, 0)))
-        >>> swing.simulate({}, (1.2,), (0,), [0, 1]).joint_force("hook", axes="joint").force[0].round(3)
+        >>> rod = Frame(c := coordinates("theta")).pin("theta").body(mass=2, centre=(0, -1, 0))
+        >>> run = System(c, rod.kinetic - rod.potential((0, -9, 0))).simulate({}, (1.2,), (0,), [0, 1])
+        >>> run.joint_force("theta", axes="joint").force[0].round(3)
         array([0.   , 6.522, 0.   ])
         """
         return self.reactions.joint(name, axes)  # type: ignore[attr-defined]

@@ -1,5 +1,8 @@
 """Frames and bodies against rotation matrices differentiated by hand, textbook Lagrangians and Newton–Euler equations."""
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 import pytest
 import sympy as sp
@@ -9,6 +12,7 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 from lagrotor.algebra import decide_equal
+from lagrotor.errors import InputError
 from lagrotor.mechanics import Frame, System, coordinates, t
 from tests.systems import I1, I3, R, g, l, m, rolling_disc
 
@@ -151,3 +155,36 @@ def test_a_body_that_turns_in_a_plane_is_drawn_as_the_rod_that_it_hangs_by() -> 
     rod = frame.body(m, (0, m * l**2 / 12, 0), (0, 0, -l / 2))
     assert [list(map(sp.simplify, point)) for point in rod.outline[1]] == [[0, 0, 0], [0, 0, -l]]
     assert [len(line) for line in frame.body(m, (0, m * l**2 / 12, 0)).outline] == [34]
+
+
+ODD = (sp.cos(sp.Rational(1, 10)), sp.sqrt(2) + sp.sqrt(3), sp.pi, sp.log(3), sp.Rational(7, 3) ** sp.Rational(1, 3))
+PLACES: dict[str, Callable[[Any], dict[str, Any]]] = {
+    "mass": lambda x: {"mass": x},
+    "inertia": lambda x: {"inertia": (1 + x, 1 + x, 1 + x)},
+    "inertia matrix": lambda x: {"inertia": [[x, 0.1, 0], [0.1, x, 0], [0, 0, x]]},
+    "centre": lambda x: {"centre": (0, x, 1)},
+    "length": lambda x: {"at": (x, 0, 0)},
+    "angle": lambda x: {"angle": x},
+    "axis": lambda x: {"axis": (0, x, 1)},
+    "weight": lambda x: {"field": (0, x, -9)},
+}
+
+
+def odd_system(mass: Any = 1, inertia: Any = (1, 1, 1), centre: Any = (0, 0, 1), **joint: Any) -> System:
+    c = coordinates("p r")
+    arm = Frame(c).weld(joint.get("at", (0, 0, 0)), "y", (joint.get("angle", 0),)).pin("p", joint.get("axis", "x"))
+    bodies = arm.body(mass, inertia, centre), arm.moved(1).pin("r", "y").body(1, (1, 1, 1), (0, 0, 1))
+    return System(c, sum(body.kinetic - body.potential(joint.get("field", (0, 0, -9))) for body in bodies))
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_constants_that_are_neither_rational_nor_symbols_stand_everywhere(place: str) -> None:
+    for x in ODD:
+        exact, rounded = odd_system(**PLACES[place](x)), odd_system(**PLACES[place](float(x)))
+        y = [0.1, 0.2, 0.3, 0.4]
+        assert exact.rhs({})(0, y) == pytest.approx(rounded.rhs({})(0, y), rel=1e-9)
+
+
+def test_an_inertia_of_odd_constants_that_no_body_has_is_refused() -> None:
+    with pytest.raises(InputError, match="no body has the inertia"):
+        odd_system(inertia=(sp.sqrt(2), sp.cos(sp.Rational(1, 10)) / 10, 1 / sp.pi))
