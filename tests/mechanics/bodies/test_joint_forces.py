@@ -330,6 +330,8 @@ def test_forces_that_give_an_acceleration_are_those_of_the_equations() -> None:
     q, u = state(ball, 3)
     rates = ball.rhs({})(0, [*q, *u])[len(q) :]
     assert ball.inverse_dynamics(q, u, rates) == pytest.approx(np.zeros(4), abs=1e-9)
+    flat = System(ball.c, ball.L, ball.constraints, velocities=dict(ball.velocities))
+    np.testing.assert_allclose(ball.inverse_dynamics(q, u, [1, 2, 3, 4]), flat.inverse_dynamics(q, u, [1, 2, 3, 4]))
     c, swing = pendulum()
     assert swing.inverse_dynamics(c.q, [0], {"theta_ddot": 2}) == sp.Matrix(
         [g * l * m * sp.sin(c.theta) + 2 * l**2 * m]
