@@ -63,7 +63,18 @@ def compare(name: str, path: Path) -> tuple[float, float, float]:
         header, source, about = system.export("c", folder, name)
         loop = Path(folder, "loop.c")
         loop.write_text(_LOOP.format(header.stem, header.stem.upper()))
-        command = ["gcc", "-std=c99", "-O2", "-shared", "-fPIC", "-o", f"{folder}/loop.so", str(source), str(loop), "-lm"]
+        command = [
+            "gcc",
+            "-std=c99",
+            "-O2",
+            "-shared",
+            "-fPIC",
+            "-o",
+            f"{folder}/loop.so",
+            str(source),
+            str(loop),
+            "-lm",
+        ]
         subprocess.run(command, check=True)
         many: Any = ctypes.CDLL(f"{folder}/loop.so").many
         given = {str(s): value for s, value in zip(torques, tau, strict=True)}

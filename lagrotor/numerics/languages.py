@@ -84,7 +84,8 @@ abstract baremodule begin elseif end finally function global import in isa let l
 where pi im
 classdef endfunction endif endfor endwhile endswitch otherwise parfor persistent spmd until unwind_protect end_try_catch
 end_unwind_protect ans eps reshape zeros
-ca jnp jax eye math pow fabs fmax fmin abs max min ceil atan2 t x p a d i j column SIGN NAN INFINITY DOMAIN SING OVERFLOW UNDERFLOW
+ca jnp jax eye math pow fabs fmax fmin abs max min ceil atan2 t x p a d i j column SIGN NAN INFINITY DOMAIN SING
+OVERFLOW UNDERFLOW
 """
 _RESERVED = {*keyword.kwlist, *_WORDS.split(), *_PLAIN}
 

@@ -95,7 +95,11 @@ def _programs(system: Equations) -> dict[str, Generated]:
         try:
             programs["joint_forces"] = _joint_program(system, names)
         except InputError as error:
-            warnings.warn(f"export: without joint_forces: {error}", LagrotorWarning, stacklevel=4)
+            warnings.warn(
+                f"export: without joint_forces: {str(error).removeprefix('joint_force: ')}",
+                LagrotorWarning,
+                stacklevel=4,
+            )
     programs["jacobian"] = _slope_program(programs["rhs"], clock)
     if called := [p for each in programs.values() for p in each.parameters if isinstance(p, Jet)]:
         raise InputError(

@@ -10,7 +10,6 @@ import json
 import re
 import shutil
 import subprocess
-import sys
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
@@ -23,8 +22,10 @@ import sympy as sp
 
 from lagrotor.errors import InputError, LagrotorWarning
 from lagrotor.mechanics import Frame, System, coordinates, reaction, t
+from lagrotor.numerics.languages import identifiers
 from tests.systems import VALUES, ball_top, cart_and_pole, g, l, m, pendulum, rolling_disc
 
+pytestmark = pytest.mark.filterwarnings("ignore:export. without joint_forces")
 Numbers = dict[str, np.ndarray]
 _STATES = 3
 FUNCTIONS = ("rhs", "mass_matrix", "forcing", "inverse_dynamics", "energy", "joint_forces", "jacobian")
@@ -67,10 +68,23 @@ def odd_functions() -> System:
     names = "lambda end function t_ double π v+1 v_1 M_PI s0 jnp"
     bad = [sp.Symbol(name, positive=True) for name in names.split()]
     x, y = c.q
-    V = bad[0] * sp.sech(x) + bad[1] * sp.Abs(x) ** sp.Rational(5, 2) + bad[2] * sp.atan2(y, 2 + x**2) + sp.exp(-x * bad[3])
+    V = (
+        bad[0] * sp.sech(x)
+        + bad[1] * sp.Abs(x) ** sp.Rational(5, 2)
+        + bad[2] * sp.atan2(y, 2 + x**2)
+        + sp.exp(-x * bad[3])
+    )
     V += bad[4] * sp.sqrt(1 + x**2) + bad[5] * y**2 / (1 + y**6) + sp.log(2 + sp.cos(x)) * sp.pi + sp.tanh(y * bad[6])
-    V += bad[7] * sp.Max(x, y, 1) ** 2 + bad[8] * (2 + x) ** bad[9] + sp.asinh(x * y) + x**11 / 3 + bad[10] * sp.tan(y / 4)
-    return System(c, (c.v[0] ** 2 + bad[0] * c.v[1] ** 2 * (2 + sp.sin(x))) / 2 - V, forces=(-c.v[0] * sp.Abs(c.v[0]), 0))
+    V += (
+        bad[7] * sp.Max(x, y, 1) ** 2
+        + bad[8] * (2 + x) ** bad[9]
+        + sp.asinh(x * y)
+        + x**11 / 3
+        + bad[10] * sp.tan(y / 4)
+    )
+    return System(
+        c, (c.v[0] ** 2 + bad[0] * c.v[1] ** 2 * (2 + sp.sin(x))) / 2 - V, forces=(-c.v[0] * sp.Abs(c.v[0]), 0)
+    )
 
 
 def arm_of_seven_axes(folder: Path) -> System:
@@ -115,7 +129,10 @@ def calls(gallery: dict[str, System], about: dict[str, Any]) -> Calls:
     """Random arguments (t, x, p, a) of the functions of each system."""
     random, made = np.random.default_rng(1), Calls()
     for name, system in gallery.items():
-        p = [row.get("value", {str(s): x for s, x in VALUES.items()}.get(row["name"])) for row in about[name]["parameters"]]
+        p = [
+            row.get("value", {str(s): x for s, x in VALUES.items()}.get(row["name"]))
+            for row in about[name]["parameters"]
+        ]
         numbers = np.array([random.uniform(0.5, 1.5) if x is None else x for x in p], float)
         sizes = len(system.c.q) + len(system.speeds), len(system.speeds)
         made[name] = [
@@ -141,7 +158,8 @@ def _right(system: System, names: list[str], time: float, x: np.ndarray, p: np.n
     rhs, q, u = system.rhs(values), x[:n], x[n:]
 
     rates, h = np.array([0 * a, a, *np.eye(len(a))]), 1e-4
-    still, forces, *columns = system.inverse_dynamics(np.tile(q, (len(rates), 1)), np.tile(u, (len(rates), 1)), rates, values, time)
+    many = (np.tile(each, (len(rates), 1)) for each in (q, u))
+    still, forces, *columns = system.inverse_dynamics(*many, rates, values, time)
     slopes = [[np.array(rhs(time, x + k * h * e)) for k in (-2, -1, 1, 2)] for e in np.eye(len(x))]
     numbers = {
         "rhs": np.array(rhs(time, x)),
@@ -188,7 +206,9 @@ def in_c(gallery: dict[str, System], folder: Path, calls: Calls, about: dict[str
         pytest.skip("no gcc")
     sources = [file for name, s in gallery.items() for file in s.export("c", folder, name) if file.suffix == ".c"]
     strict = ["-Wall", "-Wextra", "-Werror", "-pedantic"]
-    subprocess.run(["gcc", "-std=c99", *strict, "-O0", "-shared", "-fPIC", "-o", "all.so", *sources, "-lm"], cwd=folder, check=True)
+    subprocess.run(
+        ["gcc", "-std=c99", *strict, "-O0", "-shared", "-fPIC", "-o", "all.so", *sources, "-lm"], cwd=folder, check=True
+    )
     if shutil.which("g++"):
         subprocess.run(["g++", "-x", "c++", *strict, "-fsyntax-only", *sources], cwd=folder, check=True)
     library = ctypes.CDLL(str(folder / "all.so"))
@@ -215,7 +235,9 @@ def load(path: Path) -> Any:
     return module
 
 
-def in_casadi(gallery: dict[str, System], folder: Path, calls: Calls, about: dict[str, Any]) -> dict[str, list[Numbers]]:
+def in_casadi(
+    gallery: dict[str, System], folder: Path, calls: Calls, about: dict[str, Any]
+) -> dict[str, list[Numbers]]:
     ca = pytest.importorskip("casadi")
 
     modules = {name: load(system.export("casadi", folder, name)[0]) for name, system in gallery.items()}
@@ -258,7 +280,9 @@ def in_jax(gallery: dict[str, System], folder: Path, calls: Calls, about: dict[s
     return numbers
 
 
-def in_matlab(gallery: dict[str, System], folder: Path, calls: Calls, about: dict[str, Any]) -> dict[str, list[Numbers]]:
+def in_matlab(
+    gallery: dict[str, System], folder: Path, calls: Calls, about: dict[str, Any]
+) -> dict[str, list[Numbers]]:
     if not shutil.which("octave"):
         pytest.skip("no octave")
     lines = ["function out(z)", "printf('%.17g ', z.'); printf('\\n');", "end"]
@@ -269,7 +293,9 @@ def in_matlab(gallery: dict[str, System], folder: Path, calls: Calls, about: dic
             for f, says in about[name]["functions"].items():
                 lines.append(f"out({name}_{f}({', '.join(vector[: len(says['arguments'])])}));")
     (folder / "run_all.m").write_text("1;\n" + "\n".join(lines))
-    run = subprocess.run(["octave", "--no-gui", "--norc", "-q", "run_all.m"], cwd=folder, text=True, capture_output=True)
+    run = subprocess.run(
+        ["octave", "--no-gui", "--norc", "-q", "run_all.m"], cwd=folder, text=True, capture_output=True
+    )
     assert run.returncode == 0, run.stderr
     rows = iter(run.stdout.splitlines())
     return each(
@@ -322,7 +348,7 @@ class _FromOne:
 
 def _python_of_julia(text: str) -> str:
     """Return Julia's assignments, loops and functions as Python."""
-    lines, depth = ["from math import *", "sign = lambda x: float(x > 0) - float(x < 0)", "def julia_atan(y, x=1.0): return atan2(y, x)"], 0
+    lines, depth = [_JULIA_IN_PYTHON], 0
     for raw in text.splitlines():
         line = raw.strip()
         if not line or line.startswith("#"):
@@ -333,12 +359,21 @@ def _python_of_julia(text: str) -> str:
         line = re.sub(r"\batan\(", "julia_atan(", line).replace("^", "**")
         line = re.sub(r"^(function) (\w+)!?\(", r"def \2(", re.sub(r"(\w)!\(", r"\1_(", line))
         line = re.sub(r"^for j in 1:(\d+)$", r"for j in range(1, \1 + 1):", line)
-        line = re.sub(r"\[i == j \? 1.0 : 0.0 for i in 1:(\d+)\]", r"One([float(i == j) for i in range(1, \1 + 1)])", line)
+        line = re.sub(
+            r"\[i == j \? 1.0 : 0.0 for i in 1:(\d+)\]", r"One([float(i == j) for i in range(1, \1 + 1)])", line
+        )
         line = "return None" if line == "return nothing" else f"{line}:" if line.startswith("def") else line
         lines.append(" " * depth + line)
         depth += line.startswith(("def ", "for "))
-    inside = "class One(list):\n def __getitem__(self, i): return list.__getitem__(self, i - 1)"
-    return "\n".join([lines[0], inside, "abs = fabs", *lines[1:]])
+    return "\n".join(lines)
+
+
+_JULIA_IN_PYTHON = """from math import *
+class One(list):
+    def __getitem__(self, i): return list.__getitem__(self, i - 1)
+abs = fabs
+sign = lambda x: float(x > 0) - float(x < 0)
+def julia_atan(y, x=1.0): return atan2(y, x)"""
 
 
 def _by_julia(folder: Path, calls: Calls, about: dict[str, Any]) -> dict[str, list[Numbers]]:
@@ -367,9 +402,111 @@ LANGUAGES: dict[str, Runner] = {"c": in_c, "casadi": in_casadi, "jax": in_jax, "
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_every_language_gives_the_numbers_of_lagrotor(
-    language: str, gallery: dict[str, System], calls: Calls, about: dict[str, Any], right: dict[str, list[Numbers]], tmp_path: Path
+    language: str,
+    gallery: dict[str, System],
+    calls: Calls,
+    about: dict[str, Any],
+    right: dict[str, list[Numbers]],
+    tmp_path: Path,
 ) -> None:
     for name, states in LANGUAGES[language](gallery, tmp_path, calls, about).items():
         for numbers, expected in zip(states, right[name], strict=False):
             for function, values in expected.items():
                 check(name, function, numbers[function], values)
+
+
+def dry() -> System:
+    return pendulum(dissipation=m * sp.Abs(sp.Symbol("theta_dot", real=True)))
+
+
+def held_by_a_reaction() -> System:
+    c = coordinates("x y")
+    push = (-reaction("floor") * c.v[0], 0)
+    return System(c, m * (c.v[0] ** 2 + c.v[1] ** 2) / 2 - m * g * c.q[1], constraints={"floor": c.q[1]}, forces=push)
+
+
+def with_function() -> System:
+    c = coordinates("x")
+    return System(c, c.v[0] ** 2 / 2 - sp.Function("U")(c.q[0]))
+
+
+def with_cases() -> System:
+    c = coordinates("x")
+    return System(c, c.v[0] ** 2 / 2, forces=(sp.Piecewise((1, t < 1), (0, True)),))
+
+
+@pytest.mark.parametrize(
+    ("system", "arguments", "words"),
+    [
+        (dry, {}, r"dry friction that may hold theta_dot at zero .* tanh\(\(theta_dot\)/v_0\)"),
+        (held_by_a_reaction, {}, "contain a reaction"),
+        (with_function, {}, "the function U has no expression"),
+        (with_cases, {}, "Piecewise.* has no code in the other language"),
+        (pendulum, {"language": "fortran"}, "language = 'fortran' must be one of c, casadi, jax, julia, matlab"),
+        (pendulum, {"name": " "}, "name = ' ' must be the name"),
+    ],
+)
+def test_refusals_come_before_anything_is_written(
+    system: Callable[[], System], arguments: dict[str, Any], words: str, tmp_path: Path
+) -> None:
+    call: dict[str, Any] = {"language": "c", "name": "arm", **arguments}
+    with pytest.raises(InputError, match=words):
+        system().export(folder=tmp_path / "new", **call)
+    assert not any(tmp_path.iterdir())
+
+
+def test_files_of_others_stay(tmp_path: Path) -> None:
+    (tmp_path / "arm.c").write_text("int main(void) { return 0; }")
+    with pytest.raises(InputError, match=r"arm\.c exists, and lagrotor did not write it"):
+        pendulum().export("c", tmp_path, "arm")
+    assert [file.name for file in tmp_path.iterdir()] == ["arm.c"]
+    pendulum().export("c", tmp_path, "rod")
+    pendulum().export("julia", tmp_path, "rod")
+    pendulum().export("c", tmp_path, "rod")
+    with pytest.raises(InputError, match=r"rod\.h is of another system with the name 'rod'"):
+        driven().export("julia", tmp_path, "rod")
+    (tmp_path / "rod.h").unlink()
+    (tmp_path / "rod.c").unlink()
+    driven().export("julia", tmp_path, "rod")
+    with pytest.raises(InputError, match=r"arm\.c is a file: give a folder"):
+        pendulum().export("c", tmp_path / "arm.c", "rod")
+
+
+def test_no_half_a_folder_when_the_disk_is_full(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    write = Path.write_text
+
+    def full(path: Path, text: str, **how: Any) -> int:
+        if path.suffix == ".json":
+            raise OSError(28, "No space left on device")
+        return write(path, text, **how)
+
+    monkeypatch.setattr(Path, "write_text", full)
+    with pytest.raises(InputError, match="No space left on device"):
+        pendulum().export("c", tmp_path / "new", "arm")
+    assert not any(tmp_path.iterdir())
+
+
+def test_the_description(about: dict[str, Any]) -> None:
+    cart, arm = about["cart"], about["arm"]
+    assert {*cart} == {"states", "parameters", "outputs", "functions", "digest"}
+    assert [(s["name"], s["unit"]) for s in cart["states"]][::3] == [("z", "m"), ("z_dot", "m/s")]
+    assert cart["parameters"] == [{"name": s, "unit": unit} for s, unit in (("g", "m/s2"), ("l", "m"), ("m", "kg"))]
+    assert [row["name"] for row in cart["outputs"]["joint_forces"]["rows"]] == ["rail", "first", "second"]
+    assert cart["outputs"]["mass_matrix"]["rows"][0] == {"name": "force on z_dot", "unit": "N"}
+    assert cart["functions"]["inverse_dynamics"]["arguments"] == ["t", "x", "p", "a"]
+    assert {p["name"]: p["value"] for p in arm["parameters"]}["m_l1"] == 3.6
+    assert {*arm["functions"]} == {*FUNCTIONS} and len(arm["digest"]) == 64
+
+
+def test_the_forces_in_joints_are_left_out_with_the_reason(tmp_path: Path) -> None:
+    disc, _ = rolling_disc()
+    with pytest.warns(LagrotorWarning, match="export: without joint_forces: the constraint .* does not say"):
+        files = disc.export("matlab", tmp_path, "disc")
+    assert not [file for file in files if "joint" in file.name]
+
+
+def test_names_are_identifiers_of_every_language() -> None:
+    texts = ("lambda", "end", "t", "dx", "a.b", "a_b", "θ_1", "2x", "x" * 80, "s12", "M_PI", "a\n*/ b", "sin")
+    made = identifiers(texts, ("dx",))
+    assert made[:8] == ["lambda_2", "end_2", "t_2", "dx_2", "a_b", "a_b_2", "theta_1", "v_2x"]
+    assert len({*made}) == len(made) and all(re.fullmatch(r"[A-Za-z]\w{0,59}", name, re.ASCII) for name in made)
