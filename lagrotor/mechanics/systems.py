@@ -1043,8 +1043,7 @@ class System(Equations):
 
         The functions are rhs, mass_matrix, forcing, inverse_dynamics, energy, joint_forces and jacobian, the last by exact
         differentiation. They take the time t, the state x = (q, u) and the parameters p, and compute what `rhs` and
-        `inverse_dynamics` compute. `name.json` has the order of states, parameters and outputs, with their units. Constraints
-        hold for accelerations; an integrator drifts from them, which `simulate` prevents.
+        `inverse_dynamics` compute. `name.json` has the order of states, parameters and outputs, with their units.
 
         Parameters
         ----------

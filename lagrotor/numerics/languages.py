@@ -10,6 +10,7 @@ import re
 import unicodedata
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
 from math import prod
 from typing import Literal
 
@@ -144,8 +145,8 @@ def _identifier(text: str, used: set[str]) -> str:
     """Return an identifier that is not used, and mark it as used."""
     spelt = "".join(c if c.isascii() else _spelt(c) for c in text)
     stem = re.sub(r"\W", "_", spelt, flags=re.ASCII).strip("_")[:_LONGEST_NAME]
-    stem = stem if stem[:1].isalpha() else f"v_{stem}"
-    stem = f"v_{stem}" if re.match(r"(M|FP|HUGE)_|s\d+$", stem) else stem  # constants of C, stages of programs
+    if not stem[:1].isalpha() or re.match(r"(M|FP|HUGE)_|s\d+$", stem):  # constants of C, stages of programs
+        stem = f"v_{stem}"
     name, number = stem, 2
     while name in used:
         name, number = f"{stem}_{number}", number + 1
@@ -243,8 +244,8 @@ def _body(module: Module, function: Function, language: Language) -> tuple[list[
     return writer.lines, [writer.text(e) for e in outputs]
 
 
-def _indented(lines: Iterable[str], by: int = 4) -> str:
-    return "".join(f"{' ' * by}{line}\n" if line else "\n" for line in lines)
+def _indented(lines: Iterable[str]) -> str:
+    return "".join(f"    {line}\n" for line in lines)
 
 
 def _c_module(module: Module) -> dict[str, str]:
@@ -274,28 +275,24 @@ def _c_module(module: Module) -> dict[str, str]:
             column = f"{name}_{f.name}_column"
             source += f"\nstatic void {column}{common}{extra}, double *{result})\n"
             source += f"{{\n{_indented([*unused, *lines, *ends])}}}\n\n{signature}\n{{\n"
-            source += _indented(
-                [
-                    f"double {f.extra}[{n}] = {{0.0}}, column[{rows}];",
-                    "int i, j;",
-                    f"for (j = 0; j < {n}; j++) {{",
-                    f"    {f.extra}[j] = 1.0;",
-                    f"    {column}(t, x, p, {f.extra}, column);",
-                    f"    {f.extra}[j] = 0.0;",
-                    f"    for (i = 0; i < {rows}; i++)",
-                    f"        {f.output}[i * {n} + j] = column[i];",
-                    "}",
-                ]
-            )
-            source += "}\n"
+            loop = [f"double {f.extra}[{n}] = {{0.0}}, column[{rows}];", "int i, j;", f"for (j = 0; j < {n}; j++) {{"]
+            loop += [
+                f"    {f.extra}[j] = 1.0;",
+                f"    {column}(t, x, p, {f.extra}, column);",
+                f"    {f.extra}[j] = 0.0;",
+            ]
+            loop += [f"    for (i = 0; i < {rows}; i++)", f"        {f.output}[i * {n} + j] = column[i];", "}"]
+            source += f"{_indented(loop)}}}\n"
         else:
             source += f"\n{signature}\n{{\n{_indented([*unused, *lines, *ends])}}}\n"
     header += f"\n#ifdef __cplusplus\n}}\n#endif\n\n#endif /* {upper}_H */\n"
     return {f"{name}.h": header, f"{name}.c": source}
 
 
-def _python_module(module: Module, language: Language, imports: str, result: Callable[[Function, str], str]) -> str:
-    """Return the source of a Python module. `result` returns the text of a function's value, given its outputs."""
+def _python_module(
+    language: Language, suffix: str, imports: str, result: Callable[[Function, str], str], module: Module
+) -> dict[str, str]:
+    """Return the Python module. `result` returns the text of a function's value, given the texts of its outputs."""
     text = "".join(f"# {line}\n" for line in module.head(language)) + f"\n{imports}\n"
     for f in module.functions:
         lines, outputs = _body(module, f, language)
@@ -308,7 +305,7 @@ def _python_module(module: Module, language: Language, imports: str, result: Cal
         if f.linear:
             text += f"\n\ndef {module.name}_{f.name}(t, x, p):\n" + f'    """{f.says}"""\n'
             text += f"    return {result(f, helper)}\n"
-    return text
+    return {f"{module.name}{suffix}.py": text}
 
 
 def _casadi_value(f: Function, outputs: str) -> str:
@@ -330,7 +327,8 @@ def _jax_value(f: Function, outputs: str) -> str:
     return array if len(f.shape) == 1 else f"{array}.reshape({f.shape[0]}, {f.shape[1]})"
 
 
-_JAX_IMPORTS = """import jax
+_JAX_IMPORTS = """# Long programs are slow unless XLA_FLAGS=--xla_disable_hlo_passes=fusion is set before JAX is imported.
+import jax
 import jax.numpy as jnp
 
 jax.config.update("jax_enable_x64", True)  # without it JAX computes with 7 digits"""
@@ -353,14 +351,12 @@ def _julia_module(module: Module) -> dict[str, str]:
         elif not f.shape:
             text += f"{says}function {name}({arguments})\n{_indented([*lines, f'return {outputs[0]}'])}end\n"
         else:
-            ends = [f"{f.output}[{_julia_index(f, i)}] = {e}" for i, e in enumerate(outputs)]
+            n = f.shape[-1]
+            places = [f"{i // n + 1}, {i % n + 1}" if len(f.shape) == 2 else str(i + 1) for i in range(len(outputs))]
+            ends = [f"{f.output}[{place}] = {e}" for place, e in zip(places, outputs, strict=True)]
             text += f"{says}function {name}!({f.output}, {arguments})\n"
             text += f"{_indented([*lines, *ends, f'return {f.output}'])}end\n"
     return {f"{module.name}.jl": text}
-
-
-def _julia_index(f: Function, i: int) -> str:
-    return f"{i // f.shape[1] + 1}, {i % f.shape[1] + 1}" if len(f.shape) == 2 else str(i + 1)
 
 
 def _matlab_module(module: Module) -> dict[str, str]:
@@ -384,10 +380,8 @@ def _matlab_module(module: Module) -> dict[str, str]:
 
 MODULES: Mapping[LanguageName, Callable[[Module], dict[str, str]]] = {
     "c": _c_module,
-    "casadi": lambda module: {
-        f"{module.name}_casadi.py": _python_module(module, _CASADI, "import casadi as ca", _casadi_value)
-    },
-    "jax": lambda module: {f"{module.name}_jax.py": _python_module(module, _JAX, _JAX_IMPORTS, _jax_value)},
+    "casadi": partial(_python_module, _CASADI, "_casadi", "import casadi as ca", _casadi_value),
+    "jax": partial(_python_module, _JAX, "_jax", _JAX_IMPORTS, _jax_value),
     "julia": _julia_module,
     "matlab": _matlab_module,
 }

@@ -468,7 +468,7 @@ def test_files_of_others_stay(tmp_path: Path) -> None:
     (tmp_path / "rod.h").unlink()
     (tmp_path / "rod.c").unlink()
     driven().export("julia", tmp_path, "rod")
-    with pytest.raises(InputError, match=r"arm\.c is a file: give a folder"):
+    with pytest.raises(InputError, match=r"arm\.c: File exists: choose a folder"):
         pendulum().export("c", tmp_path / "arm.c", "rod")
 
 
@@ -491,8 +491,12 @@ def test_the_description(about: dict[str, Any]) -> None:
     assert {*cart} == {"states", "parameters", "outputs", "functions", "digest"}
     assert [(s["name"], s["unit"]) for s in cart["states"]][::3] == [("z", "m"), ("z_dot", "m/s")]
     assert cart["parameters"] == [{"name": s, "unit": unit} for s, unit in (("g", "m/s2"), ("l", "m"), ("m", "kg"))]
-    assert [row["name"] for row in cart["outputs"]["joint_forces"]["rows"]] == ["rail", "first", "second"]
-    assert cart["outputs"]["mass_matrix"]["rows"][0] == {"name": "force on z_dot", "unit": "N"}
+    rows = cart["outputs"]["joint_forces"]["rows"]
+    assert [row["name"] for row in rows][::6] == [f"{joint} force x" for joint in ("rail", "first", "second")]
+    assert rows[3] == {"name": "rail torque x", "unit": "N m"} and cart["functions"]["joint_forces"]["shape"] == [3, 6]
+    matrix = cart["outputs"]["mass_matrix"]
+    assert matrix["rows"][0] == {"name": "force on z_dot", "unit": "N"}
+    assert matrix["columns"][1] == {"name": "alpha_ddot", "unit": "rad/s2"}
     assert cart["functions"]["inverse_dynamics"]["arguments"] == ["t", "x", "p", "a"]
     assert {p["name"]: p["value"] for p in arm["parameters"]}["m_l1"] == 3.6
     assert {*arm["functions"]} == {*FUNCTIONS} and len(arm["digest"]) == 64
