@@ -168,6 +168,10 @@ def _right(system: System, names: list[str], time: float, x: np.ndarray, p: np.n
         "mass_matrix": (np.array(columns) - still).T,
         "jacobian": np.array([(s[0] - 8 * s[1] + 8 * s[2] - s[3]) / 12 / h for s in slopes]).T,
     }
+    if not system.kinematics and n < 3:
+        at = dict(zip((*system.c.q, *system.c.v, t), (*x, time), strict=True))
+        at |= {s: values[str(s)] for s in system.mass_matrix.free_symbols if str(s) in values}
+        numbers["mass_matrix"] = np.array(system.mass_matrix.xreplace(at).xreplace(at).tolist(), float)
     if n < 5:
         v = system.kinematics.velocity if system.kinematics else system.c.v
         at = dict(zip((*system.c.q, *system.speeds, t), (*x, time), strict=True))
