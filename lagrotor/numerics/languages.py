@@ -125,9 +125,6 @@ class Module:
     origin: str
     says: Mapping[sp.Symbol, str]
 
-    def length(self, array: str) -> int:
-        return sum(name == array for name, _, _ in self.places.values())
-
     def head(self, language: Language) -> list[str]:
         """Return the lines of the comment at the top: the origin, and the entries of the arrays in words."""
         places = ((self.places[s], text) for s, text in self.says.items())
@@ -252,7 +249,8 @@ def _c_module(module: Module) -> dict[str, str]:
     name, upper = module.name, module.name.upper()
     head = "".join(f" * {line}\n" for line in module.head(_C)).replace("*/", "* /")
     head = f"/*{head[2:]} */\n"
-    lengths = {"STATES": module.length("x"), "PARAMETERS": module.length("p")}
+    arrays = [array for array, _, _ in module.places.values()]
+    lengths = {"STATES": arrays.count("x"), "PARAMETERS": arrays.count("p")}
     lengths |= {f"{f.name.upper()}_LENGTH": prod(f.shape) for f in module.functions}
     header = f"{head}\n#ifndef {upper}_H\n#define {upper}_H\n\n"
     header += "".join(f"#define {upper}_{length} {number}\n" for length, number in lengths.items())

@@ -43,9 +43,8 @@ _FUNCTIONS = ("rhs", "mass_matrix", "forcing", "inverse_dynamics", "energy", "jo
 def export(system: Equations, language: LanguageName, folder: str | Path, name: str) -> tuple[Path, ...]:
     """Write the functions of a system as files: `System.export`."""
     if language not in MODULES:
-        raise InputError(
-            f"export: language = {language!r} must be one of {', '.join(MODULES)}{near(language, MODULES)}"
-        )
+        known = ", ".join(MODULES)
+        raise InputError(f"export: language = {language!r} must be one of {known}{near(language, MODULES)}")
     if not isinstance(name, str) or not name.strip():
         raise InputError(f"export: name = {name!r} must be the name of the system, as 'arm'")
     target = path_of("export: folder", folder)
@@ -69,9 +68,7 @@ def _check(system: Equations) -> None:
             f"replace sign({friction[0]}) by tanh(({friction[0]})/v_0), v_0 a small velocity"
         )
     if system.generalised_forces.free_symbols & {*system.multipliers}:
-        raise InputError(
-            "export: the forces contain a reaction, which is no function of the state alone: run it by simulate"
-        )
+        raise InputError("export: the forces contain a reaction, which has no formula here: run the system by simulate")
 
 
 def _programs(system: Equations) -> dict[str, Generated]:
@@ -86,11 +83,8 @@ def _programs(system: Equations) -> dict[str, Generated]:
         try:
             programs["joint_forces"] = _joint_program(system, names)
         except InputError as error:
-            warnings.warn(
-                f"export: without joint_forces: {str(error).removeprefix('joint_force: ')}",
-                LagrotorWarning,
-                stacklevel=4,
-            )
+            reason = str(error).removeprefix("joint_force: ")
+            warnings.warn(f"export: without joint_forces: {reason}", LagrotorWarning, stacklevel=4)
     programs["jacobian"] = _slope_program(rhs, 0, clock)
     if called := [p for each in programs.values() for p in each.parameters if isinstance(p, Jet)]:
         raise InputError(

@@ -74,7 +74,12 @@ def odd_functions() -> System:
         + bad[2] * sp.atan2(y, 2 + x**2)
         + sp.exp(-x * bad[3])
     )
-    V += bad[4] * sp.sqrt(1 + x**2) + bad[5] * y**2 / (1 + y**6) + sp.log(2 + sp.cos(x)) * sp.pi + sp.tanh(y * bad[6])
+    V += (
+        bad[4] * sp.sqrt(1 + x**2)
+        + bad[5] * y**2 / (1 + y**6) / (2 + x**4)
+        + sp.log(2 + sp.cos(x)) * sp.pi
+        + sp.tanh(y * bad[6])
+    )
     V += (
         bad[7] * sp.Max(x, y, 1) ** 2
         + bad[8] * (2 + x) ** bad[9]
@@ -168,6 +173,11 @@ def _right(system: System, names: list[str], time: float, x: np.ndarray, p: np.n
         "mass_matrix": (np.array(columns) - still).T,
         "jacobian": np.array([(s[0] - 8 * s[1] + 8 * s[2] - s[3]) / 12 / h for s in slopes]).T,
     }
+    if system.joints and not system.constraints:
+        run = system.simulate(values, q, u, [time, time + 1e-9])
+        forces_in = [run.reactions[name] for name in system.joints]
+        numbers["joint_forces"] = np.array([[*f.force[0], *f.torque[0]] for f in forces_in])
+        numbers["energy"] = np.array(run.energy[0])
     if not system.kinematics and n < 3:
         at = dict(zip((*system.c.q, *system.c.v, t), (*x, time), strict=True))
         at |= {s: values[str(s)] for s in system.mass_matrix.free_symbols if str(s) in values}
