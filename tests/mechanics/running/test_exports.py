@@ -27,7 +27,7 @@ from tests.systems import VALUES, ball_top, cart_and_pole, g, l, m, pendulum, ro
 
 pytestmark = pytest.mark.filterwarnings("ignore:export. without joint_forces")
 Numbers = dict[str, np.ndarray]
-_STATES = 3
+_STATES = 2
 FUNCTIONS = ("rhs", "mass_matrix", "forcing", "inverse_dynamics", "energy", "joint_forces", "jacobian")
 
 
