@@ -5,7 +5,7 @@
 # spin.
 #
 # **Assumptions.** The bar of section 4.1 ($m = K = 1$), the shock of section 4.2: 50 N along x on tip 1, width 1/50 s. Of the
-# paper's two seconds of rest before the shock only ten widths are simulated.
+# paper's two seconds of rest before the shock only ten widths are simulated. Figure 10 shows the motion of equal spins.
 #
 # The measurement and the decision are in `lagrotor/paper/rotor_pair/claims/shock_toppling_and_twist.py`.
 

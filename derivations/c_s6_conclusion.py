@@ -4,7 +4,7 @@
 # **Objective.** The modes of the anti-spin pair, from the roots of the linearised equations and from a simulation.
 #
 # **Assumptions.** The bar of section 4.1; a shock of 0.5 N along x and 0.3 N along y, so small that terms of second order are
-# negligible.
+# negligible. Figure 28 shows the oscillation for two bars.
 #
 # The measurement and the decision are in `lagrotor/paper/rotor_pair/claims/precession_and_drift.py`.
 

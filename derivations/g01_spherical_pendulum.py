@@ -6,7 +6,7 @@
 #
 # **Assumptions.** A point mass $m$ on a rigid massless rod of length $l$; gravity $g$.
 #
-# **Notation.** $\theta$ from the downward vertical, $\varphi$ the azimuth.
+# **Notation.** $\theta$ from the downward vertical, $\phi$ the azimuth.
 
 # %%
 import numpy as np
@@ -14,7 +14,7 @@ import sympy as sp
 from scipy.integrate import solve_ivp
 
 from lagrotor.mechanics import Frame, System, coordinates
-from lagrotor.paper import prove
+from lagrotor.paper import Remark, prove, scientific
 
 m, l, g, Omega, tilt = sp.symbols("m l g Omega theta_0", positive=True)
 c = coordinates("phi theta")
@@ -23,9 +23,15 @@ bob = Frame(c).turned("zy", (phi, -theta)).body(m, centre=(0, 0, -l))
 pendulum = System(c, bob.kinetic - bob.potential((0, 0, -g)))
 
 # %% [markdown]
+# ## The equations of motion
+
+# %%
+pendulum
+
+# %% [markdown]
 # ## The Lagrangian and the conserved momentum
 #
-# $\varphi$ is cyclic. Its momentum is the angular momentum about the vertical (Landau & Lifshitz, §14, problem 1).
+# The azimuth $\phi$ is cyclic. Its momentum is the angular momentum about the vertical (Landau & Lifshitz, §14, problem 1).
 
 # %%
 swinging = m * l**2 * (theta_v**2 + phi_v**2 * sp.sin(theta) ** 2) / 2 + m * g * l * sp.cos(theta)
@@ -34,7 +40,7 @@ prove(pendulum.L, swinging, "the Lagrangian of the bodies equals the textbook's"
 # %%
 assert pendulum.cyclic == (phi,)
 momentum = pendulum.noether((1, 0)).expression
-prove(momentum, m * l**2 * phi_v * sp.sin(theta) ** 2, "the momentum of the azimuth", names=r"p_\varphi")
+prove(momentum, m * l**2 * phi_v * sp.sin(theta) ** 2, "the momentum of the azimuth", names=r"p_\phi")
 
 # %% [markdown]
 # ## The conical pendulum
@@ -78,7 +84,13 @@ def difference(parameters: dict) -> float:
 
 off = difference(values)
 assert off < 1e-9
-off
+Remark("Result", f"The largest distance between the two motions within 4 s is {scientific(off, 1)} m.")
+
+# %% [markdown]
+# ## The motion
+#
+# The pendulum starts at $\theta=1$ rad with $\dot\phi=1.5$ rad/s. The inclination oscillates between two values, and the
+# azimuth advances fastest at the smaller one.
 
 # %%
 picture = pendulum.simulate(values, (0, 1), (1.5, 0), times).plot()

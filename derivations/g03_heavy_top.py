@@ -6,7 +6,7 @@
 #
 # **Assumptions.** A body with inertias $I_1, I_1, I_3$ about its centre, which is at the distance $l$ from a fixed tip.
 #
-# **Notation.** $\varphi,\theta,\psi$ Euler's angles, $J=I_1+ml^2$, $p_\varphi, p_\psi$ the momenta.
+# **Notation.** $\phi,\theta,\psi$ Euler's angles, $J=I_1+ml^2$, $p_\phi, p_\psi$ the momenta.
 
 # %%
 import numpy as np
@@ -14,7 +14,7 @@ import sympy as sp
 from scipy.integrate import solve_ivp
 
 from lagrotor.mechanics import Frame, System, coordinates
-from lagrotor.paper import prove
+from lagrotor.paper import Remark, prove, scientific
 
 I1, I3, m, g, l = sp.symbols("I_1 I_3 m g l", positive=True)
 c = coordinates("phi theta psi")
@@ -24,7 +24,15 @@ top = System(c, body.kinetic - m * g * l * sp.cos(theta))
 J = I1 + m * l**2
 
 # %% [markdown]
+# ## The equations of motion
+
+# %%
+top
+
+# %% [markdown]
 # ## The Lagrangian (Goldstein, §5.7)
+#
+# The precession $\phi$ and the spin $\psi$ are cyclic. The Routhian contains their momenta instead of their velocities.
 
 # %%
 turning = J * (theta_v**2 + phi_v**2 * sp.sin(theta) ** 2) / 2 + I3 * (psi_v + phi_v * sp.cos(theta)) ** 2 / 2
@@ -40,7 +48,8 @@ prove(reduced.L, J * theta_v**2 / 2 - effective - m * g * l * sp.cos(theta), "th
 # %% [markdown]
 # ## Steady precession
 #
-# At any inclination with $p_\psi^2 \ge 4 J m g l\cos\theta$ steady precession has two values of $p_\varphi$:
+# At any inclination with $p_\psi^2 \ge 4 J m g l\cos\theta$ steady precession has two values of $p_\phi$, one for slow and one
+# for fast precession:
 
 # %%
 steady = reduced.equilibria("p_phi")
@@ -50,7 +59,7 @@ prove(
     slow_plus_fast,
     p_psi * (1 + sp.cos(theta) ** 2) / sp.cos(theta),
     "the sum of the two values",
-    names=r"p_\varphi+p_\varphi'",
+    names=r"p_{\phi,1}+p_{\phi,2}",
 )
 
 # %% [markdown]
@@ -93,15 +102,18 @@ def difference(parameters: dict) -> float:
 
 off = difference(values)
 assert off < 1e-9
-off
+Remark("Result", f"The largest distance between the two unit vectors of the axis within 2 s is {scientific(off, 1)}.")
 
 # %% [markdown]
 # ## Nutation
 #
-# The inclination oscillates between two turning points.
+# The axis is released at rest at $\theta=0.5$ with the spin 12 rad/s. The inclination oscillates between two turning points.
 
 # %%
 run = top.simulate(values, (0, 0.5, 0), (0, 0, 12), times)
-turns = run.crossings(theta_v)
+turns = run.crossings(theta_v).q[:, 1]
 picture = run.plot()
 picture
+
+# %%
+Remark("Turning points", f"The inclination oscillates between {turns.min():.3f} and {turns.max():.3f} rad.")

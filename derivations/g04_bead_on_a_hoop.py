@@ -16,7 +16,7 @@ from scipy.integrate import solve_ivp
 
 from lagrotor.algebra import decide_equal
 from lagrotor.mechanics import Frame, System, coordinates, t
-from lagrotor.paper import prove
+from lagrotor.paper import Formula, Remark, prove, scientific
 
 m, R, g, Omega = sp.symbols("m R g Omega", positive=True)
 c = coordinates("theta")
@@ -26,10 +26,15 @@ hoop = System(c, bead.kinetic - bead.potential((0, 0, -g)))
 
 # %% [markdown]
 # ## The Lagrangian (Goldstein, problem 2.17)
+#
+# The position of the bead depends on time, but the Lagrangian in $\theta$ does not.
 
 # %%
 spun = m * R**2 * (theta_v**2 + Omega**2 * sp.sin(theta) ** 2) / 2 + m * g * R * sp.cos(theta)
 prove(hoop.L, spun, "the Lagrangian does not depend on time", names="L")
+
+# %%
+hoop
 
 # %% [markdown]
 # ## Jacobi's integral
@@ -43,7 +48,7 @@ prove(hoop.energy, jacobi, "Jacobi's integral", names="h")
 # %%
 energy = jacobi + m * R**2 * Omega**2 * sp.sin(theta) ** 2
 assert hoop.conserved(jacobi).answer == "zero" and hoop.conserved(energy).answer == "nonzero"
-sp.Eq(sp.Symbol("E"), energy)
+Formula(energy, "E")
 
 # %% [markdown]
 # ## Equilibria
@@ -100,7 +105,12 @@ def difference(parameters: dict) -> float:
 
 off = difference(values)
 assert off < 1e-9
-off
+Remark("Result", f"The largest distance between the two motions within 5 s is {scientific(off, 1)} m.")
+
+# %% [markdown]
+# ## The motion
+#
+# At $\Omega=6$ rad/s the bead oscillates about one of the two tilted equilibria.
 
 # %%
 picture = hoop.simulate(values, (1.2,), (0,), times).plot()

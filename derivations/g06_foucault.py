@@ -13,7 +13,7 @@ import numpy as np
 import sympy as sp
 
 from lagrotor.mechanics import Frame, System, coordinates, t
-from lagrotor.paper import prove
+from lagrotor.paper import Remark, prove, scientific
 
 m, l, g, Omega, latitude = sp.symbols("m l g Omega lambda", positive=True)
 n = Omega * sp.sin(latitude)
@@ -23,16 +23,23 @@ bob = Frame(c).turned("z", n * t).moved(x, y).body(m)
 pendulum = System(c, bob.kinetic - m * g * (x**2 + y**2) / (2 * l))
 
 # %% [markdown]
-# ## The Coriolis force in the kinetic energy
+# ## The Lagrangian and the equations of motion
+#
+# The rotation of the ground adds a term linear in the velocity to the kinetic energy. It gives the Coriolis force.
 
 # %%
 turning = m * (x_v**2 + y_v**2) / 2 + m * n * (x * y_v - y * x_v) + m * n**2 * (x**2 + y**2) / 2
 prove(pendulum.L, turning - m * g * (x**2 + y**2) / (2 * l), "the Lagrangian in the frame of the ground", names="L")
 
+# %%
+coriolis = c.a[0] - 2 * n * y_v + (g / l - n**2) * x, c.a[1] + 2 * n * x_v + (g / l - n**2) * y
+prove(list(pendulum.motion / m), coriolis, "the equations of motion", names=("0", "0"))
+
 # %% [markdown]
 # ## Two circular motions
 #
-# The characteristic polynomial is $(s^2 + (\omega_0+n)^2)(s^2+(\omega_0-n)^2)$, so the frequencies are $\sqrt{g/l}\pm n$.
+# The characteristic polynomial is $(s^2 + (\omega_0+n)^2)(s^2+(\omega_0-n)^2)$, so the frequencies
+# are $\omega_0\pm n$ with $\omega_0=\sqrt{g/l}$.
 # Because of their difference $2n$ the plane of oscillation rotates at the rate $-\Omega\sin\lambda$.
 
 # %%
@@ -66,7 +73,13 @@ def difference(parameters: dict) -> float:
 
 off = difference(values)
 assert off < 1e-9
-off
+Remark("Result", f"The largest distance between the two motions within 2 min is {scientific(off, 1)} m.")
+
+# %% [markdown]
+# ## The motion
+#
+# The bob is released at rest 3 m east of its equilibrium. The plane of oscillation turns, so the amplitude along $x$ decreases
+# and the amplitude along $y$ increases. For a visible rotation the ground turns at 0.02 rad/s.
 
 # %%
 picture = pendulum.simulate(values, (3.0, 0), (0, 0), times).plot()

@@ -13,7 +13,7 @@ import numpy as np
 import sympy as sp
 
 from lagrotor.mechanics import Frame, System, coordinates
-from lagrotor.paper import prove
+from lagrotor.paper import Remark, prove, scientific
 
 m, I, w, eps = sp.symbols("m I omega epsilon", positive=True)
 c = coordinates("z vartheta")
@@ -21,6 +21,12 @@ c = coordinates("z vartheta")
 bob = Frame(c).moved(0, 0, z).turned("z", twist).body(m, (I, I, I))
 springs = m * w**2 * z**2 / 2 + I * w**2 * twist**2 / 2 + eps * z * twist / 2
 pendulum = System(c, bob.kinetic - springs)
+
+# %% [markdown]
+# ## The equations of motion
+
+# %%
+pendulum
 
 # %% [markdown]
 # ## Two modes (Berg & Marshall, Am. J. Phys. 59, 32)
@@ -38,6 +44,9 @@ prove(
     "the splitting of the frequencies",
     names=r"\det(s^2M+K)/(mI)",
 )
+
+# %% [markdown]
+# The equilibrium is stable if
 
 # %%
 stable = linear.stable_if
@@ -63,7 +72,12 @@ def difference(parameters: dict) -> float:
 
 off = difference(values)
 assert off < 1e-9
-off
+Remark("Result", f"The largest difference of the stretches within 40 s is {scientific(off, 1)} m.")
+
+# %% [markdown]
+# ## The beats
+#
+# The mass is released with a stretch of 0.1 m. The amplitudes of stretch and twist alternate.
 
 # %%
 run = pendulum.simulate(values, (0.1, 0), (0, 0), times)

@@ -13,7 +13,7 @@ import numpy as np
 import sympy as sp
 
 from lagrotor.mechanics import Frame, System, accelerations, coordinates, total_derivative
-from lagrotor.paper import prove
+from lagrotor.paper import Remark, prove, scientific
 
 m, k = sp.symbols("m k", positive=True)
 c = coordinates("x y")
@@ -21,6 +21,13 @@ c = coordinates("x y")
 r = sp.sqrt(x**2 + y**2)
 planet = Frame(c).moved(x, y).body(m)
 kepler = System(c, planet.kinetic + k / r)
+
+# %% [markdown]
+# ## The equations of motion
+
+# %%
+attraction = c.a[0] + k * x / (m * r**3), c.a[1] + k * y / (m * r**3)
+prove(list(kepler.motion / m), attraction, "the equations of motion", names=("0", "0"))
 
 # %% [markdown]
 # ## Two symmetries
@@ -43,7 +50,8 @@ prove(along_y.expression, A[0], "the Laplace–Runge–Lenz vector by Noether's 
 # ## Conservation and the orbit
 #
 # The vector satisfies $|A|^2 = m^2k^2 + 2mE\ell^2$ and $A\cdot r = \ell^2 - mkr$. The orbit is therefore
-# $r = \ell^2/(mk + |A|\cos\varphi)$, an ellipse for $E<0$.
+# $r = \ell^2/(mk + |A|\cos\phi)$, an ellipse for $E<0$. Here $\phi$ is the angle from $A$ and
+# $E$ the energy.
 
 # %%
 motion = dict(zip(c.a, accelerations(kepler.L, c), strict=True))
@@ -86,7 +94,15 @@ def difference(parameters: dict) -> float:
 
 off = difference(values)
 assert off < 1e-9
-off
+Remark(
+    "Result",
+    f"The largest distance between the two motions within 20 time units is {scientific(off, 1)} semi-major axes.",
+)
+
+# %% [markdown]
+# ## The motion
+#
+# The orbit has the eccentricity 0.6 and the semi-major axis 1. It starts at the pericentre.
 
 # %%
 picture = kepler.simulate(values, (1 - eccentricity, 0), (0, 2.0), times).plot()

@@ -13,13 +13,19 @@ import numpy as np
 import sympy as sp
 
 from lagrotor.mechanics import Frame, System, coordinates, t
-from lagrotor.paper import prove
+from lagrotor.paper import Remark, prove, scientific
 
 m, q, B, E = sp.symbols("m q B E", positive=True)
 c = coordinates("x y z")
 (x, y, z), (x_v, y_v, z_v) = c.q, c.v
 particle = Frame(c).moved(x, y, z).body(m)
 charge = System(c, particle.kinetic + q * B * (x * y_v - y * x_v) / 2 + q * E * y)
+
+# %% [markdown]
+# ## The equations of motion
+
+# %%
+charge
 
 # %% [markdown]
 # ## Three translations
@@ -42,7 +48,10 @@ prove(
 )
 
 # %% [markdown]
-# ## Comparison with the closed solution, a drifting circle
+# ## Comparison with the closed solution
+#
+# The path in the plane $z=0$ is a circle with a uniform drift. With $\zeta=x+iy$ and $u=E/B$ it is
+# $\zeta = (\dot\zeta_0-u)\,(1-e^{-i\omega t})/(i\omega) + u\,t$.
 
 # %%
 values, times, twin = {m: 1.5, q: 0.8, B: 2.0, E: 0.7}, np.linspace(0, 20, 201), {B: 2.001}
@@ -59,7 +68,12 @@ def difference(parameters: dict) -> float:
 
 off = difference(values)
 assert off < 1e-9
-off
+Remark("Result", f"The largest distance between the two motions within 20 s is {scientific(off, 1)} m.")
+
+# %% [markdown]
+# ## The motion
+#
+# The charge gyrates in the plane, drifts along $x$ and moves uniformly along $z$.
 
 # %%
 picture = charge.simulate(values, (0, 0, 0), (1, 0.5, 0.2), times).plot()

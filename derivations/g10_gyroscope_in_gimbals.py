@@ -17,7 +17,7 @@ import sympy as sp
 from scipy.integrate import solve_ivp
 
 from lagrotor.mechanics import Frame, System, coordinates
-from lagrotor.paper import prove
+from lagrotor.paper import Remark, prove, scientific
 
 Ao, A, Bi, Ci, I1, I3 = sp.symbols("A_o A_i B_i C_i I_1 I_3", positive=True)
 H = sp.Symbol("H", real=True)
@@ -27,6 +27,12 @@ outer = Frame(c).turned("z", alpha)
 inner = outer.turned("x", beta)
 rotor = inner.turned("y", gamma).body(1, (I1, I3, I1))
 gimbals = System(c, outer.body(1, (0, 0, Ao)).kinetic + inner.body(1, (Bi, Ci, A)).kinetic + rotor.kinetic)
+
+# %% [markdown]
+# ## The equations of motion
+
+# %%
+gimbals
 
 # %% [markdown]
 # ## The Lagrangian (Arnold & Maunder, Gyrodynamics, ch. 6)
@@ -56,7 +62,10 @@ prove(
 )
 
 # %% [markdown]
-# ## Comparison with the equation of $\beta$ after manual elimination of the two momenta
+# ## Comparison with the equation of one angle
+#
+# Both momenta are conserved, so the two cyclic angles can be eliminated by hand. The remaining equation of $\beta$ is integrated
+# independently.
 
 # %%
 values = {Ao: 0.3, A: 0.1, Bi: 0.2, Ci: 0.15, I1: 0.4, I3: 0.6}
@@ -82,7 +91,7 @@ def difference(parameters: dict) -> float:
 
 off = difference(values)
 assert off < 1e-9
-off
+Remark("Result", f"The largest difference of a gimbal's angle within 5 s is {scientific(off, 1)} rad.")
 
 # %% [markdown]
 # ## The drift of the outer gimbal
@@ -94,3 +103,6 @@ run = gimbals.simulate(values, (0, 0.4, 0), (0.5, 0, 10), np.linspace(0, 20, 801
 turned_by = float(run.q[-1, 0])
 picture = run.plot()
 picture
+
+# %%
+Remark("Drift", f"Within 20 s the outer gimbal turns by {turned_by:.2f} rad.")

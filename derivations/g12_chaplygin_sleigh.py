@@ -6,7 +6,7 @@
 #
 # **Assumptions.** A horizontal plane. The blade is on the body's axis, at the distance $l$ behind the centre of mass.
 #
-# **Notation.** $x, y$ the position of the blade, $\varphi$ its direction, $\omega=\dot\varphi$, $u$ the speed along it, $J$ the
+# **Notation.** $x, y$ the position of the blade, $\phi$ its direction, $\omega=\dot\phi$, $u$ the speed along it, $J$ the
 # inertia about the centre of mass.
 
 # %%
@@ -14,7 +14,7 @@ import numpy as np
 import sympy as sp
 
 from lagrotor.mechanics import Frame, System, constrained_accelerations, coordinates
-from lagrotor.paper import prove
+from lagrotor.paper import Remark, prove, scientific
 
 m, l, J = sp.symbols("m l J", positive=True)
 c = coordinates("x y phi")
@@ -24,7 +24,12 @@ runner = blade.body(m, (0, 0, J), centre=(l, 0, 0))
 sleigh = System(c, runner.kinetic, rolling=(blade.velocity()[1],))
 
 # %% [markdown]
-# ## The blade's constraint and the reduced equations (Neimark & Fufaev, ch. II)
+# ## The equations of motion (Neimark & Fufaev, ch. II)
+#
+# The multiplier $\lambda_1$ is the sideways force of the blade. Without it two equations remain, for $u$ and $\omega$.
+
+# %%
+sleigh
 
 # %%
 prove(sleigh.rolling[0], y_v * sp.cos(phi) - x_v * sp.sin(phi), "the constraint of no sideways slip", names="0")
@@ -71,7 +76,12 @@ def difference(parameters: dict) -> float:
 
 off = difference(values)
 assert off < 1e-9
-off
+Remark("Result", f"The largest difference of $\\omega$ (rad/s) or $u$ (m/s) within 12 s is {scientific(off, 1)}.")
+
+# %% [markdown]
+# ## The motion
+#
+# The sleigh starts with the rotation 1.5 rad/s only. The rotation stops, and the path tends to a straight line.
 
 # %%
 picture = sleigh.simulate(values, (0, 0, 0), (0, 0, 1.5), times).plot()

@@ -12,7 +12,7 @@ import numpy as np
 import sympy as sp
 
 from lagrotor.mechanics import Event, Impact, System, coordinates
-from lagrotor.paper import prove
+from lagrotor.paper import Remark, prove, scientific
 
 m, g, h, e, t0, S = sp.symbols("m g h e t_0 S", positive=True)
 c = coordinates("x")
@@ -77,7 +77,7 @@ def difference(parameters: dict) -> float:
 
 off = difference(values)
 assert off < 1e-9
-off
+Remark("Result", f"The largest difference of the heights is {scientific(off, 1)} m.")
 
 # %%
 run = ball.simulate(values, (1,), (0,), times, 1e-9, events=floor)
@@ -86,12 +86,19 @@ assert not run.q[times > last].any() or np.abs(run.q[times > last]).max() < 1e-9
 run.ending.reason
 
 # %% [markdown]
-# An event without velocities ends a run. The final state is on the section of the event.
+# ## A run that ends at an event
+#
+# An event that does not change the velocities ends the run at the first impact.
 
 # %%
 first = ball.simulate(values, (1,), (0,), times, events=Event(x))
 assert abs(first.t[-1] - np.sqrt(2 / 9.81)) < 1e-9 and abs(first.q[-1, 0]) < 1e-12
 str(first.ending)
+
+# %% [markdown]
+# ## The motion
+#
+# The ball falls from 1 m and rests after infinitely many impacts.
 
 # %%
 picture = run.plot()

@@ -14,7 +14,7 @@ import numpy as np
 import sympy as sp
 
 from lagrotor.mechanics import Event, System, coordinates
-from lagrotor.paper import prove
+from lagrotor.paper import Remark, prove, scientific
 
 F, k, a = sp.symbols("F k a", positive=True)
 c = coordinates("x")
@@ -79,7 +79,7 @@ def difference(parameters: dict) -> float:
 
 off = difference(values)
 assert off < 1e-9
-off
+Remark("Result", f"The largest difference of ten elongations is {scientific(off, 1)}.")
 
 # %%
 small, large = (
@@ -88,7 +88,13 @@ small, large = (
 amplitude = float(steady.subs(values))
 for run in (small, large):
     assert abs(run.crossings(v, -1).q[-1, 0] - amplitude) < 1e-2
-amplitude
+Remark(
+    "Amplitude",
+    f"Runs from the elongations 0.5 and 2 both tend to the amplitude {amplitude:.4f}.",
+)
+
+# %% [markdown]
+# The picture shows the run from the elongation 2.
 
 # %%
 picture = large.plot()

@@ -12,10 +12,12 @@ from lagrotor.benchmark.limits.step_size import limits
 from lagrotor.paper import Table
 
 thresholds = limits(quick=True)
-list(dict.fromkeys(x.regime for x in thresholds))
+f"The regimes are: {'; '.join(dict.fromkeys(x.regime for x in thresholds))}."
 
 # %% [markdown]
 # ## Predicted and measured thresholds
+#
+# Figure m1 shows the range of use of the closed forms.
 
 # %%
 tables = [
@@ -26,9 +28,9 @@ tables = [
             (x.regime, x.what, x.formula, f"{x.predicted:.3g}", f"{x.measured:.3g}", f"{x.ratio:.2f}", x.tool)
             for x in thresholds
         ),
-        "The thresholds are measured by bisection or on runs. Over few periods the drift of energy, momentum and phase is "
-        "slower than over many. Over many periods the errors of energy and momentum are proportional to time, and the error "
-        "of the phase is v t + c t². The command `lagrotor stability` makes the full runs.",
+        "The thresholds are measured by bisection, or read off simulations. Over few periods the drift of energy, momentum and "
+        "phase is slower than over many. Over many periods the errors of energy and momentum are proportional to time, and "
+        "the error of the phase is v t + c t². The command `lagrotor stability` makes the full runs.",
     )
 ]
 tables[0]

@@ -260,7 +260,8 @@ Remark(
         for L, found in tried.items()
     )
     + " If the three rotors on the diagonal of the 3 × 3 grid spin in the opposite sense at half the speed of the others, the "
-    f"others require only {needs:.3f} √(aκ). For no choice of speeds and senses can the largest momentum be below {bound:.3f} "
+    f"others are stable from an axial momentum of {needs:.3f} √(aκ) on. "
+    f"For no choice of speeds and senses can the largest momentum be below {bound:.3f} "
     f"√(aκ), because no 3 × 3 determinant with entries between −1 and 1 exceeds {largest:.0f}.",
 )
 

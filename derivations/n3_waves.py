@@ -288,10 +288,10 @@ Remark(
 # %% [markdown]
 # ## The honeycomb
 #
-# Two rotors a cell, three bars: one degree of freedom. With $n_j$ the directions of the bars and $\varphi_j$ the phases of
+# Two rotors a cell, three bars: one degree of freedom. With $n_j$ the directions of the bars and $\phi_j$ the phases of
 # their far
 # ends, the projections $f_j=n_j\cdot u_A$ have $\sum f_j=0$ as the $n_j$ add up to zero, and those of $u_B$,
-# $f_je^{-i\varphi_j}$, too: $f=(1,1,1)\times e^{-i\varphi}$, so $f_1=e^{-i\varphi_3}-e^{-i\varphi_2}$ and so on. With
+# $f_je^{-i\phi_j}$, too: $f=(1,1,1)\times e^{-i\phi}$, so $f_1=e^{-i\phi_3}-e^{-i\phi_2}$ and so on. With
 # $\Delta_j$ the differences of the phases:
 
 # %%

@@ -31,7 +31,7 @@ i = sp.I
 # ## Slow precessions
 #
 # One axis, $au''+Cu'+\kappa u=0$, precesses at the rates of $a\omega^2+G\omega-\kappa=0$; one of them is slow. With
-# $\varepsilon=a\kappa/G^2$
+# $\epsilon=a\kappa/G^2$
 
 # %%
 slow = (sp.sqrt(G**2 + 4 * a * kappa) - G) / (2 * a)
@@ -39,7 +39,7 @@ in_limit = kappa / G
 prove(
     slow.subs(a, epsilon * G**2 / kappa),
     in_limit * (1 - epsilon),
-    "the slow precession: κ/G, with the relative error ε",
+    "the slow precession: κ/G, with the relative error $\\epsilon$",
     small=epsilon,
     order=1,
     names=r"\omega",

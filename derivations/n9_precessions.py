@@ -29,7 +29,7 @@ b, omega, curvature = sp.symbols("b omega_j A_jj", real=True)
 # ## A periodic motion that is no steady rotation
 #
 # The precession of one top is steady: it is at rest in a rotating frame. The joints of a bar are fixed in space. If all axes were
-# rotated about the vertical by $\varphi$, the distance $|\ell e_x+R(r_2-r_1)|$ of two tips would change at the rate
+# rotated about the vertical by $\phi$, the distance $|\ell e_x+R(r_2-r_1)|$ of two tips would change at the rate
 
 # %%
 x, y, z = sp.symbols("x y z", real=True)  # of r_2 − r_1
@@ -39,7 +39,7 @@ prove(
     sp.expand(apart.dot(apart)).diff(phi),
     -2 * ell * R * (x * sp.sin(phi) + y * sp.cos(phi)),
     "a common rotation changes a bar's length",
-    names=r"\partial_\varphi|\ell e_x+R(r_2-r_1)|^2",
+    names=r"\partial_\phi|\ell e_x+R(r_2-r_1)|^2",
 )
 
 # %% [markdown]
@@ -222,6 +222,7 @@ Remark(
 # %%
 near = Structure([(0, 0), (1, 0), (0.3, 0.9)], [*BARS, (2, 0)], [-6.5, 7.7, 7.5], hinge=20.0)
 said = near.precession_law(2)
+law_edge = said.edge
 beyond = np.array([1.1, 1.3]) * said.edge
 grown = [near.steady_precession(2, tilt).growth for tilt in beyond]
 (first, last), (low, high) = np.square(grown), np.square(beyond)

@@ -93,7 +93,7 @@ rows = (
         "response to a shock",
         "energies of 100 and 100.45 J, read from runs",
         ("amplitude, centre, drift and energy in closed form, first order; along x, equal spins:", gained),
-        f"the closed form gives 100 + {t2['answer'].energy:.5f} J, the exact run {t2['exact']:.5f} J; the error is "
+        f"the closed form gives 100 + {t2['closed_energy']:.5f} J, the exact run {t2['exact']:.5f} J; the error is "
         "proportional to "
         f"the shock to the power {t2['slope']:.3f}",
         FigureLink("t2"),
@@ -287,7 +287,7 @@ rows = (
         ),
         "exponents of the remaining errors of rate and multipliers: "
         + "; ".join(f"{orders[1]:.2f} and {orders[3]:.2f} ({name})" for name, orders in n9["measured"].items())
-        + f"; the fastest precession of a triangle is stable up to a tilt of {n9['said'].edge:.4f}, on exact orbits "
+        + f"; the fastest precession of a triangle is stable up to a tilt of {n9['law_edge']:.4f}, on exact orbits "
         f"{n9['seen']:.4f}",
         FigureLink("n9"),
     ),

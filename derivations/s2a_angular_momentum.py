@@ -8,7 +8,7 @@
 #
 # **Notation.** $\hat r$ the unit vector along an axis, with inclination $\theta$ and azimuth $\phi$; $\vec r = R\hat r$
 # the lever from the ground joint to the tip; $\omega = \dot\psi + \dot\phi\cos\theta$ the axial angular velocity; $I_3$
-# and $J$ the axial inertia and the transverse one about the joint; $\varepsilon$ the rate of an axis over that of its spin.
+# and $J$ the axial inertia and the transverse one about the joint; $\epsilon$ the rate of an axis over that of its spin.
 
 # %%
 import sympy as sp
@@ -89,7 +89,7 @@ prove(
 
 # %% [markdown]
 # The paper keeps the component along the axis. It dominates if the axis turns slowly compared with the spin: $\dot\theta$ and
-# $\dot\phi$ are of order $\varepsilon\omega$.
+# $\dot\phi$ are of order $\epsilon\omega$.
 
 # %%
 eps = sp.Symbol("epsilon", positive=True)
@@ -152,7 +152,7 @@ prove(
 
 # %% [markdown]
 # With $\omega$ constant this rate is $J\hat r\times\ddot{\hat r} + I_3\omega\,\dot{\hat r}$. The paper's torque is the
-# second part. The first is smaller by one order in $\varepsilon$ if the rate of the axis itself also changes slowly.
+# second part. The first is smaller by one order in $\epsilon$ if the rate of the axis itself also changes slowly.
 
 
 # %%

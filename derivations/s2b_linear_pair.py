@@ -4,11 +4,11 @@
 # **Objective.** The paper's first theory assumes parallel axes. The exact pair, linearised about rest, shows for which spins and
 # forces the axes stay parallel, and how they drift otherwise.
 #
-# **Assumptions.** No gravity, ideal joints, small tilts from rest. A force acts on the tip of rotor 1. Nothing is assumed of
-# the spins or of the bar.
+# **Assumptions.** The pair of figure 1. No gravity, ideal joints, small tilts from rest. A force acts on the tip of rotor 1.
+# Nothing is assumed of the spins or of the bar.
 #
 # **Notation.** $r_i = (x_i, y_i, 1)$ the axes; $a$, $b$ the inertias of the axes with their share of the bar; $k = \ell/R$;
-# $G_i = I_3\omega_i$; $\varepsilon$ the size of what is linearised.
+# $G_i = I_3\omega_i$; $\epsilon$ the size of what is linearised.
 
 # %%
 import sympy as sp
@@ -26,7 +26,7 @@ F = vector("F")
 # ## Linear equations
 #
 # Lagrange's equations of the exact pair with multipliers $\lambda_1$, $\lambda_2$ (unit lengths) and $N$ (the bar), each
-# scaled by $\varepsilon$ about rest, where every tilt and every force is small.
+# scaled by $\epsilon$ about rest, where every tilt and every force is small.
 
 # %%
 system = axes_pair()

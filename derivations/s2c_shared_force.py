@@ -7,6 +7,8 @@
 # **Assumptions.** No gravity, ideal joints. The paper's assumptions about the axes, the link and the spins are premises of its
 # equations.
 #
+# Figure 2 shows the forces.
+#
 # **Notation.** $\vec r$, $\vec r_2$ the levers of the two rotors, $\hat r_i$ their axes; $\vec A$ the acceleration of the
 # link's centre; $\vec a_i = \ddot{\hat r}_i$; $\rho = \omega_1/\omega_2$.
 

@@ -6,6 +6,7 @@
 #
 # **Assumptions.** Three particles with any masses, positions and velocities. Every sum in these equations runs over single
 # particles or pairs, so three particles represent any number. The forces between them are arbitrary.
+# Figure 3 shows the simulator.
 #
 # **Notation.** $m_i$, $\vec X_i$, $\vec U_i$, $\vec A_i$ the particles' masses, places, velocities, accelerations;
 # $\vec F_i$ the external forces, $\vec f_{ij}$ the force of particle $j$ on particle $i$.

@@ -18,7 +18,7 @@ from lagrotor import Scene, natural_rate, simulate
 from lagrotor.numerics import measured_order
 from lagrotor.pair import HEAVY_LINK, SHOCK_PAIRED, SHOCK_Y
 from lagrotor.pair.notation import AXES, G_1, G_2, G, Omega, R, a, b, t
-from lagrotor.paper import Formula, Remark, prove
+from lagrotor.paper import Formula, Remark, Table, prove
 from lagrotor.theory import linear_pair
 
 p, q = sp.symbols("p q", positive=True)
@@ -159,10 +159,24 @@ means = [
     exact[:-1].mean() / float(mean_y.subs(numbers | {P_y: size}))
     for size, (exact, _) in zip(sizes, across, strict=True)
 ]
-orders
+Table(
+    "The linearised X against the exact pair",
+    (
+        "impulse (N s)",
+        "largest error of X, impulse along x",
+        "largest error of X, impulse across",
+        "exact mean of X / linear, impulse across",
+    ),
+    tuple(
+        (f"{size:g}", *(f"{np.abs(exact - linear).max():.2e}" for exact, linear in (one, other)), f"{mean:.4f}")
+        for size, one, other, mean in zip(sizes, along, across, means, strict=True)
+    ),
+    f"The error is proportional to the impulse to the power {orders['x']:.2f} along x, and {orders['y']:.2f} across the bar.",
+)
 
 # %% [markdown]
-# For the shock of figure 13, 50 N across: the mean of $X$ over the first period after it, and the tilt of the pair at its end.
+# The shock of figure 13 has 50 N across the bar. The mean of $X$ is taken over the first period after it, the tilt of the pair
+# at the end of this period.
 
 # %%
 just_after = SHOCK_Y.at + 5 * SHOCK_Y.width
@@ -171,7 +185,7 @@ paper = simulate(pushed, [0.0, *(just_after + turn_times)], "minimal", 1e-9).aft
 paper_mean = float(paper.axes[:, :-1, 0].mean())
 paper_linear = float(mean_y.subs(numbers | {P_y: SHOCK_Y.impulse[1]}))
 paper_over = float(np.degrees(paper.inclinations[:, -1]).mean())
-paper_mean, paper_linear
+f"The exact mean is {paper_mean:.4f}, the linearised equations give {paper_linear:.4f}. The pair leans by {paper_over:.0f}°."
 
 # %% [markdown]
 # ## Corrected statements of the diagrams

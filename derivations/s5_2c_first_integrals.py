@@ -4,7 +4,7 @@
 # **Objective.** $A$ and $B$ by Noether's theorem, and their conservation on the exact pair, where the bar acts.
 #
 # **Assumptions.** Equal rotors, ideal joints, no gravity, any bar. Further assumptions of the paper are named where they are
-# used.
+# used. Figure t10 shows how far $A$, $B$ and the exact integrals are conserved.
 #
 # **Notation.** $p_i$ the momenta of the pair's own angles; $g = 0$ the bar's constraint and $\lambda$ its multiplier, the
 # bar's force; $\omega_i = \dot\psi_i + \dot\phi_i\cos\theta_i$.
@@ -108,7 +108,10 @@ def swing_after_shock(scale: float) -> float:
 amplitudes, scales = (0.05, 0.1, 0.2), (0.0025, 0.005, 0.01)
 orbit_order = measured_order(amplitudes, [swing_on_orbit(r0) for r0 in amplitudes])
 shock_order = measured_order(scales, [swing_after_shock(scale) for scale in scales])
-{"power of the amplitude, on the orbit": orbit_order, "power of the shock, after it": shock_order}
+(
+    f"On the orbit the oscillation of A is proportional to the amplitude to the power {orbit_order:.2f}. After a shock it is "
+    f"proportional to the force to the power {shock_order:.2f}."
+)
 
 # %% [markdown]
 # ## $A$ and $B$ as printed

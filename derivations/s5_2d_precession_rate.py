@@ -3,7 +3,7 @@
 #
 # **Objective.** $\dot\phi$ from $A$ and $B$, the values that the paper gives $A$ and $B$, and the prediction of the formula.
 #
-# **Assumptions.** Those of $A$ and $B$ (5.12, 5.13), named where they are used.
+# **Assumptions.** Those of $A$ and $B$ (5.12, 5.13), named where they are used. Figure t4 shows the actual rate.
 #
 # **Notation.** $A = p_{\phi_1} - p_{\phi_2}$, $B = p_{\psi_1} - p_{\psi_2}$; $S = \cos\theta_1 + \cos\theta_2$;
 # $\theta_m$ the mean inclination, printed $\bar\theta$, and $\delta$ half the difference; $\omega_i$ the axial velocities.
@@ -15,10 +15,11 @@ from lagrotor import Link, Scene, natural_rate
 from lagrotor.mechanics import momenta
 from lagrotor.pair import ansatz_integrals, axis, pair_with_bar
 from lagrotor.pair.notation import ANSATZ, G_1, G_2, I3, PAIR, A, B, G, J, a, b, omega, omega_1, omega_2
-from lagrotor.paper import Premise, Remark, prove, verdict
+from lagrotor.paper import Premise, Remark, Table, prove, verdict
 from lagrotor.paper.grammar import rate as moving
 from lagrotor.paper.proof import form
 from lagrotor.paper.rotor_pair.ansatz import no_bar_force, opposite_azimuths, opposite_spin_angles
+from lagrotor.paper.rotor_pair.pair_page import compare_pair, comparison_rows
 from lagrotor.paper.rotor_pair.premises import EQUAL_INERTIAS, MASSLESS_BAR, OPPOSITE_SPINS, PAPERS_ROTOR
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.paper.rotor_pair.runs import OPPOSITE
@@ -116,7 +117,7 @@ verdict(
     {"B": value_B, "A": value_A},
     premises=[MASSLESS_BAR, EQUAL_INERTIAS, OPPOSITE_SPINS, opposite_azimuths(), one_inclination],
     correction={"B": form("I_3*(omega_1 - omega_2)")},
-    wrong="B lacks the factor I. The correct value is 2Iω, an angular momentum like A. "
+    wrong="B lacks the factor I. The correct value is 2Iω, an angular momentum like A. The printed A needs no correction. "
     f"With the paper's rotor and spins of ±10 rad/s B is {float(own_B):g} kg m²/s.",
     uses=["5.12", "5.13"],
     evidence=[
@@ -153,6 +154,22 @@ prove(fed_back, phi_v, "the formula with the values of the integrals put in")
 # %%
 natural = natural_frequency().expressions[0].subs({G_1: G, G_2: -G})
 prove(natural**2, G**2 / (a**2 - b**2), "the square of the natural frequency, opposite spins", names=r"\Omega_0^2")
+
+# %% [markdown]
+# ## The formula along the motion
+#
+# The formula can also be read with the values that $A$ and $B$ have at the start of a motion. Along the paired precession
+# $\theta_1$ and $\theta_2$ vary, and $A$ is not conserved, so the formula is off by a small amount.
+
+# %%
+pair = compare_pair()
+Table(
+    "The closed forms of the pair against its integrated motion",
+    ("quantity", "error or difference"),
+    tuple(comparison_rows(pair)),
+    f"The run is one turn of the paired precession, {pair.run.t[-1]:.4f} s, for spins of ±10 rad/s, a massless bar, ℓ = R = 1 m "
+    "and the amplitude r_0 = 0.204. The command `lagrotor pair` prints the formulas and these numbers.",
+)
 
 # %%
 Remark(

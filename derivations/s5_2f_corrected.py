@@ -20,7 +20,7 @@ from lagrotor.models import exact_orbit
 from lagrotor.numerics import measured_order
 from lagrotor.pair import rotor_lagrangian
 from lagrotor.pair.notation import ANSATZ, I3, ROTOR, A, B, G, J, Phi, R, ell, k, r0, sigma, theta_0
-from lagrotor.paper import Formula, Series, prove, verdict
+from lagrotor.paper import Formula, Series, Table, prove, verdict
 from lagrotor.paper.proof import form
 from lagrotor.paper.rotor_pair.premises import BAR_AS_LONG_AS_ROTORS, EQUAL_INERTIAS, MASSLESS_BAR, UNIT_LENGTH
 from lagrotor.paper.rotor_pair.runs import OPPOSITE, PAPER_BAR, PAPER_R0
@@ -107,12 +107,14 @@ verdict(
     premises=[MASSLESS_BAR, BAR_AS_LONG_AS_ROTORS],
     correction=sines_written,
     wrong="The correction keeps the bar's length nearly constant, but makes it too long by 2r₀². "
-    f"At r₀ = {PAPER_R0} it gives the bar {min(lengths):.3f} to {max(lengths):.3f} times its true length.",
+    f"At r₀ = {PAPER_R0} it gives the bar {min(lengths):.3f} to {max(lengths):.3f} times its true length. "
+    "Φ = Ω t is not the azimuth: the azimuths that keep the length follow from x and y of 5.22.",
     uses=["5.19"],
     evidence=[
         f"At r₀ = {PAPER_R0} the printed correction makes the bar {min(lengths):.4f} to {max(lengths):.4f} times as "
         "long as it is.",
-        "No correction of the inclinations alone can keep the length of the bar in 5.11; the azimuths must change too (5.22).",
+        "With opposite azimuths, as in 5.11, no correction of the inclinations can keep the length of the bar; the azimuths must "
+        "change too (5.22).",
     ],
     form=sines_written,
 )
@@ -224,7 +226,13 @@ slopes = {
     name: [measured_order(amplitudes, column) for column in zip(*rows, strict=True)] for name, rows in errors.items()
 }
 rate_slope = measured_order(amplitudes, changes)
-slopes
+Table(
+    "Exponents of the errors in the amplitude",
+    ("curve", "x", "y"),
+    tuple((name, *(f"{slope:.2f}" for slope in pair)) for name, pair in slopes.items()),
+    "The largest error within a period, against the exact orbit, is fitted by a power of r_0 for r_0 = "
+    f"{', '.join(map(str, amplitudes))}.",
+)
 
 # %%
 at_paper = float(massless_frequency.subs(r0, PAPER_R0))
@@ -256,7 +264,8 @@ verdict(
     },
     premises=[EQUAL_INERTIAS, MASSLESS_BAR, BAR_AS_LONG_AS_ROTORS],
     correction={r"\dot\phi": line_written, r"\dot\phi\text{ (last member)}": form(unchanged), **orbit_written},
-    wrong="The derivatives are multiplied, but they should be subtracted. "
+    wrong="The derivatives are multiplied, but they should be subtracted. Their difference is zero, so the last member is right; "
+    "but at constant A and B it does not say how the frequency depends on the amplitude. "
     f"The frequency of the orbit at r₀ = {PAPER_R0} is {at_paper:.4f} Ω₀ with a massless bar.",
     uses=["5.15", "5.20"],
     evidence=[

@@ -38,8 +38,8 @@ prove(balance, sp.sin(theta) * phi_v * (I3 * omega - J * sp.cos(theta) * phi_v),
 prove(single, I3 * omega / (J * sp.cos(theta)), "the rate of one free rotor", names=r"\dot\phi")
 
 # %% [markdown]
-# A shock from rest makes it just that: the axis passes through its old direction once a turn, and its $x$ is a sine of this
-# rate. Measured from zero crossings of $x$, after the paper's shock and after one a hundred times smaller:
+# After a shock from rest the axis passes through its old direction once a turn, and its $x$ is a sine of this rate. The rate is
+# measured from zero crossings of $x$, after the paper's shock and after a shock a hundred times smaller:
 
 
 # %%
@@ -56,7 +56,7 @@ def rate_after(scene: Scene, turns: int = 3) -> tuple[float, float]:
 shock, gentle = (Shock((force, 0, 0), at=2.0, width=1 / 20) for force in (40, 0.4))
 one_rate, one_amplitude = rate_after(Scene(spins=(20, 0), link=None, shock=shock))
 one_gentle, _ = rate_after(Scene(spins=(20, 0), link=None, shock=gentle))
-one_rate, one_gentle
+f"The rate is {one_rate:.4f} rad/s after the shock of 40 N, and {one_gentle:.4f} rad/s after 0.4 N."
 
 # %%
 verdict(
@@ -145,7 +145,7 @@ small_motion = Premise(
     {eta: 0},
     broken=f"by {change:.1f} % after the shock of 40 N",
 )
-pair_rate, pair_gentle
+f"The rate is {pair_rate:.4f} rad/s after the shock of 40 N, and {pair_gentle:.4f} rad/s after 0.4 N."
 
 # %%
 own_constant = PAPERS_ROTOR.on(ONE_KILOGRAM_BAR.on(in_parameters(constant)))

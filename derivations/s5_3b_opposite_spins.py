@@ -40,7 +40,7 @@ from lagrotor.pair.notation import (
     r0,
     sigma,
 )
-from lagrotor.paper import Formula, Premise, Remark, Series, prove, verdict
+from lagrotor.paper import Formula, Premise, Remark, Series, Table, prove, scientific, verdict
 from lagrotor.paper.proof import form
 from lagrotor.paper.rotor_pair.claims.natural_rates import coefficient
 from lagrotor.paper.rotor_pair.premises import HEAVY_BAR, LIGHT_BAR_PREMISE, PAPERS_ROTOR, in_parameters
@@ -82,7 +82,7 @@ prove(
 # %%
 bars = {f"m = {mass:g}, K = {turn:g}": Link(1, mass, turn) for mass, turn in ((1, 1), (0.01, 0.1), (1, 0.1), (0.01, 1))}
 rates = {name: natural_rate(Scene(spins=(10, -10), link=bar)) for name, bar in bars.items()}
-rates
+Table("Natural rates, spins ±10", ("bar", "rate (rad/s)"), tuple((name, f"{rate:.4f}") for name, rate in rates.items()))
 
 # %% [markdown]
 # The product $10\cdot\frac45\cdot0.7125$ is 5.7, not 0.57. That is the rate of the paper's rotor on one curve of $(m, K)$:
@@ -153,7 +153,10 @@ cone = Scene(
 steady = simulate(cone, np.linspace(0, 4 * 2 * np.pi / turning, 41), "minimal", 1e-11)
 apart = float(np.abs(steady.axes[0] - steady.axes[1]).max())
 steady_rate = float((steady.azimuths[0, -1] - steady.azimuths[0, 0]) / steady.t[-1])
-{"turning, derived": turning, "on the exact pair": steady_rate, "axes apart": apart}
+(
+    f"The derived rate is {turning:.6f} rad/s. The exact pair turns at {steady_rate:.6f} rad/s, and its axes stay parallel "
+    f"within {scientific(apart, 1)}."
+)
 
 # %% [markdown]
 # Opposite spins: along the periodic orbit the rate changes by the square of the amplitude, and not as $1/\cos\theta$, which
@@ -186,7 +189,7 @@ for name, bar in {"m = K = 1, ℓ = R": heavy, "massless, ℓ = 2R": Link(length
     slopes.append(
         f"{changes[0] / amplitudes[0] ** 2:+.4f} (derived {predicted:+.4f}) for {name}, with the measured exponent {order:.2f}"
     )
-slopes
+f"The relative change of the rate divided by r_0² is {'; it is '.join(slopes)}."
 
 # %% [markdown]
 # The print has the average inclination. To first order in $r_0$ the sines of both inclinations are $r_0 D$ with
@@ -210,7 +213,7 @@ for bar in list(bars.values())[:3]:
         f"{measured:+.4f} (derived {float(in_average.subs(put)):+.4f}; with θ₀ in place of θ it would be "
         f"{float(curvature.subs(put)):+.4f}) for m = {bar.mass:g}, K = {bar.inertia:g}"
     )
-by_average
+f"The relative change of the rate divided by θ² is {'; it is '.join(by_average)}."
 
 # %%
 at_theta = ratio.subs(r0, sp.sin(theta) / q).subs({k: ell / R, sigma: with_mass / with_inertia})

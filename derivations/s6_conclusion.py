@@ -2,7 +2,7 @@
 # # The conclusion (6.01, 6.02)
 #
 # **Objective.** The degrees of freedom and the modes of the pair with opposite spins, and the concluding rate against the
-# pair's.
+# pair's. Figure 28 shows the oscillation for two bars.
 #
 # **Assumptions.** No gravity, ideal joints, any bar, any spins; the modes are those of small motion about the upright rest
 # state.
@@ -56,7 +56,7 @@ angles = [sp.Rational(1, 3), sp.Rational(2, 5), 0, sp.Rational(1, 4), sp.Rationa
 with_spins = degrees_of_freedom(pair_with_bar(), {**dict(zip(PAIR.q, angles, strict=True)), a: 1, b: 0, I3: 1, k: 1})
 upright = {**dict(zip(AXES.q, (0, 0, 1, 0, 0, 1), strict=True)), k: 1, a: 1, b: 0}
 without_spins = degrees_of_freedom(axes_pair(), upright)
-{"with the spins": with_spins, "without": without_spins}
+f"The pair has {with_spins} degrees of freedom with the spins, and {without_spins} without them."
 
 # %% [markdown]
 # ## Small motion
@@ -95,7 +95,7 @@ resting = without_spins - oscillations - turnings
 prove(zeros, without_spins + turnings, "the number of zero roots")
 
 # %%
-{"oscillations": oscillations, "steady turnings": turnings, "resting": resting}
+f"Of the {without_spins} degrees of freedom {oscillations} oscillates, {turnings} turns steadily and {resting} is at rest."
 
 # %% [markdown]
 # The steady motion is across the joint line. For opposite spins it is $y_1 = y_2$: the toppling.

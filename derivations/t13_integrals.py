@@ -86,7 +86,8 @@ Remark(
 )
 
 # %% [markdown]
-# The same exponents over 30 periods for other amplitudes and momenta, and for the six starts of two sections:
+# The same exponents are computed over 30 periods for other amplitudes and momenta, and for six starts of the second motion.
+# Figure t13 shows them.
 
 # %%
 TURNS, PIECE = 30, 3
@@ -102,6 +103,11 @@ def exponent(scene: Scene) -> float:
 
 exponents = np.array([[exponent(start(r0, p)) for r0 in AMPLITUDES] for p in MOMENTA])
 of_section = [exponent(one) for one in starts[1]]
+(
+    f"For r_0 from {AMPLITUDES[0]:g} to {AMPLITUDES[-1]:g} and P/G from {MOMENTA[0]:g} to {MOMENTA[-1]:g} the exponents are "
+    f"between {exponents.min():.2f} and {exponents.max():.2f} per period. For the six starts they are between "
+    f"{min(of_section):.2f} and {max(of_section):.2f}."
+)
 
 # %% [markdown]
 # ## The horizon of a run

@@ -190,7 +190,7 @@ Remark(
 )
 
 # %% [markdown]
-# Wider motions are for figure t15, which compares the actions of the runs with the form:
+# Figure t15 compares the actions of wider motions with the form. Its runs are made here.
 
 # %%
 SIZES = {

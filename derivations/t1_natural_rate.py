@@ -64,7 +64,7 @@ prove(
 # %%
 x, x_v, x_a = sp.symbols("x x_dot x_ddot", real=True)
 small = sp.Symbol("epsilon")
-motion = euler_lagrange(pair.L, AXES) - pair.push
+motion = euler_lagrange(pair.L, AXES) - pair.generalised_forces
 small_motion = {q: value + small * q for q, value in upright.items()} | {v: small * v for v in (*AXES.v, *AXES.a)}
 first_order = motion.xreplace(small_motion).diff(small).subs(small, 0)
 common = {x1: x, x2: x, AXES.v[0]: x_v, AXES.v[3]: x_v, AXES.a[0]: x_a, AXES.a[3]: x_a}
@@ -167,7 +167,7 @@ prove(
 # %%
 zero_rates = dict.fromkeys(AXES.v, 0)
 prove(
-    (pair.L.subs(zero_rates), sum(e**2 for e in pair.push.subs(zero_rates))),
+    (pair.L.subs(zero_rates), sum(e**2 for e in pair.generalised_forces.subs(zero_rates))),
     (0, 0),
     "energy and gyroscopic force vanish at rest",
     names=("L", "|Q|^2"),

@@ -161,6 +161,7 @@ prove(
 # %%
 paper = Scene(spins=(10, 10), link=Link(1, 1, 1), shock=Shock((50, 0, 0), 2, 1 / 50))
 answer = shock_response(paper)
+closed_energy = answer.energy
 exact = simulate(paper, [0.0, 3.0], tol=1e-11).energy[1]
 Formula(equal_x * att**2, "E")
 

@@ -109,8 +109,6 @@ def ends() -> dict[str, OrbitFamily]:
     return {name: trace_family(scene_of(link)) for name, link in BARS.items()}
 
 
-BARS
-
 # %% [markdown]
 # ## The frequency curve
 

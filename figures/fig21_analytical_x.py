@@ -61,8 +61,8 @@ CAPTION = (
     "(massless bar, "
     f"spins of ±10 rad/s, tolerance {TOL:g}); its time is multiplied by its frequency, so that its phase is t. The "
     "largest residual (c) "
-    f"of the paper's formula (5.22) is {_paper:.3f} m. Its mean residual in x_1 is {_mean:.3f} m, because −r_0² = "
-    f"{-(R0**2):.3f} m "
+    f"of the paper's formula (5.22) is {_paper:.3f} m. Its mean residual in x_1 is {_mean:.3f} m, because r_0² = "
+    f"{R0**2:.3f} m "
     f"is missing from its centre. The corrected formula of order 2 has a residual of at most {_corrected:.4f} m."
 ).replace(" -", " −")
 

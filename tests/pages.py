@@ -1,15 +1,16 @@
 """Every page of the report and of the site, opened in Chromium: `make test-pages`.
 
 Each is seen as on a desk and as on a phone, light, dark and on paper: no error of a script, no violation that axe finds
-outside formulas (dark and on paper: of colours; dark also of what scrolls), no sideways scroll, no letter of a formula (mi, mn,
-mtext) under 10 px, no buttons that overlap; links are read from the files. A page is loaded
-twice, in light and in dark colours, and then only resized or put on paper. Where only colours are others axe looks at a page
-that has an element, in one, of a kind that no page before it had. As many tabs as processors. Exit status 1 where something
-is wrong.
+outside formulas (dark and on paper: of colours; dark also of what scrolls), no sideways scroll, no picture or formula that is
+shown as its source, on a screen no letter of a formula (mi, mn, mtext) under 10 px, no buttons that overlap; links are read from
+the files. A page is loaded twice, in light and in dark colours, and then only resized or put on paper. Where only colours are
+others axe looks at a page that has an element, in one, of a kind that no page before it had. As many tabs as processors. Exit
+status 1 where something is wrong.
 """
 
 import asyncio
 import os
+import re
 import shutil
 import sys
 import zlib
@@ -44,7 +45,8 @@ _SETTLED = (
     "() => document.fonts.ready.then(() => new Promise((done) => requestAnimationFrame(() => setTimeout(done, 50))))"
 )
 _MEASURE = """() => {
-  const seen = (e) => e.getClientRects().length > 0, box = (e) => e.getBoundingClientRect();
+  const seen = (e) => e.getClientRects().length > 0 && e.checkVisibility({visibilityProperty: true});
+  const box = (e) => e.getBoundingClientRect();
   const buttons = [...document.querySelectorAll("button")].filter(seen);
   const overlap = (a, b) => Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1 &&
     Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 1;
@@ -104,6 +106,15 @@ def broken_links(folder: Path, names: list[str]) -> Iterator[str]:
                 yield f"{folder.name}/{name}: leads to no place: {file}#{place}"
 
 
+def unshown_results(folder: Path, names: list[str]) -> Iterator[str]:
+    """Pages on which a picture is the text of an object, or a formula its source, a line each."""
+    for name in names:
+        text = (folder / name).read_text(encoding="utf-8")
+        for kind, signs in (("picture", r"&lt;Figure size [^<]*"), ("formula", r"(?<=<p>)\$\$[^<]{0,40}")):
+            if sign := re.search(signs, text):
+                yield f"{folder.name}/{name}: a {kind} is not shown: {sign[0]}"
+
+
 async def faults_of_page(
     address: str, name: str, scheme: str, page: Any, axe: str, kinds: defaultdict[str, set[str]]
 ) -> list[str]:
@@ -122,7 +133,8 @@ async def faults_of_page(
         await page.evaluate(_SETTLED)
         where = f"{name} at {width} px, {medium}, {scheme}"
         measured = await page.evaluate(_MEASURE)
-        found += [f"{where}: letters under {SMALLEST} px: {letter}" for letter in measured["small"]]
+        small = measured["small"] if medium == "screen" else []  # on paper a wide formula is as small as it must be
+        found += [f"{where}: letters under {SMALLEST} px: {letter}" for letter in small]
         found += [f"{where}: buttons overlap: {pair}" for pair in measured["overlapping"]]
         if measured["over"] > 0 and medium == "screen":
             found.append(f"{where}: wider than the window by {measured['over']} px")
@@ -209,7 +221,8 @@ def main(folders: list[str]) -> int:
     wrong = 0
     for folder in (Path(folder).resolve() for folder in folders):
         names = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*.html"))
-        broken = [*broken_links(folder, names), *without_reference(folder)]
+        names = [name for name in names if not name.startswith("_static/")]  # templates of the theme, not pages
+        broken = [*broken_links(folder, names), *without_reference(folder), *unshown_results(folder, names)]
         print(*broken, sep="\n", end="\n" if broken else "", flush=True)
         wrong += len(broken) + asyncio.run(open_pages(folder, names, axe, installed))
     print(f"{wrong} faults" if wrong else "no fault")

@@ -41,6 +41,7 @@ def test_the_reference_has_every_public_name_once(conf: ModuleType) -> None:
     assert conf.autodoc_default_options.keys() == {"members", "inherited-members"}
     assert shown.count(".. autofunction:: simulate\n") == shown.count(".. autoclass:: System\n") == 1
     assert not conf.kind_of("lagrotor.models.simulate", "no_such_name")
+    assert not re.search(r"`\w+`\w", shown), "a letter after a name in backquotes keeps the quotes from closing"
 
 
 @pytest.mark.parametrize(

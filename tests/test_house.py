@@ -21,6 +21,7 @@ FLOORS = (
         "process_settings",
         "renamed",
         "lazy_imports",
+        "formula_text",
         "result_display",
         "algebra",
         "numerics",

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 import sympy as sp
+from matplotlib.figure import Figure
 
 import lagrotor
 
@@ -23,6 +24,7 @@ def ran(name: str) -> tuple[dict[str, Any], list[Any]]:
         body, _, last = source.rpartition("\n") if "\n" in source else ("", "", source)
         exec(body, names)
         ends.append(eval(last.split("  #")[0], names))
+    assert any(isinstance(end, Figure) or hasattr(end, "html") for end in ends), f"{name} shows no picture"
     return names, ends
 
 
@@ -136,7 +138,7 @@ def test_from_sympy() -> None:
     assert ends[2] < 1e-12
 
 
-def test_every_notebook_has_its_test_and_no_output() -> None:
+def test_every_notebook_has_its_test_an_opening_and_no_output() -> None:
     stems = sorted(path.stem for path in FOLDER.glob("*.ipynb"))
     assert stems == [
         "a_shock_and_what_cancels_it",
@@ -158,6 +160,12 @@ def test_every_notebook_has_its_test_and_no_output() -> None:
     ]
     for stem in stems:
         cells = json.loads((FOLDER / f"{stem}.ipynb").read_text(encoding="utf-8"))["cells"]
+        title, _, opening = "".join(cells[0]["source"]).partition("\n\n")
+        headings = [
+            line for cell in cells[1:] if cell["cell_type"] == "markdown" for line in cell["source"] if line[0] == "#"
+        ]
+        assert title.startswith("# ") and not any(line.startswith("# ") for line in headings), f"{stem}: one title"
+        assert "This page" in opening, f"{stem}: say first what the page shows"
         assert not any(cell.get("outputs") for cell in cells), f"{stem}: clear the outputs before it is committed"
 
 

@@ -134,7 +134,7 @@ def roots_in_box(equations: Sequence[sp.Expr], box: Box) -> tuple[list[Box], lis
                     roots.append(root)
                 continue
         if K is not None:
-            X = {s: _common(X[s], K[s]) for s in unknowns}
+            X = {s: _not_too_narrow(_common(X[s], K[s])) for s in unknowns}
         widest = max(unknowns, key=lambda s: (X[s][1] - X[s][0]) / (box[s][1] - box[s][0]))
         low, high = X[widest]
         if visits > _MOST_BOXES or len(undecided) == _MOST_UNDECIDED:
@@ -201,6 +201,15 @@ def _common(a: Bounds, b: Bounds) -> Bounds:
     """Return the intersection of two overlapping intervals; ends are rounded outward to numbers with few digits."""
     low = max(a[0], _below(b[0])) if a[0] < b[0] else a[0]
     return low, min(a[1], -_below(-b[1])) if b[1] < a[1] else a[1]
+
+
+def _not_too_narrow(side: Bounds) -> Bounds:
+    """Return an interval that contains a side, with room for the narrow box in which `enclosed_root` proves a root.
+
+    One side of a box may shrink to less than that box before the others permit the proof.
+    """
+    low, high = side
+    return (low - 8 * _NARROW, high + 8 * _NARROW) if high - low < 8 * _NARROW else side
 
 
 def _below(x: sp.Rational) -> sp.Rational:

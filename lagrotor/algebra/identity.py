@@ -51,6 +51,7 @@ from lagrotor.algebra.signs import BRANCHED, Region, conditions, region
 from lagrotor.algebra.work_budget import bounded_cache
 from lagrotor.errors import InputError, NotExactError, TooLargeError
 from lagrotor.renamed import accept_old_keywords, old_attribute
+from lagrotor.result_display import Shown
 
 # A larger divisor is not factored in the domain: this may take hours.
 _MOST_TERMS, _MOST_DEGREE = 40, 12
@@ -62,8 +63,8 @@ _MOST_PARTS = 4000  # nodes of an expression that is translated
 _EXCLUDED = "An enclosure at the witness excludes zero."
 
 
-@dataclass(frozen=True)
-class Decision:
+@dataclass(frozen=True, repr=False)
+class Decision(Shown):
     """The decision whether an expression vanishes identically, with its domain and its evidence.
 
     Attributes
@@ -90,6 +91,13 @@ class Decision:
     >>> decide_zero((x**2 - 1)/(x - 1) - x - 1).domain, decide_zero(x**2 - x).witness
     ((x - 1,), {x: 772/499})
     """
+
+    _shown = (
+        ("answer", "answer"),
+        ("where not zero", "domain"),
+        ("reason", "reason"),
+        ("a point", "witness"),
+    )
 
     answer: Literal["zero", "nonzero", "undecided"]
     domain: tuple[sp.Expr, ...]

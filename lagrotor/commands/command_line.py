@@ -59,9 +59,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         return _close_pipe()
     except _Terminated as stop:
-        return say(str(stop) or "terminated", 143)
+        return say(": ".join(filter(None, ("terminated", str(stop)))), 143)
     except KeyboardInterrupt as stop:
-        return say(str(stop) or "interrupted", 130)
+        return say(": ".join(filter(None, ("interrupted", str(stop)))), 130)
     except MemoryError:
         return say("not enough memory: take fewer samples", 2)
     except LagrotorError as error:

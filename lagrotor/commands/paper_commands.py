@@ -7,10 +7,12 @@ the paper on the rotor pair.
 import argparse
 import time
 from collections import Counter
+from contextlib import nullcontext
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from lagrotor.commands.scene_commands import add_scene, scene_from_options
 from lagrotor.commands.terminal import Command, add_json, check_folder, print_json, progress, say, table, wrap
 from lagrotor.errors import InputError
 
@@ -25,11 +27,16 @@ def add_paper_commands(command: Command) -> None:
 
 def _add_reading_commands(command: Command) -> None:
     """Add the commands that read a paper: judge, init, notation, readings, derive and check."""
-    added = command("pair", pair_command, "print the pair's formulas, and compare them with a run", "lagrotor pair")
+    example = "lagrotor pair --paired 0.3 --link-length 1.5 --link-mass 1"
+    added = command("pair", pair_command, "print the pair's formulas, and compare them with a run", example)
     added.description = (
         "Print the Lagrangian of the pair, the bar's constraint, A and B, the precession rate and the corrected trajectories,\n"
-        "and compare the rate and the trajectories with an integrated paired precession."
+        "and compare the rate and the trajectories with an integrated paired precession. Without options it is the paper's:\n"
+        "spins of ±10 rad/s, a massless bar, ell = R = 1 m, amplitude 0.204."
     )
+    says = "amplitude: the sine of the inclination when the axes are parallel (default: 0.204)"
+    added.add_argument("--paired", type=float, default=0.204, metavar="R0", help=says)
+    add_scene(added)
     add_json(added, "a JSON object: LaTeX of each formula, and the differences")
 
     added = command(
@@ -150,7 +157,9 @@ def pair_command(options: argparse.Namespace) -> int:
     from lagrotor.mechanics.glossary import latex
     from lagrotor.paper.rotor_pair.pair_page import compare_pair, pair_formulas, pair_page
 
-    comparison = compare_pair()
+    if options.scene is None and options.spins is None:
+        options.spins = (10.0, -10.0)
+    comparison = compare_pair(options.paired, scene_from_options(options))
     if options.json:
         numbers = {name: value for name, value in vars(comparison).items() if name != "run"}
         formulas = {name: latex(expression) for name, expression in pair_formulas().items()}
@@ -310,16 +319,16 @@ def _plural(count: int, what: str) -> str:
 def reproduce_command(options: argparse.Namespace) -> int:
     if options.jobs is not None and options.jobs < 1:
         raise InputError(f"--jobs {options.jobs} must be at least 1: it is the number of processes")
-    from lagrotor.report.job.processes import cores, start_server
+    from lagrotor.report.job.processes import cores, ending_at_interrupt, server
 
-    if (options.jobs or cores()) > 1:
-        start_server()
-    from lagrotor.report.content import count_list
-    from lagrotor.report.formulas.mathml_latex import converter
-    from lagrotor.report.job.reproduce import reproduce
+    with server() if (options.jobs or cores()) > 1 else nullcontext():
+        with ending_at_interrupt():
+            from lagrotor.report.content import count_list
+            from lagrotor.report.formulas.mathml_latex import converter
+            from lagrotor.report.job.reproduce import reproduce
 
-    paper = _paper(options)
-    result = reproduce(paper, options.out, progress, options.jobs, options.certify)
+            paper = _paper(options)
+        result = reproduce(paper, options.out, progress, options.jobs, options.certify)
     page = options.out / "index.html"
     if options.json:
         print_json(asdict(result) | {"report": str(page)})
@@ -342,8 +351,9 @@ def reproduce_command(options: argparse.Namespace) -> int:
 def audit_command(options: argparse.Namespace) -> int:
     from lagrotor.paper.audit import NOT_YET, in_words, verdicts_json
     from lagrotor.paper.catalogue import known_id
-    from lagrotor.paper.plain_text import readable
+    from lagrotor.paper.plain_text import from_latex, readable
     from lagrotor.report.content import count_list, word
+    from lagrotor.report.errata import errata, letter_table
     from lagrotor.report.facts import note
 
     paper = _paper(options)
@@ -361,6 +371,11 @@ def audit_command(options: argparse.Namespace) -> int:
     elif identifiers:
         words = "\n\n".join(in_words(verdict, paper) for verdict in verdicts)
         print("\n".join(wrap(line, 13) for line in words.split("\n")))
+        if letters := letter_table(errata(verdicts, paper), paper):
+            print("\nletters of the corrections and of the premises")
+        for tex, meaning, unit, ids in letters:
+            used = f", in {ids}" if len(verdicts) > 1 else ""
+            print(wrap(readable(f"  {from_latex(tex)}: {meaning} ({unit}{used})"), 4))
     else:
         titles = {i: entry.title for i, entry in paper.equations.items()}
         rows = [(v.id, word(v.verdict), readable(": ".join(filter(None, (titles[v.id], note(v)))))) for v in verdicts]

@@ -20,9 +20,10 @@ from lagrotor.pair.scene import Link, Scene, Shock
 
 
 def add_scene(parser: argparse.ArgumentParser) -> None:
-    """Add the options that state a scene: spins, mass and inertia of the bar, or a scene file with all data."""
+    """Add the options that state a scene: spins and bar, or a scene file with all data."""
     group = parser.add_argument_group("scene")
     group.add_argument("--spins", nargs=2, type=float, metavar=("W1", "W2"), help="axial angular velocities, rad/s")
+    group.add_argument("--link-length", type=float, metavar="M", help=f"length of the bar (default: {Link.length:g})")
     group.add_argument("--link-mass", type=float, metavar="KG", help=f"mass of the bar (default: {Link.mass:g})")
     says = f"transverse inertia of the bar, kg m² (default: {Link.inertia:g})"
     group.add_argument("--link-inertia", type=float, metavar="X", help=says)
@@ -39,8 +40,10 @@ def add_shock(parser: argparse.ArgumentParser) -> None:
 
 def scene_from_options(options: argparse.Namespace) -> Scene:
     """Return the scene that the options state, or that of the scene file. Raises InputError if both are given."""
-    shock = _shock(options) if "shock" in options else None  # rate takes none
-    link = {name: value for name in ("mass", "inertia") if (value := vars(options)[f"link_{name}"]) is not None}
+    shock = _shock(options) if "shock" in options else None  # pair and rate take none
+    link = {
+        name: value for name in ("length", "mass", "inertia") if (value := vars(options)[f"link_{name}"]) is not None
+    }
     if options.scene:
         from lagrotor.pair.scene_document import read_scene
 
@@ -142,7 +145,8 @@ def _values(options: argparse.Namespace) -> list[float]:
 
 def _columns(options: argparse.Namespace) -> dict[str, Any]:
     """Return the columns of a CSV file by the names in its first line. An empty cell is NaN."""
-    scene = (options.scene, options.spins, options.link_mass, options.link_inertia, options.shock, options.vary)
+    link = (options.link_length, options.link_mass, options.link_inertia)
+    scene = (options.scene, options.spins, *link, options.shock, options.vary)
     if any(value is not None for value in scene):
         raise InputError("--columns: the file has the scenes: leave out --scene, --spins, --link, --shock and --vary")
 
@@ -183,7 +187,7 @@ def _executor(options: argparse.Namespace) -> Iterator[Any]:
     except BaseException as stop:
         if isinstance(stop, Exception) or not options.folder:
             raise
-        says = f"interrupted: the finished runs are in {options.folder}; the same command goes on"
+        says = f"the finished runs are in {options.folder}; the same command goes on"
         raise type(stop)(says) from None
 
 

@@ -26,6 +26,13 @@ class Parser(argparse.ArgumentParser):
         super().__init__(formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False, **settings)
         self._negative_number_matcher = re.compile(r"-(\d|\.\d|inf|nan)", re.IGNORECASE)
 
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """Refuse what this command does not know here, so that the message names the help of this command."""
+        known, unknown = super().parse_known_args(args, namespace)
+        if unknown:
+            self.error(f"unrecognized arguments: {' '.join(unknown)}")
+        return known, unknown
+
     def error(self, message: str) -> NoReturn:
         choice = re.search(r"invalid choice: (.*) \(choose from (.*)\)", message)
         hint = near(choice[1].strip("'"), re.findall(r"[\w-]+", choice[2])) if choice else ""
@@ -87,12 +94,14 @@ def _clear_line() -> None:
 
 
 @contextmanager
-def progress(total: int) -> Iterator[Callable[..., None]]:
+def progress(total: int, first: str = "") -> Iterator[Callable[..., None]]:
     """Yield a function that shows the progress of a work of `total` steps; it is called with a step's name at its begin, or with
     a name and the number of steps that are done.
 
-    A terminal shows all steps in the same line; any other stderr gets one line per step.
+    A terminal shows all steps in the same line; any other stderr gets one line per step. The line `first` stands before them.
     """
+    if first:
+        say(first, 0)
     count, start, live = 0, time.perf_counter(), sys.stderr.isatty()
 
     def step(name: str, done: int | None = None) -> None:

@@ -133,7 +133,10 @@ def repeated_name(values: Mapping[Any, Any]) -> str:
 
 
 def by_symbol(where: str, values: Mapping[Any, Any], symbols: Iterable[sp.Symbol]) -> dict[Any, Any]:
-    """Return {symbol: value} from a mapping by symbol or name; raise InputError for no mapping, or if a value is text."""
+    """Return {symbol: value} from a mapping by symbol or name, or from an Equilibrium; raise InputError for anything else, or if
+    a value is text."""
+    if not isinstance(values, Mapping):
+        values = getattr(values, "at", values)
     if not isinstance(values, Mapping):
         raise InputError(f"{where} = {values!r} must be a dictionary by symbol, {{symbol: …}}")
     if text := next((f"{key} = {value!r}" for key, value in values.items() if isinstance(value, str)), ""):

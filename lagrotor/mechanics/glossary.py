@@ -12,6 +12,7 @@ from sympy.printing.pretty.pretty_symbology import greek_unicode
 
 from lagrotor.algebra import derivative
 from lagrotor.algebra.enclosures import jet_of
+from lagrotor.formula_text import VELOCITY, place_of_factor, with_plus_first
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import jets_of, longer, shortest
 from lagrotor.mechanics.lagrangian import Coordinates, t
@@ -96,17 +97,14 @@ def latex(expression: Any, names: Mapping[sp.Symbol, str] | None = None) -> str:
     return light(_Printer({"symbol_names": symbol_names, "order": "none"}).doprint(expression))
 
 
-_VELOCITY = 3  # the place of a velocity in a product, after numbers, masses and parameters
-
-
 class _Printer(LatexPrinter):  # type: ignore[misc]
     """LaTeX with masses and inertias first in a product, then other parameters, velocities, functions and sums; in a sum with a
     term without a minus sign first."""
 
     def _print_Mul(self, expr: sp.Expr) -> str:
         commutative, others = expr.args_cnc(split_1=False)
-        factors = sorted(commutative, key=_place_of_factor)
-        split = next((i for i, e in enumerate(factors) if _place_of_factor(e)[0] >= _VELOCITY), len(factors))
+        factors = sorted(commutative, key=place_of_factor)
+        split = next((i for i, e in enumerate(factors) if place_of_factor(e)[0] >= VELOCITY), len(factors))
         (number, *constants), rest = factors[: max(split, 1)], factors[max(split, 1) :]
         divided = number.is_Rational and number.q > 1 and 0 < len(constants) <= 2 and rest
         if not divided or others or any(e.is_Pow and e.exp.could_extract_minus_sign() for e in factors):
@@ -118,22 +116,7 @@ class _Printer(LatexPrinter):  # type: ignore[misc]
         return rf"{'- ' if number.is_negative else ''}\frac{{{self._print(top)}}}{{{number.q}}} {after}"
 
     def _as_ordered_terms(self, expr: sp.Expr, order: str | None = None) -> list[sp.Expr]:
-        terms = list(expr.as_ordered_terms())
-        first = next((i for i, term in enumerate(terms) if not term.could_extract_minus_sign()), 0)
-        return [terms[first], *terms[:first], *terms[first + 1 :]]
-
-
-def _place_of_factor(factor: sp.Expr) -> tuple[int, Any]:
-    """Return a sort key of a factor in a product that is written by hand."""
-    base = factor.base if factor.is_Pow else factor
-    name = base.name if base.is_Symbol else ""
-    if factor.is_number:
-        place = 0
-    elif name:
-        place = _VELOCITY if name.endswith("_dot") else 4 if name.endswith("_ddot") else 1 if name[0] in "mMIJK" else 2
-    else:
-        place = 6 if base.is_Add else 5
-    return place, factor.sort_key()
+        return with_plus_first(expr)
 
 
 # sin, cos or tan, perhaps to a power, of a single symbol in brackets.
@@ -203,6 +186,9 @@ def formulas(system: Equations, most: int = _MOST_OPERATIONS) -> dict[str, list[
     def line(side: sp.Expr | str, right: sp.Expr = sp.S.Zero) -> str:
         return " = ".join(e if isinstance(e, str) else _side(e, rates, multipliers, most) for e in (side, right))
 
+    states = [line(rf"\dot{{{letter_latex(x)}}}", f.xreplace(velocities)) for x, f in system.states]
+    if not c.q:
+        return {"First-order states": states}
     still = system.L.subs(dict.fromkeys(c.v, 0))
     kinetic = sp.expand(system.L - still) if short else system.L - still
     sections = {"Kinetic energy": [line("T", kinetic.xreplace(velocities))], "Potential energy": [line("V", -still)]}
@@ -211,6 +197,8 @@ def formulas(system: Equations, most: int = _MOST_OPERATIONS) -> dict[str, list[
     sections["Equations of motion"] = [line(e) for e in (_in_own_velocities(system) if velocities else system.motion)]
     if velocities:
         sections["Equations of motion"][:0] = [line(latex(v), e) for v, e in velocities.items() if v != e]
+    if states:
+        sections["First-order states"] = states
     if system.multipliers:
         rolling = enumerate(system.rolling, len(system.constraints))
         # Rows that q' = B u + b satisfies are not repeated.
@@ -245,7 +233,8 @@ def in_markdown(system: Equations) -> str:
 def in_latex(system: Equations) -> str:
     """Return the equations of motion and the constraints as an `align` of LaTeX: `System.latex`."""
     sections = formulas(system)
-    lines = [*sections.get("Equations of motion", sections.get("Bodies", [])), *sections.get("Constraints", [])]
+    headings = "Equations of motion", "Bodies", "First-order states", "Constraints"
+    lines = [line for heading in headings for line in sections.get(heading, [])]
     rows = " \\\\\n".join(line.replace(" = ", " &= ", 1) for line in lines)
     return f"\\begin{{align}}\n{rows}\n\\end{{align}}"
 

@@ -13,12 +13,13 @@ import sympy as sp
 from lagrotor.algebra import decide_zero, normal_form
 from lagrotor.errors import InputError, NotExactError
 from lagrotor.mechanics.expressions import by_symbol, no_letter
+from lagrotor.result_display import Shown, ShownInOneLine
 
 _S = sp.Symbol("s")
 
 
-@dataclass(frozen=True)
-class Mode:
+@dataclass(frozen=True, repr=False)
+class Mode(ShownInOneLine):
     """A solution Re(shape exp(rate t)) of a linear system.
 
     Attributes
@@ -29,12 +30,24 @@ class Mode:
         Complex amplitudes of all n coordinates, shape (n, 1), up to a common factor.
     """
 
+    _shown = (
+        ("rate [1/s]", "rate"),
+        ("shape", lambda mode: _scaled(mode.shape)),
+    )
+
     rate: sp.Expr
     shape: sp.Matrix
 
 
-@dataclass(frozen=True)
-class LinearSystem:
+def _scaled(shape: sp.Matrix) -> sp.Matrix:
+    """Return a numeric shape with the largest component 1, and a symbolic one without the factors that all components have."""
+    if not shape.free_symbols:
+        return shape.evalf() / max((complex(x) for x in shape), key=abs)
+    return shape / sp.Mul(*set.intersection(*({*sp.Mul.make_args(x)} for x in shape if x != 0)))
+
+
+@dataclass(frozen=True, repr=False)
+class LinearSystem(Shown):
     """The linear system M a + C v + K q = 0 in d independent small coordinates.
 
     Attributes
@@ -57,6 +70,13 @@ class LinearSystem:
     >>> [mode.rate for mode in oscillator.modes()], oscillator.stable_if
     ([-3*I, 3*I], True)
     """
+
+    _shown = (
+        ("equations", lambda _: "M a + C v + K q = 0"),
+        ("M", "mass"),
+        ("C", "gyroscopic"),
+        ("K", "stiffness"),
+    )
 
     mass: sp.Matrix
     gyroscopic: sp.Matrix
@@ -232,7 +252,9 @@ def _roots(factor: sp.Poly) -> list[sp.Expr]:
     if even and factor.degree() == 4:
         squares = sp.roots(sp.Poly(factor.as_expr().subs(s, sp.sqrt(s)), s), multiple=True)
         return [sign * sp.sqrt(square) for square in squares for sign in (1, -1)]
-    raise InputError(f"modes: {factor.as_expr()} = 0 is not solved in closed form: give values={{symbol: number, …}}")
+    raise InputError(
+        f"modes: {factor.as_expr()} = 0 is not solved in closed form: modes(values={{symbol: number, …}}) gives numbers"
+    )
 
 
 def _all_negative(a: list[sp.Expr]) -> list[sp.Expr]:

@@ -8,16 +8,17 @@ import sympy as sp
 
 from lagrotor.algebra import Decision
 from lagrotor.errors import InputError
+from lagrotor.formula_text import LONG
 from lagrotor.mechanics import equilibria, glossary, steady_motions, symmetry, weakly_nonlinear
 from lagrotor.mechanics.bodies import inertial_parameters, joint_forces
 from lagrotor.mechanics.canonical import hamiltonians
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.equilibria import Equilibrium
-from lagrotor.mechanics.expressions import in_order, longer
+from lagrotor.mechanics.expressions import in_order
 from lagrotor.mechanics.from_sympy import parts_from_sympy
 from lagrotor.mechanics.lagrangian import Coordinates, coriolis_matrix
 from lagrotor.renamed import accept_old_keywords
-from lagrotor.result_display import in_lines
+from lagrotor.result_display import in_lines, text_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -38,6 +39,12 @@ if TYPE_CHECKING:
     Start = ArrayLike | Mapping[Any, float]
 
 Kind = TypeVar("Kind", bound=Equations)
+_FEW = 3  # coordinates of a system of bodies whose L is written out
+_MOST_PRINTED = 6  # constraints or forces that are written out
+
+
+def _point(at: Any) -> Any:
+    return at.at if isinstance(at, Equilibrium) else at
 
 
 @dataclass(frozen=True, repr=False)
@@ -65,6 +72,9 @@ class System(Equations):
         The names of the constraints and then of the rolling constraints.
     velocities : mapping
         Quasi-velocities {u: expression affine in v}: one for each coordinate, or fewer if constraints determine the rest.
+    states : mapping
+        First-order states {x: f}, x' = f(q, v, x, t), for example the current of a motor. Forces, dissipation and other rates
+        may contain x. System(states={…}), without coordinates, is a system of first-order equations.
 
     Examples
     --------
@@ -442,6 +452,48 @@ class System(Equations):
         """
         return equilibria.equilibria(self, unknowns, values, box)
 
+    def rest(self, near: "Mapping[Any, Any] | Equilibrium", values: "Values") -> Equilibrium:
+        """Find the equilibrium to which Newton's method leads from a configuration, also in closed loops.
+
+        The steps stay in the neighbourhood, and the last ones go to rounding, so that `linearise` takes the result. It may be
+        unstable. If equilibria are not isolated, it is one of them.
+
+        Parameters
+        ----------
+        near : mapping or Equilibrium
+            {coordinate or state: number} for those that forces and constraints contain; it is first moved onto the constraints.
+        values : mapping
+            {symbol or name: number} for all parameters.
+
+        Returns
+        -------
+        Equilibrium
+            The coordinates and first-order states, the largest rate that is left, and the stability to first order.
+
+        Raises
+        ------
+        InputError
+            If a force or a constraint depends on time, or a force jumps.
+        ConstraintError
+            If no configuration near to the given one satisfies the constraints.
+        SingularError
+            If Newton's method does not converge.
+
+        Examples
+        --------
+        >>> from sympy import cos
+        >>> from lagrotor.mechanics import coordinates
+        >>> c = coordinates("x theta")
+        >>> swing = System(c, (c.x_dot**2 + c.theta_dot**2) / 2 + cos(c.theta) - c.x**2, constraints=(c.x - c.theta - 1,))
+        >>> place = swing.rest({"x": 1, "theta": 0}, {})
+        >>> round(place.at[c.theta], 6), place.residual < 1e-14
+        (-0.684037, True)
+        """
+        from lagrotor.mechanics.running import function_values, nearest_rest
+
+        self, values = function_values.put_functions("rest", self, values)
+        return nearest_rest.nearest_rest(self, near.at if isinstance(near, Equilibrium) else near, values)
+
     def same_as(self, other: Equations) -> Decision:
         """Decide if two systems have the same accelerations in the same coordinates.
 
@@ -581,14 +633,20 @@ class System(Equations):
         return weakly_nonlinear.averaged(self, order, small, frequency)
 
     def __repr__(self) -> str:
-        many, long = len(self.bodies), bool(self.bodies) or longer(self.L, 60)
-        lagrangian = f"the energy of {many} {'body' if many == 1 else 'bodies'}" if many else "a long expression"
-        rows = {"coordinates": ", ".join(map(str, self.c.q)), "L": lagrangian if long else str(self.L)}
-        for name in ("constraints", "rolling", "forces"):
+        many, written = len(self.bodies), not self.bodies or len(self.c.q) <= _FEW
+        rows = {"coordinates": text_of(self.c.q), "L": text_of(self.L) if written else LONG} if self.c.q else {}
+        if many and rows["L"] == LONG:
+            rows["L"] = f"the energy of {many} {'body' if many == 1 else 'bodies'}"
+        for name in ("constraints", "rolling"):
             if each := getattr(self, name):
-                rows[name] = str(len(each)) if long else ", ".join(map(str, each))
+                rows[name] = (
+                    ", ".join(f"{text_of(e)} = 0" for e in each) if len(each) <= _MOST_PRINTED else str(len(each))
+                )
+        if self.forces and len(self.forces) <= _MOST_PRINTED:
+            rows["forces"] = text_of(self.forces)
         if self.dissipation != 0:
-            rows["dissipation"] = "a long expression" if long else str(self.dissipation)
+            rows["dissipation"] = text_of(self.dissipation)
+        rows |= {f"{text_of(x)}'": text_of(f) for x, f in self.states}
         return in_lines("System", rows)
 
     def latex(self) -> str:
@@ -636,8 +694,9 @@ class System(Equations):
         Returns
         -------
         LinearSystem, StateEquations or StateSpace
-            Without values M a + C v + K q = 0 in symbols, a `LinearSystem`. With inputs or outputs, or about a motion that
-            rolls or is written in quasi-velocities, x' = A x + B u, y = C x + D u in symbols, a `StateEquations`.
+            Without values M a + C v + K q = 0 in symbols, a `LinearSystem`. With inputs, outputs or first-order states, or
+            about a motion that rolls or is written in quasi-velocities, x' = A x + B u, y = C x + D u in symbols, a
+            `StateEquations`.
             With values the same in numbers with the eigenvalues of A in 1/s, a `StateSpace`.
 
         Raises
@@ -667,13 +726,13 @@ class System(Equations):
             raise InputError(
                 f"linearise: inputs = {inputs} must be different symbols: for a function F(t) write a symbol F"
             )
-        point = at.at if isinstance(at, Equilibrium) else at
+        point = _point(at)
         if not isinstance(point, Mapping):
             raise InputError(f"linearise: at = {at!r} must be an equilibrium or {{coordinate or velocity: value, …}}")
         if values is None:
             moves = any(str(s) in map(str, self.speeds) and x != 0 for s, x in dict(point).items())
             carried = self.kinematics and any(self.kinematics.velocity.xreplace(dict.fromkeys(self.speeds, sp.S.Zero)))
-            if inputs or outputs or carried or (moves and (self.rolling or self.kinematics)):
+            if inputs or outputs or carried or self.states or (moves and (self.rolling or self.kinematics)):
                 return steady_motions.state_equations(self, point, inputs, outputs)
             return steady_motions.linearise(self, at)
         from lagrotor.mechanics.running import function_values, state_space
@@ -681,12 +740,12 @@ class System(Equations):
         self, values = function_values.put_functions("linearise", self, values)
         return state_space.state_space(self, point, values, inputs, outputs)
 
-    def floquet(self, at: "Mapping[Any, Any]", values: "Values", period: float) -> "MonodromyMatrix":
+    def floquet(self, at: "Mapping[Any, Any] | Equilibrium", values: "Values", period: float) -> "MonodromyMatrix":
         """Return the monodromy matrix of a periodic motion with its multipliers.
 
         Parameters
         ----------
-        at : mapping
+        at : mapping or Equilibrium
             {coordinate or velocity: value} at t = 0, or at the time that `at` gives for t. Rest in a driven system is a
             periodic motion, too.
         values : mapping
@@ -718,16 +777,16 @@ class System(Equations):
         from lagrotor.mechanics.running import function_values, monodromy
 
         self, values = function_values.put_functions("floquet", self, values)
-        return monodromy.monodromy_matrix(self, at, values, period)
+        return monodromy.monodromy_matrix(self, _point(at), values, period)
 
     def root_locus(
-        self, at: "Mapping[Any, Any]", values: "Values", symbol: sp.Symbol | str, numbers: "ArrayLike"
+        self, at: "Mapping[Any, Any] | Equilibrium", values: "Values", symbol: sp.Symbol | str, numbers: "ArrayLike"
     ) -> "RootLocus":
         """Compute the rates of small motion as one symbol takes numbers.
 
         Parameters
         ----------
-        at : mapping
+        at : mapping or Equilibrium
             {coordinate or velocity: value}, which may be expressions in the symbol.
         values : mapping
             {symbol or name: number} for the other parameters.
@@ -753,10 +812,14 @@ class System(Equations):
         from lagrotor.mechanics.running import function_values, root_loci
 
         self, values = function_values.put_functions("root_locus", self, values)
-        return root_loci.root_locus(self, at, values, symbol, numbers)
+        return root_loci.root_locus(self, _point(at), values, symbol, numbers)
 
     def stability_chart(
-        self, at: "Mapping[Any, Any]", values: "Values", numbers: "Mapping[Any, ArrayLike]", period: Any = None
+        self,
+        at: "Mapping[Any, Any] | Equilibrium",
+        values: "Values",
+        numbers: "Mapping[Any, ArrayLike]",
+        period: Any = None,
     ) -> "StabilityChart":
         """Compute the largest growth rate of small motion over two symbols.
 
@@ -764,7 +827,7 @@ class System(Equations):
 
         Parameters
         ----------
-        at : mapping
+        at : mapping or Equilibrium
             {coordinate or velocity: value}, which may be expressions in the symbols.
         values : mapping
             {symbol or name: number} for the other parameters.
@@ -792,9 +855,11 @@ class System(Equations):
         from lagrotor.mechanics.running import function_values, root_loci
 
         self, values = function_values.put_functions("stability_chart", self, values)
-        return root_loci.stability_chart(self, at, values, numbers, period)
+        return root_loci.stability_chart(self, _point(at), values, numbers, period)
 
-    def consistent(self, values: "Values", q0: "Start", v0: "Start", t: float = 0.0) -> "tuple[Array, Array]":
+    def consistent(
+        self, values: "Values", q0: "Start", v0: "Start | None" = None, t: float = 0.0
+    ) -> "tuple[Array, Array]":
         """Return the state on the constraints that is nearest to (q0, v0) in the mass metric.
 
         Parameters
@@ -802,7 +867,8 @@ class System(Equations):
         values : mapping
             {symbol or name: number} for all parameters.
         q0, v0 : array_like or mapping
-            Coordinates, shape (n,), and velocities (n,) or quasi-velocities (m,), or {symbol or name: number} for each.
+            Coordinates, shape (n,), and velocities (n,) or quasi-velocities (m,), or {symbol or name: number} for each. Without
+            v0 the system is at rest.
         t : float, default 0.0
             The time in s.
 
@@ -829,7 +895,7 @@ class System(Equations):
         """
         from lagrotor.mechanics.running import function_values, initial_state
 
-        q, v = in_order("consistent: q0", q0, self.c.q), in_order("consistent: v0", v0, self.speeds)
+        q, v = initial_state.numbers_of_start("consistent", self, q0, v0)
         self, values = function_values.put_functions("consistent", self, values)
         return initial_state.consistent("consistent", self, values, q, v, t)
 
@@ -1023,7 +1089,8 @@ class System(Equations):
         Returns
         -------
         callable
-            (t, y) → y' for the state y = (q, v), 2 n numbers, or (q, u), n + m numbers, with m quasi-velocities u.
+            (t, y) → y' for the state y = (q, v), 2 n numbers, or (q, u), n + m numbers, with m quasi-velocities u, each
+            followed by the first-order states.
 
         Examples
         --------
@@ -1087,13 +1154,14 @@ class System(Equations):
     def simulate(
         self,
         values: "Values",
-        q0: "Start",
-        v0: "Start",
-        t: "ArrayLike",
+        q0: "Start" = (),
+        v0: "Start | None" = None,
+        t: "ArrayLike | None" = None,
         tol: float = 1e-9,
         engine: "Engine" = "core",
         events: "Event | Impact | Sequence[Event | Impact]" = (),
         progress: "Callable[[float], None] | None" = None,
+        x0: "Start" = (),
     ) -> "SystemRun":
         """Integrate the equations of motion. Where forces contain sign(w), or the dissipation |w|, bodies can stick and slip.
 
@@ -1112,11 +1180,12 @@ class System(Equations):
             callables (U, U', …) as far as the equations need derivatives, a table (x, y) or a spline of scipy. The run
             ends where the motion leaves a table.
         q0, v0 : array_like or mapping
-            Coordinates and velocities, or quasi-velocities, at t[0]: arrays, or {symbol or name: number} for each.
+            Coordinates and velocities, or quasi-velocities, at t[0]: arrays, or {symbol or name: number} for each. Without v0
+            the system starts at rest.
         t : array_like
-            Increasing times in s, shape (k,).
+            Increasing times in s, shape (k,), which every run needs.
         tol : float, default 1e-09
-            The largest error of the whole run, from 1e-13 to 0.1, relative to the sizes of coordinates and velocities.
+            The largest error of the whole run, from 1e-13 to 0.1, relative to the sizes of coordinates, velocities and states.
             `run.error` and `run.errors` estimate it. It is below `tol` until the time `run.horizon`; a LagrotorWarning says so
             if that is before the end.
         engine : Engine, default 'core'
@@ -1125,6 +1194,8 @@ class System(Equations):
             Conditions that change the velocities or end the run.
         progress : callable or None, optional
             Called with the time in s of each evaluation, or of each step of a run with events.
+        x0 : array_like or mapping, default ()
+            The first-order states at t[0]: an array, or {symbol or name: number} for each.
 
         Returns
         -------
@@ -1147,14 +1218,19 @@ class System(Equations):
         >>> from lagrotor.mechanics import coordinates
         >>> c = coordinates("x")
         >>> spring = System(c, c.x_dot**2 / 2 - c.x**2 / 2)
-        >>> run = spring.simulate({}, q0={"x": 1}, v0={"x_dot": 0}, t=[0, 1, 2])
+        >>> run = spring.simulate({}, q0={"x": 1}, t=[0, 1, 2])
         >>> run.q[:, 0].round(6)
         array([ 1.      ,  0.540302, -0.416147])
         """
-        from lagrotor.mechanics.running import simulation
+        from lagrotor.mechanics.running import initial_state, simulation
 
-        q, v = in_order("simulate: q0", q0, self.c.q), in_order("simulate: v0", v0, self.speeds)
-        return simulation.simulate_system(self, values, q, v, t, tol, engine, events, progress)
+        if t is None:
+            raise InputError(
+                "simulate: t, the times in s, is missing: without v0 give it by name, t=np.linspace(0, 10, 101)"
+            )
+        q, v = initial_state.numbers_of_start("simulate", self, q0, v0)
+        x = in_order("simulate: x0", x0, [x for x, _ in self.states])
+        return simulation.simulate_system(self, values, q, v, t, tol, engine, events, progress, x)
 
 
 @dataclass(frozen=True, repr=False)
@@ -1171,6 +1247,7 @@ class RobotSystem(System):
     forces
     names
     velocities
+    states
         The fields of `System`.
     values : mapping
         The numbers of the file by symbol, for `simulate`, `rhs` and `linearise`; empty if the system has no symbols.

@@ -2,19 +2,26 @@
 
 import sympy as sp
 
+from lagrotor.algebra import derivative
+from lagrotor.algebra.subexpressions import subexpressions
 from lagrotor.mechanics.equations import Equations
 
 
 def units_of(system: Equations) -> dict[sp.Symbol, str]:
     """Return the units of coordinates, velocities and parameters. A symbol whose unit is not known is left out.
 
-    A coordinate is an angle if its multiple stands in a sine or cosine of L, of a constraint or of a frame's rotation.
+    An angle turns a frame or is the argument of a sine or cosine, and a length shifts a frame.
     """
-    frames = dict.fromkeys(frame for body in system.bodies for frame in body.frame.to_the_ground if frame.parent)
-    given = [*((system.L,) if not system.bodies else ()), *system.constraints, *system.rolling]
-    given += [e for frame in frames for e in frame.rotation]
-    arguments = [node.args[0] for node in set().union(*(e.atoms(sp.sin, sp.cos) for e in given))]
-    units = {q: "rad" for q in system.c.q if any(u.has(q) and u.diff(q).is_Number for u in arguments)}
+    c, units = system.c, dict[sp.Symbol, str]()
+    frames = dict.fromkeys(
+        step for body in system.bodies for step in body.frame.to_the_ground if step.parent is not None
+    )
+    for step in frames:
+        units |= {step.amount: "rad"} if step.axis is not None and step.amount.is_Symbol else {}
+    formulas = (*(() if system.bodies else (system.L,)), *system.constraints, *system.rolling)
+    for e in (part for formula in formulas for part in subexpressions(formula)):
+        slopes = [derivative(e.args[0], q) for q in c.q] if isinstance(e, sp.sin | sp.cos) else ()
+        units |= {q: "rad" for q, slope in zip(c.q, slopes, strict=False) if slope.is_Rational and slope != 0}
     terms = getattr(system.lagrangian, "terms", ())
     lengths = [e for frame in frames for e in frame.shift]
     lengths += [e for body in system.bodies for e in body.centre]
@@ -29,7 +36,7 @@ def units_of(system: Equations) -> dict[sp.Symbol, str]:
         units |= {s: unit for s in sorted(multiples, key=str) if s not in units}
     for frame in frames:
         units |= dict.fromkeys(frame.quaternion, "1") | dict.fromkeys(frame.omega, "rad/s")
-    return units | {v: rate_unit(units[q]) for q, v in zip(system.c.q, system.c.v, strict=True) if q in units}
+    return units | {v: rate_unit(units[q]) for q, v in zip(c.q, c.v, strict=True) if q in units}
 
 
 def rate_unit(unit: str) -> str:

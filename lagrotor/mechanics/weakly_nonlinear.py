@@ -37,11 +37,12 @@ from sympy.polys.matrices import DomainMatrix
 
 from lagrotor.algebra import decide_zero, truncated_series
 from lagrotor.errors import DomainError, InputError, SingularError
-from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.equations import Equations, no_states
 from lagrotor.mechanics.expressions import by_symbol, expression, no_letter, shortest
 from lagrotor.mechanics.fourier import Coefficient, FourierSeries, Series, Waves, constant_series, forget
 from lagrotor.mechanics.lagrangian import t
 from lagrotor.renamed import accept_old_keywords, old_attribute
+from lagrotor.result_display import Shown, text_of
 
 Residual = Callable[[Sequence[Series], Series], list[Series]]
 Column = dict[tuple[int, int], Coefficient]  # (equation, harmonic): value
@@ -253,7 +254,7 @@ class Perturbed:
         return self._with(self.orbit.times(factor), self.p.times(factor), self.q.times(factor))
 
     def derivative(self) -> "Perturbed":
-        """Return df/dPhi. Its perturbation is (p' + B q) xi + (q' + A p) eta."""
+        """Return df/dPhi; in it (p' + B q) xi + (q' + A p) eta takes the place of the perturbation p xi + q eta of f."""
         p, q = self.p.derivative() + self.B * self.q, self.q.derivative() + self.A * self.p
         return self._with(self.orbit.derivative(), p, q)
 
@@ -375,8 +376,8 @@ _START_TOLERANCE = 1e-9  # relative residual of the initial state
 _PHASE = sp.Symbol("Phi", real=True)  # the phase Φ = ω t of a periodic motion
 
 
-@dataclass(frozen=True, eq=False)
-class Oscillation:
+@dataclass(frozen=True, eq=False, repr=False)
+class Oscillation(Shown):
     """A family of periodic motions in powers of a small quantity, with q' = 0 at phase Φ = ω t = 0.
 
     Attributes
@@ -402,6 +403,11 @@ class Oscillation:
     >>> System(c, c.v[0] ** 2 / 2 + sp.cos(c.q[0])).lindstedt_poincare(2, A).frequency
     1 - A**2/16 + O(A**3)
     """
+
+    _shown = (
+        ("frequency ω [rad/s]", "frequency"),
+        ("motion, Φ = ω t", "motion"),
+    )
 
     frequency: sp.Expr
     motion: sp.Expr
@@ -528,8 +534,8 @@ def _stiffness_and_mass(terms: Mapping[tuple[int, ...], sp.Expr], place: str) ->
     return K, M
 
 
-@dataclass(frozen=True, eq=False)
-class AveragedMotion:
+@dataclass(frozen=True, eq=False, repr=False)
+class AveragedMotion(Shown):
     """The averaged equations of the slow amplitudes (a, b) of q = a cos νt + b sin νt.
 
     Attributes
@@ -556,6 +562,16 @@ class AveragedMotion:
     >>> van_der_pol.averaged(1, e).polar
     (-epsilon*r**3/8 + epsilon*r/2, 0)
     """
+
+    _shown = (
+        ("motion", lambda s: f"q = {text_of(s.state[0])}"),
+        (
+            "slow rates",
+            lambda s: "; ".join(f"{text_of(a)}' = {text_of(e)}" for a, e in zip(s.amplitudes, s.rates, strict=True)),
+        ),
+        ("polar", lambda s: "r' = {}; β' = {}".format(*map(text_of, s.polar))),
+        ("order", lambda s: f"{s.order} in {text_of(s.small)}"),
+    )
 
     amplitudes: tuple[sp.Symbol, sp.Symbol]
     rates: tuple[sp.Expr, sp.Expr]
@@ -743,6 +759,7 @@ def _expression_of(u: FourierSeries, field: Domain, phase: sp.Expr, small: sp.Sy
 
 
 def _check_one(where: str, system: Equations, order: int, small: sp.Symbol) -> None:
+    no_states(where, system, "the series are of one coordinate alone: simulate it, or use floquet")
     if len(system.c.q) != 1 or system.multipliers:
         raise InputError(
             f"{where}: one coordinate without constraints is taken: eliminate others by routh if cyclic, constraints by "

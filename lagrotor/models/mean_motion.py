@@ -211,7 +211,7 @@ def wander_error(scene: Scene, duration: float) -> float:
         The error, 1/s.
     """
     law = wander_after_shock(scene)
-    return abs(wandering_rate(run_after(scene, _turns(scene, duration, "wander_error"))) - law)
+    return abs(wandering_rate(run_after(scene, _turns(scene, duration, "wander_error"), 1e-10)) - law)
 
 
 def cancelling_force_error(scene: Scene, duration: float) -> float:

@@ -52,8 +52,10 @@ class Program:
 
 @lru_cache(maxsize=16)
 def reduce_common(program: Program) -> tuple[Sequence[Stage], Sequence[sp.Expr]]:
-    """Extract the common subexpressions of a program. Return the stages in an order in which they can be executed, and the
-    outputs in terms of them."""
+    """Compute each subexpression that occurs more than once in a program only once.
+
+    Return the intermediate results (symbol, expression), each after those that it uses, and the outputs in their symbols.
+    """
     stages, outputs = list(program.stages), list(program.outputs)
     if program.shared:
         stages = _ordered(dict(stages), outputs)

@@ -58,6 +58,6 @@ def multiplier_rows(values: NDArray[np.complex128], errors: Array) -> dict[str, 
         if value != value:
             rows.append(f"below {scientific(error)}")
         elif value.imag >= 0:
-            number = f"{value:.8g}, of modulus {abs(value):.8g}" if value.imag else f"{value.real:.8g}"
+            number = f"{value.real:.8g}" + (f" ± {value.imag:.8g} i, of modulus {abs(value):.8g}" if value.imag else "")
             rows.append(f"{number}, known to {scientific(error, 1)}")
     return {f"multiplier {i + 1}": row for i, row in enumerate(rows)}

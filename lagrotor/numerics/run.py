@@ -230,7 +230,9 @@ class Run(Shown):
             arrays = {name: quantity.values for name, quantity in self.quantities().items()}
             return write_arrays(target, self._about() | outcome, {"t": self.t, "errors": self.errors} | arrays)
         if target.suffix == ".csv":
-            table = {"t [s]": self.t} | {f"{name} [{unit}]": values for name, values, unit in self._columns()}
+            table = {"t [s]": self.t} | {
+                f"{name} [{unit}]" if unit else name: values for name, values, unit in self._columns()
+            }
             rows = (",".join(map(repr, row)) for row in np.column_stack(list(table.values())).tolist())
             return write_text(target, "\n".join([",".join(table), *rows, ""]))
         if target.suffix in PICTURES:

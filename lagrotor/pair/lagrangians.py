@@ -117,7 +117,7 @@ def pair_with_bar() -> System:
 
 
 def link_constraint(r1: sp.Matrix, r2: sp.Matrix) -> sp.Expr:
-    """Return the bar's constraint g = k (x_2 − x_1) + 1 − r_1 . r_2 = (|ell e_x + R (r_2 − r_1)|² − ell²) / (2 R²).
+    """Return the bar's constraint g = k (x_2 − x_1) + 1 − r_1 · r_2 = (|ell e_x + R (r_2 − r_1)|² − ell²) / (2 R²).
 
     Parameters
     ----------
@@ -322,7 +322,7 @@ def leaning_lagrangian() -> sp.Expr:
 
 
 def joint_line_momentum(c: Coordinates = AXES) -> sp.Expr:
-    """Return the Noether integral P = sum_i (dT/dr_i') . (e_x × r_i) + G_i x_i of rotation about the joint line.
+    """Return the Noether integral P = sum_i (dT/dr_i') · (e_x × r_i) + G_i x_i of rotation about the joint line.
 
     Parameters
     ----------

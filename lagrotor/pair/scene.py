@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from html import escape
 from math import fsum, hypot, pi, sqrt
 
 from lagrotor.errors import InputError
@@ -18,6 +17,7 @@ from lagrotor.pair.quantities import (
     positive,
     two_vectors,
 )
+from lagrotor.result_display import Printed, text_of
 
 CLOSE = 1e-9  # the largest residual of the constraints at the start
 
@@ -27,7 +27,7 @@ def _dot(p: Vector, q: Vector) -> float:
 
 
 @dataclass(frozen=True)
-class Rotor:
+class Rotor(Printed):
     """A symmetric rotor on a ground joint.
 
     Attributes
@@ -45,6 +45,12 @@ class Rotor:
     >>> Rotor(mass=4, length=1, I1=2).J
     3.0
     """
+
+    _shown = (
+        ("mass M [kg]", "mass"),
+        ("length R [m]", "length"),
+        ("inertias I₁, I₃ [kg m²]", lambda r: (r.I1, r.I3)),
+    )
 
     mass: float = 1.0
     length: float = 1.0
@@ -67,7 +73,7 @@ class Rotor:
 
 
 @dataclass(frozen=True)
-class Link:
+class Link(Printed):
     """The bar between the tips.
 
     Attributes
@@ -79,6 +85,12 @@ class Link:
     inertia : float, default 0.0
         The transverse inertia about the centre, in kg m².
     """
+
+    _shown = (
+        ("length ℓ [m]", "length"),
+        ("mass m [kg]", "mass"),
+        ("inertia K [kg m²]", "inertia"),
+    )
 
     length: float = 1.0
     mass: float = 0.0
@@ -96,7 +108,7 @@ class Link:
 
 
 @dataclass(frozen=True)
-class Shock:
+class Shock(Printed):
     """A Gaussian pulse force exp(−((t − at)/width)²) on the tip of one rotor.
 
     Attributes
@@ -114,6 +126,11 @@ class Shock:
     >>> Shock((50, 0, 0), at=2, width=0.02).impulse[0]
     1.772453850905516
     """
+
+    _shown = (
+        ("force [N]", lambda s: f"({text_of(s.force)}) on rotor {s.body}"),
+        ("time [s]", lambda s: f"{s.at:g} ± {s.width:g}"),
+    )
 
     force: Vector
     at: float
@@ -165,7 +182,7 @@ _REST: tuple[Vector, Vector] = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 
 @dataclass(frozen=True)
-class Scene:
+class Scene(Printed):
     """Two equal rotors, the bar between their tips, a shock and an initial state.
 
     Attributes
@@ -200,11 +217,11 @@ class Scene:
     rates: tuple[Vector, Vector] = _REST
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "spins", numbers(self.spins, 2, "Scene: spins", "rad/s"))
         for name, kind, optional in (("rotor", Rotor, False), ("link", Link, True), ("shock", Shock, True)):
             value = getattr(self, name)
             if not (isinstance(value, kind) or (optional and value is None)):
                 raise InputError(f"Scene: {name} = {value!r} must be a {kind.__name__}")
-        object.__setattr__(self, "spins", numbers(self.spins, 2, "Scene: spins", "rad/s"))
         for i, spin in enumerate(self.spins):
             not_vanishing(spin, f"Scene: spins[{i}]", "rad/s")
         object.__setattr__(self, "axes", two_vectors(self.axes, "Scene: axes", "1"))
@@ -324,15 +341,17 @@ class Scene:
             {name: description in words}.
         """
         rotor, bar, shock = self.rotor, self.link, self.shock
-        return {
-            "spins [rad/s]": f"{self.spins[0]:g}, {self.spins[1]:g}",
-            "rotors": f"{rotor.length:g} m, {rotor.mass:g} kg, I1 = {rotor.I1:g}, I3 = {rotor.I3:g} kg m²",
-            "bar": f"{bar.length:g} m, {bar.mass:g} kg, {bar.inertia:g} kg m²" if bar else "none",
-            "shock": f"{shock.force} N on rotor {shock.body}, {shock.at:g} ± {shock.width:g} s" if shock else "none",
-        }
 
-    def _repr_html_(self) -> str:
-        vectors = (f"({x:.4g}, {y:.4g}, {z:.4g})" for x, y, z in (*self.axes, *self.rates))
-        lines = self.summary() | {"r_1, r_2, r_1', r_2'": ", ".join(vectors)}
-        rows = "".join(f"<tr><th>{escape(k)}</th><td>{escape(v)}</td></tr>" for k, v in lines.items())
-        return f"<table><caption>Scene</caption>{rows}</table>"
+        def vectors(pair: tuple[Vector, Vector]) -> str:
+            return ", ".join(f"({text_of(float(f'{x:.4g}') + 0.0 for x in vector)})" for vector in pair)
+
+        return {
+            "spins [rad/s]": text_of(self.spins),
+            "rotors": f"{rotor.length:g} m, {rotor.mass:g} kg, I₁ = {rotor.I1:g}, I₃ = {rotor.I3:g} kg m²",
+            "bar": f"{bar.length:g} m, {bar.mass:g} kg, {bar.inertia:g} kg m²" if bar else "none",
+            "shock": f"({text_of(shock.force)}) N on rotor {shock.body}, {shock.at:g} ± {shock.width:g} s"
+            if shock
+            else "none",
+            "axes r₁, r₂": "upright" if self.axes == _UP else vectors(self.axes),
+            "rates r₁', r₂' [1/s]": "at rest" if self.rates == _REST else vectors(self.rates),
+        }

@@ -312,6 +312,8 @@ def _wrong(t: Array, axes: Array, rates: Array, momenta: Array) -> str | None:
 def ansatz_A(run: Trajectory) -> Array:
     """Return the paper's integral (5.12), A = p_phi1 − p_phi2, along a run, with the bar's inertia.
 
+    The integral B of the paper is G_1 − G_2, run.momenta[0] − run.momenta[1].
+
     Parameters
     ----------
     run : Trajectory

@@ -3,9 +3,10 @@
 Data pass through these types in this order. A `Paper` is a folder: a `Catalogue` of equations, claims and figures in TOML, with
 scripts and a record. `grammar` reads a printed line as sympy objects. A derivation shows formulas, forms and steps (`proof`:
 `Formula`, `Form`, `prove`), and states an equation by `verdict` (`equation_statements`). `statement` combines it with the print,
-as a `Statement` of `Relation`s under `Premise`s. `hypotheses` combines the premises into one set. The `ledger` decides each
-line and returns a `Verdict` of `LineVerdict`s; if there is a `Theorem`, it decides instead. An `Audit` has the verdicts of a
-paper. A `ClaimTest` simulates a claim that is made in words. `record` compares verdicts and claims with those on record.
+as a `Statement`: each of its relations (`Relation`) is judged under premises (`Premise`). `hypotheses` combines the premises into
+one set. The `ledger` decides each line and returns a `Verdict`, which has a `LineVerdict` for each line; a `Theorem`, if there is
+one, decides instead. An `Audit` has the verdicts of a paper. A `ClaimTest` simulates a claim that is made in words. `record`
+compares verdicts and claims with those on record.
 
 `judge` and `judge_text` need no paper. `latex` reads LaTeX. To add a paper, write its folder (`lagrotor init`); to add a
 function that every printed line may call, add it to `grammar.FUNCTIONS`.

@@ -19,7 +19,9 @@ from lagrotor.errors import InputError
 from lagrotor.files import path_of
 from lagrotor.mechanics.glossary import Entry, Glossary, latex
 from lagrotor.paper.grammar import Letters, Line, components, declared, read, read_line
+from lagrotor.paper.plain_text import from_latex
 from lagrotor.paper.scripts import importable
+from lagrotor.result_display import Printed
 
 
 @dataclass(frozen=True)
@@ -162,7 +164,7 @@ _LINE = ("quantity", "members", "order", "small", "read_off", "scene", "names")
 
 
 @dataclass(frozen=True)
-class Equation:
+class Equation(Printed):
     """One printed equation; `latex` is its source, `number` its number in the paper.
 
     `line` has the printed lines as the catalogue writes them; `reading` is a remark on how they were read. `letters` are
@@ -174,6 +176,13 @@ class Equation:
     is a hash of the confirmed lines. `label` is the equation's name in the source, `lead` the left side of the row that it
     continues. `aside` has statements that are not compared, `changed` the print before the source changed.
     """
+
+    _shown = (
+        ("equation", "id"),
+        ("section", "section"),
+        ("title", "title"),
+        ("print", lambda e: from_latex(e.latex)),
+    )
 
     id: str
     section: str
@@ -206,8 +215,10 @@ class Equation:
 
 
 @dataclass(frozen=True)
-class Claim:
+class Claim(Printed):
     """A statement that the paper makes in words; `equations` are the ids of the equations that it concerns."""
+
+    _shown = (("claim", "id"), ("section", "section"), ("text", "text"), ("equations", "equations"))
 
     id: str
     section: str

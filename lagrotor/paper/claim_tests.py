@@ -15,6 +15,7 @@ from lagrotor.errors import NotProved, ProofError
 from lagrotor.paper.catalogue import Claim
 from lagrotor.paper.tables import Table
 from lagrotor.paper.theorems import Theorem, can_prove, verify
+from lagrotor.result_display import Printed
 
 Outcome = Literal["proved", "confirmed", "confirmed-if", "refuted"]
 
@@ -33,6 +34,12 @@ class PrintedNumber(float):
     def rule(self) -> str:
         """The interval of the numbers that the printed one stands for, in words."""
         return f"{self.digits} as printed means {self - self.half_unit:.8g} to {self + self.half_unit:.8g}"
+
+    def compare(self, number: float) -> str:
+        """Return in words whether a number rounds to the printed one, and by how many percent it differs."""
+        rounds = "rounds" if self.is_matched(number) else "does not round"
+        side = "above" if number > self else "below"
+        return f"which {rounds} to {self.digits} and is {abs(number / self - 1):.1%} {side} it"
 
 
 @dataclass(frozen=True)
@@ -71,7 +78,7 @@ class Part:
 
 
 @dataclass(frozen=True)
-class Finding:
+class Finding(Printed):
     """The decision on a claim.
 
     A claim is refuted if a part holds under no condition, confirmed-if if a part needs a condition, proved if theorems
@@ -90,6 +97,16 @@ class Finding:
     >>> finding.outcome, finding.condition
     ('confirmed-if', 'the angle is small')
     """
+
+    _shown = (
+        ("outcome", "outcome"),
+        ("under the condition", "condition"),
+        (
+            "parts",
+            lambda f: "\n".join(f"{part.says}: {'holds' if part.holds else 'does not hold'}" for part in f.parts),
+        ),
+        ("why", "explanation"),
+    )
 
     parts: tuple[Part, ...]
     explanation: str
@@ -224,7 +241,7 @@ class ClaimTest:
 
 
 @dataclass(frozen=True)
-class Result:
+class Result(Printed):
     """A claim after its test.
 
     Attributes
@@ -238,6 +255,13 @@ class Result:
     seconds : float
         Computing time in s.
     """
+
+    _shown = (
+        ("claim", lambda r: r.test.id),
+        ("outcome", lambda r: r.finding.outcome),
+        ("measured", "measured"),
+        ("why", lambda r: r.finding.explanation),
+    )
 
     test: ClaimTest
     measured: Mapping[str, float]

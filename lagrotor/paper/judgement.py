@@ -70,6 +70,9 @@ class Judgement:
     def __repr__(self) -> str:
         return repr(self.verdict)
 
+    def _repr_html_(self) -> str:
+        return self.verdict._repr_html_()
+
 
 @dataclass(frozen=True)
 class _Text:

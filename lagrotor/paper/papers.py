@@ -22,12 +22,13 @@ from lagrotor.paper.scripts import Scripts
 from lagrotor.paper.theorems import can_prove
 from lagrotor.paper.verdicts import AGREES, LineVerdict, Statement, Verdict
 from lagrotor.renamed import accept_old_keywords
+from lagrotor.result_display import Printed
 
 Progress = Callable[[str], None]
 
 
 @dataclass(frozen=True)
-class Paper(Catalogue):
+class Paper(Catalogue, Printed):
     """A paper whose equations and claims can be tested.
 
     The folder has `paper.toml` and `equations.toml`; `claims.toml`, `figures.toml`, `symbols.py`, `derivations/`, `figures/`
@@ -55,6 +56,14 @@ class Paper(Catalogue):
     >>> PAPER.equation("5.22").title
     'x coordinate of the two tips in time'
     """
+
+    _shown = (
+        ("title", "title"),
+        ("folder", "folder"),
+        ("equations", lambda p: len(p.equations)),
+        ("claims", lambda p: len(p.claims) or None),
+        ("verdicts on record", lambda p: len(p.recorded) or "none"),
+    )
 
     scripts_in: Path | None = None
 

@@ -33,6 +33,11 @@ def readable(text: str) -> str:
     return _MINUS.sub("−", text)
 
 
+def readable_on_page(text: str) -> str:
+    r"""Return `readable` text with the letter ϕ of the formulas, in which it is \phi, instead of the φ of terminals."""
+    return readable(text).replace("φ", "ϕ")
+
+
 def _in_powers_of_ten(match: re.Match[str]) -> str:
     sign, mantissa, power = match.groups()
     if float(mantissa) == 0:

@@ -12,13 +12,14 @@ from lagrotor.errors import InputError
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.plain_text import readable
 from lagrotor.renamed import accept_old_keywords
+from lagrotor.result_display import Printed
 
 _LONGEST = 160  # characters; a longer formula is shown as data only
 _SIGNS = {sp.Eq: "=", sp.Ne: "≠", sp.Ge: "≥", sp.Gt: ">", sp.Le: "≤", sp.Lt: "<"}
 
 
 @dataclass(frozen=True)
-class Premise:
+class Premise(Printed):
     """An assumption, in words and as equations and inequalities.
 
     Attributes
@@ -45,6 +46,8 @@ class Premise:
     >>> premise.with_formula, premise.on(ell**2 - R * ell)
     ('the bar is as long as the arms: ℓ = R', 0)
     """
+
+    _shown = (("premise", "with_formula"), ("not met by the paper's own scene", "broken"))
 
     says: str
     put: Mapping[sp.Basic, Any] = field(default_factory=dict)

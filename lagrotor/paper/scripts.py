@@ -131,14 +131,19 @@ def by_numbers(name: str) -> list[tuple[int, str]]:
 
 
 class _RemoteNames(dict[str, Any]):
-    """The names that a derivation defined in another process. If a name is missing, the script runs in this process."""
+    """The names that a derivation defined in another process. If a name is missing, the script runs in this process.
+
+    The warnings of its simulations stand on its own page, not on that of the script that imports the name.
+    """
 
     def __init__(self, scripts: Scripts, stem: str, values: Mapping[str, Any]) -> None:
         super().__init__(values)
         self.scripts, self.stem = scripts, stem
 
     def __missing__(self, name: str) -> Any:
-        return self.scripts.executed("derivations", self.stem).names[name]
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", LagrotorWarning)
+            return self.scripts.executed("derivations", self.stem).names[name]
 
 
 def verdicts_in(path: Path) -> list[tuple[str, int]]:

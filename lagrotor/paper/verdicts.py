@@ -17,6 +17,7 @@ from lagrotor.paper.premises import Premise, relation_text
 from lagrotor.paper.tables import Table
 from lagrotor.paper.theorems import Theorem
 from lagrotor.paper.units import Dimensions
+from lagrotor.result_display import ShownInOneLine, text_of
 
 Answer = Literal["holds", "holds-if", "holds-to-order", "proved", "refuted", "measured", "definition", "undecided"]
 Side: TypeAlias = Any  # a sympy expression or matrix
@@ -136,8 +137,8 @@ def check_premises(sides: Any, premises: Iterable[Premise]) -> None:
         )
 
 
-@dataclass(frozen=True)
-class LineVerdict:
+@dataclass(frozen=True, repr=False)
+class LineVerdict(ShownInOneLine):
     """The verdict on one member of a printed line, or on one line of a correction.
 
     Attributes
@@ -170,6 +171,15 @@ class LineVerdict:
     dimensions : Dimensions or None, optional
         The dimensional analysis; no verdict depends on it.
     """
+
+    _shown = (
+        ("line", lambda v: f"{text_of(v.relation.printed)} = {text_of(v.relation.derived)}"),
+        ("verdict", "verdict"),
+        ("under", lambda v: "; ".join(premise.says for premise in v.premises)),
+        ("left − right", "difference"),
+        ("through order", "order"),
+        ("reason", "reason"),
+    )
 
     relation: Relation
     verdict: Answer

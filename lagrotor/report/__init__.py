@@ -2,7 +2,7 @@
 
 The modules in the order in which `lagrotor reproduce` uses them:
 
-- `job.steps` lists the `JobStep`s: each runs one derivation, tests one claim or draws one figure.
+- `job.steps` lists the steps (`JobStep`): each runs one derivation, tests one claim or draws one figure.
 - `job.dependencies` computes the digest of all inputs of a step.
 - `job.processes` runs the steps on all cores; `job.cache` stores numbers and figures for later runs.
 - `content.Report` holds all results of one run. `facts` writes its sentences, `errata` its refuted equations.

@@ -4,13 +4,14 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from textwrap import shorten
 
 import sympy as sp
 
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper import scripts
 from lagrotor.paper.audit import NOT_YET
-from lagrotor.paper.catalogue import Equation, is_claim
+from lagrotor.paper.catalogue import Claim, Equation, is_claim
 from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.papers import Paper
 from lagrotor.paper.plain_text import from_latex
@@ -96,10 +97,15 @@ class Report:
         """The introduction of the report: how equations, claims and figures were examined, and how they are cited."""
         equations, claims = list(self.paper.equations)[:1], list(self.paper.claims)[:1]
         text = "Each equation of the paper is read as printed and derived anew; an exact decision procedure compares the two. "
-        text += "Each claim made in words is tested by a simulation or a theorem. " if claims else ""
+        if claims:
+            text += "Each claim made in words is tested by a simulation or a theorem. A printed number agrees with a computed "
+            text += "one that rounds to it: 16 stands for 15.5 to 16.5, and 11.4 for 11.35 to 11.45. "
         text += "Each figure is drawn again. " if self.paper.figures else ""
         text += "All numbers were computed by the run that wrote this page, except computing times, which are on record with the "
-        ids = [*(f"Equations are cited by number, such as {i}" for i in equations), *(f"claims as {i}" for i in claims)]
+        ids = [
+            *(f"Equations are cited by numbers of this report, such as {i}" for i in equations),
+            *(f"claims as {i}" for i in claims),
+        ]
         return f"{text}machine. {', and '.join(ids)}."
 
     @property
@@ -188,6 +194,11 @@ def notation(report: Report) -> list[tuple[sp.Symbol, str, str]]:
 def word(answer: str) -> str:
     """Return a verdict or an outcome in words: "holds if" for "holds-if"."""
     return answer.replace("-", " ")
+
+
+def claim_title(claim: Claim) -> str:
+    """Return the title of a claim, the beginning of its text and its section."""
+    return f"{shorten(claim.text, 72, placeholder=' …')} (section {claim.section})"
 
 
 def count_list(counts: dict[str, int]) -> str:

@@ -85,8 +85,11 @@ def _conditions(verdict: Verdict) -> Iterator[tuple[str, tuple[Premise, ...]]]:
 
 
 def premise_formulas(premises: Iterable[Premise]) -> tuple[str, ...]:
-    """Return the equations of the premises in LaTeX, one line for each premise that has equations."""
-    return tuple(r",\quad ".join(premise.tex) for premise in premises if premise.tex)
+    """Return the equations of the premises in LaTeX, one line for each premise that has equations.
+
+    An equation between components is left out: the sentence of such a premise already states the equation of the vectors.
+    """
+    return tuple(r",\quad ".join(p.tex) for p in premises if p.tex and not _in_components(p))
 
 
 def correction_lines(verdict: Verdict) -> tuple[str, ...]:
@@ -121,6 +124,11 @@ def sheet_summary(verdicts: Iterable[Verdict], errors: list[Erratum]) -> Iterato
     yield (
         "This sheet lists the equations of the paper that differ from what the same premises give, each as printed and as it "
         "should read. Every equation was derived anew, and one exact procedure compared both forms with the derivation."
+        + "".join(
+            f" The number of an item, such as {e.id}, is that of the report, not of a section; a number that the paper prints at "
+            "the equation follows in parentheses."
+            for e in errors[:1]
+        )
     )
     differ = "1 differs" if len(errors) == 1 else f"{len(errors)} differ"
     reaching = [e.id for e in errors if not e.survives]
@@ -158,7 +166,7 @@ def letter_table(errors: Iterable[Erratum], paper: Paper) -> list[tuple[str, str
         known = {
             letters_in(tex): (tex, *row) for tex, row in section_meanings(paper, e.section).items() if "dot{" not in tex
         }
-        premises = (p for _, listed in e.conditions for p in listed if not _in_components(p))
+        premises = (p for _, listed in e.conditions for p in listed)
         for letter in dict.fromkeys(c for tex in (*e.corrected, *premise_formulas(premises)) for c in letters_in(tex)):
             if (letter,) in known:
                 tex, meaning, unit = known[letter,]

@@ -79,7 +79,7 @@ def facts(verdict: Verdict, report: Report) -> Iterator[Fact]:
 
 
 def _condition(label: str, premises: tuple[Premise, ...]) -> Fact:
-    return Fact(label, ("; ".join(p.sentence for p in premises),), sources=premise_formulas(premises))
+    return Fact(label, ("; ".join(dict.fromkeys(p.sentence for p in premises)),), sources=premise_formulas(premises))
 
 
 _EFFECTS = {True: "this error changes a result of the paper", False: "no result of the paper depends on this error"}

@@ -13,7 +13,7 @@ import sympy as sp
 
 from lagrotor.mechanics.glossary import latex
 from lagrotor.paper.claim_tests import Result
-from lagrotor.paper.plain_text import readable
+from lagrotor.paper.plain_text import readable_on_page
 from lagrotor.paper.tables import Cell, FigureLink
 from lagrotor.paper.verdicts import Verdict
 from lagrotor.pictures.figures import Picture
@@ -26,6 +26,7 @@ from lagrotor.report.content import (
     ResultSection,
     anchor,
     citation,
+    claim_title,
     contents,
     derived_heading,
     derived_lines,
@@ -211,7 +212,7 @@ def _facts(listed: Iterable[Fact]) -> Iterator[Block]:
 
 def _claim(result: Result, report: Report) -> Iterator[Block]:
     entry, finding = report.paper.claims[result.test.id], result.finding
-    yield Heading(anchor(entry.id), f"section {entry.section}: {word(finding.outcome)}", entry.id)
+    yield Heading(anchor(entry.id), f"{claim_title(entry)}: {word(finding.outcome)}", entry.id)
     yield Verbatim(entry.text, quoted=True)
     yield [finding.explanation]
     if finding.condition:
@@ -333,7 +334,7 @@ def _span(span: Span, target: str = "") -> str:
 
 def _prose(text: str) -> str:
     """Return text on one line, in which characters with a meaning in Markdown, HTML or tables are escaped."""
-    return re.sub(r"([\\`*_\[\]<>|#$~])", r"\\\1", " ".join(readable(text).split()))
+    return re.sub(r"([\\`*_\[\]<>|#$~])", r"\\\1", " ".join(readable_on_page(text).split()))
 
 
 def supplement(report: Report) -> str:

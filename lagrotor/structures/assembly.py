@@ -9,13 +9,17 @@ from typing import Any
 from lagrotor.errors import InputError
 from lagrotor.pair.quantities import finite_number, finite_vector, not_negative, numbers
 from lagrotor.pair.scene import Link, Rotor
+from lagrotor.result_display import Printed, text_of
 
 _Point = tuple[float, float, float]
 Bar = tuple[int, int, float]
 
 
+_MOST_PRINTED = 8  # joints, bars or spins that are written out
+
+
 @dataclass(frozen=True)
-class Brace:
+class Brace(Printed):
     """A spring and damper from a tip to another tip or to a point of the ground.
 
     It is unstrained when all axes are upright.
@@ -38,15 +42,56 @@ class Brace:
     [0.0, 8.944]
     """
 
+    _shown = (
+        ("tip", "tip"),
+        ("to", lambda b: f"tip {b.to}" if isinstance(b.to, int) else f"({text_of(b.to)}) m"),
+        ("stiffness [N/m]", "stiffness"),
+        ("damping [N s/m]", "damping"),
+    )
+
     tip: int
     to: int | _Point
     stiffness: float = 0.0
     damping: float = 0.0
 
 
+def _alike(values: Any) -> str:
+    """Return values as text, equal ones once, and nothing for zeros."""
+    texts = [text_of(value) for value in (values if isinstance(values, Sequence) else (values,))]
+    if set(texts) == {"0"}:
+        return ""
+    return f"{texts[0]}{' each' if len(texts) > 1 else ''}" if len(set(texts)) == 1 else _first(texts)
+
+
+def _first(texts: Sequence[str]) -> str:
+    return ", ".join(texts[:_MOST_PRINTED]) + (f" … ({len(texts)})" if len(texts) > _MOST_PRINTED else "")
+
+
+def _rotors(s: Any) -> str:
+    rotors = list(dict.fromkeys(s.rotor if isinstance(s.rotor, Sequence) else (s.rotor,)))
+    if len(rotors) > 1:
+        return f"{len(rotors)} kinds"
+    return "{0.length:g} m, {0.mass:g} kg, I₁ = {0.I1:g}, I₃ = {0.I3:g} kg m²".format(rotors[0])
+
+
+ROWS = (
+    ("joints [m]", lambda s: _first([f"({x:g}, {y:g})" for x, y in s.joints])),
+    ("bars", lambda s: _first([f"{i}–{j}" for i, j, *_ in s.bars]) or "none"),
+    ("spins [rad/s]", lambda s: _alike(s.spins) or "0"),
+    ("rotors", _rotors),
+    ("gravity [m/s²]", lambda s: s.gravity or None),
+    ("load [kg]", lambda s: _alike(s.load)),
+    ("friction [N m s/rad]", lambda s: _alike(s.friction)),
+    ("hinge [N m/rad]", lambda s: _alike(s.hinge)),
+    ("braces", lambda s: len(s.braces) or None),
+)
+
+
 @dataclass(frozen=True)
-class Assembly:
+class Assembly(Printed):
     """A structure without methods of analysis. Its fields are checked at construction; `Structure` documents them."""
+
+    _shown = ROWS
 
     joints: tuple[tuple[float, float], ...]
     bars: tuple[Bar, ...] = ()

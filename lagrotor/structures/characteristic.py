@@ -15,7 +15,7 @@ import sympy as sp
 
 from lagrotor.errors import InputError
 from lagrotor.mechanics.linear_modes import LinearSystem
-from lagrotor.result_display import Shown
+from lagrotor.result_display import Shown, text_of
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, coefficients
 from lagrotor.structures.small_motion import bar_rows, check_upright, matrices
@@ -36,8 +36,8 @@ class Characteristic(Shown):
     def summary(self) -> dict[str, str]:
         """Return the polynomial and the value of each symbol, as rows of a table."""
         return {
-            "polynomial": str(self.polynomial),
-            "symbols": ", ".join(f"{symbol} = {value:.6g}" for symbol, value in self.values.items()) or "none",
+            "polynomial": text_of(self.polynomial),
+            "symbols": text_of(self.values) or "none",
         }
 
 

@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from lagrotor.errors import InputError
+from lagrotor.result_display import Shown
 from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array
 from lagrotor.structures.small_motion import SmallMotion, check_upright, small_motion
@@ -131,10 +132,17 @@ def _by_scan(linear: SmallMotion) -> float:
     return float(high)
 
 
-@dataclass(frozen=True)
-class Patterns:
+@dataclass(frozen=True, repr=False)
+class Patterns(Shown):
     """The result of `sign_patterns`: `count` patterns of signs were tried, and a finite spin makes `standing` of them stable.
     The smallest critical spin is `least` (rad/s, inf if no pattern can be stable), and `best` are the signs of its pattern."""
+
+    _shown = (
+        ("patterns of signs", "count"),
+        ("stable at a finite spin", "standing"),
+        ("smallest critical spin [rad/s]", "least"),
+        ("its signs", lambda p: " ".join("+" if sign > 0 else "−" for sign in p.best)),
+    )
 
     count: int
     standing: int

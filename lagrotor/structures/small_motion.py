@@ -293,7 +293,7 @@ def matrices(c: Coefficients) -> Array:
 
 
 def bar_rows(c: Coefficients) -> Array:
-    """Return the matrix (B, 2N) that takes the tilts u to n . (R_i u_i − R_j u_j) of each bar, which its constraint keeps zero.
+    """Return the matrix (B, 2N) that takes the tilts u to n · (R_i u_i − R_j u_j) of each bar, which its constraint keeps zero.
     n is the horizontal part of the unit vector along the bar."""
     n = (c.feet[c.j] - c.feet[c.i])[:, :2] / c.ell[:, None]
     rows = np.zeros((len(c.i), len(c.R), 2), dtype=c.R.dtype)

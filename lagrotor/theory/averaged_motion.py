@@ -17,6 +17,7 @@ import numpy as np
 from lagrotor.errors import DomainError, InputError
 from lagrotor.pair.quantities import finite_number
 from lagrotor.pair.scene import Scene
+from lagrotor.result_display import Printed
 from lagrotor.theory.fitted_factors import LARGEST_SWING
 from lagrotor.theory.paired_precession.series_orbit import amplitude_of
 from lagrotor.theory.shock_response import shock_response
@@ -30,7 +31,7 @@ _LONGEST = 1e4  # in units of the motion's time; only motions near a saddle take
 
 
 @dataclass(frozen=True)
-class SlowMotion:
+class SlowMotion(Printed):
     """The slow motion of the centre of a fast oscillation, for opposite spins.
 
     Attributes
@@ -50,6 +51,15 @@ class SlowMotion:
     rate : float
         Rate g = G/(2 (a + b) k²) in rad/s.
     """
+
+    _shown = (
+        ("lean β [rad]", "lean"),
+        ("half-angle η [rad]", "half"),
+        ("amplitude s of the fast oscillation [rad]", "swing"),
+        ("momentum p", "momentum"),
+        ("rate g [rad/s]", "rate"),
+        ("invariant W", "invariant"),
+    )
 
     lean: float
     half: float

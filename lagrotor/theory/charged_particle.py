@@ -32,6 +32,7 @@ from lagrotor.errors import DomainError, InputError
 from lagrotor.numerics.arrays import Array, check_times
 from lagrotor.numerics.source_cache import generated
 from lagrotor.pair.scene import Scene
+from lagrotor.result_display import Printed
 from lagrotor.theory.fitted_factors import LARGEST_SWING
 
 if TYPE_CHECKING:
@@ -58,7 +59,7 @@ class _Place(NamedTuple):
 
 
 @dataclass(frozen=True)
-class GuidingCentre:
+class GuidingCentre(Printed):
     """A guiding centre of the pair.
 
     Attributes
@@ -72,6 +73,13 @@ class GuidingCentre:
     action : float
         Adiabatic invariant J in kg m²/s.
     """
+
+    _shown = (
+        ("β, h, α [rad]", "place"),
+        ("speed along the field [(kg m²)^½/s]", "speed"),
+        ("adiabatic invariant J [kg m²/s]", "action"),
+        ("energy [J]", "energy"),
+    )
 
     scene: Scene
     place: tuple[float, float, float]

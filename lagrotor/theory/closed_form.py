@@ -12,11 +12,12 @@ import sympy as sp
 from numpy.typing import ArrayLike
 
 from lagrotor.errors import DomainError, InputError
+from lagrotor.formula_text import with_greek
 from lagrotor.numerics.arrays import Array as Array
 from lagrotor.numerics.codegen import Program
 from lagrotor.numerics.printers import compile_program, in_blocks, program_source
 from lagrotor.pair.notation import GLOSSARY
-from lagrotor.result_display import in_lines
+from lagrotor.result_display import in_lines, text_of
 
 _Bound = Callable[..., Array]
 
@@ -95,10 +96,10 @@ class ClosedForm:
         return program_source(self._program, module)
 
     def __repr__(self) -> str:
-        rows = {name: str(e) for name, e in zip(self.outputs, self.expressions, strict=True)}
-        rows |= {"where": ", ".join(map(str, self.domain))} if self.domain else {}
-        rows |= {"under": self.assumptions} if self.assumptions else {}
-        return in_lines(f"{self.name}({', '.join(map(str, self.arguments))})", rows)
+        rows = {with_greek(name): text_of(e) for name, e in zip(self.outputs, self.expressions, strict=True)}
+        rows |= {"where": text_of(self.domain)} if self.domain else {}
+        rows |= {"under": with_greek(self.assumptions)} if self.assumptions else {}
+        return in_lines(f"{self.name}({text_of(self.arguments)})", rows)
 
     def _repr_latex_(self) -> str:
         pairs = zip(self.outputs, self.expressions, strict=True)

@@ -49,6 +49,8 @@ def natural_frequency() -> ClosedForm:
 def pair_precession_rate() -> ClosedForm:
     """Derive the precession rate phi' under the paper's ansatz, from the integrals A and B of the motion, for any J and I_3.
 
+    The ansatz has no bar, so the rate does not hold for a bar with mass or inertia.
+
     Returns
     -------
     ClosedForm

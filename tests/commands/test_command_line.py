@@ -444,7 +444,8 @@ def test_interrupted_report_leaves_the_last_good_one(
     monkeypatch.setattr(reproduce, "errata_sheet", interrupted)
     if stop is KeyboardInterrupt:
         assert main(["reproduce", "--jobs", "1"]) == 130
-        assert capsys.readouterr().err.splitlines()[-1] == "lagrotor: interrupted"
+        says = "interrupted: 2 of 3 results are kept, and the same command goes on from there"  # not a derivation with verdicts
+        assert capsys.readouterr().err.splitlines()[-1] == f"lagrotor: {says}"
     else:
         with pytest.raises(stop):
             main(["reproduce", "--jobs", "1"])
@@ -546,7 +547,8 @@ def test_progress_is_a_line_a_step_or_one_line_in_a_terminal(
 ) -> None:
     record(found())
     assert main(["reproduce", "--jobs", "1"]) == 0
-    lines = capsys.readouterr().err.splitlines()
+    first, *lines = capsys.readouterr().err.splitlines()
+    assert first == "lagrotor: 3 of 3 results to compute, with --jobs 1", "no recorded times, so no remaining time"
     assert [re.sub(r" +\d+ s  ", " ", line) for line in lines] == [
         "[1/4] derivation s5_2a_single_rotor",
         "[2/4] figure 17",
@@ -556,7 +558,7 @@ def test_progress_is_a_line_a_step_or_one_line_in_a_terminal(
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
     assert main(["reproduce", "--jobs", "1", "--out", "another"]) == 0
     shown = capsys.readouterr().err
-    assert shown.count("\n") == 0
+    assert shown.count("\n") == 1
     assert shown.count("\r[") == 2, "a derivation and the report"
     assert main(["reproduce", "--jobs", "1", "--out", "another"]) == 0
     assert not capsys.readouterr().err, "nothing to do"
@@ -594,7 +596,7 @@ def test_a_terminated_run_leaves_nothing_behind(work: Path, monkeypatch: pytest.
     running.terminate()
     running.join()
     assert running.exitcode == 143
-    assert said.read_text() == "lagrotor: terminated\n"
+    assert said.read_text() == "lagrotor: terminated: no result is kept yet, and the same command begins again\n"
     assert not list(work.iterdir())
 
 

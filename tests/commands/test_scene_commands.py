@@ -52,6 +52,7 @@ def test_a_scene_in_a_file_is_whole_and_a_file_is_no_folder(capsys, tmp_path) ->
             "--scene and --link-mass: the file has the whole scene",
         ),
         (["figure", "1", "--out", str(file)], "is a file: give a folder"),
+        (["pair", "--amplitude", "0.3"], "unrecognized arguments: --amplitude 0.3; see lagrotor pair --help"),
     ):
         assert main(words) == 2
         said = capsys.readouterr().err

@@ -107,7 +107,8 @@ def test_an_interrupt_says_how_to_go_on(place: list[str], number: signal.Signals
         for sent in (number, 0)
     )  # fmt: skip
     assert stopped.returncode == {signal.SIGINT: 130, signal.SIGTERM: 143}[number]
-    assert stopped.stderr == f"lagrotor: interrupted: the finished runs are in {folder}; the same command goes on\n"
+    stop = {signal.SIGINT: "interrupted", signal.SIGTERM: "terminated"}[number]
+    assert stopped.stderr == f"lagrotor: {stop}: the finished runs are in {folder}; the same command goes on\n"
     assert stopped.stdout == "" and done.returncode == 0 and "[16/16]" in done.stderr
     columns = {"spins_1": spins, "spins_2": -9, "rates": ((0, 0.3, 0), (0, 0.3, 0))}
     assert_same_bits(Sweep.open(folder), sweep(columns, np.linspace(0, 1, 3), 1e-8))

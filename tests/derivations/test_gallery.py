@@ -6,6 +6,7 @@ import sympy as sp
 from lagrotor.errors import ProofError
 from lagrotor.paper import Step, prove
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
+from tests.report.derivation_faults import faults_of
 
 GALLERY = PAPER.scripts.names("derivations", "g")
 # Seconds each; their means are tested on less in tests/mechanics (chains, loops, rolling, impacts, friction) and tests/pair.
@@ -33,6 +34,7 @@ def test_it_proves_results_and_shows_a_picture(stem: str) -> None:
     script = PAPER.scripts.executed("derivations", stem)
     steps = script.values_of(Step)
     assert steps and all(step.says for step in steps)
+    assert faults_of(stem) == []
     picture = script.names["picture"]
     assert len(picture.axes) >= 2 and all(axes.lines for axes in picture.axes)
     # What was proved is not true of anything else.

@@ -35,6 +35,7 @@ def many_starts(system: System, values: dict, sides: list[tuple[float, float]]) 
         (2 * sp.cos(a) + sp.cos(b) - (a - b) ** 2 / 8, {}),
         (g * sp.cos(a) + sp.sin(b) * a - k * a**2 - b**2 / 3, {g: 2.0, k: 0.3}),
         (-((a**2 + b - 11) ** 2) / 20 - (a + b**2 - 7) ** 2 / 20, {}),
+        (sp.cos(b) - 10 * a**2, {}),  # a is found at once, long before b permits the proof of a root
     ],
 )
 def test_a_box_holds_what_many_starts_find_and_no_less(potential: sp.Expr, values: dict) -> None:
@@ -57,6 +58,21 @@ def test_roots_on_the_rim_and_on_a_cut_are_found_once() -> None:
     assert len(pendulum.equilibria(values={"g": 9.81}, box={"x": (0, 3)})) == 1
     assert len(pendulum.equilibria(values={g: 9.81}, box={x: (0.001, 3.1415)})) == 0
     assert System(c, v**2 / 2 - sp.exp(x)).equilibria(values={}, box={x: (-9, 9)}) == ()
+
+
+def test_regular_equilibria_come_first_and_stand_for_their_point() -> None:
+    """A spring pendulum also rests at r = 0, where its mass matrix is singular."""
+    c, (m, k, l, g) = coordinates("r theta"), sp.symbols("m k l g", positive=True)
+    (r, theta), (u, w) = c.q, c.v
+    system = System(c, m * (u**2 + r**2 * w**2) / 2 + m * g * r * sp.cos(theta) - k * (r - l) ** 2 / 2)
+    places, values = system.equilibria(), {"m": 1, "k": 40, "l": 1, "g": 9.81}
+    assert [place.regular for place in places] == [True, True, False, False]
+    hanging = places[0]
+    assert hanging.at[theta] == 0 and system.linearise(hanging).modes()
+    rates = system.floquet(system.equilibria(values=values, box={"r": (1, 2), "theta": (-1, 1)})[0], values, 1.0)
+    assert abs(rates.multipliers) == pytest.approx(1)
+    rational = {m: 1, k: 4, l: 1, g: sp.Rational(1, 3)}
+    assert system.hamiltonian().normal_form(2, hanging, rational).frequencies
 
 
 def test_a_pole_of_a_force_is_no_equilibrium() -> None:

@@ -167,9 +167,12 @@ def test_the_shocked_rotor_is_kept_as_an_integer() -> None:
 
 def test_a_scene_is_shown_with_its_numbers() -> None:
     html = scene(link=Link(1.5, 0.01, 0.1), shock=shock())._repr_html_()
-    assert "10, -10" in html
+    assert "10, −10" in html
     assert "1.5 m, 0.01 kg, 0.1 kg m²" in html
-    assert "(40.0, -11.0, 0.0) N on rotor 1, 2 ± 0.05 s" in html
-    assert "r_1&#x27;" in html, "text is escaped"
+    assert "(40, −11, 0) N on rotor 1, 2 ± 0.05 s" in html
+    assert "r₁&#x27;" in html, "text is escaped"
+    assert "upright" in html and "at rest" in html
+    tilted = Scene((10, -10), axes=((0.6, -0.0, 0.8),) * 2)
+    assert "(0.6, 0, 0.8), (0.6, 0, 0.8)" in str(tilted)
     bare = scene(link=None)._repr_html_()
     assert all(f"<th>{name}</th><td>none</td>" in bare for name in ("bar", "shock"))

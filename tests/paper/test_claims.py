@@ -90,6 +90,9 @@ ORACLES = [
     ("C22", "rate_over_3.3_s_after_small_shock_m_1_K_1", anti(1, 1), 1e-3),
     ("C22", "rate_over_3.3_s_after_small_shock_m_0.01_K_0.1", anti(0.01, 0.1), 1e-3),
     ("C22", "rate_over_3.3_s_after_small_shock_m_1_K_0.1", anti(1, 0.1), 1e-3),
+    # Windows from 0.33 s after the peak; a fit in the same windows of the run in other coordinates.
+    ("C22", "least_rate_of_12_windows_after_40_N_m_1_K_1", 4.3588, 5e-4),
+    ("C22", "greatest_rate_of_12_windows_after_40_N_m_1_K_1", 4.3744, 5e-4),
     ("C23", "coefficient_massless", -0.25, 0.01),
     ("C23", "coefficient_equal_spins_m_1_K_1", 0.5, 0.01),
     # A run read ten times as often, in other coordinates; the theorem of the claim, [9.0265 ± 6.6e-5] s from t = 0.
@@ -235,6 +238,8 @@ def test_a_printed_number_stands_for_what_rounds_to_it(digits, inside, outside):
     places = len(digits.partition(".")[2])
     assert all(round(number, places) == printed for number in inside)
     assert digits in printed.rule
+    assert all(f"which rounds to {digits} and is" in printed.compare(number) for number in inside)
+    assert all(f"which does not round to {digits} and is" in printed.compare(number) for number in outside)
 
 
 def test_the_rule_for_printed_numbers_is_that_of_the_equations_and_is_said(results):
@@ -246,4 +251,6 @@ def test_the_rule_for_printed_numbers_is_that_of_the_equations_and_is_said(resul
     said = {i: results[i].finding.explanation for i in ("C06", "C08", "C20", "C21")}
     assert "100 as printed means 99.5 to 100.5 J" in said["C06"] and "100.445 to 100.455 J" in said["C08"]
     assert "16 as printed means 15.5 to 16.5 rad/s" in said["C20"] and "11.35 to 11.45 rad/s" in said["C21"]
+    assert "which rounds to 16 and is 1.1% above it" in said["C20"]
+    assert "which does not round to 11.4 and is 0.6% above it" in said["C21"]
     assert "slowly if it turns by less than 1 rad in a period of the natural rate" in results["C11"].finding.explanation

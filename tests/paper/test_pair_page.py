@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from lagrotor import corrected_trajectories, pair_precession_rate, pair_with_bar
+from lagrotor import Link, Scene, Shock, corrected_trajectories, pair_precession_rate, pair_with_bar
 from lagrotor.algebra import decide_equal
 from lagrotor.commands.command_line import main
+from lagrotor.errors import InputError
 from lagrotor.mechanics.glossary import latex
 from lagrotor.pair import ansatz_integrals
 from lagrotor.pair.notation import r0
@@ -53,6 +54,19 @@ def test_the_differences_are_those_of_the_orbit_found_by_shooting() -> None:
     assert (round(c.printed_x, 4), round(c.rate_mean, 3), round(100 * c.rate_error, 2)) == (0.0418, 7.910, 0.43)
     # The series is of third order: a sixteenth at half the amplitude.
     assert c.series / compare_pair(0.102).series == pytest.approx(16, rel=0.2)
+
+
+def test_a_pair_of_ones_own_is_compared_by_the_series_of_its_bar(capsys: pytest.CaptureFixture[str]) -> None:
+    bar = ["--link-length", "1.5", "--link-mass", "2", "--link-inertia", "0.3"]
+    own = Scene((10, -10), link=Link(1.5, 2, 0.3))
+    errors = [compare_pair(amplitude, own).series for amplitude in (0.1, 0.05)]
+    assert errors[0] < 2e-4 and errors[0] / errors[1] == pytest.approx(16, rel=0.2)
+    assert main(["pair", "--paired", "0.3", *bar]) == 0
+    text = " ".join(capsys.readouterr().out.split())
+    assert "a bar of 2 kg and 0.3 kg m², ell = 1.5 m" in text and "r₀ = 0.3" in text
+    assert "(5.15), which takes no inertia of a bar" in text
+    with pytest.raises(InputError, match="remove the shock"):
+        compare_pair(0.1, Scene((10, -10), shock=Shock((1, 0, 0), 1, 0.1)))
 
 
 def test_the_command_prints_the_page_and_its_numbers(capsys: pytest.CaptureFixture[str]) -> None:

@@ -1,5 +1,6 @@
 """A derivation whose values come from another process is not run; what did not come is taken by running it."""
 
+import warnings
 from pathlib import Path
 
 import pytest
@@ -25,6 +26,14 @@ def test_a_value_that_did_not_come_is_computed_here(scripts: Scripts) -> None:
     with scripts.remote_values({"t1_one": {"rate": 5}}):
         assert scripts.run("derivations", "t1_one")["mass"] == 3
     assert len(scripts.ran) == 1
+
+
+def test_its_warnings_are_not_those_of_the_script_that_imports_it(scripts: Scripts) -> None:
+    (scripts.base / "derivations" / "t1_one.py").write_text(WARNS)
+    with scripts.remote_values({"t1_one": {}}), warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        assert callable(scripts.run("derivations", "t1_one")["run"])
+    assert not [warning for warning in caught if issubclass(warning.category, LagrotorWarning)]
 
 
 WARNS = """# %%

@@ -6,14 +6,15 @@ import pytest
 
 from lagrotor.paper import Audit, Premise, Verdict
 from lagrotor.paper.audit import in_words, verdict_data
-from lagrotor.paper.plain_text import readable
+from lagrotor.paper.plain_text import readable, readable_on_page
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.report.content import Report
-from lagrotor.report.errata import errata, latex_document
+from lagrotor.report.errata import errata, latex_document, letter_table, premise_text
 from lagrotor.report.facts import facts
 from lagrotor.report.latex import latex_prose
 from lagrotor.report.page.html_elements import prose
-from lagrotor.report.page.sections import equation_entry, erratum_entry
+from lagrotor.report.page.sections import equation_entry
+from lagrotor.report.page.sections import errata_sheet as sheet_of_page
 from lagrotor.report.text_forms import errata_sheet
 
 
@@ -65,17 +66,28 @@ def number_in(markdown: str, words: str) -> str:
 
 def test_errata_in_three_forms_show_the_premises_of_every_refuted_equation(report: Report) -> None:
     markdown, tex = errata_sheet(report), latex_document(report.verdicts, PAPER)
-    rows = {e.id: e for e in errata(report.verdicts, PAPER)}
+    page, rows = sheet_of_page(report), [e.id for e in errata(report.verdicts, PAPER)]
+    entries = dict(zip(rows, page.split("<article id=")[1:], strict=True))
     sheets = dict(zip(rows, markdown.split("### Erratum ")[1:], strict=True))
     items = dict(zip(rows, tex.split(r"\item ")[1:], strict=True))
     for verdict in report.verdicts:
         for premise in shown_premises(verdict) if verdict.verdict == "refuted" else ():
-            words = readable(premise.says).replace("|", r"\|").split(":")[0].split("_")[0].split("*")[0]
+            words = readable_on_page(premise.says).replace("|", r"\|").split(":")[0].split("_")[0].split("*")[0]
             assert f"**{number_in(markdown, words)}:**" in markdown
             assert re.search(rf"\b{number_in(markdown, words)}\b", sheets[verdict.id]), (verdict.id, premise.says)
-            assert prose(premise.sentence) in erratum_entry(rows[verdict.id]), (verdict.id, premise.says)
+            place = page.split(f":</b> {prose(premise_text(premise))}.")[0].rpartition('id="')[2].partition('"')[0]
+            assert f'<a href="#{place}">P{place.removeprefix("premise-")}</a>' in entries[verdict.id], premise.says
             number = tex.split(f": {latex_prose(premise.says)}")[0].rpartition("\n")[2]
             assert re.search(rf"\b{number}\b", items[verdict.id]), (verdict.id, premise.says)
+
+
+def test_errata_in_html_have_the_letters_of_the_other_forms(report: Report) -> None:
+    page = sheet_of_page(report)
+    rows = letter_table(errata(report.verdicts, PAPER), PAPER)
+    assert len(rows) > 40 and page.count("<tr>") == len(rows) + 1
+    for tex, meaning, _, ids in rows:
+        assert f'<th scope="row">{prose(f"${tex}$")}</th><td data-head="Meaning">{prose(meaning)}</td>' in page
+        assert f'<td data-head="In">{ids}</td>' in page
 
 
 def test_differences_are_in_their_normal_form_and_numbers_in_digits(report: Report) -> None:

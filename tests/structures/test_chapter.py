@@ -5,6 +5,7 @@ import pytest
 from lagrotor.errors import ProofError
 from lagrotor.paper import Remark, Step, scripts
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
+from tests.report.derivation_faults import faults_of
 
 AFTER_RUNS = pytest.mark.slow  # the step stands after exact runs of the script
 # Their numbers are held in test_standing, test_chern, test_resonances, test_nonlinear_waves and test_precession_law.
@@ -48,6 +49,7 @@ def test_a_script_proves_and_says_what_it_found(stem: str) -> None:
     script = PAPER.scripts.executed("derivations", stem)
     found, steps = script.values_of(Remark), script.values_of(Step)
     assert found and all(remark.title and remark.text.endswith(".") for remark in found)
+    assert faults_of(stem) == []
     assert len(steps) >= 5 and all(step.says for step in steps)
 
 

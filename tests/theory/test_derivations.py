@@ -7,6 +7,7 @@ import pytest
 from lagrotor.errors import ProofError
 from lagrotor.paper import Remark, Step, scripts
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
+from tests.report.derivation_faults import faults_of
 
 STEMS = [stem for stem in PAPER.scripts.names("derivations") if stem.startswith("t")]
 # Stem → the least number of steps; t13 is of numbers.
@@ -32,6 +33,7 @@ def test_a_script_says_what_it_found(stem):
     found = [(r.title, r.text) for r in script.values_of(Remark)]
     assert found
     assert all(title and text.endswith(".") for title, text in found)
+    assert faults_of(stem) == []
 
 
 @pytest.mark.parametrize("stem", SCRIPTS)

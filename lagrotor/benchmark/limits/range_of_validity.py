@@ -116,7 +116,7 @@ def spin_limits(quick: bool) -> list[Limit]:
     def falls(spin: float) -> bool:
         scene = Scene((spin, spin), rates=((0.0, push, 0.0), (0.0, push, 0.0)))
         turn = 2 * pi / max(natural_rate(scene), push)
-        run = simulate(scene, np.linspace(0, turn, 201), "minimal", 1e-8)
+        run = simulate(scene, np.linspace(0, turn, 201), "minimal", 1e-7)
         check_work(f"a push at {spin:g} rad/s", run.evaluations, run.axes)
         return bool(run.axes[..., 2].min() < 0)
 

@@ -133,8 +133,9 @@ def _with_motion(joint: Joint, parent: Joint | None, ground: Small, keep: Stages
 
 
 def tree_energy(tree: Tree, chain: Sequence[Joint], speeds: Sequence[sp.Symbol], keep: Stages) -> sp.Expr:
-    """Compute the Jacobi integral v·∂L/∂v − L from the velocities (ω, v) of the links, and store its parts as stages.
+    """Compute the Jacobi integral v·∂L/∂v − L from the velocities (ω, v) of the links.
 
+    `keep` stores each part as an intermediate result, a stage of the generated program, and returns its symbol.
     If time moves a joint, T = T₂ + T₁ + T₀ in powers of the velocities, and the integral is T₂ − T₀ + V. With the velocities
     V = (ω, v), and V* at v = 0, T₂ − T₀ is ½ V·I V − V·I V*. Goldstein §2.7.
     """

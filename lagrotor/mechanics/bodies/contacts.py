@@ -18,6 +18,7 @@ from lagrotor.errors import InputError
 from lagrotor.mechanics.bodies.moving_frames import Load, MovingFrame, Source, Vector, in_ground
 from lagrotor.mechanics.expressions import expression, shortest, vector_of
 from lagrotor.mechanics.lagrangian import total_derivative
+from lagrotor.result_display import Shown, text_of
 
 _NONE = sp.zeros(3, 1)
 
@@ -100,8 +101,8 @@ class Cylinder(Sphere):
         return axis, n.cross(axis)
 
 
-@dataclass(frozen=True, eq=False)
-class Contact:
+@dataclass(frozen=True, eq=False, repr=False)
+class Contact(Shown):
     """The contact of a body with a surface.
 
     If the body rolls, give the System both `constraints` and `rolling` of the contact. If it slides, give `constraints` only.
@@ -116,6 +117,8 @@ class Contact:
     point : Matrix
         The point of contact (3, 1) in the ground's axes, in m.
     """
+
+    _shown = (("gap [m]", "gap"), ("slip velocities [m/s]", lambda c: "; ".join(map(text_of, c.slips))))
 
     gap: sp.Expr
     slips: tuple[sp.Expr, sp.Expr]

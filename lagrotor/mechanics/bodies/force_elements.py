@@ -18,6 +18,7 @@ from lagrotor.mechanics.bodies.moving_frames import Load, MovingFrame, Vector, i
 from lagrotor.mechanics.expressions import expression, shortest, vector_of
 from lagrotor.mechanics.lagrangian import Coordinates, gradient, jacobian, t, total_derivative
 from lagrotor.renamed import accept_old_keywords
+from lagrotor.result_display import Shown, text_of
 
 _ZERO = (sp.S.Zero,) * 3
 
@@ -62,13 +63,13 @@ class AppliedForce(sp.ImmutableDenseMatrix):  # type: ignore[misc]
         return -self + other
 
     def __truediv__(self, divisor: Any) -> "AppliedForce":
-        return self * (1 / sp.sympify(divisor))
+        return self * (sp.S.One / divisor)
 
     __radd__ = __add__
 
 
-@dataclass(frozen=True)
-class Pathway:
+@dataclass(frozen=True, repr=False)
+class Pathway(Shown):
     """A path between two points, along which springs, dampers and actuators act.
 
     Pathway.line(c, P, Q) is straight, Pathway.around(c, P, Q, radius) goes round a cylinder where that is in the way. Points
@@ -81,6 +82,8 @@ class Pathway:
     lengths : tuple of (weight, length)
         The possible lengths in m. At each time one length has the weight 1 and the others have the weight 0.
     """
+
+    _shown = (("length [m]", lambda p: "; or ".join(text_of(length) for _, length in p.lengths)),)
 
     c: Coordinates
     lengths: tuple[tuple[sp.Expr, sp.Expr], ...]
@@ -219,10 +222,25 @@ class Pathway:
         -------
         Expr
             The function for `dissipation`, in W.
+
+        Examples
+        --------
+        >>> from lagrotor.mechanics import coordinates
+        >>> c = coordinates("x")
+        >>> Pathway.line(c, (0, 0, 0), (c.x, 0, 0)).damper(6)
+        3*x_dot**2
         """
         self._check_moves("damper")
         d = expression("damper: constant", constant)
-        return sp.Add(*(weight * d * total_derivative(length, self.c) ** 2 / 2 for weight, length in self.lengths))
+        squares = [(weight, total_derivative(length, self.c) ** 2) for weight, length in self.lengths]
+        smooth = [  # along one axis the length is |x| and its rate sign(x) x'; the square of the sign is 1
+            (
+                weight,
+                square.replace(lambda e: e.is_Pow and e.exp == 2 and isinstance(e.base, sp.sign), lambda _: sp.S.One),
+            )
+            for weight, square in squares
+        ]
+        return sp.Add(*(weight * d * square / 2 for weight, square in smooth))
 
     def dry_friction(self, force: Any) -> sp.Expr:
         """Return Rayleigh's function F |ℓ'| of Coulomb's friction, under which the path may stick.

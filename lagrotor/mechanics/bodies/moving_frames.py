@@ -138,6 +138,8 @@ class MovingFrame:
         >>> Frame(coordinates("s")).moved(z="s").place().T
         Matrix([[0, 0, s]])
         """
+        if isinstance(x, Sequence | sp.MatrixBase) and not isinstance(x, str):
+            raise InputError(f"moved: x, y and z are three arguments: moved({', '.join(map(str, x))})")
         shift = [_amount("moved: (x, y, z)", self, length) for length in (x, y, z)]
         return _joint("moved", self, type(self)(self.c, self, None, sp.Matrix(shift)), name)
 

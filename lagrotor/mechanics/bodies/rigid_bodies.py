@@ -23,6 +23,7 @@ from lagrotor.mechanics.bodies.moving_frames import MovingFrame, Vector
 from lagrotor.mechanics.bodies.small_matrices import Small
 from lagrotor.mechanics.expressions import expression, vector_of
 from lagrotor.mechanics.lagrangian import t
+from lagrotor.result_display import text_of
 
 Outline = list[list[Any]]  # points (x, y, z) of lines, in the body's frame
 _ARCS = 32  # chords of a drawn rim
@@ -543,6 +544,9 @@ class Energy:
 
     def __repr__(self) -> str:
         return f"Energy(bodies={len(self.bodies)}, remainder={self.remainder})"
+
+    def __str__(self) -> str:
+        return text_of(self.expression)
 
     @property
     def bodies(self) -> tuple[Body, ...]:

@@ -20,18 +20,19 @@ import sympy as sp
 
 from lagrotor.algebra import Decision, decide_equal, decide_zero, derivative
 from lagrotor.errors import DomainError, InputError, SingularError
-from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.equations import Equations, no_states
 from lagrotor.mechanics.expressions import by_symbol, expression, no_letter, shortest, vector_of
 from lagrotor.mechanics.lagrangian import gradient, jacobian, linear_solve, t
 from lagrotor.mechanics.symmetry import legendre
+from lagrotor.result_display import Shown
 
 if TYPE_CHECKING:
     from lagrotor.mechanics.canonical.normal_forms import NormalForm
     from lagrotor.mechanics.canonical.return_maps import ReturnMapForm
 
 
-@dataclass(frozen=True)
-class Hamiltonian:
+@dataclass(frozen=True, repr=False)
+class Hamiltonian(Shown):
     """A Hamiltonian H(q, p, t) with the Poisson bracket of its variables.
 
     Every method raises InputError for a function that contains a velocity, or a symbol that has only the name in common with
@@ -56,6 +57,12 @@ class Hamiltonian:
     >>> h.bracket(x, p), h.rate(x), h.conserved(p**2 + x**2).answer, h.canonical((p,), (-x,)).answer
     (1, p_x, 'zero', 'zero')
     """
+
+    _shown = (
+        ("H", "H"),
+        ("coordinates", "q"),
+        ("momenta", "p"),
+    )
 
     H: sp.Expr
     q: tuple[sp.Symbol, ...]
@@ -192,7 +199,7 @@ class Hamiltonian:
         ----------
         order : int
             The highest degree in the coordinates and momenta.
-        at : mapping
+        at : mapping or Equilibrium
             {coordinate or momentum: value}. If no momentum is named, the momenta are those of rest. For an orbit velocities
             may be named instead, and t gives the time of the point under a drive (0 by default).
         values : mapping or None, optional
@@ -294,6 +301,7 @@ def hamiltonian(system: Equations, momenta: Sequence[sp.Symbol] | None = None) -
             "hamiltonian: forces, friction and constraints have no Hamiltonian here: write potentials of forces into L, and use "
             "independent coordinates, System.in_coordinates"
         )
+    no_states("hamiltonian", system, "they have no momenta: leave them out, or make each a coordinate")
     c, L = system.c, system.L
     if momenta is not None and not isinstance(momenta, Iterable):
         raise InputError(f"hamiltonian: momenta = {momenta!r} must be symbols, one for each of {c.q}")
@@ -301,8 +309,8 @@ def hamiltonian(system: Equations, momenta: Sequence[sp.Symbol] | None = None) -
     return Hamiltonian(shortest(legendre(L, c, p)), c.q, p, c.v)
 
 
-@dataclass(frozen=True)
-class GeneratedTransformation:
+@dataclass(frozen=True, repr=False)
+class GeneratedTransformation(Shown):
     """A canonical transformation by a generating function. Solve p = p_of for P, as with sympy's solve, to get P(q, p, t).
 
     Attributes
@@ -316,6 +324,13 @@ class GeneratedTransformation:
     K : Expr
         The new Hamiltonian in (q, P, t).
     """
+
+    _shown = (
+        ("old momenta", lambda g: dict(zip(g.old, g.p_of, strict=True))),
+        ("new coordinates", "Q_of"),
+        ("new momenta", "new"),
+        ("new Hamiltonian", "K"),
+    )
 
     new: tuple[sp.Symbol, ...]
     old: tuple[sp.Symbol, ...]

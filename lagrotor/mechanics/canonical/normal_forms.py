@@ -34,12 +34,23 @@ from lagrotor.mechanics.canonical.polynomials import (
     total,
 )
 from lagrotor.mechanics.canonical.taylor_series import LocalSeries
-from lagrotor.result_display import Shown, scientific
+from lagrotor.result_display import Shown, scientific, text_of
 
 _EQUAL = 1e-9  # of the largest frequency: a smaller divisor counts as zero in floating point
 _STEADY = "for a steady motion take the equilibrium of System.routh, for another periodic orbit give its period"
 _LARGE = 1e30  # times the first term: growth that no finite series of a nilpotent part has
 _SMALL = 1e-16  # of the largest coefficient: smaller terms of a nilpotent part's series are rounding
+
+
+def _number(value: Any) -> str:
+    return text_of(value) if isinstance(value, sp.Expr) else f"{value:.8g}".replace("-", "−")
+
+
+def _monomial(exponents: Exponents, letters: str) -> str:
+    """Return a product of powers as text; the letters share the exponents alike: I₁ I₂², or z₁ w₂."""
+    n = len(exponents) // len(letters)
+    names = (sp.Symbol(f"{letter}_{j + 1}") for letter in letters for j in range(n))
+    return text_of(sp.Mul(*map(sp.Pow, names, exponents))) if any(exponents) else "constant"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -75,6 +86,8 @@ class NormalForm(Shown):
     >>> sorted(H.normal_form(order=4, at={"theta": 0}).actions.items())
     [((0,), -1), ((1,), 1), ((2,), -1/16)]
     """
+
+    _rate, _unit, _series = "frequency", "rad/s", "H"
 
     frequencies: tuple[Any, ...]
     series: Polynomial
@@ -151,10 +164,10 @@ class NormalForm(Shown):
         dict[str, str]
             Name → value in words.
         """
-        exact = self.field is not None
-        rows = {f"frequency {j + 1}": f"{w}" if exact else f"{w:.8g}" for j, w in enumerate(self.frequencies)}
-        rows |= {f"I^{e}": f"{c}" if self.field is not None else f"{c:.8g}" for e, c in list(self.actions.items())[:12]}
-        resonant = {"resonances": ", ".join(map(str, self.resonances)) or "none"}
+        actions = sorted(self.actions.items(), key=lambda term: (sum(term[0]), [-m for m in term[0]]))
+        rows = {f"{self._rate} {j + 1} [{self._unit}]": _number(w) for j, w in enumerate(self.frequencies)}
+        rows |= {f"{_monomial(e, 'I')} in {self._series}": _number(c) for e, c in actions[:12]}
+        resonant = {"resonances": ", ".join(_monomial(e, "zw") for e in self.resonances) or "none"}
         return rows | resonant | {"known through": str(self.known_through), "error": scientific(self.error, 1)}
 
     def _plain(self, c: Any) -> Any:

@@ -87,6 +87,8 @@ class ReturnMapForm(NormalForm):
         Unit of the action, from the size of the orbit, in J s.
     """
 
+    _rate, _unit, _series = "rotation per return", "rad", "the series"
+
     period: float = 0.0
     orbit: Mapping[sp.Symbol, float] = None  # type: ignore[assignment]
     frame: tuple[Polynomial, ...] = ()

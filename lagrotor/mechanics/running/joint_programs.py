@@ -32,9 +32,12 @@ class Reactions(Mapping[str, Any]):
 
     def __init__(self, run: Any) -> None:
         self._run, self._joints = run, dict[str, dict[str, JointForce]]()
+        self._undetermined = run.redundancy.undetermined if run.redundancy else ()
 
     def __getitem__(self, name: str) -> Any:
         multipliers = dict(zip(self._run.system.multiplier_names, self._run.system.multipliers, strict=True))
+        if name in self._undetermined:
+            raise InputError(f"reactions: {name} is not determined: {self._run.redundancy.words}")
         if name in multipliers:
             return self._run.evaluate(multipliers[name])
         if name not in joint_names(self._run.system):
@@ -43,7 +46,8 @@ class Reactions(Mapping[str, Any]):
 
     def __iter__(self) -> Iterator[str]:
         system = self._run.system
-        return iter(dict.fromkeys((*system.multiplier_names, *joint_names(system))))
+        names = dict.fromkeys((*system.multiplier_names, *joint_names(system)))
+        return (name for name in names if name not in self._undetermined)
 
     def __len__(self) -> int:
         return len(list(iter(self)))
@@ -64,6 +68,8 @@ def joint_forces_along(run: Any, axes: str) -> dict[str, JointForce]:
     them jump.
     """
     system, names, components = run.system, joint_names(run.system), list[sp.Expr]()
+    if run.redundancy:
+        raise InputError(f"reactions: the forces in joints are not determined: {run.redundancy.words}")
     if not run.switched.smooth and any(sum(run.switched.mode(state).closed) for state in run.states):
         raise InputError(
             "reactions: a body rests on the gap of an Impact, which does not say on which bodies its force acts"

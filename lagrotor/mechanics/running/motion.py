@@ -12,7 +12,7 @@ import sympy as sp
 from numpy.typing import ArrayLike
 
 from lagrotor.algebra.subexpressions import written
-from lagrotor.errors import InputError
+from lagrotor.errors import InputError, near
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import expression as checked
 from lagrotor.mechanics.running.flow import Array, Values, smooth_motion
@@ -20,11 +20,13 @@ from lagrotor.mechanics.running.function_values import FunctionValue, with_value
 from lagrotor.mechanics.running.phases import Observer, Switched, march
 from lagrotor.mechanics.running.phases import evaluate as evaluate_in_phases
 from lagrotor.mechanics.running.programs import energy_program, function_program, velocities_along
+from lagrotor.mechanics.running.redundant_constraints import Redundancy
 from lagrotor.mechanics.running.scales import Scales
 from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.integrate import Engine
 from lagrotor.numerics.run import Quantity, Run, check_nonempty
 from lagrotor.numerics.segment import Integrate
+from lagrotor.result_display import text_of
 
 Kind = TypeVar("Kind", bound="SampledMotion")
 
@@ -41,6 +43,7 @@ class SampledMotion(Run):
     states: Array
     local: float
     switched: Switched
+    redundancy: Redundancy | None = None
 
     @property
     def q(self) -> Array:
@@ -85,6 +88,21 @@ class SampledMotion(Run):
         n = len(self.system.c.q)
         return self.states[:, n : n + len(self.system.speeds)]
 
+    @property
+    def x(self) -> Array:
+        """The k first-order states at the n times, shape (n, k).
+
+        Examples
+        --------
+        >>> from sympy import Symbol
+        >>> from lagrotor.mechanics import System
+        >>> x = Symbol("x", real=True)
+        >>> System(states={x: -x}).simulate({}, t=[0, 1], x0={"x": 1}).x.round(6).T
+        array([[1.      , 0.367879]])
+        """
+        first = len(self.system.c.q) + len(self.system.speeds)
+        return self.states[:, first : len(self.system.variables)]
+
     def summary(self) -> dict[str, str]:
         """Summarise the coordinates, the times, the error and the ending in words.
 
@@ -100,7 +118,8 @@ class SampledMotion(Run):
         >>> System(c, c.v[0]**2 / 2).simulate({}, (0,), (1,), [0, 1]).summary()["ending"]
         'the last time was reached'
         """
-        return {"coordinates": ", ".join(map(str, self.system.c.q))} | super().summary()
+        rows = {"coordinates": self.system.c.q, "states": tuple(dict(self.system.states))}
+        return {name: text_of(symbols) for name, symbols in rows.items() if symbols} | super().summary()
 
     @property
     def energy(self) -> Array:
@@ -128,6 +147,7 @@ class SampledMotion(Run):
         True
         """
         residuals = (*self.system.constraints, *self.system.residual)
+        residuals += self.redundancy.residuals if self.redundancy else ()
         return np.abs(self._values(*residuals)).max(0) if residuals else np.zeros(len(self.t))
 
     @cached_property
@@ -136,7 +156,8 @@ class SampledMotion(Run):
 
         The names of constraints are 1, 2, … unless the system gives others. For a gap in m or a slip in m/s the multiplier is
         a force in N. A joint without a name is called after its coordinates; its force and torque are in the ground's axes,
-        and `joint_force` has them in the joint's.
+        and `joint_force` has them in the joint's. Redundant constraints share a force that the motion does not divide among
+        them: InputError is raised for their names, and for the forces in joints.
 
         Examples
         --------
@@ -188,16 +209,16 @@ class SampledMotion(Run):
         """
         return self.reactions.joint(name, axes)  # type: ignore[attr-defined]
 
-    def evaluate(self, expression: sp.Expr) -> Array:
+    def evaluate(self, expression: sp.Expr | str) -> Array:
         """Evaluate an expression along the run.
 
         Where dry friction sticks, sign(w) is the friction force divided by its bound, between −1 and 1.
 
         Parameters
         ----------
-        expression : Expr
-            A function of q, v, t, the parameters, the accelerations c.a and the multipliers λ of `system.multipliers`. The
-            generalised force of the constraints is Gᵀ λ.
+        expression : Expr or str
+            The name of a coordinate or velocity, or a function of q, v, t, the parameters, the accelerations c.a and the
+            multipliers λ of `system.multipliers`. The generalised force of the constraints is Gᵀ λ.
 
         Returns
         -------
@@ -216,7 +237,17 @@ class SampledMotion(Run):
         >>> System(c, (c.v[0]**2 - c.q[0]**2) / 2).simulate({}, (1,), (0,), [0, 1]).evaluate(c.a[0]).round(6)
         array([-1.      , -0.540302])
         """
+        if isinstance(expression, str):
+            names = {str(s): s for s in (*self.system.c.q, *self.system.c.v, *self.system.variables)}
+            if expression not in names:
+                raise InputError(
+                    f"evaluate: {expression!r} is none of {', '.join(names)}{near(expression, names)}: name one, or give an "
+                    "expression"
+                )
+            expression = names[expression]
         e = with_values(checked("evaluate: expression", expression), self.values)
+        if self.redundancy and (lost := e.free_symbols & self.redundancy.symbols):
+            raise InputError(f"evaluate: {min(lost, key=str)} is not determined: {self.redundancy.words}")
         if self.switched.smooth:
             return self._values(e)[0]
         return evaluate_in_phases(self.switched, e, self.t, self.states)
@@ -265,7 +296,7 @@ class SampledMotion(Run):
         return replace(with_states(self, instants, states), evaluations=evaluations)
 
     def quantities(self) -> dict[str, Quantity]:
-        """Return coordinates, velocities, energy and, with constraints, their violation.
+        """Return coordinates, velocities, states, energy and, with constraints, their violation.
 
         Returns
         -------
@@ -280,9 +311,11 @@ class SampledMotion(Run):
         ['x', 'x_dot', 'energy']
         """
         c, system = self.system.c, self.system
-        names, columns = (*c.q, *c.v, *system.speeds), (*self.q.T, *self.v.T, *self.u.T)
+        names = (*c.q, *c.v, *system.variables[len(c.q) :])
+        columns = (*self.q.T, *self.v.T, *self.u.T, *self.x.T)
         table = {str(s): Quantity(column, ("t",), "") for s, column in zip(names, columns, strict=True)}
-        table["energy"] = Quantity(self.energy, ("t",), "J")
+        if c.q:
+            table["energy"] = Quantity(self.energy, ("t",), "J")
         if self.system.multipliers:
             table["drift"] = Quantity(self.drift, ("t",), "")
         return table
@@ -303,7 +336,8 @@ class SampledMotion(Run):
             "local": self.local,
             "turn": self.scales.turn,
             "sizes": self.scales.sizes.tolist(),
-            "modes": self.states[:, len(self.system.c.q) + len(self.system.speeds) :].tolist(),
+            "modes": self.states[:, len(self.system.variables) :].tolist(),
+            "redundant": self.redundancy and [self.redundancy.dropped, self.redundancy.undetermined],
         }
 
 
@@ -321,7 +355,7 @@ def digest_of(system: Equations) -> str:
         system.rolling,
         system.dissipation,
         system.forces,
-        *([system.velocities] if system.velocities else []),
+        *(e for e in (system.velocities, system.states) if e),
     )
     return sha256("; ".join(map(str, equations)).encode()).hexdigest()
 

@@ -16,6 +16,7 @@ from lagrotor.mechanics.running.flow import Array, Values
 from lagrotor.mechanics.running.monodromy import monodromy_matrix
 from lagrotor.mechanics.running.state_space import state_space
 from lagrotor.numerics.arrays import increasing_array
+from lagrotor.result_display import Shown, text_of
 
 if TYPE_CHECKING:
     from lagrotor.drawing.run_figure import RunFigure
@@ -24,8 +25,8 @@ _GROWS = 1e-6  # real part over the largest rate: above the rounding of double r
 _HALVINGS = 40  # halvings of the interval between two numbers
 
 
-@dataclass(frozen=True, eq=False)
-class RootLocus:
+@dataclass(frozen=True, eq=False, repr=False)
+class RootLocus(Shown):
     """The rates of small motion as functions of one parameter.
 
     Attributes
@@ -49,6 +50,15 @@ class RootLocus:
     >>> [round(abs(x), 6) for x in locus.boundaries]
     [0.0]
     """
+
+    _shown = (
+        (
+            "parameter",
+            lambda s: f"{text_of(s.letter)}, {len(s.numbers)} values from {s.numbers[0]:g} to {s.numbers[-1]:g}",
+        ),
+        ("stability changes at", lambda s: s.boundaries or "no value"),
+        ("largest growth [1/s]", lambda s: s.growth.max()),
+    )
 
     letter: sp.Symbol
     numbers: Array
@@ -86,8 +96,8 @@ def root_locus(
     return RootLocus(sp.Symbol(name, real=True), places, _followed(rates), tuple(boundaries))
 
 
-@dataclass(frozen=True, eq=False)
-class StabilityChart:
+@dataclass(frozen=True, eq=False, repr=False)
+class StabilityChart(Shown):
     """The largest growth of small motion over two parameters.
 
     Attributes
@@ -101,6 +111,19 @@ class StabilityChart:
     boundaries : Array
         Values of both parameters at which the motion becomes stable or unstable, shape (k, 2).
     """
+
+    _shown = (
+        (
+            "parameters",
+            lambda s: "; ".join(
+                f"{text_of(x)}, {len(n)} values from {n[0]:g} to {n[-1]:g}"
+                for x, n in zip(s.letters, s.numbers, strict=True)
+            ),
+        ),
+        ("stable", lambda s: f"{(s.growth <= 0).mean():.0%} of the pairs of values"),
+        ("boundary", lambda s: f"{len(s.boundaries)} points"),
+        ("largest growth [1/s]", lambda s: s.growth.max()),
+    )
 
     letters: tuple[sp.Symbol, sp.Symbol]
     numbers: tuple[Array, Array]

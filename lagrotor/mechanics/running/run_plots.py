@@ -9,6 +9,7 @@ import numpy as np
 import sympy as sp
 
 from lagrotor.algebra.scalar import sympified
+from lagrotor.algebra.subexpressions import subexpressions
 from lagrotor.errors import InputError, near
 from lagrotor.mechanics.bodies.rigid_bodies import Body
 from lagrotor.mechanics.expressions import vector_of
@@ -35,17 +36,23 @@ def plot(run: SampledMotion, *quantities: Any) -> "RunFigure":
 
     check_nonempty("plot", run.t)
     if not quantities:
-        labels = {_label(run, q): run.q[:, i] for i, q in enumerate(run.system.c.q)}
-        return coordinates_figure(run.t, labels, run.energy, run.drift)
+        columns = zip((*run.system.c.q, *dict(run.system.states)), (*run.q.T, *run.x.T), strict=True)
+        labels = {_label(run, s): values for s, values in columns}
+        return coordinates_figure(run.t, labels, run.energy, run.drift) if run.q.size else curves_figure(run.t, labels)
     curves = (_curve(run, quantity) for quantity in quantities)
     return curves_figure(run.t, {label.replace(r"\&", "&"): values for label, values in curves})  # matplotlib's escape
+
+
+def _label(run: SampledMotion, letter: sp.Symbol) -> str:
+    unit = units_of(run.system).get(letter)
+    return f"${letter_latex(letter)}$" + (f" ({unit})" if unit else "")
 
 
 def _curve(run: SampledMotion, what: Any) -> tuple[str, Array]:
     """Return the label of a quantity, with formulas in TeX, and its values along the run, shape (n,)."""
     c, name = run.system.c, str(what)
-    letters = (*c.q, *c.v, *run.system.speeds)
-    moving = dict(zip(map(str, letters), (*run.q.T, *run.v.T, *run.u.T), strict=True))
+    letters = (*c.q, *c.v, *run.system.variables[len(c.q) :])
+    moving = dict(zip(map(str, letters), (*run.q.T, *run.v.T, *run.u.T, *run.x.T), strict=True))
     if name in moving:
         letter = next(s for s in letters if str(s) == name)
         return _label(run, letter), moving[name]
@@ -63,11 +70,6 @@ def _curve(run: SampledMotion, what: Any) -> tuple[str, Array]:
     expression = sympified(what, "plot")
     rounded = {number: sp.Float(number, 3) for number in expression.atoms(sp.Float)}
     return f"${latex(expression.xreplace(rounded))}$", run.evaluate(what)
-
-
-def _label(run: SampledMotion, letter: sp.Symbol) -> str:
-    unit = units_of(run.system).get(letter)
-    return f"${letter_latex(letter)}$" + (f" ({unit})" if unit else "")
 
 
 def view(run: SampledMotion, lines: Sequence[Sequence[Point]] = ()) -> "View":

@@ -23,7 +23,7 @@ from lagrotor.models.orbits.shooting import FAILURES, ExactOrbit, exact_orbit
 from lagrotor.models.orbits.variational import Array, close_arc, flow
 from lagrotor.numerics.floquet_multipliers import multiplier_rows, resolved_multipliers
 from lagrotor.pair.scene import Scene
-from lagrotor.result_display import Shown
+from lagrotor.result_display import Shown, scientific
 from lagrotor.theory.averaged_motion import slow_frequency
 
 # Bound of the error of the trace relative to the monodromy matrix, checked in tests/theory/test_paired_stability.py.
@@ -63,8 +63,8 @@ class Floquet(Shown):
         return {
             "kind": self.kind,
             "multipliers besides 1": "; ".join(pair),
-            "μ + 1/μ": f"{self.pair_sum:.12g}, known to {self.error:.1g}",
-            "per turn": f"{per_turn}, known to {self.exponent_error:.1g}",
+            "μ + 1/μ": f"{self.pair_sum:.12g}, known to {scientific(self.error)}",
+            "per turn": f"{per_turn}, known to {scientific(self.exponent_error)}",
             "frequency [rad/s]": f"{self.frequency:.12g}",
         }
 

@@ -1,6 +1,7 @@
 """The pair on one page: Lagrangian, constraint, A and B, precession rate and corrected trajectories, compared with a run.
 
-The run is a paired precession, integrated by scipy: spins ±10 rad/s, a massless bar, ell = R = 1 m.
+The run is a paired precession, integrated by scipy, of the paper's pair (spins ±10 rad/s, a massless bar, ell = R = 1 m) or of
+another one.
 """
 
 from dataclasses import dataclass
@@ -8,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import sympy as sp
 
+from lagrotor.errors import InputError
 from lagrotor.mechanics.glossary import latex
 from lagrotor.models.orbits.precession import paired_scene, precession_orbit
 from lagrotor.models.simulate import simulate
@@ -70,9 +72,11 @@ class PairComparison:
     run : Trajectory
         The run; `run.error` is its estimated error.
     series : float
-        The largest distance of an axis of the corrected series of order 3 from the run, relative to R.
+        The largest distance of a tip by the corrected series of order 3 from the run, in m.
+    amplitude : float
+        The sine of the inclination when the axes are parallel.
     printed_x : float
-        The largest difference of the paper's x (5.20) from the run, in m.
+        The largest difference of the paper's x (5.22) from the run, in m.
     rate_error : float
         The largest relative difference of the formula (5.15), with A and B of the start, from the rate of the run.
     rate_mean : float
@@ -81,6 +85,7 @@ class PairComparison:
     """
 
     run: Trajectory
+    amplitude: float
     series: float
     printed_x: float
     rate_error: float
@@ -88,15 +93,15 @@ class PairComparison:
     run_mean: float
 
 
-def compare_pair(amplitude: float = PAPER_R0, spin: float = 10.0, tol: float = 1e-11) -> PairComparison:
+def compare_pair(amplitude: float = PAPER_R0, scene: Scene | None = None, tol: float = 1e-11) -> PairComparison:
     """Compare the corrected series, the paper's x and the formula of the rate with the integrated paired precession.
 
     Parameters
     ----------
     amplitude : float, default 0.204
         The sine of the inclination when the axes are parallel.
-    spin : float, default 10.0
-        The spin of rotor 1 in rad/s; that of rotor 2 is its negative.
+    scene : Scene, default Scene((10, -10))
+        The pair, with opposite spins and a bar. The run starts on its paired precession, whatever its axes and rates are.
     tol : float, default 1e-11
         The tolerance of the run.
 
@@ -104,12 +109,20 @@ def compare_pair(amplitude: float = PAPER_R0, spin: float = 10.0, tol: float = 1
     -------
     PairComparison
         The run and the differences.
+
+    Raises
+    ------
+    InputError
+        If the spins are not opposite, or if the scene has no bar or has a shock.
     """
-    scene = Scene((spin, -spin))
+    scene = scene or Scene((10.0, -10.0))
+    if scene.shock is not None:
+        raise InputError("pair: the scene has a shock, but the formulas are those of free motion: remove the shock")
     phase = np.linspace(0, 2 * np.pi, 361)
     run = simulate(paired_scene(scene, amplitude), phase / precession_orbit(scene, amplitude).frequency, "minimal", tol)
-    series = np.array(corrected_trajectories(3)(amplitude, phase, 1.0, 1.0)).reshape(2, 3, -1).swapaxes(1, 2)
-    theta_1, theta_2 = np.arccos(run.axes[..., 2])
+    series = np.array(corrected_trajectories(3)(amplitude, phase, scene.sigma, scene.k)).reshape(2, 3, -1)
+    series = series.swapaxes(1, 2)
+    theta_1, theta_2 = run.inclinations
     start = ansatz_A(run)[0], run.momenta[0, 0] - run.momenta[1, 0]
     formula = np.asarray(pair_precession_rate()(theta_1, theta_2, *start, scene.rotor.J, scene.rotor.I3))
     (x, y, _), (x_rate, y_rate, _) = np.moveaxis(run.axes, -1, 0), np.moveaxis(run.rates, -1, 0)
@@ -117,7 +130,8 @@ def compare_pair(amplitude: float = PAPER_R0, spin: float = 10.0, tol: float = 1
     rate = (azimuth_rate[0] - azimuth_rate[1]) / 2
     return PairComparison(
         run=run,
-        series=float(np.linalg.norm(series - run.axes, axis=-1).max()),
+        amplitude=amplitude,
+        series=float(np.linalg.norm(series - run.axes, axis=-1).max()) * scene.rotor.length,
         printed_x=float(abs(paper_axes(amplitude, phase) - run.axes)[..., 0].max()) * scene.rotor.length,
         rate_error=float(abs(formula / rate - 1).max()),
         rate_mean=float(formula[:-1].mean()),
@@ -130,30 +144,51 @@ _PARTS = (
     ("a", "Lagrangian of the two rotors and the bar, in the Euler angles of each axis", (r"\mathcal L",)),
     ("b", "constraint of the bar, g = 0, with k = ell/R", ("g",)),
     ("c", "conserved quantities of the ansatz φ₁′ = −φ₂′ = φ′, ψ₁′ = −ψ₂′ = ψ′ without a bar", ("A", "B")),
-    ("d", "precession rate from A and B", (r"\dot\phi",)),
+    ("d", "precession rate from A and B, which depend on the rate at the start", (r"\dot\phi",)),
     ("e", "corrected axes through r₀², at the phase Φ = Ωt", ("x_1", "y_1", "x_2", "y_2")),
 )
 
 
+_LETTERS = (  # the meanings of the letters on the page
+    "I₃, J: inertia of a rotor about its axis, and transverse inertia about the ground joint, kg m²",
+    "m, K, ell: mass, transverse inertia and length of the bar; R: length of an axis, from joint to tip; k = ell/R",
+    "a = J + m R²/4 + K R²/ell², b = m R²/4 − K R²/ell², σ = (a + b)/(a − b); a massless bar has b = 0 and σ = 1",
+    "r₀: the amplitude, the sine of the inclination when the axes are parallel",
+    "Ω: the frequency, rad/s; for small r₀ and spins ±ω it is I₃ ω/√(a² − b²)",
+)
+
+
+def comparison_rows(comparison: PairComparison) -> list[tuple[str, str]]:
+    """Return the compared quantities, each with its largest difference from the run, as text."""
+    c, scene = comparison, comparison.run.scene
+    no_bar = "" if scene.inertias == (scene.rotor.J, 0) else ", which takes no inertia of a bar,"
+    return [
+        ("estimated error of the run", scientific(c.run.error, 1)),
+        ("corrected series of order 3", f"within {c.series:.4f} m"),
+        ("the paper's x (5.22)", f"within {c.printed_x:.3f} m"),
+        (
+            f"the paper's rate (5.15){no_bar} with A and B of the start",
+            f"within {100 * c.rate_error:.2f} %; its mean is {c.rate_mean:.3f} rad/s, that of the run {c.run_mean:.3f} rad/s",
+        ),
+    ]
+
+
 def pair_page(comparison: PairComparison) -> list[tuple[str, list[str]]]:
-    """Return the page as text: headings (a) to (f), each with its lines."""
+    """Return the page as text: headings (a) to (f), each with its lines, and the meanings of the letters."""
     formulas, c = pair_formulas(), comparison
     page = [
         (f"({part}) {heading}", [from_latex(f"{name} = {latex(formulas[name])}") for name in names])
         for part, heading, names in _PARTS
     ]
-    scene, period = c.run.scene, c.run.t[-1]
+    scene, rotor, link = c.run.scene, c.run.scene.rotor, c.run.scene.link
+    assert link
+    bar = f"a bar of {link.mass:g} kg and {link.inertia:g} kg m²" if link.mass or link.inertia else "a massless bar"
     page.append(
         (
-            f"(f) comparison with the scipy model {c.run.model}: one turn of {period:.4f} s, spins {scene.spins[0]:g} and "
-            f"{scene.spins[1]:g} rad/s, a massless bar, ell = R = 1 m",
-            [
-                f"estimated error of the run: {scientific(c.run.error, 1)}",
-                f"corrected series of order 3: within {c.series:.4f} m",
-                f"the paper's x (5.20): within {c.printed_x:.3f} m",
-                f"the paper's rate (5.15) with A and B of the start: within {100 * c.rate_error:.2f} %; its mean is "
-                f"{c.rate_mean:.3f} rad/s, that of the run {c.run_mean:.3f} rad/s",
-            ],
+            f"(f) comparison with the scipy model {c.run.model}: one turn of {c.run.t[-1]:.4f} s, spins {scene.spins[0]:g} and "
+            f"{scene.spins[1]:g} rad/s, {bar}, ell = {link.length:g} m, R = {rotor.length:g} m, J = {rotor.J:g} kg m², "
+            f"I₃ = {rotor.I3:g} kg m², r₀ = {c.amplitude:g}",
+            [f"{quantity}: {difference}" for quantity, difference in comparison_rows(c)],
         )
     )
-    return page
+    return [*page, ("letters", list(_LETTERS))]

@@ -177,7 +177,7 @@ class LagrangianOfWords:
         return [self.words.slope(place, {symbol: unit}) for symbol in symbols]
 
     def missing(self) -> list[int]:
-        """Return the places of d/dt ∂L/∂v − ∂L/∂q − Q + ∂D/∂v, which must be zero, for each coordinate."""
+        """Return, for each coordinate, the place in `words` of d/dt ∂L/∂v − ∂L/∂q − Q + ∂D/∂v, which vanishes along a motion."""
         words, rows = self.words, []
         by_q, by_v, friction = self.by(self.L, self.q), self.by(self.L, self.v), self.by(self.D, self.v)
         for p, slope, Q, d in zip(by_v, by_q, self.forces, friction, strict=True):

@@ -3,7 +3,7 @@
 The product of a step is its result: the numbers of a claim, a figure with its files, the interactive model, the title,
 findings, tables and HTML of a derivation. A product that JSON can represent is stored with the digest of its inputs. A missing,
 damaged or outdated product is computed again. A derivation also runs again, unless the whole report is unchanged, if it has
-verdicts, or if a step that runs imports its values. Of the formulas in a table only the LaTeX is stored.
+verdicts. Of the formulas in a table only the LaTeX is stored, and of the values those that `stored_values` can represent.
 """
 
 import json
@@ -26,6 +26,7 @@ from lagrotor.paper.tables import FigureLink, Table
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.job.dependencies import digest
 from lagrotor.report.job.steps import Derived
+from lagrotor.report.job.stored_values import value_from_json, values_as_json
 
 
 def cache_folder() -> Path:
@@ -51,12 +52,14 @@ class Cache:
                 return entry["product"]
         return None
 
-    def keep(self, name: str, made_from: str, product: Any) -> None:
-        """Store a product for later runs if JSON can represent it and the folder is writable; else do nothing."""
+    def keep(self, name: str, made_from: str, product: Any) -> bool:
+        """Store a product for later runs. Return False if JSON cannot represent it or the folder cannot be written to."""
         with suppress(OSError, RuntimeError, InputError, TypeError):
             text = json.dumps(product)
             self._file(name).parent.mkdir(parents=True, exist_ok=True)
             write_text(self._file(name), json.dumps({"digest": digest(made_from, text), "product": product}))
+            return True
+        return False
 
     def _file(self, name: str) -> Path:
         place = digest(str(self.paper.folder), str(self.paper.scripts_in))[:16]
@@ -86,16 +89,16 @@ class StoredFormula(sp.Expr):  # type: ignore[misc]
 
 
 def derived_as_json(derived: Derived) -> dict[str, Any]:
-    """Return a derivation without its values as a dictionary, which JSON can represent if it has no verdicts."""
+    """Return a derivation as a dictionary, which JSON can represent if it has no verdicts."""
     tables = [
         asdict(table) | {"rows": [list(map(_cell_as_json, row)) for row in table.rows]} for table in derived.tables
     ]
     fields = {name: getattr(derived, name) for name in ("stem", "title", "verdicts", "remarks", "html")}
-    return fields | {"tables": tables}
+    return fields | {"tables": tables, "values": values_as_json(derived.values)}
 
 
 def derived_from_json(data: Mapping[str, Any]) -> Derived:
-    """Return a stored derivation, which has no verdicts; its `values` are missing."""
+    """Return a stored derivation, which has no verdicts; those of its `values` are missing that could not be stored."""
     tables = (
         Table(
             table["title"],
@@ -106,7 +109,8 @@ def derived_from_json(data: Mapping[str, Any]) -> Derived:
         for table in data["tables"]
     )
     remarks = tuple((title, text) for title, text in data["remarks"])
-    return Derived(data["stem"], data["title"], (), remarks, tuple(tables), data["html"], {})
+    values = {name: value_from_json(value) for name, value in data["values"].items()}
+    return Derived(data["stem"], data["title"], (), remarks, tuple(tables), data["html"], values)
 
 
 def _cell_as_json(cell: Any) -> Any:

@@ -5,8 +5,9 @@ import os
 import pickle
 import signal
 import sys
+import threading
 from collections.abc import Callable, Collection, Iterable, Iterator
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, ThreadPoolExecutor, wait
 from contextlib import contextmanager, suppress
 from typing import Any, TypeVar
 
@@ -46,13 +47,12 @@ def results(
             begins(task)
             yield task, run(task, *arguments)
         return
-    with _pool(jobs) as pool:
+    with _pool(jobs) as submit:
         while waiting or running:
             while len(running) < jobs and any(inputs(task) is not None for task in waiting):
                 task, arguments = _next(waiting, inputs)
                 begins(task)
-                with _interrupts_wait():
-                    running[pool.submit(run, task, *arguments)] = task
+                running[submit(run, task, *arguments)] = task
             finished, _ = wait(running, return_when=FIRST_COMPLETED)
             for future in finished:
                 yield running.pop(future), future.result()
@@ -76,22 +76,17 @@ def _next(waiting: list[Task], inputs: Callable[[Task], Any]) -> tuple[Task, Any
     raise RuntimeError(f"none of {waiting} can begin: each waits for the result of another")
 
 
-@contextmanager
-def _interrupts_wait() -> Iterator[None]:
-    """Delay an interrupt to the end of the `with` block, because the pool cannot end a process that is starting."""
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    previous = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, previous)
-
-
 def _begin() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
     begin_process(_OBJECTS)
+
+
+def _end_with_parent() -> None:
+    """End this process when its parent has ended, even if the parent was killed."""
+    if parent := multiprocessing.parent_process():
+        parent.join()
+        os._exit(1)
 
 
 def _context() -> Any:
@@ -103,24 +98,77 @@ def _context() -> Any:
     return context
 
 
-def start_server() -> None:
-    """Start the server of `_context` before this process imports the package, so that both import at the same time."""
+def _start_server() -> None:
     if _context().get_start_method() == "forkserver":
-        from multiprocessing import forkserver  # not on all systems
+        from multiprocessing import forkserver, resource_tracker  # not on all systems
 
-        with _interrupts_wait():
+        resource_tracker.ensure_running()  # at its own start it would unblock the interrupt
+        # The server inherits the mask: an interrupt of the process group would stop its imports with a traceback.
+        previous = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        try:
             forkserver.ensure_running()
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, previous)
+
+
+def _stop_server() -> None:
+    with suppress(ImportError):  # no server on this system
+        from multiprocessing import forkserver
+
+        running: Any = forkserver._forkserver
+        if running._forkserver_pid is not None:
+            os.kill(running._forkserver_pid, signal.SIGKILL)  # it may still be importing
+            running._stop()
 
 
 @contextmanager
-def _pool(jobs: int) -> Iterator[ProcessPoolExecutor]:
-    """Yield a pool of `jobs` processes, which ignore interrupts and end when the `with` block fails."""
-    pool = ProcessPoolExecutor(jobs, mp_context=_context(), initializer=_begin)
+def server() -> Iterator[None]:
+    """Start the server of `_context`, and stop it if the `with` block fails.
+
+    If the block begins before this process imports the package, both import it at the same time.
+    """
     try:
-        yield pool
+        _start_server()
+        yield
     except BaseException:
-        for process in list(getattr(pool, "_processes", {}).values()):
-            process.terminate()
-        pool.shutdown(wait=True, cancel_futures=True)
+        _stop_server()
         raise
+
+
+@contextmanager
+def ending_at_interrupt() -> Iterator[None]:
+    """Let an interrupt end this process at once within the `with` block, for imports: in some places they lose an exception."""
+
+    def end(number: int, frame: Any) -> None:
+        _stop_server()
+        os.write(2, b"lagrotor: interrupted\n")
+        os._exit(130)
+
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    previous = signal.signal(signal.SIGINT, end)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, previous)
+
+
+@contextmanager
+def _pool(jobs: int) -> Iterator[Callable[..., Future[Any]]]:
+    """Yield the function that submits a call to `jobs` processes, which ignore interrupts and end when the `with` block fails.
+
+    A process starts in a thread: the start waits for the server's imports, and this thread must heed an interrupt meanwhile.
+    """
+    pool, starter = ProcessPoolExecutor(jobs, mp_context=_context(), initializer=_begin), ThreadPoolExecutor(1)
+    try:
+        with server():
+            yield lambda run, *arguments: starter.submit(lambda: pool.submit(run, *arguments)).result()
+    except BaseException:
+        starter.shutdown(cancel_futures=True)
+        for process in list((getattr(pool, "_processes", None) or {}).values()):
+            process.terminate()
+        pool.shutdown(cancel_futures=True)
+        raise
+    starter.shutdown()
     pool.shutdown()

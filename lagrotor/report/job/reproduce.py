@@ -38,7 +38,8 @@ from lagrotor.report.job.steps import Derived, JobStep, derive, draw_step, steps
 from lagrotor.report.page.pages import FOLDER, html_files
 from lagrotor.report.text_forms import errata_sheet, markdown, supplement
 
-StepProgress = Callable[[int], AbstractContextManager[Callable[[str], None]]]
+# A function of the number of steps and of the line to show first. It gives the function that is called as each step begins.
+StepProgress = Callable[[int, str], AbstractContextManager[Callable[[str], None]]]
 
 
 @dataclass(frozen=True)
@@ -66,8 +67,8 @@ def reproduce(
     An old report stays there until the new one is complete.
 
     jobs: number of processes; None: one per core, one in a debugger. certificates: True to write Coq proofs of exact verdicts.
-    `progress(total)` returns the function that is called with the name of each step as it begins. Raises InputError if `target`
-    cannot be written, is not a report, or is being written by another run.
+    Raises InputError if `target` cannot be written, is not a report, or is being written by another run. An interrupt says how
+    many results the next run will reuse.
     """
     began, on_record, old = time.perf_counter(), paper.recorded, check_target(target)
     made_from = json.dumps(
@@ -83,25 +84,33 @@ def reproduce(
     last = cache.take("report", whole)
     if last and last["files"].items() <= _digests(old).items():
         return JobOutcome(**last["outcome"], reused=["report"], seconds=time.perf_counter() - began)
-    with replacement(target) as new:
-        (new / "figures").mkdir()
-        products, seconds, reused = _make(cache, list(steps(paper)), new / "figures", progress, jobs or cores(), old)
-        report = _report(paper, products)
-        start = time.perf_counter()
-        if certificates:
-            rows = certify(report.verdicts, paper, new / CERTIFICATES)
-            report = replace(report, certificates={row.id: f"{CERTIFICATES}/{row.file}" for row in rows if row.file})
-        _write(new, report)
-        outcome: dict[str, Any] = {
-            "equations": report.counts,
-            "waiting": len(report.waiting),
-            "claims": report.outcomes,
-            "figures": len(report.pictures),
-            "changes": list(report.changes),
-        }
-        cache.keep("report", whole, {"outcome": outcome, "files": _digests(new)})
-        seconds["report"] = round(time.perf_counter() - start, 3)
-        _write_json(new / TIMES, {"seconds": seconds, "taken from earlier runs": reused})
+    all_steps, kept = list(steps(paper)), set[str]()
+    try:
+        with replacement(target) as new:
+            (new / "figures").mkdir()
+            products, seconds, reused = _make(cache, all_steps, new / "figures", progress, jobs or cores(), old, kept)
+            report = _report(paper, products)
+            start = time.perf_counter()
+            if certificates:
+                rows = certify(report.verdicts, paper, new / CERTIFICATES)
+                files = {row.id: f"{CERTIFICATES}/{row.file}" for row in rows if row.file}
+                report = replace(report, certificates=files)
+            _write(new, report)
+            outcome: dict[str, Any] = {
+                "equations": report.counts,
+                "waiting": len(report.waiting),
+                "claims": report.outcomes,
+                "figures": len(report.pictures),
+                "changes": list(report.changes),
+            }
+            cache.keep("report", whole, {"outcome": outcome, "files": _digests(new)})
+            seconds["report"] = round(time.perf_counter() - start, 3)
+            _write_json(new / TIMES, {"seconds": seconds, "taken from earlier runs": reused})
+    except BaseException as stop:
+        if not isinstance(stop, Exception):  # an interrupt or a termination, which the command reports
+            says = f"{len(kept)} of {len(all_steps)} results are kept, and the same command goes on from there"
+            stop.args = (says if kept else "no result is kept yet, and the same command begins again",)
+        raise
     return JobOutcome(**outcome, reused=reused, seconds=time.perf_counter() - began)
 
 
@@ -112,31 +121,32 @@ def _digests(folder: Path) -> dict[str, str]:
 
 
 def _make(
-    cache: Cache, all_steps: list[JobStep], folder: Path, progress: StepProgress, jobs: int, old: Path
+    cache: Cache,
+    all_steps: list[JobStep],
+    folder: Path,
+    progress: StepProgress,
+    jobs: int,
+    old: Path,
+    kept: set[str],
 ) -> tuple[dict[str, Any], dict[str, float], list[str]]:
     """Run all steps whose results are not in the cache; `folder` is for figures, `old` the folder of the last report.
 
-    Return step → result, step → computing time in s of those that ran, and the names of the steps that did not run.
+    Return step → result, step → computing time in s of those that ran, and the names of the steps that did not run. The names
+    of the steps whose results the cache holds are added to `kept` during the run.
     """
     products: dict[str, Any] = dict.fromkeys(step.name for step in all_steps)
     for step in all_steps:
         if (product := cache.take(step.name, step.made_from)) is not None:
             products[step.name] = _restored(step, product, folder)
-    # A stored derivation has no values, so it runs if a step that runs imports some.
-    while stale := {
-        name
-        for step in all_steps
-        if products[step.name] is None
-        for name in step.derivations
-        if products[name] is not None
-    }:
-        products |= dict.fromkeys(stale)
-    reused = [name for name, product in products.items() if product is not None]
-    pending = [
-        step
-        for step in longest_first(all_steps, _seconds(cache.paper.folder) | _seconds(old))
-        if products[step.name] is None
-    ]
+            kept.add(step.name)
+    reused = [step.name for step in all_steps if step.name in kept]
+    expected = _seconds(cache.paper.folder) | _seconds(old)
+    pending = [step for step in longest_first(all_steps, expected) if step.name not in reused]
+    jobs = min(jobs, max(len(pending), 1))
+    time_left = partial(_time_left, pending, expected, jobs)
+    first = f"{len(pending)} of {len(all_steps)} results to compute, with --jobs {jobs}"
+    if expects := time_left({}):
+        first += f": about {expects}, by the times of an earlier run"
     seconds: dict[str, float] = {}
 
     def given(step: JobStep) -> tuple[dict[str, dict[str, Any]]] | None:
@@ -144,14 +154,33 @@ def _make(
         return None if None in needed else ({product.stem: product.values for product in needed},)
 
     timed = partial(_run_timed, folder=folder)
-    with progress(len(pending) + 1) as begins:
-        for step, (product, took) in results(
-            pending, timed, min(jobs, max(len(pending), 1)), lambda step: begins(step.name), given
-        ):
+    with progress(len(pending) + 1, first) as begins:
+
+        def show(name: str) -> None:
+            left = time_left(seconds)
+            begins(f"{name}; about {left} left" if left else name)
+
+        for step, (product, took) in results(pending, timed, jobs, lambda step: show(step.name), given):
             products[step.name], seconds[step.name] = product, round(took, 3)
-            cache.keep(step.name, step.made_from, _stored(product))
-        begins("report")
+            if cache.keep(step.name, step.made_from, _stored(product)):
+                kept.add(step.name)
+        show("report")
     return products, {step.name: seconds[step.name] for step in all_steps if step.name in seconds}, reused
+
+
+def _time_left(pending: list[JobStep], expected: Mapping[str, float], jobs: int, seconds: Mapping[str, float]) -> str:
+    """Return the remaining time of a run with its unit, such as "40 s"; "" if the expected time of a pending step is unknown.
+
+    `expected` and `seconds` map steps to their computing times in an earlier run and, if they have ended, in this run. The ratio
+    of the two shows how fast this run is.
+    """
+    if not {"report", *(step.name for step in pending)} <= expected.keys():
+        return ""
+    slower = (1 + sum(seconds.values())) / (1 + sum(expected[name] for name in seconds))
+    rest = [step for step in pending if step.name not in seconds]
+    steps = max(sum(expected[step.name] for step in rest) / jobs, max(_to_end(rest, expected).values(), default=0.0))
+    left = slower * (steps + expected["report"])
+    return f"{left:.0f} s" if left < 100 else f"{left / 60:.0f} minutes"
 
 
 def _stored(product: Any) -> Any:
@@ -181,16 +210,22 @@ def longest_first(all_steps: list[JobStep], seconds: Mapping[str, float]) -> lis
 
     `seconds` are the computing times of an earlier run; a step that is not among them takes their mean.
     """
+    to_end = _to_end(all_steps, seconds)
+    return sorted(all_steps, key=lambda step: -to_end[step.name])
+
+
+def _to_end(all_steps: list[JobStep], seconds: Mapping[str, float]) -> dict[str, float]:
+    """Return for each step the computing time from its beginning to the end of all steps that import its values."""
     mean = sum(seconds.values()) / len(seconds) if seconds else 1.0
     to_end = {step.name: seconds.get(step.name, mean) for step in all_steps}
     for _ in all_steps:  # a chain of imports is not longer
         last, to_end = to_end, {step.name: seconds.get(step.name, mean) for step in all_steps}
         for step in all_steps:
-            for name in step.derivations:
+            for name in to_end.keys() & step.derivations:
                 to_end[name] = max(to_end[name], seconds.get(name, mean) + last[step.name])
         if to_end == last:
             break
-    return sorted(all_steps, key=lambda step: -to_end[step.name])
+    return to_end
 
 
 def _seconds(folder: Path) -> dict[str, float]:

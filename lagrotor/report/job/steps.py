@@ -25,7 +25,8 @@ class Derived:
     """The result of running a derivation.
 
     verdicts: those on its equations. remarks: its findings, (title, text). tables: its tables. html: the derivation as
-    HTML. values: name → value that other scripts import; the cache does not store them.
+    HTML. values: name → value that other scripts import; if one of a stored derivation is missing, the script that imports it
+    runs the derivation.
     """
 
     stem: str

@@ -10,9 +10,11 @@ from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
-from lagrotor.mechanics.glossary import latex
+from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.glossary import formulas, latex
+from lagrotor.paper.claim_tests import ClaimTest
 from lagrotor.paper.equation_statements import Stated
-from lagrotor.paper.plain_text import readable
+from lagrotor.paper.plain_text import readable_on_page
 from lagrotor.paper.proof import Formula, Remark, Step
 from lagrotor.paper.scripts import Script
 from lagrotor.paper.tables import Cell, FigureLink, Table
@@ -42,7 +44,7 @@ def prose(text: str) -> str:
 
 
 def _plain(text: str) -> str:
-    html = escape(readable(text))
+    html = escape(readable_on_page(text))
     html = _CODE.sub(r"<code>\1</code>", html)
     indexed = _INDEX.sub(lambda match: f"{match[1]}<sub>{match[2].replace('_', ',')}</sub>", html)
     return _POWER.sub(r"<sup>\1</sup>", indexed)
@@ -50,7 +52,7 @@ def _plain(text: str) -> str:
 
 def html_table(head: tuple[str, ...], lines: Iterable[tuple[str, ...]], kind: str = "plain") -> str:
     """Return a table of HTML cells; the first cell of each line is its header."""
-    heads = [escape(readable(cell), quote=True) for cell in head[1:]]
+    heads = [escape(readable_on_page(cell), quote=True) for cell in head[1:]]
     top = "".join(f'<th scope="col">{prose(cell)}</th>' for cell in head)
     rows = (f'<tr><th scope="row">{first}</th>{"".join(map(_under, heads, cells))}</tr>' for first, *cells in lines)
     return f'<div class="wide"><table class="{kind}"><thead><tr>{top}</tr></thead><tbody>{"".join(rows)}</tbody></table></div>'
@@ -72,7 +74,9 @@ def side_by_side(table: Table, report: Report) -> str:
     """Return the HTML of a table from a derivation, with its title above and its note below."""
     lines = [tuple(_cell(cell, report) for cell in row) for row in table.rows]
     note = f"<p><small>{prose(table.note)}</small></p>" if table.note else ""
-    return f'<div class="table"><h3>{prose(table.title)}</h3>{html_table(table.head, lines)}{note}</div>'
+    return (
+        f'<div class="table">{foldable(f"<h3>{prose(table.title)}</h3>", html_table(table.head, lines) + note)}</div>'
+    )
 
 
 def _cell(cell: Cell, report: Report) -> str:
@@ -124,6 +128,11 @@ def fold(summary: str, inside: str, kind: str = "fold") -> str:
     return f'<details class="{kind}"><summary>{escape(summary)}</summary>{inside}</details>'
 
 
+def foldable(heading: str, inside: str) -> str:
+    """Return a heading and its content, which page.js folds on a narrow screen."""
+    return f'<details class="entry" open><summary>{heading}</summary>{inside}</details>'
+
+
 def badge(answer: str) -> str:
     """Return the HTML of a verdict or an outcome on a field of its colour."""
     return f'<span class="badge {answer}">{escape(word(answer))}</span>'
@@ -143,10 +152,13 @@ def links(identifiers: Iterable[str]) -> str:
     return " ".join(f'<span class="id">{link(identifier)}</span>' for identifier in identifiers)
 
 
-def heading(identifier: str, name: str, title: str, answer: str = "") -> str:
-    """Return the heading of an entry: its name, which links to its anchor `identifier`, its title and its verdict."""
-    mark = f" {badge(answer)}" if answer else ""
-    return f'<h3><a class="permalink" href="#{identifier}">{escape(name)}</a> {prose(title)}{mark}</h3>'
+def heading(name: str, title: str, answer: str = "") -> str:
+    """Return the heading of an entry: its name such as "5.07", its title and its verdict.
+
+    A comma, which only a screen reader or a copy shows, separates the title from the verdict.
+    """
+    mark = f'<span class="unseen">,</span> {badge(answer)}' if answer else ""
+    return f'<h3><span class="id">{escape(name)}</span> {prose(title)}{mark}</h3>'
 
 
 def derivation_html(script: Script, answers: Mapping[str, str]) -> str:
@@ -210,16 +222,25 @@ def _value_html(value: Any, answers: Mapping[str, str]) -> str:
     if isinstance(value, Stated):
         answer = badge(answers[value.id]) if value.id in answers else ""
         return f'<p class="judged"><a href="#{anchor(value.id)}">{escape(value.id)}</a> {answer}</p>'
+    if isinstance(value, ClaimTest):
+        return f'<p class="judged">Outcome and measured numbers: <a href="#{anchor(value.id)}">{value.id}</a></p>'
     if isinstance(value, Remark):
         return f"<p><b>{prose(value.title)}.</b> {prose(value.text)}</p>"
     if isinstance(value, Table):
-        return html_table(value.head, (tuple(_derived_cell(cell) for cell in row) for row in value.rows))
+        note = f"<p><small>{prose(value.note)}</small></p>" if value.note else ""
+        rows = (tuple(_derived_cell(cell) for cell in row) for row in value.rows)
+        return f"<p><b>{prose(value.title)}.</b></p>{html_table(value.head, rows)}{note}"
+    if isinstance(value, Equations):
+        parts = formulas(value).items()
+        return "".join(f"<p>{name}</p>{''.join(map(typeset, lines))}" for name, lines in parts)
     if isinstance(value, sp.Basic | sp.MatrixBase):
         return typeset(Formula(value).tex)
+    if isinstance(value, str | float):
+        return f"<p>{prose(value if isinstance(value, str) else f'{value:.6g}')}</p>"
     from lagrotor.drawing.run_figure import RunFigure
 
     if isinstance(value, RunFigure):
-        labels = ", ".join(axes.get_ylabel().strip("$") for axes in value.axes)
+        labels = ", ".join(axes.get_ylabel().replace("$", "") for axes in value.axes)
         return f'<img src="{_png(value)}" alt="Over time: {escape(labels)}">'
     return ""
 

@@ -11,23 +11,59 @@ function words(query) {
     .filter(Boolean);
 }
 
-// Whether an entry is meant: an id (or a figure's name) from its beginning, any other word anywhere.
-function matches(sought, id, text) {
-  return sought.every((word) => (/\d/.test(word) && id.startsWith(word)) || (!/^figure-/.test(word) && text.includes(word)));
+// Whether two words differ by one letter, or by two neighbours in the other order.
+function isTypo(a, b) {
+  let [start, end] = [0, 0];
+  while (start < a.length && a[start] === b[start]) start++;
+  while (end < Math.min(a.length, b.length) - start && a.at(-1 - end) === b.at(-1 - end)) end++;
+  const [x, y] = [a, b].map((word) => word.slice(start, word.length - end));
+  return Math.max(x.length, y.length) < 2 || (x.length === 2 && x === [...y].reverse().join(""));
 }
 
-// Those of the entries that are meant, an id that is met exactly first.
+// The beginning of a word of a text; the φ of a keyboard is the ϕ of formulas, too.
+function beginning(word) {
+  return "(?<![\\p{L}\\d.])" + word.replace(/[.*+?^${}()|[\]\\]/g, "\\$&").replace("figure-", "figure[- ]").replace(/[φϕ]/g, "[φϕ]");
+}
+
+// A word of the query as the words to look for: itself, or those of the entries that it may be a misspelling of, if it has five letters and no entry has it.
+function meant(word, entries) {
+  const pattern = new RegExp(beginning(word), "iu");
+  if (!/^\p{L}{5,}$/u.test(word) || entries.some((entry) => pattern.test(entry.text))) return [word];
+  const known = new Set(entries.flatMap((entry) => entry.text.toLowerCase().match(/\p{L}{4,}/gu) ?? []));
+  const near = [...known].filter((other) => Math.abs(other.length - word.length) < 2 && isTypo(word, other));
+  return near.length ? near : [word];
+}
+
+// The entries that have all words of a query, the entry of that number first, and the words that were looked for. An id is met from its beginning.
 function search(query, entries) {
-  const sought = words(query);
-  const found = sought.length ? entries.filter((entry) => matches(sought, entry.id, entry.text)) : [];
-  const exact = (entry) => Number(sought.includes(entry.id));
-  return found.map((entry, i) => [entry, i]).sort(([a, i], [b, j]) => exact(b) - exact(a) || i - j).map(([entry]) => entry);
+  const asked = words(query);
+  const sought = asked.map((word) => meant(word, entries));
+  const patterns = sought.map((any) => new RegExp(any.map(beginning).join("|"), "iu"));
+  const number = (id) => id.replace("erratum-", "");
+  const begins = (id) => asked.map((word) => /\d/.test(word) && number(id).startsWith(word));
+  const rank = ({ id, name }) =>
+    [asked.includes(id), asked.includes(number(id)), begins(id).includes(true), patterns.every((p) => p.test(name)), true].indexOf(true);
+  const isFigure = asked.map((word) => word.startsWith("figure-"));
+  const meets = ({ id, text }) => begins(id).every((is, i) => is || (!isFigure[i] && patterns[i].test(text)));
+  const found = asked.length ? entries.filter(meets).map((entry) => ({ ...entry, rank: rank(entry) })) : [];
+  const changed = asked.map((word, i) => [word, sought[i]]).filter(([word, any]) => any[0] !== word);
+  return { found: found.sort((a, b) => a.rank - b.rank), sought: sought.flat(), changed };
 }
 
-// What can be found: [address, anchor, name, words] of each entry, in a file that is loaded at the first query or in this page.
+// A text as pieces, of which every second one is a word that was looked for: `size` letters from the first such word, or from the beginning.
+function marked(text, sought, size, fromWord) {
+  const pattern = `(${sought.map(beginning).join("|")})`;
+  const place = fromWord ? Math.max(0, text.search(new RegExp(pattern, "iu")) - size / 3) : 0;
+  const start = size < text.length && place ? text.indexOf(" ", place) + 1 : 0;
+  const end = start + size < text.length ? text.lastIndexOf(" ", start + size) : text.length;
+  const piece = (start ? "… " : "") + text.slice(start, end) + (end < text.length ? " …" : "");
+  return piece.split(new RegExp(pattern, "iu"));
+}
+
+// What can be found: [address, anchor, title, verdict, words] of each entry, from a file that the first query loads, or from this page, which has the words itself.
 function loadWords(script) {
+  if (!script.dataset.words) return WORDS.map((row) => [...row, wordsOf(row[1])]);
   if (typeof WORDS !== "undefined") return WORDS;
-  if (!script.dataset.words) return wordsOfPage();
   return new Promise((resolve, reject) => {
     const loaded = document.createElement("script");
     loaded.src = script.dataset.words;
@@ -37,18 +73,31 @@ function loadWords(script) {
   });
 }
 
-// The entries of a page that holds the whole report, then its sections without their entries.
-function wordsOfPage() {
-  const entries = "article[id], figure[id], details.derivation";
-  return [entries, "section[aria-labelledby], #model"].flatMap((kind) =>
-    [...document.querySelectorAll(kind)].map((part) => {
-      const copy = part.cloneNode(true);
-      for (const inside of copy.querySelectorAll(`img, script, style, ${entries}`)) inside.remove();
-      const id = part.getAttribute("aria-labelledby") ?? part.id;
-      const name = copy.querySelector("h2, h3, summary")?.textContent ?? id;
-      return [`#${id}`, id, name, copy.textContent.replace(/\s+/g, " ")];
-    }),
-  );
+// The words of an entry or a section of this page, without programs, displayed formulas, headings and other entries.
+function wordsOf(anchor) {
+  const part = document.getElementById(anchor);
+  const copy = (part.closest("h2")?.closest("section") ?? part).cloneNode(true);
+  const unread = "script, style, pre, h2, h4, summary, math[display], img, article, .derivation, .overview";
+  for (const inside of copy.querySelectorAll(unread)) inside.remove();
+  for (const block of copy.querySelectorAll("p, dt, dd, th, td, li, h3, figcaption")) block.append(block.tagName === "DT" ? ": " : " ");
+  return copy.textContent.replace(/\s+/g, " ").trim();
+}
+
+function element(tag, name, ...inside) {
+  const made = document.createElement(tag);
+  made.className = name;
+  made.append(...inside);
+  return made;
+}
+
+// One row of the list: title, verdict, and a piece of the text with the words marked; its beginning if the title has the words.
+function hit({ address, name, answer, plain, rank }, sought) {
+  const marks = (pieces) => pieces.map((piece, i) => (i % 2 ? element("mark", "", piece) : piece));
+  const anchor = element("a", "", element("span", "", ...marks(marked(name, sought, Infinity, false))));
+  if (answer) anchor.append(element("span", "unseen", ","), " ", element("span", `badge ${answer}`, answer.replaceAll("-", " ")));
+  anchor.append(" ", element("small", "", ...marks(marked(plain, sought, 150, rank > 3))));
+  anchor.href = address;
+  return element("li", "", anchor);
 }
 
 const MOST = 30; // hits that are listed
@@ -57,36 +106,54 @@ function setUpSearch(script) {
   const [input, said, hits] = ["query", "found", "hits"].map((id) => document.getElementById(id));
   const up = script.dataset.up ?? "";
   let entries = null;
-  let first = null;
   async function show() {
-    entries ??= (await loadWords(script)).map(([address, anchor, name, text]) => ({
+    entries ??= (await loadWords(script)).map(([address, anchor, name, answer, plain]) => ({
       id: anchor.replace(/^(eq|claim)-/, "").toLowerCase(),
-      text: text.toLowerCase(),
+      text: `${name} ${answer.replaceAll("-", " ")} ${plain}`,
       address: address.startsWith("#") ? address : up + address,
-      name: (anchor.startsWith("erratum-") ? "Erratum " : "") + name,
+      ...{ name, answer, plain },
     }));
-    const sought = input.value.trim();
-    const found = search(sought, entries);
-    hits.replaceChildren(
-      ...found.slice(0, MOST).map(({ address, name }) => {
-        const [item, anchor] = [document.createElement("li"), document.createElement("a")];
-        anchor.href = address;
-        anchor.textContent = name;
-        item.append(anchor);
-        return item;
-      }),
-    );
+    const { found, sought, changed } = search(input.value, entries);
+    hits.replaceChildren(...found.slice(0, MOST).map((entry) => hit(entry, sought)));
     const more = found.length > MOST ? `, the first ${MOST}:` : "";
-    said.textContent = sought && `${found.length} found${more}`;
-    first = found[0] ?? null;
+    const read = changed.map(([word, any]) => `, with ${any.join(" or ")} for ${word}`).join("");
+    said.textContent = input.value.trim() && `${found.length} found${read}${more}`;
   }
   form.hidden = false;
   form.addEventListener("input", show);
   form.addEventListener("submit", async (event) => {
     event.preventDefault();
     await show();
-    if (first) location.href = first.address;
+    hits.querySelector("a")?.click();
   });
+  form.addEventListener("keydown", (event) => {
+    const stops = [input, ...hits.querySelectorAll("a")];
+    const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+    if (step) stops[stops.indexOf(document.activeElement) + step]?.focus();
+    if (event.key === "Escape") {
+      input.value = "";
+      input.focus();
+      show();
+    }
+    if (step || event.key === "Escape") event.preventDefault();
+  });
+}
+
+// On a narrow screen the entries are folded to their headings; that to which a link leads is unfolded.
+function setUpFolds() {
+  if (matchMedia("(max-width: 40rem)").matches) for (const fold of document.querySelectorAll(".entry")) fold.open = false;
+  const reveal = () => {
+    const target = location.hash && document.getElementById(decodeURIComponent(location.hash.slice(1)));
+    if (!target) return;
+    const inner = target.querySelector(":scope > details") ?? target;
+    for (let fold = inner.closest("details"); fold; fold = fold.parentElement.closest("details")) fold.open = true;
+    target.scrollIntoView();
+  };
+  addEventListener("hashchange", reveal);
+  document.addEventListener("click", (event) => {
+    if (location.hash && event.target.closest("a")?.getAttribute("href") === location.hash) reveal();
+  });
+  reveal();
 }
 
 // A figure opens as large as it is drawn, and closes by Escape, the button or a click.
@@ -117,11 +184,12 @@ function setUpFigures() {
   }
 }
 
-// Two formulas beside each other stand one below the other where one is too wide; a formula wider than its box is drawn smaller, down to letters that can be read; what is then still too wide scrolls.
+// Two formulas beside each other stand one below the other where one is too wide; a formula wider than its box is drawn smaller, down to letters that can be read; what is then still too wide scrolls. On paper nothing scrolls: there it is drawn as small as it must be.
 const SMALLEST = 14.4; // px, of a formula: its scripts have 0.7 of it
-function fitFormulas() {
-  for (const pair of document.querySelectorAll("[data-pair]")) pair.className = "pair";
-  for (const box of document.querySelectorAll(".wide")) {
+const [PAPER, PAPER_TERM] = [680, 128]; // px, the text width of A4, and of that the column of terms of a list
+function fitFormulas(part = document) {
+  for (const pair of part.querySelectorAll("[data-pair]")) pair.className = "pair";
+  for (const box of part.querySelectorAll(".wide")) {
     for (const formula of box.querySelectorAll("math[display=block]")) {
       formula.style.fontSize = "";
       const pair = box.closest(".pair");
@@ -130,15 +198,18 @@ function fitFormulas() {
         pair.dataset.pair = "";
       }
       const natural = parseFloat(getComputedStyle(formula).fontSize);
-      // Letters lean out of their boxes, and smaller ones are wider for their size: a second look.
+      const room = PAPER - (box.closest("dd") ? PAPER_TERM : 0);
+      formula.style.setProperty("--paper", `${Math.min(SMALLEST, (0.93 * room * natural) / formula.scrollWidth)}px`);
+      // Letters lean out of their boxes, and smaller ones are wider for their size: a second look. In a list a box is only as wide as its formula: what counts there is the column.
+      const column = box.parentElement.matches("dd") ? box.parentElement : box;
       for (let pass = 0, share = 1; box.clientWidth && pass < 2; pass++) {
-        share *= Math.min(1, (box.clientWidth - 4) / Math.max(formula.scrollWidth, box.scrollWidth - 4));
+        share *= Math.min(1, (column.clientWidth - 4) / Math.max(formula.scrollWidth, box.scrollWidth - 4));
         if (share < 1) formula.style.fontSize = Math.max(SMALLEST, share * natural) + "px";
       }
     }
     if (box.scrollWidth > box.clientWidth) box.tabIndex = 0; // the keyboard must reach what scrolls
   }
-  for (const formula of document.querySelectorAll("math:not([display=block])")) {
+  for (const formula of part.querySelectorAll("math:not([display=block])")) {
     const line = formula.closest("p, li, td, dd, figcaption, h3");
     if (!line?.clientWidth || formula.getBoundingClientRect().width <= line.clientWidth || formula.closest("span.wide, div.wide:not(:has(table))")) continue;
     const box = document.createElement("span");
@@ -158,14 +229,16 @@ function setUpPage(script) {
   contents.addEventListener("click", (event) => {
     if (event.target.closest("a") && !wide.matches) contents.open = false;
   });
+  setUpFolds();
   fitFormulas();
-  addEventListener("resize", fitFormulas);
-  for (const fold of document.querySelectorAll("details")) fold.addEventListener("toggle", fitFormulas);
+  addEventListener("resize", () => fitFormulas());
+  for (const fold of document.querySelectorAll("details")) fold.addEventListener("toggle", () => fitFormulas(fold));
   setUpFigures();
   let opened = [];
   addEventListener("beforeprint", () => {
-    opened = [...document.querySelectorAll("details.fold:not([open])")];
+    opened = [...document.querySelectorAll("details:is(.fold, .entry):not([open])")];
     for (const fold of opened) fold.open = true;
+    fitFormulas();
   });
   addEventListener("afterprint", () => {
     for (const fold of opened) fold.open = false;

@@ -6,7 +6,7 @@ the pages the address of the anchor's page is put before it; in the single file 
 
 import json
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from html import escape, unescape
 from pathlib import Path
@@ -16,14 +16,14 @@ from lagrotor.paper.plain_text import readable
 from lagrotor.report.content import SUBTITLE, Report, ResultSection
 from lagrotor.report.formulas.font import font_face
 from lagrotor.report.page.html_elements import data_address, prose, side_by_side
-from lagrotor.report.page.sections import Section, introduction, picture_entry, sections
+from lagrotor.report.page.sections import Section, derivation_figures, introduction, picture_entry, sections
 
 _HERE = Path(__file__).parent
 # Hidden until the script, which performs the search, shows it.
 _SEARCH = (
     '<form id="search" role="search" hidden><label for="query">Find</label>'
     '<input id="query" type="search" autocomplete="off" placeholder="{}, a word, a number">'
-    '<p id="found" role="status"></p><ol id="hits"></ol></form>'
+    '<p id="found" role="status"></p><ul id="hits"></ul></form>'
 )
 # Sections that share a page; each section of the paper has its own.
 _FRONT = ("model", "summary", "verdicts")
@@ -32,9 +32,16 @@ FOLDER = "pages"
 _CURRENT = ' aria-current="page"'
 _PLACE = re.compile(r'\bid="([^"]+)"')
 _ADDRESS = re.compile(r'\b(href|src)="([^"]+)"')
-_ENTRY = re.compile(r'(<(article|figure|details)(?: class="derivation")? id="([^"]+)">(.*?)</\2>)', re.DOTALL)
+_ENTRY = re.compile(r'<(article|details)(?: class="derivation")? id="([^"]+)">(.*?)</\1>', re.DOTALL)
+_SUMMARY = re.compile(r"<summary>(.*?)</summary>", re.DOTALL)
+_BADGE = re.compile(r'(?:<span class="unseen">,</span> )?<span class="badge ([a-z-]+)">[^<]*</span>')
 _TAG = re.compile(r"<[^>]+>")
-_UNREAD = re.compile(r"<(script|style)\b.*?</\1>", re.DOTALL)
+# Programs, sources, displayed formulas, headings and lists of links, which the search neither reads nor shows.
+_UNREAD = re.compile(
+    r"<(script|style|pre|h4|summary)\b.*?</\1>|<math display=.*?</math>|<p><a [^>]*>The derivation</a>.*?</p>"
+    r'|<ul class="overview">.*?</ul>',
+    re.DOTALL,
+)
 
 
 @dataclass(frozen=True)
@@ -48,8 +55,12 @@ class Page:
 
     @property
     def body(self) -> str:
-        """The HTML of all sections of the page, joined."""
-        return "\n".join(section.html for section in self.sections)
+        """The HTML of all sections of the page, joined; several sections can be folded."""
+        return _joined(self.sections)
+
+
+def _joined(listed: tuple[Section, ...]) -> str:
+    return "\n".join(section.folded if len(listed) > 1 else section.html for section in listed)
 
 
 def whole_page(report: Report) -> str:
@@ -58,11 +69,12 @@ def whole_page(report: Report) -> str:
 
 
 def _whole_page(report: Report, everything: list[Section]) -> str:
-    body = "\n".join(section.html for section in everything)
+    body = _joined(tuple(everything))
     for picture in report.pictures:
         body = body.replace(f'src="figures/{picture.svg.name}"', f'src="{data_address(picture)}"')
     contents = [(f"#{section.anchor}", section.heading) for section in everything]
-    return _document(report, body, contents, f"<style>\n{_style()}</style>", f"<script>\n{_script()}</script>")
+    words = _data([row[:4] for row in _words(("", section) for section in everything)])  # the page has the texts
+    return _document(report, body, contents, f"<style>\n{_style()}</style>", f"<script>\n{words}{_script()}</script>")
 
 
 def html_files(report: Report) -> dict[str, str]:
@@ -79,7 +91,7 @@ def pages(report: Report) -> dict[str, str]:
 def _page_files(report: Report, everything: list[Section]) -> dict[str, str]:
     all_pages = _pages(report, everything)
     places = {place: page.file for page in all_pages for place in _PLACE.findall(page.body)}
-    words = [row for page in all_pages for row in _words(page.file, page.sections)]
+    words = _words((page.file, section) for page in all_pages for section in page.sections)
     assets = {"page.css": _style(), "page.js": _script(), "words.js": _data(words)}
     files = {f"{FOLDER}/{name}": text for name, text in assets.items()}
     return {page.file: _page(page, all_pages, places, report) for page in all_pages} | files
@@ -103,9 +115,12 @@ def _pages(report: Report, everything: list[Section]) -> list[Page]:
     about = [remaining.pop(anchor) for anchor in _ABOUT if anchor in remaining]
     result = [Page("index.html", "In short", tuple(front))]
     result += [Page(f"{FOLDER}/{anchor}.html", section.heading, (section,)) for anchor, section in remaining.items()]
-    result.append(Page(f"{FOLDER}/about.html", "How this was made", tuple(about)))
+    name = "Notation, and how this was made" if report.paper.glossary else "How this was made"
+    result.append(Page(f"{FOLDER}/about.html", name, tuple(about)))
     for stem, name, inside in report.derivations:
-        alone = Section(f"derivation-{stem}", name, inside)
+        introduction, heading, steps = inside.partition("<h3>")
+        drawn = derivation_figures(stem, inside, report)
+        alone = Section(f"derivation-{stem}", name, introduction + drawn + heading + steps)
         result.append(Page(f"{FOLDER}/{alone.anchor}.html", name, (alone,), listed=False))
     return result
 
@@ -217,25 +232,32 @@ def _document(
     )
 
 
-def _words(file: str, listed: Iterable[Section]) -> list[tuple[str, str, str, str]]:
-    """Return the rows of the search: (address, anchor, heading, words) of each entry and then of each section."""
-    rows = []
-    for section in listed:
-        text = section.html
-        for whole, _, anchor, inside in _ENTRY.findall(text):
-            text = text.replace(whole, "", 1)
-            title = re.search(r"<(h3|summary)>(.*?)</\1>", inside, re.DOTALL)
-            rows.append((f"{file}#{anchor}", anchor, _text(title[2] if title else anchor), _text(inside)))
-        rows.append((f"{file}#{section.anchor}", section.anchor, section.heading, _text(text)))
-    return rows
+def _words(listed: Iterable[tuple[str, Section]]) -> list[tuple[str, str, str, str, str]]:
+    """Return the rows of the search, (address, anchor, title, verdict, words), those of entries before those of sections.
+
+    The pairs are the address of the page of a section, and the section. The verdict is "" for an entry without one.
+    """
+    entries, whole = [], []
+    for file, section in listed:
+        for _, anchor, inside in _ENTRY.findall(section.inside):
+            summary = _SUMMARY.search(inside)
+            heading = summary[1] if summary else anchor
+            answer = _BADGE.search(heading)
+            title = ("Erratum " if anchor.startswith("erratum-") else "") + _text(_BADGE.sub("", heading))
+            entries.append((f"{file}#{anchor}", anchor, title, answer[1] if answer else "", _text(inside)))
+        words = _text(_ENTRY.sub(" ", section.inside))
+        whole.append((f"{file}#{section.anchor}", section.anchor, section.heading, "", words))
+    return entries + whole
 
 
 def _text(html: str) -> str:
-    """Return the text of HTML without styles and scripts."""
-    return " ".join(unescape(_TAG.sub(" ", _UNREAD.sub(" ", html))).split())
+    """Return the text of HTML without programs, sources, headings and displayed formulas."""
+    html = re.sub(r"<math\b.*?</math>", lambda formula: _TAG.sub("", formula[0]), _UNREAD.sub(" ", html))
+    html = re.sub(r"</?(?:sub|sup|b|span|small|code|a)\b[^>]*>", "", html.replace("</dt>", ": "))
+    return " ".join(unescape(_TAG.sub(" ", html)).split())
 
 
-def _data(rows: list[tuple[str, str, str, str]]) -> str:
+def _data(rows: Sequence[tuple[str, ...]]) -> str:
     """Return the rows of the search as a script that any page can load, even if it is opened from a disk."""
     return f"const WORDS = {json.dumps(rows, ensure_ascii=False, separators=(',', ':'))};\n".replace("<", "\\u003c")
 

@@ -3,13 +3,15 @@
 Their links lead to anchors of the report and to files beside its front page.
 """
 
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from html import escape
 
 from lagrotor.paper.catalogue import Equation
 from lagrotor.paper.claim_tests import Result
 from lagrotor.paper.latex.readings import typeset_lines
+from lagrotor.paper.premises import Premise
 from lagrotor.paper.verdicts import Verdict
 from lagrotor.pictures.figures import Picture
 from lagrotor.report.content import (
@@ -21,12 +23,24 @@ from lagrotor.report.content import (
     anchor,
     as_read,
     citation,
+    claim_title,
     contents,
     derived_heading,
     derived_lines,
     notation,
 )
-from lagrotor.report.errata import Erratum, errata, premise_formulas
+from lagrotor.report.errata import (
+    LETTER_HEAD,
+    LETTERS_FIRST,
+    PREMISES_CITED,
+    Erratum,
+    cited_premises,
+    errata,
+    letter_table,
+    listed_premises,
+    premise_text,
+    sheet_summary,
+)
 from lagrotor.report.facts import Headline, balance, facts, figure_facts, headlines, linked_facts, note, opening, unmet
 from lagrotor.report.page.html_elements import (
     badge,
@@ -34,6 +48,7 @@ from lagrotor.report.page.html_elements import (
     fact_list,
     file_link,
     fold,
+    foldable,
     heading,
     html_table,
     inline,
@@ -66,12 +81,16 @@ def equation_entry(verdict: Verdict, report: Report) -> str:
     number = f" <small>({entry.number} in the paper)</small>" if entry.number else ""
     proof = report.certificates.get(verdict.id)
     certificate = f"<p>Coq certificate: {file_link(proof)}</p>" if proof else ""
-    return (
-        f'<article id="{anchor(verdict.id)}">{heading(anchor(verdict.id), verdict.id, entry.title, verdict.verdict)}'
+    inside = (
         f"{_beside(f'As printed{number}', printed, derived_heading(statement.relations), derived)}"
         f"{fact_list(facts(verdict, report))}"
-        f"{certificate}{link_to_derivation(verdict.id, report)}{fold('LaTeX source and reading', source, 'source')}</article>"
+        f"{certificate}{link_to_derivation(verdict.id, report)}{fold('LaTeX source and reading', source, 'source')}"
     )
+    return _entry(anchor(verdict.id), heading(verdict.id, entry.title, verdict.verdict), inside)
+
+
+def _entry(place: str, title: str, inside: str) -> str:
+    return f'<article id="{place}">{foldable(title, inside)}</article>'
 
 
 def reading_of(entry: Equation, report: Report) -> str:
@@ -85,18 +104,38 @@ def reading_of(entry: Equation, report: Report) -> str:
     return f"<p>Its reading, {'confirmed' if entry.is_confirmed else 'not confirmed'}:</p>{lines}"
 
 
-def erratum_entry(e: Erratum) -> str:
-    """Return the HTML entry of an erratum: printed and corrected equation, the error, and its effect on results."""
+def errata_sheet(report: Report) -> str:
+    """Return the HTML of the errata sheet: what it is, the table of letters, the numbered premises, and the errata."""
+    errors = list(errata(report.verdicts, report.paper))
+    listed = listed_premises(errors)
+    above = "".join(f"<p>{prose(sentence)}</p>" for sentence in sheet_summary(report.verdicts, errors))
+    rows = [
+        (prose(f"${tex}$"), prose(meaning), prose(unit).replace(" ", "&nbsp;"), ids)
+        for tex, meaning, unit, ids in letter_table(errors, report.paper)
+    ]
+    if rows:
+        above += foldable("<h3>Letters</h3>", f"<p>{prose(LETTERS_FIRST)}</p>{html_table(LETTER_HEAD, rows)}")
+    premises = "".join(
+        f'<li id="premise-{n}"><b>P{n}:</b> {prose(premise_text(premise))}.</li>' for n, premise in enumerate(listed, 1)
+    )
+    if premises:
+        above += foldable("<h3>Premises</h3>", f'<p>{prose(PREMISES_CITED)}</p><ul class="premises">{premises}</ul>')
+    return above + "\n".join(erratum_entry(e, listed) for e in errors)
+
+
+def erratum_entry(e: Erratum, listed: list[Premise]) -> str:
+    """Return the HTML entry of an erratum; its premises are links to their place in the list `listed` of the sheet."""
+    place = f"erratum-{e.id}"
     correct = "".join(map(typeset, e.corrected))
     for label, premises in e.conditions:
-        formulas = "".join(map(typeset, premise_formulas(premises)))
-        correct += f"<p>{label}: {prose('; '.join(p.sentence for p in premises))}.</p>{formulas}"
-    return (
-        f'<article id="erratum-{e.id}">{heading(f"erratum-{e.id}", e.id, e.title)}<p>{prose(e.wrong)}</p>'
+        cited = re.sub(r"P(\d+)", r'<a href="#premise-\1">P\1</a>', cited_premises(premises, listed))
+        correct += f"<p>{label}: {cited}.</p>"
+    inside = (
+        f"<p><b>{prose(e.cited.capitalize())}.</b> {prose(e.wrong)}</p>"
         f"{_beside('Printed', typeset(e.printed), f'Corrected equation ({escape(e.verdict_of_correction)})', correct)}"
-        f"<p><small>{escape(e.reach.capitalize())}. Derived in {link(e.id)}. Used by: {links(e.used_by) or 'none'}"
-        "</small></p></article>"
+        f"<p><small>{escape(e.reach.capitalize())}. Derived in {link(e.id)}. Used by: {links(e.used_by) or 'none'}</small></p>"
     )
+    return _entry(place, heading(e.id, e.title), inside)
 
 
 def _beside(heading_a: str, printed: str, heading_b: str, derived: str) -> str:
@@ -112,23 +151,21 @@ def claim_entry(result: Result, report: Report) -> str:
     entry, finding = report.paper.claims[result.test.id], result.finding
     condition = f"<p><b>Condition:</b> {prose(finding.condition)}</p>" if finding.condition else ""
     place = anchor(entry.id)
-    return (
-        f'<article id="{place}">{heading(place, entry.id, f"section {entry.section}", finding.outcome)}'
+    inside = (
         f"<blockquote><p>{prose(entry.text)}</p></blockquote><p>{prose(finding.explanation)}</p>{condition}"
         f"{fact_list(linked_facts(result, report))}"
-        f"{fold(f'Measured ({result.test.model})', number_list('Quantity', result.measured.items()))}</article>"
+        f"{fold(f'Measured ({result.test.model})', number_list('Quantity', result.measured.items()))}"
     )
+    return _entry(place, heading(entry.id, claim_title(entry), finding.outcome), inside)
 
 
 def picture_entry(picture: Picture, report: Report) -> str:
     """Return the HTML entry of a figure: the drawing, its caption, its equations and claims, and measured numbers."""
     place = anchor(f"figure {picture.key}")
     measured = fold("Measured", number_list("Quantity", picture.measured.items())) if picture.measured else ""
-    return (
-        f'<figure id="{place}">{heading(place, f"Figure {picture.key}", picture.title)}'
-        f"{_image(picture)}"
-        f"<figcaption>{prose(picture.caption)}</figcaption>{fact_list(figure_facts(picture, report))}{measured}</figure>"
-    )
+    drawn = f"<figure>{_image(picture)}<figcaption>{prose(picture.caption)}</figcaption></figure>"
+    inside = f"{drawn}{fact_list(figure_facts(picture, report))}{measured}"
+    return _entry(place, heading(f"Figure {picture.key}", picture.title), inside)
 
 
 def _image(picture: Picture) -> str:
@@ -136,6 +173,30 @@ def _image(picture: Picture) -> str:
     width, height = size(picture)
     source = f'src="figures/{picture.svg.name}" width="{width}" height="{height}"'
     return f'<img {source} loading="lazy" alt="{escape(picture.alt)}">'
+
+
+_MOST = 3  # drawings above a derivation; others are linked only
+_NAMED = re.compile(r"\bfigures? ([a-z]?\d+)\b", re.IGNORECASE)
+_TREATED = re.compile(r'class="judged">[^<]*<a href="#([^"]+)"')
+
+
+def derivation_figures(stem: str, inside: str, report: Report) -> str:
+    """Return the figures that belong to a derivation as HTML; the page of the derivation contains `inside`.
+
+    They are the figure of the same name (t5_floquet), those of the equations and claims that it treats, and those that its
+    text names.
+    """
+    treated, name = set(_TREATED.findall(inside)), stem.partition("_")[2]
+    keys = set(_NAMED.findall(inside))
+    keys |= {str(n) for n, figure in report.paper.figures.items() if treated & set(map(anchor, figure.equations))}
+    keys |= {key for claim in report.paper.claims.values() if anchor(claim.id) in treated for key in claim.figures}
+    pictures = [p for p in report.pictures if p.key in keys or p.stem.partition("_")[2] == name]
+    drawn = "".join(
+        f"<figure>{_image(p)}<figcaption>{links([f'figure {p.key}'])}{prose(p.title)}</figcaption></figure>"
+        for p in pictures[:_MOST]
+    )
+    others = links(f"figure {p.key}" for p in pictures[_MOST:])
+    return (f'<div class="figures">{drawn}</div>' if drawn else "") + (f"<p>See also {others}</p>" if others else "")
 
 
 def headline_entry(headline: Headline, report: Report) -> str:
@@ -165,8 +226,18 @@ class Section:
         """The section as HTML; the interactive model has its own heading."""
         if self.anchor == "model":
             return self.inside
-        heading = f'<h2 id="{self.anchor}">{escape(self.heading)}</h2>'
-        return f'<section aria-labelledby="{self.anchor}">{heading}\n{self.inside}</section>'
+        return f'<section aria-labelledby="{self.anchor}">{self._title}\n{self.inside}</section>'
+
+    @property
+    def folded(self) -> str:
+        """The section as HTML that page.js folds on a narrow screen, except the model and the main results."""
+        if self.anchor in ("model", "summary"):
+            return self.html
+        return f'<section aria-labelledby="{self.anchor}">{foldable(self._title, self.inside)}</section>'
+
+    @property
+    def _title(self) -> str:
+        return f'<h2 id="{self.anchor}">{escape(self.heading)}</h2>'
 
 
 def sections(report: Report) -> list[Section]:
@@ -185,8 +256,23 @@ def _inside(anchor: str, report: Report) -> str:
         return report.model
     if anchor.startswith("section-"):
         verdicts = report.sections[anchor.removeprefix("section-")]
-        return "\n".join(equation_entry(verdict, report) for verdict in verdicts)
+        above = _overview((v.id, report.paper.equation(v.id).title, v.verdict) for v in verdicts)
+        return above + "\n".join(equation_entry(verdict, report) for verdict in verdicts)
     return _PARTS[anchor](report) if anchor in _PARTS else _result_section(report.result_section(anchor), report)
+
+
+def _overview(entries: Iterable[tuple[str, str, str]]) -> str:
+    """Return a list of links to entries, (id, title, verdict), for a wide screen; a narrow one shows folded entries."""
+    lines = (
+        f'<li>{link(identifier)} {prose(title)}<span class="unseen">,</span> {badge(answer)}</li>'
+        for identifier, title, answer in entries
+    )
+    return f'<ul class="overview">{"".join(lines)}</ul>'
+
+
+def _claims(report: Report) -> str:
+    rows = ((r.test.id, claim_title(report.paper.claims[r.test.id]), r.finding.outcome) for r in report.claims)
+    return _overview(rows) + "\n".join(claim_entry(result, report) for result in report.claims)
 
 
 def _summary(report: Report) -> str:
@@ -265,8 +351,8 @@ _PARTS: dict[str, Callable[[Report], str]] = {
     "summary": _summary,
     "verdicts": _verdicts,
     "notation": _notation,
-    "errata": lambda report: "\n".join(map(erratum_entry, errata(report.verdicts, report.paper))),
-    "claims": lambda report: "\n".join(claim_entry(result, report) for result in report.claims),
+    "errata": errata_sheet,
+    "claims": _claims,
     "derivations": _derivations,
     "waiting": _waiting,
     "cite": _cite,

@@ -11,7 +11,8 @@ import numpy as np
 
 from lagrotor.errors import InputError
 from lagrotor.pair.scene import Link, Rotor
-from lagrotor.structures.assembly import Brace
+from lagrotor.result_display import Printed
+from lagrotor.structures.assembly import ROWS, Brace
 from lagrotor.structures.structure import Structure
 
 Shift = tuple[int, ...]
@@ -19,8 +20,10 @@ Site = tuple[int, Shift]  # joint of the cell, and which cell
 
 
 @dataclass(frozen=True)
-class Cell:
+class Cell(Printed):
     """A pattern without waves: its checked fields, which `Pattern` documents, and its finite pieces."""
+
+    _shown = (("steps [m]", lambda s: ", ".join(f"({x:g}, {y:g})" for x, y in s.steps)),) + ROWS
 
     joints: tuple[tuple[float, float], ...]
     steps: tuple[tuple[float, float], ...]

@@ -71,7 +71,8 @@ def corrected_trajectories(order: int = 3) -> ClosedForm:
     Returns
     -------
     ClosedForm
-        The unit vectors (x_1, y_1, z_1, x_2, y_2, z_2) as functions of r_0, Phi (rad), sigma and k.
+        The unit vectors (x_1, y_1, z_1, x_2, y_2, z_2) as functions of r_0, Phi (rad), sigma and k. For a pair these are
+        scene.sigma and scene.k; a massless bar with ell = R has 1 and 1.
 
     Raises
     ------

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from lagrotor.errors import DomainError
 from lagrotor.pair.initial_conditions import consistent_scene
 from lagrotor.pair.scene import Scene
-from lagrotor.result_display import Shown, superscript
+from lagrotor.result_display import Shown, scientific, superscript
 from lagrotor.theory.natural_rate import natural_rate
 from lagrotor.theory.paired_precession.orbit_harmonics import Array, axes_of, harmonic_momentum, start_of
 from lagrotor.theory.paired_precession.series import paired_series, shape_of
@@ -57,8 +57,8 @@ class PrecessionOrbit(Shown):
         """
         return {
             "amplitude": f"{self.r0:g}",
-            "frequency [rad/s]": f"{self.frequency:.12g}, known to {self.frequency_error:.1g}",
-            "error of an axis": f"{self.error:.1g} at most",
+            "frequency [rad/s]": f"{self.frequency:.12g}, known to {scientific(self.frequency_error)}",
+            "error of an axis": f"{scientific(self.error)} at most",
             "method": self.method,
             "momentum about the joint line [kg m²/s]": f"{self.momentum:.9g}",
         }

@@ -154,11 +154,20 @@ def test_dense_output_is_as_exact_as_the_run(engine: str) -> None:
         run.at([6.1])
 
 
+def test_without_velocities_a_start_is_at_rest() -> None:
+    system, times = double_pendulum(), [0.0, 0.5]
+    resting = system.simulate(VALUES, {"alpha": 1, "beta": 2}, t=times)
+    assert (resting.states == system.simulate(VALUES, (1, 2), (0, 0), times).states).all()
+    q, v = rod().consistent(VALUES, (0.5, -0.5))
+    assert np.hypot(*q) == pytest.approx(0.8) and (v == 0).all()
+
+
 def test_expressions_are_evaluated_along_a_run() -> None:
     run = pendulum().simulate(VALUES, (2.5,), (0,), np.linspace(0, 6, 31), 1e-11)
     height = run.evaluate(l * (1 - sp.cos(ANGLE.q[0])))
     assert height == pytest.approx(0.8 * (1 - np.cos(run.q[:, 0])))
     assert run.evaluate(sp.S.One).shape == (31,)
+    assert run.evaluate("theta_dot") == pytest.approx(run.v[:, 0])
     with pytest.raises(InputError, match="unheard without a value"):
         run.evaluate(sp.Symbol("unheard"))
 
@@ -195,7 +204,7 @@ def test_a_run_is_saved_and_read_again_with_its_system(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="another system"):
         SystemRun.load(tmp_path / "run.npz", pendulum())
     header = run.save(tmp_path / "run.csv").read_text().splitlines()
-    assert header[0].startswith("t [s],x") and len(header) == 12
+    assert header[0] == "t [s],x,y,x_dot,y_dot,energy [J],drift" and len(header) == 12
     frame = run.to_dataframe() if importlib.util.find_spec("pandas") else None
     assert frame is None or list(frame.columns) == ["x", "y", "x_dot", "y_dot", "energy", "drift"]
 

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 import sympy as sp
 
@@ -25,6 +26,7 @@ from lagrotor.report.job.cache import (
     picture_from_json,
 )
 from lagrotor.report.job.steps import Derived
+from lagrotor.report.job.stored_values import value_from_json, values_as_json
 
 VALUE = {"slope": 0.1 + 0.2, "limit": math.inf, "words": ["θ", None, True]}
 
@@ -114,13 +116,46 @@ def test_a_picture_comes_back_with_its_files_and_writes_nowhere_else(tmp_path: P
 def derived(cell: object, verdicts: tuple = ()) -> Derived:
     table = Table("Rates", ("rate", "figure"), ((cell, FigureLink("19")), (("one", "below"), "")), "A note.")
     return Derived(
-        "t1_rate", "The rate", verdicts, (("It holds", "because θ is small"),), (table,), "<p>θ</p>", {"r": 1}
+        "t1_rate", "The rate", verdicts, (("It holds", "because θ is small"),), (table,), "<p>θ</p>", {"r": 1, "f": max}
     )
 
 
-def test_a_derivation_comes_back_without_its_values() -> None:
+def test_a_derivation_comes_back_with_those_values_that_can_be_stored() -> None:
     again = derived_from_json(json.loads(json.dumps(derived_as_json(derived("16 rad/s")))))
-    assert again == replace(derived("16 rad/s"), values={})
+    assert again == replace(derived("16 rad/s"), values={"r": 1})
+
+
+a, k = sp.Symbol("a", positive=True), sp.Symbol("k", real=True)
+
+
+@pytest.mark.parametrize(
+    "value",
+    [
+        {1.5: ("hyperbolic", [np.float64(0.1), None, True]), "θ": 10**30},
+        np.array([[0.1, math.inf], [-0.0, 1e-300]]),
+        sp.sqrt(a) * sp.sin(k) / 3 + sp.pi * sp.Max(k, 2) - sp.cosh(a) ** -2,
+        sp.Add(k, k, evaluate=False),
+        sp.S.NegativeOne,
+    ],
+)
+def test_a_value_comes_back_as_it_is(value: object) -> None:
+    again = value_from_json(json.loads(json.dumps(values_as_json({"value": value})["value"])))
+    assert type(again) is type(value)
+    assert str(again) == str(value)
+    assert isinstance(value, np.ndarray) or again == value
+
+
+@pytest.mark.parametrize("value", [max, sp.Dummy("x"), sp.Float("0.1", 30), sp.Function("f")(k), [object()], sp.eye(2)])
+def test_any_other_value_is_not_stored(value: object) -> None:
+    assert values_as_json({"value": value}) == {}
+
+
+@pytest.mark.parametrize(
+    "data", [["open", ["x"]], ["__import__", ["os"]], ["Function", ["f"]], ["constant", "oo"], ["list"]]
+)
+def test_data_of_another_form_are_no_value(data: list) -> None:
+    with pytest.raises((KeyError, TypeError, ValueError)):
+        value_from_json(data)
 
 
 def test_of_a_formula_in_a_table_the_latex_comes_back() -> None:

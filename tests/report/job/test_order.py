@@ -3,6 +3,7 @@
 import json
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -14,7 +15,7 @@ from lagrotor.report.job import reproduce
 from lagrotor.report.job.cache import derived_as_json
 from lagrotor.report.job.dependencies import TIMES
 from lagrotor.report.job.reproduce import longest_first
-from lagrotor.report.job.steps import Derived, JobStep, steps
+from lagrotor.report.job.steps import Derived, JobStep, derive, steps
 
 
 def test_the_paper_brings_the_time_of_each_step() -> None:
@@ -60,11 +61,13 @@ class Run:
         self.kept[name] = product
 
     @contextmanager
-    def progress(self, total: int) -> Iterator[Any]:
+    def progress(self, total: int, first: str) -> Iterator[Any]:
+        self.first = first
         yield self.begun.append
 
     def of(self, *all_steps: JobStep) -> dict[str, Any]:
-        return reproduce._make(self, list(all_steps), self.folder, self.progress, 1, self.folder)[0]  # type: ignore[arg-type]
+        made = reproduce._make(self, list(all_steps), self.folder, self.progress, 1, self.folder, set())  # type: ignore[arg-type]
+        return made[0]
 
 
 def derived(stem: str) -> Derived:
@@ -95,25 +98,53 @@ def test_steps_run_in_the_order_of_the_times(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("stored", "begun"),
     [
-        (
-            ["derivation t13_integrals"],
-            ["derivation t13_integrals", "figure t13", "report"],
-        ),  # its values are not stored
+        (["derivation t13_integrals"], ["figure t13", "report"]),  # its value is stored
         (["derivation t13_integrals", "figure t13"], ["report"]),
         (["figure t13"], ["derivation t13_integrals", "report"]),
     ],
 )
-def test_a_stored_derivation_runs_if_a_step_imports_from_it(
-    stored: list[str], begun: list[str], tmp_path: Path
-) -> None:
+def test_a_stored_result_is_not_computed_again(stored: list[str], begun: list[str], tmp_path: Path) -> None:
     derivation, figure = (
         job_step(tmp_path, "derivation t13_integrals"),
         job_step(tmp_path, "figure t13", "t13_integrals"),
     )
+    if derivation.name in stored:
+        derivation = replace(derivation, run=derive)  # such results are restored as derivations
     data = {derivation.name: derived_as_json(derived("t13_integrals")), figure.name: 7}
     run = Run(tmp_path, {name: data[name] for name in stored})
     assert run.of(derivation, figure)[figure.name] == 7
     assert run.begun == begun
+
+
+TIMED = (step("a"), step("b", "a"), step("c"))
+
+
+@pytest.mark.parametrize(
+    ("expected", "jobs", "seconds", "left"),
+    [
+        ({"a": 3, "b": 4, "c": 7, "report": 1}, 1, {}, "15 s"),
+        ({"a": 3, "b": 4, "c": 7, "report": 1}, 2, {}, "8 s"),
+        ({"a": 3, "b": 4, "c": 5, "report": 1}, 8, {}, "8 s"),  # b waits for a
+        ({"a": 3, "b": 4, "c": 7, "report": 1}, 1, {"c": 15.0}, "16 s"),  # half as fast as in the earlier run
+        ({"a": 300, "b": 4, "c": 7, "report": 1}, 1, {}, "5 minutes"),
+        ({"a": 3, "b": 4, "report": 1}, 1, {}, ""),  # c has no recorded time
+        ({"a": 3, "b": 4, "c": 7}, 1, {}, ""),
+        ({}, 1, {}, ""),
+    ],
+)
+def test_the_remaining_time(expected: dict[str, float], jobs: int, seconds: dict[str, float], left: str) -> None:
+    assert reproduce._time_left(list(TIMED), expected, jobs, seconds) == left  # type: ignore[arg-type]
+
+
+def test_a_run_begins_with_what_it_takes(tmp_path: Path) -> None:
+    steps_ = [job_step(tmp_path, name) for name in ("figure t1", "figure t2")]
+    run = Run(tmp_path, {"figure t2": 7})
+    run.of(*steps_)
+    assert run.first == "1 of 2 results to compute, with --jobs 1"
+    (tmp_path / TIMES).write_text('{"seconds": {"figure t1": 30, "figure t2": 3, "report": 2}}')
+    run.of(*steps_)
+    assert run.first == "1 of 2 results to compute, with --jobs 1: about 32 s, by the times of an earlier run"
+    assert run.begun[-2:] == ["figure t1; about 32 s left", "report; about 0 s left"]
 
 
 def test_a_damaged_file_of_times_is_ignored(tmp_path: Path) -> None:

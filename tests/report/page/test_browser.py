@@ -23,6 +23,7 @@ from tests.report.in_browser import dom_of, needs_browser
 
 pytestmark = needs_browser
 WIDTHS = (1200, 390)
+PAPER_WIDTH = 688  # px, an A4 page without its margins
 Seen = dict[str, list[dict[str, Any]]]  # what is measured of each page at each width
 
 # Runs before anything else of the page, so that no failure of its scripts is missed.
@@ -49,6 +50,7 @@ function measure(view) {
   return {formulas: page.querySelectorAll("math").length, smallest: Math.min(...sizes), tooWide, scrolled,
           width: page.documentElement.scrollWidth, room: view.innerWidth, failures: view.failures,
           hits: [...page.querySelectorAll("#hits a")].map((hit) => hit.getAttribute("href")),
+          hit: page.querySelector("#hits li")?.textContent,
           font: page.fonts.check("16px 'FAMILY'")};
 }
 window.onload = async () => {
@@ -67,12 +69,13 @@ window.onload = async () => {
 
 
 def looked_at(pages: dict[str, str], folder: Path) -> Seen:
-    """What the browser finds of each page at each of `WIDTHS`: a frame of that width, measured after it is drawn."""
+    """What the browser finds of each page at each of its widths: a frame of that width, measured after it is drawn."""
     frames = ""
-    for html in pages.values():
+    widths = {name: (PAPER_WIDTH,) if name == "paper" else WIDTHS for name in pages}
+    for name, html in pages.items():
         source = escape(html.replace("<head>", "<head>" + LISTENER, 1), quote=True)
         frames += "".join(
-            f'<iframe width="{w}" height="900" style="border: 0" srcdoc="{source}"></iframe>' for w in WIDTHS
+            f'<iframe width="{w}" height="900" style="border: 0" srcdoc="{source}"></iframe>' for w in widths[name]
         )
     # Without its encoding the browser guesses, sometimes wrong, and then measures other letters.
     sheet = f'<!DOCTYPE html><meta charset="utf-8">{frames}<script>{MEASURE}</script>'
@@ -80,7 +83,7 @@ def looked_at(pages: dict[str, str], folder: Path) -> Seen:
     match = re.search(r'<pre id="found">(.*?)</pre>', shown, re.DOTALL)
     assert match, shown[-2000:]
     found = iter(json.loads(unescape(match[1])))
-    return {name: [next(found) for _ in WIDTHS] for name in pages}
+    return {name: [next(found) for _ in widths[name]] for name in pages}
 
 
 def sheet(formulas: Iterator[str]) -> str:
@@ -114,7 +117,9 @@ def wrong() -> str:
 def found(audit: Audit, tmp_path_factory: pytest.TempPathFactory) -> Seen:
     """A page, all formulas and what is wrong, looked at together."""
     report = Report(PAPER, tuple(audit[s.id] for s in PAPER.statements("s5_2a_single_rotor")), (), ())
-    pages = {"page": whole_page(report), "formulas": sheet(every_formula(audit)), "wrong": wrong()}
+    widest = tuple(v for v in audit if PAPER.equation(v.id).section in ("3", "5.2"))
+    paper = whole_page(Report(PAPER, widest, (), ())).replace("@media print", "@media all")
+    pages = {"page": whole_page(report), "formulas": sheet(every_formula(audit)), "wrong": wrong(), "paper": paper}
     return looked_at(pages, tmp_path_factory.mktemp("browser"))
 
 
@@ -123,6 +128,9 @@ def test_the_page_fits_a_desk_and_a_phone(found: Seen) -> None:
         assert seen["formulas"] > 20
         assert seen["font"]
         assert seen["hits"][0] == "#eq-5.02" and len(seen["hits"]) < 9, "the search reads the page itself"
+        assert seen["hit"].startswith("5.02 precession rate of one rotor, holds if Condition: I₁ is read as"), seen[
+            "hit"
+        ]
         assert seen["smallest"] >= 10, "px"
         assert seen["tooWide"] == []
         assert seen["width"] <= seen["room"]
@@ -136,6 +144,13 @@ def test_no_formula_scrolls_on_a_desk(found: Seen) -> None:
     assert desk["scrolled"] == []
     assert phone["width"] <= phone["room"]
     assert desk["font"], "the font inside the page is the one that draws"
+
+
+def test_every_formula_of_the_printed_report_fits_the_paper(found: Seen) -> None:
+    (seen,) = found["paper"]
+    assert seen["formulas"] > 300 and seen["failures"] == []
+    assert seen["width"] <= seen["room"] == PAPER_WIDTH
+    assert seen["smallest"] >= 6, "px"
 
 
 def test_what_is_wrong_is_found(found: Seen) -> None:

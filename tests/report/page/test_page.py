@@ -19,6 +19,7 @@ from lagrotor.paper import (
 from lagrotor.paper.rotor_pair.rotor_pair_audit import PAPER
 from lagrotor.report.content import Report, ResultSection, contents
 from lagrotor.report.job.folder import CONTENTS
+from lagrotor.report.page.html_elements import prose
 from lagrotor.report.page.pages import pages, whole_page
 from lagrotor.report.page.sections import sections
 from lagrotor.report.text_forms import markdown
@@ -174,13 +175,36 @@ def test_pages_lead_to_each_other(longer: Report) -> None:
 
 def test_the_words_of_every_entry_can_be_found(longer: Report) -> None:
     rows = json.loads(pages(longer)["pages/words.js"].removeprefix("const WORDS = ").rstrip(";\n"))
-    found = {anchor: (address, name, text) for address, anchor, name, text in rows}
+    found = {anchor: (address, name, answer, text) for address, anchor, name, answer, text in rows}
     assert {f"eq-{verdict.id}" for verdict in longer.verdicts} <= found.keys()
     assert {f"figure-{picture.key}" for picture in longer.pictures} | {"claim-C16", "notation"} <= found.keys()
-    address, name, text = found["eq-5.20"]
+    address, name, answer, text = found["eq-5.20"]
     assert address == "pages/section-5.2.html#eq-5.20"
-    assert "5.20" in name and HOSTILE in text
-    assert "const ORDER" not in "".join(row[3] for row in rows), "no program's text is searched"
+    assert (name, answer) == ("5.20 amplitude-based correction", "refuted") and HOSTILE in text
+    assert found["erratum-5.20"][1] == "Erratum 5.20 amplitude-based correction"
+    assert found["claim-C16"][2] == "confirmed-if"
+    texts = " ".join(row[4] for row in rows)
+    assert "const ORDER" not in texts and "frac" not in texts, "neither a program's text nor LaTeX is searched"
+    whole = [row[1:] for row in json.loads(re.findall(r"const WORDS = (.*);", whole_page(longer))[0])]
+    assert {anchor for anchor, *_ in whole} >= {f"eq-{verdict.id}" for verdict in longer.verdicts}
+    assert ["eq-5.20", name, answer] in whole, "its page has the words themselves"
+
+
+def test_a_verdict_is_separated_from_its_title_in_plain_text(longer: Report) -> None:
+    text = read(whole_page(longer)).text.partition("const WORDS")[0]
+    for verdict in longer.verdicts:
+        title = read(prose(PAPER.equation(verdict.id).title)).text
+        title = f"{verdict.id} {title}, {verdict.verdict.replace('-', ' ')}"
+        assert text.count(title) == 2, title  # the overview of the section and the entry
+
+
+def test_every_entry_can_be_folded_and_is_open_without_the_script(longer: Report) -> None:
+    text = whole_page(longer)
+    articles = re.findall(r"<article [^>]*>(?=<(\w+)(?: class=\"entry\" (open))?)", text)
+    assert len(articles) > 10 and set(articles) == {("details", "open")}
+    folded = re.findall(r'<section [^>]*><details class="entry" open><summary><h2 id="([^"]+)"', text)
+    assert {"errata", "verdicts", "section-5.2", "claims"} <= set(folded) and "summary" not in folded
+    assert '<section aria-labelledby="section-5.2"><h2' in pages(longer)["pages/section-5.2.html"], "alone on its page"
 
 
 def test_page_is_escaped(report: Report) -> None:
@@ -245,20 +269,22 @@ def test_markdown_links_lead_somewhere(longer: Report) -> None:
 
 
 SEARCHED = """
-const entries = ENTRIES.map(([id, text]) => ({ id, text }));
-const found = (query) => search(query, entries).map((entry) => entry.id).join(" ");
-console.log(JSON.stringify(QUERIES.map(found)));
+const entries = ENTRIES.map(([id, name, text]) => ({ id, name, text: `${name} ${text}` }));
+const found = (query) => search(query, entries).found.map((entry) => entry.id).join(" ");
+const pieces = marked("A long text about the orbit of a Precession with spin 5.1.", ["orbit", "precession", "5.1"], 30, true);
+console.log(JSON.stringify([QUERIES.map(found), search("trajectorise", entries).changed, pieces]));
 """
 ENTRIES = [
-    ("5.10", "the bar's length"),
-    ("5.1", "bar"),
-    ("c08", "energy by 5.10"),
-    ("figure-1", "pair"),
-    ("figure-19", "trajectories"),
-    ("figure-t6", "drift"),
+    ("erratum-5.1", "Erratum 5.1", "bar"),
+    ("5.10", "5.10", "the bar's length"),
+    ("5.1", "5.1", "bar, trajectories"),
+    ("c08", "C08", "Energy by 5.10, in 15.1 s"),
+    ("figure-1", "Figure 1 pair", "border"),
+    ("figure-19", "Figure 19 Trajectories", ""),
+    ("figure-t6", "Figure t6", "drift"),
 ]
 QUERIES = {
-    "5.1": "5.1 5.10 c08",
+    "5.1": "5.1 erratum-5.1 5.10 c08",
     "eq. 5.10": "5.10 c08",
     "C8": "c08",
     "claim 8": "c08",
@@ -267,6 +293,16 @@ QUERIES = {
     "fig. t6": "figure-t6",
     "bar length": "5.10",
     "5.10 energy": "c08",
+    "trajectories": "figure-19 5.1",
+    "trajectorise": "figure-19 5.1",
+    "trajectries": "figure-19 5.1",
+    "trajectoris": "figure-19 5.1",
+    "tragectories": "figure-19 5.1",
+    "tragectores": "",
+    "enery energy": "c08",
+    "order": "figure-1",
+    "dirft": "figure-t6",
+    "bra": "",
     "none": "",
     "  ": "",
 }
@@ -279,7 +315,10 @@ def test_search() -> None:
     script = Path(whole_page.__code__.co_filename).with_name("page.js").read_text(encoding="utf-8")
     asked = SEARCHED.replace("ENTRIES", json.dumps(ENTRIES)).replace("QUERIES", json.dumps(list(QUERIES)))
     done = subprocess.run([node, "-e", script + asked], capture_output=True, text=True, check=True)
-    assert dict(zip(QUERIES, json.loads(done.stdout), strict=True)) == QUERIES
+    found, changed, pieces = json.loads(done.stdout)
+    assert dict(zip(QUERIES, found, strict=True)) == QUERIES
+    assert changed == [["trajectorise", ["trajectories"]]]
+    assert pieces == ["… the ", "orbit", " of a ", "Precession", " with …"]
 
 
 def test_no_formula_of_the_page_is_typed_in_ascii(audit: Audit, typed_formulas: Callable[[str], list[str]]) -> None:

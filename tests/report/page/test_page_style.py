@@ -42,6 +42,10 @@ def test_letters_can_be_told_from_their_ground() -> None:
         for letter in LETTERS:
             for ground in ("ground", "raised"):
                 assert contrast(rule[letter], rule[ground]) >= LEAST, (letter, ground, rule)
+    for rule in rules[
+        :2
+    ]:  # a hit of the search has the colours of a link and of small text; there is no search on paper
+        assert min(contrast(rule[letter], rule["mark"]) for letter in ("link", "faint")) >= LEAST
 
 
 def test_what_has_the_focus_is_seen() -> None:

@@ -387,7 +387,10 @@ NO_MEAN = "r₁ and r₂ have on average no displacement in x"
 
 @dataclass(frozen=True)
 class Twistable:
-    """The case of C12: the moment of inertia K (kg m²) of the bar, and those of three bars that should prevent the twist."""
+    """The data of claim C12: the transverse inertia K (kg m²) of the paper's bar, and the inertias of three stiffer bars.
+
+    The claim says that a bar of larger inertia prevents the twist.
+    """
 
     K: float = HEAVY_LINK.inertia
     stiffer: tuple[float, float, float] = STIFFER
