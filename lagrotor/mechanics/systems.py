@@ -1109,8 +1109,8 @@ class System(Equations):
         """Write the equations as functions of another language, for other tools.
 
         The functions are rhs, mass_matrix, forcing, inverse_dynamics, energy, joint_forces and jacobian, the last by exact
-        differentiation. They take the time t, the state x = (q, u) and the parameters p, and compute what `rhs` and
-        `inverse_dynamics` compute. `name.json` has the order of states, parameters and outputs, with their units.
+        differentiation. They take the time t, the parameters p and the state x, which is (q, u) and then the first-order
+        states, and compute what `rhs` and `inverse_dynamics` compute. `name.json` has the order of states, parameters and outputs, with their units.
 
         Parameters
         ----------

@@ -1,6 +1,7 @@
 """Systems as functions of other languages, with a description in JSON: `System.export`.
 
-Each function is a program that lagrotor itself evaluates; `numerics.languages` writes it. The state x is (q, u), and u' satisfies
+Each function is a program that lagrotor itself evaluates; `numerics.languages` writes it. The state x is (q, u),
+followed by the first-order states, and u' satisfies
 
     M u' = forcing + Gᵀ λ,        inverse_dynamics = M u' − forcing.
 """
@@ -58,6 +59,8 @@ def export(system: Equations, language: LanguageName, folder: str | Path, name: 
 
 def _check(system: Equations) -> None:
     """Raise InputError for a system whose motion no function of the state describes."""
+    if not system.c.q:
+        raise InputError("export: the system has no coordinates: write the rates of its states in the other language")
     try:
         surfaces = without_jumps(system)[1]
     except InputError as error:
@@ -179,7 +182,7 @@ def _tables(system: Equations, x: Sequence[sp.Symbol]) -> dict[str, tuple[str, s
     wrenches = [_row(f"{joint} {kind} {axis}", unit) for joint in joint_names(system) for kind, unit, axis in pairs]
     energy = [_row("energy", "J" if system.bodies else None)]
     return {
-        "rhs": ("dx", "The derivative of the state, x' = (q', u').", derivatives, []),
+        "rhs": ("dx", "The derivative of the state, x'.", derivatives, []),
         "mass_matrix": ("mass", "The mass matrix M of M u' = forcing + reactions.", forces, accelerations),
         "forcing": ("force", "The forcing of M u' = forcing + reactions.", forces, []),
         "inverse_dynamics": ("tau", "The forces that must act besides those of the system, for u' = a.", forces, []),

@@ -9,7 +9,6 @@ import numpy as np
 import sympy as sp
 
 from lagrotor.algebra.scalar import sympified
-from lagrotor.algebra.subexpressions import subexpressions
 from lagrotor.errors import InputError, near
 from lagrotor.mechanics.bodies.rigid_bodies import Body
 from lagrotor.mechanics.expressions import vector_of

@@ -57,6 +57,14 @@ def driven() -> System:
     return replace(system, dissipation=d * system.c.v[1] ** 2 / 2)
 
 
+def motor() -> System:
+    """Return a pendulum that a motor with the current i turns."""
+    k, R, L, V = sp.symbols("k R L V", positive=True)
+    current = sp.Symbol("i", real=True)
+    system = pendulum(forces=(k * current,))
+    return replace(system, states={current: (V - R * current - k * system.c.v[0]) / L})
+
+
 def quasi_disc() -> System:
     system, wheel = rolling_disc()
     return replace(system, velocities=dict(zip(sp.symbols("p q r", real=True), wheel.angular_velocity, strict=True)))
@@ -114,6 +122,7 @@ def gallery(tmp_path_factory: pytest.TempPathFactory) -> dict[str, System]:
         "disc": quasi_disc(),
         "loop": four_bar(),
         "driven": driven(),
+        "motor": motor(),
         "odd": odd_functions(),
         "arm": arm_of_seven_axes(tmp_path_factory.mktemp("urdf")),
     }
@@ -139,7 +148,7 @@ def calls(gallery: dict[str, System], about: dict[str, Any]) -> Calls:
             for row in about[name]["parameters"]
         ]
         numbers = np.array([random.uniform(0.5, 1.5) if x is None else x for x in p], float)
-        sizes = len(system.c.q) + len(system.speeds), len(system.speeds)
+        sizes = len(system.variables), len(system.speeds)
         made[name] = [
             (float(random.uniform(0, 3)), random.uniform(0.2, 1, sizes[0]), numbers, random.uniform(-1, 1, sizes[1]))
             for _ in range(_STATES)
@@ -160,11 +169,12 @@ def right(gallery: dict[str, System], about: dict[str, Any], calls: Calls) -> di
 
 def _right(system: System, names: list[str], time: float, x: np.ndarray, p: np.ndarray, a: np.ndarray) -> Numbers:
     values, n = dict(zip(names, p, strict=True)), len(system.c.q)
-    rhs, q, u = system.rhs(values), x[:n], x[n:]
+    rhs, q, u = system.rhs(values), x[:n], x[n : n + len(a)]
+    all_values = values | dict(zip((str(s) for s, _ in system.states), x[n + len(a) :], strict=True))
 
     rates, h = np.array([0 * a, a, *np.eye(len(a))]), 1e-4
     many = (np.tile(each, (len(rates), 1)) for each in (q, u))
-    still, forces, *columns = system.inverse_dynamics(*many, rates, values, time)
+    still, forces, *columns = system.inverse_dynamics(*many, rates, all_values, time)
     slopes = [[np.array(rhs(time, x + k * h * e)) for k in (-2, -1, 1, 2)] for e in np.eye(len(x))]
     numbers = {
         "rhs": np.array(rhs(time, x)),
