@@ -1110,7 +1110,8 @@ class System(Equations):
 
         The functions are rhs, mass_matrix, forcing, inverse_dynamics, energy, joint_forces and jacobian, the last by exact
         differentiation. They take the time t, the parameters p and the state x, which is (q, u) and then the first-order
-        states, and compute what `rhs` and `inverse_dynamics` compute. `name.json` has the order of states, parameters and outputs, with their units.
+        states. `name.json` has the order of states, parameters and outputs, with their units. A warning gives the reason
+        if joint_forces is left out.
 
         Parameters
         ----------
@@ -1129,13 +1130,8 @@ class System(Equations):
         Raises
         ------
         InputError
-            If dry friction acts, a force contains a reaction, or a function has no expression; if a file of that name exists
-            that lagrotor did not write, or that belongs to another system.
-
-        Warns
-        -----
-        LagrotorWarning
-            If the forces in the joints are left out, with the reason.
+            If dry friction acts, a force contains a reaction, or a function has no expression; if a file of that name is
+            not from lagrotor or belongs to another system.
 
         Examples
         --------

@@ -13,18 +13,14 @@ def units_of(system: Equations) -> dict[sp.Symbol, str]:
     An angle turns a frame or is the argument of a sine or cosine, and a length shifts a frame.
     """
     c, units = system.c, dict[sp.Symbol, str]()
-    frames = dict.fromkeys(
-        step for body in system.bodies for step in body.frame.to_the_ground if step.parent is not None
-    )
-    for step in frames:
-        units |= {step.amount: "rad"} if step.axis is not None and step.amount.is_Symbol else {}
+    frames = dict.fromkeys(f for body in system.bodies for f in body.frame.to_the_ground if f.parent is not None)
+    units |= {f.amount: "rad" for f in frames if f.axis is not None and f.amount.is_Symbol}
     formulas = (*(() if system.bodies else (system.L,)), *system.constraints, *system.rolling)
     for e in (part for formula in formulas for part in subexpressions(formula)):
         slopes = [derivative(e.args[0], q) for q in c.q] if isinstance(e, sp.sin | sp.cos) else ()
         units |= {q: "rad" for q, slope in zip(c.q, slopes, strict=False) if slope.is_Rational and slope != 0}
     terms = getattr(system.lagrangian, "terms", ())
-    lengths = [e for frame in frames for e in frame.shift]
-    lengths += [e for body in system.bodies for e in body.centre]
+    lengths = [e for shift in (*(f.shift for f in frames), *(body.centre for body in system.bodies)) for e in shift]
     of_unit = {
         "kg": [body.mass for body in system.bodies],
         "m": lengths,

@@ -189,12 +189,12 @@ def _right(system: System, names: list[str], time: float, x: np.ndarray, p: np.n
         numbers["joint_forces"] = np.array([[*f.force[0], *f.torque[0]] for f in forces_in])
         numbers["energy"] = np.array(run.energy[0])
     if not system.kinematics and n < 3:
-        at = dict(zip((*system.c.q, *system.c.v, t), (*x, time), strict=True))
+        at = dict(zip((*system.variables, t), (*x, time), strict=True))
         at |= {s: values[str(s)] for s in system.mass_matrix.free_symbols if str(s) in values}
         numbers["mass_matrix"] = np.array(system.mass_matrix.xreplace(at).xreplace(at).tolist(), float)
     if n < 5:
         v = system.kinematics.velocity if system.kinematics else system.c.v
-        at = dict(zip((*system.c.q, *system.speeds, t), (*x, time), strict=True))
+        at = dict(zip((*system.variables, t), (*x, time), strict=True))
         at |= {s: values[str(s)] for s in system.energy.free_symbols if str(s) in values}
         energy = system.energy.xreplace(dict(zip(system.c.v, v, strict=True)))
         numbers["energy"] = np.array(float(energy.xreplace(at).xreplace(at)))
