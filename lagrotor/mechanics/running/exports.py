@@ -16,7 +16,7 @@ from typing import Any
 import sympy as sp
 
 from lagrotor.about import __version__
-from lagrotor.errors import InputError, LagrotorWarning, near
+from lagrotor.errors import InputError, LagrotorWarning
 from lagrotor.files import path_of, write_together
 from lagrotor.mechanics.bodies.joint_forces import ball_rates, joint_names, joint_outputs, placed_loads
 from lagrotor.mechanics.bodies.small_matrices import Stages
@@ -44,8 +44,7 @@ _FUNCTIONS = ("rhs", "mass_matrix", "forcing", "inverse_dynamics", "energy", "jo
 def export(system: Equations, language: LanguageName, folder: str | Path, name: str) -> tuple[Path, ...]:
     """Write the functions of a system as files: `System.export`."""
     if language not in MODULES:
-        known = ", ".join(MODULES)
-        raise InputError(f"export: language = {language!r} must be one of {known}{near(language, MODULES)}")
+        raise InputError(f"export: language = {language!r} must be one of {', '.join(MODULES)}")
     if not isinstance(name, str) or not name.strip():
         raise InputError(f"export: name = {name!r} must be the name of the system, as 'arm'")
     target = path_of("export: folder", folder)
@@ -117,8 +116,8 @@ def _forcing(inverse: Generated, system: Equations) -> Generated:
             values[name] = e
         else:
             stages.append((name, e))
-    outputs = tuple(-e.xreplace(values) for e in program.outputs)
-    return replace(inverse, program=replace(program, stages=tuple(stages), outputs=outputs))
+    outputs = (-e.xreplace(values) for e in program.outputs)
+    return replace(inverse, program=replace(program, stages=tuple(stages), outputs=tuple(outputs)))
 
 
 def _slope_program(function: Generated, first: int, count: int) -> Generated:
@@ -176,8 +175,8 @@ def _tables(system: Equations, x: Sequence[sp.Symbol]) -> dict[str, tuple[str, s
     force_units = [{"rad/s": "N m", "m/s": "N"}.get(units.get(u, "")) for u in system.speeds]
     derivatives = [_row(label, unit) for label, unit in zip(labels, rate_units, strict=True)]
     forces = [_row(f"force on {u}", unit) for u, unit in zip(system.speeds, force_units, strict=True)]
-    states, n = [_row(s, units.get(s)) for s in x], len(system.c.q)
-    accelerations = derivatives[n : n + len(forces)]
+    states = [_row(s, units.get(s)) for s in x]
+    accelerations = derivatives[len(system.c.q) :][: len(forces)]
     pairs = [(kind, unit, axis) for kind, unit in (("force", "N"), ("torque", "N m")) for axis in "xyz"]
     wrenches = [_row(f"{joint} {kind} {axis}", unit) for joint in joint_names(system) for kind, unit, axis in pairs]
     energy = [_row("energy", "J" if system.bodies else None)]
