@@ -127,10 +127,11 @@ def test_control() -> None:
 
 def test_from_a_robot_file() -> None:
     """An upright double pendulum has two unstable directions; a torque's symbol has no value in the description."""
-    _, ends = ran("from_a_robot_file")
+    names, ends = ran("from_a_robot_file")
     A, B, rates = ends[1]
+    assert abs(names["run"].q[-1] - [np.pi, 0]).max() < 0.05
     assert len(ends[0]) == 11 and A.shape == (4, 4) and B.shape == (4, 2) and sum(rate.real > 0 for rate in rates) == 2
-    assert [name for name, (_, value) in ends[3].items() if value is None] == ["tau_elbow", "tau_shoulder"]
+    assert [name for name, (_, value) in ends[4].items() if value is None] == ["tau_elbow", "tau_shoulder"]
 
 
 def test_from_sympy() -> None:
