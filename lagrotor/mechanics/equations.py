@@ -28,6 +28,7 @@ from lagrotor.errors import InputError, SingularError
 from lagrotor.mechanics import lagrangian as free
 from lagrotor.mechanics.expressions import expression, no_coordinate, put_in, shortest
 from lagrotor.mechanics.lagrangian import (
+    NO_COORDINATES,
     Coordinates,
     dependent_rows,
     depends_on,
@@ -49,14 +50,15 @@ _FAST = 1000  # the factor on random velocities at which friction must have incr
 class Equations:
     """The equations of motion of a Lagrangian with constraints, friction and forces; `System` describes the fields."""
 
-    c: Coordinates
-    lagrangian: sp.Expr
+    c: Coordinates = NO_COORDINATES
+    lagrangian: sp.Expr = sp.S.Zero
     constraints: tuple[sp.Expr, ...] = ()
     rolling: tuple[sp.Expr, ...] = ()
     dissipation: sp.Expr = sp.S.Zero
     forces: tuple[sp.Expr, ...] = ()
     names: tuple[str, ...] = ()
     velocities: Mapping[sp.Symbol, sp.Expr] | Pairs = ()
+    states: Mapping[sp.Symbol, sp.Expr] | Pairs = ()
 
     if not TYPE_CHECKING:
         __getattr__ = old_attribute
@@ -76,6 +78,7 @@ class Equations:
                 raise InputError(f"System: {name} = {entries} must be a tuple of expressions{way}")
             object.__setattr__(self, name, tuple(expression(f"System: {name}[{i}]", e) for i, e in enumerate(entries)))
         object.__setattr__(self, "dissipation", expression("System: dissipation", self.dissipation))
+        self._take_states()
         self._take_velocities()
         if not self.bodies:  # energies of bodies are multiplied out only when needed
             object.__setattr__(self, "lagrangian", expression("System: L", self.lagrangian))
@@ -91,6 +94,18 @@ class Equations:
         self._check_symbols()
         self._check_reactions()
         _ = self.kinematics
+
+    def _take_states(self) -> None:
+        """Store the first-order states as pairs (x, f), f the rate of x."""
+        given: Any = self.states if isinstance(self.states, Mapping | tuple) else {0: 0}
+        states, moving = dict(given), {*self.c.q, *self.c.v, *self.c.a, t}
+        if not all(isinstance(x, sp.Symbol) and x not in moving for x in states):
+            way = "a dictionary {x: rate of x}, each x a symbol that is no coordinate, velocity or time"
+            raise InputError(f"System: states = {self.states!r} must be {way}")
+        if not states and not self.c.q:
+            raise InputError("System: no coordinates and no states: give System(c, L) or System(states={x: rate})")
+        pairs = tuple((x, expression(f"System: states[{x}]", f)) for x, f in states.items())
+        object.__setattr__(self, "states", pairs)
 
     def _take_velocities(self) -> None:
         """Store all quasi-velocities as pairs (u, expression in v), also those of ball joints, and express the fields by v."""
@@ -128,6 +143,7 @@ class Equations:
         for name in ("constraints", "rolling", "forces"):
             object.__setattr__(self, name, tuple(e.xreplace(quasi) for e in getattr(self, name)))
         object.__setattr__(self, "dissipation", self.dissipation.xreplace(quasi))
+        object.__setattr__(self, "states", tuple((x, f.xreplace(quasi)) for x, f in self.states))
         if hasattr(self.lagrangian, "xreplace"):
             object.__setattr__(self, "lagrangian", self.lagrangian.xreplace(quasi))
 
@@ -182,6 +198,14 @@ class Equations:
                 f"System: dissipation = {self.dissipation} has no velocity: it is Rayleigh's function D(q, v) with the "
                 "force −∂D/∂v, k v**2/2 for linear friction"
             )
+        for x, f in self.states:
+            _free_of(f"the rate of {x}", f.free_symbols, higher, "x' depends on q, v, x and t alone")
+        fixed = (*self.constraints, *self.rolling, *(e for _, e in self.velocities))
+        if wrong := self.letters.union(*(e.free_symbols for e in fixed)) & {*dict(self.states)}:
+            raise InputError(
+                f"System: the state {min(map(str, wrong))} is in L, a constraint or a velocity: its rate would enter their time "
+                "derivatives; write its force into forces, or make it a coordinate"
+            )
         check_friction("System", self.dissipation, self.c)
         symbols = self.letters.union(*(e.free_symbols for e in (*self.forces, *self.residual)))
         if reserved := sorted(str(s) for s in symbols if re.fullmatch(r"_a\d+", str(s))):
@@ -191,13 +215,13 @@ class Equations:
 
     @property
     def acting(self) -> tuple[sp.Expr, ...]:
-        """The expressions of constraints, rolling, dissipation and forces."""
-        return (*self.constraints, *self.rolling, self.dissipation, *self.forces)
+        """The expressions of constraints, rolling, dissipation, forces and rates of states."""
+        return (*self.constraints, *self.rolling, self.dissipation, *self.forces, *(f for _, f in self.states))
 
     def _check_reactions(self) -> None:
         """Raise InputError for a symbol reaction(name) that names no constraint, or that is outside forces and dissipation."""
         names = self.multiplier_names
-        places = (*self.constraints, *self.rolling, *(e for _, e in self.velocities))
+        places = (*self.constraints, *self.rolling, *(e for _, e in (*self.velocities, *self.states)))
         elsewhere = self.letters.union(*(e.free_symbols for e in places))
         for s in sorted(set().union(elsewhere, *(e.free_symbols for e in self.acting)), key=str):
             name = str(s)[len("reaction(") : -1] if str(s).startswith("reaction(") else None
@@ -217,7 +241,7 @@ class Equations:
     def _letters(self) -> tuple[Any, ...]:
         """The symbols and expressions of the system, in groups; across all of them a name belongs to one symbol."""
         moving = self.c.q, self.c.v, self.c.a, t
-        return *moving, self.acting, self.velocities, self.letters
+        return *moving, self.acting, self.velocities, self.states, self.letters
 
     @property
     def lagrangian_parts(self) -> tuple[sp.Expr, ...]:
@@ -239,6 +263,11 @@ class Equations:
     def speeds(self) -> tuple[sp.Symbol, ...]:
         """The velocities u of a state (q, u): the quasi-velocities, or v if the system has none."""
         return tuple(u for u, _ in self.velocities) or self.c.v
+
+    @property
+    def variables(self) -> tuple[sp.Symbol, ...]:
+        """The components of a state: the coordinates q, the velocities u and the first-order states x."""
+        return (*self.c.q, *self.speeds, *dict(self.states))
 
     @property
     def speed_rates(self) -> tuple[sp.Symbol, ...]:
@@ -379,7 +408,20 @@ class Equations:
         drift = -self.residual.subs(dict.fromkeys(self.c.v, 0))
         work = sum((lam * b for lam, b in zip(self.multipliers, drift, strict=True)), sp.S.Zero)
         by_time = derivative(self.L, t)
-        return self.generalised_forces.dot(self.c.v) + work - (0 if decide_zero(by_time).answer == "zero" else by_time)
+        push = self.generalised_forces.dot(self.c.v) if self.c.q else sp.S.Zero
+        return push + work - (0 if decide_zero(by_time).answer == "zero" else by_time)
+
+
+def time_derivative(system: Equations, e: sp.Expr) -> sp.Expr:
+    """Return de/dt in q, v, a, t and the first-order states, with the rates of these put in."""
+    return sp.Add(total_derivative(e, system.c), *(derivative(e, x) * f for x, f in system.states))
+
+
+def no_states(where: str, system: Equations, why: str) -> None:
+    """Raise InputError if a system has first-order states, for which an analysis is not defined."""
+    if system.states:
+        names = ", ".join(str(x) for x, _ in system.states)
+        raise InputError(f"{where}: the system has first-order states ({names}), and {why}")
 
 
 def reaction(name: str | int) -> sp.Symbol:
@@ -456,6 +498,8 @@ def constrained_accelerations(system: Equations) -> tuple[sp.Matrix, sp.Matrix]:
     """
     # cos² + sin², left in M, would fill det S of a body that rolls with thousands of terms.
     M, G = (_short(e) if system.residual else e for e in (system.mass_matrix, system.rows))
+    if not system.c.q:
+        return sp.zeros(0, 1), sp.zeros(0, 1)
     if system.ball_joints:
         raise SingularError(
             "accelerations: the mass matrix is singular along the length of a quaternion (det M = 0): "

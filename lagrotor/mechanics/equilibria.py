@@ -16,7 +16,7 @@ from lagrotor.algebra import decide_zero, derivative, normal_form
 from lagrotor.algebra.enclosed_roots import Box, kinks_in, roots_in_box
 from lagrotor.algebra.enclosures import enclosures
 from lagrotor.errors import InputError, LagrotorWarning, NotExactError, SingularError
-from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.equations import Equations, no_states
 from lagrotor.mechanics.expressions import by_symbol, put_in
 from lagrotor.mechanics.lagrangian import euler_lagrange, t
 from lagrotor.result_display import ShownInOneLine, scientific, text_of
@@ -41,6 +41,10 @@ class Equilibrium(ShownInOneLine):
         coordinate is necessary for rest but may not suffice: other coordinates decide.
     enclosure : mapping, default {}
         {coordinate: (lower, upper)}, rational bounds of the exact value, of an equilibrium in a box; `at` is then rounded.
+    residual : float or None, optional
+        The largest rate of a velocity or state that is left at an equilibrium from `System.rest`.
+    stability : str, default ""
+        The stability of that equilibrium to first order, in words.
 
     Examples
     --------
@@ -56,6 +60,8 @@ class Equilibrium(ShownInOneLine):
     domain: tuple[sp.Basic, ...] = ()
     regular: bool = True
     enclosure: Mapping[sp.Symbol, tuple[sp.Rational, sp.Rational]] = field(default_factory=dict)
+    residual: float | None = None
+    stability: str = ""
 
     def summary(self) -> dict[str, str]:
         """Return the configuration and its conditions in words.
@@ -70,6 +76,8 @@ class Equilibrium(ShownInOneLine):
             width = max(high - low for low, high in self.enclosure.values())
             rows["enclosed to"] = scientific(float(width), 1)
         rows |= {"where": text_of(self.domain)} if self.domain else {}
+        rows |= {} if self.residual is None else {"largest rate left": scientific(self.residual, 1)}
+        rows |= {"small motion": self.stability} if self.stability else {}
         return rows | ({} if self.regular else {"mass matrix": "singular there"})
 
 
@@ -97,10 +105,11 @@ def _in_box(
     system, values = put_functions("equilibria", system, values)
     if called := [str(name) for name, value in values.items() if isinstance(value, FunctionValue)]:
         raise InputError(f"equilibria: {called[0]} is a callable or a table: an enclosure needs an expression")
+    no_states("equilibria", system, "a box holds coordinates alone: leave out box and values, or use rest")
     c = system.c
     values = {name: value for name, value in values.items() if not isinstance(value, sp.Lambda)}
     if len(system.constraints) > 1:
-        raise InputError("equilibria: a box takes one constraint at most: solve the others by in_coordinates")
+        raise InputError("equilibria: a box takes one constraint at most: rest(near=…, values=…) takes several")
     if system.rolling:
         raise InputError("equilibria: with rolling, equilibria are not isolated: give linearise a point")
     symbols = system.letters | system.generalised_forces.free_symbols
@@ -200,7 +209,8 @@ def _equilibria(system: Equations, unknowns: str | Sequence[str | sp.Symbol]) ->
     lam = sp.Matrix(system.multipliers)
     force = euler_lagrange(system.L, c).subs(at_rest) - system.generalised_forces.subs(at_rest)
     pulled = (system.rows.T * lam).subs(at_rest) if len(lam) else sp.zeros(len(c.q), 1)
-    conditions = [e for e in (*(force - pulled), *system.constraints, *system.residual.subs(at_rest)) if e != 0]
+    rates = [f.subs(at_rest) for _, f in system.states]
+    conditions = [e for e in (*(force - pulled), *rates, *system.constraints, *system.residual.subs(at_rest)) if e != 0]
     if any(t in e.free_symbols for e in conditions):
         raise InputError("equilibria: a force or a constraint depends on time: there is no equilibrium; simulate it")
     targets = _unknowns(system, unknowns)
@@ -226,15 +236,12 @@ def _unknowns(system: Equations, unknowns: str | Sequence[str | sp.Symbol]) -> t
     if not isinstance(unknowns, Sequence):
         raise InputError(f"equilibria: unknowns = {unknowns!r} must be names of symbols, 'theta phi'")
     names = unknowns.replace(",", " ").split() if isinstance(unknowns, str) else unknowns
-    symbols = (system.letters | {*system.c.q} | system.generalised_forces.free_symbols) - {
-        *system.c.v,
-        *system.speeds,
-        t,
-    }
+    acting = system.generalised_forces.free_symbols.union(*(f.free_symbols for _, f in system.states))
+    symbols = (system.letters | {*system.variables} | acting) - {*system.c.v, *system.speeds, t}
     by_name = {str(s): s for s in sorted(symbols, key=str)}
     if strangers := [str(name) for name in names if str(name) not in by_name]:
         raise InputError(f"equilibria: no {', '.join(strangers)} in the system: solve for some of {', '.join(by_name)}")
-    return tuple(by_name[str(name)] for name in names) or system.c.q
+    return tuple(by_name[str(name)] for name in names) or (*system.c.q, *dict(system.states))
 
 
 def _polynomials(

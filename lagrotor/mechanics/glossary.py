@@ -185,6 +185,9 @@ def formulas(system: Equations) -> dict[str, list[str]]:
     def line(side: sp.Expr | str, right: sp.Expr = sp.S.Zero) -> str:
         return " = ".join(e if isinstance(e, str) else _side(e, rates, multipliers) for e in (side, right))
 
+    states = [line(rf"\dot{{{letter_latex(x)}}}", f.xreplace(velocities)) for x, f in system.states]
+    if not c.q:
+        return {"First-order states": states}
     still = system.L.subs(dict.fromkeys(c.v, 0))
     kinetic = sp.expand(system.L - still) if short else system.L - still
     sections = {"Kinetic energy": [line("T", kinetic.xreplace(velocities))], "Potential energy": [line("V", -still)]}
@@ -193,6 +196,8 @@ def formulas(system: Equations) -> dict[str, list[str]]:
     sections["Equations of motion"] = [line(e) for e in (_in_own_velocities(system) if velocities else system.motion)]
     if velocities:
         sections["Equations of motion"][:0] = [line(latex(v), e) for v, e in velocities.items() if v != e]
+    if states:
+        sections["First-order states"] = states
     if system.multipliers:
         rolling = enumerate(system.rolling, len(system.constraints))
         # Rows that q' = B u + b satisfies are not repeated.
@@ -227,7 +232,8 @@ def in_markdown(system: Equations) -> str:
 def in_latex(system: Equations) -> str:
     """Return the equations of motion and the constraints as an `align` of LaTeX: `System.latex`."""
     sections = formulas(system)
-    lines = [*sections.get("Equations of motion", sections.get("Bodies", [])), *sections.get("Constraints", [])]
+    headings = "Equations of motion", "Bodies", "First-order states", "Constraints"
+    lines = [line for heading in headings for line in sections.get(heading, [])]
     rows = " \\\\\n".join(line.replace(" = ", " &= ", 1) for line in lines)
     return f"\\begin{{align}}\n{rows}\n\\end{{align}}"
 

@@ -58,10 +58,10 @@ class Coordinates:
     a: tuple[sp.Symbol, ...]
 
     def __post_init__(self) -> None:
-        if not len(self.q) == len(self.v) == len(self.a) > 0:
+        if not len(self.q) == len(self.v) == len(self.a):
             raise InputError(
                 f"Coordinates: {len(self.q)} coordinates, {len(self.v)} velocities, {len(self.a)} accelerations: "
-                "each coordinate has one velocity and one acceleration; give equally many, at least one"
+                "each coordinate has one velocity and one acceleration; give equally many"
             )
         symbols = (*self.q, *self.v, *self.a, t)
         if repeated := sorted(str(s) for s, times in Counter(symbols).items() if times > 1):
@@ -132,9 +132,12 @@ def coordinates(names: str | Sequence[str]) -> Coordinates:
     return Coordinates(q, v, a)
 
 
+NO_COORDINATES = Coordinates((), (), ())  # of a system of first-order states alone
+
+
 def gradient(f: sp.Expr, symbols: Sequence[sp.Symbol]) -> sp.Matrix:
     """Return the column ∂f/∂s, one row for each symbol."""
-    return sp.Matrix(slopes(f, symbols))
+    return sp.Matrix(len(symbols), 1, slopes(f, symbols))
 
 
 def jacobian(rows: Sequence[sp.Expr], symbols: Sequence[sp.Symbol]) -> sp.Matrix:
@@ -285,7 +288,7 @@ def force_column(forces: Sequence[sp.Expr] | None, c: Coordinates, where: str) -
             f"{where}: {len(forces)} forces for {len(c.q)} coordinates: Q has one component for each coordinate; "
             "give 0 where no force acts"
         )
-    return sp.Matrix(list(forces))
+    return sp.Matrix(len(c.q), 1, list(forces))
 
 
 def dependent_rows(where: str, value: str) -> str:

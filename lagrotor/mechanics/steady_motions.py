@@ -50,7 +50,7 @@ def small_states(system: Equations) -> tuple[sp.Symbol, ...]:
     gone = {q for joint in system.ball_joints for q in joint.quaternion[1:]}
     turns = {q: [sp.Symbol(f"turn_{w}", real=True) for w in omega] for q, omega in first.items()}
     names = [turns.get(q, [q]) for q in system.c.q if q not in gone]
-    return (*(s for group in names for s in group), *system.speeds)
+    return (*(s for group in names for s in group), *system.variables[len(system.c.q) :])
 
 
 def small_turns(system: Equations, state: Any) -> tuple[list[list[Any]], list[list[Any]]]:
@@ -61,7 +61,7 @@ def small_turns(system: Equations, state: Any) -> tuple[list[list[Any]], list[li
     c, joints = system.c, {joint.quaternion[0]: joint for joint in system.ball_joints}
     gone = {q for joint in joints.values() for q in joint.quaternion[1:]}
     columns, rows = list[dict[int, Any]](), list[dict[int, Any]]()
-    for i, s in enumerate((*c.q, *system.speeds)):
+    for i, s in enumerate(system.variables):
         if s in joints:
             places = [c.q.index(q) for q in joints[s].quaternion]
             for row in quaternion_rows(*(state[j] for j in places)):
@@ -70,7 +70,7 @@ def small_turns(system: Equations, state: Any) -> tuple[list[list[Any]], list[li
         elif s not in gone:
             columns.append({i: 1})
             rows.append({i: 1})
-    d = len(c.q) + len(system.speeds)
+    d = len(system.variables)
     return [[e.get(j, 0) for e in columns] for j in range(d)], [[e.get(j, 0) for j in range(d)] for e in rows]
 
 
@@ -144,7 +144,8 @@ def state_equations(
     with time, or the point is off the constraints.
     """
     kinematics = system.kinematics
-    V, F = (sp.Matrix(system.c.v), system.motion) if kinematics is None else (kinematics.velocity, system.hamel)
+    plain = sp.Matrix(len(system.c.q), 1, system.c.v), system.motion
+    V, F = plain if kinematics is None else (kinematics.velocity, system.hamel)
     velocity_of = dict(zip(system.c.v, V, strict=True))
     named = [expression(f"linearise: outputs[{i}]", e) for i, e in enumerate(outputs)]
     measured = [_in_speeds(system, e, velocity_of) for e in named]
@@ -152,20 +153,23 @@ def state_equations(
     units = [joint.unit_length for joint in system.ball_joints]
     configuration = [g for g in system.constraints if g not in units]
     residual = [system.residual[i].xreplace(velocity_of) for i in system.left]
+    pairs = [(x, f.xreplace(velocity_of)) for x, f in system.states]
+    x_dot = sp.Matrix(len(pairs), 1, [f for _, f in pairs])
     symbols = system.L.free_symbols.union(
-        system.generalised_forces.free_symbols, *(e.free_symbols for e in system.residual)
+        system.generalised_forces.free_symbols, x_dot.free_symbols, *(e.free_symbols for e in system.residual)
     )
     inputs = tuple({str(s): s for s in symbols}.get(str(u), u) for u in inputs)
-    point = _place(system, at, inputs, [*F, *V], residual)
+    point = _place(system, at, inputs, [*F, *V, *x_dot], residual)
     evaluate = partial(_values, at, point)
-    state, rates, lam = (*system.c.q, *system.speeds), system.speed_rates, [system.multipliers[i] for i in system.left]
+    state, rates, lam = system.variables, system.speed_rates, [system.multipliers[i] for i in system.left]
     n, m, k = len(system.c.q), len(rates), len(lam)
     singular = f"linearise: the mass matrix is singular, or the constraints are dependent, at {dict(at)}: use other coordinates"
     saddle = jacobian(list(F), (*rates, *lam)).col_join(G.row_join(sp.zeros(k, k)))
     whole = sp.Matrix([put_in(e, dict.fromkeys(rates, sp.S.Zero)) for e in F]).col_join(gamma)
     free = whole.applyfunc(lambda e: put_in(e, dict.fromkeys(lam, sp.S.Zero)))
     solution = _solve_exactly(evaluate(saddle), -evaluate(free), singular)
-    if nonzero := [f"{a} = {e}" for a, e in zip(rates, solution[:m], strict=True) if decide_zero(e).answer != "zero"]:
+    changes = zip((*rates, *(f"{x}'" for x, _ in pairs)), (*solution[:m], *evaluate(x_dot)), strict=True)
+    if nonzero := [f"{a} = {e}" for a, e in changes if decide_zero(e).answer != "zero"]:
         raise SingularError(f"linearise: {dict(at)} is no steady motion: {', '.join(nonzero)} is not zero")
     point |= dict(zip(lam, solution[m:], strict=True))
     P, P_inverse = map(sp.Matrix, small_turns(system, state))
@@ -174,8 +178,10 @@ def state_equations(
     response, size = _solve_exactly(evaluate(saddle), -evaluate(slope), singular), P.cols
     turning = P[:n, :].applyfunc(lambda e: along(e, system.c.q, V))
     carried = evaluate(jacobian(list(V), state) * P - turning).row_join(sp.zeros(n, len(inputs)))
-    both = evaluate(P_inverse) * carried.col_join(response[:m, :])
-    places, T = _tangent(evaluate(jacobian([*configuration, *residual], state) * P), size, len(configuration), size - m)
+    of_states = evaluate((jacobian(list(x_dot), state) * P).row_join(jacobian(list(x_dot), inputs)))
+    both = evaluate(P_inverse) * carried.col_join(response[:m, :]).col_join(of_states)
+    bound = evaluate(jacobian([*configuration, *residual], state) * P)
+    places, T = _tangent(bound, size, len(configuration), size - m - len(pairs))
     independent = [i for i in range(size) if i not in places]
     sensitivity = (jacobian(measured, state) * P).row_join(jacobian(measured, inputs))
     y = evaluate(sensitivity) + evaluate(jacobian(measured, (*rates, *lam))) * response
@@ -225,8 +231,8 @@ def _place(
     """
     c, speeds, equations = system.c, system.speeds, [*motion, *system.residual]
     used = set[sp.Basic]().union(*(e.free_symbols for e in equations))
-    symbols = {*c.q, *speeds} | system.L.free_symbols | system.generalised_forces.free_symbols | used
-    if strangers := [str(u) for u in inputs if u not in symbols or u in (*c.q, *c.v, *speeds, t)]:
+    symbols = {*system.variables} | system.L.free_symbols | system.generalised_forces.free_symbols | used
+    if strangers := [str(u) for u in inputs if u not in symbols or u in (*c.v, *system.variables, t)]:
         raise InputError(
             f"linearise: inputs {', '.join(strangers)} are no symbols of forces or constraints: leave them out"
         )
@@ -242,9 +248,9 @@ def _place(
             raise InputError(f"linearise: {no_turn(joint.quaternion, 0)}")
     if any(decide_zero(derivative(e, t)).answer != "zero" for e in equations):
         raise InputError("linearise: it depends on time explicitly: write a symbol for an input F(t), or simulate it")
-    if missing := [str(q) for q in c.q if q not in point and q in used]:
+    if missing := [str(q) for q in (*c.q, *(x for x, _ in system.states)) if q not in point and q in used]:
         raise InputError(f"linearise: {', '.join(missing)} without a value: give the point a value for each coordinate")
-    values = dict.fromkeys((*c.q, *c.v, *c.a, *speeds, *system.speed_rates, *inputs), sp.S.Zero)
+    values = dict.fromkeys((*c.v, *c.a, *system.variables, *system.speed_rates, *inputs), sp.S.Zero)
     values |= {s: expression(f"linearise: {s}", x) for s, x in point.items()}
     residuals = _values(at, values, sp.Matrix([*system.constraints, *residual]))
     if wrong := [e for e in residuals if decide_zero(e).answer == "nonzero"]:

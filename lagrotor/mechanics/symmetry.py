@@ -24,7 +24,7 @@ from lagrotor.algebra import Decision, along, decide_equal, decide_zero, derivat
 from lagrotor.algebra.enclosures import apart, solved_at
 from lagrotor.algebra.evidence import points
 from lagrotor.errors import DomainError, InputError, NotASymmetryError, NotExactError
-from lagrotor.mechanics.equations import Equations, constrained_accelerations
+from lagrotor.mechanics.equations import Equations, constrained_accelerations, no_states, time_derivative
 from lagrotor.mechanics.expressions import expression, longer, put_in, shortest
 from lagrotor.mechanics.lagrangian import (
     Coordinates,
@@ -88,7 +88,7 @@ def variation(system: Equations, xi: Sequence[sp.Expr]) -> sp.Expr:
 def invariance(system: Equations, xi: Sequence[sp.Expr], gauge: sp.Expr = sp.S.Zero) -> Decision:
     """Decide if δL + Q · ξ = dF/dt and G ξ = 0 identically: `System.invariance`."""
     gauge = expression("noether: gauge", gauge)
-    if higher := gauge.free_symbols & {*system.c.a}:
+    if higher := gauge.free_symbols & {*system.c.a, *dict(system.states)}:
         raise InputError(
             f"noether: gauge = {gauge} contains {', '.join(map(str, higher))}: F depends on q, v and t alone"
         )
@@ -121,13 +121,13 @@ def noether_rate(system: Equations, xi: Sequence[sp.Expr]) -> sp.Expr:
 def conserved(system: Equations, f: sp.Expr) -> Decision:
     """Decide if df/dt vanishes with the accelerations put in: `System.conserved`."""
     f = expression("conserved: f", f)
-    if f.free_symbols & {*system.c.a} or not f.free_symbols & {*system.c.q, *system.c.v, *system.speeds, t}:
+    if f.free_symbols & {*system.c.a} or not f.free_symbols & {*system.c.v, *system.variables, t}:
         raise InputError(f"conserved: f = {f} must be an expression in q, v and t")
     if system.kinematics is not None and not system.kinematics.stages and not system.left:
         rate = _rate_along_speeds(system, f)
     else:
         a, _ = constrained_accelerations(system)
-        rate = total_derivative(f, system.c).xreplace(dict(zip(system.c.a, a, strict=True)))
+        rate = time_derivative(system, f).xreplace(dict(zip(system.c.a, a, strict=True)))
     decision = decide_zero(rate)
     if decision.answer == "nonzero" and system.multipliers:
         return replace(decision, answer="undecided", reason=f"Off the constraints df/dt is not zero. {decision.reason}")
@@ -142,7 +142,9 @@ def _rate_along_speeds(system: Equations, f: sp.Expr) -> sp.Expr:
     M, h = boltzmann_hamel(system.L, c, relation, u)
     singular = f"conserved: the mass matrix is singular in {', '.join(map(str, u))}: use fewer coordinates"
     rates = linear_solve(M, relation.B.T * system.generalised_forces.xreplace(velocities) - h, singular)
-    rate = along(f.xreplace(velocities), (*c.q, t, *u), (*relation.velocity, 1, *rates))
+    x, x_dot = zip(*system.states, strict=True) if system.states else ((), ())
+    rates = [*rates, *(e.xreplace(velocities) for e in x_dot)]
+    rate = along(f.xreplace(velocities), (*c.q, t, *u, *x), (*relation.velocity, 1, *rates))
     unit = {q[0]: sp.sqrt(1 - sum(x**2 for x in q[1:])) for q in (joint.quaternion for joint in system.ball_joints)}
     return rate.xreplace(unit)
 
@@ -182,6 +184,7 @@ def legendre(L: sp.Expr, c: Coordinates, p: Sequence[sp.Symbol]) -> sp.Expr:
 
 def routh(system: Kind, cyclic: str | Sequence[str | sp.Symbol] | Mapping[str | sp.Symbol, sp.Expr]) -> Kind:
     """Reduce a system by cyclic coordinates: `System.routh`."""
+    no_states("routh", system, "the reduction does not carry them over: write the reduced system with its states")
     c, L = system.c, system.L
     chosen = _momenta(c, cyclic)
     free = cyclic_coordinates(system)
@@ -282,6 +285,8 @@ def _vanish(expressions: Sequence[sp.Expr]) -> bool:
 def _field(system: Equations, xi: Sequence[sp.Expr]) -> sp.Matrix:
     fits = isinstance(xi, Sequence | sp.MatrixBase) and not isinstance(xi, str) and len(xi) == len(system.c.q)
     field = sp.Matrix([expression(f"noether: ξ[{i}]", e) for i, e in enumerate(xi)]) if fits else sp.Matrix()
+    if not system.c.q or field.free_symbols & {*dict(system.states)}:
+        no_states("noether", system, "a symmetry acts on coordinates: conserved(f) decides about f(q, v, x, t)")
     if not fits or field.free_symbols & {*system.c.a}:
         raise InputError(
             f"noether: ξ = {xi}: give one component ξ(q, v, t) for each of {system.c.q}, without accelerations"
@@ -296,6 +301,8 @@ def same_as(system: Equations, other: Equations) -> Decision:
     """Decide if two systems have the same accelerations: `System.same_as`."""
     if not isinstance(other, Equations):
         raise InputError(f"same_as: {other!r} is no System: give one to compare with")
+    for each in (system, other):
+        no_states("same_as", each, "their rates are not compared: compare the systems without them")
     if system.c != other.c:
         raise InputError(
             f"same_as: {system.c.q} and {other.c.q} are not the same coordinates: write one system in those of the other "
@@ -388,4 +395,5 @@ def in_coordinates(system: Kind, c: Coordinates, where: Mapping[sp.Symbol, sp.Ex
         dissipation=rewritten(system.dissipation),
         forces=forces,
         velocities=tuple((u, rewritten(e)) for u, e in system.velocities),
+        states=tuple((x, rewritten(f)) for x, f in system.states),
     )

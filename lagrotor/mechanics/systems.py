@@ -13,6 +13,7 @@ from lagrotor.mechanics import equilibria, glossary, steady_motions, symmetry, w
 from lagrotor.mechanics.canonical import hamiltonians
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.equilibria import Equilibrium
+from lagrotor.mechanics.expressions import in_order
 from lagrotor.mechanics.from_sympy import parts_from_sympy
 from lagrotor.mechanics.lagrangian import Coordinates
 from lagrotor.renamed import accept_old_keywords
@@ -66,6 +67,9 @@ class System(Equations):
         The names of the constraints and then of the rolling constraints.
     velocities : mapping
         Quasi-velocities {u: expression affine in v}: one for each coordinate, or fewer if constraints determine the rest.
+    states : mapping
+        First-order states {x: f}, x' = f(q, v, x, t), for example the current of a motor. Forces, dissipation and other rates
+        may contain x. System(states={…}), without coordinates, is a system of first-order equations.
 
     Examples
     --------
@@ -359,6 +363,48 @@ class System(Equations):
         """
         return equilibria.equilibria(self, unknowns, values, box)
 
+    def rest(self, near: "Mapping[Any, Any] | Equilibrium", values: "Values") -> Equilibrium:
+        """Find the equilibrium to which Newton's method leads from a configuration, also in closed loops.
+
+        The steps stay in the neighbourhood, and the last ones go to rounding, so that `linearise` takes the result. It may be
+        unstable. If equilibria are not isolated, it is one of them.
+
+        Parameters
+        ----------
+        near : mapping or Equilibrium
+            {coordinate or state: number} for those that forces and constraints contain; it is first moved onto the constraints.
+        values : mapping
+            {symbol or name: number} for all parameters.
+
+        Returns
+        -------
+        Equilibrium
+            The coordinates and first-order states, the largest rate that is left, and the stability to first order.
+
+        Raises
+        ------
+        InputError
+            If a force or a constraint depends on time, or a force jumps.
+        ConstraintError
+            If no configuration near to the given one satisfies the constraints.
+        SingularError
+            If Newton's method does not converge.
+
+        Examples
+        --------
+        >>> from sympy import cos
+        >>> from lagrotor.mechanics import coordinates
+        >>> c = coordinates("x theta")
+        >>> swing = System(c, (c.x_dot**2 + c.theta_dot**2) / 2 + cos(c.theta) - c.x**2, constraints=(c.x - c.theta - 1,))
+        >>> place = swing.rest({"x": 1, "theta": 0}, {})
+        >>> round(place.at[c.theta], 6), place.residual < 1e-14
+        (-0.684037, True)
+        """
+        from lagrotor.mechanics.running import function_values, nearest_rest
+
+        self, values = function_values.put_functions("rest", self, values)
+        return nearest_rest.nearest_rest(self, near.at if isinstance(near, Equilibrium) else near, values)
+
     def same_as(self, other: Equations) -> Decision:
         """Decide if two systems have the same accelerations in the same coordinates.
 
@@ -499,7 +545,7 @@ class System(Equations):
 
     def __repr__(self) -> str:
         many, written = len(self.bodies), not self.bodies or len(self.c.q) <= _FEW
-        rows = {"coordinates": text_of(self.c.q), "L": text_of(self.L) if written else LONG}
+        rows = {"coordinates": text_of(self.c.q), "L": text_of(self.L) if written else LONG} if self.c.q else {}
         if many and rows["L"] == LONG:
             rows["L"] = f"the energy of {many} {'body' if many == 1 else 'bodies'}"
         for name in ("constraints", "rolling"):
@@ -511,6 +557,7 @@ class System(Equations):
             rows["forces"] = text_of(self.forces)
         if self.dissipation != 0:
             rows["dissipation"] = text_of(self.dissipation)
+        rows |= {f"{x}'": text_of(f) for x, f in self.states}
         return in_lines("System", rows)
 
     def latex(self) -> str:
@@ -558,8 +605,9 @@ class System(Equations):
         Returns
         -------
         LinearSystem, StateEquations or StateSpace
-            Without values M a + C v + K q = 0 in symbols, a `LinearSystem`. With inputs or outputs, or about a motion that
-            rolls or is written in quasi-velocities, x' = A x + B u, y = C x + D u in symbols, a `StateEquations`.
+            Without values M a + C v + K q = 0 in symbols, a `LinearSystem`. With inputs, outputs or first-order states, or
+            about a motion that rolls or is written in quasi-velocities, x' = A x + B u, y = C x + D u in symbols, a
+            `StateEquations`.
             With values the same in numbers with the eigenvalues of A in 1/s, a `StateSpace`.
 
         Raises
@@ -595,7 +643,7 @@ class System(Equations):
         if values is None:
             moves = any(str(s) in map(str, self.speeds) and x != 0 for s, x in dict(point).items())
             carried = self.kinematics and any(self.kinematics.velocity.xreplace(dict.fromkeys(self.speeds, sp.S.Zero)))
-            if inputs or outputs or carried or (moves and (self.rolling or self.kinematics)):
+            if inputs or outputs or carried or self.states or (moves and (self.rolling or self.kinematics)):
                 return steady_motions.state_equations(self, point, inputs, outputs)
             return steady_motions.linearise(self, at)
         from lagrotor.mechanics.running import function_values, state_space
@@ -775,7 +823,8 @@ class System(Equations):
         Returns
         -------
         callable
-            (t, y) → y' for the state y = (q, v), 2 n numbers, or (q, u), n + m numbers, with m quasi-velocities u.
+            (t, y) → y' for the state y = (q, v), 2 n numbers, or (q, u), n + m numbers, with m quasi-velocities u, each
+            followed by the first-order states.
 
         Examples
         --------
@@ -793,13 +842,14 @@ class System(Equations):
     def simulate(
         self,
         values: "Values",
-        q0: "Start",
+        q0: "Start" = (),
         v0: "Start | None" = None,
         t: "ArrayLike | None" = None,
         tol: float = 1e-9,
         engine: "Engine" = "core",
         events: "Event | Impact | Sequence[Event | Impact]" = (),
         progress: "Callable[[float], None] | None" = None,
+        x0: "Start" = (),
     ) -> "SystemRun":
         """Integrate the equations of motion. Where forces contain sign(w), or the dissipation |w|, bodies can stick and slip.
 
@@ -823,7 +873,7 @@ class System(Equations):
         t : array_like
             Increasing times in s, shape (k,), which every run needs.
         tol : float, default 1e-09
-            The largest error of the whole run, from 1e-13 to 0.1, relative to the sizes of coordinates and velocities.
+            The largest error of the whole run, from 1e-13 to 0.1, relative to the sizes of coordinates, velocities and states.
             `run.error` and `run.errors` estimate it. It is below `tol` until the time `run.horizon`; a LagrotorWarning says so
             if that is before the end.
         engine : Engine, default 'core'
@@ -832,6 +882,8 @@ class System(Equations):
             Conditions that change the velocities or end the run.
         progress : callable or None, optional
             Called with the time in s of each evaluation, or of each step of a run with events.
+        x0 : array_like or mapping, default ()
+            The first-order states at t[0]: an array, or {symbol or name: number} for each.
 
         Returns
         -------
@@ -865,4 +917,5 @@ class System(Equations):
                 "simulate: t, the times in s, is missing: without v0 give it by name, t=np.linspace(0, 10, 101)"
             )
         q, v = initial_state.numbers_of_start("simulate", self, q0, v0)
-        return simulation.simulate_system(self, values, q, v, t, tol, engine, events, progress)
+        x = in_order("simulate: x0", x0, [x for x, _ in self.states])
+        return simulation.simulate_system(self, values, q, v, t, tol, engine, events, progress, x)

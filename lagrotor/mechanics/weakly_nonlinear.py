@@ -37,7 +37,7 @@ from sympy.polys.matrices import DomainMatrix
 
 from lagrotor.algebra import decide_zero, truncated_series
 from lagrotor.errors import DomainError, InputError, SingularError
-from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.equations import Equations, no_states
 from lagrotor.mechanics.expressions import by_symbol, expression, no_letter, shortest
 from lagrotor.mechanics.fourier import Coefficient, FourierSeries, Series, Waves, constant_series, forget
 from lagrotor.mechanics.lagrangian import t
@@ -759,6 +759,7 @@ def _expression_of(u: FourierSeries, field: Domain, phase: sp.Expr, small: sp.Sy
 
 
 def _check_one(where: str, system: Equations, order: int, small: sp.Symbol) -> None:
+    no_states(where, system, "the series are of one coordinate alone: simulate it, or use floquet")
     if len(system.c.q) != 1 or system.multipliers:
         raise InputError(
             f"{where}: one coordinate without constraints is taken: eliminate others by routh if cyclic, constraints by "

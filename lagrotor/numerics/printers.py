@@ -44,9 +44,13 @@ class _Printer(AbstractPythonCodePrinter):  # type: ignore[misc]
         return f"{expr.func}({', '.join(map(self._print, expr.args))})"
 
     def _print_sech(self, expr: sp.sech) -> str:
-        """Print sech without cosh, which overflows for arguments above 711, where sech is zero."""
-        small = sp.exp(-sp.Abs(expr.args[0]))
-        return f"({self._print(2 * small)}/({self._print(1 + small**2)}))"
+        """Print sech without cosh, which overflows for arguments above 711, where sech is zero. In numpy's code √x² replaces |x|,
+        which has no derivative by a complex step."""
+        x = sp.Dummy("x")
+        small = sp.exp(-(sp.sqrt(x**2) if self.module == "numpy" else sp.Abs(x)))
+        source = f"({self._print(2 * small)}/({self._print(1 + small**2)}))"
+        inside = self._print(expr.args[0])
+        return source.replace(self._print(x), f"({inside})" if self.module == "numpy" else inside)
 
     def _print_not_supported(self, expr: sp.Expr) -> str:
         raise InputError(f"{expr} has no code in Python's {self.module} module: write it with elementary functions")
@@ -203,7 +207,7 @@ def rhs_source(
     lines = _assignments(moving, reduced, show, program.shared)
     checks = [f"{show.doprint(e)} > 0" for e in bounds]
     body = [
-        f"{', '.join(map(str, state))} = y.tolist()",
+        f"{', '.join(map(str, state))}{',' * (states == 1)} = y.tolist()",
         *([f"if begin is not None: {state[clock]} = begin + s"] if clock is not None else []),
         *(["pulse = exp(-(s / width) ** 2)", *(f"{f} = peak_{f} * pulse" for f in force)] if driven else []),
         *lines,

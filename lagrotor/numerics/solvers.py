@@ -72,7 +72,8 @@ def dop853_steps(segment: Segment, error: float) -> Iterator[Any]:
             limit = _TURN * (1 + np.abs(solver.y).max()) / (np.abs(solver.f).max() + 1e-300)
             solver.max_step = min(segment.longest, limit, segment.clear(solver.y))
         t, y = solver.t, solver.y
-        message = solver.step()
+        with np.errstate(over="ignore", invalid="ignore"):  # a step too long in a stiff motion, which scipy repeats
+            message = solver.step()
         if solver.status == "failed" or not np.isfinite(solver.y).all():
             reached = Stretch(np.empty((0, len(y))), y, solver.nfev)
             raise StopError(t, message or "a value is not finite", reached)

@@ -16,7 +16,7 @@ import numpy as np
 import sympy as sp
 
 from lagrotor.errors import ConstraintError, InputError, SingularError
-from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.equations import Equations, no_states
 from lagrotor.mechanics.expressions import in_order, repeated_name
 from lagrotor.mechanics.lagrangian import Coordinates, coordinates, t
 from lagrotor.mechanics.running.programs import constrained_motion, depends_on_time
@@ -235,6 +235,7 @@ def system_field(system: Equations, values: Values, q0: Any, v0: Any) -> Field:
     if system.velocities:
         speeds = ", ".join(map(str, system.speeds))
         raise InputError(f"proofs: the system is written in {speeds}, quasi-velocities: leave them out")
+    no_states("proofs", system, "a field of a System has none: give a Program of all first-order equations")
     system = with_rationals(system)
     n, timed = len(system.c.q), depends_on_time(system)
     stages, accelerations, _ = constrained_motion(system)

@@ -20,7 +20,7 @@ import sympy as sp
 
 from lagrotor.algebra import Decision, decide_equal, decide_zero, derivative
 from lagrotor.errors import DomainError, InputError, SingularError
-from lagrotor.mechanics.equations import Equations
+from lagrotor.mechanics.equations import Equations, no_states
 from lagrotor.mechanics.expressions import by_symbol, expression, no_letter, shortest, vector_of
 from lagrotor.mechanics.lagrangian import gradient, jacobian, linear_solve, t
 from lagrotor.mechanics.symmetry import legendre
@@ -301,6 +301,7 @@ def hamiltonian(system: Equations, momenta: Sequence[sp.Symbol] | None = None) -
             "hamiltonian: forces, friction and constraints have no Hamiltonian here: write potentials of forces into L, and use "
             "independent coordinates, System.in_coordinates"
         )
+    no_states("hamiltonian", system, "they have no momenta: leave them out, or make each a coordinate")
     c, L = system.c, system.L
     if momenta is not None and not isinstance(momenta, Iterable):
         raise InputError(f"hamiltonian: momenta = {momenta!r} must be symbols, one for each of {c.q}")

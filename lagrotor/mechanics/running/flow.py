@@ -24,8 +24,7 @@ _LIKE = 8.0  # ratio of a component to one up to which no component is scaled
 
 
 def rhs(system: Equations, values: Values, engine: Engine = "core") -> Rhs:
-    """Return the right-hand side for `System.rhs`, a function of the time t and the state y = (q, u) that returns (v, u'). Both
-    arrays have shape (N + m,)."""
+    """Return the right-hand side for `System.rhs`, a function of the time t and the state y = (q, u, x) that returns y'."""
     check_engine(engine)
     program = motion_program(system)
     parameters = parameter_values(program, values, "rhs")
@@ -33,14 +32,15 @@ def rhs(system: Equations, values: Values, engine: Engine = "core") -> Rhs:
         raise InputError("rhs: engine='fast' takes no callable and no table for a function: use engine='core'")
     fast = engine == "fast"
     function = taylor_rhs(program.program, len(program.states), parameters) if fast else program.rhs(*parameters)
-    timed, shape = depends_on_time(system), (len(system.c.q) + len(system.speeds),)
-    speeds = "u" if system.kinematics else "q'"
+    timed, shape = depends_on_time(system), (len(system.variables),)
+    parts = "q and then " * bool(system.c.q) + ("u" if system.kinematics else "q'") * bool(system.c.q)
+    parts += (", then " * bool(parts) + "the states") * bool(system.states)
 
     def rate(t: float, y: Any) -> Any:
         if getattr(y, "shape", None) != shape or y.dtype.kind not in "iuf":
             state = real_array(y)
             if state is None or state.shape != shape:
-                raise InputError(f"rhs: y = {y!r} must be {shape[0]} numbers, q and then {speeds}")
+                raise InputError(f"rhs: y = {y!r} must be {shape[0]} numbers, {parts}")
             y = state
         return function(t, np.append(y, t))[:-1] if timed else function(t, y)
 

@@ -129,7 +129,7 @@ def put_functions(where: str, system: Kind, values: Any, others: Sequence[sp.Exp
         places = {f.args for f in applied if str(f.func) == name}
         resolved = _value(where, name, places, value)
         if isinstance(resolved, sp.Lambda):
-            if moving := resolved.free_symbols & {*system.c.q, *system.c.v, *system.c.a, t}:
+            if moving := resolved.free_symbols & {*system.c.v, *system.c.a, *system.variables, t}:
                 raise InputError(
                     f"{where}: {name} = {resolved.expr} contains {', '.join(sorted(map(str, moving)))}, but "
                     f"{applied[0]} does not depend on it: write it into the system, {name} with more arguments"
@@ -171,6 +171,7 @@ def _with_expressions(system: Kind, lambdas: Mapping[str, sp.Lambda]) -> Kind:
         dissipation=put(system.dissipation),
         forces=tuple(map(put, system.forces)),
         velocities=tuple((u, put(e)) for u, e in system.velocities),
+        states=tuple((x, put(f)) for x, f in system.states),
     )
 
 

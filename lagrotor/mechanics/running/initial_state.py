@@ -27,6 +27,7 @@ from lagrotor.mechanics.running.programs import (
     tree_motion,
     velocities_along,
 )
+from lagrotor.mechanics.running.redundant_constraints import without_redundant
 from lagrotor.mechanics.running.singular_positions import mass_at, rows_at
 from lagrotor.mechanics.steady_motions import no_turn
 from lagrotor.numerics.arrays import finite_array, real_array
@@ -45,7 +46,7 @@ def check_values(where: str, system: Equations, values: Values, others: Iterable
     of another system is ignored, so that several systems can share one dictionary."""
     if not isinstance(values, Mapping):
         raise InputError(f"{where}: values = {values!r} must be {{symbol: number, …}}, a dictionary")
-    moving = {*system.c.q, *system.c.v, *system.c.a, *system.speeds, time}
+    moving = {*system.c.v, *system.c.a, *system.variables, time}
     acting = (*system.acting, *others, *(e for _, e in system.velocities))
     every = system.letters.union(*(getattr(e, "free_symbols", ()) for e in acting))
     letters = {str(s): s for s in every if s not in moving}
@@ -95,7 +96,7 @@ def check_pole(where: str, system: Equations, values: Values, state: Array) -> N
     kinematics = system.kinematics
     if kinematics is None:
         return
-    size = len(system.c.q) + len(system.speeds)
+    size = len(system.variables)
     at, now = state[None, :size], np.append(state, 0.0)[size : size + 1]
     speeds = ", ".join(map(str, system.speeds))
     poles = [function_program(system, e).along(values)(at, now).item() for e in kinematics.poles]
@@ -152,6 +153,8 @@ def consistent(
     `System.consistent`. Distances are measured by the mass matrix; for quasi-velocities they are Euclidean."""
     n, m, h = len(system.c.q), len(system.speeds), len(system.constraints)
     q, v = state_vector(where, "q0", q0, n), state_vector(where, "v0", v0, m, system)
+    if not system.c.q:
+        return q, v
     for joint in system.ball_joints:
         if (size := float(np.linalg.norm(q[[system.c.q.index(s) for s in joint.quaternion]]))) < _LEAST_NORM:
             raise InputError(f"{where}: {no_turn(joint.quaternion, size)}")
@@ -172,8 +175,14 @@ def consistent(
         try:
             placed = project_position(lambda at: matrices(at, v)[1], lambda at: matrices(at, v)[2], q, metric_there)
         except (ConstraintError, SingularError) as error:
+            reduced, redundancy = without_redundant(where, system, values, q, v, float(arguments[0]), True)
+            if redundancy is not None:
+                return consistent(where, reduced, values, q0, v0, t)
             raise type(error)(str(error).replace("project_position", where, 1)) from None
         q = np.asarray(placed, float)
+    reduced, redundancy = without_redundant(where, system, values, q, v, float(arguments[0]))
+    if redundancy is not None:
+        return consistent(where, reduced, values, q, v0, t)
     mass, _, _, slope, offset = matrices(q, np.zeros(m))  # b, so that G u + b = 0
     if not system.left:
         return q, v
@@ -222,12 +231,15 @@ def metric(mass: Array, slope: Array) -> Array:
 
 
 def state_vector(where: str, name: str, numbers: ArrayLike, n: int, system: Equations | None = None) -> Array:
-    """Check that `numbers` are n finite numbers, and return them, shape (n,). If a system is given, they are its velocities."""
+    """Check that `numbers` are n finite numbers, and return them, shape (n,). If a system is given, they are its velocities, or
+    its first-order states if their name is x0."""
     vector = real_array(numbers)
     if vector is None:
         raise InputError(f"{where}: {name} = {numbers!r} must be {n} numbers")
     if vector.shape != (n,) or not np.isfinite(vector).all():
         quasi = system is not None and system.kinematics is not None
         meaning = f"of {', '.join(map(str, system.speeds))}" if system and quasi else "one for each coordinate"
+        if system and name == "x0":
+            meaning = f"of {', '.join(str(x) for x, _ in system.states) or 'no state, as the system has none'}"
         raise InputError(f"{where}: {name} = {numbers!r} must be {n} finite numbers, {meaning}")
     return vector

@@ -97,15 +97,14 @@ def monodromy_matrix(system: Equations, at: Mapping[Any, Any], values: Values, p
     begin = _number(given_time)
     if not np.isfinite(begin):
         raise InputError(f"floquet: t = {given_time!r} must be a time in s")
-    program = motion_program(system)
-    n, d = len(system.c.q), len(program.states)
-    size = n + len(system.speeds)
     place = {s: x for s, x in at.items() if str(s) != str(t)} if isinstance(at, Mapping) else at
-    state = point_state("floquet", system, place, values, begin)
+    system, state = point_state("floquet", system, place, values, begin)
+    program = motion_program(system)
+    n, d, size = len(system.c.q), len(program.states), len(system.variables)
     free, T = tangent_space("floquet", system, values, state, begin)
     start = np.append(state, [begin] * (d - size))
     slope, width = motion_slope("floquet", program, values), T.shape[1]
-    check_smooth("floquet", slope, start, [f"the rate of {s}" for s in (*system.c.q, *system.speeds)], at)
+    check_smooth("floquet", slope, start, [f"the rate of {s}" for s in system.variables], at)
     first, P, _ = local_slope(system, state, *_at(slope(start), size))
     largest = max(1.0, float(np.abs(start).max()))
 
@@ -201,11 +200,11 @@ def lyapunov_exponent(run: SampledMotion) -> Lyapunov:
             "lyapunov: the motion has events or forces that jump, and its linearised motion, which jumps too, is not "
             "computed: use forces without jumps"
         )
-    program, n = tangent_motion(motion_program(run.system)), run.q.shape[1] + run.u.shape[1]
+    program, n = tangent_motion(motion_program(run.system)), len(run.system.variables)
     parameters, d = parameter_values(program, run.values), len(program.states) // 2
     project = projection_of(run.system, run.values) if run.system.multipliers else None
     grid = np.linspace(run.t[0], run.t[-1], _PIECES + 1)
-    y = np.concatenate([run.q[0], run.u[0], [run.t[0]] * (d - n)])
+    y = np.append(run.states[0, :n], [run.t[0]] * (d - n))
     tangent = np.append(np.random.default_rng(1).normal(size=n), [0.0] * (d - n))  # time is not displaced
     growth = np.zeros(_PIECES)
     for i, h in enumerate(np.diff(grid)):

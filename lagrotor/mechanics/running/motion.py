@@ -20,6 +20,7 @@ from lagrotor.mechanics.running.function_values import FunctionValue, with_value
 from lagrotor.mechanics.running.phases import Observer, Switched, march
 from lagrotor.mechanics.running.phases import evaluate as evaluate_in_phases
 from lagrotor.mechanics.running.programs import energy_program, function_program, velocities_along
+from lagrotor.mechanics.running.redundant_constraints import Redundancy
 from lagrotor.mechanics.running.scales import Scales
 from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.integrate import Engine
@@ -42,6 +43,7 @@ class SampledMotion(Run):
     states: Array
     local: float
     switched: Switched
+    redundancy: Redundancy | None = None
 
     @property
     def q(self) -> Array:
@@ -86,6 +88,21 @@ class SampledMotion(Run):
         n = len(self.system.c.q)
         return self.states[:, n : n + len(self.system.speeds)]
 
+    @property
+    def x(self) -> Array:
+        """The k first-order states at the n times, shape (n, k).
+
+        Examples
+        --------
+        >>> from sympy import Symbol
+        >>> from lagrotor.mechanics import System
+        >>> x = Symbol("x", real=True)
+        >>> System(states={x: -x}).simulate({}, t=[0, 1], x0={"x": 1}).x.round(6).T
+        array([[1.      , 0.367879]])
+        """
+        first = len(self.system.c.q) + len(self.system.speeds)
+        return self.states[:, first : len(self.system.variables)]
+
     def summary(self) -> dict[str, str]:
         """Summarise the coordinates, the times, the error and the ending in words.
 
@@ -101,7 +118,8 @@ class SampledMotion(Run):
         >>> System(c, c.v[0]**2 / 2).simulate({}, (0,), (1,), [0, 1]).summary()["ending"]
         'the last time was reached'
         """
-        return {"coordinates": text_of(self.system.c.q)} | super().summary()
+        rows = {"coordinates": self.system.c.q, "states": tuple(dict(self.system.states))}
+        return {name: text_of(symbols) for name, symbols in rows.items() if symbols} | super().summary()
 
     @property
     def energy(self) -> Array:
@@ -129,6 +147,7 @@ class SampledMotion(Run):
         True
         """
         residuals = (*self.system.constraints, *self.system.residual)
+        residuals += self.redundancy.residuals if self.redundancy else ()
         return np.abs(self._values(*residuals)).max(0) if residuals else np.zeros(len(self.t))
 
     @property
@@ -136,6 +155,7 @@ class SampledMotion(Run):
         """The multipliers by the names of their constraints, shape (n,) each.
 
         The names are 1, 2, … unless the system gives others. For a gap in m or a slip in m/s the multiplier is a force in N.
+        Redundant constraints share a force that the motion does not divide among them: InputError is raised for their names.
 
         Examples
         --------
@@ -146,7 +166,10 @@ class SampledMotion(Run):
         array([-0.5, -0.5])
         """
         both = zip(self.system.multiplier_names, self.system.multipliers, strict=True)
-        return {name: self.evaluate(lam) for name, lam in both}
+        lost = self.redundancy.undetermined if self.redundancy else ()
+        reactions = _Reactions((name, self.evaluate(lam)) for name, lam in both if name not in lost)
+        reactions.redundancy = self.redundancy
+        return reactions
 
     def evaluate(self, expression: sp.Expr | str) -> Array:
         """Evaluate an expression along the run.
@@ -185,6 +208,8 @@ class SampledMotion(Run):
                 )
             expression = names[expression]
         e = with_values(checked("evaluate: expression", expression), self.values)
+        if self.redundancy and (lost := e.free_symbols & self.redundancy.symbols):
+            raise InputError(f"evaluate: {min(lost, key=str)} is not determined: {self.redundancy.words}")
         if self.switched.smooth:
             return self._values(e)[0]
         return evaluate_in_phases(self.switched, e, self.t, self.states)
@@ -233,7 +258,7 @@ class SampledMotion(Run):
         return replace(with_states(self, instants, states), evaluations=evaluations)
 
     def quantities(self) -> dict[str, Quantity]:
-        """Return coordinates, velocities, energy and, with constraints, their violation.
+        """Return coordinates, velocities, states, energy and, with constraints, their violation.
 
         Returns
         -------
@@ -248,9 +273,11 @@ class SampledMotion(Run):
         ['x', 'x_dot', 'energy']
         """
         c, system = self.system.c, self.system
-        names, columns = (*c.q, *c.v, *system.speeds), (*self.q.T, *self.v.T, *self.u.T)
+        names = (*c.q, *c.v, *system.variables[len(c.q) :])
+        columns = (*self.q.T, *self.v.T, *self.u.T, *self.x.T)
         table = {str(s): Quantity(column, ("t",), "") for s, column in zip(names, columns, strict=True)}
-        table["energy"] = Quantity(self.energy, ("t",), "J")
+        if c.q:
+            table["energy"] = Quantity(self.energy, ("t",), "J")
         if self.system.multipliers:
             table["drift"] = Quantity(self.drift, ("t",), "")
         return table
@@ -271,8 +298,20 @@ class SampledMotion(Run):
             "local": self.local,
             "turn": self.scales.turn,
             "sizes": self.scales.sizes.tolist(),
-            "modes": self.states[:, len(self.system.c.q) + len(self.system.speeds) :].tolist(),
+            "modes": self.states[:, len(self.system.variables) :].tolist(),
+            "redundant": self.redundancy and [self.redundancy.dropped, self.redundancy.undetermined],
         }
+
+
+class _Reactions(dict[str, Array]):
+    """Reactions by name; those of dependent constraints are refused."""
+
+    redundancy: Redundancy | None = None
+
+    def __missing__(self, name: str) -> Array:
+        if self.redundancy and name in self.redundancy.undetermined:
+            raise InputError(f"reactions: {name} is not determined: {self.redundancy.words}")
+        raise KeyError(name)
 
 
 def with_states(run: Kind, times: Array, states: Array) -> Kind:
@@ -289,7 +328,7 @@ def digest_of(system: Equations) -> str:
         system.rolling,
         system.dissipation,
         system.forces,
-        *([system.velocities] if system.velocities else []),
+        *(e for e in (system.velocities, system.states) if e),
     )
     return sha256("; ".join(map(str, equations)).encode()).hexdigest()
 

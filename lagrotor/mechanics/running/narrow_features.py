@@ -50,7 +50,7 @@ def _parts(system: Equations, section: sp.Expr | None) -> tuple[NarrowPart, ...]
     """Return the terms that may be narrow, one for each argument g. They are sought in the section, or in the energy and the
     forces if it is None."""
     energy = getattr(system.lagrangian, "remainder", system.lagrangian)
-    states = {*system.c.q, *system.c.v, *system.speeds}
+    states = {*system.c.v, *system.variables}
     narrow: dict[sp.Expr, NarrowPart] = {}
 
     def add(term: sp.Expr, g: sp.Expr, log: bool) -> None:
@@ -126,7 +126,7 @@ def narrowest_words(
 def _narrowness(system: Equations, values: Mapping[Any, Any], feature: NarrowPart, states: Array) -> float:
     """Return the largest change of ψ when one component of the state moves through its whole range at the fastest rate of ψ.
     Return 0 if ψ = log|D| and D reaches zero."""
-    every, g = (*system.c.q, *system.speeds), feature.argument
+    every, g = system.variables, feature.argument
     moving = [i for i, s in enumerate(every) if s in g.free_symbols and np.ptp(states[:, i]) > 0]
     if not moving:
         return 0.0

@@ -13,8 +13,7 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 import sympy as sp
 
-from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.lagrangian import total_derivative
+from lagrotor.mechanics.equations import Equations, time_derivative
 from lagrotor.mechanics.running.flow import Array, projection_of
 from lagrotor.mechanics.running.narrow_features import NarrowPart, with_followed
 from lagrotor.mechanics.running.programs import (
@@ -156,8 +155,13 @@ class Switched:
 
     @property
     def size(self) -> int:
-        """The number N + m of components of q and u."""
-        return self.n + len(self.system.speeds)
+        """The number of components of q, u and the first-order states."""
+        return len(self.system.variables)
+
+    @property
+    def moving(self) -> slice:
+        """The place of the velocities u in a state."""
+        return slice(self.n, self.n + len(self.system.speeds))
 
     @property
     def smooth(self) -> bool:
@@ -228,6 +232,7 @@ class Switched:
             tuple(e.xreplace(still) for e in base.forces),
             names,
             velocities=base.velocities,
+            states=base.states,
         )
         lam, first = system.multipliers, len(base.constraints)
         conditions: list[tuple[str, int, sp.Expr]] = []
@@ -254,14 +259,14 @@ class Switched:
 def with_events(system: Equations, values: Mapping[Any, Any], events: tuple[Event | Impact, ...] = ()) -> Switched:
     """Return the system with its events. A sign symbol and a surface replace each jump of its forces."""
     smooth, surfaces = without_jumps(system)
-    size = len(system.c.q) + len(system.speeds)
+    size = len(system.variables)
     return Switched(smooth, values, surfaces, events, np.ones(size), np.zeros(size))
 
 
-def begin(h: Switched, q: Array, v: Array, time: float) -> Array:
-    """Return the initial state (q, v, t, mode). Each surface has the sign of its velocity, and all gaps are open except those at
-    rest on zero."""
-    start = Moment(np.concatenate([q, v]), time, h.slipping)
+def begin(h: Switched, y: Array, time: float) -> Array:
+    """Return the initial state (y, t, mode), y = (q, v, …). Each surface has the sign of its velocity, and all gaps are open
+    except those at rest on zero."""
+    start = Moment(y, time, h.slipping)
     try:
         mode = _settle(h, start)
     except StopError as stop:
@@ -466,7 +471,7 @@ def _switch(h: Switched, at: Moment, hit: Hit, gone: float | None) -> Moment:
     """Return the state and the mode after an event. `gone` is the time in s after which infinitely many such events are over;
     None if they do not accumulate."""
     kind, i = hit.kind, hit.i
-    mode, v = at.mode, at.y[h.n : h.size]
+    mode, v = at.mode, at.y[h.moving]
     if kind == "surface" and h.surfaces[i].argument.free_symbols & {*h.system.multipliers}:
         mode = mode.with_value("signs", i, -mode.signs[i])  # a reaction is reversed
     elif kind == "surface":
@@ -498,7 +503,7 @@ def _switch(h: Switched, at: Moment, hit: Hit, gone: float | None) -> Moment:
         v = h.evaluate(h.system, event.velocities, at)
     if not np.isfinite(v).all():
         raise StopError(at.t, "the velocities after an event are not finite")
-    moment = Moment(np.concatenate([at.y[: h.n], v]), at.t, mode)
+    moment = Moment(np.concatenate([at.y[: h.n], v, at.y[h.moving.stop : h.size]]), at.t, mode)
     return moment._replace(mode=_settle(h, moment, fixed=kind in ("above", "below", "surface")))
 
 
@@ -506,16 +511,16 @@ def _rebound(h: Switched, at: Moment, i: int, e: float) -> tuple[Array, bool]:
     """Return the velocities (m,) after impact i, and True if the velocity of approach was zero. The impulse Λ obeys M Δv = Gᵀ Λ,
     and the gap opens with e times the velocity of approach."""
     mode = at.mode.with_value("closed", i, True)
-    n, system = h.n, h.phase(mode._replace(signs=tuple(s or 1 for s in mode.signs))).system
+    system = h.phase(mode._replace(signs=tuple(s or 1 for s in mode.signs))).system
     numbers, state = h.numbers(mode), np.append(at.y[: h.size], at.t)
     G, M = rows_at(system, numbers, state), mass_at(system, numbers, state)
     speeds = h.evaluate(system, [system.residual[k] for k in system.left], at._replace(mode=mode))
     row = system.left.index(len(h.system.constraints) + sum(mode.closed[:i]))
     change = -speeds
-    gentle = speeds[row] > -_NOISE * float(np.abs(G[row]) @ h.scale[n:])
+    gentle = speeds[row] > -_NOISE * float(np.abs(G[row]) @ h.scale[h.moving])
     change[row] *= 1 if gentle else 1 + e
     W = np.linalg.solve(M, G.T)
-    return np.asarray(at.y[n : h.size] + W @ np.linalg.lstsq(G @ W, change, rcond=None)[0]), bool(gentle)
+    return np.asarray(at.y[h.moving] + W @ np.linalg.lstsq(G @ W, change, rcond=None)[0]), bool(gentle)
 
 
 def _sign_beyond(h: Switched, at: Moment, i: int) -> int:
@@ -524,7 +529,7 @@ def _sign_beyond(h: Switched, at: Moment, i: int) -> int:
     argument = h.surfaces[i].argument
     above, below = _rates_beside(h, at, i, 1)
     if not argument.free_symbols & {*h.system.c.v} and max(abs(above), abs(below)) <= _NOISE * float(
-        h.sizes_of(h.system, [total_derivative(argument, h.system.c)], at)[0]
+        h.sizes_of(h.system, [time_derivative(h.system, argument)], at)[0]
     ):
         above, below = _rates_beside(h, at, i, 2)  # of a place, passed at rest
     size = _NOISE * (abs(above) + abs(below))
@@ -550,7 +555,7 @@ def _rates_beside(h: Switched, at: Moment, i: int, order: int) -> tuple[float, f
         mode, e = at.mode.with_value("signs", i, sign), h.surfaces[i].argument
         system = h.phase(mode).system
         for _ in range(order):
-            e = total_derivative(e, system.c)
+            e = time_derivative(system, e)
         return float(h.evaluate(system, [e], at._replace(mode=mode))[0])
 
     return rate(1), rate(-1)

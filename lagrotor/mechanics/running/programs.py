@@ -119,17 +119,19 @@ def motion_program(system: Equations, followed: tuple[Any, ...] = ()) -> Generat
     """
     stages, rates, _ = motion_of_speeds(system)
     clock = [sp.S.One] * depends_on_time(system)
-    moving = dict(zip((*system.c.q, t, *system.speeds), (*system.c.v, sp.S.One, *rates), strict=True))
+    rates = [*rates, *(f for _, f in system.states)]
+    moving = {t: sp.S.One} | dict(zip(system.variables, (*system.c.v, *rates), strict=True))
     if (kinematics := system.kinematics) is not None:
-        moving |= dict(zip(system.c.v, kinematics.B * sp.Matrix(rates) + kinematics.alpha, strict=True))
+        u_dot = sp.Matrix(rates[: len(system.speeds)])
+        moving |= dict(zip(system.c.v, kinematics.B * u_dot + kinematics.alpha, strict=True))
     followed_rates = [FOLLOWED * factor * along(g, moving.keys(), moving.values()) for g, factor, _ in followed]
     states = (*state_symbols(system), *(sp.Symbol(f"_followed{i}", real=True) for i in range(len(followed))))
     return _program(states, stages, [*system.c.v, *rates, *clock, *followed_rates], moving=True)
 
 
 def state_symbols(system: Equations) -> tuple[sp.Symbol, ...]:
-    """Return the symbols of a motion's state: q, u and, if time enters explicitly, t."""
-    return (*system.c.q, *system.speeds, *((t,) if depends_on_time(system) else ()))
+    """Return the symbols of a motion's state: q, u, first-order states and, if time enters explicitly, t."""
+    return (*system.variables, *((t,) if depends_on_time(system) else ()))
 
 
 def _program(
@@ -215,13 +217,14 @@ def start_program(system: Equations) -> Generated:
     enforce. M is the mass matrix of the velocities v; for quasi-velocities it is the unit matrix."""
     h, M = len(system.constraints), system.mass_matrix if system.kinematics is None else sp.eye(len(system.speeds))
     residual = [system.residual[i] for i in system.left]
-    return function_program(system, *M, *system.constraints, *system.rows[:h, :], *rows_left(system)[0], *residual)
+    outputs = [*M, *system.constraints, *system.rows[:h, :], *rows_left(system)[0], *residual]
+    return _program((*system.c.q, *system.speeds, t), velocity_stages(system), outputs)
 
 
 @lru_cache(maxsize=256)
 def function_program(system: Equations, *expressions: sp.Expr) -> Generated:
-    """Generate (q, u, t) → values of expressions in q, v, u, t, the accelerations and the multipliers of a motion."""
-    states = (*system.c.q, *system.speeds, t)
+    """Generate (q, u, x, t) → values of expressions in q, v, u, x, t, the accelerations and the multipliers of a motion."""
+    states = (*system.variables, t)
     named = dict(zip(system.reactions, system.multipliers, strict=True))
     expressions = tuple(e.xreplace(named) for e in expressions) if named else expressions
     symbols = set().union(*(e.free_symbols for e in expressions))
@@ -250,7 +253,8 @@ def clock_program(system: Equations) -> Generated | None:
     if not depends_on_time(system):
         return None
     stages, rates, _ = motion_of_speeds(system)
-    clocks, outputs = clock_parts(stages, (*system.c.v, *rates), {*system.c.q, *system.c.v, *system.speeds})
+    every = (*system.c.v, *rates, *(f for _, f in system.states))
+    clocks, outputs = clock_parts(stages, every, {*system.c.v, *system.variables})
     return _program((t,), clocks, outputs) if outputs else None
 
 
@@ -262,7 +266,7 @@ def energy_program(system: Equations) -> Generated:
         swept, energy = swept_energy(system)
         return _program((*system.c.q, *system.speeds, t), [*velocity_stages(system), *swept], [energy])
     if tree is None:
-        return function_program(system, system.energy)
+        return _program((*system.c.q, *system.speeds, t), velocity_stages(system), [system.energy])
     keep = Stages()
     energy = tree_energy(tree, joints(tree, keep), (*system.c.v, *system.speeds), keep)
     return _program((*system.c.q, *system.speeds, t), [*velocity_stages(system), *keep.made], [energy])
@@ -306,6 +310,8 @@ def constrained_motion(system: Equations, every: bool = True) -> tuple[list[Stag
 def motion_of_speeds(system: Equations) -> tuple[list[Stage], list[sp.Expr], list[sp.Expr]]:
     """Return the stages, the accelerations u' and the independent multipliers. They are computed by the recursion of a tree of
     bodies, or else from the mass matrix."""
+    if not system.c.q:
+        return [], [], []
     G, gamma = rows_left(system)
     friction = bool(system.generalised_forces.free_symbols & {*system.multipliers})
     if (by_tree := tree_motion(system)) is not None:
@@ -477,7 +483,7 @@ def parameter_values(program: Generated, values: Mapping[Any, Any], where: str =
         )
     if moving := [str(s) for s in program.states if str(s) in by_name]:
         raise InputError(
-            f"{where}: values give {', '.join(moving)} a value, which varies in time: give its start by q0 and v0, a time by t"
+            f"{where}: values give {', '.join(moving)} a value, which varies in time: give its start by q0, v0 or x0, a time by t"
         )
     if missing := [name for name in program.letters if name not in by_name]:
         misspelt = near(missing[0], by_name.keys() - {str(p) for p in program.parameters})

@@ -37,9 +37,10 @@ def plot(run: SampledMotion, *quantities: Any) -> "RunFigure":
 
     check_nonempty("plot", run.t)
     if not quantities:
-        units = _units(run.system)
-        labels = {f"${letter_latex(q)}${units.get(q, '')}": run.q[:, i] for i, q in enumerate(run.system.c.q)}
-        return coordinates_figure(run.t, labels, run.energy, run.drift)
+        units, both = _units(run.system), (*run.system.c.q, *dict(run.system.states))
+        columns = zip(both, (*run.q.T, *run.x.T), strict=True)
+        labels = {f"${letter_latex(s)}${units.get(s, '')}": values for s, values in columns}
+        return coordinates_figure(run.t, labels, run.energy, run.drift) if run.q.size else curves_figure(run.t, labels)
     curves = (_curve(run, quantity) for quantity in quantities)
     return curves_figure(run.t, {label.replace(r"\&", "&"): values for label, values in curves})  # matplotlib's escape
 
@@ -63,8 +64,8 @@ def _units(system: Equations) -> dict[sp.Symbol, str]:
 def _curve(run: SampledMotion, what: Any) -> tuple[str, Array]:
     """Return the label of a quantity, with formulas in TeX, and its values along the run, shape (n,)."""
     c, name = run.system.c, str(what)
-    letters = (*c.q, *c.v, *run.system.speeds)
-    moving = dict(zip(map(str, letters), (*run.q.T, *run.v.T, *run.u.T), strict=True))
+    letters = (*c.q, *c.v, *run.system.variables[len(c.q) :])
+    moving = dict(zip(map(str, letters), (*run.q.T, *run.v.T, *run.u.T, *run.x.T), strict=True))
     if name in moving:
         letter = next(s for s in letters if str(s) == name)
         return f"${letter_latex(letter)}${_units(run.system).get(letter, '')}", moving[name]

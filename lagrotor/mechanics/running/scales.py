@@ -99,7 +99,7 @@ def motion_scales(
     if span == 0:
         return Scales(1.0, _sizes(system, values, start[None], 1.0), 0, survey=start[None])
     smooth, grid = motion is None, np.linspace(times[0], times[-1], 400)
-    size = len(system.c.q) + len(system.speeds)
+    size = len(system.variables)
     guess = size + 2 if smooth else 0  # evaluations of `first_sizes`
     if motion is None:
         motion = _coarse_motion(system, values, start, span, windows, followed)
@@ -112,11 +112,12 @@ def motion_scales(
         if stop.cause != "budget":  # a motion to infinity is as large as its last steps make it
             stretch = replace(stretch, states=stretch.states[: len(stretch.states) * 9 // 10], end=start)
     states, evaluations, stiff = _finite(start, stretch), guess + stretch.evaluations, False
-    if smooth and (system.forces or system.dissipation != 0):
+    if smooth and (system.forces or system.dissipation != 0 or system.states):
         program = motion_program(system)
         bare = program.rhs(*parameter_values(program, values))
         n, some = len(system.c.q), states[:: max(1, len(states) // 8)]
-        stiff = min(_rates(bare, state, n, size).real.min() for state in some) * span < -_STIFF
+        ends = n, n + len(system.speeds), size
+        stiff = min(_rates(bare, state, ends).real.min() for state in some) * span < -_STIFF
         evaluations += len(some) * (size + 1)
     if stiff and reached < span:  # the decaying modes, not the motion, determine DOP853's steps
         try:
@@ -152,28 +153,32 @@ def _coarse_motion(
     solver: Callable[[Segment, float], Stretch] = dop853,
 ) -> Integrate:
     program, n, m = motion_program(system), len(system.c.q), len(system.speeds)
-    sizes = first_sizes(program.rhs(*parameter_values(program, values)), start, span, n, m)
+    ends = n, n + m, len(system.variables)
+    sizes = first_sizes(program.rhs(*parameter_values(program, values)), start, span, ends)
     by_one = lambda segment, _, tol: solver(segment, tol)  # noqa: E731
     return smooth_motion(system, values, "core", sizes, span, start, windows, followed, solver=by_one)
 
 
-def first_sizes(bare: Rhs, start: Array, span: float, n: int, m: int) -> Array:
-    """Guess the size of each component, shape (n + m,), from the state, its derivative and the fastest rate of the motion
-    linearised there."""
-    rates = np.nan_to_num(np.asarray(bare(0.0, start), float)[: n + m], posinf=0.0, neginf=0.0)
-    q, u, v, a = start[:n], start[n : n + m], rates[:n], rates[n:]
-    rate = max(float(np.abs(_rates(bare, start, n, n + m)).max()), 1 / span)
-    places, speeds = np.maximum(np.abs(q), np.abs(v) / rate), np.maximum(np.abs(u), np.abs(a) / rate)
-    if m == n:
-        places, speeds = np.maximum(places, np.abs(a) / rate / rate), np.maximum(speeds, np.abs(q) / span)
-    return np.concatenate([_positive(places, 1e-6), _positive(speeds, 1e-6)])
+def first_sizes(bare: Rhs, start: Array, span: float, ends: tuple[int, int, int]) -> Array:
+    """Guess the size of each component from the state, its derivative and the fastest rate of the motion linearised there. The
+    coordinates, the velocities and the first-order states end at the indices `ends`."""
+    n, m, size = ends
+    rates = np.nan_to_num(np.asarray(bare(0.0, start), float)[:size], posinf=0.0, neginf=0.0)
+    rate = max(float(np.abs(_rates(bare, start, ends)).max()), 1 / span)
+    places, speeds, states = np.split(np.maximum(np.abs(start[:size]), np.abs(rates) / rate), [n, m])
+    if m == 2 * n:
+        places = np.maximum(places, np.abs(rates[n:m]) / rate / rate)
+        speeds = np.maximum(speeds, np.abs(start[:n]) / span)
+    return np.concatenate([_positive(part, 1e-6) for part in (places, speeds, states)])
 
 
-def _rates(bare: Rhs, state: Array, n: int, size: int) -> NDArray[np.complex128]:
+def _rates(bare: Rhs, state: Array, ends: tuple[int, int, int]) -> NDArray[np.complex128]:
     """Return the eigenvalues in 1/s of the motion linearised about a state; one zero if the linearised motion is not finite."""
+    n, m, size = ends
     value, slope = np.asarray(bare(0.0, state), float)[:size], np.zeros((size, size))
     for j in range(size):
-        step = 1e-6 * (np.abs(state[:n] if j < n else state[n:size]).max() or 1.0)
+        part = state[:n] if j < n else state[n:m] if j < m else state[m:size]
+        step = 1e-6 * (np.abs(part).max() or 1.0)
         displaced = state.copy()
         displaced[j] += step
         slope[:, j] = (np.asarray(bare(0.0, displaced), float)[:size] - value) / step
@@ -181,10 +186,14 @@ def _rates(bare: Rhs, state: Array, n: int, size: int) -> NDArray[np.complex128]
 
 
 def _sizes(system: Equations, values: Values, states: Array, turn: float) -> Array:
-    """Return the size of each component of states (m, d), shape (N + m,). The typical period in s is `turn`."""
+    """Return the size of each component of states (m, d). The typical period in s is `turn`. The size of a first-order state is
+    its largest value."""
     n, m, jacobi = len(system.c.q), len(system.speeds), energy_program(system).along(values)
     q, u = states[:, :n], states[:, n : n + m]
-    times = states[:, n + m] if states.shape[1] > n + m else np.zeros(len(states))
+    d = len(system.variables)
+    x, times = states[:, n + m : d], states[:, d] if states.shape[1] > d else np.zeros(len(states))
+    if not n:
+        return _positive(np.abs(x).max(0))
 
     def energy(u: Array) -> Array:
         return jacobi(np.hstack([q, u]), times)[0]
@@ -206,7 +215,7 @@ def _sizes(system: Equations, values: Values, states: Array, turn: float) -> Arr
         places = np.maximum(largest[:n], speeds * turn / (2 * np.pi))
     else:
         alone = [0 * u, u, *(0 * u + speed * e for speed, e in zip(speeds, np.eye(m), strict=True))]
-        still, *v = (velocities_along(system, values, np.hstack([q, speeds_alone]), times) for speeds_alone in alone)
+        still, *v = (velocities_along(system, values, np.hstack([q, speeds_alone, x]), times) for speeds_alone in alone)
         places = np.maximum(largest[:n], np.abs(np.array(v) - still).max((0, 1)) * turn / (2 * np.pi))
     rounding = 0.0
     if system.multipliers:
@@ -214,7 +223,7 @@ def _sizes(system: Equations, values: Values, states: Array, turn: float) -> Arr
     if system.kinematics is None:
         through = places * 2 * np.pi / turn
         speeds = np.where(speeds > rounding * through, speeds, through)
-    return np.concatenate([_positive(places), _positive(speeds)])
+    return np.concatenate([_positive(places), _positive(speeds), _positive(np.abs(x).max(0))])
 
 
 def _positive(sizes: Array, least: float = 0.0) -> Array:
@@ -229,6 +238,8 @@ def integrals(system: Equations) -> tuple[Generated, ...]:
     cyclic coordinates."""
     is_expression = isinstance(system.lagrangian, sp.Expr)
     programs = []
+    if not system.c.q:
+        return ()
     if not (depends_on_time(system) or system.forces or system.dissipation != 0):
         at_rest = dict.fromkeys(system.c.v, sp.S.Zero)
         if all(decide_zero(put_in(e, at_rest)).answer == "zero" for e in system.rolling):
@@ -244,7 +255,7 @@ def conservation_error_of(system: Equations, values: Values, sizes: Array) -> Ca
     (n,) and states (n, d). For each quantity in turn, it returns the n signed relative state errors that would explain its
     change."""
     conserved = [program.along(values) for program in integrals(system)]
-    n = len(system.c.q) + len(system.speeds)
+    n = len(system.variables)
 
     def conservation_error(times: Array, states: Array) -> Array:
         errors = []

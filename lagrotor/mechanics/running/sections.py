@@ -97,7 +97,7 @@ def crossings(run: Kind, section: sp.Expr, direction: int = 0) -> Kind:
         raise InputError("crossings: a run of one sample crosses nothing: simulate to a later time")
     section, size = with_values(expression("crossings: section", section), run.values), run.switched.size
     value = function_program(run.system, section).along(run.values, "crossings")
-    touch = max(run.tol, _LEAST) * _change(run, section)
+    touch = max(run.tol, _LEAST) * change(run, section)
     h = run.switched
     features = (*narrow_parts(h.system, h.numbers(h.slipping), run.scales.survey, section), *h.narrow)
     narrow = {feature.argument: feature for feature in features}
@@ -192,9 +192,9 @@ def _stage(run: SampledMotion, i: int, j: int, value: Values, touch: float, obse
     return look(np.concatenate([[begin], edges, [end]]), run.states[i], _HALVINGS), evaluations
 
 
-def _change(run: SampledMotion, section: sp.Expr) -> float:
+def change(run: SampledMotion, section: sp.Expr) -> float:
     """Return the largest change of a section along the run if each component of the state changes by its size."""
-    symbols, sizes = (*run.system.c.q, *run.system.speeds), run.scales.sizes
+    symbols, sizes = run.system.variables, run.scales.sizes
     if not section.free_symbols & {*symbols, *run.system.c.v, *run.system.c.a, *run.system.multipliers, t}:
         raise InputError(f"crossings: section = {section} does not change: give q, v or t in it")
     if run.system.kinematics is not None:

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from lagrotor.errors import ConstraintError, InputError, LagrotorWarning
 from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import vector_of
+from lagrotor.mechanics.lagrangian import jacobian
 from lagrotor.mechanics.lagrangian import t as time
 from lagrotor.mechanics.running import run_plots, sections
 from lagrotor.mechanics.running.flow import Array, Values, powers_of_two, projection_of
@@ -30,13 +31,14 @@ from lagrotor.mechanics.running.motion import SampledMotion, digest_of, integrat
 from lagrotor.mechanics.running.narrow_features import narrow_parts, narrowest_words
 from lagrotor.mechanics.running.phases import Moment, Switched, begin, with_events
 from lagrotor.mechanics.running.programs import depends_on_time, function_program, parameter_values, rows_program
+from lagrotor.mechanics.running.redundant_constraints import Redundancy, without, without_redundant
 from lagrotor.mechanics.running.scales import Scales, clock_windows, conservation_error_of, motion_scales
 from lagrotor.mechanics.running.singular_positions import independence
 from lagrotor.mechanics.running.switches import Event, Impact, check_events
 from lagrotor.numerics.arrays import check_times
 from lagrotor.numerics.error_estimate import EvaluationBudget, Evolution, estimate_run
 from lagrotor.numerics.integrate import Engine, check_engine, check_progress, check_tolerance
-from lagrotor.numerics.run import read_run
+from lagrotor.numerics.run import Ending, read_run
 from lagrotor.numerics.solver_constants import DEPENDENT
 
 if TYPE_CHECKING:
@@ -47,6 +49,8 @@ _BELOW = 1e-7  # gap below zero, over its size, at which an initial state is ref
 _BUDGET = EvaluationBudget(20_000, 1_600)
 _STIFF = EvaluationBudget(200_000, 16_000)  # the turns of a stiff motion take many steps
 _PER_TURN = 16  # intervals in a turn, in which rows of constraints do not turn by a right angle
+_ALLOWED = 100.0  # residual of a redundant constraint over its size and the error of the run
+_BOUND = 0.3  # singular value of all rows over its median, above which they are no more dependent than before
 _BETWEEN = 8  # intervals between two samples in which dependent constraints are sought
 
 
@@ -85,6 +89,8 @@ class SystemRun(SampledMotion):
         The local error of the better of the two integrations that were compared.
     switched : Switched
         The system with its events.
+    redundancy : Redundancy or None, default None
+        The constraints that the run leaves out as they follow from others, and the reactions that are not determined.
 
     Examples
     --------
@@ -139,17 +145,18 @@ class SystemRun(SampledMotion):
         saved = read_run(path)
         about, arrays, c = saved.about, saved.arrays, system.c
         try:
+            system, redundancy = without(system, *left_out) if (left_out := about.get("redundant")) else (system, None)
             if about["coordinates"] != [str(q) for q in c.q] or about["equations"] != digest_of(system):
                 raise InputError(
                     f"load: {path} is a run of another system, in {', '.join(about['coordinates'])}: give that system"
                 )
-            q, u = (np.stack([arrays[str(s)] for s in names], 1) for names in (c.q, system.speeds))
-            states = np.hstack([q, u, np.array(about["modes"], float).reshape(len(q), -1)])
+            y = np.stack([arrays[str(s)] for s in system.variables], 1)
+            states = np.hstack([y, np.array(about["modes"], float).reshape(len(y), -1)])
             scales = Scales(float(about["turn"]), np.array(about["sizes"], float), 0)
             values = {str(name): float(value) for name, value in about["values"].items()} | callables
             tol, local, engine = check_tolerance(about["tol"]), float(about["local"]), about["engine"]
             check_engine(engine, "load")
-            whole = len(states) == len(saved.fields["t"]) and scales.sizes.shape == (len(c.q) + len(system.speeds),)
+            whole = len(states) == len(saved.fields["t"]) and scales.sizes.shape == (len(system.variables),)
             if not whole or not np.isfinite(states).all():
                 raise ValueError("its states are invalid")
         except InputError:
@@ -165,7 +172,7 @@ class SystemRun(SampledMotion):
         h = replace(h, scale=powers_of_two(scales.sizes), sizes=scales.sizes, windows=windows, narrow=narrow)
         return SystemRun(
             **saved.fields, system=system, values=values, tol=tol, engine=engine, scales=scales, states=states,
-            local=local, switched=h,
+            local=local, switched=h, redundancy=redundancy,
         )  # fmt: skip
 
     def crossings(self, section: sp.Expr, direction: int = 0) -> "SystemRun":
@@ -340,6 +347,7 @@ def simulate_system(
     engine: Engine = "core",
     events: Event | Impact | Sequence[Event | Impact] = (),
     progress: Callable[[float], None] | None = None,
+    x0: ArrayLike = (),
 ) -> SystemRun:
     """Simulate a system for `System.simulate`."""
     times, tol = check_times("simulate", t), check_tolerance(tol)
@@ -350,28 +358,33 @@ def simulate_system(
     events = tuple(event_with(event, lambda e: with_values(e, values)) for event in events)
     if engine == "fast" and any(isinstance(value, FunctionValue) for value in dict(values).values()):
         raise InputError("simulate: engine='fast' takes no callable and no table for a function: use engine='core'")
-    h, n = with_events(system, values, events), len(system.c.q)
+    n = len(system.c.q)
     q, v = state_vector("simulate", "q0", q0, n), state_vector("simulate", "v0", v0, len(system.speeds), system)
+    x = state_vector("simulate", "x0", x0, len(system.states), system)
+    system, redundancy = without_redundant("simulate", system, values, q, v, times[0])
+    h = with_events(system, values, events)
     parameter_values(h.phase(h.slipping).motion, h.numbers(h.slipping))
     check_values("simulate", system, values, [e for event in h.events for e in event.expressions])
     for event in h.events:
         program = function_program(h.system, *event.expressions)
-        at_start = program.along(h.numbers(h.slipping))(np.concatenate([q, v])[None], times[:1])[:, 0]
+        at_start = program.along(h.numbers(h.slipping))(np.concatenate([q, v, x])[None], times[:1])[:, 0]
         if isinstance(event, Impact) and not 0 <= at_start[1] <= 1:
             raise InputError(
                 f"simulate: the restitution {event.restitution} is {at_start[1]:.6g}: it must lie between 0 and 1"
             )
     if system.multipliers:
         q, v = _on_constraints(system, values, np.concatenate([q, v]), times)
-    check_pole("simulate", system, values, np.concatenate([q, v, [times[0]]]))
-    check_inertia("simulate", system, values, np.concatenate([q, v, [times[0]]]))
+    y = np.concatenate([q, v, x])
+    check_pole("simulate", system, values, np.append(y, times[0]))
+    if len(q):
+        check_inertia("simulate", system, values, np.append(y, times[0]))
     h = replace(h, windows=clock_windows(h.phase(h.slipping).system, h.numbers(h.slipping), times))
     if h.smooth:
-        start = np.concatenate([q, v, [times[0]] * depends_on_time(system)])
+        start = np.append(y, [times[0]] * depends_on_time(system))
     elif engine == "fast":
         raise InputError("simulate: engine='fast' takes no events, and no force that jumps: use engine='core'")
     else:
-        start = begin(h, q, v, times[0])
+        start = begin(h, y, times[0])
 
     def survey() -> Scales:
         motion = None if h.smooth else integration_of(system, values, engine, None, h, start)
@@ -383,7 +396,7 @@ def simulate_system(
         scales = replace(again := survey(), evaluations=again.evaluations + first.evaluations)
     if not h.smooth:
         h = replace(h, scale=powers_of_two(scales.sizes), sizes=scales.sizes)
-        _check_gaps(h, Moment(np.concatenate([q, v]), times[0], h.slipping))
+        _check_gaps(h, Moment(y, times[0], h.slipping))
     evolution = Evolution(
         start=start,
         # A solver evaluates beyond its last time.
@@ -404,19 +417,37 @@ def simulate_system(
     estimate = estimate_run(evolution, times, tol)
     run = SystemRun(
         **estimate.run_fields | {"evaluations": estimate.evaluations + scales.evaluations}, system=system, values=values, tol=tol,
-        engine=engine, scales=scales, states=estimate.states, local=estimate.local, switched=h,
+        engine=engine, scales=scales, states=estimate.states, local=estimate.local, switched=h, redundancy=redundancy,
     )  # fmt: skip
     hint = narrowest_words(h.system, h.numbers(h.slipping), h.narrow, estimate)
-    estimate.warn_unless_kept(", ".join(map(str, system.c.q)), tol, 3, hint)
+    estimate.warn_unless_kept(", ".join(map(str, (*system.c.q, *dict(system.states)))), tol, 3, hint)
     if system.multipliers:
         _warn_of_dependence(run)
-    return run if h.smooth else _cut_at_event(run)
+    run = run if h.smooth else _cut_at_event(run)
+    return _cut_where_redundant_fail(run, redundancy) if redundancy else run
+
+
+def _cut_where_redundant_fail(run: SystemRun, redundancy: Redundancy) -> SystemRun:
+    """Cut a run before the first sample at which a constraint that was left out does not hold."""
+    sizes = [_ALLOWED * sections.change(run, e) for e in redundancy.residuals]
+    allowed = np.outer(sizes, np.maximum(run.errors, run.tol))
+    i = int(np.argmax((np.abs(run._values(*redundancy.residuals)) > allowed).any(0)))
+    if i == 0:
+        return run
+    reason = (
+        f"the constraints {', '.join(redundancy.dropped)}, which follow from the others at the start, no longer hold at t = "
+        f"{run.t[i]:.6g} s: they contradict the others, or the motion has passed a singular position onto another branch"
+    )
+    ending = Ending("stopped", float(run.t[i - 1]), reason)
+    warnings.warn(f"simulate: {ending}", LagrotorWarning, stacklevel=3)
+    return replace(with_states(run, run.t[:i], run.states[:i]), ending=ending)
 
 
 def _uncertainty(system: Equations, values: Values, sizes: Array) -> Callable[[Array], Array]:
     """Return a function that takes states (n, d) and returns the error of each along nearly dependent constraints, shape (n,).
     The unit of the error is the machine epsilon times the size of a component."""
-    unit = sizes[: len(system.c.q)] if system.kinematics is None else sizes[len(system.c.q) :]
+    n, m = len(system.c.q), len(system.speeds)
+    unit = sizes[:n] if system.kinematics is None else sizes[n : n + m]
 
     def uncertainty(states: Array) -> Array:
         least = independence(system, values, states, unit)
@@ -490,19 +521,29 @@ def _warn_of_dependence(run: SystemRun) -> None:
     from scipy.interpolate import CubicHermiteSpline
 
     fine = np.append(np.linspace(run.t[:-1], run.t[1:], _BETWEEN, endpoint=False).T.ravel(), run.t[-1])
-    still = np.zeros((len(fine), len(run.system.speeds)))
+    still = np.zeros((len(fine), len(run.system.variables) - len(run.system.c.q)))
     states = np.hstack([CubicHermiteSpline(run.t, run.q, run.v)(fine), still])
     G = rows_program(run.system).along(run.values)(states, fine)
     G = G.T.reshape(-1, len(run.system.left), len(run.system.speeds))
     near = np.repeat(np.diff(run.t) < _BETWEEN / _PER_TURN * run.scales.turn, _BETWEEN)
     reversed_after = fine[:-1][near & (np.linalg.det(G[:-1] @ G[1:].swapaxes(1, 2)) < 0)]
-    if len(reversed_after):
+    if len(reversed_after) and not _bound_by_redundant(run, states, fine, G, reversed_after[0]):
         warnings.warn(
             f"simulate: near t = {reversed_after[0]:.6g} s the constraints become dependent: their reactions may have no limit "
             "there, and the motion beyond may be one of several; end the run before",
             LagrotorWarning,
             stacklevel=3,
         )
+
+
+def _bound_by_redundant(run: SystemRun, states: Array, times: Array, G: Array, at: float) -> bool:
+    """Return True if constraints that were left out determine the motion where the others, with the rows G, become dependent, as
+    two coupling rods at a right angle do at the dead point of one."""
+    residuals = run.redundancy.residuals if run.redundancy and run.system.kinematics is None else ()
+    program = function_program(run.system, *jacobian(residuals, run.system.c.v))
+    others = program.along(run.values)(states, times).T.reshape(len(times), -1, G.shape[2])
+    least = np.linalg.svd(np.concatenate([G, others], axis=1), compute_uv=False)[:, G.shape[1] - 1]
+    return bool(residuals) and bool(least[times == at] > _BOUND * np.median(least))
 
 
 def _as_text(values: Sequence[float] | Array) -> str:

@@ -21,6 +21,8 @@ def singular_position(
 ) -> Callable[[Array], str]:
     """Return a function that takes a state and returns a sentence about its singular position, or "" if it is regular. Each state
     is compared with the regular state `start`."""
+    if not system.c.q:
+        return lambda _: ""
     lengths = np.sqrt(np.abs(np.diag(mass_at(system, values, start))))
     scale = np.where(lengths > 0, lengths, 1.0)
 
@@ -47,10 +49,13 @@ def singular_position(
 def unbounded_force(system: Equations, values: Mapping[Any, Any], start: Array, state: Array, sizes: Array) -> str:
     """Return a sentence if a force grows without bound, for example at a collision, and "" if none does. Its acceleration has
     grown a thousandfold since the start, and would change a velocity by its size in 10⁻⁸ of the typical time."""
-    n, program = len(system.c.q), function_program(system, *system.c.a)
+    n, m, program = len(system.c.q), len(system.speeds), function_program(system, *system.c.a)
+    if not n:
+        return ""
     first, change = (_at(program, system, values, y)[:, 0] for y in (start, state))
-    i, typical = int(np.argmax(np.abs(change))), float(np.max(sizes[n:]) / np.max(sizes[:n]))
-    least = max(_UNBOUNDED * typical * np.max(sizes[n:]), _GROWN * np.abs(first).max())
+    top = np.max(sizes[n : n + m])
+    i, typical = int(np.argmax(np.abs(change))), float(top / np.max(sizes[:n]))
+    least = max(_UNBOUNDED * typical * top, _GROWN * np.abs(first).max())
     if not least < abs(change[i]) < np.inf:  # also where it is no number
         return ""
     return (
@@ -85,7 +90,7 @@ def _at(program: Generated, system: Equations, values: Mapping[Any, Any], state:
 
 
 def _time(state: Array, system: Equations) -> float:
-    size = len(system.c.q) + len(system.speeds)
+    size = len(system.variables)
     return float(state[size]) if len(state) > size else 0.0
 
 

@@ -30,6 +30,7 @@ from lagrotor.mechanics.running.programs import (
     motion_program,
     parameter_values,
 )
+from lagrotor.mechanics.running.redundant_constraints import without_redundant
 from lagrotor.mechanics.steady_motions import small_states, small_turns
 from lagrotor.result_display import Shown
 
@@ -123,7 +124,7 @@ def state_space(
     output_expressions = tuple(expression(f"{where}: outputs[{i}]", e) for i, e in enumerate(outputs))
     if not isinstance(values, Mapping):
         raise InputError(f"{where}: values = {values!r} must be a dictionary")
-    if strangers := {*inputs} & {*system.c.q, *system.c.v, *system.speeds, t}:
+    if strangers := {*inputs} & {*system.c.v, *system.variables, t}:
         raise InputError(
             f"{where}: the input {min(strangers, key=str)} moves: inputs are symbols of forces or constraints"
         )
@@ -133,17 +134,18 @@ def state_space(
         raise InputError(
             f"{where}: the motion depends on time explicitly: write a symbol for an input F(t), or simulate it"
         )
-    start = point_state(where, system, at, numbers)
+    system, start = point_state(where, system, at, numbers)
     motion = motion_slope(where, motion_program(system), numbers, inputs)
     rate, J, B = motion(start)
-    check_smooth(where, motion, start, [f"the rate of {s}" for s in (*system.c.q, *system.speeds)], at)
+    check_smooth(where, motion, start, [f"the rate of {s}" for s in system.variables], at)
     n, d = len(system.c.q), len(start)
     size = max(1.0, float(np.abs(start).max()))
     least = _STEADY * size * float(np.abs(J[n:d]).max()) + _ROUNDING
     if np.abs(rate[n:]).max() > least:
-        rates = system.c.a if system.kinematics is None else [f"{u}'" for u in system.speeds]
+        rates = [*(system.c.a if system.kinematics is None else [f"{u}'" for u in system.speeds])]
+        rates += [f"{x}'" for x, _ in system.states]
         rates_text = ", ".join(f"{a} = {x:.3g}" for a, x in zip(rates, rate[n:], strict=True) if abs(x) > least)
-        raise SingularError(f"{where}: {dict(at)} is no steady motion: {rates_text} is not zero; start from one")
+        raise SingularError(f"{where}: {dict(at)} is no steady motion: {rates_text} is not zero; system.rest finds one")
     A, P, inverse = local_slope(system, start, rate, J)
     later = start + np.concatenate([rate[:n], np.zeros(d - n)]) / size
     for joint in system.ball_joints:  # a turn about a fixed axis
@@ -175,21 +177,27 @@ def local_slope(system: Equations, state: Array, rate: Array, J: Array) -> tuple
     return inverse @ (J @ P - change_of_P), P, inverse
 
 
-def point_state(where: str, system: Equations, at: Mapping[Any, Any], values: Values, time: float = 0.0) -> Array:
-    """Return the state (q, u) at a point. Coordinates that the point omits are zero if the motion does not depend on them,
-    otherwise InputError is raised."""
-    c = system.c
-    point = by_symbol(f"{where}: at", at, (*c.q, *system.speeds))
-    used, _ = _parts(motion_program(system))
-    moving = dict(zip(c.q, motion_program(system).program.arguments, strict=False))  # a program may rename symbols
-    if missing := [str(q) for q in c.q if q not in point and moving[q] in used]:
-        raise InputError(f"{where}: {', '.join(missing)} without a value: the point needs a value of each coordinate")
-    if strangers := [str(s) for s in point if s not in {*c.q, *system.speeds}]:
+def point_state(
+    where: str, system: Equations, at: Mapping[Any, Any], values: Values, time: float = 0.0, moved: bool = False
+) -> tuple[Equations, Array]:
+    """Return the system without redundant constraints, and the state (q, u, x) at a point. Coordinates that the point omits are
+    zero if the motion does not depend on them, otherwise InputError is raised. If `moved` is true, a point off the constraints
+    is moved onto them."""
+    n, m = len(system.c.q), len(system.c.q) + len(system.speeds)
+    point = by_symbol(f"{where}: at", at, system.variables)
+    if omitted := [s for i, s in enumerate(system.variables) if s not in point and not n <= i < m]:
+        motion = motion_program(system)
+        moving = dict(zip(system.variables, motion.program.arguments, strict=False))  # a program may rename symbols
+        if missing := [str(s) for s in omitted if moving[s] in _parts(motion)[0]]:
+            raise InputError(
+                f"{where}: {', '.join(missing)} without a value: the point needs each coordinate and state"
+            )
+    if strangers := [str(s) for s in point if s not in system.variables]:
         names = "" if system.kinematics is None else f" ({', '.join(map(str, system.speeds))})"
         raise InputError(
             f"{where}: the point has {', '.join(strangers)}: give it coordinates and velocities{names}, other symbols in values"
         )
-    entries = [expression(f"{where}: {s}", point.get(s, 0)) for s in (*c.q, *system.speeds)]
+    entries = [expression(f"{where}: {s}", point.get(s, 0)) for s in system.variables]
     inside = {s for e in entries for s in e.free_symbols}
     letters = {s: x for s, x in by_symbol(f"{where}: values", values, inside).items() if s in inside}
     try:
@@ -199,16 +207,16 @@ def point_state(where: str, system: Equations, at: Mapping[Any, Any], values: Va
     if not np.isfinite(start).all():
         raise InputError(f"{where}: {dict(at)} must be finite")
     if system.multipliers:
-        n = len(c.q)
-        near = np.concatenate(consistent(where, system, values, start[:n], start[n:], time))
-        if (np.abs(near - start) > rounding_of_start(system, values, start, time)).any():
-            nearest = ", ".join(f"{s} = {x:.9g}" for s, x in zip((*c.q, *system.speeds), near, strict=True) if x)
+        system, _ = without_redundant(where, system, values, start[:n], start[n:m], time, moved)
+        near = np.concatenate(consistent(where, system, values, start[:n], start[n:m], time))
+        if not moved and (np.abs(near - start[:m]) > rounding_of_start(system, values, start[:m], time)).any():
+            nearest = ", ".join(f"{s} = {x:.9g}" for s, x in zip(system.variables, near, strict=False) if x)
             raise ConstraintError(
                 f"{where}: the point is off the constraints; the nearest on them is {nearest or 'zero'}"
             )
-        start = near
+        start = np.append(near, start[m:])
     check_pole(where, system, values, np.append(start, time))
-    return start
+    return system, start
 
 
 @lru_cache(maxsize=64)
@@ -266,7 +274,7 @@ def tangent_space(
     `small_turns`."""
     P = np.array(small_turns(system, state)[0], np.float64)
     d = P.shape[1]
-    n = d - len(system.speeds)
+    n = d - len(system.speeds) - len(system.states)
     units = [joint.unit_length for joint in system.ball_joints]
     holonomic = [g for g in system.constraints if g not in units]
     if not holonomic and not system.left:

@@ -143,9 +143,9 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
     """Replace each sign that jumps where the state passes a surface by a symbol σ. Return the smooth system and a `Surface` for
     each symbol. The replacements are sign(w) → σ, |w| → σ w, Heaviside(w) → (1 + σ)/2, Max(a, b) → (a + b + σ (a − b))/2, and
     Min(a, b) with −σ in place of σ."""
-    moving = {*system.c.q, *system.c.v, *system.reactions, t}
+    moving = {*system.c.v, *system.variables, *system.reactions, t}
     L = getattr(system.lagrangian, "remainder", system.lagrangian)  # for bodies, the terms added to their energy
-    places = [*system.forces, system.dissipation, L]
+    places = [*system.forces, system.dissipation, L, *(f for _, f in system.states)]
     substitutions: dict[sp.Expr, sp.Expr] = {}
     signs: dict[sp.Expr, sp.Expr] = {}
     for atom in sorted({e for e in subexpressions(*places) if isinstance(e, _JUMPING)}, key=sp.default_sort_key):
@@ -165,7 +165,8 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
     if not substitutions:
         return system, ()
     if nested := [atom for atom in substitutions if any(atom != outer and atom.has(outer) for outer in substitutions)]:
-        raise InputError(f"simulate: {nested[0]} has a jump within a jump: write each case as a system of its own")
+        way = "write each case as a system of its own, a saturation Max(-a, Min(a, u)) as (Abs(u + a) - Abs(u - a))/2"
+        raise InputError(f"simulate: {nested[0]} has a jump within a jump: {way}")
     slopes = [derivative(L, s) for s in (*system.c.q, *system.c.v)]
     steps = {(step, e) for e in slopes for step in e.atoms(sp.DiracDelta)}
     if jumps := [step.args[0] for step, e in steps if _is_a_jump(step, e, (*system.c.q, *system.c.v))]:
@@ -184,8 +185,22 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
     substitutions |= roots
     friction = gradient(system.dissipation.xreplace(substitutions), system.c.v)
     forces = tuple((force_column(system.forces or None, system.c, "System") - friction).xreplace(substitutions))
-    smooth = replace(system, lagrangian=system.lagrangian.xreplace(substitutions), forces=forces, dissipation=sp.S.Zero)
-    return smooth, tuple(Surface(w, s, _friction(smooth, w, s)) for w, s in signs.items())
+    smooth = replace(
+        system,
+        lagrangian=system.lagrangian.xreplace(substitutions),
+        forces=forces if system.c.q else (),
+        dissipation=sp.S.Zero,
+        states=tuple((x, f.xreplace(substitutions)) for x, f in system.states),
+    )
+    surfaces = tuple(Surface(w, s, _friction(smooth, w, s)) for w, s in signs.items())
+    if bound := [
+        s.argument for s in surfaces if s.bound not in (None, 0) and s.argument.free_symbols & {*dict(system.states)}
+    ]:
+        way = "make the state the velocity of a coordinate, or the friction smooth, tanh(w/w_0) for sign(w)"
+        raise InputError(
+            f"simulate: dry friction on {bound[0]} = 0 would bind a velocity to a first-order state: {way}"
+        )
+    return smooth, surfaces
 
 
 def _is_a_jump(step: sp.DiracDelta, slope: sp.Expr, moving: Sequence[sp.Symbol]) -> bool:

@@ -97,7 +97,6 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
 
 SINGULAR = {
     "not regular in y_dot; use fewer": System(plane, plane.v[0] ** 2 / 2 - plane.q[1] ** 2),
-    "dependent": System(plane, bound.L, (*bound.constraints, 2 * bound.constraints[0])),
 }
 
 

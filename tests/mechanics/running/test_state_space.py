@@ -154,3 +154,11 @@ def test_what_has_no_derivative_at_the_point_is_refused(output: str) -> None:
     assert np.array_equal(
         System(c, kinetic - k * r**2 / 2).linearise(still, {k: 1}, outputs=(x * r,)).C, np.zeros((1, 4))
     )
+
+
+def test_a_hyperbolic_secant_has_a_derivative() -> None:
+    """Its code replaces cosh, which overflows, by exp(−|x|); the modulus would lose the derivative by a complex step."""
+    c = coordinates("x")
+    wall = System(c, c.x_dot**2 / 2 - sp.log(sp.cosh(10 * c.x)) + 10 * sp.tanh(3) * c.x)
+    rates = wall.linearise({"x": R(3, 10)}, {}).rates
+    np.testing.assert_allclose(np.abs(rates), 10 / np.cosh(3), rtol=1e-10)
