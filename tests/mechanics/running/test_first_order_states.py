@@ -199,7 +199,7 @@ def test_a_state_that_depends_on_time_and_a_function() -> None:
         run = coil.simulate({R: 1, voltage: value}, t=[0, 1], x0={I: 0})
         assert run.x[-1, 0] == pytest.approx(exact, abs=1e-9)
     assert "\\dot{I} &= - I R" in System(states={I: -R * I}).latex()
-    assert "I'  -I*R" in repr(System(states={I: -R * I}))
+    assert "I'  −I R" in repr(System(states={I: -R * I}))
 
 
 REFUSED: dict[str, Callable[[], Any]] = {
