@@ -47,14 +47,14 @@ _PIECE = 2_000  # steps, after which a step longer than one that failed is tried
 _IN_VAIN = 3  # times that a step is shortened at one place without a smaller error
 
 
-def dop853_steps(segment: Segment, error: float) -> Iterator[Any]:
+def dop853_steps(segment: Segment, error: float, stiff: bool = False) -> Iterator[Any]:
     """Yield scipy's solver DOP853 after each step; after that the state is projected onto the constraints. The local error,
-    relative and absolute, is `error`."""
-    from scipy.integrate import DOP853
+    relative and absolute, is `error`. If `stiff` is true, the solver is Radau."""
+    from scipy.integrate import DOP853, Radau
 
     project = segment.project
     with np.errstate(divide="ignore", invalid="ignore"):  # scipy's first step, where values are not finite
-        solver = DOP853(
+        solver = (Radau if stiff else DOP853)(
             segment.rhs,
             segment.begin,
             segment.start,

@@ -43,6 +43,7 @@ _STEP = 1e-5  # of a size, by which a component is varied for the size of a func
 _AT_ONCE = 20  # events at one time, after which the motion is refused
 _SWEEPS = 20_000  # of the iteration for the impulses of an impact with friction
 _HABIT, _GONE = 8, 1e-8  # impacts whose intervals shrink by one factor; the time to their accumulation over the run
+_FROM_REST = 20, 30.0  # least steps of Radau, and the rate times the time since the start below which it ends
 SAFETY = 20.0  # local error of a run over the local error of the steps on which its events are sought
 
 
@@ -391,10 +392,11 @@ def _smooth(
     """Integrate one phase until its first condition fails, or to the last time. Return the motion, and the `Hit` or None. `habit`
     is the time in s between the last two events of the same kind."""
     phase, numbers = h.phase(mode), h.numbers(mode)
-    system, scale = phase.system, h.scale
+    system, scale, from_rest = phase.system, h.scale, False
     for i, s in enumerate(h.surfaces):
         if s.metric is not None and mode.signs[i] and h.acts(i, mode):
-            y, numbers[str(s.least)] = _sliding(h, Moment(y, now, mode), i, local, times[-1])
+            y, numbers[str(s.least)], at_rest = _sliding(h, Moment(y, now, mode), i, local, times[-1])
+            from_rest |= at_rest
     if depends_on_time(system):
         y, scale = np.append(y, now), np.append(scale, 1.0)
     motion = motion_program(system, h.narrow)
@@ -405,9 +407,10 @@ def _smooth(
 
     rhs = motion.rate(parameter_values(motion, numbers), now)
     segment = in_units(Segment(rhs, y, 0.0, times[-1], times, np.inf, budget, project), scale)
+    # From rest, the direction of sliding follows the force at a rate that is the higher the slower it slides.
     blocks, count, solver = [np.empty((0, len(y)))], 0, None
     try:
-        for solver in _steps(segment, windows_since(now, h.windows, companion), local / SAFETY):
+        for solver in _steps(segment, windows_since(now, h.windows, companion), local / SAFETY, from_rest):
             begin, end_of_step, dense = solver.t_old, solver.t, solver.dense_output()
 
             def curve(s: Array, dense: Any = dense) -> Array:
@@ -419,7 +422,9 @@ def _smooth(
             hit = None
             if phase.conditions:
                 ends, at = np.array([dense.y_old, solver.y]) * scale, np.array([now + begin, now + end_of_step])
-                rounding = np.abs(watch(perturbed_state(ends, _ROUNDINGS), at) - watch(ends, at)).max(1)
+                values, perturbed = watch(ends, at), watch(perturbed_state(ends, _ROUNDINGS), at)
+                by_clock = np.abs(np.diff(values)[:, 0]) * _ROUNDINGS * np.spacing(end_of_step) / (end_of_step - begin)
+                rounding = np.abs(perturbed - values).max(1) + by_clock
                 hit, hidden = _first(h, phase, conditions, begin, end_of_step, habit, rounding)
                 h.hidden.extend((now + a, now + b) for a, b in hidden)
             until = end_of_step if hit is None else hit.since
@@ -441,22 +446,29 @@ def _smooth(
     return Stretch(np.concatenate(blocks), solver.y * scale, solver.nfev), None
 
 
-def _steps(segment: Segment, windows: Sequence[Window], error: float) -> Iterator[Any]:
-    """Yield the solver after each step of DOP853, whose steps are bounded in the windows. Its `nfev` counts all evaluations of
-    the segment so far."""
+def _steps(segment: Segment, windows: Sequence[Window], error: float, stiff: bool) -> Iterator[Any]:
+    """Yield the solver after each step of DOP853, whose steps are bounded in the windows. A motion that is stiff at first begins
+    with Radau. The `nfev` of the solver counts all evaluations of the segment so far."""
     y, nfev = segment.start, 0
     for begin, until, longest in segments(segment.begin, segment.until, windows):
-        piece = replace(segment, start=y, begin=begin, until=until, longest=longest, budget=segment.budget - nfev)
-        try:
-            for solver in dop853_steps(piece, error):
-                solver.nfev += nfev
-                yield solver
-                solver.nfev -= nfev
-        except StopError as stop:
-            stop.evaluations += nfev
-            raise
-        solver.nfev += nfev
-        y, nfev = solver.y, solver.nfev
+        while begin < until:
+            piece = replace(segment, start=y, begin=begin, until=until, longest=longest, budget=segment.budget - nfev)
+            try:
+                for count, solver in enumerate(dop853_steps(piece, error, stiff)):
+                    solver.nfev += nfev
+                    yield solver
+                    solver.nfev -= nfev
+                    if stiff and count > _FROM_REST[0]:
+                        rate = np.linalg.norm(solver.jac(solver.t, solver.y, solver.f), 2)
+                        if rate * (solver.t - segment.begin) < _FROM_REST[1]:
+                            stiff = False
+                            break
+            except StopError as stop:
+                stop.evaluations += nfev
+                raise
+            solver.nfev += nfev
+            begin, nfev = solver.t, solver.nfev
+            y = segment.project(solver.y) if segment.project else solver.y
 
 
 def _first(
@@ -600,14 +612,15 @@ def _coulomb_impulse(D: Array, change: Array, row: int, tangents: slice, mu: flo
     raise StopError(at, "friction jams an impact: no impulse obeys Newton's and Coulomb's laws")
 
 
-def _sliding(h: Switched, at: Moment, i: int, local: float, duration: float) -> tuple[Array, float]:
-    """Return the state at the beginning of a phase in which friction in several directions slides, and the sliding speed that
-    counts as zero, the local error. A surface at rest gets twice this speed, against the force that would hold it."""
+def _sliding(h: Switched, at: Moment, i: int, local: float, duration: float) -> tuple[Array, float, bool]:
+    """Return the state at the beginning of a phase in which friction in several directions slides, the sliding speed that counts
+    as zero, the local error, and True if the surface was at rest. Then it gets twice this speed, against the force that would
+    hold it."""
     s = h.surfaces[i]
     assert s.metric is not None
     speed, size = h.slide(i, at)
     if speed >= 2 * local * size > 0:
-        return at.y, local * size
+        return at.y, local * size, False
     mode = at.mode.with_value("signs", i, 0)
     system, count = h.phase(mode).system, len(s.slips)
     held = slice(*(len(system.multipliers) - np.array([count, 0]) - _after(h, mode, i)))
@@ -629,7 +642,7 @@ def _sliding(h: Switched, at: Moment, i: int, local: float, duration: float) -> 
     change[rows] -= 2 * local * size * metric @ force / hold
     y = at.y.copy()
     y[h.moving] += W @ np.linalg.lstsq(G @ W, change, rcond=None)[0]
-    return y, local * size
+    return y, local * size, True
 
 
 def _after(h: Switched, mode: ContactMode, i: int) -> int:
