@@ -25,7 +25,7 @@ from lagrotor.mechanics.running.programs import (
     motion_program,
     parameter_values,
 )
-from lagrotor.mechanics.running.singular_positions import mass_at, rows_at, unbounded_force
+from lagrotor.mechanics.running.singular_positions import independence, mass_at, rows_at, unbounded_force
 from lagrotor.mechanics.running.switches import Event, Impact, Surface, short, with_impacts, without_jumps
 from lagrotor.numerics.error_estimate import perturbed_state
 from lagrotor.numerics.pulse import Window, segments, windows_since
@@ -43,6 +43,9 @@ _STEP = 1e-5  # of a size, by which a component is varied for the size of a func
 _AT_ONCE = 20  # events at one time, after which the motion is refused
 _SWEEPS = 20_000  # of the iteration for the impulses of an impact with friction
 _HABIT, _GONE = 8, 1e-8  # impacts whose intervals shrink by one factor; the time to their accumulation over the run
+_DEPENDENT = (
+    1e-8  # least singular value of the rows of contacts that stick, below which their forces are not determined
+)
 _FROM_REST = 20, 30.0  # least steps of Radau, and the rate times the time since the start below which it ends
 SAFETY = 20.0  # local error of a run over the local error of the steps on which its events are sought
 
@@ -193,8 +196,8 @@ class Switched:
             (w,) = self.evaluate(self.system, [s.argument], at)
             return float(w), float(self.sizes_of(self.system, [s.argument], at)[0])
         units = [w / sp.sqrt(s.metric[k, k]) for k, w in enumerate(s.slips)]
-        (square,) = self.evaluate(self.system, [s.argument], at)
-        return float(np.sqrt(abs(square))), float(self.sizes_of(self.system, units, at).max())
+        (square,) = self.evaluate(self.system, [s.square], at)
+        return float(np.sqrt(square)), float(self.sizes_of(self.system, units, at).max())
 
     def mode(self, state: Array) -> ContactMode:
         numbers = tuple(int(x) for x in np.rint(state[self.size + 1 :]))
@@ -277,7 +280,7 @@ class Switched:
                 else:
                     conditions.append(("cone", i, bound - sp.sqrt((reactions.T * s.metric * reactions)[0])))
             elif s.impact is None or s.impact in gaps:
-                slides = s.sign * s.argument if s.metric is None else s.argument - s.least**2
+                slides = s.sign * s.argument if s.metric is None else s.square - s.least**2
                 conditions.append(("surface", i, slides))
                 if s.bound is not None and s.bound.free_symbols & pressing and not s.bound.free_symbols & sizes:
                     conditions += [("pull", i, s.bound)] if s.impact is None else []
@@ -590,12 +593,12 @@ def _rows(h: Switched, system: Equations, at: Moment) -> tuple[Array, Array]:
     """Return the rows G of the constraints of a phase, shape (k, m), and W = M⁻¹ Gᵀ."""
     numbers, state = h.numbers(at.mode), np.append(at.y[: h.size], at.t)
     G = rows_at(system, numbers, state)
-    return G, np.linalg.solve(mass_at(system, numbers, state), G.T)
+    return G, np.asarray(np.linalg.solve(mass_at(system, numbers, state), G.T))
 
 
 def _coulomb_impulse(D: Array, change: Array, row: int, tangents: slice, mu: float, at: float) -> Array:
-    """Return the impulses Λ (k,) with D Λ = change in all rows but the tangents, where Λ_t = −μ Λ_n s⁺/|s⁺| or s⁺ = D Λ − change is
-    zero and |Λ_t| ≤ μ Λ_n. The iteration projects Λ_t onto the cone."""
+    """Return the impulses Λ (k,) with D Λ = change in all rows but the tangents. There the sliding velocity after the impact,
+    s⁺ = D Λ − change, is zero and |Λ_t| ≤ μ Λ_n, or Λ_t = −μ Λ_n s⁺/|s⁺|. The iteration projects Λ_t onto the cone."""
     first = tangents.start
     inner = np.linalg.pinv(D[:first, :first])
     base, coupling = inner @ change[:first], inner @ D[:first, first:]
@@ -625,6 +628,7 @@ def _sliding(h: Switched, at: Moment, i: int, local: float, duration: float) -> 
     system, count = h.phase(mode).system, len(s.slips)
     held = slice(*(len(system.multipliers) - np.array([count, 0]) - _after(h, mode, i)))
     moment = at._replace(mode=mode)
+    _check_held(h, moment)
     G, W = _rows(h, system, moment)
     rows = [system.left.index(k) for k in range(held.start, held.stop)]
     entries = h.evaluate(
@@ -643,6 +647,19 @@ def _sliding(h: Switched, at: Moment, i: int, local: float, duration: float) -> 
     y = at.y.copy()
     y[h.moving] += W @ np.linalg.lstsq(G @ W, change, rcond=None)[0]
     return y, local * size, True
+
+
+def _check_held(h: Switched, at: Moment) -> None:
+    """Raise StopError if several contacts stick in velocities that depend on each other."""
+    system, state = h.phase(at.mode).system, np.append(at.y[: h.size], at.t)
+    if at.mode.signs.count(0) < 2:
+        return
+    least = independence(system, h.numbers(at.mode), state[None])[0]
+    if len(system.left) > len(system.speeds) or least < _DEPENDENT:
+        way = "give friction to fewer contacts of a body"
+        raise StopError(
+            at.t, f"contacts that stick hold the same velocities, and their friction is not determined: {way}"
+        )
 
 
 def _after(h: Switched, mode: ContactMode, i: int) -> int:
@@ -708,6 +725,7 @@ def _settle(h: Switched, at: Moment, fixed: bool = False) -> ContactMode:
         if not reactions:
             break
         expressions, moment = [e for *_, e in reactions], at._replace(mode=mode)
+        _check_held(h, moment)
         values = h.evaluate(phase.system, expressions, moment)
         worst = int(np.argmin(values))
         size = np.abs(values).max() if len(values) > 1 else 0.0

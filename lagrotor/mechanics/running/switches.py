@@ -11,7 +11,7 @@ of at most F. Any other force that jumps may keep w at zero, if a value of sign(
 Differential Equations with Discontinuous Righthand Sides, §4.
 
 Dry friction in several directions is −F ∂√Q/∂v, where Q = (v − v₀)ᵀ A (v − v₀) is a quadratic form of rank r. With r independent
-rows p of A, Q = wᵀ A_pp⁻¹ w for the sliding velocities w = A_p (v − v₀). At w = 0 the reaction A_pᵀ λ holds, while λᵀ A_pp λ ≤ F².
+rows p of A, Q = wᵀ A_pp⁻¹ w for the sliding velocities w = A_p (v − v₀). At w = 0 the reaction A_pᵀ λ holds while λᵀ A_pp λ ≤ F².
 """
 
 from collections.abc import Sequence
@@ -136,8 +136,8 @@ class Impact:
             raise InputError(f"Impact: friction = {mu} must be a coefficient of at least 0")
         if (mu == 0) != (len(self.slip) == 0) or len(self.slip) > 2:
             raise InputError(
-                f"Impact: friction = {mu} with {len(self.slip)} sliding velocities: give slip, one or two velocities at the contact "
-                "with friction, and none without; the gap does not determine them"
+                f"Impact: friction = {mu} with {len(self.slip)} sliding velocities: with friction give slip, one or two "
+                "velocities at the contact, which the gap does not determine; without friction give none"
             )
 
     @property
@@ -178,9 +178,17 @@ class Surface:
         """The symbol of the sliding speed that counts as zero."""
         return sp.Symbol(f"least {self.sign}", real=True)
 
+    @property
+    def square(self) -> sp.Expr:
+        """Q as a sum of squares, which rounding does not make negative."""
+        assert self.metric is not None
+        w = sp.Matrix(self.slips)
+        return self.argument if self.argument.is_nonnegative else (w.T * self.metric.inv() * w)[0]
+
     def force(self, c: Coordinates) -> sp.Matrix:
         """Return the friction force −F ∂√Q/∂v while it slides, shape (n, 1)."""
-        return -self.bound / (2 * sp.sqrt(self.argument)) * gradient(self.argument, c.v)
+        assert self.bound is not None
+        return -self.bound / (2 * sp.sqrt(self.square)) * gradient(self.square, c.v)
 
 
 def check_events(system: Equations, events: Any) -> tuple[Event | Impact, ...]:
@@ -254,8 +262,9 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
     friction = gradient(system.dissipation.xreplace(substitutions), system.c.v)
     forces = (force_column(system.forces or None, system.c, "System") - friction).xreplace(substitutions)
     planar = tuple(_planar_friction(forces, square, s, system.c) for square, s in squares.items())
-    roots = {e: squares[e.base] * e for e in forces.atoms(sp.Pow) if e.base in squares and not e.exp.is_integer}
-    forces = tuple(forces.xreplace(roots))
+    slides = {s.argument: s for s in planar}
+    powers = {e: slides[e.base] for e in forces.atoms(sp.Pow) if e.base in slides and not e.exp.is_integer}
+    forces = tuple(forces.xreplace({e: s.sign * s.square**e.exp for e, s in powers.items()}))
     smooth = replace(
         system,
         lagrangian=system.lagrangian.xreplace(substitutions),
@@ -291,7 +300,7 @@ def with_impacts(system: Equations, impacts: Sequence[Impact]) -> tuple[Surface,
 
 
 def _planar_friction(forces: sp.Matrix, square: sp.Expr, s: sp.Symbol, c: Coordinates) -> Surface:
-    """Return the surface of the force −F ∂√Q/∂v in `forces`, where Q is `square`. Raise InputError if the force is another one."""
+    """Return the surface of the force −F ∂√Q/∂v in `forces`, Q = `square`. Raise InputError if the force is another one."""
     slope = gradient(square, c.v) / 2
     A = jacobian(list(slope), c.v)
     r = sp.Dummy("r", positive=True)
@@ -300,14 +309,16 @@ def _planar_friction(forces: sp.Matrix, square: sp.Expr, s: sp.Symbol, c: Coordi
     F = sp.cancel(-jump[i] / slope[i])
     if any(decide_zero(e + F * w).answer != "zero" for e, w in zip(jump, slope, strict=True)):
         raise InputError(
-            f"simulate: the force jumps where {short(square)} = 0 and is no friction −F ∂√Q/∂v there: give such a dissipation, or "
-            "add the square of a small speed under the root"
+            f"simulate: the force jumps where Q = {short(square)} = 0 and is no friction −F ∂√Q/∂v there: give such a "
+            "dissipation, or add the square of a small speed under the root"
         )
     point = next(iter(points(A.free_symbols)))
     numbers, rows = sp.Matrix(put_in(A, point)), list[int]()
     for k in range(len(c.v)):
         if numbers.extract([*rows, k], [*rows, k]).evalf(30).rank(iszerofunc=lambda e: abs(e) < _NO_JUMP) > len(rows):
             rows.append(k)
+    if len(rows) == 1:
+        raise InputError(f"simulate: {short(square)} is the square of one velocity w: write Abs(w) for its root")
     return Surface(square, s, F, tuple(slope[k] for k in rows), A.extract(rows, rows))
 
 
