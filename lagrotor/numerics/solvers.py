@@ -49,7 +49,8 @@ _IN_VAIN = 3  # times that a step is shortened at one place without a smaller er
 
 def dop853_steps(segment: Segment, error: float, stiff: bool = False) -> Iterator[Any]:
     """Yield scipy's solver DOP853 after each step; after that the state is projected onto the constraints. The local error,
-    relative and absolute, is `error`. If `stiff` is true, the solver is Radau."""
+    relative and absolute, is `error`. If `stiff` is true, the solver is Radau, for a rate that falls as the time since the start
+    grows: each step is at most as long as this time."""
     from scipy.integrate import DOP853, Radau
 
     project = segment.project
@@ -68,9 +69,16 @@ def dop853_steps(segment: Segment, error: float, stiff: bool = False) -> Iterato
     if not np.isfinite(solver.h_abs):  # scipy would repeat this first step for ever
         solver.h_abs = _FIRST * (segment.until - segment.begin)
     while solver.status == "running":
+        longest = segment.longest
+        if stiff:  # an old Jacobian would hide the error, and old increments of it grow without end
+            solver.jac_factor = None
+            solver.J, solver.LU_real, solver.LU_complex = solver.jac(solver.t, solver.y, solver.f), None, None
+            longest = min(longest, max(solver.t - segment.begin, 1 / (np.linalg.norm(solver.J, 2) + 1e-300)))
+            solver.max_step = longest
+            solver.h_abs = min(solver.h_abs, longest)
         if project is not None:  # no step over a singular position of the constraints
             limit = _TURN * (1 + np.abs(solver.y).max()) / (np.abs(solver.f).max() + 1e-300)
-            solver.max_step = min(segment.longest, limit, segment.clear(solver.y))
+            solver.max_step = min(longest, limit, segment.clear(solver.y))
         t, y = solver.t, solver.y
         with np.errstate(over="ignore", invalid="ignore"):  # a step too long in a stiff motion, which scipy repeats
             message = solver.step()

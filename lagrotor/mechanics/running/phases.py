@@ -46,7 +46,7 @@ _HABIT, _GONE = 8, 1e-8  # impacts whose intervals shrink by one factor; the tim
 _DEPENDENT = (
     1e-8  # least singular value of the rows of contacts that stick, below which their forces are not determined
 )
-_FROM_REST = 20, 30.0  # least steps of Radau, and the rate times the time since the start below which it ends
+_FROM_REST = 7, 30.0  # least steps of Radau, and the rate times the time since the start below which it ends
 SAFETY = 20.0  # local error of a run over the local error of the steps on which its events are sought
 
 
@@ -462,7 +462,7 @@ def _steps(segment: Segment, windows: Sequence[Window], error: float, stiff: boo
                     yield solver
                     solver.nfev -= nfev
                     if stiff and count > _FROM_REST[0]:
-                        rate = np.linalg.norm(solver.jac(solver.t, solver.y, solver.f), 2)
+                        rate = np.linalg.norm(solver.J, 2)
                         if rate * (solver.t - segment.begin) < _FROM_REST[1]:
                             stiff = False
                             break
@@ -640,6 +640,8 @@ def _sliding(h: Switched, at: Moment, i: int, local: float, duration: float) -> 
         -entries[count + count**2 :],
     )
     hold = np.sqrt(force @ metric @ force)
+    if hold == 0:
+        raise StopError(at.t, f"the bound {short(s.bound)} of dry friction is negative")
     if not size:  # all at rest, before sizes are known
         pull = (G @ W)[np.ix_(rows, rows)] @ force
         size = local * duration * np.sqrt(abs(pull @ np.linalg.solve(metric, pull)))
