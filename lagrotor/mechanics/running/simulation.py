@@ -372,6 +372,8 @@ def simulate_system(
             raise InputError(
                 f"simulate: the restitution {event.restitution} is {at_start[1]:.6g}: it must lie between 0 and 1"
             )
+        if isinstance(event, Impact) and not at_start[2] >= 0:
+            raise InputError(f"simulate: the friction {event.friction} is {at_start[2]:.6g}: it must be at least 0")
     if system.multipliers:
         q, v = _on_constraints(system, values, np.concatenate([q, v]), times)
     y = np.concatenate([q, v, x])

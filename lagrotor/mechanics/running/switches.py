@@ -85,15 +85,15 @@ class Impact:
 
     Attributes
     ----------
-    gap : Expr
-        An expression in q and t, which does not become negative.
+    gap : Expr or Contact
+        An expression in q and t, which does not become negative, or the contact of a body, `body.rolls_on(surface, radius)`.
     restitution : Expr, default 1
         A number from 0 to 1 or a parameter.
     friction : Expr, default 0
         The coefficient of Coulomb friction, in the impact and while the gap is closed. The gap must be a distance in m.
     slip : Expr or sequence of Expr, default ()
         With friction, the sliding velocity at the contact in m/s, affine in v; in space its two components along
-        perpendicular axes of the tangential plane. The gap does not determine it.
+        perpendicular axes of the tangential plane. A contact has it, an expression does not.
 
     Notes
     -----
@@ -123,6 +123,9 @@ class Impact:
     slip: tuple[sp.Expr, ...] = ()
 
     def __post_init__(self) -> None:
+        if hasattr(self.gap, "slips"):
+            object.__setattr__(self, "slip", self.slip or (self.gap.slips if self.friction != 0 else ()))
+            object.__setattr__(self, "gap", self.gap.gap)
         object.__setattr__(self, "gap", expression("Impact: gap", self.gap))
         e = expression("Impact: restitution", self.restitution)
         object.__setattr__(self, "restitution", e)
