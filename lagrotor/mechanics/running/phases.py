@@ -46,7 +46,8 @@ _HABIT, _GONE = 8, 1e-8  # impacts whose intervals shrink by one factor; the tim
 _DEPENDENT = (
     1e-8  # least singular value of the rows of contacts that stick, below which their forces are not determined
 )
-_FROM_REST = 7, 30.0  # least steps of Radau, and the rate times the time since the start below which it ends
+_SLOPE = 1e-4  # increment for slopes over the sliding speed; an inexact slope shortens the steps of Radau
+_FROM_REST = 0.25, 30.0  # Radau ends where the rate is so many times that at rest, and over the time since then
 SAFETY = 20.0  # local error of a run over the local error of the steps on which its events are sought
 
 
@@ -395,11 +396,12 @@ def _smooth(
     """Integrate one phase until its first condition fails, or to the last time. Return the motion, and the `Hit` or None. `habit`
     is the time in s between the last two events of the same kind."""
     phase, numbers = h.phase(mode), h.numbers(mode)
-    system, scale, from_rest = phase.system, h.scale, False
+    system, scale, increment = phase.system, h.scale, 0.0
     for i, s in enumerate(h.surfaces):
         if s.metric is not None and mode.signs[i] and h.acts(i, mode):
             y, numbers[str(s.least)], at_rest = _sliding(h, Moment(y, now, mode), i, local, times[-1])
-            from_rest |= at_rest
+            if at_rest:
+                increment = _SLOPE * numbers[str(s.least)] / float(h.scale[h.moving].max())
     if depends_on_time(system):
         y, scale = np.append(y, now), np.append(scale, 1.0)
     motion = motion_program(system, h.narrow)
@@ -413,7 +415,7 @@ def _smooth(
     # From rest, the direction of sliding follows the force at a rate that is the higher the slower it slides.
     blocks, count, solver = [np.empty((0, len(y)))], 0, None
     try:
-        for solver in _steps(segment, windows_since(now, h.windows, companion), local / SAFETY, from_rest):
+        for solver in _steps(segment, windows_since(now, h.windows, companion), local / SAFETY, increment):
             begin, end_of_step, dense = solver.t_old, solver.t, solver.dense_output()
 
             def curve(s: Array, dense: Any = dense) -> Array:
@@ -449,22 +451,24 @@ def _smooth(
     return Stretch(np.concatenate(blocks), solver.y * scale, solver.nfev), None
 
 
-def _steps(segment: Segment, windows: Sequence[Window], error: float, stiff: bool) -> Iterator[Any]:
+def _steps(segment: Segment, windows: Sequence[Window], error: float, stiff: float) -> Iterator[Any]:
     """Yield the solver after each step of DOP853, whose steps are bounded in the windows. A motion that is stiff at first begins
-    with Radau. The `nfev` of the solver counts all evaluations of the segment so far."""
-    y, nfev = segment.start, 0
+    with Radau, with the increment `stiff` for slopes. The `nfev` of the solver counts all evaluations of the segment so far."""
+    y, nfev, at_rest = segment.start, 0, 0.0
     for begin, until, longest in segments(segment.begin, segment.until, windows):
         while begin < until:
             piece = replace(segment, start=y, begin=begin, until=until, longest=longest, budget=segment.budget - nfev)
             try:
-                for count, solver in enumerate(dop853_steps(piece, error, stiff)):
+                for solver in dop853_steps(piece, error, stiff):
                     solver.nfev += nfev
                     yield solver
                     solver.nfev -= nfev
-                    if stiff and count > _FROM_REST[0]:
-                        rate = np.linalg.norm(solver.J, 2)
-                        if rate * (solver.t - segment.begin) < _FROM_REST[1]:
-                            stiff = False
+                    if stiff:
+                        rate = float(np.linalg.norm(solver.J, 2))
+                        at_rest = at_rest or rate
+                        since = solver.t - segment.begin
+                        if rate < min(_FROM_REST[0] * at_rest, _FROM_REST[1] / since):
+                            stiff = 0.0
                             break
             except StopError as stop:
                 stop.evaluations += nfev
