@@ -178,6 +178,14 @@ class Switched:
         return not (self.surfaces or self.events)
 
     @property
+    def without_planar(self) -> Equations:
+        """The system without friction in several directions, which near rest is no narrow feature: a phase ends there."""
+        still = {s.sign: sp.S.Zero for s in self.surfaces if s.metric is not None}
+        return (
+            replace(self.system, forces=tuple(e.xreplace(still) for e in self.system.forces)) if still else self.system
+        )
+
+    @property
     def slipping(self) -> ContactMode:
         return ContactMode((1,) * len(self.surfaces), (0,) * len(self.impacts))
 

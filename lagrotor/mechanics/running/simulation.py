@@ -168,7 +168,7 @@ class SystemRun(SampledMotion):
         swings = np.repeat(states[:1], 2, axis=0)  # the largest values of the motion, also between its samples
         swings[:, : len(scales.sizes)] = scales.sizes, -scales.sizes
         scales = replace(scales, windows=windows, survey=np.vstack([states, swings]))
-        narrow = narrow_parts(h.system, h.numbers(h.slipping), scales.survey)
+        narrow = narrow_parts(h.without_planar, h.numbers(h.slipping), scales.survey)
         h = replace(h, scale=powers_of_two(scales.sizes), sizes=scales.sizes, windows=windows, narrow=narrow)
         return SystemRun(
             **saved.fields, system=system, values=values, tol=tol, engine=engine, scales=scales, states=states,
@@ -393,7 +393,7 @@ def simulate_system(
         return motion_scales(system, values, start, times, motion, h.windows if h.smooth else (), h.narrow)
 
     scales = survey()
-    if narrow := narrow_parts(h.system, h.numbers(h.slipping), scales.survey):
+    if narrow := narrow_parts(h.without_planar, h.numbers(h.slipping), scales.survey):
         h, first = replace(h, narrow=narrow), scales
         scales = replace(again := survey(), evaluations=again.evaluations + first.evaluations)
     if not h.smooth:

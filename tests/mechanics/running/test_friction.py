@@ -101,6 +101,13 @@ def test_a_load_that_grows_is_held_up_to_the_cone_and_then_slides() -> None:
     assert 1e-5 < close < far / 4
 
 
+def test_the_cone_of_a_form_with_mixed_terms() -> None:
+    """Q = a² + a b + b²: a load (t, 0) is held while its size by the inverse form, 2 t/√3, is at most the bound."""
+    system = System(PLANE, SLIDING, dissipation=F * sp.sqrt(A**2 + A * B + B**2), forces=(t, 0))
+    run = system.simulate({F: 1}, (0, 0), (0, 0), (0, np.sqrt(3) / 2 - 1e-6, np.sqrt(3) / 2 + 0.01), 1e-9)
+    assert (run.q[1] == 0).all() and run.v[2, 0] > 1e-6
+
+
 def test_a_load_that_turns_never_lets_a_body_stick() -> None:
     """Three times the bound; by DOP853 of scipy, as the force is smooth where it slides. A bound of 4 holds it."""
     load = (3 * sp.cos(t), 3 * sp.sin(t))
@@ -374,6 +381,11 @@ def test_an_impact_that_would_raise_the_energy_ends_the_run_in_words() -> None:
     with pytest.warns(LagrotorWarning, match=f"raise the energy by {gained:.3g} J .*Kane's paradox"):
         run = rod.simulate({}, *start, events=Impact(gap, 0.9, friction=0.5, slip=slip))
     free = rod.simulate({}, *start, events=Impact(gap, 0.9))
+    # With less friction the end slides back after the impact, and the impulse is along (μ, 1).
+    slides = rod.simulate({}, *start[:2], (0, run.t[-1] + 1e-7), events=Impact(gap, 0.9, friction=0.1, slip=slip))
+    push = np.array([0.1, 1]) * 1.9 * falls / (D[1, 1] + 0.1 * D[1, 0])
+    assert 3 + (D @ push)[0] < 0
+    assert slides.v[-1] == pytest.approx((3, -falls, 0) + np.diag([1, 1, 12]) @ rows.T @ push, abs=1e-5)
     assert run.t[-1] < 0.35 < free.t[-1] and free.energy[-1] < free.energy[0]
 
 
